@@ -1,0 +1,29 @@
+/* Log lines and the progress line. On a terminal the progress line is redrawn in place at most five times a second; in
+ * a file or a pipe it is one line now and then (at start, then when 10 s or 5 % have passed, and at the end). */
+#ifndef BRC_BASE_LOG_H
+#define BRC_BASE_LOG_H
+
+#include "status.h"
+#include <stdint.h>
+
+typedef enum brc_log_level { BRC_LOG_ERROR, BRC_LOG_WARNING, BRC_LOG_INFO, BRC_LOG_DEBUG } brc_log_level;
+
+void brc_log_set_level(brc_context *context, brc_log_level level);
+brc_log_level brc_log_get_level(const brc_context *context);
+/* One line on stderr (a newline is added); a progress line in the way is cleared first and redrawn later. */
+void brc_log(brc_context *context, brc_log_level level, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* A task with a known end. what: "stage pull" (copied); total: number of units; unit_name: "steps" (copied);
+ * rate_per_unit, rate_name: what to show as rate, e.g. bonds per step and "bond updates/s" (0 and NULL: units/s). */
+typedef struct brc_progress brc_progress;
+brc_status brc_progress_create(brc_context *context, brc_progress **out, const char *what, int64_t total,
+                               const char *unit_name, double rate_per_unit, const char *rate_name);
+/* done: units finished so far. Cheap enough to call every step batch. Shows percent, rate, elapsed, time left. */
+void brc_progress_update(brc_progress *progress, int64_t done);
+/* Last line, newline, free; accepts a pointer to NULL. */
+void brc_progress_finish(brc_progress **progress);
+
+/* Monotonic wall clock [s]. */
+double brc_clock_s(void);
+
+#endif

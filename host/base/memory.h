@@ -1,0 +1,22 @@
+/* Host memory: zeroed, 64-byte aligned (one cache line, one AVX-512 register), counted. */
+#ifndef BRC_BASE_MEMORY_H
+#define BRC_BASE_MEMORY_H
+
+#include "status.h"
+#include <stdint.h>
+
+/* Allocate `count` zeroed items of `size` bytes into *out (64-byte aligned). Overflow and exhaustion give
+ * BRC_NO_MEMORY with `what` and the size in the sentence; *out is then NULL. count 0 gives a valid 64-byte block. */
+brc_status brc_memory_allocate(brc_context *context, void **out, int64_t count, size_t size, const char *what);
+/* Typed form: BRC_ALLOCATE(context, &domain->volume, n, "element volumes"). */
+#define BRC_ALLOCATE(context, pointer, count, what)                                                                    \
+    brc_memory_allocate((context), (void **)(pointer), (int64_t)(count), sizeof(**(pointer)), (what))
+/* Grow or shrink a block got from brc_memory_allocate, keeping its first bytes; new bytes are zero. */
+brc_status brc_memory_resize(brc_context *context, void **block, int64_t count, size_t size, const char *what);
+/* Free a block got from brc_memory_allocate; accepts NULL. */
+void brc_memory_free(void *block);
+/* Bytes now held and the most ever held through this interface in the process [byte]. */
+int64_t brc_memory_held(void);
+int64_t brc_memory_peak(void);
+
+#endif

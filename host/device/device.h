@@ -1,0 +1,114 @@
+/* Devices: buffers, kernels by name, launches in order, copies. Knows no physics.
+ *
+ * Three backends behind one table of functions: OpenMP host ("cpu", the reference), OpenCL ("opencl:N"), OpenMP target
+ * ("target:N", a plug-in library built with clang where there is one). The kernels come from one source (kernels/):
+ * the C builds hold one instance per {instruction set, precision, materials}, OpenCL compiles the one a run needs. */
+#ifndef BRC_DEVICE_DEVICE_H
+#define BRC_DEVICE_DEVICE_H
+
+#include "../base/status.h"
+#include <stdint.h>
+
+typedef enum brc_precision { BRC_DOUBLE, BRC_MIXED, BRC_SINGLE } brc_precision;
+/* "double", "mixed", "single". */
+const char *brc_precision_name(brc_precision precision);
+/* Bytes of one number of the state (u, v, f: 8, 8, 4) and of one coefficient (everything else: 8, 4, 4). */
+int brc_precision_state_bytes(brc_precision precision);
+int brc_precision_coeff_bytes(brc_precision precision);
+
+typedef enum brc_device_kind { BRC_DEVICE_CPU, BRC_DEVICE_OPENCL, BRC_DEVICE_TARGET } brc_device_kind;
+
+/* What one device is. Strings are owned by the list. */
+typedef struct brc_device_info {
+    brc_device_kind kind;
+    int index;             /* N of "opencl:N", "target:N"; 0 for the cpu */
+    char selector[32];     /* "cpu", "opencl:0", ... */
+    char name[128];        /* e.g. "Intel Xeon, 2 threads, avx512" */
+    char driver[128];      /* platform and driver version */
+    bool is_gpu;
+    bool has_double;
+    int compute_units;     /* threads on the cpu */
+    int64_t memory_bytes;  /* 0: unknown */
+    int64_t largest_buffer_bytes; /* 0: no limit beyond memory (PoCL: 2 GiB was seen) */
+    bool usable;
+    char why_not[256];     /* when not usable: the reason and the cure */
+} brc_device_info;
+
+typedef struct brc_device_list {
+    int n;
+    brc_device_info *items; /* [n] */
+    int automatic;          /* index of the one that `auto` takes */
+    char why[512];          /* one sentence: why that one */
+} brc_device_list;
+
+/* Look for devices. Never fails for a missing loader or driver: that is a line of the list. */
+brc_status brc_device_list_create(brc_context *context, brc_device_list **out);
+void brc_device_list_free(brc_device_list **list);
+
+typedef struct brc_device brc_device;
+typedef struct brc_buffer brc_buffer;
+
+/* What is compiled or chosen for a run. */
+typedef struct brc_device_request {
+    const char *selector;    /* "auto", "cpu", "opencl:N", "target:N"; borrowed during the call */
+    brc_precision precision;
+    bool many_materials;     /* kernels gather material constants per element instead of taking them as scalars */
+    int n_threads;           /* cpu: 0 = as OpenMP decides */
+    const char *kernel_folder; /* NULL: embedded sources; else read them from there (OpenCL only) */
+    int lanes;               /* 0: the device's own choice; otherwise W, for tests */
+} brc_device_request;
+
+/* Open. BRC_BAD_INPUT for a selector that does not parse or names a device that is not there (the sentence lists the
+ * ones that are), BRC_DEVICE_FAILED with device, options and the whole compiler log. */
+brc_status brc_device_open(brc_context *context, const brc_device_request *request, brc_device **out);
+void brc_device_close(brc_device **device);
+const brc_device_info *brc_device_get_info(const brc_device *device);
+brc_precision brc_device_get_precision(const brc_device *device);
+bool brc_device_has_many_materials(const brc_device *device);
+/* W: elements one work-item handles; C: elements a slice holds (a multiple of W). Storage uses C. */
+int brc_device_lanes(const brc_device *device);
+int brc_device_slice(const brc_device *device);
+/* Bytes now held in buffers. */
+int64_t brc_device_bytes(const brc_device *device);
+
+/* Zeroed buffer of `bytes` bytes (0 is allowed and gives a valid dummy). what: for sentences, copied.
+ * BRC_DEVICE_FAILED: "device ... has no room for <what>: N bytes asked, M held, L allowed in one buffer". */
+brc_status brc_buffer_create(brc_device *device, brc_buffer **out, int64_t bytes, const char *what);
+void brc_buffer_free(brc_buffer **buffer);
+int64_t brc_buffer_bytes(const brc_buffer *buffer);
+/* Blocking copies, ordered after all launches so far. */
+brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data, int64_t bytes);
+brc_status brc_buffer_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes);
+/* Not blocking: dst and src must not overlap. */
+brc_status brc_buffer_copy(brc_buffer *dst, brc_buffer *src, int64_t bytes);
+brc_status brc_buffer_fill_zero(brc_buffer *buffer);
+
+/* One kernel argument. Scalars named real are converted to the run's precision: STATE to `state`, COEFF to `coeff`. */
+typedef enum brc_arg_kind { BRC_ARG_BUFFER, BRC_ARG_INT, BRC_ARG_STATE, BRC_ARG_COEFF, BRC_ARG_DOUBLE } brc_arg_kind;
+typedef struct brc_arg {
+    brc_arg_kind kind;
+    union {
+        brc_buffer *buffer; /* NULL: a dummy buffer that the kernel must not touch */
+        int32_t integer;
+        double real;
+    } value;
+} brc_arg;
+#define BRC_BUF(b) ((brc_arg){.kind = BRC_ARG_BUFFER, .value.buffer = (b)})
+#define BRC_INT(i) ((brc_arg){.kind = BRC_ARG_INT, .value.integer = (int32_t)(i)})
+#define BRC_STATE(x) ((brc_arg){.kind = BRC_ARG_STATE, .value.real = (x)})
+#define BRC_COEFF(x) ((brc_arg){.kind = BRC_ARG_COEFF, .value.real = (x)})
+#define BRC_DBL(x) ((brc_arg){.kind = BRC_ARG_DOUBLE, .value.real = (x)})
+
+/* A kernel of the run's instance, found once by name; owned by the device. BRC_INTERNAL: no such kernel. */
+typedef struct brc_kernel brc_kernel;
+brc_status brc_kernel_find(brc_device *device, const char *name, brc_kernel **out);
+/* Enqueue over `n_items` work-items (FOR_EACH_ITEM: one each; FOR_EACH_SLICE: n_items = slices * C / W). Launches run in
+ * order; nothing waits. The number and kinds of arguments are checked against the kernel's own in debug builds. */
+brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args);
+#define BRC_LAUNCH(kernel, n_items, ...)                                                                               \
+    brc_kernel_launch((kernel), (n_items), (int)(sizeof((brc_arg[]){__VA_ARGS__}) / sizeof(brc_arg)),                  \
+                      (brc_arg[]){__VA_ARGS__})
+/* Wait for everything enqueued so far; reports device errors. */
+brc_status brc_device_wait(brc_device *device);
+
+#endif
