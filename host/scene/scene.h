@@ -1,0 +1,227 @@
+/* A scene as typed structs, in SI units: what was asked, with every default filled in. Read by scene_reader.h from YAML
+ * through the one schema table; made in code by tests and benches. Knows no device and no domain arrays. */
+#ifndef BRC_SCENE_SCENE_H
+#define BRC_SCENE_SCENE_H
+
+#include "../../preprocess/build.h"
+#include "../base/status.h"
+#include <stdint.h>
+
+#define BRC_NAME 64 /* longest name in a scene, with its NUL */
+
+typedef struct brc_material {
+    char name[BRC_NAME];
+    double young;   /* E [Pa] > 0 */
+    double poisson; /* nu [-] in (-1, 0.5) */
+    double density; /* rho [kg/m^3] > 0 */
+} brc_material;
+
+typedef enum brc_model_kind {
+    BRC_MODEL_DLSM,          /* the conservative law, design-dlsm.md section 2 */
+    BRC_MODEL_DLSM_PUBLISHED /* the published law, AGH19, design-dlsm.md section 1 */
+} brc_model_kind;
+
+typedef struct brc_model {
+    brc_model_kind kind;
+    /* dlsm */
+    bool compaction; /* true: beta as given; false: beta = 0 */
+    double beta;     /* [-] cross term, default 1 */
+    double tau;      /* [-] stabilisation, default 0.1 */
+    /* dlsm-published */
+    bool area_weights;         /* least squares with weights S/L instead of 1 (default false, as printed) */
+    double rotation_stiffness; /* [-] factor on K = E S^2 / (4 pi L0), default 1 */
+} brc_model;
+
+typedef struct brc_region {
+    int32_t material; /* index into scene.materials */
+    brc_predicate where;
+} brc_region;
+
+typedef struct brc_body {
+    char name[BRC_NAME];
+    char domain_file[512]; /* "" : built from shape and fill; else read from this file (relative to the scene) */
+    brc_shape shape;
+    brc_fill fill;
+    double translation[3], rotation[3]; /* pose, as in brc_build_request */
+    double tiny_face_threshold;         /* as in brc_build_request; 0: default */
+    int32_t material;                   /* index into scene.materials */
+    int32_t n_regions;
+    brc_region *regions; /* [n_regions] later ones win */
+} brc_body;
+
+/* Factor of time a(t): linear between its points, constant outside. n = 0: 1 at all times. t = 0 at the start of the
+ * stage. A static stage runs it over its increments: t from 0 to 1 [-]. */
+typedef struct brc_table {
+    int32_t n;
+    double *time;  /* [n] ascending [s] */
+    double *value; /* [n] [-] */
+} brc_table;
+
+typedef enum brc_load_kind {
+    BRC_LOAD_FACE_DISPLACEMENT, /* u_f = a(t) (value + gradient (C - origin)) on boundary faces, per component [m] */
+    BRC_LOAD_FACE_VELOCITY,     /* the same for the velocity [m/s]; the displacement starts from the stage's start */
+    BRC_LOAD_ELEMENT_DISPLACEMENT, /* imposed elements, as the papers do it: u of whole elements */
+    BRC_LOAD_ELEMENT_VELOCITY,
+    BRC_LOAD_TRACTION, /* force per reference area, dead: t = a(t) value [Pa] */
+    BRC_LOAD_PRESSURE  /* dead pressure: t = -a(t) value[0] N [Pa] */
+} brc_load_kind;
+
+typedef struct brc_load {
+    brc_load_kind kind;
+    char set[BRC_NAME];
+    bool component[3]; /* prescribed components x y z; others stay free. Tractions: all true */
+    double value[3];
+    double gradient[3][3]; /* row i: d u_i / d x_j [-] or [1/s]; element loads: with C replaced by X */
+    double origin[3];      /* [m] */
+    brc_table table;
+} brc_load;
+
+typedef enum brc_initial_kind {
+    BRC_INITIAL_AFFINE,   /* u = value + gradient (X - origin) */
+    BRC_INITIAL_VELOCITY, /* v = value + gradient (X - origin) */
+    BRC_INITIAL_TWIST,    /* u = rotation by rate * (X - origin).axis about the axis, minus identity (AGH19 8.2.2) */
+    BRC_INITIAL_SPIN,     /* v = value x (X - origin), value: angular velocity [rad/s] */
+    BRC_INITIAL_RANDOM,   /* v uniform in +-value per component, by brc_random_uniform4(seed) */
+    BRC_INITIAL_FILE      /* HDF5 datasets displacement and/or velocity [n_elements][3] by element id */
+} brc_initial_kind;
+
+typedef struct brc_initial {
+    brc_initial_kind kind;
+    char set[BRC_NAME]; /* element set, "" : all */
+    double value[3];
+    double gradient[3][3];
+    double origin[3];
+    double axis[3]; /* twist: unit vector */
+    double rate;    /* twist [rad/m] */
+    uint64_t seed;
+    char file[512];
+} brc_initial;
+
+typedef enum brc_solver_kind {
+    BRC_SOLVER_DYNAMIC,
+    BRC_SOLVER_STATIC, /* elastic equilibrium by preconditioned conjugate gradients (dlsm) or GMRES (published) */
+    BRC_SOLVER_MODES   /* lowest free vibration frequencies of the linearised operator */
+} brc_solver_kind;
+
+typedef enum brc_integrator { BRC_VELOCITY_VERLET, BRC_TCHAMWA_WIELGOSZ } brc_integrator;
+
+typedef enum brc_time_step_rule {
+    BRC_TIME_STEP_AUTO,     /* safety * 2 / omega_max by power iteration on the scene's own force kernels */
+    BRC_TIME_STEP_FIXED,    /* as given */
+    BRC_TIME_STEP_PUBLISHED /* AGH19 eq. 39: 1/3 min sqrt(m L / (E S)) */
+} brc_time_step_rule;
+
+typedef struct brc_stage {
+    char name[BRC_NAME];
+    brc_solver_kind solver;
+    int32_t n_initials;
+    brc_initial *initials; /* applied in order at the start of the stage, added to the state */
+    int32_t n_loads;
+    brc_load *loads;
+    /* dynamic */
+    brc_integrator integrator;
+    double phi; /* Tchamwa-Wielgosz parameter, >= 1 */
+    brc_time_step_rule time_step_rule;
+    double time_step; /* fixed [s] */
+    double safety;    /* auto: fraction of the critical step, default 0.8 */
+    double duration;  /* [s]; 0: by steps */
+    int64_t steps;    /* 0: by duration */
+    double mass_damping; /* force -c m v, c [1/s] >= 0: drag of a surrounding fluid on every element; 0: none */
+    double stop_kinetic; /* stop when kinetic <= this fraction of elastic energy for 100 steps; 0: off */
+    /* static */
+    double tolerance;     /* residual over load [-]; 0: by precision (1e-10, 1e-6, 1e-5) */
+    int32_t increments;   /* load increments, default 1 */
+    int32_t max_iterations; /* per linear solve; 0: automatic */
+    bool finite_strain;   /* true (default): the full law, by modified Newton; false: the linearised operator alone */
+    /* modes */
+    int32_t n_modes;
+} brc_stage;
+
+typedef enum brc_sensor_kind {
+    BRC_SENSOR_REACTION,     /* force of the loads on the solid, summed over a face or element set with a prescribed motion [N] */
+    BRC_SENSOR_FACE_MEAN,    /* area mean of u_f over a face set, or mean of u over an element set [m] */
+    BRC_SENSOR_FACE_STRAIN,  /* (mean u of set - mean u of set2).component over their reference distance along it [-] */
+    BRC_SENSOR_FACE_TWIST,   /* area mean rotation angle of a face set about an axis [rad] */
+    BRC_SENSOR_STRESS,       /* volume mean of the second Piola-Kirchhoff stress over an element set [Pa] */
+    BRC_SENSOR_STRAIN,       /* volume mean of the Green strain over an element set [-] */
+    BRC_SENSOR_ENERGY,       /* a term of the ledger by name [J] */
+    BRC_SENSOR_POINT,        /* displacement of the element nearest to a point [m] */
+    BRC_SENSOR_POINT_VELOCITY, /* its velocity [m/s] */
+    BRC_SENSOR_MODE          /* frequency of mode `index` (0: lowest elastic) of the last modes stage [Hz] */
+} brc_sensor_kind;
+
+typedef struct brc_sensor {
+    char name[BRC_NAME];
+    brc_sensor_kind kind;
+    char set[BRC_NAME], set2[BRC_NAME]; /* "" : all elements */
+    int32_t component;  /* vectors: 0 x 1 y 2 z; tensors: 0 xx 1 yy 2 zz 3 yz 4 xz 5 xy */
+    double point[3], axis[3];
+    char term[BRC_NAME]; /* energy: "kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "potential", "total", "closure" */
+    int32_t index;
+} brc_sensor;
+
+typedef enum brc_measure_kind {
+    BRC_MEASURE_E,         /* slope at zero strain of reaction / area against strain [Pa] */
+    BRC_MEASURE_NU,        /* minus the slope at zero strain of lateral against axial strain [-] */
+    BRC_MEASURE_K,         /* bulk: slope of reaction / area (mean pressure) against volume strain, from sensors [Pa] */
+    BRC_MEASURE_G,         /* slope of shear stress against shear angle [Pa] */
+    BRC_MEASURE_FREQUENCY, /* largest spectral peak of a sensor, Hann window, interpolated [Hz] */
+    BRC_MEASURE_PEAK,      /* value of largest magnitude in the window [sensor's unit] */
+    BRC_MEASURE_SLOPE,     /* slope at zero of sensor y against sensor x, polynomial fit through the window */
+    BRC_MEASURE_MEAN       /* time mean over the window */
+} brc_measure_kind;
+
+typedef struct brc_measure {
+    char name[BRC_NAME];
+    brc_measure_kind kind;
+    char y[BRC_NAME], x[BRC_NAME]; /* sensor names; x "" where the operator needs none */
+    char area_set[BRC_NAME];       /* E, K, G: face set whose reference area divides y; "" : y is a stress already */
+    char stage[BRC_NAME];          /* "" : the last stage */
+    double window[2];              /* [s] of the stage; 0 0: all of it */
+    bool has_target;
+    double target; /* in the unit of the result */
+    double scale;  /* result = scale * operator, default 1 (e.g. -1 for a reaction on the other side) */
+} brc_measure;
+
+typedef struct brc_output {
+    double frame_interval;   /* [s]; 0: frames at the start and end of each stage only */
+    int32_t n_frames;        /* number of equal intervals over each stage; 0: by frame_interval; -1: no frames at all */
+    int32_t history_every;   /* dynamic: steps between sensor samples, default 1/500 of the stage; static: every increment */
+    bool picture;            /* render picture.png at the end, default true */
+    char picture_colour[BRC_NAME];  /* "stress_xx", "von_mises", "displacement", ... default "von_mises" */
+    double picture_scale;    /* factor on the displacement; 0: automatic */
+    char curve_x[BRC_NAME], curve_y[BRC_NAME]; /* sensors of curve.png; "" : none */
+} brc_output;
+
+typedef struct brc_scene {
+    int32_t version; /* of the format: 1 */
+    char title[256];
+    char folder[512]; /* of the scene file, for relative paths; "." when made in code */
+    int32_t n_materials;
+    brc_material *materials;
+    brc_model model; /* one dynamic model a scene */
+    int32_t n_bodies;
+    brc_body *bodies;
+    int32_t n_sets;
+    brc_set_request *sets;
+    bool has_gravity;
+    double gravity[3]; /* [m/s^2] */
+    int32_t n_stages;
+    brc_stage *stages;
+    int32_t n_sensors;
+    brc_sensor *sensors;
+    int32_t n_measures;
+    brc_measure *measures;
+    brc_output output;
+} brc_scene;
+
+/* Free a scene and everything it owns; accepts a pointer to NULL; sets *scene to NULL. */
+void brc_scene_free(brc_scene **scene);
+/* a(t) of a table at time t. */
+double brc_table_value(const brc_table *table, double t);
+/* Unit of a sensor's value ("N", "m", "-", "rad", "Pa", "J", "m/s", "Hz"); static storage. */
+const char *brc_sensor_unit(const brc_sensor *sensor);
+/* Unit of a measure's value, given the scene (for sensors' units); static storage. */
+const char *brc_measure_unit(const brc_scene *scene, const brc_measure *measure);
+
+#endif
