@@ -1,0 +1,145 @@
+/* The only file that asks which compiler reads it: OpenCL C 1.2, C with OpenMP, or C with OpenMP target.
+ *
+ * The reader defines, equally named everywhere:
+ *   BRC_PRECISION       0 double, 1 mixed, 2 single
+ *   BRC_LANES           W: elements one work-item handles (1 on a GPU; 8 or 16 on a CPU)
+ *   BRC_SLICE           C: elements a slice of the storage holds, a multiple of W (32 on a GPU; W on a CPU)
+ *   BRC_MANY_MATERIALS  0: material constants are scalars; 1: they are gathered per element
+ *   BRC_TARGET          defined for the OpenMP target reading of the C build
+ *
+ * Vocabulary (docs/portable.md): KERNEL, GLOBAL, LAW, FOR_EACH_ITEM, coeff, state, lane, lane_state, lane_int, REAL. */
+#ifndef BRC_KERNELS_PORTABLE_H
+#define BRC_KERNELS_PORTABLE_H
+
+#define W BRC_LANES
+#define C BRC_SLICE
+#define BRC_JOIN_(a, b) a##b
+#define BRC_JOIN(a, b) BRC_JOIN_(a, b)
+
+/* state: u, v, f, time and ledger; coeff: everything else (design.md, Precision). */
+#if BRC_PRECISION == 0
+#ifdef cl_khr_fp64
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#endif
+typedef double state;
+typedef double coeff;
+#define STATE_NAME double
+#define COEFF_NAME double
+#elif BRC_PRECISION == 1
+#ifdef cl_khr_fp64
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#endif
+typedef double state;
+typedef float coeff;
+#define STATE_NAME double
+#define COEFF_NAME float
+#else
+typedef float state;
+typedef float coeff;
+#define STATE_NAME float
+#define COEFF_NAME float
+#endif
+/* A literal: REAL(0.5) in coeff, STATE(0.5) in state. */
+#define REAL(x) ((coeff)(x))
+#define STATE(x) ((state)(x))
+
+#ifdef __OPENCL_VERSION__
+
+#pragma OPENCL FP_CONTRACT OFF
+#define KERNEL __kernel
+#define GLOBAL __global
+#define LAW static inline
+typedef ulong brc_size;
+#define FOR_EACH_ITEM(i, n) const int i = (int)get_global_id(0); if (i < (n))
+#if W == 1
+typedef coeff lane;
+typedef state lane_state;
+typedef int lane_int;
+#define LANE_FROM_STATE(x) ((coeff)(x))
+#define STATE_FROM_LANE(x) ((state)(x))
+#else
+typedef BRC_JOIN(COEFF_NAME, BRC_LANES) lane;
+typedef BRC_JOIN(STATE_NAME, BRC_LANES) lane_state;
+typedef BRC_JOIN(int, BRC_LANES) lane_int;
+#define LANE_FROM_STATE(x) BRC_JOIN(BRC_JOIN(convert_, COEFF_NAME), BRC_LANES)(x)
+#define STATE_FROM_LANE(x) BRC_JOIN(BRC_JOIN(convert_, STATE_NAME), BRC_LANES)(x)
+#define BRC_VLOAD BRC_JOIN(vload, BRC_LANES)
+#define BRC_VSTORE BRC_JOIN(vstore, BRC_LANES)
+#endif
+#define LANE_SQRT(x) sqrt(x)
+#define SQRT(x) sqrt(x)
+#define LANE_MAKE_(type, ...) ((type)(__VA_ARGS__))
+#define LANE_ITEM_(x, hex) x.s##hex
+
+#else /* C */
+
+#include <stddef.h>
+#define KERNEL static
+#define GLOBAL
+#define LAW static inline __attribute__((always_inline))
+typedef size_t brc_size;
+#define BRC_PRAGMA(x) _Pragma(#x)
+#ifdef BRC_TARGET
+#define FOR_EACH_ITEM(i, n)                                                                                            \
+    BRC_PRAGMA(omp target teams distribute parallel for defaultmap(firstprivate : pointer))                            \
+    for (int i = 0; i < (n); ++i)
+#else
+#define FOR_EACH_ITEM(i, n)                                                                                            \
+    BRC_PRAGMA(omp parallel for schedule(static))                                                                      \
+    for (int i = 0; i < (n); ++i)
+#endif
+#define SQRT(x) ((coeff)(sizeof(x) == 4 ? (double)__builtin_sqrtf((float)(x)) : __builtin_sqrt((double)(x))))
+#if W == 1
+typedef coeff lane;
+typedef state lane_state;
+typedef int lane_int;
+#define LANE_FROM_STATE(x) ((coeff)(x))
+#define STATE_FROM_LANE(x) ((state)(x))
+#define LANE_SQRT(x) SQRT(x)
+#else
+typedef coeff lane __attribute__((vector_size(W * sizeof(coeff))));
+typedef state lane_state __attribute__((vector_size(W * sizeof(state))));
+typedef int lane_int __attribute__((vector_size(W * sizeof(int))));
+#define LANE_FROM_STATE(x) __builtin_convertvector((x), lane)
+#define STATE_FROM_LANE(x) __builtin_convertvector((x), lane_state)
+LAW lane brc_lane_sqrt(lane x)
+{
+    lane root;
+    for (int l = 0; l < W; ++l) root[l] = SQRT(x[l]);
+    return root;
+}
+#define LANE_SQRT(x) brc_lane_sqrt(x)
+#endif
+#define LANE_MAKE_(type, ...) ((type){__VA_ARGS__})
+#define LANE_ITEM_(x, hex) x[0x##hex]
+
+#endif
+
+/* LANE_MAKE(type, F) = (F(0), F(1), ... F(W-1)); LANE_ITEM(x, l) = component l, l a hex digit written out. */
+#if W == 1
+#define LANE_MAKE(type, F) F(0)
+#define LANE_ITEM(x, l) (x)
+#define LANE_EACH(F) F(0)
+#elif W == 4
+#define LANE_MAKE(type, F) LANE_MAKE_(type, F(0), F(1), F(2), F(3))
+#define LANE_ITEM(x, l) LANE_ITEM_(x, l)
+#define LANE_EACH(F) F(0) F(1) F(2) F(3)
+#elif W == 8
+#define LANE_MAKE(type, F) LANE_MAKE_(type, F(0), F(1), F(2), F(3), F(4), F(5), F(6), F(7))
+#define LANE_ITEM(x, l) LANE_ITEM_(x, l)
+#define LANE_EACH(F) F(0) F(1) F(2) F(3) F(4) F(5) F(6) F(7)
+#elif W == 16
+#define LANE_MAKE(type, F)                                                                                             \
+    LANE_MAKE_(type, F(0), F(1), F(2), F(3), F(4), F(5), F(6), F(7), F(8), F(9), F(a), F(b), F(c), F(d), F(e), F(f))
+#define LANE_ITEM(x, l) LANE_ITEM_(x, l)
+#define LANE_EACH(F) F(0) F(1) F(2) F(3) F(4) F(5) F(6) F(7) F(8) F(9) F(a) F(b) F(c) F(d) F(e) F(f)
+#else
+#error "BRC_LANES must be 1, 4, 8 or 16"
+#endif
+
+/* Storage (design.md, SELL-C): element arrays of n components that are only read by their own element are blocked,
+ * [slice][component][C]; those that neighbours gather are [element][components]. Rows are [slot][component][C]. */
+#define SLICE_OF(group) ((group) / (C / W))
+#define FIRST_LANE_OF(group) (((group) % (C / W)) * W)
+
+#endif
