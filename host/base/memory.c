@@ -1,0 +1,86 @@
+/* Aligned, zeroed, counted host memory. A 64-byte header in front of each block keeps its size, so that freeing and
+ * resizing need no second argument. */
+#include "memory.h"
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ALIGNMENT ((size_t)64)
+
+/* Statistics of the process, not state that any computation reads. */
+static atomic_int_least64_t held_bytes;
+static atomic_int_least64_t peak_bytes;
+
+static void count(int64_t change)
+{
+    const int64_t now = atomic_fetch_add(&held_bytes, change) + change;
+    int64_t peak = atomic_load(&peak_bytes);
+    while (now > peak && !atomic_compare_exchange_weak(&peak_bytes, &peak, now)) {
+    }
+}
+
+static size_t *size_of(void *block)
+{
+    return (size_t *)(void *)((char *)block - ALIGNMENT);
+}
+
+/* count * size rounded up to whole lines; 0 when it does not fit in half the address space. */
+static size_t rounded_bytes(int64_t n, size_t size)
+{
+    size_t bytes;
+    if (n < 0 || __builtin_mul_overflow((size_t)n, size, &bytes) || bytes > (size_t)INT64_MAX - 4 * ALIGNMENT) return 0;
+    return bytes == 0 ? ALIGNMENT : (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+}
+
+brc_status brc_memory_allocate(brc_context *context, void **out, int64_t n, size_t size, const char *what)
+{
+    *out = NULL;
+    const size_t bytes = rounded_bytes(n, size);
+    if (bytes == 0)
+        return BRC_FAIL(context, BRC_NO_MEMORY, "%s: %lld items of %zu bytes are more than any machine addresses", what,
+                        (long long)n, size);
+    char *raw = aligned_alloc(ALIGNMENT, bytes + ALIGNMENT);
+    if (!raw)
+        return BRC_FAIL(context, BRC_NO_MEMORY,
+                        "%s: no memory for %lld items of %zu bytes (%.3g GB; %.3g GB are held); use fewer elements or a "
+                        "machine with more memory",
+                        what, (long long)n, size, (double)bytes * 1e-9, (double)brc_memory_held() * 1e-9);
+    memset(raw, 0, bytes + ALIGNMENT);
+    *out = raw + ALIGNMENT;
+    *size_of(*out) = bytes;
+    count((int64_t)bytes);
+    return BRC_OK;
+}
+
+brc_status brc_memory_resize(brc_context *context, void **block, int64_t n, size_t size, const char *what)
+{
+    void *fresh = NULL;
+    BRC_TRY(brc_memory_allocate(context, &fresh, n, size, what));
+    if (*block) {
+        /* The bytes asked for, not the rounded ones: what lies beyond them in the new block must be zero. */
+        const size_t wanted = (size_t)n * size;
+        const size_t old = *size_of(*block);
+        memcpy(fresh, *block, old < wanted ? old : wanted);
+        brc_memory_free(*block);
+    }
+    *block = fresh;
+    return BRC_OK;
+}
+
+void brc_memory_free(void *block)
+{
+    if (!block) return;
+    size_t *const size = size_of(block);
+    count(-(int64_t)*size);
+    free(size);
+}
+
+int64_t brc_memory_held(void)
+{
+    return atomic_load(&held_bytes);
+}
+
+int64_t brc_memory_peak(void)
+{
+    return atomic_load(&peak_bytes);
+}
