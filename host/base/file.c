@@ -40,8 +40,8 @@ static brc_status make_one_folder(brc_context *context, const char *path)
     struct stat information;
     if (stat(path, &information) == 0) {
         if (S_ISDIR(information.st_mode)) return BRC_OK;
-        return BRC_FAIL(context, BRC_FILE_FAILED, "%s: is a file where a folder is needed; remove it or name another folder",
-                        path);
+        return BRC_FAIL(context, BRC_FILE_FAILED,
+                        "%s: is a file where a folder is needed; remove it or name another folder", path);
     }
     return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot create the folder: %s", path, strerror(reason));
 }
@@ -177,8 +177,8 @@ static brc_status read_all(brc_context *context, int descriptor, const char *pat
         }
         if (have > capacity) {
             capacity = capacity > limit / 2 ? limit : 2 * capacity;
-            BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&buffer, (int64_t)capacity + 2, 1,
-                                                  "contents of a file"));
+            BRC_TRY_OR(cleanup,
+                       brc_memory_resize(context, (void **)&buffer, (int64_t)capacity + 2, 1, "contents of a file"));
         }
     }
     buffer[have] = '\0';

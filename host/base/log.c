@@ -103,11 +103,12 @@ static void show(brc_progress *progress, bool last)
     const double done = (double)progress->done;
     const double per_unit = progress->rate_per_unit > 0.0 ? progress->rate_per_unit : 1.0;
     format_rate(rate, sizeof rate, elapsed > 0.0 ? done * per_unit / elapsed : 0.0);
-    if (!last && progress->done > 0) format_duration(left, sizeof left, elapsed * ((double)progress->total - done) / done);
+    if (!last && progress->done > 0)
+        format_duration(left, sizeof left, elapsed * ((double)progress->total - done) / done);
     snprintf(line, sizeof line, "%s: %.0f %% (%lld of %lld %s), %s %s, %s%s%s", progress->what,
              progress->total > 0 ? 100.0 * done / (double)progress->total : 100.0, (long long)progress->done,
-             (long long)progress->total, progress->unit_name, rate, progress->rate_name, spent,
-             *left ? ", left " : "", left);
+             (long long)progress->total, progress->unit_name, rate, progress->rate_name, spent, *left ? ", left " : "",
+             left);
     clear_line(progress);
     if (progress->terminal && !last) {
         fputs(line, stderr);

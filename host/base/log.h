@@ -1,5 +1,6 @@
 /* Log lines and the progress line. On a terminal the progress line is redrawn in place at most five times a second; in
- * a file or a pipe it is one line now and then (at start, then when 10 s have passed, or 5 % and a second, and at the end). */
+ * a file or a pipe it is one line now and then (at start, then when 10 s have passed, or 5 % and a second, and at the
+ * end). */
 #ifndef BRC_BASE_LOG_H
 #define BRC_BASE_LOG_H
 

@@ -41,10 +41,11 @@ brc_status brc_memory_allocate(brc_context *context, void **out, int64_t n, size
                         (long long)n, size);
     char *raw = aligned_alloc(ALIGNMENT, bytes + ALIGNMENT);
     if (!raw)
-        return BRC_FAIL(context, BRC_NO_MEMORY,
-                        "%s: no memory for %lld items of %zu bytes (%.3g GB; %.3g GB are held); use fewer elements or a "
-                        "machine with more memory",
-                        what, (long long)n, size, (double)bytes * 1e-9, (double)brc_memory_held() * 1e-9);
+        return BRC_FAIL(
+            context, BRC_NO_MEMORY,
+            "%s: no memory for %lld items of %zu bytes (%.3g GB; %.3g GB are held); use fewer elements or a "
+            "machine with more memory",
+            what, (long long)n, size, (double)bytes * 1e-9, (double)brc_memory_held() * 1e-9);
     memset(raw, 0, bytes + ALIGNMENT);
     *out = raw + ALIGNMENT;
     *size_of(*out) = bytes;

@@ -1,0 +1,107 @@
+#include "support.h"
+#include "../../host/base/memory.h"
+#include <string.h>
+
+static int begin(void **state)
+{
+    *state = brc_context_create();
+    return *state ? 0 : -1;
+}
+
+static int end(void **state)
+{
+    brc_context_free((brc_context **)state);
+    return 0;
+}
+
+static void blocks_are_zeroed_and_aligned(void **state)
+{
+    brc_context *context = *state;
+    for (int64_t n = 0; n < 200; n += 7) {
+        double *block;
+        assert_int_equal(BRC_ALLOCATE(context, &block, n, "numbers"), BRC_OK);
+        assert_non_null(block);
+        assert_int_equal((uintptr_t)block % 64, 0);
+        for (int64_t k = 0; k < n; ++k)
+            assert_true(block[k] == 0.0);
+        memset(block, 0xff, (size_t)n * sizeof *block); /* so that the next block reuses dirty memory */
+        brc_memory_free(block);
+    }
+}
+
+static void held_bytes_return_to_where_they_were(void **state)
+{
+    brc_context *context = *state;
+    const int64_t before = brc_memory_held();
+    char *block;
+    assert_int_equal(BRC_ALLOCATE(context, &block, 1000, "bytes"), BRC_OK);
+    assert_int_equal(brc_memory_held() - before, 1024); /* whole lines of 64 bytes */
+    assert_true(brc_memory_peak() >= brc_memory_held());
+    assert_int_equal(brc_memory_resize(context, (void **)&block, 100, 1, "bytes"), BRC_OK);
+    assert_int_equal(brc_memory_held() - before, 128);
+    assert_true(brc_memory_peak() >= before + 1024);
+    brc_memory_free(block);
+    brc_memory_free(NULL);
+    assert_int_equal(brc_memory_held(), before);
+}
+
+static void resizing_keeps_the_first_bytes_and_zeroes_the_new(void **state)
+{
+    brc_context *context = *state;
+    int *block = NULL;
+    assert_int_equal(brc_memory_resize(context, (void **)&block, 10, sizeof *block, "numbers"), BRC_OK);
+    for (int k = 0; k < 10; ++k)
+        block[k] = k + 1;
+    assert_int_equal(brc_memory_resize(context, (void **)&block, 5, sizeof *block, "numbers"), BRC_OK);
+    assert_int_equal(brc_memory_resize(context, (void **)&block, 1000, sizeof *block, "numbers"), BRC_OK);
+    for (int k = 0; k < 1000; ++k)
+        assert_int_equal(block[k], k < 5 ? k + 1 : 0);
+    brc_memory_free(block);
+}
+
+static void what_cannot_be_had_is_refused_with_its_name_and_size(void **state)
+{
+    brc_context *context = *state;
+    double *block = (double *)(uintptr_t)64;
+    /* 4 PB: more than the address space of the processor, whatever the machine is willing to promise. */
+    assert_int_equal(BRC_ALLOCATE(context, &block, (int64_t)1 << 49, "bond areas"), BRC_NO_MEMORY);
+    assert_null(block);
+    assert_non_null(strstr(brc_context_message(context), "bond areas"));
+    assert_non_null(strstr(brc_context_message(context), "GB"));
+}
+
+static void overflow_and_negative_counts_are_refused(void **state)
+{
+    brc_context *context = *state;
+    void *block;
+    assert_int_equal(brc_memory_allocate(context, &block, INT64_MAX, 16, "much"), BRC_NO_MEMORY);
+    assert_null(block);
+    assert_int_equal(brc_memory_allocate(context, &block, INT64_MAX, 1, "much"), BRC_NO_MEMORY);
+    assert_int_equal(brc_memory_allocate(context, &block, -1, 8, "less than nothing"), BRC_NO_MEMORY);
+    assert_non_null(strstr(brc_context_message(context), "less than nothing"));
+}
+
+static void a_refused_resize_leaves_the_block(void **state)
+{
+    brc_context *context = *state;
+    int *block;
+    assert_int_equal(BRC_ALLOCATE(context, &block, 3, "numbers"), BRC_OK);
+    block[2] = 42;
+    assert_int_equal(brc_memory_resize(context, (void **)&block, (int64_t)1 << 50, sizeof *block, "numbers"),
+                     BRC_NO_MEMORY);
+    assert_int_equal(block[2], 42);
+    brc_memory_free(block);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(blocks_are_zeroed_and_aligned, begin, end),
+        cmocka_unit_test_setup_teardown(held_bytes_return_to_where_they_were, begin, end),
+        cmocka_unit_test_setup_teardown(resizing_keeps_the_first_bytes_and_zeroes_the_new, begin, end),
+        cmocka_unit_test_setup_teardown(what_cannot_be_had_is_refused_with_its_name_and_size, begin, end),
+        cmocka_unit_test_setup_teardown(overflow_and_negative_counts_are_refused, begin, end),
+        cmocka_unit_test_setup_teardown(a_refused_resize_leaves_the_block, begin, end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
