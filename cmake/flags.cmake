@@ -1,6 +1,7 @@
 # Compiler settings for all of breccia. The binary must run on any x86-64 machine, so no -march here: the kernels carry
 # one object per instruction set and choose at run time. Contraction is off so that every device gives the same bits.
 add_compile_definitions(_GNU_SOURCE)
+add_compile_options(-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=) # __FILE__ names no folder of the build machine
 add_compile_options(-ffp-contract=off -fno-math-errno -fvisibility=hidden -fno-strict-aliasing
                     -Wall -Wextra -Wshadow -Wundef -Wcast-qual -Wwrite-strings -Wformat=2
                     $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes>

@@ -1,0 +1,69 @@
+"""Lengths of files, READMEs of folders, leftovers, names of the house."""
+import os
+import re
+import repository
+
+LONGEST = 700
+
+
+def lengths(files):
+    return [f"{path}: {text.count(chr(10))} lines; {LONGEST} is a hall, split it" for path, text in files.items()
+            if text.count("\n") > LONGEST]
+
+
+def readmes(files):
+    """Each folder that holds files, and each above it, says what lives there. Hidden folders are exempt."""
+    folders = set()
+    for path in files:
+        folder = os.path.dirname(path)
+        while folder:
+            folders.add(folder)
+            folder = os.path.dirname(folder)
+    return [f"{folder}/: has no README.md saying what lives there and what never does" for folder in sorted(folders)
+            if not folder.startswith(".") and folder + "/README.md" not in files]
+
+
+def leftovers(files):
+    findings = []
+    for path, text in files.items():
+        for number, line in enumerate(text.split("\n"), 1):
+            if re.search(r"\b(TO" r"DO|FIX" r"ME|XX" r"X)\b", line):
+                findings.append(f"{path}:{number}: unfinished: {line.strip()}")
+            if re.search(r"[ \t]+$", line):
+                findings.append(f"{path}:{number}: blanks at the end of the line")
+            if re.search(r"(?<![\w.])/(home|root|Users)/\w", line):
+                findings.append(f"{path}:{number}: a path of somebody's machine: {line.strip()}")
+        if text and not text.endswith("\n"):
+            findings.append(f"{path}: the last line has no end")
+    return findings
+
+
+def guards(files):
+    """Headers are guarded by their own name, so that no two guards can be equal."""
+    findings = []
+    seen = {}
+    for path, text in files.items():
+        match = re.search(r"^#ifndef (\w+)\n#define \1\n", text, re.M)
+        if not match:
+            if os.path.basename(path) not in ("kernels.h", "kernel_list.h"):  # read more than once on purpose
+                findings.append(f"{path}: no include guard")
+        elif match.group(1) in seen:
+            findings.append(f"{path}: has the include guard of {seen[match.group(1)]}")
+        else:
+            seen[match.group(1)] = path
+    return findings
+
+
+code = r"\.(c|h|cc|cl)$"
+repository.finish([
+    repository.report("lengths", lengths, repository.read(r"^(host|kernels|preprocess|bench|tests)/.*" + code),
+                      {"701 lines": {"host/base/a.c": "\n" * 701}}),
+    repository.report("readmes", readmes, {path: "" for path in repository.paths()},
+                      {"a folder without": {"host/base/README.md": "", "host/base/a.c": ""}}),
+    repository.report("leftovers", leftovers,
+                      repository.read(code + r"|\.(py|sh|cmake|md|yaml)$|CMakeLists\.txt$|^quickstart$"),
+                      {"unfinished": {"a.c": "/* TO" "DO later */\n"}, "blanks": {"a.c": "int a; \n"},
+                       "path": {"a.c": "see /ho" "me/somebody/file\n"}, "no end": {"a.c": "int a;"}}),
+    repository.report("guards", guards, repository.read(r"^(host|kernels|preprocess|bench)/.*\.h$"),
+                      {"none": {"a.h": "int a;\n"}, "twice": {"a.h": "#ifndef A\n#define A\n", "b.h": "#ifndef A\n#define A\n"}}),
+])

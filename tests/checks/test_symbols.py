@@ -1,0 +1,38 @@
+"""Exported symbols of the libraries start with brc_; no library ends the program."""
+import glob
+import os
+import re
+import subprocess
+import sys
+import repository
+
+BUILD = os.environ["BRC_BUILD_DIR"]
+ENDS_THE_PROGRAM = {"exit", "_exit", "_Exit", "quick_exit", "abort"}
+
+
+def exported(listing):
+    """listing: what nm -A -g prints. Weak symbols (C++ templates, ifunc helpers of the compiler) are not ours to name."""
+    findings = []
+    for library, text in listing.items():
+        for line in text.splitlines():
+            match = re.search(r":[0-9a-f]* *([A-Za-z]) (\S+)$", line)
+            if not match:
+                continue
+            kind, name = match.groups()
+            if kind in "TDBRCSGi" and not name.startswith(("brc_", "__odr_asan", "__asan", "__start_", "__stop_")):
+                findings.append(f"{library}: exports {name}; public names start with brc_, others are static")
+            if kind == "U" and name in ENDS_THE_PROGRAM:
+                findings.append(f"{library}: calls {name}; only the main program ends the program")
+    return findings
+
+
+listing = {}
+for path in sorted(glob.glob(os.path.join(BUILD, "libbrc_*.a"))):
+    listing[os.path.basename(path)] = subprocess.run(["nm", "-A", "-g", path], capture_output=True, text=True,
+                                                     check=True).stdout
+if not listing:
+    print("symbols: no library is built; skipped")
+    sys.exit(77)
+bad = {"foreign name": {"a": "liba.a:b.o:0000000000000010 T solve\n"}, "foreign data": {"a": "liba.a:b.o:00 B table\n"},
+       "end": {"a": "liba.a:b.o:                 U exit\n"}}
+repository.finish([repository.report("symbols", exported, listing, bad)])
