@@ -1,0 +1,356 @@
+/* What all backends share: checks, sentences, counting, and finding each kernel once. */
+#include "device_internal.h"
+#include "kernel_signature.h"
+#include "../base/memory.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *name;
+    int state_bytes, coeff_bytes;
+} precisions[] = {[BRC_DOUBLE] = {"double", 8, 8}, [BRC_MIXED] = {"mixed", 8, 4}, [BRC_SINGLE] = {"single", 4, 4}};
+
+const char *brc_precision_name(brc_precision precision)
+{
+    return precisions[precision].name;
+}
+
+int brc_precision_state_bytes(brc_precision precision)
+{
+    return precisions[precision].state_bytes;
+}
+
+int brc_precision_coeff_bytes(brc_precision precision)
+{
+    return precisions[precision].coeff_bytes;
+}
+
+void brc_device_describe(const brc_device_info *info, char *text, size_t bytes)
+{
+    snprintf(text, bytes, "%s (%s)", info->selector, info->name);
+}
+
+static const brc_backend *backend_of(brc_device_kind kind)
+{
+    switch (kind) {
+    default: return &brc_backend_cpu;
+    }
+}
+
+/* Does the selector have one of the forms "auto", "cpu", "opencl:N", "target:N"? */
+static bool selector_parses(const char *selector)
+{
+    if (strcmp(selector, "auto") == 0 || strcmp(selector, "cpu") == 0) return true;
+    const char *digits = strncmp(selector, "opencl:", 7) == 0 || strncmp(selector, "target:", 7) == 0 ? selector + 7 : "";
+    const size_t n = strspn(digits, "0123456789");
+    return n > 0 && n < 6 && digits[n] == '\0';
+}
+
+/* The usable selectors, for sentences: "cpu, opencl:0". */
+static void list_selectors(const brc_device_list *list, char *text, size_t bytes)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (int d = 0; d < list->n && used < bytes; ++d)
+        if (list->items[d].usable)
+            used += (size_t)snprintf(text + used, bytes - used, "%s%s", used ? ", " : "", list->items[d].selector);
+}
+
+static brc_status select_device(brc_context *context, const brc_device_list *list, const brc_device_request *request,
+                                brc_device_info *out)
+{
+    const char *const selector = request->selector ? request->selector : "auto";
+    char there[256];
+    list_selectors(list, there, sizeof there);
+    if (!selector_parses(selector))
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "device '%.64s' is not a selector: expected auto, cpu, opencl:N or target:N; here there are: %s",
+                        selector, there);
+    if (strcmp(selector, "auto") == 0) {
+        char why[512];
+        *out = list->items[brc_device_list_choose(list, request->precision, why, sizeof why)];
+        return BRC_OK;
+    }
+    for (int d = 0; d < list->n; ++d) {
+        const brc_device_info *const info = &list->items[d];
+        if (strcmp(info->selector, selector) != 0) continue;
+        if (!info->usable)
+            return BRC_FAIL(context, BRC_BAD_INPUT, "device %s (%s) cannot be used: %s; usable here: %s", selector,
+                            info->name, info->why_not, there);
+        *out = *info;
+        return BRC_OK;
+    }
+    return BRC_FAIL(context, BRC_BAD_INPUT, "device '%s' is not there; usable here: %s (see breccia devices)", selector,
+                    there);
+}
+
+brc_status brc_device_open(brc_context *context, const brc_device_request *request, brc_device **out)
+{
+    brc_status status = BRC_OK;
+    brc_device_list *list = NULL;
+    brc_device *device = NULL;
+    *out = NULL;
+    BRC_TRY_OR(cleanup, brc_device_list_create(context, &list));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &device, 1, "device"));
+    device->context = context;
+    device->precision = request->precision;
+    device->many_materials = request->many_materials;
+    BRC_TRY_OR(cleanup, select_device(context, list, request, &device->info));
+    if (!device->info.has_double && request->precision != BRC_SINGLE) {
+        char text[192];
+        brc_device_describe(&device->info, text, sizeof text);
+        status = BRC_FAIL(context, BRC_BAD_INPUT,
+                          "device %s has no double precision, which precision %s needs: take --precision single or "
+                          "another device",
+                          text, brc_precision_name(request->precision));
+        goto cleanup;
+    }
+    const brc_backend *const backend = backend_of(device->info.kind);
+    BRC_TRY_OR(cleanup, backend->open(device, request));
+    device->backend = backend; /* from here on there is something to close */
+    char reason[BRC_REASON_BYTES] = "";
+    if (!backend->allocate(device, 64, &device->dummy, reason)) {
+        status = BRC_FAIL(context, BRC_DEVICE_FAILED, "device %s has no room for 64 bytes: %s", device->info.selector,
+                          reason);
+        goto cleanup;
+    }
+    *out = device;
+    device = NULL;
+cleanup:
+    brc_device_close(&device);
+    brc_device_list_free(&list);
+    return status;
+}
+
+void brc_device_close(brc_device **handle)
+{
+    brc_device *const device = handle ? *handle : NULL;
+    if (!device) return;
+    if (device->backend) {
+        while (device->kernels) {
+            brc_kernel *const kernel = device->kernels;
+            device->kernels = kernel->next;
+            device->backend->forget(kernel);
+            brc_memory_free(kernel);
+        }
+        if (device->dummy) device->backend->release(device, device->dummy, 64);
+        device->backend->close(device);
+    }
+    brc_memory_free(device);
+    *handle = NULL;
+}
+
+const brc_device_info *brc_device_get_info(const brc_device *device)
+{
+    return &device->info;
+}
+
+brc_precision brc_device_get_precision(const brc_device *device)
+{
+    return device->precision;
+}
+
+bool brc_device_has_many_materials(const brc_device *device)
+{
+    return device->many_materials;
+}
+
+int brc_device_lanes(const brc_device *device)
+{
+    return device->lanes;
+}
+
+int brc_device_slice(const brc_device *device)
+{
+    return device->slice;
+}
+
+int64_t brc_device_bytes(const brc_device *device)
+{
+    return device->bytes;
+}
+
+brc_status brc_device_wait(brc_device *device)
+{
+    return device->backend->wait(device);
+}
+
+brc_status brc_buffer_create(brc_device *device, brc_buffer **out, int64_t bytes, const char *what)
+{
+    *out = NULL;
+    if (bytes < 0)
+        return BRC_FAIL(device->context, BRC_INTERNAL, "buffer for %s: %lld bytes asked", what, (long long)bytes);
+    const brc_device_info *const info = &device->info;
+    char reason[BRC_REASON_BYTES] = "";
+    void *memory = NULL;
+    const int64_t held = bytes > 0 ? bytes : 64;
+    const bool too_large = info->largest_buffer_bytes > 0 && bytes > info->largest_buffer_bytes;
+    /* Subtracted, not added: what is asked may be close to the largest number there is. */
+    const bool too_much = info->memory_bytes > 0 && bytes > info->memory_bytes - device->bytes;
+    if (too_large || too_much || !device->backend->allocate(device, held, &memory, reason)) {
+        char text[192], most[64], all[64];
+        brc_device_describe(info, text, sizeof text);
+        snprintf(most, sizeof most, "%lld", (long long)info->largest_buffer_bytes);
+        snprintf(all, sizeof all, "%lld", (long long)info->memory_bytes);
+        return BRC_FAIL(device->context, BRC_DEVICE_FAILED,
+                        "device %s has no room for %s: %lld bytes asked, %lld held, %s allowed in one buffer, %s in all%s%s; "
+                        "use fewer elements, a lower precision or another device",
+                        text, what, (long long)bytes, (long long)device->bytes,
+                        info->largest_buffer_bytes ? most : "any number", info->memory_bytes ? all : "an unknown number",
+                        reason[0] ? ": " : "", reason);
+    }
+    brc_buffer *buffer = NULL;
+    const brc_status status = BRC_ALLOCATE(device->context, &buffer, 1, what);
+    if (status != BRC_OK) {
+        device->backend->release(device, memory, held);
+        return status;
+    }
+    buffer->device = device;
+    buffer->memory = memory;
+    buffer->bytes = bytes;
+    buffer->held = held;
+    snprintf(buffer->what, sizeof buffer->what, "%s", what);
+    device->bytes += bytes;
+    *out = buffer;
+    return BRC_OK;
+}
+
+void brc_buffer_free(brc_buffer **handle)
+{
+    brc_buffer *const buffer = handle ? *handle : NULL;
+    if (!buffer) return;
+    buffer->device->backend->release(buffer->device, buffer->memory, buffer->held);
+    buffer->device->bytes -= buffer->bytes;
+    brc_memory_free(buffer);
+    *handle = NULL;
+}
+
+int64_t brc_buffer_bytes(const brc_buffer *buffer)
+{
+    return buffer->bytes;
+}
+
+/* Is [offset, offset + bytes) inside? Programmers' mistakes, but cheap to catch beside a blocking copy. */
+static brc_status check_range(const brc_buffer *buffer, int64_t offset, int64_t bytes, const char *verb)
+{
+    if (offset >= 0 && bytes >= 0 && offset <= buffer->bytes && bytes <= buffer->bytes - offset) return BRC_OK;
+    return BRC_FAIL(buffer->device->context, BRC_INTERNAL, "buffer of %s: cannot %s %lld bytes at %lld, it has %lld",
+                    buffer->what, verb, (long long)bytes, (long long)offset, (long long)buffer->bytes);
+}
+
+brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data, int64_t bytes)
+{
+    BRC_TRY(check_range(buffer, offset, bytes, "write"));
+    if (bytes == 0) return BRC_OK;
+    return buffer->device->backend->write(buffer->device, buffer->memory, offset, data, bytes);
+}
+
+brc_status brc_buffer_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes)
+{
+    BRC_TRY(check_range(buffer, offset, bytes, "read"));
+    if (bytes == 0) return BRC_OK;
+    return buffer->device->backend->read(buffer->device, buffer->memory, offset, data, bytes);
+}
+
+brc_status brc_buffer_copy(brc_buffer *dst, brc_buffer *src, int64_t bytes)
+{
+    BRC_TRY(check_range(dst, 0, bytes, "copy"));
+    BRC_TRY(check_range(src, 0, bytes, "copy"));
+    if (dst == src || dst->device != src->device)
+        return BRC_FAIL(dst->device->context, BRC_INTERNAL, "copy from %s to %s: must be two buffers of one device",
+                        src->what, dst->what);
+    if (bytes == 0) return BRC_OK;
+    return dst->device->backend->copy(dst->device, dst->memory, src->memory, bytes);
+}
+
+brc_status brc_buffer_fill_zero(brc_buffer *buffer)
+{
+    if (buffer->bytes == 0) return BRC_OK;
+    return buffer->device->backend->zero(buffer->device, buffer->memory, buffer->bytes);
+}
+
+brc_status brc_kernel_find(brc_device *device, const char *name, brc_kernel **out)
+{
+    *out = NULL;
+    for (brc_kernel *kernel = device->kernels; kernel; kernel = kernel->next)
+        if (strcmp(kernel->name, name) == 0) {
+            *out = kernel;
+            return BRC_OK;
+        }
+    brc_kernel *kernel = NULL;
+    BRC_TRY(BRC_ALLOCATE(device->context, &kernel, 1, name));
+    kernel->device = device;
+    snprintf(kernel->name, sizeof kernel->name, "%s", name);
+    const brc_status status = device->backend->find(kernel);
+    if (status != BRC_OK) {
+        brc_memory_free(kernel);
+        return status;
+    }
+    brc_kernel_signature(name, kernel->kinds);
+    kernel->next = device->kernels;
+    device->kernels = kernel;
+    *out = kernel;
+    return BRC_OK;
+}
+
+brc_packed_arg brc_arg_pack(const brc_device *device, const brc_arg *arg)
+{
+    brc_packed_arg packed;
+    int bytes = 8;
+    switch (arg->kind) {
+    case BRC_ARG_BUFFER:
+        packed.value.memory = arg->value.buffer ? arg->value.buffer->memory : device->dummy;
+        packed.bytes = sizeof(void *);
+        packed.type = 'p';
+        return packed;
+    case BRC_ARG_INT:
+        packed.value.integer = arg->value.integer;
+        packed.bytes = sizeof(int32_t);
+        packed.type = 'i';
+        return packed;
+    case BRC_ARG_STATE: bytes = precisions[device->precision].state_bytes; break;
+    case BRC_ARG_COEFF: bytes = precisions[device->precision].coeff_bytes; break;
+    default: break;
+    }
+    if (bytes == 8)
+        packed.value.dbl = arg->value.real;
+    else
+        packed.value.single = (float)arg->value.real;
+    packed.bytes = (size_t)bytes;
+    packed.type = bytes == 8 ? 'd' : 'f';
+    return packed;
+}
+
+/* A wrong argument list would be read as garbage by the kernel, so it is always checked: a few comparisons a launch. */
+static bool kinds_match(const char *kinds, int n_args, const brc_arg *args)
+{
+    for (int a = 0; a < n_args; ++a)
+        if (kinds[a] != BRC_KERNEL_LETTERS[args[a].kind]) return false; /* a short list ends in NUL: no match */
+    return kinds[n_args] == '\0';
+}
+
+brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
+{
+    brc_context *const context = kernel->device->context;
+    if (n_args > BRC_KERNEL_MOST_ARGS)
+        return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: %d arguments, %d at most", kernel->name, n_args,
+                        (int)BRC_KERNEL_MOST_ARGS);
+    if (kernel->kinds[0][0] && !kinds_match(kernel->kinds[0], n_args, args) &&
+        !(kernel->kinds[1][0] && kinds_match(kernel->kinds[1], n_args, args))) {
+        char given[BRC_KERNEL_MOST_ARGS + 1];
+        for (int a = 0; a < n_args; ++a) given[a] = BRC_KERNEL_LETTERS[args[a].kind];
+        given[n_args] = '\0';
+        return BRC_FAIL(context, BRC_INTERNAL,
+                        "kernel %s takes %s (b buffer, i int, s state, c coeff, d double), was given %s", kernel->name,
+                        kernel->kinds[0], given);
+    }
+    if (n_items < 0 || n_items > INT32_MAX)
+        return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: %lld work-items", kernel->name, (long long)n_items);
+    for (int a = 0; a < n_args; ++a)
+        if (args[a].kind == BRC_ARG_BUFFER && args[a].value.buffer && args[a].value.buffer->device != kernel->device)
+            return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: argument %d (%s) lives on another device", kernel->name, a,
+                            args[a].value.buffer->what);
+    if (n_items == 0) return BRC_OK;
+    return kernel->device->backend->launch(kernel, n_items, n_args, args);
+}

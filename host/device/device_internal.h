@@ -1,0 +1,86 @@
+/* The inside of a device: shared by the files of this folder, nobody else. device.c checks, counts and names; a backend
+ * does the work through its table of functions. */
+#ifndef BRC_DEVICE_INTERNAL_H
+#define BRC_DEVICE_INTERNAL_H
+
+#include "device.h"
+
+enum { BRC_KERNEL_MOST_ARGS = 64, BRC_REASON_BYTES = 256 };
+
+/* A backend. Functions returning bool give false for "no room", with the reason in `reason` (may stay ""). */
+typedef struct brc_backend {
+    /* Set up device->inside, lanes and slice, and complete device->info. A failed open leaves nothing to close. */
+    brc_status (*open)(brc_device *device, const brc_device_request *request);
+    void (*close)(brc_device *device);
+    /* Zeroed memory; bytes > 0. */
+    bool (*allocate)(brc_device *device, int64_t bytes, void **memory, char reason[BRC_REASON_BYTES]);
+    void (*release)(brc_device *device, void *memory, int64_t bytes);
+    brc_status (*write)(brc_device *device, void *memory, int64_t offset, const void *data, int64_t bytes);
+    brc_status (*read)(brc_device *device, void *memory, int64_t offset, void *data, int64_t bytes);
+    brc_status (*copy)(brc_device *device, void *to, void *from, int64_t bytes);
+    brc_status (*zero)(brc_device *device, void *memory, int64_t bytes);
+    /* Fill kernel->function (and kernel->inside); BRC_INTERNAL with a sentence when there is no such kernel. */
+    brc_status (*find)(brc_kernel *kernel);
+    void (*forget)(brc_kernel *kernel);
+    brc_status (*launch)(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args);
+    brc_status (*wait)(brc_device *device);
+} brc_backend;
+
+extern const brc_backend brc_backend_cpu, brc_backend_opencl, brc_backend_target;
+
+struct brc_device {
+    brc_context *context; /* borrowed */
+    const brc_backend *backend;
+    brc_device_info info;
+    brc_precision precision;
+    bool many_materials;
+    int lanes;           /* W */
+    int slice;           /* C */
+    int64_t bytes;       /* held in buffers */
+    void *dummy;         /* memory of 64 bytes for arguments that are NULL; not counted */
+    brc_kernel *kernels; /* found so far, a list */
+    void *inside;        /* the backend's own */
+};
+
+struct brc_buffer {
+    brc_device *device; /* borrowed */
+    void *memory;       /* the backend's handle */
+    int64_t bytes;      /* as asked for */
+    int64_t held;       /* as allocated: at least one line */
+    char what[64];
+};
+
+struct brc_kernel {
+    brc_device *device; /* borrowed */
+    brc_kernel *next;
+    char name[64];
+    char kinds[2][BRC_KERNEL_MOST_ARGS + 1]; /* its parameters, one letter each (kernel_signature.h); "": unknown */
+    void (*function)(void);                  /* C builds */
+    void *inside;                            /* the backend's own */
+};
+
+/* "opencl:0 (NVIDIA H100, 555.42)": the device in sentences. */
+void brc_device_describe(const brc_device_info *info, char *text, size_t bytes);
+
+/* One argument as the kernel sees it: an int, a number of the run's precision, or the buffer's memory. */
+typedef struct brc_packed_arg {
+    union {
+        int32_t integer;
+        float single;
+        double dbl;
+        void *memory;
+    } value;
+    size_t bytes;
+    char type; /* 'i', 'f', 'd' or 'p' */
+} brc_packed_arg;
+brc_packed_arg brc_arg_pack(const brc_device *device, const brc_arg *arg);
+
+/* Index in the list of the device `auto` takes for a precision, and the sentence why. */
+int brc_device_list_choose(const brc_device_list *list, brc_precision precision, char *why, size_t bytes);
+/* Parts of the list, one per backend: append what there is. */
+brc_status brc_device_list_add(brc_context *context, brc_device_list *list, const brc_device_info *info);
+brc_status brc_device_cpu_list(brc_context *context, brc_device_list *list);
+brc_status brc_device_opencl_list(brc_context *context, brc_device_list *list);
+brc_status brc_device_target_list(brc_context *context, brc_device_list *list);
+
+#endif

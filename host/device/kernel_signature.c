@@ -1,0 +1,66 @@
+/* Kernels are plain text here: the C builds have no other record of what a function pointer takes, and a wrong list
+ * handed to libffi would crash or, worse, compute. */
+#include "kernel_signature.h"
+#include <ctype.h>
+#include <string.h>
+
+static bool is_word(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+/* Letter of one parameter, the text [from, to); 0 when it is none of the vocabulary's. */
+static char letter_of(const char *from, const char *to)
+{
+    if (memchr(from, '*', (size_t)(to - from))) return 'b';
+    static const struct {
+        const char *word;
+        char letter;
+    } scalars[] = {{"int", 'i'}, {"state", 's'}, {"coeff", 'c'}, {"double", 'd'}};
+    while (from < to && isspace((unsigned char)*from)) ++from;
+    if (to - from > 6 && strncmp(from, "const ", 6) == 0) from += 6;
+    for (size_t k = 0; k < sizeof scalars / sizeof scalars[0]; ++k) {
+        const size_t length = strlen(scalars[k].word);
+        if ((size_t)(to - from) > length && strncmp(from, scalars[k].word, length) == 0 && !is_word(from[length]))
+            return scalars[k].letter;
+    }
+    return 0;
+}
+
+/* The list that begins behind '(' at `text`; false when a parameter is not understood. */
+static bool read_list(const char *text, char kinds[BRC_KERNEL_MOST_ARGS + 1])
+{
+    int n = 0;
+    for (const char *from = text; n < BRC_KERNEL_MOST_ARGS;) {
+        const size_t length = strcspn(from, ",)");
+        const char letter = letter_of(from, from + length);
+        if (!letter) break;
+        kinds[n++] = letter;
+        if (from[length] == ')') {
+            kinds[n] = '\0';
+            return true;
+        }
+        if (from[length] != ',') break;
+        from += length + 1;
+    }
+    kinds[0] = '\0';
+    return false;
+}
+
+void brc_kernel_signature(const char *name, char kinds[2][BRC_KERNEL_MOST_ARGS + 1])
+{
+    static const char head[] = "KERNEL void ";
+    const size_t length = strlen(name);
+    int n = 0;
+    kinds[0][0] = kinds[1][0] = '\0';
+    for (int f = 0; f < brc_kernel_file_count; ++f)
+        for (const char *at = strstr(brc_kernel_files[f].text, head); at; at = strstr(at + 1, head)) {
+            const char *const word = at + sizeof head - 1;
+            if (strncmp(word, name, length) != 0 || word[length] != '(') continue;
+            if (n == 2 || !read_list(word + length + 1, kinds[n])) { /* more than can be told apart: check nothing */
+                kinds[0][0] = kinds[1][0] = '\0';
+                return;
+            }
+            ++n;
+        }
+}

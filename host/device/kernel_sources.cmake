@@ -1,0 +1,17 @@
+# cmake -DFOLDER=kernels -DOUTPUT=file.c -P kernel_sources.cmake: every text of the folder as a C string, one literal a
+# line (no literal of a C11 compiler need be longer than 4095 characters, and none of ours is).
+file(GLOB files ${FOLDER}/*.h ${FOLDER}/*.cl)
+list(SORT files)
+set(text "#include \"kernel_signature.h\"\nconst brc_kernel_file brc_kernel_files[] = {\n")
+set(count 0)
+foreach(file IN LISTS files)
+    get_filename_component(name "${file}" NAME)
+    file(READ "${file}" content)
+    string(REPLACE "\\" "\\\\" content "${content}")
+    string(REPLACE "\"" "\\\"" content "${content}")
+    string(REPLACE "\n" "\\n\"\n     \"" content "${content}")
+    string(APPEND text "    {\"${name}\",\n     \"${content}\"},\n")
+    math(EXPR count "${count} + 1")
+endforeach()
+string(APPEND text "};\nconst int brc_kernel_file_count = ${count};\n")
+file(WRITE "${OUTPUT}" "${text}")
