@@ -2,4 +2,38 @@
 #define BRC_KERNEL_LIST(X)                                                                                             \
     X(vector_axpy)                                                                                                     \
     X(vector_copy)                                                                                                     \
-    X(vector_gather)
+    X(vector_gather)                                                                                                   \
+    X(vector_xpay)                                                                                                     \
+    X(vector_dot)                                                                                                      \
+    X(vector_sum)                                                                                                      \
+    X(block_precondition)                                                                                              \
+    X(divide_by_mass)                                                                                                  \
+    X(advance)                                                                                                         \
+    X(advance_tchamwa)                                                                                                 \
+    X(numerical_close)                                                                                                 \
+    X(damp_mass)                                                                                                       \
+    X(gravity)                                                                                                         \
+    X(kinetic_energy)                                                                                                  \
+    X(impose_motion)                                                                                                   \
+    X(impose_book)                                                                                                     \
+    X(impose_zero)                                                                                                     \
+    X(dlsm_gradient)                                                                                                   \
+    X(dlsm_stress)                                                                                                     \
+    X(dlsm_flux_pass)                                                                                                  \
+    X(dlsm_force)                                                                                                      \
+    X(dlsm_energy)                                                                                                     \
+    X(dlsm_deformation)                                                                                                \
+    X(held_prescribe)                                                                                                  \
+    X(held_gradient_pass)                                                                                              \
+    X(held_moment_pass)                                                                                                \
+    X(held_force_pass)                                                                                                 \
+    X(held_energy)                                                                                                     \
+    X(traction_moment_pass)                                                                                            \
+    X(traction_force_pass)                                                                                             \
+    X(face_displacement)                                                                                               \
+    X(published_strain_pass)                                                                                           \
+    X(published_force_pass)                                                                                            \
+    X(published_energy)                                                                                                \
+    X(advance_rotation)                                                                                                \
+    X(add_spin_energy)                                                                                                 \
+    X(small_rotation)

@@ -68,7 +68,9 @@ typedef BRC_JOIN(int, BRC_LANES) lane_int;
 #endif
 #define LANE_SQRT(x) sqrt(x)
 #define SQRT(x) sqrt(x)
+#define SQRT_STATE(x) sqrt(x)
 #define LANE_MAKE_(type, ...) ((type)(__VA_ARGS__))
+#define LANE_ZERO ((lane)(0))
 #define LANE_ITEM_(x, hex) x.s##hex
 
 #else /* C */
@@ -88,7 +90,16 @@ typedef size_t brc_size;
     BRC_PRAGMA(omp parallel for schedule(static))                                                                      \
     for (int i = 0; i < (n); ++i)
 #endif
-#define SQRT(x) ((coeff)(sizeof(x) == 4 ? (double)__builtin_sqrtf((float)(x)) : __builtin_sqrt((double)(x))))
+#if BRC_PRECISION == 0
+#define SQRT(x) __builtin_sqrt(x)
+#else
+#define SQRT(x) __builtin_sqrtf(x)
+#endif
+#if BRC_PRECISION == 2
+#define SQRT_STATE(x) __builtin_sqrtf(x)
+#else
+#define SQRT_STATE(x) __builtin_sqrt(x)
+#endif
 #if W == 1
 typedef coeff lane;
 typedef state lane_state;
@@ -111,6 +122,7 @@ LAW lane brc_lane_sqrt(lane x)
 #define LANE_SQRT(x) brc_lane_sqrt(x)
 #endif
 #define LANE_MAKE_(type, ...) ((type){__VA_ARGS__})
+#define LANE_ZERO ((lane){0})
 #define LANE_ITEM_(x, hex) x[0x##hex]
 
 #endif

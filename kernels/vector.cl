@@ -1,26 +1,70 @@
-/* Plain vector loops over n numbers of the state, one work-item each. */
+/* Vectors of state numbers for the static solver and the power iteration. Sums are taken over fixed blocks of 1024
+ * numbers, in order, so that they do not depend on the number of threads. */
 
-/* y += a x */
 KERNEL void vector_axpy(int n, state a, GLOBAL const state *restrict x, GLOBAL state *restrict y)
 {
-    FOR_EACH_ITEM(i, n) {
-        y[i] += a * x[i];
-    }
+    FOR_EACH_ITEM(i, n) { y[i] += a * x[i]; }
 }
 
 /* y = x */
 KERNEL void vector_copy(int n, GLOBAL const state *restrict x, GLOBAL state *restrict y)
 {
-    FOR_EACH_ITEM(i, n) {
-        y[i] = x[i];
-    }
+    FOR_EACH_ITEM(i, n) { y[i] = x[i]; }
 }
 
 /* y[i] = x[index[i]] */
 KERNEL void vector_gather(int n, GLOBAL const int *restrict index, GLOBAL const state *restrict x,
                           GLOBAL state *restrict y)
 {
-    FOR_EACH_ITEM(i, n) {
-        y[i] = x[index[i]];
+    FOR_EACH_ITEM(i, n) { y[i] = x[index[i]]; }
+}
+
+/* y = x + a y */
+KERNEL void vector_xpay(int n, state a, GLOBAL const state *restrict x, GLOBAL state *restrict y)
+{
+    FOR_EACH_ITEM(i, n) { y[i] = x[i] + a * y[i]; }
+}
+
+/* partial[b] = sum of x y over block b of n numbers in all. */
+KERNEL void vector_dot(int n_blocks, int n, GLOBAL const state *restrict x, GLOBAL const state *restrict y,
+                       GLOBAL state *restrict partial)
+{
+    FOR_EACH_ITEM(b, n_blocks) {
+        const int begin = b * 1024, end = begin + 1024 < n ? begin + 1024 : n;
+        state sum = 0;
+        for (int i = begin; i < end; ++i) sum += x[i] * y[i];
+        partial[b] = sum;
+    }
+}
+
+/* partial[b] = sum of x over block b. */
+KERNEL void vector_sum(int n_blocks, int n, GLOBAL const state *restrict x, GLOBAL state *restrict partial)
+{
+    FOR_EACH_ITEM(b, n_blocks) {
+        const int begin = b * 1024, end = begin + 1024 < n ? begin + 1024 : n;
+        state sum = 0;
+        for (int i = begin; i < end; ++i) sum += x[i];
+        partial[b] = sum;
+    }
+}
+
+/* z = P r with a symmetric 3 x 3 block (xx yy zz yz xz xy) per element. */
+KERNEL void block_precondition(int n, GLOBAL const state *restrict block, GLOBAL const state *restrict r,
+                               GLOBAL state *restrict z)
+{
+    FOR_EACH_ITEM(e, n) {
+        GLOBAL const state *p = block + (brc_size)e * 6;
+        const state x = r[(brc_size)e * 3], y = r[(brc_size)e * 3 + 1], w = r[(brc_size)e * 3 + 2];
+        z[(brc_size)e * 3] = p[0] * x + p[5] * y + p[4] * w;
+        z[(brc_size)e * 3 + 1] = p[5] * x + p[1] * y + p[3] * w;
+        z[(brc_size)e * 3 + 2] = p[4] * x + p[3] * y + p[2] * w;
+    }
+}
+
+/* v /= m, element by element: M^-1 of a force. */
+KERNEL void divide_by_mass(int n, GLOBAL const state *restrict mass, GLOBAL state *restrict vector)
+{
+    FOR_EACH_ITEM(e, n) {
+        for (int c = 0; c < 3; ++c) vector[(brc_size)e * 3 + c] /= mass[e];
     }
 }

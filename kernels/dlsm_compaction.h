@@ -1,0 +1,33 @@
+/* dlsm: the cross term that makes the shear response compact (design-dlsm.md section 2, step 4, and "Toward nu < 0").
+ *   M = F_H S_c,  S_c = E_H + ell tr(E_H) I,  ell = lambda_c / (2 mu_c),  F_H = I + H
+ * with mu_c = min(mu, 3 K), K_c = min(K, 2 mu / 3), lambda_c = K_c - 2 mu_c / 3: ell = 0 for nu >= 0. */
+#ifndef BRC_KERNELS_DLSM_COMPACTION_H
+#define BRC_KERNELS_DLSM_COMPACTION_H
+
+#include "elastic_svk.h"
+
+/* S_c [-] of a Green strain [-]. */
+LAW lane_sym3 dlsm_compaction_strain(lane_sym3 strain, lane ell)
+{
+    const lane k = LANE_ZERO + REAL(1);
+    return lane_sym3_scale_shift(k, strain, ell * lane_sym3_trace(strain));
+}
+
+/* M [-] of a least-squares gradient H [-]. */
+LAW lane_mat3 dlsm_compaction(lane_mat3 gradient, lane ell, int finite)
+{
+    return push_forward(gradient, dlsm_compaction_strain(green_strain(gradient, finite), ell), finite);
+}
+
+/* Derivative of T : M with respect to H: T S_c + F_H (Y + ell tr(Y) I), Y = sym(F_H^T T) [unit of T]. */
+LAW lane_mat3 dlsm_compaction_adjoint(lane_mat3 gradient, lane_mat3 t, lane ell, int finite)
+{
+    const lane_mat3 pulled = finite ? lane_mat3_add(t, lane_mat3_tmul(gradient, t)) : t;
+    const lane_sym3 y = dlsm_compaction_strain(lane_mat3_sym(pulled), ell);
+    const lane_mat3 second = push_forward(gradient, y, finite);
+    if (!finite) return second;
+    const lane_sym3 s = dlsm_compaction_strain(green_strain(gradient, finite), ell);
+    return lane_mat3_add(lane_mat3_mul_sym(t, s), second);
+}
+
+#endif

@@ -1,0 +1,173 @@
+/* dlsm: held faces (prescribed displacement) and tractions. One work-item does one element that has such faces, so that
+ * nothing is scattered (design-dlsm.md section 2, "Prescribed faces"). Arrays of a held element h:
+ * element[h] its row, place[2h] its boundary block, place[2h + 1] its lane in the slice, face_start[h] its faces; of a face:
+ * area s_f [m^2], arm d_f = C - X_i [m], held 1 or 0 per component, spring kappa_f [N/m], value u_f [m]. */
+
+LAW vec3 held_displacement(GLOBAL const state *restrict displacement, int e)
+{
+    return (vec3){(coeff)displacement[(brc_size)e * 3], (coeff)displacement[(brc_size)e * 3 + 1],
+                  (coeff)displacement[(brc_size)e * 3 + 2]};
+}
+
+/* u_f - u_i, the difference taken in state. */
+LAW vec3 held_jump(GLOBAL const state *restrict value, int face, GLOBAL const state *restrict displacement, int e)
+{
+    return (vec3){(coeff)(value[(brc_size)face * 3] - displacement[(brc_size)e * 3]),
+                  (coeff)(value[(brc_size)face * 3 + 1] - displacement[(brc_size)e * 3 + 1]),
+                  (coeff)(value[(brc_size)face * 3 + 2] - displacement[(brc_size)e * 3 + 2])};
+}
+
+/* Component-wise: held where pi is 1, free where it is 0. */
+LAW vec3 held_choose(vec3 pi, vec3 held, vec3 free)
+{
+    return (vec3){pi.x * held.x + (REAL(1) - pi.x) * free.x, pi.y * held.y + (REAL(1) - pi.y) * free.y,
+                  pi.z * held.z + (REAL(1) - pi.z) * free.z};
+}
+LAW vec3 held_only(vec3 pi, vec3 a) { return (vec3){pi.x * a.x, pi.y * a.y, pi.z * a.z}; }
+
+/* u_f = base + factor direction, for the faces of one load. entry -> face; component flags as in held. */
+KERNEL void held_prescribe(int n, state factor, GLOBAL const int *restrict face, GLOBAL const coeff *restrict component,
+                           GLOBAL const state *restrict base, GLOBAL const state *restrict direction,
+                           GLOBAL state *restrict value)
+{
+    FOR_EACH_ITEM(i, n) {
+        for (int c = 0; c < 3; ++c)
+            if (component[(brc_size)i * 3 + c] > REAL(0.5))
+                value[(brc_size)face[i] * 3 + c] = base[(brc_size)i * 3 + c] + factor * direction[(brc_size)i * 3 + c];
+    }
+}
+
+/* Part of V G: sum [ Pi (u_f - u_i) + (I - Pi) H_i d_f ] (x) s_f, assigned to the element's place. */
+KERNEL void held_gradient_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict place,
+                               GLOBAL const int *restrict face_start, GLOBAL const coeff *restrict area,
+                               GLOBAL const coeff *restrict arm, GLOBAL const coeff *restrict held,
+                               GLOBAL const state *restrict value, GLOBAL const state *restrict displacement,
+                               GLOBAL const coeff *restrict gradient, GLOBAL coeff *restrict held_gradient)
+{
+    FOR_EACH_ITEM(h, n) {
+        const int e = element[h];
+        const mat3 grad = mat3_load(gradient, e);
+        mat3 sum = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+        for (int f = face_start[h]; f < face_start[h + 1]; ++f)
+            sum = mat3_add_outer(sum, held_choose(vec3_load(held, f), held_jump(value, f, displacement, e),
+                                                  mat3_mul_vec(grad, vec3_load(arm, f))), vec3_load(area, f));
+        mat3_put_in_block(held_gradient, place[2 * h], place[2 * h + 1], sum);
+    }
+}
+
+/* r_f = Pi (u_f - u_i - H_i d_f) [m]. */
+LAW vec3 held_residual(vec3 pi, vec3 jump, mat3 grad, vec3 arm) { return held_only(pi, vec3_sub(jump, mat3_mul_vec(grad, arm))); }
+
+/* Part of Q: sum [ (I - Pi) P_i s_f - kappa_f r_f ] (x) d_f, added to the element's place. */
+KERNEL void held_moment_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict place,
+                             GLOBAL const int *restrict face_start, GLOBAL const coeff *restrict area,
+                             GLOBAL const coeff *restrict arm, GLOBAL const coeff *restrict held,
+                             GLOBAL const coeff *restrict spring, GLOBAL const state *restrict value,
+                             GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                             GLOBAL const coeff *restrict stress, GLOBAL coeff *restrict held_moment)
+{
+    FOR_EACH_ITEM(h, n) {
+        const int e = element[h];
+        const mat3 grad = mat3_load(gradient, e), p = mat3_load(stress, e);
+        mat3 sum = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+        for (int f = face_start[h]; f < face_start[h + 1]; ++f) {
+            const vec3 pi = vec3_load(held, f), d = vec3_load(arm, f), zero = {0, 0, 0};
+            const vec3 r = held_residual(pi, held_jump(value, f, displacement, e), grad, d);
+            const vec3 free_part = held_choose(pi, zero, mat3_mul_vec(p, vec3_load(area, f)));
+            sum = mat3_add_outer(sum, vec3_sub(free_part, vec3_scale(spring[f], r)), d);
+        }
+        mat3_add_to_block(held_moment, place[2 * h], place[2 * h + 1], sum);
+    }
+}
+
+/* f_i += Pi P_i s_f + kappa_f r_f; reaction (force of the load on the solid) is its negative [N]; with book, the work of
+ * the load since the last call by the trapezoidal rule [J]; last: u_f of the last call. */
+KERNEL void held_force_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict face_start,
+                            GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict arm,
+                            GLOBAL const coeff *restrict held, GLOBAL const coeff *restrict spring,
+                            GLOBAL const state *restrict value, GLOBAL const state *restrict displacement,
+                            GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, int book,
+                            GLOBAL state *restrict force, GLOBAL state *restrict reaction, GLOBAL state *restrict last,
+                            GLOBAL state *restrict work)
+{
+    FOR_EACH_ITEM(h, n) {
+        const int e = element[h];
+        const mat3 grad = mat3_load(gradient, e), p = mat3_load(stress, e);
+        for (int f = face_start[h]; f < face_start[h + 1]; ++f) {
+            const vec3 pi = vec3_load(held, f);
+            const vec3 r = held_residual(pi, held_jump(value, f, displacement, e), grad, vec3_load(arm, f));
+            const vec3 pull = vec3_add(held_only(pi, mat3_mul_vec(p, vec3_load(area, f))), vec3_scale(spring[f], r));
+            const state on_element[3] = {(state)pull.x, (state)pull.y, (state)pull.z};
+            for (int c = 0; c < 3; ++c) {
+                const brc_size at = (brc_size)f * 3 + c;
+                if (book) work[f] += STATE(0.5) * (reaction[at] + on_element[c]) * (value[at] - last[at]);
+                force[(brc_size)e * 3 + c] += on_element[c];
+                reaction[at] = on_element[c];
+                last[at] = value[at];
+            }
+        }
+    }
+}
+
+/* Stabilisation energy of held faces, kappa_f |r_f|^2 / 2 [J] [face]. */
+KERNEL void held_energy(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict face_start,
+                        GLOBAL const coeff *restrict arm, GLOBAL const coeff *restrict held,
+                        GLOBAL const coeff *restrict spring, GLOBAL const state *restrict value,
+                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                        GLOBAL state *restrict energy)
+{
+    FOR_EACH_ITEM(h, n) {
+        const int e = element[h];
+        const mat3 grad = mat3_load(gradient, e);
+        for (int f = face_start[h]; f < face_start[h + 1]; ++f) {
+            const vec3 r = held_residual(vec3_load(held, f), held_jump(value, f, displacement, e), grad, vec3_load(arm, f));
+            energy[f] = (state)(REAL(0.5) * spring[f] * vec3_dot(r, r));
+        }
+    }
+}
+
+/* Tractions of one load, summed per element: total [N] = sum t S, moment [N m] = sum t S (x) (C - X), at unit factor. */
+KERNEL void traction_moment_pass(int n, coeff factor, GLOBAL const int *restrict place, GLOBAL const coeff *restrict moment,
+                                 GLOBAL coeff *restrict held_moment)
+{
+    FOR_EACH_ITEM(i, n) {
+        const mat3 m = mat3_load(moment, i);
+        const mat3 minus = {-factor * m.xx, -factor * m.xy, -factor * m.xz, -factor * m.yx, -factor * m.yy,
+                            -factor * m.yz, -factor * m.zx, -factor * m.zy, -factor * m.zz};
+        mat3_add_to_block(held_moment, place[2 * i], place[2 * i + 1], minus);
+    }
+}
+
+/* f_i += factor total; reach = total.u + moment:H is what the traction works on [J]. */
+KERNEL void traction_force_pass(int n, state factor, GLOBAL const int *restrict element,
+                                GLOBAL const coeff *restrict total, GLOBAL const coeff *restrict moment,
+                                GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient, int book,
+                                state last_factor, GLOBAL state *restrict force, GLOBAL state *restrict reach,
+                                GLOBAL state *restrict work)
+{
+    FOR_EACH_ITEM(i, n) {
+        const int e = element[i];
+        state sum = 0;
+        for (int c = 0; c < 3; ++c) {
+            const state t = (state)total[(brc_size)i * 3 + c];
+            force[(brc_size)e * 3 + c] += factor * t;
+            sum += t * displacement[(brc_size)e * 3 + c];
+        }
+        for (int c = 0; c < 9; ++c) sum += (state)(moment[(brc_size)i * 9 + c] * gradient[(brc_size)e * 9 + c]);
+        if (book) work[i] += STATE(0.5) * (factor + last_factor) * (sum - reach[i]);
+        reach[i] = sum;
+    }
+}
+
+/* Sensors: u_f of listed free faces [m]: u_i + H_i (C - X_i). */
+KERNEL void face_displacement(int n, GLOBAL const int *restrict element, GLOBAL const coeff *restrict arm,
+                              GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                              GLOBAL state *restrict out)
+{
+    FOR_EACH_ITEM(i, n) {
+        const vec3 reach = mat3_mul_vec(mat3_load(gradient, element[i]), vec3_load(arm, i));
+        out[(brc_size)i * 3] = displacement[(brc_size)element[i] * 3] + (state)reach.x;
+        out[(brc_size)i * 3 + 1] = displacement[(brc_size)element[i] * 3 + 1] + (state)reach.y;
+        out[(brc_size)i * 3 + 2] = displacement[(brc_size)element[i] * 3 + 2] + (state)reach.z;
+    }
+}

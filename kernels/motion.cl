@@ -1,0 +1,135 @@
+/* Time stepping and single-element loads, common to all models. One work-item does one element; arrays are [n][3]. */
+
+/* v += kick f / m, u += drift v. A full Verlet or symplectic Euler step has kick = drift = dt; a half kick has drift 0. */
+KERNEL void advance(int n, state kick, state drift, GLOBAL const state *restrict mass, GLOBAL const state *restrict force,
+                    GLOBAL state *restrict velocity, GLOBAL state *restrict displacement)
+{
+    FOR_EACH_ITEM(e, n) {
+        const state per_mass = kick / mass[e];
+        for (int c = 0; c < 3; ++c) {
+            const brc_size at = (brc_size)e * 3 + c;
+            const state v = velocity[at] + per_mass * force[at];
+            velocity[at] = v;
+            displacement[at] += drift * v;
+        }
+    }
+}
+
+/* Tchamwa-Wielgosz: u += dt v + phi dt^2 a; v += dt a (design-dlsm.md section 1). lost accumulates, per element, the part
+ * (phi - 1/2) dt^2 m a^2 - (dt v + phi dt^2 a).f_old / 2 of the scheme's own dissipation; numerical_close adds the rest. */
+KERNEL void advance_tchamwa(int n, state dt, state phi, GLOBAL const state *restrict mass, GLOBAL const state *restrict force,
+                            GLOBAL state *restrict velocity, GLOBAL state *restrict displacement,
+                            GLOBAL state *restrict moved, GLOBAL state *restrict lost)
+{
+    FOR_EACH_ITEM(e, n) {
+        state sum = 0;
+        for (int c = 0; c < 3; ++c) {
+            const brc_size at = (brc_size)e * 3 + c;
+            const state f = force[at], a = f / mass[e];
+            const state du = dt * velocity[at] + phi * dt * dt * a;
+            sum += (phi - STATE(0.5)) * dt * dt * a * f - STATE(0.5) * du * f;
+            moved[at] = du;
+            displacement[at] += du;
+            velocity[at] += dt * a;
+        }
+        lost[e] += sum;
+    }
+}
+
+/* ... + du.f_new / 2, so that the sum is (phi - 1/2) dt^2 a.M a - du.K du / 2 on a linear system. */
+KERNEL void numerical_close(int n, GLOBAL const state *restrict force, GLOBAL const state *restrict moved,
+                            GLOBAL state *restrict lost)
+{
+    FOR_EACH_ITEM(e, n) {
+        state sum = 0;
+        for (int c = 0; c < 3; ++c) sum += STATE(0.5) * moved[(brc_size)e * 3 + c] * force[(brc_size)e * 3 + c];
+        lost[e] += sum;
+    }
+}
+
+/* Mass damping over one step, exact for the drag alone: v *= factor = exp(-c dt); lost gains the energy [J]. */
+KERNEL void damp_mass(int n, state factor, GLOBAL const state *restrict mass, GLOBAL state *restrict velocity,
+                      GLOBAL state *restrict lost)
+{
+    FOR_EACH_ITEM(e, n) {
+        state square = 0;
+        for (int c = 0; c < 3; ++c) {
+            const brc_size at = (brc_size)e * 3 + c;
+            square += velocity[at] * velocity[at];
+            velocity[at] *= factor;
+        }
+        lost[e] += STATE(0.5) * mass[e] * (STATE(1) - factor * factor) * square;
+    }
+}
+
+/* f += m g. */
+KERNEL void gravity(int n, state gx, state gy, state gz, GLOBAL const state *restrict mass, GLOBAL state *restrict force)
+{
+    FOR_EACH_ITEM(e, n) {
+        force[(brc_size)e * 3] += mass[e] * gx;
+        force[(brc_size)e * 3 + 1] += mass[e] * gy;
+        force[(brc_size)e * 3 + 2] += mass[e] * gz;
+    }
+}
+
+/* Kinetic energy [J] [n]. */
+KERNEL void kinetic_energy(int n, GLOBAL const state *restrict mass, GLOBAL const state *restrict velocity,
+                           GLOBAL state *restrict out)
+{
+    FOR_EACH_ITEM(e, n) {
+        const state x = velocity[(brc_size)e * 3], y = velocity[(brc_size)e * 3 + 1], z = velocity[(brc_size)e * 3 + 2];
+        out[e] = STATE(0.5) * mass[e] * (x * x + y * y + z * z);
+    }
+}
+
+/* Imposed elements of one load: u = base + factor direction, v = rate direction on the chosen components. */
+KERNEL void impose_motion(int n, state factor, state rate, int set_displacement, GLOBAL const int *restrict element,
+                          GLOBAL const coeff *restrict component, GLOBAL const state *restrict base,
+                          GLOBAL const state *restrict direction, GLOBAL state *restrict velocity,
+                          GLOBAL state *restrict displacement)
+{
+    FOR_EACH_ITEM(i, n) {
+        for (int c = 0; c < 3; ++c) {
+            const brc_size at = (brc_size)i * 3 + c, to = (brc_size)element[i] * 3 + c;
+            if (component[at] > REAL(0.5)) {
+                if (set_displacement) displacement[to] = base[at] + factor * direction[at];
+                velocity[to] = rate * direction[at];
+            }
+        }
+    }
+}
+
+/* Reaction of imposed elements, minus the internal force [N] [n][3]; with book, the work of the load since the last call:
+ * reaction over the path by the trapezoidal rule plus the change of the imposed components' own kinetic energy [J]. */
+KERNEL void impose_book(int n, state rate, state last_rate, int book, GLOBAL const int *restrict element,
+                        GLOBAL const coeff *restrict component, GLOBAL const state *restrict direction,
+                        GLOBAL const state *restrict mass, GLOBAL const state *restrict displacement,
+                        GLOBAL const state *restrict force, GLOBAL state *restrict reaction, GLOBAL state *restrict last,
+                        GLOBAL state *restrict work)
+{
+    FOR_EACH_ITEM(i, n) {
+        for (int c = 0; c < 3; ++c) {
+            const brc_size at = (brc_size)i * 3 + c, to = (brc_size)element[i] * 3 + c;
+            if (component[at] > REAL(0.5)) {
+                const state now = -force[to];
+                if (book) {
+                    const state speed = rate * direction[at], old = last_rate * direction[at];
+                    work[i] += STATE(0.5) * (reaction[at] + now) * (displacement[to] - last[at]) +
+                               STATE(0.5) * mass[element[i]] * (speed * speed - old * old);
+                }
+                reaction[at] = now;
+                last[at] = displacement[to];
+            }
+        }
+    }
+}
+
+/* Zero the chosen components of a vector: imposed elements in linear solves. */
+KERNEL void impose_zero(int n, GLOBAL const int *restrict element, GLOBAL const coeff *restrict component,
+                        GLOBAL state *restrict vector)
+{
+    FOR_EACH_ITEM(i, n) {
+        for (int c = 0; c < 3; ++c)
+            if (component[(brc_size)i * 3 + c] > REAL(0.5)) vector[(brc_size)element[i] * 3 + c] = 0;
+    }
+}

@@ -1,0 +1,150 @@
+/* dlsm-published: the two passes over elements and their bonds, and the motion of orientations (AGH19).
+ * branch R = X_j - X_i [slot][3][C] (missing neighbours: a unit branch home with zero area), area S [slot][C]. */
+
+#if BRC_MANY_MATERIALS
+#define MATERIAL(component, scalar) lane_block(material, slice, 4, component, lane0)
+#else
+#define MATERIAL(component, scalar) (LANE_ZERO + (scalar))
+#endif
+
+/* Strain of every element in the global frame [-] [n][6] (xx yy zz yz xz xy). inv_shape: (sum w R (x) R)^-1
+ * [slice][6][C]; area_weights: w = S/|R| instead of 1; orientation: unit quaternions (w x y z) [n][4]. */
+KERNEL void published_strain_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                                  GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area, int area_weights,
+                                  GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                                  GLOBAL const coeff *restrict inv_shape, int finite, GLOBAL coeff *restrict strain)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
+        const lane_int own = lane_own(first);
+        const state_vec3 u = state_gather3(displacement, own);
+        lane_mat3 a = lane_mat3_zero();
+        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+            const lane_int j = int_block(neighbour, slot, lane0);
+            lane_vec3 r = lane_block3(branch, slot, lane0);
+            const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
+            if (area_weights)
+                r = lane_vec3_scale(lane_load(area, (brc_size)slot * C + (brc_size)lane0) / LANE_SQRT(lane_vec3_dot(r, r)), r);
+            a = lane_add_outer(a, jump, r);
+        }
+        const lane_mat3 fitted = lane_mat3_mul_sym(a, lane_block6(inv_shape, slice, lane0));
+        const lane_quat q = lane_gather4(orientation, own);
+        lane_store6(strain, first, finite ? published_strain(fitted, q, 1) : published_strain(fitted, q, 0));
+    }
+}
+
+/* One bond's part of the force pass; only called with a constant `finite`. */
+LAW published_bond published_one_bond(lane_vec3 r, lane_vec3 jump, lane area, lane_sym3 e_i, lane_sym3 e_j, lane_quat q_i,
+                                      lane_quat q_j, lane lambda, lane mu, lane young, coeff rotation_factor, int finite)
+{
+    const lane_sym3 sum = lane_sym3_add(e_i, e_j);
+    const lane_sym3 mean = lane_sym3_scale_shift(LANE_ZERO + REAL(0.5), sum, LANE_ZERO);
+    lane_quat turn;
+    if (finite) turn = quat_mul(q_j, quat_conjugate(q_i));
+    else turn = (lane_quat){LANE_ZERO, q_j.x - q_i.x, q_j.y - q_i.y, q_j.z - q_i.z};
+    return published_bond_law(r, jump, area, mean, quat_rotation_vector(turn, finite), lambda, mu, young, rotation_factor, finite);
+}
+
+/* Force [N] and torque about its own centre [N m] on every element [n][3]. lame_of [n][3]: lambda, mu, E of each element
+ * for the neighbour's side (many materials: a bond takes the mean of its two ends). */
+KERNEL void published_force_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                                 GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
+                                 GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                                 GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
+                                 coeff rotation_factor, GLOBAL const coeff *restrict lame_of, int finite,
+                                 GLOBAL state *restrict force, GLOBAL state *restrict torque)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
+        const lane_int own = lane_own(first);
+        const state_vec3 u = state_gather3(displacement, own);
+        const lane_sym3 e = lane_gather6(strain, own);
+        const lane_quat q = lane_gather4(orientation, own);
+        lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
+        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+            const lane_int j = int_block(neighbour, slot, lane0);
+            const lane_vec3 r = lane_block3(branch, slot, lane0);
+            const lane s = lane_load(area, (brc_size)slot * C + (brc_size)lane0);
+            const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
+            const lane_sym3 e_j = lane_gather6(strain, j);
+            const lane_quat q_j = lane_gather4(orientation, j);
+#if BRC_MANY_MATERIALS
+            const lane_int at = j * 3, at_own = own * 3;
+            const lane lambda = REAL(0.5) * (gather_component(lame_of, at_own) + gather_component(lame_of, at));
+            const lane mu = REAL(0.5) * (gather_component(lame_of + 1, at_own) + gather_component(lame_of + 1, at));
+            const lane young = REAL(0.5) * (gather_component(lame_of + 2, at_own) + gather_component(lame_of + 2, at));
+#else
+            const lane lambda = LANE_ZERO + lambda_one, mu = LANE_ZERO + mu_one, young = LANE_ZERO + young_one;
+#endif
+            const published_bond b = finite ? published_one_bond(r, jump, s, e, e_j, q, q_j, lambda, mu, young, rotation_factor, 1)
+                                            : published_one_bond(r, jump, s, e, e_j, q, q_j, lambda, mu, young, rotation_factor, 0);
+            f = lane_vec3_add(f, b.force);
+            t = lane_vec3_add(t, b.torque);
+        }
+        state_store3(force, first, f);
+        state_store3(torque, first, t);
+    }
+}
+#undef MATERIAL
+
+/* Strain energy V sigma:e / 2 of the least-squares strain [J] [n]. Not the potential of the forces (there is none). */
+KERNEL void published_energy(int n, GLOBAL const coeff *restrict strain, GLOBAL const state *restrict volume,
+                             coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict lame_of, GLOBAL state *restrict elastic)
+{
+    FOR_EACH_ITEM(e, n) {
+        GLOBAL const coeff *s = strain + (brc_size)e * 6;
+#if BRC_MANY_MATERIALS
+        const coeff lambda = lame_of[(brc_size)e * 3], mu = lame_of[(brc_size)e * 3 + 1];
+#else
+        const coeff lambda = lambda_one, mu = mu_one;
+#endif
+        const coeff trace = s[0] + s[1] + s[2];
+        const coeff square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + REAL(2) * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+        elastic[e] = volume[e] * (state)(REAL(0.5) * lambda * trace * trace + mu * square);
+    }
+}
+
+/* Rotation: w += kick T / I [rad/s], then q <- exp(turn/2) q with turn = drift w_new + extra T / I [rad]; extra is
+ * (phi - 1) dt^2 for Tchamwa-Wielgosz, else 0. inertia: mean moment of inertia of each cell [kg m^2]. */
+KERNEL void advance_rotation(int n, state kick, state drift, state extra, GLOBAL const state *restrict inertia,
+                             GLOBAL const state *restrict torque, GLOBAL state *restrict spin, GLOBAL state *restrict orientation)
+{
+    FOR_EACH_ITEM(e, n) {
+        state half[3];
+        for (int c = 0; c < 3; ++c) {
+            const state a = torque[(brc_size)e * 3 + c] / inertia[e];
+            const state w = spin[(brc_size)e * 3 + c] + kick * a;
+            spin[(brc_size)e * 3 + c] = w;
+            half[c] = STATE(0.5) * (drift * w + extra * a);
+        }
+        /* cos and sin(|h|)/|h| by their series: |h| is the half turn of one step, far below 1; normalised after */
+        const state hh = half[0] * half[0] + half[1] * half[1] + half[2] * half[2];
+        const state c0 = STATE(1) - hh * (STATE(0.5) - hh * (STATE(1.0 / 24) - hh * STATE(1.0 / 720)));
+        const state s0 = STATE(1) - hh * (STATE(1.0 / 6) - hh * (STATE(1.0 / 120) - hh * STATE(1.0 / 5040)));
+        GLOBAL state *q = orientation + (brc_size)e * 4;
+        const state w = q[0], x = q[1], y = q[2], z = q[3], p = s0 * half[0], r = s0 * half[1], t = s0 * half[2];
+        const state nw = c0 * w - p * x - r * y - t * z, nx = c0 * x + p * w + r * z - t * y;
+        const state ny = c0 * y - p * z + r * w + t * x, nz = c0 * z + p * y - r * x + t * w;
+        const state scale = STATE(1) / SQRT_STATE(nw * nw + nx * nx + ny * ny + nz * nz);
+        q[0] = scale * nw, q[1] = scale * nx, q[2] = scale * ny, q[3] = scale * nz;
+    }
+}
+
+/* Rotational kinetic energy I w^2 / 2, added [J] [n]. */
+KERNEL void add_spin_energy(int n, GLOBAL const state *restrict inertia, GLOBAL const state *restrict spin, GLOBAL state *restrict out)
+{
+    FOR_EACH_ITEM(e, n) {
+        const state x = spin[(brc_size)e * 3], y = spin[(brc_size)e * 3 + 1], z = spin[(brc_size)e * 3 + 2];
+        out[e] += STATE(0.5) * inertia[e] * (x * x + y * y + z * z);
+    }
+}
+
+/* Linear solves: quaternions (1, theta/2) of small rotation vectors theta [n][3]. */
+KERNEL void small_rotation(int n, GLOBAL const state *restrict theta, GLOBAL state *restrict orientation)
+{
+    FOR_EACH_ITEM(e, n) {
+        GLOBAL state *q = orientation + (brc_size)e * 4;
+        q[0] = STATE(1);
+        for (int c = 0; c < 3; ++c) q[c + 1] = STATE(0.5) * theta[(brc_size)e * 3 + c];
+    }
+}

@@ -1,0 +1,101 @@
+/* dlsm-published: the law of AGH19 as printed, with the corrections listed in docs/theory.md (design-dlsm.md section 1).
+ * Frames: an element's strain is found in its own frame (rotation R_i from its quaternion) and turned to the global frame;
+ * bonds work in the global frame. finite: 1 as published; 0 the linearisation, in which a quaternion's vector part is half
+ * a small rotation vector. */
+#ifndef BRC_KERNELS_PUBLISHED_BOND_H
+#define BRC_KERNELS_PUBLISHED_BOND_H
+
+#include "vec.h"
+
+LAW lane_vec3 quat_vector(lane_quat q) { return (lane_vec3){q.x, q.y, q.z}; }
+
+/* R x - x for the rotation of a unit quaternion, without cancellation: 2 w (v x a) + 2 v x (v x a). */
+LAW lane_vec3 quat_rotate_minus_identity(lane_quat q, lane_vec3 a, int finite)
+{
+    const lane_vec3 v = quat_vector(q);
+    const lane_vec3 once = lane_vec3_cross(v, a);
+    const lane two = LANE_ZERO + REAL(2);
+    if (!finite) return lane_vec3_scale(two, once);
+    return lane_vec3_scale(two, lane_vec3_add(lane_vec3_scale(q.w, once), lane_vec3_cross(v, once)));
+}
+
+LAW lane_quat quat_conjugate(lane_quat q) { return (lane_quat){q.w, -q.x, -q.y, -q.z}; }
+
+/* a b */
+LAW lane_quat quat_mul(lane_quat a, lane_quat b)
+{
+    return (lane_quat){a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+                       a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+
+/* Rotation matrix minus identity [-], columns R e - e. */
+LAW lane_mat3 quat_matrix_minus_identity(lane_quat q, int finite)
+{
+    const lane one = LANE_ZERO + REAL(1), zero = LANE_ZERO;
+    const lane_vec3 x = quat_rotate_minus_identity(q, (lane_vec3){one, zero, zero}, finite);
+    const lane_vec3 y = quat_rotate_minus_identity(q, (lane_vec3){zero, one, zero}, finite);
+    const lane_vec3 z = quat_rotate_minus_identity(q, (lane_vec3){zero, zero, one}, finite);
+    return (lane_mat3){x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
+}
+
+/* Strain in the global frame [-] (AGH19 eq. 5-15): least squares of d_j = R_i^T (branch + jump) - branch gives
+ * H = R^T a A^-1 + R^T - I with a = sum jump (x) w branch; fitted: a A^-1 [-]. */
+LAW lane_sym3 published_strain(lane_mat3 fitted, lane_quat q, int finite)
+{
+    const lane_mat3 turn = quat_matrix_minus_identity(quat_conjugate(q), finite);
+    if (!finite) return lane_mat3_sym(lane_mat3_add(fitted, turn));
+    const lane_mat3 local = lane_mat3_add(lane_mat3_add(fitted, lane_mat3_mul(turn, fitted)), turn);
+    const lane_sym3 e = lane_mat3_sym(local);
+    /* R e R^T, with turn = R^T - I */
+    const lane_mat3 er = lane_mat3_mul((lane_mat3){e.xx, e.xy, e.xz, e.xy, e.yy, e.yz, e.xz, e.yz, e.zz}, turn);
+    const lane_mat3 right = lane_mat3_add((lane_mat3){e.xx, e.xy, e.xz, e.xy, e.yy, e.yz, e.xz, e.yz, e.zz}, er);
+    return lane_mat3_sym(lane_mat3_add(right, lane_mat3_tmul(turn, right)));
+}
+
+/* Rotation vector [rad] of a unit quaternion with w > 0: 2 atan(|v|/w) v/|v|. The half-angle formula is used twice, after
+ * which |t| <= 0.2 for rotations up to 90 degrees and seven terms of the series are exact to 1e-12. */
+LAW lane_vec3 quat_rotation_vector(lane_quat q, int finite)
+{
+    const lane_vec3 v = quat_vector(q);
+    const lane two = LANE_ZERO + REAL(2);
+    if (!finite) return lane_vec3_scale(two, v);
+    /* tan of the half angle over |v| is 1/w; halve: t/(1 + sqrt(1 + t^2)) keeps the factor of |v| */
+    const lane vv = lane_vec3_dot(v, v);
+    lane factor = REAL(1) / q.w;
+    factor = factor / (REAL(1) + LANE_SQRT(REAL(1) + factor * factor * vv));
+    factor = factor / (REAL(1) + LANE_SQRT(REAL(1) + factor * factor * vv));
+    const lane t = -factor * factor * vv;
+    const lane series = REAL(1) + t * (REAL(1.0 / 3) + t * (REAL(0.2) + t * (REAL(1.0 / 7) + t * (REAL(1.0 / 9) +
+                        t * (REAL(1.0 / 11) + t * (REAL(1.0 / 13) + t * REAL(1.0 / 15)))))));
+    return lane_vec3_scale(REAL(8) * factor * series, v);
+}
+
+/* What a bond does to element i. */
+typedef struct {
+    lane_vec3 force;  /* [N] */
+    lane_vec3 torque; /* about its own centre [N m] */
+} published_bond;
+
+/* branch, jump: reference branch and u_j - u_i [m]; area: S [m^2]; strain: mean of the two ends, global frame [-];
+ * turn: rotation vector of j relative to i [rad]; young [Pa], rotation_factor: on K = E S^2 / (4 pi L0) (design: the
+ * printed K = E L0 is N/m). AGH19 eq. 16-34. */
+LAW published_bond published_bond_law(lane_vec3 branch, lane_vec3 jump, lane area, lane_sym3 strain, lane_vec3 turn,
+                                      lane lambda, lane mu, lane young, coeff rotation_factor, int finite)
+{
+    const lane length0 = LANE_SQRT(lane_vec3_dot(branch, branch));
+    const lane_vec3 now = finite ? lane_vec3_add(branch, jump) : branch;
+    const lane length = finite ? LANE_SQRT(lane_vec3_dot(now, now)) : length0;
+    const lane_vec3 n = lane_vec3_scale(REAL(1) / length, now);
+    /* (L - L0)/L0 = (L^2 - L0^2) / (L0 (L + L0)), without cancellation */
+    const lane stretch = finite ? (REAL(2) * lane_vec3_dot(branch, jump) + lane_vec3_dot(jump, jump)) / (length0 * (length + length0))
+                                : lane_vec3_dot(n, jump) / length0;
+    const lane_vec3 en = lane_sym3_mul_vec(strain, n);
+    const lane correction = stretch - lane_vec3_dot(en, n);
+    const lane normal = REAL(2) * mu * correction + lambda * (lane_sym3_trace(strain) + correction);
+    const lane_vec3 f = lane_vec3_scale(area, lane_vec3_add(lane_vec3_scale(REAL(2) * mu, en), lane_vec3_scale(normal, n)));
+    const lane stiffness = REAL(0.0795774715459476678844) * rotation_factor * young * area * area / length0; /* 1/(4 pi) */
+    const lane half = LANE_ZERO + REAL(0.5);
+    return (published_bond){f, lane_vec3_add(lane_vec3_cross(lane_vec3_scale(half, now), f), lane_vec3_scale(stiffness, turn))};
+}
+
+#endif

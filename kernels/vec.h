@@ -1,0 +1,295 @@
+/* Vectors and 3 x 3 matrices of lanes: values in, values out. lane_mat3 is row major: xy is row x, column y.
+ * Loads, gathers and stores know the two storages of portable.h and nothing else. */
+#ifndef BRC_KERNELS_VEC_H
+#define BRC_KERNELS_VEC_H
+
+#include "portable.h"
+
+typedef struct { lane x, y, z; } lane_vec3;
+typedef struct { lane xx, xy, xz, yx, yy, yz, zx, zy, zz; } lane_mat3;
+typedef struct { lane xx, yy, zz, yz, xz, xy; } lane_sym3;
+typedef struct { lane w, x, y, z; } lane_quat;
+
+/* ---- vectors ---- */
+LAW lane_vec3 lane_vec3_add(lane_vec3 a, lane_vec3 b) { return (lane_vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
+LAW lane_vec3 lane_vec3_sub(lane_vec3 a, lane_vec3 b) { return (lane_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
+LAW lane_vec3 lane_vec3_scale(lane k, lane_vec3 a) { return (lane_vec3){k * a.x, k * a.y, k * a.z}; }
+LAW lane lane_vec3_dot(lane_vec3 a, lane_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+LAW lane_vec3 lane_vec3_cross(lane_vec3 a, lane_vec3 b)
+{
+    return (lane_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* ---- matrices ---- */
+LAW lane_mat3 lane_mat3_zero(void)
+{
+    const lane o = LANE_ZERO;
+    return (lane_mat3){o, o, o, o, o, o, o, o, o};
+}
+LAW lane_mat3 lane_mat3_add(lane_mat3 a, lane_mat3 b)
+{
+    return (lane_mat3){a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yx + b.yx, a.yy + b.yy,
+                       a.yz + b.yz, a.zx + b.zx, a.zy + b.zy, a.zz + b.zz};
+}
+LAW lane_mat3 lane_mat3_sub(lane_mat3 a, lane_mat3 b)
+{
+    return (lane_mat3){a.xx - b.xx, a.xy - b.xy, a.xz - b.xz, a.yx - b.yx, a.yy - b.yy,
+                       a.yz - b.yz, a.zx - b.zx, a.zy - b.zy, a.zz - b.zz};
+}
+LAW lane_mat3 lane_mat3_scale(lane k, lane_mat3 a)
+{
+    return (lane_mat3){k * a.xx, k * a.xy, k * a.xz, k * a.yx, k * a.yy, k * a.yz, k * a.zx, k * a.zy, k * a.zz};
+}
+LAW lane_mat3 lane_mat3_transpose(lane_mat3 a)
+{
+    return (lane_mat3){a.xx, a.yx, a.zx, a.xy, a.yy, a.zy, a.xz, a.yz, a.zz};
+}
+/* a b */
+LAW lane_mat3 lane_mat3_mul(lane_mat3 a, lane_mat3 b)
+{
+    return (lane_mat3){
+        a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy,
+        a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.yx + a.yz * b.zx,
+        a.yx * b.xy + a.yy * b.yy + a.yz * b.zy, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
+        a.zx * b.xx + a.zy * b.yx + a.zz * b.zx, a.zx * b.xy + a.zy * b.yy + a.zz * b.zy,
+        a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
+}
+/* a b with b symmetric */
+LAW lane_mat3 lane_mat3_mul_sym(lane_mat3 a, lane_sym3 b)
+{
+    return lane_mat3_mul(a, (lane_mat3){b.xx, b.xy, b.xz, b.xy, b.yy, b.yz, b.xz, b.yz, b.zz});
+}
+/* a transposed times b */
+LAW lane_mat3 lane_mat3_tmul(lane_mat3 a, lane_mat3 b) { return lane_mat3_mul(lane_mat3_transpose(a), b); }
+LAW lane_vec3 lane_mat3_mul_vec(lane_mat3 a, lane_vec3 b)
+{
+    return (lane_vec3){a.xx * b.x + a.xy * b.y + a.xz * b.z, a.yx * b.x + a.yy * b.y + a.yz * b.z,
+                       a.zx * b.x + a.zy * b.y + a.zz * b.z};
+}
+LAW lane_mat3 lane_outer(lane_vec3 a, lane_vec3 b)
+{
+    return (lane_mat3){a.x * b.x, a.x * b.y, a.x * b.z, a.y * b.x, a.y * b.y, a.y * b.z, a.z * b.x, a.z * b.y, a.z * b.z};
+}
+/* sum + a (x) b */
+LAW lane_mat3 lane_add_outer(lane_mat3 sum, lane_vec3 a, lane_vec3 b)
+{
+    return (lane_mat3){sum.xx + a.x * b.x, sum.xy + a.x * b.y, sum.xz + a.x * b.z, sum.yx + a.y * b.x, sum.yy + a.y * b.y,
+                       sum.yz + a.y * b.z, sum.zx + a.z * b.x, sum.zy + a.z * b.y, sum.zz + a.z * b.z};
+}
+LAW lane_sym3 lane_mat3_sym(lane_mat3 a)
+{
+    return (lane_sym3){a.xx, a.yy, a.zz, REAL(0.5) * (a.yz + a.zy), REAL(0.5) * (a.xz + a.zx), REAL(0.5) * (a.xy + a.yx)};
+}
+LAW lane lane_sym3_trace(lane_sym3 a) { return a.xx + a.yy + a.zz; }
+/* a : b */
+LAW lane lane_sym3_dot(lane_sym3 a, lane_sym3 b)
+{
+    return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + REAL(2) * (a.yz * b.yz + a.xz * b.xz + a.xy * b.xy);
+}
+LAW lane_vec3 lane_sym3_mul_vec(lane_sym3 a, lane_vec3 b)
+{
+    return (lane_vec3){a.xx * b.x + a.xy * b.y + a.xz * b.z, a.xy * b.x + a.yy * b.y + a.yz * b.z,
+                       a.xz * b.x + a.yz * b.y + a.zz * b.z};
+}
+LAW lane_sym3 lane_sym3_add(lane_sym3 a, lane_sym3 b)
+{
+    return (lane_sym3){a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.yz + b.yz, a.xz + b.xz, a.xy + b.xy};
+}
+/* k a + m I */
+LAW lane_sym3 lane_sym3_scale_shift(lane k, lane_sym3 a, lane m)
+{
+    return (lane_sym3){k * a.xx + m, k * a.yy + m, k * a.zz + m, k * a.yz, k * a.xz, k * a.xy};
+}
+
+/* ---- loads and stores ---- */
+#if W == 1
+LAW lane lane_load(GLOBAL const coeff *restrict p, brc_size at) { return p[at]; }
+LAW lane_state state_load(GLOBAL const state *restrict p, brc_size at) { return p[at]; }
+LAW lane_int int_load(GLOBAL const int *restrict p, brc_size at) { return p[at]; }
+#elif defined(__OPENCL_VERSION__)
+LAW lane lane_load(GLOBAL const coeff *restrict p, brc_size at) { return BRC_VLOAD(0, p + at); }
+LAW lane_state state_load(GLOBAL const state *restrict p, brc_size at) { return BRC_VLOAD(0, p + at); }
+LAW lane_int int_load(GLOBAL const int *restrict p, brc_size at) { return BRC_VLOAD(0, p + at); }
+#else
+typedef lane lane_anywhere __attribute__((aligned(4), may_alias));
+typedef lane_state state_anywhere __attribute__((aligned(4), may_alias));
+typedef lane_int int_anywhere __attribute__((aligned(4), may_alias));
+LAW lane lane_load(const coeff *restrict p, brc_size at) { return *(const lane_anywhere *)(p + at); }
+LAW lane_state state_load(const state *restrict p, brc_size at) { return *(const state_anywhere *)(p + at); }
+LAW lane_int int_load(const int *restrict p, brc_size at) { return *(const int_anywhere *)(p + at); }
+#endif
+
+/* W consecutive element numbers from first. */
+LAW lane_int lane_own(int first)
+{
+#define OWN_ITEM(l) (first + 0x##l)
+    return LANE_MAKE(lane_int, OWN_ITEM);
+#undef OWN_ITEM
+}
+
+/* Gathers of [element][3], [element][6], [element][9]: row holds the element of each lane. */
+LAW lane gather_component(GLOBAL const coeff *restrict p, lane_int at)
+{
+#define ITEM(l) p[LANE_ITEM(at, l)]
+    return LANE_MAKE(lane, ITEM);
+#undef ITEM
+}
+LAW lane_state gather_state_component(GLOBAL const state *restrict p, lane_int at)
+{
+#define ITEM(l) p[LANE_ITEM(at, l)]
+    return LANE_MAKE(lane_state, ITEM);
+#undef ITEM
+}
+typedef struct { lane_state x, y, z; } state_vec3;
+LAW state_vec3 state_gather3(GLOBAL const state *restrict p, lane_int row)
+{
+    const lane_int at = row * 3;
+    return (state_vec3){gather_state_component(p, at), gather_state_component(p + 1, at), gather_state_component(p + 2, at)};
+}
+/* b - a, taken in state and handed on as coeff. */
+LAW lane_vec3 state_vec3_difference(state_vec3 b, state_vec3 a)
+{
+    return (lane_vec3){LANE_FROM_STATE(b.x - a.x), LANE_FROM_STATE(b.y - a.y), LANE_FROM_STATE(b.z - a.z)};
+}
+LAW lane_vec3 state_vec3_to_lane(state_vec3 a)
+{
+    return (lane_vec3){LANE_FROM_STATE(a.x), LANE_FROM_STATE(a.y), LANE_FROM_STATE(a.z)};
+}
+LAW lane_mat3 lane_gather9(GLOBAL const coeff *restrict p, lane_int row)
+{
+    const lane_int at = row * 9;
+    return (lane_mat3){gather_component(p, at),     gather_component(p + 1, at), gather_component(p + 2, at),
+                       gather_component(p + 3, at), gather_component(p + 4, at), gather_component(p + 5, at),
+                       gather_component(p + 6, at), gather_component(p + 7, at), gather_component(p + 8, at)};
+}
+LAW lane_sym3 lane_gather6(GLOBAL const coeff *restrict p, lane_int row)
+{
+    const lane_int at = row * 6;
+    return (lane_sym3){gather_component(p, at),     gather_component(p + 1, at), gather_component(p + 2, at),
+                       gather_component(p + 3, at), gather_component(p + 4, at), gather_component(p + 5, at)};
+}
+LAW lane_quat lane_gather4(GLOBAL const state *restrict p, lane_int row)
+{
+    const lane_int at = row * 4;
+    return (lane_quat){
+        LANE_FROM_STATE(gather_state_component(p, at)), LANE_FROM_STATE(gather_state_component(p + 1, at)),
+        LANE_FROM_STATE(gather_state_component(p + 2, at)), LANE_FROM_STATE(gather_state_component(p + 3, at))};
+}
+/* Stores of the W own elements from first into [element][n]. */
+LAW void lane_store9(GLOBAL coeff *restrict p, int first, lane_mat3 a)
+{
+    GLOBAL coeff *q = p + (brc_size)first * 9;
+#define PUT(l)                                                                                                         \
+    q[0x##l * 9] = LANE_ITEM(a.xx, l), q[0x##l * 9 + 1] = LANE_ITEM(a.xy, l), q[0x##l * 9 + 2] = LANE_ITEM(a.xz, l),    \
+              q[0x##l * 9 + 3] = LANE_ITEM(a.yx, l), q[0x##l * 9 + 4] = LANE_ITEM(a.yy, l),                            \
+              q[0x##l * 9 + 5] = LANE_ITEM(a.yz, l), q[0x##l * 9 + 6] = LANE_ITEM(a.zx, l),                            \
+              q[0x##l * 9 + 7] = LANE_ITEM(a.zy, l), q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
+    LANE_EACH(PUT)
+#undef PUT
+}
+LAW void lane_store6(GLOBAL coeff *restrict p, int first, lane_sym3 a)
+{
+    GLOBAL coeff *q = p + (brc_size)first * 6;
+#define PUT(l)                                                                                                         \
+    q[0x##l * 6] = LANE_ITEM(a.xx, l), q[0x##l * 6 + 1] = LANE_ITEM(a.yy, l), q[0x##l * 6 + 2] = LANE_ITEM(a.zz, l),    \
+              q[0x##l * 6 + 3] = LANE_ITEM(a.yz, l), q[0x##l * 6 + 4] = LANE_ITEM(a.xz, l),                            \
+              q[0x##l * 6 + 5] = LANE_ITEM(a.xy, l);
+    LANE_EACH(PUT)
+#undef PUT
+}
+LAW void state_store3(GLOBAL state *restrict p, int first, lane_vec3 a)
+{
+    GLOBAL state *q = p + (brc_size)first * 3;
+#define PUT(l)                                                                                                         \
+    q[0x##l * 3] = (state)LANE_ITEM(a.x, l), q[0x##l * 3 + 1] = (state)LANE_ITEM(a.y, l),                              \
+              q[0x##l * 3 + 2] = (state)LANE_ITEM(a.z, l);
+    LANE_EACH(PUT)
+#undef PUT
+}
+LAW void state_store1(GLOBAL state *restrict p, int first, lane a)
+{
+#define PUT(l) p[(brc_size)first + 0x##l] = (state)LANE_ITEM(a, l);
+    LANE_EACH(PUT)
+#undef PUT
+}
+
+/* Blocked storage [block][n][C] and rows [slot][n][C]: lane is the first lane within the slice. */
+LAW lane lane_block(GLOBAL const coeff *restrict p, int block, int n, int component, int first_lane)
+{
+    return lane_load(p, ((brc_size)block * (brc_size)n + (brc_size)component) * C + (brc_size)first_lane);
+}
+LAW lane_vec3 lane_block3(GLOBAL const coeff *restrict p, int block, int first_lane)
+{
+    return (lane_vec3){lane_block(p, block, 3, 0, first_lane), lane_block(p, block, 3, 1, first_lane),
+                       lane_block(p, block, 3, 2, first_lane)};
+}
+LAW lane_sym3 lane_block6(GLOBAL const coeff *restrict p, int block, int first_lane)
+{
+    return (lane_sym3){lane_block(p, block, 6, 0, first_lane), lane_block(p, block, 6, 1, first_lane),
+                       lane_block(p, block, 6, 2, first_lane), lane_block(p, block, 6, 3, first_lane),
+                       lane_block(p, block, 6, 4, first_lane), lane_block(p, block, 6, 5, first_lane)};
+}
+LAW lane_mat3 lane_block9(GLOBAL const coeff *restrict p, int block, int first_lane)
+{
+    return (lane_mat3){lane_block(p, block, 9, 0, first_lane), lane_block(p, block, 9, 1, first_lane),
+                       lane_block(p, block, 9, 2, first_lane), lane_block(p, block, 9, 3, first_lane),
+                       lane_block(p, block, 9, 4, first_lane), lane_block(p, block, 9, 5, first_lane),
+                       lane_block(p, block, 9, 6, first_lane), lane_block(p, block, 9, 7, first_lane),
+                       lane_block(p, block, 9, 8, first_lane)};
+}
+LAW lane_int int_block(GLOBAL const int *restrict p, int block, int first_lane)
+{
+    return int_load(p, (brc_size)block * C + (brc_size)first_lane);
+}
+
+/* Smaller of two, component by component. */
+LAW lane lane_min(lane a, lane b)
+{
+#define ITEM(l) (LANE_ITEM(a, l) < LANE_ITEM(b, l) ? LANE_ITEM(a, l) : LANE_ITEM(b, l))
+    return LANE_MAKE(lane, ITEM);
+#undef ITEM
+}
+
+/* ---- scalars, for kernels over short lists of faces or special elements ---- */
+typedef struct { coeff x, y, z; } vec3;
+typedef struct { coeff xx, xy, xz, yx, yy, yz, zx, zy, zz; } mat3;
+
+LAW vec3 vec3_load(GLOBAL const coeff *restrict p, int i)
+{
+    return (vec3){p[(brc_size)i * 3], p[(brc_size)i * 3 + 1], p[(brc_size)i * 3 + 2]};
+}
+LAW mat3 mat3_load(GLOBAL const coeff *restrict p, int i)
+{
+    GLOBAL const coeff *q = p + (brc_size)i * 9;
+    return (mat3){q[0], q[1], q[2], q[3], q[4], q[5], q[6], q[7], q[8]};
+}
+LAW vec3 vec3_add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
+LAW vec3 vec3_sub(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
+LAW vec3 vec3_scale(coeff k, vec3 a) { return (vec3){k * a.x, k * a.y, k * a.z}; }
+LAW coeff vec3_dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+LAW vec3 mat3_mul_vec(mat3 a, vec3 b)
+{
+    return (vec3){a.xx * b.x + a.xy * b.y + a.xz * b.z, a.yx * b.x + a.yy * b.y + a.yz * b.z,
+                  a.zx * b.x + a.zy * b.y + a.zz * b.z};
+}
+LAW mat3 mat3_add_outer(mat3 m, vec3 a, vec3 b)
+{
+    return (mat3){m.xx + a.x * b.x, m.xy + a.x * b.y, m.xz + a.x * b.z, m.yx + a.y * b.x, m.yy + a.y * b.y,
+                  m.yz + a.y * b.z, m.zx + a.z * b.x, m.zy + a.z * b.y, m.zz + a.z * b.z};
+}
+/* Write m to one lane of a blocked [block][9][C] array. */
+LAW void mat3_put_in_block(GLOBAL coeff *restrict p, int block, int lane_index, mat3 m)
+{
+    GLOBAL coeff *q = p + (brc_size)block * 9 * C + (brc_size)lane_index;
+    q[0] = m.xx, q[C] = m.xy, q[2 * C] = m.xz, q[3 * C] = m.yx, q[4 * C] = m.yy, q[5 * C] = m.yz;
+    q[6 * C] = m.zx, q[7 * C] = m.zy, q[8 * C] = m.zz;
+}
+/* The same, added. */
+LAW void mat3_add_to_block(GLOBAL coeff *restrict p, int block, int lane_index, mat3 m)
+{
+    GLOBAL coeff *q = p + (brc_size)block * 9 * C + (brc_size)lane_index;
+    q[0] += m.xx, q[C] += m.xy, q[2 * C] += m.xz, q[3 * C] += m.yx, q[4 * C] += m.yy, q[5 * C] += m.yz;
+    q[6 * C] += m.zx, q[7 * C] += m.zy, q[8 * C] += m.zz;
+}
+
+#endif
