@@ -1,0 +1,106 @@
+/* Scenes: freeing, factors of time, units of sensors and measures. */
+#include "scene.h"
+#include "../base/memory.h"
+#include <string.h>
+
+void brc_scene_free(brc_scene **scene)
+{
+    if (!scene || !*scene) return;
+    brc_scene *s = *scene;
+    for (int b = 0; b < s->n_bodies; ++b)
+        brc_memory_free(s->bodies[b].regions);
+    for (int k = 0; k < s->n_stages; ++k) {
+        for (int l = 0; l < s->stages[k].n_loads; ++l) {
+            brc_memory_free(s->stages[k].loads[l].table.time);
+            brc_memory_free(s->stages[k].loads[l].table.value);
+        }
+        brc_memory_free(s->stages[k].loads);
+        brc_memory_free(s->stages[k].initials);
+    }
+    brc_memory_free(s->materials);
+    brc_memory_free(s->bodies);
+    brc_memory_free(s->sets);
+    brc_memory_free(s->stages);
+    brc_memory_free(s->sensors);
+    brc_memory_free(s->measures);
+    brc_memory_free(s);
+    *scene = NULL;
+}
+
+double brc_table_value(const brc_table *table, double t)
+{
+    if (table->n == 0) return 1;
+    if (t <= table->time[0]) return table->value[0];
+    int low = 0, high = table->n - 1;
+    if (t >= table->time[high]) return table->value[high];
+    while (high - low > 1) { /* time[low] <= t < time[high] */
+        const int middle = low + (high - low) / 2;
+        if (table->time[middle] <= t)
+            low = middle;
+        else
+            high = middle;
+    }
+    const double part = (t - table->time[low]) / (table->time[high] - table->time[low]);
+    return table->value[low] + part * (table->value[high] - table->value[low]);
+}
+
+/* Units of sensors, and of the slope of one against another: [numerator][denominator]. */
+enum { NEWTON, METRE, PURE, RADIAN, PASCAL, JOULE, METRE_PER_SECOND, HERTZ, N_UNITS };
+static const char *const UNIT[N_UNITS] = {"N", "m", "-", "rad", "Pa", "J", "m/s", "Hz"};
+static const char *const SLOPE_UNIT[N_UNITS][N_UNITS] = {
+    {"-", "N/m", "N", "N/rad", "N/Pa", "N/J", "N s/m", "N/Hz"},
+    {"m/N", "-", "m", "m/rad", "m/Pa", "m/J", "s", "m/Hz"},
+    {"1/N", "1/m", "-", "1/rad", "1/Pa", "1/J", "s/m", "1/Hz"},
+    {"rad/N", "rad/m", "rad", "-", "rad/Pa", "rad/J", "rad s/m", "rad/Hz"},
+    {"Pa/N", "Pa/m", "Pa", "Pa/rad", "-", "Pa/J", "Pa s/m", "Pa/Hz"},
+    {"J/N", "J/m", "J", "J/rad", "J/Pa", "-", "J s/m", "J/Hz"},
+    {"m/s/N", "1/s", "m/s", "m/s/rad", "m/s/Pa", "m/s/J", "-", "m/s/Hz"},
+    {"Hz/N", "Hz/m", "Hz", "Hz/rad", "Hz/Pa", "Hz/J", "Hz s/m", "-"},
+};
+
+static int unit_index(const brc_sensor *sensor)
+{
+    switch (sensor->kind) {
+    case BRC_SENSOR_REACTION: return NEWTON;
+    case BRC_SENSOR_FACE_MEAN: return METRE;
+    case BRC_SENSOR_FACE_STRAIN: return PURE;
+    case BRC_SENSOR_FACE_TWIST: return RADIAN;
+    case BRC_SENSOR_STRESS: return PASCAL;
+    case BRC_SENSOR_STRAIN: return PURE;
+    case BRC_SENSOR_ENERGY: return strcmp(sensor->term, "closure") == 0 ? PURE : JOULE;
+    case BRC_SENSOR_POINT: return METRE;
+    case BRC_SENSOR_POINT_VELOCITY: return METRE_PER_SECOND;
+    case BRC_SENSOR_MODE: return HERTZ;
+    }
+    return PURE;
+}
+
+const char *brc_sensor_unit(const brc_sensor *sensor)
+{
+    return UNIT[unit_index(sensor)];
+}
+
+static const brc_sensor *find_sensor(const brc_scene *scene, const char *name)
+{
+    for (int i = 0; i < scene->n_sensors; ++i)
+        if (strcmp(scene->sensors[i].name, name) == 0) return &scene->sensors[i];
+    return NULL;
+}
+
+const char *brc_measure_unit(const brc_scene *scene, const brc_measure *measure)
+{
+    switch (measure->kind) {
+    case BRC_MEASURE_E:
+    case BRC_MEASURE_K:
+    case BRC_MEASURE_G: return "Pa";
+    case BRC_MEASURE_NU: return "-";
+    case BRC_MEASURE_FREQUENCY: return "Hz";
+    case BRC_MEASURE_PEAK:
+    case BRC_MEASURE_MEAN:
+    case BRC_MEASURE_SLOPE: break;
+    }
+    const brc_sensor *y = find_sensor(scene, measure->y);
+    const brc_sensor *x = find_sensor(scene, measure->x);
+    if (!y || (measure->kind == BRC_MEASURE_SLOPE && !x)) return "-";
+    return measure->kind == BRC_MEASURE_SLOPE ? SLOPE_UNIT[unit_index(y)][unit_index(x)] : brc_sensor_unit(y);
+}
