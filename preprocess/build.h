@@ -64,7 +64,7 @@ typedef struct brc_build_request {
     const brc_set_request *sets; /* [n_sets] borrowed; predicates in posed coordinates */
     int32_t n_regions;
     const brc_predicate *regions; /* [n_regions] borrowed; element in region r + 1 if its position fits; the last wins */
-    double tiny_face_threshold;   /* [-] of the mean face area; faces below it are dropped; 0: default 1e-8 */
+    double tiny_face_threshold;   /* [-] of the mean face area; faces below it are dropped; 0: default 1e-12 */
     int32_t n_threads;            /* 0: as OpenMP decides. The result does not depend on it, bit for bit. */
     int32_t body;                 /* written into brc_domain.body */
 } brc_build_request;

@@ -34,7 +34,7 @@ typedef struct brc_quality {
     double smallest_distance;       /* shortest branch [m] */
     double mean_spacing;            /* (volume_cells / n_elements)^(1/3) [m] */
     double closure_worst;           /* largest |sum of face area vectors| of a cell over its total face area [-] */
-    double twin_area_worst;         /* largest relative difference of a face area seen from its two sides [-] */
+    double twin_area_worst;         /* largest difference of a face area seen from its two sides, over the mean area [-] */
     double support_smallest;        /* smallest eigenvalue of A_i / (2 V_i), A = sum (L/S) s (x) s (design-dlsm 3) [-] */
     double coordination_mean;       /* 2 n_bonds / n_elements [-] */
     int64_t coordination_histogram[64]; /* elements with k bonds; the last bin also counts more */
@@ -87,6 +87,8 @@ typedef struct brc_domain {
 void brc_domain_free(brc_domain **domain);
 /* Index of the named set, -1 when there is none. */
 int32_t brc_domain_find_set(const brc_domain *domain, const char *name);
+/* Closure of element e: |sum of its face area vectors| over its total face area [-]. */
+double brc_domain_closure(const brc_domain *domain, int64_t e);
 /* Check every stated property of the arrays (indices in range, twins, area vectors equal and opposite, closed cells,
  * finite values, sorted rows). BRC_BAD_INPUT with one sentence per broken property. Used after reading a file. */
 brc_status brc_domain_check(brc_context *context, const brc_domain *domain);

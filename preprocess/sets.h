@@ -1,0 +1,20 @@
+/* Named sets: which free faces or elements a predicate picks. */
+#ifndef BRC_PREPROCESS_SETS_H
+#define BRC_PREPROCESS_SETS_H
+
+#include "build.h"
+
+/* Refuse predicates that name an unknown wall, use a zero direction or negative radius, or ask elements for a normal.
+ * `what` names the set or region in the sentence. */
+brc_status brc_predicate_check(brc_context *context, const brc_predicate *where, brc_set_kind kind,
+                               const brc_domain *domain, const char *what);
+/* Does element e or free face f fit? Comparisons are inclusive to 1e-9 of the mean spacing. */
+bool brc_predicate_holds(const brc_predicate *where, brc_set_kind kind, const brc_domain *domain, int64_t index);
+/* Fill domain->sets: one face set per wall, then the requests in order. BRC_BAD_INPUT for a set that stays empty, a name
+ * used twice or empty, and bad predicates. The arrays of the domain are complete but for the sets. */
+brc_status brc_sets_build(brc_context *context, int32_t n, const brc_set_request *requests, brc_domain *domain);
+/* Append an empty set of `n_members` members to domain->sets, which has room; *out is borrowed. */
+brc_status brc_sets_append(brc_context *context, brc_domain *domain, const char *name, brc_set_kind kind,
+                           int64_t n_members, brc_set **out);
+
+#endif
