@@ -1,0 +1,27 @@
+/* Measures: named operators on the histories of sensors (scene.h brc_measure). */
+#ifndef BRC_OUTPUT_MEASURES_H
+#define BRC_OUTPUT_MEASURES_H
+
+#include "../../preprocess/domain.h"
+#include "history.h"
+
+typedef struct brc_measured {
+    const char *name; /* of the scene's measure, borrowed from it */
+    const char *unit; /* static storage */
+    double value;     /* NAN: could not be measured, see why_not */
+    bool has_target;  /* given by the scene, or E, nu, K, G of the scene's only material */
+    double target;
+    double error;     /* value / target - 1 [-]; value - target where the target is 0 or the measure a Poisson's ratio */
+    int64_t n_used;   /* samples in the window */
+    char why_not[256]; /* "" or the reason for NAN, one sentence */
+} brc_measured;
+
+/* Evaluate measure `index` of the scene. Never fails for want of data: value NAN and why_not say so.
+ * BRC_NO_MEMORY only. domain may be NULL where no measure has an area_set. */
+brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, const brc_domain *domain,
+                                const brc_history *history, int32_t index, brc_measured *out);
+/* Reference area of a face set, as a flat section sees it: sum of |area vector . mean normal| [m^2]; NAN where the set
+ * is not a face set. */
+double brc_measure_area(const brc_domain *domain, int32_t set);
+
+#endif

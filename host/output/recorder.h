@@ -1,0 +1,63 @@
+/* The recorder: writes down everything a run shows, into one folder. It observes a simulation and never changes it.
+ *
+ *     DIR/frames/NNNNNN.vtkhdf   deformed cells with their fields, one file a frame; index DIR/frames.vtkhdf.series
+ *     DIR/histories.csv          the sensors, one column each
+ *     DIR/result.h5              the index: histories, sensors, measures, ledger, resolved scene, provenance
+ *     DIR/picture.png, curve.png where the scene asks for them
+ *     DIR/summary.json           what scripts read (design.md "Commands"); written by every run, also a failed one
+ *
+ * How a command uses it:
+ *
+ *     const double start = brc_clock_s();
+ *     brc_recorder_create(context, folder, start, &recorder);         // before anything of the run can fail
+ *     status = brc_scene_read(...);          if ok brc_recorder_set_scene(recorder, scene);
+ *     status = brc_domain_build(...);        if ok brc_recorder_set_domain(recorder, domain, build_seconds);
+ *     status = brc_simulation_create(...);   if ok brc_recorder_observe(recorder, simulation);
+ *     status = brc_simulation_run(simulation);
+ *     end = brc_recorder_finish(recorder, status);                    // always, whatever status is
+ *     brc_recorder_free(&recorder);                                   // before simulation, domain and scene are freed
+ *
+ * so that a run that fails anywhere leaves a summary.json with the reason (the context's sentences). */
+#ifndef BRC_OUTPUT_RECORDER_H
+#define BRC_OUTPUT_RECORDER_H
+
+#include "../../preprocess/domain.h"
+#include "../scene/scene.h"
+#include "../solver/simulation.h"
+#include "measures.h"
+
+typedef struct brc_recorder brc_recorder;
+
+/* Make `folder` (and its parents) and remove from it the results of an earlier run: exactly the files listed above,
+ * nothing else. start: brc_clock_s() when the command began, for timing.total_s. context: borrowed until free.
+ * BRC_FILE_FAILED where the folder cannot be made or written: then there is no recorder and no summary. */
+brc_status brc_recorder_create(brc_context *context, const char *folder, double start, brc_recorder **out);
+/* Accepts NULL and a pointer to NULL. A recorder that was not finished leaves what it has written so far. */
+void brc_recorder_free(brc_recorder **recorder);
+
+/* All borrowed until brc_recorder_finish has returned; each in turn, the later ones may be missing. */
+void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene);
+/* build_seconds: wall time of making or reading the domain. */
+void brc_recorder_set_domain(brc_recorder *recorder, const brc_domain *domain, double build_seconds);
+/* Register as an observer of `simulation` (whose scene and domain are taken where none was set). Sensors are checked
+ * against the domain here: unknown or empty sets, faces where elements are needed and the like give BRC_BAD_INPUT with
+ * one sentence each. */
+brc_status brc_recorder_observe(brc_recorder *recorder, brc_simulation *simulation);
+
+/* The end: last histories, result.h5, measures, picture, curve and, last of all, summary.json. end: what the run
+ * returned; its reason is brc_context_message(context) at this moment. Returns `end` if that is a failure, else the
+ * first failure of writing (BRC_FILE_FAILED; summary.json then says so too, if it can be written). A picture or curve
+ * that cannot be made is a warning in the log, not a failure. */
+brc_status brc_recorder_finish(brc_recorder *recorder, brc_status end);
+
+/* After finish, for what a command prints; borrowed from the recorder, NULL or 0 where there is nothing.
+ * Measures are in the order of the scene's. */
+int32_t brc_recorder_measure_count(const brc_recorder *recorder);
+const brc_measured *brc_recorder_measures(const brc_recorder *recorder);
+/* Full paths of what was written: "summary.json", "picture.png", "curve.png", "result.h5", "histories.csv",
+ * "frames.vtkhdf.series"; NULL for a file that does not exist. */
+const char *brc_recorder_path(const brc_recorder *recorder, const char *name);
+/* Wall seconds spent in writing and sampling so far (timing.output_s). */
+double brc_recorder_seconds(const brc_recorder *recorder);
+
+#endif
