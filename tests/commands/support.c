@@ -1,0 +1,41 @@
+/* Shared by the tests of host/commands. */
+#include "support.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char out_text[1 << 16], error_text[1 << 16];
+
+static void take(const char *path, char *text, size_t size)
+{
+    FILE *file = fopen(path, "r");
+    text[file ? fread(text, 1, size - 1, file) : 0] = '\0';
+    if (file) fclose(file);
+    unlink(path);
+}
+
+int test_program(const char *arguments)
+{
+    const char *program = getenv("BRC_PROGRAM");
+    if (!program) program = BRC_PROGRAM_PATH;
+    char out_path[64], error_path[64], command[4096];
+    snprintf(out_path, sizeof out_path, "program-%d.out", (int)getpid());
+    snprintf(error_path, sizeof error_path, "program-%d.err", (int)getpid());
+    snprintf(command, sizeof command, "%s %s >%s 2>%s", program, arguments, out_path, error_path);
+    const int result = system(command);
+    take(out_path, out_text, sizeof out_text);
+    take(error_path, error_text, sizeof error_text);
+    return WIFEXITED(result) ? WEXITSTATUS(result) : -1;
+}
+
+const char *test_program_stdout(void)
+{
+    return out_text;
+}
+
+const char *test_program_stderr(void)
+{
+    return error_text;
+}
