@@ -1,0 +1,124 @@
+/* Collecting errors, and guessing what a misspelt word was meant to be. */
+#include "problem.h"
+#include "../base/memory.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define TEXT_LENGTH 512
+#define WORD_LENGTH 48 /* longer words are not guessed at */
+
+typedef struct problem {
+    brc_mark mark;
+    int order; /* of finding, so that equal places keep it */
+    char text[TEXT_LENGTH];
+} problem;
+
+struct brc_problems {
+    brc_context *context;
+    const char *name;
+    int n_overrides;
+    const char *const *overrides;
+    int n, n_all;
+    problem items[BRC_PROBLEMS_MOST];
+};
+
+brc_status brc_problems_create(brc_context *context, const char *name, int n_overrides, const char *const *overrides,
+                               brc_problems **out)
+{
+    BRC_TRY(brc_memory_allocate(context, (void **)out, 1, sizeof **out, "list of errors"));
+    (*out)->context = context;
+    (*out)->name = name;
+    (*out)->n_overrides = n_overrides;
+    (*out)->overrides = overrides;
+    return BRC_OK;
+}
+
+void brc_problems_free(brc_problems **problems)
+{
+    if (!problems) return;
+    brc_memory_free(*problems);
+    *problems = NULL;
+}
+
+void brc_problems_add(brc_problems *problems, brc_mark mark, const char *format, ...)
+{
+    ++problems->n_all;
+    if (problems->n == BRC_PROBLEMS_MOST) return;
+    problem *fresh = &problems->items[problems->n];
+    fresh->mark = mark;
+    fresh->order = problems->n++;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(fresh->text, sizeof fresh->text, format, arguments);
+    va_end(arguments);
+}
+
+int brc_problems_count(const brc_problems *problems)
+{
+    return problems->n_all;
+}
+
+static int by_place(const void *left, const void *right)
+{
+    const problem *a = left, *b = right;
+    if (a->mark.source != b->mark.source) return a->mark.source < b->mark.source ? -1 : 1;
+    if (a->mark.line != b->mark.line) return a->mark.line < b->mark.line ? -1 : 1;
+    if (a->mark.column != b->mark.column) return a->mark.column < b->mark.column ? -1 : 1;
+    return a->order < b->order ? -1 : a->order > b->order;
+}
+
+brc_status brc_problems_report(brc_problems *problems)
+{
+    if (problems->n_all == 0) return BRC_OK;
+    qsort(problems->items, (size_t)problems->n, sizeof problems->items[0], by_place);
+    for (int i = 0; i < problems->n; ++i) {
+        const problem *item = &problems->items[i];
+        if (item->mark.source == 0)
+            BRC_FAIL(problems->context, BRC_BAD_INPUT, "%s:%d:%d: error: %s", problems->name, item->mark.line,
+                     item->mark.column, item->text);
+        else
+            BRC_FAIL(problems->context, BRC_BAD_INPUT, "%s: in the override '%.200s': error: %s", problems->name,
+                     problems->overrides[item->mark.source - 1], item->text);
+    }
+    if (problems->n_all > problems->n)
+        BRC_FAIL(problems->context, BRC_BAD_INPUT, "%s: and %d more errors", problems->name,
+                 problems->n_all - problems->n);
+    return BRC_BAD_INPUT;
+}
+
+/* Edits (insert, delete, replace a byte) from a to b, both shorter than WORD_LENGTH. */
+static int edit_distance(const char *a, const char *b)
+{
+    int row[WORD_LENGTH + 1];
+    const int n = (int)strlen(b);
+    for (int j = 0; j <= n; ++j)
+        row[j] = j;
+    for (int i = 0; a[i] != '\0'; ++i) {
+        int diagonal = row[0];
+        row[0] = i + 1;
+        for (int j = 0; j < n; ++j) {
+            const int replace = diagonal + (a[i] != b[j]);
+            diagonal = row[j + 1];
+            const int other = 1 + (row[j] < row[j + 1] ? row[j] : row[j + 1]);
+            row[j + 1] = replace < other ? replace : other;
+        }
+    }
+    return row[n];
+}
+
+const char *brc_nearest_word(const char *found, int n, const char *const *known)
+{
+    const char *nearest = NULL;
+    const size_t length = strnlen(found, WORD_LENGTH);
+    if (length == WORD_LENGTH) return NULL;
+    int best = 1 + (length > 4 ? (int)length / 3 : length > 1); /* a slip changes up to a third of the word */
+    for (int i = 0; i < n; ++i) {
+        if (strnlen(known[i], WORD_LENGTH) == WORD_LENGTH) continue;
+        const int distance = edit_distance(found, known[i]);
+        if (distance >= best) continue;
+        best = distance;
+        nearest = known[i];
+    }
+    return nearest;
+}

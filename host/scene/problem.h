@@ -1,0 +1,31 @@
+/* The errors of one reading: collected wherever they are found, told in the order of the text. */
+#ifndef BRC_SCENE_PROBLEM_H
+#define BRC_SCENE_PROBLEM_H
+
+#include "../base/status.h"
+
+/* Where a piece of a scene stands. source 0: the file, with line and column from 1 (columns count characters);
+ * source k > 0: override k - 1, line and column unused. */
+typedef struct brc_mark {
+    int source, line, column;
+} brc_mark;
+
+typedef struct brc_problems brc_problems;
+
+/* name: of the file, shown in front; overrides: [n_overrides] shown in place of file:line:col. All borrowed. */
+brc_status brc_problems_create(brc_context *context, const char *name, int n_overrides, const char *const *overrides,
+                               brc_problems **out);
+void brc_problems_free(brc_problems **problems);
+/* Add one: what was found, what is expected, the cure. More than BRC_PROBLEMS_MOST are only counted. */
+void brc_problems_add(brc_problems *problems, brc_mark mark, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+#define BRC_PROBLEMS_MOST 100
+int brc_problems_count(const brc_problems *problems);
+/* Record all, sorted by place, as "file:line:col: error: ..." in the context. BRC_OK when there were none, else
+ * BRC_BAD_INPUT. */
+brc_status brc_problems_report(brc_problems *problems);
+
+/* The nearest of `n` known words to `found` by edit distance, NULL when none is near enough to be a slip. */
+const char *brc_nearest_word(const char *found, int n, const char *const *known);
+
+#endif

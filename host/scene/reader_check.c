@@ -1,0 +1,330 @@
+/* What needs the whole scene: names that must exist, loads that contradict each other, and what follows from other
+ * parts (a static load without a table grows from 0 to 1). */
+#include "reader_internal.h"
+#include "schema_internal.h"
+#include "../base/memory.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const AXIS_WALLS[6] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+static const char *const ALL_WALLS[8] = {"x-", "x+", "y-", "y+", "z-", "z+", "side", "surface"};
+
+static int by_address(const void *left, const void *right)
+{
+    const brc_place *a = left, *b = right;
+    if (a->address != b->address) return a->address < b->address ? -1 : 1;
+    return (a->entry != NULL) - (b->entry != NULL); /* a struct before its first field */
+}
+
+/* Where a field was given; where its struct `item` begins when it was left out. The places are sorted. */
+static brc_mark place_of(const brc_reader *reader, const void *field, const void *item)
+{
+    const void *const wanted[2] = {field, item};
+    for (int k = 0; k < 2; ++k) {
+        int64_t low = 0, high = reader->n_places;
+        while (low < high) { /* first place at the address */
+            const int64_t middle = low + (high - low) / 2;
+            if (reader->places[middle].address < wanted[k])
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        for (; low < reader->n_places && reader->places[low].address == wanted[k]; ++low)
+            if ((reader->places[low].entry != NULL) == (k == 0)) return reader->places[low].mark;
+    }
+    return (brc_mark){0, 1, 1};
+}
+
+#define COMPLAIN(reader, field, item, ...)                                                                             \
+    brc_problems_add((reader)->problems, place_of((reader), (field), (item)), __VA_ARGS__)
+
+/* Was there a problem in this top-level key? What refers to it is then not judged. */
+static bool is_broken(const brc_reader *reader, const char *key)
+{
+    for (int i = 0; i < brc_schema()->n_entries; ++i)
+        if (strcmp(brc_schema()->entries[i].key, key) == 0) return reader->broken[i];
+    return false;
+}
+
+static bool shape_has_wall(const brc_shape *shape, const char *wall)
+{
+    if (shape->kind == BRC_SHAPE_SPHERE) return strcmp(wall, "surface") == 0;
+    if (shape->kind == BRC_SHAPE_CYLINDER && strcmp(wall, "side") == 0) return true;
+    for (int w = 0; w < 6; ++w)
+        if (strcmp(wall, AXIS_WALLS[w]) == 0) return shape->kind == BRC_SHAPE_BOX || w / 2 == shape->axis;
+    return false;
+}
+
+/* Sets and walls inside a domain file are not known here: nothing is refused then. */
+static bool any_domain_file(const brc_scene *scene)
+{
+    for (int b = 0; b < scene->n_bodies; ++b)
+        if (scene->bodies[b].domain_file[0]) return true;
+    return false;
+}
+
+static bool is_wall(const brc_scene *scene, const char *name)
+{
+    for (int b = 0; b < scene->n_bodies; ++b)
+        if (shape_has_wall(&scene->bodies[b].shape, name)) return true;
+    return false;
+}
+
+/* All names that would be right, for the guess; returns their number. */
+static int known_names(const brc_scene *scene, brc_reference refers, const char **out)
+{
+    int n = 0;
+    const bool walls = refers == BRC_REFERS_WALL || refers == BRC_REFERS_FACES || refers == BRC_REFERS_SET;
+    for (int w = 0; walls && w < 8; ++w)
+        if (is_wall(scene, ALL_WALLS[w])) out[n++] = ALL_WALLS[w];
+    for (int i = 0; i < scene->n_sets && refers != BRC_REFERS_WALL; ++i)
+        if (refers == BRC_REFERS_SET || (refers == BRC_REFERS_FACES && scene->sets[i].kind == BRC_SET_FACES) ||
+            (refers == BRC_REFERS_ELEMENTS && scene->sets[i].kind == BRC_SET_ELEMENTS))
+            out[n++] = scene->sets[i].name;
+    for (int i = 0; i < scene->n_sensors && refers == BRC_REFERS_SENSOR; ++i)
+        out[n++] = scene->sensors[i].name;
+    for (int i = 0; i < scene->n_stages && refers == BRC_REFERS_STAGE; ++i)
+        out[n++] = scene->stages[i].name;
+    return n;
+}
+
+static bool is_known(const brc_scene *scene, brc_reference refers, const char *name, const char **words, int *n)
+{
+    *n = known_names(scene, refers, words);
+    for (int i = 0; i < *n; ++i)
+        if (strcmp(words[i], name) == 0) return true;
+    return false;
+}
+
+static void check_reference(brc_reader *reader, const brc_place *place, const char **words)
+{
+    static const char *const WHAT[] = {"", "wall or set of faces", "set of elements", "wall or set", "wall",
+                                       "sensor", "stage"};
+    const brc_scene *scene = reader->scene;
+    const brc_reference refers = place->entry->refers;
+    const char *name = place->address;
+    int n;
+    if (name[0] == '\0' || is_known(scene, refers, name, words, &n)) return;
+    const bool about_sets = refers != BRC_REFERS_SENSOR && refers != BRC_REFERS_STAGE;
+    if (about_sets && (any_domain_file(scene) || is_broken(reader, "bodies") || is_broken(reader, "sets"))) return;
+    if (refers == BRC_REFERS_SENSOR && is_broken(reader, "sensors")) return;
+    if (refers == BRC_REFERS_STAGE && is_broken(reader, "stages")) return;
+    const char *near = brc_nearest_word(name, n, words);
+    const char *hint = near ? "" : about_sets ? "; define it under sets" : refers == BRC_REFERS_SENSOR ? "; define it under sensors" : "";
+    int n_sets;
+    const char *kind = refers == BRC_REFERS_ELEMENTS && is_known(scene, BRC_REFERS_SET, name, words, &n_sets)
+                           ? " (that name is a set of faces)"
+                       : refers == BRC_REFERS_FACES && is_known(scene, BRC_REFERS_ELEMENTS, name, words, &n_sets)
+                           ? " (that name is a set of elements)"
+                           : "";
+    brc_problems_add(reader->problems, place->mark, "%s: there is no %s '%s'%s%s%s%s%s", place->entry->key, WHAT[refers],
+                     name, kind, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", hint);
+}
+
+static brc_status check_references(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    const char **words = NULL;
+    BRC_TRY(BRC_ALLOCATE(reader->context, &words, 8 + scene->n_sets + scene->n_sensors + scene->n_stages, "names"));
+    for (int64_t i = 0; i < reader->n_places; ++i)
+        if (reader->places[i].entry && reader->places[i].entry->refers) check_reference(reader, &reader->places[i], words);
+    brc_memory_free(words);
+    return BRC_OK;
+}
+
+static void check_predicate(brc_reader *reader, const brc_predicate *where, bool of_elements)
+{
+    for (int k = 0; k < 3 && where->has_box; ++k) {
+        if (where->box[1][k] >= where->box[0][k]) continue;
+        COMPLAIN(reader, where->box[1], where, "to: lies before `from` in %c; expected the largest corner", "xyz"[k]);
+        break;
+    }
+    if (where->has_normal && of_elements)
+        COMPLAIN(reader, where->normal, where, "normal: elements have no outward normal; use it for faces");
+}
+
+static void check_bodies(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    for (int b = 0; b < scene->n_bodies; ++b) {
+        const brc_body *body = &scene->bodies[b];
+        const bool shaped = body->shape.size[0] > 0 || body->shape.radius > 0;
+        const bool filled = body->fill.spread > 0 || body->fill.n_elements || body->fill.spacing > 0 || body->fill.cells[0];
+        if (shaped && !filled)
+            COMPLAIN(reader, NULL, body, "the key 'fill' is missing in this body: a shape must be cut, as in "
+                                         "fill: {noisy_grid: {elements: 1000}}");
+        if (body->domain_file[0] && filled)
+            COMPLAIN(reader, body->domain_file, body, "domain: the file is cut already; leave out fill");
+        const brc_mark given = place_of(reader, &body->material, NULL);
+        const brc_mark start = {0, 1, 1};
+        if (scene->n_materials > 1 && memcmp(&given, &start, sizeof given) == 0)
+            COMPLAIN(reader, NULL, body, "the key 'material' is missing in this body: the scene has %d materials, name one",
+                     scene->n_materials);
+        for (int c = 0; c < b; ++c)
+            if (strcmp(scene->bodies[c].name, body->name) == 0) {
+                COMPLAIN(reader, body->name, body, "name: another body is called '%s' too; give each its own", body->name);
+                break;
+            }
+        for (int r = 0; r < body->n_regions; ++r)
+            check_predicate(reader, &body->regions[r].where, true);
+    }
+    for (int s = 0; s < scene->n_sets; ++s) {
+        const brc_set_request *set = &scene->sets[s];
+        check_predicate(reader, &set->where, set->kind == BRC_SET_ELEMENTS);
+        for (int w = 0; w < 8; ++w)
+            if (strcmp(set->name, ALL_WALLS[w]) == 0)
+                COMPLAIN(reader, NULL, set, "the set '%s' has the name of a wall; walls are sets already, choose another "
+                                            "name", set->name);
+    }
+}
+
+static bool is_motion(const brc_load *load)
+{
+    return load->kind <= BRC_LOAD_ELEMENT_VELOCITY;
+}
+
+static bool moves_elements(const brc_load *load)
+{
+    return load->kind == BRC_LOAD_ELEMENT_DISPLACEMENT || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
+}
+
+/* Two loads on one set that both say how the same component moves, or one that pushes where the other one moves.
+ * Sets that overlap under different names are found when the domain is there. */
+static void check_pair(brc_reader *reader, const brc_load *before, const brc_load *load)
+{
+    if (strcmp(before->set, load->set) != 0 || load->set[0] == '\0') return;
+    for (int k = 0; k < 3; ++k) {
+        if (is_motion(before) && is_motion(load) && moves_elements(before) == moves_elements(load) &&
+            before->component[k] && load->component[k]) {
+            COMPLAIN(reader, load->set, load, "set: the %c component of '%s' is prescribed by an earlier load of this "
+                                              "stage too; keep one", "xyz"[k], load->set);
+            return;
+        }
+        const brc_load *push = is_motion(before) ? load : before, *move = is_motion(before) ? before : load;
+        if (push->kind == BRC_LOAD_TRACTION && is_motion(move) && !moves_elements(move) && move->component[k] &&
+            push->value[k] != 0) {
+            COMPLAIN(reader, load->set, load, "set: a traction along %c has no effect where the %c component of '%s' is "
+                                              "prescribed; keep one", "xyz"[k], "xyz"[k], load->set);
+            return;
+        }
+    }
+}
+
+/* t = 0..1 -> 0..1: the whole load grows with the increments. */
+static brc_status give_ramp(brc_reader *reader, brc_table *table)
+{
+    BRC_TRY(BRC_ALLOCATE(reader->context, &table->time, 2, "table"));
+    BRC_TRY(BRC_ALLOCATE(reader->context, &table->value, 2, "table"));
+    table->n = 2;
+    table->time[1] = table->value[1] = 1;
+    return BRC_OK;
+}
+
+static brc_status check_stage(brc_reader *reader, brc_stage *stage)
+{
+    for (int l = 0; l < stage->n_loads; ++l) {
+        brc_load *load = &stage->loads[l];
+        if (load->kind == BRC_LOAD_TRACTION) load->component[0] = load->component[1] = load->component[2] = true;
+        const bool velocity = load->kind == BRC_LOAD_FACE_VELOCITY || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
+        if (stage->solver != BRC_SOLVER_DYNAMIC && velocity)
+            COMPLAIN(reader, NULL, load, "a %s stage has no velocities; prescribe a displacement",
+                     stage->solver == BRC_SOLVER_STATIC ? "static" : "modes");
+        if (stage->solver == BRC_SOLVER_STATIC && load->table.n == 0) BRC_TRY(give_ramp(reader, &load->table));
+        for (int other = 0; other < l; ++other)
+            check_pair(reader, &stage->loads[other], load);
+    }
+    return BRC_OK;
+}
+
+static brc_status check_stages(brc_reader *reader)
+{
+    brc_scene *scene = reader->scene;
+    for (int k = 0; k < scene->n_stages; ++k) {
+        brc_stage *stage = &scene->stages[k];
+        BRC_TRY(check_stage(reader, stage));
+        for (int other = 0; other < k; ++other) {
+            if (stage->name[0] == '\0' || strcmp(scene->stages[other].name, stage->name) != 0) continue;
+            COMPLAIN(reader, stage->name, stage, "name: another stage is called '%s' too; give each its own", stage->name);
+            break;
+        }
+    }
+    return BRC_OK;
+}
+
+static void check_sensors(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    int32_t n_modes = 0;
+    for (int k = 0; k < scene->n_stages; ++k)
+        if (scene->stages[k].solver == BRC_SOLVER_MODES) n_modes = scene->stages[k].n_modes;
+    for (int i = 0; i < scene->n_sensors; ++i) {
+        const brc_sensor *sensor = &scene->sensors[i];
+        if (sensor->kind == BRC_SENSOR_MODE && sensor->index >= n_modes && !is_broken(reader, "stages"))
+            COMPLAIN(reader, &sensor->index, sensor, "mode: %d is not computed: the scene's last modes stage computes %d, "
+                     "counted from 0", (int)sensor->index, (int)n_modes);
+    }
+}
+
+static const brc_sensor *sensor_named(const brc_scene *scene, const char *name)
+{
+    for (int i = 0; i < scene->n_sensors; ++i)
+        if (strcmp(scene->sensors[i].name, name) == 0) return &scene->sensors[i];
+    return NULL;
+}
+
+/* A sensor's unit must be one of the two ("" : only the first). */
+static void check_unit(brc_reader *reader, const brc_measure *measure, const char *name, const char *unit,
+                       const char *other, const char *why)
+{
+    const brc_sensor *sensor = sensor_named(reader->scene, name);
+    if (!sensor || strcmp(brc_sensor_unit(sensor), unit) == 0 || strcmp(brc_sensor_unit(sensor), other) == 0) return;
+    COMPLAIN(reader, name, measure, "the sensor '%s' gives values in %s; expected %s%s%s%s", name, brc_sensor_unit(sensor),
+             unit, other[0] ? " or " : "", other, why);
+}
+
+static void check_measure(brc_reader *reader, const brc_measure *measure)
+{
+    const brc_scene *scene = reader->scene;
+    switch (measure->kind) {
+    case BRC_MEASURE_E:
+    case BRC_MEASURE_K:
+    case BRC_MEASURE_G:
+        if (measure->area_set[0])
+            check_unit(reader, measure, measure->y, "N", "", ": a reaction, as `area` divides it");
+        else
+            check_unit(reader, measure, measure->y, "Pa", "", ": a stress; a reaction needs `area`");
+        check_unit(reader, measure, measure->x, "-", measure->kind == BRC_MEASURE_G ? "rad" : "", "");
+        break;
+    case BRC_MEASURE_NU:
+        check_unit(reader, measure, measure->y, "-", "", "");
+        check_unit(reader, measure, measure->x, "-", "", "");
+        break;
+    case BRC_MEASURE_FREQUENCY:
+    case BRC_MEASURE_PEAK:
+    case BRC_MEASURE_SLOPE:
+    case BRC_MEASURE_MEAN: break;
+    }
+    if (measure->window[1] <= measure->window[0] && (measure->window[0] != 0 || measure->window[1] != 0))
+        COMPLAIN(reader, measure->window, measure, "window: ends before it begins; expected [from, to]");
+    if (measure->kind != BRC_MEASURE_FREQUENCY || scene->n_stages == 0 || is_broken(reader, "stages")) return;
+    const brc_stage *stage = &scene->stages[scene->n_stages - 1];
+    for (int k = 0; k < scene->n_stages; ++k)
+        if (measure->stage[0] && strcmp(scene->stages[k].name, measure->stage) == 0) stage = &scene->stages[k];
+    if (stage->solver != BRC_SOLVER_DYNAMIC)
+        COMPLAIN(reader, measure->stage, measure, "frequency: the stage '%s' is not dynamic and has no history in time",
+                 stage->name);
+}
+
+brc_status brc_reader_check(brc_reader *reader)
+{
+    if (reader->n_places > 0)
+        qsort(reader->places, (size_t)reader->n_places, sizeof *reader->places, by_address);
+    BRC_TRY(check_references(reader));
+    if (!is_broken(reader, "bodies")) check_bodies(reader);
+    BRC_TRY(check_stages(reader));
+    check_sensors(reader);
+    for (int i = 0; i < reader->scene->n_measures; ++i)
+        check_measure(reader, &reader->scene->measures[i]);
+    return BRC_OK;
+}

@@ -1,0 +1,44 @@
+/* What the files of the reader share: one reading in progress. */
+#ifndef BRC_SCENE_READER_INTERNAL_H
+#define BRC_SCENE_READER_INTERNAL_H
+
+#include "node.h"
+#include "schema.h"
+
+/* Lists of a scene (loads, sets, sensors ...) are not longer than this; tables may be. */
+#define BRC_LIST_MOST 4096
+
+/* Where a field was given. entry NULL: a whole struct, as an item of a list. */
+typedef struct brc_place {
+    const void *address;
+    const brc_entry *entry;
+    brc_mark mark;
+} brc_place;
+
+typedef struct brc_reader {
+    brc_context *context;
+    brc_problems *problems;
+    brc_scene *scene;
+    const brc_stage *stage; /* being read, for units of time */
+    int64_t n_places, n_places_held;
+    brc_place *places;
+    bool broken[32]; /* by entry of the top section: something in it was wrong */
+} brc_reader;
+
+/* reader_values.c: read one value (anything but structs and lists) into its field. Problems are added; the status is
+ * BRC_OK unless memory ran out. */
+brc_status brc_reader_value(brc_reader *reader, const brc_entry *entry, const brc_node *node, void *field);
+/* Is this text a name (letters, digits, _ + -, at most BRC_NAME - 1 bytes)? Adds a problem if not. */
+bool brc_reader_name(brc_reader *reader, const brc_node *node, const char *text, brc_mark mark);
+/* "a quantity in Pa such as 72 GPa". Written into `out`, which is returned. */
+const char *brc_entry_expects(const brc_entry *entry, const char *unit, char *out, size_t size);
+/* The unit of an entry in its struct: resolves the "@..." units. stage may be NULL where `struct_` is no load. */
+const char *brc_entry_unit(const brc_entry *entry, const brc_scene *scene, const brc_stage *stage, const void *measure);
+
+/* Remember where a field (or, entry NULL, a struct) was given. */
+brc_status brc_reader_remember(brc_reader *reader, const void *address, const brc_entry *entry, brc_mark mark);
+
+/* reader_check.c: fill in what follows from other parts, and check what needs the whole scene. */
+brc_status brc_reader_check(brc_reader *reader);
+
+#endif

@@ -1,0 +1,75 @@
+/* Schema: the top of a scene, and small questions to entries. */
+#include "schema_internal.h"
+#include <stdio.h>
+#include <string.h>
+
+static const brc_entry SCENE[] = {
+    {"version", BRC_TYPE_INTEGER, WITHIN(1, 1), FIELD(brc_scene, version), .required = true, .sample = "1",
+     .why = "this breccia reads format 1", .meaning = "of the scene format"},
+    {"title", BRC_TYPE_STRING, FIELD(brc_scene, title), .sample = "A cube under tension", .meaning = "one line"},
+    {"materials", BRC_TYPE_NAMED, .section = &brc_schema_material, COUNTED(brc_scene, materials, n_materials),
+     .required = true, .meaning = "by name"},
+    {"model", BRC_TYPE_STRUCT, .section = &brc_schema_model, .offset = offsetof(brc_scene, model), .given = "dlsm",
+     .meaning = "the law between the elements"},
+    {"bodies", BRC_TYPE_LIST, .section = &brc_schema_body, COUNTED(brc_scene, bodies, n_bodies), .required = true,
+     .meaning = "the solids"},
+    {"sets", BRC_TYPE_NAMED, .section = &brc_schema_set, COUNTED(brc_scene, sets, n_sets),
+     .meaning = "named parts, besides the walls"},
+    {"gravity", BRC_TYPE_VECTOR, "m/s^2", FIELD(brc_scene, gravity), .length = 3, FLAG(brc_scene, has_gravity),
+     .sample = "[0, 0, -9.81 m/s^2]", .meaning = "acceleration of every element"},
+    {"stages", BRC_TYPE_LIST, .section = &brc_schema_stage, COUNTED(brc_scene, stages, n_stages), .required = true,
+     .meaning = "what happens, one after the other"},
+    {"output", BRC_TYPE_STRUCT, .section = &brc_schema_output, .offset = offsetof(brc_scene, output), .given = "{}",
+     .meaning = "frames, histories, picture and curve"},
+    {"sensors", BRC_TYPE_NAMED, .section = &brc_schema_sensor, COUNTED(brc_scene, sensors, n_sensors),
+     .meaning = "numbers watched through the run, by name"},
+    {"measure", BRC_TYPE_NAMED, .section = &brc_schema_measure, COUNTED(brc_scene, measures, n_measures),
+     .meaning = "numbers computed from sensors when the run ends, by name"},
+    {"interactions", BRC_TYPE_LATER, .meaning = "contact and interfaces come in a later version; bodies do not touch yet"},
+    {"fracture", BRC_TYPE_LATER, .meaning = "breaking comes in a later version; solids are elastic yet"},
+};
+static const brc_section SCENE_SECTION = {.title = "scene", .meaning = "The top of a scene file.", ENTRIES(SCENE),
+                                          .size = sizeof(brc_scene)};
+
+const brc_section *brc_schema(void)
+{
+    return &SCENE_SECTION;
+}
+
+const brc_entry *brc_section_find(const brc_section *section, const char *key)
+{
+    for (int i = 0; section && i < section->n_entries; ++i)
+        if (strcmp(section->entries[i].key, key) == 0) return &section->entries[i];
+    return NULL;
+}
+
+bool brc_entry_has_range(const brc_entry *entry)
+{
+    return entry->range.low != 0 || entry->range.high != 0;
+}
+
+bool brc_range_contains(const brc_entry *entry, double value)
+{
+    if (!brc_entry_has_range(entry)) return true;
+    const brc_range *range = &entry->range;
+    if (range->low_open ? !(value > range->low) : !(value >= range->low)) return false;
+    return range->high_open ? value < range->high : value <= range->high;
+}
+
+const char *brc_range_text(const brc_entry *entry, char *out, size_t size)
+{
+    const brc_range *range = &entry->range;
+    const char *unit = entry->unit && entry->unit[0] != '@' ? entry->unit : "";
+    const char *blank = unit[0] ? " " : "";
+    if (!brc_entry_has_range(entry))
+        out[0] = '\0';
+    else if (isinf(range->high))
+        snprintf(out, size, "%s %.12g%s%s", range->low_open ? ">" : ">=", range->low, range->low != 0 ? blank : "",
+                 range->low != 0 ? unit : "");
+    else if (range->low == range->high)
+        snprintf(out, size, "%.12g", range->low);
+    else
+        snprintf(out, size, "in %c%.12g, %.12g%c%s%s", range->low_open ? '(' : '[', range->low, range->high,
+                 range->high_open ? ')' : ']', blank, unit);
+    return out;
+}

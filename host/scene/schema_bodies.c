@@ -1,0 +1,211 @@
+/* Schema: materials, the model, bodies and sets. */
+#include "schema_internal.h"
+
+static const brc_entry MATERIAL[] = {
+    {"E", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, young), .required = true, .sample = "72 GPa",
+     .meaning = "Young's modulus"},
+    {"nu", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(-1, 0.5), FIELD(brc_material, poisson), .required = true,
+     .sample = "0.23", .meaning = "Poisson's ratio",
+     .why = "at 0.5 the solid is incompressible and at -1 it has no bulk stiffness against its shear stiffness, so the "
+            "moduli are infinite"},
+    {"density", BRC_TYPE_QUANTITY, "kg/m^3", POSITIVE, FIELD(brc_material, density), .required = true,
+     .sample = "2500 kg/m^3", .meaning = "mass per volume"},
+};
+const brc_section brc_schema_material = {.title = "material", .meaning = "An isotropic elastic material.",
+                                         ENTRIES(MATERIAL), .size = sizeof(brc_material), .sample_name = "glass"};
+
+static const brc_entry DLSM[] = {
+    {"compaction", BRC_TYPE_BOOL, FIELD(brc_model, compaction), .given = "true",
+     .meaning = "the cross term beta that makes near-incompressible and auxetic solids accurate"},
+    {"beta", BRC_TYPE_QUANTITY, "", WITHIN(0, 1), FIELD(brc_model, beta), .given = "1",
+     .meaning = "weight of the cross term; without effect when compaction is false"},
+    {"tau", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 10), FIELD(brc_model, tau), .given = "0.1",
+     .why = "without it modes of the grid cost no energy", .meaning = "weight of the stabilisation"},
+};
+static const brc_section DLSM_SECTION = {.title = "model dlsm", .meaning = "The conservative law.", ENTRIES(DLSM)};
+static const brc_entry PUBLISHED[] = {
+    {"area_weights", BRC_TYPE_BOOL, FIELD(brc_model, area_weights), .given = "false",
+     .meaning = "least squares weighted with face area over distance instead of 1"},
+    {"rotation_stiffness", BRC_TYPE_QUANTITY, "", NOT_NEGATIVE, FIELD(brc_model, rotation_stiffness), .given = "1",
+     .meaning = "factor on the published stiffness against spurious rotation"},
+};
+static const brc_section PUBLISHED_SECTION = {.title = "model dlsm-published",
+                                              .meaning = "The law as Andre, Girardot and Hubert published it in 2019.",
+                                              ENTRIES(PUBLISHED)};
+static const brc_entry MODEL[] = {
+    {"dlsm", BRC_TYPE_STRUCT, .section = &DLSM_SECTION, .value = BRC_MODEL_DLSM,
+     .meaning = "conservative distinct lattice spring model on Voronoi cells"},
+    {"dlsm-published", BRC_TYPE_STRUCT, .section = &PUBLISHED_SECTION, .value = BRC_MODEL_DLSM_PUBLISHED,
+     .meaning = "the published, not conservative form, for comparison"},
+};
+const brc_section brc_schema_model = {.title = "model", .meaning = "The law between the elements.", ENTRIES(MODEL),
+                                      .one_of = true, .has_kind = true, .kind_offset = offsetof(brc_model, kind)};
+
+static const brc_entry BOX[] = {
+    {"origin", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]",
+     .meaning = "smallest corner"},
+    {"size", BRC_TYPE_VECTOR, "m", POSITIVE, FIELD(brc_shape, size), .length = 3, .required = true,
+     .sample = "[1 m, 1 m, 1 m]", .meaning = "edge lengths"},
+};
+static const brc_section BOX_SECTION = {.title = "box", .meaning = "Walls: x- x+ y- y+ z- z+. A plate is a flat box.",
+                                        ENTRIES(BOX)};
+static const brc_entry CYLINDER[] = {
+    {"origin", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]",
+     .meaning = "centre of the first end"},
+    {"axis", BRC_TYPE_CHOICE, FIELD(brc_shape, axis), CHOICES("x", "y", "z"), .given = "x", .meaning = "its direction"},
+    {"length", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, length), .required = true, .sample = "1 m",
+     .meaning = "along the axis"},
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .required = true, .sample = "0.1 m",
+     .meaning = "of the round"},
+};
+static const brc_section CYLINDER_SECTION = {
+    .title = "cylinder", .meaning = "Walls: the two ends, x- and x+ for the axis x, and side. A disc is a short cylinder.",
+    ENTRIES(CYLINDER)};
+static const brc_entry SPHERE[] = {
+    {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]", .meaning = "centre"},
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .required = true, .sample = "5 mm",
+     .meaning = "radius"},
+};
+static const brc_section SPHERE_SECTION = {.title = "sphere", .meaning = "Wall: surface.", ENTRIES(SPHERE)};
+static const brc_entry SHAPE[] = {
+    {"box", BRC_TYPE_STRUCT, .section = &BOX_SECTION, .value = BRC_SHAPE_BOX, .meaning = "a box along the axes"},
+    {"cylinder", BRC_TYPE_STRUCT, .section = &CYLINDER_SECTION, .value = BRC_SHAPE_CYLINDER,
+     .meaning = "a cylinder along an axis"},
+    {"sphere", BRC_TYPE_STRUCT, .section = &SPHERE_SECTION, .value = BRC_SHAPE_SPHERE, .meaning = "a sphere"},
+};
+static const brc_section SHAPE_SECTION = {.title = "shape", .meaning = "The solid before it is cut into cells.",
+                                          ENTRIES(SHAPE), .one_of = true, .has_kind = true,
+                                          .kind_offset = offsetof(brc_shape, kind)};
+
+static const brc_entry NOISY_GRID[] = {
+    {"elements", BRC_TYPE_INTEGER, WITHIN(1, 2e9), FIELD(brc_fill, n_elements), .sample = "1000",
+     .meaning = "wanted number of elements, met as nearly as the grid allows"},
+    {"spacing", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_fill, spacing), .sample = "1 cm",
+     .meaning = "distance of the grid's points"},
+    {"cells", BRC_TYPE_INTEGERS, WITHIN(1, 1e9), FIELD(brc_fill, cells), .length = 3, .sample = "[10, 10, 10]",
+     .meaning = "grid cells along x, y and z of the shape's bounding box"},
+    {"spread", BRC_TYPE_QUANTITY, "", WITHIN(0, 1), FIELD(brc_fill, spread), .given = "90 %",
+     .meaning = "width of the noise over the grid's spacing; 0 gives a regular grid"},
+    {"lloyd", BRC_TYPE_INTEGER, WITHIN(0, 1000), FIELD(brc_fill, lloyd_sweeps), .given = "0",
+     .meaning = "relaxation sweeps, each moving every seed to the centroid of its cell; rounder cells, longer time steps"},
+    {"min_distance", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_fill, min_distance), .given = "auto", .word = "auto",
+     .sample = "1 um", .meaning = "seeds nearer than this to an earlier one are dropped; auto: 1e-6 of the spacing"},
+    {"seed", BRC_TYPE_INTEGER, WITHIN(0, 9e15), FIELD(brc_fill, seed), .given = "1",
+     .meaning = "of the random numbers; equal seeds give equal solids"},
+};
+static const brc_section NOISY_GRID_SECTION = {
+    .title = "noisy_grid", .meaning = "Seeds on a regular grid, each moved at random.", ENTRIES(NOISY_GRID),
+    .groups = {{BRC_GROUP_EXACTLY_ONE, {"elements", "spacing", "cells"}}}};
+static const brc_entry FILL[] = {
+    {"noisy_grid", BRC_TYPE_STRUCT, .section = &NOISY_GRID_SECTION, .value = BRC_FILL_NOISY_GRID,
+     .meaning = "a regular grid with noise"},
+};
+static const brc_section FILL_SECTION = {.title = "fill", .meaning = "Where the seeds of the cells are.", ENTRIES(FILL),
+                                         .one_of = true, .has_kind = true, .kind_offset = offsetof(brc_fill, kind)};
+
+static const brc_entry PREDICATE_BOX[] = {
+    {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, box[0]), .length = 3, .required = true, .sample = "[0, 0, 0]",
+     .meaning = "smallest corner, inclusive"},
+    {"to", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, box[1]), .length = 3, .required = true,
+     .sample = "[1 m, 1 m, 50 cm]", .meaning = "largest corner, inclusive"},
+};
+static const brc_section PREDICATE_BOX_SECTION = {.title = "where box", .meaning = "Inside a box.",
+                                                  ENTRIES(PREDICATE_BOX)};
+static const brc_entry PREDICATE_SPHERE[] = {
+    {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, sphere_centre), .length = 3, .required = true,
+     .sample = "[50 cm, 50 cm, 50 cm]", .meaning = "centre"},
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, sphere_radius), .required = true,
+     .sample = "20 cm", .meaning = "radius, inclusive"},
+};
+static const brc_section PREDICATE_SPHERE_SECTION = {.title = "where sphere", .meaning = "Inside a sphere.",
+                                                     ENTRIES(PREDICATE_SPHERE)};
+static const brc_entry PREDICATE_CYLINDER[] = {
+    {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, cylinder_point), .length = 3, .required = true,
+     .sample = "[0, 0, 0]", .meaning = "a point of the axis"},
+    {"axis", BRC_TYPE_DIRECTION, "", FIELD(brc_predicate, cylinder_axis), .length = 3, .required = true,
+     .sample = "[1, 0, 0]", .meaning = "its direction"},
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, cylinder_radius), .required = true,
+     .sample = "20 cm", .meaning = "radius, inclusive"},
+};
+static const brc_section PREDICATE_CYLINDER_SECTION = {.title = "where cylinder", .meaning = "Inside an endless cylinder.",
+                                                       ENTRIES(PREDICATE_CYLINDER)};
+static const brc_entry HALF_SPACE[] = {
+    {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, half_space_point), .length = 3, .required = true,
+     .sample = "[50 cm, 0, 0]", .meaning = "a point of the plane"},
+    {"normal", BRC_TYPE_DIRECTION, "", FIELD(brc_predicate, half_space_normal), .length = 3, .required = true,
+     .sample = "[1, 0, 0]", .meaning = "points into the half space"},
+};
+static const brc_section HALF_SPACE_SECTION = {.title = "where half_space", .meaning = "On one side of a plane, inclusive.",
+                                               ENTRIES(HALF_SPACE)};
+static const brc_entry NORMAL[] = {
+    {"direction", BRC_TYPE_DIRECTION, "", FIELD(brc_predicate, normal), .length = 3, .required = true,
+     .sample = "[0, 0, 1]", .meaning = "where the outward normal points"},
+    {"within", BRC_TYPE_QUANTITY, "rad", ABOVE_UP_TO(0, M_PI), FIELD(brc_predicate, normal_angle), .given = "1 deg",
+     .meaning = "largest angle between the two"},
+};
+static const brc_section NORMAL_SECTION = {.title = "where normal", .meaning = "Faces that look in a direction.",
+                                           ENTRIES(NORMAL)};
+static const brc_entry PREDICATE[] = {
+    {"wall", BRC_TYPE_NAME, FIELD(brc_predicate, wall), FLAG(brc_predicate, has_wall),
+     .refers = BRC_REFERS_WALL, .sample = "x-",
+     .meaning = "faces of this wall; elements with a face on it"},
+    {"box", BRC_TYPE_STRUCT, .section = &PREDICATE_BOX_SECTION, FLAG(brc_predicate, has_box), .meaning = "inside a box"},
+    {"sphere", BRC_TYPE_STRUCT, .section = &PREDICATE_SPHERE_SECTION, FLAG(brc_predicate, has_sphere),
+     .meaning = "inside a sphere"},
+    {"cylinder", BRC_TYPE_STRUCT, .section = &PREDICATE_CYLINDER_SECTION, FLAG(brc_predicate, has_cylinder),
+     .meaning = "inside an endless cylinder"},
+    {"half_space", BRC_TYPE_STRUCT, .section = &HALF_SPACE_SECTION, FLAG(brc_predicate, has_half_space),
+     .meaning = "on one side of a plane"},
+    {"normal", BRC_TYPE_STRUCT, .section = &NORMAL_SECTION, FLAG(brc_predicate, has_normal),
+     .meaning = "faces that look in a direction; not for elements"},
+};
+const brc_section brc_schema_predicate = {
+    .title = "where", .meaning = "Which faces (by centroid and outward normal) or elements (by position). All given parts "
+                                 "must hold. A word alone is a wall.",
+    ENTRIES(PREDICATE), .short_key = "wall",
+    .groups = {{BRC_GROUP_AT_LEAST_ONE, {"wall", "box", "sphere", "cylinder", "half_space", "normal"}}}};
+
+static const brc_entry REGION[] = {
+    {"material", BRC_TYPE_MATERIAL, FIELD(brc_region, material), .required = true, .sample = "glass",
+     .meaning = "of the elements in the region"},
+    {"where", BRC_TYPE_STRUCT, .section = &brc_schema_predicate, .offset = offsetof(brc_region, where), .required = true,
+     .meaning = "which elements"},
+};
+static const brc_section REGION_SECTION = {.title = "region", .meaning = "A part of a body made of another material.",
+                                           ENTRIES(REGION), .size = sizeof(brc_region)};
+static const brc_entry POSE[] = {
+    {"translation", BRC_TYPE_VECTOR, "m", FIELD(brc_body, translation), .length = 3, .sample = "[0, 1 m, 0]",
+     .meaning = "applied after the rotation"},
+    {"rotation", BRC_TYPE_VECTOR, "rad", FIELD(brc_body, rotation), .length = 3, .sample = "[0, 0, 30 deg]",
+     .meaning = "rotation vector (axis times angle) about the shape's origin"},
+};
+static const brc_section POSE_SECTION = {.title = "pose", .meaning = "Where the body stands.", ENTRIES(POSE)};
+static const brc_entry BODY[] = {
+    {"name", BRC_TYPE_NAME, FIELD(brc_body, name), .given = "body", .meaning = "for messages and overrides"},
+    {"domain", BRC_TYPE_STRING, FIELD(brc_body, domain_file), .sample = "domain.h5",
+     .meaning = "domain file written by `breccia build`, relative to the scene; in place of shape and fill"},
+    {"shape", BRC_TYPE_STRUCT, .section = &SHAPE_SECTION, .offset = offsetof(brc_body, shape), .meaning = "what is cut"},
+    {"fill", BRC_TYPE_STRUCT, .section = &FILL_SECTION, .offset = offsetof(brc_body, fill),
+     .meaning = "how it is cut; due with a shape"},
+    {"material", BRC_TYPE_MATERIAL, FIELD(brc_body, material), .sample = "glass",
+     .meaning = "may be left out where the scene has only one"},
+    {"regions", BRC_TYPE_LIST, .section = &REGION_SECTION, COUNTED(brc_body, regions, n_regions),
+     .meaning = "parts of another material; later ones win"},
+    {"pose", BRC_TYPE_STRUCT, .section = &POSE_SECTION, .meaning = "where it stands; sets and regions see it posed"},
+    {"tiny_face_threshold", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 0.01), FIELD(brc_body, tiny_face_threshold),
+     .given = "auto", .word = "auto", .sample = "1e-7",
+     .meaning = "faces below this part of the mean face area are dropped; auto: 1e-8"},
+};
+const brc_section brc_schema_body = {.title = "body", .meaning = "A solid.", ENTRIES(BODY), .size = sizeof(brc_body),
+                                     .groups = {{BRC_GROUP_EXACTLY_ONE, {"shape", "domain"}}}};
+
+static const brc_entry SET[] = {
+    {"elements", BRC_TYPE_STRUCT, .section = &brc_schema_predicate, .offset = offsetof(brc_set_request, where),
+     .value = BRC_SET_ELEMENTS, .meaning = "a set of elements"},
+    {"faces", BRC_TYPE_STRUCT, .section = &brc_schema_predicate, .offset = offsetof(brc_set_request, where),
+     .value = BRC_SET_FACES, .meaning = "a set of boundary faces"},
+};
+const brc_section brc_schema_set = {.title = "set", .meaning = "A named part of the solid. Each wall is a set of faces "
+                                                               "without being asked for.",
+                                    ENTRIES(SET), .size = sizeof(brc_set_request), .one_of = true, .has_kind = true,
+                                    .kind_offset = offsetof(brc_set_request, kind), .sample_name = "core"};

@@ -1,0 +1,34 @@
+/* The pieces of the table and the few words it is written in; for the schema_*.c files and the reader. */
+#ifndef BRC_SCENE_SCHEMA_INTERNAL_H
+#define BRC_SCENE_SCHEMA_INTERNAL_H
+
+#include "schema.h"
+#include <math.h>
+#include <stddef.h>
+
+#define FIELD(type, field) .offset = offsetof(type, field), .size = sizeof(((type *)0)->field)
+#define COUNTED(type, field, n) .offset = offsetof(type, field), .count_offset = offsetof(type, n)
+#define FLAG(type, field) .has_flag = true, .has_offset = offsetof(type, field)
+#define ENTRIES(array) .entries = (array), .n_entries = (int)(sizeof(array) / sizeof((array)[0]))
+#define CHOICES(...) .choices = (const char *const[]){__VA_ARGS__, NULL}
+
+/* Ranges, in SI. */
+#define POSITIVE .range = {0, INFINITY, true, true}
+#define NOT_NEGATIVE .range = {0, INFINITY, false, true}
+#define WITHIN(low, high) .range = {(low), (high), false, false}
+#define STRICTLY_WITHIN(low, high) .range = {(low), (high), true, true}
+#define ABOVE_UP_TO(low, high) .range = {(low), (high), true, false}
+
+extern const brc_section brc_schema_material;
+extern const brc_section brc_schema_model;
+extern const brc_section brc_schema_body;
+extern const brc_section brc_schema_set;
+extern const brc_section brc_schema_predicate;
+extern const brc_section brc_schema_stage;
+extern const brc_section brc_schema_load;
+extern const brc_section brc_schema_initial;
+extern const brc_section brc_schema_sensor;
+extern const brc_section brc_schema_measure;
+extern const brc_section brc_schema_output;
+
+#endif
