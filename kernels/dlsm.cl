@@ -218,10 +218,10 @@ KERNEL void dlsm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOB
             const lane k_bond = k, ell_j = ell;
 #endif
             const lane_mat3 m_j = dlsm_compaction(h_j, ell_j, finite);
-            const lane half = LANE_ZERO + REAL(0.5);
+            const lane one_half = LANE_ZERO + REAL(0.5);
             energy += REAL(0.5) * dlsm_bond_energy(state_vec3_difference(state_gather3(displacement, j), u),
-                                                   lane_mat3_scale(half, lane_mat3_add(h, h_j)),
-                                                   lane_mat3_scale(half, lane_mat3_add(m, m_j)),
+                                                   lane_mat3_scale(one_half, lane_mat3_add(h, h_j)),
+                                                   lane_mat3_scale(one_half, lane_mat3_add(m, m_j)),
                                                    lane_block3(area, slot, lane0),
                                                    lane_load(ratio, (brc_size)slot * C + (brc_size)lane0), k_bond, beta,
                                                    one_plus_tau);

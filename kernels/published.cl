@@ -110,19 +110,19 @@ KERNEL void advance_rotation(int n, state kick, state drift, state extra, GLOBAL
                              GLOBAL const state *restrict torque, GLOBAL state *restrict spin, GLOBAL state *restrict orientation)
 {
     FOR_EACH_ITEM(e, n) {
-        state half[3];
+        state half_turn[3];
         for (int c = 0; c < 3; ++c) {
             const state a = torque[(brc_size)e * 3 + c] / inertia[e];
             const state w = spin[(brc_size)e * 3 + c] + kick * a;
             spin[(brc_size)e * 3 + c] = w;
-            half[c] = STATE(0.5) * (drift * w + extra * a);
+            half_turn[c] = STATE(0.5) * (drift * w + extra * a);
         }
         /* cos and sin(|h|)/|h| by their series: |h| is the half turn of one step, far below 1; normalised after */
-        const state hh = half[0] * half[0] + half[1] * half[1] + half[2] * half[2];
+        const state hh = half_turn[0] * half_turn[0] + half_turn[1] * half_turn[1] + half_turn[2] * half_turn[2];
         const state c0 = STATE(1) - hh * (STATE(0.5) - hh * (STATE(1.0 / 24) - hh * STATE(1.0 / 720)));
         const state s0 = STATE(1) - hh * (STATE(1.0 / 6) - hh * (STATE(1.0 / 120) - hh * STATE(1.0 / 5040)));
         GLOBAL state *q = orientation + (brc_size)e * 4;
-        const state w = q[0], x = q[1], y = q[2], z = q[3], p = s0 * half[0], r = s0 * half[1], t = s0 * half[2];
+        const state w = q[0], x = q[1], y = q[2], z = q[3], p = s0 * half_turn[0], r = s0 * half_turn[1], t = s0 * half_turn[2];
         const state nw = c0 * w - p * x - r * y - t * z, nx = c0 * x + p * w + r * z - t * y;
         const state ny = c0 * y - p * z + r * w + t * x, nz = c0 * z + p * y - r * x + t * w;
         const state scale = STATE(1) / SQRT_STATE(nw * nw + nx * nx + ny * ny + nz * nz);

@@ -44,8 +44,8 @@ LAW lane_sym3 published_strain(lane_mat3 fitted, lane_quat q, int finite)
 {
     const lane_mat3 turn = quat_matrix_minus_identity(quat_conjugate(q), finite);
     if (!finite) return lane_mat3_sym(lane_mat3_add(fitted, turn));
-    const lane_mat3 local = lane_mat3_add(lane_mat3_add(fitted, lane_mat3_mul(turn, fitted)), turn);
-    const lane_sym3 e = lane_mat3_sym(local);
+    const lane_mat3 turned = lane_mat3_add(lane_mat3_add(fitted, lane_mat3_mul(turn, fitted)), turn);
+    const lane_sym3 e = lane_mat3_sym(turned);
     /* R e R^T, with turn = R^T - I */
     const lane_mat3 er = lane_mat3_mul((lane_mat3){e.xx, e.xy, e.xz, e.xy, e.yy, e.yz, e.xz, e.yz, e.zz}, turn);
     const lane_mat3 right = lane_mat3_add((lane_mat3){e.xx, e.xy, e.xz, e.xy, e.yy, e.yz, e.xz, e.yz, e.zz}, er);
@@ -94,8 +94,8 @@ LAW published_bond published_bond_law(lane_vec3 branch, lane_vec3 jump, lane are
     const lane normal = REAL(2) * mu * correction + lambda * (lane_sym3_trace(strain) + correction);
     const lane_vec3 f = lane_vec3_scale(area, lane_vec3_add(lane_vec3_scale(REAL(2) * mu, en), lane_vec3_scale(normal, n)));
     const lane stiffness = REAL(0.0795774715459476678844) * rotation_factor * young * area * area / length0; /* 1/(4 pi) */
-    const lane half = LANE_ZERO + REAL(0.5);
-    return (published_bond){f, lane_vec3_add(lane_vec3_cross(lane_vec3_scale(half, now), f), lane_vec3_scale(stiffness, turn))};
+    const lane one_half = LANE_ZERO + REAL(0.5);
+    return (published_bond){f, lane_vec3_add(lane_vec3_cross(lane_vec3_scale(one_half, now), f), lane_vec3_scale(stiffness, turn))};
 }
 
 #endif
