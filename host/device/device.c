@@ -34,6 +34,8 @@ void brc_device_describe(const brc_device_info *info, char *text, size_t bytes)
 static const brc_backend *backend_of(brc_device_kind kind)
 {
     switch (kind) {
+    case BRC_DEVICE_OPENCL: return &brc_backend_opencl;
+    case BRC_DEVICE_TARGET: return &brc_backend_target;
     default: return &brc_backend_cpu;
     }
 }
@@ -57,46 +59,70 @@ static void list_selectors(const brc_device_list *list, char *text, size_t bytes
             used += (size_t)snprintf(text + used, bytes - used, "%s%s", used ? ", " : "", list->items[d].selector);
 }
 
-static brc_status select_device(brc_context *context, const brc_device_list *list, const brc_device_request *request,
-                                brc_device_info *out)
+/* The kinds a selector can mean; `auto` never means target, and 0 is for what does not parse. */
+static unsigned kinds_of(const char *selector)
 {
+    if (!selector_parses(selector)) return 0;
+    if (strcmp(selector, "auto") == 0) return 1u << BRC_DEVICE_CPU | 1u << BRC_DEVICE_OPENCL;
+    if (strcmp(selector, "cpu") == 0) return 1u << BRC_DEVICE_CPU;
+    return 1u << (selector[0] == 'o' ? BRC_DEVICE_OPENCL : BRC_DEVICE_TARGET);
+}
+
+/* The device a selector names, in a list that may not have it: NULL then. */
+static const brc_device_info *find_device(const brc_device_list *list, const char *selector, brc_precision precision)
+{
+    char why[512];
+    if (strcmp(selector, "auto") == 0) return &list->items[brc_device_list_choose(list, precision, why, sizeof why)];
+    for (int d = 0; d < list->n; ++d)
+        if (strcmp(list->items[d].selector, selector) == 0) return &list->items[d];
+    return NULL;
+}
+
+static brc_status select_device(brc_context *context, const brc_device_request *request, brc_device_info *out)
+{
+    brc_status status = BRC_OK;
+    brc_device_list *list = NULL;
     const char *const selector = request->selector ? request->selector : "auto";
+    const unsigned kinds = kinds_of(selector);
+    if (kinds) {
+        BRC_TRY_OR(cleanup, brc_device_list_look(context, kinds, &list));
+        const brc_device_info *const info = find_device(list, selector, request->precision);
+        if (info && info->usable) {
+            *out = *info;
+            goto cleanup;
+        }
+        brc_device_list_free(&list);
+    }
+    /* No such device: the sentence names those that are there. */
+    BRC_TRY_OR(cleanup, brc_device_list_create(context, &list));
     char there[256];
     list_selectors(list, there, sizeof there);
-    if (!selector_parses(selector))
-        return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "device '%.64s' is not a selector: expected auto, cpu, opencl:N or target:N; here there are: %s",
-                        selector, there);
-    if (strcmp(selector, "auto") == 0) {
-        char why[512];
-        *out = list->items[brc_device_list_choose(list, request->precision, why, sizeof why)];
-        return BRC_OK;
-    }
-    for (int d = 0; d < list->n; ++d) {
-        const brc_device_info *const info = &list->items[d];
-        if (strcmp(info->selector, selector) != 0) continue;
-        if (!info->usable)
-            return BRC_FAIL(context, BRC_BAD_INPUT, "device %s (%s) cannot be used: %s; usable here: %s", selector,
-                            info->name, info->why_not, there);
-        *out = *info;
-        return BRC_OK;
-    }
-    return BRC_FAIL(context, BRC_BAD_INPUT, "device '%s' is not there; usable here: %s (see breccia devices)", selector,
-                    there);
+    const brc_device_info *const info = kinds ? find_device(list, selector, request->precision) : NULL;
+    if (!kinds)
+        status = BRC_FAIL(context, BRC_BAD_INPUT,
+                          "device '%.64s' is not a selector: expected auto, cpu, opencl:N or target:N; usable here: %s",
+                          selector, there);
+    else if (info)
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "device %s (%s) cannot be used: %s; usable here: %s", selector, info->name,
+                          info->why_not, there);
+    else
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "device '%s' is not there; usable here: %s (see breccia devices)",
+                          selector, there);
+cleanup:
+    brc_device_list_free(&list);
+    return status;
 }
 
 brc_status brc_device_open(brc_context *context, const brc_device_request *request, brc_device **out)
 {
     brc_status status = BRC_OK;
-    brc_device_list *list = NULL;
     brc_device *device = NULL;
     *out = NULL;
-    BRC_TRY_OR(cleanup, brc_device_list_create(context, &list));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &device, 1, "device"));
     device->context = context;
     device->precision = request->precision;
     device->many_materials = request->many_materials;
-    BRC_TRY_OR(cleanup, select_device(context, list, request, &device->info));
+    BRC_TRY_OR(cleanup, select_device(context, request, &device->info));
     if (!device->info.has_double && request->precision != BRC_SINGLE) {
         char text[192];
         brc_device_describe(&device->info, text, sizeof text);
@@ -119,7 +145,6 @@ brc_status brc_device_open(brc_context *context, const brc_device_request *reque
     device = NULL;
 cleanup:
     brc_device_close(&device);
-    brc_device_list_free(&list);
     return status;
 }
 

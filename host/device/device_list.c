@@ -34,19 +34,26 @@ int brc_device_list_choose(const brc_device_list *list, brc_precision precision,
     return cpu;
 }
 
-brc_status brc_device_list_create(brc_context *context, brc_device_list **out)
+brc_status brc_device_list_look(brc_context *context, unsigned kinds, brc_device_list **out)
 {
     brc_status status = BRC_OK;
     brc_device_list *list = NULL;
     *out = NULL;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &list, 1, "device list"));
-    BRC_TRY_OR(cleanup, brc_device_cpu_list(context, list));
+    if (kinds & 1u << BRC_DEVICE_CPU) BRC_TRY_OR(cleanup, brc_device_cpu_list(context, list));
+    if (kinds & 1u << BRC_DEVICE_OPENCL) BRC_TRY_OR(cleanup, brc_device_opencl_list(context, list));
+    if (kinds & 1u << BRC_DEVICE_TARGET) BRC_TRY_OR(cleanup, brc_device_target_list(context, list));
     list->automatic = brc_device_list_choose(list, BRC_DOUBLE, list->why, sizeof list->why);
     *out = list;
     list = NULL;
 cleanup:
     brc_device_list_free(&list);
     return status;
+}
+
+brc_status brc_device_list_create(brc_context *context, brc_device_list **out)
+{
+    return brc_device_list_look(context, ~0u, out);
 }
 
 void brc_device_list_free(brc_device_list **handle)

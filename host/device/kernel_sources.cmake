@@ -1,12 +1,15 @@
-# cmake -DFOLDER=kernels -DOUTPUT=file.c -P kernel_sources.cmake: every text of the folder as a C string, one literal a
-# line (no literal of a C11 compiler need be longer than 4095 characters, and none of ours is).
+# cmake -DFOLDER=kernels -DOUTPUT=file.c -DHASH=file.h -P kernel_sources.cmake: every text of the folder as a C string,
+# one literal a line (no literal of a C11 compiler need be longer than 4095 characters, and none of ours is), and a hash
+# of them all, by which the program knows whether a target plug-in was built from the same kernels.
 file(GLOB files ${FOLDER}/*.h ${FOLDER}/*.cl)
 list(SORT files)
 set(text "#include \"kernel_signature.h\"\nconst brc_kernel_file brc_kernel_files[] = {\n")
 set(count 0)
+set(all "")
 foreach(file IN LISTS files)
     get_filename_component(name "${file}" NAME)
     file(READ "${file}" content)
+    string(APPEND all "${name}\n${content}")
     string(REPLACE "\\" "\\\\" content "${content}")
     string(REPLACE "\"" "\\\"" content "${content}")
     string(REPLACE "\n" "\\n\"\n     \"" content "${content}")
@@ -15,3 +18,6 @@ foreach(file IN LISTS files)
 endforeach()
 string(APPEND text "};\nconst int brc_kernel_file_count = ${count};\n")
 file(WRITE "${OUTPUT}" "${text}")
+string(SHA256 hash "${all}")
+string(SUBSTRING "${hash}" 0 15 hash)
+file(WRITE "${HASH}" "#define BRC_KERNEL_TEXTS_HASH 0x${hash}LL\n")

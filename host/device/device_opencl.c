@@ -1,0 +1,276 @@
+/* OpenCL: the kernels are compiled at run time from one pasted text for the variant a run needs; everything goes
+ * through one queue that keeps the order. */
+#include "opencl_list.h"
+#include "opencl_status.h"
+#include "program_source.h"
+#include "../base/log.h"
+#include "../base/memory.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Work-items a group; docs/devices.md has the measurements. Never left to the driver: PoCL's own choice crashed with
+ * wide types. */
+enum { GROUP_GPU = 128, GROUP_CPU = 64 };
+/* Long batches reach the device while they are still being enqueued. */
+enum { LAUNCHES_BETWEEN_FLUSHES = 64 };
+/* Buffers are rounded up to this, so that clearing may write whole patterns. */
+enum { LINE = 64 };
+
+typedef struct opencl_inside {
+    cl_device_id id;
+    cl_context context;
+    cl_command_queue queue;
+    cl_program program;
+    size_t group;
+    int launches; /* since the last flush */
+    int releases; /* of buffers so far: a handle may come back for another buffer, so set arguments are then sent again */
+} opencl_inside;
+
+typedef struct opencl_kernel {
+    cl_kernel kernel;
+    size_t group;
+    cl_uint n_args;
+    int releases; /* opencl_inside.releases when the arguments were set */
+    brc_packed_arg last[BRC_KERNEL_MOST_ARGS]; /* arguments stay set from launch to launch: only changes are sent */
+    bool set[BRC_KERNEL_MOST_ARGS];
+} opencl_kernel;
+
+static void release_inside(opencl_inside *inside)
+{
+    if (!inside) return;
+    if (inside->program) (void)clReleaseProgram(inside->program);
+    if (inside->queue) (void)clReleaseCommandQueue(inside->queue);
+    if (inside->context) (void)clReleaseContext(inside->context);
+    brc_memory_free(inside);
+}
+
+/* The whole compiler log, freed with brc_memory_free; NULL when there is none. */
+static char *build_log(brc_device *device, const opencl_inside *inside)
+{
+    size_t bytes = 0;
+    char *log = NULL;
+    if (clGetProgramBuildInfo(inside->program, inside->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes) != CL_SUCCESS) return NULL;
+    if (brc_memory_allocate(device->context, (void **)&log, (int64_t)bytes + 1, 1, "compiler log") != BRC_OK) return NULL;
+    if (clGetProgramBuildInfo(inside->program, inside->id, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) != CL_SUCCESS) log[0] = '\0';
+    return log;
+}
+
+static brc_status build(brc_device *device, opencl_inside *inside, const char *folder)
+{
+    brc_status status = BRC_OK;
+    char *source = NULL, *log = NULL;
+    char options[256], text[192];
+    cl_int code;
+    snprintf(options, sizeof options,
+             "-cl-std=CL1.2 -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D BRC_MANY_MATERIALS=%d",
+             (int)device->precision, device->lanes, device->slice, (int)device->many_materials);
+    brc_device_describe(&device->info, text, sizeof text);
+    BRC_TRY_OR(cleanup, brc_program_source(device->context, folder, &source));
+    const char *const sources[] = {source};
+    inside->program = clCreateProgramWithSource(inside->context, 1, (const char **)(uintptr_t)sources, NULL, &code);
+    BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "taking the kernel text"));
+    code = clBuildProgram(inside->program, 1, &inside->id, options, NULL, NULL);
+    if (code != CL_SUCCESS) {
+        log = build_log(device, inside);
+        status = BRC_FAIL(device->context, BRC_DEVICE_FAILED,
+                          "device %s, %s: the kernels%s%s do not compile: %s\noptions: %s\ncompiler log:\n%s", text,
+                          device->info.driver, folder ? " in " : "", folder ? folder : "", brc_opencl_status_text(code),
+                          options, log && log[0] ? log : "(empty)");
+        goto cleanup;
+    }
+    if (brc_log_get_level(device->context) >= BRC_LOG_DEBUG) {
+        log = build_log(device, inside);
+        brc_log(device->context, BRC_LOG_DEBUG, "device %s, options %s, compiler log:\n%s", text, options,
+                log && log[0] ? log : "(empty)");
+    }
+cleanup:
+    brc_memory_free(source);
+    brc_memory_free(log);
+    return status;
+}
+
+static brc_status opencl_open(brc_device *device, const brc_device_request *request)
+{
+    brc_status status = BRC_OK;
+    opencl_inside *inside = NULL;
+    cl_device_id devices[BRC_OPENCL_MOST_DEVICES];
+    cl_int code;
+    const int lanes = request->lanes ? request->lanes : device->info.is_gpu ? 1 : 8;
+    if (lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
+        return BRC_FAIL(device->context, BRC_BAD_INPUT, "%d elements a work-item: expected 1, 4, 8 or 16", lanes);
+    device->lanes = lanes;
+    device->slice = device->info.is_gpu ? 32 : lanes > 8 ? lanes : 8;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(device->context, &inside, 1, "OpenCL device"));
+    if (device->info.index >= brc_opencl_devices(devices)) {
+        status = BRC_FAIL(device->context, BRC_DEVICE_FAILED, "device %s has vanished", device->info.selector);
+        goto cleanup;
+    }
+    inside->id = devices[device->info.index];
+    inside->group = device->info.is_gpu ? GROUP_GPU : GROUP_CPU;
+    inside->context = clCreateContext(NULL, 1, &inside->id, NULL, NULL, &code);
+    BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a context"));
+    inside->queue = clCreateCommandQueue(inside->context, inside->id, 0, &code);
+    BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a queue"));
+    BRC_TRY_OR(cleanup, build(device, inside, request->kernel_folder));
+    device->inside = inside;
+    inside = NULL;
+cleanup:
+    release_inside(inside);
+    return status;
+}
+
+static void opencl_close(brc_device *device)
+{
+    opencl_inside *const inside = device->inside;
+    (void)clFinish(inside->queue); /* whatever it says, everything is given back now */
+    release_inside(inside);
+}
+
+static brc_status opencl_zero(brc_device *device, void *memory, int64_t bytes)
+{
+    opencl_inside *const inside = device->inside;
+    static const cl_uint zero = 0;
+    const size_t rounded = ((size_t)bytes + LINE - 1) / LINE * LINE;
+    const cl_int code =
+        clEnqueueFillBuffer(inside->queue, (cl_mem)memory, &zero, sizeof zero, 0, rounded, 0, NULL, NULL);
+    return brc_opencl_check(device, code, "clearing a buffer");
+}
+
+static bool opencl_allocate(brc_device *device, int64_t bytes, void **memory, char reason[BRC_REASON_BYTES])
+{
+    opencl_inside *const inside = device->inside;
+    const size_t rounded = ((size_t)bytes + LINE - 1) / LINE * LINE;
+    static const cl_uint zero = 0;
+    cl_int code;
+    const cl_mem buffer = clCreateBuffer(inside->context, CL_MEM_READ_WRITE, rounded, NULL, &code);
+    if (code == CL_SUCCESS) {
+        /* Drivers take the memory at first use: clear at once and wait, so that a lack of it shows here. */
+        code = clEnqueueFillBuffer(inside->queue, buffer, &zero, sizeof zero, 0, rounded, 0, NULL, NULL);
+        if (code == CL_SUCCESS) code = clFinish(inside->queue);
+        if (code != CL_SUCCESS) (void)clReleaseMemObject(buffer);
+    }
+    if (code != CL_SUCCESS) {
+        snprintf(reason, BRC_REASON_BYTES, "%s (%d)", brc_opencl_status_text(code), (int)code);
+        return false;
+    }
+    *memory = buffer;
+    return true;
+}
+
+static void opencl_release(brc_device *device, void *memory, int64_t bytes)
+{
+    (void)bytes;
+    ++((opencl_inside *)device->inside)->releases;
+    (void)clReleaseMemObject((cl_mem)memory); /* the driver waits for what still uses it */
+}
+
+static brc_status opencl_write(brc_device *device, void *memory, int64_t offset, const void *data, int64_t bytes)
+{
+    opencl_inside *const inside = device->inside;
+    const cl_int code = clEnqueueWriteBuffer(inside->queue, (cl_mem)memory, CL_TRUE, (size_t)offset, (size_t)bytes, data,
+                                             0, NULL, NULL);
+    return brc_opencl_check(device, code, "writing a buffer");
+}
+
+static brc_status opencl_read(brc_device *device, void *memory, int64_t offset, void *data, int64_t bytes)
+{
+    opencl_inside *const inside = device->inside;
+    const cl_int code =
+        clEnqueueReadBuffer(inside->queue, (cl_mem)memory, CL_TRUE, (size_t)offset, (size_t)bytes, data, 0, NULL, NULL);
+    return brc_opencl_check(device, code, "reading a buffer");
+}
+
+static brc_status opencl_copy(brc_device *device, void *to, void *from, int64_t bytes)
+{
+    opencl_inside *const inside = device->inside;
+    const cl_int code =
+        clEnqueueCopyBuffer(inside->queue, (cl_mem)from, (cl_mem)to, 0, 0, (size_t)bytes, 0, NULL, NULL);
+    return brc_opencl_check(device, code, "copying a buffer");
+}
+
+static brc_status opencl_find(brc_kernel *kernel)
+{
+    brc_device *const device = kernel->device;
+    opencl_inside *const inside = device->inside;
+    cl_int code;
+    const cl_kernel found = clCreateKernel(inside->program, kernel->name, &code);
+    if (code == CL_INVALID_KERNEL_NAME)
+        return BRC_FAIL(device->context, BRC_INTERNAL, "there is no kernel '%s' on device %s", kernel->name,
+                        device->info.selector);
+    BRC_TRY(brc_opencl_check(device, code, kernel->name));
+    opencl_kernel *own = NULL;
+    const brc_status status = BRC_ALLOCATE(device->context, &own, 1, kernel->name);
+    if (status != BRC_OK) {
+        (void)clReleaseKernel(found);
+        return status;
+    }
+    size_t most = 0;
+    own->kernel = found;
+    own->group = inside->group;
+    (void)clGetKernelInfo(found, CL_KERNEL_NUM_ARGS, sizeof own->n_args, &own->n_args, NULL);
+    /* A kernel with many registers may allow only smaller groups. */
+    if (clGetKernelWorkGroupInfo(found, inside->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL) == CL_SUCCESS)
+        while (own->group > most && own->group > 1) own->group /= 2;
+    kernel->inside = own;
+    return BRC_OK;
+}
+
+static void opencl_forget(brc_kernel *kernel)
+{
+    opencl_kernel *const own = kernel->inside;
+    (void)clReleaseKernel(own->kernel);
+    brc_memory_free(own);
+}
+
+static brc_status opencl_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
+{
+    brc_device *const device = kernel->device;
+    opencl_inside *const inside = device->inside;
+    opencl_kernel *const own = kernel->inside;
+    if ((cl_uint)n_args != own->n_args)
+        return BRC_FAIL(device->context, BRC_INTERNAL, "kernel %s takes %u arguments, was given %d", kernel->name,
+                        (unsigned)own->n_args, n_args);
+    if (own->releases != inside->releases) memset(own->set, 0, sizeof own->set);
+    own->releases = inside->releases;
+    for (int a = 0; a < n_args; ++a) {
+        const brc_packed_arg packed = brc_arg_pack(device, &args[a]);
+        if (own->set[a] && own->last[a].bytes == packed.bytes &&
+            memcmp(&own->last[a].value, &packed.value, packed.bytes) == 0)
+            continue;
+        own->set[a] = false;
+        const cl_int code = clSetKernelArg(own->kernel, (cl_uint)a, packed.bytes, &packed.value);
+        BRC_TRY(brc_opencl_check(device, code, kernel->name));
+        own->last[a] = packed;
+        own->set[a] = true;
+    }
+    const size_t global = ((size_t)n_items + own->group - 1) / own->group * own->group;
+    const cl_int code =
+        clEnqueueNDRangeKernel(inside->queue, own->kernel, 1, NULL, &global, &own->group, 0, NULL, NULL);
+    BRC_TRY(brc_opencl_check(device, code, kernel->name));
+    if (++inside->launches < LAUNCHES_BETWEEN_FLUSHES) return BRC_OK;
+    inside->launches = 0;
+    return brc_opencl_check(device, clFlush(inside->queue), "flushing the queue");
+}
+
+static brc_status opencl_wait(brc_device *device)
+{
+    opencl_inside *const inside = device->inside;
+    inside->launches = 0;
+    return brc_opencl_check(device, clFinish(inside->queue), "waiting for the device");
+}
+
+const brc_backend brc_backend_opencl = {
+    .open = opencl_open,
+    .close = opencl_close,
+    .allocate = opencl_allocate,
+    .release = opencl_release,
+    .write = opencl_write,
+    .read = opencl_read,
+    .copy = opencl_copy,
+    .zero = opencl_zero,
+    .find = opencl_find,
+    .forget = opencl_forget,
+    .launch = opencl_launch,
+    .wait = opencl_wait,
+};

@@ -1,0 +1,206 @@
+/* OpenMP target devices, through a plug-in library built by clang. It is opened so that nothing of it is seen by the
+ * rest and its own OpenMP runtime is found first: gcc's runtime in the program and clang's in the plug-in share names. */
+#include "device_internal.h"
+#include "instance_call.h"
+#include "target_plugin.h"
+#include "kernel_hash.h"
+#include "../base/memory.h"
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define PLUGIN_FILE "libbreccia_target.so"
+
+typedef struct target_inside {
+    const brc_target_plugin *plugin;
+    const brc_kernel_instance *instance;
+} target_inside;
+
+/* The plug-in at a path, or NULL with the reason. A library that holds target code must never be closed again (its
+ * runtime keeps threads and handlers), so the handle is given away on purpose: the loader opens a path only once. */
+static const brc_target_plugin *load(const char *path, char *why, size_t bytes)
+{
+    void *const library = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND | RTLD_NODELETE);
+    if (!library) {
+        snprintf(why, bytes, "%s", dlerror());
+        return NULL;
+    }
+    brc_target_plugin_getter get = NULL;
+    void *const symbol = dlsym(library, BRC_TARGET_PLUGIN_SYMBOL);
+    memcpy(&get, &symbol, sizeof get); /* C has no conversion from object to function pointers */
+    const brc_target_plugin *const plugin = get ? get() : NULL;
+    if (plugin && plugin->version == BRC_TARGET_PLUGIN_VERSION && plugin->kernels_hash == BRC_KERNEL_TEXTS_HASH)
+        return plugin;
+    snprintf(why, bytes, "%s belongs to another version of breccia: build it again", path);
+    return NULL;
+}
+
+/* The folder of the running program, with a '/' at the end; "" when it cannot be told. */
+static void program_folder(char *folder, size_t bytes)
+{
+    const ssize_t length = readlink("/proc/self/exe", folder, bytes - 1);
+    folder[length > 0 ? length : 0] = '\0';
+    char *const slash = strrchr(folder, '/');
+    if (slash) slash[1] = '\0';
+}
+
+/* Where the environment says, else beside the program, else where `install` puts it. */
+static const brc_target_plugin *find_plugin(char *why, size_t bytes)
+{
+    const char *const named = getenv("BRECCIA_TARGET_LIBRARY");
+    if (named && named[0]) return load(named, why, bytes);
+    static const char *const places[] = {"", "../", "../lib/breccia/"};
+    char folder[2048], path[2112];
+    program_folder(folder, sizeof folder);
+    for (size_t p = 0; p < sizeof places / sizeof places[0]; ++p) {
+        snprintf(path, sizeof path, "%s%s" PLUGIN_FILE, folder, places[p]);
+        if (access(path, R_OK) == 0) return load(path, why, bytes);
+    }
+    snprintf(why, bytes,
+             "the plug-in " PLUGIN_FILE " is not there: it is built when clang with libomptarget is found (Debian: "
+             "clang-14 libomp-14-dev), or name it in BRECCIA_TARGET_LIBRARY");
+    return NULL;
+}
+
+brc_status brc_device_target_list(brc_context *context, brc_device_list *list)
+{
+    brc_device_info info = {.kind = BRC_DEVICE_TARGET, .name = "OpenMP target", .driver = "no plug-in"};
+    const brc_target_plugin *const plugin = find_plugin(info.why_not, sizeof info.why_not);
+    const int n = plugin ? plugin->devices() : 0;
+    if (plugin && n == 0)
+        snprintf(info.why_not, sizeof info.why_not,
+                 "the plug-in finds no device: libomptarget and its device library must be installed (Debian: libomp5-14)");
+    if (n == 0) {
+        snprintf(info.selector, sizeof info.selector, "target:0");
+        return brc_device_list_add(context, list, &info);
+    }
+    /* libomp presents one processor as four devices; they are the same, and one is enough. */
+    info.usable = plugin->runs_on_device(0) == 1;
+    if (!info.usable) snprintf(info.why_not, sizeof info.why_not, "a test region fell back to the host");
+    info.has_double = true;
+    info.compute_units = (int)sysconf(_SC_NPROCESSORS_ONLN);
+    snprintf(info.selector, sizeof info.selector, "target:0");
+    snprintf(info.name, sizeof info.name, "OpenMP target device (%s)", BRC_TARGET_TRIPLE);
+    snprintf(info.driver, sizeof info.driver, "libomptarget, %.96s", plugin->compiler);
+    return brc_device_list_add(context, list, &info);
+}
+
+static brc_status target_open(brc_device *device, const brc_device_request *request)
+{
+    char why[BRC_REASON_BYTES];
+    const brc_target_plugin *const plugin = find_plugin(why, sizeof why);
+    if (!plugin) return BRC_FAIL(device->context, BRC_DEVICE_FAILED, "device %s: %s", device->info.selector, why);
+    const brc_kernel_instance *instance = NULL;
+    for (int k = 0; k < plugin->n_instances; ++k)
+        if (plugin->instances[k]->precision == (int)request->precision &&
+            plugin->instances[k]->many_materials == (int)request->many_materials)
+            instance = plugin->instances[k];
+    if (!instance)
+        return BRC_FAIL(device->context, BRC_INTERNAL, "the target plug-in has no kernels for %s",
+                        brc_precision_name(request->precision));
+    if (request->lanes && request->lanes != instance->lanes)
+        return BRC_FAIL(device->context, BRC_BAD_INPUT, "the target kernels handle %d elements at once, not %d",
+                        instance->lanes, request->lanes);
+    if (request->kernel_folder)
+        return BRC_FAIL(device->context, BRC_BAD_INPUT,
+                        "the target kernels are compiled already: a kernel folder (%.128s) needs an OpenCL device",
+                        request->kernel_folder);
+    target_inside *inside = NULL;
+    BRC_TRY(BRC_ALLOCATE(device->context, &inside, 1, "target device"));
+    inside->plugin = plugin;
+    inside->instance = instance;
+    device->lanes = instance->lanes;
+    device->slice = instance->slice;
+    device->inside = inside;
+    return BRC_OK;
+}
+
+static void target_close(brc_device *device)
+{
+    brc_memory_free(device->inside);
+}
+
+static const brc_target_plugin *plugin_of(const brc_device *device)
+{
+    return ((const target_inside *)device->inside)->plugin;
+}
+
+static brc_status check(brc_device *device, int failed, const char *what)
+{
+    if (!failed) return BRC_OK;
+    return BRC_FAIL(device->context, BRC_DEVICE_FAILED, "device %s: %s failed (OMP_TARGET_OFFLOAD=MANDATORY and "
+                    "LIBOMPTARGET_DEBUG=1 tell more)", device->info.selector, what);
+}
+
+static bool target_allocate(brc_device *device, int64_t bytes, void **memory, char reason[BRC_REASON_BYTES])
+{
+    *memory = plugin_of(device)->allocate(device->info.index, (size_t)bytes);
+    if (!*memory) {
+        snprintf(reason, BRC_REASON_BYTES, "omp_target_alloc gave none");
+        return false;
+    }
+    return plugin_of(device)->zero(device->info.index, *memory, (size_t)bytes) == 0;
+}
+
+static void target_release(brc_device *device, void *memory, int64_t bytes)
+{
+    (void)bytes;
+    plugin_of(device)->release(device->info.index, memory);
+}
+
+static brc_status target_write(brc_device *device, void *memory, int64_t offset, const void *data, int64_t bytes)
+{
+    return check(device, plugin_of(device)->write(device->info.index, memory, (size_t)offset, data, (size_t)bytes),
+                 "writing a buffer");
+}
+
+static brc_status target_read(brc_device *device, void *memory, int64_t offset, void *data, int64_t bytes)
+{
+    return check(device, plugin_of(device)->read(device->info.index, memory, (size_t)offset, data, (size_t)bytes),
+                 "reading a buffer");
+}
+
+static brc_status target_copy(brc_device *device, void *to, void *from, int64_t bytes)
+{
+    return check(device, plugin_of(device)->copy(device->info.index, to, from, (size_t)bytes), "copying a buffer");
+}
+
+static brc_status target_zero(brc_device *device, void *memory, int64_t bytes)
+{
+    return check(device, plugin_of(device)->zero(device->info.index, memory, (size_t)bytes), "clearing a buffer");
+}
+
+static brc_status target_find(brc_kernel *kernel)
+{
+    return brc_instance_find(kernel, ((const target_inside *)kernel->device->inside)->instance);
+}
+
+static brc_status target_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
+{
+    (void)n_items; /* the loop bound is an argument of the kernel */
+    plugin_of(kernel->device)->select(kernel->device->info.index);
+    return brc_instance_call(kernel, n_args, args);
+}
+
+static brc_status target_wait(brc_device *device)
+{
+    (void)device; /* target regions are not deferred: each has ended when its launch returns */
+    return BRC_OK;
+}
+
+const brc_backend brc_backend_target = {
+    .open = target_open,
+    .close = target_close,
+    .allocate = target_allocate,
+    .release = target_release,
+    .write = target_write,
+    .read = target_read,
+    .copy = target_copy,
+    .zero = target_zero,
+    .find = target_find,
+    .forget = brc_instance_forget,
+    .launch = target_launch,
+    .wait = target_wait,
+};

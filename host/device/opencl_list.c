@@ -1,0 +1,87 @@
+#include "opencl_list.h"
+#include <stdio.h>
+#include <string.h>
+
+int brc_opencl_devices(cl_device_id devices[BRC_OPENCL_MOST_DEVICES])
+{
+    cl_platform_id platforms[16];
+    cl_uint n_platforms = 0;
+    int n = 0;
+    if (clGetPlatformIDs(16, platforms, &n_platforms) != CL_SUCCESS) return 0;
+    if (n_platforms > 16) n_platforms = 16;
+    for (cl_uint p = 0; p < n_platforms && n < BRC_OPENCL_MOST_DEVICES; ++p) {
+        cl_uint found = 0;
+        const cl_uint room = (cl_uint)(BRC_OPENCL_MOST_DEVICES - n);
+        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, room, devices + n, &found) != CL_SUCCESS) continue;
+        n += (int)(found < room ? found : room);
+    }
+    return n;
+}
+
+static void device_text(cl_device_id device, cl_device_info what, char *text, size_t bytes)
+{
+    char whole[1024] = "";
+    if (clGetDeviceInfo(device, what, sizeof whole, whole, NULL) != CL_SUCCESS) whole[0] = '\0';
+    whole[sizeof whole - 1] = '\0';
+    snprintf(text, bytes, "%s", whole + strspn(whole, " "));
+}
+
+static uint64_t device_number(cl_device_id device, cl_device_info what)
+{
+    union {
+        cl_ulong wide;
+        cl_uint narrow;
+    } number = {0}; /* the queries used answer with 4 or 8 bytes; on little-endian machines both read the same */
+    size_t bytes = 0;
+    if (clGetDeviceInfo(device, what, sizeof number, &number, &bytes) != CL_SUCCESS) return 0;
+    return bytes == sizeof number.narrow ? number.narrow : number.wide;
+}
+
+static brc_device_info describe(cl_device_id device, int index)
+{
+    brc_device_info info = {.kind = BRC_DEVICE_OPENCL, .index = index};
+    cl_platform_id platform = NULL;
+    char platform_name[64] = "", version[32];
+    snprintf(info.selector, sizeof info.selector, "opencl:%d", index);
+    device_text(device, CL_DEVICE_NAME, info.name, sizeof info.name);
+    device_text(device, CL_DRIVER_VERSION, version, sizeof version);
+    (void)clGetDeviceInfo(device, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL);
+    if (platform) (void)clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof platform_name, platform_name, NULL);
+    snprintf(info.driver, sizeof info.driver, "OpenCL platform %s, driver %s", platform_name, version);
+    info.is_gpu = (device_number(device, CL_DEVICE_TYPE) & (CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR)) != 0;
+    info.has_double = device_number(device, CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
+    info.compute_units = (int)device_number(device, CL_DEVICE_MAX_COMPUTE_UNITS);
+    info.memory_bytes = (int64_t)device_number(device, CL_DEVICE_GLOBAL_MEM_SIZE);
+    info.largest_buffer_bytes = (int64_t)device_number(device, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
+    info.usable = true;
+    if (!device_number(device, CL_DEVICE_AVAILABLE)) {
+        info.usable = false;
+        snprintf(info.why_not, sizeof info.why_not, "its driver says it is not available; see the driver's own tools");
+    } else if (!device_number(device, CL_DEVICE_COMPILER_AVAILABLE)) {
+        info.usable = false;
+        snprintf(info.why_not, sizeof info.why_not, "its driver has no compiler, and the kernels are compiled at run time");
+    } else if (!device_number(device, CL_DEVICE_ENDIAN_LITTLE)) {
+        info.usable = false;
+        snprintf(info.why_not, sizeof info.why_not, "it is big-endian, and buffers are shared with the host as they are");
+    }
+    return info;
+}
+
+brc_status brc_device_opencl_list(brc_context *context, brc_device_list *list)
+{
+    cl_device_id devices[BRC_OPENCL_MOST_DEVICES];
+    const int n = brc_opencl_devices(devices);
+    for (int d = 0; d < n; ++d) {
+        const brc_device_info info = describe(devices[d], d);
+        BRC_TRY(brc_device_list_add(context, list, &info));
+    }
+    if (n > 0) return BRC_OK;
+    const brc_device_info none = {
+        .kind = BRC_DEVICE_OPENCL,
+        .selector = "opencl:0",
+        .name = "no OpenCL device",
+        .driver = "OpenCL loader without a platform",
+        .why_not = "no OpenCL driver is installed: install the GPU's own, or pocl-opencl-icd for the CPU",
+    };
+    return brc_device_list_add(context, list, &none);
+}

@@ -1,0 +1,117 @@
+#include "program_source.h"
+#include "kernel_signature.h"
+#include "../base/file.h"
+#include "../base/memory.h"
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_FILES = 64, MOST_FILE_BYTES = 1 << 20, HEAD_BYTES = 64 };
+
+typedef struct paste {
+    brc_context *context;
+    const char *folder; /* NULL: embedded */
+    char *text;
+    size_t length, capacity;
+    char names[MOST_FILES][64]; /* pasted or being pasted */
+    int n_names;
+} paste;
+
+static brc_status append(paste *p, const char *text, size_t length)
+{
+    if (p->length + length + 1 > p->capacity) {
+        p->capacity = 2 * (p->length + length + 1);
+        BRC_TRY(brc_memory_resize(p->context, (void **)&p->text, (int64_t)p->capacity, 1, "kernel text"));
+    }
+    memcpy(p->text + p->length, text, length);
+    p->length += length;
+    p->text[p->length] = '\0';
+    return BRC_OK;
+}
+
+/* The text of one file; *owned is what the caller frees (NULL for an embedded one). */
+static brc_status load(paste *p, const char *name, const char **text, char **owned)
+{
+    *owned = NULL;
+    if (!p->folder) {
+        for (int f = 0; f < brc_kernel_file_count; ++f)
+            if (strcmp(brc_kernel_files[f].name, name) == 0) {
+                *text = brc_kernel_files[f].text;
+                return BRC_OK;
+            }
+        return BRC_FAIL(p->context, BRC_INTERNAL, "kernel text %s is not embedded in this program", name);
+    }
+    char *path = NULL;
+    size_t bytes;
+    BRC_TRY(brc_file_join(p->context, p->folder, name, &path));
+    const brc_status status = brc_file_read_whole(p->context, path, MOST_FILE_BYTES, owned, &bytes);
+    brc_memory_free(path);
+    *text = *owned;
+    return status;
+}
+
+/* The name in `#include "name"` at the start of a line, or nothing. */
+static bool included_name(const char *line, char name[64])
+{
+    static const char head[] = "#include \"";
+    if (strncmp(line, head, sizeof head - 1) != 0) return false;
+    const char *const from = line + sizeof head - 1;
+    const size_t length = strcspn(from, "\"\n");
+    if (from[length] != '"' || length == 0 || length >= 64) return false;
+    memcpy(name, from, length);
+    name[length] = '\0';
+    return true;
+}
+
+static brc_status paste_file(paste *p, const char *name)
+{
+    brc_status status = BRC_OK;
+    char *owned = NULL;
+    const char *text = NULL;
+    char mark[96];
+    for (int k = 0; k < p->n_names; ++k)
+        if (strcmp(p->names[k], name) == 0) return BRC_OK;
+    if (p->n_names == MOST_FILES)
+        return BRC_FAIL(p->context, BRC_BAD_INPUT, "kernel text %s: more than %d files", name, (int)MOST_FILES);
+    snprintf(p->names[p->n_names++], sizeof p->names[0], "%s", name);
+    BRC_TRY_OR(cleanup, load(p, name, &text, &owned));
+    snprintf(mark, sizeof mark, "#line 1 \"%s\"\n", name);
+    BRC_TRY_OR(cleanup, append(p, mark, strlen(mark)));
+    int line_number = 1;
+    for (const char *line = text; *line; ++line_number) {
+        const char *const newline = strchr(line, '\n');
+        const size_t length = newline ? (size_t)(newline - line) + 1 : strlen(line);
+        char other[64];
+        if (included_name(line, other)) {
+            BRC_TRY_OR(cleanup, paste_file(p, other));
+            snprintf(mark, sizeof mark, "\n#line %d \"%s\"\n", line_number + 1, name);
+            BRC_TRY_OR(cleanup, append(p, mark, strlen(mark)));
+        } else {
+            BRC_TRY_OR(cleanup, append(p, line, length));
+        }
+        line += length;
+    }
+cleanup:
+    brc_memory_free(owned);
+    return status;
+}
+
+brc_status brc_program_source(brc_context *context, const char *folder, char **out)
+{
+    brc_status status = BRC_OK;
+    paste p = {.context = context, .folder = folder};
+    char head[HEAD_BYTES + 1];
+    *out = NULL;
+    /* room for the hash, which is known at the end */
+    snprintf(head, sizeof head, "%-*s\n", HEAD_BYTES - 1, "");
+    BRC_TRY_OR(cleanup, append(&p, head, HEAD_BYTES));
+    BRC_TRY_OR(cleanup, paste_file(&p, "kernels.h"));
+    uint64_t hash = 14695981039346656037u; /* FNV-1a */
+    for (size_t k = HEAD_BYTES; k < p.length; ++k) hash = (hash ^ (unsigned char)p.text[k]) * 1099511628211u;
+    const int length = snprintf(head, sizeof head, "#define BRC_KERNELS_HASH 0x%016llxUL", (unsigned long long)hash);
+    memcpy(p.text, head, (size_t)length);
+    *out = p.text;
+    p.text = NULL;
+cleanup:
+    brc_memory_free(p.text);
+    return status;
+}

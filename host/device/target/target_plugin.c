@@ -1,0 +1,90 @@
+/* Memory and control of OpenMP target devices, compiled by clang into libbreccia_target beside the kernel instances. */
+#include "../target_plugin.h"
+#include "kernel_hash.h"
+#include <omp.h>
+#include <string.h>
+
+#define BRC_DECLARE(name) extern const brc_kernel_instance name;
+BRC_TARGET_INSTANCES(BRC_DECLARE)
+#define BRC_ADDRESS(name) &name,
+static const brc_kernel_instance *const instances[] = {BRC_TARGET_INSTANCES(BRC_ADDRESS)};
+
+static int devices(void)
+{
+    return omp_get_num_devices();
+}
+
+static void *allocate(int device, size_t bytes)
+{
+    return omp_target_alloc(bytes, device);
+}
+
+static void release(int device, void *memory)
+{
+    omp_target_free(memory, device);
+}
+
+/* omp_target_memcpy takes its source without const. */
+static void *without_const(const void *p)
+{
+    return (void *)(uintptr_t)p;
+}
+
+static int write_to(int device, void *memory, size_t offset, const void *data, size_t bytes)
+{
+    return omp_target_memcpy(memory, without_const(data), bytes, offset, 0, device, omp_get_initial_device());
+}
+
+static int read_from(int device, const void *memory, size_t offset, void *data, size_t bytes)
+{
+    return omp_target_memcpy(data, without_const(memory), bytes, 0, offset, omp_get_initial_device(), device);
+}
+
+static int copy(int device, void *to, const void *from, size_t bytes)
+{
+    return omp_target_memcpy(to, without_const(from), bytes, 0, 0, device, device);
+}
+
+static int zero(int device, void *memory, size_t bytes)
+{
+    unsigned char *const first = memory;
+#pragma omp target teams distribute parallel for is_device_ptr(first) device(device)
+    for (size_t k = 0; k < bytes; ++k) first[k] = 0;
+    return 0;
+}
+
+static void select_device(int device)
+{
+    omp_set_default_device(device);
+}
+
+static int runs_on_device(int device)
+{
+    int on_host = 1;
+#pragma omp target map(from : on_host) device(device)
+    on_host = omp_is_initial_device();
+    return !on_host;
+}
+
+static const brc_target_plugin plugin = {
+    .version = BRC_TARGET_PLUGIN_VERSION,
+    .kernels_hash = BRC_KERNEL_TEXTS_HASH,
+    .compiler = "clang " __clang_version__,
+    .instances = instances,
+    .n_instances = (int)(sizeof instances / sizeof instances[0]),
+    .devices = devices,
+    .allocate = allocate,
+    .release = release,
+    .write = write_to,
+    .read = read_from,
+    .copy = copy,
+    .zero = zero,
+    .select = select_device,
+    .runs_on_device = runs_on_device,
+};
+
+__attribute__((visibility("default"))) const brc_target_plugin *brc_target_plugin_get(void);
+const brc_target_plugin *brc_target_plugin_get(void)
+{
+    return &plugin;
+}
