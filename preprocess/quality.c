@@ -42,13 +42,17 @@ static double support(const brc_domain *domain, int64_t e, double *shortest)
 void brc_quality_measure(brc_domain *domain, int n_threads)
 {
     brc_quality *q = &domain->quality;
-    double volume = 0.0, worst = 0.0, least = HUGE_VAL, shortest = HUGE_VAL;
+    double volume = 0.0, lost = 0.0, worst = 0.0, least = HUGE_VAL, shortest = HUGE_VAL;
     memset(q->coordination_histogram, 0, sizeof q->coordination_histogram);
     for (int64_t e = 0; e < domain->n_elements; ++e) {
         const int64_t k = domain->row_start[e + 1] - domain->row_start[e];
         q->coordination_histogram[k < HISTOGRAM_BINS ? k : HISTOGRAM_BINS - 1]++;
-        volume += domain->volume[e];
+        /* compensated: a plain sum of a million equal volumes is off by 1e-11 */
+        const double sum = volume + domain->volume[e];
+        lost += volume >= domain->volume[e] ? (volume - sum) + domain->volume[e] : (domain->volume[e] - sum) + volume;
+        volume = sum;
     }
+    volume += lost;
 #pragma omp parallel for schedule(static) num_threads(n_threads) reduction(max : worst) reduction(min : least, shortest)
     for (int64_t e = 0; e < domain->n_elements; ++e) {
         worst = fmax(worst, brc_domain_closure(domain, e));

@@ -11,6 +11,8 @@
 /* A seed this near to a wall [of the spacing] has no room for a cell of its own side and is dropped. */
 #define WALL_MARGIN 1e-6
 #define DEFAULT_MIN_DISTANCE 1e-6
+/* Less noise than this cannot be told from the rounding of a regular grid. */
+#define LEAST_SPREAD 1e-6
 
 brc_status brc_fill_check(brc_context *context, const brc_fill *fill)
 {
@@ -34,6 +36,10 @@ brc_status brc_fill_check(brc_context *context, const brc_fill *fill)
                             (long long)fill->cells[k], "xyz"[k]);
     if (!(fill->spread >= 0.0 && fill->spread <= 1.0))
         return BRC_FAIL(context, BRC_BAD_INPUT, "fill: spread is %g, must be 0 to 1 (0 to 100 %%)", fill->spread);
+    if (fill->spread > 0.0 && fill->spread < LEAST_SPREAD)
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "fill: spread %g leaves faces as small as rounding; use 0 for cubes, or %g or more", fill->spread,
+                        LEAST_SPREAD);
     if (fill->lloyd_sweeps < 0)
         return BRC_FAIL(context, BRC_BAD_INPUT, "fill: %d Lloyd sweeps, must be 0 or more", fill->lloyd_sweeps);
     if (!(fill->min_distance >= 0.0 && isfinite(fill->min_distance)))

@@ -2,8 +2,8 @@
  * while threads compute, each with its own search state (voro_compute) and cell.
  *
  * Voro++ compares with an absolute tolerance of 1e-11 in the square of its length unit. Coordinates are therefore
- * multiplied by a power of two (which rounds nothing) that makes the spacing about 10: the tolerance is then 1e-13 of a
- * squared spacing, well above rounding and far below any face that matters. */
+ * multiplied by a power of two (which rounds nothing) that makes the spacing 1 to 16: the tolerance is then 1e-11 to
+ * 4e-14 of a squared spacing, above the rounding of the coordinates and far below any face that matters. */
 extern "C" {
 #include "../host/base/status.h"
 #include "shape.h"
@@ -62,12 +62,15 @@ private:
     const double scale_, reach_;
 };
 
-/* A power of two that makes `spacing` lie in [8, 16). */
-double scale_for(double spacing)
+/* A power of two that makes `spacing` as large as the rounding of coordinates up to `farthest` allows, 1 to 16: on a
+ * regular grid corners coincide to rounding, and Voro++ must see them as one. */
+double scale_for(double spacing, double farthest)
 {
+    const double rounding = 30.0 * 2.2e-16 * farthest / spacing;
+    const double length = std::fmin(16.0, std::fmax(2.0, std::sqrt(voro::tolerance / rounding)));
     int exponent;
-    std::frexp(spacing, &exponent); /* spacing = f 2^exponent with f in [1/2, 1) */
-    return std::ldexp(1.0, 4 - exponent);
+    std::frexp(length / spacing, &exponent); /* = f 2^exponent with f in [1/2, 1) */
+    return std::ldexp(1.0, exponent - 1);
 }
 
 int n_blocks(double width, double spacing)
@@ -159,7 +162,10 @@ extern "C" brc_status brc_voronoi_create(brc_context *context, const double *pos
         std::unique_ptr<brc_voronoi> v(new brc_voronoi);
         v->position = position;
         v->walls = walls;
-        v->scale = scale_for(spacing);
+        double farthest = spacing;
+        for (int k = 0; k < 3; ++k)
+            farthest = std::fmax(farthest, std::fmax(std::fabs(walls->box[0][k]), std::fabs(walls->box[1][k])));
+        v->scale = scale_for(spacing, farthest);
         v->reach = FIRST_REACH * spacing;
         int blocks[3];
         double low[3], high[3];
