@@ -99,8 +99,8 @@ static bool is_known(const brc_scene *scene, brc_reference refers, const char *n
 
 static void check_reference(brc_reader *reader, const brc_place *place, const char **words)
 {
-    static const char *const WHAT[] = {"", "wall or set of faces", "set of elements", "wall or set", "wall",
-                                       "sensor", "stage"};
+    static const char *const WHAT[] = {
+        "", "wall or set of faces", "set of elements", "wall or set", "wall", "sensor", "stage"};
     const brc_scene *scene = reader->scene;
     const brc_reference refers = place->entry->refers;
     const char *name = place->address;
@@ -111,15 +111,19 @@ static void check_reference(brc_reader *reader, const brc_place *place, const ch
     if (refers == BRC_REFERS_SENSOR && is_broken(reader, "sensors")) return;
     if (refers == BRC_REFERS_STAGE && is_broken(reader, "stages")) return;
     const char *near = brc_nearest_word(name, n, words);
-    const char *hint = near ? "" : about_sets ? "; define it under sets" : refers == BRC_REFERS_SENSOR ? "; define it under sensors" : "";
+    const char *hint = near                          ? ""
+                       : about_sets                  ? "; define it under sets"
+                       : refers == BRC_REFERS_SENSOR ? "; define it under sensors"
+                                                     : "";
     int n_sets;
     const char *kind = refers == BRC_REFERS_ELEMENTS && is_known(scene, BRC_REFERS_SET, name, words, &n_sets)
                            ? " (that name is a set of faces)"
                        : refers == BRC_REFERS_FACES && is_known(scene, BRC_REFERS_ELEMENTS, name, words, &n_sets)
                            ? " (that name is a set of elements)"
                            : "";
-    brc_problems_add(reader->problems, place->mark, "%s: there is no %s '%s'%s%s%s%s%s", place->entry->key, WHAT[refers],
-                     name, kind, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", hint);
+    brc_problems_add(reader->problems, place->mark, "%s: there is no %s '%s'%s%s%s%s%s", place->entry->key,
+                     WHAT[refers], name, kind, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "",
+                     hint);
 }
 
 static brc_status check_references(brc_reader *reader)
@@ -128,7 +132,8 @@ static brc_status check_references(brc_reader *reader)
     const char **words = NULL;
     BRC_TRY(BRC_ALLOCATE(reader->context, &words, 8 + scene->n_sets + scene->n_sensors + scene->n_stages, "names"));
     for (int64_t i = 0; i < reader->n_places; ++i)
-        if (reader->places[i].entry && reader->places[i].entry->refers) check_reference(reader, &reader->places[i], words);
+        if (reader->places[i].entry && reader->places[i].entry->refers)
+            check_reference(reader, &reader->places[i], words);
     brc_memory_free(words);
     return BRC_OK;
 }
@@ -150,20 +155,24 @@ static void check_bodies(brc_reader *reader)
     for (int b = 0; b < scene->n_bodies; ++b) {
         const brc_body *body = &scene->bodies[b];
         const bool shaped = body->shape.size[0] > 0 || body->shape.radius > 0;
-        const bool filled = body->fill.spread > 0 || body->fill.n_elements || body->fill.spacing > 0 || body->fill.cells[0];
+        const bool filled =
+            body->fill.spread > 0 || body->fill.n_elements || body->fill.spacing > 0 || body->fill.cells[0];
         if (shaped && !filled)
-            COMPLAIN(reader, NULL, body, "the key 'fill' is missing in this body: a shape must be cut, as in "
-                                         "fill: {noisy_grid: {elements: 1000}}");
+            COMPLAIN(reader, NULL, body,
+                     "the key 'fill' is missing in this body: a shape must be cut, as in "
+                     "fill: {noisy_grid: {elements: 1000}}");
         if (body->domain_file[0] && filled)
             COMPLAIN(reader, body->domain_file, body, "domain: the file is cut already; leave out fill");
         const brc_mark given = place_of(reader, &body->material, NULL);
         const brc_mark start = {0, 1, 1};
         if (scene->n_materials > 1 && memcmp(&given, &start, sizeof given) == 0)
-            COMPLAIN(reader, NULL, body, "the key 'material' is missing in this body: the scene has %d materials, name one",
+            COMPLAIN(reader, NULL, body,
+                     "the key 'material' is missing in this body: the scene has %d materials, name one",
                      scene->n_materials);
         for (int c = 0; c < b; ++c)
             if (strcmp(scene->bodies[c].name, body->name) == 0) {
-                COMPLAIN(reader, body->name, body, "name: another body is called '%s' too; give each its own", body->name);
+                COMPLAIN(reader, body->name, body, "name: another body is called '%s' too; give each its own",
+                         body->name);
                 break;
             }
         for (int r = 0; r < body->n_regions; ++r)
@@ -174,8 +183,10 @@ static void check_bodies(brc_reader *reader)
         check_predicate(reader, &set->where, set->kind == BRC_SET_ELEMENTS);
         for (int w = 0; w < 8; ++w)
             if (strcmp(set->name, ALL_WALLS[w]) == 0)
-                COMPLAIN(reader, NULL, set, "the set '%s' has the name of a wall; walls are sets already, choose another "
-                                            "name", set->name);
+                COMPLAIN(reader, NULL, set,
+                         "the set '%s' has the name of a wall; walls are sets already, choose another "
+                         "name",
+                         set->name);
     }
 }
 
@@ -197,15 +208,19 @@ static void check_pair(brc_reader *reader, const brc_load *before, const brc_loa
     for (int k = 0; k < 3; ++k) {
         if (is_motion(before) && is_motion(load) && moves_elements(before) == moves_elements(load) &&
             before->component[k] && load->component[k]) {
-            COMPLAIN(reader, load->set, load, "set: the %c component of '%s' is prescribed by an earlier load of this "
-                                              "stage too; keep one", "xyz"[k], load->set);
+            COMPLAIN(reader, load->set, load,
+                     "set: the %c component of '%s' is prescribed by an earlier load of this "
+                     "stage too; keep one",
+                     "xyz"[k], load -> set);
             return;
         }
         const brc_load *push = is_motion(before) ? load : before, *move = is_motion(before) ? before : load;
         if (push->kind == BRC_LOAD_TRACTION && is_motion(move) && !moves_elements(move) && move->component[k] &&
             push->value[k] != 0) {
-            COMPLAIN(reader, load->set, load, "set: a traction along %c has no effect where the %c component of '%s' is "
-                                              "prescribed; keep one", "xyz"[k], "xyz"[k], load->set);
+            COMPLAIN(reader, load->set, load,
+                     "set: a traction along %c has no effect where the %c component of '%s' is "
+                     "prescribed; keep one",
+                     "xyz"[k], "xyz"[k], load -> set);
             return;
         }
     }
@@ -245,7 +260,8 @@ static brc_status check_stages(brc_reader *reader)
         BRC_TRY(check_stage(reader, stage));
         for (int other = 0; other < k; ++other) {
             if (stage->name[0] == '\0' || strcmp(scene->stages[other].name, stage->name) != 0) continue;
-            COMPLAIN(reader, stage->name, stage, "name: another stage is called '%s' too; give each its own", stage->name);
+            COMPLAIN(reader, stage->name, stage, "name: another stage is called '%s' too; give each its own",
+                     stage->name);
             break;
         }
     }
@@ -261,8 +277,10 @@ static void check_sensors(brc_reader *reader)
     for (int i = 0; i < scene->n_sensors; ++i) {
         const brc_sensor *sensor = &scene->sensors[i];
         if (sensor->kind == BRC_SENSOR_MODE && sensor->index >= n_modes && !is_broken(reader, "stages"))
-            COMPLAIN(reader, &sensor->index, sensor, "mode: %d is not computed: the scene's last modes stage computes %d, "
-                     "counted from 0", (int)sensor->index, (int)n_modes);
+            COMPLAIN(reader, &sensor->index, sensor,
+                     "mode: %d is not computed: the scene's last modes stage computes %d, "
+                     "counted from 0",
+                     (int)sensor->index, (int)n_modes);
     }
 }
 
@@ -279,8 +297,8 @@ static void check_unit(brc_reader *reader, const brc_measure *measure, const cha
 {
     const brc_sensor *sensor = sensor_named(reader->scene, name);
     if (!sensor || strcmp(brc_sensor_unit(sensor), unit) == 0 || strcmp(brc_sensor_unit(sensor), other) == 0) return;
-    COMPLAIN(reader, name, measure, "the sensor '%s' gives values in %s; expected %s%s%s%s", name, brc_sensor_unit(sensor),
-             unit, other[0] ? " or " : "", other, why);
+    COMPLAIN(reader, name, measure, "the sensor '%s' gives values in %s; expected %s%s%s%s", name,
+             brc_sensor_unit(sensor), unit, other[0] ? " or " : "", other, why);
 }
 
 static void check_measure(brc_reader *reader, const brc_measure *measure)
@@ -318,8 +336,9 @@ static void check_measure(brc_reader *reader, const brc_measure *measure)
 
 brc_status brc_reader_check(brc_reader *reader)
 {
-    if (reader->n_places > 0)
-        qsort(reader->places, (size_t)reader->n_places, sizeof *reader->places, by_address);
+    if (reader->n_places > 0) qsort(reader->places, (size_t)reader->n_places, sizeof *reader->places, by_address);
+    brc_model *model = &reader->scene->model;
+    if (model->kind == BRC_MODEL_DLSM && !model->compaction) model->beta = 0;
     BRC_TRY(check_references(reader));
     if (!is_broken(reader, "bodies")) check_bodies(reader);
     BRC_TRY(check_stages(reader));

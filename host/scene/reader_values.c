@@ -94,7 +94,8 @@ static void complain_of_range(brc_reader *reader, const brc_entry *entry, const 
                      entry->why ? ": " : "", entry->why ? entry->why : "");
 }
 
-static bool read_quantity(brc_reader *reader, const brc_entry *entry, const char *unit, const brc_node *node, double *out)
+static bool read_quantity(brc_reader *reader, const brc_entry *entry, const char *unit, const brc_node *node,
+                          double *out)
 {
     if (node->kind != BRC_NODE_SCALAR) {
         complain(reader, entry, unit, node, "is not a single value");
@@ -115,7 +116,8 @@ static bool read_quantity(brc_reader *reader, const brc_entry *entry, const char
     return false;
 }
 
-static bool read_quantities(brc_reader *reader, const brc_entry *entry, const char *unit, const brc_node *node, double *out)
+static bool read_quantities(brc_reader *reader, const brc_entry *entry, const char *unit, const brc_node *node,
+                            double *out)
 {
     if (node->kind != BRC_NODE_LIST || node->n_children != entry->length) {
         complain(reader, entry, unit, node, "is not that");
@@ -252,8 +254,10 @@ static brc_status read_table(brc_reader *reader, const brc_entry *entry, const b
     }
     BRC_TRY(BRC_ALLOCATE(reader->context, &out->time, node->n_children, "table"));
     BRC_TRY(BRC_ALLOCATE(reader->context, &out->value, node->n_children, "table"));
-    const brc_entry time = {.key = "table, time", .type = BRC_TYPE_QUANTITY,
-                            .range = {0, unit[0] ? INFINITY : 1, false, false}, .sample = unit[0] ? "1 ms" : "0.5"};
+    const brc_entry time = {.key = "table, time",
+                            .type = BRC_TYPE_QUANTITY,
+                            .range = {0, unit[0] ? INFINITY : 1, false, false},
+                            .sample = unit[0] ? "1 ms" : "0.5"};
     const brc_entry factor = {.key = "table, factor", .type = BRC_TYPE_QUANTITY, .sample = "0.5"};
     for (const brc_node *row = node->first; row; row = row->next) {
         if (row->kind != BRC_NODE_LIST || row->n_children != 2) {
@@ -264,8 +268,10 @@ static brc_status read_table(brc_reader *reader, const brc_entry *entry, const b
         const bool good = read_quantity(reader, &time, unit, row->first, &out->time[k]);
         if (!read_quantity(reader, &factor, "", row->last, &out->value[k]) || !good) continue;
         if (k > 0 && !(out->time[k] > out->time[k - 1])) {
-            brc_problems_add(reader->problems, row->first->mark, "table: the time '%s' does not come after the one "
-                             "before; expected times that grow", row->first->text);
+            brc_problems_add(reader->problems, row->first->mark,
+                             "table: the time '%s' does not come after the one "
+                             "before; expected times that grow",
+                             row->first->text);
             continue;
         }
         ++out->n;

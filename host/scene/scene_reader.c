@@ -178,10 +178,14 @@ static brc_status read_default(brc_reader *reader, const brc_section *section, c
     if (entry->required)
         brc_problems_add(reader->problems, map->mark, "the key '%s' is missing in this %s: %s%s%s%s%s", entry->key,
                          section->title, entry->meaning, entry->sample ? ", as in " : "",
-                         entry->sample ? entry->key : "", entry->sample ? ": " : "", entry->sample ? entry->sample : "");
+                         entry->sample ? entry->key : "", entry->sample ? ": " : "",
+                         entry->sample ? entry->sample : "");
     if (entry->required || !entry->given) return BRC_OK;
     const brc_node node = {.kind = strcmp(entry->given, "{}") == 0 ? BRC_NODE_MAP : BRC_NODE_SCALAR,
-                           .mark = map->mark, .key_mark = map->mark, .key = entry->key, .text = entry->given};
+                           .mark = map->mark,
+                           .key_mark = map->mark,
+                           .key = entry->key,
+                           .text = entry->given};
     return read_entry(reader, entry, &node, base);
 }
 
@@ -232,13 +236,16 @@ static brc_status read_tree(brc_reader *reader, brc_tree *tree, const char *name
     const brc_mark start = {0, 1, 1};
     if (!root) {
         if (brc_problems_count(reader->problems) == 0)
-            brc_problems_add(reader->problems, start, "the scene is empty; expected keys such as version, materials, "
-                                                      "bodies, stages");
+            brc_problems_add(reader->problems, start,
+                             "the scene is empty; expected keys such as version, materials, "
+                             "bodies, stages");
         return BRC_OK;
     }
     if (root->kind != BRC_NODE_MAP) {
-        brc_problems_add(reader->problems, root->mark, "expected a map with keys such as version, materials, bodies, "
-                         "stages; found %s", brc_node_describe(root, found, sizeof found));
+        brc_problems_add(reader->problems, root->mark,
+                         "expected a map with keys such as version, materials, bodies, "
+                         "stages; found %s",
+                         brc_node_describe(root, found, sizeof found));
         return BRC_OK;
     }
     for (int i = 0; i < n_overrides; ++i)

@@ -25,11 +25,12 @@ static const brc_entry SCENE[] = {
      .meaning = "numbers watched through the run, by name"},
     {"measure", BRC_TYPE_NAMED, .section = &brc_schema_measure, COUNTED(brc_scene, measures, n_measures),
      .meaning = "numbers computed from sensors when the run ends, by name"},
-    {"interactions", BRC_TYPE_LATER, .meaning = "contact and interfaces come in a later version; bodies do not touch yet"},
+    {"interactions", BRC_TYPE_LATER,
+     .meaning = "contact and interfaces come in a later version; bodies do not touch yet"},
     {"fracture", BRC_TYPE_LATER, .meaning = "breaking comes in a later version; solids are elastic yet"},
 };
-static const brc_section SCENE_SECTION = {.title = "scene", .meaning = "The top of a scene file.", ENTRIES(SCENE),
-                                          .size = sizeof(brc_scene)};
+static const brc_section SCENE_SECTION = {
+    .title = "scene", .meaning = "The top of a scene file.", ENTRIES(SCENE), .size = sizeof(brc_scene)};
 
 const brc_section *brc_schema(void)
 {

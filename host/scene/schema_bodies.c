@@ -11,13 +11,16 @@ static const brc_entry MATERIAL[] = {
     {"density", BRC_TYPE_QUANTITY, "kg/m^3", POSITIVE, FIELD(brc_material, density), .required = true,
      .sample = "2500 kg/m^3", .meaning = "mass per volume"},
 };
-const brc_section brc_schema_material = {.title = "material", .meaning = "An isotropic elastic material.",
-                                         ENTRIES(MATERIAL), .size = sizeof(brc_material), .sample_name = "glass"};
+const brc_section brc_schema_material = {.title = "material",
+                                         .meaning = "An isotropic elastic material.",
+                                         ENTRIES(MATERIAL),
+                                         .size = sizeof(brc_material),
+                                         .sample_name = "glass"};
 
 static const brc_entry DLSM[] = {
     {"compaction", BRC_TYPE_BOOL, FIELD(brc_model, compaction), .given = "true",
      .meaning = "the cross term beta that makes near-incompressible and auxetic solids accurate"},
-    {"beta", BRC_TYPE_QUANTITY, "", WITHIN(0, 1), FIELD(brc_model, beta), .given = "1",
+    {"beta", BRC_TYPE_QUANTITY, "", WITHIN(0, 2), FIELD(brc_model, beta), .given = "1",
      .meaning = "weight of the cross term; without effect when compaction is false"},
     {"tau", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 10), FIELD(brc_model, tau), .given = "0.1",
      .why = "without it modes of the grid cost no energy", .meaning = "weight of the stabilisation"},
@@ -38,8 +41,12 @@ static const brc_entry MODEL[] = {
     {"dlsm-published", BRC_TYPE_STRUCT, .section = &PUBLISHED_SECTION, .value = BRC_MODEL_DLSM_PUBLISHED,
      .meaning = "the published, not conservative form, for comparison"},
 };
-const brc_section brc_schema_model = {.title = "model", .meaning = "The law between the elements.", ENTRIES(MODEL),
-                                      .one_of = true, .has_kind = true, .kind_offset = offsetof(brc_model, kind)};
+const brc_section brc_schema_model = {.title = "model",
+                                      .meaning = "The law between the elements.",
+                                      ENTRIES(MODEL),
+                                      .one_of = true,
+                                      .has_kind = true,
+                                      .kind_offset = offsetof(brc_model, kind)};
 
 static const brc_entry BOX[] = {
     {"origin", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]",
@@ -47,8 +54,8 @@ static const brc_entry BOX[] = {
     {"size", BRC_TYPE_VECTOR, "m", POSITIVE, FIELD(brc_shape, size), .length = 3, .required = true,
      .sample = "[1 m, 1 m, 1 m]", .meaning = "edge lengths"},
 };
-static const brc_section BOX_SECTION = {.title = "box", .meaning = "Walls: x- x+ y- y+ z- z+. A plate is a flat box.",
-                                        ENTRIES(BOX)};
+static const brc_section BOX_SECTION = {
+    .title = "box", .meaning = "Walls: x- x+ y- y+ z- z+. A plate is a flat box.", ENTRIES(BOX)};
 static const brc_entry CYLINDER[] = {
     {"origin", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]",
      .meaning = "centre of the first end"},
@@ -59,7 +66,8 @@ static const brc_entry CYLINDER[] = {
      .meaning = "of the round"},
 };
 static const brc_section CYLINDER_SECTION = {
-    .title = "cylinder", .meaning = "Walls: the two ends, x- and x+ for the axis x, and side. A disc is a short cylinder.",
+    .title = "cylinder",
+    .meaning = "Walls: the two ends, x- and x+ for the axis x, and side. A disc is a short cylinder.",
     ENTRIES(CYLINDER)};
 static const brc_entry SPHERE[] = {
     {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]", .meaning = "centre"},
@@ -73,8 +81,11 @@ static const brc_entry SHAPE[] = {
      .meaning = "a cylinder along an axis"},
     {"sphere", BRC_TYPE_STRUCT, .section = &SPHERE_SECTION, .value = BRC_SHAPE_SPHERE, .meaning = "a sphere"},
 };
-static const brc_section SHAPE_SECTION = {.title = "shape", .meaning = "The solid before it is cut into cells.",
-                                          ENTRIES(SHAPE), .one_of = true, .has_kind = true,
+static const brc_section SHAPE_SECTION = {.title = "shape",
+                                          .meaning = "The solid before it is cut into cells.",
+                                          ENTRIES(SHAPE),
+                                          .one_of = true,
+                                          .has_kind = true,
                                           .kind_offset = offsetof(brc_shape, kind)};
 
 static const brc_entry NOISY_GRID[] = {
@@ -87,21 +98,27 @@ static const brc_entry NOISY_GRID[] = {
     {"spread", BRC_TYPE_QUANTITY, "", WITHIN(0, 1), FIELD(brc_fill, spread), .given = "90 %",
      .meaning = "width of the noise over the grid's spacing; 0 gives a regular grid"},
     {"lloyd", BRC_TYPE_INTEGER, WITHIN(0, 1000), FIELD(brc_fill, lloyd_sweeps), .given = "0",
-     .meaning = "relaxation sweeps, each moving every seed to the centroid of its cell; rounder cells, longer time steps"},
+     .meaning =
+         "relaxation sweeps, each moving every seed to the centroid of its cell; rounder cells, longer time steps"},
     {"min_distance", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_fill, min_distance), .given = "auto", .word = "auto",
      .sample = "1 um", .meaning = "seeds nearer than this to an earlier one are dropped; auto: 1e-6 of the spacing"},
     {"seed", BRC_TYPE_INTEGER, WITHIN(0, 9e15), FIELD(brc_fill, seed), .given = "1",
      .meaning = "of the random numbers; equal seeds give equal solids"},
 };
-static const brc_section NOISY_GRID_SECTION = {
-    .title = "noisy_grid", .meaning = "Seeds on a regular grid, each moved at random.", ENTRIES(NOISY_GRID),
-    .groups = {{BRC_GROUP_EXACTLY_ONE, {"elements", "spacing", "cells"}}}};
+static const brc_section NOISY_GRID_SECTION = {.title = "noisy_grid",
+                                               .meaning = "Seeds on a regular grid, each moved at random.",
+                                               ENTRIES(NOISY_GRID),
+                                               .groups = {{BRC_GROUP_EXACTLY_ONE, {"elements", "spacing", "cells"}}}};
 static const brc_entry FILL[] = {
     {"noisy_grid", BRC_TYPE_STRUCT, .section = &NOISY_GRID_SECTION, .value = BRC_FILL_NOISY_GRID,
      .meaning = "a regular grid with noise"},
 };
-static const brc_section FILL_SECTION = {.title = "fill", .meaning = "Where the seeds of the cells are.", ENTRIES(FILL),
-                                         .one_of = true, .has_kind = true, .kind_offset = offsetof(brc_fill, kind)};
+static const brc_section FILL_SECTION = {.title = "fill",
+                                         .meaning = "Where the seeds of the cells are.",
+                                         ENTRIES(FILL),
+                                         .one_of = true,
+                                         .has_kind = true,
+                                         .kind_offset = offsetof(brc_fill, kind)};
 
 static const brc_entry PREDICATE_BOX[] = {
     {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, box[0]), .length = 3, .required = true, .sample = "[0, 0, 0]",
@@ -109,16 +126,16 @@ static const brc_entry PREDICATE_BOX[] = {
     {"to", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, box[1]), .length = 3, .required = true,
      .sample = "[1 m, 1 m, 50 cm]", .meaning = "largest corner, inclusive"},
 };
-static const brc_section PREDICATE_BOX_SECTION = {.title = "where box", .meaning = "Inside a box.",
-                                                  ENTRIES(PREDICATE_BOX)};
+static const brc_section PREDICATE_BOX_SECTION = {
+    .title = "where box", .meaning = "Inside a box.", ENTRIES(PREDICATE_BOX)};
 static const brc_entry PREDICATE_SPHERE[] = {
     {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, sphere_centre), .length = 3, .required = true,
      .sample = "[50 cm, 50 cm, 50 cm]", .meaning = "centre"},
     {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, sphere_radius), .required = true,
      .sample = "20 cm", .meaning = "radius, inclusive"},
 };
-static const brc_section PREDICATE_SPHERE_SECTION = {.title = "where sphere", .meaning = "Inside a sphere.",
-                                                     ENTRIES(PREDICATE_SPHERE)};
+static const brc_section PREDICATE_SPHERE_SECTION = {
+    .title = "where sphere", .meaning = "Inside a sphere.", ENTRIES(PREDICATE_SPHERE)};
 static const brc_entry PREDICATE_CYLINDER[] = {
     {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, cylinder_point), .length = 3, .required = true,
      .sample = "[0, 0, 0]", .meaning = "a point of the axis"},
@@ -127,29 +144,29 @@ static const brc_entry PREDICATE_CYLINDER[] = {
     {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, cylinder_radius), .required = true,
      .sample = "20 cm", .meaning = "radius, inclusive"},
 };
-static const brc_section PREDICATE_CYLINDER_SECTION = {.title = "where cylinder", .meaning = "Inside an endless cylinder.",
-                                                       ENTRIES(PREDICATE_CYLINDER)};
+static const brc_section PREDICATE_CYLINDER_SECTION = {
+    .title = "where cylinder", .meaning = "Inside an endless cylinder.", ENTRIES(PREDICATE_CYLINDER)};
 static const brc_entry HALF_SPACE[] = {
     {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, half_space_point), .length = 3, .required = true,
      .sample = "[50 cm, 0, 0]", .meaning = "a point of the plane"},
     {"normal", BRC_TYPE_DIRECTION, "", FIELD(brc_predicate, half_space_normal), .length = 3, .required = true,
      .sample = "[1, 0, 0]", .meaning = "points into the half space"},
 };
-static const brc_section HALF_SPACE_SECTION = {.title = "where half_space", .meaning = "On one side of a plane, inclusive.",
-                                               ENTRIES(HALF_SPACE)};
+static const brc_section HALF_SPACE_SECTION = {
+    .title = "where half_space", .meaning = "On one side of a plane, inclusive.", ENTRIES(HALF_SPACE)};
 static const brc_entry NORMAL[] = {
     {"direction", BRC_TYPE_DIRECTION, "", FIELD(brc_predicate, normal), .length = 3, .required = true,
      .sample = "[0, 0, 1]", .meaning = "where the outward normal points"},
     {"within", BRC_TYPE_QUANTITY, "rad", ABOVE_UP_TO(0, M_PI), FIELD(brc_predicate, normal_angle), .given = "1 deg",
      .meaning = "largest angle between the two"},
 };
-static const brc_section NORMAL_SECTION = {.title = "where normal", .meaning = "Faces that look in a direction.",
-                                           ENTRIES(NORMAL)};
+static const brc_section NORMAL_SECTION = {
+    .title = "where normal", .meaning = "Faces that look in a direction.", ENTRIES(NORMAL)};
 static const brc_entry PREDICATE[] = {
-    {"wall", BRC_TYPE_NAME, FIELD(brc_predicate, wall), FLAG(brc_predicate, has_wall),
-     .refers = BRC_REFERS_WALL, .sample = "x-",
-     .meaning = "faces of this wall; elements with a face on it"},
-    {"box", BRC_TYPE_STRUCT, .section = &PREDICATE_BOX_SECTION, FLAG(brc_predicate, has_box), .meaning = "inside a box"},
+    {"wall", BRC_TYPE_NAME, FIELD(brc_predicate, wall), FLAG(brc_predicate, has_wall), .refers = BRC_REFERS_WALL,
+     .sample = "x-", .meaning = "faces of this wall; elements with a face on it"},
+    {"box", BRC_TYPE_STRUCT, .section = &PREDICATE_BOX_SECTION, FLAG(brc_predicate, has_box),
+     .meaning = "inside a box"},
     {"sphere", BRC_TYPE_STRUCT, .section = &PREDICATE_SPHERE_SECTION, FLAG(brc_predicate, has_sphere),
      .meaning = "inside a sphere"},
     {"cylinder", BRC_TYPE_STRUCT, .section = &PREDICATE_CYLINDER_SECTION, FLAG(brc_predicate, has_cylinder),
@@ -160,19 +177,23 @@ static const brc_entry PREDICATE[] = {
      .meaning = "faces that look in a direction; not for elements"},
 };
 const brc_section brc_schema_predicate = {
-    .title = "where", .meaning = "Which faces (by centroid and outward normal) or elements (by position). All given parts "
-                                 "must hold. A word alone is a wall.",
-    ENTRIES(PREDICATE), .short_key = "wall",
+    .title = "where",
+    .meaning = "Which faces (by centroid and outward normal) or elements (by position). All given parts "
+               "must hold. A word alone is a wall.",
+    ENTRIES(PREDICATE),
+    .short_key = "wall",
     .groups = {{BRC_GROUP_AT_LEAST_ONE, {"wall", "box", "sphere", "cylinder", "half_space", "normal"}}}};
 
 static const brc_entry REGION[] = {
     {"material", BRC_TYPE_MATERIAL, FIELD(brc_region, material), .required = true, .sample = "glass",
      .meaning = "of the elements in the region"},
-    {"where", BRC_TYPE_STRUCT, .section = &brc_schema_predicate, .offset = offsetof(brc_region, where), .required = true,
-     .meaning = "which elements"},
+    {"where", BRC_TYPE_STRUCT, .section = &brc_schema_predicate, .offset = offsetof(brc_region, where),
+     .required = true, .meaning = "which elements"},
 };
-static const brc_section REGION_SECTION = {.title = "region", .meaning = "A part of a body made of another material.",
-                                           ENTRIES(REGION), .size = sizeof(brc_region)};
+static const brc_section REGION_SECTION = {.title = "region",
+                                           .meaning = "A part of a body made of another material.",
+                                           ENTRIES(REGION),
+                                           .size = sizeof(brc_region)};
 static const brc_entry POSE[] = {
     {"translation", BRC_TYPE_VECTOR, "m", FIELD(brc_body, translation), .length = 3, .sample = "[0, 1 m, 0]",
      .meaning = "applied after the rotation"},
@@ -184,7 +205,8 @@ static const brc_entry BODY[] = {
     {"name", BRC_TYPE_NAME, FIELD(brc_body, name), .given = "body", .meaning = "for messages and overrides"},
     {"domain", BRC_TYPE_STRING, FIELD(brc_body, domain_file), .sample = "domain.h5",
      .meaning = "domain file written by `breccia build`, relative to the scene; in place of shape and fill"},
-    {"shape", BRC_TYPE_STRUCT, .section = &SHAPE_SECTION, .offset = offsetof(brc_body, shape), .meaning = "what is cut"},
+    {"shape", BRC_TYPE_STRUCT, .section = &SHAPE_SECTION, .offset = offsetof(brc_body, shape),
+     .meaning = "what is cut"},
     {"fill", BRC_TYPE_STRUCT, .section = &FILL_SECTION, .offset = offsetof(brc_body, fill),
      .meaning = "how it is cut; due with a shape"},
     {"material", BRC_TYPE_MATERIAL, FIELD(brc_body, material), .sample = "glass",
@@ -196,7 +218,10 @@ static const brc_entry BODY[] = {
      .given = "auto", .word = "auto", .sample = "1e-7",
      .meaning = "faces below this part of the mean face area are dropped; auto: 1e-8"},
 };
-const brc_section brc_schema_body = {.title = "body", .meaning = "A solid.", ENTRIES(BODY), .size = sizeof(brc_body),
+const brc_section brc_schema_body = {.title = "body",
+                                     .meaning = "A solid.",
+                                     ENTRIES(BODY),
+                                     .size = sizeof(brc_body),
                                      .groups = {{BRC_GROUP_EXACTLY_ONE, {"shape", "domain"}}}};
 
 static const brc_entry SET[] = {
@@ -205,7 +230,12 @@ static const brc_entry SET[] = {
     {"faces", BRC_TYPE_STRUCT, .section = &brc_schema_predicate, .offset = offsetof(brc_set_request, where),
      .value = BRC_SET_FACES, .meaning = "a set of boundary faces"},
 };
-const brc_section brc_schema_set = {.title = "set", .meaning = "A named part of the solid. Each wall is a set of faces "
-                                                               "without being asked for.",
-                                    ENTRIES(SET), .size = sizeof(brc_set_request), .one_of = true, .has_kind = true,
-                                    .kind_offset = offsetof(brc_set_request, kind), .sample_name = "core"};
+const brc_section brc_schema_set = {.title = "set",
+                                    .meaning = "A named part of the solid. Each wall is a set of faces "
+                                               "without being asked for.",
+                                    ENTRIES(SET),
+                                    .size = sizeof(brc_set_request),
+                                    .one_of = true,
+                                    .has_kind = true,
+                                    .kind_offset = offsetof(brc_set_request, kind),
+                                    .sample_name = "core"};

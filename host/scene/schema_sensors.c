@@ -2,14 +2,20 @@
 #include "schema_internal.h"
 
 #define COMPONENT                                                                                                      \
-    {"component", BRC_TYPE_CHOICE, FIELD(brc_sensor, component), CHOICES("x", "y", "z"), .required = true,             \
-     .sample = "x", .meaning = "of the vector"}
+    {                                                                                                                  \
+        "component", BRC_TYPE_CHOICE, FIELD(brc_sensor, component), CHOICES("x", "y", "z"),                            \
+            .required = true, .sample = "x", .meaning = "of the vector"                                                \
+    }
 #define TENSOR_COMPONENT                                                                                               \
-    {"component", BRC_TYPE_CHOICE, FIELD(brc_sensor, component), CHOICES("xx", "yy", "zz", "yz", "xz", "xy"),          \
-     .required = true, .sample = "xx", .meaning = "of the tensor"}
+    {                                                                                                                  \
+        "component", BRC_TYPE_CHOICE, FIELD(brc_sensor, component), CHOICES("xx", "yy", "zz", "yz", "xz", "xy"),       \
+            .required = true, .sample = "xx", .meaning = "of the tensor"                                               \
+    }
 #define ELEMENT_SET                                                                                                    \
-    {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .refers = BRC_REFERS_ELEMENTS, .sample = "core",                    \
-     .meaning = "elements; left out: all"}
+    {                                                                                                                  \
+        "set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .refers = BRC_REFERS_ELEMENTS, .sample = "core",                 \
+                                                      .meaning = "elements; left out: all"                             \
+    }
 
 static const brc_entry ON_SET[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_SET, .sample = "x+",
@@ -17,10 +23,12 @@ static const brc_entry ON_SET[] = {
     COMPONENT,
 };
 static const brc_section REACTION_SECTION = {
-    .title = "reaction", .meaning = "Force of the loads on the solid, summed over a set with prescribed motion [N].",
+    .title = "reaction",
+    .meaning = "Force of the loads on the solid, summed over a set with prescribed motion [N].",
     ENTRIES(ON_SET)};
 static const brc_section FACE_MEAN_SECTION = {
-    .title = "face_mean", .meaning = "Area mean of the displacement of faces, or mean of that of elements [m].",
+    .title = "face_mean",
+    .meaning = "Area mean of the displacement of faces, or mean of that of elements [m].",
     ENTRIES(ON_SET)};
 static const brc_entry FACE_STRAIN[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_SET, .sample = "x+",
@@ -39,23 +47,24 @@ static const brc_entry FACE_TWIST[] = {
     {"axis", BRC_TYPE_DIRECTION, "", FIELD(brc_sensor, axis), .length = 3, .required = true, .sample = "[1, 0, 0]",
      .meaning = "of the rotation"},
 };
-static const brc_section FACE_TWIST_SECTION = {.title = "face_twist",
-                                               .meaning = "Area mean of the rotation of faces about an axis [rad].",
-                                               ENTRIES(FACE_TWIST)};
+static const brc_section FACE_TWIST_SECTION = {
+    .title = "face_twist", .meaning = "Area mean of the rotation of faces about an axis [rad].", ENTRIES(FACE_TWIST)};
 static const brc_entry TENSOR[] = {ELEMENT_SET, TENSOR_COMPONENT};
 static const brc_section STRESS_SECTION = {
-    .title = "stress", .meaning = "Volume mean of the second Piola-Kirchhoff stress, tension positive [Pa].",
+    .title = "stress",
+    .meaning = "Volume mean of the second Piola-Kirchhoff stress, tension positive [Pa].",
     ENTRIES(TENSOR)};
-static const brc_section STRAIN_SECTION = {.title = "strain", .meaning = "Volume mean of the Green strain [-].",
-                                           ENTRIES(TENSOR)};
+static const brc_section STRAIN_SECTION = {
+    .title = "strain", .meaning = "Volume mean of the Green strain [-].", ENTRIES(TENSOR)};
 static const brc_entry POINT[] = {
     {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), .length = 3, .required = true, .sample = "[1 m, 0, 0]",
      .meaning = "the nearest element is watched"},
     COMPONENT,
 };
-static const brc_section POINT_SECTION = {.title = "point", .meaning = "Displacement of an element [m].", ENTRIES(POINT)};
-static const brc_section POINT_VELOCITY_SECTION = {.title = "point_velocity", .meaning = "Velocity of an element [m/s].",
-                                                   ENTRIES(POINT)};
+static const brc_section POINT_SECTION = {
+    .title = "point", .meaning = "Displacement of an element [m].", ENTRIES(POINT)};
+static const brc_section POINT_VELOCITY_SECTION = {
+    .title = "point_velocity", .meaning = "Velocity of an element [m/s].", ENTRIES(POINT)};
 static const brc_entry SENSOR[] = {
     {"reaction", BRC_TYPE_STRUCT, .section = &REACTION_SECTION, .value = BRC_SENSOR_REACTION,
      .meaning = "force on a set with prescribed motion [N]"},
@@ -77,24 +86,45 @@ static const brc_entry SENSOR[] = {
     {"mode", BRC_TYPE_INTEGER, WITHIN(0, 999), FIELD(brc_sensor, index), .value = BRC_SENSOR_MODE, .sample = "0",
      .meaning = "frequency of a mode of the last modes stage, 0 the lowest elastic one [Hz]"},
 };
-const brc_section brc_schema_sensor = {.title = "sensor", .meaning = "A number watched through the run.", ENTRIES(SENSOR),
-                                       .size = sizeof(brc_sensor), .one_of = true, .has_kind = true,
-                                       .kind_offset = offsetof(brc_sensor, kind), .sample_name = "force"};
+const brc_section brc_schema_sensor = {.title = "sensor",
+                                       .meaning = "A number watched through the run.",
+                                       ENTRIES(SENSOR),
+                                       .size = sizeof(brc_sensor),
+                                       .one_of = true,
+                                       .has_kind = true,
+                                       .kind_offset = offsetof(brc_sensor, kind),
+                                       .sample_name = "force"};
 
 #define SENSOR_ENTRY(key_, field, meaning_)                                                                            \
-    {key_, BRC_TYPE_NAME, FIELD(brc_measure, field), .required = true, .refers = BRC_REFERS_SENSOR, .sample = "force", \
-     .meaning = meaning_}
+    {                                                                                                                  \
+        key_, BRC_TYPE_NAME, FIELD(brc_measure, field), .required = true, .refers = BRC_REFERS_SENSOR,                 \
+                                                        .sample = "force", .meaning = meaning_                         \
+    }
 #define AREA_ENTRY                                                                                                     \
-    {"area", BRC_TYPE_NAME, FIELD(brc_measure, area_set), .refers = BRC_REFERS_FACES, .sample = "x+",                  \
-     .meaning = "faces whose reference area divides the load; left out: the load is a stress"}
+    {                                                                                                                  \
+        "area", BRC_TYPE_NAME, FIELD(brc_measure, area_set),                                                           \
+            .refers = BRC_REFERS_FACES, .sample = "x+",                                                                \
+            .meaning = "faces whose reference area divides the load; left out: the load is a stress"                   \
+    }
 #define COMMON_ENTRIES(target_sample)                                                                                  \
-    {"stage", BRC_TYPE_NAME, FIELD(brc_measure, stage), .refers = BRC_REFERS_STAGE, .sample = "pull",                  \
+    {"stage",                                                                                                          \
+     BRC_TYPE_NAME,                                                                                                    \
+     FIELD(brc_measure, stage),                                                                                        \
+     .refers = BRC_REFERS_STAGE,                                                                                       \
+     .sample = "pull",                                                                                                 \
      .meaning = "stage looked at; left out: the last"},                                                                \
-        {"window", BRC_TYPE_VECTOR, BRC_UNIT_MEASURE_TIME, NOT_NEGATIVE, FIELD(brc_measure, window), .length = 2,      \
-         .sample = "[0, 1]", .meaning = "from and to, time since the start of the stage (a fraction 0 to 1 of a "      \
-                                        "static one); left out: all of it"},                                           \
-        {"scale", BRC_TYPE_QUANTITY, "", FIELD(brc_measure, scale), .given = "1",                                      \
-         .meaning = "factor on the result, e.g. -1 for the reaction of the other side"},                               \
+        {"window",                                                                                                     \
+         BRC_TYPE_VECTOR,                                                                                              \
+         BRC_UNIT_MEASURE_TIME,                                                                                        \
+         NOT_NEGATIVE,                                                                                                 \
+         FIELD(brc_measure, window),                                                                                   \
+         .length = 2,                                                                                                  \
+         .sample = "[0, 1]",                                                                                           \
+         .meaning = "from and to, time since the start of the stage (a fraction 0 to 1 of a "                          \
+                    "static one); left out: all of it"},                                                               \
+        {"scale",      BRC_TYPE_QUANTITY,                                                                              \
+         "",           FIELD(brc_measure, scale),                                                                      \
+         .given = "1", .meaning = "factor on the result, e.g. -1 for the reaction of the other side"},                 \
     {                                                                                                                  \
         "target", BRC_TYPE_QUANTITY, BRC_UNIT_MEASURE, FIELD(brc_measure, target), FLAG(brc_measure, has_target),      \
             .sample = target_sample, .meaning = "what the material or theory says, shown beside the value"             \
@@ -107,46 +137,43 @@ static const brc_entry MODULUS_E[] = {
     COMMON_ENTRIES("20 GPa"),
 };
 static const brc_section E_SECTION = {.title = "E",
-                                      .meaning = "Young's modulus: slope at zero strain of load over area against strain.",
+                                      .meaning =
+                                          "Young's modulus: slope at zero strain of load over area against strain.",
                                       ENTRIES(MODULUS_E)};
 static const brc_entry POISSON[] = {
     SENSOR_ENTRY("lateral", y, "sensor of the strain across"),
     SENSOR_ENTRY("axial", x, "sensor of the strain along the pull"),
     COMMON_ENTRIES("0.3"),
 };
-static const brc_section NU_SECTION = {.title = "nu",
-                                       .meaning = "Poisson's ratio: minus the slope of lateral against axial strain.",
-                                       ENTRIES(POISSON)};
+static const brc_section NU_SECTION = {
+    .title = "nu", .meaning = "Poisson's ratio: minus the slope of lateral against axial strain.", ENTRIES(POISSON)};
 static const brc_entry BULK[] = {
     SENSOR_ENTRY("load", y, "sensor of the reaction or stress"),
     SENSOR_ENTRY("strain", x, "sensor of the volume strain"),
     AREA_ENTRY,
     COMMON_ENTRIES("20 GPa"),
 };
-static const brc_section K_SECTION = {.title = "K",
-                                      .meaning = "Bulk modulus: slope at zero of load over area against volume strain.",
-                                      ENTRIES(BULK)};
+static const brc_section K_SECTION = {
+    .title = "K", .meaning = "Bulk modulus: slope at zero of load over area against volume strain.", ENTRIES(BULK)};
 static const brc_entry SHEAR[] = {
     SENSOR_ENTRY("load", y, "sensor of the reaction or stress"),
     SENSOR_ENTRY("strain", x, "sensor of the shear angle"),
     AREA_ENTRY,
     COMMON_ENTRIES("8 GPa"),
 };
-static const brc_section G_SECTION = {.title = "G",
-                                      .meaning = "Shear modulus: slope at zero of load over area against shear angle.",
-                                      ENTRIES(SHEAR)};
+static const brc_section G_SECTION = {
+    .title = "G", .meaning = "Shear modulus: slope at zero of load over area against shear angle.", ENTRIES(SHEAR)};
 static const brc_entry OF_FREQUENCY[] = {SENSOR_ENTRY("of", y, "sensor"), COMMON_ENTRIES("1118 Hz")};
-static const brc_section FREQUENCY_SECTION = {.title = "frequency",
-                                              .meaning = "Largest peak of the spectrum of a sensor, interpolated.",
-                                              ENTRIES(OF_FREQUENCY)};
+static const brc_section FREQUENCY_SECTION = {
+    .title = "frequency", .meaning = "Largest peak of the spectrum of a sensor, interpolated.", ENTRIES(OF_FREQUENCY)};
 static const brc_entry OF_SENSOR[] = {SENSOR_ENTRY("of", y, "sensor"), COMMON_ENTRIES("1 N")};
-static const brc_section PEAK_SECTION = {.title = "peak", .meaning = "The value of largest magnitude.",
-                                         ENTRIES(OF_SENSOR)};
+static const brc_section PEAK_SECTION = {
+    .title = "peak", .meaning = "The value of largest magnitude.", ENTRIES(OF_SENSOR)};
 static const brc_section MEAN_SECTION = {.title = "mean", .meaning = "Mean over time.", ENTRIES(OF_SENSOR)};
 static const brc_entry OF_TWO[] = {SENSOR_ENTRY("of", y, "sensor"), SENSOR_ENTRY("against", x, "sensor it depends on"),
                                    COMMON_ENTRIES("1")};
-static const brc_section SLOPE_SECTION = {.title = "slope", .meaning = "Slope at zero of one sensor against another.",
-                                          ENTRIES(OF_TWO)};
+static const brc_section SLOPE_SECTION = {
+    .title = "slope", .meaning = "Slope at zero of one sensor against another.", ENTRIES(OF_TWO)};
 static const brc_entry MEASURE[] = {
     {"E", BRC_TYPE_STRUCT, .section = &E_SECTION, .value = BRC_MEASURE_E, .meaning = "Young's modulus [Pa]"},
     {"nu", BRC_TYPE_STRUCT, .section = &NU_SECTION, .value = BRC_MEASURE_NU, .meaning = "Poisson's ratio [-]"},
@@ -159,9 +186,14 @@ static const brc_entry MEASURE[] = {
      .meaning = "slope of one sensor against another"},
     {"mean", BRC_TYPE_STRUCT, .section = &MEAN_SECTION, .value = BRC_MEASURE_MEAN, .meaning = "mean of a sensor"},
 };
-const brc_section brc_schema_measure = {.title = "measure", .meaning = "A number computed from sensors when the run ends.",
-                                        ENTRIES(MEASURE), .size = sizeof(brc_measure), .one_of = true, .has_kind = true,
-                                        .kind_offset = offsetof(brc_measure, kind), .sample_name = "result"};
+const brc_section brc_schema_measure = {.title = "measure",
+                                        .meaning = "A number computed from sensors when the run ends.",
+                                        ENTRIES(MEASURE),
+                                        .size = sizeof(brc_measure),
+                                        .one_of = true,
+                                        .has_kind = true,
+                                        .kind_offset = offsetof(brc_measure, kind),
+                                        .sample_name = "result"};
 
 static const brc_entry PICTURE[] = {
     {"draw", BRC_TYPE_BOOL, FIELD(brc_output, picture), .given = "true", .meaning = "draw picture.png at the end"},
@@ -172,17 +204,19 @@ static const brc_entry PICTURE[] = {
     {"scale", BRC_TYPE_QUANTITY, "", POSITIVE, FIELD(brc_output, picture_scale), .given = "auto", .word = "auto",
      .sample = "100", .meaning = "factor on the displacement"},
 };
-static const brc_section PICTURE_SECTION = {.title = "picture", .meaning = "The deformed solid. true or false alone is "
-                                                                           "`draw`.",
-                                            ENTRIES(PICTURE), .short_key = "draw"};
+static const brc_section PICTURE_SECTION = {.title = "picture",
+                                            .meaning = "The deformed solid. true or false alone is "
+                                                       "`draw`.",
+                                            ENTRIES(PICTURE),
+                                            .short_key = "draw"};
 static const brc_entry CURVE[] = {
     {"x", BRC_TYPE_NAME, FIELD(brc_output, curve_x), .required = true, .refers = BRC_REFERS_SENSOR, .sample = "force",
      .meaning = "sensor across"},
     {"y", BRC_TYPE_NAME, FIELD(brc_output, curve_y), .required = true, .refers = BRC_REFERS_SENSOR, .sample = "force",
      .meaning = "sensor upward"},
 };
-static const brc_section CURVE_SECTION = {.title = "curve", .meaning = "One sensor against another, in curve.png.",
-                                          ENTRIES(CURVE)};
+static const brc_section CURVE_SECTION = {
+    .title = "curve", .meaning = "One sensor against another, in curve.png.", ENTRIES(CURVE)};
 static const brc_entry OUTPUT[] = {
     {"frames", BRC_TYPE_INTEGER, WITHIN(0, 1e6), FIELD(brc_output, n_frames), .given = "0", .word = "none",
      .word_value = -1, .sample = "10",
@@ -191,10 +225,12 @@ static const brc_entry OUTPUT[] = {
      .meaning = "time between frames, in place of their number"},
     {"history_every", BRC_TYPE_INTEGER, WITHIN(1, 1e9), FIELD(brc_output, history_every), .given = "auto",
      .word = "auto", .sample = "10",
-     .meaning = "steps between samples of the sensors; auto: 500 samples a dynamic stage, every increment of a static one"},
+     .meaning =
+         "steps between samples of the sensors; auto: 500 samples a dynamic stage, every increment of a static one"},
     {"picture", BRC_TYPE_STRUCT, .section = &PICTURE_SECTION, .given = "{}", .meaning = "the deformed solid"},
     {"curve", BRC_TYPE_STRUCT, .section = &CURVE_SECTION, .meaning = "one sensor against another; left out: none"},
 };
-const brc_section brc_schema_output = {.title = "output", .meaning = "What is written besides the summary.",
+const brc_section brc_schema_output = {.title = "output",
+                                       .meaning = "What is written besides the summary.",
                                        ENTRIES(OUTPUT),
                                        .groups = {{BRC_GROUP_AT_MOST_ONE, {"frames", "frame_interval"}}}};

@@ -4,22 +4,47 @@
 /* Entries of a prescribed motion: `u` is "m" or "m/s", `g` its gradient's unit. A component is prescribed when its
  * value or its row of the gradient is given. */
 #define GRADIENT_ENTRIES(type, g, ...)                                                                                 \
-    {"x", BRC_TYPE_VECTOR, (g), FIELD(type, gradient[0]), .length = 3, .sample = SAMPLE_ROW(g), __VA_ARGS__(0)         \
-     .meaning = "row of the x component: its derivatives along x, y and z"},                                           \
-    {"y", BRC_TYPE_VECTOR, (g), FIELD(type, gradient[1]), .length = 3, .sample = SAMPLE_ROW(g), __VA_ARGS__(1)         \
-     .meaning = "row of the y component"},                                                                             \
-    {"z", BRC_TYPE_VECTOR, (g), FIELD(type, gradient[2]), .length = 3, .sample = SAMPLE_ROW(g), __VA_ARGS__(2)         \
-     .meaning = "row of the z component"},
+    {"x",                                                                                                              \
+     BRC_TYPE_VECTOR,                                                                                                  \
+     (g),                                                                                                              \
+     FIELD(type, gradient[0]),                                                                                         \
+     .length = 3,                                                                                                      \
+     .sample = SAMPLE_ROW(g),                                                                                          \
+     __VA_ARGS__(0).meaning = "row of the x component: its derivatives along x, y and z"},                             \
+        {"y",                                                                                                          \
+         BRC_TYPE_VECTOR,                                                                                              \
+         (g),                                                                                                          \
+         FIELD(type, gradient[1]),                                                                                     \
+         .length = 3,                                                                                                  \
+         .sample = SAMPLE_ROW(g),                                                                                      \
+         __VA_ARGS__(1).meaning = "row of the y component"},                                                           \
+        {"z",                                                                                                          \
+         BRC_TYPE_VECTOR,                                                                                              \
+         (g),                                                                                                          \
+         FIELD(type, gradient[2]),                                                                                     \
+         .length = 3,                                                                                                  \
+         .sample = SAMPLE_ROW(g),                                                                                      \
+         __VA_ARGS__(2).meaning = "row of the z component"},
 #define SAMPLE_ROW(g) ((g)[0] == '\0' ? "[1e-6, 0, 0]" : "[1e-3 1/s, 0, 0]")
 #define PRESCRIBES(i) FLAG(brc_load, component[i]),
 #define NO_FLAG(i)
-#define GRADIENT_GROUP {BRC_GROUP_AT_LEAST_ONE, {"x", "y", "z"}}
+#define GRADIENT_GROUP                                                                                                 \
+    {                                                                                                                  \
+        BRC_GROUP_AT_LEAST_ONE,                                                                                        \
+        {                                                                                                              \
+            "x", "y", "z"                                                                                              \
+        }                                                                                                              \
+    }
 
 #define TABLE_ENTRY                                                                                                    \
-    {"table", BRC_TYPE_TABLE, BRC_UNIT_STAGE_TIME, .offset = offsetof(brc_load, table),                                \
-     .meaning = "factor of time: pairs of time since the start of the stage and factor, linear between, constant "     \
+    {                                                                                                                  \
+        "table", BRC_TYPE_TABLE, BRC_UNIT_STAGE_TIME,                                                                  \
+            .offset = offsetof(brc_load, table),                                                                       \
+            .meaning =                                                                                                 \
+                "factor of time: pairs of time since the start of the stage and factor, linear between, constant "     \
                 "outside; in a static stage the time is the fraction 0 to 1 of the load; left out: 1 in a dynamic "    \
-                "stage, the fraction itself in a static one"}
+                "stage, the fraction itself in a static one"                                                           \
+    }
 
 /* The same keys for faces and elements, displacement and velocity. */
 #define MOTION(name, refers_to, set_sample, u, u_sample, gradient_section)                                             \
@@ -33,43 +58,56 @@
         {"z", BRC_TYPE_QUANTITY, u, FIELD(brc_load, value[2]), FLAG(brc_load, component[2]), .sample = u_sample,       \
          .meaning = "prescribed z component"},                                                                         \
         {"gradient", BRC_TYPE_STRUCT, .section = &(gradient_section),                                                  \
-         .meaning = "added to the components: rows times the position from the origin; a row prescribes its component"}, \
+         .meaning =                                                                                                    \
+             "added to the components: rows times the position from the origin; a row prescribes its component"},      \
         {"origin", BRC_TYPE_VECTOR, "m", FIELD(brc_load, origin), .length = 3, .sample = "[0, 0, 0]",                  \
          .meaning = "where the gradient counts from"},                                                                 \
         TABLE_ENTRY,                                                                                                   \
     }
 
 static const brc_entry LOAD_STRAIN[] = {GRADIENT_ENTRIES(brc_load, "", PRESCRIBES)};
-static const brc_section LOAD_STRAIN_SECTION = {.title = "displacement gradient", .meaning = "Rows of du/dx of a load.",
-                                                ENTRIES(LOAD_STRAIN), .groups = {GRADIENT_GROUP}};
+static const brc_section LOAD_STRAIN_SECTION = {.title = "displacement gradient",
+                                                .meaning = "Rows of du/dx of a load.",
+                                                ENTRIES(LOAD_STRAIN),
+                                                .groups = {GRADIENT_GROUP}};
 static const brc_entry LOAD_RATE[] = {GRADIENT_ENTRIES(brc_load, "1/s", PRESCRIBES)};
-static const brc_section LOAD_RATE_SECTION = {.title = "velocity gradient", .meaning = "Rows of dv/dx of a load.",
-                                              ENTRIES(LOAD_RATE), .groups = {GRADIENT_GROUP}};
+static const brc_section LOAD_RATE_SECTION = {.title = "velocity gradient",
+                                              .meaning = "Rows of dv/dx of a load.",
+                                              ENTRIES(LOAD_RATE),
+                                              .groups = {GRADIENT_GROUP}};
 
 MOTION(FACE_DISPLACEMENT, BRC_REFERS_FACES, "x+", "m", "1 um", LOAD_STRAIN_SECTION);
 MOTION(FACE_VELOCITY, BRC_REFERS_FACES, "x+", "m/s", "1 mm/s", LOAD_RATE_SECTION);
 MOTION(ELEMENT_DISPLACEMENT, BRC_REFERS_ELEMENTS, "core", "m", "1 um", LOAD_STRAIN_SECTION);
 MOTION(ELEMENT_VELOCITY, BRC_REFERS_ELEMENTS, "core", "m/s", "1 mm/s", LOAD_RATE_SECTION);
 #define MOTION_GROUPS .groups = {{BRC_GROUP_AT_LEAST_ONE, {"x", "y", "z", "gradient"}}}
-static const brc_section FACE_DISPLACEMENT_SECTION = {
-    .title = "face_displacement", .meaning = "Prescribed displacement of boundary faces.", ENTRIES(FACE_DISPLACEMENT),
-    MOTION_GROUPS};
+static const brc_section FACE_DISPLACEMENT_SECTION = {.title = "face_displacement",
+                                                      .meaning = "Prescribed displacement of boundary faces.",
+                                                      ENTRIES(FACE_DISPLACEMENT),
+                                                      MOTION_GROUPS};
 static const brc_section FACE_VELOCITY_SECTION = {.title = "face_velocity",
                                                   .meaning = "Prescribed velocity of boundary faces.",
-                                                  ENTRIES(FACE_VELOCITY), MOTION_GROUPS};
+                                                  ENTRIES(FACE_VELOCITY),
+                                                  MOTION_GROUPS};
 static const brc_section ELEMENT_DISPLACEMENT_SECTION = {
-    .title = "element_displacement", .meaning = "Prescribed displacement of whole elements, as the papers do it.",
-    ENTRIES(ELEMENT_DISPLACEMENT), MOTION_GROUPS};
+    .title = "element_displacement",
+    .meaning = "Prescribed displacement of whole elements, as the papers do it.",
+    ENTRIES(ELEMENT_DISPLACEMENT),
+    MOTION_GROUPS};
 static const brc_section ELEMENT_VELOCITY_SECTION = {.title = "element_velocity",
                                                      .meaning = "Prescribed velocity of whole elements.",
-                                                     ENTRIES(ELEMENT_VELOCITY), MOTION_GROUPS};
+                                                     ENTRIES(ELEMENT_VELOCITY),
+                                                     MOTION_GROUPS};
 
 static const brc_entry TRACTION[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_load, set), .required = true, .refers = BRC_REFERS_FACES, .sample = "x+",
      .meaning = "faces it acts on"},
-    {"x", BRC_TYPE_QUANTITY, "Pa", FIELD(brc_load, value[0]), .sample = "1 kPa", .meaning = "x component, 0 if left out"},
-    {"y", BRC_TYPE_QUANTITY, "Pa", FIELD(brc_load, value[1]), .sample = "1 kPa", .meaning = "y component, 0 if left out"},
-    {"z", BRC_TYPE_QUANTITY, "Pa", FIELD(brc_load, value[2]), .sample = "1 kPa", .meaning = "z component, 0 if left out"},
+    {"x", BRC_TYPE_QUANTITY, "Pa", FIELD(brc_load, value[0]), .sample = "1 kPa",
+     .meaning = "x component, 0 if left out"},
+    {"y", BRC_TYPE_QUANTITY, "Pa", FIELD(brc_load, value[1]), .sample = "1 kPa",
+     .meaning = "y component, 0 if left out"},
+    {"z", BRC_TYPE_QUANTITY, "Pa", FIELD(brc_load, value[2]), .sample = "1 kPa",
+     .meaning = "z component, 0 if left out"},
     TABLE_ENTRY,
 };
 static const brc_section TRACTION_SECTION = {.title = "traction",
@@ -83,8 +121,8 @@ static const brc_entry PRESSURE[] = {
      .meaning = "positive pushes into the solid"},
     TABLE_ENTRY,
 };
-static const brc_section PRESSURE_SECTION = {.title = "pressure", .meaning = "Against the reference normal of each face.",
-                                             ENTRIES(PRESSURE)};
+static const brc_section PRESSURE_SECTION = {
+    .title = "pressure", .meaning = "Against the reference normal of each face.", ENTRIES(PRESSURE)};
 static const brc_entry LOAD[] = {
     {"face_displacement", BRC_TYPE_STRUCT, .section = &FACE_DISPLACEMENT_SECTION, .value = BRC_LOAD_FACE_DISPLACEMENT,
      .meaning = "prescribed displacement of faces"},
@@ -94,29 +132,37 @@ static const brc_entry LOAD[] = {
      .value = BRC_LOAD_ELEMENT_DISPLACEMENT, .meaning = "prescribed displacement of elements"},
     {"element_velocity", BRC_TYPE_STRUCT, .section = &ELEMENT_VELOCITY_SECTION, .value = BRC_LOAD_ELEMENT_VELOCITY,
      .meaning = "prescribed velocity of elements"},
-    {"traction", BRC_TYPE_STRUCT, .section = &TRACTION_SECTION, .value = BRC_LOAD_TRACTION, .meaning = "force per area"},
+    {"traction", BRC_TYPE_STRUCT, .section = &TRACTION_SECTION, .value = BRC_LOAD_TRACTION,
+     .meaning = "force per area"},
     {"pressure", BRC_TYPE_STRUCT, .section = &PRESSURE_SECTION, .value = BRC_LOAD_PRESSURE,
      .meaning = "force per area against the normal"},
 };
-const brc_section brc_schema_load = {.title = "load", .meaning = "What acts on the solid during a stage.", ENTRIES(LOAD),
-                                     .size = sizeof(brc_load), .one_of = true, .has_kind = true,
+const brc_section brc_schema_load = {.title = "load",
+                                     .meaning = "What acts on the solid during a stage.",
+                                     ENTRIES(LOAD),
+                                     .size = sizeof(brc_load),
+                                     .one_of = true,
+                                     .has_kind = true,
                                      .kind_offset = offsetof(brc_load, kind)};
 
 #define INITIAL_SET                                                                                                    \
-    {"set", BRC_TYPE_NAME, FIELD(brc_initial, set), .refers = BRC_REFERS_ELEMENTS, .sample = "core",                   \
-     .meaning = "set of elements; left out: all"}
+    {                                                                                                                  \
+        "set", BRC_TYPE_NAME, FIELD(brc_initial, set), .refers = BRC_REFERS_ELEMENTS, .sample = "core",                \
+                                                       .meaning = "set of elements; left out: all"                     \
+    }
 #define INITIAL_ORIGIN                                                                                                 \
-    {"origin", BRC_TYPE_VECTOR, "m", FIELD(brc_initial, origin), .length = 3, .sample = "[0, 0, 0]",                   \
-     .meaning = "where positions count from"}
+    {                                                                                                                  \
+        "origin", BRC_TYPE_VECTOR, "m", FIELD(brc_initial, origin), .length = 3, .sample = "[0, 0, 0]",                \
+                                                                    .meaning = "where positions count from"            \
+    }
 
 static const brc_entry INITIAL_STRAIN[] = {GRADIENT_ENTRIES(brc_initial, "", NO_FLAG)};
 static const brc_section INITIAL_STRAIN_SECTION = {.title = "initial displacement gradient",
                                                    .meaning = "Rows of du/dx; a row left out is zero.",
                                                    ENTRIES(INITIAL_STRAIN)};
 static const brc_entry INITIAL_RATE[] = {GRADIENT_ENTRIES(brc_initial, "1/s", NO_FLAG)};
-static const brc_section INITIAL_RATE_SECTION = {.title = "initial velocity gradient",
-                                                 .meaning = "Rows of dv/dx; a row left out is zero.",
-                                                 ENTRIES(INITIAL_RATE)};
+static const brc_section INITIAL_RATE_SECTION = {
+    .title = "initial velocity gradient", .meaning = "Rows of dv/dx; a row left out is zero.", ENTRIES(INITIAL_RATE)};
 static const brc_entry AFFINE[] = {
     INITIAL_SET,
     {"displacement", BRC_TYPE_VECTOR, "m", FIELD(brc_initial, value), .length = 3, .sample = "[1 um, 0, 0]",
@@ -124,9 +170,10 @@ static const brc_entry AFFINE[] = {
     {"gradient", BRC_TYPE_STRUCT, .section = &INITIAL_STRAIN_SECTION, .meaning = "of the displacement"},
     INITIAL_ORIGIN,
 };
-static const brc_section AFFINE_SECTION = {
-    .title = "affine", .meaning = "u = displacement + gradient (X - origin).", ENTRIES(AFFINE),
-    .groups = {{BRC_GROUP_AT_LEAST_ONE, {"displacement", "gradient"}}}};
+static const brc_section AFFINE_SECTION = {.title = "affine",
+                                           .meaning = "u = displacement + gradient (X - origin).",
+                                           ENTRIES(AFFINE),
+                                           .groups = {{BRC_GROUP_AT_LEAST_ONE, {"displacement", "gradient"}}}};
 static const brc_entry VELOCITY[] = {
     INITIAL_SET,
     {"velocity", BRC_TYPE_VECTOR, "m/s", FIELD(brc_initial, value), .length = 3, .sample = "[1 m/s, 0, 0]",
@@ -134,7 +181,8 @@ static const brc_entry VELOCITY[] = {
     {"gradient", BRC_TYPE_STRUCT, .section = &INITIAL_RATE_SECTION, .meaning = "of the velocity"},
     INITIAL_ORIGIN,
 };
-static const brc_section VELOCITY_SECTION = {.title = "velocity", .meaning = "v = velocity + gradient (X - origin).",
+static const brc_section VELOCITY_SECTION = {.title = "velocity",
+                                             .meaning = "v = velocity + gradient (X - origin).",
                                              ENTRIES(VELOCITY),
                                              .groups = {{BRC_GROUP_AT_LEAST_ONE, {"velocity", "gradient"}}}};
 static const brc_entry TWIST[] = {
@@ -145,8 +193,9 @@ static const brc_entry TWIST[] = {
      .meaning = "of the twist"},
     INITIAL_ORIGIN,
 };
-static const brc_section TWIST_SECTION = {.title = "twist", .meaning = "Sections turn about the axis in proportion to "
-                                                                       "their distance from the origin.",
+static const brc_section TWIST_SECTION = {.title = "twist",
+                                          .meaning = "Sections turn about the axis in proportion to "
+                                                     "their distance from the origin.",
                                           ENTRIES(TWIST)};
 static const brc_entry SPIN[] = {
     INITIAL_SET,
@@ -154,8 +203,8 @@ static const brc_entry SPIN[] = {
      .sample = "[0, 0, 10 rad/s]", .meaning = "rotation vector per second"},
     INITIAL_ORIGIN,
 };
-static const brc_section SPIN_SECTION = {.title = "spin", .meaning = "v = angular_velocity x (X - origin).",
-                                         ENTRIES(SPIN)};
+static const brc_section SPIN_SECTION = {
+    .title = "spin", .meaning = "v = angular_velocity x (X - origin).", ENTRIES(SPIN)};
 static const brc_entry RANDOM[] = {
     INITIAL_SET,
     {"amplitude", BRC_TYPE_VECTOR, "m/s", NOT_NEGATIVE, FIELD(brc_initial, value), .length = 3, .required = true,
@@ -171,28 +220,35 @@ static const brc_entry INITIAL[] = {
      .meaning = "a velocity linear in the position"},
     {"twist", BRC_TYPE_STRUCT, .section = &TWIST_SECTION, .value = BRC_INITIAL_TWIST, .meaning = "a twisted bar"},
     {"spin", BRC_TYPE_STRUCT, .section = &SPIN_SECTION, .value = BRC_INITIAL_SPIN, .meaning = "a rigid rotation"},
-    {"random", BRC_TYPE_STRUCT, .section = &RANDOM_SECTION, .value = BRC_INITIAL_RANDOM, .meaning = "random velocities"},
+    {"random", BRC_TYPE_STRUCT, .section = &RANDOM_SECTION, .value = BRC_INITIAL_RANDOM,
+     .meaning = "random velocities"},
     {"file", BRC_TYPE_STRING, FIELD(brc_initial, file), .value = BRC_INITIAL_FILE, .sample = "state.h5",
      .meaning = "HDF5 datasets displacement and/or velocity, [elements][3] by element id; relative to the scene"},
 };
 const brc_section brc_schema_initial = {.title = "initial field",
                                         .meaning = "Added to the state at the start of a stage, in the order given.",
-                                        ENTRIES(INITIAL), .size = sizeof(brc_initial), .one_of = true, .has_kind = true,
+                                        ENTRIES(INITIAL),
+                                        .size = sizeof(brc_initial),
+                                        .one_of = true,
+                                        .has_kind = true,
                                         .kind_offset = offsetof(brc_initial, kind)};
 
 static const brc_entry TCHAMWA[] = {
     {"phi", BRC_TYPE_QUANTITY, "", WITHIN(1, 2), FIELD(brc_stage, phi), .given = "1.03",
      .meaning = "numerical dissipation; 1: none, 1.03 to 1.1 usual"},
 };
-static const brc_section TCHAMWA_SECTION = {.title = "tchamwa-wielgosz",
-                                            .meaning = "Damps what the time step does not resolve.", ENTRIES(TCHAMWA)};
+static const brc_section TCHAMWA_SECTION = {
+    .title = "tchamwa-wielgosz", .meaning = "Damps what the time step does not resolve.", ENTRIES(TCHAMWA)};
 static const brc_entry INTEGRATOR[] = {
     {"verlet", BRC_TYPE_STRUCT, .value = BRC_VELOCITY_VERLET, .meaning = "velocity Verlet: keeps the energy"},
     {"tchamwa-wielgosz", BRC_TYPE_STRUCT, .section = &TCHAMWA_SECTION, .value = BRC_TCHAMWA_WIELGOSZ,
      .meaning = "first order, dissipative"},
 };
-static const brc_section INTEGRATOR_SECTION = {.title = "integrator", .meaning = "How time advances.", ENTRIES(INTEGRATOR),
-                                               .one_of = true, .has_kind = true,
+static const brc_section INTEGRATOR_SECTION = {.title = "integrator",
+                                               .meaning = "How time advances.",
+                                               ENTRIES(INTEGRATOR),
+                                               .one_of = true,
+                                               .has_kind = true,
                                                .kind_offset = offsetof(brc_stage, integrator)};
 static const brc_entry AUTO_STEP[] = {
     {"safety", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 1), FIELD(brc_stage, safety), .given = "0.8",
@@ -210,8 +266,11 @@ static const brc_entry TIME_STEP[] = {
 };
 static const brc_section TIME_STEP_SECTION = {.title = "time_step",
                                               .meaning = "A time alone is a fixed step: `time_step: 0.5 us`.",
-                                              ENTRIES(TIME_STEP), .one_of = true, .has_kind = true,
-                                              .kind_offset = offsetof(brc_stage, time_step_rule), .short_key = "fixed"};
+                                              ENTRIES(TIME_STEP),
+                                              .one_of = true,
+                                              .has_kind = true,
+                                              .kind_offset = offsetof(brc_stage, time_step_rule),
+                                              .short_key = "fixed"};
 static const brc_entry DYNAMIC[] = {
     {"duration", BRC_TYPE_QUANTITY, "s", POSITIVE, FIELD(brc_stage, duration), .sample = "1 ms",
      .meaning = "time simulated"},
@@ -225,7 +284,8 @@ static const brc_entry DYNAMIC[] = {
      .given = "off", .word = "off", .sample = "1e-6",
      .meaning = "ends the stage when the kinetic energy was below this part of the elastic energy for 100 steps"},
 };
-static const brc_section DYNAMIC_SECTION = {.title = "solver dynamic", .meaning = "Explicit steps through time.",
+static const brc_section DYNAMIC_SECTION = {.title = "solver dynamic",
+                                            .meaning = "Explicit steps through time.",
                                             ENTRIES(DYNAMIC),
                                             .groups = {{BRC_GROUP_EXACTLY_ONE, {"duration", "steps"}}}};
 static const brc_entry STATIC[] = {
@@ -239,20 +299,26 @@ static const brc_entry STATIC[] = {
     {"finite_strain", BRC_TYPE_BOOL, FIELD(brc_stage, finite_strain), .given = "true",
      .meaning = "false: only the law linearised about the reference"},
 };
-static const brc_section STATIC_SECTION = {.title = "solver static", .meaning = "Elastic equilibrium.", ENTRIES(STATIC)};
+static const brc_section STATIC_SECTION = {
+    .title = "solver static", .meaning = "Elastic equilibrium.", ENTRIES(STATIC)};
 static const brc_entry MODES[] = {
     {"count", BRC_TYPE_INTEGER, WITHIN(1, 1000), FIELD(brc_stage, n_modes), .required = true, .sample = "8",
      .meaning = "number of elastic modes, lowest first; rigid motions are not counted"},
 };
-static const brc_section MODES_SECTION = {.title = "solver modes",
-                                          .meaning = "Lowest free vibrations of the linearised law.", ENTRIES(MODES)};
+static const brc_section MODES_SECTION = {
+    .title = "solver modes", .meaning = "Lowest free vibrations of the linearised law.", ENTRIES(MODES)};
 static const brc_entry SOLVER[] = {
-    {"static", BRC_TYPE_STRUCT, .section = &STATIC_SECTION, .value = BRC_SOLVER_STATIC, .meaning = "elastic equilibrium"},
+    {"static", BRC_TYPE_STRUCT, .section = &STATIC_SECTION, .value = BRC_SOLVER_STATIC,
+     .meaning = "elastic equilibrium"},
     {"dynamic", BRC_TYPE_STRUCT, .section = &DYNAMIC_SECTION, .value = BRC_SOLVER_DYNAMIC, .meaning = "motion in time"},
     {"modes", BRC_TYPE_STRUCT, .section = &MODES_SECTION, .value = BRC_SOLVER_MODES, .meaning = "free vibrations"},
 };
-static const brc_section SOLVER_SECTION = {.title = "solver", .meaning = "What a stage computes.", ENTRIES(SOLVER),
-                                           .one_of = true, .has_kind = true, .kind_offset = offsetof(brc_stage, solver)};
+static const brc_section SOLVER_SECTION = {.title = "solver",
+                                           .meaning = "What a stage computes.",
+                                           ENTRIES(SOLVER),
+                                           .one_of = true,
+                                           .has_kind = true,
+                                           .kind_offset = offsetof(brc_stage, solver)};
 
 static const brc_entry STAGE[] = {
     {"name", BRC_TYPE_NAME, FIELD(brc_stage, name), .required = true, .sample = "pull",
@@ -263,6 +329,7 @@ static const brc_entry STAGE[] = {
     {"loads", BRC_TYPE_LIST, .section = &brc_schema_load, COUNTED(brc_stage, loads, n_loads),
      .meaning = "what acts on the solid"},
 };
-const brc_section brc_schema_stage = {
-    .title = "stage", .meaning = "Stages follow one another; the state carries over.", ENTRIES(STAGE),
-    .size = sizeof(brc_stage)};
+const brc_section brc_schema_stage = {.title = "stage",
+                                      .meaning = "Stages follow one another; the state carries over.",
+                                      ENTRIES(STAGE),
+                                      .size = sizeof(brc_stage)};

@@ -18,18 +18,12 @@ typedef struct named_unit {
 
 static const named_unit UNITS[] = {
     /* without prefix first: "min" is a minute and "h" an hour */
-    {"%", 1, -2, {0, 0, 0, 0}, false},
-    {"deg", M_PI / 180, 0, {0, 0, 0, 1}, false},
-    {"min", 60, 0, {0, 0, 1, 0}, false},
-    {"h", 3600, 0, {0, 0, 1, 0}, false},
-    {"m", 1, 0, {1, 0, 0, 0}, true},
-    {"g", 1, -3, {0, 1, 0, 0}, true},
-    {"s", 1, 0, {0, 0, 1, 0}, true},
-    {"rad", 1, 0, {0, 0, 0, 1}, true},
-    {"N", 1, 0, {1, 1, -2, 0}, true},
-    {"Pa", 1, 0, {-1, 1, -2, 0}, true},
-    {"J", 1, 0, {2, 1, -2, 0}, true},
-    {"W", 1, 0, {2, 1, -3, 0}, true},
+    {"%", 1, -2, {0, 0, 0, 0}, false},   {"deg", M_PI / 180, 0, {0, 0, 0, 1}, false},
+    {"min", 60, 0, {0, 0, 1, 0}, false}, {"h", 3600, 0, {0, 0, 1, 0}, false},
+    {"m", 1, 0, {1, 0, 0, 0}, true},     {"g", 1, -3, {0, 1, 0, 0}, true},
+    {"s", 1, 0, {0, 0, 1, 0}, true},     {"rad", 1, 0, {0, 0, 0, 1}, true},
+    {"N", 1, 0, {1, 1, -2, 0}, true},    {"Pa", 1, 0, {-1, 1, -2, 0}, true},
+    {"J", 1, 0, {2, 1, -2, 0}, true},    {"W", 1, 0, {2, 1, -3, 0}, true},
     {"Hz", 1, 0, {0, 0, -1, 0}, true},
 };
 
@@ -37,9 +31,10 @@ static const struct {
     const char *name;
     int ten;
 } PREFIXES[] = {
-    {"da", 1}, {"Q", 30}, {"R", 27}, {"Y", 24}, {"Z", 21},  {"E", 18},  {"P", 15},  {"T", 12},          {"G", 9},
-    {"M", 6},  {"k", 3},  {"h", 2},  {"d", -1}, {"c", -2},  {"m", -3},  {"u", -6},  {"\xc2\xb5", -6},   {"\xce\xbc", -6},
-    {"n", -9}, {"p", -12}, {"f", -15}, {"a", -18}, {"z", -21}, {"y", -24}, {"r", -27}, {"q", -30},
+    {"da", 1},  {"Q", 30},  {"R", 27},        {"Y", 24},        {"Z", 21},  {"E", 18},  {"P", 15},
+    {"T", 12},  {"G", 9},   {"M", 6},         {"k", 3},         {"h", 2},   {"d", -1},  {"c", -2},
+    {"m", -3},  {"u", -6},  {"\xc2\xb5", -6}, {"\xce\xbc", -6}, {"n", -9},  {"p", -12}, {"f", -15},
+    {"a", -18}, {"z", -21}, {"y", -24},       {"r", -27},       {"q", -30},
 };
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
@@ -182,6 +177,25 @@ static size_t number_length(const char *text, bool *has_nonzero_digit)
     return at;
 }
 
+/* The number in text[0..length) times 10^ten, rounded once: the exponent is moved in the text, so that "0.2 um" is the
+ * double nearest to 2e-7. False for a text that strtod reads otherwise. */
+static bool read_decimal(const char *text, size_t length, int ten, double *value)
+{
+    char moved[512];
+    size_t mantissa = 0;
+    while (mantissa < length && text[mantissa] != 'e' && text[mantissa] != 'E')
+        ++mantissa;
+    long exponent = mantissa < length ? strtol(text + mantissa + 1, NULL, 10) : 0;
+    exponent = exponent > 100000 ? 100000 : exponent < -100000 ? -100000 : exponent; /* beyond any double anyway */
+    if (mantissa > sizeof moved - 32) return false;
+    snprintf(moved, sizeof moved, "%.*se%ld", (int)mantissa, text, exponent + ten);
+    locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0); /* a program around us may use a decimal comma */
+    char *end = NULL;
+    *value = plain ? strtod_l(moved, &end, plain) : strtod(moved, &end);
+    if (plain) freelocale(plain);
+    return *end == '\0';
+}
+
 brc_quantity_result brc_quantity_parse(const char *text, double *value, brc_dimension *dimension, bool *bare)
 {
     *value = 0;
@@ -192,13 +206,6 @@ brc_quantity_result brc_quantity_parse(const char *text, double *value, brc_dime
     const size_t length = number_length(text, &nonzero);
     if (length == 0) return BRC_QUANTITY_NO_NUMBER;
 
-    /* A program around us may have set a locale with a decimal comma. */
-    locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-    char *end = NULL;
-    const double number = plain ? strtod_l(text, &end, plain) : strtod(text, &end);
-    if (plain) freelocale(plain);
-    if (end != text + length) return BRC_QUANTITY_NO_NUMBER; /* hexadecimal */
-
     double factor = 1;
     int ten = 0;
     const char *unit = text + length;
@@ -208,7 +215,9 @@ brc_quantity_result brc_quantity_parse(const char *text, double *value, brc_dime
         *bare = false;
         if (strcmp(unit, "-") == 0 || !parse_unit(unit, &factor, &ten, dimension)) return BRC_QUANTITY_UNKNOWN_UNIT;
     }
-    *value = scale_ten(number * factor, ten);
+    double number;
+    if (!read_decimal(text, length, factor == 1 ? ten : 0, &number)) return BRC_QUANTITY_NO_NUMBER;
+    *value = factor == 1 ? number : scale_ten(number * factor, ten);
     if (!isfinite(*value) || (nonzero && *value == 0)) return BRC_QUANTITY_OVERFLOW;
     return BRC_QUANTITY_OK;
 }
