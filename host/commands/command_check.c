@@ -1,0 +1,198 @@
+/* breccia check: what a scene asks for and what it will cost, before it runs. */
+#include "command.h"
+#include "scene_domain.h"
+#include "../base/log.h"
+#include "../base/memory.h"
+#include "../scene/scene_reader.h"
+#include <math.h>
+
+static const brc_option options[] = {
+    BRC_OPTION_DEVICE,
+    BRC_OPTION_PRECISION,
+    BRC_OPTION_THREADS,
+    BRC_OPTION_SET,
+    {"estimate", 'e', NULL, false, "build no domain: counts and memory of it only, no time step and no seconds"},
+};
+
+/* Iterations of a linear solve to 1e-10, in units of the elements along the longest line through the solid: a rule of
+ * thumb from cubes and bars of 1e3 to 1e5 cells, right within a factor of two (docs/performance.md). */
+#define ITERATIONS_PER_CELL_ACROSS 12
+/* Linear solves of a static increment: the first and the corrections of the finite-strain law. */
+#define SOLVES_PER_INCREMENT 4
+
+static brc_status print_resolved(brc_context *context, const brc_scene *scene)
+{
+    char *yaml;
+    BRC_TRY(brc_scene_to_yaml(context, scene, &yaml));
+    printf("%s\n", yaml);
+    brc_memory_free(yaml);
+    return BRC_OK;
+}
+
+static void print_effects(const char *head, const char *const *effects)
+{
+    printf("%s", head);
+    for (int k = 0; effects[k]; ++k)
+        printf("%s%s", k ? ", " : " ", effects[k]);
+    printf("%s\n", effects[0] ? "" : " none");
+}
+
+static brc_status print_estimate(brc_context *context, const brc_scene *scene)
+{
+    for (int32_t b = 0; b < scene->n_bodies; ++b) {
+        const brc_body *body = &scene->bodies[b];
+        if (body->domain_file[0]) {
+            printf("body %s: read from %s\n", body->name, body->domain_file);
+            continue;
+        }
+        const brc_build_request request = {.shape = body->shape, .fill = body->fill};
+        int64_t n_elements, bytes;
+        BRC_TRY(brc_domain_estimate(context, &request, &n_elements, &bytes));
+        printf("body %s: about %lld elements, %.3g MB as a domain\n", body->name, (long long)n_elements, (double)bytes / 1e6);
+    }
+    return BRC_OK;
+}
+
+/* Seconds of one force evaluation and step: a few hundred milliseconds of the real thing. The stage is run as a dynamic
+ * one whatever it is: what a static or modes stage repeats costs about the same. */
+static brc_status time_a_step(brc_context *context, brc_scene *scene, const brc_domain *domain, brc_device *device,
+                              int32_t stage, double *seconds)
+{
+    brc_simulation *simulation = NULL;
+    brc_stage *changed = &scene->stages[stage];
+    const brc_stage kept = *changed;
+    changed->solver = BRC_SOLVER_DYNAMIC;
+    changed->duration = 0;
+    changed->steps = 1000000;
+    changed->safety = kept.safety > 0 ? kept.safety : 0.8;
+    if (kept.solver != BRC_SOLVER_DYNAMIC) changed->time_step_rule = BRC_TIME_STEP_AUTO;
+    brc_status status = brc_simulation_create(context, scene, domain, device, &simulation);
+    if (status != BRC_OK) goto cleanup;
+    BRC_TRY_OR(cleanup, brc_simulation_begin_stage(simulation, stage));
+    BRC_TRY_OR(cleanup, brc_simulation_advance(simulation, 2)); /* pages are touched, kernels built */
+    BRC_TRY_OR(cleanup, brc_simulation_wait(simulation));
+    int64_t n = 1;
+    double elapsed = 0;
+    for (; elapsed < 0.2; n *= 2) {
+        const double start = brc_clock_s();
+        BRC_TRY_OR(cleanup, brc_simulation_advance(simulation, n));
+        BRC_TRY_OR(cleanup, brc_simulation_wait(simulation));
+        elapsed = brc_clock_s() - start;
+        *seconds = elapsed / (double)n;
+    }
+cleanup:
+    brc_simulation_free(&simulation);
+    *changed = kept;
+    return status;
+}
+
+/* Time step and number of steps of a dynamic stage. */
+typedef struct plan {
+    brc_time_step step;
+    int64_t n_steps;
+} plan;
+
+static brc_status make_plans(const brc_scene *scene, brc_simulation *simulation, plan *plans)
+{
+    for (int32_t k = 0; k < scene->n_stages; ++k) {
+        if (scene->stages[k].solver != BRC_SOLVER_DYNAMIC) continue;
+        BRC_TRY(brc_simulation_find_time_step(simulation, k, &plans[k].step));
+        plans[k].n_steps = brc_simulation_planned_steps(simulation, k, plans[k].step.value);
+    }
+    return BRC_OK;
+}
+
+/* A line or two a stage; adds its predicted seconds to *total. */
+static brc_status print_stage(brc_context *context, brc_scene *scene, const brc_domain *domain, brc_device *device,
+                              int32_t index, const plan *planned, double *total)
+{
+    const brc_stage *stage = &scene->stages[index];
+    double per_step = 0;
+    BRC_TRY(time_a_step(context, scene, domain, device, index, &per_step));
+    if (stage->solver == BRC_SOLVER_DYNAMIC) {
+        const brc_time_step step = planned->step;
+        const int64_t n = planned->n_steps;
+        printf("stage %s: time step %.6g s (%s", stage->name, step.value, step.governed_by);
+        if (step.critical > 0) printf(", %.3g of the critical %.6g s", step.value / step.critical, step.critical);
+        printf("; the paper's rule would give %.6g s)\n", step.published);
+        printf("stage %s: %lld steps of %.3g s each, %.3g bond updates/s: %.3g s\n", stage->name, (long long)n, per_step,
+               (double)domain->n_bonds / per_step, per_step * (double)n);
+        *total += per_step * (double)n;
+        return BRC_OK;
+    }
+    double longest = 0;
+    for (int d = 0; d < 3; ++d)
+        longest = fmax(longest, domain->bounds[1][d] - domain->bounds[0][d]);
+    const double across = longest / domain->quality.mean_spacing;
+    const double solves = stage->solver == BRC_SOLVER_MODES ? 2.0 * stage->n_modes
+                                                            : stage->increments * (stage->finite_strain ? SOLVES_PER_INCREMENT : 1.0);
+    const double seconds = solves * ITERATIONS_PER_CELL_ACROSS * across * per_step;
+    printf("stage %s: %s; about %.2g iterations of %.3g s each: %.2g s (a rule of thumb)\n", stage->name,
+           stage->solver == BRC_SOLVER_MODES ? "modes" : "static", solves * ITERATIONS_PER_CELL_ACROSS * across, per_step, seconds);
+    *total += seconds;
+    return BRC_OK;
+}
+
+static brc_status run(const brc_session *session, const brc_arguments *arguments)
+{
+    brc_context *context = session->context;
+    brc_status status = BRC_OK;
+    brc_scene *scene = NULL;
+    brc_domain *domain = NULL;
+    brc_device *device = NULL;
+    brc_simulation *simulation = NULL;
+    plan *plans = NULL;
+    int64_t n_threads;
+    brc_precision precision;
+    BRC_TRY(brc_arguments_integer(context, arguments, "threads", 0, 4096, 0, &n_threads));
+    BRC_TRY(brc_arguments_precision(context, arguments, &precision));
+    int n_overrides;
+    const char *const *overrides = brc_arguments_values(arguments, "set", &n_overrides);
+    BRC_TRY(brc_scene_read(context, arguments->positional[0], n_overrides, overrides, &scene));
+    BRC_TRY_OR(cleanup, print_resolved(context, scene));
+    if (brc_arguments_value(arguments, "estimate")) {
+        status = print_estimate(context, scene);
+        goto cleanup;
+    }
+    const double build_start = brc_clock_s();
+    BRC_TRY_OR(cleanup, brc_scene_domain_build(context, scene, (int)n_threads, &domain));
+    double total = brc_clock_s() - build_start;
+    printf("counts: %lld elements, %lld bonds, %lld free faces (built in %.3g s)\n", (long long)domain->n_elements,
+           (long long)domain->n_bonds, (long long)domain->n_free_faces, total);
+    const char *selector = brc_arguments_value(arguments, "device");
+    const brc_device_request request = {.selector = selector ? selector : "auto",
+                                        .precision = precision,
+                                        .many_materials = brc_simulation_needs_many_materials(scene, domain),
+                                        .n_threads = (int)n_threads};
+    BRC_TRY_OR(cleanup, brc_device_open(context, &request, &device));
+    BRC_TRY_OR(cleanup, brc_simulation_create(context, scene, domain, device, &simulation));
+    const brc_device_info *info = brc_device_get_info(device);
+    printf("device: %s (%s), %s precision\n", info->selector, info->name, brc_precision_name(precision));
+    print_effects("effects in:", brc_simulation_effects_in(simulation));
+    print_effects("effects out:", brc_simulation_effects_out(simulation));
+    printf("memory: %.4g MB on the device (%.0f bytes an element), %.4g MB on the host\n", (double)brc_device_bytes(device) / 1e6,
+           (double)brc_device_bytes(device) / (double)domain->n_elements, (double)brc_memory_peak() / 1e6);
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &plans, scene->n_stages, "plans of the stages"));
+    BRC_TRY_OR(cleanup, make_plans(scene, simulation, plans));
+    brc_simulation_free(&simulation); /* the timing makes its own, and both may not fit */
+    for (int32_t k = 0; k < scene->n_stages; ++k)
+        BRC_TRY_OR(cleanup, print_stage(context, scene, domain, device, k, &plans[k], &total));
+    printf("predicted: %.3g s with building, without output\n", total);
+cleanup:
+    brc_memory_free(plans);
+    brc_simulation_free(&simulation);
+    brc_device_close(&device);
+    brc_domain_free(&domain);
+    brc_scene_free(&scene);
+    return status;
+}
+
+const brc_command brc_command_check = {.name = "check",
+                                       .operands = "SCENE",
+                                       .least = 1,
+                                       .most = 1,
+                                       .summary = "validate a scene and price it: effects, counts, time step, memory, seconds",
+                                       .details = "Prints the scene with all defaults. Seconds come from timing some steps on the device.",
+                                       .options = options,
+                                       .n_options = sizeof options / sizeof *options,
+                                       .run = run};

@@ -1,0 +1,67 @@
+/* breccia run: simulate a scene and write its results. */
+#include "command.h"
+#include "run_scene.h"
+#include <math.h>
+
+static const brc_option options[] = {
+    BRC_OPTION_OUTPUT("folder of the results (needed)"), BRC_OPTION_DEVICE, BRC_OPTION_PRECISION, BRC_OPTION_THREADS,
+    BRC_OPTION_SET,
+};
+
+static void print_measures(const brc_run_results *results)
+{
+    if (results->n_measures > 0) printf("\n%-20s %16s %16s %12s  %s\n", "measure", "value", "target", "error", "unit");
+    for (int32_t k = 0; k < results->n_measures; ++k) {
+        const brc_run_measure *measure = &results->measures[k];
+        if (isnan(measure->value))
+            printf("%-20s not measured: %s\n", measure->name, measure->why_not);
+        else if (measure->has_target)
+            printf("%-20s %16.9g %16.9g %12.2e  %s\n", measure->name, measure->value, measure->target, measure->error,
+                   measure->unit);
+        else
+            printf("%-20s %16.9g %16s %12s  %s\n", measure->name, measure->value, "-", "-", measure->unit);
+    }
+}
+
+static brc_status run(const brc_session *session, const brc_arguments *arguments)
+{
+    brc_run_request request = {.path = arguments->positional[0],
+                               .folder = brc_arguments_value(arguments, "output"),
+                               .device = brc_arguments_value(arguments, "device"),
+                               .running = session->running};
+    if (!request.folder)
+        return BRC_FAIL(session->context, BRC_BAD_INPUT, "breccia run: say where the results go with -o DIR");
+    int64_t n_threads;
+    BRC_TRY(brc_arguments_integer(session->context, arguments, "threads", 0, 4096, 0, &n_threads));
+    BRC_TRY(brc_arguments_precision(session->context, arguments, &request.precision));
+    request.n_threads = (int)n_threads;
+    request.overrides = brc_arguments_values(arguments, "set", &request.n_overrides);
+    brc_run_results results;
+    const brc_status status = brc_run_scene(session->context, &request, &results);
+    if (status == BRC_OK) {
+        printf("%s: %lld elements, %lld bonds on %s (%s, %s)\n", request.path, (long long)results.n_elements,
+               (long long)results.n_bonds, results.device, results.device_name, brc_precision_name(request.precision));
+        printf("seconds: build %.3g, setup %.3g, steps %.3g, output %.3g, all %.3g", results.build_s, results.setup_s,
+               results.steps_s, results.output_s, results.total_s);
+        if (results.steps > 0 && results.steps_s > 0)
+            printf("; %lld steps, %.3g bond updates/s", (long long)results.steps,
+                   (double)results.steps * (double)results.n_bonds / results.steps_s);
+        printf("\n");
+        print_measures(&results);
+    }
+    for (int k = 0; k < BRC_RUN_FILES; ++k)
+        if (results.file[k]) printf("%s%s\n", k == 0 ? "\n" : "", results.file[k]);
+    brc_run_results_free(&results);
+    return status;
+}
+
+const brc_command brc_command_run = {.name = "run",
+                                     .operands = "SCENE",
+                                     .least = 1,
+                                     .most = 1,
+                                     .summary = "simulate a scene and write its results into a folder",
+                                     .details = "DIR/summary.json is written by every run, also a failed one; an interrupted run "
+                                                "keeps its results so far.",
+                                     .options = options,
+                                     .n_options = sizeof options / sizeof *options,
+                                     .run = run};

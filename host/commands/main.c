@@ -1,0 +1,68 @@
+/* The program: finds the command, hands signals to the running simulation, prints the sentences of a failure once and
+ * turns the status into an exit code. The only place that owns process-wide state. */
+#include "command.h"
+#include "../base/log.h"
+#include "../base/version.h"
+#include <signal.h>
+#include <string.h>
+
+/* A signal handler reaches nothing else. */
+static brc_simulation *volatile running_simulation;
+
+static void on_signal(int number)
+{
+    brc_simulation *simulation = running_simulation;
+    /* The first signal asks for an orderly end; a second one, or one while nothing runs, ends the process at once. */
+    signal(number, SIG_DFL);
+    if (simulation)
+        brc_simulation_interrupt(simulation);
+    else
+        raise(number);
+}
+
+static void set_running(brc_simulation *simulation)
+{
+    running_simulation = simulation;
+}
+
+static brc_status dispatch(const brc_session *session, int argc, const char *const *argv)
+{
+    if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
+        brc_command_print_list(stdout);
+        return BRC_OK;
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        printf("breccia %s (commit %s, %s)\n", brc_version(), brc_version_commit(), brc_version_compiler());
+        return BRC_OK;
+    }
+    const brc_command *command = brc_command_find(session->context, argv[1]);
+    if (!command) return BRC_BAD_INPUT;
+    brc_arguments arguments;
+    BRC_TRY(brc_arguments_parse(session->context, command, argc - 2, argv + 2, &arguments));
+    if (arguments.help) {
+        brc_command_print_help(command, stdout);
+        return BRC_OK;
+    }
+    return command->run(session, &arguments);
+}
+
+int main(int argc, char **argv)
+{
+    brc_context *context = brc_context_create();
+    if (!context) {
+        fprintf(stderr, "breccia: out of memory before anything began\n");
+        return brc_status_exit_code(BRC_NO_MEMORY);
+    }
+    signal(SIGINT, on_signal);
+    signal(SIGTERM, on_signal);
+    const brc_session session = {context, set_running};
+    brc_status status = dispatch(&session, argc, (const char *const *)argv);
+    if (fflush(stdout) != 0 && status == BRC_OK)
+        status = BRC_FAIL(context, BRC_FILE_FAILED, "standard output cannot be written (closed, or the disk is full)");
+    if (status != BRC_OK) {
+        const char *message = brc_context_message(context);
+        fprintf(stderr, "%s\n", *message ? message : brc_status_text(status));
+    }
+    brc_context_free(&context);
+    return brc_status_exit_code(status);
+}
