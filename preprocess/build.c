@@ -44,43 +44,53 @@ static brc_status check_request(brc_context *context, const brc_build_request *r
     return BRC_OK;
 }
 
-/* Bytes of a finished domain of n elements, fitted to built ones (docs/domain.md): a Voronoi cell of random seeds has
- * about 14.6 neighbours and 25 corners, a cube 6 and 8; a boundary cell has one free face more and two bonds less. */
-static int64_t estimate_bytes(const brc_shape *shape, const brc_fill *fill, const brc_grid *grid)
+/* Bonds' ends and free faces per element, fitted to built domains (docs/domain.md). w: cells at a wall, per element. A
+ * cell of random seeds has 15.6 neighbours inside, fewer after relaxation, and loses four at a wall. A flat wall gives it
+ * one free face; laying p planes a cell over a curved one gives 1 + p (cylinder) or (1 + sqrt p)^2 (sphere). Without
+ * noise cells are cubes, until relaxation carries the disorder of a curved wall one layer a sweep inward. */
+static void estimate_faces(const brc_shape *shape, const brc_fill *fill, double h, double w, double *half_edges,
+                           double *free_faces)
 {
-    const double n = (double)grid->n_inside;
-    const bool cubes = fill->spread == 0.0 && fill->lloyd_sweeps == 0 && shape->kind == BRC_SHAPE_BOX;
-    double bounds[2][3];
-    brc_shape_bounds(shape, bounds);
-    const double a = bounds[1][0] - bounds[0][0], b = bounds[1][1] - bounds[0][1], c = bounds[1][2] - bounds[0][2];
-    const double h = cbrt(brc_shape_volume(shape) / n);
-    double area = 2.0 * (a * b + b * c + c * a), free_per_cell = 1.0;
-    if (shape->kind == BRC_SHAPE_CYLINDER) {
-        const double r = shape->radius;
-        area = 6.283185307 * r * (r + shape->length);
-        free_per_cell = (r + 2.0 * shape->length) / (r + shape->length);
-    } else if (shape->kind == BRC_SHAPE_SPHERE) {
-        area = 12.566370614 * shape->radius * shape->radius;
-        free_per_cell = 3.5;
+    const double sweeps = fill->lloyd_sweeps, r = shape->radius;
+    const bool sphere = shape->kind == BRC_SHAPE_SPHERE, cylinder = shape->kind == BRC_SHAPE_CYLINDER;
+    const double planes = brc_shape_planes(shape, h);
+    *free_faces = w;
+    if (cylinder) *free_faces = w * (r + (1.0 + planes * h / (6.283185307 * r)) * shape->length) / (r + shape->length);
+    if (sphere) *free_faces = w * pow(1.0 + sqrt(planes * h * h / 12.566370614) / r, 2.0);
+    if (fill->spread > 0.0) {
+        *half_edges = 14.9 + 0.7 * exp(-sweeps / 3.0) - 4.1 * w;
+    } else {
+        const double disorder = 1.0 - pow(fmax(0.0, 1.0 - w), sweeps);
+        *half_edges = 6.0 - (sphere ? 0.0 : cylinder ? 0.7 : 1.0) * w + (sphere ? 8.5 : cylinder ? 2.0 : 0.0) * disorder;
     }
-    const double n_wall = area / (h * h); /* cells at a wall */
-    const double half_edges = cubes ? 6.0 * n - n_wall : 14.7 * n - 4.0 * n_wall;
-    const double corners = cubes ? 8.0 * n : 25.4 * n - n_wall * (3.0 - 3.0 * (free_per_cell - 1.0));
-    const double free_faces = n_wall * free_per_cell;
-    /* bytes per item, as laid out in domain.h: a bond is half a half-edge */
-    return (int64_t)(n * (24 + 8 + 24 + 48 + 4 + 4 + 8 + 8 + 8) + half_edges * (4 + 4 + 4 + 24 + 24 + 2) +
-                     free_faces * (4 + 24 + 24 + 4 + 8 + 4 + 4.7 * 4) + corners * 24);
 }
 
-static brc_status check_memory(brc_context *context, int64_t n, int64_t bytes)
+/* Bytes of a finished domain, by the sizes of domain.h. */
+static int64_t estimate_bytes(const brc_shape *shape, const brc_fill *fill, double n)
+{
+    double bounds[2][3], side[3], half_edges, free_faces;
+    brc_shape_bounds(shape, bounds);
+    for (int k = 0; k < 3; ++k) side[k] = bounds[1][k] - bounds[0][k];
+    const double r = shape->radius, h = cbrt(brc_shape_volume(shape) / n);
+    double surface = 2.0 * (side[0] * side[1] + side[1] * side[2] + side[2] * side[0]);
+    if (shape->kind == BRC_SHAPE_CYLINDER) surface = 6.283185307 * r * (r + shape->length);
+    if (shape->kind == BRC_SHAPE_SPHERE) surface = 12.566370614 * r * r;
+    estimate_faces(shape, fill, h, surface / (h * h * n), &half_edges, &free_faces);
+    const double corners = 2.0 * (half_edges + free_faces) - 4.0; /* three faces meet in a corner */
+    const double element = 3 * 8 + 8 + 3 * 8 + 6 * 8 + 4 + 4 + 3 * 8, half_edge = 3 * 4 + 6 * 8 + 2;
+    const double free_face = 2 * 4 + 6 * 8 + 8 + 5.2 * 4 + 4;
+    return (int64_t)(n * (element + half_edges * half_edge + free_faces * free_face + corners * 3 * 8));
+}
+
+static brc_status check_memory(brc_context *context, double n, double bytes)
 {
     const double physical = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    const double needed = BUILD_OVER_DOMAIN * (double)bytes;
+    const double needed = BUILD_OVER_DOMAIN * bytes;
     if (physical <= 0.0 || needed <= physical) return BRC_OK;
     return BRC_FAIL(context, BRC_BAD_INPUT,
-                    "fill: building %lld elements needs about %.3g GB, this machine has %.3g GB; ask for at most %.2g "
+                    "fill: building %.3g elements needs about %.3g GB, this machine has %.3g GB; ask for at most %.2g "
                     "elements",
-                    (long long)n, needed * 1e-9, physical * 1e-9, (double)n * physical / needed);
+                    n, needed * 1e-9, physical * 1e-9, n * physical / needed);
 }
 
 /* Walls and grid, which both building and estimating need. *walls is the caller's to free in any case. */
@@ -91,11 +101,13 @@ static brc_status plan(brc_context *context, const brc_build_request *request, b
     const double spacing = brc_fill_spacing(&request->shape, &request->fill);
     /* before anything is allocated by the number of elements */
     const double n = brc_shape_volume(&request->shape) / (spacing * spacing * spacing);
-    const brc_grid rough = {.n_inside = n < 1e15 ? (int64_t)n + 1 : (int64_t)1e15};
-    BRC_TRY(check_memory(context, rough.n_inside, estimate_bytes(&request->shape, &request->fill, &rough) / 2));
+    if (n > 1e12)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: a spacing of %g m gives %.3g elements; use larger cells", spacing, n);
+    BRC_TRY(check_memory(context, n, (double)estimate_bytes(&request->shape, &request->fill, n) / 2.0));
     BRC_TRY(brc_walls_create(context, &request->shape, spacing, walls));
     BRC_TRY(brc_grid_plan(context, &request->shape, &request->fill, walls, n_threads_of(request), grid));
-    return check_memory(context, grid->n_inside, estimate_bytes(&request->shape, &request->fill, grid));
+    const double inside = (double)grid->n_inside;
+    return check_memory(context, inside, (double)estimate_bytes(&request->shape, &request->fill, inside));
 }
 
 brc_status brc_domain_estimate(brc_context *context, const brc_build_request *request, int64_t *n_elements,
@@ -106,7 +118,7 @@ brc_status brc_domain_estimate(brc_context *context, const brc_build_request *re
     const brc_status status = plan(context, request, &walls, &grid);
     if (status == BRC_OK) {
         *n_elements = grid.n_inside;
-        *bytes = estimate_bytes(&request->shape, &request->fill, &grid);
+        *bytes = estimate_bytes(&request->shape, &request->fill, (double)grid.n_inside);
     }
     brc_walls_free(&walls);
     return status;

@@ -69,6 +69,17 @@ double brc_shape_volume(const brc_shape *shape)
     return 0.0;
 }
 
+double brc_shape_planes(const brc_shape *shape, double spacing)
+{
+    const double r = shape->radius / spacing;
+    switch (shape->kind) {
+    case BRC_SHAPE_BOX: return 0.0;
+    case BRC_SHAPE_CYLINDER: return fmax(LEAST_PRISM_SIDES, ceil(2.0 * PI * r));
+    case BRC_SHAPE_SPHERE: return fmax(LEAST_SPHERE_PLANES, ceil(4.0 * PI * r * r));
+    }
+    return 0.0;
+}
+
 /* Normal k of n on a Fibonacci lattice: equal steps of z, the azimuth turning by the golden angle. */
 static void fibonacci_normal(int64_t k, int64_t n, double out[3])
 {
@@ -144,17 +155,9 @@ static bool facet_area(const brc_walls *unit, int32_t k, double half, double *ar
     return fits;
 }
 
-static brc_status create_sphere(brc_context *context, double spacing, brc_walls *walls)
+static void place_sphere(brc_walls *walls)
 {
-    const double r = walls->shape.radius;
-    const double wanted = ceil(4.0 * PI * r * r / (spacing * spacing));
-    if (wanted > 1e9)
-        return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "fill: a spacing of %g m on a sphere of radius %g m needs %.3g wall planes; use larger cells",
-                        spacing, r, wanted);
-    const int32_t n = wanted > LEAST_SPHERE_PLANES ? (int32_t)wanted : LEAST_SPHERE_PLANES;
-    BRC_TRY(BRC_ALLOCATE(context, &walls->normal, 3 * (int64_t)n, "planes of the sphere"));
-    walls->n_planes = n;
+    const int32_t n = walls->n_planes;
     for (int32_t k = 0; k < n; ++k) fibonacci_normal(k, n, walls->normal + 3 * (int64_t)k);
     /* volume at distance 1 from the centre, as the sum of pyramids; it grows with the cube of the distance */
     walls->offset = 1.0;
@@ -165,21 +168,12 @@ static brc_status create_sphere(brc_context *context, double spacing, brc_walls 
         while (!facet_area(walls, k, half, &area) && half < 8.0) half *= 2.0;
         volume += area / 3.0;
     }
-    walls->offset = r * cbrt(4.0 / 3.0 * PI / volume);
-    return BRC_OK;
+    walls->offset = walls->shape.radius * cbrt(4.0 / 3.0 * PI / volume);
 }
 
-static brc_status create_prism(brc_context *context, double spacing, brc_walls *walls)
+static void place_prism(brc_walls *walls)
 {
-    const double r = walls->shape.radius;
-    const double wanted = ceil(2.0 * PI * r / spacing);
-    if (wanted > 1e9)
-        return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "fill: a spacing of %g m on a cylinder of radius %g m needs %.3g wall planes; use larger cells",
-                        spacing, r, wanted);
-    const int32_t n = wanted > LEAST_PRISM_SIDES ? (int32_t)wanted : LEAST_PRISM_SIDES;
-    BRC_TRY(BRC_ALLOCATE(context, &walls->normal, 3 * (int64_t)n, "planes of the cylinder"));
-    walls->n_planes = n;
+    const int32_t n = walls->n_planes;
     const int u = (walls->shape.axis + 1) % 3, v = (walls->shape.axis + 2) % 3;
     for (int32_t k = 0; k < n; ++k) {
         const double phi = 2.0 * PI * k / n;
@@ -187,8 +181,7 @@ static brc_status create_prism(brc_context *context, double spacing, brc_walls *
         walls->normal[3 * (int64_t)k + v] = sin(phi);
     }
     /* a regular polygon of inner radius c has the area n c^2 tan(pi / n) */
-    walls->offset = r * sqrt(PI / (n * tan(PI / n)));
-    return BRC_OK;
+    walls->offset = walls->shape.radius * sqrt(PI / (n * tan(PI / n)));
 }
 
 brc_status brc_walls_create(brc_context *context, const brc_shape *shape, double spacing, brc_walls *walls)
@@ -212,9 +205,16 @@ brc_status brc_walls_create(brc_context *context, const brc_shape *shape, double
     for (int k = 0; k < 3; ++k) walls->centre[k] = shape->origin[k];
     walls->plane_wall = walls->n_walls;
     walls->wall_name[walls->n_walls++] = sphere ? "surface" : "side";
-    const brc_status status = sphere ? create_sphere(context, spacing, walls) : create_prism(context, spacing, walls);
-    if (status != BRC_OK) brc_walls_free(walls);
-    return status;
+    const double n = brc_shape_planes(shape, spacing);
+    if (n > 1e9)
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "fill: cells of %g m on a curved wall of radius %g m need %.3g wall planes; use larger cells",
+                        spacing, shape->radius, n);
+    BRC_TRY(BRC_ALLOCATE(context, &walls->normal, 3 * (int64_t)n, "planes of the curved wall"));
+    walls->n_planes = (int32_t)n;
+    if (sphere) place_sphere(walls);
+    else place_prism(walls);
+    return BRC_OK;
 }
 
 void brc_walls_free(brc_walls *walls)

@@ -27,6 +27,9 @@ void brc_shape_bounds(const brc_shape *shape, double bounds[2][3]);
 /* Exact volume of the (curved) shape [m^3]. */
 double brc_shape_volume(const brc_shape *shape);
 
+/* Planes that stand for the curved wall: about as wide as a cell of size `spacing` [m], and never few. */
+double brc_shape_planes(const brc_shape *shape, double spacing);
+
 /* Walls fine against `spacing`, the size of a cell [m]. Caller frees with brc_walls_free. */
 brc_status brc_walls_create(brc_context *context, const brc_shape *shape, double spacing, brc_walls *walls);
 void brc_walls_free(brc_walls *walls);
