@@ -19,7 +19,8 @@ def exported(listing):
             if not match:
                 continue
             kind, name = match.groups()
-            if kind in "TDBRCSGi" and not name.startswith(("brc_", "__odr_asan", "__asan", "__start_", "__stop_")):
+            if kind in "TDBRCSGi" and not name.startswith(
+                    ("brc_", ".gomp_critical_user_brc_", "__odr_asan", "__asan", "__start_", "__stop_")):
                 findings.append(f"{library}: exports {name}; public names start with brc_, others are static")
             if kind == "U" and name in ENDS_THE_PROGRAM:
                 findings.append(f"{library}: calls {name}; only the main program ends the program")
@@ -27,7 +28,7 @@ def exported(listing):
 
 
 listing = {}
-for path in sorted(glob.glob(os.path.join(BUILD, "libbrc_*.a"))):
+for path in sorted(glob.glob(os.path.join(BUILD, "libbr*.a"))):
     listing[os.path.basename(path)] = subprocess.run(["nm", "-A", "-g", path], capture_output=True, text=True,
                                                      check=True).stdout
 if not listing:
