@@ -41,10 +41,13 @@ foreach(precision RANGE 2)
     foreach(many RANGE 1)
         set(name brc_kernels_target_${precision_name}_${many})
         set(object ${brc_target_dir}/${name}.o)
+        # In two steps: clang names a target region by file, function and line, so that instances compiled from one file
+        # would share names, and one would run in place of another. Each gets a file of its own.
         add_custom_command(OUTPUT ${object}
-            COMMAND ${BRC_TARGET_CLANG} ${brc_target_flags} -DBRC_TARGET -DBRC_INSTANCE=${name} -DBRC_LEVEL="target"
+            COMMAND ${BRC_TARGET_CLANG} -std=gnu11 -fopenmp ${BRC_TARGET_ARCH} -DBRC_TARGET -DBRC_INSTANCE=${name} -DBRC_LEVEL="target"
                     -DBRC_PRECISION=${precision} -DBRC_LANES=${lanes} -DBRC_SLICE=${lanes} -DBRC_MANY_MATERIALS=${many}
-                    -c ${brc_device_dir}/instance/kernels_instance.c -o ${object}
+                    -E -P ${brc_device_dir}/instance/kernels_instance.c -o ${brc_target_dir}/${name}.c
+            COMMAND ${BRC_TARGET_CLANG} ${brc_target_flags} -c ${brc_target_dir}/${name}.c -o ${object}
             DEPENDS ${brc_device_dir}/instance/kernels_instance.c ${brc_device_dir}/kernel_instance.h ${brc_kernel_texts}
             COMMENT "Building target kernels ${precision_name}, many materials ${many}" VERBATIM)
         list(APPEND brc_target_objects ${object})

@@ -14,13 +14,21 @@ static int devices(void)
     return omp_get_num_devices();
 }
 
+/* Kernels get device addresses. clang 14 ignores defaultmap(firstprivate : pointer) and looks every pointer up among the
+ * mapped host addresses, giving NULL for what it does not find: so each block is entered there as its own image. */
 static void *allocate(int device, size_t bytes)
 {
-    return omp_target_alloc(bytes, device);
+    void *const memory = omp_target_alloc(bytes, device);
+    if (memory && omp_target_associate_ptr(memory, memory, bytes, 0, device) != 0) {
+        omp_target_free(memory, device);
+        return NULL;
+    }
+    return memory;
 }
 
 static void release(int device, void *memory)
 {
+    (void)omp_target_disassociate_ptr(memory, device);
     omp_target_free(memory, device);
 }
 
