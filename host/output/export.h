@@ -3,6 +3,7 @@
 #define BRC_OUTPUT_EXPORT_H
 
 #include "../base/status.h"
+#include <stdint.h>
 
 /* folder: of a run. out_folder: where to write (made); NULL: `folder`/export.
  *   "vtu"     frames/NNNNNN.vtu (convex point sets, appended raw data) and frames.pvd

@@ -20,6 +20,18 @@ typedef struct brc_measured {
  * BRC_NO_MEMORY only. domain may be NULL where no measure has an area_set. */
 brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, const brc_domain *domain,
                                 const brc_history *history, int32_t index, brc_measured *out);
+/* The samples that a measure reads: those of its stage and window that are numbers. */
+typedef struct brc_measure_series {
+    int64_t n;
+    double *time; /* [n] of the stage [s] */
+    double *x;    /* [n] abscissa of a slope; else the same sensor as y, unscaled */
+    double *y;    /* [n] times the measure's scale, over its reference area, minus for a Poisson's ratio */
+} brc_measure_series;
+/* Collect them for measure `index`; where there are none measured->why_not says why. BRC_NO_MEMORY. Caller frees. */
+brc_status brc_measure_series_collect(brc_context *context, const brc_scene *scene, const brc_domain *domain,
+                                      const brc_history *history, int32_t index, brc_measure_series *out,
+                                      brc_measured *measured);
+void brc_measure_series_free(brc_measure_series *series);
 /* Reference area of a face set, as a flat section sees it: sum of |area vector . mean normal| [m^2]; NAN where the set
  * is not a face set. */
 double brc_measure_area(const brc_domain *domain, int32_t set);

@@ -1,0 +1,327 @@
+/* Sensors. Means over faces are weighted with face areas, means over elements with their volumes; all sums run in the
+ * order of the set's members, so equal states give equal bytes. */
+#include "sensors.h"
+#include "../base/memory.h"
+#include <math.h>
+#include <string.h>
+
+/* A set that some sensor averages displacements over. Sensors of one set share it. */
+typedef struct patch {
+    int32_t set; /* index in the domain; -1: all elements */
+    bool faces;
+    int64_t n;
+    const int32_t *members;   /* borrowed; NULL: all elements */
+    double weight;            /* sum of areas [m^2] or volumes [m^3] */
+    double mean_position[3];  /* [m] */
+    double *u;                /* faces: [n][3] displacement now [m]; elements: NULL, they are in the field */
+    double mean_u[3];         /* now [m] */
+} patch;
+
+struct brc_sensors {
+    brc_context *context;
+    const brc_scene *scene;
+    const brc_domain *domain;
+    int32_t n_patches;
+    patch *patches;    /* [2 n_sensors] room, n_patches used */
+    int32_t *first;    /* [n_sensors] patch, or domain set (reaction, stress, strain), or element (points); -1: all, none */
+    int32_t *second;   /* [n_sensors] patch of set2 */
+    double *distance;  /* [n_sensors] face strain: reference distance along the component [m] */
+    double *displacement, *velocity; /* [n_elements][3] or NULL */
+    double *strain, *stress;         /* [n_elements][6] or NULL */
+    bool needs_ledger;
+};
+
+static const double *patch_point(const brc_domain *d, const patch *p, int64_t k, double *weight)
+{
+    const int64_t m = p->members ? p->members[k] : k;
+    if (!p->faces) {
+        *weight = d->volume[m];
+        return d->position + 3 * m;
+    }
+    const double *s = d->free_area_vector + 3 * m;
+    *weight = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+    return d->free_centroid + 3 * m;
+}
+
+static const double *patch_displacement(const brc_sensors *sensors, const patch *p, int64_t k)
+{
+    if (p->faces) return p->u + 3 * k;
+    return sensors->displacement + 3 * (p->members ? (int64_t)p->members[k] : k);
+}
+
+/* The patch of a set, made at its first use. */
+static brc_status find_patch(brc_sensors *sensors, int32_t set, int32_t *out)
+{
+    const brc_domain *d = sensors->domain;
+    for (*out = 0; *out < sensors->n_patches; ++*out)
+        if (sensors->patches[*out].set == set) return BRC_OK;
+    patch *p = &sensors->patches[*out];
+    *p = (patch){.set = set};
+    p->faces = set >= 0 && d->sets[set].kind == BRC_SET_FACES;
+    p->n = set >= 0 ? d->sets[set].n_members : d->n_elements;
+    p->members = set >= 0 ? d->sets[set].members : NULL;
+    for (int64_t k = 0; k < p->n; ++k) {
+        double weight;
+        const double *x = patch_point(d, p, k, &weight);
+        p->weight += weight;
+        for (int c = 0; c < 3; ++c)
+            p->mean_position[c] += weight * x[c];
+    }
+    for (int c = 0; c < 3; ++c)
+        p->mean_position[c] /= p->weight;
+    if (p->faces) BRC_TRY(BRC_ALLOCATE(sensors->context, &p->u, 3 * p->n, "displacement of sensor faces"));
+    ++sensors->n_patches;
+    return BRC_OK;
+}
+
+static brc_status find_set(brc_sensors *sensors, const brc_sensor *sensor, const char *name, int32_t *out)
+{
+    *out = -1;
+    if (name[0] == '\0') return BRC_OK;
+    *out = brc_domain_find_set(sensors->domain, name);
+    if (*out < 0)
+        return BRC_FAIL(sensors->context, BRC_BAD_INPUT,
+                        "sensor %s: there is no set \"%s\" in the domain; name a wall or one of the scene's sets",
+                        sensor->name, name);
+    if (sensors->domain->sets[*out].n_members == 0)
+        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: the set \"%s\" is empty", sensor->name, name);
+    return BRC_OK;
+}
+
+/* Ties go to the smaller id. */
+static int32_t nearest_element(const brc_domain *d, const double point[3])
+{
+    int32_t best = 0;
+    double least = INFINITY;
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        double square = 0;
+        for (int c = 0; c < 3; ++c)
+            square += (d->position[3 * e + c] - point[c]) * (d->position[3 * e + c] - point[c]);
+        if (square < least) {
+            least = square;
+            best = (int32_t)e;
+        }
+    }
+    return best;
+}
+
+static brc_status prepare_strain(brc_sensors *sensors, const brc_sensor *sensor, int32_t s)
+{
+    const patch *a = &sensors->patches[sensors->first[s]];
+    const patch *b = &sensors->patches[sensors->second[s]];
+    const int c = sensor->component;
+    sensors->distance[s] = a->mean_position[c] - b->mean_position[c];
+    double extent = 0;
+    for (int k = 0; k < 3; ++k)
+        extent = fmax(extent, sensors->domain->bounds[1][k] - sensors->domain->bounds[0][k]);
+    if (fabs(sensors->distance[s]) > 1e-9 * extent) return BRC_OK;
+    return BRC_FAIL(sensors->context, BRC_BAD_INPUT,
+                    "sensor %s: the sets \"%s\" and \"%s\" lie at the same %c (%.9g m); a strain needs two places along "
+                    "its component",
+                    sensor->name, sensor->set, sensor->set2, 'x' + c, a->mean_position[c]);
+}
+
+static brc_status prepare(brc_sensors *sensors, int32_t s)
+{
+    const brc_sensor *sensor = &sensors->scene->sensors[s];
+    int32_t set;
+    sensors->first[s] = sensors->second[s] = -1;
+    switch (sensor->kind) {
+    case BRC_SENSOR_REACTION:
+        if (sensor->set[0] == '\0')
+            return BRC_FAIL(sensors->context, BRC_BAD_INPUT,
+                            "sensor %s: a reaction needs the set whose prescribed motion it belongs to", sensor->name);
+        return find_set(sensors, sensor, sensor->set, &sensors->first[s]);
+    case BRC_SENSOR_STRESS:
+    case BRC_SENSOR_STRAIN:
+        BRC_TRY(find_set(sensors, sensor, sensor->set, &sensors->first[s]));
+        if (sensors->first[s] >= 0 && sensors->domain->sets[sensors->first[s]].kind != BRC_SET_ELEMENTS)
+            return BRC_FAIL(sensors->context, BRC_BAD_INPUT,
+                            "sensor %s: the set \"%s\" holds faces; stress and strain are averaged over elements",
+                            sensor->name, sensor->set);
+        return BRC_OK;
+    case BRC_SENSOR_FACE_MEAN:
+    case BRC_SENSOR_FACE_STRAIN:
+    case BRC_SENSOR_FACE_TWIST:
+        BRC_TRY(find_set(sensors, sensor, sensor->set, &set));
+        BRC_TRY(find_patch(sensors, set, &sensors->first[s]));
+        if (sensor->kind == BRC_SENSOR_FACE_TWIST && !(hypot(hypot(sensor->axis[0], sensor->axis[1]), sensor->axis[2]) > 0))
+            return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: a twist needs an axis that is not zero",
+                            sensor->name);
+        if (sensor->kind != BRC_SENSOR_FACE_STRAIN) return BRC_OK;
+        BRC_TRY(find_set(sensors, sensor, sensor->set2, &set));
+        BRC_TRY(find_patch(sensors, set, &sensors->second[s]));
+        return prepare_strain(sensors, sensor, s);
+    case BRC_SENSOR_POINT:
+    case BRC_SENSOR_POINT_VELOCITY: sensors->first[s] = nearest_element(sensors->domain, sensor->point); return BRC_OK;
+    case BRC_SENSOR_ENERGY:
+        if (isnan(brc_ledger_term(&(brc_ledger){0}, sensor->term)))
+            return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: the ledger has no term \"%s\"", sensor->name,
+                            sensor->term);
+        return BRC_OK;
+    case BRC_SENSOR_MODE: return BRC_OK;
+    }
+    return BRC_FAIL(sensors->context, BRC_INTERNAL, "sensor %s: unknown kind %d", sensor->name, (int)sensor->kind);
+}
+
+/* Arrays for the fields that some sensor reads, and for no others. */
+static brc_status allocate_fields(brc_sensors *sensors)
+{
+    bool displacement = false, velocity = false, strain = false, stress = false;
+    for (int32_t s = 0; s < sensors->scene->n_sensors; ++s) {
+        const brc_sensor_kind kind = sensors->scene->sensors[s].kind;
+        displacement |= kind == BRC_SENSOR_POINT;
+        velocity |= kind == BRC_SENSOR_POINT_VELOCITY;
+        strain |= kind == BRC_SENSOR_STRAIN;
+        stress |= kind == BRC_SENSOR_STRESS;
+        sensors->needs_ledger |= kind == BRC_SENSOR_ENERGY;
+    }
+    for (int32_t p = 0; p < sensors->n_patches; ++p)
+        displacement |= !sensors->patches[p].faces;
+    const int64_t n = sensors->domain->n_elements;
+    brc_context *context = sensors->context;
+    if (displacement) BRC_TRY(BRC_ALLOCATE(context, &sensors->displacement, 3 * n, "displacement for sensors"));
+    if (velocity) BRC_TRY(BRC_ALLOCATE(context, &sensors->velocity, 3 * n, "velocity for sensors"));
+    if (strain) BRC_TRY(BRC_ALLOCATE(context, &sensors->strain, 6 * n, "strain for sensors"));
+    if (stress) BRC_TRY(BRC_ALLOCATE(context, &sensors->stress, 6 * n, "stress for sensors"));
+    return BRC_OK;
+}
+
+brc_status brc_sensors_create(brc_context *context, const brc_scene *scene, const brc_domain *domain, brc_sensors **out)
+{
+    brc_sensors *sensors = NULL;
+    brc_status status = BRC_OK;
+    *out = NULL;
+    const int32_t n = scene->n_sensors;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors, 1, "sensors"));
+    *sensors = (brc_sensors){.context = context, .scene = scene, .domain = domain};
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->patches, 2 * n, "sensors"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->first, n, "sensors"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->second, n, "sensors"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->distance, n, "sensors"));
+    for (int32_t s = 0; s < n; ++s) { /* all wrong sensors in one pass */
+        const brc_status one = prepare(sensors, s);
+        if (one != BRC_OK) status = one;
+    }
+    if (status == BRC_OK) status = allocate_fields(sensors);
+cleanup:
+    if (status != BRC_OK) brc_sensors_free(&sensors);
+    *out = sensors;
+    return status;
+}
+
+void brc_sensors_free(brc_sensors **sensors)
+{
+    if (!sensors || !*sensors) return;
+    for (int32_t p = 0; p < (*sensors)->n_patches; ++p)
+        brc_memory_free((*sensors)->patches[p].u);
+    brc_memory_free((*sensors)->patches);
+    brc_memory_free((*sensors)->first);
+    brc_memory_free((*sensors)->second);
+    brc_memory_free((*sensors)->distance);
+    brc_memory_free((*sensors)->displacement);
+    brc_memory_free((*sensors)->velocity);
+    brc_memory_free((*sensors)->strain);
+    brc_memory_free((*sensors)->stress);
+    brc_memory_free(*sensors);
+    *sensors = NULL;
+}
+
+static brc_status read_fields(brc_sensors *sensors, brc_simulation *simulation)
+{
+    if (sensors->displacement) BRC_TRY(brc_simulation_displacement(simulation, sensors->displacement));
+    if (sensors->velocity) BRC_TRY(brc_simulation_velocity(simulation, sensors->velocity));
+    if (sensors->strain || sensors->stress)
+        BRC_TRY(brc_simulation_strain_stress(simulation, sensors->strain, sensors->stress, NULL));
+    for (int32_t k = 0; k < sensors->n_patches; ++k) {
+        patch *p = &sensors->patches[k];
+        if (p->faces) BRC_TRY(brc_simulation_face_displacement(simulation, p->n, p->members, p->u));
+        p->mean_u[0] = p->mean_u[1] = p->mean_u[2] = 0;
+        for (int64_t m = 0; m < p->n; ++m) {
+            double weight;
+            patch_point(sensors->domain, p, m, &weight);
+            const double *u = patch_displacement(sensors, p, m);
+            for (int c = 0; c < 3; ++c)
+                p->mean_u[c] += weight * u[c];
+        }
+        for (int c = 0; c < 3; ++c)
+            p->mean_u[c] /= p->weight;
+    }
+    return BRC_OK;
+}
+
+static double volume_mean(const brc_sensors *sensors, const double *tensor, int32_t set, int32_t component)
+{
+    const brc_domain *d = sensors->domain;
+    const int64_t n = set >= 0 ? d->sets[set].n_members : d->n_elements;
+    double sum = 0, volume = 0;
+    for (int64_t k = 0; k < n; ++k) {
+        const int64_t e = set >= 0 ? d->sets[set].members[k] : k;
+        sum += d->volume[e] * tensor[6 * e + component];
+        volume += d->volume[e];
+    }
+    return sum / volume;
+}
+
+/* Mean rotation about the axis through `point`: the angle that turns the reference arms r, seen along the axis, into the
+ * present ones best: tan(angle) = sum S (r x u).a / sum S r.(r + u), across the axis. To first order in u this is
+ * sum S (r x u).a / sum S |r|^2; of a rigid rotation it is the angle itself, however large (within +-pi). */
+static double twist_angle(const brc_sensors *sensors, const brc_sensor *sensor, const patch *p)
+{
+    const double *a = sensor->axis;
+    const double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    const double axis[3] = {a[0] / length, a[1] / length, a[2] / length};
+    double turning = 0, staying = 0;
+    for (int64_t k = 0; k < p->n; ++k) {
+        double weight;
+        const double *x = patch_point(sensors->domain, p, k, &weight);
+        const double *u = patch_displacement(sensors, p, k);
+        double r[3] = {x[0] - sensor->point[0], x[1] - sensor->point[1], x[2] - sensor->point[2]};
+        const double along = r[0] * axis[0] + r[1] * axis[1] + r[2] * axis[2];
+        for (int c = 0; c < 3; ++c)
+            r[c] -= along * axis[c];
+        turning += weight * (axis[0] * (r[1] * u[2] - r[2] * u[1]) + axis[1] * (r[2] * u[0] - r[0] * u[2]) +
+                             axis[2] * (r[0] * u[1] - r[1] * u[0]));
+        staying += weight * (r[0] * (r[0] + u[0]) + r[1] * (r[1] + u[1]) + r[2] * (r[2] + u[2]));
+    }
+    return atan2(turning, staying);
+}
+
+static double mode_frequency(const brc_simulation *simulation, int32_t index)
+{
+    int32_t n = 0;
+    const double *omega = brc_simulation_modes(simulation, &n);
+    return omega && index >= 0 && index < n ? omega[index] / (2 * M_PI) : NAN;
+}
+
+brc_status brc_sensors_evaluate(brc_sensors *sensors, brc_simulation *simulation, double *value)
+{
+    brc_ledger ledger = {0};
+    BRC_TRY(read_fields(sensors, simulation));
+    if (sensors->needs_ledger) BRC_TRY(brc_simulation_ledger(simulation, &ledger));
+    for (int32_t s = 0; s < sensors->scene->n_sensors; ++s) {
+        const brc_sensor *sensor = &sensors->scene->sensors[s];
+        const int32_t first = sensors->first[s];
+        const int c = sensor->component;
+        double reaction[3];
+        switch (sensor->kind) {
+        case BRC_SENSOR_REACTION:
+            BRC_TRY(brc_simulation_reaction(simulation, first, reaction));
+            value[s] = reaction[c];
+            break;
+        case BRC_SENSOR_FACE_MEAN: value[s] = sensors->patches[first].mean_u[c]; break;
+        case BRC_SENSOR_FACE_STRAIN:
+            value[s] = (sensors->patches[first].mean_u[c] - sensors->patches[sensors->second[s]].mean_u[c]) /
+                       sensors->distance[s];
+            break;
+        case BRC_SENSOR_FACE_TWIST: value[s] = twist_angle(sensors, sensor, &sensors->patches[first]); break;
+        case BRC_SENSOR_STRESS: value[s] = volume_mean(sensors, sensors->stress, first, c); break;
+        case BRC_SENSOR_STRAIN: value[s] = volume_mean(sensors, sensors->strain, first, c); break;
+        case BRC_SENSOR_ENERGY: value[s] = brc_ledger_term(&ledger, sensor->term); break;
+        case BRC_SENSOR_POINT: value[s] = sensors->displacement[3 * (int64_t)first + c]; break;
+        case BRC_SENSOR_POINT_VELOCITY: value[s] = sensors->velocity[3 * (int64_t)first + c]; break;
+        case BRC_SENSOR_MODE: value[s] = mode_frequency(simulation, sensor->index); break;
+        }
+    }
+    return BRC_OK;
+}
