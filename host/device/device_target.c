@@ -13,6 +13,14 @@
 
 #define PLUGIN_FILE "libbreccia_target.so"
 
+#if defined(__SANITIZE_ADDRESS__)
+#define BRC_UNDER_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define BRC_UNDER_SANITIZER
+#endif
+#endif
+
 typedef struct target_inside {
     const brc_target_plugin *plugin;
     const brc_kernel_instance *instance;
@@ -22,6 +30,10 @@ typedef struct target_inside {
  * runtime keeps threads and handlers), so the handle is given away on purpose: the loader opens a path only once. */
 static const brc_target_plugin *load(const char *path, char *why, size_t bytes)
 {
+#ifdef BRC_UNDER_SANITIZER
+    snprintf(why, bytes, "%s stays out: the address sanitizer ends programs that open libraries as plug-ins need it", path);
+    return NULL;
+#else
     void *const library = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND | RTLD_NODELETE);
     if (!library) {
         snprintf(why, bytes, "%s", dlerror());
@@ -35,6 +47,7 @@ static const brc_target_plugin *load(const char *path, char *why, size_t bytes)
         return plugin;
     snprintf(why, bytes, "%s belongs to another version of breccia: build it again", path);
     return NULL;
+#endif
 }
 
 /* The folder of the running program, with a '/' at the end; "" when it cannot be told. */
