@@ -112,6 +112,7 @@ static void check_reference(brc_reader *reader, const brc_place *place, const ch
     if (refers == BRC_REFERS_STAGE && is_broken(reader, "stages")) return;
     const char *near = brc_nearest_word(name, n, words);
     const char *hint = near                          ? ""
+                       : refers == BRC_REFERS_WALL   ? ""
                        : about_sets                  ? "; define it under sets"
                        : refers == BRC_REFERS_SENSOR ? "; define it under sensors"
                                                      : "";
@@ -245,7 +246,7 @@ static brc_status check_stage(brc_reader *reader, brc_stage *stage)
         if (stage->solver != BRC_SOLVER_DYNAMIC && velocity)
             COMPLAIN(reader, NULL, load, "a %s stage has no velocities; prescribe a displacement",
                      stage->solver == BRC_SOLVER_STATIC ? "static" : "modes");
-        if (stage->solver == BRC_SOLVER_STATIC && load->table.n == 0) BRC_TRY(give_ramp(reader, &load->table));
+        if (stage->solver == BRC_SOLVER_STATIC && !load->table.time) BRC_TRY(give_ramp(reader, &load->table));
         for (int other = 0; other < l; ++other)
             check_pair(reader, &stage->loads[other], load);
     }

@@ -31,6 +31,7 @@ const char *brc_entry_expects(const brc_entry *entry, const char *unit, char *ou
     char what[SENTENCE] = "", range[96];
     const char *sample = entry->sample ? entry->sample : entry->given ? entry->given : "";
     const bool pure = unit[0] == '\0';
+    if (entry->unit && strcmp(entry->unit, BRC_UNIT_MEASURE_TIME) == 0 && !pure) sample = "[0, 1 ms]";
     switch (entry->type) {
     case BRC_TYPE_QUANTITY:
         if (pure)

@@ -93,12 +93,12 @@ const brc_section brc_schema_sensor = {.title = "sensor",
                                        .one_of = true,
                                        .has_kind = true,
                                        .kind_offset = offsetof(brc_sensor, kind),
-                                       .sample_name = "force"};
+                                       .sample_name = "probe"};
 
-#define SENSOR_ENTRY(key_, field, meaning_)                                                                            \
+#define SENSOR_ENTRY(key_, field, sample_, meaning_)                                                                   \
     {                                                                                                                  \
         key_, BRC_TYPE_NAME, FIELD(brc_measure, field), .required = true, .refers = BRC_REFERS_SENSOR,                 \
-                                                        .sample = "force", .meaning = meaning_                         \
+                                                        .sample = sample_, .meaning = meaning_                         \
     }
 #define AREA_ENTRY                                                                                                     \
     {                                                                                                                  \
@@ -131,8 +131,8 @@ const brc_section brc_schema_sensor = {.title = "sensor",
     }
 
 static const brc_entry MODULUS_E[] = {
-    SENSOR_ENTRY("load", y, "sensor of the reaction or stress"),
-    SENSOR_ENTRY("strain", x, "sensor of the strain along it"),
+    SENSOR_ENTRY("load", y, "stress", "sensor of the reaction or stress"),
+    SENSOR_ENTRY("strain", x, "strain", "sensor of the strain along it"),
     AREA_ENTRY,
     COMMON_ENTRIES("20 GPa"),
 };
@@ -141,37 +141,37 @@ static const brc_section E_SECTION = {.title = "E",
                                           "Young's modulus: slope at zero strain of load over area against strain.",
                                       ENTRIES(MODULUS_E)};
 static const brc_entry POISSON[] = {
-    SENSOR_ENTRY("lateral", y, "sensor of the strain across"),
-    SENSOR_ENTRY("axial", x, "sensor of the strain along the pull"),
+    SENSOR_ENTRY("lateral", y, "strain", "sensor of the strain across"),
+    SENSOR_ENTRY("axial", x, "strain", "sensor of the strain along the pull"),
     COMMON_ENTRIES("0.3"),
 };
 static const brc_section NU_SECTION = {
     .title = "nu", .meaning = "Poisson's ratio: minus the slope of lateral against axial strain.", ENTRIES(POISSON)};
 static const brc_entry BULK[] = {
-    SENSOR_ENTRY("load", y, "sensor of the reaction or stress"),
-    SENSOR_ENTRY("strain", x, "sensor of the volume strain"),
+    SENSOR_ENTRY("load", y, "stress", "sensor of the reaction or stress"),
+    SENSOR_ENTRY("strain", x, "strain", "sensor of the volume strain"),
     AREA_ENTRY,
     COMMON_ENTRIES("20 GPa"),
 };
 static const brc_section K_SECTION = {
     .title = "K", .meaning = "Bulk modulus: slope at zero of load over area against volume strain.", ENTRIES(BULK)};
 static const brc_entry SHEAR[] = {
-    SENSOR_ENTRY("load", y, "sensor of the reaction or stress"),
-    SENSOR_ENTRY("strain", x, "sensor of the shear angle"),
+    SENSOR_ENTRY("load", y, "stress", "sensor of the reaction or stress"),
+    SENSOR_ENTRY("strain", x, "strain", "sensor of the shear angle"),
     AREA_ENTRY,
     COMMON_ENTRIES("8 GPa"),
 };
 static const brc_section G_SECTION = {
     .title = "G", .meaning = "Shear modulus: slope at zero of load over area against shear angle.", ENTRIES(SHEAR)};
-static const brc_entry OF_FREQUENCY[] = {SENSOR_ENTRY("of", y, "sensor"), COMMON_ENTRIES("1118 Hz")};
+static const brc_entry OF_FREQUENCY[] = {SENSOR_ENTRY("of", y, "force", "sensor"), COMMON_ENTRIES("1118 Hz")};
 static const brc_section FREQUENCY_SECTION = {
     .title = "frequency", .meaning = "Largest peak of the spectrum of a sensor, interpolated.", ENTRIES(OF_FREQUENCY)};
-static const brc_entry OF_SENSOR[] = {SENSOR_ENTRY("of", y, "sensor"), COMMON_ENTRIES("1 N")};
+static const brc_entry OF_SENSOR[] = {SENSOR_ENTRY("of", y, "force", "sensor"), COMMON_ENTRIES("1 N")};
 static const brc_section PEAK_SECTION = {
     .title = "peak", .meaning = "The value of largest magnitude.", ENTRIES(OF_SENSOR)};
 static const brc_section MEAN_SECTION = {.title = "mean", .meaning = "Mean over time.", ENTRIES(OF_SENSOR)};
-static const brc_entry OF_TWO[] = {SENSOR_ENTRY("of", y, "sensor"), SENSOR_ENTRY("against", x, "sensor it depends on"),
-                                   COMMON_ENTRIES("1")};
+static const brc_entry OF_TWO[] = {SENSOR_ENTRY("of", y, "force", "sensor"),
+                                   SENSOR_ENTRY("against", x, "force", "sensor it depends on"), COMMON_ENTRIES("1")};
 static const brc_section SLOPE_SECTION = {
     .title = "slope", .meaning = "Slope at zero of one sensor against another.", ENTRIES(OF_TWO)};
 static const brc_entry MEASURE[] = {
