@@ -20,7 +20,7 @@ extern "C" {
 namespace {
 
 /* Voro++ ends the program when one search block holds 2^24 points; far fewer than that is already useless. */
-constexpr int MOST_IN_BLOCK = 100000;
+constexpr int MOST_IN_BLOCK = 10000;
 /* Planes within so many spacings of a seed cut its cell at the start, so that it never grows far outside; what else can
  * reach the finished cell cuts it afterwards. */
 constexpr double FIRST_REACH = 2.0;
