@@ -1,0 +1,17 @@
+# cmake -DFOLDER=tests/validation -DOUTPUT=file.c -P case_files.cmake: every *.yaml one folder below as a C string, one
+# literal a line.
+file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/*/*.yaml)
+list(SORT files)
+set(text "#include \"case_files.h\"\nconst brc_case_file brc_case_files[] = {\n")
+set(count 0)
+foreach(file IN LISTS files)
+    file(READ "${FOLDER}/${file}" content)
+    string(LENGTH "${content}" bytes)
+    string(REPLACE "\\" "\\\\" content "${content}")
+    string(REPLACE "\"" "\\\"" content "${content}")
+    string(REPLACE "\n" "\\n\"\n     \"" content "${content}")
+    string(APPEND text "    {\"${file}\",\n     \"${content}\", ${bytes}},\n")
+    math(EXPR count "${count} + 1")
+endforeach()
+string(APPEND text "};\nconst int brc_case_file_count = ${count};\n")
+file(WRITE "${OUTPUT}" "${text}")

@@ -1,0 +1,70 @@
+/* Carrying out a case: runs, the values they give, the rows these make. Shared by reproduce*.c. */
+#ifndef BRC_COMMANDS_REPRODUCE_H
+#define BRC_COMMANDS_REPRODUCE_H
+
+#include "../../bench/rows.h"
+#include "case.h"
+#include "command.h"
+#include "run_scene.h"
+
+/* A number that a run gives. */
+typedef struct brc_case_value {
+    char name[BRC_NAME];
+    char unit[16];
+    double value;
+    double reference; /* NAN: the case says it, or there is none */
+} brc_case_value;
+
+#define BRC_CASE_VALUES 96
+
+/* What became of a run. */
+typedef struct brc_outcome {
+    const brc_case_run *run;
+    bool done;     /* ran, or stopped where that is a result */
+    bool skipped;  /* not part of this campaign, or its device is not there */
+    char note[200]; /* why it was skipped, stopped or failed */
+    double seconds;
+    int64_t n_elements, n_bonds, steps;
+    char device[32];
+    brc_precision precision;
+    int n_values;
+    brc_case_value values[BRC_CASE_VALUES];
+    double *displacement; /* [n_elements][3] kept on wish; owned */
+} brc_outcome;
+
+void brc_outcome_add(brc_outcome *outcome, const char *name, const char *unit, double value, double reference);
+/* NULL when the run gave no such value. */
+const brc_case_value *brc_outcome_find(const brc_outcome *outcome, const char *name);
+
+/* What a command line chose for a whole campaign. */
+typedef struct brc_campaign {
+    const brc_session *session;
+    const brc_case *what;
+    const char *folder; /* of the results */
+    const char *device; /* NULL: auto */
+    brc_precision precision;
+    int n_threads;
+    bool quick;
+    brc_rows rows;
+    brc_outcome *outcomes; /* [what->n_runs] */
+    int n_judged, n_missed;
+} brc_campaign;
+
+/* Carry out one run; a failure of the run itself is kept in its outcome (note), BRC_OK is returned. Not BRC_OK: an
+ * interruption, or no memory. */
+brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome);
+/* The value of a derived row; NAN with a sentence in `note` where a run is missing. */
+double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *derived, char *note, size_t size);
+
+/* The drift operator: created and finished around a run, an observer in between. */
+typedef struct brc_drift brc_drift;
+brc_status brc_drift_create(brc_context *context, brc_drift **out);
+void brc_drift_free(brc_drift **drift);
+brc_observer brc_drift_observer(brc_drift *drift);
+/* energy_drift, momentum_drift, angular_momentum_drift, closure_worst, closure_rms, energy_spread. */
+void brc_drift_values(const brc_drift *drift, brc_outcome *outcome);
+
+/* The vibration operator: rms of the relative errors of the modes, and each mode [rad/s] with its exact value. */
+brc_status brc_vibration_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome);
+
+#endif

@@ -1,0 +1,69 @@
+/* Rows that follow from several runs: means, orders of convergence, differences of states. */
+#include "reproduce.h"
+#include <math.h>
+#include <string.h>
+
+static const brc_outcome *outcome_of(const brc_campaign *campaign, const char *name)
+{
+    for (int k = 0; k < campaign->what->n_runs; ++k)
+        if (strcmp(campaign->what->runs[k].name, name) == 0) return &campaign->outcomes[k];
+    return NULL; /* brc_case_read has checked the names */
+}
+
+/* Slope of log y against log x by least squares. */
+static double slope(int n, const double *x, const double *y)
+{
+    double mean_x = 0, mean_y = 0, above = 0, below = 0;
+    for (int k = 0; k < n; ++k) {
+        mean_x += log(x[k]) / n;
+        mean_y += log(y[k]) / n;
+    }
+    for (int k = 0; k < n; ++k) {
+        above += (log(x[k]) - mean_x) * (log(y[k]) - mean_y);
+        below += (log(x[k]) - mean_x) * (log(x[k]) - mean_x);
+    }
+    return above / below;
+}
+
+static double difference(const brc_outcome *a, const brc_outcome *b)
+{
+    if (!a->displacement || !b->displacement || a->n_elements != b->n_elements) return NAN;
+    double largest = 0, apart = 0;
+    for (int64_t k = 0; k < 3 * a->n_elements; ++k) {
+        largest = fmax(largest, fabs(a->displacement[k]));
+        apart = fmax(apart, fabs(a->displacement[k] - b->displacement[k]));
+    }
+    return largest > 0 ? apart / largest : NAN;
+}
+
+double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *derived, char *note, size_t size)
+{
+    double x[BRC_CASE_LIST], y[BRC_CASE_LIST], sum = 0, worst = 0;
+    const brc_outcome *outcomes[BRC_CASE_LIST];
+    note[0] = '\0';
+    for (int k = 0; k < derived->n_runs; ++k) {
+        const brc_outcome *outcome = outcomes[k] = outcome_of(campaign, derived->runs[k]);
+        if (!outcome || !outcome->done) {
+            snprintf(note, size, "%s%s", outcome && outcome->skipped ? "skipped: " : "", outcome ? outcome->note : "no run");
+            return NAN;
+        }
+        if (derived->formula == BRC_CASE_DIFFERENCE) continue;
+        const brc_case_value *value = brc_outcome_find(outcome, derived->of);
+        const brc_case_value *against = brc_outcome_find(outcome, derived->against);
+        if (!value || isnan(value->value)) {
+            snprintf(note, size, "run %s has no %s", derived->runs[k], derived->of);
+            return NAN;
+        }
+        y[k] = fabs(value->value - derived->origin);
+        x[k] = against ? against->value : 1 / cbrt((double)outcome->n_elements);
+        sum += value->value / derived->n_runs;
+        worst = fmax(worst, fabs(value->value));
+    }
+    switch (derived->formula) {
+    case BRC_CASE_MEAN: return sum;
+    case BRC_CASE_WORST: return worst;
+    case BRC_CASE_ORDER: return slope(derived->n_runs, x, y);
+    case BRC_CASE_DIFFERENCE: return derived->n_runs == 2 ? difference(outcomes[0], outcomes[1]) : NAN;
+    }
+    return NAN;
+}

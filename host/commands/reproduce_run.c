@@ -1,0 +1,194 @@
+/* Carrying out one run of a case. */
+#include "reproduce.h"
+#include "scene_domain.h"
+#include "../../preprocess/domain_file.h"
+#include "../base/file.h"
+#include "../base/log.h"
+#include "../base/memory.h"
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+void brc_outcome_add(brc_outcome *outcome, const char *name, const char *unit, double value, double reference)
+{
+    if (outcome->n_values == BRC_CASE_VALUES) return;
+    brc_case_value *to = &outcome->values[outcome->n_values++];
+    snprintf(to->name, sizeof to->name, "%s", name);
+    snprintf(to->unit, sizeof to->unit, "%s", unit);
+    to->value = value;
+    to->reference = reference;
+}
+
+const brc_case_value *brc_outcome_find(const brc_outcome *outcome, const char *name)
+{
+    for (int k = 0; k < outcome->n_values; ++k)
+        if (strcmp(outcome->values[k].name, name) == 0) return &outcome->values[k];
+    return NULL;
+}
+
+/* What the hooks of a run are handed. */
+typedef struct hooks {
+    brc_context *context;
+    brc_outcome *outcome;
+} hooks;
+
+static brc_status finished(void *self, brc_simulation *simulation)
+{
+    const hooks *h = self;
+    if (h->outcome->run->keep) {
+        const int64_t n = 3 * brc_simulation_domain(simulation)->n_elements;
+        BRC_TRY(BRC_ALLOCATE(h->context, &h->outcome->displacement, n, "kept displacement"));
+        BRC_TRY(brc_simulation_displacement(simulation, h->outcome->displacement));
+    }
+    const brc_static_report report = brc_simulation_static_report(simulation);
+    brc_outcome_add(h->outcome, "iterations", "-", (double)report.iterations, NAN);
+    brc_outcome_add(h->outcome, "residual", "-", report.residual, NAN);
+    if (h->outcome->run->operator == BRC_CASE_VIBRATION) return brc_vibration_values(h->context, simulation, h->outcome);
+    return BRC_OK;
+}
+
+static void take(brc_outcome *outcome, const brc_run_results *results)
+{
+    outcome->n_elements = results->n_elements;
+    outcome->n_bonds = results->n_bonds;
+    outcome->steps = results->steps;
+    outcome->seconds = results->total_s;
+    snprintf(outcome->device, sizeof outcome->device, "%s", results->device);
+    for (int32_t k = 0; k < results->n_measures; ++k) {
+        const brc_run_measure *measure = &results->measures[k];
+        brc_outcome_add(outcome, measure->name, measure->unit, measure->value, measure->has_target ? measure->target : NAN);
+        if (isnan(measure->value) && !outcome->note[0])
+            snprintf(outcome->note, sizeof outcome->note, "%s: %.150s", measure->name, measure->why_not);
+    }
+    brc_outcome_add(outcome, "seconds", "s", results->total_s, NAN);
+    brc_outcome_add(outcome, "build_seconds", "s", results->build_s, NAN);
+    brc_outcome_add(outcome, "step_seconds", "s", results->steps_s, NAN);
+    brc_outcome_add(outcome, "elements", "-", (double)results->n_elements, NAN);
+    brc_outcome_add(outcome, "bonds", "-", (double)results->n_bonds, NAN);
+    brc_outcome_add(outcome, "steps", "-", (double)results->steps, NAN);
+    brc_outcome_add(outcome, "time_step", "s", results->time_step.value, NAN);
+    brc_outcome_add(outcome, "critical_step", "s", results->time_step.critical, NAN);
+    brc_outcome_add(outcome, "published_step", "s", results->time_step.published, NAN);
+    brc_outcome_add(outcome, "closure", "-", results->ledger.closure, 0);
+    /* No larger energy than what was put in, within the oscillation of the integrator: the plain test of stability. */
+    const double given = fmax(results->ledger.peak_elastic, results->ledger.peak_kinetic);
+    brc_outcome_add(outcome, "energy_left", "-", given > 0 ? results->ledger.total / given : NAN, NAN);
+    if (results->n_elements > 0)
+        brc_outcome_add(outcome, "bytes_per_element", "byte", (double)results->device_bytes / (double)results->n_elements, NAN);
+}
+
+static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const char *text, size_t bytes, const char *folder)
+{
+    brc_context *context = campaign->session->context;
+    const brc_case_run *run = outcome->run;
+    hooks h = {context, outcome};
+    brc_drift *drift = NULL;
+    brc_observer observer;
+    brc_run_request request = {.path = run->scene,
+                               .text = text,
+                               .text_bytes = bytes,
+                               .n_overrides = run->n_overrides,
+                               .overrides = run->overrides,
+                               .folder = folder,
+                               .device = run->device ? run->device : campaign->device,
+                               .precision = outcome->precision,
+                               .n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads,
+                               .finished = finished,
+                               .self = &h,
+                               .running = campaign->session->running};
+    if (run->operator == BRC_CASE_DRIFT) {
+        BRC_TRY(brc_drift_create(context, &drift));
+        observer = brc_drift_observer(drift);
+        request.observer = &observer;
+    }
+    brc_run_results results;
+    const brc_status status = brc_run_scene(context, &request, &results);
+    take(outcome, &results);
+    if (drift) brc_drift_values(drift, outcome);
+    brc_drift_free(&drift);
+    brc_run_results_free(&results);
+    return status;
+}
+
+/* Seeds to domain file. The file itself is not kept: at a million elements it is larger than all other results. */
+static brc_status build(brc_campaign *campaign, brc_outcome *outcome, const char *text, size_t bytes, const char *folder)
+{
+    brc_context *context = campaign->session->context;
+    const brc_case_run *run = outcome->run;
+    brc_status status = BRC_OK;
+    brc_scene *scene = NULL;
+    brc_domain *domain = NULL;
+    char *path = NULL;
+    BRC_TRY(brc_file_make_folder(context, folder));
+    BRC_TRY(brc_file_join(context, folder, "domain.h5", &path));
+    BRC_TRY_OR(cleanup, brc_scene_read_text(context, run->scene, text, bytes, run->n_overrides, run->overrides, &scene));
+    const double start = brc_clock_s();
+    const int n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads;
+    BRC_TRY_OR(cleanup, brc_scene_domain_build(context, scene, n_threads, &domain));
+    const double built = brc_clock_s();
+    BRC_TRY_OR(cleanup, brc_domain_write(context, domain, path));
+    const double end = brc_clock_s();
+    unlink(path);
+    outcome->seconds = end - start;
+    outcome->n_elements = domain->n_elements;
+    outcome->n_bonds = domain->n_bonds;
+    brc_outcome_add(outcome, "seconds", "s", end - start, NAN);
+    brc_outcome_add(outcome, "build_seconds", "s", built - start, NAN);
+    brc_outcome_add(outcome, "write_seconds", "s", end - built, NAN);
+    brc_outcome_add(outcome, "elements", "-", (double)domain->n_elements, NAN);
+    brc_outcome_add(outcome, "bonds", "-", (double)domain->n_bonds, NAN);
+    brc_outcome_add(outcome, "volume_error", "-", domain->quality.volume_error, 0);
+cleanup:
+    brc_memory_free(path);
+    brc_domain_free(&domain);
+    brc_scene_free(&scene);
+    return status;
+}
+
+/* Is a device of this name here and usable? */
+static bool has_device(brc_context *context, const char *selector)
+{
+    brc_device_list *list;
+    if (brc_device_list_create(context, &list) != BRC_OK) return false;
+    bool found = false;
+    for (int k = 0; k < list->n; ++k)
+        found = found || (list->items[k].usable && strcmp(list->items[k].selector, selector) == 0);
+    brc_device_list_free(&list);
+    return found;
+}
+
+brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome)
+{
+    brc_context *context = campaign->session->context;
+    const brc_case_run *run = outcome->run;
+    outcome->precision = run->has_precision ? run->precision : campaign->precision;
+    if (run->device && !has_device(context, run->device)) {
+        outcome->skipped = true;
+        snprintf(outcome->note, sizeof outcome->note, "skipped: no device %s here", run->device);
+        return BRC_OK;
+    }
+    char *text, *runs, *folder;
+    size_t bytes;
+    brc_status status = brc_case_text(context, campaign->what->folder, campaign->what->name, run->scene, &text, &bytes);
+    if (status != BRC_OK) return status;
+    BRC_TRY_OR(free_text, brc_file_join(context, campaign->folder, "runs", &runs));
+    BRC_TRY_OR(free_runs, brc_file_join(context, runs, run->name, &folder));
+    brc_log(context, BRC_LOG_INFO, "%s: run %s", campaign->what->name, run->name);
+    status = run->operator == BRC_CASE_BUILD ? build(campaign, outcome, text, bytes, folder)
+                                            : simulate(campaign, outcome, text, bytes, folder);
+    outcome->done = status == BRC_OK || (status == BRC_PHYSICS_STOPPED && run->may_stop);
+    if (status != BRC_OK && status != BRC_INTERRUPTED && status != BRC_NO_MEMORY) {
+        brc_log(context, BRC_LOG_ERROR, "run %s: %s", run->name, brc_context_message(context));
+        snprintf(outcome->note, sizeof outcome->note, "%s", brc_context_message(context));
+        for (char *c = outcome->note; *c; ++c)
+            if (*c == '\n') *c = ' ';
+        brc_context_clear(context);
+        status = BRC_OK;
+    }
+    brc_memory_free(folder);
+free_runs:
+    brc_memory_free(runs);
+free_text:
+    brc_memory_free(text);
+    return status;
+}
