@@ -80,15 +80,16 @@ KERNEL void held_moment_pass(int n, GLOBAL const int *restrict element, GLOBAL c
     }
 }
 
-/* f_i += Pi P_i s_f + kappa_f r_f; reaction (force of the load on the solid) is its negative [N]; with book, the work of
- * the load since the last call by the trapezoidal rule [J]; last: u_f of the last call. */
+/* f_i += Pi P_i s_f + kappa_f r_f, which is also the force of the load on the solid (dW/du_f), kept as reaction [N].
+ * book: 0 no more; 1 adds the work of the load since the last booking by the trapezoidal rule [J]; 2 starts booking here.
+ * last [n][3], last_reaction [n][3]: u_f and reaction at the last booking. */
 KERNEL void held_force_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict face_start,
                             GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict arm,
                             GLOBAL const coeff *restrict held, GLOBAL const coeff *restrict spring,
                             GLOBAL const state *restrict value, GLOBAL const state *restrict displacement,
                             GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, int book,
                             GLOBAL state *restrict force, GLOBAL state *restrict reaction, GLOBAL state *restrict last,
-                            GLOBAL state *restrict work)
+                            GLOBAL state *restrict last_reaction, GLOBAL state *restrict work)
 {
     FOR_EACH_ITEM(h, n) {
         const int e = element[h];
@@ -100,10 +101,13 @@ KERNEL void held_force_pass(int n, GLOBAL const int *restrict element, GLOBAL co
             const state on_element[3] = {(state)pull.x, (state)pull.y, (state)pull.z};
             for (int c = 0; c < 3; ++c) {
                 const brc_size at = (brc_size)f * 3 + c;
-                if (book) work[f] += STATE(0.5) * (reaction[at] + on_element[c]) * (value[at] - last[at]);
+                if (book == 1) work[f] += STATE(0.5) * (last_reaction[at] + on_element[c]) * (value[at] - last[at]);
                 force[(brc_size)e * 3 + c] += on_element[c];
                 reaction[at] = on_element[c];
-                last[at] = value[at];
+                if (book) {
+                    last[at] = value[at];
+                    last_reaction[at] = on_element[c];
+                }
             }
         }
     }
@@ -138,7 +142,7 @@ KERNEL void traction_moment_pass(int n, coeff factor, GLOBAL const int *restrict
     }
 }
 
-/* f_i += factor total; reach = total.u + moment:H is what the traction works on [J]. */
+/* f_i += factor total; total.u + moment:H is what the traction works on [J]. book, reach: as book and last above. */
 KERNEL void traction_force_pass(int n, state factor, GLOBAL const int *restrict element,
                                 GLOBAL const coeff *restrict total, GLOBAL const coeff *restrict moment,
                                 GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient, int book,
@@ -154,8 +158,8 @@ KERNEL void traction_force_pass(int n, state factor, GLOBAL const int *restrict 
             sum += t * displacement[(brc_size)e * 3 + c];
         }
         for (int c = 0; c < 9; ++c) sum += (state)(moment[(brc_size)i * 9 + c] * gradient[(brc_size)e * 9 + c]);
-        if (book) work[i] += STATE(0.5) * (factor + last_factor) * (sum - reach[i]);
-        reach[i] = sum;
+        if (book == 1) work[i] += STATE(0.5) * (factor + last_factor) * (sum - reach[i]);
+        if (book) reach[i] = sum;
     }
 }
 

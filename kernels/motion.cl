@@ -99,26 +99,30 @@ KERNEL void impose_motion(int n, state factor, state rate, int set_displacement,
     }
 }
 
-/* Reaction of imposed elements, minus the internal force [N] [n][3]; with book, the work of the load since the last call:
- * reaction over the path by the trapezoidal rule plus the change of the imposed components' own kinetic energy [J]. */
+/* Reaction of imposed elements, minus the internal force [N] [n][3]. book: 0 no more; 1 adds the work of the load since the
+ * last booking: reaction over the path by the trapezoidal rule plus the change of the imposed components' own kinetic
+ * energy [J]; 2 starts booking here. last, last_reaction [n][3]: u and reaction at the last booking. */
 KERNEL void impose_book(int n, state rate, state last_rate, int book, GLOBAL const int *restrict element,
                         GLOBAL const coeff *restrict component, GLOBAL const state *restrict direction,
                         GLOBAL const state *restrict mass, GLOBAL const state *restrict displacement,
                         GLOBAL const state *restrict force, GLOBAL state *restrict reaction, GLOBAL state *restrict last,
-                        GLOBAL state *restrict work)
+                        GLOBAL state *restrict last_reaction, GLOBAL state *restrict work)
 {
     FOR_EACH_ITEM(i, n) {
         for (int c = 0; c < 3; ++c) {
             const brc_size at = (brc_size)i * 3 + c, to = (brc_size)element[i] * 3 + c;
             if (component[at] > REAL(0.5)) {
                 const state now = -force[to];
-                if (book) {
+                if (book == 1) {
                     const state speed = rate * direction[at], old = last_rate * direction[at];
-                    work[i] += STATE(0.5) * (reaction[at] + now) * (displacement[to] - last[at]) +
+                    work[i] += STATE(0.5) * (last_reaction[at] + now) * (displacement[to] - last[at]) +
                                STATE(0.5) * mass[element[i]] * (speed * speed - old * old);
                 }
                 reaction[at] = now;
-                last[at] = displacement[to];
+                if (book) {
+                    last[at] = displacement[to];
+                    last_reaction[at] = now;
+                }
             }
         }
     }

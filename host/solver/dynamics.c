@@ -1,0 +1,148 @@
+/* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
+#include "simulation_internal.h"
+#include <math.h>
+
+enum { SAMPLES = 500 };
+/* Energy may exceed what was put in by this factor before the run is stopped as running away. Verlet's own oscillation is
+ * some percent near the limit (design.md), so 100 is reached only by growth. */
+static const double runaway = 100;
+
+static brc_status kick_and_drift(brc_simulation *s, double kick, double drift)
+{
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(BRC_LAUNCH(s->kernel.advance, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_BUF(s->mass), BRC_BUF(s->force),
+                       BRC_BUF(s->velocity), BRC_BUF(s->displacement)));
+    if (!brc_is_published(s)) return BRC_OK;
+    return BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(0),
+                      BRC_BUF(s->inertia), BRC_BUF(s->torque), BRC_BUF(s->spin), BRC_BUF(s->orientation));
+}
+
+/* Positions and forces at the end of the step whose motion has just been done. */
+static brc_status close_step(brc_simulation *s, double dt)
+{
+    s->step += 1;
+    s->total_steps += 1;
+    s->time = (double)s->step * dt;
+    BRC_TRY(brc_loads_prescribe(s, s->time));
+    return brc_force_of_state(s, BRC_BOOK_WORK);
+}
+
+static brc_status verlet_step(brc_simulation *s, const brc_stage *stage, double dt, double kick)
+{
+    if (stage->mass_damping > 0) { /* the drag acts in the middle of the drift: second order */
+        const int32_t n = s->layout->n_rows;
+        BRC_TRY(kick_and_drift(s, kick, 0.5 * dt));
+        BRC_TRY(BRC_LAUNCH(s->kernel.damp_mass, n, BRC_INT(n), BRC_STATE(exp(-stage->mass_damping * dt)), BRC_BUF(s->mass),
+                           BRC_BUF(s->velocity), BRC_BUF(s->lost_damping)));
+        BRC_TRY(kick_and_drift(s, 0, 0.5 * dt));
+    } else {
+        BRC_TRY(kick_and_drift(s, kick, dt));
+    }
+    return close_step(s, dt);
+}
+
+static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double dt)
+{
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(BRC_LAUNCH(s->kernel.advance_tchamwa, n, BRC_INT(n), BRC_STATE(dt), BRC_STATE(stage->phi), BRC_BUF(s->mass),
+                       BRC_BUF(s->force), BRC_BUF(s->velocity), BRC_BUF(s->displacement), BRC_BUF(s->moved),
+                       BRC_BUF(s->lost_numerical)));
+    if (brc_is_published(s)) /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
+        BRC_TRY(BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(dt), BRC_STATE(dt),
+                           BRC_STATE((stage->phi - 1) * dt * dt), BRC_BUF(s->inertia), BRC_BUF(s->torque), BRC_BUF(s->spin),
+                           BRC_BUF(s->orientation)));
+    if (stage->mass_damping > 0)
+        BRC_TRY(BRC_LAUNCH(s->kernel.damp_mass, n, BRC_INT(n), BRC_STATE(exp(-stage->mass_damping * dt)), BRC_BUF(s->mass),
+                           BRC_BUF(s->velocity), BRC_BUF(s->lost_damping)));
+    BRC_TRY(close_step(s, dt));
+    return BRC_LAUNCH(s->kernel.numerical_close, n, BRC_INT(n), BRC_BUF(s->force), BRC_BUF(s->moved), BRC_BUF(s->lost_numerical));
+}
+
+brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    const double dt = s->time_step.value;
+    if (n_steps <= 0) return BRC_OK;
+    if (stage->integrator == BRC_TCHAMWA_WIELGOSZ) {
+        for (int64_t i = 0; i < n_steps; ++i) BRC_TRY(tchamwa_step(s, stage, dt));
+        return BRC_OK;
+    }
+    for (int64_t i = 0; i < n_steps; ++i) BRC_TRY(verlet_step(s, stage, dt, i == 0 ? 0.5 * dt : dt));
+    BRC_TRY(kick_and_drift(s, 0.5 * dt, 0));
+    return brc_loads_impose_velocity(s, s->time);
+}
+
+int64_t brc_simulation_planned_steps(const brc_simulation *s, int32_t stage, double time_step)
+{
+    const brc_stage *plan = s->scene->stages + stage;
+    if (plan->solver == BRC_SOLVER_STATIC) return plan->increments > 0 ? plan->increments : 1;
+    if (plan->solver == BRC_SOLVER_MODES) return 1;
+    if (plan->steps > 0) return plan->steps;
+    return time_step > 0 ? (int64_t)ceil(plan->duration / time_step - 1e-9) : 0;
+}
+
+/* Stop on what is not finite or runs away; the sentence names the likely cause. */
+static brc_status guard(brc_simulation *s, brc_ledger *ledger)
+{
+    BRC_TRY(brc_simulation_ledger(s, ledger));
+    const brc_stage *stage = brc_current_stage(s);
+    const double put_in = fabs(ledger->initial) + fabs(ledger->work);
+    const bool finite = isfinite(ledger->total);
+    if (finite && !(ledger->total > runaway * put_in && put_in > 0)) return BRC_OK;
+    return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
+                    "stage '%s' stopped at step %lld, t = %.6g s: %s (energy %.4g J, put in %.4g J). %s", stage->name,
+                    (long long)s->step, s->time, finite ? "the energy runs away" : "a value is not finite", ledger->total, put_in,
+                    s->time_step.safety > 1 ? "The time step is above the critical one: use time_step: auto"
+                    : brc_is_published(s)
+                        ? "The published law has no energy and diverges after thousands of steps (docs/theory.md): use model dlsm, "
+                          "or tchamwa-wielgosz with a larger phi"
+                        : "Look for elements with few or flat neighbours (breccia build prints the quality) or strains beyond 40 %");
+}
+
+static int64_t next_multiple(int64_t step, int64_t every) { return (step / every + 1) * every; }
+
+brc_status brc_dynamics_run(brc_simulation *s)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    const brc_output *output = &s->scene->output;
+    const int64_t total = brc_simulation_planned_steps(s, s->stage, s->time_step.value);
+    const double dt = s->time_step.value;
+    int64_t every = output->history_every > 0 ? output->history_every : (total + SAMPLES - 1) / SAMPLES;
+    if (every < 1) every = 1;
+    int64_t frame_every = output->n_frames > 0 ? total / output->n_frames
+                          : output->frame_interval > 0 ? (int64_t)llround(output->frame_interval / dt) : 0;
+    if (frame_every < 1 && (output->n_frames > 0 || output->frame_interval > 0)) frame_every = 1;
+    brc_progress *progress = NULL;
+    brc_status status = BRC_OK;
+    brc_ledger ledger;
+    int64_t calm = 0;
+    BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total, "steps", (double)s->domain->n_bonds, "bond updates/s"));
+    BRC_TRY_OR(cleanup, brc_notify_sample(s));
+    while (s->step < total) {
+        int64_t until = next_multiple(s->step, every);
+        if (frame_every && next_multiple(s->step, frame_every) < until) until = next_multiple(s->step, frame_every);
+        if (until > total) until = total;
+        const int64_t begin = s->step;
+        while (s->step < until) { /* short batches keep the progress line and signals alive */
+            const int64_t left = until - s->step, batch = left < 256 ? left : 256;
+            BRC_TRY_OR(cleanup, brc_dynamics_advance(s, batch));
+            BRC_TRY_OR(cleanup, brc_device_wait(s->device));
+            brc_progress_update(progress, s->step);
+            if (s->interrupted) {
+                status = BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at step %lld of %lld", stage->name,
+                                  (long long)s->step, (long long)total);
+                goto cleanup;
+            }
+        }
+        if (s->step % every == 0 || s->step == total) {
+            BRC_TRY_OR(cleanup, guard(s, &ledger));
+            BRC_TRY_OR(cleanup, brc_notify_sample(s));
+            calm = ledger.kinetic <= stage->stop_kinetic * ledger.elastic ? calm + (s->step - begin) : 0;
+            if (stage->stop_kinetic > 0 && calm >= 100) break;
+        }
+        if (frame_every && s->step % frame_every == 0 && s->step < total) BRC_TRY_OR(cleanup, brc_notify_frame(s));
+    }
+cleanup:
+    brc_progress_finish(&progress);
+    return status;
+}

@@ -1,0 +1,66 @@
+/* Which effects a run contains and leaves out, and the least bytes a step must move. */
+#include "simulation_internal.h"
+
+void brc_effects_list(brc_simulation *s)
+{
+    const brc_scene *scene = s->scene;
+    bool held = false, traction = false, imposed = false, tchamwa = false, damped = false, statics = false, modes = false;
+    for (int32_t i = 0; i < scene->n_stages; ++i) {
+        const brc_stage *stage = scene->stages + i;
+        statics = statics || stage->solver == BRC_SOLVER_STATIC;
+        modes = modes || stage->solver == BRC_SOLVER_MODES;
+        tchamwa = tchamwa || (stage->solver == BRC_SOLVER_DYNAMIC && stage->integrator == BRC_TCHAMWA_WIELGOSZ);
+        damped = damped || (stage->solver == BRC_SOLVER_DYNAMIC && stage->mass_damping > 0);
+        for (int32_t l = 0; l < stage->n_loads; ++l) {
+            const brc_load_kind kind = stage->loads[l].kind;
+            held = held || kind == BRC_LOAD_FACE_DISPLACEMENT || kind == BRC_LOAD_FACE_VELOCITY;
+            imposed = imposed || kind == BRC_LOAD_ELEMENT_DISPLACEMENT || kind == BRC_LOAD_ELEMENT_VELOCITY;
+            traction = traction || kind == BRC_LOAD_TRACTION || kind == BRC_LOAD_PRESSURE;
+        }
+    }
+    const bool published = brc_is_published(s);
+    const struct {
+        const char *name;
+        bool in;
+    } effects[] = {{"conservative elasticity (dlsm)", !published},
+                   {"compaction", !published && scene->model.compaction && scene->model.beta != 0},
+                   {"published elasticity (dlsm-published), element rotations", published},
+                   {"several materials", brc_device_has_many_materials(s->device)},
+                   {"prescribed faces", held},
+                   {"tractions", traction},
+                   {"imposed elements", imposed},
+                   {"gravity", scene->has_gravity},
+                   {"mass damping", damped},
+                   {"numerical damping (Tchamwa-Wielgosz)", tchamwa},
+                   {"static solver", statics},
+                   {"free vibration modes", modes},
+                   {"fracture", false},
+                   {"contact", false}};
+    int in = 0, out = 0;
+    for (size_t i = 0; i < sizeof effects / sizeof *effects; ++i) {
+        if (effects[i].in) s->effects_in[in++] = effects[i].name;
+        else s->effects_out[out++] = effects[i].name;
+    }
+}
+
+double brc_simulation_floor_bytes(const brc_simulation *s)
+{
+    const brc_precision precision = brc_device_get_precision(s->device);
+    const double state = brc_precision_state_bytes(precision), coeff = brc_precision_coeff_bytes(precision);
+    const double half_edges = (double)s->domain->n_half_edges, n = (double)s->domain->n_elements;
+    const double many = brc_device_has_many_materials(s->device) ? 1 : 0;
+    if (brc_is_published(s)) {
+        /* strain pass: neighbour, R (S with area weights); u, q, A^-1 read, strain written */
+        const double strain = half_edges * (4 + (3 + (s->scene->model.area_weights ? 1 : 0)) * coeff) + n * (7 * state + 12 * coeff);
+        /* force pass: neighbour, R, S; u, q, strain read, f and t written */
+        const double force = half_edges * (4 + 4 * coeff) + n * (7 * state + (6 + 3 * many) * coeff + 6 * state);
+        /* motion: f, v, u, m and t, w, q, I read; v, u, w, q written */
+        return strain + force + n * (3 + 3 + 3 + 1 + 3 + 3 + 4 + 1 + 3 + 3 + 3 + 4) * state;
+    }
+    const double pass1 = half_edges * (4 + 3 * coeff) + n * (3 * state + (6 + 9) * coeff);
+    const double pass2 = half_edges * (4 + 6 * coeff) + n * (9 + 9 + 1 + 9 + 2 * many) * coeff;
+    const double pass3 = half_edges * (4 + 7 * coeff) + n * ((9 + 9 + 6 + 9 + (9 + 4) * many) * coeff + 3 * many * state);
+    const double pass4 = half_edges * (4 + 4 * coeff) + n * ((9 + (9 + 1) * many) * coeff + (3 + 3) * state);
+    const double motion = n * (3 + 3 + 3 + 1 + 3 + 3) * state;
+    return pass1 + pass2 + pass3 + pass4 + motion;
+}

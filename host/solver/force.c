@@ -1,0 +1,176 @@
+/* One evaluation of the forces of either model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2). */
+#include "simulation_internal.h"
+
+/* Constants handed to kernels; with several materials the kernels gather them instead. */
+static const brc_elastic *one_material(const brc_simulation *s) { return s->elastic + s->material_of_element[0]; }
+static double beta(const brc_simulation *s) { return s->scene->model.compaction ? s->scene->model.beta : 0; }
+
+static bool has_face_loads(const brc_simulation *s) { return s->loads.held.n_faces > 0 || s->loads.n_tractions > 0; }
+
+/* H and, where faces are held, their part of G. */
+static brc_status dlsm_gradients(brc_simulation *s, brc_buffer *displacement, bool homogeneous)
+{
+    brc_held_faces *h = &s->loads.held;
+    BRC_TRY(BRC_LAUNCH(s->kernel.gradient, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                       BRC_BUF(s->area), BRC_BUF(displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient)));
+    if (h->n_faces)
+        BRC_TRY(BRC_LAUNCH(s->kernel.held_gradient, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
+                           BRC_BUF(h->place), BRC_BUF(h->face_start), BRC_BUF(h->area), BRC_BUF(h->arm), BRC_BUF(h->held),
+                           BRC_BUF(homogeneous ? h->zero_value : h->value), BRC_BUF(displacement), BRC_BUF(s->gradient),
+                           BRC_BUF(s->held_gradient)));
+    return BRC_OK;
+}
+
+/* What held faces and tractions add to Q. */
+static brc_status dlsm_face_moments(brc_simulation *s, const brc_force_request *r)
+{
+    brc_held_faces *h = &s->loads.held;
+    if (!has_face_loads(s)) return BRC_OK;
+    BRC_TRY(brc_buffer_fill_zero(s->held_moment));
+    if (h->n_faces)
+        BRC_TRY(BRC_LAUNCH(s->kernel.held_moment, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
+                           BRC_BUF(h->place), BRC_BUF(h->face_start), BRC_BUF(h->area), BRC_BUF(h->arm), BRC_BUF(h->held),
+                           BRC_BUF(h->spring), BRC_BUF(r->homogeneous ? h->zero_value : h->value), BRC_BUF(r->displacement),
+                           BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->held_moment)));
+    if (r->homogeneous) return BRC_OK;
+    const brc_stage *stage = brc_current_stage(s);
+    for (int32_t i = 0; i < s->loads.n_tractions; ++i) {
+        brc_traction_load *t = s->loads.tractions + i;
+        const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
+        BRC_TRY(BRC_LAUNCH(s->kernel.traction_moment, t->n, BRC_INT(t->n), BRC_COEFF(factor), BRC_BUF(t->place),
+                           BRC_BUF(t->moment), BRC_BUF(s->held_moment)));
+    }
+    return BRC_OK;
+}
+
+/* Forces of held faces and tractions on their elements, and their work. */
+static brc_status dlsm_face_forces(brc_simulation *s, const brc_force_request *r)
+{
+    brc_held_faces *h = &s->loads.held;
+    if (h->n_faces) {
+        /* the linear operator must not disturb reactions and work: the former go to scratch */
+        brc_buffer *reaction = r->homogeneous ? h->scratch : h->reaction;
+        BRC_TRY(BRC_LAUNCH(s->kernel.held_force, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
+                           BRC_BUF(h->face_start), BRC_BUF(h->area), BRC_BUF(h->arm), BRC_BUF(h->held), BRC_BUF(h->spring),
+                           BRC_BUF(r->homogeneous ? h->zero_value : h->value), BRC_BUF(r->displacement),
+                           BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_INT(r->book), BRC_BUF(r->force),
+                           BRC_BUF(reaction), BRC_BUF(h->last), BRC_BUF(h->last_reaction), BRC_BUF(h->work)));
+    }
+    if (r->homogeneous) return BRC_OK;
+    const brc_stage *stage = brc_current_stage(s);
+    for (int32_t i = 0; i < s->loads.n_tractions; ++i) {
+        brc_traction_load *t = s->loads.tractions + i;
+        const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
+        BRC_TRY(BRC_LAUNCH(s->kernel.traction_force, t->n, BRC_INT(t->n), BRC_STATE(factor), BRC_BUF(t->element),
+                           BRC_BUF(t->total), BRC_BUF(t->moment), BRC_BUF(r->displacement), BRC_BUF(s->gradient),
+                           BRC_INT(r->book), BRC_STATE(t->last_factor), BRC_BUF(r->force), BRC_BUF(t->reach),
+                           BRC_BUF(t->work)));
+        if (r->book != BRC_BOOK_NOTHING) t->last_factor = factor;
+    }
+    return BRC_OK;
+}
+
+static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
+{
+    const brc_elastic *m = one_material(s);
+    const double one_plus_tau = 1 + s->scene->model.tau;
+    const int finite = r->finite ? 1 : 0, face_loads = has_face_loads(s) ? 1 : 0;
+    BRC_TRY(dlsm_gradients(s, r->displacement, r->homogeneous));
+    BRC_TRY(BRC_LAUNCH(s->kernel.stress, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->moment), BRC_BUF(s->inv_volume),
+                       BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
+                       BRC_COEFF(m->mu), BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->stress)));
+    BRC_TRY(dlsm_face_moments(s, r));
+    BRC_TRY(BRC_LAUNCH(s->kernel.flux, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(r->displacement),
+                       BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->inv_shape), BRC_BUF(s->boundary),
+                       BRC_BUF(s->free_moment), BRC_BUF(s->held_moment), BRC_INT(face_loads), BRC_COEFF(m->k),
+                       BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau), BRC_BUF(s->material),
+                       BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(s->flux), BRC_BUF(s->bond_part)));
+    BRC_TRY(BRC_LAUNCH(s->kernel.force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                       BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(s->flux),
+                       BRC_BUF(s->bond_part), BRC_COEFF(m->k), BRC_COEFF(one_plus_tau), BRC_BUF(s->modulus),
+                       BRC_BUF(r->force)));
+    return dlsm_face_forces(s, r);
+}
+
+static brc_status published_evaluate(brc_simulation *s, const brc_force_request *r)
+{
+    const brc_elastic *m = one_material(s);
+    const int finite = r->finite ? 1 : 0;
+    BRC_TRY(BRC_LAUNCH(s->kernel.published_strain, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start),
+                       BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->area),
+                       BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(r->displacement), BRC_BUF(r->orientation),
+                       BRC_BUF(s->inv_shape), BRC_INT(finite), BRC_BUF(s->gradient)));
+    return BRC_LAUNCH(s->kernel.published_force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start),
+                      BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->area), BRC_BUF(r->displacement),
+                      BRC_BUF(r->orientation), BRC_BUF(s->gradient), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
+                      BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_BUF(s->lame_of),
+                      BRC_INT(finite), BRC_BUF(r->force), BRC_BUF(r->torque));
+}
+
+brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
+{
+    BRC_TRY(brc_is_published(s) ? published_evaluate(s, r) : dlsm_evaluate(s, r));
+    if (r->homogeneous) return brc_loads_zero_imposed(s, r->force);
+    if (s->scene->has_gravity) {
+        const double *g = s->scene->gravity;
+        BRC_TRY(BRC_LAUNCH(s->kernel.gravity, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_STATE(g[0]), BRC_STATE(g[1]),
+                           BRC_STATE(g[2]), BRC_BUF(s->mass), BRC_BUF(r->force)));
+    }
+    const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
+    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
+        brc_imposed_load *m = s->loads.imposed + i;
+        const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(stage->loads + m->load, r->t);
+        BRC_TRY(BRC_LAUNCH(s->kernel.impose_book, m->n, BRC_INT(m->n), BRC_STATE(rate), BRC_STATE(m->last_rate),
+                           BRC_INT(r->book), BRC_BUF(m->element), BRC_BUF(m->component), BRC_BUF(m->direction),
+                           BRC_BUF(s->mass), BRC_BUF(r->displacement), BRC_BUF(r->force), BRC_BUF(m->reaction),
+                           BRC_BUF(m->last), BRC_BUF(m->last_reaction), BRC_BUF(m->work)));
+        if (r->book != BRC_BOOK_NOTHING) m->last_rate = rate;
+    }
+    return BRC_OK;
+}
+
+brc_status brc_force_of_state(brc_simulation *s, brc_booking book)
+{
+    return brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
+                                                      .force = s->force,
+                                                      .orientation = s->orientation,
+                                                      .torque = s->torque,
+                                                      .finite = true,
+                                                      .book = book,
+                                                      .t = s->stage >= 0 && brc_current_stage(s)->solver == BRC_SOLVER_STATIC
+                                                               ? s->load_factor
+                                                               : s->time});
+}
+
+brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation)
+{
+    const brc_elastic *m = one_material(s);
+    *stabilisation = 0;
+    if (brc_is_published(s)) {
+        BRC_TRY(BRC_LAUNCH(s->kernel.published_energy, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_BUF(s->gradient),
+                           BRC_BUF(s->volume), BRC_COEFF(m->lambda), BRC_COEFF(m->mu), BRC_BUF(s->lame_of),
+                           BRC_BUF(s->elastic_energy)));
+        return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);
+    }
+    BRC_TRY(BRC_LAUNCH(s->kernel.energy, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement),
+                       BRC_BUF(s->gradient), BRC_BUF(s->moment), BRC_BUF(s->inv_volume), BRC_BUF(s->boundary),
+                       BRC_BUF(s->held_gradient), BRC_INT(has_face_loads(s) ? 1 : 0), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
+                       BRC_COEFF(m->k), BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(1 + s->scene->model.tau),
+                       BRC_BUF(s->material), BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(1),
+                       BRC_BUF(s->elastic_energy), BRC_BUF(s->stabilisation_energy)));
+    BRC_TRY(brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic));
+    BRC_TRY(brc_vector_sum(s, s->stabilisation_energy, s->layout->n_rows, stabilisation));
+    brc_held_faces *h = &s->loads.held;
+    if (h->n_faces) {
+        double part;
+        BRC_TRY(BRC_LAUNCH(s->kernel.held_energy, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
+                           BRC_BUF(h->face_start), BRC_BUF(h->arm), BRC_BUF(h->held), BRC_BUF(h->spring), BRC_BUF(h->value),
+                           BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(h->energy)));
+        BRC_TRY(brc_vector_sum(s, h->energy, h->n_faces, &part));
+        *stabilisation += part;
+    }
+    return BRC_OK;
+}

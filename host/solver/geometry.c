@@ -1,0 +1,301 @@
+/* Device arrays that depend on the domain and the materials alone: connectivity, face geometry, least squares, masses. */
+#include "simulation_internal.h"
+#include "sym3.h"
+#include <math.h>
+#include <string.h>
+
+/* A direction in which the neighbours of an element span less than this part of the widest is left out of its least
+ * squares. Far below what a boundary cell of an unrelaxed grid shows (0.07/0.57, design-dlsm.md section 3), far above
+ * rounding: only flat or lone elements meet it. */
+static const double span_threshold = 1e-6;
+
+static void half_edge_geometry(const brc_domain *d, int64_t h, int32_t i, double branch[3], double area[3], double offset[3],
+                               double *ratio)
+{
+    const int32_t j = d->neighbour[h];
+    double length = 0, surface = 0;
+    for (int c = 0; c < 3; ++c) {
+        const double xi = d->position[3 * (int64_t)i + c], xj = d->position[3 * (int64_t)j + c];
+        branch[c] = xj - xi;
+        area[c] = d->area_vector[3 * h + c];
+        offset[c] = d->face_centroid[3 * h + c] - 0.5 * (xi + xj);
+        length += branch[c] * branch[c];
+        surface += area[c] * area[c];
+    }
+    *ratio = sqrt(length / surface);
+}
+
+/* Fill [n_slots][width][C] from the half-edges. */
+typedef enum row_kind { ROW_AREA, ROW_OFFSET, ROW_RATIO, ROW_BRANCH, ROW_SURFACE } row_kind;
+static brc_status upload_rows(brc_simulation *s, brc_buffer *buffer, row_kind kind)
+{
+    const brc_layout *layout = s->layout;
+    const int slice = layout->slice, width = kind == ROW_RATIO || kind == ROW_SURFACE ? 1 : 3;
+    double *rows = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_slots * slice * width, "neighbour rows"));
+#pragma omp parallel for schedule(static)
+    for (int32_t block = 0; block < layout->n_slices; ++block)
+        for (int32_t slot = layout->slot_start[block]; slot < layout->slot_start[block + 1]; ++slot)
+            for (int l = 0; l < slice; ++l) {
+                const int32_t h = layout->half_edge[(int64_t)slot * slice + l];
+                /* missing neighbours point home: zero area, any non-zero ratio and branch */
+                double branch[3] = {1, 0, 0}, area[3] = {0, 0, 0}, offset[3] = {0, 0, 0}, ratio = 1;
+                if (h >= 0)
+                    half_edge_geometry(s->domain, h, layout->element_of_row[block * slice + l], branch, area, offset, &ratio);
+                const double surface = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+                const double *from = kind == ROW_AREA ? area : kind == ROW_OFFSET ? offset : branch;
+                for (int c = 0; c < width; ++c)
+                    rows[((int64_t)slot * width + c) * slice + l] =
+                        kind == ROW_RATIO ? ratio : kind == ROW_SURFACE ? surface : from[c];
+            }
+    const brc_status status = brc_upload_coeff(s, buffer, rows, layout->n_slots * slice * width);
+    brc_memory_free(rows);
+    return status;
+}
+
+static brc_status upload_connectivity(brc_simulation *s)
+{
+    const brc_layout *layout = s->layout;
+    const int slice = layout->slice;
+    BRC_TRY(brc_new_int(s, &s->row_start, layout->slot_start, layout->n_slices + 1, "slice starts"));
+    BRC_TRY(brc_new_int(s, &s->boundary, layout->boundary, layout->n_slices, "boundary blocks"));
+    int32_t *rows = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_slots * slice, "neighbours"));
+    for (int32_t block = 0; block < layout->n_slices; ++block)
+        for (int32_t slot = layout->slot_start[block]; slot < layout->slot_start[block + 1]; ++slot)
+            for (int l = 0; l < slice; ++l) {
+                const int32_t h = layout->half_edge[(int64_t)slot * slice + l];
+                rows[(int64_t)slot * slice + l] = h < 0 ? block * slice + l : layout->row_of_element[s->domain->neighbour[h]];
+            }
+    const brc_status status = brc_new_int(s, &s->neighbour, rows, layout->n_slots * slice, "neighbours");
+    brc_memory_free(rows);
+    return status;
+}
+
+/* Least-squares matrix of an element: dlsm A = sum (S/L) R (x) R; published with weight 1 or S/L. */
+static void shape_matrix(const brc_simulation *s, int64_t e, double out[6])
+{
+    const brc_domain *d = s->domain;
+    const bool weighted = !brc_is_published(s) || s->scene->model.area_weights;
+    memset(out, 0, 6 * sizeof *out);
+    for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
+        double r[3], area[3], offset[3], ratio;
+        half_edge_geometry(d, h, (int32_t)e, r, area, offset, &ratio);
+        const double w = weighted ? 1 / ratio : 1;
+        out[0] += w * r[0] * r[0];
+        out[1] += w * r[1] * r[1];
+        out[2] += w * r[2] * r[2];
+        out[3] += w * r[1] * r[2];
+        out[4] += w * r[0] * r[2];
+        out[5] += w * r[0] * r[1];
+    }
+}
+
+static brc_status upload_inverse_shapes(brc_simulation *s)
+{
+    const brc_layout *layout = s->layout;
+    const int slice = layout->slice;
+    double *blocks = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &blocks, (int64_t)layout->n_rows * 6, "least-squares matrices"));
+    int64_t flat = 0;
+#pragma omp parallel for schedule(static) reduction(+ : flat)
+    for (int32_t r = 0; r < layout->n_rows; ++r) {
+        const int32_t e = layout->element_of_row[r];
+        if (e < 0) continue;
+        double a[6], inverse[6];
+        shape_matrix(s, e, a);
+        flat += brc_sym3_pseudo_inverse(a, span_threshold, inverse) < 3;
+        for (int c = 0; c < 6; ++c) blocks[((int64_t)(r / slice) * 6 + c) * slice + r % slice] = inverse[c];
+    }
+    if (flat)
+        brc_log(s->context, BRC_LOG_WARNING,
+                "%lld of %lld elements have neighbours that do not span space; their gradient is taken over the directions "
+                "they do span",
+                (long long)flat, (long long)s->domain->n_elements);
+    brc_status status = brc_new_coeff(s, &s->inv_shape, (int64_t)layout->n_rows * 6, "least-squares matrices");
+    if (status == BRC_OK) status = brc_upload_coeff(s, s->inv_shape, blocks, (int64_t)layout->n_rows * 6);
+    brc_memory_free(blocks);
+    return status;
+}
+
+static void add_outer(double m[9], double factor, const double a[3], const double b[3])
+{
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) m[3 * i + j] += factor * a[i] * b[j];
+}
+
+brc_status brc_geometry_update_moments(brc_simulation *s)
+{
+    if (brc_is_published(s)) return BRC_OK;
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int slice = layout->slice;
+    const int32_t *held = s->loads.held.index_of_free_face;
+    double *moments = NULL, *frees = NULL;
+    brc_status status = BRC_ALLOCATE(s->context, &moments, (int64_t)layout->n_rows * 9, "face moments");
+    if (status == BRC_OK) status = BRC_ALLOCATE(s->context, &frees, (int64_t)layout->n_boundary * slice * 9, "free-face moments");
+    if (status != BRC_OK) goto cleanup;
+#pragma omp parallel for schedule(static)
+    for (int32_t r = 0; r < layout->n_rows; ++r) {
+        const int64_t e = layout->element_of_row[r];
+        if (e < 0) continue;
+        double whole[9] = {0}, open[9] = {0};
+        for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
+            double branch[3], area[3], offset[3], ratio;
+            half_edge_geometry(d, h, (int32_t)e, branch, area, offset, &ratio);
+            add_outer(whole, 0.5, offset, area);         /* intact part of Z */
+            add_outer(whole, 0.5, branch, area);         /* A / 2: R (x) s = q s (x) s */
+        }
+        for (int64_t f = d->free_start[e]; f < d->free_start[e + 1]; ++f) {
+            if (held && held[f] >= 0) continue;
+            double arm[3];
+            for (int c = 0; c < 3; ++c) arm[c] = d->free_centroid[3 * f + c] - d->position[3 * e + c];
+            add_outer(open, 1, arm, d->free_area_vector + 3 * f);
+        }
+        const int32_t block = layout->boundary[r / slice];
+        for (int c = 0; c < 9; ++c) {
+            moments[((int64_t)(r / slice) * 9 + c) * slice + r % slice] = whole[c] + open[c];
+            if (block >= 0) frees[((int64_t)block * 9 + c) * slice + r % slice] = open[c];
+        }
+    }
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->moment, moments, (int64_t)layout->n_rows * 9));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->free_moment, frees, (int64_t)layout->n_boundary * slice * 9));
+cleanup:
+    brc_memory_free(moments);
+    brc_memory_free(frees);
+    return status;
+}
+
+static brc_status upload_masses(brc_simulation *s)
+{
+    const brc_domain *d = s->domain;
+    const brc_layout *layout = s->layout;
+    double *values = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &values, layout->n_rows > d->n_elements ? layout->n_rows : d->n_elements, "masses"));
+    for (int64_t e = 0; e < d->n_elements; ++e) values[e] = d->volume[e] * s->elastic[s->material_of_element[e]].density;
+    BRC_TRY_OR(cleanup, brc_new_state(s, &s->mass, layout->n_rows, "masses"));
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->mass, values, 1, 1));
+    if (brc_is_published(s)) {
+        BRC_TRY_OR(cleanup, brc_new_state(s, &s->volume, layout->n_rows, "volumes"));
+        BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->volume, d->volume, 1, 1));
+        /* mean of the principal moments: the trace of the inertia tensor over 3 */
+        for (int64_t e = 0; e < d->n_elements; ++e)
+            values[e] = s->elastic[s->material_of_element[e]].density *
+                        (d->inertia[6 * e] + d->inertia[6 * e + 1] + d->inertia[6 * e + 2]) / 3;
+        BRC_TRY_OR(cleanup, brc_new_state(s, &s->inertia, layout->n_rows, "moments of inertia"));
+        BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->inertia, values, 1, 1));
+    } else {
+        for (int32_t r = 0; r < layout->n_rows; ++r)
+            values[r] = layout->element_of_row[r] < 0 ? 1 : 1 / d->volume[layout->element_of_row[r]];
+        BRC_TRY_OR(cleanup, brc_new_coeff(s, &s->inv_volume, layout->n_rows, "inverse volumes"));
+        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->inv_volume, values, layout->n_rows));
+    }
+cleanup:
+    brc_memory_free(values);
+    return status;
+}
+
+/* Per-element constants, only for several materials. */
+static brc_status upload_materials(brc_simulation *s)
+{
+    if (!brc_device_has_many_materials(s->device)) return BRC_OK;
+    const brc_layout *layout = s->layout;
+    const int slice = layout->slice;
+    double *blocks = NULL, *modulus = NULL, *ell = NULL, *lame = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &blocks, (int64_t)layout->n_rows * 4, "materials of elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &modulus, layout->n_rows, "materials of elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ell, layout->n_rows, "materials of elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &lame, (int64_t)layout->n_rows * 3, "materials of elements"));
+    for (int32_t r = 0; r < layout->n_rows; ++r) {
+        const int32_t e = layout->element_of_row[r];
+        const brc_elastic *m = s->elastic + (e < 0 ? 0 : s->material_of_element[e]);
+        const double four[4] = {m->lambda, m->mu, m->k, m->ell};
+        for (int c = 0; c < 4; ++c) blocks[((int64_t)(r / slice) * 4 + c) * slice + r % slice] = four[c];
+        modulus[r] = m->k;
+        ell[r] = m->ell;
+        lame[3 * (int64_t)r] = m->lambda;
+        lame[3 * (int64_t)r + 1] = m->mu;
+        lame[3 * (int64_t)r + 2] = m->young;
+    }
+    if (brc_is_published(s)) {
+        BRC_TRY_OR(cleanup, brc_new_coeff(s, &s->lame_of, (int64_t)layout->n_rows * 3, "materials of elements"));
+        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->lame_of, lame, (int64_t)layout->n_rows * 3));
+    } else {
+        BRC_TRY_OR(cleanup, brc_new_coeff(s, &s->material, (int64_t)layout->n_rows * 4, "materials of elements"));
+        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->material, blocks, (int64_t)layout->n_rows * 4));
+        BRC_TRY_OR(cleanup, brc_new_coeff(s, &s->modulus, layout->n_rows, "stabilisation moduli"));
+        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->modulus, modulus, layout->n_rows));
+        BRC_TRY_OR(cleanup, brc_new_coeff(s, &s->ell_of, layout->n_rows, "compaction ratios"));
+        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->ell_of, ell, layout->n_rows));
+    }
+cleanup:
+    brc_memory_free(blocks);
+    brc_memory_free(modulus);
+    brc_memory_free(ell);
+    brc_memory_free(lame);
+    return status;
+}
+
+brc_status brc_geometry_create(brc_simulation *s)
+{
+    const int64_t entries = s->layout->n_slots * s->layout->slice;
+    BRC_TRY(upload_connectivity(s));
+    BRC_TRY(upload_inverse_shapes(s));
+    BRC_TRY(upload_masses(s));
+    BRC_TRY(upload_materials(s));
+    if (brc_is_published(s)) {
+        BRC_TRY(brc_new_coeff(s, &s->offset, entries * 3, "branches"));
+        BRC_TRY(upload_rows(s, s->offset, ROW_BRANCH));
+        BRC_TRY(brc_new_coeff(s, &s->area, entries, "face areas"));
+        return upload_rows(s, s->area, ROW_SURFACE);
+    }
+    BRC_TRY(brc_new_coeff(s, &s->area, entries * 3, "area vectors"));
+    BRC_TRY(upload_rows(s, s->area, ROW_AREA));
+    BRC_TRY(brc_new_coeff(s, &s->offset, entries * 3, "face offsets"));
+    BRC_TRY(upload_rows(s, s->offset, ROW_OFFSET));
+    BRC_TRY(brc_new_coeff(s, &s->ratio, entries, "length over area"));
+    BRC_TRY(upload_rows(s, s->ratio, ROW_RATIO));
+    BRC_TRY(brc_new_coeff(s, &s->moment, (int64_t)s->layout->n_rows * 9, "face moments"));
+    return brc_new_coeff(s, &s->free_moment, (int64_t)s->layout->n_boundary * s->layout->slice * 9, "free-face moments");
+}
+
+void brc_geometry_free(brc_simulation *s)
+{
+    brc_buffer **all[] = {&s->row_start, &s->neighbour, &s->boundary, &s->area, &s->offset, &s->ratio, &s->inv_shape,
+                          &s->moment, &s->inv_volume, &s->free_moment, &s->material, &s->modulus, &s->ell_of, &s->lame_of,
+                          &s->mass, &s->volume, &s->inertia};
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_buffer_free(all[i]);
+}
+
+brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+#pragma omp parallel for schedule(static)
+    for (int32_t r = 0; r < layout->n_rows; ++r) {
+        const int64_t e = layout->element_of_row[r];
+        double block[6] = {1, 1, 1, 0, 0, 0}, sum[6] = {0};
+        if (e >= 0) {
+            const brc_elastic *m = s->elastic + s->material_of_element[e];
+            const double along = m->lambda + m->mu > 0 ? m->lambda + m->mu : 0;
+            for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
+                double branch[3], area[3], offset[3], ratio;
+                half_edge_geometry(d, h, (int32_t)e, branch, area, offset, &ratio);
+                double n[3];
+                const double surface = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+                for (int c = 0; c < 3; ++c) n[c] = area[c] / surface;
+                sum[0] += (m->mu + along * n[0] * n[0]) / ratio;
+                sum[1] += (m->mu + along * n[1] * n[1]) / ratio;
+                sum[2] += (m->mu + along * n[2] * n[2]) / ratio;
+                sum[3] += along * n[1] * n[2] / ratio;
+                sum[4] += along * n[0] * n[2] / ratio;
+                sum[5] += along * n[0] * n[1] / ratio;
+            }
+            if (d->row_start[e + 1] > d->row_start[e]) brc_sym3_pseudo_inverse(sum, 1e-12, block);
+        }
+        memcpy(out + (int64_t)r * 6, block, sizeof block);
+    }
+    return BRC_OK;
+}

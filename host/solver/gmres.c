@@ -1,0 +1,125 @@
+/* Restarted GMRES for operators that are not symmetric (dlsm-published). The basis lives on the host; each iteration sends
+ * one vector to the device and fetches one back. */
+#include "simulation_internal.h"
+#include "statics.h"
+#include <math.h>
+#include <string.h>
+
+enum { RESTART = 80 };
+
+static double dot(const double *a, const double *b, int64_t n)
+{
+    double sum = 0;
+    for (int64_t i = 0; i < n; ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+static void add(double factor, const double *a, double *b, int64_t n)
+{
+    for (int64_t i = 0; i < n; ++i) b[i] += factor * a[i];
+}
+
+/* z = P v, a symmetric 3 x 3 block per row. */
+static void precondition(const double *blocks, const double *v, double *z, int64_t rows)
+{
+    for (int64_t r = 0; r < rows; ++r) {
+        const double *p = blocks + 6 * r, *x = v + 3 * r;
+        z[3 * r] = p[0] * x[0] + p[5] * x[1] + p[4] * x[2];
+        z[3 * r + 1] = p[5] * x[0] + p[1] * x[1] + p[3] * x[2];
+        z[3 * r + 2] = p[4] * x[0] + p[3] * x[1] + p[2] * x[2];
+    }
+}
+
+/* out = K z through the device; the force is minus K p. */
+static brc_status multiply(brc_simulation *s, brc_solve_vectors *v, const double *z, double *out, int64_t n)
+{
+    BRC_TRY(brc_upload_state(s, v->p, z, n));
+    BRC_TRY(brc_loads_zero_imposed(s, v->p));
+    BRC_TRY(brc_statics_apply(s, v));
+    BRC_TRY(brc_download(s, v->kp, brc_precision_state_bytes(brc_device_get_precision(s->device)), out, n));
+    for (int64_t i = 0; i < n; ++i) out[i] = -out[i];
+    return BRC_OK;
+}
+
+brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int32_t most, brc_progress *progress, double *left)
+{
+    const int64_t rows = s->layout->n_rows, n = 3 * rows;
+    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    double *basis = NULL, *x = NULL, *r = NULL, *z = NULL, *blocks = NULL;
+    double h[RESTART + 1][RESTART], cosine[RESTART], sine[RESTART], g[RESTART + 1], y[RESTART];
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &basis, (RESTART + 1) * n, "GMRES basis"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &x, n, "GMRES"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &r, n, "GMRES"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &z, n, "GMRES"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &blocks, 6 * rows, "preconditioner"));
+    BRC_TRY_OR(cleanup, brc_download(s, v->blocks, bytes, blocks, 6 * rows));
+    BRC_TRY_OR(cleanup, brc_download(s, v->r, bytes, r, n));
+    double norm = sqrt(dot(r, r, n));
+    for (int32_t done = 0; done < most && norm > target;) {
+        for (int64_t i = 0; i < n; ++i) basis[i] = r[i] / norm;
+        memset(g, 0, sizeof g);
+        g[0] = norm;
+        int k = 0;
+        for (; k < RESTART && done < most && fabs(g[k]) > target; ++k, ++done) {
+            double *next = basis + (int64_t)(k + 1) * n;
+            precondition(blocks, basis + (int64_t)k * n, z, rows);
+            BRC_TRY_OR(cleanup, multiply(s, v, z, next, n));
+            for (int i = 0; i <= k; ++i) { /* modified Gram-Schmidt */
+                h[i][k] = dot(next, basis + (int64_t)i * n, n);
+                add(-h[i][k], basis + (int64_t)i * n, next, n);
+            }
+            const double length = sqrt(dot(next, next, n));
+            for (int i = 0; i < k; ++i) {
+                const double upper = h[i][k];
+                h[i][k] = cosine[i] * upper + sine[i] * h[i + 1][k];
+                h[i + 1][k] = -sine[i] * upper + cosine[i] * h[i + 1][k];
+            }
+            const double hyp = hypot(h[k][k], length);
+            if (!(hyp > 0)) break;
+            cosine[k] = h[k][k] / hyp;
+            sine[k] = length / hyp;
+            h[k][k] = hyp;
+            g[k + 1] = -sine[k] * g[k];
+            g[k] *= cosine[k];
+            s->static_report.iterations += 1;
+            brc_progress_update(progress, s->static_report.iterations);
+            if (s->interrupted) {
+                status = BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
+                goto cleanup;
+            }
+            if (length > 0)
+                for (int64_t i = 0; i < n; ++i) next[i] /= length;
+        }
+        if (k == 0) break;
+        for (int i = k - 1; i >= 0; --i) {
+            y[i] = g[i];
+            for (int j = i + 1; j < k; ++j) y[i] -= h[i][j] * y[j];
+            y[i] /= h[i][i];
+        }
+        memset(r, 0, (size_t)n * sizeof *r);
+        for (int i = 0; i < k; ++i) add(y[i], basis + (int64_t)i * n, r, n);
+        precondition(blocks, r, z, rows);
+        add(1, z, x, n);
+        /* true residual */
+        BRC_TRY_OR(cleanup, multiply(s, v, x, z, n));
+        BRC_TRY_OR(cleanup, brc_download(s, v->r, bytes, r, n));
+        add(-1, z, r, n);
+        const double now = sqrt(dot(r, r, n));
+        if (!(now < 0.9999 * norm)) { /* stagnation: keep what there is */
+            norm = now;
+            break;
+        }
+        norm = now;
+    }
+    *left = norm;
+    BRC_TRY_OR(cleanup, brc_upload_state(s, v->x, x, n));
+    BRC_TRY_OR(cleanup, brc_loads_zero_imposed(s, v->x));
+cleanup:
+    brc_memory_free(basis);
+    brc_memory_free(x);
+    brc_memory_free(r);
+    brc_memory_free(z);
+    brc_memory_free(blocks);
+    return status;
+}

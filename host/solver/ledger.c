@@ -1,0 +1,67 @@
+/* The energy ledger (design.md: its terms are named once; closure is relative to the largest energy in play). */
+#include "simulation_internal.h"
+#include <math.h>
+#include <string.h>
+
+static brc_status lost(brc_simulation *s, brc_buffer *buffer, double *out)
+{
+    *out = 0;
+    return buffer ? brc_vector_sum(s, buffer, s->layout->n_rows, out) : BRC_OK;
+}
+
+/* -sum m g.u */
+static brc_status gravity_potential(brc_simulation *s, double *out)
+{
+    *out = 0;
+    if (!s->scene->has_gravity) return BRC_OK;
+    const brc_domain *d = s->domain;
+    double *u = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "displacements"));
+    const brc_status status = brc_state_from_rows(s, s->displacement, u, 3);
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        for (int c = 0; c < 3; ++c)
+            *out -= d->volume[e] * s->elastic[s->material_of_element[e]].density * s->scene->gravity[c] * u[3 * e + c];
+    brc_memory_free(u);
+    return status;
+}
+
+brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
+{
+    memset(out, 0, sizeof *out);
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(BRC_LAUNCH(s->kernel.kinetic_energy, n, BRC_INT(n), BRC_BUF(s->mass), BRC_BUF(s->velocity), BRC_BUF(s->kinetic)));
+    if (brc_is_published(s))
+        BRC_TRY(BRC_LAUNCH(s->kernel.add_spin_energy, n, BRC_INT(n), BRC_BUF(s->inertia), BRC_BUF(s->spin), BRC_BUF(s->kinetic)));
+    BRC_TRY(brc_vector_sum(s, s->kinetic, n, &out->kinetic));
+    BRC_TRY(brc_force_energies(s, &out->elastic, &out->stabilisation));
+    BRC_TRY(gravity_potential(s, &out->potential));
+    if (s->stage >= 0) BRC_TRY(brc_loads_work(s, &out->work));
+    out->work += s->work_before;
+    BRC_TRY(lost(s, s->lost_damping, &out->damping));
+    BRC_TRY(lost(s, s->lost_numerical, &out->numerical));
+    out->initial = s->initial_energy;
+    out->total = out->kinetic + out->elastic + out->stabilisation + out->potential;
+    if (out->elastic > s->peak_elastic) s->peak_elastic = out->elastic;
+    if (out->kinetic > s->peak_kinetic) s->peak_kinetic = out->kinetic;
+    out->peak_elastic = s->peak_elastic;
+    out->peak_kinetic = s->peak_kinetic;
+    const double scale = fmax(s->peak_elastic, fmax(fabs(out->initial), fabs(out->work)));
+    const double error = out->total - out->work + out->damping + out->numerical - out->initial;
+    out->closure = scale > 0 ? error / scale : 0;
+    if (!isfinite(out->total)) out->closure = NAN;
+    return BRC_OK;
+}
+
+double brc_ledger_term(const brc_ledger *ledger, const char *term)
+{
+    const struct {
+        const char *name;
+        double value;
+    } terms[] = {{"kinetic", ledger->kinetic},     {"elastic", ledger->elastic},     {"stabilisation", ledger->stabilisation},
+                 {"potential", ledger->potential}, {"work", ledger->work},           {"damping", ledger->damping},
+                 {"numerical", ledger->numerical}, {"initial", ledger->initial},     {"total", ledger->total},
+                 {"closure", ledger->closure},     {"peak_elastic", ledger->peak_elastic}, {"peak_kinetic", ledger->peak_kinetic}};
+    for (size_t i = 0; i < sizeof terms / sizeof *terms; ++i)
+        if (strcmp(term, terms[i].name) == 0) return terms[i].value;
+    return NAN;
+}

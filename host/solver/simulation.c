@@ -1,0 +1,323 @@
+/* Making and freeing a simulation, entering stages, running them, and the observers. */
+#include "simulation_internal.h"
+#include <math.h>
+#include <string.h>
+
+static brc_status find_kernels(brc_simulation *s)
+{
+    brc_kernels *k = &s->kernel;
+    const bool published = brc_is_published(s);
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+        bool wanted;
+    } wanted[] = {
+        {&k->gradient, "dlsm_gradient", !published},
+        {&k->stress, "dlsm_stress", !published},
+        {&k->flux, "dlsm_flux_pass", !published},
+        {&k->force, "dlsm_force", !published},
+        {&k->energy, "dlsm_energy", !published},
+        {&k->deformation, "dlsm_deformation", !published},
+        {&k->held_prescribe, "held_prescribe", !published},
+        {&k->held_gradient, "held_gradient_pass", !published},
+        {&k->held_moment, "held_moment_pass", !published},
+        {&k->held_force, "held_force_pass", !published},
+        {&k->held_energy, "held_energy", !published},
+        {&k->traction_moment, "traction_moment_pass", !published},
+        {&k->traction_force, "traction_force_pass", !published},
+        {&k->face_displacement, "face_displacement", !published},
+        {&k->published_strain, "published_strain_pass", published},
+        {&k->published_force, "published_force_pass", published},
+        {&k->published_energy, "published_energy", published},
+        {&k->advance_rotation, "advance_rotation", published},
+        {&k->add_spin_energy, "add_spin_energy", published},
+        {&k->small_rotation, "small_rotation", published},
+        {&k->advance, "advance", true},
+        {&k->advance_tchamwa, "advance_tchamwa", true},
+        {&k->numerical_close, "numerical_close", true},
+        {&k->damp_mass, "damp_mass", true},
+        {&k->gravity, "gravity", true},
+        {&k->kinetic_energy, "kinetic_energy", true},
+        {&k->impose_motion, "impose_motion", true},
+        {&k->impose_book, "impose_book", true},
+        {&k->impose_zero, "impose_zero", true},
+        {&k->axpy, "vector_axpy", true},
+        {&k->copy, "vector_copy", true},
+        {&k->xpay, "vector_xpay", true},
+        {&k->dot, "vector_dot", true},
+        {&k->sum, "vector_sum", true},
+        {&k->precondition, "block_precondition", true},
+        {&k->divide_by_mass, "divide_by_mass", true},
+    };
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i)
+        if (wanted[i].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[i].name, wanted[i].slot));
+    return BRC_OK;
+}
+
+/* Material of an element: its body's, or that of the last region it lies in. */
+static int32_t material_index(const brc_scene *scene, const brc_domain *domain, int64_t e)
+{
+    const int32_t b = domain->body[e] < scene->n_bodies ? domain->body[e] : 0;
+    const brc_body *body = scene->bodies + b;
+    const int32_t region = domain->region[e];
+    return region > 0 && region <= body->n_regions ? body->regions[region - 1].material : body->material;
+}
+
+bool brc_simulation_needs_many_materials(const brc_scene *scene, const brc_domain *domain)
+{
+    for (int64_t e = 1; e < domain->n_elements; ++e)
+        if (material_index(scene, domain, e) != material_index(scene, domain, 0)) return true;
+    return false;
+}
+
+static brc_status find_materials(brc_simulation *s)
+{
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->elastic, s->scene->n_materials, "materials"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->material_of_element, s->domain->n_elements, "materials of elements"));
+    for (int32_t m = 0; m < s->scene->n_materials; ++m) s->elastic[m] = brc_elastic_of(s->scene->materials + m);
+    for (int64_t e = 0; e < s->domain->n_elements; ++e) s->material_of_element[e] = material_index(s->scene, s->domain, e);
+    return BRC_OK;
+}
+
+static bool any_stage(const brc_scene *scene, bool (*test)(const brc_stage *))
+{
+    for (int32_t i = 0; i < scene->n_stages; ++i)
+        if (test(scene->stages + i)) return true;
+    return false;
+}
+static bool has_tchamwa(const brc_stage *stage)
+{
+    return stage->solver == BRC_SOLVER_DYNAMIC && stage->integrator == BRC_TCHAMWA_WIELGOSZ;
+}
+static bool has_damping(const brc_stage *stage) { return stage->solver == BRC_SOLVER_DYNAMIC && stage->mass_damping > 0; }
+static bool has_face_load(const brc_stage *stage)
+{
+    for (int32_t i = 0; i < stage->n_loads; ++i) {
+        const brc_load_kind kind = stage->loads[i].kind;
+        if (kind != BRC_LOAD_ELEMENT_DISPLACEMENT && kind != BRC_LOAD_ELEMENT_VELOCITY) return true;
+    }
+    return false;
+}
+
+/* Numbers per row of the state and work arrays that a scene needs. */
+typedef struct array_need {
+    brc_buffer **buffer;
+    bool wanted, is_state;
+    int64_t count;
+    const char *what;
+} array_need;
+enum { MOST_ARRAYS = 24 };
+static int list_arrays(brc_simulation *s, array_need needs[MOST_ARRAYS])
+{
+    const bool published = brc_is_published(s), faces = any_stage(s->scene, has_face_load);
+    const bool tchamwa = any_stage(s->scene, has_tchamwa);
+    const int64_t n = s->layout->n_rows, boundary = (int64_t)s->layout->n_boundary * s->layout->slice;
+    const int64_t blocks = (3 * n + 1023) / 1024 + 1;
+    const array_need all[] = {
+        {&s->displacement, true, true, 3 * n, "displacements"},
+        {&s->velocity, true, true, 3 * n, "velocities"},
+        {&s->force, true, true, 3 * n, "forces"},
+        {&s->gradient, true, false, (published ? 6 : 9) * n, published ? "strains" : "displacement gradients"},
+        {&s->stress, !published, false, 9 * n, "stresses"},
+        {&s->flux, !published, false, 9 * n, "fluxes"},
+        {&s->bond_part, !published && brc_device_has_many_materials(s->device), false, 9 * n, "bond parts"},
+        {&s->held_gradient, !published && faces, false, 9 * boundary, "held gradients"},
+        {&s->held_moment, !published && faces, false, 9 * boundary, "held moments"},
+        {&s->orientation, published, true, 4 * n, "orientations"},
+        {&s->spin, published, true, 3 * n, "spins"},
+        {&s->torque, published, true, 3 * n, "torques"},
+        {&s->moved, tchamwa, true, 3 * n, "moves of a step"},
+        {&s->lost_numerical, tchamwa, true, n, "numerical dissipation"},
+        {&s->lost_damping, any_stage(s->scene, has_damping), true, n, "damping dissipation"},
+        {&s->elastic_energy, true, true, n, "elastic energies"},
+        {&s->stabilisation_energy, !published, true, n, "stabilisation energies"},
+        {&s->kinetic, true, true, n, "kinetic energies"},
+        {&s->partial, true, true, blocks, "block sums"},
+    };
+    memcpy(needs, all, sizeof all);
+    return (int)(sizeof all / sizeof *all);
+}
+
+static brc_status create_arrays(brc_simulation *s)
+{
+    array_need needs[MOST_ARRAYS];
+    const int n = list_arrays(s, needs);
+    for (int i = 0; i < n; ++i) {
+        if (!needs[i].wanted) continue;
+        BRC_TRY(needs[i].is_state ? brc_new_state(s, needs[i].buffer, needs[i].count, needs[i].what)
+                                  : brc_new_coeff(s, needs[i].buffer, needs[i].count, needs[i].what));
+    }
+    if (!brc_is_published(s)) return BRC_OK;
+    double *upright = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &upright, 4 * (int64_t)s->layout->n_rows, "orientations"));
+    for (int64_t r = 0; r < s->layout->n_rows; ++r) upright[4 * r] = 1;
+    const brc_status status = brc_upload_state(s, s->orientation, upright, 4 * (int64_t)s->layout->n_rows);
+    brc_memory_free(upright);
+    return status;
+}
+
+int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *domain, brc_precision precision, int slice)
+{
+    const int64_t state = brc_precision_state_bytes(precision), coeff = brc_precision_coeff_bytes(precision);
+    const int64_t entries = brc_layout_estimate_entries(domain, slice);
+    const int64_t n = (domain->n_elements + slice - 1) / slice * slice;
+    const bool many = brc_simulation_needs_many_materials(scene, domain);
+    const bool tchamwa = any_stage(scene, has_tchamwa), damped = any_stage(scene, has_damping);
+    int64_t boundary = 0;
+    for (int64_t e = 0; e < domain->n_elements; ++e) boundary += domain->free_start[e + 1] > domain->free_start[e];
+    boundary = boundary + boundary / 8 < n ? boundary + boundary / 8 : n; /* blocks are whole slices */
+    int64_t bytes = entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
+    if (tchamwa) bytes += n * 4 * state;
+    if (damped) bytes += n * state;
+    if (scene->model.kind == BRC_MODEL_DLSM_PUBLISHED)
+        return bytes + entries * 4 * coeff + n * ((6 + 6 + (many ? 3 : 0)) * coeff + (4 + 3 + 3 + 2) * state);
+    bytes += entries * 7 * coeff + n * (27 + 6 + 9 + 1 + (many ? 15 : 0)) * coeff + n * state;
+    return bytes + boundary * 9 * coeff * (any_stage(scene, has_face_load) ? 3 : 1);
+}
+
+brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain, brc_device *device,
+                                 brc_simulation **out)
+{
+    *out = NULL;
+    const double start = brc_clock_s();
+    brc_simulation *s = NULL;
+    brc_status status = BRC_OK;
+    if (domain->n_elements < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "the domain has no elements");
+    BRC_TRY(BRC_ALLOCATE(context, &s, 1, "simulation"));
+    s->context = context;
+    s->scene = scene;
+    s->domain = domain;
+    s->device = device;
+    s->stage = -1;
+    if (brc_simulation_needs_many_materials(scene, domain) != brc_device_has_many_materials(device)) {
+        status = BRC_FAIL(context, BRC_INTERNAL, "the device was opened for %s material, the scene has %s",
+                          brc_device_has_many_materials(device) ? "several" : "one",
+                          brc_device_has_many_materials(device) ? "one" : "several");
+        goto cleanup;
+    }
+    BRC_TRY_OR(cleanup, brc_layout_create(context, domain, brc_device_slice(device), &s->layout));
+    s->n_groups = s->layout->n_slices * (brc_device_slice(device) / brc_device_lanes(device));
+    BRC_TRY_OR(cleanup, find_materials(s));
+    BRC_TRY_OR(cleanup, find_kernels(s));
+    BRC_TRY_OR(cleanup, brc_geometry_create(s));
+    BRC_TRY_OR(cleanup, create_arrays(s));
+    BRC_TRY_OR(cleanup, brc_geometry_update_moments(s));
+    brc_effects_list(s);
+    s->setup_seconds = brc_clock_s() - start;
+    *out = s;
+    return BRC_OK;
+cleanup:
+    brc_simulation_free(&s);
+    return status;
+}
+
+void brc_simulation_free(brc_simulation **simulation)
+{
+    if (!simulation || !*simulation) return;
+    brc_simulation *s = *simulation;
+    if (s->layout) {
+        array_need needs[MOST_ARRAYS];
+        const int n = list_arrays(s, needs);
+        for (int i = 0; i < n; ++i) brc_buffer_free(needs[i].buffer);
+    }
+    brc_loads_free(&s->loads);
+    brc_geometry_free(s);
+    brc_layout_free(&s->layout);
+    brc_memory_free(s->elastic);
+    brc_memory_free(s->material_of_element);
+    brc_memory_free(s->modes);
+    brc_memory_free(s);
+    *simulation = NULL;
+}
+
+brc_status brc_simulation_observe(brc_simulation *s, const brc_observer *observer)
+{
+    if (s->n_observers == BRC_MOST_OBSERVERS)
+        return BRC_FAIL(s->context, BRC_INTERNAL, "more than %d observers", BRC_MOST_OBSERVERS);
+    s->observers[s->n_observers++] = *observer;
+    return BRC_OK;
+}
+
+brc_status brc_notify_sample(brc_simulation *s)
+{
+    for (int i = 0; i < s->n_observers; ++i)
+        if (s->observers[i].sample) BRC_TRY(s->observers[i].sample(s->observers[i].self, s));
+    return BRC_OK;
+}
+
+brc_status brc_notify_frame(brc_simulation *s)
+{
+    for (int i = 0; i < s->n_observers; ++i)
+        if (s->observers[i].frame) BRC_TRY(s->observers[i].frame(s->observers[i].self, s));
+    return BRC_OK;
+}
+
+/* Bank what the loads of the stage that ends did; its lists go. */
+static brc_status leave_stage(brc_simulation *s)
+{
+    if (s->stage < 0) return BRC_OK;
+    double work;
+    BRC_TRY(brc_loads_work(s, &work));
+    s->work_before += work;
+    if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC) s->total_time_before += s->time;
+    brc_loads_free(&s->loads);
+    return BRC_OK;
+}
+
+brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
+{
+    if (stage < 0 || stage >= s->scene->n_stages)
+        return BRC_FAIL(s->context, BRC_INTERNAL, "stage %d of %d", (int)stage, (int)s->scene->n_stages);
+    const double start = brc_clock_s();
+    const brc_stage *next = s->scene->stages + stage;
+    brc_ledger before = {0}, after;
+    if (s->stage >= 0) BRC_TRY(brc_simulation_ledger(s, &before));
+    BRC_TRY(leave_stage(s));
+    s->stage = -1; /* lists of the next stage are not there yet */
+    BRC_TRY(brc_initial_apply(s, next));
+    BRC_TRY(brc_loads_create(s, next, &s->loads));
+    s->stage = stage;
+    s->step = 0;
+    s->time = s->load_factor = 0;
+    BRC_TRY(brc_geometry_update_moments(s));
+    if (next->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(brc_time_step_find(s, next, &s->time_step));
+    BRC_TRY(brc_loads_prescribe(s, 0));
+    BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
+    BRC_TRY(brc_simulation_ledger(s, &after));
+    s->initial_energy += after.total - before.total; /* initial fields, and what changed supports hold or release */
+    s->setup_seconds += brc_clock_s() - start;
+    return BRC_OK;
+}
+
+brc_status brc_simulation_run(brc_simulation *s)
+{
+    for (int32_t i = 0; i < s->scene->n_stages; ++i) {
+        const brc_stage *stage = s->scene->stages + i;
+        BRC_TRY(brc_simulation_begin_stage(s, i));
+        for (int k = 0; k < s->n_observers; ++k)
+            if (s->observers[k].stage_begin) BRC_TRY(s->observers[k].stage_begin(s->observers[k].self, s, i));
+        if (i == 0 && s->scene->output.n_frames >= 0) BRC_TRY(brc_notify_frame(s));
+        const double start = brc_clock_s();
+        const brc_status status = stage->solver == BRC_SOLVER_STATIC ? brc_statics_run(s)
+                                  : stage->solver == BRC_SOLVER_MODES ? brc_modes_run(s)
+                                                                      : brc_dynamics_run(s);
+        s->step_seconds += brc_clock_s() - start;
+        BRC_TRY(status);
+        if (s->scene->output.n_frames >= 0) BRC_TRY(brc_notify_frame(s));
+        for (int k = 0; k < s->n_observers; ++k)
+            if (s->observers[k].stage_end) BRC_TRY(s->observers[k].stage_end(s->observers[k].self, s, i));
+    }
+    return BRC_OK;
+}
+
+void brc_simulation_interrupt(brc_simulation *s) { s->interrupted = 1; }
+
+brc_status brc_simulation_advance(brc_simulation *s, int64_t n_steps)
+{
+    const double start = brc_clock_s();
+    const brc_status status = brc_dynamics_advance(s, n_steps);
+    s->step_seconds += brc_clock_s() - start;
+    return status;
+}
+
+brc_status brc_simulation_wait(brc_simulation *s) { return brc_device_wait(s->device); }

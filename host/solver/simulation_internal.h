@@ -1,0 +1,184 @@
+/* The inside of a simulation, shared by the files of host/solver only. Device arrays are in storage rows (layout.h). */
+#ifndef BRC_SOLVER_SIMULATION_INTERNAL_H
+#define BRC_SOLVER_SIMULATION_INTERNAL_H
+
+#include "../base/log.h"
+#include "../base/memory.h"
+#include "layout.h"
+#include "simulation.h"
+#include <signal.h>
+
+enum { BRC_MOST_OBSERVERS = 8, BRC_MOST_EFFECTS = 24 };
+
+/* Derived constants of one material (material.c). */
+typedef struct brc_elastic {
+    double lambda, mu; /* Lame [Pa] */
+    double young, density;
+    double k;   /* stabilisation modulus of dlsm, mu_c [Pa] */
+    double ell; /* lambda_c / (2 mu_c) [-] */
+} brc_elastic;
+brc_elastic brc_elastic_of(const brc_material *material);
+
+/* Face loads of a stage: held faces grouped by element, one entry list per load (loads.c). */
+typedef struct brc_held_load {
+    int32_t load; /* index into the stage's loads */
+    int32_t n;
+    brc_buffer *face, *component, *base, *direction; /* [n], [n][3] ... */
+} brc_held_load;
+typedef struct brc_held_faces {
+    int32_t n_elements, n_faces;
+    int32_t *index_of_free_face; /* [domain n_free_faces] -1: not held; host */
+    int32_t *component_of_face;  /* [n_faces] bits 1 2 4: held components; host */
+    brc_buffer *element, *place, *face_start, *area, *arm, *held, *spring;
+    brc_buffer *value, *zero_value, *reaction, *last, *last_reaction, *work, *scratch, *energy;
+    int32_t n_loads;
+    brc_held_load *loads;
+} brc_held_faces;
+typedef struct brc_traction_load {
+    int32_t load;
+    int32_t n;
+    double last_factor;
+    brc_buffer *element, *place, *total, *moment, *reach, *work;
+} brc_traction_load;
+typedef struct brc_imposed_load {
+    int32_t load;
+    int32_t n;
+    double last_rate;
+    int32_t *element_id; /* [n] host */
+    int32_t component_bits;
+    brc_buffer *element, *component, *base, *direction, *reaction, *last, *last_reaction, *work;
+} brc_imposed_load;
+typedef struct brc_loads {
+    brc_held_faces held;
+    int32_t n_tractions, n_imposed;
+    brc_traction_load *tractions;
+    brc_imposed_load *imposed;
+} brc_loads;
+
+/* Kernels are looked up once; a name that a model does not use stays NULL. */
+typedef struct brc_kernels {
+    brc_kernel *gradient, *stress, *flux, *force, *energy, *deformation;
+    brc_kernel *held_prescribe, *held_gradient, *held_moment, *held_force, *held_energy, *traction_moment, *traction_force;
+    brc_kernel *face_displacement;
+    brc_kernel *published_strain, *published_force, *published_energy, *advance_rotation, *add_spin_energy, *small_rotation;
+    brc_kernel *advance, *advance_tchamwa, *numerical_close, *damp_mass, *gravity, *kinetic_energy;
+    brc_kernel *impose_motion, *impose_book, *impose_zero;
+    brc_kernel *axpy, *copy, *xpay, *dot, *sum, *precondition, *divide_by_mass;
+} brc_kernels;
+
+struct brc_simulation {
+    brc_context *context;
+    const brc_scene *scene;
+    const brc_domain *domain;
+    brc_device *device;
+    brc_layout *layout;
+    brc_kernels kernel;
+    int n_groups; /* work-items of an element pass */
+    brc_elastic *elastic;      /* [n_materials] */
+    int32_t *material_of_element; /* [n_elements] index into scene.materials */
+
+    /* connectivity and geometry (geometry.c) */
+    brc_buffer *row_start, *neighbour, *boundary;
+    brc_buffer *area, *offset, *ratio;               /* dlsm: s, d, q; published: branch (in offset), S (in area) */
+    brc_buffer *inv_shape, *moment, *inv_volume, *free_moment;
+    brc_buffer *material, *modulus, *ell_of, *lame_of;
+    brc_buffer *mass, *volume, *inertia;
+
+    /* state */
+    brc_buffer *displacement, *velocity, *force;
+    brc_buffer *gradient, *stress, *flux, *bond_part; /* dlsm: H, P, B; published: strain in gradient */
+    brc_buffer *held_gradient, *held_moment;
+    brc_buffer *orientation, *spin, *torque;          /* published */
+    brc_buffer *moved, *lost_numerical, *lost_damping; /* only with these effects */
+    brc_buffer *elastic_energy, *stabilisation_energy, *kinetic; /* [n_rows] scratch of the ledger */
+    brc_buffer *partial;                               /* block sums */
+
+    /* stage */
+    int32_t stage;
+    int64_t step, total_steps;
+    double time, total_time_before, load_factor;
+    brc_time_step time_step;
+    brc_loads loads;
+    double work_before, damping_before, numerical_before; /* of earlier stages */
+    double initial_energy, peak_elastic, peak_kinetic;
+    double *modes;
+    int32_t n_modes;
+    brc_static_report static_report;
+
+    int n_observers;
+    brc_observer observers[BRC_MOST_OBSERVERS];
+    volatile sig_atomic_t interrupted;
+    const char *effects_in[BRC_MOST_EFFECTS], *effects_out[BRC_MOST_EFFECTS];
+    double setup_seconds, step_seconds;
+};
+
+/* ---- arrays.c: host doubles by id <-> device rows ---- */
+brc_status brc_upload_coeff(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count);
+brc_status brc_upload_state(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count);
+brc_status brc_download(brc_simulation *s, brc_buffer *buffer, int bytes_each, double *values, int64_t count);
+/* [n_elements][width] by id to rows (padding: fill) and back. */
+brc_status brc_state_to_rows(brc_simulation *s, brc_buffer *buffer, const double *values, int width, double fill);
+brc_status brc_state_from_rows(brc_simulation *s, brc_buffer *buffer, double *values, int width);
+brc_status brc_coeff_from_rows(brc_simulation *s, brc_buffer *buffer, double *values, int width);
+/* New buffers of count numbers. */
+brc_status brc_new_state(brc_simulation *s, brc_buffer **out, int64_t count, const char *what);
+brc_status brc_new_coeff(brc_simulation *s, brc_buffer **out, int64_t count, const char *what);
+brc_status brc_new_int(brc_simulation *s, brc_buffer **out, const int32_t *values, int64_t count, const char *what);
+/* Sum of count state numbers, and dot product, in fixed blocks. */
+brc_status brc_vector_sum(brc_simulation *s, brc_buffer *x, int64_t count, double *out);
+brc_status brc_vector_dot(brc_simulation *s, brc_buffer *x, brc_buffer *y, int64_t count, double *out);
+
+/* ---- geometry.c ---- */
+brc_status brc_geometry_create(brc_simulation *s);
+void brc_geometry_free(brc_simulation *s);
+/* Z + A/2 and the free faces' moment, without the faces held in this stage (dlsm). */
+brc_status brc_geometry_update_moments(brc_simulation *s);
+/* Symmetric 3 x 3 preconditioner blocks [n_rows][6]: inverse of sum (S/L) [mu I + (lambda + mu) n n^T]. */
+brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out);
+
+/* ---- loads.c: one stage's loads ---- */
+brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads *out);
+void brc_loads_free(brc_loads *loads);
+/* Put held faces and imposed elements where they are at time t of the stage (static: load factor). */
+brc_status brc_loads_prescribe(brc_simulation *s, double t);
+/* Velocities of imposed elements at t. */
+brc_status brc_loads_impose_velocity(brc_simulation *s, double t);
+/* a(t), or its integral from 0 to t for velocity loads; rate: its derivative. */
+double brc_load_factor(const brc_load *load, double t, bool is_static);
+double brc_load_rate(const brc_load *load, double t);
+/* Zero the imposed components of a vector. */
+brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector);
+/* Work of all loads of this stage so far [J]. */
+brc_status brc_loads_work(brc_simulation *s, double *out);
+
+/* ---- force.c: one evaluation, either model ---- */
+typedef enum brc_booking { BRC_BOOK_NOTHING, BRC_BOOK_WORK, BRC_BOOK_START } brc_booking; /* `book` of the kernels */
+typedef struct brc_force_request {
+    brc_buffer *displacement, *force; /* [n_rows][3] */
+    brc_buffer *orientation, *torque; /* published */
+    bool finite;      /* the full law, or its linearisation */
+    bool homogeneous; /* held faces at zero, no tractions, no gravity: the linear operator */
+    brc_booking book; /* work of loads: leave, add, or start from here */
+    double t;         /* time of the stage, for tractions */
+} brc_force_request;
+brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *request);
+/* The simulation's own state, with the full law, at its time. */
+brc_status brc_force_of_state(brc_simulation *s, brc_booking book);
+/* Only H and G's held part, for outputs after the state moved. */
+brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation);
+
+/* ---- stages ---- */
+brc_status brc_initial_apply(brc_simulation *s, const brc_stage *stage);
+brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_time_step *out);
+brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps);
+brc_status brc_dynamics_run(brc_simulation *s);
+brc_status brc_statics_run(brc_simulation *s);
+brc_status brc_modes_run(brc_simulation *s);
+void brc_effects_list(brc_simulation *s);
+brc_status brc_notify_sample(brc_simulation *s);
+brc_status brc_notify_frame(brc_simulation *s);
+
+static inline const brc_stage *brc_current_stage(const brc_simulation *s) { return &s->scene->stages[s->stage]; }
+static inline bool brc_is_published(const brc_simulation *s) { return s->scene->model.kind == BRC_MODEL_DLSM_PUBLISHED; }
+
+#endif

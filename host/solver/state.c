@@ -1,0 +1,225 @@
+/* Reading and writing the state from outside, in the order of element ids. */
+#include "simulation_internal.h"
+#include <math.h>
+#include <string.h>
+
+const brc_scene *brc_simulation_scene(const brc_simulation *s) { return s->scene; }
+const brc_domain *brc_simulation_domain(const brc_simulation *s) { return s->domain; }
+const brc_device *brc_simulation_device(const brc_simulation *s) { return s->device; }
+int32_t brc_simulation_stage(const brc_simulation *s) { return s->stage; }
+int64_t brc_simulation_step(const brc_simulation *s) { return s->step; }
+int64_t brc_simulation_total_steps(const brc_simulation *s) { return s->total_steps; }
+double brc_simulation_setup_seconds(const brc_simulation *s) { return s->setup_seconds; }
+double brc_simulation_step_seconds(const brc_simulation *s) { return s->step_seconds; }
+brc_time_step brc_simulation_time_step(const brc_simulation *s) { return s->time_step; }
+brc_static_report brc_simulation_static_report(const brc_simulation *s) { return s->static_report; }
+const char *const *brc_simulation_effects_in(const brc_simulation *s) { return s->effects_in; }
+const char *const *brc_simulation_effects_out(const brc_simulation *s) { return s->effects_out; }
+
+double brc_simulation_time(const brc_simulation *s)
+{
+    return s->stage >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC ? s->load_factor : s->time;
+}
+
+double brc_simulation_total_time(const brc_simulation *s) { return s->total_time_before + s->time; }
+
+const double *brc_simulation_modes(const brc_simulation *s, int32_t *n)
+{
+    *n = s->n_modes;
+    return s->modes;
+}
+
+brc_status brc_simulation_displacement(brc_simulation *s, double *out) { return brc_state_from_rows(s, s->displacement, out, 3); }
+brc_status brc_simulation_velocity(brc_simulation *s, double *out) { return brc_state_from_rows(s, s->velocity, out, 3); }
+brc_status brc_simulation_force(brc_simulation *s, double *out) { return brc_state_from_rows(s, s->force, out, 3); }
+
+brc_status brc_simulation_set_state(brc_simulation *s, const double *displacement, const double *velocity)
+{
+    if (displacement) BRC_TRY(brc_state_to_rows(s, s->displacement, displacement, 3, 0));
+    if (velocity) BRC_TRY(brc_state_to_rows(s, s->velocity, velocity, 3, 0));
+    return brc_force_of_state(s, BRC_BOOK_START);
+}
+
+brc_status brc_simulation_orientation(brc_simulation *s, double *orientation, double *spin)
+{
+    if (!brc_is_published(s))
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "model dlsm has no orientations of its own; ask for strains instead");
+    BRC_TRY(brc_state_from_rows(s, s->orientation, orientation, 4));
+    return brc_state_from_rows(s, s->spin, spin, 3);
+}
+
+/* G = F - I of every element [n_elements][9]. */
+static brc_status deformation(brc_simulation *s, double *out)
+{
+    /* B is dead between force evaluations: its buffer takes G */
+    BRC_TRY(BRC_LAUNCH(s->kernel.deformation, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->moment), BRC_BUF(s->inv_volume),
+                       BRC_BUF(s->boundary), BRC_BUF(s->held_gradient),
+                       BRC_INT(s->loads.held.n_faces > 0 ? 1 : 0), BRC_BUF(s->flux)));
+    return brc_coeff_from_rows(s, s->flux, out, 9);
+}
+
+/* Green strain of G. */
+static void green(const double g[9], double e[6])
+{
+    static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+    for (int c = 0; c < 6; ++c) {
+        const int i = pair[c][0], j = pair[c][1];
+        e[c] = 0.5 * (g[3 * i + j] + g[3 * j + i]);
+        for (int k = 0; k < 3; ++k) e[c] += 0.5 * g[3 * k + i] * g[3 * k + j];
+    }
+}
+
+/* F Sigma F^T / det F, F = I + G */
+static void cauchy_of(const double g[9], const double sigma[6], double out[6])
+{
+    static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+    const double m[3][3] = {{sigma[0], sigma[5], sigma[4]}, {sigma[5], sigma[1], sigma[3]}, {sigma[4], sigma[3], sigma[2]}};
+    double f[3][3], t[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) f[i][j] = g[3 * i + j] + (i == j);
+    const double det = f[0][0] * (f[1][1] * f[2][2] - f[1][2] * f[2][1]) - f[0][1] * (f[1][0] * f[2][2] - f[1][2] * f[2][0]) +
+                       f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) t[i][j] = f[i][0] * m[0][j] + f[i][1] * m[1][j] + f[i][2] * m[2][j];
+    for (int c = 0; c < 6; ++c) {
+        const int i = pair[c][0], j = pair[c][1];
+        out[c] = (t[i][0] * f[j][0] + t[i][1] * f[j][1] + t[i][2] * f[j][2]) / det;
+    }
+}
+
+static void hooke(const brc_elastic *m, const double e[6], double out[6])
+{
+    const double pressure = m->lambda * (e[0] + e[1] + e[2]);
+    for (int c = 0; c < 6; ++c) out[c] = 2 * m->mu * e[c] + (c < 3 ? pressure : 0);
+}
+
+brc_status brc_simulation_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
+{
+    const int64_t n = s->domain->n_elements;
+    const bool published = brc_is_published(s);
+    double *g = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &g, 9 * n, "deformation"));
+    brc_status status = published ? brc_coeff_from_rows(s, s->gradient, g, 6) : deformation(s, g);
+    for (int64_t e = 0; status == BRC_OK && e < n; ++e) {
+        double own[6], sigma[6], turned[6];
+        if (published) memcpy(own, g + 6 * e, sizeof own);
+        else green(g + 9 * e, own);
+        hooke(s->elastic + s->material_of_element[e], own, sigma);
+        if (published) memcpy(turned, sigma, sizeof turned);
+        else cauchy_of(g + 9 * e, sigma, turned);
+        if (strain) memcpy(strain + 6 * e, own, sizeof own);
+        if (stress) memcpy(stress + 6 * e, sigma, sizeof sigma);
+        if (cauchy) memcpy(cauchy + 6 * e, turned, sizeof turned);
+    }
+    brc_memory_free(g);
+    return status;
+}
+
+/* dlsm-published: a face moves rigidly with its element. */
+static brc_status published_faces(brc_simulation *s, int64_t n, const int32_t *faces, double *out)
+{
+    const brc_domain *d = s->domain;
+    double *u = NULL, *q = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "displacements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * d->n_elements, "orientations"));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->displacement, u, 3));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
+    for (int64_t i = 0; i < n; ++i) {
+        const int64_t f = faces[i], e = d->free_element[f];
+        double a[3], once[3], twice[3];
+        const double w = q[4 * e], *v = q + 4 * e + 1;
+        for (int c = 0; c < 3; ++c) a[c] = d->free_centroid[3 * f + c] - d->position[3 * e + c];
+        for (int c = 0; c < 3; ++c) once[c] = v[(c + 1) % 3] * a[(c + 2) % 3] - v[(c + 2) % 3] * a[(c + 1) % 3];
+        for (int c = 0; c < 3; ++c) twice[c] = v[(c + 1) % 3] * once[(c + 2) % 3] - v[(c + 2) % 3] * once[(c + 1) % 3];
+        for (int c = 0; c < 3; ++c) out[3 * i + c] = u[3 * e + c] + 2 * (w * once[c] + twice[c]);
+    }
+cleanup:
+    brc_memory_free(u);
+    brc_memory_free(q);
+    return status;
+}
+
+brc_status brc_simulation_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out)
+{
+    if (n == 0) return BRC_OK;
+    if (brc_is_published(s)) return published_faces(s, n, faces, out);
+    const brc_domain *d = s->domain;
+    brc_buffer *element = NULL, *arm = NULL, *result = NULL;
+    int32_t *rows = NULL;
+    double *arms = NULL, *held = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rows, n, "faces"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &arms, 3 * n, "faces"));
+    for (int64_t i = 0; i < n; ++i) {
+        const int64_t f = faces[i], e = d->free_element[f];
+        rows[i] = s->layout->row_of_element[e];
+        for (int c = 0; c < 3; ++c) arms[3 * i + c] = d->free_centroid[3 * f + c] - d->position[3 * e + c];
+    }
+    BRC_TRY_OR(cleanup, brc_new_int(s, &element, rows, n, "faces"));
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &arm, 3 * n, "faces"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, arm, arms, 3 * n));
+    BRC_TRY_OR(cleanup, brc_new_state(s, &result, 3 * n, "faces"));
+    BRC_TRY_OR(cleanup, BRC_LAUNCH(s->kernel.face_displacement, n, BRC_INT(n), BRC_BUF(element), BRC_BUF(arm),
+                                   BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(result)));
+    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    BRC_TRY_OR(cleanup, brc_download(s, result, bytes, out, 3 * n));
+    const brc_held_faces *h = &s->loads.held;
+    if (h->n_faces && h->value) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &held, 3 * (int64_t)h->n_faces, "held faces"));
+        BRC_TRY_OR(cleanup, brc_download(s, h->value, bytes, held, 3 * (int64_t)h->n_faces));
+        for (int64_t i = 0; i < n; ++i) {
+            const int64_t at = h->index_of_free_face[faces[i]];
+            for (int c = 0; at >= 0 && c < 3; ++c)
+                if (h->component_of_face[at] >> c & 1) out[3 * i + c] = held[3 * at + c];
+        }
+    }
+cleanup:
+    brc_buffer_free(&element);
+    brc_buffer_free(&arm);
+    brc_buffer_free(&result);
+    brc_memory_free(rows);
+    brc_memory_free(arms);
+    brc_memory_free(held);
+    return status;
+}
+
+brc_status brc_simulation_reaction(brc_simulation *s, int32_t set_index, double out[3])
+{
+    const brc_domain *d = s->domain;
+    const brc_set *set = d->sets + set_index;
+    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    double *values = NULL;
+    bool *member = NULL;
+    brc_status status = BRC_OK;
+    out[0] = out[1] = out[2] = 0;
+    const brc_held_faces *h = &s->loads.held;
+    if (set->kind == BRC_SET_FACES && h->n_faces) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, 3 * (int64_t)h->n_faces, "reactions"));
+        BRC_TRY_OR(cleanup, brc_download(s, h->reaction, bytes, values, 3 * (int64_t)h->n_faces));
+        for (int64_t m = 0; m < set->n_members; ++m) {
+            const int64_t at = h->index_of_free_face[set->members[m]];
+            /* `reaction` holds the pull of the held face on its element: the force of the load on the solid */
+            for (int c = 0; at >= 0 && c < 3; ++c) out[c] += values[3 * at + c];
+        }
+    }
+    if (s->loads.n_imposed) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, d->n_elements, "members"));
+        for (int64_t m = 0; m < set->n_members; ++m)
+            member[set->kind == BRC_SET_ELEMENTS ? set->members[m] : d->free_element[set->members[m]]] = true;
+    }
+    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
+        const brc_imposed_load *m = s->loads.imposed + i;
+        brc_memory_free(values);
+        values = NULL;
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, 3 * (int64_t)m->n, "reactions"));
+        BRC_TRY_OR(cleanup, brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
+        for (int32_t k = 0; k < m->n; ++k)
+            for (int c = 0; member[m->element_id[k]] && c < 3; ++c) out[c] += values[3 * (int64_t)k + c];
+    }
+cleanup:
+    brc_memory_free(values);
+    brc_memory_free(member);
+    return status;
+}

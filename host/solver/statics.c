@@ -1,0 +1,205 @@
+/* Elastic equilibrium. dlsm: preconditioned conjugate gradients on the linearised conservative operator, matrix-free on the
+ * device, inside a modified Newton iteration on the full law. dlsm-published has no symmetric operator: restarted GMRES
+ * (gmres.c) on its linearisation, then the rotations that balance its torques. */
+#include "statics.h"
+#include "simulation_internal.h"
+#include <math.h>
+
+enum { MOST_CORRECTIONS = 60 };
+
+brc_status brc_statics_residual(brc_simulation *s, bool finite, double *norm)
+{
+    BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
+                                                       .force = s->force,
+                                                       .orientation = s->orientation,
+                                                       .torque = s->torque,
+                                                       .finite = finite,
+                                                       .t = s->load_factor}));
+    /* the residual of the free components; reactions of imposed elements were read just before */
+    BRC_TRY(brc_loads_zero_imposed(s, s->force));
+    double square;
+    BRC_TRY(brc_vector_dot(s, s->force, s->force, 3 * (int64_t)s->layout->n_rows, &square));
+    *norm = sqrt(square);
+    return isfinite(square) ? BRC_OK
+                            : BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
+                                       "stage '%s': the static residual is not finite; apply the load in more increments",
+                                       brc_current_stage(s)->name);
+}
+
+static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
+{
+    const int64_t n = s->layout->n_rows;
+    brc_buffer **all[] = {&v->x, &v->r, &v->z, &v->p, &v->kp, &v->zero};
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+        if (all[i] == &v->zero && !brc_is_published(s)) continue;
+        BRC_TRY(brc_new_state(s, all[i], 3 * n, "static solver"));
+    }
+    if (brc_is_published(s)) BRC_TRY(brc_new_state(s, &v->orientation, 4 * n, "static solver"));
+    BRC_TRY(brc_new_state(s, &v->blocks, 6 * n, "preconditioner"));
+    double *blocks = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &blocks, 6 * n, "preconditioner"));
+    brc_status status = brc_geometry_precondition_blocks(s, blocks);
+    if (status == BRC_OK) status = brc_upload_state(s, v->blocks, blocks, 6 * n);
+    brc_memory_free(blocks);
+    return status;
+}
+
+static void free_vectors(brc_solve_vectors *v)
+{
+    brc_buffer_free(&v->x), brc_buffer_free(&v->r), brc_buffer_free(&v->z), brc_buffer_free(&v->p);
+    brc_buffer_free(&v->kp), brc_buffer_free(&v->zero), brc_buffer_free(&v->orientation), brc_buffer_free(&v->blocks);
+}
+
+/* kp = -K p. Displacements: the force of the linearised law. Rotations (dlsm-published, whose forces do not depend on them
+ * to first order): the torque of rotation vectors p at zero displacement. */
+static brc_status apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)
+{
+    brc_force_request r = {.displacement = v->p, .force = v->kp, .orientation = v->orientation, .torque = v->z, .homogeneous = true};
+    if (!brc_is_published(s)) return brc_force_evaluate(s, &r);
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(rotations ? v->p : v->zero), BRC_BUF(v->orientation)));
+    if (rotations) r.displacement = v->zero, r.force = v->z, r.torque = v->kp;
+    return brc_force_evaluate(s, &r);
+}
+
+brc_status brc_statics_apply(brc_simulation *s, brc_solve_vectors *v) { return apply(s, v, false); }
+
+static brc_status axpy(brc_simulation *s, double a, brc_buffer *x, brc_buffer *y)
+{
+    const int32_t n = 3 * s->layout->n_rows;
+    return BRC_LAUNCH(s->kernel.axpy, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x), BRC_BUF(y));
+}
+
+static brc_status precondition(brc_simulation *s, brc_solve_vectors *v)
+{
+    const int32_t n = s->layout->n_rows;
+    return BRC_LAUNCH(s->kernel.precondition, n, BRC_INT(n), BRC_BUF(v->blocks), BRC_BUF(v->r), BRC_BUF(v->z));
+}
+
+/* Solve K x = r to |r| <= target; v->r holds the right side and ends as the residual. Rigid motions that the supports
+ * leave free are in the null space of K: the iteration never leaves the right side's complement, so they stay zero when
+ * the loads balance; when they do not, the residual stalls and the sentence says so. */
+static brc_status conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool rotations, double target, int32_t most,
+                                      brc_progress *progress, double *left)
+{
+    const int64_t count = 3 * (int64_t)s->layout->n_rows;
+    double rz, rr, pkp, best = INFINITY;
+    int64_t since_best = 0;
+    BRC_TRY(brc_buffer_fill_zero(v->x));
+    BRC_TRY(precondition(s, v));
+    if (!rotations) BRC_TRY(brc_loads_zero_imposed(s, v->z));
+    BRC_TRY(brc_buffer_copy(v->p, v->z, brc_buffer_bytes(v->z)));
+    BRC_TRY(brc_vector_dot(s, v->r, v->z, count, &rz));
+    BRC_TRY(brc_vector_dot(s, v->r, v->r, count, &rr));
+    for (int32_t i = 0; i < most && sqrt(rr) > target; ++i) {
+        BRC_TRY(apply(s, v, rotations));
+        BRC_TRY(brc_vector_dot(s, v->p, v->kp, count, &pkp));
+        pkp = -pkp; /* the force is minus K p */
+        if (!(pkp > 0)) break; /* only rounding and rigid motions are left */
+        const double alpha = rz / pkp;
+        BRC_TRY(axpy(s, alpha, v->p, v->x));
+        BRC_TRY(axpy(s, alpha, v->kp, v->r));
+        BRC_TRY(precondition(s, v));
+        if (!rotations) BRC_TRY(brc_loads_zero_imposed(s, v->z));
+        double next;
+        BRC_TRY(brc_vector_dot(s, v->r, v->z, count, &next));
+        BRC_TRY(brc_vector_dot(s, v->r, v->r, count, &rr));
+        BRC_TRY(BRC_LAUNCH(s->kernel.xpay, count, BRC_INT(count), BRC_STATE(next / rz), BRC_BUF(v->z), BRC_BUF(v->p)));
+        rz = next;
+        s->static_report.iterations += 1;
+        brc_progress_update(progress, s->static_report.iterations);
+        if (s->interrupted) return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
+        if (rr < 0.99 * best) best = rr, since_best = 0;
+        else if (++since_best > 2000) break; /* rounding floor: no more to gain */
+    }
+    *left = sqrt(rr);
+    return BRC_OK;
+}
+
+double brc_statics_tolerance(const brc_simulation *s)
+{
+    static const double by_precision[] = {[BRC_DOUBLE] = 1e-10, [BRC_MIXED] = 1e-6, [BRC_SINGLE] = 1e-5};
+    const double asked = brc_current_stage(s)->tolerance;
+    return asked > 0 ? asked : by_precision[brc_device_get_precision(s->device)];
+}
+
+int32_t brc_statics_most_iterations(const brc_simulation *s)
+{
+    const int32_t asked = brc_current_stage(s)->max_iterations;
+    return asked > 0 ? asked : 20000 + (int32_t)(200 * cbrt((double)s->domain->n_elements));
+}
+
+/* Rotations of dlsm-published that balance the torques of the displacements just found, into the orientations. */
+static brc_status settle_rotations(brc_simulation *s, brc_solve_vectors *v, brc_progress *progress)
+{
+    const int32_t n = s->layout->n_rows;
+    double square, left;
+    BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->zero), BRC_BUF(v->orientation)));
+    BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
+                                                       .force = v->z,
+                                                       .orientation = v->orientation,
+                                                       .torque = v->r,
+                                                       .homogeneous = true}));
+    BRC_TRY(brc_vector_dot(s, v->r, v->r, 3 * (int64_t)n, &square));
+    BRC_TRY(conjugate_gradients(s, v, true, 1e-6 * sqrt(square), brc_statics_most_iterations(s), progress, &left));
+    return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->x), BRC_BUF(s->orientation));
+}
+
+static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, double *reference, brc_progress *progress)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    const double tolerance = brc_statics_tolerance(s);
+    const bool published = brc_is_published(s), finite = stage->finite_strain && !published;
+    const bool coarse = brc_device_get_precision(s->device) != BRC_DOUBLE;
+    double norm, left, last = INFINITY;
+    BRC_TRY(brc_statics_residual(s, finite, &norm));
+    if (norm > *reference) *reference = norm;
+    for (int correction = 0; norm > tolerance * *reference; ++correction) {
+        if (correction == MOST_CORRECTIONS || (correction > 2 && norm > 0.9 * last)) {
+            if (coarse && norm < 100 * tolerance * *reference) break; /* the precision's own floor */
+            return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
+                            "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d corrections, asked %.3g; "
+                            "check that the loads balance or the supports hold the body, use more increments, or relax `tolerance`",
+                            stage->name, s->load_factor, norm / *reference, correction, tolerance);
+        }
+        last = norm;
+        BRC_TRY(brc_buffer_copy(v->r, s->force, brc_buffer_bytes(s->force)));
+        const double target = 0.3 * tolerance * *reference;
+        const int32_t most = brc_statics_most_iterations(s);
+        BRC_TRY(published ? brc_gmres(s, v, target, most, progress, &left)
+                          : conjugate_gradients(s, v, false, target, most, progress, &left));
+        BRC_TRY(axpy(s, 1, v->x, s->displacement));
+        BRC_TRY(brc_statics_residual(s, finite, &norm));
+        s->static_report.corrections += 1;
+    }
+    s->static_report.residual = *reference > 0 ? norm / *reference : 0;
+    return published ? settle_rotations(s, v, progress) : BRC_OK;
+}
+
+brc_status brc_statics_run(brc_simulation *s)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    const int32_t increments = stage->increments > 0 ? stage->increments : 1;
+    brc_solve_vectors v = {0};
+    brc_progress *progress = NULL;
+    brc_status status = BRC_OK;
+    double reference = 0;
+    s->static_report = (brc_static_report){0};
+    BRC_TRY(brc_buffer_fill_zero(s->velocity));
+    BRC_TRY_OR(cleanup, brc_progress_create(s->context, &progress, stage->name, 0, "iterations", (double)s->domain->n_bonds,
+                                            "bond updates/s"));
+    BRC_TRY_OR(cleanup, create_vectors(s, &v));
+    BRC_TRY_OR(cleanup, brc_notify_sample(s));
+    for (int32_t i = 1; i <= increments; ++i) {
+        s->load_factor = (double)i / increments;
+        BRC_TRY_OR(cleanup, brc_loads_prescribe(s, s->load_factor));
+        BRC_TRY_OR(cleanup, solve_increment(s, &v, &reference, progress));
+        BRC_TRY_OR(cleanup, brc_force_of_state(s, BRC_BOOK_WORK));
+        s->step = i;
+        BRC_TRY_OR(cleanup, brc_notify_sample(s));
+    }
+cleanup:
+    brc_progress_finish(&progress);
+    free_vectors(&v);
+    return status;
+}
