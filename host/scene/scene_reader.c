@@ -195,8 +195,15 @@ static brc_status read_section(brc_reader *reader, const brc_section *section, c
     if (!section) section = &EMPTY;
     if (section->one_of) return read_one_of(reader, section, node, base);
     char found[128];
-    if (node->kind == BRC_NODE_SCALAR && section->short_key && node->text[0] != '\0')
-        return read_entry(reader, brc_section_find(section, section->short_key), node, base);
+    brc_node short_value = *node, short_map = {.kind = BRC_NODE_MAP, .mark = node->mark, .key = "", .text = ""};
+    if (node->kind == BRC_NODE_SCALAR && section->short_key && node->text[0] != '\0') { /* as if the key were there */
+        short_value.key = section->short_key;
+        short_value.key_mark = node->mark;
+        short_value.next = NULL;
+        short_map.n_children = 1;
+        short_map.first = short_map.last = &short_value;
+        node = &short_map;
+    }
     if (node->kind != BRC_NODE_MAP) {
         brc_problems_add(reader->problems, node->mark, "%s: expected a map of keys, found %s", section->title,
                          brc_node_describe(node, found, sizeof found));
