@@ -1,0 +1,190 @@
+/* How fast the laws go. */
+#include "throughput.h"
+#include "../host/base/log.h"
+#include "../host/base/memory.h"
+#include "../host/device/device_bandwidth.h"
+#include "../host/solver/simulation.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SAMPLES 5
+
+/* A cube of glass, slightly strained and shaken so that no number is zero; free faces. */
+typedef struct cube {
+    brc_material material;
+    brc_body body;
+    brc_initial initial[2];
+    brc_stage stage;
+    brc_scene scene;
+} cube;
+
+static void make_cube(cube *c, brc_model_kind model)
+{
+    memset(c, 0, sizeof *c);
+    c->material = (brc_material){.name = "glass", .young = 72e9, .poisson = 0.23, .density = 2500};
+    snprintf(c->body.name, sizeof c->body.name, "cube");
+    c->body.shape = (brc_shape){.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}};
+    c->initial[0] = (brc_initial){.kind = BRC_INITIAL_AFFINE, .gradient = {{1e-6, 2e-7, 0}, {0, -3e-7, 1e-7}, {1e-7, 0, 5e-7}}};
+    c->initial[1] = (brc_initial){.kind = BRC_INITIAL_RANDOM, .value = {1e-4, 1e-4, 1e-4}, .seed = 1};
+    /* The paper's time step is far below the critical one at this nu and needs no power iteration. */
+    c->stage = (brc_stage){.name = "run", .solver = BRC_SOLVER_DYNAMIC, .n_initials = 2, .initials = c->initial,
+                           .integrator = model == BRC_MODEL_DLSM ? BRC_VELOCITY_VERLET : BRC_TCHAMWA_WIELGOSZ, .phi = 1.03,
+                           .time_step_rule = BRC_TIME_STEP_PUBLISHED, .safety = 0.8, .steps = INT64_C(1) << 40};
+    c->scene = (brc_scene){.version = 1, .folder = ".", .n_materials = 1, .materials = &c->material, .n_bodies = 1,
+                           .bodies = &c->body, .n_stages = 1, .stages = &c->stage,
+                           .model = {.kind = model, .compaction = true, .beta = 1, .tau = 0.1, .rotation_stiffness = 1},
+                           .output = {.n_frames = -1}};
+}
+
+static brc_status build_cube(brc_context *context, int64_t size, brc_domain **out)
+{
+    brc_build_request request = {.shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}},
+                                 .fill = {.kind = BRC_FILL_NOISY_GRID, .n_elements = size, .spread = 0.9, .seed = 1}};
+    return brc_domain_build(context, &request, out);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Seconds of n steps, the device idle before and after. */
+static brc_status time_steps(brc_simulation *simulation, int64_t n, double *seconds)
+{
+    const double start = brc_clock_s();
+    BRC_TRY(brc_simulation_advance(simulation, n));
+    BRC_TRY(brc_simulation_wait(simulation));
+    *seconds = brc_clock_s() - start;
+    return BRC_OK;
+}
+
+/* Five samples of seconds per step, ascending. */
+static brc_status sample_steps(brc_simulation *simulation, double least, double samples[SAMPLES], int64_t *n_steps)
+{
+    BRC_TRY(brc_simulation_begin_stage(simulation, 0));
+    double seconds;
+    BRC_TRY(time_steps(simulation, 3, &seconds)); /* kernels are built, pages touched */
+    int64_t n = 1;
+    BRC_TRY(time_steps(simulation, n, &seconds));
+    while (seconds < least) {
+        /* At most tenfold at once: the first steps are no good guide. */
+        const double wanted = ceil((double)n * 1.1 * least / fmax(seconds, least / 9));
+        n = n + 1 > (int64_t)wanted ? n + 1 : (int64_t)wanted;
+        BRC_TRY(time_steps(simulation, n, &seconds));
+    }
+    for (int k = 0; k < SAMPLES; ++k) {
+        BRC_TRY(time_steps(simulation, n, &seconds));
+        samples[k] = seconds / (double)n;
+    }
+    qsort(samples, SAMPLES, sizeof *samples, ascending);
+    *n_steps = n;
+    return BRC_OK;
+}
+
+static void add_figures(brc_rows *rows, const brc_domain *domain, const brc_simulation *simulation, int64_t device_bytes,
+                        double bandwidth, const double samples[SAMPLES], int64_t n_steps)
+{
+    const double per_step = samples[SAMPLES / 2], floor_bytes = brc_simulation_floor_bytes(simulation);
+    const double bonds = (double)domain->n_bonds, elements = (double)domain->n_elements;
+    brc_rows_number(rows, "ours", bonds / per_step);
+    brc_rows_number(rows, "seconds", per_step);
+    brc_rows_integer(rows, "elements", domain->n_elements);
+    brc_rows_integer(rows, "bonds", domain->n_bonds);
+    brc_rows_number(rows, "bond_updates_per_s", bonds / per_step);
+    brc_rows_number(rows, "bond_updates_per_s_min", bonds / samples[SAMPLES - 1]);
+    brc_rows_number(rows, "bond_updates_per_s_max", bonds / samples[0]);
+    brc_rows_number(rows, "element_updates_per_s", elements / per_step);
+    brc_rows_integer(rows, "steps_per_sample", n_steps);
+    brc_rows_integer(rows, "samples", SAMPLES);
+    brc_rows_number(rows, "floor_bytes_per_step", floor_bytes);
+    brc_rows_number(rows, "floor_bytes_per_bond", floor_bytes / bonds);
+    brc_rows_number(rows, "copy_bandwidth", bandwidth);
+    brc_rows_number(rows, "bandwidth_fraction", floor_bytes / per_step / bandwidth);
+    brc_rows_number(rows, "device_bytes_per_element", (double)device_bytes / elements);
+}
+
+/* One combination, into the last row. */
+static brc_status measure(brc_context *context, const brc_throughput_request *request, const brc_domain *domain,
+                          brc_model_kind model, const char *selector, brc_precision precision, int n_threads, brc_rows *rows)
+{
+    brc_status status = BRC_OK;
+    brc_device *device = NULL;
+    brc_simulation *simulation = NULL;
+    cube c;
+    make_cube(&c, model);
+    const brc_device_request open = {.selector = selector, .precision = precision, .n_threads = n_threads};
+    double bandwidth, samples[SAMPLES];
+    int64_t n_steps;
+    BRC_TRY_OR(cleanup, brc_device_open(context, &open, &device));
+    const brc_device_info *info = brc_device_get_info(device);
+    brc_rows_text(rows, "device_name", info->name);
+    brc_rows_text(rows, "driver", info->driver);
+    brc_rows_integer(rows, "lanes", brc_device_lanes(device));
+    BRC_TRY_OR(cleanup, brc_device_copy_bandwidth(device, request->bandwidth_bytes, &bandwidth));
+    BRC_TRY_OR(cleanup, brc_simulation_create(context, &c.scene, domain, device, &simulation));
+    const int64_t device_bytes = brc_device_bytes(device);
+    BRC_TRY_OR(cleanup, sample_steps(simulation, request->sample_s, samples, &n_steps));
+    add_figures(rows, domain, simulation, device_bytes, bandwidth, samples, n_steps);
+cleanup:
+    brc_simulation_free(&simulation);
+    brc_device_close(&device);
+    return status;
+}
+
+/* Measure one combination and keep going where a device is not there or too small. */
+static brc_status add_row(brc_context *context, const brc_throughput_request *request, const brc_domain *domain,
+                          brc_model_kind model, const char *selector, brc_precision precision, int n_threads, brc_rows *rows)
+{
+    brc_rows_begin(rows);
+    brc_rows_text(rows, "case", "throughput");
+    brc_rows_text(rows, "quantity", "bond_updates_per_s");
+    brc_rows_text(rows, "model", model == BRC_MODEL_DLSM ? "dlsm" : "dlsm-published");
+    brc_rows_text(rows, "unit", "1/s");
+    brc_rows_number(rows, "reference", NAN);
+    brc_rows_number(rows, "paper", NAN);
+    brc_rows_number(rows, "ours", NAN);
+    brc_rows_text(rows, "precision", brc_precision_name(precision));
+    brc_rows_text(rows, "device", selector);
+    brc_rows_integer(rows, "threads", n_threads);
+    brc_rows_text(rows, "contraction", "off");
+    brc_status status = measure(context, request, domain, model, selector, precision, n_threads, rows);
+    if (status == BRC_BAD_INPUT || status == BRC_DEVICE_FAILED || status == BRC_NO_MEMORY) {
+        brc_log(context, BRC_LOG_WARNING, "throughput on %s: %s", selector, brc_context_message(context));
+        brc_rows_text(rows, "note", brc_context_message(context));
+        brc_context_clear(context);
+        status = BRC_OK;
+    }
+    brc_rows_stamp(rows);
+    if (status == BRC_OK) status = rows->status;
+    if (status == BRC_OK && request->row) status = request->row(request->self, rows);
+    return status;
+}
+
+static brc_status measure_domain(brc_context *context, const brc_throughput_request *r, const brc_domain *domain, brc_rows *rows)
+{
+    for (int m = 0; m < r->n_models; ++m)
+        for (int d = 0; d < r->n_devices; ++d)
+            for (int p = 0; p < r->n_precisions; ++p)
+                for (int t = 0; t < r->n_threads; ++t) {
+                    const bool cpu = strcmp(r->devices[d], "cpu") == 0;
+                    if (!cpu && t > 0) continue; /* other devices choose their threads themselves */
+                    BRC_TRY(add_row(context, r, domain, r->models[m], r->devices[d], r->precisions[p],
+                                    cpu ? r->threads[t] : 0, rows));
+                }
+    return BRC_OK;
+}
+
+brc_status brc_throughput_measure(brc_context *context, const brc_throughput_request *request, brc_rows *rows)
+{
+    for (int s = 0; s < request->n_sizes; ++s) {
+        brc_domain *domain;
+        BRC_TRY(build_cube(context, request->sizes[s], &domain));
+        const brc_status status = measure_domain(context, request, domain, rows);
+        brc_domain_free(&domain);
+        if (status != BRC_OK) return status;
+    }
+    return BRC_OK;
+}

@@ -1,0 +1,146 @@
+/* breccia bench: measurements of speed. This version knows one kind. */
+#include "command.h"
+#include "../../bench/throughput.h"
+#include "../base/memory.h"
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const brc_option options[] = {
+    BRC_OPTION_OUTPUT("folder of rows.json and rows.csv (default results/throughput)"),
+    {"sizes", 0, "LIST", false, "numbers of elements (default 1e4,1e5,1e6)"},
+    {"models", 0, "LIST", false, "dlsm, dlsm-published (default both)"},
+    {"devices", 0, "LIST", false, "default: cpu and every OpenCL device that is here"},
+    {"precisions", 0, "LIST", false, "default double,mixed,single"},
+    {"threads", 't', "LIST", false, "threads of the cpu device (default 1,2)"},
+    {"sample", 0, "SECONDS", false, "least time of each of the five samples (default 0.5)"},
+    {"copy", 0, "MB", false, "array of the copy that gives the bandwidth (default 256)"},
+};
+
+/* The list of an option, or its default, split in `copy`. */
+static brc_status take_list(brc_context *context, const brc_arguments *arguments, const char *name, const char *otherwise,
+                            char *copy, size_t size, const char **pieces, int *n)
+{
+    const char *text = brc_arguments_value(arguments, name);
+    if (!text) text = otherwise;
+    if (strlen(text) >= size) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: --%s is too long", name);
+    strcpy(copy, text);
+    *n = brc_text_split(copy, BRC_THROUGHPUT_LIST, pieces);
+    if (*n < 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: --%s '%s' is not a list such as %s (at most %d pieces)", name,
+                        text, otherwise, BRC_THROUGHPUT_LIST);
+    return BRC_OK;
+}
+
+static brc_status take_number(brc_context *context, const char *name, const char *text, double low, double high, double *out)
+{
+    char *end;
+    errno = 0;
+    *out = strtod(text, &end);
+    if (end == text || *end || errno == ERANGE || !(*out >= low && *out <= high))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: --%s holds '%s', expected a number from %g to %g", name, text,
+                        low, high);
+    return BRC_OK;
+}
+
+/* "cpu" and the usable OpenCL devices, as a list. */
+static brc_status default_devices(brc_context *context, char *out, size_t size)
+{
+    brc_device_list *list;
+    BRC_TRY(brc_device_list_create(context, &list));
+    snprintf(out, size, "cpu");
+    for (int k = 0; k < list->n; ++k)
+        if (list->items[k].usable && list->items[k].kind == BRC_DEVICE_OPENCL)
+            snprintf(out + strlen(out), size - strlen(out), ",%s", list->items[k].selector);
+    brc_device_list_free(&list);
+    return BRC_OK;
+}
+
+static double number_of(const brc_row *row, const char *key)
+{
+    const brc_field *field = brc_row_find(row, key);
+    return !field ? NAN : field->kind == BRC_FIELD_INTEGER ? (double)field->integer : field->number;
+}
+
+static const char *text_of(const brc_row *row, const char *key)
+{
+    const brc_field *field = brc_row_find(row, key);
+    return field ? field->text : "";
+}
+
+static brc_status print_row(void *self, const brc_rows *rows)
+{
+    const brc_row *row = &rows->rows[rows->n_rows - 1];
+    printf("%-15s %9.0f %-10s %-7s %3.0f", text_of(row, "model"), number_of(row, "elements"), text_of(row, "device"),
+           text_of(row, "precision"), number_of(row, "threads"));
+    if (isnan(number_of(row, "ours")))
+        printf("  %s\n", text_of(row, "note"));
+    else
+        printf(" %8.2f (%.2f-%.2f) %9.2f %10.4g %8.0f %8.2f %8.2f %9.0f\n", number_of(row, "bond_updates_per_s") * 1e-6,
+               number_of(row, "bond_updates_per_s_min") * 1e-6, number_of(row, "bond_updates_per_s_max") * 1e-6,
+               number_of(row, "element_updates_per_s") * 1e-6, number_of(row, "seconds"), number_of(row, "floor_bytes_per_bond"),
+               number_of(row, "copy_bandwidth") * 1e-9, number_of(row, "bandwidth_fraction"),
+               number_of(row, "device_bytes_per_element"));
+    fflush(stdout);
+    return brc_rows_write(rows, self); /* a long bench that is stopped keeps its rows */
+}
+
+static brc_status run(const brc_session *session, const brc_arguments *arguments)
+{
+    brc_context *context = session->context;
+    if (strcmp(arguments->positional[0], "throughput") != 0)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput", arguments->positional[0]);
+    const char *given_folder = brc_arguments_value(arguments, "output");
+    char folder[512], here[256], copy[4][256], devices[256];
+    snprintf(folder, sizeof folder, "%s", given_folder ? given_folder : "results/throughput");
+    brc_throughput_request request = {.sample_s = 0.5, .bandwidth_bytes = 256000000, .row = print_row, .self = folder};
+    const char *pieces[BRC_THROUGHPUT_LIST];
+    double number;
+    BRC_TRY(default_devices(context, here, sizeof here));
+    BRC_TRY(take_list(context, arguments, "devices", here, devices, sizeof devices, request.devices, &request.n_devices));
+    BRC_TRY(take_list(context, arguments, "sizes", "1e4,1e5,1e6", copy[0], sizeof copy[0], pieces, &request.n_sizes));
+    for (int k = 0; k < request.n_sizes; ++k) {
+        BRC_TRY(take_number(context, "sizes", pieces[k], 8, 1e9, &number));
+        request.sizes[k] = (int64_t)number;
+    }
+    BRC_TRY(take_list(context, arguments, "threads", "1,2", copy[1], sizeof copy[1], pieces, &request.n_threads));
+    for (int k = 0; k < request.n_threads; ++k) {
+        BRC_TRY(take_number(context, "threads", pieces[k], 1, 4096, &number));
+        request.threads[k] = (int)number;
+    }
+    BRC_TRY(take_list(context, arguments, "precisions", "double,mixed,single", copy[2], sizeof copy[2], pieces, &request.n_precisions));
+    for (int k = 0; k < request.n_precisions; ++k)
+        BRC_TRY(brc_precision_parse(context, pieces[k], &request.precisions[k]));
+    BRC_TRY(take_list(context, arguments, "models", "dlsm,dlsm-published", copy[3], sizeof copy[3], pieces, &request.n_models));
+    for (int k = 0; k < request.n_models; ++k) {
+        if (strcmp(pieces[k], "dlsm") != 0 && strcmp(pieces[k], "dlsm-published") != 0)
+            return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no model '%s', expected dlsm or dlsm-published", pieces[k]);
+        request.models[k] = strcmp(pieces[k], "dlsm") == 0 ? BRC_MODEL_DLSM : BRC_MODEL_DLSM_PUBLISHED;
+    }
+    if (brc_arguments_value(arguments, "sample"))
+        BRC_TRY(take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600, &request.sample_s));
+    if (brc_arguments_value(arguments, "copy")) {
+        BRC_TRY(take_number(context, "copy", brc_arguments_value(arguments, "copy"), 1, 1e5, &number));
+        request.bandwidth_bytes = (int64_t)(number * 1e6);
+    }
+    printf("million updates a second (median of five, least and most); bandwidth in GB/s; contraction off\n");
+    printf("%-15s %9s %-10s %-7s %3s %8s %13s %9s %10s %8s %8s %8s %9s\n", "model", "elements", "device", "prec.", "thr", "bonds", "",
+           "elements", "s/step", "B/bond", "copy", "fraction", "B/element");
+    brc_rows rows = {.context = context};
+    brc_status status = brc_throughput_measure(context, &request, &rows);
+    if (status == BRC_OK) status = brc_rows_write(&rows, folder);
+    if (status == BRC_OK) printf("%s/rows.json\n", folder);
+    brc_rows_free(&rows);
+    return status;
+}
+
+const brc_command brc_command_bench = {.name = "bench",
+                                       .operands = "throughput",
+                                       .least = 1,
+                                       .most = 1,
+                                       .summary = "measure speed: bond updates per second, fraction of the copy bandwidth",
+                                       .details = "Noisy-grid cubes. Lists are separated by commas; every combination is measured.",
+                                       .options = options,
+                                       .n_options = sizeof options / sizeof *options,
+                                       .run = run};
