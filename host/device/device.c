@@ -44,7 +44,8 @@ static const brc_backend *backend_of(brc_device_kind kind)
 static bool selector_parses(const char *selector)
 {
     if (strcmp(selector, "auto") == 0 || strcmp(selector, "cpu") == 0) return true;
-    const char *digits = strncmp(selector, "opencl:", 7) == 0 || strncmp(selector, "target:", 7) == 0 ? selector + 7 : "";
+    const char *digits =
+        strncmp(selector, "opencl:", 7) == 0 || strncmp(selector, "target:", 7) == 0 ? selector + 7 : "";
     const size_t n = strspn(digits, "0123456789");
     return n > 0 && n < 6 && digits[n] == '\0';
 }
@@ -103,8 +104,8 @@ static brc_status select_device(brc_context *context, const brc_device_request *
                           "device '%.64s' is not a selector: expected auto, cpu, opencl:N or target:N; usable here: %s",
                           selector, there);
     else if (info)
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "device %s (%s) cannot be used: %s; usable here: %s", selector, info->name,
-                          info->why_not, there);
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "device %s (%s) cannot be used: %s; usable here: %s", selector,
+                          info->name, info->why_not, there);
     else
         status = BRC_FAIL(context, BRC_BAD_INPUT, "device '%s' is not there; usable here: %s (see breccia devices)",
                           selector, there);
@@ -218,12 +219,12 @@ brc_status brc_buffer_create(brc_device *device, brc_buffer **out, int64_t bytes
         brc_device_describe(info, text, sizeof text);
         snprintf(most, sizeof most, "%lld", (long long)info->largest_buffer_bytes);
         snprintf(all, sizeof all, "%lld", (long long)info->memory_bytes);
-        return BRC_FAIL(device->context, BRC_DEVICE_FAILED,
-                        "device %s has no room for %s: %lld bytes asked, %lld held, %s allowed in one buffer, %s in all%s%s; "
-                        "use fewer elements, a lower precision or another device",
-                        text, what, (long long)bytes, (long long)device->bytes,
-                        info->largest_buffer_bytes ? most : "any number", info->memory_bytes ? all : "an unknown number",
-                        reason[0] ? ": " : "", reason);
+        return BRC_FAIL(
+            device->context, BRC_DEVICE_FAILED,
+            "device %s has no room for %s: %lld bytes asked, %lld held, %s allowed in one buffer, %s in all%s%s; "
+            "use fewer elements, a lower precision or another device",
+            text, what, (long long)bytes, (long long)device->bytes, info->largest_buffer_bytes ? most : "any number",
+            info->memory_bytes ? all : "an unknown number", reason[0] ? ": " : "", reason);
     }
     brc_buffer *buffer = NULL;
     const brc_status status = BRC_ALLOCATE(device->context, &buffer, 1, what);
@@ -364,7 +365,8 @@ brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, co
     if (kernel->kinds[0][0] && !kinds_match(kernel->kinds[0], n_args, args) &&
         !(kernel->kinds[1][0] && kinds_match(kernel->kinds[1], n_args, args))) {
         char given[BRC_KERNEL_MOST_ARGS + 1];
-        for (int a = 0; a < n_args; ++a) given[a] = BRC_KERNEL_LETTERS[args[a].kind];
+        for (int a = 0; a < n_args; ++a)
+            given[a] = BRC_KERNEL_LETTERS[args[a].kind];
         given[n_args] = '\0';
         return BRC_FAIL(context, BRC_INTERNAL,
                         "kernel %s takes %s (b buffer, i int, s state, c coeff, d double), was given %s", kernel->name,
@@ -374,8 +376,8 @@ brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, co
         return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: %lld work-items", kernel->name, (long long)n_items);
     for (int a = 0; a < n_args; ++a)
         if (args[a].kind == BRC_ARG_BUFFER && args[a].value.buffer && args[a].value.buffer->device != kernel->device)
-            return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: argument %d (%s) lives on another device", kernel->name, a,
-                            args[a].value.buffer->what);
+            return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: argument %d (%s) lives on another device", kernel->name,
+                            a, args[a].value.buffer->what);
     if (n_items == 0) return BRC_OK;
     return kernel->device->backend->launch(kernel, n_items, n_args, args);
 }

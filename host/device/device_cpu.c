@@ -59,7 +59,8 @@ static const brc_kernel_instance *find_instance(int level, brc_precision precisi
 static int best_level(void)
 {
     int level = N_LEVELS - 1;
-    while (level > 0 && !(level_runs(level) && find_instance(level, BRC_DOUBLE, false))) --level;
+    while (level > 0 && !(level_runs(level) && find_instance(level, BRC_DOUBLE, false)))
+        --level;
     return level;
 }
 
@@ -75,10 +76,11 @@ static brc_status choose_level(brc_context *context, int *out)
             *out = level;
             return BRC_OK;
         }
-    return BRC_FAIL(context, BRC_BAD_INPUT,
-                    "BRECCIA_ISA is '%.32s', which is not an instruction set this machine and this build have; the best "
-                    "one is %s (unset it to take that)",
-                    asked, levels[best].level);
+    return BRC_FAIL(
+        context, BRC_BAD_INPUT,
+        "BRECCIA_ISA is '%.32s', which is not an instruction set this machine and this build have; the best "
+        "one is %s (unset it to take that)",
+        asked, levels[best].level);
 }
 
 /* "model name" of /proc/cpuinfo, or "processor". */
@@ -139,17 +141,18 @@ static brc_status cpu_open(brc_device *device, const brc_device_request *request
         return BRC_FAIL(device->context, BRC_INTERNAL, "this build has no kernels for %s, %s", levels[level].level,
                         brc_precision_name(request->precision));
     if (request->n_threads < 0 || request->n_threads > 4096)
-        return BRC_FAIL(device->context, BRC_BAD_INPUT, "%d threads: expected 1 to 4096, or 0 for as many as OpenMP takes",
-                        request->n_threads);
+        return BRC_FAIL(device->context, BRC_BAD_INPUT,
+                        "%d threads: expected 1 to 4096, or 0 for as many as OpenMP takes", request->n_threads);
     if (request->lanes && request->lanes != instance->lanes)
         return BRC_FAIL(device->context, BRC_BAD_INPUT,
                         "the cpu kernels of this build (%s, %s) handle %d elements at once, not %d: other widths are "
                         "for OpenCL devices",
                         levels[level].level, brc_precision_name(request->precision), instance->lanes, request->lanes);
     if (request->kernel_folder)
-        return BRC_FAIL(device->context, BRC_BAD_INPUT,
-                        "the cpu kernels are compiled into the program: a kernel folder (%.128s) needs an OpenCL device",
-                        request->kernel_folder);
+        return BRC_FAIL(
+            device->context, BRC_BAD_INPUT,
+            "the cpu kernels are compiled into the program: a kernel folder (%.128s) needs an OpenCL device",
+            request->kernel_folder);
     cpu_inside *inside = NULL;
     BRC_TRY(BRC_ALLOCATE(device->context, &inside, 1, "cpu device"));
     inside->instance = instance;

@@ -26,11 +26,13 @@ int brc_device_list_choose(const brc_device_list *list, brc_precision precision,
         return d;
     }
     int cpu = 0;
-    while (cpu < list->n - 1 && list->items[cpu].kind != BRC_DEVICE_CPU) ++cpu;
-    snprintf(why, bytes, "auto takes cpu, since %s%s",
-             n_gpus ? "no GPU here has double precision (--precision single would take one)" : "no usable GPU was found",
-             n_cpu_drivers ? "; OpenCL drivers that run on the CPU are slower than the cpu backend and taken only by name"
-                           : "");
+    while (cpu < list->n - 1 && list->items[cpu].kind != BRC_DEVICE_CPU)
+        ++cpu;
+    snprintf(
+        why, bytes, "auto takes cpu, since %s%s",
+        n_gpus ? "no GPU here has double precision (--precision single would take one)" : "no usable GPU was found",
+        n_cpu_drivers ? "; OpenCL drivers that run on the CPU are slower than the cpu backend and taken only by name"
+                      : "");
     return cpu;
 }
 

@@ -31,7 +31,7 @@ typedef struct opencl_kernel {
     cl_kernel kernel;
     size_t group;
     cl_uint n_args;
-    int releases; /* opencl_inside.releases when the arguments were set */
+    int releases;                              /* opencl_inside.releases when the arguments were set */
     brc_packed_arg last[BRC_KERNEL_MOST_ARGS]; /* arguments stay set from launch to launch: only changes are sent */
     bool set[BRC_KERNEL_MOST_ARGS];
 } opencl_kernel;
@@ -50,9 +50,12 @@ static char *build_log(brc_device *device, const opencl_inside *inside)
 {
     size_t bytes = 0;
     char *log = NULL;
-    if (clGetProgramBuildInfo(inside->program, inside->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes) != CL_SUCCESS) return NULL;
-    if (brc_memory_allocate(device->context, (void **)&log, (int64_t)bytes + 1, 1, "compiler log") != BRC_OK) return NULL;
-    if (clGetProgramBuildInfo(inside->program, inside->id, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) != CL_SUCCESS) log[0] = '\0';
+    if (clGetProgramBuildInfo(inside->program, inside->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes) != CL_SUCCESS)
+        return NULL;
+    if (brc_memory_allocate(device->context, (void **)&log, (int64_t)bytes + 1, 1, "compiler log") != BRC_OK)
+        return NULL;
+    if (clGetProgramBuildInfo(inside->program, inside->id, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) != CL_SUCCESS)
+        log[0] = '\0';
     return log;
 }
 
@@ -168,8 +171,8 @@ static void opencl_release(brc_device *device, void *memory, int64_t bytes)
 static brc_status opencl_write(brc_device *device, void *memory, int64_t offset, const void *data, int64_t bytes)
 {
     opencl_inside *const inside = device->inside;
-    const cl_int code = clEnqueueWriteBuffer(inside->queue, (cl_mem)memory, CL_TRUE, (size_t)offset, (size_t)bytes, data,
-                                             0, NULL, NULL);
+    const cl_int code = clEnqueueWriteBuffer(inside->queue, (cl_mem)memory, CL_TRUE, (size_t)offset, (size_t)bytes,
+                                             data, 0, NULL, NULL);
     return brc_opencl_check(device, code, "writing a buffer");
 }
 
@@ -211,7 +214,8 @@ static brc_status opencl_find(brc_kernel *kernel)
     (void)clGetKernelInfo(found, CL_KERNEL_NUM_ARGS, sizeof own->n_args, &own->n_args, NULL);
     /* A kernel with many registers may allow only smaller groups. */
     if (clGetKernelWorkGroupInfo(found, inside->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL) == CL_SUCCESS)
-        while (own->group > most && own->group > 1) own->group /= 2;
+        while (own->group > most && own->group > 1)
+            own->group /= 2;
     kernel->inside = own;
     return BRC_OK;
 }

@@ -31,7 +31,8 @@ typedef struct target_inside {
 static const brc_target_plugin *load(const char *path, char *why, size_t bytes)
 {
 #ifdef BRC_UNDER_SANITIZER
-    snprintf(why, bytes, "%s stays out: the address sanitizer ends programs that open libraries as plug-ins need it", path);
+    snprintf(why, bytes, "%s stays out: the address sanitizer ends programs that open libraries as plug-ins need it",
+             path);
     return NULL;
 #else
     void *const library = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND | RTLD_NODELETE);
@@ -83,8 +84,9 @@ brc_status brc_device_target_list(brc_context *context, brc_device_list *list)
     const brc_target_plugin *const plugin = find_plugin(info.why_not, sizeof info.why_not);
     const int n = plugin ? plugin->devices() : 0;
     if (plugin && n == 0)
-        snprintf(info.why_not, sizeof info.why_not,
-                 "the plug-in finds no device: libomptarget and its device library must be installed (Debian: libomp5-14)");
+        snprintf(
+            info.why_not, sizeof info.why_not,
+            "the plug-in finds no device: libomptarget and its device library must be installed (Debian: libomp5-14)");
     if (n == 0) {
         snprintf(info.selector, sizeof info.selector, "target:0");
         return brc_device_list_add(context, list, &info);
@@ -143,8 +145,10 @@ static const brc_target_plugin *plugin_of(const brc_device *device)
 static brc_status check(brc_device *device, int failed, const char *what)
 {
     if (!failed) return BRC_OK;
-    return BRC_FAIL(device->context, BRC_DEVICE_FAILED, "device %s: %s failed (OMP_TARGET_OFFLOAD=MANDATORY and "
-                    "LIBOMPTARGET_DEBUG=1 tell more)", device->info.selector, what);
+    return BRC_FAIL(device->context, BRC_DEVICE_FAILED,
+                    "device %s: %s failed (OMP_TARGET_OFFLOAD=MANDATORY and "
+                    "LIBOMPTARGET_DEBUG=1 tell more)",
+                    device->info.selector, what);
 }
 
 static bool target_allocate(brc_device *device, int64_t bytes, void **memory, char reason[BRC_REASON_BYTES])

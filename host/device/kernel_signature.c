@@ -17,7 +17,8 @@ static char letter_of(const char *from, const char *to)
         const char *word;
         char letter;
     } scalars[] = {{"int", 'i'}, {"state", 's'}, {"coeff", 'c'}, {"double", 'd'}};
-    while (from < to && isspace((unsigned char)*from)) ++from;
+    while (from < to && isspace((unsigned char)*from))
+        ++from;
     if (to - from > 6 && strncmp(from, "const ", 6) == 0) from += 6;
     for (size_t k = 0; k < sizeof scalars / sizeof scalars[0]; ++k) {
         const size_t length = strlen(scalars[k].word);

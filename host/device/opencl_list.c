@@ -59,10 +59,12 @@ static brc_device_info describe(cl_device_id device, int index)
         snprintf(info.why_not, sizeof info.why_not, "its driver says it is not available; see the driver's own tools");
     } else if (!device_number(device, CL_DEVICE_COMPILER_AVAILABLE)) {
         info.usable = false;
-        snprintf(info.why_not, sizeof info.why_not, "its driver has no compiler, and the kernels are compiled at run time");
+        snprintf(info.why_not, sizeof info.why_not,
+                 "its driver has no compiler, and the kernels are compiled at run time");
     } else if (!device_number(device, CL_DEVICE_ENDIAN_LITTLE)) {
         info.usable = false;
-        snprintf(info.why_not, sizeof info.why_not, "it is big-endian, and buffers are shared with the host as they are");
+        snprintf(info.why_not, sizeof info.why_not,
+                 "it is big-endian, and buffers are shared with the host as they are");
     }
     return info;
 }

@@ -106,7 +106,8 @@ brc_status brc_program_source(brc_context *context, const char *folder, char **o
     BRC_TRY_OR(cleanup, append(&p, head, HEAD_BYTES));
     BRC_TRY_OR(cleanup, paste_file(&p, "kernels.h"));
     uint64_t hash = 14695981039346656037u; /* FNV-1a */
-    for (size_t k = HEAD_BYTES; k < p.length; ++k) hash = (hash ^ (unsigned char)p.text[k]) * 1099511628211u;
+    for (size_t k = HEAD_BYTES; k < p.length; ++k)
+        hash = (hash ^ (unsigned char)p.text[k]) * 1099511628211u;
     const int length = snprintf(head, sizeof head, "#define BRC_KERNELS_HASH 0x%016llxUL", (unsigned long long)hash);
     memcpy(p.text, head, (size_t)length);
     *out = p.text;

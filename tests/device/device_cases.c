@@ -70,7 +70,8 @@ static brc_buffer *state_buffer(bench *b, const double *values, int n)
     if (values) {
         float *const narrow = malloc((size_t)n * sizeof *narrow);
         assert_non_null(narrow);
-        for (int i = 0; i < n; ++i) narrow[i] = (float)values[i];
+        for (int i = 0; i < n; ++i)
+            narrow[i] = (float)values[i];
         DONE(*b, brc_buffer_write(buffer, 0, bytes == 8 ? (const void *)values : narrow, (int64_t)n * bytes));
         free(narrow);
     }
@@ -87,13 +88,15 @@ static void state_read(bench *b, brc_buffer *buffer, double *values, int n)
     float *const narrow = malloc((size_t)n * sizeof *narrow);
     assert_non_null(narrow);
     DONE(*b, brc_buffer_read(buffer, 0, narrow, (int64_t)n * 4));
-    for (int i = 0; i < n; ++i) values[i] = narrow[i];
+    for (int i = 0; i < n; ++i)
+        values[i] = narrow[i];
     free(narrow);
 }
 
 static void ramp(double *values, int n, double from, double step)
 {
-    for (int i = 0; i < n; ++i) values[i] = (double)(float)(from + step * i);
+    for (int i = 0; i < n; ++i)
+        values[i] = (double)(float)(from + step * i);
 }
 
 static void a_vector_sum_equals_the_host_loop(void **unused)
@@ -128,7 +131,8 @@ static void a_gather_equals_the_host_loop(void **unused)
     double x[N], got[N];
     int32_t index[N];
     ramp(x, N, -1, 0.37);
-    for (int i = 0; i < N; ++i) index[i] = (int)((long)i * 611 % N);
+    for (int i = 0; i < N; ++i)
+        index[i] = (int)((long)i * 611 % N);
     for (size_t p = 0; p < 3; ++p) {
         if (!runs_here(precisions[p])) continue;
         bench b = bench_open(precisions[p], true, 0);
@@ -137,7 +141,8 @@ static void a_gather_equals_the_host_loop(void **unused)
         DONE(b, brc_buffer_write(bi, 0, index, sizeof index));
         DONE(b, BRC_LAUNCH(kernel_of(&b, "vector_gather"), N, BRC_INT(N), BRC_BUF(bi), BRC_BUF(bx), BRC_BUF(by)));
         state_read(&b, by, got, N);
-        for (int i = 0; i < N; ++i) assert_true(got[i] == x[index[i]]);
+        for (int i = 0; i < N; ++i)
+            assert_true(got[i] == x[index[i]]);
         brc_buffer_free(&bx);
         brc_buffer_free(&by);
         brc_buffer_free(&bi);
@@ -160,7 +165,8 @@ static void launches_and_copies_run_in_the_order_given(void **unused)
         DONE(b, brc_buffer_copy(x, y, bytes));
     }
     state_read(&b, x, got, N);
-    for (int i = 0; i < N; ++i) assert_true(got[i] == 524288);
+    for (int i = 0; i < N; ++i)
+        assert_true(got[i] == 524288);
     brc_buffer_free(&x);
     brc_buffer_free(&y);
     bench_close(&b);
@@ -171,13 +177,15 @@ static void a_new_buffer_is_zero_and_copies_keep_to_their_offsets(void **unused)
     (void)unused;
     bench b = bench_open(BRC_SINGLE, false, 0);
     unsigned char data[4099], got[4099];
-    for (size_t i = 0; i < sizeof data; ++i) data[i] = (unsigned char)(i * 7 + 1);
+    for (size_t i = 0; i < sizeof data; ++i)
+        data[i] = (unsigned char)(i * 7 + 1);
     brc_buffer *x = NULL, *y = NULL;
     DONE(b, brc_buffer_create(b.device, &x, sizeof data, "bytes"));
     DONE(b, brc_buffer_create(b.device, &y, sizeof data, "more bytes"));
     assert_int_equal(brc_buffer_bytes(x), sizeof data);
     DONE(b, brc_buffer_read(x, 0, got, sizeof got));
-    for (size_t i = 0; i < sizeof got; ++i) assert_int_equal(got[i], 0);
+    for (size_t i = 0; i < sizeof got; ++i)
+        assert_int_equal(got[i], 0);
     DONE(b, brc_buffer_write(x, 5, data, 100));
     DONE(b, brc_buffer_read(x, 4, got, 102));
     assert_int_equal(got[0], 0);
@@ -187,10 +195,12 @@ static void a_new_buffer_is_zero_and_copies_keep_to_their_offsets(void **unused)
     DONE(b, brc_buffer_copy(y, x, 1000));
     DONE(b, brc_buffer_read(y, 0, got, sizeof got));
     assert_memory_equal(got, data, 1000);
-    for (size_t i = 1000; i < sizeof got; ++i) assert_int_equal(got[i], 0);
+    for (size_t i = 1000; i < sizeof got; ++i)
+        assert_int_equal(got[i], 0);
     DONE(b, brc_buffer_fill_zero(x));
     DONE(b, brc_buffer_read(x, 0, got, sizeof got));
-    for (size_t i = 0; i < sizeof got; ++i) assert_int_equal(got[i], 0);
+    for (size_t i = 0; i < sizeof got; ++i)
+        assert_int_equal(got[i], 0);
     brc_buffer_free(&x);
     brc_buffer_free(&y);
     bench_close(&b);
@@ -260,7 +270,8 @@ static void a_buffer_that_does_not_fit_is_refused_and_the_device_goes_on(void **
     static const int64_t sizes[] = {(int64_t)1 << 50, INT64_MAX}; /* a petabyte, and what overflows when rounded up */
     for (size_t s = 0; s < 2; ++s) {
         brc_context_clear(b.context);
-        assert_int_equal(brc_buffer_create(b.device, &huge, sizes[s], "the stiffness of everything"), BRC_DEVICE_FAILED);
+        assert_int_equal(brc_buffer_create(b.device, &huge, sizes[s], "the stiffness of everything"),
+                         BRC_DEVICE_FAILED);
         assert_null(huge);
         const char *const message = brc_context_message(b.context);
         char expected[96];
@@ -283,7 +294,8 @@ static void a_wrong_argument_list_is_refused(void **unused)
     assert_int_equal(BRC_LAUNCH(axpy, 1, BRC_INT(1), BRC_BUF(NULL), BRC_BUF(NULL)), BRC_INTERNAL);
     assert_int_equal(BRC_LAUNCH(axpy, 1, BRC_INT(1), BRC_DBL(1), BRC_BUF(NULL), BRC_BUF(NULL)), BRC_INTERNAL);
     assert_int_equal(BRC_LAUNCH(axpy, 1, BRC_INT(1), BRC_COEFF(1), BRC_BUF(NULL), BRC_BUF(NULL)), BRC_INTERNAL);
-    assert_int_equal(BRC_LAUNCH(axpy, 1, BRC_INT(1), BRC_STATE(1), BRC_BUF(NULL), BRC_BUF(NULL), BRC_INT(1)), BRC_INTERNAL);
+    assert_int_equal(BRC_LAUNCH(axpy, 1, BRC_INT(1), BRC_STATE(1), BRC_BUF(NULL), BRC_BUF(NULL), BRC_INT(1)),
+                     BRC_INTERNAL);
     assert_non_null(strstr(brc_context_message(b.context), "kernel vector_axpy takes isbb"));
     assert_non_null(strstr(brc_context_message(b.context), "was given ibb"));
     brc_kernel *none = NULL;
@@ -314,7 +326,8 @@ static void mix(bench *b, double *got, int rounds)
     double x[N];
     int32_t index[N];
     ramp(x, N, -1, 0.37);
-    for (int i = 0; i < N; ++i) index[i] = (int)((long)i * 611 % N);
+    for (int i = 0; i < N; ++i)
+        index[i] = (int)((long)i * 611 % N);
     brc_buffer *bx = state_buffer(b, x, N), *by = state_buffer(b, NULL, N), *bi = NULL;
     DONE(*b, brc_buffer_create(b->device, &bi, sizeof index, "index"));
     DONE(*b, brc_buffer_write(bi, 0, index, sizeof index));
@@ -364,7 +377,8 @@ static void every_kernel_of_the_list_is_there_in_every_variant(void **unused)
             assert_int_equal(brc_device_has_many_materials(b.device), many);
             assert_int_equal(brc_device_get_precision(b.device), precisions[p]);
             assert_int_equal(brc_device_slice(b.device) % brc_device_lanes(b.device), 0);
-            for (size_t k = 0; k < sizeof names / sizeof names[0]; ++k) kernel_of(&b, names[k]);
+            for (size_t k = 0; k < sizeof names / sizeof names[0]; ++k)
+                kernel_of(&b, names[k]);
             bench_close(&b);
         }
 }

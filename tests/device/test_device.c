@@ -34,14 +34,24 @@ static void a_selector_of_another_form_is_refused(void **unused)
 {
     (void)unused;
     brc_context *context = brc_context_create();
-    static const char *const selectors[] = {"",         "gpu",       "cpu:0",    "opencl",    "opencl:",    "opencl:x",
-                                            "opencl:1x", "opencl:-1", "target:+1", "CPU", "opencl:0000000000000001"};
+    static const char *const selectors[] = {"",
+                                            "gpu",
+                                            "cpu:0",
+                                            "opencl",
+                                            "opencl:",
+                                            "opencl:x",
+                                            "opencl:1x",
+                                            "opencl:-1",
+                                            "target:+1",
+                                            "CPU",
+                                            "opencl:0000000000000001"};
     for (size_t k = 0; k < sizeof selectors / sizeof selectors[0]; ++k) {
         const brc_device_request request = {.selector = selectors[k]};
         assert_int_equal(open_and_close(context, &request), BRC_BAD_INPUT);
         char expected[160];
         snprintf(expected, sizeof expected,
-                 "device '%s' is not a selector: expected auto, cpu, opencl:N or target:N; usable here: cpu", selectors[k]);
+                 "device '%s' is not a selector: expected auto, cpu, opencl:N or target:N; usable here: cpu",
+                 selectors[k]);
         assert_says(context, expected);
     }
     brc_context_free(&context);
@@ -177,8 +187,10 @@ static void kernels_that_do_not_compile_show_the_whole_log(void **unused)
     static const char folder[] = BRC_BUILD_DIR_PATH "/broken-kernels", good[] = "#include \"law.h\"\n",
                       broken[] = "\n\nthis is no kernel;\n";
     assert_int_equal(brc_file_make_folder(context, folder), BRC_OK);
-    assert_int_equal(brc_file_write_whole(context, BRC_BUILD_DIR_PATH "/broken-kernels/kernels.h", good, sizeof good - 1), BRC_OK);
-    assert_int_equal(brc_file_write_whole(context, BRC_BUILD_DIR_PATH "/broken-kernels/law.h", broken, sizeof broken - 1), BRC_OK);
+    assert_int_equal(
+        brc_file_write_whole(context, BRC_BUILD_DIR_PATH "/broken-kernels/kernels.h", good, sizeof good - 1), BRC_OK);
+    assert_int_equal(
+        brc_file_write_whole(context, BRC_BUILD_DIR_PATH "/broken-kernels/law.h", broken, sizeof broken - 1), BRC_OK);
     const brc_device_request request = {.selector = info.selector, .precision = BRC_SINGLE, .kernel_folder = folder};
     assert_int_equal(open_and_close(context, &request), BRC_DEVICE_FAILED);
     assert_says(context, info.selector);

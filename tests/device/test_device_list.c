@@ -29,7 +29,8 @@ static void the_processor_is_always_there_and_something_is_automatic(void **unus
     assert_true(list->items[0].usable && list->items[0].has_double && list->items[0].memory_bytes > 0);
     assert_true(list->automatic >= 0 && list->automatic < list->n && list->items[list->automatic].usable);
     assert_non_null(strstr(list->why, list->items[list->automatic].selector));
-    for (int d = 0; d < list->n; ++d) assert_true(list->items[d].usable || list->items[d].why_not[0]);
+    for (int d = 0; d < list->n; ++d)
+        assert_true(list->items[d].usable || list->items[d].why_not[0]);
     brc_device_list_free(&list);
     assert_null(list);
     brc_context_free(&context);

@@ -57,7 +57,8 @@ static int zero(int device, void *memory, size_t bytes)
 {
     unsigned char *const first = memory;
 #pragma omp target teams distribute parallel for is_device_ptr(first) device(device)
-    for (size_t k = 0; k < bytes; ++k) first[k] = 0;
+    for (size_t k = 0; k < bytes; ++k)
+        first[k] = 0;
     return 0;
 }
 
