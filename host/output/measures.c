@@ -68,10 +68,9 @@ static double factor_of(const brc_measure *measure, const brc_domain *domain, br
 }
 
 brc_status brc_measure_series_collect(brc_context *context, const brc_scene *scene, const brc_domain *domain,
-                                      const brc_history *history, int32_t index, brc_measure_series *out,
+                                      const brc_history *history, const brc_measure *measure, brc_measure_series *out,
                                       brc_measured *measured)
 {
-    const brc_measure *measure = &scene->measures[index];
     *out = (brc_measure_series){0};
     const int32_t y = find_sensor(scene, measure->y);
     const int32_t x = is_slope(measure->kind) ? find_sensor(scene, measure->x) : y;
@@ -176,7 +175,7 @@ brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, co
     brc_fit fit;
     *out = (brc_measured){.name = measure->name, .unit = brc_measure_unit(scene, measure), .value = NAN, .error = NAN};
     out->has_target = target_of(scene, measure, &out->target);
-    BRC_TRY(brc_measure_series_collect(context, scene, domain, history, index, &series, out));
+    BRC_TRY(brc_measure_series_collect(context, scene, domain, history, measure, &series, out));
     brc_status status = BRC_OK;
     if (out->why_not[0] == '\0') {
         switch (measure->kind) {

@@ -27,9 +27,9 @@ typedef struct brc_measure_series {
     double *x;    /* [n] abscissa of a slope; else the same sensor as y, unscaled */
     double *y;    /* [n] times the measure's scale, over its reference area, minus for a Poisson's ratio */
 } brc_measure_series;
-/* Collect them for measure `index`; where there are none measured->why_not says why. BRC_NO_MEMORY. Caller frees. */
+/* Collect them for a measure, the scene's or one made for the purpose; where there are none measured->why_not says why. BRC_NO_MEMORY. Caller frees. */
 brc_status brc_measure_series_collect(brc_context *context, const brc_scene *scene, const brc_domain *domain,
-                                      const brc_history *history, int32_t index, brc_measure_series *out,
+                                      const brc_history *history, const brc_measure *measure, brc_measure_series *out,
                                       brc_measured *measured);
 void brc_measure_series_free(brc_measure_series *series);
 /* Reference area of a face set, as a flat section sees it: sum of |area vector . mean normal| [m^2]; NAN where the set

@@ -1,0 +1,222 @@
+/* curve.png: the data and a script go into one file, gnuplot draws it. */
+#include "curve.h"
+#include "fit.h"
+#include "label.h"
+#include "measures.h"
+#include "text.h"
+#include "../base/file.h"
+#include "../base/log.h"
+#include "../base/memory.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+/* One axis: what it is called, and what values are multiplied with to be in its unit. */
+typedef struct axis {
+    char title[256];
+    double factor;
+} axis;
+
+static bool is_slope(brc_measure_kind kind)
+{
+    return kind != BRC_MEASURE_FREQUENCY && kind != BRC_MEASURE_PEAK && kind != BRC_MEASURE_MEAN;
+}
+
+/* What is drawn: the measure that reads just these two sensors, else a plain slope of one against the other. */
+static brc_measure curve_measure(const brc_scene *scene)
+{
+    const brc_output *output = &scene->output;
+    for (int32_t m = 0; m < scene->n_measures; ++m)
+        if (is_slope(scene->measures[m].kind) && strcmp(scene->measures[m].x, output->curve_x) == 0 &&
+            strcmp(scene->measures[m].y, output->curve_y) == 0)
+            return scene->measures[m];
+    brc_measure measure = {.kind = BRC_MEASURE_SLOPE, .scale = 1};
+    snprintf(measure.x, sizeof measure.x, "%s", output->curve_x);
+    snprintf(measure.y, sizeof measure.y, "%s", output->curve_y);
+    return measure;
+}
+
+/* The slope aimed at: of the measure drawn, else of one against the same sensor in the same unit (a curve of stress
+ * beside a modulus measured from forces). */
+static double curve_target(brc_context *context, const brc_scene *scene, const brc_domain *domain,
+                           const brc_history *history, const brc_measure *drawn)
+{
+    const char *unit = brc_measure_unit(scene, drawn);
+    for (int32_t m = 0; m < scene->n_measures; ++m) {
+        const brc_measure *measure = &scene->measures[m];
+        brc_measured measured;
+        const bool same = strcmp(measure->name, drawn->name) == 0;
+        if (!is_slope(measure->kind) || strcmp(measure->x, drawn->x) != 0) continue;
+        if (!same && (drawn->name[0] || strcmp(brc_measure_unit(scene, measure), unit) != 0)) continue;
+        if (!same && measure->scale != 1) continue; /* of another quantity */
+        if (brc_measure_evaluate(context, scene, domain, history, m, &measured) == BRC_OK && measured.has_target)
+            return measured.target;
+    }
+    return NAN;
+}
+
+/* Words inside gnuplot's double quotes, underscores as blanks. */
+static void clean_words(char *out, size_t room, const char *words)
+{
+    size_t n = 0;
+    for (; *words && n + 1 < room; ++words)
+        out[n++] = *words == '_' ? ' ' : *words == '"' || *words == '\\' || (unsigned char)*words < ' ' ? '\'' : *words;
+    out[n] = '\0';
+}
+
+static double largest(int64_t n, const double *v)
+{
+    double most = 0;
+    for (int64_t k = 0; k < n; ++k)
+        most = fmax(most, fabs(v[k]));
+    return most;
+}
+
+static axis make_axis(const char *name, const char *unit, double most)
+{
+    axis a;
+    char words[BRC_NAME], prefixed[32];
+    clean_words(words, sizeof words, name);
+    a.factor = brc_label_unit(unit, most, prefixed);
+    int power = 0;
+    if (a.factor == 1 && most > 0 && (most < 0.01 || most >= 1e5)) { /* no prefix at hand: a power of a thousand */
+        power = 3 * (int)floor(log10(most * (1 + 1e-9)) / 3);
+        a.factor = pow(10, -power);
+    }
+    int n = snprintf(a.title, sizeof a.title, "%s", words);
+    if (strcmp(unit, "-") != 0) n += snprintf(a.title + n, sizeof a.title - (size_t)n, " [%s]", prefixed);
+    if (power != 0) snprintf(a.title + n, sizeof a.title - (size_t)n, " \xc3\x97 10^{%d}", -power);
+    return a;
+}
+
+static void number_with_unit(double value, const char *unit, char out[96])
+{
+    char prefixed[32];
+    const double factor = brc_label_unit(unit, fabs(value), prefixed);
+    snprintf(out, 96, "%.6g%s%s", factor * value, strcmp(unit, "-") == 0 ? "" : " ",
+             strcmp(unit, "-") == 0 ? "" : prefixed);
+}
+
+static void add_script(brc_text *text, const brc_scene *scene, const brc_measure *measure,
+                       const brc_measure_series *series, const brc_fit *fit, double target, const char *unit_x,
+                       const char *unit_y, const char *picture)
+{
+    const axis x = make_axis(measure->x, unit_x, largest(series->n, series->x));
+    const axis y = make_axis(measure->area_set[0] ? "stress" : measure->y, unit_y, largest(series->n, series->y));
+    const char *unit = brc_measure_unit(scene, measure);
+    const double to_axes = y.factor / x.factor;
+    char title[256], slope[96];
+    clean_words(title, sizeof title, scene->title);
+    brc_text_add(text, "set terminal pngcairo size 1200,900 font 'sans,18' linewidth 1.5\nset output '");
+    for (const char *s = picture; *s; ++s)
+        brc_text_add(text, *s == '\'' ? "''" : "%c", *s);
+    brc_text_add(text, "'\nset title \"%s\" noenhanced\nset xlabel \"%s\"\nset ylabel \"%s%s\"\n", title, x.title,
+                 measure->kind == BRC_MEASURE_NU ? "\xe2\x88\x92 " : "", y.title);
+    brc_text_add(text, "set key left top Left reverse spacing 1.3\nset grid linecolor rgb '#dddddd' linetype 1\n"
+                       "set border linecolor rgb '#333333'\nset offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\n");
+    brc_text_add(text, "$data << END\n");
+    for (int64_t k = 0; k < series->n; ++k)
+        brc_text_add(text, "%.12g %.12g\n", x.factor * series->x[k], y.factor * series->y[k]);
+    brc_text_add(text, "END\n");
+    number_with_unit(fit->coefficient[1], unit, slope);
+    brc_text_add(text, "slope(x) = %.12g + %.12g * x\n", y.factor * fit->coefficient[0], to_axes * fit->coefficient[1]);
+    brc_text_add(text, "plot slope(x) title \"slope at zero: %s\" with lines linewidth 2 linecolor rgb '#4477aa'", slope);
+    if (isfinite(target)) {
+        number_with_unit(target, unit, slope);
+        brc_text_add(text, ", \\\n %.12g + %.12g * x title \"target: %s\" with lines linewidth 2 dashtype 2 "
+                           "linecolor rgb '#cc6677'",
+                     y.factor * fit->coefficient[0], to_axes * target, slope);
+    }
+    brc_text_add(text, ", \\\n $data using 1:2 title \"simulation\" with %s linecolor rgb '#222222'\n",
+                 series->n > 60 ? "lines" : "points pointtype 7 pointsize 1.6");
+}
+
+/* Run gnuplot on the script; no shell, so that no path needs quoting. *found: false where there is no gnuplot. */
+static bool run_gnuplot(const char *script, bool *found)
+{
+    char program[] = "gnuplot", *argument = NULL;
+    if (asprintf(&argument, "%s", script) < 0) return false;
+    char *const arguments[] = {program, argument, NULL};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+    pid_t child;
+    int state = -1;
+    *found = posix_spawnp(&child, program, &actions, NULL, arguments, environ) == 0;
+    posix_spawn_file_actions_destroy(&actions);
+    free(argument);
+    if (!*found) return false;
+    while (waitpid(child, &state, 0) < 0 && errno == EINTR) {
+    }
+    *found = !(WIFEXITED(state) && WEXITSTATUS(state) == 127);
+    return WIFEXITED(state) && WEXITSTATUS(state) == 0;
+}
+
+static brc_status draw(brc_context *context, brc_text *script, const char *aside, const char *path, bool *made)
+{
+    char *name = NULL;
+    bool found;
+    brc_status status = BRC_OK;
+    const int64_t length = (int64_t)strlen(path) + 8;
+    BRC_TRY_OR(cleanup, brc_memory_allocate(context, (void **)&name, length, 1, "path"));
+    snprintf(name, (size_t)length, "%s.script", path);
+    BRC_TRY_OR(cleanup, brc_text_write(script, name));
+    const bool drawn = run_gnuplot(name, &found);
+    unlink(name);
+    if (drawn && brc_file_exists(aside)) {
+        status = brc_file_commit(context, aside, path);
+        *made = status == BRC_OK;
+    } else {
+        brc_log(context, BRC_LOG_WARNING, "no %s: gnuplot %s; the numbers are in histories.csv", path,
+                found ? "could not draw it" : "is not installed (Debian package gnuplot-nox)");
+        brc_file_discard(aside);
+    }
+cleanup:
+    brc_memory_free(name);
+    return status;
+}
+
+static const char *unit_of_sensor(const brc_scene *scene, const char *name)
+{
+    for (int32_t s = 0; s < scene->n_sensors; ++s)
+        if (strcmp(scene->sensors[s].name, name) == 0) return brc_sensor_unit(&scene->sensors[s]);
+    return "-";
+}
+
+brc_status brc_curve_write(brc_context *context, const brc_scene *scene, const brc_domain *domain,
+                           const brc_history *history, const char *path, bool *made)
+{
+    const brc_measure measure = curve_measure(scene);
+    brc_measured measured = {0};
+    brc_measure_series series;
+    brc_text script = {.context = context};
+    char *aside = NULL;
+    *made = false;
+    BRC_TRY(brc_measure_series_collect(context, scene, domain, history, &measure, &series, &measured));
+    brc_status status = BRC_OK;
+    const brc_fit fit = brc_fit_polynomial(series.n, series.x, series.y);
+    if (fit.order == 0) {
+        brc_log(context, BRC_LOG_WARNING, "no %s: %s", path,
+                measured.why_not[0] ? measured.why_not : "it has fewer than two different points");
+        goto cleanup;
+    }
+    BRC_TRY_OR(cleanup, brc_file_aside(context, path, &aside));
+    const double target = curve_target(context, scene, domain, history, &measure);
+    add_script(&script, scene, &measure, &series, &fit, target, unit_of_sensor(scene, measure.x),
+               measure.area_set[0] ? "Pa" : unit_of_sensor(scene, measure.y), aside);
+    status = draw(context, &script, aside, path, made);
+cleanup:
+    brc_memory_free(aside);
+    brc_text_free(&script);
+    brc_measure_series_free(&series);
+    return status;
+}

@@ -1,0 +1,15 @@
+/* curve.png: one sensor against another, through gnuplot. */
+#ifndef BRC_OUTPUT_CURVE_H
+#define BRC_OUTPUT_CURVE_H
+
+#include "history.h"
+#include "../../preprocess/domain.h"
+
+/* Draw scene.output.curve_y against curve_x: measured points, fitted slope at zero and, where the scene's measures give
+ * one, the line of the target. Where a measure of slope (E, nu, K, G, slope) reads just these two sensors, its stage,
+ * window, area and scale are used: the curve is then the measure's own. *made: false where gnuplot is not installed or
+ * there is nothing to draw: a warning in the log, and the numbers are in histories.csv. BRC_FILE_FAILED, BRC_NO_MEMORY. */
+brc_status brc_curve_write(brc_context *context, const brc_scene *scene, const brc_domain *domain,
+                           const brc_history *history, const char *path, bool *made);
+
+#endif

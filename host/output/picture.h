@@ -1,0 +1,28 @@
+/* picture.png: the deformed sample, its free faces coloured by a field. */
+#ifndef BRC_OUTPUT_PICTURE_H
+#define BRC_OUTPUT_PICTURE_H
+
+#include "../solver/simulation.h"
+
+/* What is drawn; all borrowed for the call. */
+typedef struct brc_picture {
+    const brc_domain *domain;
+    const double *displacement; /* [n_elements][3] [m] */
+    const double *value;        /* [n_elements] what is coloured, in `unit` */
+    const char *name;           /* of the field, beside the colour bar: "von Mises stress" */
+    const char *unit;
+    const char *title;          /* "" : none */
+    double scale;               /* factor on the displacement; 0: automatic */
+} brc_picture;
+
+/* 1200 x 900, seen from above one corner without perspective. BRC_FILE_FAILED: cannot be written. */
+brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, const char *path);
+/* The simulation as it is now, as scene.output asks: picture_colour is "von_mises", "displacement[_x|_y|_z]",
+ * "velocity[_x|_y|_z]", "stress_xx" ... "stress_xy" (Cauchy) or "strain_xx" ... "strain_xy" (Green). BRC_BAD_INPUT for
+ * another word, with the list. */
+brc_status brc_picture_write(brc_context *context, brc_simulation *simulation, const char *path);
+/* Factor on the displacement that makes it visible: one of 1, 2, 5 times a power of ten, so that the largest
+ * displacement (less its mean) is about 4 % of the sample's diagonal; 1 where it is as large by itself or zero. */
+double brc_picture_automatic_scale(const brc_domain *domain, const double *displacement);
+
+#endif

@@ -1,0 +1,319 @@
+/* The recorder. While the simulation runs it samples the sensors and writes frames, each with the index and the
+ * histories so far, so that a killed run keeps all but its last interval. Nothing here draws: see picture.c, curve.c. */
+#include "recorder.h"
+#include "curve.h"
+#include "frame_file.h"
+#include "picture.h"
+#include "result_file.h"
+#include "sensors.h"
+#include "summary.h"
+#include "../base/file.h"
+#include "../base/log.h"
+#include "../base/memory.h"
+#include <dirent.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { SUMMARY, RESULT, HISTORIES, PICTURE, CURVE, SERIES, FRAMES, N_FILES };
+static const char *const FILE_NAME[N_FILES] = {
+    "summary.json", "result.h5", "histories.csv", "picture.png", "curve.png", "frames.vtkhdf.series", "frames"};
+
+struct brc_recorder {
+    brc_context *context;
+    char *path[N_FILES]; /* owned */
+    const brc_scene *scene;
+    const brc_domain *domain;
+    brc_simulation *simulation;
+    brc_sensors *sensors;
+    brc_history *history;
+    double *value; /* [n_sensors] of the sample being taken */
+    int64_t n_frames;
+    double *frame_time; /* [n_frames] for the index: strictly rising */
+    brc_measured *measures;
+    int32_t n_measures;
+    double start, build_s, output_s; /* start: brc_clock_s() then; the others: wall seconds */
+};
+
+/* ---- the folder ---- */
+
+/* "NNNNNN.vtkhdf", or what a killed run left of one. */
+static bool is_frame(const char *name)
+{
+    size_t digits = strspn(name, "0123456789");
+    return digits >= 6 && (strcmp(name + digits, ".vtkhdf") == 0 || strcmp(name + digits, ".vtkhdf.part") == 0);
+}
+
+static brc_status remove_file(brc_context *context, const char *path)
+{
+    if (unlink(path) == 0 || errno == ENOENT) return BRC_OK;
+    return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot remove the result of an earlier run: %s", path,
+                    strerror(errno));
+}
+
+static brc_status remove_frames(brc_context *context, const char *folder)
+{
+    brc_status status = BRC_OK;
+    DIR *directory = opendir(folder);
+    if (!directory) return errno == ENOENT ? BRC_OK : remove_file(context, folder);
+    for (const struct dirent *entry = readdir(directory); entry && status == BRC_OK; entry = readdir(directory)) {
+        if (!is_frame(entry->d_name)) continue;
+        char *path;
+        status = brc_file_join(context, folder, entry->d_name, &path);
+        if (status == BRC_OK) status = remove_file(context, path);
+        brc_memory_free(path);
+    }
+    closedir(directory);
+    return status;
+}
+
+/* An older run's results beside this one's would mislead. */
+static brc_status clean(brc_recorder *recorder)
+{
+    for (int k = 0; k < FRAMES; ++k)
+        BRC_TRY(remove_file(recorder->context, recorder->path[k]));
+    return remove_frames(recorder->context, recorder->path[FRAMES]);
+}
+
+static brc_status write_summary(brc_recorder *recorder, brc_context *context, bool running, brc_status end,
+                                const char *reason, const brc_ledger *ledger)
+{
+    const brc_summary summary = {
+        .scene = recorder->scene,
+        .domain = recorder->domain,
+        .simulation = recorder->simulation,
+        .ledger = ledger,
+        .history = recorder->history,
+        .n_measures = recorder->n_measures,
+        .measures = recorder->measures,
+        .n_frames = recorder->n_frames,
+        .total_s = brc_clock_s() - recorder->start,
+        .build_s = recorder->build_s,
+        .output_s = recorder->output_s,
+        .running = running,
+        .end = end,
+        .reason = reason,
+    };
+    return brc_summary_write(context, &summary, recorder->path[SUMMARY]);
+}
+
+brc_status brc_recorder_create(brc_context *context, const char *folder, double start, brc_recorder **out)
+{
+    brc_recorder *recorder = NULL;
+    brc_status status = BRC_OK;
+    *out = NULL;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &recorder, 1, "recorder"));
+    *recorder = (brc_recorder){.context = context, .start = start, .build_s = NAN};
+    for (int k = 0; k < N_FILES; ++k)
+        BRC_TRY_OR(cleanup, brc_file_join(context, folder, FILE_NAME[k], &recorder->path[k]));
+    BRC_TRY_OR(cleanup, brc_file_make_folder(context, folder));
+    BRC_TRY_OR(cleanup, clean(recorder));
+    /* A run that is killed leaves this one. It also shows at once that the folder can be written. */
+    BRC_TRY_OR(cleanup, write_summary(recorder, context, true, BRC_OK, "", NULL));
+cleanup:
+    if (status != BRC_OK) brc_recorder_free(&recorder);
+    *out = recorder;
+    return status;
+}
+
+void brc_recorder_free(brc_recorder **recorder)
+{
+    if (!recorder || !*recorder) return;
+    brc_recorder *r = *recorder;
+    brc_sensors_free(&r->sensors);
+    brc_history_free(&r->history);
+    for (int k = 0; k < N_FILES; ++k)
+        brc_memory_free(r->path[k]);
+    brc_memory_free(r->value);
+    brc_memory_free(r->frame_time);
+    brc_memory_free(r->measures);
+    brc_memory_free(r);
+    *recorder = NULL;
+}
+
+void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene)
+{
+    recorder->scene = scene;
+}
+
+void brc_recorder_set_domain(brc_recorder *recorder, const brc_domain *domain, double build_seconds)
+{
+    recorder->domain = domain;
+    recorder->build_s = build_seconds;
+}
+
+/* ---- while the simulation runs ---- */
+
+static brc_status sample(void *self, brc_simulation *simulation)
+{
+    brc_recorder *r = self;
+    const double begin = brc_clock_s();
+    brc_status status = brc_sensors_evaluate(r->sensors, simulation, r->value);
+    if (status == BRC_OK)
+        status = brc_history_add(r->context, r->history, brc_simulation_stage(simulation),
+                                 brc_simulation_step(simulation), brc_simulation_time(simulation),
+                                 brc_simulation_total_time(simulation), r->value);
+    r->output_s += brc_clock_s() - begin;
+    return status;
+}
+
+/* Index and histories as they stand. */
+static brc_status write_index(brc_recorder *r, brc_context *context, const brc_ledger *ledger)
+{
+    const brc_result result = {
+        .scene = r->scene,
+        .domain = r->domain,
+        .simulation = r->simulation,
+        .ledger = ledger,
+        .history = r->history,
+        .n_measures = r->n_measures,
+        .measures = r->measures,
+        .n_frames = r->n_frames,
+        .frame_time = r->frame_time,
+    };
+    return brc_result_write(context, &result, r->path[RESULT]);
+}
+
+/* Viewers need rising times: physical time where some stage has it, else stages and their load factors; equal moments
+ * (the end of a stage, the start of the next) are kept apart by the last digit. */
+static double index_time(const brc_recorder *r, const brc_simulation *simulation)
+{
+    bool dynamic = false;
+    for (int32_t s = 0; s < r->scene->n_stages; ++s)
+        dynamic |= r->scene->stages[s].solver == BRC_SOLVER_DYNAMIC;
+    const double time = dynamic ? brc_simulation_total_time(simulation)
+                                : brc_simulation_stage(simulation) + brc_simulation_time(simulation);
+    const double before = r->n_frames > 0 ? r->frame_time[r->n_frames - 1] : -INFINITY;
+    return time > before ? time : nextafter(before, INFINITY);
+}
+
+static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
+{
+    char name[32];
+    char *path = NULL;
+    snprintf(name, sizeof name, "%06lld.vtkhdf", (long long)r->n_frames);
+    if (r->n_frames == 0) BRC_TRY(brc_file_make_folder(r->context, r->path[FRAMES]));
+    BRC_TRY(brc_memory_resize(r->context, (void **)&r->frame_time, r->n_frames + 1, sizeof *r->frame_time, "frame times"));
+    BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
+    const brc_status status = brc_frame_write(r->context, simulation, path);
+    brc_memory_free(path);
+    BRC_TRY(status);
+    r->frame_time[r->n_frames] = index_time(r, simulation);
+    ++r->n_frames;
+    BRC_TRY(brc_frame_write_series(r->context, r->n_frames, r->frame_time, r->path[SERIES]));
+    return write_index(r, r->context, NULL);
+}
+
+static brc_status frame(void *self, brc_simulation *simulation)
+{
+    brc_recorder *r = self;
+    if (r->scene->output.n_frames < 0) return BRC_OK;
+    const double begin = brc_clock_s();
+    const brc_status status = write_frame(r, simulation);
+    r->output_s += brc_clock_s() - begin;
+    return status;
+}
+
+brc_status brc_recorder_observe(brc_recorder *recorder, brc_simulation *simulation)
+{
+    if (!recorder->scene) recorder->scene = brc_simulation_scene(simulation);
+    if (!recorder->domain) recorder->domain = brc_simulation_domain(simulation);
+    recorder->simulation = simulation;
+    const int32_t n = recorder->scene->n_sensors;
+    BRC_TRY(brc_sensors_create(recorder->context, recorder->scene, recorder->domain, &recorder->sensors));
+    BRC_TRY(brc_history_create(recorder->context, n, &recorder->history));
+    BRC_TRY(BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample"));
+    const brc_observer observer = {.self = recorder, .sample = sample, .frame = frame};
+    return brc_simulation_observe(simulation, &observer);
+}
+
+/* ---- the end ---- */
+
+/* Writing goes on past a failure, with a context of its own: the run keeps one sentence, that of the first failure. */
+static void note(brc_recorder *r, brc_context *quiet, brc_status one, brc_status *status)
+{
+    if (one == BRC_OK) return;
+    if (*status == BRC_OK) *status = BRC_FAIL(r->context, one, "%s", brc_context_message(quiet));
+    brc_context_clear(quiet);
+}
+
+static void warn(brc_recorder *r, brc_context *quiet, brc_status one, const char *what)
+{
+    if (one != BRC_OK) brc_log(r->context, BRC_LOG_WARNING, "no %s: %s", what, brc_context_message(quiet));
+    brc_context_clear(quiet);
+}
+
+static brc_status evaluate_measures(brc_recorder *r, brc_context *quiet)
+{
+    const int32_t n = r->scene->n_measures;
+    BRC_TRY(BRC_ALLOCATE(quiet, &r->measures, n, "measures"));
+    for (r->n_measures = 0; r->n_measures < n; ++r->n_measures)
+        BRC_TRY(brc_measure_evaluate(quiet, r->scene, r->domain, r->history, r->n_measures, &r->measures[r->n_measures]));
+    return BRC_OK;
+}
+
+static void write_results(brc_recorder *r, brc_context *quiet, brc_status *status, const brc_ledger *ledger)
+{
+    bool made;
+    note(r, quiet, evaluate_measures(r, quiet), status);
+    note(r, quiet, write_index(r, quiet, ledger), status);
+    note(r, quiet, brc_history_write_csv(quiet, r->history, r->scene, r->path[HISTORIES]), status);
+    if (*status == BRC_FILE_FAILED) return; /* no room for pictures */
+    if (r->scene->output.picture && ledger) /* a simulation that gives no ledger has no state to show */
+        warn(r, quiet, brc_picture_write(quiet, r->simulation, r->path[PICTURE]), "picture");
+    if (r->scene->output.curve_x[0] && r->scene->output.curve_y[0])
+        warn(r, quiet, brc_curve_write(quiet, r->scene, r->domain, r->history, r->path[CURVE], &made), "curve");
+}
+
+/* Whether the device can still be asked. */
+static bool is_alive(brc_status end)
+{
+    return end != BRC_DEVICE_FAILED && end != BRC_INTERNAL;
+}
+
+brc_status brc_recorder_finish(brc_recorder *recorder, brc_status end)
+{
+    brc_recorder *r = recorder;
+    const double begin = brc_clock_s();
+    brc_status status = end;
+    brc_ledger ledger;
+    bool has_ledger = false;
+    brc_context *quiet = brc_context_create();
+    if (!quiet) return end != BRC_OK ? end : BRC_FAIL(r->context, BRC_NO_MEMORY, "no memory for a context");
+    brc_log_set_level(quiet, brc_log_get_level(r->context));
+    if (r->simulation && r->history) {
+        if (is_alive(end) && brc_simulation_stage(r->simulation) >= 0)
+            has_ledger = brc_simulation_ledger(r->simulation, &ledger) == BRC_OK;
+        write_results(r, quiet, &status, has_ledger ? &ledger : NULL);
+    }
+    r->output_s += brc_clock_s() - begin;
+    const char *reason = status == BRC_OK ? "" : brc_context_message(r->context);
+    note(r, quiet, write_summary(r, quiet, false, status, reason, has_ledger ? &ledger : NULL), &status);
+    brc_context_free(&quiet);
+    return status;
+}
+
+int32_t brc_recorder_measure_count(const brc_recorder *recorder)
+{
+    return recorder->n_measures;
+}
+
+const brc_measured *brc_recorder_measures(const brc_recorder *recorder)
+{
+    return recorder->measures;
+}
+
+const char *brc_recorder_path(const brc_recorder *recorder, const char *name)
+{
+    for (int k = 0; k < FRAMES; ++k)
+        if (strcmp(name, FILE_NAME[k]) == 0) return brc_file_exists(recorder->path[k]) ? recorder->path[k] : NULL;
+    return NULL;
+}
+
+double brc_recorder_seconds(const brc_recorder *recorder)
+{
+    return recorder->output_s;
+}

@@ -1,0 +1,34 @@
+/* DIR/result.h5: the index of a run. */
+#ifndef BRC_OUTPUT_RESULT_FILE_H
+#define BRC_OUTPUT_RESULT_FILE_H
+
+#include "../solver/simulation.h"
+#include "history.h"
+#include "measures.h"
+
+#define BRC_RESULT_FORMAT_VERSION 1
+
+/* What goes into it; all borrowed for the call. */
+typedef struct brc_result {
+    const brc_scene *scene;
+    const brc_domain *domain;         /* NULL: left out */
+    const brc_simulation *simulation; /* NULL: left out */
+    const brc_ledger *ledger;         /* NULL: left out */
+    const brc_history *history;       /* NULL: left out */
+    int32_t n_measures;
+    const brc_measured *measures; /* [n_measures] */
+    int64_t n_frames;
+    const double *frame_time; /* [n_frames] [s] */
+} brc_result;
+
+/*   /              attributes format_version, version, commit, compiler, model, title
+ *   /scene         the resolved scene with all defaults, YAML
+ *   /histories     stage, step, stage_time, time; sensors/<name> with attributes unit, last, min, max
+ *   /measures      <name> with attributes unit, target, error
+ *   /ledger        <term> [J]; closure [-]
+ *   /frames        NNNNNN: external links to frames/NNNNNN.vtkhdf; time
+ *   /provenance    attributes domain, device, driver, precision
+ * Made in memory, written aside, renamed. BRC_FILE_FAILED, BRC_NO_MEMORY. */
+brc_status brc_result_write(brc_context *context, const brc_result *result, const char *path);
+
+#endif

@@ -1,0 +1,200 @@
+/* summary.json. Keys appear in every file, with null where a run did not come that far, so that scripts need no guards. */
+#include "summary.h"
+#include "text.h"
+#include "../base/memory.h"
+#include "../base/version.h"
+#include <math.h>
+#include <stdio.h>
+
+static const char *end_name(const brc_summary *summary)
+{
+    if (summary->running) return "running";
+    switch (summary->end) {
+    case BRC_OK: return "done";
+    case BRC_PHYSICS_STOPPED: return "physics_stopped";
+    case BRC_BOUND_MISSED: return "bound_missed";
+    case BRC_BAD_INPUT: return "bad_input";
+    case BRC_NO_MEMORY: return "no_memory";
+    case BRC_DEVICE_FAILED: return "device_failed";
+    case BRC_FILE_FAILED: return "file_failed";
+    case BRC_INTERRUPTED: return "interrupted";
+    case BRC_INTERNAL: break;
+    }
+    return "internal";
+}
+
+static void add_identity(brc_json *json, const brc_summary *s)
+{
+    const brc_device *device = s->simulation ? brc_simulation_device(s->simulation) : NULL;
+    char name[256] = "";
+    if (device) {
+        const brc_device_info *info = brc_device_get_info(device);
+        snprintf(name, sizeof name, "%s (%s)", info->selector, info->name);
+    }
+    brc_json_string(json, "version", brc_version());
+    brc_json_string(json, "commit", brc_version_commit());
+    brc_json_string(json, "title", s->scene ? s->scene->title : NULL);
+    brc_json_string(json, "model",
+                    !s->scene                                 ? NULL
+                    : s->scene->model.kind == BRC_MODEL_DLSM ? "dlsm"
+                                                              : "dlsm-published");
+    brc_json_string(json, "precision", device ? brc_precision_name(brc_device_get_precision(device)) : NULL);
+    brc_json_string(json, "device", device ? name : NULL);
+}
+
+static void add_size(brc_json *json, const brc_summary *s)
+{
+    brc_json_begin_object(json, "counts");
+    if (s->domain) {
+        brc_json_integer(json, "elements", s->domain->n_elements);
+        brc_json_integer(json, "bonds", s->domain->n_bonds);
+        brc_json_integer(json, "broken", 0); /* bonds of this version hold for ever */
+    } else {
+        brc_json_null(json, "elements");
+        brc_json_null(json, "bonds");
+        brc_json_null(json, "broken");
+    }
+    brc_json_end(json);
+    brc_time_step step = {.value = NAN, .critical = NAN, .published = NAN, .safety = NAN};
+    if (s->simulation) step = brc_simulation_time_step(s->simulation);
+    const bool stepped = step.value > 0; /* a static stage has none */
+    brc_json_begin_object(json, "time_step");
+    brc_json_number(json, "value_s", stepped ? step.value : NAN);
+    brc_json_string(json, "governed_by", stepped ? step.governed_by : NULL);
+    brc_json_number(json, "safety", stepped && step.critical > 0 ? step.safety : NAN);
+    brc_json_number(json, "critical_s", step.critical > 0 ? step.critical : NAN);
+    brc_json_number(json, "published_s", step.published > 0 ? step.published : NAN);
+    brc_json_end(json);
+    if (s->simulation)
+        brc_json_integer(json, "steps", brc_simulation_total_steps(s->simulation));
+    else
+        brc_json_null(json, "steps");
+    brc_json_integer(json, "frames", s->n_frames);
+}
+
+static void add_cost(brc_json *json, const brc_summary *s)
+{
+    double setup = NAN, steps = NAN, rate = NAN;
+    if (s->simulation) {
+        setup = brc_simulation_setup_seconds(s->simulation);
+        steps = brc_simulation_step_seconds(s->simulation);
+        const double updates =
+            (double)brc_simulation_total_steps(s->simulation) * (double)brc_simulation_domain(s->simulation)->n_bonds;
+        if (updates > 0 && steps > 0) rate = updates / steps;
+    }
+    brc_json_begin_object(json, "timing");
+    brc_json_number(json, "total_s", s->total_s);
+    brc_json_number(json, "build_s", s->build_s);
+    brc_json_number(json, "setup_s", setup);
+    brc_json_number(json, "steps_s", steps);
+    brc_json_number(json, "output_s", s->output_s);
+    brc_json_number(json, "bond_updates_per_s", rate);
+    brc_json_end(json);
+    brc_json_begin_object(json, "memory");
+    brc_json_integer(json, "host_bytes", brc_memory_peak());
+    if (s->simulation)
+        brc_json_integer(json, "device_bytes", brc_device_bytes(brc_simulation_device(s->simulation)));
+    else
+        brc_json_null(json, "device_bytes");
+    brc_json_end(json);
+}
+
+static void add_ledger(brc_json *json, const brc_ledger *ledger)
+{
+    const brc_ledger none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    const brc_ledger *l = ledger ? ledger : &none;
+    brc_json_begin_object(json, "ledger");
+    brc_json_number(json, "kinetic_J", l->kinetic);
+    brc_json_number(json, "elastic_J", l->elastic);
+    brc_json_number(json, "stabilisation_J", l->stabilisation);
+    brc_json_number(json, "potential_J", l->potential);
+    brc_json_number(json, "work_J", l->work);
+    brc_json_number(json, "damping_J", l->damping);
+    brc_json_number(json, "numerical_J", l->numerical);
+    brc_json_number(json, "initial_J", l->initial);
+    brc_json_number(json, "total_J", l->total);
+    brc_json_number(json, "closure", l->closure);
+    brc_json_number(json, "peak_elastic_J", l->peak_elastic);
+    brc_json_number(json, "peak_kinetic_J", l->peak_kinetic);
+    brc_json_end(json);
+}
+
+static void add_names(brc_json *json, const char *key, const char *const *names)
+{
+    brc_json_begin_array(json, key);
+    for (; names && *names; ++names)
+        brc_json_string(json, NULL, *names);
+    brc_json_end(json);
+}
+
+static void add_effects(brc_json *json, const brc_simulation *simulation)
+{
+    brc_json_begin_object(json, "effects");
+    add_names(json, "in", simulation ? brc_simulation_effects_in(simulation) : NULL);
+    add_names(json, "out", simulation ? brc_simulation_effects_out(simulation) : NULL);
+    brc_json_end(json);
+}
+
+static void add_measures(brc_json *json, const brc_summary *s)
+{
+    brc_json_begin_object(json, "measures");
+    for (int32_t m = 0; m < s->n_measures; ++m) {
+        const brc_measured *measured = &s->measures[m];
+        brc_json_begin_object(json, measured->name);
+        brc_json_number(json, "value", measured->value);
+        brc_json_string(json, "unit", measured->unit);
+        brc_json_number(json, "target", measured->has_target ? measured->target : NAN);
+        brc_json_number(json, "error", measured->has_target ? measured->error : NAN);
+        if (measured->why_not[0]) brc_json_string(json, "why_not", measured->why_not);
+        brc_json_end(json);
+    }
+    brc_json_end(json);
+}
+
+static void add_sensors(brc_json *json, const brc_summary *s)
+{
+    brc_json_begin_object(json, "sensors");
+    for (int32_t k = 0; s->scene && k < s->scene->n_sensors; ++k) {
+        double last = NAN, smallest = NAN, largest = NAN;
+        if (s->history) brc_history_range(s->history, k, &last, &smallest, &largest);
+        brc_json_begin_object(json, s->scene->sensors[k].name);
+        brc_json_number(json, "last", last);
+        brc_json_number(json, "min", smallest);
+        brc_json_number(json, "max", largest);
+        brc_json_string(json, "unit", brc_sensor_unit(&s->scene->sensors[k]));
+        brc_json_end(json);
+    }
+    brc_json_end(json);
+}
+
+/* Of the last stage, where it was solved rather than stepped. */
+static void add_static(brc_json *json, const brc_summary *s)
+{
+    const int32_t stage = s->simulation ? brc_simulation_stage(s->simulation) : -1;
+    if (stage < 0 || !s->scene || s->scene->stages[stage].solver != BRC_SOLVER_STATIC) return;
+    const brc_static_report report = brc_simulation_static_report(s->simulation);
+    brc_json_begin_object(json, "static");
+    brc_json_integer(json, "iterations", report.iterations);
+    brc_json_integer(json, "corrections", report.corrections);
+    brc_json_number(json, "residual", report.residual);
+    brc_json_end(json);
+}
+
+brc_status brc_summary_write(brc_context *context, const brc_summary *summary, const char *path)
+{
+    brc_json json = {.text = {.context = context}};
+    brc_json_begin_object(&json, NULL);
+    add_identity(&json, summary);
+    add_size(&json, summary);
+    add_cost(&json, summary);
+    add_ledger(&json, summary->ledger);
+    add_effects(&json, summary->simulation);
+    add_measures(&json, summary);
+    add_sensors(&json, summary);
+    add_static(&json, summary);
+    brc_json_begin_object(&json, "end");
+    brc_json_string(&json, "status", end_name(summary));
+    brc_json_string(&json, "reason", summary->reason ? summary->reason : "");
+    brc_json_integer(&json, "exit_code", summary->running ? 0 : brc_status_exit_code(summary->end));
+    return brc_json_write(&json, path);
+}

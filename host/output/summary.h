@@ -1,0 +1,29 @@
+/* DIR/summary.json: what scripts and tests read of a run; its keys are stable (design.md "Commands"). */
+#ifndef BRC_OUTPUT_SUMMARY_H
+#define BRC_OUTPUT_SUMMARY_H
+
+#include "../solver/simulation.h"
+#include "history.h"
+#include "measures.h"
+
+/* All pointers are borrowed for the call; what is NULL is null in the file. */
+typedef struct brc_summary {
+    const brc_scene *scene;
+    const brc_domain *domain;
+    const brc_simulation *simulation;
+    const brc_ledger *ledger;
+    const brc_history *history;
+    int32_t n_measures;
+    const brc_measured *measures;
+    int64_t n_frames;
+    double total_s, build_s, output_s; /* wall seconds; setup_s and steps_s are the simulation's */
+    bool running;       /* true: end.status is "running" */
+    brc_status end;     /* how the run ended */
+    const char *reason; /* sentences of the failure; "" : none */
+} brc_summary;
+
+/* Written aside and renamed. Numbers that are not finite are null. end.status is "running", "done", "physics_stopped",
+ * "bound_missed", "bad_input", "no_memory", "device_failed", "file_failed", "interrupted" or "internal". */
+brc_status brc_summary_write(brc_context *context, const brc_summary *summary, const char *path);
+
+#endif
