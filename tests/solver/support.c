@@ -1,0 +1,68 @@
+#include "support.h"
+#include "../../host/base/log.h"
+#include "../../host/base/random.h"
+#include <stdio.h>
+#include <string.h>
+
+double random_at(uint64_t index)
+{
+    double draws[4];
+    brc_random_uniform4(7, BRC_RANDOM_TEST, index, 0, draws);
+    return 2 * draws[0] - 1;
+}
+
+void assert_done(bench_case *c, brc_status status)
+{
+    if (status != BRC_OK) fail_msg("status %s: %s", brc_status_text(status), brc_context_message(c->context));
+}
+
+static const char *or_else(const char *given, const char *fallback) { return given ? given : fallback; }
+
+static brc_status build_domains(bench_case *c)
+{
+    const brc_body *body = c->scene->bodies;
+    brc_predicate regions[8];
+    for (int32_t r = 0; r < body->n_regions; ++r) regions[r] = body->regions[r].where;
+    brc_build_request request = {.shape = body->shape, .fill = body->fill, .n_sets = c->scene->n_sets, .sets = c->scene->sets,
+                                 .n_regions = body->n_regions, .regions = regions,
+                                 .tiny_face_threshold = body->tiny_face_threshold};
+    memcpy(request.translation, body->translation, sizeof request.translation);
+    memcpy(request.rotation, body->rotation, sizeof request.rotation);
+    return brc_domain_build(c->context, &request, &c->domain);
+}
+
+brc_status try_case(bench_case *c, case_options o)
+{
+    memset(c, 0, sizeof *c);
+    c->context = brc_context_create();
+    brc_log_set_level(c->context, BRC_LOG_ERROR);
+    char text[8192];
+    const int length = snprintf(
+        text, sizeof text,
+        "version: 1\ntitle: test\nmaterials:\n%s\nmodel: %s\n%sbodies:\n  - name: body\n    shape: %s\n    fill: {noisy_grid: {%s}}\n"
+        "    material: stone\n%s%sstages:\n%soutput: {frames: none, picture: false}\n",
+        or_else(o.materials, "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3}"), or_else(o.model, "dlsm"), or_else(o.gravity, ""),
+        or_else(o.shape, "{box: {size: [1 m, 1 m, 1 m]}}"), or_else(o.fill, "cells: [6, 6, 6], spread: 90 %, seed: 1"),
+        or_else(o.regions, ""), or_else(o.sets, ""),
+        or_else(o.stages, "  - name: move\n    solver: {dynamic: {steps: 1}}\n"));
+    BRC_TRY(brc_scene_read_text(c->context, "test.yaml", text, (size_t)length, 0, NULL, &c->scene));
+    BRC_TRY(build_domains(c));
+    const brc_device_request request = {.selector = or_else(o.device, "cpu"),
+                                        .precision = o.precision,
+                                        .many_materials = brc_simulation_needs_many_materials(c->scene, c->domain),
+                                        .n_threads = o.n_threads,
+                                        .lanes = o.lanes};
+    BRC_TRY(brc_device_open(c->context, &request, &c->device));
+    return brc_simulation_create(c->context, c->scene, c->domain, c->device, &c->simulation);
+}
+
+void open_case(bench_case *c, case_options options) { assert_done(c, try_case(c, options)); }
+
+void close_case(bench_case *c)
+{
+    brc_simulation_free(&c->simulation);
+    brc_device_close(&c->device);
+    brc_domain_free(&c->domain);
+    brc_scene_free(&c->scene);
+    brc_context_free(&c->context);
+}

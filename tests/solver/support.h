@@ -1,0 +1,48 @@
+/* A simulation made from a few lines of YAML, for the tests of the solver. */
+#ifndef BRC_TESTS_SOLVER_SUPPORT_H
+#define BRC_TESTS_SOLVER_SUPPORT_H
+
+#include "../../host/scene/scene_reader.h"
+#include "../../host/solver/simulation.h"
+// clang-format off
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+// clang-format on
+
+typedef struct bench_case {
+    brc_context *context;
+    brc_scene *scene;
+    brc_domain *domain;
+    brc_device *device;
+    brc_simulation *simulation;
+} bench_case;
+
+/* What a test varies; zero means the default. */
+typedef struct case_options {
+    const char *model;     /* default "dlsm" */
+    const char *materials; /* default one: E 1 Pa, nu 0.2, density 1 kg/m^3, named stone */
+    const char *shape;     /* default box of 1 m */
+    const char *fill;      /* default "cells: [6, 6, 6], spread: 90 %" */
+    const char *regions;   /* default none */
+    const char *sets;
+    const char *gravity;
+    const char *stages; /* default one dynamic stage of 1 step, time step auto */
+    const char *device; /* default "cpu" */
+    brc_precision precision;
+    int n_threads, lanes;
+} case_options;
+
+/* Open everything; fails the test with the context's sentence. The stage is not entered. */
+void open_case(bench_case *c, case_options options);
+/* The same, but the status and sentence of brc_simulation_create + begin_stage(0) are the test's business. */
+brc_status try_case(bench_case *c, case_options options);
+void close_case(bench_case *c);
+/* Assert a status is BRC_OK, showing the sentence. */
+void assert_done(bench_case *c, brc_status status);
+/* Uniform in (-1, 1), a fixed sequence by index. */
+double random_at(uint64_t index);
+
+#endif
