@@ -172,7 +172,7 @@ static brc_status place(builder *b, brc_node *node)
     }
     const int top = b->depth - 1;
     if (b->open[top]->kind == BRC_NODE_MAP) {
-        if (!b->key[top]) STOP(b, node->mark, "a key must be a plain word, found a list, a map or an alias");
+        if (!b->key[top]) STOP(b, node->mark, "a key must be a plain word, found a list or a map");
         node->key = b->key[top];
         node->key_mark = b->key_mark[top];
         b->key[top] = NULL;
@@ -198,6 +198,8 @@ static brc_status on_alias(builder *b, const yaml_event_t *event)
 {
     const char *name = (const char *)event->data.alias.anchor;
     const brc_mark mark = mark_of(b, event->start_mark);
+    if (b->depth > 0 && b->open[b->depth - 1]->kind == BRC_NODE_MAP && !b->key[b->depth - 1])
+        STOP(b, mark, "a key must be a plain word, found the alias *%.80s", name);
     for (const anchor *a = b->anchors; a; a = a->next) {
         if (strcmp(a->name, name) != 0) continue;
         for (int d = 0; d < b->depth; ++d)
@@ -221,7 +223,7 @@ static brc_status on_scalar(builder *b, const yaml_event_t *event)
     const size_t length = event->data.scalar.length;
     for (size_t i = 0; i < length; ++i)
         if ((unsigned char)value[i] < 0x20 || value[i] == 0x7f)
-            STOP(b, mark, "the text '%.40s' contains a control character or a line break", value);
+            STOP(b, mark, "the text contains a control character or a line break; write it as one line");
     if (event->data.scalar.tag) STOP(b, mark, "tags like '%.80s' are not used in scenes", event->data.scalar.tag);
     const char *text = tree_text(b->tree, value, length);
     if (!text) return BRC_NO_MEMORY;
@@ -347,6 +349,10 @@ brc_status brc_tree_parse(brc_tree *tree, brc_problems *problems, int source, co
     *out = NULL;
     builder b = {.tree = tree, .problems = problems, .source = source};
     if (!bytes_are_text(&b, text, bytes)) return BRC_OK;
+    if (bytes >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) { /* a byte order mark, which libyaml takes for a word */
+        text += 3;
+        bytes -= 3;
+    }
     yaml_parser_t parser;
     if (!yaml_parser_initialize(&parser)) return BRC_FAIL(tree->context, BRC_NO_MEMORY, "no memory for libyaml");
     yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);

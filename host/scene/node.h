@@ -9,7 +9,7 @@
 #include "problem.h"
 
 #define BRC_NODE_DEEPEST 64
-#define BRC_NODE_MOST 1000000
+#define BRC_NODE_MOST 250000
 
 typedef enum brc_node_kind { BRC_NODE_SCALAR, BRC_NODE_LIST, BRC_NODE_MAP } brc_node_kind;
 

@@ -159,7 +159,8 @@ static void check_group(brc_reader *reader, const brc_section *section, const br
         const brc_node *child = brc_node_find(map, group->keys[i]);
         if (!child) continue;
         ++n_given;
-        last = child;
+        const brc_mark *late = last ? &last->key_mark : NULL, *here = &child->key_mark;
+        if (!late || here->line > late->line || (here->line == late->line && here->column > late->column)) last = child;
     }
     const bool too_few = n_given == 0 && group->rule != BRC_GROUP_AT_MOST_ONE;
     const bool too_many = n_given > 1 && group->rule != BRC_GROUP_AT_LEAST_ONE;

@@ -8,7 +8,7 @@ static const brc_entry SCENE[] = {
      .why = "this breccia reads format 1", .meaning = "of the scene format"},
     {"title", BRC_TYPE_STRING, FIELD(brc_scene, title), .sample = "A cube under tension", .meaning = "one line"},
     {"materials", BRC_TYPE_NAMED, .section = &brc_schema_material, COUNTED(brc_scene, materials, n_materials),
-     .required = true, .meaning = "by name"},
+     .required = true, .meaning = "materials by name"},
     {"model", BRC_TYPE_STRUCT, .section = &brc_schema_model, .offset = offsetof(brc_scene, model), .given = "dlsm",
      .meaning = "the law between the elements"},
     {"bodies", BRC_TYPE_LIST, .section = &brc_schema_body, COUNTED(brc_scene, bodies, n_bodies), .required = true,

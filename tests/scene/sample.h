@@ -23,7 +23,7 @@ typedef enum sample_fault {
 typedef struct sample_scene {
     char text[16384];
     int length;
-    int line, column;             /* of the fault: the value, the second or the unknown key, the map without the key */
+    int line, column; /* of the fault: the value, the second or the unknown key, the map without the key */
 } sample_scene;
 
 /* Make a scene. value: for SAMPLE_VALUE. */

@@ -1,0 +1,271 @@
+/* Scenes whose parts do not fit together: what needs more than one key to see. Line 9 is where the stages begin. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include <stdio.h>
+#include <string.h>
+#include "bad.h"
+
+#define STATIC "stages:\n  - name: pull\n    solver: static\n    loads:\n"
+#define DYNAMIC "stages:\n  - name: pull\n    solver: {dynamic: {duration: 1 ms}}\n    loads:\n"
+
+static void a_good_scene_has_no_errors(void **state)
+{
+    (void)state;
+    assert_int_equal(count_errors(HEAD STAGES), 0);
+}
+
+static void missing_keys_are_named_where_their_map_begins(void **state)
+{
+    (void)state;
+    bad_scene("version: 1\nmaterials:\n  glass: {E: 72 GPa, density: 2500 kg/m^3}\nbodies: [{domain: d.h5}]\n" STAGES,
+              "3:10", "the key 'nu' is missing in this material: Poisson's ratio, as in nu: 0.23");
+    bad_scene("materials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies: [{domain: d.h5}]\n" STAGES, "1:1",
+              "the key 'version' is missing");
+    bad_scene("version: 1\n" STAGES, "1:1", "the key 'bodies' is missing");
+}
+
+static void extreme_poisson_ratios_are_refused_with_the_reason(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {"0.5", "-1", "0.5000001", "-2", "3"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "version: 1\nmaterials:\n  g:\n    E: 1 Pa\n    nu: %s\n    density: 1 kg/m^3\n"
+                 "bodies: [{domain: d.h5}]\n" STAGES,
+                 bad[i]);
+        bad_scene(text, "5:9", "it must be in (-1, 0.5): at 0.5 the solid is incompressible");
+    }
+    static const char *const good[] = {"0.4999", "-0.9999", "0"};
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; ++i) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "version: 1\nmaterials: {g: {E: 1 Pa, nu: %s, density: 1 kg/m^3}}\n"
+                 "bodies: [{domain: d.h5}]\n" STAGES,
+                 good[i]);
+        assert_int_equal(count_errors(text), 0);
+    }
+}
+
+static void misspelt_keys_are_guessed(void **state)
+{
+    (void)state;
+    bad_scene(HEAD STAGES "sensrs: {}\n", "10:1", "did you mean 'sensors'?");
+    bad_scene(HEAD "stages: [{name: p, solver: statc}]\n", "9:28", "did you mean 'static'?");
+    bad_scene(HEAD "stages: [{name: p, solver: {dynamik: {steps: 1}}}]\n", "9:29", "did you mean 'dynamic'?");
+    bad_scene(HEAD STAGES "output: {picture: {colour: vonmises}}\n", "10:28", "did you mean von_mises?");
+    bad_scene(HEAD STAGES "xyzzyplugh: 1\n", "10:1", "unknown key 'xyzzyplugh' in a scene; known: version, title");
+}
+
+static void later_keys_are_refused_as_such(void **state)
+{
+    (void)state;
+    bad_scene(HEAD STAGES "fracture: {}\n", "10:1", "'fracture' is not in this version of breccia");
+    bad_scene(HEAD STAGES "interactions: {contact: on}\n", "10:1", "'interactions' is not in this version of breccia");
+}
+
+static void all_errors_are_told_in_one_pass_in_the_order_of_the_text(void **state)
+{
+    (void)state;
+    static const char text[] = "version: 2\n"
+                               "materials:\n"
+                               "  glass: {E: 72, nu: nan, density: 2500 kg/m}\n"
+                               "bodies: [{domain: d.h5, material: glas}]\n"
+                               "stages: [{name: p, solver: {modes: {count: 0}}}]\n"
+                               "colour: red\n";
+    assert_int_equal(count_errors(text), 7);
+    static const char *const places[] = {"1:10", "3:14", "3:22", "3:36", "4:35", "5:44", "6:1"};
+    brc_context *context = brc_context_create();
+    brc_scene *scene = NULL;
+    brc_scene_read_text(context, "s.yaml", text, strlen(text), 0, NULL, &scene);
+    const char *at = brc_context_message(context);
+    for (int i = 0; i < 7; ++i) {
+        char start[32];
+        snprintf(start, sizeof start, "s.yaml:%s: error:", places[i]);
+        at = at ? strstr(at, start) : NULL;
+        if (!at) fail_msg("no or misplaced %s in\n%s", start, brc_context_message(context));
+    }
+    brc_context_free(&context);
+}
+
+static void several_of_one_and_none_of_several_are_refused(void **state)
+{
+    (void)state;
+    bad_scene(HEAD "stages: [{name: p, solver: {dynamic: {steps: 1, duration: 1 s}}}]\n", "9:49",
+              "expected only one of");
+    bad_scene(HEAD "stages: [{name: p, solver: {dynamic: {}}}]\n", "9:38",
+              "expected exactly one of duration, steps; found none");
+    bad_scene(HEAD "stages: [{name: p, solver: dynamic}]\n", "9:28",
+              "expected exactly one of duration, steps; found none");
+    bad_scene(HEAD "stages: [{name: p, solver: {static: {}, modes: {count: 1}}}]\n", "9:28", "expected exactly one of");
+    bad_scene(HEAD STAGES "output: {frames: 3, frame_interval: 1 ms}\n", "10:21", "expected only one of");
+    bad_scene(HEAD STATIC "      - face_displacement: {set: x+}\n", "13:28",
+              "expected at least one of x, y, z, gradient");
+}
+
+static void a_shape_needs_a_fill_and_a_file_none(void **state)
+{
+    (void)state;
+    bad_scene("version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies:\n"
+              "  - shape: {sphere: {radius: 1 m}}\n" STAGES,
+              "4:5", "the key 'fill' is missing");
+    bad_scene("version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies:\n"
+              "  - domain: d.h5\n    fill: {noisy_grid: {elements: 3}}\n" STAGES,
+              "4:13", "the file is cut already");
+    bad_scene("version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies:\n"
+              "  - fill: {noisy_grid: {elements: 3}}\n" STAGES,
+              "4:5", "expected exactly one of shape, domain");
+}
+
+static void a_body_names_its_material_where_there_are_several(void **state)
+{
+    (void)state;
+    bad_scene(
+        "version: 1\nmaterials: {a: {E: 1 Pa, nu: 0, density: 1 kg/m^3}, b: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\n"
+        "bodies:\n  - domain: d.h5\n" STAGES,
+        "4:5", "the key 'material' is missing in this body");
+}
+
+static void unknown_names_are_refused_with_the_nearest(void **state)
+{
+    (void)state;
+    bad_scene("version: 1\nmaterials: {glass: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies: [{domain: d.h5, material: "
+              "glas}]\n" STAGES,
+              "3:35", "there is no material 'glas'; did you mean 'glass'?");
+    bad_scene(HEAD STATIC "      - face_displacement: {set: lidd, x: 0}\n", "13:34",
+              "there is no wall or set of faces 'lidd'; did you mean 'lid'?");
+    bad_scene(HEAD STATIC "      - face_displacement: {set: core, x: 0}\n", "13:34",
+              "(that name is a set of elements)");
+    bad_scene(HEAD STATIC "      - element_displacement: {set: x-, x: 0}\n", "13:37", "(that name is a set of faces)");
+    bad_scene(HEAD STAGES "sensors: {s: {reaction: {set: side, component: x}}}\n", "10:31",
+              "there is no wall or set 'side'");
+    bad_scene(HEAD STAGES "output: {curve: {x: nobody, y: nobody}}\n", "10:21",
+              "there is no sensor 'nobody'; define it under sensors");
+    bad_scene(HEAD STAGES "sensors: {s: {energy: work}}\nmeasure: {m: {mean: {of: s, stage: pul}}}\n", "11:36",
+              "there is no stage 'pul'; did you mean 'pull'?");
+    bad_scene("version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\n"
+              "bodies: [{shape: {sphere: {radius: 1 m}}, fill: {noisy_grid: {elements: 9}}}]\nsets: {a: {faces: "
+              "x-}}\n" STAGES,
+              "4:19", "there is no wall 'x-'");
+}
+
+static void names_in_a_domain_file_are_not_judged(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        count_errors(
+            "version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies: [{domain: d.h5}]\n" STATIC
+            "      - face_displacement: {set: whatever, x: 0}\n"),
+        0);
+}
+
+static void sets_are_not_named_like_walls(void **state)
+{
+    (void)state;
+    bad_scene("version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies: [{domain: d.h5}]\n"
+              "sets:\n  side: {faces: {wall: x-}}\n" STAGES,
+              "5:9", "the set 'side' has the name of a wall");
+}
+
+static void predicates_that_hold_nowhere_are_refused(void **state)
+{
+    (void)state;
+    bad_scene("version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies: [{domain: d.h5}]\n"
+              "sets:\n  s: {faces: {box: {from: [0, 1 m, 0], to: [1 m, 0, 1 m]}}}\n" STAGES,
+              "5:44", "lies before `from` in y");
+    bad_scene("version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies: [{domain: d.h5}]\n"
+              "sets:\n  s: {elements: {normal: {direction: [0, 0, 1]}}}\n" STAGES,
+              "5:38", "elements have no outward normal");
+}
+
+static void overlapping_prescribed_components_are_refused(void **state)
+{
+    (void)state;
+    bad_scene(HEAD STATIC "      - face_displacement: {set: x+, x: 1 um}\n"
+                          "      - face_displacement: {set: x+, x: 2 um, y: 0}\n",
+              "14:34", "the x component of 'x+' is prescribed by an earlier load");
+    bad_scene(HEAD DYNAMIC "      - face_displacement: {set: x+, y: 1 um}\n"
+                           "      - face_velocity: {set: x+, gradient: {y: [0, 1 1/s, 0]}}\n",
+              "14:30", "the y component of 'x+'");
+    bad_scene(HEAD STATIC "      - traction: {set: lid, z: 1 Pa}\n"
+                          "      - face_displacement: {set: lid, z: 0}\n",
+              "14:34", "a traction along z has no effect");
+    assert_int_equal(count_errors(HEAD STATIC "      - face_displacement: {set: x+, x: 1 um}\n"
+                                              "      - face_displacement: {set: x+, y: 0, z: 0}\n"
+                                              "      - traction: {set: lid, z: 1 Pa}\n"
+                                              "      - face_displacement: {set: lid, x: 0}\n"),
+                     0);
+}
+
+static void a_static_stage_has_no_velocities_and_ends_at_one(void **state)
+{
+    (void)state;
+    bad_scene(HEAD STATIC "      - face_velocity: {set: x+, x: 1 m/s}\n", "13:9", "a static stage has no velocities");
+    bad_scene(HEAD STATIC "      - traction: {set: x+, x: 1 Pa, table: [[0, 0], [2, 1]]}\n", "13:55",
+              "it must be in [0, 1]");
+    bad_scene(HEAD STATIC "      - traction: {set: x+, x: 1 Pa, table: [[0, 0], [1 s, 1]]}\n", "13:55", "another kind");
+    bad_scene(HEAD DYNAMIC "      - traction: {set: x+, x: 1 Pa, table: [[0, 0], [0.5, 1]]}\n", "13:55", "has no unit");
+}
+
+static void names_of_stages_and_bodies_are_unique(void **state)
+{
+    (void)state;
+    bad_scene(HEAD "stages: [{name: a, solver: static}, {name: a, solver: static}]\n", "9:44",
+              "another stage is called 'a' too");
+    bad_scene("version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies: [{domain: a.h5}, {domain: "
+              "b.h5}]\n" STAGES,
+              "3:26", "another body is called 'body' too");
+}
+
+static void modes_that_are_not_computed_have_no_sensor(void **state)
+{
+    (void)state;
+    bad_scene(HEAD STAGES "sensors: {s: {mode: 0}}\n", "10:21", "0 is not computed");
+    bad_scene(HEAD "stages: [{name: m, solver: {modes: {count: 3}}}]\nsensors: {s: {mode: 3}}\n", "10:21",
+              "computes 3");
+    assert_int_equal(count_errors(HEAD "stages: [{name: m, solver: {modes: {count: 3}}}]\nsensors: {s: {mode: 2}}\n"),
+                     0);
+}
+
+#define SENSORS                                                                                                        \
+    "sensors: {f: {reaction: {set: x+, component: x}}, s: {stress: {component: xx}}, e: {strain: {component: xx}}}\n"
+
+static void measures_ask_for_fitting_sensors(void **state)
+{
+    (void)state;
+    bad_scene(HEAD STAGES SENSORS "measure: {m: {E: {load: f, strain: e}}}\n", "11:25", "a reaction needs `area`");
+    bad_scene(HEAD STAGES SENSORS "measure: {m: {E: {load: s, strain: e, area: x+}}}\n", "11:25", "expected N");
+    bad_scene(HEAD STAGES SENSORS "measure: {m: {nu: {lateral: f, axial: e}}}\n", "11:29",
+              "gives values in N; expected -");
+    bad_scene(HEAD STAGES SENSORS "measure: {m: {mean: {of: f, target: 3 m}}}\n", "11:37", "expected a quantity in N");
+    bad_scene(HEAD STAGES SENSORS "measure: {m: {mean: {of: f, window: [1, 0.5]}}}\n", "11:37",
+              "ends before it begins");
+    bad_scene(HEAD STAGES SENSORS "measure: {m: {frequency: {of: f}}}\n", "11:14", "the stage 'pull' is not dynamic");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_good_scene_has_no_errors),
+        cmocka_unit_test(missing_keys_are_named_where_their_map_begins),
+        cmocka_unit_test(extreme_poisson_ratios_are_refused_with_the_reason),
+        cmocka_unit_test(misspelt_keys_are_guessed),
+        cmocka_unit_test(later_keys_are_refused_as_such),
+        cmocka_unit_test(all_errors_are_told_in_one_pass_in_the_order_of_the_text),
+        cmocka_unit_test(several_of_one_and_none_of_several_are_refused),
+        cmocka_unit_test(a_shape_needs_a_fill_and_a_file_none),
+        cmocka_unit_test(a_body_names_its_material_where_there_are_several),
+        cmocka_unit_test(unknown_names_are_refused_with_the_nearest),
+        cmocka_unit_test(names_in_a_domain_file_are_not_judged),
+        cmocka_unit_test(sets_are_not_named_like_walls),
+        cmocka_unit_test(predicates_that_hold_nowhere_are_refused),
+        cmocka_unit_test(overlapping_prescribed_components_are_refused),
+        cmocka_unit_test(a_static_stage_has_no_velocities_and_ends_at_one),
+        cmocka_unit_test(names_of_stages_and_bodies_are_unique),
+        cmocka_unit_test(modes_that_are_not_computed_have_no_sensor),
+        cmocka_unit_test(measures_ask_for_fitting_sensors),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
