@@ -280,8 +280,10 @@ static void a_buffer_that_does_not_fit_is_refused_and_the_device_goes_on(void **
         if (!strstr(message, expected) || !strstr(message, device_info.selector)) fail_msg("%s", message);
     }
     assert_int_equal(brc_device_bytes(b.device), 4000);
-    DONE(b, BRC_LAUNCH(kernel_of(&b, "vector_axpy"), 1000, BRC_INT(1000), BRC_STATE(1), BRC_BUF(NULL), BRC_BUF(small)));
+    DONE(b, brc_buffer_create(b.device, &huge, 4000, "something as small"));
+    DONE(b, BRC_LAUNCH(kernel_of(&b, "vector_axpy"), 1000, BRC_INT(1000), BRC_STATE(1), BRC_BUF(huge), BRC_BUF(small)));
     DONE(b, brc_device_wait(b.device));
+    brc_buffer_free(&huge);
     brc_buffer_free(&small);
     bench_close(&b);
 }
