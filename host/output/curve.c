@@ -164,7 +164,7 @@ static bool run_gnuplot(const char *script, bool *found)
 static brc_status draw(brc_context *context, brc_text *script, const char *aside, const char *path, bool *made)
 {
     char *name = NULL;
-    bool found;
+    bool found = false;
     brc_status status = BRC_OK;
     const int64_t length = (int64_t)strlen(path) + 8;
     BRC_TRY_OR(cleanup, brc_memory_allocate(context, (void **)&name, length, 1, "path"));

@@ -1,0 +1,201 @@
+/* A simulation that knows nothing of mechanics: u = value + gradient x of every point at full load, scaled by the load
+ * factor. Included by one source file of a test program, whose definitions then stand in for the solver's. */
+#ifndef BRC_TEST_OUTPUT_FAKE_SIMULATION_H
+#define BRC_TEST_OUTPUT_FAKE_SIMULATION_H
+
+#include "../../host/solver/simulation.h"
+#include <math.h>
+#include <string.h>
+
+struct brc_simulation {
+    const brc_scene *scene;
+    const brc_domain *domain;
+    brc_device *device;
+    brc_observer observer;
+    int32_t stage;
+    int64_t step;
+    double factor;         /* load factor */
+    double time;           /* of all stages [s] */
+    double value[3], gradient[3][3];
+    double rotation;       /* [rad] about x through `rotation_point`, before the above; at factor 1 */
+    double rotation_point[3];
+    double stress[6];      /* of element e at factor 1: stress * (1 + graded * x) */
+    double graded;         /* [1/m] */
+    double reaction[3];    /* at factor 1 */
+    brc_ledger ledger;
+    const double *modes;   /* [n_modes] [rad/s] */
+    int32_t n_modes;
+    int displacement_reads, ledger_reads; /* counted */
+    brc_status end;        /* what the run returns after its last increment */
+};
+
+static void fake_point(const brc_simulation *s, const double *x, double *u)
+{
+    const double a = s->rotation * s->factor, c = cos(a), t = sin(a);
+    const double y = x[1] - s->rotation_point[1], z = x[2] - s->rotation_point[2];
+    for (int i = 0; i < 3; ++i)
+        u[i] = s->factor * (s->value[i] + s->gradient[i][0] * x[0] + s->gradient[i][1] * x[1] + s->gradient[i][2] * x[2]);
+    u[1] += c * y - t * z - y;
+    u[2] += t * y + c * z - z;
+}
+
+brc_status brc_simulation_observe(brc_simulation *s, const brc_observer *observer)
+{
+    s->observer = *observer;
+    return BRC_OK;
+}
+
+const brc_scene *brc_simulation_scene(const brc_simulation *s)
+{
+    return s->scene;
+}
+
+const brc_domain *brc_simulation_domain(const brc_simulation *s)
+{
+    return s->domain;
+}
+
+const brc_device *brc_simulation_device(const brc_simulation *s)
+{
+    return s->device;
+}
+
+int32_t brc_simulation_stage(const brc_simulation *s)
+{
+    return s->stage;
+}
+
+int64_t brc_simulation_step(const brc_simulation *s)
+{
+    return s->step;
+}
+
+int64_t brc_simulation_total_steps(const brc_simulation *s)
+{
+    return s->step;
+}
+
+double brc_simulation_time(const brc_simulation *s)
+{
+    return s->factor;
+}
+
+double brc_simulation_total_time(const brc_simulation *s)
+{
+    return s->time;
+}
+
+brc_status brc_simulation_displacement(brc_simulation *s, double *out)
+{
+    ++s->displacement_reads;
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        fake_point(s, s->domain->position + 3 * e, out + 3 * e);
+    return BRC_OK;
+}
+
+brc_status brc_simulation_velocity(brc_simulation *s, double *out)
+{
+    for (int64_t k = 0; k < 3 * s->domain->n_elements; ++k)
+        out[k] = 10 * s->domain->position[k];
+    return BRC_OK;
+}
+
+brc_status brc_simulation_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out)
+{
+    for (int64_t k = 0; k < n; ++k)
+        fake_point(s, s->domain->free_centroid + 3 * (int64_t)faces[k], out + 3 * k);
+    return BRC_OK;
+}
+
+brc_status brc_simulation_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
+{
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        for (int c = 0; c < 6; ++c) {
+            const double value = s->factor * s->stress[c] * (1 + s->graded * s->domain->position[3 * e]);
+            if (strain) strain[6 * e + c] = value * 1e-9;
+            if (stress) stress[6 * e + c] = value;
+            if (cauchy) cauchy[6 * e + c] = value;
+        }
+    return BRC_OK;
+}
+
+brc_status brc_simulation_reaction(brc_simulation *s, int32_t set, double out[3])
+{
+    const double sign = strcmp(s->domain->sets[set].name, "x-") == 0 ? -1 : 1;
+    for (int c = 0; c < 3; ++c)
+        out[c] = sign * s->factor * s->reaction[c];
+    return BRC_OK;
+}
+
+brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
+{
+    ++s->ledger_reads;
+    *out = s->ledger;
+    return BRC_OK;
+}
+
+double brc_ledger_term(const brc_ledger *l, const char *term)
+{
+    if (strcmp(term, "kinetic") == 0) return l->kinetic;
+    if (strcmp(term, "elastic") == 0) return l->elastic;
+    return NAN;
+}
+
+brc_time_step brc_simulation_time_step(const brc_simulation *s)
+{
+    (void)s;
+    return (brc_time_step){.value = 1e-6, .critical = 1.25e-6, .safety = 0.8, .governed_by = "auto: power iteration"};
+}
+
+const double *brc_simulation_modes(const brc_simulation *s, int32_t *n)
+{
+    *n = s->n_modes;
+    return s->modes;
+}
+
+brc_static_report brc_simulation_static_report(const brc_simulation *s)
+{
+    (void)s;
+    return (brc_static_report){.iterations = 12, .corrections = 3, .residual = 1e-11};
+}
+
+const char *const *brc_simulation_effects_in(const brc_simulation *s)
+{
+    static const char *const in[] = {"dlsm elasticity", "prescribed faces", NULL};
+    (void)s;
+    return in;
+}
+
+const char *const *brc_simulation_effects_out(const brc_simulation *s)
+{
+    static const char *const out[] = {"gravity", NULL};
+    (void)s;
+    return out;
+}
+
+double brc_simulation_setup_seconds(const brc_simulation *s)
+{
+    (void)s;
+    return 0.25;
+}
+
+double brc_simulation_step_seconds(const brc_simulation *s)
+{
+    (void)s;
+    return 2;
+}
+
+/* Four increments with a sample each, frames at the start and at the end. */
+brc_status brc_simulation_run(brc_simulation *s)
+{
+    s->stage = 0;
+    for (s->step = 0; s->step <= 4; ++s->step) {
+        s->factor = (double)s->step / 4;
+        BRC_TRY(s->observer.sample(s->observer.self, s));
+        if (s->step == 0 || s->step == 4) BRC_TRY(s->observer.frame(s->observer.self, s));
+    }
+    s->step = 4;
+    return s->end;
+}
+
+#endif
