@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TEXT_LENGTH 512
+#define TEXT_LENGTH 768
 #define WORD_LENGTH 48 /* longer words are not guessed at */
 
 typedef struct problem {

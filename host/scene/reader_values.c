@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SENTENCE 256
+#define SENTENCE 448
 
 const char *brc_entry_unit(const brc_entry *entry, const brc_scene *scene, const brc_stage *stage, const void *measure)
 {

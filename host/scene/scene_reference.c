@@ -95,7 +95,7 @@ static void write_unit(FILE *file, const brc_entry *entry)
 
 static void write_row(FILE *file, const brc_section *section, const brc_entry *entry)
 {
-    char text[256];
+    char text[512];
     fprintf(file, "| `%s` | ", entry->key);
     if (entry->type == BRC_TYPE_LATER)
         fputs("not in this version", file);

@@ -149,7 +149,8 @@ static const brc_section NU_SECTION = {
     .title = "nu", .meaning = "Poisson's ratio: minus the slope of lateral against axial strain.", ENTRIES(POISSON)};
 static const brc_entry BULK[] = {
     SENSOR_ENTRY("load", y, "stress", "sensor of the reaction or stress"),
-    SENSOR_ENTRY("strain", x, "strain", "sensor of the volume strain"),
+    SENSOR_ENTRY("strain", x, "strain",
+                 "sensor of the volume strain; where all directions strain alike, one of them, with the scale 1/3"),
     AREA_ENTRY,
     COMMON_ENTRIES("20 GPa"),
 };
@@ -157,7 +158,7 @@ static const brc_section K_SECTION = {
     .title = "K", .meaning = "Bulk modulus: slope at zero of load over area against volume strain.", ENTRIES(BULK)};
 static const brc_entry SHEAR[] = {
     SENSOR_ENTRY("load", y, "stress", "sensor of the reaction or stress"),
-    SENSOR_ENTRY("strain", x, "strain", "sensor of the shear angle"),
+    SENSOR_ENTRY("strain", x, "strain", "sensor of the shear angle; a strain xy is half of it and needs the scale 0.5"),
     AREA_ENTRY,
     COMMON_ENTRIES("8 GPa"),
 };
@@ -198,8 +199,9 @@ const brc_section brc_schema_measure = {.title = "measure",
 static const brc_entry PICTURE[] = {
     {"draw", BRC_TYPE_BOOL, FIELD(brc_output, picture), .given = "true", .meaning = "draw picture.png at the end"},
     {"colour", BRC_TYPE_WORD, FIELD(brc_output, picture_colour),
-     CHOICES("von_mises", "displacement", "velocity", "stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz",
-             "stress_xy"),
+     CHOICES("von_mises", "displacement", "displacement_x", "displacement_y", "displacement_z", "velocity",
+             "velocity_x", "velocity_y", "velocity_z", "stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz",
+             "stress_xy", "strain_xx", "strain_yy", "strain_zz", "strain_yz", "strain_xz", "strain_xy"),
      .given = "von_mises", .meaning = "what the colours show"},
     {"scale", BRC_TYPE_QUANTITY, "", POSITIVE, FIELD(brc_output, picture_scale), .given = "auto", .word = "auto",
      .sample = "100", .meaning = "factor on the displacement"},
