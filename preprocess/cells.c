@@ -17,6 +17,9 @@ typedef struct face_key {
 
 enum { MOST_FACES = 4096 };
 
+/* Seeds that relaxation would move by less stay [of the spacing]. */
+#define LEAST_MOVE 1e-5
+
 /* What the threads of one computation share. The first failure, by element, is the one reported. */
 typedef struct shared {
     brc_context *context;
@@ -167,11 +170,11 @@ static void compute_run(shared *all, brc_cells *cells, brc_voronoi_worker *worke
         brc_polyhedron cell;
         const brc_status status = brc_voronoi_cell(worker, e, &cell);
         if (status != BRC_OK) {
-            fail(all, status, e, status == BRC_NO_MEMORY ? "out of memory in Voro++" : "Voro++ gave it no cell");
+            fail(all, status, e, status == BRC_NO_MEMORY ? "no memory for a cell in Voro++; use fewer elements" : "Voro++ gave it no cell");
             return;
         }
         if (!reserve_cell(all, run, &cell)) {
-            fail(all, BRC_NO_MEMORY, e, "out of memory for the faces of its cell");
+            fail(all, BRC_NO_MEMORY, e, "no memory for the faces; use fewer elements");
             return;
         }
         const char *reason = add_cell(all, cells, run, &cell, e);
@@ -198,8 +201,10 @@ static brc_status allocate(brc_context *context, brc_cells *cells, int64_t n)
 static brc_status report(const shared *all, int64_t n)
 {
     if (all->status == BRC_OK) return BRC_OK;
+    if (all->status == BRC_NO_MEMORY) return BRC_FAIL(all->context, BRC_NO_MEMORY, "Voronoi cells: %s", all->reason);
     const double *x = all->position + 3 * all->failed;
-    return BRC_FAIL(all->context, all->status, "seed %lld of %lld at (%g, %g, %g) m: %s", (long long)all->failed,
+    return BRC_FAIL(all->context, all->status, "seed %lld of %lld at (%g, %g, %g) m: %s; use another seed of the fill, or a little more spread",
+                    (long long)all->failed,
                     (long long)n, x[0], x[1], x[2], all->reason);
 }
 
@@ -218,7 +223,7 @@ brc_status brc_cells_compute(brc_context *context, const double *position, int64
 #pragma omp parallel num_threads(n_threads)
     {
         brc_voronoi_worker *worker = brc_voronoi_worker_create(all.voronoi);
-        if (!worker) fail(&all, BRC_NO_MEMORY, 0, "out of memory for the search of its cell");
+        if (!worker) fail(&all, BRC_NO_MEMORY, 0, "no memory for the search; use fewer threads");
 #pragma omp for schedule(dynamic, 1)
         for (int64_t r = 0; r < cells->n_runs; ++r) {
             if (worker) compute_run(&all, cells, worker, r);
@@ -241,6 +246,15 @@ cleanup:
     return status;
 }
 
+/* Turn the move of a seed into its new place. Moves of nearly nothing, far inside a regular grid, are not made: they
+ * would split the corners of the cubes into faces as small as Voro++'s tolerance, where it goes wrong. */
+static void settle(const double x[3], double spacing, double move[3])
+{
+    const double square = move[0] * move[0] + move[1] * move[1] + move[2] * move[2];
+    const bool still = square < LEAST_MOVE * LEAST_MOVE * spacing * spacing;
+    for (int d = 0; d < 3; ++d) move[d] = still ? x[d] : x[d] + move[d];
+}
+
 brc_status brc_cells_relax(brc_context *context, double *position, int64_t n, const brc_walls *walls, double spacing,
                            int n_threads, const char *what)
 {
@@ -255,18 +269,19 @@ brc_status brc_cells_relax(brc_context *context, double *position, int64_t n, co
 #pragma omp parallel num_threads(n_threads)
     {
         brc_voronoi_worker *worker = brc_voronoi_worker_create(all.voronoi);
-        if (!worker) fail(&all, BRC_NO_MEMORY, 0, "out of memory for the search of its cell");
+        if (!worker) fail(&all, BRC_NO_MEMORY, 0, "no memory for the search; use fewer threads");
 #pragma omp for schedule(dynamic, BRC_RUN_LENGTH)
         for (int64_t e = 0; e < n; ++e) {
             brc_polyhedron cell;
             const brc_status cell_status = worker ? brc_voronoi_cell(worker, e, &cell) : BRC_NO_MEMORY;
             if (cell_status != BRC_OK) {
-                fail(&all, cell_status, e, "Voro++ gave it no cell during relaxation");
+                fail(&all, cell_status, e,
+                     cell_status == BRC_NO_MEMORY ? "no memory during relaxation" : "Voro++ gave it no cell");
                 continue;
             }
             double volume, inertia[6];
             brc_polyhedron_mass(&cell, &volume, fresh + 3 * e, inertia);
-            for (int d = 0; d < 3; ++d) fresh[3 * e + d] += position[3 * e + d];
+            settle(position + 3 * e, spacing, fresh + 3 * e);
             if (e % BRC_RUN_LENGTH != 0) continue;
 #pragma omp atomic
             done += BRC_RUN_LENGTH;

@@ -207,8 +207,12 @@ brc_status brc_domain_write(brc_context *context, const brc_domain *domain, cons
         goto cleanup;
     }
     status = write_all(context, file, domain, path);
-    if (H5Fclose(file) < 0 && status == BRC_OK)
+    /* flushed first: once closing has failed, the file cannot be closed any more */
+    if (status == BRC_OK && H5Fflush(file, H5F_SCOPE_LOCAL) < 0)
         status = brc_h5_fail(context, BRC_FILE_FAILED, path, "cannot finish the domain file");
+    if (status != BRC_OK) brc_h5_close_broken(file);
+    else if (H5Fclose(file) < 0)
+        status = brc_h5_fail(context, BRC_FILE_FAILED, path, "cannot close the domain file");
     if (status == BRC_OK) status = brc_file_commit(context, aside, path);
     if (status != BRC_OK) brc_file_discard(aside);
 cleanup:

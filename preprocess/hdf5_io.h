@@ -24,6 +24,9 @@ brc_status brc_h5_fail(brc_context *context, brc_status code, const char *path, 
 /* Create a file or a group without time stamps, so that equal contents give equal bytes. Below 0: failed. */
 hid_t brc_h5_create_file(const char *path);
 hid_t brc_h5_create_group(hid_t file, const char *name);
+/* Close a file whose writing failed. On a full disk H5Fclose would fail too and HDF5 1.10 would then crash when the
+ * program ends; so what it still wants to write goes nowhere. The file's contents are lost: discard it. */
+void brc_h5_close_broken(hid_t file);
 
 /* Write [rows][width] items (width 1: one dimension). */
 brc_status brc_h5_write_array(brc_context *context, hid_t place, const char *path, const char *name, brc_h5_kind kind,

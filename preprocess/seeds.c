@@ -12,7 +12,7 @@
 #define WALL_MARGIN 1e-6
 #define DEFAULT_MIN_DISTANCE 1e-6
 /* Less noise than this cannot be told from the rounding of a regular grid. */
-#define LEAST_SPREAD 1e-6
+#define LEAST_SPREAD 1e-4
 
 brc_status brc_fill_check(brc_context *context, const brc_fill *fill)
 {

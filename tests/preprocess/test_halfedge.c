@@ -8,14 +8,14 @@
 enum { N_CASES = 6 };
 static brc_build_request request_of(int k)
 {
-    brc_build_request r[N_CASES] = {test_box(1000, 0.0),      test_box(1000, 1.0),    test_box(1000, 1e-5),
+    brc_build_request r[N_CASES] = {test_box(1000, 0.0),      test_box(1000, 1.0),    test_box(1000, 1e-4),
                                     test_cylinder(800, 0.9), test_sphere(800, 0.9), test_sphere(800, 0.0)};
     r[5].fill.lloyd_sweeps = 2;
     return r[k];
 }
 
 /* Area vectors and centroids come from corners that Voro++ knows to 1e-14 of a cell, and each cell sums about fifteen:
- * 1e-12 leaves room for cells of unlucky shape, and is what the patch test at 1e-10 needs. At spread 1e-5 faces of 1e-10
+ * 1e-12 leaves room for cells of unlucky shape, and is what the patch test at 1e-10 needs. At spread 1e-4 faces of 1e-10
  * of the mean area occur; those below 1e-12 are dropped and leave their cells open by as much. */
 static void every_cell_is_closed_and_exact_for_linear_fields(void **state)
 {
