@@ -1,5 +1,4 @@
 /* HDF5 reports through a stack of messages; the innermost one holds the reason of the system ("No space left"). */
-#define _GNU_SOURCE /* memfd_create */
 #include "hdf5_io.h"
 
 #include "../host/base/memory.h"
@@ -36,6 +35,14 @@ brc_status brc_h5_fail(brc_context *context, brc_status code, const char *path, 
     return BRC_FAIL(context, code, "%s: %s: %s", path, what, reason);
 }
 
+/* Close a property list without wiping the errors of the call it was for. */
+static void close_list(hid_t list)
+{
+    const hid_t errors = H5Eget_current_stack();
+    H5Pclose(list);
+    H5Eset_current_stack(errors); /* takes and closes the copy */
+}
+
 hid_t brc_h5_create_file(const char *path)
 {
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
@@ -43,8 +50,8 @@ hid_t brc_h5_create_file(const char *path)
     const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
     H5Pset_obj_track_times(creation, 0);
     const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, creation, access);
-    H5Pclose(creation);
-    H5Pclose(access);
+    close_list(creation);
+    close_list(access);
     return file;
 }
 
@@ -53,7 +60,7 @@ hid_t brc_h5_create_group(hid_t file, const char *name)
     const hid_t creation = H5Pcreate(H5P_GROUP_CREATE);
     H5Pset_obj_track_times(creation, 0);
     const hid_t group = H5Gcreate2(file, name, H5P_DEFAULT, creation, H5P_DEFAULT);
-    H5Pclose(creation);
+    close_list(creation);
     return group;
 }
 

@@ -1,4 +1,3 @@
-#define _GNU_SOURCE /* unshare */
 #include "support.h"
 
 #include "../../host/base/log.h"
@@ -243,9 +242,9 @@ static void a_really_full_disk_leaves_a_clean_exit(void **state)
     mkdir("small_disk", 0777);
     const pid_t child = fork();
     if (child == 0) {
-        if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0 && unshare(CLONE_NEWNS) != 0) _exit(77);
+        if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) _exit(77);
         if (mount("none", "/", NULL, MS_REC | MS_PRIVATE, NULL) != 0) _exit(77);
-        if (mount("none", "small_disk", "tmpfs", 0, "size=100k") != 0) _exit(77);
+        if (mount("none", "small_disk", "tmpfs", 0, "size=100k,mode=777") != 0) _exit(77);
         brc_context *context = brc_context_create();
         brc_log_set_level(context, BRC_LOG_ERROR);
         brc_domain *d = sample(context);
