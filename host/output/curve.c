@@ -121,7 +121,7 @@ static void add_script(brc_text *text, const brc_scene *scene, const brc_measure
     brc_text_add(text, "'\nset title \"%s\" noenhanced\nset xlabel \"%s\"\nset ylabel \"%s%s\"\n", title, x.title,
                  measure->kind == BRC_MEASURE_NU ? "\xe2\x88\x92 " : "", y.title);
     brc_text_add(text, "set key left top Left reverse spacing 1.3\nset grid linecolor rgb '#dddddd' linetype 1\n"
-                       "set border linecolor rgb '#333333'\nset offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\n");
+                       "set border linecolor rgb '#333333'\nset autoscale noextend\nset offsets graph 0.02, graph 0.04, graph 0.06, graph 0.02\n");
     brc_text_add(text, "$data << END\n");
     for (int64_t k = 0; k < series->n; ++k)
         brc_text_add(text, "%.12g %.12g\n", x.factor * series->x[k], y.factor * series->y[k]);

@@ -9,6 +9,7 @@
  *   "vtu"     frames/NNNNNN.vtu (convex point sets, appended raw data) and frames.pvd
  *   "vtkhdf"  the frames and their index again, copied
  *   "csv"     histories.csv and elements_NNNNNN.csv, a row for each element of a frame
+ * The vtkhdf copies hold a whole frame in memory, the others a block or a frame of element fields.
  * BRC_BAD_INPUT: unknown format (the sentence lists the known ones), a folder without results, a damaged frame.
  * BRC_FILE_FAILED: cannot write. *n_files (may be NULL): files written. */
 brc_status brc_export(brc_context *context, const char *folder, const char *format, const char *out_folder,

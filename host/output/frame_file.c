@@ -56,6 +56,14 @@ cleanup:
     return status;
 }
 
+static void write_field(brc_h5 *h5, const char *name, const char *unit, int64_t n, int64_t columns, const double *data)
+{
+    char path[64];
+    snprintf(path, sizeof path, "VTKHDF/CellData/%s", name);
+    brc_h5_dataset(h5, path, H5T_NATIVE_DOUBLE, n, columns, data);
+    brc_h5_attribute_text(h5, path, "unit", unit);
+}
+
 static brc_status write_cells(brc_context *context, brc_h5 *h5, const brc_domain *d)
 {
     const int64_t n = d->n_elements, n_points = d->vertex_start[n];
@@ -74,18 +82,11 @@ static brc_status write_cells(brc_context *context, brc_h5 *h5, const brc_domain
     brc_h5_dataset(h5, "VTKHDF/Types", H5T_NATIVE_UINT8, n, 0, type);
     brc_h5_dataset(h5, "VTKHDF/Offsets", H5T_NATIVE_INT64, n + 1, 0, d->vertex_start);
     brc_h5_dataset(h5, "VTKHDF/CellData/element_id", H5T_NATIVE_INT64, n, 0, id);
+    write_field(h5, "position", "m", n, 3, d->position);
 cleanup:
     brc_memory_free(type);
     brc_memory_free(id);
     return status;
-}
-
-static void write_field(brc_h5 *h5, const char *name, const char *unit, int64_t n, int64_t columns, const double *data)
-{
-    char path[64];
-    snprintf(path, sizeof path, "VTKHDF/CellData/%s", name);
-    brc_h5_dataset(h5, path, H5T_NATIVE_DOUBLE, n, columns, data);
-    brc_h5_attribute_text(h5, path, "unit", unit);
 }
 
 /* xx yy zz yz xz xy -> XX YY ZZ XY YZ XZ. */

@@ -9,8 +9,8 @@
 /* Static VTKHDF UnstructuredGrid, version 1.0; cells are convex point sets (type 41), each with its own corners.
  *   Points [m], float: corners in the reference state; PointData/displacement [m], float: u_i + H_i (x - X_i), H_i the
  *   least-squares gradient of the element's neighbourhood (deform.h), so that "Warp By Vector" shows deformed cells;
- *   CellData, double: displacement [m], velocity [m/s], stress (Cauchy) [Pa], strain (Green) [-], von_mises [Pa],
- *   element_id. Tensors in VTK's order XX YY ZZ XY YZ XZ.
+ *   CellData, double: position (of the element, reference) [m], displacement [m], velocity [m/s], stress (Cauchy) [Pa],
+ *   strain (Green) [-], von_mises [Pa]; integer: element_id. Tensors in VTK's order XX YY ZZ XY YZ XZ.
  *   FieldData: time [s] (all stages), stage_time [s] (static: load factor), stage, step.
  * Written aside block by block (about 4 MB of buffers and 18 doubles an element), fsynced, renamed. BRC_FILE_FAILED. */
 brc_status brc_frame_write(brc_context *context, brc_simulation *simulation, const char *path);

@@ -149,7 +149,7 @@ static void sort_faces(canvas *c)
         if (!measure_face(c, f, normal, middle) || dot(normal, c->view.toward) <= 0) continue;
         const double light = fmax(dot(normal, lamp) / sqrt(dot(normal, normal)), 0);
         c->faces[c->n_faces++] =
-            (face){.depth = dot(middle, c->view.toward), .id = (int32_t)f, .shade = (float)(0.72 + 0.28 * light)};
+            (face){.depth = dot(middle, c->view.toward), .id = (int32_t)f, .shade = (float)(0.78 + 0.22 * light)};
     }
     qsort(c->faces, (size_t)c->n_faces, sizeof *c->faces, compare_faces);
 }
