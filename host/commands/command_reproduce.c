@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const brc_option options[] = {
     BRC_OPTION_OUTPUT("folder of the results (default results/CASE)"),
@@ -128,7 +129,7 @@ static void put_rows_of_run(brc_campaign *campaign, const brc_outcome *outcome)
         double reference = row->reference;
         if (isnan(reference) && value) reference = value->reference;
         const char *unit = value && strcmp(row->unit, "-") == 0 ? value->unit : row->unit;
-        char note[220];
+        char note[480];
         snprintf(note, sizeof note, "%s%s%s", outcome->note, value || outcome->note[0] ? "" : "the run gives no ",
                  value || outcome->note[0] ? "" : row->quantity);
         /* A stopped run has no value to be trusted. */
@@ -156,7 +157,7 @@ static brc_status carry_out(brc_campaign *campaign)
     for (int k = 0; k < what->n_derived; ++k) {
         const brc_case_derived *derived = &what->derived[k];
         if (campaign->quick && !derived->quick) continue;
-        char note[220];
+        char note[480];
         const double value = brc_derived_value(campaign, derived, note, sizeof note);
         put_row(campaign, &derived->row, derived->n_labels, derived->labels, NULL, value, derived->row.reference,
                 derived->row.unit, note);
@@ -190,6 +191,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     BRC_TRY(brc_arguments_precision(context, arguments, &campaign.precision));
     BRC_TRY(brc_case_read(context, brc_arguments_value(arguments, "folder"), arguments->positional[0], &what));
     campaign.what = what;
+    if (!isatty(STDERR_FILENO)) brc_log_set_level(context, BRC_LOG_WARNING); /* the rows tell how far it is */
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &campaign.outcomes, what->n_runs, "outcomes of a case"));
     status = carry_out(&campaign);
 cleanup:

@@ -22,7 +22,7 @@ typedef struct brc_outcome {
     const brc_case_run *run;
     bool done;     /* ran, or stopped where that is a result */
     bool skipped;  /* not part of this campaign, or its device is not there */
-    char note[200]; /* why it was skipped, stopped or failed */
+    char note[400]; /* why it was skipped, stopped or failed */
     double seconds;
     int64_t n_elements, n_bonds, steps;
     char device[32];

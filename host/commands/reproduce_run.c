@@ -58,7 +58,7 @@ static void take(brc_outcome *outcome, const brc_run_results *results)
         const brc_run_measure *measure = &results->measures[k];
         brc_outcome_add(outcome, measure->name, measure->unit, measure->value, measure->has_target ? measure->target : NAN);
         if (isnan(measure->value) && !outcome->note[0])
-            snprintf(outcome->note, sizeof outcome->note, "%s: %.150s", measure->name, measure->why_not);
+            snprintf(outcome->note, sizeof outcome->note, "%s: %s", measure->name, measure->why_not);
     }
     brc_outcome_add(outcome, "seconds", "s", results->total_s, NAN);
     brc_outcome_add(outcome, "build_seconds", "s", results->build_s, NAN);
