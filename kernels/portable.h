@@ -6,6 +6,7 @@
  *   BRC_SLICE           C: elements a slice of the storage holds, a multiple of W (32 on a GPU; W on a CPU)
  *   BRC_MANY_MATERIALS  0: material constants are scalars; 1: they are gathered per element
  *   BRC_TARGET          defined for the OpenMP target reading of the C build
+ *   BRC_EXACT           defined where a product and a sum must not be contracted into one rounding (OpenCL; C by flag)
  *
  * Vocabulary (docs/portable.md): KERNEL, GLOBAL, LAW, FOR_EACH_ITEM, coeff, state, lane, lane_state, lane_int, REAL. */
 #ifndef BRC_KERNELS_PORTABLE_H
@@ -45,7 +46,11 @@ typedef float coeff;
 
 #ifdef __OPENCL_VERSION__
 
+#ifdef BRC_EXACT
 #pragma OPENCL FP_CONTRACT OFF
+#else
+#pragma OPENCL FP_CONTRACT ON
+#endif
 #define KERNEL __kernel
 #define GLOBAL __global
 #define LAW static inline
@@ -148,6 +153,13 @@ LAW lane brc_lane_sqrt(lane x)
 #else
 #error "BRC_LANES must be 1, 4, 8 or 16"
 #endif
+
+/* Eight lanes: gathers read whole records and transpose them (vec.h). The last record's vector reaches up to LANE_SPARE
+ * numbers beyond the array, which the host allocates. GCC 12, clang and PoCL have the shuffle; others gather one by one. */
+#if W == 8 && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12))
+#define LANE_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#endif
+#define LANE_SPARE 8
 
 /* Storage (design.md, SELL-C): element arrays of n components that are only read by their own element are blocked,
  * [slice][component][C]; those that neighbours gather are [element][components]. Rows are [slot][component][C]. */

@@ -75,14 +75,17 @@ brc_status brc_coeff_from_rows(brc_simulation *s, brc_buffer *buffer, double *va
     return from_rows(s, buffer, values, width, brc_precision_coeff_bytes(brc_device_get_precision(s->device)));
 }
 
+/* Room for LANE_SPARE numbers of kernels/portable.h: gathers read whole vectors. */
+enum { SPARE = 8 };
+
 brc_status brc_new_state(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
 {
-    return brc_buffer_create(s->device, out, count * brc_precision_state_bytes(brc_device_get_precision(s->device)), what);
+    return brc_buffer_create(s->device, out, (count + SPARE) * brc_precision_state_bytes(brc_device_get_precision(s->device)), what);
 }
 
 brc_status brc_new_coeff(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
 {
-    return brc_buffer_create(s->device, out, count * brc_precision_coeff_bytes(brc_device_get_precision(s->device)), what);
+    return brc_buffer_create(s->device, out, (count + SPARE) * brc_precision_coeff_bytes(brc_device_get_precision(s->device)), what);
 }
 
 brc_status brc_new_int(brc_simulation *s, brc_buffer **out, const int32_t *values, int64_t count, const char *what)
