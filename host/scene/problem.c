@@ -122,3 +122,8 @@ const char *brc_nearest_word(const char *found, int n, const char *const *known)
     }
     return nearest;
 }
+
+const char *brc_problems_nearest(const brc_problems *problems, const char *found, int n, const char *const *known)
+{
+    return problems->n == BRC_PROBLEMS_MOST ? NULL : brc_nearest_word(found, n, known);
+}

@@ -27,5 +27,7 @@ brc_status brc_problems_report(brc_problems *problems);
 
 /* The nearest of `n` known words to `found` by edit distance, NULL when none is near enough to be a slip. */
 const char *brc_nearest_word(const char *found, int n, const char *const *known);
+/* The same, but NULL when no more problems are told: a hostile file would make us guess for minutes. */
+const char *brc_problems_nearest(const brc_problems *problems, const char *found, int n, const char *const *known);
 
 #endif

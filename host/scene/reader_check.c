@@ -110,7 +110,7 @@ static void check_reference(brc_reader *reader, const brc_place *place, const ch
     if (about_sets && (any_domain_file(scene) || is_broken(reader, "bodies") || is_broken(reader, "sets"))) return;
     if (refers == BRC_REFERS_SENSOR && is_broken(reader, "sensors")) return;
     if (refers == BRC_REFERS_STAGE && is_broken(reader, "stages")) return;
-    const char *near = brc_nearest_word(name, n, words);
+    const char *near = brc_problems_nearest(reader->problems, name, n, words);
     const char *hint = near                          ? ""
                        : refers == BRC_REFERS_WALL   ? ""
                        : about_sets                  ? "; define it under sets"

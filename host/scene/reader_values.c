@@ -220,7 +220,8 @@ static int read_choice(brc_reader *reader, const brc_entry *entry, const brc_nod
     int n = 0;
     for (; entry->choices[n]; ++n)
         if (node->kind == BRC_NODE_SCALAR && strcmp(entry->choices[n], node->text) == 0) return n;
-    const char *near = node->kind == BRC_NODE_SCALAR ? brc_nearest_word(node->text, n, entry->choices) : NULL;
+    const char *near =
+        node->kind == BRC_NODE_SCALAR ? brc_problems_nearest(reader->problems, node->text, n, entry->choices) : NULL;
     char hint[128];
     snprintf(hint, sizeof hint, "is none of the words%s%s%s", near ? " (did you mean " : "", near ? near : "",
              near ? "?)" : "");
@@ -240,7 +241,7 @@ static void read_material(brc_reader *reader, const brc_entry *entry, const brc_
     const char *near = NULL;
     for (int i = 0; i < scene->n_materials && !near; ++i) {
         const char *const one[1] = {scene->materials[i].name};
-        near = brc_nearest_word(node->text, 1, one);
+        near = brc_problems_nearest(reader->problems, node->text, 1, one);
     }
     brc_problems_add(reader->problems, node->mark, "%s: there is no material '%s'%s%s%s; define it under materials",
                      entry->key, node->text, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");

@@ -1,5 +1,6 @@
 /* A scene as typed structs, in SI units: what was asked, with every default filled in. Read by scene_reader.h from YAML
- * through the one schema table; made in code by tests and benches. Knows no device and no domain arrays. */
+ * through the one schema table; made in code by tests and benches. Knows no device and no domain arrays.
+ * A scene owns all its arrays, each got from brc_memory_allocate; brc_scene_free frees them. */
 #ifndef BRC_SCENE_SCENE_H
 #define BRC_SCENE_SCENE_H
 

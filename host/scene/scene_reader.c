@@ -105,7 +105,7 @@ static void complain_of_key(brc_reader *reader, const brc_section *section, cons
     char list[256];
     int n;
     known_keys(section, words, &n, list, sizeof list);
-    const char *near = brc_nearest_word(node->key, n, words);
+    const char *near = brc_problems_nearest(reader->problems, node->key, n, words);
     brc_problems_add(reader->problems, node->key_mark, "unknown key '%.60s' in a %s%s%s%s; known: %s", node->key,
                      section->title, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", list);
 }
@@ -134,7 +134,8 @@ static brc_status read_one_of(brc_reader *reader, const brc_section *section, co
         }
     }
     if (!variant) {
-        const char *near = node->kind == BRC_NODE_SCALAR ? brc_nearest_word(node->text, n, words) : NULL;
+        const char *near =
+            node->kind == BRC_NODE_SCALAR ? brc_problems_nearest(reader->problems, node->text, n, words) : NULL;
         brc_problems_add(reader->problems, node->mark, "%s: expected exactly one of %s; found %s%s%s%s%s",
                          section->title, list, brc_node_describe(node, found, sizeof found),
                          node->kind == BRC_NODE_MAP ? (node->n_children ? " of several keys" : " without a key") : "",

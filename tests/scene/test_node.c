@@ -159,6 +159,30 @@ static void many_errors_are_counted_but_not_all_told(void **state)
     free(text);
 }
 
+/* Thousands of names that do not exist, against thousands that do: nothing may grow with their product and more. */
+static void a_large_wrong_scene_is_refused_soon(void **state)
+{
+    (void)state;
+    enum { SETS = 4000, STAGES_MANY = 4, LOADS = 4000 };
+    char *text = malloc((size_t)1 << 21);
+    assert_non_null(text);
+    size_t at =
+        (size_t)sprintf(text, "version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\n"
+                              "bodies: [{shape: {sphere: {radius: 1 m}}, fill: {noisy_grid: {elements: 9}}}]\nsets:\n");
+    for (int i = 0; i < SETS; ++i)
+        at += (size_t)sprintf(text + at, "  set_number_%d: {faces: surface}\n", i);
+    at += (size_t)sprintf(text + at, "stages:\n");
+    for (int k = 0; k < STAGES_MANY; ++k) {
+        at += (size_t)sprintf(text + at, "  - name: s%d\n    solver: static\n    loads:\n", k);
+        for (int i = 0; i < LOADS; ++i)
+            at += (size_t)sprintf(text + at, "      - pressure: {set: sett_number_%d, value: 1 Pa}\n", i + 3);
+    }
+    const double before = brc_clock_s();
+    assert_int_equal(count_errors(text), 100);
+    assert_true(brc_clock_s() - before < 20); /* half a second alone on a core; minutes if every name were guessed */
+    free(text);
+}
+
 /* A sparse file costs the disk nothing; reading it would cost a gigabyte and seconds. */
 static void a_gigabyte_of_zeros_is_refused_without_reading_it(void **state)
 {
@@ -230,6 +254,7 @@ int main(void)
         cmocka_unit_test(tags_are_refused),
         cmocka_unit_test(long_lists_are_refused),
         cmocka_unit_test(many_errors_are_counted_but_not_all_told),
+        cmocka_unit_test(a_large_wrong_scene_is_refused_soon),
         cmocka_unit_test(a_gigabyte_of_zeros_is_refused_without_reading_it),
         cmocka_unit_test(more_text_than_the_limit_is_refused),
         cmocka_unit_test(what_is_no_file_is_refused),
