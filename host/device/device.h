@@ -56,6 +56,8 @@ typedef struct brc_device_request {
     int n_threads;           /* cpu: 0 = as OpenMP decides */
     const char *kernel_folder; /* NULL: embedded sources; else read them from there (OpenCL only) */
     int lanes;               /* 0: the device's own choice; otherwise W, for tests */
+    bool exact;              /* round every product and every sum by itself (no fused multiply-add), so that all devices
+                                give the same bits; slower: the cpu then uses its baseline instruction set */
 } brc_device_request;
 
 /* Open. BRC_BAD_INPUT for a selector that does not parse or names a device that is not there (the sentence lists the

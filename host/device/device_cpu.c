@@ -136,6 +136,10 @@ static brc_status cpu_open(brc_device *device, const brc_device_request *request
 {
     int level;
     BRC_TRY(choose_level(device->context, &level));
+    /* The lowest level has no fused multiply-add; the others are compiled to use it. */
+    if (request->exact)
+        for (level = 0; !find_instance(level, request->precision, request->many_materials) && level < N_LEVELS - 1;)
+            ++level;
     const brc_kernel_instance *const instance = find_instance(level, request->precision, request->many_materials);
     if (!instance)
         return BRC_FAIL(device->context, BRC_INTERNAL, "this build has no kernels for %s, %s", levels[level].level,
@@ -161,6 +165,7 @@ static brc_status cpu_open(brc_device *device, const brc_device_request *request
     processor_name(processor, sizeof processor);
     snprintf(device->info.name, sizeof device->info.name, "%s, %d threads, %s", processor, inside->n_threads,
              levels[level].words);
+    snprintf(device->info.driver, sizeof device->info.driver, "OpenMP, instruction set %s", levels[level].level);
     device->info.compute_units = inside->n_threads;
     device->lanes = instance->lanes;
     device->slice = instance->slice;

@@ -59,15 +59,16 @@ static char *build_log(brc_device *device, const opencl_inside *inside)
     return log;
 }
 
-static brc_status build(brc_device *device, opencl_inside *inside, const char *folder)
+static brc_status build(brc_device *device, opencl_inside *inside, const char *folder, bool exact)
 {
     brc_status status = BRC_OK;
     char *source = NULL, *log = NULL;
     char options[256], text[192];
     cl_int code;
     snprintf(options, sizeof options,
-             "-cl-std=CL1.2 -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D BRC_MANY_MATERIALS=%d",
-             (int)device->precision, device->lanes, device->slice, (int)device->many_materials);
+             "-cl-std=CL1.2 -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D BRC_MANY_MATERIALS=%d%s",
+             (int)device->precision, device->lanes, device->slice, (int)device->many_materials,
+             exact ? " -D BRC_EXACT" : "");
     brc_device_describe(&device->info, text, sizeof text);
     BRC_TRY_OR(cleanup, brc_program_source(device->context, folder, &source));
     const char *const sources[] = {source};
@@ -93,6 +94,21 @@ cleanup:
     return status;
 }
 
+/* Work-items a group for this device, or what BRECCIA_OPENCL_GROUP says (to tune for a new device). */
+static brc_status choose_group(brc_device *device, size_t *group)
+{
+    const char *const asked = getenv("BRECCIA_OPENCL_GROUP");
+    *group = device->info.is_gpu ? GROUP_GPU : GROUP_CPU;
+    if (!asked || !asked[0]) return BRC_OK;
+    char *end;
+    const long number = strtol(asked, &end, 10);
+    if (*end || number < 1 || number > 1024)
+        return BRC_FAIL(device->context, BRC_BAD_INPUT,
+                        "BRECCIA_OPENCL_GROUP is '%.32s': expected 1 to 1024 work-items", asked);
+    *group = (size_t)number;
+    return BRC_OK;
+}
+
 static brc_status opencl_open(brc_device *device, const brc_device_request *request)
 {
     brc_status status = BRC_OK;
@@ -110,12 +126,12 @@ static brc_status opencl_open(brc_device *device, const brc_device_request *requ
         goto cleanup;
     }
     inside->id = devices[device->info.index];
-    inside->group = device->info.is_gpu ? GROUP_GPU : GROUP_CPU;
+    BRC_TRY_OR(cleanup, choose_group(device, &inside->group));
     inside->context = clCreateContext(NULL, 1, &inside->id, NULL, NULL, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a context"));
     inside->queue = clCreateCommandQueue(inside->context, inside->id, 0, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a queue"));
-    BRC_TRY_OR(cleanup, build(device, inside, request->kernel_folder));
+    BRC_TRY_OR(cleanup, build(device, inside, request->kernel_folder, request->exact));
     device->inside = inside;
     inside = NULL;
 cleanup:

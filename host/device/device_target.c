@@ -102,6 +102,7 @@ brc_status brc_device_target_list(brc_context *context, brc_device_list *list)
     return brc_device_list_add(context, list, &info);
 }
 
+/* The plug-in is always compiled without contraction: there is no choice to make for request->exact. */
 static brc_status target_open(brc_device *device, const brc_device_request *request)
 {
     char why[BRC_REASON_BYTES];
