@@ -63,8 +63,8 @@ static double refine(int64_t n, const double *windowed, double low, double high)
     return (low + high) / 2;
 }
 
-/* windowed: [n] window times (signal minus its window-weighted mean). */
-static void apply_window(int64_t n, const double *signal, double *windowed)
+/* windowed: [n] window times (signal minus its window-weighted mean). False where only rounding is left. */
+static bool apply_window(int64_t n, const double *signal, double *windowed)
 {
     double weighted = 0, weight = 0;
     for (int64_t k = 0; k < n; ++k) {
@@ -72,8 +72,13 @@ static void apply_window(int64_t n, const double *signal, double *windowed)
         weighted += windowed[k] * signal[k];
         weight += windowed[k];
     }
-    for (int64_t k = 0; k < n; ++k)
+    double most = 0, offset = 0;
+    for (int64_t k = 0; k < n; ++k) {
+        offset = fmax(offset, fabs(signal[k]));
         windowed[k] *= signal[k] - weighted / weight;
+        most = fmax(most, fabs(windowed[k]));
+    }
+    return most > 1e-12 * offset;
 }
 
 brc_status brc_spectrum_peak(brc_context *context, int64_t n, const double *signal, double interval, double *out)
@@ -88,7 +93,7 @@ brc_status brc_spectrum_peak(brc_context *context, int64_t n, const double *sign
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &windowed, n, "spectrum"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &re, padded, "spectrum"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &im, padded, "spectrum"));
-    apply_window(n, signal, windowed);
+    if (!apply_window(n, signal, windowed)) goto cleanup;
     for (int64_t k = 0; k < n; ++k)
         re[k] = windowed[k];
     transform(padded, re, im);

@@ -1,0 +1,78 @@
+#include "support.h"
+#include "../../host/base/file.h"
+#include "../../host/output/curve.h"
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static brc_sensor sensors[] = {{.name = "axial_strain", .kind = BRC_SENSOR_FACE_STRAIN},
+                               {.name = "axial_stress", .kind = BRC_SENSOR_STRESS}};
+static brc_stage stages[] = {{.name = "pull"}};
+
+static brc_history *history(int n, double last)
+{
+    brc_history *h;
+    assert_int_equal(brc_history_create(test_context, 2, &h), BRC_OK);
+    for (int k = 0; k < n; ++k)
+        brc_history_add(test_context, h, 0, k, k, 0, (double[]){last * k, 2e10 * last * k});
+    return h;
+}
+
+static bool draw(const char *title, const char *path, const brc_history *h)
+{
+    bool made;
+    brc_measure measure = {.name = "E", .kind = BRC_MEASURE_E, .x = "axial_strain", .y = "force", .scale = 1,
+                           .has_target = true, .target = 2e10};
+    brc_scene scene = {.n_sensors = 2, .sensors = sensors, .n_stages = 1, .stages = stages, .n_measures = 1,
+                       .measures = &measure};
+    strcpy(scene.title, title);
+    strcpy(scene.output.curve_x, "axial_strain");
+    strcpy(scene.output.curve_y, "axial_stress");
+    assert_int_equal(brc_curve_write(test_context, &scene, NULL, h, path, &made), BRC_OK);
+    assert_true(made == brc_file_exists(path));
+    return made;
+}
+
+static bool has_gnuplot(void)
+{
+    return access("/usr/bin/gnuplot", X_OK) == 0;
+}
+
+static void a_curve_is_drawn_whatever_the_words_and_paths_hold(void **state)
+{
+    (void)state;
+    if (!has_gnuplot()) skip();
+    char *folder = test_new_folder();
+    brc_history *few = history(5, 1e-7), *many = history(500, 1e-5);
+    assert_true(draw("A \"title\" with 'quotes', \\ and `date`", test_path(folder, "it's `a` $b \"c\".png"), few));
+    assert_true(draw("", test_path(folder, "b.png"), many));
+    brc_history_free(&few);
+    brc_history_free(&many);
+    test_remove_folder(folder);
+}
+
+static void too_few_points_and_no_gnuplot_are_warnings(void **state)
+{
+    (void)state;
+    char *folder = test_new_folder();
+    brc_history *one = history(1, 1), *few = history(5, 1);
+    assert_false(draw("t", test_path(folder, "a.png"), one));
+    char *path = strdup(getenv("PATH"));
+    setenv("PATH", "/nonexistent", 1);
+    assert_false(draw("t", test_path(folder, "b.png"), few));
+    setenv("PATH", path, 1);
+    free(path);
+    assert_int_equal(rmdir(folder), 0); /* nothing is left behind */
+    free(folder);
+    brc_history_free(&one);
+    brc_history_free(&few);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_curve_is_drawn_whatever_the_words_and_paths_hold),
+        cmocka_unit_test(too_few_points_and_no_gnuplot_are_warnings),
+    };
+    return cmocka_run_group_tests(tests, test_begin, test_end);
+}
