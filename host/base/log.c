@@ -98,17 +98,22 @@ static void show(brc_progress *progress, bool last)
     progress->shown_done = progress->done;
     if (!progress->context || progress->context->level < BRC_LOG_INFO) return;
 
-    char line[320], spent[32], rate[32], left[32] = "";
+    char line[400], spent[32], rate[32], left[32] = "";
     format_duration(spent, sizeof spent, elapsed);
     const double done = (double)progress->done;
     const double per_unit = progress->rate_per_unit > 0.0 ? progress->rate_per_unit : 1.0;
     format_rate(rate, sizeof rate, elapsed > 0.0 ? done * per_unit / elapsed : 0.0);
-    if (!last && progress->done > 0)
+    const bool known = progress->total > 0;
+    if (!last && known && progress->done > 0)
         format_duration(left, sizeof left, elapsed * ((double)progress->total - done) / done);
-    snprintf(line, sizeof line, "%s: %.0f %% (%lld of %lld %s), %s %s, %s%s%s", progress->what,
-             progress->total > 0 ? 100.0 * done / (double)progress->total : 100.0, (long long)progress->done,
-             (long long)progress->total, progress->unit_name, rate, progress->rate_name, spent, *left ? ", left " : "",
-             left);
+    char part[128] = "";
+    if (known)
+        snprintf(part, sizeof part, "%.0f %% (%lld of %lld %s)", 100.0 * done / (double)progress->total,
+                 (long long)progress->done, (long long)progress->total, progress->unit_name);
+    else
+        snprintf(part, sizeof part, "%lld %s", (long long)progress->done, progress->unit_name);
+    snprintf(line, sizeof line, "%s: %s, %s %s, %s%s%s", progress->what, part, rate, progress->rate_name, spent,
+             *left ? ", left " : "", left);
     clear_line(progress);
     if (progress->terminal && !last) {
         fputs(line, stderr);
@@ -149,8 +154,8 @@ void brc_progress_update(brc_progress *progress, int64_t done)
     const double waited_s = brc_clock_s() - progress->shown_s;
     const double part = (double)(done - progress->shown_done);
     if (progress->terminal ? waited_s >= TERMINAL_INTERVAL_S
-                           : waited_s >= LINE_INTERVAL_S ||
-                                 (waited_s >= LINE_LEAST_S && part >= LINE_INTERVAL_PART * (double)progress->total))
+                           : waited_s >= LINE_INTERVAL_S || (progress->total > 0 && waited_s >= LINE_LEAST_S &&
+                                                             part >= LINE_INTERVAL_PART * (double)progress->total))
         show(progress, false);
 }
 

@@ -14,7 +14,7 @@ brc_log_level brc_log_get_level(const brc_context *context);
 /* One line on stderr (a newline is added); a progress line in the way is cleared first and redrawn later. */
 void brc_log(brc_context *context, brc_log_level level, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-/* A task with a known end. what: "stage pull" (copied); total: number of units; unit_name: "steps" (copied);
+/* A task. what: "stage pull" (copied); total: number of units, 0 when the end is not known (then no percent, no time left); unit_name: "steps" (copied);
  * rate_per_unit, rate_name: what to show as rate, e.g. bonds per step and "bond updates/s" (0 and NULL: units/s). */
 typedef struct brc_progress brc_progress;
 brc_status brc_progress_create(brc_context *context, brc_progress **out, const char *what, int64_t total,
