@@ -78,6 +78,23 @@ static void a_slow_task_in_a_pipe_tells_rate_and_time_left(void **state)
     assert_non_null(strstr(text, ", left "));
 }
 
+static void a_task_without_known_end_shows_neither_percent_nor_time_left(void **state)
+{
+    brc_context *context = *state;
+    brc_progress *progress;
+    test_catch_stderr();
+    assert_int_equal(brc_progress_create(context, &progress, "pull", 0, "iterations", 0.0, NULL), BRC_OK);
+    const struct timespec longer_than_one_second = {1, 20000000};
+    nanosleep(&longer_than_one_second, NULL);
+    brc_progress_update(progress, 17); /* no part of anything: a line only every ten seconds */
+    brc_progress_finish(&progress);
+    const char *text = test_caught_stderr();
+    assert_int_equal(count_lines(text), 2);
+    assert_non_null(strstr(text, "pull: 17 iterations, "));
+    assert_null(strchr(text, '%'));
+    assert_null(strstr(text, "left"));
+}
+
 static void progress_is_silent_below_level_info(void **state)
 {
     brc_context *context = *state;
@@ -107,6 +124,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(levels_above_the_chosen_one_are_silent, begin, end),
         cmocka_unit_test_setup_teardown(a_quick_task_in_a_pipe_is_two_lines, begin, end),
         cmocka_unit_test_setup_teardown(a_slow_task_in_a_pipe_tells_rate_and_time_left, begin, end),
+        cmocka_unit_test_setup_teardown(a_task_without_known_end_shows_neither_percent_nor_time_left, begin, end),
         cmocka_unit_test_setup_teardown(progress_is_silent_below_level_info, begin, end),
         cmocka_unit_test(the_clock_does_not_run_backwards),
     };
