@@ -16,7 +16,10 @@ if(BRC_TARGET_CLANG AND NOT DEFINED BRC_TARGET_WORKS)
     file(WRITE ${brc_target_dir}/probe.c
          "#include <omp.h>\nint main(void)\n{\n    int host = 1;\n#pragma omp target map(from : host)\n"
          "    host = omp_is_initial_device();\n    return host;\n}\n")
-    execute_process(COMMAND ${BRC_TARGET_CLANG} ${brc_target_flags} ${brc_target_dir}/probe.c -o ${brc_target_dir}/probe
+    # In two steps as below: an object needs llvm-objcopy, linking needs clang-offload-wrapper.
+    execute_process(COMMAND ${BRC_TARGET_CLANG} ${brc_target_flags} -c ${brc_target_dir}/probe.c -o ${brc_target_dir}/probe.o
+                    OUTPUT_QUIET ERROR_QUIET)
+    execute_process(COMMAND ${BRC_TARGET_CLANG} ${brc_target_flags} ${brc_target_dir}/probe.o -o ${brc_target_dir}/probe
                     RESULT_VARIABLE brc_probe_built OUTPUT_QUIET ERROR_QUIET)
     set(brc_probe_ran 1)
     if(brc_probe_built EQUAL 0)
@@ -29,7 +32,7 @@ if(BRC_TARGET_CLANG AND NOT DEFINED BRC_TARGET_WORKS)
     endif()
 endif()
 if(NOT BRC_TARGET_CLANG OR NOT BRC_TARGET_WORKS)
-    message(STATUS "no OpenMP target plug-in: it needs clang with libomptarget (Debian packages clang-14 libomp-14-dev)")
+    message(STATUS "no OpenMP target plug-in: it needs clang with libomptarget (Debian packages clang-14 clang-tools-14 llvm-14 libomp-14-dev)")
     return()
 endif()
 
