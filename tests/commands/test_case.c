@@ -67,7 +67,7 @@ static void mistakes_are_told_with_their_place(void **state)
 {
     (void)state;
     static const char *const texts[][2] = {
-        {"runs:\n  - {name: one, bogus: 1}\n", "made/case.yaml:2:16: error: unknown key 'bogus' in a run"},
+        {"runs:\n  - {name: one, bogus: 1}\n", "made/case.yaml:2:17: error: unknown key 'bogus' in a run"},
         {"runs:\n  - {rows: {}}\n", "expected a run with a name"},
         {"runs:\n  - {name: one, rows: {E: {reference: much}}}\n", "expected a number"},
         {"runs:\n  - {name: one, quick: maybe}\n", "expected true or false"},
