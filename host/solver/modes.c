@@ -10,10 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { GUARD_VECTORS = 6, RIGID_MOTIONS = 6, MOST_ROUNDS = 1500, CHUNK = 512 };
+enum { GUARD_VECTORS = 6, RIGID_MOTIONS = 6, MOST_ROUNDS = 1500, CHUNK = 512, WATCH = 20 };
 /* The residual |K x - l M x| in M^-1 over l at which a mode is done: the eigenvalue's own error is its square for a symmetric
  * operator, and about itself for the published one. */
 static const double settled = 3e-5;
+/* The published operator has complex pairs, whose real and imaginary vectors leave a residual of the size of the imaginary
+ * part: there the modes are done when WATCH rounds change no wanted eigenvalue by more than this part of it. */
+static const double steady = 1e-5;
 /* Eigenvalues below this part of the smallest elastic one count as rigid motions. */
 static const double rigid_part = 1e-6;
 /* Directions of the search space whose norm falls below this part of the largest are dropped. */
@@ -282,6 +285,17 @@ static double residuals(mode_space *t, const double *values, int wanted)
     return counted < wanted ? INFINITY : worst;
 }
 
+/* Largest relative change of the elastic eigenvalues since the last look, which is renewed. */
+static double change_since(const double *values, double *before, int m)
+{
+    double worst = 0;
+    for (int k = 0; k < m; ++k) {
+        if (values[k] > rigid_part * values[m - 1]) worst = fmax(worst, fabs(values[k] / before[k] - 1));
+        before[k] = values[k];
+    }
+    return isfinite(worst) ? worst : INFINITY;
+}
+
 static void swap(double **a, double **b)
 {
     double *c = *a;
@@ -293,7 +307,7 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
 {
     const int m = t->m, most = 3 * m;
     brc_simulation *s = t->s;
-    double **u = NULL, **ku = NULL, *k_small = NULL, *g_small = NULL, *coefficients = NULL;
+    double **u = NULL, **ku = NULL, *k_small = NULL, *g_small = NULL, *coefficients = NULL, *before = NULL;
     brc_status status = BRC_OK;
     int count = m;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, most, "modes"));
@@ -301,6 +315,7 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &k_small, most * most, "modes"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &g_small, most * most, "modes"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &coefficients, m * most, "modes"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &before, m, "modes"));
     for (int round = 0; round < MOST_ROUNDS; ++round) {
         for (int k = 0; k < m; ++k) {
             u[k] = t->x + k * t->n, ku[k] = t->kx + k * t->n;
@@ -332,6 +347,7 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
         const double worst = residuals(t, values, wanted);
         brc_progress_update(progress, round + 1);
         if (worst < settled) goto cleanup;
+        if (brc_is_published(s) && (round + 1) % WATCH == 0 && change_since(values, before, m - GUARD_VECTORS) < steady) goto cleanup;
         if (s->interrupted) {
             status = BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the modes solver");
             goto cleanup;
@@ -346,6 +362,7 @@ cleanup:
     brc_memory_free(k_small);
     brc_memory_free(g_small);
     brc_memory_free(coefficients);
+    brc_memory_free(before);
     return status;
 }
 

@@ -22,14 +22,16 @@ brc_status brc_statics_residual(brc_simulation *s, bool finite, double *norm)
     *norm = sqrt(square);
     return isfinite(square) ? BRC_OK
                             : BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
-                                       "stage '%s': the static residual is not finite; apply the load in more increments",
+                                       "stage '%s': the static residual is not finite; check that the loads balance or the supports hold the body, "
+                                       "or apply the load in more increments",
                                        brc_current_stage(s)->name);
 }
 
 static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
 {
     const int64_t n = s->layout->n_rows;
-    brc_buffer **all[] = {&v->x, &v->r, &v->z, &v->p, &v->kp, &v->zero};
+    brc_buffer **all[] = {&v->x, &v->r, &v->z, &v->p, &v->kp, &v->move, &v->zero};
+    v->state_bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
         if (all[i] == &v->zero && !brc_is_published(s)) continue;
         BRC_TRY(brc_new_state(s, all[i], 3 * n, "static solver"));
@@ -47,7 +49,7 @@ static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
 static void free_vectors(brc_solve_vectors *v)
 {
     brc_buffer_free(&v->x), brc_buffer_free(&v->r), brc_buffer_free(&v->z), brc_buffer_free(&v->p);
-    brc_buffer_free(&v->kp), brc_buffer_free(&v->zero), brc_buffer_free(&v->orientation), brc_buffer_free(&v->blocks);
+    brc_buffer_free(&v->kp), brc_buffer_free(&v->move), brc_buffer_free(&v->zero), brc_buffer_free(&v->orientation), brc_buffer_free(&v->blocks);
 }
 
 /* kp = -K p. Displacements: the force of the linearised law. Rotations (dlsm-published, whose forces do not depend on them
@@ -119,14 +121,32 @@ static brc_status conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, b
 double brc_statics_tolerance(const brc_simulation *s)
 {
     static const double by_precision[] = {[BRC_DOUBLE] = 1e-10, [BRC_MIXED] = 1e-6, [BRC_SINGLE] = 1e-5};
-    const double asked = brc_current_stage(s)->tolerance;
-    return asked > 0 ? asked : by_precision[brc_device_get_precision(s->device)];
+    /* Forces of dlsm-published balance a total moment only together with its rotations, so that its displacements alone reach
+     * equilibrium to some 1e-6 of the load (measured on cubes of 512 cells), not to rounding. */
+    static const double published = 1e-5;
+    const double asked = brc_current_stage(s)->tolerance, own = by_precision[brc_device_get_precision(s->device)];
+    if (asked > 0) return asked;
+    return brc_is_published(s) && own < published ? published : own;
 }
 
 int32_t brc_statics_most_iterations(const brc_simulation *s)
 {
     const int32_t asked = brc_current_stage(s)->max_iterations;
     return asked > 0 ? asked : 20000 + (int32_t)(200 * cbrt((double)s->domain->n_elements));
+}
+
+/* Take the mean torque off: turning every element alike costs nothing, so only the rest can be balanced. */
+static brc_status remove_mean(brc_simulation *s, brc_buffer *torque)
+{
+    const int64_t n = s->domain->n_elements;
+    double *t = NULL, mean[3] = {0, 0, 0};
+    BRC_TRY(BRC_ALLOCATE(s->context, &t, 3 * n, "torques"));
+    brc_status status = brc_state_from_rows(s, torque, t, 3);
+    for (int64_t i = 0; i < 3 * n; ++i) mean[i % 3] += t[i] / (double)n;
+    for (int64_t i = 0; i < 3 * n; ++i) t[i] -= mean[i % 3];
+    if (status == BRC_OK) status = brc_state_to_rows(s, torque, t, 3, 0);
+    brc_memory_free(t);
+    return status;
 }
 
 /* Rotations of dlsm-published that balance the torques of the displacements just found, into the orientations. */
@@ -140,9 +160,24 @@ static brc_status settle_rotations(brc_simulation *s, brc_solve_vectors *v, brc_
                                                        .orientation = v->orientation,
                                                        .torque = v->r,
                                                        .homogeneous = true}));
+    BRC_TRY(remove_mean(s, v->r));
     BRC_TRY(brc_vector_dot(s, v->r, v->r, 3 * (int64_t)n, &square));
     BRC_TRY(conjugate_gradients(s, v, true, 1e-6 * sqrt(square), brc_statics_most_iterations(s), progress, &left));
     return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->x), BRC_BUF(s->orientation));
+}
+
+/* Start from the last increment's move again: exact when the answer is proportional to the load, so that a stage of equal
+ * increments costs little more than one. v->move holds the displacement before the last increment on entry, before this
+ * one on return. */
+static brc_status predict(brc_simulation *s, brc_solve_vectors *v, int32_t increment)
+{
+    if (increment > 1) { /* u becomes 2 u - move */
+        BRC_TRY(brc_buffer_copy(v->z, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes));
+        BRC_TRY(axpy(s, -1, v->move, s->displacement));
+        BRC_TRY(axpy(s, 1, v->z, s->displacement));
+        return brc_buffer_copy(v->move, v->z, 3 * (int64_t)s->layout->n_rows * v->state_bytes);
+    }
+    return brc_buffer_copy(v->move, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes);
 }
 
 static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, double *reference, brc_progress *progress)
@@ -192,6 +227,7 @@ brc_status brc_statics_run(brc_simulation *s)
     BRC_TRY_OR(cleanup, brc_notify_sample(s));
     for (int32_t i = 1; i <= increments; ++i) {
         s->load_factor = (double)i / increments;
+        BRC_TRY_OR(cleanup, predict(s, &v, i));
         BRC_TRY_OR(cleanup, brc_loads_prescribe(s, s->load_factor));
         BRC_TRY_OR(cleanup, solve_increment(s, &v, &reference, progress));
         BRC_TRY_OR(cleanup, brc_force_of_state(s, BRC_BOOK_WORK));

@@ -5,11 +5,12 @@
 #include "../base/log.h"
 #include "simulation.h"
 
-/* Device vectors [n_rows][3] of a linear solve K x = r, and preconditioner blocks [n_rows][6]; the last two only for
+/* Device vectors [n_rows][3] of a linear solve K x = r, and preconditioner blocks [n_rows][6]; zero and orientation only for
  * dlsm-published. */
 typedef struct brc_solve_vectors {
-    brc_buffer *x, *r, *z, *p, *kp, *blocks;
+    brc_buffer *x, *r, *z, *p, *kp, *move, *blocks;
     brc_buffer *zero, *orientation;
+    int state_bytes;
 } brc_solve_vectors;
 
 /* Force on the free components of the state into the simulation's own force array, and its norm [N]. finite: full law. */
