@@ -121,18 +121,21 @@ static void add_script(brc_text *text, const brc_scene *scene, const brc_measure
     brc_text_add(text, "'\nset title \"%s\" noenhanced\nset xlabel \"%s\"\nset ylabel \"%s%s\"\n", title, x.title,
                  measure->kind == BRC_MEASURE_NU ? "\xe2\x88\x92 " : "", y.title);
     brc_text_add(text, "set key left top Left reverse spacing 1.3\nset grid linecolor rgb '#dddddd' linetype 1\n"
-                       "set border linecolor rgb '#333333'\nset autoscale noextend\nset offsets graph 0.02, graph 0.04, graph 0.06, graph 0.02\n");
+                       "set border linecolor rgb '#333333'\nset autoscale noextend\nset offsets graph 0.02, graph "
+                       "0.04, graph 0.06, graph 0.02\n");
     brc_text_add(text, "$data << END\n");
     for (int64_t k = 0; k < series->n; ++k)
         brc_text_add(text, "%.12g %.12g\n", x.factor * series->x[k], y.factor * series->y[k]);
     brc_text_add(text, "END\n");
     number_with_unit(fit->coefficient[1], unit, slope);
     brc_text_add(text, "slope(x) = %.12g + %.12g * x\n", y.factor * fit->coefficient[0], to_axes * fit->coefficient[1]);
-    brc_text_add(text, "plot slope(x) title \"slope at zero: %s\" with lines linewidth 2 linecolor rgb '#4477aa'", slope);
+    brc_text_add(text, "plot slope(x) title \"slope at zero: %s\" with lines linewidth 2 linecolor rgb '#4477aa'",
+                 slope);
     if (isfinite(target)) {
         number_with_unit(target, unit, slope);
-        brc_text_add(text, ", \\\n %.12g + %.12g * x title \"target: %s\" with lines linewidth 2 dashtype 2 "
-                           "linecolor rgb '#cc6677'",
+        brc_text_add(text,
+                     ", \\\n %.12g + %.12g * x title \"target: %s\" with lines linewidth 2 dashtype 2 "
+                     "linecolor rgb '#cc6677'",
                      y.factor * fit->coefficient[0], to_axes * target, slope);
     }
     brc_text_add(text, ", \\\n $data using 1:2 title \"simulation\" with %s linecolor rgb '#222222'\n",

@@ -27,8 +27,8 @@ void brc_deform_gradient(const brc_domain *domain, const double *displacement, i
         const int64_t j = domain->neighbour[h];
         const double *s = domain->area_vector + 3 * h;
         const double *xj = domain->position + 3 * j, *uj = displacement + 3 * j;
-        const double branch = sqrt((xj[0] - x[0]) * (xj[0] - x[0]) + (xj[1] - x[1]) * (xj[1] - x[1]) +
-                                   (xj[2] - x[2]) * (xj[2] - x[2]));
+        const double branch =
+            sqrt((xj[0] - x[0]) * (xj[0] - x[0]) + (xj[1] - x[1]) * (xj[1] - x[1]) + (xj[2] - x[2]) * (xj[2] - x[2]));
         const double q = branch / sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
         for (int a = 0; a < 3; ++a)
             for (int b = 0; b < 3; ++b) {

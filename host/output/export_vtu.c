@@ -86,8 +86,8 @@ static void add_head(brc_text *text, const int64_t rows[N_ARRAYS])
             const array *a = &ARRAYS[k];
             if (a->place != (place)p) continue;
             brc_text_add(text, "<DataArray type=\"%s\" Name=\"%s\" %s=\"%d\" format=\"appended\" offset=\"%lld\"/>\n",
-                         NUMBER_NAME[a->number], a->name,
-                         p == FIELD_DATA ? "NumberOfTuples" : "NumberOfComponents", a->columns, (long long)offset);
+                         NUMBER_NAME[a->number], a->name, p == FIELD_DATA ? "NumberOfTuples" : "NumberOfComponents",
+                         a->columns, (long long)offset);
             offset += 8 + rows[k] * a->columns * NUMBER_BYTES[a->number];
         }
         brc_text_add(text, "</%s>\n", PLACE_NAME[p]);
@@ -134,8 +134,7 @@ cleanup:
     if (status == BRC_OK) { /* a refused write shows here at the latest; errno is that of the last one */
         const bool bad = !file || ferror(file) != 0;
         const bool closed = !file || fclose(file) == 0;
-        if (bad || !closed)
-            status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write: %s", aside, strerror(errno));
+        if (bad || !closed) status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write: %s", aside, strerror(errno));
     } else if (file) {
         fclose(file);
     }

@@ -161,8 +161,9 @@ void brc_h5_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_
     const int rank = H5Sget_simple_extent_dims(space, size, NULL);
     const hsize_t start[2] = {(hsize_t)first, 0}, count[2] = {(hsize_t)n, size[1]};
     const hid_t memory = H5Screate_simple(rank, count, NULL);
-    check(h5, rank >= 1 && H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) >= 0 &&
-                  H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, data) >= 0,
+    check(h5,
+          rank >= 1 && H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) >= 0 &&
+              H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, data) >= 0,
           name);
     H5Sclose(memory);
     H5Sclose(space);

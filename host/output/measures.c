@@ -79,7 +79,9 @@ brc_status brc_measure_series_collect(brc_context *context, const brc_scene *sce
     if (isnan(factor)) return BRC_OK;
     if (y < 0 || x < 0 || stage < 0) {
         why_not(measured, "there is no %s \"%s\"", stage < 0 ? "stage" : "sensor",
-                stage < 0 ? measure->stage : y < 0 ? measure->y : measure->x);
+                stage < 0 ? measure->stage
+                : y < 0   ? measure->y
+                          : measure->x);
         return BRC_OK;
     }
     brc_status status = BRC_OK;

@@ -11,8 +11,8 @@ typedef struct brc_measured {
     double value;     /* NAN: could not be measured, see why_not */
     bool has_target;  /* given by the scene, or E, nu, K, G of the scene's only material */
     double target;
-    double error;     /* value / target - 1 [-]; value - target where the target is 0 or the measure a Poisson's ratio */
-    int64_t n_used;   /* samples in the window */
+    double error;   /* value / target - 1 [-]; value - target where the target is 0 or the measure a Poisson's ratio */
+    int64_t n_used; /* samples in the window */
     char why_not[256]; /* "" or the reason for NAN, one sentence */
 } brc_measured;
 

@@ -118,7 +118,8 @@ static void fit_view(canvas *c)
 /* Area vector (twice the area) and middle of a deformed polygon; false where it is not finite. */
 static bool measure_face(const canvas *c, int64_t f, double normal[3], double middle[3])
 {
-    const int64_t first = c->picture->domain->free_polygon_start[f], end = c->picture->domain->free_polygon_start[f + 1];
+    const int64_t first = c->picture->domain->free_polygon_start[f],
+                  end = c->picture->domain->free_polygon_start[f + 1];
     memset(normal, 0, 3 * sizeof *normal);
     memset(middle, 0, 3 * sizeof *middle);
     for (int64_t k = first; k < end; ++k) {
@@ -189,8 +190,10 @@ static void trace(const canvas *c, cairo_t *cairo, int64_t f)
 {
     const brc_domain *d = c->picture->domain;
     for (int64_t k = d->free_polygon_start[f]; k < d->free_polygon_start[f + 1]; ++k) {
-        const double x = (AREA[0] + AREA[2]) / 2 + c->view.zoom * (dot(c->point + 3 * k, c->view.right) - c->view.centre[0]);
-        const double y = (AREA[1] + AREA[3]) / 2 - c->view.zoom * (dot(c->point + 3 * k, c->view.up) - c->view.centre[1]);
+        const double x =
+            (AREA[0] + AREA[2]) / 2 + c->view.zoom * (dot(c->point + 3 * k, c->view.right) - c->view.centre[0]);
+        const double y =
+            (AREA[1] + AREA[3]) / 2 - c->view.zoom * (dot(c->point + 3 * k, c->view.up) - c->view.centre[1]);
         cairo_line_to(cairo, OVERSAMPLE * x, OVERSAMPLE * y);
     }
     cairo_close_path(cairo);
@@ -333,8 +336,8 @@ static void draw_words(const canvas *c, cairo_t *cairo)
     if (c->scale == 1)
         snprintf(words, sizeof words, "%lld cells, true displacement", (long long)c->picture->domain->n_elements);
     else
-        snprintf(words, sizeof words, "%lld cells, displacement \xc3\x97 %g",
-                 (long long)c->picture->domain->n_elements, c->scale);
+        snprintf(words, sizeof words, "%lld cells, displacement \xc3\x97 %g", (long long)c->picture->domain->n_elements,
+                 c->scale);
     cairo_set_source_rgb(cairo, 0.35, 0.35, 0.35);
     write_words(cairo, words, 40, 78, 17, 0, false);
     cairo_set_source_rgb(cairo, 0.15, 0.15, 0.15);
@@ -350,8 +353,7 @@ static brc_status render(const canvas *c, const char *path)
 {
     char *aside = NULL;
     brc_status status = BRC_OK;
-    cairo_surface_t *large =
-        cairo_image_surface_create(CAIRO_FORMAT_RGB24, OVERSAMPLE * WIDTH, OVERSAMPLE * HEIGHT);
+    cairo_surface_t *large = cairo_image_surface_create(CAIRO_FORMAT_RGB24, OVERSAMPLE * WIDTH, OVERSAMPLE * HEIGHT);
     cairo_surface_t *small = cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDTH, HEIGHT);
     cairo_t *cairo = cairo_create(large);
     paint_faces(c, cairo);

@@ -11,8 +11,8 @@ typedef struct brc_picture {
     const double *value;        /* [n_elements] what is coloured, in `unit` */
     const char *name;           /* of the field, beside the colour bar: "von Mises stress" */
     const char *unit;
-    const char *title;          /* "" : none */
-    double scale;               /* factor on the displacement; 0: automatic */
+    const char *title; /* "" : none */
+    double scale;      /* factor on the displacement; 0: automatic */
 } brc_picture;
 
 /* 1200 x 900, seen from above one corner without perspective. BRC_FILE_FAILED: cannot be written. */

@@ -75,10 +75,11 @@ brc_status brc_picture_write(brc_context *context, brc_simulation *simulation, c
     brc_status status = BRC_OK;
     field f;
     if (!parse(word, &f))
-        return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "a picture cannot be coloured by \"%s\"; known are von_mises, displacement, velocity (also with "
-                        "_x, _y, _z), stress and strain with _xx, _yy, _zz, _yz, _xz, _xy",
-                        word);
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "a picture cannot be coloured by \"%s\"; known are von_mises, displacement, velocity (also with "
+            "_x, _y, _z), stress and strain with _xx, _yy, _zz, _yz, _xz, _xy",
+            word);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &displacement, 3 * n, "displacement of the picture"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &data, 6 * n, "field of the picture"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &value, n, "colours of the picture"));

@@ -153,9 +153,9 @@ static brc_status sample(void *self, brc_simulation *simulation)
     const double begin = brc_clock_s();
     brc_status status = brc_sensors_evaluate(r->sensors, simulation, r->value);
     if (status == BRC_OK)
-        status = brc_history_add(r->context, r->history, brc_simulation_stage(simulation),
-                                 brc_simulation_step(simulation), brc_simulation_time(simulation),
-                                 brc_simulation_total_time(simulation), r->value);
+        status =
+            brc_history_add(r->context, r->history, brc_simulation_stage(simulation), brc_simulation_step(simulation),
+                            brc_simulation_time(simulation), brc_simulation_total_time(simulation), r->value);
     r->output_s += brc_clock_s() - begin;
     return status;
 }
@@ -196,7 +196,8 @@ static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
     char *path = NULL;
     snprintf(name, sizeof name, "%06lld.vtkhdf", (long long)r->n_frames);
     if (r->n_frames == 0) BRC_TRY(brc_file_make_folder(r->context, r->path[FRAMES]));
-    BRC_TRY(brc_memory_resize(r->context, (void **)&r->frame_time, r->n_frames + 1, sizeof *r->frame_time, "frame times"));
+    BRC_TRY(
+        brc_memory_resize(r->context, (void **)&r->frame_time, r->n_frames + 1, sizeof *r->frame_time, "frame times"));
     BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
     const brc_status status = brc_frame_write(r->context, simulation, path);
     brc_memory_free(path);
@@ -251,7 +252,8 @@ static brc_status evaluate_measures(brc_recorder *r, brc_context *quiet)
     const int32_t n = r->scene->n_measures;
     BRC_TRY(BRC_ALLOCATE(quiet, &r->measures, n, "measures"));
     for (r->n_measures = 0; r->n_measures < n; ++r->n_measures)
-        BRC_TRY(brc_measure_evaluate(quiet, r->scene, r->domain, r->history, r->n_measures, &r->measures[r->n_measures]));
+        BRC_TRY(
+            brc_measure_evaluate(quiet, r->scene, r->domain, r->history, r->n_measures, &r->measures[r->n_measures]));
     return BRC_OK;
 }
 

@@ -64,12 +64,18 @@ static void write_ledger(brc_h5 *h5, const brc_ledger *l)
     const struct {
         const char *name;
         double value;
-    } term[] = {{"kinetic", l->kinetic},     {"elastic", l->elastic},
-                {"stabilisation", l->stabilisation}, {"potential", l->potential},
-                {"work", l->work},           {"damping", l->damping},
-                {"numerical", l->numerical}, {"initial", l->initial},
-                {"total", l->total},         {"closure", l->closure},
-                {"peak_elastic", l->peak_elastic}, {"peak_kinetic", l->peak_kinetic}};
+    } term[] = {{"kinetic", l->kinetic},
+                {"elastic", l->elastic},
+                {"stabilisation", l->stabilisation},
+                {"potential", l->potential},
+                {"work", l->work},
+                {"damping", l->damping},
+                {"numerical", l->numerical},
+                {"initial", l->initial},
+                {"total", l->total},
+                {"closure", l->closure},
+                {"peak_elastic", l->peak_elastic},
+                {"peak_kinetic", l->peak_kinetic}};
     brc_h5_group(h5, "ledger");
     for (size_t k = 0; k < sizeof term / sizeof term[0]; ++k) {
         char path[192];

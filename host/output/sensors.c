@@ -10,11 +10,11 @@ typedef struct patch {
     int32_t set; /* index in the domain; -1: all elements */
     bool faces;
     int64_t n;
-    const int32_t *members;   /* borrowed; NULL: all elements */
-    double weight;            /* sum of areas [m^2] or volumes [m^3] */
-    double mean_position[3];  /* [m] */
-    double *u;                /* faces: [n][3] displacement now [m]; elements: NULL, they are in the field */
-    double mean_u[3];         /* now [m] */
+    const int32_t *members;  /* borrowed; NULL: all elements */
+    double weight;           /* sum of areas [m^2] or volumes [m^3] */
+    double mean_position[3]; /* [m] */
+    double *u;               /* faces: [n][3] displacement now [m]; elements: NULL, they are in the field */
+    double mean_u[3];        /* now [m] */
 } patch;
 
 struct brc_sensors {
@@ -22,10 +22,11 @@ struct brc_sensors {
     const brc_scene *scene;
     const brc_domain *domain;
     int32_t n_patches;
-    patch *patches;    /* [2 n_sensors] room, n_patches used */
-    int32_t *first;    /* [n_sensors] patch, or domain set (reaction, stress, strain), or element (points); -1: all, none */
-    int32_t *second;   /* [n_sensors] patch of set2 */
-    double *distance;  /* [n_sensors] face strain: reference distance along the component [m] */
+    patch *patches; /* [2 n_sensors] room, n_patches used */
+    int32_t
+        *first; /* [n_sensors] patch, or domain set (reaction, stress, strain), or element (points); -1: all, none */
+    int32_t *second;                 /* [n_sensors] patch of set2 */
+    double *distance;                /* [n_sensors] face strain: reference distance along the component [m] */
     double *displacement, *velocity; /* [n_elements][3] or NULL */
     double *strain, *stress;         /* [n_elements][6] or NULL */
     bool needs_ledger;
@@ -115,10 +116,11 @@ static brc_status prepare_strain(brc_sensors *sensors, const brc_sensor *sensor,
     for (int k = 0; k < 3; ++k)
         extent = fmax(extent, sensors->domain->bounds[1][k] - sensors->domain->bounds[0][k]);
     if (fabs(sensors->distance[s]) > 1e-9 * extent) return BRC_OK;
-    return BRC_FAIL(sensors->context, BRC_BAD_INPUT,
-                    "sensor %s: the sets \"%s\" and \"%s\" lie at the same %c (%.9g m); a strain needs two places along "
-                    "its component",
-                    sensor->name, sensor->set, sensor->set2, 'x' + c, a->mean_position[c]);
+    return BRC_FAIL(
+        sensors->context, BRC_BAD_INPUT,
+        "sensor %s: the sets \"%s\" and \"%s\" lie at the same %c (%.9g m); a strain needs two places along "
+        "its component",
+        sensor->name, sensor->set, sensor->set2, 'x' + c, a->mean_position[c]);
 }
 
 static brc_status prepare(brc_sensors *sensors, int32_t s)
@@ -145,7 +147,8 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
     case BRC_SENSOR_FACE_TWIST:
         BRC_TRY(find_set(sensors, sensor, sensor->set, &set));
         BRC_TRY(find_patch(sensors, set, &sensors->first[s]));
-        if (sensor->kind == BRC_SENSOR_FACE_TWIST && !(hypot(hypot(sensor->axis[0], sensor->axis[1]), sensor->axis[2]) > 0))
+        if (sensor->kind == BRC_SENSOR_FACE_TWIST &&
+            !(hypot(hypot(sensor->axis[0], sensor->axis[1]), sensor->axis[2]) > 0))
             return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: a twist needs an axis that is not zero",
                             sensor->name);
         if (sensor->kind != BRC_SENSOR_FACE_STRAIN) return BRC_OK;

@@ -17,9 +17,9 @@ typedef struct brc_summary {
     const brc_measured *measures;
     int64_t n_frames;
     double total_s, build_s, output_s; /* wall seconds; setup_s and steps_s are the simulation's */
-    bool running;       /* true: end.status is "running" */
-    brc_status end;     /* how the run ended */
-    const char *reason; /* sentences of the failure; "" : none */
+    bool running;                      /* true: end.status is "running" */
+    brc_status end;                    /* how the run ended */
+    const char *reason;                /* sentences of the failure; "" : none */
 } brc_summary;
 
 /* Written aside and renamed. Numbers that are not finite are null. end.status is "running", "done", "physics_stopped",

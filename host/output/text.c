@@ -71,7 +71,10 @@ void brc_text_free(brc_text *text)
 static size_t utf8_length(const unsigned char *s)
 {
     if (s[0] < 0x80) return 1;
-    const size_t n = s[0] >= 0xF0 && s[0] <= 0xF4 ? 4 : s[0] >= 0xE0 && s[0] < 0xF0 ? 3 : s[0] >= 0xC2 && s[0] < 0xE0 ? 2 : 0;
+    const size_t n = s[0] >= 0xF0 && s[0] <= 0xF4  ? 4
+                     : s[0] >= 0xE0 && s[0] < 0xF0 ? 3
+                     : s[0] >= 0xC2 && s[0] < 0xE0 ? 2
+                                                   : 0;
     for (size_t k = 1; k < n; ++k)
         if ((s[k] & 0xC0) != 0x80) return 0; /* also stops at the NUL */
     if (n == 3 && ((s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xED && s[1] > 0x9F))) return 0; /* overlong, surrogate */

@@ -14,19 +14,19 @@ struct brc_simulation {
     brc_observer observer;
     int32_t stage;
     int64_t step;
-    double factor;         /* load factor */
-    double time;           /* of all stages [s] */
+    double factor; /* load factor */
+    double time;   /* of all stages [s] */
     double value[3], gradient[3][3];
-    double rotation;       /* [rad] about x through `rotation_point`, before the above; at factor 1 */
+    double rotation; /* [rad] about x through `rotation_point`, before the above; at factor 1 */
     double rotation_point[3];
-    double stress[6];      /* of element e at factor 1: stress * (1 + graded * x) */
-    double graded;         /* [1/m] */
-    double reaction[3];    /* at factor 1 */
+    double stress[6];   /* of element e at factor 1: stress * (1 + graded * x) */
+    double graded;      /* [1/m] */
+    double reaction[3]; /* at factor 1 */
     brc_ledger ledger;
-    const double *modes;   /* [n_modes] [rad/s] */
+    const double *modes; /* [n_modes] [rad/s] */
     int32_t n_modes;
     int displacement_reads, ledger_reads; /* counted */
-    brc_status end;        /* what the run returns after its last increment */
+    brc_status end;                       /* what the run returns after its last increment */
 };
 
 static void fake_point(const brc_simulation *s, const double *x, double *u)
@@ -34,7 +34,8 @@ static void fake_point(const brc_simulation *s, const double *x, double *u)
     const double a = s->rotation * s->factor, c = cos(a), t = sin(a);
     const double y = x[1] - s->rotation_point[1], z = x[2] - s->rotation_point[2];
     for (int i = 0; i < 3; ++i)
-        u[i] = s->factor * (s->value[i] + s->gradient[i][0] * x[0] + s->gradient[i][1] * x[1] + s->gradient[i][2] * x[2]);
+        u[i] =
+            s->factor * (s->value[i] + s->gradient[i][0] * x[0] + s->gradient[i][1] * x[1] + s->gradient[i][2] * x[2]);
     u[1] += c * y - t * z - y;
     u[2] += t * y + c * z - z;
 }

@@ -22,7 +22,7 @@ brc_domain *test_domain(int64_t n);
 brc_scene *test_scene(const char *yaml);
 /* Head of a scene that fits test_domain: version, a material "m" (E 1 GPa, nu 0.25, rho 1000), model, body. */
 #define TEST_SCENE_HEAD                                                                                                \
-    "version: 1\ntitle: \"Test, \\\"quoted\\\"\"\nmaterials:\n  m: {E: 1 GPa, nu: 0.25, density: 1000 kg/m^3}\n"        \
+    "version: 1\ntitle: \"Test, \\\"quoted\\\"\"\nmaterials:\n  m: {E: 1 GPa, nu: 0.25, density: 1000 kg/m^3}\n"       \
     "model: dlsm\nbodies:\n  - name: bar\n    shape:\n      box: {size: [2 m, 1 m, 1 m]}\n    fill:\n"                 \
     "      noisy_grid: {elements: 200, spread: 50 %, seed: 3}\n    material: m\n"
 extern brc_context *test_context;

@@ -21,10 +21,15 @@ static brc_history *history(int n, double last)
 static bool draw(const char *title, const char *path, const brc_history *h)
 {
     bool made;
-    brc_measure measure = {.name = "E", .kind = BRC_MEASURE_E, .x = "axial_strain", .y = "force", .scale = 1,
-                           .has_target = true, .target = 2e10};
-    brc_scene scene = {.n_sensors = 2, .sensors = sensors, .n_stages = 1, .stages = stages, .n_measures = 1,
-                       .measures = &measure};
+    brc_measure measure = {.name = "E",
+                           .kind = BRC_MEASURE_E,
+                           .x = "axial_strain",
+                           .y = "force",
+                           .scale = 1,
+                           .has_target = true,
+                           .target = 2e10};
+    brc_scene scene = {
+        .n_sensors = 2, .sensors = sensors, .n_stages = 1, .stages = stages, .n_measures = 1, .measures = &measure};
     strcpy(scene.title, title);
     strcpy(scene.output.curve_x, "axial_strain");
     strcpy(scene.output.curve_y, "axial_stress");

@@ -47,8 +47,9 @@ static void a_vtu_holds_the_arrays_where_its_head_says(void **state)
     export_to("vtu", 3);
     char *data;
     size_t bytes;
-    assert_int_equal(brc_file_read_whole(test_context, test_path(folder, "export/frames/000001.vtu"), 1 << 26, &data, &bytes),
-                     BRC_OK);
+    assert_int_equal(
+        brc_file_read_whole(test_context, test_path(folder, "export/frames/000001.vtu"), 1 << 26, &data, &bytes),
+        BRC_OK);
     const char *name = strstr(data, "Name=\"von_mises\"");
     assert_non_null(name);
     const long offset = atol(strstr(name, "offset=\"") + 8);

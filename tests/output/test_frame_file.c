@@ -15,7 +15,12 @@ static int begin(void **state)
     test_begin(state);
     domain = test_domain(300);
     folder = test_new_folder();
-    brc_simulation s = {.domain = domain, .factor = 1, .time = 0.125, .step = 7, .stage = 2, .value = {0.1, 0, 0},
+    brc_simulation s = {.domain = domain,
+                        .factor = 1,
+                        .time = 0.125,
+                        .step = 7,
+                        .stage = 2,
+                        .value = {0.1, 0, 0},
                         .gradient = {{1e-2, 2e-2, 0}, {0, -3e-3, 0}, {5e-3, 0, 4e-2}},
                         .stress = {1e6, 2e6, 3e6, 4e6, 5e6, 6e6}};
     if (brc_frame_write(test_context, &s, test_path(folder, "f.vtkhdf")) != BRC_OK) return -1;

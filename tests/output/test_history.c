@@ -45,7 +45,8 @@ static void the_csv_has_units_all_digits_and_empty_fields_for_missing_values(voi
 {
     (void)state;
     char *folder = test_new_folder();
-    brc_sensor sensors[2] = {{.name = "a,\"b\"", .kind = BRC_SENSOR_REACTION}, {.name = "c", .kind = BRC_SENSOR_STRAIN}};
+    brc_sensor sensors[2] = {{.name = "a,\"b\"", .kind = BRC_SENSOR_REACTION},
+                             {.name = "c", .kind = BRC_SENSOR_STRAIN}};
     const brc_scene scene = {.n_sensors = 2, .sensors = sensors};
     brc_history *h;
     assert_int_equal(brc_history_create(test_context, 2, &h), BRC_OK);

@@ -15,8 +15,14 @@ static brc_measured evaluate(const brc_measure *measure, const brc_domain *domai
 {
     brc_measured out;
     brc_measure copy = *measure;
-    const brc_scene scene = {.n_sensors = 4, .sensors = sensors, .n_stages = 2, .stages = stages, .n_materials = 1,
-                             .materials = &material, .n_measures = 1, .measures = &copy};
+    const brc_scene scene = {.n_sensors = 4,
+                             .sensors = sensors,
+                             .n_stages = 2,
+                             .stages = stages,
+                             .n_materials = 1,
+                             .materials = &material,
+                             .n_measures = 1,
+                             .measures = &copy};
     assert_int_equal(brc_measure_evaluate(test_context, &scene, domain, history, 0, &out), BRC_OK);
     return out;
 }
@@ -41,8 +47,13 @@ static void the_modulus_is_force_over_the_flat_area_of_the_set(void **state)
     (void)state;
     brc_domain *domain = test_domain(200);
     brc_history *h = history_of_tension();
-    brc_measured m = evaluate(&(brc_measure){.name = "E", .kind = BRC_MEASURE_E, .y = "force", .x = "strain",
-                                             .area_set = "x-", .stage = "pull", .scale = -1},
+    brc_measured m = evaluate(&(brc_measure){.name = "E",
+                                             .kind = BRC_MEASURE_E,
+                                             .y = "force",
+                                             .x = "strain",
+                                             .area_set = "x-",
+                                             .stage = "pull",
+                                             .scale = -1},
                               domain, h);
     assert_true(fabs(m.value / 2e9 - 1) < 1e-10); /* wall area to 1e-12, fit to 1e-11 */
     assert_string_equal(m.unit, "Pa");
@@ -57,8 +68,14 @@ static void poissons_ratio_is_minus_the_slope_and_its_error_absolute(void **stat
 {
     (void)state;
     brc_history *h = history_of_tension();
-    const brc_measured m = evaluate(&(brc_measure){.name = "nu", .kind = BRC_MEASURE_NU, .y = "lateral", .x = "strain",
-                                                   .stage = "pull", .scale = 1, .has_target = true, .target = 0.2},
+    const brc_measured m = evaluate(&(brc_measure){.name = "nu",
+                                                   .kind = BRC_MEASURE_NU,
+                                                   .y = "lateral",
+                                                   .x = "strain",
+                                                   .stage = "pull",
+                                                   .scale = 1,
+                                                   .has_target = true,
+                                                   .target = 0.2},
                                     NULL, h);
     assert_true(fabs(m.value - 0.25) < 1e-12);
     assert_true(fabs(m.error - 0.05) < 1e-12);
@@ -70,8 +87,8 @@ static void a_frequency_leaves_out_the_early_last_sample(void **state)
 {
     (void)state;
     brc_history *h = history_of_tension();
-    const brc_measured m = evaluate(
-        &(brc_measure){.name = "f", .kind = BRC_MEASURE_FREQUENCY, .y = "signal", .scale = 1}, NULL, h);
+    const brc_measured m =
+        evaluate(&(brc_measure){.name = "f", .kind = BRC_MEASURE_FREQUENCY, .y = "signal", .scale = 1}, NULL, h);
     assert_true(fabs(m.value / 12.5 - 1) < 1e-4);
     assert_string_equal(m.unit, "Hz");
     brc_history_free(&h);
@@ -83,7 +100,7 @@ static void peak_and_mean_look_at_their_window_alone(void **state)
     brc_history *h = history_of_tension();
     brc_measure measure = {.name = "p", .kind = BRC_MEASURE_PEAK, .y = "force", .stage = "pull", .scale = 1};
     assert_true(fabs(evaluate(&measure, NULL, h).value + 2e9 * 4e-3 * 1.006) < 1e-3); /* rounding of 8e6 */
-    measure.window[1] = 0.5; /* load factors; the end counts */
+    measure.window[1] = 0.5;                                                          /* load factors; the end counts */
     assert_true(fabs(evaluate(&measure, NULL, h).value + 2e9 * 2e-3 * 1.003) < 1e-3);
     measure = (brc_measure){.name = "m", .kind = BRC_MEASURE_MEAN, .y = "strain", .stage = "pull", .scale = 10};
     assert_true(fabs(evaluate(&measure, NULL, h).value - 10 * 2e-3) < 1e-15);
@@ -97,18 +114,23 @@ static void what_cannot_be_measured_says_why(void **state)
 {
     (void)state;
     brc_history *h = history_of_tension();
-    brc_measured m = evaluate(&(brc_measure){.name = "a", .kind = BRC_MEASURE_MEAN, .y = "nothing", .scale = 1}, NULL, h);
+    brc_measured m =
+        evaluate(&(brc_measure){.name = "a", .kind = BRC_MEASURE_MEAN, .y = "nothing", .scale = 1}, NULL, h);
     assert_true(isnan(m.value));
     assert_non_null(strstr(m.why_not, "no sensor \"nothing\""));
-    m = evaluate(&(brc_measure){.name = "a", .kind = BRC_MEASURE_MEAN, .y = "signal", .stage = "pull", .scale = 1}, NULL, h);
+    m = evaluate(&(brc_measure){.name = "a", .kind = BRC_MEASURE_MEAN, .y = "signal", .stage = "pull", .scale = 1},
+                 NULL, h);
     assert_non_null(strstr(m.why_not, "no sample"));
-    m = evaluate(&(brc_measure){.name = "a", .kind = BRC_MEASURE_SLOPE, .y = "force", .x = "lateral", .scale = 1}, NULL, h);
+    m = evaluate(&(brc_measure){.name = "a", .kind = BRC_MEASURE_SLOPE, .y = "force", .x = "lateral", .scale = 1}, NULL,
+                 h);
     assert_true(isnan(m.value)); /* constant over the last stage */
     assert_non_null(strstr(m.why_not, "two different values of \"lateral\""));
-    m = evaluate(&(brc_measure){.name = "a", .kind = BRC_MEASURE_FREQUENCY, .y = "force", .stage = "pull", .scale = 1}, NULL, h);
-    assert_true(isnan(m.value) && m.why_not[0]);
-    m = evaluate(&(brc_measure){.name = "E", .kind = BRC_MEASURE_E, .y = "force", .x = "strain", .area_set = "x-", .scale = 1},
+    m = evaluate(&(brc_measure){.name = "a", .kind = BRC_MEASURE_FREQUENCY, .y = "force", .stage = "pull", .scale = 1},
                  NULL, h);
+    assert_true(isnan(m.value) && m.why_not[0]);
+    m = evaluate(
+        &(brc_measure){.name = "E", .kind = BRC_MEASURE_E, .y = "force", .x = "strain", .area_set = "x-", .scale = 1},
+        NULL, h);
     assert_non_null(strstr(m.why_not, "\"x-\" is not a face set"));
     brc_history_free(&h);
 }

@@ -36,8 +36,8 @@ static cairo_surface_t *draw(double low, double slope, double bad)
         u[3 * e] = bad;
         value[e] = low + slope * domain->position[3 * e];
     }
-    const brc_picture picture = {.domain = domain, .displacement = u, .value = value, .name = "field", .unit = "Pa",
-                                 .title = "Title"};
+    const brc_picture picture = {
+        .domain = domain, .displacement = u, .value = value, .name = "field", .unit = "Pa", .title = "Title"};
     assert_int_equal(brc_picture_draw(test_context, &picture, test_path(folder, "p.png")), BRC_OK);
     brc_memory_free(u);
     brc_memory_free(value);
@@ -117,7 +117,8 @@ static void an_unknown_colour_word_is_refused_with_the_list(void **state)
     assert_int_equal(brc_picture_write(test_context, &s, test_path(folder, "q.png")), BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(test_context), "von_mises"));
     brc_context_clear(test_context);
-    static const char *const good[] = {"von_mises", "displacement", "displacement_z", "velocity_x", "stress_xy", "strain_yz"};
+    static const char *const good[] = {"von_mises",  "displacement", "displacement_z",
+                                       "velocity_x", "stress_xy",    "strain_yz"};
     strcpy(scene.output.picture_colour, good[5]);
     assert_int_equal(brc_picture_write(test_context, &s, test_path(folder, "q.png")), BRC_OK);
     static const char *const wrong[] = {"displacement_w", "stress", "stress_xyz", "velocityx", "displacement_xx"};

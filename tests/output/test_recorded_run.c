@@ -10,22 +10,22 @@
 #include <string.h>
 
 /* Bar wave: c = sqrt(E/rho) = 1000 m/s, L = 2 m, one end held: f = c/(4 L) = 125 Hz. */
-static const char SCENE[] = TEST_SCENE_HEAD
-    "stages:\n"
-    "  - name: pull\n    solver:\n      static: {increments: 2}\n    loads:\n"
-    "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: y-, y: 0}\n"
-    "      - face_displacement: {set: z-, z: 0}\n      - face_displacement: {set: x+, x: 2 um}\n"
-    "  - name: ring\n    solver:\n      dynamic: {duration: 100 ms}\n    loads:\n"
-    "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: y-, y: 0}\n"
-    "      - face_displacement: {set: z-, z: 0}\n"
-    "sensors:\n  force:\n    reaction: {set: x+, component: x}\n"
-    "  strain:\n    face_strain: {set: x+, against: x-, component: x}\n"
-    "  lateral:\n    face_strain: {set: y+, against: y-, component: y}\n"
-    "  end:\n    face_mean: {set: x+, component: x}\n"
-    "measure:\n  E:\n    E: {load: force, area: x+, strain: strain, stage: pull}\n"
-    "  nu:\n    nu: {lateral: lateral, axial: strain, stage: pull}\n"
-    "  f:\n    frequency: {of: end, stage: ring}\n"
-    "output:\n  frames: 2\n  picture: false\n";
+static const char SCENE[] =
+    TEST_SCENE_HEAD "stages:\n"
+                    "  - name: pull\n    solver:\n      static: {increments: 2}\n    loads:\n"
+                    "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: y-, y: 0}\n"
+                    "      - face_displacement: {set: z-, z: 0}\n      - face_displacement: {set: x+, x: 2 um}\n"
+                    "  - name: ring\n    solver:\n      dynamic: {duration: 100 ms}\n    loads:\n"
+                    "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: y-, y: 0}\n"
+                    "      - face_displacement: {set: z-, z: 0}\n"
+                    "sensors:\n  force:\n    reaction: {set: x+, component: x}\n"
+                    "  strain:\n    face_strain: {set: x+, against: x-, component: x}\n"
+                    "  lateral:\n    face_strain: {set: y+, against: y-, component: y}\n"
+                    "  end:\n    face_mean: {set: x+, component: x}\n"
+                    "measure:\n  E:\n    E: {load: force, area: x+, strain: strain, stage: pull}\n"
+                    "  nu:\n    nu: {lateral: lateral, axial: strain, stage: pull}\n"
+                    "  f:\n    frequency: {of: end, stage: ring}\n"
+                    "output:\n  frames: 2\n  picture: false\n";
 
 static void a_bar_gives_its_moduli_and_its_bar_wave(void **state)
 {

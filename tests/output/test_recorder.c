@@ -13,17 +13,17 @@
 #include <unistd.h>
 
 /* Tension along x, strain 1e-3, lateral -0.25e-3, stress 1 MPa over 1 m^2: E = 1 GPa and nu = 0.25 as the material. */
-static const char SCENE[] = TEST_SCENE_HEAD
-    "stages:\n  - name: pull\n    solver:\n      static: {increments: 4}\n    loads:\n"
-    "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: x+, x: 2 mm}\n"
-    "sensors:\n  force:\n    reaction: {set: x+, component: x}\n"
-    "  strain:\n    face_strain: {set: x+, against: x-, component: x}\n"
-    "  lateral:\n    face_strain: {set: y+, against: y-, component: y}\n"
-    "  stress:\n    stress: {component: xx}\n"
-    "  kinetic:\n    energy: kinetic\n"
-    "measure:\n  E:\n    E: {load: force, area: x+, strain: strain, target: 1 GPa}\n"
-    "  nu:\n    nu: {lateral: lateral, axial: strain}\n"
-    "output:\n  picture: {colour: stress_xx}\n  curve: {x: strain, y: stress}\n";
+static const char SCENE[] =
+    TEST_SCENE_HEAD "stages:\n  - name: pull\n    solver:\n      static: {increments: 4}\n    loads:\n"
+                    "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: x+, x: 2 mm}\n"
+                    "sensors:\n  force:\n    reaction: {set: x+, component: x}\n"
+                    "  strain:\n    face_strain: {set: x+, against: x-, component: x}\n"
+                    "  lateral:\n    face_strain: {set: y+, against: y-, component: y}\n"
+                    "  stress:\n    stress: {component: xx}\n"
+                    "  kinetic:\n    energy: kinetic\n"
+                    "measure:\n  E:\n    E: {load: force, area: x+, strain: strain, target: 1 GPa}\n"
+                    "  nu:\n    nu: {lateral: lateral, axial: strain}\n"
+                    "output:\n  picture: {colour: stress_xx}\n  curve: {x: strain, y: stress}\n";
 
 typedef struct run {
     brc_scene *scene;
@@ -81,8 +81,8 @@ static void assert_holds(const char *text, const char *part)
 static void a_run_leaves_every_file_the_header_lists(void **state)
 {
     (void)state;
-    static const char *const name[] = {"summary.json",         "result.h5",    "histories.csv",
-                                       "picture.png",          "curve.png",    "frames.vtkhdf.series",
+    static const char *const name[] = {"summary.json",         "result.h5",           "histories.csv",
+                                       "picture.png",          "curve.png",           "frames.vtkhdf.series",
                                        "frames/000000.vtkhdf", "frames/000001.vtkhdf"};
     run r;
     begin_run(&r);
@@ -101,14 +101,38 @@ static void the_summary_has_the_stable_keys_with_the_values_of_the_run(void **st
     begin_run(&r);
     assert_int_equal(record(&r), BRC_OK);
     char *text = test_read(test_path(r.folder, "summary.json"));
-    static const char *const part[] = {
-        "\"version\": \"", "\"commit\": \"", "\"model\": \"dlsm\"", "\"precision\": \"mixed\"", "\"device\": \"cpu (",
-        "\"title\": \"Test, \\\"quoted\\\"\"", "\"broken\": 0", "\"value_s\": 1e-06",
-        "\"governed_by\": \"auto: power iteration\"", "\"safety\": 0.8", "\"steps\": 4", "\"total_s\": ",
-        "\"build_s\": 1.5", "\"setup_s\": 0.25", "\"steps_s\": 2", "\"output_s\": ", "\"bond_updates_per_s\": ",
-        "\"host_bytes\": ", "\"device_bytes\": 0", "\"kinetic_J\": null", "\"elastic_J\": 1000", "\"closure\": 0",
-        "\"dlsm elasticity\",\n", "\"gravity\"\n", "\"target\": 1000000000", "\"unit\": \"Pa\"", "\"last\": ", "\"min\": ",
-        "\"max\": ", "\"status\": \"done\"", "\"reason\": \"\"", "\"exit_code\": 0"};
+    static const char *const part[] = {"\"version\": \"",
+                                       "\"commit\": \"",
+                                       "\"model\": \"dlsm\"",
+                                       "\"precision\": \"mixed\"",
+                                       "\"device\": \"cpu (",
+                                       "\"title\": \"Test, \\\"quoted\\\"\"",
+                                       "\"broken\": 0",
+                                       "\"value_s\": 1e-06",
+                                       "\"governed_by\": \"auto: power iteration\"",
+                                       "\"safety\": 0.8",
+                                       "\"steps\": 4",
+                                       "\"total_s\": ",
+                                       "\"build_s\": 1.5",
+                                       "\"setup_s\": 0.25",
+                                       "\"steps_s\": 2",
+                                       "\"output_s\": ",
+                                       "\"bond_updates_per_s\": ",
+                                       "\"host_bytes\": ",
+                                       "\"device_bytes\": 0",
+                                       "\"kinetic_J\": null",
+                                       "\"elastic_J\": 1000",
+                                       "\"closure\": 0",
+                                       "\"dlsm elasticity\",\n",
+                                       "\"gravity\"\n",
+                                       "\"target\": 1000000000",
+                                       "\"unit\": \"Pa\"",
+                                       "\"last\": ",
+                                       "\"min\": ",
+                                       "\"max\": ",
+                                       "\"status\": \"done\"",
+                                       "\"reason\": \"\"",
+                                       "\"exit_code\": 0"};
     for (size_t k = 0; k < sizeof part / sizeof part[0]; ++k)
         assert_holds(text, part[k]);
     brc_memory_free(text);
@@ -168,7 +192,8 @@ static void results_of_an_earlier_run_are_removed_and_other_files_kept(void **st
     brc_recorder_free(&r.recorder);
     assert_int_equal(brc_file_write_whole(test_context, test_path(r.folder, "notes.txt"), "mine", 4), BRC_OK);
     assert_int_equal(brc_file_write_whole(test_context, test_path(r.folder, "frames/notes.txt"), "mine", 4), BRC_OK);
-    assert_int_equal(brc_file_write_whole(test_context, test_path(r.folder, "frames/000007.vtkhdf.part"), "x", 1), BRC_OK);
+    assert_int_equal(brc_file_write_whole(test_context, test_path(r.folder, "frames/000007.vtkhdf.part"), "x", 1),
+                     BRC_OK);
     assert_int_equal(brc_recorder_create(test_context, r.folder, brc_clock_s(), &r.recorder), BRC_OK);
     assert_false(brc_file_exists(test_path(r.folder, "result.h5")));
     assert_false(brc_file_exists(test_path(r.folder, "frames/000000.vtkhdf")));

@@ -70,7 +70,8 @@ static void a_small_twist_is_the_area_weighted_mean(void **state)
     (void)state;
     const double g = 1e-7;
     brc_simulation s = {.factor = 1, .gradient = {{0}, {0, 0, -g}, {0}}, .value = {0, 0.5 * g, 0}};
-    brc_sensor list[] = {{.kind = BRC_SENSOR_FACE_TWIST, .name = "a", .set = "x+", .axis = {1, 0, 0}, .point = {2, 0.5, 0.5}}};
+    brc_sensor list[] = {
+        {.kind = BRC_SENSOR_FACE_TWIST, .name = "a", .set = "x+", .axis = {1, 0, 0}, .point = {2, 0.5, 0.5}}};
     double value, turning = 0, arms = 0;
     read(&s, 1, list, &value);
     const brc_set *set = &domain->sets[brc_domain_find_set(domain, "x+")];
@@ -108,8 +109,12 @@ static void reactions_energies_points_and_modes_are_passed_on(void **state)
 {
     (void)state;
     const double modes[] = {2 * M_PI * 100, 2 * M_PI * 250};
-    brc_simulation s = {.factor = 1, .gradient = {{1, 0, 0}}, .reaction = {3, 4, 5}, .ledger = {.elastic = 7},
-                        .modes = modes, .n_modes = 2};
+    brc_simulation s = {.factor = 1,
+                        .gradient = {{1, 0, 0}},
+                        .reaction = {3, 4, 5},
+                        .ledger = {.elastic = 7},
+                        .modes = modes,
+                        .n_modes = 2};
     const int64_t e = 17;
     const double *x = domain->position + 3 * e;
     brc_sensor list[] = {{.kind = BRC_SENSOR_REACTION, .name = "a", .set = "x-", .component = 1},
@@ -169,9 +174,12 @@ static void every_wrong_sensor_is_named_in_one_pass(void **state)
                          {.kind = BRC_SENSOR_REACTION, .name = "s_five"},
                          {.kind = BRC_SENSOR_ENERGY, .name = "s_six", .term = "heat"},
                          {.kind = BRC_SENSOR_POINT, .name = "s_fine"}};
-    static const char *const part[] = {"s_one: there is no set \"nowhere\"", "s_two: the set \"x+\" holds faces",
-                                       "s_three: the sets \"y+\" and \"y-\" lie at the same x", "s_four: a twist needs",
-                                       "s_five: a reaction needs", "s_six: the ledger has no term \"heat\""};
+    static const char *const part[] = {"s_one: there is no set \"nowhere\"",
+                                       "s_two: the set \"x+\" holds faces",
+                                       "s_three: the sets \"y+\" and \"y-\" lie at the same x",
+                                       "s_four: a twist needs",
+                                       "s_five: a reaction needs",
+                                       "s_six: the ledger has no term \"heat\""};
     const brc_scene scene = {.n_sensors = 7, .sensors = list};
     brc_sensors *sensors;
     assert_int_equal(brc_sensors_create(test_context, &scene, domain, &sensors), BRC_BAD_INPUT);
