@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-double brc_load_rate(const brc_load *load, double t) 
+double brc_load_rate(const brc_load *load, double t)
 {
     const brc_table *table = &load->table;
     if (load->kind == BRC_LOAD_FACE_VELOCITY || load->kind == BRC_LOAD_ELEMENT_VELOCITY) return brc_table_value(table, t);
