@@ -11,7 +11,7 @@ ENDS_THE_PROGRAM = {"exit", "_exit", "_Exit", "quick_exit", "abort"}
 
 
 def exported(listing):
-    """listing: what nm -A -g prints. Weak symbols (C++ templates, ifunc helpers of the compiler) are not ours to name."""
+    """listing: what nm -A -g prints. Weak symbols (C++ templates, dispatchers of the compiler) are not ours to name."""
     findings = []
     for library, text in listing.items():
         for line in text.splitlines():
