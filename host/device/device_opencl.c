@@ -66,7 +66,7 @@ static brc_status build(brc_device *device, opencl_inside *inside, const char *f
     char options[256], text[192];
     cl_int code;
     snprintf(options, sizeof options,
-             "-cl-std=CL1.2 -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D BRC_MANY_MATERIALS=%d%s",
+             "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D BRC_MANY_MATERIALS=%d%s",
              (int)device->precision, device->lanes, device->slice, (int)device->many_materials,
              exact ? " -D BRC_EXACT" : "");
     brc_device_describe(&device->info, text, sizeof text);

@@ -158,6 +158,45 @@ static void instruction_sets_differ_by_rounding_alone_and_not_at_all_where_exact
     brc_context_free(&context);
 }
 
+static void the_cpu_kernels_take_denormal_numbers_for_zero_and_the_caller_keeps_them(void **unused)
+{
+    (void)unused;
+#if defined(__x86_64__)
+    brc_context *context = brc_context_create();
+    brc_device *device = NULL;
+    brc_buffer *x = NULL, *y = NULL;
+    brc_kernel *copy = NULL, *axpy = NULL;
+    enum { N = 4096 }; /* work for both threads */
+    static float tiny[N], got[N];
+    for (int i = 0; i < N; ++i)
+        tiny[i] = 1e-40f;
+    const brc_device_request request = {.selector = "cpu", .precision = BRC_SINGLE, .n_threads = 2};
+    assert_int_equal(brc_device_open(context, &request, &device), BRC_OK);
+    assert_int_equal(brc_buffer_create(device, &x, sizeof tiny, "x"), BRC_OK);
+    assert_int_equal(brc_buffer_create(device, &y, sizeof tiny, "y"), BRC_OK);
+    assert_int_equal(brc_buffer_write(x, 0, tiny, sizeof tiny), BRC_OK);
+    assert_int_equal(brc_kernel_find(device, "vector_copy", &copy), BRC_OK);
+    assert_int_equal(brc_kernel_find(device, "vector_axpy", &axpy), BRC_OK);
+    assert_int_equal(BRC_LAUNCH(axpy, N, BRC_INT(N), BRC_STATE(1), BRC_BUF(x), BRC_BUF(y)), BRC_OK);
+    assert_int_equal(brc_buffer_read(y, 0, got, sizeof got), BRC_OK);
+    for (int i = 0; i < N; ++i)
+        assert_true(got[i] == 0);
+    assert_int_equal(BRC_LAUNCH(copy, N, BRC_INT(N), BRC_BUF(x), BRC_BUF(y)), BRC_OK);
+    assert_int_equal(brc_buffer_read(y, 0, got, sizeof got), BRC_OK);
+    assert_memory_equal(got, tiny, sizeof tiny); /* copying is no arithmetic */
+    volatile float half_of_tiny = tiny[0];
+    half_of_tiny = half_of_tiny / 2;
+    assert_true(half_of_tiny > 0);
+    brc_buffer_free(&x);
+    brc_buffer_free(&y);
+    brc_device_close(&device);
+    brc_context_free(&context);
+#else
+    printf("SKIPPED: the float mode is set on x86-64 only\n");
+    skip();
+#endif
+}
+
 static void a_word_that_is_no_instruction_set_is_refused(void **unused)
 {
     (void)unused;
@@ -203,7 +242,7 @@ static void kernels_that_do_not_compile_show_the_whole_log(void **unused)
     assert_says(context, info.selector);
     assert_says(context, info.name);
     assert_says(context, "broken-kernels do not compile: CL_BUILD_PROGRAM_FAILURE");
-    assert_says(context, "-cl-std=CL1.2 -D BRC_PRECISION=2 -D BRC_LANES=");
+    assert_says(context, "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=2 -D BRC_LANES=");
     assert_says(context, "law.h:3:"); /* the compiler's log, with the file and line of the pasted text */
     brc_context_free(&context);
 }
@@ -257,6 +296,7 @@ int main(void)
         cmocka_unit_test(a_device_that_is_not_there_is_refused_with_those_that_are),
         cmocka_unit_test(requests_the_cpu_cannot_meet_are_refused),
         cmocka_unit_test(instruction_sets_differ_by_rounding_alone_and_not_at_all_where_exact),
+        cmocka_unit_test(the_cpu_kernels_take_denormal_numbers_for_zero_and_the_caller_keeps_them),
         cmocka_unit_test(a_word_that_is_no_instruction_set_is_refused),
         cmocka_unit_test(kernels_that_do_not_compile_show_the_whole_log),
         cmocka_unit_test(the_kernels_of_a_folder_replace_the_embedded_ones),
