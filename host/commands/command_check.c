@@ -16,7 +16,7 @@ static const brc_option options[] = {
 
 /* Iterations of a linear solve to 1e-10, in units of the elements along the longest line through the solid: a rule of
  * thumb from cubes and bars of 1e3 to 1e5 cells, right within a factor of two (docs/performance.md). */
-#define ITERATIONS_PER_CELL_ACROSS 12
+#define ITERATIONS_PER_CELL_ACROSS 8
 /* Linear solves of a static increment: the first and the corrections of the finite-strain law. */
 #define SOLVES_PER_INCREMENT 4
 

@@ -117,7 +117,7 @@ static void put_row(brc_campaign *campaign, const brc_case_row *row, int n_label
         printf(" %8.3g", outcome->seconds);
     else
         printf(" %8s", "-");
-    printf("  %s%s%s\n", skipped ? "" : within ? "ok" : "MISSED", note[0] ? " " : "", note);
+    printf("  %s%s%.60s\n", skipped ? "" : within ? "ok" : "MISSED", note[0] ? " " : "", note);
     fflush(stdout);
 }
 

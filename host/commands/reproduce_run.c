@@ -47,7 +47,8 @@ static brc_status finished(void *self, brc_simulation *simulation)
     return BRC_OK;
 }
 
-static void take(brc_outcome *outcome, const brc_run_results *results)
+/* stopped: the measures of a run that was stopped are of a state nobody should trust; its counts and times stand. */
+static void take(brc_outcome *outcome, const brc_run_results *results, bool stopped)
 {
     outcome->n_elements = results->n_elements;
     outcome->n_bonds = results->n_bonds;
@@ -56,8 +57,8 @@ static void take(brc_outcome *outcome, const brc_run_results *results)
     snprintf(outcome->device, sizeof outcome->device, "%s", results->device);
     for (int32_t k = 0; k < results->n_measures; ++k) {
         const brc_run_measure *measure = &results->measures[k];
-        brc_outcome_add(outcome, measure->name, measure->unit, measure->value, measure->has_target ? measure->target : NAN);
-        if (isnan(measure->value) && !outcome->note[0])
+        brc_outcome_add(outcome, measure->name, measure->unit, stopped ? NAN : measure->value, measure->has_target ? measure->target : NAN);
+        if (isnan(measure->value) && !stopped && !outcome->note[0])
             snprintf(outcome->note, sizeof outcome->note, "%s: %s", measure->name, measure->why_not);
     }
     brc_outcome_add(outcome, "seconds", "s", results->total_s, NAN);
@@ -103,7 +104,7 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
     }
     brc_run_results results;
     const brc_status status = brc_run_scene(context, &request, &results);
-    take(outcome, &results);
+    take(outcome, &results, status == BRC_PHYSICS_STOPPED);
     if (drift) brc_drift_values(drift, outcome);
     brc_drift_free(&drift);
     brc_run_results_free(&results);
@@ -178,7 +179,7 @@ brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome)
                                             : simulate(campaign, outcome, text, bytes, folder);
     outcome->done = status == BRC_OK || (status == BRC_PHYSICS_STOPPED && run->may_stop);
     if (status != BRC_OK && status != BRC_INTERRUPTED && status != BRC_NO_MEMORY) {
-        brc_log(context, BRC_LOG_ERROR, "run %s: %s", run->name, brc_context_message(context));
+        brc_log(context, outcome->done ? BRC_LOG_INFO : BRC_LOG_ERROR, "run %s: %s", run->name, brc_context_message(context));
         snprintf(outcome->note, sizeof outcome->note, "%s", brc_context_message(context));
         for (char *c = outcome->note; *c; ++c)
             if (*c == '\n') *c = ' ';

@@ -81,7 +81,7 @@ static void wrong_words_end_with_two_and_one_sentence(void **state)
 static void an_unknown_device_ends_with_two_and_names_those_that_are_there(void **state)
 {
     (void)state;
-    char arguments[256];
+    char arguments[512];
     snprintf(arguments, sizeof arguments, "run %s --device cuda:0 -o %s/x", scene, folder);
     assert_int_equal(test_program(arguments), 2);
     expect(test_program_stderr(), "cpu");
@@ -102,7 +102,7 @@ static void check_prices_a_scene(void **state)
 static void a_run_prints_its_measures_and_writes_its_summary(void **state)
 {
     (void)state;
-    char arguments[256], path[128];
+    char arguments[512], path[128];
     snprintf(arguments, sizeof arguments, "run %s --device cpu --threads 1 --set bodies.cube.fill.noisy_grid.elements=27 -o %s/run", scene, folder);
     assert_int_equal(test_program(arguments), 0);
     expect(test_program_stdout(), "27 elements");
@@ -182,7 +182,7 @@ static void export_needs_a_format_and_a_run(void **state)
 static void a_small_bench_writes_its_rows(void **state)
 {
     (void)state;
-    char arguments[256], path[128], text[8192] = "";
+    char arguments[512], path[128], text[8192] = "";
     snprintf(arguments, sizeof arguments,
              "bench throughput --sizes 64 --devices cpu --threads 1 --precisions double --sample 0.001 --copy 1 -o %s/bench", folder);
     assert_int_equal(test_program(arguments), 0);
