@@ -115,7 +115,8 @@ static brc_status measure(brc_context *context, const brc_throughput_request *re
     brc_simulation *simulation = NULL;
     cube c;
     make_cube(&c, model);
-    const brc_device_request open = {.selector = selector, .precision = precision, .n_threads = n_threads};
+    const brc_device_request open = {.selector = selector, .precision = precision, .n_threads = n_threads,
+                                     .exact = request->exact};
     double bandwidth, samples[SAMPLES];
     int64_t n_steps;
     BRC_TRY_OR(cleanup, brc_device_open(context, &open, &device));
@@ -149,7 +150,7 @@ static brc_status add_row(brc_context *context, const brc_throughput_request *re
     brc_rows_text(rows, "precision", brc_precision_name(precision));
     brc_rows_text(rows, "device", selector);
     brc_rows_integer(rows, "threads", n_threads);
-    brc_rows_text(rows, "contraction", "off");
+    brc_rows_text(rows, "contraction", request->exact ? "off" : "allowed");
     brc_status status = measure(context, request, domain, model, selector, precision, n_threads, rows);
     if (status == BRC_BAD_INPUT || status == BRC_DEVICE_FAILED || status == BRC_NO_MEMORY) {
         brc_log(context, BRC_LOG_WARNING, "throughput on %s: %s", selector, brc_context_message(context));

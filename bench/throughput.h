@@ -17,6 +17,7 @@ typedef struct brc_throughput_request {
     const char *devices[BRC_THROUGHPUT_LIST];
     brc_precision precisions[BRC_THROUGHPUT_LIST];
     int threads[BRC_THROUGHPUT_LIST];
+    bool exact;                /* no contraction: brc_device_request */
     double sample_s;           /* least wall time of one of the five samples [s] */
     int64_t bandwidth_bytes;   /* array of the copy that speeds are held against [byte] */
     /* Called after each row was added (the last one of `rows`); a status other than BRC_OK stops. */

@@ -187,6 +187,8 @@ static brc_status read_run(const reader *r, const brc_node *node, brc_case_run *
             run->keep = flag_of(r, item);
         else if (strcmp(item->key, "may_stop") == 0)
             run->may_stop = flag_of(r, item);
+        else if (strcmp(item->key, "exact") == 0)
+            run->exact = flag_of(r, item);
         else if (strcmp(item->key, "with") == 0)
             run->operator = (brc_case_operator)word_of(r, item, operators);
         else if (strcmp(item->key, "device") == 0)

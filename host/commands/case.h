@@ -47,6 +47,7 @@ typedef struct brc_case_run {
     const char *device; /* NULL: the one of the command line. A device that is not there: the run is skipped */
     bool has_precision;
     brc_precision precision;
+    bool exact;    /* as in brc_device_request */
     int n_threads; /* 0: as the command line says */
     int n_overrides;
     const char *overrides[BRC_CASE_LIST];

@@ -76,6 +76,8 @@ const brc_command *brc_command_find(brc_context *context, const char *name);
 #define BRC_OPTION_DEVICE {"device", 'd', "DEVICE", false, "auto, cpu, opencl:N or target:N (default auto)"}
 #define BRC_OPTION_PRECISION {"precision", 'p', "NAME", false, "double, mixed or single (default double)"}
 #define BRC_OPTION_THREADS {"threads", 't', "N", false, "threads of the cpu device and of building (default: all)"}
+#define BRC_OPTION_EXACT                                                                                               \
+    {"exact", 'x', NULL, false, "round every product and sum by itself: equal bits on every device, slower"}
 #define BRC_OPTION_SET {"set", 's', "KEY=VALUE", true, "replace a value of the scene, e.g. materials.glass.nu=0.3"}
 #define BRC_OPTION_OUTPUT(meaning) {"output", 'o', "DIR", false, (meaning)}
 

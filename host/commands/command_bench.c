@@ -14,6 +14,7 @@ static const brc_option options[] = {
     {"devices", 0, "LIST", false, "default: cpu and every OpenCL device that is here"},
     {"precisions", 0, "LIST", false, "default double,mixed,single"},
     {"threads", 't', "LIST", false, "threads of the cpu device (default 1,2)"},
+    BRC_OPTION_EXACT,
     {"sample", 0, "SECONDS", false, "least time of each of the five samples (default 0.5)"},
     {"copy", 0, "MB", false, "array of the copy that gives the bandwidth (default 256)"},
 };
@@ -95,6 +96,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     char folder[512], here[256], copy[4][256], devices[256];
     snprintf(folder, sizeof folder, "%s", given_folder ? given_folder : "results/throughput");
     brc_throughput_request request = {.sample_s = 0.5, .bandwidth_bytes = 256000000, .row = print_row, .self = folder};
+    request.exact = brc_arguments_value(arguments, "exact") != NULL;
     const char *pieces[BRC_THROUGHPUT_LIST];
     double number;
     BRC_TRY(default_devices(context, here, sizeof here));
@@ -124,7 +126,8 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
         BRC_TRY(take_number(context, "copy", brc_arguments_value(arguments, "copy"), 1, 1e5, &number));
         request.bandwidth_bytes = (int64_t)(number * 1e6);
     }
-    printf("million updates a second (median of five, least and most); bandwidth in GB/s; contraction off\n");
+    printf("million updates a second (median of five, least and most); bandwidth in GB/s; contraction %s\n",
+           request.exact ? "off" : "allowed");
     printf("%-15s %9s %-10s %-7s %3s %8s %13s %9s %10s %8s %8s %8s %9s\n", "model", "elements", "device", "prec.", "thr", "bonds", "",
            "elements", "s/step", "B/bond", "copy", "fraction", "B/element");
     brc_rows rows = {.context = context};

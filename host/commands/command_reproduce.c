@@ -15,6 +15,7 @@ static const brc_option options[] = {
     BRC_OPTION_DEVICE,
     BRC_OPTION_PRECISION,
     BRC_OPTION_THREADS,
+    BRC_OPTION_EXACT,
 };
 
 static brc_status print_cases(brc_context *context)
@@ -185,6 +186,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     int64_t n_threads;
     brc_campaign campaign = {.session = session, .folder = folder, .rows.context = context};
     campaign.device = brc_arguments_value(arguments, "device");
+    campaign.exact = brc_arguments_value(arguments, "exact") != NULL;
     campaign.quick = brc_arguments_value(arguments, "quick") != NULL;
     BRC_TRY(brc_arguments_integer(context, arguments, "threads", 0, 4096, 0, &n_threads));
     campaign.n_threads = (int)n_threads;

@@ -5,6 +5,7 @@
 
 static const brc_option options[] = {
     BRC_OPTION_OUTPUT("folder of the results (needed)"), BRC_OPTION_DEVICE, BRC_OPTION_PRECISION, BRC_OPTION_THREADS,
+    BRC_OPTION_EXACT,
     BRC_OPTION_SET,
 };
 
@@ -28,7 +29,8 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     brc_run_request request = {.path = arguments->positional[0],
                                .folder = brc_arguments_value(arguments, "output"),
                                .device = brc_arguments_value(arguments, "device"),
-                               .running = session->running};
+                               .running = session->running,
+                               .exact = brc_arguments_value(arguments, "exact") != NULL};
     if (!request.folder)
         return BRC_FAIL(session->context, BRC_BAD_INPUT, "breccia run: say where the results go with -o DIR");
     int64_t n_threads;

@@ -44,6 +44,7 @@ typedef struct brc_campaign {
     const char *device; /* NULL: auto */
     brc_precision precision;
     int n_threads;
+    bool exact;
     bool quick;
     brc_rows rows;
     brc_outcome *outcomes; /* [what->n_runs] */

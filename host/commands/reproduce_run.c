@@ -94,6 +94,7 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
                                .device = run->device ? run->device : campaign->device,
                                .precision = outcome->precision,
                                .n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads,
+                               .exact = run->exact || campaign->exact,
                                .finished = finished,
                                .self = &h,
                                .running = campaign->session->running};

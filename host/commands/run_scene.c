@@ -93,7 +93,8 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     const brc_device_request device = {.selector = request->device ? request->device : "auto",
                                        .precision = request->precision,
                                        .many_materials = brc_simulation_needs_many_materials(now->scene, now->domain),
-                                       .n_threads = request->n_threads};
+                                       .n_threads = request->n_threads,
+                                       .exact = request->exact};
     BRC_TRY(brc_device_open(context, &device, &now->device));
     BRC_TRY(brc_simulation_create(context, now->scene, now->domain, now->device, &now->simulation));
     if (now->recorder) BRC_TRY(brc_recorder_observe(now->recorder, now->simulation));

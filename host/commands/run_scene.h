@@ -19,6 +19,7 @@ typedef struct brc_run_request {
     const char *device;           /* NULL: "auto" */
     brc_precision precision;
     int n_threads;
+    bool exact; /* as in brc_device_request */
     const brc_observer *observer; /* besides the recorder; its self may be filled in `created` */
     /* Called when the simulation exists, before it runs; may be NULL. */
     brc_status (*created)(void *self, brc_simulation *simulation);
