@@ -19,6 +19,23 @@ LAW lane_mat3 dlsm_compaction(lane_mat3 gradient, lane ell, int finite)
     return push_forward(gradient, dlsm_compaction_strain(green_strain(gradient, finite), ell), finite);
 }
 
+/* M x [unit of x], from H x, without forming M: with t = x + H x (x when linearised), E x = (H x + H^T t)/2 and
+ * M x = y + H y, y = S_c x. Half the work of dlsm_compaction for a gradient used once. */
+LAW lane_vec3 dlsm_compaction_along(lane_mat3 gradient, lane_vec3 along, lane_vec3 x, lane ell, int finite)
+{
+    const lane_vec3 t = finite ? lane_vec3_add(x, along) : x;
+    const lane_vec3 back = lane_mat3_mul_vec(lane_mat3_transpose(gradient), t);
+    lane trace = gradient.xx + gradient.yy + gradient.zz;
+    if (finite)
+        trace += REAL(0.5) * (gradient.xx * gradient.xx + gradient.xy * gradient.xy + gradient.xz * gradient.xz +
+                              gradient.yx * gradient.yx + gradient.yy * gradient.yy + gradient.yz * gradient.yz +
+                              gradient.zx * gradient.zx + gradient.zy * gradient.zy + gradient.zz * gradient.zz);
+    const lane shift = ell * trace;
+    const lane_vec3 y = {REAL(0.5) * (along.x + back.x) + shift * x.x, REAL(0.5) * (along.y + back.y) + shift * x.y,
+                         REAL(0.5) * (along.z + back.z) + shift * x.z};
+    return finite ? lane_vec3_add(y, lane_mat3_mul_vec(gradient, y)) : y;
+}
+
 /* Derivative of T : M with respect to H: T S_c + F_H (Y + ell tr(Y) I), Y = sym(F_H^T T) [unit of T]. */
 LAW lane_mat3 dlsm_compaction_adjoint(lane_mat3 gradient, lane_mat3 t, lane ell, int finite)
 {

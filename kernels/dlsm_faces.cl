@@ -17,12 +17,7 @@ LAW vec3 held_jump(GLOBAL const state *restrict value, int face, GLOBAL const st
                   (coeff)(value[(brc_size)face * 3 + 2] - displacement[(brc_size)e * 3 + 2])};
 }
 
-/* Component-wise: held where pi is 1, free where it is 0. */
-LAW vec3 held_choose(vec3 pi, vec3 held, vec3 free)
-{
-    return (vec3){pi.x * held.x + (REAL(1) - pi.x) * free.x, pi.y * held.y + (REAL(1) - pi.y) * free.y,
-                  pi.z * held.z + (REAL(1) - pi.z) * free.z};
-}
+/* Components where pi is 1. */
 LAW vec3 held_only(vec3 pi, vec3 a) { return (vec3){pi.x * a.x, pi.y * a.y, pi.z * a.z}; }
 
 /* u_f = base + factor direction, for the faces of one load. entry -> face; component flags as in held. */
@@ -37,7 +32,10 @@ KERNEL void held_prescribe(int n, state factor, GLOBAL const int *restrict face,
     }
 }
 
-/* Part of V G: sum [ Pi (u_f - u_i) + (I - Pi) H_i d_f ] (x) s_f, assigned to the element's place. */
+/* r_f = Pi (u_f - u_i - H_i d_f) [m]. */
+LAW vec3 held_residual(vec3 pi, vec3 jump, mat3 grad, vec3 arm) { return held_only(pi, vec3_sub(jump, mat3_mul_vec(grad, arm))); }
+
+/* Part of V G: sum r_f (x) s_f, assigned to the element's place. */
 KERNEL void held_gradient_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict place,
                                GLOBAL const int *restrict face_start, GLOBAL const coeff *restrict area,
                                GLOBAL const coeff *restrict arm, GLOBAL const coeff *restrict held,
@@ -49,16 +47,19 @@ KERNEL void held_gradient_pass(int n, GLOBAL const int *restrict element, GLOBAL
         const mat3 grad = mat3_load(gradient, e);
         mat3 sum = {0, 0, 0, 0, 0, 0, 0, 0, 0};
         for (int f = face_start[h]; f < face_start[h + 1]; ++f)
-            sum = mat3_add_outer(sum, held_choose(vec3_load(held, f), held_jump(value, f, displacement, e),
-                                                  mat3_mul_vec(grad, vec3_load(arm, f))), vec3_load(area, f));
+            sum = mat3_add_outer(sum, held_residual(vec3_load(held, f), held_jump(value, f, displacement, e), grad, vec3_load(arm, f)),
+                                 vec3_load(area, f));
         mat3_put_in_block(held_gradient, place[2 * h], place[2 * h + 1], sum);
     }
 }
 
-/* r_f = Pi (u_f - u_i - H_i d_f) [m]. */
-LAW vec3 held_residual(vec3 pi, vec3 jump, mat3 grad, vec3 arm) { return held_only(pi, vec3_sub(jump, mat3_mul_vec(grad, arm))); }
+/* Pull of a held face on its element, Pi P_i s_f + kappa_f r_f [N]: a force at the face's centroid. */
+LAW vec3 held_pull(vec3 pi, vec3 residual, mat3 stress, vec3 area, coeff spring)
+{
+    return vec3_add(held_only(pi, mat3_mul_vec(stress, area)), vec3_scale(spring, residual));
+}
 
-/* Part of Q: sum [ (I - Pi) P_i s_f - kappa_f r_f ] (x) d_f, added to the element's place. */
+/* Part of Q: minus sum pull (x) d_f, added to the element's place. */
 KERNEL void held_moment_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict place,
                              GLOBAL const int *restrict face_start, GLOBAL const coeff *restrict area,
                              GLOBAL const coeff *restrict arm, GLOBAL const coeff *restrict held,
@@ -71,16 +72,15 @@ KERNEL void held_moment_pass(int n, GLOBAL const int *restrict element, GLOBAL c
         const mat3 grad = mat3_load(gradient, e), p = mat3_load(stress, e);
         mat3 sum = {0, 0, 0, 0, 0, 0, 0, 0, 0};
         for (int f = face_start[h]; f < face_start[h + 1]; ++f) {
-            const vec3 pi = vec3_load(held, f), d = vec3_load(arm, f), zero = {0, 0, 0};
+            const vec3 pi = vec3_load(held, f), d = vec3_load(arm, f);
             const vec3 r = held_residual(pi, held_jump(value, f, displacement, e), grad, d);
-            const vec3 free_part = held_choose(pi, zero, mat3_mul_vec(p, vec3_load(area, f)));
-            sum = mat3_add_outer(sum, vec3_sub(free_part, vec3_scale(spring[f], r)), d);
+            sum = mat3_add_outer(sum, vec3_scale(REAL(-1), held_pull(pi, r, p, vec3_load(area, f), spring[f])), d);
         }
         mat3_add_to_block(held_moment, place[2 * h], place[2 * h + 1], sum);
     }
 }
 
-/* f_i += Pi P_i s_f + kappa_f r_f, which is also the force of the load on the solid (dW/du_f), kept as reaction [N].
+/* f_i += pull, which is also the force of the load on the solid (dW/du_f), kept as reaction [N].
  * book: 0 no more; 1 adds the work of the load since the last booking by the trapezoidal rule [J]; 2 starts booking here.
  * last [n][3], last_reaction [n][3]: u_f and reaction at the last booking. */
 KERNEL void held_force_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict face_start,
@@ -97,7 +97,7 @@ KERNEL void held_force_pass(int n, GLOBAL const int *restrict element, GLOBAL co
         for (int f = face_start[h]; f < face_start[h + 1]; ++f) {
             const vec3 pi = vec3_load(held, f);
             const vec3 r = held_residual(pi, held_jump(value, f, displacement, e), grad, vec3_load(arm, f));
-            const vec3 pull = vec3_add(held_only(pi, mat3_mul_vec(p, vec3_load(area, f))), vec3_scale(spring[f], r));
+            const vec3 pull = held_pull(pi, r, p, vec3_load(area, f), spring[f]);
             const state on_element[3] = {(state)pull.x, (state)pull.y, (state)pull.z};
             for (int c = 0; c < 3; ++c) {
                 const brc_size at = (brc_size)f * 3 + c;

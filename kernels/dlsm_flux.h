@@ -1,6 +1,6 @@
 /* dlsm: the tensor B of an element whose sum over the two ends, times the area vector, is the bond force
- * (design-dlsm.md section 2, pass 3). The sums are taken over differences H_i - H_j and P_i - P_j, so that a uniform
- * state cancels bond by bond; A_i and the intact part of Z_i are then never needed. Several materials: a bond takes the
+ * (design-dlsm.md section 2, pass 3): B = Q A^-1 [Pa], with one material plus k times the bond part. The stress term of Q is
+ * that of G = H + sum (H_j - H_i) d (x) s / (2 V): no face moments are stored or read (docs/theory.md T2). Several materials: a bond takes the
  * softer of its two stabilisation moduli, k_ij = min(k_i, k_j), for both terms of its energy, so that it stays bounded by
  * the elastic energy of either side at any contrast. */
 #ifndef BRC_KERNELS_DLSM_FLUX_H
@@ -12,41 +12,32 @@
 typedef struct {
     lane_mat3 rs; /* sum c r (x) s [m^3]; c = k_ij / k_i, 1 with one material */
     lane_mat3 ms; /* sum c m (x) s [m^3] */
-    lane_mat3 q;  /* sum (P_i - P_j) s (x) d / 2 [N m] */
+    lane_mat3 q;  /* sum (P_i + P_j) s (x) d / 2 [N m] */
 } dlsm_flux_sums;
 
-/* What stands for r = (u_j - u_i) - (H_i + H_j)/2 R in sum r (x) s with one material [m]: the sum of (u_j - u_i) (x) s is
- * H_i A_i = sum (H_i R) (x) s, so that (H_i - H_j) R / 2 has the same sum. ratio: q = L/S [1/m], R = q s. */
-LAW lane_vec3 dlsm_residual_of_difference(lane_mat3 gradient_difference, lane_vec3 area, lane ratio)
-{
-    return lane_mat3_mul_vec(gradient_difference, lane_vec3_scale(REAL(0.5) * ratio, area));
-}
-
-/* (M_i + M_j)/2 R or (H_i + H_j)/2 R [m], from the sum over the two ends. */
-LAW lane_vec3 dlsm_along_branch(lane_mat3 sum_of_ends, lane_vec3 area, lane ratio)
-{
-    return lane_mat3_mul_vec(sum_of_ends, lane_vec3_scale(REAL(0.5) * ratio, area));
-}
+/* With one material, what stands for r = (u_j - u_i) - (H_i + H_j)/2 R in sum r (x) s [m] is (H_i - H_j) R / 2: the sum of
+ * (u_j - u_i) (x) s is H_i A_i = sum (H_i R) (x) s. */
 
 LAW dlsm_flux_sums dlsm_flux_add_bond(dlsm_flux_sums sums, lane_vec3 residual, lane_vec3 compact,
-                                      lane_mat3 stress_difference, lane_vec3 area, lane_vec3 offset)
+                                      lane_mat3 stress_sum, lane_vec3 area, lane_vec3 offset)
 {
     sums.rs = lane_add_outer(sums.rs, residual, area);
     sums.ms = lane_add_outer(sums.ms, compact, area);
     const lane_vec3 half_offset = {REAL(0.5) * offset.x, REAL(0.5) * offset.y, REAL(0.5) * offset.z};
-    sums.q = lane_add_outer(sums.q, lane_mat3_mul_vec(stress_difference, area), half_offset);
+    sums.q = lane_add_outer(sums.q, lane_mat3_mul_vec(stress_sum, area), half_offset);
     return sums;
 }
 
-/* Q = sum_q - (k/2) [ (1 + tau) rs + beta ms ] + adjoint of M on T = (beta k / 2) rs [N m]; free-face and load terms are
- * added by the loop. k: stabilisation modulus [Pa]. */
-LAW lane_mat3 dlsm_flux_moment(lane_mat3 gradient, dlsm_flux_sums sums, lane k, coeff beta, coeff one_plus_tau, lane ell,
-                               int finite)
+/* Q = V P - sum_q - (k/2) [ (1 + tau) rs + beta ms ] + adjoint of M on T = (beta k / 2) rs [N m]; what face loads add is up to
+ * the loop. k: stabilisation modulus [Pa]. */
+LAW lane_mat3 dlsm_flux_moment(lane_mat3 gradient, lane_mat3 stress, lane volume, dlsm_flux_sums sums, lane k, coeff beta,
+                               coeff one_plus_tau, lane ell, int finite)
 {
     const lane half_k = REAL(0.5) * k;
     const lane_mat3 t = lane_mat3_scale(half_k * beta, sums.rs);
     const lane_mat3 direct = lane_mat3_add(lane_mat3_scale(half_k * one_plus_tau, sums.rs), lane_mat3_scale(half_k * beta, sums.ms));
-    return lane_mat3_add(lane_mat3_sub(sums.q, direct), dlsm_compaction_adjoint(gradient, t, ell, finite));
+    const lane_mat3 own = lane_mat3_sub(lane_mat3_scale(volume, stress), sums.q);
+    return lane_mat3_add(lane_mat3_sub(own, direct), dlsm_compaction_adjoint(gradient, t, ell, finite));
 }
 
 /* [beta M - (1 + tau) H] / 2 [-]: the bond terms of B over k. */
@@ -55,12 +46,6 @@ LAW lane_mat3 dlsm_flux_bond_part(lane_mat3 gradient, lane_mat3 compaction, coef
     const lane half_beta = LANE_ZERO + REAL(0.5) * beta;
     const lane half_tau = LANE_ZERO + REAL(0.5) * one_plus_tau;
     return lane_mat3_sub(lane_mat3_scale(half_beta, compaction), lane_mat3_scale(half_tau, gradient));
-}
-
-/* B = Q A^-1 + P/2 [Pa]; with one material the loop adds k times the bond part. */
-LAW lane_mat3 dlsm_flux(lane_mat3 moment, lane_sym3 inv_shape, lane_mat3 stress)
-{
-    return lane_mat3_add(lane_mat3_mul_sym(moment, inv_shape), lane_mat3_scale(LANE_ZERO + REAL(0.5), stress));
 }
 
 #endif

@@ -169,8 +169,9 @@ LAW lane brc_lane_sqrt(lane x)
 #endif
 
 /* Eight lanes: gathers read whole records and transpose them (vec.h). The last record's vector reaches up to LANE_SPARE
- * numbers beyond the array, which the host allocates. GCC 12, clang and PoCL have the shuffle; others gather one by one. */
-#if W == 8 && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12))
+ * numbers beyond the array, which the host allocates. Only with vectors of eight doubles: without AVX-512 each shuffle becomes
+ * several (measured: a third slower on AVX2), so there and elsewhere numbers are gathered one by one. */
+#if W == 8 && defined(__AVX512F__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12))
 #define LANE_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #endif
 #define LANE_SPARE 8

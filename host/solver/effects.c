@@ -58,8 +58,8 @@ double brc_simulation_floor_bytes(const brc_simulation *s)
         return strain + force + n * (3 + 3 + 3 + 1 + 3 + 3 + 4 + 1 + 3 + 3 + 3 + 4) * state;
     }
     const double pass1 = half_edges * (4 + 3 * coeff) + n * (3 * state + (6 + 9) * coeff);
-    const double pass2 = half_edges * (4 + 6 * coeff) + n * (9 + 9 + 1 + 9 + 2 * many) * coeff;
-    const double pass3 = half_edges * (4 + 7 * coeff) + n * ((9 + 9 + 6 + 9 + (9 + 4) * many) * coeff + 3 * many * state);
+    const double pass2 = half_edges * (4 + 6 * coeff) + n * (9 + 1 + 9 + 2 * many) * coeff;
+    const double pass3 = half_edges * (4 + 7 * coeff) + n * ((9 + 9 + 6 + 1 + 9 + (9 + 4) * many) * coeff + 3 * many * state);
     const double pass4 = half_edges * (4 + 4 * coeff) + n * ((9 + (9 + 1) * many) * coeff + (3 + 3) * state);
     const double motion = n * (3 + 3 + 3 + 1 + 3 + 3) * state;
     return pass1 + pass2 + pass3 + pass4 + motion;

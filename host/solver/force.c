@@ -77,14 +77,14 @@ static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
     const int finite = r->finite ? 1 : 0, face_loads = has_face_loads(s) ? 1 : 0;
     BRC_TRY(dlsm_gradients(s, r->displacement, r->homogeneous));
     BRC_TRY(BRC_LAUNCH(s->kernel.stress, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->moment), BRC_BUF(s->inv_volume),
+                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
                        BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
                        BRC_COEFF(m->mu), BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->stress)));
     BRC_TRY(dlsm_face_moments(s, r));
     BRC_TRY(BRC_LAUNCH(s->kernel.flux, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(r->displacement),
-                       BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->inv_shape), BRC_BUF(s->boundary),
-                       BRC_BUF(s->free_moment), BRC_BUF(s->held_moment), BRC_INT(face_loads), BRC_COEFF(m->k),
+                       BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume),
+                       BRC_BUF(s->boundary), BRC_BUF(s->held_moment), BRC_INT(face_loads), BRC_COEFF(m->k),
                        BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau), BRC_BUF(s->material),
                        BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(s->flux), BRC_BUF(s->bond_part)));
     BRC_TRY(BRC_LAUNCH(s->kernel.force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
@@ -156,7 +156,7 @@ brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabil
     }
     BRC_TRY(BRC_LAUNCH(s->kernel.energy, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement),
-                       BRC_BUF(s->gradient), BRC_BUF(s->moment), BRC_BUF(s->inv_volume), BRC_BUF(s->boundary),
+                       BRC_BUF(s->gradient), BRC_BUF(s->inv_volume), BRC_BUF(s->boundary),
                        BRC_BUF(s->held_gradient), BRC_INT(has_face_loads(s) ? 1 : 0), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
                        BRC_COEFF(m->k), BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(1 + s->scene->model.tau),
                        BRC_BUF(s->material), BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(1),

@@ -118,54 +118,6 @@ static brc_status upload_inverse_shapes(brc_simulation *s)
     return status;
 }
 
-static void add_outer(double m[9], double factor, const double a[3], const double b[3])
-{
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) m[3 * i + j] += factor * a[i] * b[j];
-}
-
-brc_status brc_geometry_update_moments(brc_simulation *s)
-{
-    if (brc_is_published(s)) return BRC_OK;
-    const brc_layout *layout = s->layout;
-    const brc_domain *d = s->domain;
-    const int slice = layout->slice;
-    const int32_t *held = s->loads.held.index_of_free_face;
-    double *moments = NULL, *frees = NULL;
-    brc_status status = BRC_ALLOCATE(s->context, &moments, (int64_t)layout->n_rows * 9, "face moments");
-    if (status == BRC_OK) status = BRC_ALLOCATE(s->context, &frees, (int64_t)layout->n_boundary * slice * 9, "free-face moments");
-    if (status != BRC_OK) goto cleanup;
-#pragma omp parallel for schedule(static)
-    for (int32_t r = 0; r < layout->n_rows; ++r) {
-        const int64_t e = layout->element_of_row[r];
-        if (e < 0) continue;
-        double whole[9] = {0}, open[9] = {0};
-        for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
-            double branch[3], area[3], offset[3], ratio;
-            half_edge_geometry(d, h, (int32_t)e, branch, area, offset, &ratio);
-            add_outer(whole, 0.5, offset, area);         /* intact part of Z */
-            add_outer(whole, 0.5, branch, area);         /* A / 2: R (x) s = q s (x) s */
-        }
-        for (int64_t f = d->free_start[e]; f < d->free_start[e + 1]; ++f) {
-            if (held && held[f] >= 0) continue;
-            double arm[3];
-            for (int c = 0; c < 3; ++c) arm[c] = d->free_centroid[3 * f + c] - d->position[3 * e + c];
-            add_outer(open, 1, arm, d->free_area_vector + 3 * f);
-        }
-        const int32_t block = layout->boundary[r / slice];
-        for (int c = 0; c < 9; ++c) {
-            moments[((int64_t)(r / slice) * 9 + c) * slice + r % slice] = whole[c] + open[c];
-            if (block >= 0) frees[((int64_t)block * 9 + c) * slice + r % slice] = open[c];
-        }
-    }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->moment, moments, (int64_t)layout->n_rows * 9));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->free_moment, frees, (int64_t)layout->n_boundary * slice * 9));
-cleanup:
-    brc_memory_free(moments);
-    brc_memory_free(frees);
-    return status;
-}
-
 static brc_status upload_masses(brc_simulation *s)
 {
     const brc_domain *d = s->domain;
@@ -256,15 +208,13 @@ brc_status brc_geometry_create(brc_simulation *s)
     BRC_TRY(brc_new_coeff(s, &s->offset, entries * 3, "face offsets"));
     BRC_TRY(upload_rows(s, s->offset, ROW_OFFSET));
     BRC_TRY(brc_new_coeff(s, &s->ratio, entries, "length over area"));
-    BRC_TRY(upload_rows(s, s->ratio, ROW_RATIO));
-    BRC_TRY(brc_new_coeff(s, &s->moment, (int64_t)s->layout->n_rows * 9, "face moments"));
-    return brc_new_coeff(s, &s->free_moment, (int64_t)s->layout->n_boundary * s->layout->slice * 9, "free-face moments");
+    return upload_rows(s, s->ratio, ROW_RATIO);
 }
 
 void brc_geometry_free(brc_simulation *s)
 {
     brc_buffer **all[] = {&s->row_start, &s->neighbour, &s->boundary, &s->area, &s->offset, &s->ratio, &s->inv_shape,
-                          &s->moment, &s->inv_volume, &s->free_moment, &s->material, &s->modulus, &s->ell_of, &s->lame_of,
+                          &s->inv_volume, &s->material, &s->modulus, &s->ell_of, &s->lame_of,
                           &s->mass, &s->volume, &s->inertia};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_buffer_free(all[i]);
 }

@@ -171,8 +171,8 @@ int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *
     if (damped) bytes += n * state;
     if (scene->model.kind == BRC_MODEL_DLSM_PUBLISHED)
         return bytes + entries * 4 * coeff + n * ((6 + 6 + (many ? 3 : 0)) * coeff + (4 + 3 + 3 + 2) * state);
-    bytes += entries * 7 * coeff + n * (27 + 6 + 9 + 1 + (many ? 15 : 0)) * coeff + n * state;
-    return bytes + boundary * 9 * coeff * (any_stage(scene, has_face_load) ? 3 : 1);
+    bytes += entries * 7 * coeff + n * (27 + 6 + 1 + (many ? 15 : 0)) * coeff + n * state;
+    return bytes + boundary * 9 * coeff * (any_stage(scene, has_face_load) ? 2 : 0);
 }
 
 brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain, brc_device *device,
@@ -201,7 +201,6 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     BRC_TRY_OR(cleanup, find_kernels(s));
     BRC_TRY_OR(cleanup, brc_geometry_create(s));
     BRC_TRY_OR(cleanup, create_arrays(s));
-    BRC_TRY_OR(cleanup, brc_geometry_update_moments(s));
     brc_effects_list(s);
     s->setup_seconds = brc_clock_s() - start;
     *out = s;
@@ -279,7 +278,6 @@ brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
     s->stage = stage;
     s->step = 0;
     s->time = s->load_factor = 0;
-    BRC_TRY(brc_geometry_update_moments(s));
     if (next->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(brc_time_step_find(s, next, &s->time_step));
     BRC_TRY(brc_loads_prescribe(s, 0));
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));

@@ -80,7 +80,7 @@ struct brc_simulation {
     /* connectivity and geometry (geometry.c) */
     brc_buffer *row_start, *neighbour, *boundary;
     brc_buffer *area, *offset, *ratio;               /* dlsm: s, d, q; published: branch (in offset), S (in area) */
-    brc_buffer *inv_shape, *moment, *inv_volume, *free_moment;
+    brc_buffer *inv_shape, *inv_volume;
     brc_buffer *material, *modulus, *ell_of, *lame_of;
     brc_buffer *mass, *volume, *inertia;
 
@@ -131,8 +131,6 @@ brc_status brc_vector_dot(brc_simulation *s, brc_buffer *x, brc_buffer *y, int64
 /* ---- geometry.c ---- */
 brc_status brc_geometry_create(brc_simulation *s);
 void brc_geometry_free(brc_simulation *s);
-/* Z + A/2 and the free faces' moment, without the faces held in this stage (dlsm). */
-brc_status brc_geometry_update_moments(brc_simulation *s);
 /* Symmetric 3 x 3 preconditioner blocks [n_rows][6]: inverse of sum (S/L) [mu I + (lambda + mu) n n^T]. */
 brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out);
 

@@ -53,7 +53,7 @@ static brc_status deformation(brc_simulation *s, double *out)
 {
     /* B is dead between force evaluations: its buffer takes G */
     BRC_TRY(BRC_LAUNCH(s->kernel.deformation, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->moment), BRC_BUF(s->inv_volume),
+                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
                        BRC_BUF(s->boundary), BRC_BUF(s->held_gradient),
                        BRC_INT(s->loads.held.n_faces > 0 ? 1 : 0), BRC_BUF(s->flux)));
     return brc_coeff_from_rows(s, s->flux, out, 9);
