@@ -51,7 +51,8 @@ brc_status try_case(bench_case *c, case_options o)
                                         .precision = o.precision,
                                         .many_materials = brc_simulation_needs_many_materials(c->scene, c->domain),
                                         .n_threads = o.n_threads,
-                                        .lanes = o.lanes};
+                                        .lanes = o.lanes,
+                                        .exact = o.exact};
     BRC_TRY(brc_device_open(c->context, &request, &c->device));
     return brc_simulation_create(c->context, c->scene, c->domain, c->device, &c->simulation);
 }

@@ -33,6 +33,7 @@ typedef struct case_options {
     const char *device; /* default "cpu" */
     brc_precision precision;
     int n_threads, lanes;
+    bool exact;
 } case_options;
 
 /* Open everything; fails the test with the context's sentence. The stage is not entered. */
