@@ -21,6 +21,7 @@ KERNEL void dlsm_gradient(int n_groups, GLOBAL const int *restrict row_start, GL
         lane_mat3 a = lane_mat3_zero();
         for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
             const lane_int j = int_block(neighbour, slot, lane0);
+            rows_ahead3(area, slot);
             a = dlsm_add_jump(a, state_vec3_difference(state_gather3(displacement, j), u), lane_block3(area, slot, lane0));
         }
         lane_store9(gradient, first, lane_mat3_mul_sym(a, lane_block6(inv_shape, slice, lane0)));
@@ -39,6 +40,8 @@ LAW lane_mat3 dlsm_group_deformation(int group, GLOBAL const int *restrict row_s
     lane_mat3 sum = lane_mat3_zero();
     for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
         const lane_int j = int_block(neighbour, slot, lane0);
+        rows_ahead3(area, slot);
+        rows_ahead3(offset, slot);
         sum = dlsm_add_offset(sum, lane_mat3_sub(lane_gather9(gradient, j), h), lane_block3(offset, slot, lane0),
                               lane_block3(area, slot, lane0));
     }
@@ -88,6 +91,9 @@ LAW dlsm_flux_sums dlsm_group_flux_sums(int group, GLOBAL const int *restrict ro
 #endif
     for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
         const lane_int j = int_block(neighbour, slot, lane0);
+        rows_ahead3(area, slot);
+        rows_ahead3(offset, slot);
+        rows_ahead1(ratio, slot);
         const lane_vec3 s = lane_block3(area, slot, lane0);
         const lane q = lane_load(ratio, (brc_size)slot * C + (brc_size)lane0);
         const lane_mat3 h_j = lane_gather9(gradient, j);
@@ -174,6 +180,8 @@ KERNEL void dlsm_force(int n_groups, GLOBAL const int *restrict row_start, GLOBA
         lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
         for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
             const lane_int j = int_block(neighbour, slot, lane0);
+            rows_ahead3(area, slot);
+            rows_ahead1(ratio, slot);
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
             lane_mat3 sum = lane_mat3_add(b, lane_gather9(flux, j));
 #if BRC_MANY_MATERIALS

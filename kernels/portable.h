@@ -146,6 +146,15 @@ LAW lane brc_lane_sqrt(lane x)
 
 #endif
 
+/* Ask for a row entry `ahead` slots further on: rows are read once, in order, and the hardware's own prefetch stops at every
+ * page of 4 KiB (measured in docs/performance.md). GPUs hide the wait by their many work-items. */
+#if !defined(__OPENCL_VERSION__) && W > 1
+#define ROWS_AHEAD 12
+#define PREFETCH(p, at) __builtin_prefetch((p) + (at), 0, 3)
+#else
+#define PREFETCH(p, at) ((void)0)
+#endif
+
 /* LANE_MAKE(type, F) = (F(0), F(1), ... F(W-1)); LANE_ITEM(x, l) = component l, l a hex digit written out. */
 #if W == 1
 #define LANE_MAKE(type, F) F(0)

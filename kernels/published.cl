@@ -21,6 +21,7 @@ KERNEL void published_strain_pass(int n_groups, GLOBAL const int *restrict row_s
         lane_mat3 a = lane_mat3_zero();
         for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
             const lane_int j = int_block(neighbour, slot, lane0);
+            rows_ahead3(branch, slot);
             lane_vec3 r = lane_block3(branch, slot, lane0);
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
             if (area_weights)
@@ -63,6 +64,8 @@ KERNEL void published_force_pass(int n_groups, GLOBAL const int *restrict row_st
         lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
         for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
             const lane_int j = int_block(neighbour, slot, lane0);
+            rows_ahead3(branch, slot);
+            rows_ahead1(area, slot);
             const lane_vec3 r = lane_block3(branch, slot, lane0);
             const lane s = lane_load(area, (brc_size)slot * C + (brc_size)lane0);
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);

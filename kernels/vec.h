@@ -323,6 +323,27 @@ LAW lane lane_min(lane a, lane b)
 #undef ITEM
 }
 
+/* Prefetch of the rows that a loop reads: three-component and one-component. */
+LAW void rows_ahead3(GLOBAL const coeff *restrict p, int slot)
+{
+#ifdef ROWS_AHEAD
+    const brc_size at = (brc_size)(slot + ROWS_AHEAD) * 3 * C;
+    PREFETCH(p, at);
+    PREFETCH(p, at + C);
+    PREFETCH(p, at + 2 * C);
+#else
+    (void)p, (void)slot;
+#endif
+}
+LAW void rows_ahead1(GLOBAL const coeff *restrict p, int slot)
+{
+#ifdef ROWS_AHEAD
+    PREFETCH(p, (brc_size)(slot + ROWS_AHEAD) * C);
+#else
+    (void)p, (void)slot;
+#endif
+}
+
 /* ---- scalars, for kernels over short lists of faces or special elements ---- */
 typedef struct { coeff x, y, z; } vec3;
 typedef struct { coeff xx, xy, xz, yx, yy, yz, zx, zy, zz; } mat3;

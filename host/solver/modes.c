@@ -14,9 +14,11 @@ enum { GUARD_VECTORS = 6, RIGID_MOTIONS = 6, MOST_ROUNDS = 1500, CHUNK = 512, WA
 /* The residual |K x - l M x| in M^-1 over l at which a mode is done: the eigenvalue's own error is its square for a symmetric
  * operator, and about itself for the published one. */
 static const double settled = 3e-5;
-/* The published operator has complex pairs, whose real and imaginary vectors leave a residual of the size of the imaginary
- * part: there the modes are done when WATCH rounds change no wanted eigenvalue by more than this part of it. */
-static const double steady = 1e-5;
+/* A mode is also done when WATCH rounds change its eigenvalue by less than this part of it. Ritz values of a symmetric operator
+ * fall monotonically, at a rate that leaves a few times the last change to come; nearly incompressible solids take hundreds of
+ * rounds for each digit of the residual while the eigenvalue stands still. The published operator has complex pairs, whose real
+ * and imaginary vectors leave a residual of the size of the imaginary part: there this is the only criterion that is met. */
+static const double steady[2] = {1e-6 /* dlsm */, 1e-5 /* dlsm-published */};
 /* Eigenvalues below this part of the smallest elastic one count as rigid motions. */
 static const double rigid_part = 1e-6;
 /* Directions of the search space whose norm falls below this part of the largest are dropped. */
@@ -347,7 +349,7 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
         const double worst = residuals(t, values, wanted);
         brc_progress_update(progress, round + 1);
         if (worst < settled) goto cleanup;
-        if (brc_is_published(s) && (round + 1) % WATCH == 0 && change_since(values, before, m - GUARD_VECTORS) < steady) goto cleanup;
+        if ((round + 1) % WATCH == 0 && change_since(values, before, m - GUARD_VECTORS) < steady[brc_is_published(s)]) goto cleanup;
         if (s->interrupted) {
             status = BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the modes solver");
             goto cleanup;
