@@ -42,6 +42,7 @@ LAW lane_mat3 dlsm_group_deformation(int group, GLOBAL const int *restrict row_s
         const lane_int j = int_block(neighbour, slot, lane0);
         rows_ahead3(area, slot);
         rows_ahead3(offset, slot);
+        gathers_ahead9(gradient, neighbour, slot, row_start[slice + 1], lane0);
         sum = dlsm_add_offset(sum, lane_mat3_sub(lane_gather9(gradient, j), h), lane_block3(offset, slot, lane0),
                               lane_block3(area, slot, lane0));
     }
@@ -94,6 +95,8 @@ LAW dlsm_flux_sums dlsm_group_flux_sums(int group, GLOBAL const int *restrict ro
         rows_ahead3(area, slot);
         rows_ahead3(offset, slot);
         rows_ahead1(ratio, slot);
+        gathers_ahead9(gradient, neighbour, slot, row_start[slice + 1], lane0);
+        gathers_ahead9(stress, neighbour, slot, row_start[slice + 1], lane0);
         const lane_vec3 s = lane_block3(area, slot, lane0);
         const lane q = lane_load(ratio, (brc_size)slot * C + (brc_size)lane0);
         const lane_mat3 h_j = lane_gather9(gradient, j);
@@ -182,6 +185,7 @@ KERNEL void dlsm_force(int n_groups, GLOBAL const int *restrict row_start, GLOBA
             const lane_int j = int_block(neighbour, slot, lane0);
             rows_ahead3(area, slot);
             rows_ahead1(ratio, slot);
+            gathers_ahead9(flux, neighbour, slot, row_start[slice + 1], lane0);
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
             lane_mat3 sum = lane_mat3_add(b, lane_gather9(flux, j));
 #if BRC_MANY_MATERIALS

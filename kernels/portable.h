@@ -150,6 +150,7 @@ LAW lane brc_lane_sqrt(lane x)
  * page of 4 KiB (measured in docs/performance.md). GPUs hide the wait by their many work-items. */
 #if !defined(__OPENCL_VERSION__) && W > 1
 #define ROWS_AHEAD 12
+#define GATHERS_AHEAD 2
 #define PREFETCH(p, at) __builtin_prefetch((p) + (at), 0, 3)
 #else
 #define PREFETCH(p, at) ((void)0)

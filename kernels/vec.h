@@ -344,6 +344,21 @@ LAW void rows_ahead1(GLOBAL const coeff *restrict p, int slot)
 #endif
 }
 
+/* Prefetch of the [element][9] records that the row entry GATHERS_AHEAD slots further on will gather. */
+LAW void gathers_ahead9(GLOBAL const coeff *restrict p, GLOBAL const int *restrict neighbour, int slot, int last, int first_lane)
+{
+#ifdef ROWS_AHEAD
+    const int next = slot + GATHERS_AHEAD < last ? slot + GATHERS_AHEAD : slot;
+    const int *row = neighbour + (brc_size)next * C + (brc_size)first_lane;
+    for (int l = 0; l < W; ++l) {
+        PREFETCH(p, (brc_size)row[l] * 9);
+        PREFETCH(p, (brc_size)row[l] * 9 + 8);
+    }
+#else
+    (void)p, (void)neighbour, (void)slot, (void)last, (void)first_lane;
+#endif
+}
+
 /* ---- scalars, for kernels over short lists of faces or special elements ---- */
 typedef struct { coeff x, y, z; } vec3;
 typedef struct { coeff xx, xy, xz, yx, yy, yz, zx, zy, zz; } mat3;

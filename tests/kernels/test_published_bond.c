@@ -12,6 +12,7 @@
 #define BRC_SLICE 1
 #define BRC_MANY_MATERIALS 0
 #pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wshadow"
 #include "../../kernels/published_bond.h"
 
 static void rotation_vector_is_angle_times_axis_up_to_a_right_angle(void **state)
