@@ -26,8 +26,8 @@ typedef struct brc_model {
     brc_model_kind kind;
     /* dlsm */
     bool compaction; /* true: beta as given; false: beta = 0 */
-    double beta;     /* [-] cross term, default 1 */
-    double tau;      /* [-] stabilisation, default 0.1 */
+    double beta;     /* [-] cross term, default 1.06 (docs/theory.md T2) */
+    double tau;      /* [-] stabilisation, default 0.15; beta^2 <= 1 + tau keeps W positive */
     /* dlsm-published */
     bool area_weights;         /* least squares with weights S/L instead of 1 (default false, as printed) */
     double rotation_stiffness; /* [-] factor on K = E S^2 / (4 pi L0), default 1 */

@@ -14,7 +14,7 @@ static void defaults_are_filled_in(void **state)
         good_scene(HEAD "stages: [{name: s, solver: {dynamic: {steps: 10}}}, {name: q, solver: static}]\n");
     assert_int_equal(scene->model.kind, BRC_MODEL_DLSM);
     assert_true(scene->model.compaction);
-    assert_true(scene->model.beta == 1 && scene->model.tau == 0.1);
+    assert_true(scene->model.beta == 1.06 && scene->model.tau == 0.15);
     const brc_fill *fill = &scene->bodies[0].fill;
     assert_true(fill->spread == 0.9 && fill->seed == 1 && fill->lloyd_sweeps == 0 && fill->n_elements == 100);
     const brc_stage *dynamic = &scene->stages[0], *quiet = &scene->stages[1];
@@ -61,7 +61,7 @@ static void without_compaction_beta_is_zero(void **state)
 {
     (void)state;
     brc_scene *scene = good_scene(HEAD STAGES "model: {dlsm: {compaction: false}}\n");
-    assert_true(!scene->model.compaction && scene->model.beta == 0 && scene->model.tau == 0.1);
+    assert_true(!scene->model.compaction && scene->model.beta == 0 && scene->model.tau == 0.15);
     brc_scene_free(&scene);
 }
 
