@@ -1,4 +1,4 @@
-/* The domain: a solid cut into convex cells, as arrays. Built by brc_domain_build, read and written by domain_file.h.
+/* The domain: a solid as elements and bonds, as arrays: convex cells that share faces, or spheres joined by beams. Built by brc_domain_build, read and written by domain_file.h.
  *
  * The position X of an element is its Voronoi seed, so that the branch R = X_j - X_i is parallel to the face normal:
  * R = (L / S) s with L = |R| and s = S N the area vector. Element mass is lumped at X.
@@ -36,11 +36,21 @@ typedef struct brc_quality {
     double closure_worst;           /* largest |sum of face area vectors| of a cell over its total face area [-] */
     double twin_area_worst;         /* largest difference of a face area seen from its two sides, over the mean area [-] */
     double support_smallest;        /* smallest eigenvalue of A_i / (2 V_i), A = sum (L/S) s (x) s (design-dlsm 3) [-] */
+    double volume_fraction;         /* spheres: sphere volume over the shape's [-]; cells: 0 */
+    double growth;                  /* spheres: largest d / (R_i + R_j) of a bond (NAH19's growth factor) [-]; cells: 0 */
     double coordination_mean;       /* 2 n_bonds / n_elements [-] */
     int64_t coordination_histogram[64]; /* elements with k bonds; the last bin also counts more */
 } brc_quality;
 
+typedef enum brc_element_kind {
+    BRC_ELEMENT_CELL,  /* convex cells, every array below */
+    BRC_ELEMENT_SPHERE /* spheres joined by beams: no faces and corners. area_vector, face_centroid, free_*, vertex and
+                        * free_polygon* are NULL, n_free_faces is 0; volume, inertia and centroid are those of the sphere;
+                        * each wall's set holds the elements that touch it */
+} brc_element_kind;
+
 typedef struct brc_domain {
+    brc_element_kind element_kind;
     int64_t n_elements, n_bonds, n_half_edges /* = 2 n_bonds */, n_free_faces;
 
     /* elements */
@@ -50,6 +60,8 @@ typedef struct brc_domain {
     double *inertia;  /* [n_elements][6] xx yy zz yz xz xy of the inertia tensor about the centroid at unit density [m^5] */
     int32_t *region;  /* [n_elements] index of the material region (0: the body's own material) */
     int32_t *body;    /* [n_elements] index of the body */
+    int32_t *grain;   /* [n_elements] index of the grain, numbered through all bodies; NULL: no grains */
+    double *radius;   /* [n_elements] spheres: as packed, before any growth [m]; cells: NULL */
 
     /* half-edges: rows sorted by neighbour id; row of element e is row_start[e] .. row_start[e + 1] */
     int64_t *row_start;    /* [n_elements + 1] */

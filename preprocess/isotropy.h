@@ -1,0 +1,38 @@
+/* How even are the directions of the bonds? The papers' three-dimensional histogram (AGH19 section 7.1, Fig. 5) with numbers. */
+#ifndef BRC_PREPROCESS_ISOTROPY_H
+#define BRC_PREPROCESS_ISOTROPY_H
+
+#include "domain.h"
+
+/* Bins: the cells of directions nearest to each vertex of an icosphere, a direction and its opposite counted in both (a bond has no sense). */
+typedef struct brc_isotropy {
+    int32_t n_bins;     /* 12, 42, 162, 642, ... = 10 * 4^level + 2 */
+    double *direction;  /* [n_bins][3] unit vectors; owned */
+    double *solid_angle; /* [n_bins] [sr] of each bin; owned */
+    double *count;      /* [n_bins] directions in the bin; owned */
+    double *density;    /* [n_bins] count per solid angle over the mean of it: 1 everywhere for even directions [-]; owned */
+    int32_t n_triangles;
+    int32_t *triangle;  /* [n_triangles][3] of the icosphere; owned */
+    double fabric[6];   /* mean of n (x) n: xx yy zz yz xz xy; I/3 for even directions [-] */
+    double fabric_anisotropy; /* sqrt(3/2) |fabric - I/3| / (1/3) with the Frobenius norm: 0 even, 1 = ... see docs/isotropy.md [-] */
+    double worst_bin;   /* largest |density - 1| [-] */
+    double rms_bin;     /* root mean square of density - 1, weighted with solid angle [-] */
+    double noise;       /* rms_bin that even, independent directions of this number would give: sqrt(n_bins / n_directions)-like, exact [-] */
+    double cubic;       /* mean of (nx^4 + ny^4 + nz^4) over 3/5, minus 1: the order a grid leaves, which the fabric tensor cannot see [-] */
+    int64_t n_directions;
+} brc_isotropy;
+
+/* What is counted. */
+typedef enum brc_isotropy_weight {
+    BRC_ISOTROPY_BONDS, /* every bond once */
+    BRC_ISOTROPY_AREA   /* weighted with face area (cells only) */
+} brc_isotropy_weight;
+
+/* Measure the bonds of a domain. level 0..6. BRC_BAD_INPUT: no bonds, level out of range, area of spheres. */
+brc_status brc_isotropy_measure(brc_context *context, const brc_domain *domain, int level, brc_isotropy_weight weight, int n_threads,
+                                brc_isotropy *out);
+void brc_isotropy_free(brc_isotropy *isotropy);
+/* The histogram as a closed surface, radius = density, as a VTP (VTK XML PolyData, readable by ParaView) or, by the ending .stl, an STL file. */
+brc_status brc_isotropy_write_surface(brc_context *context, const brc_isotropy *isotropy, const char *path);
+
+#endif
