@@ -12,6 +12,10 @@ typedef enum brc_random_use {
     BRC_RANDOM_MODES = 3,
     BRC_RANDOM_INITIAL_FIELD = 4,
     BRC_RANDOM_TEST = 5,
+    BRC_RANDOM_PACKING_POSITION = 6,
+    BRC_RANDOM_PACKING_RADIUS = 7,
+    BRC_RANDOM_GRAIN = 8,
+    BRC_RANDOM_GRAIN_PHASE = 9,
 } brc_random_use;
 
 /* Four doubles uniform in (0, 1), a function of (seed, use, a, b) alone. a, b: ids of the thing drawn for. */
