@@ -8,7 +8,7 @@
 /* Choose bonds and fill every array of `domain` that spheres have (domain.h), but for regions, bodies, sets and provenance.
  * position [n][3], radius [n] are taken over by the domain on success. The round(coordination n / 2) pairs with the smallest
  * d / (R_i + R_j) are bonded (ties by the smaller indices); quality.growth is the last one's ratio. Elements that touch a wall of the
- * solid (depth <= R (1 + 1e-6)) are its set's members; see brc_beams_walls. BRC_BAD_INPUT: a coordination number that cannot be reached (with the
+ * solid (depth <= R (1 + 1e-6)) are its set's members; those with centres within 2 R_i are the set "<wall>_layer". BRC_BAD_INPUT: a coordination number that cannot be reached (with the
  * largest that can), fewer than 2 elements. */
 brc_status brc_beams_build(brc_context *context, const brc_solid *solid, double *position, double *radius, int64_t n,
                            double coordination, int n_threads, brc_domain *domain);

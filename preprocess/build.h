@@ -6,7 +6,7 @@
 
 /* Leaves are axis-aligned; a body's pose, or the pose of a part, turns them. Walls: box x- x+ y- y+ z- z+; cylinder and cone
  * along x: x- x+ side (a cone that ends in a tip has no wall there); sphere, torus, mesh: surface; half-space: cut. In a shape of
- * several parts the walls of a part with a name are "<name>.<wall>" (walls of equal name are one).
+ * several parts the walls of a part with a name are "<name>_<wall>" (walls of equal name are one).
  * A disc is a short cylinder, a plate a flat box. */
 typedef enum brc_shape_kind {
     BRC_SHAPE_BOX,
@@ -50,6 +50,12 @@ typedef struct brc_shape_part {
     double translation[3], rotation[3];   /* as brc_build_request: about the origin of the part's shape, then moved [m], [rad] */
 } brc_shape_part;
 
+/* A point of a cumulative distribution of radii. */
+typedef struct brc_radius {
+    double radius;   /* only ratios count when the number of elements is given [m] */
+    double fraction; /* of the elements (by number) that are smaller: 0 at the first point, 1 at the last, not falling [-] */
+} brc_radius;
+
 typedef enum brc_fill_kind { BRC_FILL_NOISY_GRID, BRC_FILL_PACKING, BRC_FILL_POINTS } brc_fill_kind;
 
 typedef struct brc_fill {
@@ -66,8 +72,7 @@ typedef struct brc_fill {
     double radius;          /* mean radius [m] when n_elements is 0: the number follows from it */
     double radius_spread;   /* 0..0.9: radii uniform in mean * (1 -+ radius_spread); without a table */
     int32_t n_radii;        /* table of radii; 0: uniform */
-    double *table_radius;   /* [n_radii] ascending, relative: only ratios count [-]; owned as shape.parts */
-    double *table_fraction; /* [n_radii] cumulative number fraction, 0 at the first, 1 at the last, not falling [-] */
+    struct brc_radius *radii; /* [n_radii] ascending; linear between its points; owned as shape.parts */
     double coordination;    /* stop when 2 contacts / elements is this (walls not counted); 0: use volume_fraction */
     double volume_fraction; /* stop at this; 0: use coordination */
     double tolerance;       /* on the coordination number, default 0.02 [-] */
@@ -129,7 +134,7 @@ typedef struct brc_grains {
 
 /* What `quality` may refuse: a number of brc_quality or brc_isotropy by name. */
 typedef struct brc_quality_limit {
-    char number[32];     /* see quality.h */
+    char number[64];     /* see quality.h */
     bool has_warn, has_refuse;
     double warn, refuse; /* beyond (above, or below for numbers where less is worse) */
 } brc_quality_limit;
