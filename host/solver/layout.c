@@ -1,36 +1,11 @@
 #include "layout.h"
+#include "../../preprocess/order.h"
 #include "../base/memory.h"
+#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { WINDOW_SLICES = 32, CURVE_BITS = 16 };
-
-/* Place of a cell on the Hilbert curve of 2^bits cells a side (Skilling's transposition, AIP Conf. Proc. 707, 2004). */
-static uint64_t hilbert_key(const uint32_t cell[3])
-{
-    uint32_t x[3] = {cell[0], cell[1], cell[2]};
-    for (uint32_t q = 1u << (CURVE_BITS - 1); q > 1; q >>= 1) {
-        const uint32_t p = q - 1;
-        for (int i = 0; i < 3; ++i) {
-            if (x[i] & q) {
-                x[0] ^= p;
-            } else {
-                const uint32_t t = (x[0] ^ x[i]) & p;
-                x[0] ^= t;
-                x[i] ^= t;
-            }
-        }
-    }
-    for (int i = 1; i < 3; ++i) x[i] ^= x[i - 1];
-    uint32_t t = 0;
-    for (uint32_t q = 1u << (CURVE_BITS - 1); q > 1; q >>= 1)
-        if (x[2] & q) t ^= q - 1;
-    for (int i = 0; i < 3; ++i) x[i] ^= t;
-    uint64_t key = 0;
-    for (int bit = CURVE_BITS - 1; bit >= 0; --bit)
-        for (int i = 0; i < 3; ++i) key = (key << 1) | ((x[i] >> bit) & 1u);
-    return key;
-}
+enum { WINDOW_SLICES = 32 };
 
 typedef struct sort_item {
     uint64_t key;
@@ -51,39 +26,31 @@ static int32_t degree(const brc_domain *domain, int32_t element)
 
 static bool has_free_face(const brc_domain *domain, int32_t element)
 {
-    return domain->free_start[element + 1] > domain->free_start[element];
+    return domain->free_start && domain->free_start[element + 1] > domain->free_start[element];
 }
 
 /* Elements in storage order. */
-static void order_elements(const brc_domain *domain, int32_t slice, sort_item *items)
+static brc_status order_elements(brc_context *context, const brc_domain *domain, int32_t slice, sort_item *items)
 {
-    double scale = 0;
-    for (int c = 0; c < 3; ++c) {
-        const double width = domain->bounds[1][c] - domain->bounds[0][c];
-        if (width > scale) scale = width;
-    }
-    const double per_cell = scale > 0 ? ((1u << CURVE_BITS) - 1) / scale : 0;
-    for (int64_t e = 0; e < domain->n_elements; ++e) {
-        uint32_t cell[3];
-        for (int c = 0; c < 3; ++c) {
-            const double at = (domain->position[3 * e + c] - domain->bounds[0][c]) * per_cell;
-            cell[c] = at > 0 ? (uint32_t)at : 0;
-            if (cell[c] >= 1u << CURVE_BITS) cell[c] = (1u << CURVE_BITS) - 1;
-        }
-        items[e] = (sort_item){hilbert_key(cell), (int32_t)e};
-    }
-    qsort(items, (size_t)domain->n_elements, sizeof *items, compare_items);
+    int32_t *order = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &order, domain->n_elements, "storage order"));
+    BRC_TRY_OR(cleanup, brc_order_hilbert(context, domain->position, domain->n_elements, domain->bounds, omp_get_max_threads(), order));
     /* inside a window: elements with free faces first, then by falling degree, then along the curve */
     const int64_t window = (int64_t)WINDOW_SLICES * slice;
     for (int64_t begin = 0; begin < domain->n_elements; begin += window) {
         const int64_t end = begin + window < domain->n_elements ? begin + window : domain->n_elements;
         for (int64_t i = begin; i < end; ++i) {
-            const int32_t e = items[i].element;
+            const int32_t e = order[i];
+            items[i].element = e;
             items[i].key = (uint64_t)(has_free_face(domain, e) ? 0 : 1) << 63 |
                            (uint64_t)(0x7fffffff - degree(domain, e)) << 32 | (uint64_t)(i - begin);
         }
         qsort(items + begin, (size_t)(end - begin), sizeof *items, compare_items);
     }
+cleanup:
+    brc_memory_free(order);
+    return status;
 }
 
 brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int32_t slice, brc_layout **out)
@@ -101,7 +68,7 @@ brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->element_of_row, layout->n_rows, "storage rows"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->slot_start, layout->n_slices + 1, "slice starts"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->boundary, layout->n_slices, "boundary blocks"));
-    order_elements(domain, slice, items);
+    BRC_TRY_OR(cleanup, order_elements(context, domain, slice, items));
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         layout->element_of_row[r] = r < domain->n_elements ? items[r].element : -1;
         if (r < domain->n_elements) layout->row_of_element[items[r].element] = r;
