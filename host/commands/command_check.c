@@ -45,9 +45,12 @@ static brc_status print_estimate(brc_context *context, const brc_scene *scene)
             printf("body %s: read from %s\n", body->name, body->domain_file);
             continue;
         }
-        const brc_build_request request = {.shape = body->shape, .fill = body->fill};
+        brc_scene_request request;
         int64_t n_elements, bytes;
-        BRC_TRY(brc_domain_estimate(context, &request, &n_elements, &bytes));
+        BRC_TRY(brc_scene_request_make(context, scene, b, 0, &request));
+        const brc_status status = brc_domain_estimate(context, &request.build, &n_elements, &bytes);
+        brc_scene_request_free(&request);
+        BRC_TRY(status);
         printf("body %s: about %lld elements, %.3g MB as a domain\n", body->name, (long long)n_elements, (double)bytes / 1e6);
     }
     return BRC_OK;

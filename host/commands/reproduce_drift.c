@@ -42,8 +42,7 @@ static brc_status prepare(brc_drift *d, brc_simulation *simulation)
     BRC_TRY(BRC_ALLOCATE(d->context, &d->velocity, 3 * domain->n_elements, "velocities of the drift"));
     for (int64_t e = 0; e < domain->n_elements; ++e) {
         const brc_body *body = &scene->bodies[domain->body[e]];
-        const int32_t region = domain->region[e];
-        const int32_t material = region > 0 ? body->regions[region - 1].material : body->material;
+        const int32_t material = brc_body_material(body, domain->region[e]);
         d->mass[e] = domain->volume[e] * scene->materials[material].density;
     }
     return BRC_OK;

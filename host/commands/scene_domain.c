@@ -18,29 +18,78 @@ static brc_status read_body(brc_context *context, const brc_scene *scene, int32_
     for (int64_t e = 0; e < (*out)->n_elements; ++e)
         (*out)->body[e] = index;
     for (int64_t e = 0; e < (*out)->n_elements; ++e)
-        if ((*out)->region[e] < 0 || (*out)->region[e] > body->n_regions)
+        if ((*out)->region[e] < 0 || (*out)->region[e] > brc_body_n_regions(body))
             return BRC_FAIL(context, BRC_BAD_INPUT,
                             "body '%s': %s holds region %d, the scene gives the body %d region(s); state them as when the "
-                            "file was built", body->name, body->domain_file, (*out)->region[e], body->n_regions);
+                            "file was built", body->name, body->domain_file, (*out)->region[e], brc_body_n_regions(body));
     brc_pose_apply(body->shape.origin, body->rotation, body->translation, *out);
     return BRC_OK;
 }
 
-static brc_status make_body(brc_context *context, const brc_scene *scene, int32_t index, int n_threads, brc_domain **out)
+/* A path of the scene as the builder needs it: relative to the scene's folder. */
+static brc_status resolve(brc_context *context, const brc_scene *scene, char *path, size_t room)
+{
+    if (path[0] == '\0' || path[0] == '/') return BRC_OK;
+    char *joined = NULL;
+    BRC_TRY(brc_file_join(context, scene->folder, path, &joined));
+    brc_status status = BRC_OK;
+    if (strlen(joined) >= room)
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: the path has %zu bytes, at most %zu are kept; use a shorter one", joined,
+                          strlen(joined), room - 1);
+    else
+        memcpy(path, joined, strlen(joined) + 1);
+    brc_memory_free(joined);
+    return status;
+}
+
+void brc_scene_request_free(brc_scene_request *request)
+{
+    brc_memory_free(request->regions);
+    brc_memory_free(request->fractions);
+    brc_memory_free(request->parts);
+    memset(request, 0, sizeof *request);
+}
+
+brc_status brc_scene_request_make(brc_context *context, const brc_scene *scene, int32_t index, int n_threads, brc_scene_request *out)
 {
     const brc_body *body = &scene->bodies[index];
-    if (body->domain_file[0]) return read_body(context, scene, index, out);
-    brc_build_request request = {.shape = body->shape, .fill = body->fill, .n_regions = body->n_regions,
-                                 .tiny_face_threshold = body->tiny_face_threshold, .n_threads = n_threads, .body = index};
-    memcpy(request.translation, body->translation, sizeof request.translation);
-    memcpy(request.rotation, body->rotation, sizeof request.rotation);
-    brc_predicate *regions;
-    BRC_TRY(BRC_ALLOCATE(context, &regions, body->n_regions, "regions of a body"));
+    brc_status status = BRC_OK;
+    memset(out, 0, sizeof *out);
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->regions, body->n_regions, "regions of a body"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->fractions, body->n_phases, "phases of a body"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->parts, body->shape.n_parts, "parts of a shape"));
     for (int32_t r = 0; r < body->n_regions; ++r)
-        regions[r] = body->regions[r].where;
-    request.regions = regions;
-    const brc_status status = brc_domain_build(context, &request, out);
-    brc_memory_free(regions);
+        out->regions[r] = body->regions[r].where;
+    for (int32_t p = 0; p < body->n_phases; ++p)
+        out->fractions[p] = body->phases[p].fraction;
+    brc_build_request *build = &out->build;
+    *build = (brc_build_request){.shape = body->shape, .fill = body->fill, .beams = body->beams,
+                                 .n_cracks = body->n_cracks, .cracks = body->cracks, .grains = body->grains,
+                                 .n_limits = scene->n_limits, .limits = scene->limits, .n_regions = body->n_regions,
+                                 .regions = out->regions, .tiny_face_threshold = body->tiny_face_threshold,
+                                 .n_threads = n_threads, .body = index};
+    memcpy(build->translation, body->translation, sizeof build->translation);
+    memcpy(build->rotation, body->rotation, sizeof build->rotation);
+    build->grains.n_phases = body->n_phases;
+    build->grains.fraction = out->fractions;
+    BRC_TRY_OR(cleanup, resolve(context, scene, build->fill.file, sizeof build->fill.file));
+    BRC_TRY_OR(cleanup, resolve(context, scene, build->shape.file, sizeof build->shape.file));
+    if (body->shape.n_parts > 0) memcpy(out->parts, body->shape.parts, (size_t)body->shape.n_parts * sizeof *out->parts);
+    for (int32_t p = 0; p < body->shape.n_parts; ++p)
+        BRC_TRY_OR(cleanup, resolve(context, scene, out->parts[p].shape.file, sizeof out->parts[p].shape.file));
+    build->shape.parts = out->parts;
+cleanup:
+    if (status != BRC_OK) brc_scene_request_free(out);
+    return status;
+}
+
+static brc_status make_body(brc_context *context, const brc_scene *scene, int32_t index, int n_threads, brc_domain **out)
+{
+    if (scene->bodies[index].domain_file[0]) return read_body(context, scene, index, out);
+    brc_scene_request request;
+    BRC_TRY(brc_scene_request_make(context, scene, index, n_threads, &request));
+    const brc_status status = brc_domain_build(context, &request.build, out);
+    brc_scene_request_free(&request);
     return status;
 }
 

@@ -5,6 +5,19 @@
 #include "../../preprocess/domain.h"
 #include "../scene/scene.h"
 
+/* What the builder is asked for one body, with the arrays it borrows. */
+typedef struct brc_scene_request {
+    brc_build_request build;
+    brc_predicate *regions;
+    double *fractions;
+    brc_shape_part *parts;
+} brc_scene_request;
+
+/* The request of a body that has a shape and a fill; its files are found from the scene's folder. It borrows from the scene;
+ * caller frees with brc_scene_request_free. */
+brc_status brc_scene_request_make(brc_context *context, const brc_scene *scene, int32_t index, int n_threads, brc_scene_request *out);
+void brc_scene_request_free(brc_scene_request *request);
+
 /* Sets of the scene see all bodies where they stand; a body read from a file keeps its own sets besides, unless the
  * scene names one alike. n_threads: 0 as OpenMP decides. The caller frees *out. */
 brc_status brc_scene_domain_build(brc_context *context, const brc_scene *scene, int n_threads, brc_domain **out);

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const AXIS_WALLS[6] = {"x-", "x+", "y-", "y+", "z-", "z+"};
-static const char *const ALL_WALLS[8] = {"x-", "x+", "y-", "y+", "z-", "z+", "side", "surface"};
+/* Contacts of an element in the packings of both papers (NAH19 section 3.1). */
+#define USUAL_COORDINATION 6.2
 
 static int by_address(const void *left, const void *right)
 {
@@ -47,13 +47,65 @@ static bool is_broken(const brc_reader *reader, const char *key)
     return false;
 }
 
-static bool shape_has_wall(const brc_shape *shape, const char *wall)
+/* The walls of all bodies, each name once. */
+typedef struct wall_names {
+    char (*name)[BRC_NAME + 16]; /* [n] owned */
+    int n, held;
+    bool of_elements; /* bodies of spheres: a wall's set holds the elements that touch it */
+} wall_names;
+
+static brc_status add_wall(brc_reader *reader, const char *prefix, const char *wall, const char *suffix, wall_names *out)
 {
-    if (shape->kind == BRC_SHAPE_SPHERE) return strcmp(wall, "surface") == 0;
-    if (shape->kind == BRC_SHAPE_CYLINDER && strcmp(wall, "side") == 0) return true;
-    for (int w = 0; w < 6; ++w)
-        if (strcmp(wall, AXIS_WALLS[w]) == 0) return shape->kind == BRC_SHAPE_BOX || w / 2 == shape->axis;
-    return false;
+    char name[sizeof *out->name];
+    snprintf(name, sizeof name, "%s%s%s%s", prefix, prefix[0] ? "_" : "", wall, suffix);
+    for (int w = 0; w < out->n; ++w)
+        if (strcmp(out->name[w], name) == 0) return BRC_OK;
+    if (out->n == out->held) {
+        out->held = out->held ? 2 * out->held : 16;
+        BRC_TRY(brc_memory_resize(reader->context, (void **)&out->name, out->held, sizeof *out->name, "names of walls"));
+    }
+    memcpy(out->name[out->n++], name, sizeof name);
+    return BRC_OK;
+}
+
+static brc_status add_leaf_walls(brc_reader *reader, const brc_shape *shape, const char *prefix, const char *suffix, wall_names *out)
+{
+    static const char *const SIDES[6] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+    const bool round = shape->kind == BRC_SHAPE_CYLINDER || shape->kind == BRC_SHAPE_CONE;
+    const bool ends = shape->kind == BRC_SHAPE_BOX || round;
+    for (int w = 0; w < 6 && ends; ++w) {
+        if (round && w / 2 != shape->axis) continue;
+        const bool tip = shape->kind == BRC_SHAPE_CONE && (w % 2 ? shape->radius2 : shape->radius) == 0;
+        if (!tip) BRC_TRY(add_wall(reader, prefix, SIDES[w], suffix, out));
+    }
+    if (shape->kind == BRC_SHAPE_BOX) return BRC_OK;
+    const char *rest = round ? "side" : shape->kind == BRC_SHAPE_HALF_SPACE ? "cut" : "surface";
+    return add_wall(reader, prefix, rest, suffix, out);
+}
+
+static brc_status find_walls(brc_reader *reader, wall_names *out)
+{
+    const brc_scene *scene = reader->scene;
+    for (int b = 0; b < scene->n_bodies; ++b) {
+        const brc_body *body = &scene->bodies[b];
+        if (body->domain_file[0]) { /* the file may have any of them */
+            const brc_shape box = {.kind = BRC_SHAPE_BOX}, round = {.kind = BRC_SHAPE_CYLINDER}, sphere = {.kind = BRC_SHAPE_SPHERE};
+            BRC_TRY(add_leaf_walls(reader, &box, "", "", out));
+            BRC_TRY(add_leaf_walls(reader, &round, "", "", out));
+            BRC_TRY(add_leaf_walls(reader, &sphere, "", "", out));
+            continue;
+        }
+        out->of_elements |= body->beams > 0;
+        const char *const suffixes[2] = {"", "_layer"};
+        for (int s = 0; s < (body->beams > 0 ? 2 : 1); ++s) {
+            if (body->shape.kind != BRC_SHAPE_PARTS) BRC_TRY(add_leaf_walls(reader, &body->shape, "", suffixes[s], out));
+            for (int p = 0; p < body->shape.n_parts; ++p)
+                BRC_TRY(add_leaf_walls(reader, &body->shape.parts[p].shape, body->shape.parts[p].name, suffixes[s], out));
+        }
+        for (int c = 0; c < body->n_cracks && !(body->beams > 0); ++c)
+            BRC_TRY(add_wall(reader, "", body->cracks[c].name, "", out));
+    }
+    return BRC_OK;
 }
 
 /* Sets and walls inside a domain file are not known here: nothing is refused then. */
@@ -64,20 +116,14 @@ static bool any_domain_file(const brc_scene *scene)
     return false;
 }
 
-static bool is_wall(const brc_scene *scene, const char *name)
-{
-    for (int b = 0; b < scene->n_bodies; ++b)
-        if (shape_has_wall(&scene->bodies[b].shape, name)) return true;
-    return false;
-}
-
 /* All names that would be right, for the guess; returns their number. */
-static int known_names(const brc_scene *scene, brc_reference refers, const char **out)
+static int known_names(const brc_scene *scene, const wall_names *walls, brc_reference refers, const char **out)
 {
     int n = 0;
-    const bool walls = refers == BRC_REFERS_WALL || refers == BRC_REFERS_FACES || refers == BRC_REFERS_SET;
-    for (int w = 0; walls && w < 8; ++w)
-        if (is_wall(scene, ALL_WALLS[w])) out[n++] = ALL_WALLS[w];
+    const brc_reference wall_is = walls->of_elements ? BRC_REFERS_ELEMENTS : BRC_REFERS_FACES;
+    if (refers == BRC_REFERS_WALL || refers == BRC_REFERS_SET || refers == wall_is)
+        for (int w = 0; w < walls->n; ++w)
+            out[n++] = walls->name[w];
     for (int i = 0; i < scene->n_sets && refers != BRC_REFERS_WALL; ++i)
         if (refers == BRC_REFERS_SET || (refers == BRC_REFERS_FACES && scene->sets[i].kind == BRC_SET_FACES) ||
             (refers == BRC_REFERS_ELEMENTS && scene->sets[i].kind == BRC_SET_ELEMENTS))
@@ -89,15 +135,15 @@ static int known_names(const brc_scene *scene, brc_reference refers, const char 
     return n;
 }
 
-static bool is_known(const brc_scene *scene, brc_reference refers, const char *name, const char **words, int *n)
+static bool is_known(const brc_scene *scene, const wall_names *walls, brc_reference refers, const char *name, const char **words, int *n)
 {
-    *n = known_names(scene, refers, words);
+    *n = known_names(scene, walls, refers, words);
     for (int i = 0; i < *n; ++i)
         if (strcmp(words[i], name) == 0) return true;
     return false;
 }
 
-static void check_reference(brc_reader *reader, const brc_place *place, const char **words)
+static void check_reference(brc_reader *reader, const wall_names *walls, const brc_place *place, const char **words)
 {
     static const char *const WHAT[] = {
         "", "wall or set of faces", "set of elements", "wall or set", "wall", "sensor", "stage"};
@@ -105,7 +151,7 @@ static void check_reference(brc_reader *reader, const brc_place *place, const ch
     const brc_reference refers = place->entry->refers;
     const char *name = place->address;
     int n;
-    if (name[0] == '\0' || is_known(scene, refers, name, words, &n)) return;
+    if (name[0] == '\0' || is_known(scene, walls, refers, name, words, &n)) return;
     const bool about_sets = refers != BRC_REFERS_SENSOR && refers != BRC_REFERS_STAGE;
     if (about_sets && (any_domain_file(scene) || is_broken(reader, "bodies") || is_broken(reader, "sets"))) return;
     if (refers == BRC_REFERS_SENSOR && is_broken(reader, "sensors")) return;
@@ -117,9 +163,9 @@ static void check_reference(brc_reader *reader, const brc_place *place, const ch
                        : refers == BRC_REFERS_SENSOR ? "; define it under sensors"
                                                      : "";
     int n_sets;
-    const char *kind = refers == BRC_REFERS_ELEMENTS && is_known(scene, BRC_REFERS_SET, name, words, &n_sets)
+    const char *kind = refers == BRC_REFERS_ELEMENTS && is_known(scene, walls, BRC_REFERS_SET, name, words, &n_sets)
                            ? " (that name is a set of faces)"
-                       : refers == BRC_REFERS_FACES && is_known(scene, BRC_REFERS_ELEMENTS, name, words, &n_sets)
+                       : refers == BRC_REFERS_FACES && is_known(scene, walls, BRC_REFERS_ELEMENTS, name, words, &n_sets)
                            ? " (that name is a set of elements)"
                            : "";
     brc_problems_add(reader->problems, place->mark, "%s: there is no %s '%s'%s%s%s%s%s", place->entry->key,
@@ -127,14 +173,14 @@ static void check_reference(brc_reader *reader, const brc_place *place, const ch
                      hint);
 }
 
-static brc_status check_references(brc_reader *reader)
+static brc_status check_references(brc_reader *reader, const wall_names *walls)
 {
     const brc_scene *scene = reader->scene;
     const char **words = NULL;
-    BRC_TRY(BRC_ALLOCATE(reader->context, &words, 8 + scene->n_sets + scene->n_sensors + scene->n_stages, "names"));
+    BRC_TRY(BRC_ALLOCATE(reader->context, &words, walls->n + scene->n_sets + scene->n_sensors + scene->n_stages, "names"));
     for (int64_t i = 0; i < reader->n_places; ++i)
         if (reader->places[i].entry && reader->places[i].entry->refers)
-            check_reference(reader, &reader->places[i], words);
+            check_reference(reader, walls, &reader->places[i], words);
     brc_memory_free(words);
     return BRC_OK;
 }
@@ -150,44 +196,122 @@ static void check_predicate(brc_reader *reader, const brc_predicate *where, bool
         COMPLAIN(reader, where->normal, where, "normal: elements have no outward normal; use it for faces");
 }
 
-static void check_bodies(brc_reader *reader)
+/* The shape of one piece: sizes that contradict each other. */
+static void check_leaf(brc_reader *reader, const brc_shape *shape)
+{
+    if (shape->kind == BRC_SHAPE_TORUS && shape->radius2 >= shape->radius && shape->radius > 0)
+        COMPLAIN(reader, &shape->radius2, shape, "tube: is not below the radius of the centre line, the ring would meet itself; expected less");
+    if (shape->kind == BRC_SHAPE_CONE && shape->radius == 0 && shape->radius2 == 0)
+        COMPLAIN(reader, &shape->radius, shape, "radius: both ends of the cone are tips; expected one radius above 0");
+}
+
+static void check_fill(brc_reader *reader, const brc_body *body)
+{
+    const brc_fill *fill = &body->fill;
+    for (int r = 0; r < fill->n_radii; ++r) {
+        const brc_radius *now = &fill->radii[r], *before = r ? now - 1 : NULL;
+        const bool last = r == fill->n_radii - 1;
+        if (before && !(now->radius > before->radius))
+            COMPLAIN(reader, &now->radius, now, "radius: does not come after the one before; expected radii that grow");
+        if ((r == 0 && now->fraction != 0) || (last && now->fraction != 1) || (before && now->fraction < before->fraction))
+            COMPLAIN(reader, &now->fraction, now, "below: expected shares that grow from 0 at the first radius to 1 at the last");
+    }
+    if (fill->n_radii == 1) COMPLAIN(reader, &fill->radii->radius, fill->radii, "radii: has one entry; expected two or more, or radius_spread: 0");
+    if (body->beams > 0 && fill->kind == BRC_FILL_NOISY_GRID)
+        COMPLAIN(reader, &body->beams, body, "beams: a noisy grid has no spheres; expected a fill with radii (packing, or points with a radius column)");
+    if (body->beams > 0 && fill->lloyd_sweeps > 0)
+        COMPLAIN(reader, &fill->lloyd_sweeps, body, "lloyd: moves the seeds of cells; expected 0 with beams");
+}
+
+static void check_crack(brc_reader *reader, const brc_body *body, int c)
+{
+    const brc_crack *crack = &body->cracks[c];
+    const double *a = crack->edge[0], *b = crack->edge[1];
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double area = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+        square += area * area;
+    }
+    if (crack->kind == BRC_CRACK_RECTANGLE && !(square > 0))
+        COMPLAIN(reader, crack->edge[1], crack, "other_edge: spans no area with `edge`; expected another direction");
+    for (int other = 0; other < c; ++other)
+        if (strcmp(body->cracks[other].name, crack->name) == 0) {
+            COMPLAIN(reader, crack->name, crack, "name: another crack is called '%s' too; give each its own", crack->name);
+            return;
+        }
+}
+
+static void check_body(brc_reader *reader, int b)
 {
     const brc_scene *scene = reader->scene;
-    for (int b = 0; b < scene->n_bodies; ++b) {
-        const brc_body *body = &scene->bodies[b];
-        const bool shaped = body->shape.size[0] > 0 || body->shape.radius > 0;
-        const bool filled =
-            body->fill.spread > 0 || body->fill.n_elements || body->fill.spacing > 0 || body->fill.cells[0];
-        if (shaped && !filled)
-            COMPLAIN(reader, NULL, body,
-                     "the key 'fill' is missing in this body: a shape must be cut, as in "
-                     "fill: {noisy_grid: {elements: 1000}}");
-        if (body->domain_file[0] && filled)
-            COMPLAIN(reader, body->domain_file, body, "domain: the file is cut already; leave out fill");
-        const brc_mark given = place_of(reader, &body->material, NULL);
-        const brc_mark start = {0, 1, 1};
-        if (scene->n_materials > 1 && memcmp(&given, &start, sizeof given) == 0)
-            COMPLAIN(reader, NULL, body,
-                     "the key 'material' is missing in this body: the scene has %d materials, name one",
-                     scene->n_materials);
-        for (int c = 0; c < b; ++c)
-            if (strcmp(scene->bodies[c].name, body->name) == 0) {
-                COMPLAIN(reader, body->name, body, "name: another body is called '%s' too; give each its own",
-                         body->name);
-                break;
-            }
-        for (int r = 0; r < body->n_regions; ++r)
-            check_predicate(reader, &body->regions[r].where, true);
+    const brc_body *body = &scene->bodies[b];
+    const brc_shape *shape = &body->shape;
+    const brc_fill *fill = &body->fill;
+    const bool shaped = shape->size[0] > 0 || shape->radius > 0 || shape->radius2 > 0 || shape->file[0] || shape->n_parts > 0;
+    const bool filled = fill->spread > 0 || fill->n_elements || fill->spacing > 0 || fill->cells[0] || fill->radius > 0 || fill->file[0];
+    if (shaped && !filled)
+        COMPLAIN(reader, NULL, body,
+                 "the key 'fill' is missing in this body: a shape must be cut, as in "
+                 "fill: {noisy_grid: {elements: 1000}}");
+    if (body->domain_file[0] && filled)
+        COMPLAIN(reader, body->domain_file, body, "domain: the file is cut already; leave out fill");
+    const brc_mark given = place_of(reader, &body->material, NULL);
+    const brc_mark start = {0, 1, 1};
+    if (scene->n_materials > 1 && memcmp(&given, &start, sizeof given) == 0)
+        COMPLAIN(reader, NULL, body, "the key 'material' is missing in this body: the scene has %d materials, name one",
+                 scene->n_materials);
+    for (int c = 0; c < b; ++c)
+        if (strcmp(scene->bodies[c].name, body->name) == 0) {
+            COMPLAIN(reader, body->name, body, "name: another body is called '%s' too; give each its own", body->name);
+            break;
+        }
+    for (int r = 0; r < body->n_regions; ++r)
+        check_predicate(reader, &body->regions[r].where, true);
+    check_leaf(reader, shape);
+    for (int p = 0; p < shape->n_parts; ++p) {
+        check_leaf(reader, &shape->parts[p].shape);
+        const bool first_cuts = p == 0 && shape->parts[p].role != BRC_PART_ADD;
+        if (first_cuts) COMPLAIN(reader, &shape->parts[p].role, &shape->parts[p], "role: the first part has nothing before it; expected add");
+        if (shape->parts[p].role == BRC_PART_ADD && shape->parts[p].shape.kind == BRC_SHAPE_HALF_SPACE)
+            COMPLAIN(reader, &shape->parts[p].role, &shape->parts[p], "role: a half-space has no end; expected keep or remove");
     }
+    check_fill(reader, body);
+    for (int c = 0; c < body->n_cracks; ++c)
+        check_crack(reader, body, c);
+    double sum = 0;
+    for (int p = 0; p < body->n_phases; ++p)
+        sum += body->phases[p].fraction;
+    if (sum > 1 + 1e-12)
+        COMPLAIN(reader, &body->phases[body->n_phases - 1].fraction, &body->phases[body->n_phases - 1],
+                 "fraction: those of all phases sum to %.6g; expected at most 1", sum);
+}
+
+static void check_bodies(brc_reader *reader, const wall_names *walls)
+{
+    const brc_scene *scene = reader->scene;
+    for (int b = 0; b < scene->n_bodies; ++b)
+        check_body(reader, b);
     for (int s = 0; s < scene->n_sets; ++s) {
         const brc_set_request *set = &scene->sets[s];
         check_predicate(reader, &set->where, set->kind == BRC_SET_ELEMENTS);
-        for (int w = 0; w < 8; ++w)
-            if (strcmp(set->name, ALL_WALLS[w]) == 0)
+        for (int w = 0; w < walls->n; ++w)
+            if (strcmp(set->name, walls->name[w]) == 0)
                 COMPLAIN(reader, NULL, set,
                          "the set '%s' has the name of a wall; walls are sets already, choose another "
                          "name",
                          set->name);
+    }
+}
+
+/* What follows from other keys. */
+static void complete(brc_scene *scene)
+{
+    brc_model *model = &scene->model;
+    if (model->kind == BRC_MODEL_DLSM && !model->compaction) model->beta = 0;
+    for (int b = 0; b < scene->n_bodies; ++b) {
+        brc_fill *fill = &scene->bodies[b].fill;
+        const bool packed = fill->kind == BRC_FILL_PACKING && (fill->n_elements > 0 || fill->radius > 0);
+        if (packed && fill->coordination == 0 && fill->volume_fraction == 0) fill->coordination = USUAL_COORDINATION;
     }
 }
 
@@ -338,10 +462,13 @@ static void check_measure(brc_reader *reader, const brc_measure *measure)
 brc_status brc_reader_check(brc_reader *reader)
 {
     if (reader->n_places > 0) qsort(reader->places, (size_t)reader->n_places, sizeof *reader->places, by_address);
-    brc_model *model = &reader->scene->model;
-    if (model->kind == BRC_MODEL_DLSM && !model->compaction) model->beta = 0;
-    BRC_TRY(check_references(reader));
-    if (!is_broken(reader, "bodies")) check_bodies(reader);
+    complete(reader->scene);
+    wall_names walls = {.name = NULL};
+    brc_status status = find_walls(reader, &walls);
+    if (status == BRC_OK) status = check_references(reader, &walls);
+    if (status == BRC_OK && !is_broken(reader, "bodies")) check_bodies(reader, &walls);
+    brc_memory_free(walls.name);
+    BRC_TRY(status);
     BRC_TRY(check_stages(reader));
     check_sensors(reader);
     for (int i = 0; i < reader->scene->n_measures; ++i)

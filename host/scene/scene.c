@@ -7,8 +7,12 @@ void brc_scene_free(brc_scene **scene)
 {
     if (!scene || !*scene) return;
     brc_scene *s = *scene;
-    for (int b = 0; b < s->n_bodies; ++b)
-        brc_memory_free(s->bodies[b].regions);
+    for (int b = 0; b < s->n_bodies; ++b) {
+        brc_body *body = &s->bodies[b];
+        void *const block[] = {body->regions, body->cracks, body->phases, body->shape.parts, body->fill.radii};
+        for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
+            brc_memory_free(block[k]);
+    }
     for (int k = 0; k < s->n_stages; ++k) {
         for (int l = 0; l < s->stages[k].n_loads; ++l) {
             brc_memory_free(s->stages[k].loads[l].table.time);
@@ -20,11 +24,23 @@ void brc_scene_free(brc_scene **scene)
     brc_memory_free(s->materials);
     brc_memory_free(s->bodies);
     brc_memory_free(s->sets);
+    brc_memory_free(s->limits);
     brc_memory_free(s->stages);
     brc_memory_free(s->sensors);
     brc_memory_free(s->measures);
     brc_memory_free(s);
     *scene = NULL;
+}
+
+int32_t brc_body_n_regions(const brc_body *body)
+{
+    return body->n_regions + body->n_phases;
+}
+
+int32_t brc_body_material(const brc_body *body, int32_t region)
+{
+    if (region < 1 || region > brc_body_n_regions(body)) return body->material;
+    return region <= body->n_regions ? body->regions[region - 1].material : body->phases[region - body->n_regions - 1].material;
 }
 
 double brc_table_value(const brc_table *table, double t)

@@ -38,6 +38,11 @@ typedef struct brc_region {
     brc_predicate where;
 } brc_region;
 
+typedef struct brc_phase {
+    int32_t material; /* index into scene.materials */
+    double fraction;  /* of the grains, by number [-] */
+} brc_phase;
+
 typedef struct brc_body {
     char name[BRC_NAME];
     char domain_file[512]; /* "" : built from shape and fill; else read from this file (relative to the scene) */
@@ -48,6 +53,12 @@ typedef struct brc_body {
     int32_t material;                   /* index into scene.materials */
     int32_t n_regions;
     brc_region *regions; /* [n_regions] later ones win */
+    double beams;        /* spheres joined by beams: their mean coordination number; 0: cells */
+    int32_t n_cracks;
+    brc_crack *cracks;   /* [n_cracks] */
+    brc_grains grains;   /* its phases are the body's: n_phases and fraction stay 0 here */
+    int32_t n_phases;
+    brc_phase *phases;   /* [n_phases] phase p is region n_regions + 1 + p */
 } brc_body;
 
 /* Factor of time a(t): linear between its points, constant outside. n = 0: 1 at all times. t = 0 at the start of the
@@ -205,6 +216,8 @@ typedef struct brc_scene {
     brc_body *bodies;
     int32_t n_sets;
     brc_set_request *sets;
+    int32_t n_limits;
+    brc_quality_limit *limits; /* [n_limits] for every body as it is built */
     bool has_gravity;
     double gravity[3]; /* [m/s^2] */
     int32_t n_stages;
@@ -218,6 +231,10 @@ typedef struct brc_scene {
 
 /* Free a scene and everything it owns; accepts a pointer to NULL; sets *scene to NULL. */
 void brc_scene_free(brc_scene **scene);
+/* Material of the elements of a region of a body (0: the body's own), index into scene.materials. */
+int32_t brc_body_material(const brc_body *body, int32_t region);
+/* Regions a body has besides its own material: predicates and phases of grains. */
+int32_t brc_body_n_regions(const brc_body *body);
 /* a(t) of a table at time t. */
 double brc_table_value(const brc_table *table, double t);
 /* Unit of a sensor's value ("N", "m", "-", "rad", "Pa", "J", "m/s", "Hz"); static storage. */

@@ -15,6 +15,8 @@ static const brc_entry SCENE[] = {
      .meaning = "the solids"},
     {"sets", BRC_TYPE_NAMED, .section = &brc_schema_set, COUNTED(brc_scene, sets, n_sets),
      .meaning = "named parts, besides the walls"},
+    {"quality", BRC_TYPE_NAMED, .section = &brc_schema_limit, COUNTED(brc_scene, limits, n_limits),
+     .meaning = "limits on the numbers of the quality report, by name; each body is judged as it is built"},
     {"gravity", BRC_TYPE_VECTOR, "m/s^2", FIELD(brc_scene, gravity), .length = 3, FLAG(brc_scene, has_gravity),
      .sample = "[0, 0, -9.81 m/s^2]", .meaning = "acceleration of every element"},
     {"stages", BRC_TYPE_LIST, .section = &brc_schema_stage, COUNTED(brc_scene, stages, n_stages), .required = true,

@@ -1,4 +1,4 @@
-/* Schema: materials, the model, bodies and sets. */
+/* Schema: materials, the model, bodies and sets; shapes and fills are in schema_shapes.c. */
 #include "schema_internal.h"
 
 static const brc_entry MATERIAL[] = {
@@ -47,78 +47,6 @@ const brc_section brc_schema_model = {.title = "model",
                                       .one_of = true,
                                       .has_kind = true,
                                       .kind_offset = offsetof(brc_model, kind)};
-
-static const brc_entry BOX[] = {
-    {"origin", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]",
-     .meaning = "smallest corner"},
-    {"size", BRC_TYPE_VECTOR, "m", POSITIVE, FIELD(brc_shape, size), .length = 3, .required = true,
-     .sample = "[1 m, 1 m, 1 m]", .meaning = "edge lengths"},
-};
-static const brc_section BOX_SECTION = {
-    .title = "box", .meaning = "Walls: x- x+ y- y+ z- z+. A plate is a flat box.", ENTRIES(BOX)};
-static const brc_entry CYLINDER[] = {
-    {"origin", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]",
-     .meaning = "centre of the first end"},
-    {"axis", BRC_TYPE_CHOICE, FIELD(brc_shape, axis), CHOICES("x", "y", "z"), .given = "x", .meaning = "its direction"},
-    {"length", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, length), .required = true, .sample = "1 m",
-     .meaning = "along the axis"},
-    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .required = true, .sample = "0.1 m",
-     .meaning = "of the round"},
-};
-static const brc_section CYLINDER_SECTION = {
-    .title = "cylinder",
-    .meaning = "Walls: the two ends, x- and x+ for the axis x, and side. A disc is a short cylinder.",
-    ENTRIES(CYLINDER)};
-static const brc_entry SPHERE[] = {
-    {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]", .meaning = "centre"},
-    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .required = true, .sample = "5 mm",
-     .meaning = "radius"},
-};
-static const brc_section SPHERE_SECTION = {.title = "sphere", .meaning = "Wall: surface.", ENTRIES(SPHERE)};
-static const brc_entry SHAPE[] = {
-    {"box", BRC_TYPE_STRUCT, .section = &BOX_SECTION, .value = BRC_SHAPE_BOX, .meaning = "a box along the axes"},
-    {"cylinder", BRC_TYPE_STRUCT, .section = &CYLINDER_SECTION, .value = BRC_SHAPE_CYLINDER,
-     .meaning = "a cylinder along an axis"},
-    {"sphere", BRC_TYPE_STRUCT, .section = &SPHERE_SECTION, .value = BRC_SHAPE_SPHERE, .meaning = "a sphere"},
-};
-static const brc_section SHAPE_SECTION = {.title = "shape",
-                                          .meaning = "The solid before it is cut into cells.",
-                                          ENTRIES(SHAPE),
-                                          .one_of = true,
-                                          .has_kind = true,
-                                          .kind_offset = offsetof(brc_shape, kind)};
-
-static const brc_entry NOISY_GRID[] = {
-    {"elements", BRC_TYPE_INTEGER, WITHIN(1, 2e9), FIELD(brc_fill, n_elements), .sample = "1000",
-     .meaning = "wanted number of elements, met as nearly as the grid allows"},
-    {"spacing", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_fill, spacing), .sample = "1 cm",
-     .meaning = "distance of the grid's points"},
-    {"cells", BRC_TYPE_INTEGERS, WITHIN(1, 1e9), FIELD(brc_fill, cells), .length = 3, .sample = "[10, 10, 10]",
-     .meaning = "grid cells along x, y and z of the shape's bounding box"},
-    {"spread", BRC_TYPE_QUANTITY, "", WITHIN(0, 1), FIELD(brc_fill, spread), .given = "90 %",
-     .meaning = "width of the noise over the grid's spacing; 0 gives a regular grid"},
-    {"lloyd", BRC_TYPE_INTEGER, WITHIN(0, 1000), FIELD(brc_fill, lloyd_sweeps), .given = "0",
-     .meaning =
-         "relaxation sweeps, each moving every seed to the centroid of its cell; rounder cells, longer time steps"},
-    {"min_distance", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_fill, min_distance), .given = "auto", .word = "auto",
-     .sample = "1 um", .meaning = "seeds nearer than this to an earlier one are dropped; auto: 1e-6 of the spacing"},
-    {"seed", BRC_TYPE_INTEGER, WITHIN(0, 9e15), FIELD(brc_fill, seed), .given = "1",
-     .meaning = "of the random numbers; equal seeds give equal solids"},
-};
-static const brc_section NOISY_GRID_SECTION = {.title = "noisy_grid",
-                                               .meaning = "Seeds on a regular grid, each moved at random.",
-                                               ENTRIES(NOISY_GRID),
-                                               .groups = {{BRC_GROUP_EXACTLY_ONE, {"elements", "spacing", "cells"}}}};
-static const brc_entry FILL[] = {
-    {"noisy_grid", BRC_TYPE_STRUCT, .section = &NOISY_GRID_SECTION, .value = BRC_FILL_NOISY_GRID,
-     .meaning = "a regular grid with noise"},
-};
-static const brc_section FILL_SECTION = {.title = "fill",
-                                         .meaning = "Where the seeds of the cells are.",
-                                         ENTRIES(FILL),
-                                         .one_of = true,
-                                         .has_kind = true,
-                                         .kind_offset = offsetof(brc_fill, kind)};
 
 static const brc_entry PREDICATE_BOX[] = {
     {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, box[0]), .length = 3, .required = true, .sample = "[0, 0, 0]",
@@ -194,29 +122,36 @@ static const brc_section REGION_SECTION = {.title = "region",
                                            .meaning = "A part of a body made of another material.",
                                            ENTRIES(REGION),
                                            .size = sizeof(brc_region)};
-static const brc_entry POSE[] = {
-    {"translation", BRC_TYPE_VECTOR, "m", FIELD(brc_body, translation), .length = 3, .sample = "[0, 1 m, 0]",
-     .meaning = "applied after the rotation"},
-    {"rotation", BRC_TYPE_VECTOR, "rad", FIELD(brc_body, rotation), .length = 3, .sample = "[0, 0, 30 deg]",
-     .meaning = "rotation vector (axis times angle) about the shape's origin"},
-};
+static const brc_entry POSE[] = {POSE_ENTRIES(brc_body)};
 static const brc_section POSE_SECTION = {.title = "pose", .meaning = "Where the body stands.", ENTRIES(POSE)};
+static const brc_entry BEAMS[] = {
+    {"coordination", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 40), FIELD(brc_body, beams), .required = true, .sample = "8",
+     .meaning = "mean number of bonds of an element, 2 bonds / elements; the papers use 6 to 13"},
+};
+static const brc_section BEAMS_SECTION = {
+    .title = "beams", .meaning = "Spheres joined by beams: bonds between the nearest spheres.", ENTRIES(BEAMS), .short_key = "coordination"};
 static const brc_entry BODY[] = {
     {"name", BRC_TYPE_NAME, FIELD(brc_body, name), .given = "body", .meaning = "for messages and overrides"},
     {"domain", BRC_TYPE_STRING, FIELD(brc_body, domain_file), .sample = "domain.h5",
      .meaning = "domain file written by `breccia build`, relative to the scene; in place of shape and fill"},
-    {"shape", BRC_TYPE_STRUCT, .section = &SHAPE_SECTION, .offset = offsetof(brc_body, shape),
+    {"shape", BRC_TYPE_STRUCT, .section = &brc_schema_shape, .offset = offsetof(brc_body, shape),
      .meaning = "what is cut"},
-    {"fill", BRC_TYPE_STRUCT, .section = &FILL_SECTION, .offset = offsetof(brc_body, fill),
+    {"fill", BRC_TYPE_STRUCT, .section = &brc_schema_fill, .offset = offsetof(brc_body, fill),
      .meaning = "how it is cut; due with a shape"},
     {"material", BRC_TYPE_MATERIAL, FIELD(brc_body, material), .sample = "glass",
      .meaning = "may be left out where the scene has only one"},
     {"regions", BRC_TYPE_LIST, .section = &REGION_SECTION, COUNTED(brc_body, regions, n_regions),
      .meaning = "parts of another material; later ones win"},
+    {"grains", BRC_TYPE_STRUCT, .section = &brc_schema_grains, .meaning = "coarse grains over the elements"},
+    {"cracks", BRC_TYPE_LIST, .section = &brc_schema_crack, COUNTED(brc_body, cracks, n_cracks),
+     .meaning = "notches and cracks that are there from the start; posed coordinates"},
+    {"beams", BRC_TYPE_STRUCT, .section = &BEAMS_SECTION,
+     .meaning = "spheres joined by beams in place of cells; needs a fill with radii (`breccia build`; no model of this version moves them)"},
     {"pose", BRC_TYPE_STRUCT, .section = &POSE_SECTION, .meaning = "where it stands; sets and regions see it posed"},
+    {"model", BRC_TYPE_LATER, .meaning = "a model of its own comes with contact; until bodies touch, one model moves the whole scene"},
     {"tiny_face_threshold", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 0.01), FIELD(brc_body, tiny_face_threshold),
      .given = "auto", .word = "auto", .sample = "1e-7",
-     .meaning = "faces below this part of the mean face area are dropped; auto: 1e-8"},
+     .meaning = "faces below this part of the mean face area are dropped; auto: 1e-12"},
 };
 const brc_section brc_schema_body = {.title = "body",
                                      .meaning = "A solid.",

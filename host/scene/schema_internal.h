@@ -19,8 +19,20 @@
 #define STRICTLY_WITHIN(low, high) .range = {(low), (high), true, true}
 #define ABOVE_UP_TO(low, high) .range = {(low), (high), true, false}
 
+/* The pose of a body or a part: the fields translation and rotation of `type`. */
+#define POSE_ENTRIES(type)                                                                                             \
+    {"translation", BRC_TYPE_VECTOR, "m", FIELD(type, translation), .length = 3, .sample = "[0, 1 m, 0]",              \
+     .meaning = "applied after the rotation"},                                                                         \
+    {"rotation", BRC_TYPE_VECTOR, "rad", FIELD(type, rotation), .length = 3, .sample = "[0, 0, 30 deg]",               \
+     .meaning = "rotation vector (axis times angle) about the shape's origin"}
+
 extern const brc_section brc_schema_material;
 extern const brc_section brc_schema_model;
+extern const brc_section brc_schema_shape;
+extern const brc_section brc_schema_fill;
+extern const brc_section brc_schema_grains;
+extern const brc_section brc_schema_crack;
+extern const brc_section brc_schema_limit;
 extern const brc_section brc_schema_body;
 extern const brc_section brc_schema_set;
 extern const brc_section brc_schema_predicate;

@@ -58,9 +58,7 @@ static brc_status find_kernels(brc_simulation *s)
 static int32_t material_index(const brc_scene *scene, const brc_domain *domain, int64_t e)
 {
     const int32_t b = domain->body[e] < scene->n_bodies ? domain->body[e] : 0;
-    const brc_body *body = scene->bodies + b;
-    const int32_t region = domain->region[e];
-    return region > 0 && region <= body->n_regions ? body->regions[region - 1].material : body->material;
+    return brc_body_material(&scene->bodies[b], domain->region[e]);
 }
 
 bool brc_simulation_needs_many_materials(const brc_scene *scene, const brc_domain *domain)

@@ -84,9 +84,11 @@ static void write_section(maker *m, const brc_section *section, int level, int i
 /* A wall of the shape that the scene has: a box unless the path says otherwise. */
 static const char *wall(const maker *m, const char *of_box)
 {
+    static const char *const ROUND[4][2] = {{"sphere", "surface"}, {"torus", "surface"}, {"mesh", "surface"}, {"cone", "side"}};
     for (int i = 1; i < m->path->depth; ++i)
-        if (strcmp(m->path->chain[i - 1]->key, "shape") == 0 && strcmp(m->path->chain[i]->key, "sphere") == 0)
-            return "surface";
+        for (int r = 0; r < 4 && strcmp(m->path->chain[i - 1]->key, "shape") == 0; ++r)
+            if (strcmp(m->path->chain[i]->key, ROUND[r][0]) == 0) return ROUND[r][1];
+    if (path_has(m->path, "parts") && path_has(m->path, "name")) return of_box[1] == '+' ? "hole_x+" : "hole_x-";
     return of_box;
 }
 

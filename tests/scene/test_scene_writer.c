@@ -20,6 +20,27 @@ static brc_scene *read_or_fail(brc_context *context, const char *name, const cha
     return scene;
 }
 
+static void expect_equal_arrays(const void *a, int32_t n_a, const void *b, int32_t n_b, size_t size)
+{
+    assert_int_equal(n_a, n_b);
+    assert_memory_equal(a, b, (size_t)n_a * size);
+}
+
+static void expect_equal_bodies(brc_body left, brc_body right)
+{
+    expect_equal_arrays(left.regions, left.n_regions, right.regions, right.n_regions, sizeof *left.regions);
+    expect_equal_arrays(left.cracks, left.n_cracks, right.cracks, right.n_cracks, sizeof *left.cracks);
+    expect_equal_arrays(left.phases, left.n_phases, right.phases, right.n_phases, sizeof *left.phases);
+    expect_equal_arrays(left.shape.parts, left.shape.n_parts, right.shape.parts, right.shape.n_parts, sizeof *left.shape.parts);
+    expect_equal_arrays(left.fill.radii, left.fill.n_radii, right.fill.radii, right.fill.n_radii, sizeof *left.fill.radii);
+    left.regions = right.regions = NULL;
+    left.cracks = right.cracks = NULL;
+    left.phases = right.phases = NULL;
+    left.shape.parts = right.shape.parts = NULL;
+    left.fill.radii = right.fill.radii = NULL;
+    assert_memory_equal(&left, &right, sizeof left);
+}
+
 static void expect_equal_scenes(const brc_scene *a, const brc_scene *b)
 {
     assert_int_equal(a->n_materials, b->n_materials);
@@ -34,13 +55,8 @@ static void expect_equal_scenes(const brc_scene *a, const brc_scene *b)
     assert_memory_equal(&a->output, &b->output, sizeof a->output);
     assert_memory_equal(a->gravity, b->gravity, sizeof a->gravity);
     assert_int_equal(a->n_bodies, b->n_bodies);
-    for (int i = 0; i < a->n_bodies; ++i) {
-        brc_body left = a->bodies[i], right = b->bodies[i];
-        assert_int_equal(left.n_regions, right.n_regions);
-        assert_memory_equal(left.regions, right.regions, (size_t)left.n_regions * sizeof *left.regions);
-        left.regions = right.regions = NULL;
-        assert_memory_equal(&left, &right, sizeof left);
-    }
+    for (int i = 0; i < a->n_bodies; ++i) expect_equal_bodies(a->bodies[i], b->bodies[i]);
+    expect_equal_arrays(a->limits, a->n_limits, b->limits, b->n_limits, sizeof *a->limits);
     assert_int_equal(a->n_stages, b->n_stages);
     for (int i = 0; i < a->n_stages; ++i) {
         brc_stage left = a->stages[i], right = b->stages[i];

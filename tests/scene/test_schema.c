@@ -39,11 +39,13 @@ static bool path_has(const sample_path *path, const char *key)
     return false;
 }
 
-/* Elements have no normal: no valid scene contains these entries there. */
+/* Elements have no normal, a half-space alone no end, a noisy grid no spheres, and one radius is no distribution: no valid
+ * scene made of samples alone contains these entries there. tests/scene/test_reader_check.c reads valid ones. */
 static bool cannot_be_valid(const sample_path *path)
 {
-    return path->chain[path->depth - 1]->type == BRC_TYPE_LATER ||
-           (path_has(path, "normal") && !path_has(path, "faces") && !path_has(path, "half_space"));
+    return path->chain[path->depth - 1]->type == BRC_TYPE_LATER || path_has(path, "beams") || path_has(path, "radii") ||
+           (path_has(path, "half_space") && path_has(path, "parts")) ||
+           (path_has(path, "normal") && !path_has(path, "faces") && !path_has(path, "half_space") && !path_has(path, "disc"));
 }
 
 static brc_status read_scene(brc_context *context, const sample_scene *sample)
