@@ -197,6 +197,8 @@ static brc_status read_run(const reader *r, const brc_node *node, brc_case_run *
             run->has_precision = true, run->precision = (brc_precision)word_of(r, item, precisions);
         else if (strcmp(item->key, "threads") == 0)
             run->n_threads = (int)number_of(r, item);
+        else if (strcmp(item->key, "files") == 0)
+            run->n_files = texts_of(r, item, run->files);
         else if (strcmp(item->key, "set") == 0)
             run->n_overrides = texts_of(r, item, run->overrides);
         else if (strcmp(item->key, "label") == 0)
@@ -212,7 +214,7 @@ static brc_status read_run(const reader *r, const brc_node *node, brc_case_run *
 
 static void read_derived(const reader *r, const brc_node *node, brc_case_derived *derived)
 {
-    static const char *const formulas[] = {"mean", "worst", "order", "difference", NULL};
+    static const char *const formulas[] = {"mean", "worst", "order", "range", "difference", NULL};
     *derived = (brc_case_derived){.row = empty_row(""), .of = "", .against = "spacing"};
     if (node->kind != BRC_NODE_MAP) wrong(r, node, "a map");
     for (const brc_node *item = node->first; node->kind == BRC_NODE_MAP && item; item = item->next) {

@@ -51,6 +51,8 @@ typedef struct brc_case_run {
     int n_threads; /* 0: as the command line says */
     int n_overrides;
     const char *overrides[BRC_CASE_LIST];
+    int n_files;   /* files of the case that the scene reads: put beside it before the run */
+    const char *files[BRC_CASE_LIST];
     int n_labels;
     brc_case_pair labels[BRC_CASE_LIST];
     int n_rows;
@@ -62,6 +64,7 @@ typedef enum brc_case_formula {
     BRC_CASE_MEAN,      /* of a quantity over the runs */
     BRC_CASE_WORST,     /* largest magnitude */
     BRC_CASE_ORDER,     /* slope of log |quantity - reference| against log `against`, sign so that convergence is positive */
+    BRC_CASE_RANGE,     /* largest minus smallest of a quantity, over its mean */
     BRC_CASE_DIFFERENCE /* largest difference of kept displacements, over the largest displacement; exactly two runs */
 } brc_case_formula;
 

@@ -1,6 +1,6 @@
-# cmake -DFOLDER=tests/validation -DOUTPUT=file.c -P case_files.cmake: every *.yaml one folder below as a C string, one
+# cmake -DFOLDER=tests/validation -DOUTPUT=file.c -P case_files.cmake: every *.yaml and (ASCII) *.stl one folder below as a C string, one
 # literal a line.
-file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/*/*.yaml)
+file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/*/*.yaml ${FOLDER}/*/*.stl)
 list(SORT files)
 set(text "#include \"case_files.h\"\nconst brc_case_file brc_case_files[] = {\n")
 set(count 0)

@@ -38,7 +38,7 @@ static double difference(const brc_outcome *a, const brc_outcome *b)
 
 double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *derived, char *note, size_t size)
 {
-    double x[BRC_CASE_LIST], y[BRC_CASE_LIST], sum = 0, worst = 0;
+    double x[BRC_CASE_LIST], y[BRC_CASE_LIST], sum = 0, worst = 0, low = INFINITY, high = -INFINITY;
     const brc_outcome *outcomes[BRC_CASE_LIST];
     note[0] = '\0';
     for (int k = 0; k < derived->n_runs; ++k) {
@@ -58,11 +58,14 @@ double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *d
         x[k] = against ? against->value : 1 / cbrt((double)outcome->n_elements);
         sum += value->value / derived->n_runs;
         worst = fmax(worst, fabs(value->value));
+        low = fmin(low, value->value);
+        high = fmax(high, value->value);
     }
     switch (derived->formula) {
     case BRC_CASE_MEAN: return sum;
     case BRC_CASE_WORST: return worst;
     case BRC_CASE_ORDER: return slope(derived->n_runs, x, y);
+    case BRC_CASE_RANGE: return (high - low) / fabs(sum);
     case BRC_CASE_DIFFERENCE: return derived->n_runs == 2 ? difference(outcomes[0], outcomes[1]) : NAN;
     }
     return NAN;

@@ -78,14 +78,14 @@ static void take(brc_outcome *outcome, const brc_run_results *results, bool stop
         brc_outcome_add(outcome, "bytes_per_element", "byte", (double)results->device_bytes / (double)results->n_elements, NAN);
 }
 
-static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const char *text, size_t bytes, const char *folder)
+static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text, size_t bytes, const char *folder)
 {
     brc_context *context = campaign->session->context;
     const brc_case_run *run = outcome->run;
     hooks h = {context, outcome};
     brc_drift *drift = NULL;
     brc_observer observer;
-    brc_run_request request = {.path = run->scene,
+    brc_run_request request = {.path = scene,
                                .text = text,
                                .text_bytes = bytes,
                                .n_overrides = run->n_overrides,
@@ -113,7 +113,7 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
 }
 
 /* Seeds to domain file. The file itself is not kept: at a million elements it is larger than all other results. */
-static brc_status build(brc_campaign *campaign, brc_outcome *outcome, const char *text, size_t bytes, const char *folder)
+static brc_status build(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes, const char *folder)
 {
     brc_context *context = campaign->session->context;
     const brc_case_run *run = outcome->run;
@@ -123,7 +123,7 @@ static brc_status build(brc_campaign *campaign, brc_outcome *outcome, const char
     char *path = NULL;
     BRC_TRY(brc_file_make_folder(context, folder));
     BRC_TRY(brc_file_join(context, folder, "domain.h5", &path));
-    BRC_TRY_OR(cleanup, brc_scene_read_text(context, run->scene, text, bytes, run->n_overrides, run->overrides, &scene));
+    BRC_TRY_OR(cleanup, brc_scene_read_text(context, name, text, bytes, run->n_overrides, run->overrides, &scene));
     const double start = brc_clock_s();
     const int n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads;
     BRC_TRY_OR(cleanup, brc_scene_domain_build(context, scene, n_threads, &domain));
@@ -159,6 +159,24 @@ static bool has_device(brc_context *context, const char *selector)
     return found;
 }
 
+/* Put the files that the scene reads into the run's folder, where its relative paths begin. */
+static brc_status put_files(brc_campaign *campaign, const brc_case_run *run, const char *folder)
+{
+    brc_context *context = campaign->session->context;
+    if (run->n_files > 0) BRC_TRY(brc_file_make_folder(context, folder));
+    for (int k = 0; k < run->n_files; ++k) {
+        char *text = NULL, *path = NULL;
+        size_t bytes;
+        brc_status status = brc_case_text(context, campaign->what->folder, campaign->what->name, run->files[k], &text, &bytes);
+        if (status == BRC_OK) status = brc_file_join(context, folder, run->files[k], &path);
+        if (status == BRC_OK) status = brc_file_write_whole(context, path, text, bytes);
+        brc_memory_free(path);
+        brc_memory_free(text);
+        BRC_TRY(status);
+    }
+    return BRC_OK;
+}
+
 brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome)
 {
     brc_context *context = campaign->session->context;
@@ -169,15 +187,18 @@ brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome)
         snprintf(outcome->note, sizeof outcome->note, "skipped: no device %s here", run->device);
         return BRC_OK;
     }
-    char *text, *runs, *folder;
+    char *text, *runs, *folder, *path = NULL;
     size_t bytes;
     brc_status status = brc_case_text(context, campaign->what->folder, campaign->what->name, run->scene, &text, &bytes);
     if (status != BRC_OK) return status;
     BRC_TRY_OR(free_text, brc_file_join(context, campaign->folder, "runs", &runs));
     BRC_TRY_OR(free_runs, brc_file_join(context, runs, run->name, &folder));
     brc_log(context, BRC_LOG_INFO, "%s: run %s", campaign->what->name, run->name);
-    status = run->operator == BRC_CASE_BUILD ? build(campaign, outcome, text, bytes, folder)
-                                            : simulate(campaign, outcome, text, bytes, folder);
+    status = brc_file_join(context, folder, run->scene, &path);
+    if (status == BRC_OK) status = put_files(campaign, run, folder);
+    if (status == BRC_OK)
+        status = run->operator == BRC_CASE_BUILD ? build(campaign, outcome, path, text, bytes, folder)
+                                                 : simulate(campaign, outcome, path, text, bytes, folder);
     outcome->done = status == BRC_OK || (status == BRC_PHYSICS_STOPPED && run->may_stop);
     if (status != BRC_OK && status != BRC_INTERRUPTED && status != BRC_NO_MEMORY) {
         brc_log(context, outcome->done ? BRC_LOG_INFO : BRC_LOG_ERROR, "run %s: %s", run->name, brc_context_message(context));
@@ -187,6 +208,7 @@ brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome)
         brc_context_clear(context);
         status = BRC_OK;
     }
+    brc_memory_free(path);
     brc_memory_free(folder);
 free_runs:
     brc_memory_free(runs);
