@@ -1,42 +1,28 @@
-/* picture.png by the painter's algorithm: free faces that look towards the viewer, the farthest first. They are painted
- * without anti-aliasing at three times the size, each with an edge of its own colour, and the whole is averaged down:
- * neighbours leave no seams, and slanted edges are smooth. Words and the colour bar are drawn on top. */
+/* picture.png by the painter's algorithm: free faces that look towards the viewer, the farthest first. Words and the colour
+ * bar are drawn on top. */
 #include "picture.h"
 #include "colour.h"
 #include "deform.h"
 #include "label.h"
-#include "../base/file.h"
+#include "paint.h"
 #include "../base/memory.h"
-#include <cairo.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 1200, HEIGHT = 900, OVERSAMPLE = 3 };
+enum { WIDTH = 1200, HEIGHT = 900 };
 static const double AREA[4] = {60, 100, 960, 820}; /* where the sample goes: left, top, right, bottom [px] */
-
-/* Viewer above the corner between x and -y: x runs right, y into the depth, z up. */
-typedef struct view {
-    double right[3], up[3], toward[3];
-    double centre[2]; /* of the sample, along right and up [m] */
-    double zoom;      /* [px/m] */
-} view;
-
-typedef struct face {
-    double depth; /* of its middle, towards the viewer [m] */
-    int32_t id;
-    float shade;
-} face;
 
 /* Corners of the deformed sample; picture coordinates come from here alone. */
 typedef struct canvas {
     brc_context *context;
     const brc_picture *picture;
-    view view;
+    brc_paint_view view;
+    double centre[2]; /* of the sample, along right and up [m] */
+    double zoom;      /* [px/m] */
     double scale;
     double *point; /* [n corners of free faces][3] [m], in the order of domain.free_polygon */
-    face *faces;   /* [n_free_faces] room, n_faces visible */
+    brc_paint_face *faces; /* [n_free_faces] room, n_faces visible */
     int64_t n_faces;
     double low, high; /* of the colour bar */
     bool diverging;
@@ -65,18 +51,6 @@ double brc_picture_automatic_scale(const brc_domain *d, const double *displaceme
     if (!isfinite(wanted) || wanted < 2) return 1;
     const double decade = pow(10, floor(log10(wanted)));
     return decade * (wanted / decade < 2 ? 1 : wanted / decade < 5 ? 2 : 5);
-}
-
-static void set_view(view *v)
-{
-    const double azimuth = -62 * M_PI / 180, elevation = 24 * M_PI / 180;
-    const double toward[3] = {cos(elevation) * cos(azimuth), cos(elevation) * sin(azimuth), sin(elevation)};
-    const double right[3] = {-sin(azimuth), cos(azimuth), 0};
-    const double up[3] = {toward[1] * right[2] - toward[2] * right[1], toward[2] * right[0] - toward[0] * right[2],
-                          toward[0] * right[1] - toward[1] * right[0]};
-    memcpy(v->toward, toward, sizeof toward);
-    memcpy(v->right, right, sizeof right);
-    memcpy(v->up, up, sizeof up);
 }
 
 static void move_points(canvas *c)
@@ -111,8 +85,8 @@ static void fit_view(canvas *c)
         }
     }
     for (int i = 0; i < 2; ++i)
-        c->view.centre[i] = (low[i] + high[i]) / 2;
-    c->view.zoom = fmin((AREA[2] - AREA[0]) / (high[0] - low[0]), (AREA[3] - AREA[1]) / (high[1] - low[1]));
+        c->centre[i] = (low[i] + high[i]) / 2;
+    c->zoom = fmin((AREA[2] - AREA[0]) / (high[0] - low[0]), (AREA[3] - AREA[1]) / (high[1] - low[1]));
 }
 
 /* Area vector (twice the area) and middle of a deformed polygon; false where it is not finite. */
@@ -134,25 +108,16 @@ static bool measure_face(const canvas *c, int64_t f, double normal[3], double mi
     return isfinite(dot(normal, normal)) && isfinite(dot(middle, middle)) && dot(normal, normal) > 0;
 }
 
-static int compare_faces(const void *a, const void *b)
-{
-    const face *p = a, *q = b;
-    if (p->depth != q->depth) return p->depth < q->depth ? -1 : 1;
-    return p->id < q->id ? -1 : p->id > q->id;
-}
-
-/* Visible faces, the farthest first, with the light of two lamps. */
+/* Visible faces, the farthest first. */
 static void sort_faces(canvas *c)
 {
-    static const double lamp[3] = {0.25, -0.60, 0.76}; /* over the viewer's left shoulder */
     for (int64_t f = 0; f < c->picture->domain->n_free_faces; ++f) {
         double normal[3], middle[3];
         if (!measure_face(c, f, normal, middle) || dot(normal, c->view.toward) <= 0) continue;
-        const double light = fmax(dot(normal, lamp) / sqrt(dot(normal, normal)), 0);
         c->faces[c->n_faces++] =
-            (face){.depth = dot(middle, c->view.toward), .id = (int32_t)f, .shade = (float)(0.78 + 0.22 * light)};
+            (brc_paint_face){.depth = dot(middle, c->view.toward), .id = (int32_t)f, .shade = brc_paint_shade(normal)};
     }
-    qsort(c->faces, (size_t)c->n_faces, sizeof *c->faces, compare_faces);
+    brc_paint_sort(c->n_faces, c->faces);
 }
 
 static void find_range(canvas *c)
@@ -186,77 +151,26 @@ static void colour_of(const canvas *c, double value, double rgb[3])
         brc_colour_sequential(t, rgb);
 }
 
-static void trace(const canvas *c, cairo_t *cairo, int64_t f)
-{
-    const brc_domain *d = c->picture->domain;
-    for (int64_t k = d->free_polygon_start[f]; k < d->free_polygon_start[f + 1]; ++k) {
-        const double x =
-            (AREA[0] + AREA[2]) / 2 + c->view.zoom * (dot(c->point + 3 * k, c->view.right) - c->view.centre[0]);
-        const double y =
-            (AREA[1] + AREA[3]) / 2 - c->view.zoom * (dot(c->point + 3 * k, c->view.up) - c->view.centre[1]);
-        cairo_line_to(cairo, OVERSAMPLE * x, OVERSAMPLE * y);
-    }
-    cairo_close_path(cairo);
-}
-
-static void paint_faces(const canvas *c, cairo_t *cairo)
+static void paint_faces(const canvas *c, brc_paint *paint)
 {
     const brc_domain *d = c->picture->domain;
     /* Lines between cells only where cells are large enough to carry them. */
-    const double cell = d->quality.mean_spacing > 0 ? d->quality.mean_spacing * c->view.zoom : 0;
+    const double cell = d->quality.mean_spacing > 0 ? d->quality.mean_spacing * c->zoom : 0;
     const double line = cell > 7 ? fmin(0.22, 0.02 * (cell - 7)) : 0;
-    cairo_set_source_rgb(cairo, 1, 1, 1);
-    cairo_paint(cairo);
-    cairo_set_antialias(cairo, CAIRO_ANTIALIAS_NONE);
-    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_BEVEL);
     for (int64_t k = 0; k < c->n_faces; ++k) {
         const int64_t f = c->faces[k].id;
-        const double shade = c->faces[k].shade;
         double rgb[3];
         colour_of(c, c->picture->value[d->free_element[f]], rgb);
-        trace(c, cairo, f);
-        cairo_set_source_rgb(cairo, shade * rgb[0], shade * rgb[1], shade * rgb[2]);
-        cairo_fill_preserve(cairo);
-        const double edge = shade * (1 - line);
-        cairo_set_source_rgb(cairo, edge * rgb[0], edge * rgb[1], edge * rgb[2]);
-        cairo_set_line_width(cairo, line > 0 ? 2 : 1);
-        cairo_stroke(cairo);
+        for (int64_t p = d->free_polygon_start[f]; p < d->free_polygon_start[f + 1]; ++p)
+            brc_paint_corner(paint, (AREA[0] + AREA[2]) / 2 + c->zoom * (dot(c->point + 3 * p, c->view.right) - c->centre[0]),
+                             (AREA[1] + AREA[3]) / 2 - c->zoom * (dot(c->point + 3 * p, c->view.up) - c->centre[1]));
+        brc_paint_fill(paint, rgb, c->faces[k].shade, line);
     }
 }
 
-/* Mean of OVERSAMPLE x OVERSAMPLE pixels. */
-static void shrink(cairo_surface_t *large, cairo_surface_t *small)
+static void draw_bar(const canvas *c, brc_paint *paint)
 {
-    cairo_surface_flush(large);
-    const unsigned char *from = cairo_image_surface_get_data(large);
-    unsigned char *to = cairo_image_surface_get_data(small);
-    const int from_row = cairo_image_surface_get_stride(large), to_row = cairo_image_surface_get_stride(small);
-    for (int y = 0; y < HEIGHT; ++y)
-        for (int x = 0; x < WIDTH; ++x)
-            for (int byte = 0; byte < 4; ++byte) {
-                int sum = 0;
-                for (int j = 0; j < OVERSAMPLE; ++j)
-                    for (int i = 0; i < OVERSAMPLE; ++i)
-                        sum += from[(OVERSAMPLE * y + j) * from_row + 4 * (OVERSAMPLE * x + i) + byte];
-                to[y * to_row + 4 * x + byte] = (unsigned char)(sum / (OVERSAMPLE * OVERSAMPLE));
-            }
-    cairo_surface_mark_dirty(small);
-}
-
-/* align: 0 left, 0.5 centred, 1 right of x. */
-static void write_words(cairo_t *cairo, const char *words, double x, double y, double size, double align, bool bold)
-{
-    cairo_text_extents_t extents;
-    cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cairo, size);
-    cairo_text_extents(cairo, words, &extents);
-    cairo_move_to(cairo, x - align * extents.x_advance, y);
-    cairo_show_text(cairo, words);
-}
-
-static void draw_bar(const canvas *c, cairo_t *cairo)
-{
+    cairo_t *cairo = paint->cairo;
     const double left = 1020, top = 170, width = 30, height = 560;
     char unit[32], words[160];
     for (int k = 0; k < (int)height; ++k) {
@@ -279,40 +193,22 @@ static void draw_bar(const canvas *c, cairo_t *cairo)
         cairo_move_to(cairo, left + width, y);
         cairo_line_to(cairo, left + width + 6, y);
         cairo_stroke(cairo);
-        write_words(cairo, number, left + width + 12, y + 5, 16, 0, false);
+        brc_paint_words(paint, number, left + width + 12, y + 5, 16, 0, false);
     }
     if (strcmp(unit, "-") == 0)
         snprintf(words, sizeof words, "%s", c->picture->name);
     else
         snprintf(words, sizeof words, "%s [%s]", c->picture->name, unit);
-    write_words(cairo, words, WIDTH - 30, top - 24, 17, 1, false);
+    brc_paint_words(paint, words, WIDTH - 30, top - 24, 17, 1, false);
 }
 
-static void draw_arrow(cairo_t *cairo, const double from[2], const double to[2])
+static void draw_axes(const canvas *c, brc_paint *paint)
 {
-    const double angle = atan2(to[1] - from[1], to[0] - from[0]);
-    cairo_move_to(cairo, from[0], from[1]);
-    cairo_line_to(cairo, to[0], to[1]);
-    cairo_stroke(cairo);
-    cairo_move_to(cairo, to[0] + 6 * cos(angle), to[1] + 6 * sin(angle));
-    cairo_line_to(cairo, to[0] + 5 * cos(angle + 2.3), to[1] + 5 * sin(angle + 2.3));
-    cairo_line_to(cairo, to[0] + 5 * cos(angle - 2.3), to[1] + 5 * sin(angle - 2.3));
-    cairo_close_path(cairo);
-    cairo_fill(cairo);
-}
-
-static void draw_axes(const canvas *c, cairo_t *cairo)
-{
+    cairo_t *cairo = paint->cairo;
     const double origin[2] = {90, 830};
-    cairo_set_line_width(cairo, 2);
-    for (int a = 0; a < 3; ++a) {
-        const double tip[2] = {origin[0] + 52 * c->view.right[a], origin[1] - 52 * c->view.up[a]};
-        const char name[2] = {(char)('x' + a), '\0'};
-        draw_arrow(cairo, origin, tip);
-        write_words(cairo, name, origin[0] + 74 * c->view.right[a], origin[1] - 74 * c->view.up[a] + 5, 17, 0.5, false);
-    }
+    brc_paint_axes(paint, &c->view, origin, 52);
     /* A bar of round length: without perspective it holds everywhere, for lengths across the view. */
-    const double length = brc_label_step(150 / c->view.zoom, 1), px = length * c->view.zoom;
+    const double length = brc_label_step(150 / c->zoom, 1), px = length * c->zoom;
     char unit[32], number[32], words[64];
     const double factor = brc_label_unit("m", length, unit);
     brc_label_number(factor * length, factor * length, number);
@@ -325,71 +221,50 @@ static void draw_axes(const canvas *c, cairo_t *cairo)
     cairo_move_to(cairo, left + px, y - 6);
     cairo_line_to(cairo, left + px, y + 6);
     cairo_stroke(cairo);
-    write_words(cairo, words, left + px + 14, y + 6, 17, 0, false);
+    brc_paint_words(paint, words, left + px + 14, y + 6, 17, 0, false);
 }
 
-static void draw_words(const canvas *c, cairo_t *cairo)
+static void draw_words(const canvas *c, brc_paint *paint)
 {
+    cairo_t *cairo = paint->cairo;
     char words[96];
     cairo_set_source_rgb(cairo, 0.1, 0.1, 0.1);
-    write_words(cairo, c->picture->title, 40, 48, 26, 0, true);
+    brc_paint_words(paint, c->picture->title, 40, 48, 26, 0, true);
     if (c->scale == 1)
         snprintf(words, sizeof words, "%lld cells, true displacement", (long long)c->picture->domain->n_elements);
     else
         snprintf(words, sizeof words, "%lld cells, displacement \xc3\x97 %g", (long long)c->picture->domain->n_elements,
                  c->scale);
     cairo_set_source_rgb(cairo, 0.35, 0.35, 0.35);
-    write_words(cairo, words, 40, 78, 17, 0, false);
+    brc_paint_words(paint, words, 40, 78, 17, 0, false);
     cairo_set_source_rgb(cairo, 0.15, 0.15, 0.15);
     if (c->n_faces > 0) {
-        draw_bar(c, cairo);
-        draw_axes(c, cairo);
+        draw_bar(c, paint);
+        draw_axes(c, paint);
     } else {
-        write_words(cairo, "no face has a finite place", WIDTH / 2.0, HEIGHT / 2.0, 20, 0.5, false);
+        brc_paint_words(paint, "no face has a finite place", WIDTH / 2.0, HEIGHT / 2.0, 20, 0.5, false);
     }
 }
 
 static brc_status render(const canvas *c, const char *path)
 {
-    char *aside = NULL;
-    brc_status status = BRC_OK;
-    cairo_surface_t *large = cairo_image_surface_create(CAIRO_FORMAT_RGB24, OVERSAMPLE * WIDTH, OVERSAMPLE * HEIGHT);
-    cairo_surface_t *small = cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDTH, HEIGHT);
-    cairo_t *cairo = cairo_create(large);
-    paint_faces(c, cairo);
-    cairo_status_t drawn = cairo_status(cairo);
-    cairo_destroy(cairo);
-    if (drawn == CAIRO_STATUS_SUCCESS) shrink(large, small);
-    cairo = cairo_create(small);
-    draw_words(c, cairo);
-    if (drawn == CAIRO_STATUS_SUCCESS) drawn = cairo_status(cairo);
-    cairo_destroy(cairo);
-    BRC_TRY_OR(cleanup, brc_file_aside(c->context, path, &aside));
-    if (drawn == CAIRO_STATUS_SUCCESS) drawn = cairo_surface_write_to_png(small, aside);
-    if (drawn != CAIRO_STATUS_SUCCESS) {
-        status = BRC_FAIL(c->context, BRC_FILE_FAILED, "%s: cannot write the picture: %s", path,
-                          cairo_status_to_string(drawn));
-        goto cleanup;
-    }
-    BRC_TRY_OR(cleanup, brc_file_commit(c->context, aside, path));
-cleanup:
-    if (status != BRC_OK) brc_file_discard(aside);
-    brc_memory_free(aside);
-    cairo_surface_destroy(large);
-    cairo_surface_destroy(small);
-    return status;
+    brc_paint paint;
+    brc_paint_begin(c->context, WIDTH, HEIGHT, &paint);
+    paint_faces(c, &paint);
+    brc_paint_top(&paint);
+    draw_words(c, &paint);
+    return brc_paint_end(&paint, path);
 }
 
 brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, const char *path)
 {
     const brc_domain *d = picture->domain;
-    canvas c = {.context = context, .picture = picture, .scale = picture->scale};
+    canvas c = {.context = context, .picture = picture, .scale = picture->scale, .view = brc_paint_corner_view()};
     brc_status status = BRC_OK;
     if (!(c.scale > 0)) c.scale = brc_picture_automatic_scale(d, picture->displacement);
     const int64_t n_points = d->free_polygon_start[d->n_free_faces];
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.point, 3 * n_points, "corners of the picture"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.faces, d->n_free_faces, "faces of the picture"));
-    set_view(&c.view);
     move_points(&c);
     fit_view(&c);
     sort_faces(&c);
