@@ -54,6 +54,13 @@ def guards(files):
     return findings
 
 
+def quiet_skips(files):
+    """ctest does not show a test that skips inside a passing program (tests/skip.h)."""
+    return [f"{path}:{number}: a quiet skip; make it a program of its own that returns test_skip()"
+            for path, text in files.items() for number, line in enumerate(repository.code_of(text).split("\n"), 1)
+            if re.search(r"(?<![\w.])skip\(", line)]
+
+
 code = r"\.(c|h|cc|cl)$"
 repository.finish([
     repository.report("lengths", lengths, repository.read(r"^(host|kernels|preprocess|bench|tests)/.*" + code),
@@ -66,4 +73,6 @@ repository.finish([
                        "path": {"a.c": "see /ho" "me/somebody/file\n"}, "no end": {"a.c": "int a;"}}),
     repository.report("guards", guards, repository.read(r"^(host|kernels|preprocess|bench)/.*\.h$"),
                       {"none": {"a.h": "int a;\n"}, "twice": {"a.h": "#ifndef A\n#define A\n", "b.h": "#ifndef A\n#define A\n"}}),
+    repository.report("quiet skips", quiet_skips, repository.read(r"^tests/.*" + code),
+                      {"a skip": {"tests/base/test_a.c": "    if (!there) skip();\n"}}),
 ])

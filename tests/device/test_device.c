@@ -1,34 +1,13 @@
-/* Choosing and opening a device: selectors, refusals and their sentences, instruction sets, the compiler's log. */
+/* Choosing and opening a device: selectors, refusals and their sentences, instruction sets. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
-#include "../../host/base/file.h"
-#include "../../host/base/memory.h"
-#include "../../host/device/device.h"
-#include "../../host/device/device_internal.h"
+#include "device_cases.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Open and close; the status, and the sentence left in the context. */
-static brc_status open_and_close(brc_context *context, const brc_device_request *request)
-{
-    brc_device *device = NULL;
-    brc_context_clear(context);
-    const brc_status status = brc_device_open(context, request, &device);
-    assert_true((status == BRC_OK) == (device != NULL));
-    brc_device_close(&device);
-    return status;
-}
-
-static void assert_says(brc_context *context, const char *expected)
-{
-    if (strstr(brc_context_message(context), expected)) return;
-    printf("'%s' is not in: %s\n", expected, brc_context_message(context));
-    fail();
-}
 
 static void a_selector_of_another_form_is_refused(void **unused)
 {
@@ -47,12 +26,12 @@ static void a_selector_of_another_form_is_refused(void **unused)
                                             "opencl:0000000000000001"};
     for (size_t k = 0; k < sizeof selectors / sizeof selectors[0]; ++k) {
         const brc_device_request request = {.selector = selectors[k]};
-        assert_int_equal(open_and_close(context, &request), BRC_BAD_INPUT);
+        assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
         char expected[160];
         snprintf(expected, sizeof expected,
                  "device '%s' is not a selector: expected auto, cpu, opencl:N or target:N; usable here: cpu",
                  selectors[k]);
-        assert_says(context, expected);
+        device_cases_says(context, expected);
     }
     brc_context_free(&context);
 }
@@ -62,8 +41,8 @@ static void a_device_that_is_not_there_is_refused_with_those_that_are(void **unu
     (void)unused;
     brc_context *context = brc_context_create();
     const brc_device_request request = {.selector = "opencl:77"};
-    assert_int_equal(open_and_close(context, &request), BRC_BAD_INPUT);
-    assert_says(context, "device 'opencl:77' is not there; usable here: cpu");
+    assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
+    device_cases_says(context, "device 'opencl:77' is not there; usable here: cpu");
     brc_context_free(&context);
 }
 
@@ -72,14 +51,14 @@ static void requests_the_cpu_cannot_meet_are_refused(void **unused)
     (void)unused;
     brc_context *context = brc_context_create();
     brc_device_request request = {.selector = "cpu", .n_threads = -1};
-    assert_int_equal(open_and_close(context, &request), BRC_BAD_INPUT);
-    assert_says(context, "-1 threads: expected 1 to 4096");
+    assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
+    device_cases_says(context, "-1 threads: expected 1 to 4096");
     request = (brc_device_request){.selector = "cpu", .lanes = 3};
-    assert_int_equal(open_and_close(context, &request), BRC_BAD_INPUT);
-    assert_says(context, "elements at once, not 3");
+    assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
+    device_cases_says(context, "elements at once, not 3");
     request = (brc_device_request){.selector = "cpu", .kernel_folder = "kernels"};
-    assert_int_equal(open_and_close(context, &request), BRC_BAD_INPUT);
-    assert_says(context, "needs an OpenCL device");
+    assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
+    device_cases_says(context, "needs an OpenCL device");
     brc_context_free(&context);
 }
 
@@ -140,8 +119,8 @@ static void instruction_sets_differ_by_rounding_alone_and_not_at_all_where_exact
         for (size_t k = 0; k < 4; ++k) {
             assert_int_equal(setenv("BRECCIA_ISA", levels[k], 1), 0);
             const brc_device_request request = {.selector = "cpu", .precision = precisions[p]};
-            if (open_and_close(context, &request) != BRC_OK) {
-                assert_says(context, "is not an instruction set this machine and this build have");
+            if (device_cases_open(context, &request) != BRC_OK) {
+                device_cases_says(context, "is not an instruction set this machine and this build have");
                 continue;
             }
             sums(context, precisions[p], true, got, N);
@@ -158,10 +137,10 @@ static void instruction_sets_differ_by_rounding_alone_and_not_at_all_where_exact
     brc_context_free(&context);
 }
 
+#if defined(__x86_64__) /* where the float mode is set */
 static void the_cpu_kernels_take_denormal_numbers_for_zero_and_the_caller_keeps_them(void **unused)
 {
     (void)unused;
-#if defined(__x86_64__)
     brc_context *context = brc_context_create();
     brc_device *device = NULL;
     brc_buffer *x = NULL, *y = NULL;
@@ -191,11 +170,8 @@ static void the_cpu_kernels_take_denormal_numbers_for_zero_and_the_caller_keeps_
     brc_buffer_free(&y);
     brc_device_close(&device);
     brc_context_free(&context);
-#else
-    printf("SKIPPED: the float mode is set on x86-64 only\n");
-    skip();
-#endif
 }
+#endif
 
 static void a_word_that_is_no_instruction_set_is_refused(void **unused)
 {
@@ -203,89 +179,9 @@ static void a_word_that_is_no_instruction_set_is_refused(void **unused)
     brc_context *context = brc_context_create();
     assert_int_equal(setenv("BRECCIA_ISA", "v9", 1), 0);
     const brc_device_request request = {.selector = "cpu"};
-    assert_int_equal(open_and_close(context, &request), BRC_BAD_INPUT);
-    assert_says(context, "BRECCIA_ISA is 'v9'");
+    assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
+    device_cases_says(context, "BRECCIA_ISA is 'v9'");
     assert_int_equal(unsetenv("BRECCIA_ISA"), 0);
-    brc_context_free(&context);
-}
-
-/* The first usable OpenCL device, or a skip that says why. */
-static brc_device_info opencl_device(brc_context *context)
-{
-    brc_device_list *list = NULL;
-    brc_device_info info = {.usable = false};
-    assert_int_equal(brc_device_list_create(context, &list), BRC_OK);
-    for (int d = 0; d < list->n && !info.usable; ++d)
-        if (list->items[d].kind == BRC_DEVICE_OPENCL) info = list->items[d];
-    brc_device_list_free(&list);
-    if (!info.usable) {
-        printf("SKIPPED: %s\n", info.why_not);
-        skip();
-    }
-    return info;
-}
-
-static void kernels_that_do_not_compile_show_the_whole_log(void **unused)
-{
-    (void)unused;
-    brc_context *context = brc_context_create();
-    const brc_device_info info = opencl_device(context);
-    static const char folder[] = BRC_BUILD_DIR_PATH "/broken-kernels", good[] = "#include \"law.h\"\n",
-                      broken[] = "\n\nthis is no kernel;\n";
-    assert_int_equal(brc_file_make_folder(context, folder), BRC_OK);
-    assert_int_equal(
-        brc_file_write_whole(context, BRC_BUILD_DIR_PATH "/broken-kernels/kernels.h", good, sizeof good - 1), BRC_OK);
-    assert_int_equal(
-        brc_file_write_whole(context, BRC_BUILD_DIR_PATH "/broken-kernels/law.h", broken, sizeof broken - 1), BRC_OK);
-    const brc_device_request request = {.selector = info.selector, .precision = BRC_SINGLE, .kernel_folder = folder};
-    assert_int_equal(open_and_close(context, &request), BRC_DEVICE_FAILED);
-    assert_says(context, info.selector);
-    assert_says(context, info.name);
-    assert_says(context, "broken-kernels do not compile: CL_BUILD_PROGRAM_FAILURE");
-    assert_says(context, "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=2 -D BRC_LANES=");
-    assert_says(context, "law.h:3:"); /* the compiler's log, with the file and line of the pasted text */
-    brc_context_free(&context);
-}
-
-static void the_kernels_of_a_folder_replace_the_embedded_ones(void **unused)
-{
-    (void)unused;
-    brc_context *context = brc_context_create();
-    const brc_device_info info = opencl_device(context);
-    brc_device_request request = {.selector = info.selector, .kernel_folder = BRC_SOURCE_DIR_PATH "/kernels"};
-    request.precision = BRC_SINGLE;
-    if (open_and_close(context, &request) != BRC_OK) assert_says(context, "(it compiles)");
-    request.kernel_folder = BRC_SOURCE_DIR_PATH "/no-such-folder";
-    assert_int_equal(open_and_close(context, &request), BRC_BAD_INPUT);
-    assert_says(context, "no-such-folder/kernels.h");
-    brc_context_free(&context);
-}
-
-/* One element a work-item in every variant, which is what a GPU compiles, checked without one; and the widths no device
- * chooses by itself. (Width 8 in every variant: test_device_opencl.) */
-static void the_kernels_compile_for_every_width(void **unused)
-{
-    (void)unused;
-    brc_context *context = brc_context_create();
-    const brc_device_info info = opencl_device(context);
-    static const struct {
-        brc_precision precision;
-        bool many;
-        int lanes;
-    } variants[] = {{BRC_DOUBLE, false, 1}, {BRC_DOUBLE, true, 1},  {BRC_MIXED, false, 1},
-                    {BRC_MIXED, true, 1},   {BRC_SINGLE, false, 1}, {BRC_SINGLE, true, 1},
-                    {BRC_DOUBLE, false, 4}, {BRC_MIXED, true, 16},  {BRC_SINGLE, true, 16}};
-    for (size_t k = 0; k < sizeof variants / sizeof variants[0]; ++k) {
-        const brc_device_request request = {.selector = info.selector,
-                                            .precision = variants[k].precision,
-                                            .many_materials = variants[k].many,
-                                            .lanes = variants[k].lanes};
-        if (request.precision != BRC_SINGLE && !info.has_double) continue;
-        if (open_and_close(context, &request) != BRC_OK) assert_says(context, "(it compiles)");
-    }
-    const brc_device_request request = {.selector = info.selector, .precision = BRC_SINGLE, .lanes = 5};
-    assert_int_equal(open_and_close(context, &request), BRC_BAD_INPUT);
-    assert_says(context, "5 elements a work-item: expected 1, 4, 8 or 16");
     brc_context_free(&context);
 }
 
@@ -296,11 +192,10 @@ int main(void)
         cmocka_unit_test(a_device_that_is_not_there_is_refused_with_those_that_are),
         cmocka_unit_test(requests_the_cpu_cannot_meet_are_refused),
         cmocka_unit_test(instruction_sets_differ_by_rounding_alone_and_not_at_all_where_exact),
+#if defined(__x86_64__)
         cmocka_unit_test(the_cpu_kernels_take_denormal_numbers_for_zero_and_the_caller_keeps_them),
+#endif
         cmocka_unit_test(a_word_that_is_no_instruction_set_is_refused),
-        cmocka_unit_test(kernels_that_do_not_compile_show_the_whole_log),
-        cmocka_unit_test(the_kernels_of_a_folder_replace_the_embedded_ones),
-        cmocka_unit_test(the_kernels_compile_for_every_width),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
 #include "support.h"
+#include "../skip.h"
 #include "../../host/base/file.h"
 #include "../../host/output/curve.h"
 #include <stdlib.h>
@@ -46,7 +47,6 @@ static bool has_gnuplot(void)
 static void a_curve_is_drawn_whatever_the_words_and_paths_hold(void **state)
 {
     (void)state;
-    if (!has_gnuplot()) skip();
     char *folder = test_new_folder();
     brc_history *few = history(5, 1e-7), *many = history(500, 1e-5);
     assert_true(draw("A \"title\" with 'quotes', \\ and `date`", test_path(folder, "it's `a` $b \"c\".png"), few));
@@ -79,5 +79,6 @@ int main(void)
         cmocka_unit_test(a_curve_is_drawn_whatever_the_words_and_paths_hold),
         cmocka_unit_test(too_few_points_and_no_gnuplot_are_warnings),
     };
+    if (!has_gnuplot()) return test_skip("gnuplot is not installed (Debian: gnuplot-nox)");
     return cmocka_run_group_tests(tests, test_begin, test_end);
 }

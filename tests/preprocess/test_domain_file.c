@@ -5,16 +5,11 @@
 #include "../../preprocess/domain_file.h"
 
 #include <hdf5.h>
-#include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mount.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 static const char path[] = "domain_under_test.h5";
 
@@ -234,36 +229,6 @@ static void damaged_bytes_never_give_a_wrong_domain(void **state)
     remove(path);
 }
 
-/* A full disk, a real one of 100 kB, in a child with a mount of its own; skipped where mounting is not allowed. The child
- * ends as a program does, so that what libraries do at the end is seen too. */
-static void a_really_full_disk_leaves_a_clean_exit(void **state)
-{
-    (void)state;
-    mkdir("small_disk", 0777);
-    const pid_t child = fork();
-    if (child == 0) {
-        if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) _exit(77);
-        if (mount("none", "/", NULL, MS_REC | MS_PRIVATE, NULL) != 0) _exit(77);
-        if (mount("none", "small_disk", "tmpfs", 0, "size=100k,mode=777") != 0) _exit(77);
-        brc_context *context = brc_context_create();
-        brc_log_set_level(context, BRC_LOG_ERROR);
-        brc_domain *d = sample(context);
-        const brc_status status = brc_domain_write(context, d, "small_disk/d.h5");
-        const bool said = strstr(brc_context_message(context), "No space left on device") != NULL;
-        if (!said) fprintf(stderr, "%s\n", brc_context_message(context));
-        const bool rest = access("small_disk/d.h5", F_OK) == 0 || access("small_disk/d.h5.part", F_OK) == 0;
-        brc_domain_free(&d);
-        brc_context_free(&context);
-        exit(status == BRC_FILE_FAILED && said && !rest ? 0 : 1);
-    }
-    int result = 0;
-    waitpid(child, &result, 0);
-    rmdir("small_disk");
-    assert_true(WIFEXITED(result));
-    if (WEXITSTATUS(result) == 77) skip();
-    assert_int_equal(WEXITSTATUS(result), 0);
-}
-
 /* A limit on the size of files stops HDF5 like a full disk does: one sentence, no crash, the old file stays, no rest is left. */
 static void a_full_disk_gives_a_sentence_and_keeps_the_old_file(void **state)
 {
@@ -298,7 +263,6 @@ int main(void)
         cmocka_unit_test_setup_teardown(foreign_and_missing_files_are_refused, test_begin, test_end),
         cmocka_unit_test_setup_teardown(spoiled_files_are_refused_with_what_is_wrong, test_begin, test_end),
         cmocka_unit_test_setup_teardown(damaged_bytes_never_give_a_wrong_domain, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(a_really_full_disk_leaves_a_clean_exit, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_full_disk_gives_a_sentence_and_keeps_the_old_file, test_begin, test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

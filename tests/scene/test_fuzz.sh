@@ -4,11 +4,17 @@
 set -eu
 source=${BRC_SOURCE_DIR:?}
 seconds=${BRC_FUZZ_SECONDS:-120}
-clang=$(command -v clang-14 || command -v clang) || { echo "SKIPPED: no clang"; exit 77; }
+skip() { # visibly; where nothing may be skipped (tests/skip.h), a failure
+    echo "SKIPPED: $1"
+    [ -z "${BRC_NO_SKIPS:-}" ] || exit 1
+    exit 77
+}
+clang=$(command -v clang-14 || command -v clang) || skip "no clang"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 printf 'int LLVMFuzzerTestOneInput(const unsigned char *d, unsigned long n) { return d && n > 1e9; }\n' > "$folder/probe.c"
-"$clang" -fsanitize=fuzzer,address "$folder/probe.c" -o "$folder/probe" 2>/dev/null || { echo "SKIPPED: $clang has no libFuzzer runtime (Debian: libclang-rt-14-dev)"; exit 77; }
+"$clang" -fsanitize=fuzzer,address "$folder/probe.c" -o "$folder/probe" 2>/dev/null ||
+    skip "$clang has no libFuzzer runtime (Debian: libclang-rt-14-dev)"
 base=$(ls "$source"/host/base/*.c | grep -v /version.c) # the version is generated, and the reader does not ask for it
 "$clang" -std=gnu11 -D_GNU_SOURCE -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
     "$source"/tests/fuzz/fuzz_scene.c "$source"/host/scene/*.c $base -o "$folder/fuzz_scene" -lyaml -lm

@@ -176,7 +176,7 @@ static void writing_to_a_full_disk_is_an_error(void **state)
 {
     (void)state;
     FILE *full = fopen("/dev/full", "w");
-    if (!full) skip();
+    assert_non_null(full); /* Linux has it */
     brc_context *context = brc_context_create();
     assert_int_equal(brc_scene_write_reference(context, full), BRC_FILE_FAILED);
     fclose(full);

@@ -1,0 +1,85 @@
+/* Kernels compiled at run time by the first usable OpenCL device: the compiler's log, other folders, every width. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+#include "device_cases.h"
+#include "../skip.h"
+#include "../../host/base/file.h"
+#include <string.h>
+
+static brc_device_info info;
+
+static void kernels_that_do_not_compile_show_the_whole_log(void **unused)
+{
+    (void)unused;
+    brc_context *context = brc_context_create();
+    static const char folder[] = BRC_BUILD_DIR_PATH "/broken-kernels", good[] = "#include \"law.h\"\n",
+                      broken[] = "\n\nthis is no kernel;\n";
+    assert_int_equal(brc_file_make_folder(context, folder), BRC_OK);
+    assert_int_equal(
+        brc_file_write_whole(context, BRC_BUILD_DIR_PATH "/broken-kernels/kernels.h", good, sizeof good - 1), BRC_OK);
+    assert_int_equal(
+        brc_file_write_whole(context, BRC_BUILD_DIR_PATH "/broken-kernels/law.h", broken, sizeof broken - 1), BRC_OK);
+    const brc_device_request request = {.selector = info.selector, .precision = BRC_SINGLE, .kernel_folder = folder};
+    assert_int_equal(device_cases_open(context, &request), BRC_DEVICE_FAILED);
+    device_cases_says(context, info.selector);
+    device_cases_says(context, info.name);
+    device_cases_says(context, "broken-kernels do not compile: CL_BUILD_PROGRAM_FAILURE");
+    device_cases_says(context, "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=2 -D BRC_LANES=");
+    device_cases_says(context, "law.h:3:"); /* the compiler's log, with the file and line of the pasted text */
+    brc_context_free(&context);
+}
+
+static void the_kernels_of_a_folder_replace_the_embedded_ones(void **unused)
+{
+    (void)unused;
+    brc_context *context = brc_context_create();
+    brc_device_request request = {.selector = info.selector, .kernel_folder = BRC_SOURCE_DIR_PATH "/kernels"};
+    request.precision = BRC_SINGLE;
+    if (device_cases_open(context, &request) != BRC_OK) device_cases_says(context, "(it compiles)");
+    request.kernel_folder = BRC_SOURCE_DIR_PATH "/no-such-folder";
+    assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
+    device_cases_says(context, "no-such-folder/kernels.h");
+    brc_context_free(&context);
+}
+
+/* One element a work-item in every variant, which is what a GPU compiles, checked without one; and the widths no device
+ * chooses by itself. (Width 8 in every variant: test_device_opencl.) */
+static void the_kernels_compile_for_every_width(void **unused)
+{
+    (void)unused;
+    brc_context *context = brc_context_create();
+    static const struct {
+        brc_precision precision;
+        bool many;
+        int lanes;
+    } variants[] = {{BRC_DOUBLE, false, 1}, {BRC_DOUBLE, true, 1},  {BRC_MIXED, false, 1},
+                    {BRC_MIXED, true, 1},   {BRC_SINGLE, false, 1}, {BRC_SINGLE, true, 1},
+                    {BRC_DOUBLE, false, 4}, {BRC_MIXED, true, 16},  {BRC_SINGLE, true, 16}};
+    for (size_t k = 0; k < sizeof variants / sizeof variants[0]; ++k) {
+        const brc_device_request request = {.selector = info.selector,
+                                            .precision = variants[k].precision,
+                                            .many_materials = variants[k].many,
+                                            .lanes = variants[k].lanes};
+        if (request.precision != BRC_SINGLE && !info.has_double) continue;
+        if (device_cases_open(context, &request) != BRC_OK) device_cases_says(context, "(it compiles)");
+    }
+    const brc_device_request request = {.selector = info.selector, .precision = BRC_SINGLE, .lanes = 5};
+    assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
+    device_cases_says(context, "5 elements a work-item: expected 1, 4, 8 or 16");
+    brc_context_free(&context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(kernels_that_do_not_compile_show_the_whole_log),
+        cmocka_unit_test(the_kernels_of_a_folder_replace_the_embedded_ones),
+        cmocka_unit_test(the_kernels_compile_for_every_width),
+    };
+    char why[400];
+    if (!device_cases_find(BRC_DEVICE_OPENCL, &info, why, sizeof why)) return test_skip(why);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
