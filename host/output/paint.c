@@ -62,6 +62,15 @@ void brc_paint_fill(brc_paint *paint, const double rgb[3], double shade, double 
     cairo_stroke(paint->cairo);
 }
 
+void brc_paint_line(brc_paint *paint, const double from[2], const double to[2], double width, const double rgb[3])
+{
+    cairo_move_to(paint->cairo, BRC_PAINT_OVERSAMPLE * from[0], BRC_PAINT_OVERSAMPLE * from[1]);
+    cairo_line_to(paint->cairo, BRC_PAINT_OVERSAMPLE * to[0], BRC_PAINT_OVERSAMPLE * to[1]);
+    cairo_set_source_rgb(paint->cairo, rgb[0], rgb[1], rgb[2]);
+    cairo_set_line_width(paint->cairo, BRC_PAINT_OVERSAMPLE * width);
+    cairo_stroke(paint->cairo);
+}
+
 /* Mean of BRC_PAINT_OVERSAMPLE x BRC_PAINT_OVERSAMPLE pixels. */
 static void shrink(brc_paint *paint)
 {

@@ -43,6 +43,8 @@ void brc_paint_begin(brc_context *context, int width, int height, brc_paint *pai
 /* The next corner of a polygon [px of the picture], and its end: filled with shade * rgb, the edge darker by `line` (0..1, 0: not). */
 void brc_paint_corner(brc_paint *paint, double x, double y);
 void brc_paint_fill(brc_paint *paint, const double rgb[3], double shade, double line);
+/* A line among the polygons [px of the picture]. */
+void brc_paint_line(brc_paint *paint, const double from[2], const double to[2], double width, const double rgb[3]);
 /* Polygons are done; from here paint->cairo draws words and lines. */
 void brc_paint_top(brc_paint *paint);
 /* align: 0 left, 0.5 centred, 1 right of x. In the current colour. */
