@@ -1,0 +1,305 @@
+/* Where the surface of a solid comes near a point. Candidates are the nearest points of all surfaces, of the curves where two of
+ * them cut and of the corners where three do; one is on the solid's surface where small steps off it, to every side of its surfaces, do not all agree
+ * about being inside. */
+#include "solid_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_NEAR = 128, MOST_STEPS = 40 };
+
+/* A surface near x, or its other side where it curves around x. */
+typedef struct near_surface {
+    const brc_surface *surface;
+    double height, normal[3], point[3];
+    double probe[3]; /* across the surface at the point: the normal, but at a tip the axis */
+    bool opposite;
+} near_surface;
+
+static void step(const double x[3], double length, const double direction[3], double out[3])
+{
+    for (int d = 0; d < 3; ++d) out[d] = x[d] + length * direction[d];
+}
+
+static void set_probe(near_surface *a)
+{
+    const brc_surface *s = a->surface;
+    memcpy(a->probe, a->normal, sizeof a->probe);
+    if (s->kind != BRC_SURFACE_CONE) return;
+    const double gap[3] = {a->point[0] - s->point[0], a->point[1] - s->point[1], a->point[2] - s->point[2]};
+    if (brc_length3(gap) <= 1e-12 * fabs(a->height))
+        for (int d = 0; d < 3; ++d) a->probe[d] = -s->axis[d];
+}
+
+/* Surfaces nearer to x than reach, in order; the opposite sides of curved ones too. */
+static int gather(const brc_solid *solid, const double x[3], double reach, near_surface *near)
+{
+    int n = 0;
+    for (int32_t s = 0; s < solid->n_surfaces && n + 1 < MOST_NEAR; ++s) {
+        const brc_surface *surface = &solid->surface[s];
+        near_surface *a = &near[n];
+        a->height = brc_surface_height(solid, surface, x, NULL);
+        if (fabs(a->height) >= reach) continue;
+        a->height = brc_surface_height(solid, surface, x, a->normal);
+        a->surface = surface;
+        a->opposite = false;
+        step(x, -a->height, a->normal, a->point);
+        set_probe(a);
+        ++n;
+        near_surface *b = &near[n];
+        if (!brc_surface_opposite(surface, x, &b->height, b->normal) || fabs(b->height) >= reach) continue;
+        b->surface = surface;
+        b->opposite = true;
+        step(x, -b->height, b->normal, b->point);
+        set_probe(b);
+        ++n;
+    }
+    return n;
+}
+
+/* Sides of a surface at y: is the solid there below it (bit 0), above it (bit 1)? */
+static int sides(const brc_solid *solid, const double y[3], const double normal[3])
+{
+    double below[3], above[3];
+    step(y, -solid->tiny, normal, below);
+    step(y, solid->tiny, normal, above);
+    return (brc_solid_member(solid, below) ? 1 : 0) | (brc_solid_member(solid, above) ? 2 : 0);
+}
+
+/* Does the leaf itself end at y? */
+static bool leaf_ends(const brc_solid *solid, const near_surface *a)
+{
+    const brc_leaf *leaf = &solid->leaf[a->surface->leaf];
+    if (leaf->n_surfaces == 1) return true;
+    double below[3];
+    step(a->point, -solid->tiny, a->probe, below);
+    return brc_leaf_inside(solid, leaf, below);
+}
+
+/* Solve the small symmetric system of unit normals: find the combination of normals with the given heights along them.
+ * n: 2 or 3; false when they are nearly parallel. */
+static bool combine(int n, const double normal[3][3], const double value[3], double weight[3])
+{
+    const double c = brc_dot3(normal[0], normal[1]);
+    if (n == 2) {
+        const double determinant = 1.0 - c * c;
+        if (determinant < 1e-10) return false;
+        weight[0] = (value[0] - c * value[1]) / determinant;
+        weight[1] = (value[1] - c * value[0]) / determinant;
+        weight[2] = 0.0;
+        return true;
+    }
+    const double b = brc_dot3(normal[0], normal[2]), a = brc_dot3(normal[1], normal[2]);
+    const double determinant = 1.0 + 2.0 * a * b * c - a * a - b * b - c * c;
+    if (determinant < 1e-10) return false;
+    weight[0] = ((1.0 - a * a) * value[0] + (a * b - c) * value[1] + (a * c - b) * value[2]) / determinant;
+    weight[1] = ((a * b - c) * value[0] + (1.0 - b * b) * value[1] + (b * c - a) * value[2]) / determinant;
+    weight[2] = ((a * c - b) * value[0] + (b * c - a) * value[1] + (1.0 - c * c) * value[2]) / determinant;
+    return true;
+}
+
+/* The point nearest to x that lies on all n surfaces: tangent planes are cut until nothing moves. weight: x to the point in terms of the
+ * normals there. False when the surfaces do not meet near x. */
+static bool meet(const brc_solid *solid, const double x[3], int n, const near_surface *const *a, double reach, double y[3],
+                 double normal[3][3], double weight[3])
+{
+    bool flat = true;
+    double height[3];
+    memcpy(y, x, 3 * sizeof *y);
+    for (int k = 0; k < n; ++k) {
+        flat = flat && a[k]->surface->kind == BRC_SURFACE_PLANE;
+        height[k] = a[k]->height;
+        memcpy(normal[k], a[k]->normal, 3 * sizeof(double));
+        if (a[k]->opposite) return false;
+    }
+    for (int i = 0; i < MOST_STEPS; ++i) {
+        double wanted[3] = {0.0, 0.0, 0.0}, next[3];
+        const double back[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
+        for (int k = 0; k < n; ++k) wanted[k] = brc_dot3(normal[k], back) - height[k];
+        if (!combine(n, (const double(*)[3])normal, wanted, weight)) return false;
+        for (int d = 0; d < 3; ++d) {
+            next[d] = x[d];
+            for (int k = 0; k < n; ++k) next[d] += weight[k] * normal[k][d];
+        }
+        const double moved[3] = {next[0] - y[0], next[1] - y[1], next[2] - y[2]}, far[3] = {next[0] - x[0], next[1] - x[1], next[2] - x[2]};
+        memcpy(y, next, sizeof next);
+        if (flat) return brc_length3(far) < reach;
+        if (brc_length3(far) > 4.0 * reach) return false;
+        if (brc_length3(moved) < 1e-3 * solid->tiny) return brc_length3(far) < reach;
+        for (int k = 0; k < n; ++k) height[k] = brc_surface_height(solid, a[k]->surface, y, normal[k]);
+    }
+    return false;
+}
+
+/* Is the solid there in each of the 2^n sectors around a point where n surfaces meet? Bit s: sector where surface k is above for each
+ * bit k of s. */
+static int sectors(const brc_solid *solid, int n, const double y[3], const double normal[3][3])
+{
+    int inside = 0;
+    for (int s = 0; s < 1 << n; ++s) {
+        double value[3] = {0.0, 0.0, 0.0}, weight[3], direction[3] = {0.0, 0.0, 0.0}, x[3];
+        for (int k = 0; k < n; ++k) value[k] = s >> k & 1 ? 1.0 : -1.0;
+        if (!combine(n, normal, value, weight)) return 0;
+        for (int k = 0; k < n; ++k)
+            for (int d = 0; d < 3; ++d) direction[d] += weight[k] * normal[k][d];
+        step(y, solid->tiny / brc_length3(direction), direction, x);
+        if (brc_solid_member(solid, x)) inside |= 1 << s;
+    }
+    return inside;
+}
+
+/* The only sector outside, -1 when there is none or another one. */
+static int lone_outside(int n, int inside)
+{
+    const int all = (1 << (1 << n)) - 1, outside = all & ~inside;
+    for (int s = 0; s < 1 << n; ++s)
+        if (outside == 1 << s) return s;
+    return -1;
+}
+
+/* Distance to the nearest surface point; *corner: it and its wall where only an edge or a corner is that near. */
+static double nearest(const brc_solid *solid, const double x[3], const near_surface *near, int n, double reach, double point[3], int32_t *wall)
+{
+    double best = reach, y[3], normal[3][3], weight[3];
+    for (int i = 0; i < n; ++i) {
+        const double distance = fabs(near[i].height);
+        if (distance >= best || !leaf_ends(solid, &near[i])) continue;
+        const int side = sides(solid, near[i].point, near[i].probe);
+        if (side != 1 && side != 2) continue;
+        best = distance;
+        memcpy(point, near[i].point, sizeof near[i].point);
+        *wall = near[i].surface->wall;
+    }
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j) {
+            const near_surface *const pair[2] = {&near[j], &near[i]};
+            if (fabs(near[i].height) >= best || fabs(near[j].height) >= best || near[i].surface == near[j].surface) continue;
+            if (!meet(solid, x, 2, pair, best, y, normal, weight)) continue;
+            const int inside = sectors(solid, 2, y, (const double(*)[3])normal);
+            if (inside != 0 && inside != 15) {
+                const double gap[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
+                best = brc_length3(gap);
+                memcpy(point, y, sizeof y);
+                *wall = near[j].surface->wall;
+            }
+        }
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j)
+            for (int k = 0; k < j; ++k) {
+                const near_surface *const triple[3] = {&near[k], &near[j], &near[i]};
+                if (fabs(near[i].height) >= best || fabs(near[j].height) >= best || fabs(near[k].height) >= best) continue;
+                if (near[i].surface == near[j].surface || near[j].surface == near[k].surface) continue;
+                if (!meet(solid, x, 3, triple, best, y, normal, weight)) continue;
+                const int inside = sectors(solid, 3, y, (const double(*)[3])normal);
+                if (inside != 0 && inside != 255) {
+                    const double gap[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
+                    best = brc_length3(gap);
+                    memcpy(point, y, sizeof y);
+                    *wall = near[k].surface->wall;
+                }
+            }
+    return best;
+}
+
+double brc_solid_depth(const brc_solid *solid, const double x[3])
+{
+    const bool inside = brc_solid_member(solid, x);
+    const double sign = inside ? 1.0 : -1.0;
+    if (solid->n_leaves == 1 && solid->leaf[0].mesh) return -brc_surface_height(solid, &solid->surface[0], x, NULL);
+    if (solid->n_leaves == 1 && (inside || solid->n_surfaces == 1)) {
+        double depth = HUGE_VAL; /* in a convex leaf nothing hides a surface */
+        for (int32_t s = 0; s < solid->n_surfaces; ++s) depth = fmin(depth, fabs(brc_surface_height(solid, &solid->surface[s], x, NULL)));
+        return sign * depth;
+    }
+    near_surface near[MOST_NEAR];
+    double point[3], diagonal[3], away = 0.0;
+    int32_t wall;
+    for (int d = 0; d < 3; ++d) {
+        diagonal[d] = solid->bounds[1][d] - solid->bounds[0][d];
+        away += fmax(0.0, fmax(solid->bounds[0][d] - x[d], x[d] - solid->bounds[1][d]));
+    }
+    /* look near first: most questions are asked near the surface */
+    const double all = brc_length3(diagonal) + away;
+    for (double reach = 1.0 / 64.0 * all;; reach *= 4.0) {
+        const int n = gather(solid, x, reach, near);
+        const double distance = nearest(solid, x, near, n, reach, point, &wall);
+        if (distance < reach) return sign * distance;
+        if (reach > all) return sign * all;
+    }
+}
+
+/* Add a foot unless an earlier one is the same place. */
+static int32_t add_foot(brc_foot *feet, int32_t n, int32_t most, const brc_foot *foot)
+{
+    for (int32_t k = 0; k < n && k < most; ++k)
+        if (fabs(feet[k].depth - foot->depth) <= 1e-9 * foot->depth && brc_dot3(feet[k].normal, foot->normal) > 1.0 - 1e-12) return n;
+    if (n < most) feet[n] = *foot;
+    return n + 1;
+}
+
+/* A plane whose foot lies beyond an edge, outside the solid, still bounds what is around x when x is on its inner side. */
+static bool bounds_beyond(const brc_solid *solid, const near_surface *a, const double x[3])
+{
+    if (a->surface->kind != BRC_SURFACE_PLANE) return false;
+    const brc_leaf *leaf = &solid->leaf[a->surface->leaf];
+    if (leaf->role == BRC_PART_REMOVE) return a->height > 0.0;
+    return a->height < 0.0 && (leaf->role == BRC_PART_KEEP || brc_leaf_inside(solid, leaf, x));
+}
+
+static int32_t edge_feet(const brc_solid *solid, const double x[3], const near_surface *near, int n_near, double reach, brc_foot *feet,
+                         int32_t n, int32_t most)
+{
+    double y[3], normal[3][3], weight[3];
+    for (int i = 0; i < n_near; ++i)
+        for (int j = 0; j < i; ++j) {
+            const near_surface *const pair[2] = {&near[j], &near[i]};
+            if (near[i].surface == near[j].surface || !meet(solid, x, 2, pair, reach, y, normal, weight)) continue;
+            const int outside = lone_outside(2, sectors(solid, 2, y, (const double(*)[3])normal));
+            if (outside < 0) continue;
+            /* nearest to x only if x lies between the normals of the two faces */
+            if ((outside & 1 ? weight[0] : -weight[0]) < 0.0 || (outside & 2 ? weight[1] : -weight[1]) < 0.0) continue;
+            brc_foot foot = {.wall = near[j].surface->wall};
+            for (int d = 0; d < 3; ++d) foot.normal[d] = y[d] - x[d];
+            foot.depth = brc_length3(foot.normal);
+            if (!(foot.depth > 0.0 && foot.depth < reach)) continue;
+            for (int d = 0; d < 3; ++d) foot.normal[d] /= foot.depth;
+            n = add_foot(feet, n, most, &foot);
+        }
+    return n;
+}
+
+int32_t brc_solid_feet(const brc_solid *solid, const double x[3], double reach, brc_foot *feet, int32_t most)
+{
+    if (!brc_solid_member(solid, x)) return 0;
+    near_surface near[MOST_NEAR];
+    const int n_near = gather(solid, x, reach, near);
+    int32_t n = 0;
+    double least = HUGE_VAL;
+    for (int i = 0; i < n_near; ++i) {
+        const near_surface *a = &near[i];
+        brc_foot foot = {.depth = fabs(a->height), .wall = a->surface->wall, .plane = a->surface->kind == BRC_SURFACE_PLANE};
+        for (int d = 0; d < 3; ++d) foot.normal[d] = a->height < 0.0 ? a->normal[d] : -a->normal[d];
+        if (!(foot.depth > 0.0)) continue;
+        const int side = sides(solid, a->point, a->probe);
+        /* outward must be away from x */
+        const bool faces = side == (a->height < 0.0 ? 1 : 2) && leaf_ends(solid, a);
+        if (!faces && !(side == 0 && bounds_beyond(solid, a, x))) continue;
+        if (faces) least = fmin(least, foot.depth);
+        n = add_foot(feet, n, most, &foot);
+    }
+    if (solid->n_leaves == 1) return n; /* convex, or without edges */
+    n = edge_feet(solid, x, near, n_near, reach, feet, n, most);
+    for (int32_t k = 0; k < n && k < most; ++k)
+        if (!feet[k].plane) least = fmin(least, feet[k].depth);
+    double point[3];
+    brc_foot corner = {.wall = 0};
+    if (nearest(solid, x, near, n_near, fmin(reach, least * (1.0 - 1e-9)), point, &corner.wall) < fmin(reach, least * (1.0 - 1e-9))) {
+        for (int d = 0; d < 3; ++d) corner.normal[d] = point[d] - x[d];
+        corner.depth = brc_length3(corner.normal);
+        if (corner.depth > 0.0) {
+            for (int d = 0; d < 3; ++d) corner.normal[d] /= corner.depth;
+            n = add_foot(feet, n, most, &corner);
+        }
+    }
+    return n;
+}

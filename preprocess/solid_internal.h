@@ -1,0 +1,90 @@
+/* What the files of a solid share. A solid is a list of leaves combined left to right; a leaf is what lies below all of its
+ * surfaces, each a plane, an endless cylinder or cone, a sphere, a torus or a closed mesh, already turned and moved by the pose of
+ * its part. */
+#ifndef BRC_PREPROCESS_SOLID_INTERNAL_H
+#define BRC_PREPROCESS_SOLID_INTERNAL_H
+
+#include "mesh.h"
+#include "solid.h"
+
+#pragma weak brc_mesh_read_stl
+#pragma weak brc_mesh_free
+#pragma weak brc_mesh_feet
+#pragma weak brc_mesh_depth
+#pragma weak brc_mesh_inside
+#pragma weak brc_mesh_bounds
+#pragma weak brc_mesh_volume
+#pragma weak brc_mesh_area
+#pragma weak brc_mesh_is_convex
+#pragma weak brc_mesh_crossings
+
+typedef enum brc_surface_kind {
+    BRC_SURFACE_PLANE,
+    BRC_SURFACE_CYLINDER, /* about an endless axis */
+    BRC_SURFACE_SPHERE,
+    BRC_SURFACE_CONE, /* one nappe, endless; `point` is its tip and `axis` points into it */
+    BRC_SURFACE_TORUS,
+    BRC_SURFACE_MESH
+} brc_surface_kind;
+
+typedef struct brc_surface {
+    brc_surface_kind kind;
+    int32_t leaf, wall;
+    double point[3];        /* of the plane, on the axis, centre, tip [m] */
+    double axis[3];         /* unit; plane: outward normal of the leaf */
+    double radius, radius2; /* torus: of the centre line, of the tube [m] */
+    double sine, cosine;    /* of the cone's half angle */
+    double hull;            /* plane: 1 when the whole solid lies on its inner side, -1 on its outer side, else 0 */
+} brc_surface;
+
+typedef struct brc_leaf {
+    brc_part_role role;
+    brc_shape shape;
+    int32_t first, n_surfaces;
+    brc_mesh *mesh;
+    bool posed;                   /* turned or moved at all */
+    double frame[3][3];           /* columns: axes of the part in the shape */
+    double pivot[3], shift[3];    /* x = pivot + frame (X - pivot) + shift */
+    double bounds[2][3];          /* of the turned leaf [m] */
+} brc_leaf;
+
+struct brc_solid {
+    brc_shape shape;
+    brc_shape_part *parts;
+    int32_t n_leaves, n_surfaces, n_walls;
+    brc_leaf *leaf;
+    brc_surface *surface;
+    char (*wall_name)[72];
+    double bounds[2][3];
+    double volume, volume_error, area;
+    double tiny; /* a step off a surface that tells its sides apart [m] */
+    bool convex;
+};
+
+double brc_dot3(const double a[3], const double b[3]);
+double brc_length3(const double a[3]);
+
+/* solid_leaf.c: make the leaf of a shape (its walls too), and its support: the largest direction . x in it. */
+brc_status brc_leaf_create(brc_context *context, brc_solid *solid, const brc_shape_part *part, int n_threads);
+double brc_leaf_support(const brc_leaf *leaf, const double direction[3]);
+bool brc_leaf_inside(const brc_solid *solid, const brc_leaf *leaf, const double x[3]);
+/* From the shape's coordinates to those of the part, and directions both ways. */
+void brc_leaf_to_part(const brc_leaf *leaf, const double x[3], double out[3]);
+void brc_leaf_turn(const brc_leaf *leaf, const double direction[3], double out[3]);
+void brc_leaf_from_part(const brc_leaf *leaf, const double x[3], double out[3]);
+
+/* solid_surface.c: height of x above the surface (negative inside the leaf) and the unit normal at the nearest point, which is
+ * x - height normal; normal may be NULL. */
+double brc_surface_height(const brc_solid *solid, const brc_surface *surface, const double x[3], double normal[3]);
+/* On a curved surface around x: the other place where the distance is stationary, opposite the nearest one. Same meaning; false: none. */
+bool brc_surface_opposite(const brc_surface *surface, const double x[3], double *height, double normal[3]);
+/* Where the line x + t direction meets the surface, any order; at most 4 (not for meshes). Returns how many. */
+int brc_surface_crossings(const brc_surface *surface, const double x[3], const double direction[3], double t[4]);
+
+/* solid.c: is x in the combination of all leaves? */
+bool brc_solid_member(const brc_solid *solid, const double x[3]);
+
+/* solid_volume.c: fill bounds, volume and area of a solid of several parts. */
+brc_status brc_solid_measure(brc_context *context, brc_solid *solid, int n_threads);
+
+#endif
