@@ -1,4 +1,8 @@
 #include "opencl_list.h"
+#include "opencl_aside.h"
+#include "../base/log.h"
+#include <dlfcn.h>
+#include <link.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -69,21 +73,73 @@ static brc_device_info describe(cl_device_id device, int index)
     return info;
 }
 
-brc_status brc_device_opencl_list(brc_context *context, brc_device_list *list)
+int brc_opencl_describe_all(brc_device_info *rows, int most)
 {
     cl_device_id devices[BRC_OPENCL_MOST_DEVICES];
-    const int n = brc_opencl_devices(devices);
-    for (int d = 0; d < n; ++d) {
-        const brc_device_info info = describe(devices[d], d);
-        BRC_TRY(brc_device_list_add(context, list, &info));
+    int n = brc_opencl_devices(devices);
+    if (n > most) n = most;
+    for (int d = 0; d < n; ++d)
+        rows[d] = describe(devices[d], d);
+    return n;
+}
+
+/* The object of the loader itself, which has the functions of a driver too. */
+static const void *object_of(const void *address)
+{
+    Dl_info where;
+    return address && dladdr(address, &where) ? where.dli_fbase : NULL;
+}
+
+/* Asked of the dynamic loader, since a program around this library may use OpenCL for itself. Drivers have this symbol. */
+bool brc_opencl_driver_is_loaded(void)
+{
+    static const char symbol[] = "clGetExtensionFunctionAddress";
+    const struct link_map *object = NULL;
+    void *const program = dlopen(NULL, RTLD_LAZY);
+    const void *const loader = object_of(dlsym(RTLD_DEFAULT, "clGetPlatformIDs"));
+    bool found = false;
+    if (!program) return false;
+    if (dlinfo(program, RTLD_DI_LINKMAP, &object) != 0) object = NULL;
+    for (; object && !found; object = object->l_next) {
+        void *const library = object->l_name[0] ? dlopen(object->l_name, RTLD_LAZY | RTLD_NOLOAD) : NULL;
+        if (!library) continue;
+        const void *const owner = object_of(dlsym(library, symbol)); /* a library's own or one that it needs */
+        found = owner && owner != loader;
+        dlclose(library);
     }
-    if (n > 0) return BRC_OK;
-    const brc_device_info none = {
+    dlclose(program);
+    return found;
+}
+
+brc_status brc_opencl_list_within(brc_context *context, brc_device_list *list, double seconds)
+{
+    brc_device_info rows[BRC_OPENCL_MOST_DEVICES];
+    brc_device_info none = {
         .kind = BRC_DEVICE_OPENCL,
         .selector = "opencl:0",
         .name = "no OpenCL device",
         .driver = "OpenCL loader without a platform",
         .why_not = "no OpenCL driver is installed: install the GPU's own, or pocl-opencl-icd for the CPU",
     };
+    int n;
+    char trouble[128];
+    if (brc_opencl_driver_is_loaded())
+        n = brc_opencl_describe_all(rows, BRC_OPENCL_MOST_DEVICES);
+    else
+        brc_opencl_aside(brc_opencl_describe_all, seconds, rows, BRC_OPENCL_MOST_DEVICES, &n, trouble, sizeof trouble);
+    for (int d = 0; d < n; ++d)
+        BRC_TRY(brc_device_list_add(context, list, &rows[d]));
+    if (n > 0) return BRC_OK;
+    if (n < 0) {
+        snprintf(none.driver, sizeof none.driver, "OpenCL loader with a driver that fails");
+        snprintf(none.why_not, sizeof none.why_not,
+                 "%s: mend it (PoCL needs /sys), or name the .icd file of a good one in OCL_ICD_VENDORS", trouble);
+        brc_log(context, BRC_LOG_WARNING, "OpenCL is left out: %s", none.why_not);
+    }
     return brc_device_list_add(context, list, &none);
+}
+
+brc_status brc_device_opencl_list(brc_context *context, brc_device_list *list)
+{
+    return brc_opencl_list_within(context, list, BRC_OPENCL_LIST_SECONDS);
 }

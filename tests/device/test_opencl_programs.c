@@ -7,9 +7,37 @@
 #include "device_cases.h"
 #include "../skip.h"
 #include "../../host/base/file.h"
+#include "../../host/device/opencl_aside.h"
+#include "../../host/device/opencl_list.h"
 #include <string.h>
 
 static brc_device_info info;
+
+/* First: no driver is loaded yet. Asking in this process loads it, so that the list after that is made here too. */
+static void the_list_of_a_child_is_the_list_of_this_process(void **unused)
+{
+    (void)unused;
+    brc_context *context = brc_context_create();
+    brc_device_list *list = NULL;
+    static brc_device_info here[BRC_OPENCL_MOST_DEVICES], aside[BRC_OPENCL_MOST_DEVICES];
+    int n = -1;
+    char why[128] = "";
+    brc_opencl_aside(brc_opencl_describe_all, 20, aside, BRC_OPENCL_MOST_DEVICES, &n, why, sizeof why);
+    assert_string_equal(why, "");
+    assert_false(brc_opencl_driver_is_loaded());
+    const int expected = brc_opencl_describe_all(here, BRC_OPENCL_MOST_DEVICES);
+    assert_true(expected > 0);
+    assert_true(brc_opencl_driver_is_loaded());
+    assert_int_equal(n, expected);
+    assert_memory_equal(here, aside, (size_t)n * sizeof *here);
+    assert_int_equal(brc_device_list_create(context, &list), BRC_OK);
+    int seen = 0;
+    for (int d = 0; d < list->n; ++d)
+        if (list->items[d].kind == BRC_DEVICE_OPENCL) assert_memory_equal(&list->items[d], &here[seen++], sizeof *here);
+    assert_int_equal(seen, expected);
+    brc_device_list_free(&list);
+    brc_context_free(&context);
+}
 
 static void kernels_that_do_not_compile_show_the_whole_log(void **unused)
 {
@@ -75,6 +103,7 @@ static void the_kernels_compile_for_every_width(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_list_of_a_child_is_the_list_of_this_process),
         cmocka_unit_test(kernels_that_do_not_compile_show_the_whole_log),
         cmocka_unit_test(the_kernels_of_a_folder_replace_the_embedded_ones),
         cmocka_unit_test(the_kernels_compile_for_every_width),
