@@ -11,7 +11,8 @@ void brc_domain_free(brc_domain **domain)
     if (!domain || !*domain) return;
     brc_domain *d = *domain;
     void *const block[] = {d->position,         d->volume,        d->centroid,       d->inertia,
-                           d->region,           d->body,          d->row_start,      d->neighbour,
+                           d->region,           d->body,          d->grain,          d->radius,
+                           d->row_start,        d->neighbour,
                            d->twin,             d->bond,          d->area_vector,    d->face_centroid,
                            d->bond_half_edge,   d->free_start,    d->free_element,   d->free_area_vector,
                            d->free_centroid,    d->free_wall,     d->vertex_start,   d->vertex,
@@ -37,6 +38,7 @@ int32_t brc_domain_find_set(const brc_domain *domain, const char *name)
 
 double brc_domain_closure(const brc_domain *domain, int64_t e)
 {
+    if (domain->element_kind == BRC_ELEMENT_SPHERE) return 0.0;
     double sum[3] = {0.0, 0.0, 0.0}, total = 0.0;
     const double *s[2] = {domain->area_vector + 3 * domain->row_start[e],
                           domain->free_area_vector + 3 * domain->free_start[e]};
@@ -52,6 +54,7 @@ double brc_domain_closure(const brc_domain *domain, int64_t e)
 
 /* Closure of a cell is rounding plus what dropped faces leave open: their number times the threshold. */
 #define CLOSURE_ROUNDING 1e-9
+#define SPHERE_ROUNDING 1e-12
 
 static bool all_finite(const double *a, int64_t n)
 {
@@ -81,10 +84,17 @@ static bool in_range(const int32_t *a, int64_t n, int64_t end)
         if (!(condition)) status = BRC_FAIL(context, BRC_BAD_INPUT, "domain: " __VA_ARGS__);                           \
     } while (0)
 
+static bool spheres(const brc_domain *d)
+{
+    return d->element_kind == BRC_ELEMENT_SPHERE;
+}
+
 /* Counts and row starts: what everything else is indexed by. */
 static brc_status check_rows(brc_context *context, const brc_domain *d)
 {
     brc_status status = BRC_OK;
+    CHECK(d->element_kind == BRC_ELEMENT_CELL || d->element_kind == BRC_ELEMENT_SPHERE, "elements of the unknown kind %d",
+          (int)d->element_kind);
     CHECK(d->n_elements >= 1 && d->n_elements <= INT32_MAX, "%lld elements, must be 1 to 2^31 - 1",
           (long long)d->n_elements);
     CHECK(d->n_bonds >= 0 && d->n_half_edges == 2 * d->n_bonds && d->n_half_edges <= INT32_MAX,
@@ -94,6 +104,12 @@ static brc_status check_rows(brc_context *context, const brc_domain *d)
     if (status != BRC_OK) return status;
     CHECK(proper_rows(d->row_start, d->n_elements, d->n_half_edges), "rows of half-edges are not ascending to %lld",
           (long long)d->n_half_edges);
+    if (spheres(d)) {
+        CHECK(!d->free_start && !d->vertex_start && !d->area_vector && d->n_free_faces == 0, "spheres with faces");
+        CHECK(d->radius, "spheres without radii");
+        return status;
+    }
+    CHECK(!d->radius, "cells with radii");
     CHECK(proper_rows(d->free_start, d->n_elements, d->n_free_faces), "rows of free faces are not ascending to %lld",
           (long long)d->n_free_faces);
     CHECK(proper_rows(d->vertex_start, d->n_elements, d->vertex_start[d->n_elements]) &&
@@ -117,18 +133,12 @@ static brc_status check_half_edges(brc_context *context, const brc_domain *d)
     for (int64_t e = 0; e < d->n_elements && status == BRC_OK; ++e)
         for (int64_t h = d->row_start[e]; h < d->row_start[e + 1] && status == BRC_OK; ++h) {
             const int64_t t = d->twin[h], j = d->neighbour[h];
-            const double *s = d->area_vector + 3 * h, *o = d->area_vector + 3 * t;
             CHECK(j != e, "half-edge %lld joins element %lld to itself", (long long)h, (long long)e);
             CHECK(h == d->row_start[e] || d->neighbour[h - 1] < j, "row of element %lld is not sorted by neighbour",
                   (long long)e);
             CHECK(d->twin[t] == h && d->neighbour[t] == e && t >= d->row_start[j] && t < d->row_start[j + 1],
                   "half-edge %lld and its twin %lld do not point at each other", (long long)h, (long long)t);
             CHECK(d->bond[h] == d->bond[t], "half-edge %lld and its twin belong to different bonds", (long long)h);
-            CHECK(s[0] == -o[0] && s[1] == -o[1] && s[2] == -o[2], "area vectors of bond %d are not opposite",
-                  d->bond[h]);
-            CHECK(memcmp(d->face_centroid + 3 * h, d->face_centroid + 3 * t, 3 * sizeof(double)) == 0,
-                  "the face of bond %d has two centroids", d->bond[h]);
-            CHECK(s[0] != 0.0 || s[1] != 0.0 || s[2] != 0.0, "bond %d has no area", d->bond[h]);
             if (j > e) {
                 CHECK(d->bond_half_edge[b] == h && d->bond[h] == b, "bond %lld is not in order", (long long)b);
                 ++b;
@@ -137,9 +147,26 @@ static brc_status check_half_edges(brc_context *context, const brc_domain *d)
     return status;
 }
 
+/* Both sides of a face are one and the same. */
+static brc_status check_faces(brc_context *context, const brc_domain *d)
+{
+    brc_status status = BRC_OK;
+    for (int64_t h = 0; h < d->n_half_edges && !spheres(d) && status == BRC_OK; ++h) {
+        const int64_t t = d->twin[h];
+        if (t < 0 || t >= d->n_half_edges) break; /* said before */
+        const double *s = d->area_vector + 3 * h, *o = d->area_vector + 3 * t;
+        CHECK(s[0] == -o[0] && s[1] == -o[1] && s[2] == -o[2], "area vectors of bond %d are not opposite", d->bond[h]);
+        CHECK(memcmp(d->face_centroid + 3 * h, d->face_centroid + 3 * t, 3 * sizeof(double)) == 0,
+              "the face of bond %d has two centroids", d->bond[h]);
+        CHECK(s[0] != 0.0 || s[1] != 0.0 || s[2] != 0.0, "bond %d has no area", d->bond[h]);
+    }
+    return status;
+}
+
 static brc_status check_free_faces(brc_context *context, const brc_domain *d)
 {
     brc_status status = BRC_OK;
+    if (spheres(d)) return BRC_OK;
     CHECK(in_range(d->free_wall, d->n_free_faces, d->n_walls), "the wall of a free face is out of range");
     for (int64_t e = 0; e < d->n_elements && status == BRC_OK; ++e)
         for (int64_t f = d->free_start[e]; f < d->free_start[e + 1] && status == BRC_OK; ++f) {
@@ -152,13 +179,23 @@ static brc_status check_free_faces(brc_context *context, const brc_domain *d)
     return status;
 }
 
-/* Finite numbers, positive volumes, closed cells. */
+/* Finite numbers, positive volumes. */
 static brc_status check_geometry(brc_context *context, const brc_domain *d)
 {
     brc_status status = BRC_OK;
     CHECK(all_finite(d->position, 3 * d->n_elements), "a position is not finite");
     CHECK(all_finite(d->centroid, 3 * d->n_elements), "a centroid is not finite");
     CHECK(all_finite(d->inertia, 6 * d->n_elements), "an inertia tensor is not finite");
+    for (int64_t e = 0; e < d->n_elements && status == BRC_OK; ++e)
+        CHECK(d->volume[e] > 0.0 && isfinite(d->volume[e]), "element %lld has the volume %g m^3", (long long)e, d->volume[e]);
+    return status;
+}
+
+/* Finite faces and corners, closed cells. */
+static brc_status check_cells(brc_context *context, const brc_domain *d)
+{
+    brc_status status = BRC_OK;
+    if (spheres(d)) return BRC_OK;
     CHECK(all_finite(d->area_vector, 3 * d->n_half_edges), "an area vector is not finite");
     CHECK(all_finite(d->face_centroid, 3 * d->n_half_edges), "a face centroid is not finite");
     CHECK(all_finite(d->free_area_vector, 3 * d->n_free_faces), "a free area vector is not finite");
@@ -166,10 +203,30 @@ static brc_status check_geometry(brc_context *context, const brc_domain *d)
     CHECK(all_finite(d->vertex, 3 * d->vertex_start[d->n_elements]), "a cell corner is not finite");
     for (int64_t e = 0; e < d->n_elements && status == BRC_OK; ++e) {
         const double open = brc_domain_closure(d, e);
-        CHECK(d->volume[e] > 0.0 && isfinite(d->volume[e]), "element %lld has the volume %g m^3", (long long)e,
-              d->volume[e]);
         CHECK(open <= CLOSURE_ROUNDING + 10.0 * d->quality.tiny_face_threshold,
               "the faces of element %lld leave %.3g of its surface open", (long long)e, open);
+    }
+    return status;
+}
+
+/* Volume, inertia and centroid follow from radius and position; bonds have a length. */
+static brc_status check_spheres(brc_context *context, const brc_domain *d)
+{
+    brc_status status = BRC_OK;
+    for (int64_t e = 0; e < d->n_elements && spheres(d) && status == BRC_OK; ++e) {
+        const double r = d->radius[e], volume = 4.1887902047863910 * r * r * r, *x = d->position + 3 * e;
+        CHECK(r > 0.0 && isfinite(r), "sphere %lld has the radius %g m", (long long)e, r);
+        CHECK(fabs(d->volume[e] - volume) <= SPHERE_ROUNDING * volume, "the volume of sphere %lld is not that of its radius",
+              (long long)e);
+        for (int k = 0; k < 6; ++k)
+            CHECK(fabs(d->inertia[6 * e + k] - (k < 3 ? 0.4 * volume * r * r : 0.0)) <= SPHERE_ROUNDING * volume * r * r,
+                  "the inertia of sphere %lld is not that of its radius", (long long)e);
+        CHECK(memcmp(x, d->centroid + 3 * e, 3 * sizeof *x) == 0, "the centroid of sphere %lld is not its position", (long long)e);
+        for (int64_t h = d->row_start[e]; h < d->row_start[e + 1] && status == BRC_OK; ++h) {
+            const int32_t j = d->neighbour[h];
+            if (j < 0 || j >= d->n_elements) break; /* said before */
+            CHECK(memcmp(x, d->position + 3 * (int64_t)j, 3 * sizeof *x) != 0, "bond %d has no length", d->bond[h]);
+        }
     }
     return status;
 }
@@ -195,10 +252,11 @@ brc_status brc_domain_check(brc_context *context, const brc_domain *domain)
 {
     BRC_TRY(check_rows(context, domain));
     brc_status status = BRC_OK;
-    brc_status (*const check[])(brc_context *, const brc_domain *) = {check_half_edges, check_free_faces, check_geometry,
-                                                                      check_sets};
+    brc_status (*const check[])(brc_context *, const brc_domain *) = {
+        check_half_edges, check_faces, check_free_faces, check_geometry, check_cells, check_spheres, check_sets};
     CHECK(in_range(domain->region, domain->n_elements, INT32_MAX), "a region is negative");
     CHECK(in_range(domain->body, domain->n_elements, INT32_MAX), "a body is negative");
+    if (domain->grain) CHECK(in_range(domain->grain, domain->n_elements, INT32_MAX), "a grain is negative");
     for (size_t k = 0; k < sizeof check / sizeof *check; ++k) {
         const brc_status one = check[k](context, domain);
         if (one != BRC_OK) status = one;

@@ -29,24 +29,30 @@ typedef struct brc_quality {
     double tiny_face_threshold;     /* [-] of the mean face area */
     double tiny_face_area_fraction; /* [-] dropped area over total face area */
     double volume_shape;            /* exact volume of the shape asked for [m^3] */
-    double volume_cells;            /* sum of cell volumes [m^3] */
-    double volume_error;            /* volume_cells / volume_shape - 1 [-] */
+    double volume_cells;            /* sum of element volumes [m^3] */
+    double volume_error;            /* cells: volume_cells / volume_shape - 1 [-]; spheres: 0 */
     double smallest_distance;       /* shortest branch [m] */
-    double mean_spacing;            /* (volume_cells / n_elements)^(1/3) [m] */
+    double mean_spacing;            /* cells: (volume_cells / n_elements)^(1/3), spheres: (volume_shape / n_elements)^(1/3) [m] */
     double closure_worst;           /* largest |sum of face area vectors| of a cell over its total face area [-] */
     double twin_area_worst;         /* largest difference of a face area seen from its two sides, over the mean area [-] */
-    double support_smallest;        /* smallest eigenvalue of A_i / (2 V_i), A = sum (L/S) s (x) s (design-dlsm 3) [-] */
+    double support_smallest;        /* cells: smallest eigenvalue of A_i / (2 V_i), A = sum (L/S) s (x) s (design-dlsm 3) [-]; spheres: 0 */
     double volume_fraction;         /* spheres: sphere volume over the shape's [-]; cells: 0 */
     double growth;                  /* spheres: largest d / (R_i + R_j) of a bond (NAH19's growth factor) [-]; cells: 0 */
     double coordination_mean;       /* 2 n_bonds / n_elements [-] */
     int64_t coordination_histogram[64]; /* elements with k bonds; the last bin also counts more */
+    int64_t n_elements_without_bond;
+    int64_t n_pieces;         /* parts that no bond joins, elements without bonds among them; -1: memory was short for counting */
+    double volume_spread[5];  /* element volumes over their mean: least, 5 %, median, 95 %, most [-] */
+    double faces_spread[5];   /* cells: faces of a cell, shared and free, likewise; spheres: 0 */
+    double branch_spread[5];  /* lengths of branches over mean_spacing, likewise [-] */
 } brc_quality;
 
 typedef enum brc_element_kind {
     BRC_ELEMENT_CELL,  /* convex cells, every array below */
     BRC_ELEMENT_SPHERE /* spheres joined by beams: no faces and corners. area_vector, face_centroid, free_*, vertex and
                         * free_polygon* are NULL, n_free_faces is 0; volume, inertia and centroid are those of the sphere;
-                        * each wall's set holds the elements that touch it */
+                        * each wall's set holds the elements that touch it as packed, the set "<wall>_layer" those
+                        * with centres within 2 R of it */
 } brc_element_kind;
 
 typedef struct brc_domain {
@@ -88,7 +94,8 @@ typedef struct brc_domain {
     int32_t *free_polygon;       /* corners of free face f, counter-clockwise from outside: indices into vertex */
 
     int32_t n_sets;
-    brc_set *sets; /* [n_sets] one face set per wall first, then the requested ones; names are unique */
+    brc_set *sets; /* [n_sets] one set per wall first (cells: faces; spheres: elements, all "<wall>_layer" after them), then
+                    * the requested ones; names are unique */
 
     double bounds[2][3]; /* smallest and largest corner [m] */
     brc_quality quality;

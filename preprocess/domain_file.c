@@ -1,12 +1,15 @@
 /* One table lists every array of the file; writing and reading walk it. What follows from other arrays is not stored
- * twice: area vectors and centroids of shared faces are kept once a bond, seen from its smaller element. */
+ * twice: area vectors and centroids of shared faces are kept once a bond, seen from its smaller element; volume, centroid and inertia of
+ * spheres follow from position and radius, but are stored all the same, so that readers find them where those of cells are. */
 #include "domain_file.h"
 
 #include "../host/base/file.h"
 #include "../host/base/memory.h"
 #include "../host/base/version.h"
 #include "hdf5_io.h"
+#include "quality.h"
 
+#include <omp.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,40 +21,47 @@ typedef enum rows_of {
     ELEMENTS, ELEMENT_STARTS, HALF_EDGES, BONDS, FREE_FACES, FREE_FACE_STARTS, CORNERS, POLYGON_CORNERS, N_ROWS_OF
 } rows_of;
 
+/* Which domains have an array. */
+typedef enum found_in { ALL, CELLS, SPHERES, GRAINS } found_in;
+
 typedef struct array_entry {
     const char *name;
     size_t field; /* offset of the pointer in brc_domain */
     brc_h5_kind kind;
     rows_of rows;
     int64_t width;
+    found_in found;
 } array_entry;
 
-#define ENTRY(path, field, kind, rows, width) {path, offsetof(brc_domain, field), kind, rows, width}
+#define ENTRY(path, field, kind, rows, width, found) {path, offsetof(brc_domain, field), kind, rows, width, found}
 static const array_entry arrays[] = {
-    ENTRY("elements/position", position, BRC_H5_DOUBLE, ELEMENTS, 3),
-    ENTRY("elements/volume", volume, BRC_H5_DOUBLE, ELEMENTS, 1),
-    ENTRY("elements/centroid", centroid, BRC_H5_DOUBLE, ELEMENTS, 3),
-    ENTRY("elements/inertia", inertia, BRC_H5_DOUBLE, ELEMENTS, 6),
-    ENTRY("elements/region", region, BRC_H5_INT32, ELEMENTS, 1),
-    ENTRY("elements/body", body, BRC_H5_INT32, ELEMENTS, 1),
-    ENTRY("half_edges/row_start", row_start, BRC_H5_INT64, ELEMENT_STARTS, 1),
-    ENTRY("half_edges/neighbour", neighbour, BRC_H5_INT32, HALF_EDGES, 1),
-    ENTRY("half_edges/twin", twin, BRC_H5_INT32, HALF_EDGES, 1),
-    ENTRY("half_edges/bond", bond, BRC_H5_INT32, HALF_EDGES, 1),
-    ENTRY("bonds/half_edge", bond_half_edge, BRC_H5_INT32, BONDS, 1),
-    ENTRY("free_faces/row_start", free_start, BRC_H5_INT64, ELEMENT_STARTS, 1),
-    ENTRY("free_faces/element", free_element, BRC_H5_INT32, FREE_FACES, 1),
-    ENTRY("free_faces/area_vector", free_area_vector, BRC_H5_DOUBLE, FREE_FACES, 3),
-    ENTRY("free_faces/centroid", free_centroid, BRC_H5_DOUBLE, FREE_FACES, 3),
-    ENTRY("free_faces/wall", free_wall, BRC_H5_INT32, FREE_FACES, 1),
-    ENTRY("free_faces/polygon_start", free_polygon_start, BRC_H5_INT64, FREE_FACE_STARTS, 1),
-    ENTRY("free_faces/polygon", free_polygon, BRC_H5_INT32, POLYGON_CORNERS, 1),
-    ENTRY("cells/vertex_start", vertex_start, BRC_H5_INT64, ELEMENT_STARTS, 1),
-    ENTRY("cells/vertex", vertex, BRC_H5_DOUBLE, CORNERS, 3),
+    ENTRY("elements/position", position, BRC_H5_DOUBLE, ELEMENTS, 3, ALL),
+    ENTRY("elements/volume", volume, BRC_H5_DOUBLE, ELEMENTS, 1, ALL),
+    ENTRY("elements/centroid", centroid, BRC_H5_DOUBLE, ELEMENTS, 3, ALL),
+    ENTRY("elements/inertia", inertia, BRC_H5_DOUBLE, ELEMENTS, 6, ALL),
+    ENTRY("elements/region", region, BRC_H5_INT32, ELEMENTS, 1, ALL),
+    ENTRY("elements/body", body, BRC_H5_INT32, ELEMENTS, 1, ALL),
+    ENTRY("elements/grain", grain, BRC_H5_INT32, ELEMENTS, 1, GRAINS),
+    ENTRY("elements/radius", radius, BRC_H5_DOUBLE, ELEMENTS, 1, SPHERES),
+    ENTRY("half_edges/row_start", row_start, BRC_H5_INT64, ELEMENT_STARTS, 1, ALL),
+    ENTRY("half_edges/neighbour", neighbour, BRC_H5_INT32, HALF_EDGES, 1, ALL),
+    ENTRY("half_edges/twin", twin, BRC_H5_INT32, HALF_EDGES, 1, ALL),
+    ENTRY("half_edges/bond", bond, BRC_H5_INT32, HALF_EDGES, 1, ALL),
+    ENTRY("bonds/half_edge", bond_half_edge, BRC_H5_INT32, BONDS, 1, ALL),
+    ENTRY("free_faces/row_start", free_start, BRC_H5_INT64, ELEMENT_STARTS, 1, CELLS),
+    ENTRY("free_faces/element", free_element, BRC_H5_INT32, FREE_FACES, 1, CELLS),
+    ENTRY("free_faces/area_vector", free_area_vector, BRC_H5_DOUBLE, FREE_FACES, 3, CELLS),
+    ENTRY("free_faces/centroid", free_centroid, BRC_H5_DOUBLE, FREE_FACES, 3, CELLS),
+    ENTRY("free_faces/wall", free_wall, BRC_H5_INT32, FREE_FACES, 1, CELLS),
+    ENTRY("free_faces/polygon_start", free_polygon_start, BRC_H5_INT64, FREE_FACE_STARTS, 1, CELLS),
+    ENTRY("free_faces/polygon", free_polygon, BRC_H5_INT32, POLYGON_CORNERS, 1, CELLS),
+    ENTRY("cells/vertex_start", vertex_start, BRC_H5_INT64, ELEMENT_STARTS, 1, CELLS),
+    ENTRY("cells/vertex", vertex, BRC_H5_DOUBLE, CORNERS, 3, CELLS),
 };
 enum { N_ARRAYS = (int)(sizeof arrays / sizeof *arrays) };
-static const char *const groups[] = {"elements", "half_edges", "bonds", "free_faces", "cells", "sets", "quality"};
-enum { N_GROUPS = (int)(sizeof groups / sizeof *groups) };
+static const char *const groups[] = {"elements", "half_edges", "bonds", "sets", "quality", "free_faces", "cells"};
+enum { N_GROUPS = (int)(sizeof groups / sizeof *groups), N_GROUPS_OF_SPHERES = N_GROUPS - 2 };
+static const char *const kind_name[] = {"cells", "spheres"}; /* by brc_element_kind */
 
 /* Attributes of the group "quality". */
 typedef struct quality_entry {
@@ -59,9 +69,11 @@ typedef struct quality_entry {
     size_t field;
     brc_h5_kind kind;
     int64_t n;
+    int since; /* format version; files before it are measured when read */
 } quality_entry;
 
-#define QUALITY(field, kind, n) {#field, offsetof(brc_quality, field), kind, n}
+#define QUALITY(field, kind, n) {#field, offsetof(brc_quality, field), kind, n, 1}
+#define QUALITY_2(field, kind, n) {#field, offsetof(brc_quality, field), kind, n, 2}
 static const quality_entry quality_fields[] = {
     QUALITY(n_seeds_requested, BRC_H5_INT64, 1),   QUALITY(n_seeds_duplicate, BRC_H5_INT64, 1),
     QUALITY(n_seeds_lost, BRC_H5_INT64, 1),        QUALITY(n_tiny_faces_dropped, BRC_H5_INT64, 1),
@@ -71,6 +83,10 @@ static const quality_entry quality_fields[] = {
     QUALITY(mean_spacing, BRC_H5_DOUBLE, 1),       QUALITY(closure_worst, BRC_H5_DOUBLE, 1),
     QUALITY(twin_area_worst, BRC_H5_DOUBLE, 1),    QUALITY(support_smallest, BRC_H5_DOUBLE, 1),
     QUALITY(coordination_mean, BRC_H5_DOUBLE, 1),  QUALITY(coordination_histogram, BRC_H5_INT64, 64),
+    QUALITY_2(volume_fraction, BRC_H5_DOUBLE, 1),  QUALITY_2(growth, BRC_H5_DOUBLE, 1),
+    QUALITY_2(n_elements_without_bond, BRC_H5_INT64, 1), QUALITY_2(n_pieces, BRC_H5_INT64, 1),
+    QUALITY_2(volume_spread, BRC_H5_DOUBLE, 5),    QUALITY_2(faces_spread, BRC_H5_DOUBLE, 5),
+    QUALITY_2(branch_spread, BRC_H5_DOUBLE, 5),
 };
 enum { N_QUALITY = (int)(sizeof quality_fields / sizeof *quality_fields) };
 
@@ -91,6 +107,17 @@ static void rows_from_counts(const int64_t count[N_COUNTS], int64_t rows[N_ROWS_
     rows[POLYGON_CORNERS] = count[4];
 }
 
+static bool has_array(const brc_domain *domain, const array_entry *entry, bool has_grains)
+{
+    switch (entry->found) {
+    case ALL: return true;
+    case CELLS: return domain->element_kind == BRC_ELEMENT_CELL;
+    case SPHERES: return domain->element_kind == BRC_ELEMENT_SPHERE;
+    case GRAINS: break;
+    }
+    return has_grains;
+}
+
 static void **pointer_of(brc_domain *domain, const array_entry *entry)
 {
     return (void **)(void *)((char *)domain + entry->field);
@@ -99,10 +126,12 @@ static void **pointer_of(brc_domain *domain, const array_entry *entry)
 static brc_status write_attributes(brc_context *context, hid_t file, const brc_domain *d, const char *path,
                                    const int64_t count[N_COUNTS])
 {
-    const int64_t version = BRC_DOMAIN_FORMAT_VERSION;
+    const int64_t version = BRC_DOMAIN_FORMAT_VERSION, has_grains = d->grain != NULL;
     BRC_TRY(brc_h5_write_text(context, file, path, "format", FORMAT_NAME));
     BRC_TRY(brc_h5_write_numbers(context, file, path, "format_version", BRC_H5_INT64, 1, &version));
     BRC_TRY(brc_h5_write_text(context, file, path, "written_by", brc_version()));
+    BRC_TRY(brc_h5_write_text(context, file, path, "element_kind", kind_name[d->element_kind]));
+    BRC_TRY(brc_h5_write_numbers(context, file, path, "has_grains", BRC_H5_INT64, 1, &has_grains));
     BRC_TRY(brc_h5_write_text(context, file, path, "units", "SI: m, m^2, m^3; inertia at unit density: m^5"));
     BRC_TRY(brc_h5_write_text(context, file, path, "provenance", d->provenance));
     for (int k = 0; k < N_COUNTS; ++k)
@@ -110,9 +139,9 @@ static brc_status write_attributes(brc_context *context, hid_t file, const brc_d
     return brc_h5_write_numbers(context, file, path, "bounds", BRC_H5_DOUBLE, 6, d->bounds);
 }
 
-static brc_status write_groups(brc_context *context, hid_t file, const char *path)
+static brc_status write_groups(brc_context *context, hid_t file, const brc_domain *d, const char *path)
 {
-    for (int k = 0; k < N_GROUPS; ++k) {
+    for (int k = 0; k < (d->element_kind == BRC_ELEMENT_CELL ? N_GROUPS : N_GROUPS_OF_SPHERES); ++k) {
         const hid_t group = brc_h5_create_group(file, groups[k]);
         if (group < 0 || H5Gclose(group) < 0) return brc_h5_fail(context, BRC_FILE_FAILED, path, groups[k]);
     }
@@ -123,6 +152,7 @@ static brc_status write_groups(brc_context *context, hid_t file, const char *pat
 static brc_status write_bonds(brc_context *context, hid_t file, const brc_domain *d, const char *path)
 {
     double *packed = NULL;
+    if (d->element_kind == BRC_ELEMENT_SPHERE) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(context, &packed, 3 * d->n_bonds, "bond geometry"));
     const char *const name[2] = {"bonds/area_vector", "bonds/face_centroid"};
     const double *const from[2] = {d->area_vector, d->face_centroid};
@@ -172,19 +202,21 @@ static brc_status write_quality(brc_context *context, hid_t file, const brc_doma
 
 static brc_status write_all(brc_context *context, hid_t file, const brc_domain *domain, const char *path)
 {
+    const bool cells = domain->element_kind == BRC_ELEMENT_CELL;
     const int64_t count[N_COUNTS] = {domain->n_elements,
                                      domain->n_bonds,
                                      domain->n_free_faces,
-                                     domain->vertex_start[domain->n_elements],
-                                     domain->free_polygon_start[domain->n_free_faces],
+                                     cells ? domain->vertex_start[domain->n_elements] : 0,
+                                     cells ? domain->free_polygon_start[domain->n_free_faces] : 0,
                                      domain->n_walls,
                                      domain->n_sets};
     int64_t rows[N_ROWS_OF];
     rows_from_counts(count, rows);
     BRC_TRY(write_attributes(context, file, domain, path, count));
-    BRC_TRY(write_groups(context, file, path));
+    BRC_TRY(write_groups(context, file, domain, path));
     for (int k = 0; k < N_ARRAYS; ++k) {
         const void *data = *(void *const *)(const void *)((const char *)domain + arrays[k].field);
+        if (!has_array(domain, &arrays[k], domain->grain != NULL)) continue;
         BRC_TRY(brc_h5_write_array(context, file, path, arrays[k].name, arrays[k].kind, rows[arrays[k].rows],
                                    arrays[k].width, data));
     }
@@ -221,18 +253,32 @@ cleanup:
     return status;
 }
 
-static brc_status read_header(brc_context *context, hid_t file, const char *path, int64_t count[N_COUNTS], brc_domain *d)
+/* Files of version 1 hold cells. */
+static brc_status read_kind(brc_context *context, hid_t file, const char *path, int64_t version, brc_domain *d)
+{
+    char *kind = NULL;
+    if (version < 2) return BRC_OK;
+    BRC_TRY(brc_h5_read_text(context, file, path, "element_kind", &kind));
+    if (strcmp(kind, kind_name[BRC_ELEMENT_SPHERE]) == 0) d->element_kind = BRC_ELEMENT_SPHERE;
+    const bool known = strcmp(kind, kind_name[d->element_kind]) == 0;
+    brc_memory_free(kind);
+    if (known) return BRC_OK;
+    return BRC_FAIL(context, BRC_BAD_INPUT, "%s: its kind of elements is unknown, expected cells or spheres", path);
+}
+
+static brc_status read_header(brc_context *context, hid_t file, const char *path, int64_t *version, int64_t count[N_COUNTS],
+                              brc_domain *d)
 {
     char *format = NULL;
-    int64_t version = 0;
     BRC_TRY(brc_h5_read_text(context, file, path, "format", &format));
     const bool ours = strcmp(format, FORMAT_NAME) == 0;
     brc_memory_free(format);
     if (!ours) return BRC_FAIL(context, BRC_BAD_INPUT, "%s: not a domain file of breccia", path);
-    BRC_TRY(brc_h5_read_numbers(context, file, path, "format_version", BRC_H5_INT64, 1, &version));
-    if (version != BRC_DOMAIN_FORMAT_VERSION)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%s: domain format version %lld, this program reads version %d; build "
-                        "the domain again", path, (long long)version, BRC_DOMAIN_FORMAT_VERSION);
+    BRC_TRY(brc_h5_read_numbers(context, file, path, "format_version", BRC_H5_INT64, 1, version));
+    if (*version < 1 || *version > BRC_DOMAIN_FORMAT_VERSION)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "%s: domain format version %lld, this program reads versions 1 to %d; build "
+                        "the domain again", path, (long long)*version, BRC_DOMAIN_FORMAT_VERSION);
+    BRC_TRY(read_kind(context, file, path, *version, d));
     for (int k = 0; k < N_COUNTS; ++k) {
         BRC_TRY(brc_h5_read_numbers(context, file, path, count_name[k], BRC_H5_INT64, 1, &count[k]));
         if (count[k] < 0 || count[k] > INT32_MAX || (k == 0 && count[k] == 0))
@@ -260,6 +306,7 @@ static brc_status read_bonds(brc_context *context, hid_t file, const char *path,
             return BRC_FAIL(context, BRC_BAD_INPUT, "%s: bond %lld has a half-edge or twin out of range", path,
                             (long long)b);
     }
+    if (d->element_kind == BRC_ELEMENT_SPHERE) return BRC_OK;
     for (int k = 0; k < 2; ++k) {
         void *packed = NULL;
         BRC_TRY(brc_h5_read_array(context, file, path, name[k], BRC_H5_DOUBLE, d->n_bonds, 3, &packed, NULL));
@@ -307,29 +354,46 @@ static brc_status read_sets(brc_context *context, hid_t file, const char *path, 
     return BRC_OK;
 }
 
-static brc_status read_all(brc_context *context, hid_t file, const char *path, brc_domain *d)
+static brc_status read_quality(brc_context *context, hid_t file, const char *path, int64_t version, brc_domain *d)
 {
-    int64_t count[N_COUNTS], rows[N_ROWS_OF];
-    BRC_TRY(read_header(context, file, path, count, d));
-    rows_from_counts(count, rows);
-    for (int k = 0; k < N_ARRAYS; ++k)
-        BRC_TRY(brc_h5_read_array(context, file, path, arrays[k].name, arrays[k].kind, rows[arrays[k].rows],
-                                  arrays[k].width, pointer_of(d, &arrays[k]), NULL));
-    if (d->vertex_start[d->n_elements] != count[3] || d->free_polygon_start[d->n_free_faces] != count[4])
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%s: the rows of corners do not end at their number", path);
-    BRC_TRY(read_bonds(context, file, path, d));
-    BRC_TRY(read_sets(context, file, path, count, d));
     const hid_t place = H5Gopen2(file, "quality", H5P_DEFAULT);
     if (place < 0) return BRC_FAIL(context, BRC_BAD_INPUT, "%s: the group 'quality' is missing", path);
     brc_status status = BRC_OK;
     for (int k = 0; k < N_QUALITY && status == BRC_OK; ++k)
-        status = brc_h5_read_numbers(context, place, path, quality_fields[k].name, quality_fields[k].kind,
-                                     quality_fields[k].n, (char *)&d->quality + quality_fields[k].field);
+        if (quality_fields[k].since <= version)
+            status = brc_h5_read_numbers(context, place, path, quality_fields[k].name, quality_fields[k].kind,
+                                         quality_fields[k].n, (char *)&d->quality + quality_fields[k].field);
     H5Gclose(place);
-    BRC_TRY(status);
-    status = brc_domain_check(context, d);
+    return status;
+}
+
+static brc_status read_arrays(brc_context *context, hid_t file, const char *path, int64_t version, const int64_t count[N_COUNTS],
+                              brc_domain *d)
+{
+    int64_t rows[N_ROWS_OF], has_grains = 0;
+    rows_from_counts(count, rows);
+    if (version > 1) BRC_TRY(brc_h5_read_numbers(context, file, path, "has_grains", BRC_H5_INT64, 1, &has_grains));
+    for (int k = 0; k < N_ARRAYS; ++k)
+        if (has_array(d, &arrays[k], has_grains != 0))
+            BRC_TRY(brc_h5_read_array(context, file, path, arrays[k].name, arrays[k].kind, rows[arrays[k].rows],
+                                      arrays[k].width, pointer_of(d, &arrays[k]), NULL));
+    const bool cells = d->element_kind == BRC_ELEMENT_CELL;
+    if ((cells ? d->vertex_start[d->n_elements] : 0) != count[3] || (cells ? d->free_polygon_start[d->n_free_faces] : 0) != count[4])
+        return BRC_FAIL(context, BRC_BAD_INPUT, "%s: the rows of corners do not end at their number", path);
+    return read_bonds(context, file, path, d);
+}
+
+static brc_status read_all(brc_context *context, hid_t file, const char *path, brc_domain *d)
+{
+    int64_t version = 0, count[N_COUNTS];
+    BRC_TRY(read_header(context, file, path, &version, count, d));
+    BRC_TRY(read_arrays(context, file, path, version, count, d));
+    BRC_TRY(read_sets(context, file, path, count, d));
+    BRC_TRY(read_quality(context, file, path, version, d));
+    const brc_status status = brc_domain_check(context, d);
     if (status != BRC_OK)
         return BRC_FAIL(context, status, "%s: the domain in this file is broken; build it again", path);
+    if (version < 2) brc_quality_measure(d, omp_get_max_threads()); /* numbers that the file does not have */
     return BRC_OK;
 }
 

@@ -1,16 +1,32 @@
 /* Bodies side by side in one domain: every index of a part is shifted by what came before it. */
 #include "../host/base/memory.h"
 #include "build.h"
+#include "overlap.h"
 #include "quality.h"
 #include "sets.h"
 
 #include <math.h>
+#include <omp.h>
 #include <string.h>
 
 /* Where the arrays of a part begin in the joined domain. */
 typedef struct offsets {
-    int64_t elements, half_edges, bonds, free_faces, vertices, polygon;
+    int64_t elements, half_edges, bonds, free_faces, vertices, polygon, grains;
 } offsets;
+
+static bool cells(const brc_domain *d)
+{
+    return d->element_kind == BRC_ELEMENT_CELL;
+}
+
+/* Number of grains: they are numbered from 0 without gaps. */
+static int64_t n_grains(const brc_domain *d)
+{
+    int64_t n = 0;
+    for (int64_t e = 0; d->grain && e < d->n_elements; ++e)
+        if (d->grain[e] >= n) n = (int64_t)d->grain[e] + 1;
+    return n;
+}
 
 static offsets after(offsets at, const brc_domain *d)
 {
@@ -18,14 +34,34 @@ static offsets after(offsets at, const brc_domain *d)
     at.half_edges += d->n_half_edges;
     at.bonds += d->n_bonds;
     at.free_faces += d->n_free_faces;
+    /* a body without grains among others with them is one grain */
+    at.grains += d->grain ? n_grains(d) : 1;
+    if (!cells(d)) return at;
     at.vertices += d->vertex_start[d->n_elements];
     at.polygon += d->free_polygon_start[d->n_free_faces];
     return at;
 }
 
-static brc_status allocate(brc_context *context, offsets total, brc_domain *d)
+/* What only cells have. */
+static brc_status allocate_faces(brc_context *context, offsets total, brc_domain *d)
 {
     const int64_t n = total.elements, h = total.half_edges, f = total.free_faces;
+    BRC_TRY(BRC_ALLOCATE(context, &d->area_vector, 3 * h, "area vectors"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->face_centroid, 3 * h, "face centroids"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->free_start, n + 1, "rows of free faces"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->free_element, f, "elements of free faces"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->free_area_vector, 3 * f, "free area vectors"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->free_centroid, 3 * f, "free face centroids"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->free_wall, f, "walls of free faces"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->vertex_start, n + 1, "rows of corners"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->vertex, 3 * total.vertices, "cell corners"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->free_polygon_start, f + 1, "free polygons"));
+    return BRC_ALLOCATE(context, &d->free_polygon, total.polygon, "corners of free polygons");
+}
+
+static brc_status allocate(brc_context *context, offsets total, bool grains, brc_domain *d)
+{
+    const int64_t n = total.elements, h = total.half_edges;
     if (n > INT32_MAX || h > INT32_MAX || total.vertices > INT32_MAX)
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "joined domain: %lld elements, %lld half-edges, %lld corners, each must be below 2^31; use "
@@ -34,7 +70,7 @@ static brc_status allocate(brc_context *context, offsets total, brc_domain *d)
     d->n_elements = n;
     d->n_half_edges = h;
     d->n_bonds = total.bonds;
-    d->n_free_faces = f;
+    d->n_free_faces = total.free_faces;
     BRC_TRY(BRC_ALLOCATE(context, &d->position, 3 * n, "positions"));
     BRC_TRY(BRC_ALLOCATE(context, &d->volume, n, "volumes"));
     BRC_TRY(BRC_ALLOCATE(context, &d->centroid, 3 * n, "centroids"));
@@ -45,18 +81,10 @@ static brc_status allocate(brc_context *context, offsets total, brc_domain *d)
     BRC_TRY(BRC_ALLOCATE(context, &d->neighbour, h, "neighbours"));
     BRC_TRY(BRC_ALLOCATE(context, &d->twin, h, "twins"));
     BRC_TRY(BRC_ALLOCATE(context, &d->bond, h, "bonds of half-edges"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->area_vector, 3 * h, "area vectors"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->face_centroid, 3 * h, "face centroids"));
     BRC_TRY(BRC_ALLOCATE(context, &d->bond_half_edge, total.bonds, "half-edges of bonds"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->free_start, n + 1, "rows of free faces"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->free_element, f, "elements of free faces"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->free_area_vector, 3 * f, "free area vectors"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->free_centroid, 3 * f, "free face centroids"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->free_wall, f, "walls of free faces"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->vertex_start, n + 1, "rows of corners"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->vertex, 3 * total.vertices, "cell corners"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->free_polygon_start, f + 1, "free polygons"));
-    return BRC_ALLOCATE(context, &d->free_polygon, total.polygon, "corners of free polygons");
+    if (grains) BRC_TRY(BRC_ALLOCATE(context, &d->grain, n, "grains"));
+    if (cells(d)) return allocate_faces(context, total, d);
+    return BRC_ALLOCATE(context, &d->radius, n, "radii");
 }
 
 static void copy(double *to, const double *from, int64_t n)
@@ -88,9 +116,14 @@ static void copy_part(const brc_domain *p, offsets at, const int32_t *wall, brc_
     copy_shifted(d->neighbour + at.half_edges, p->neighbour, h, at.elements);
     copy_shifted(d->twin + at.half_edges, p->twin, h, at.half_edges);
     copy_shifted(d->bond + at.half_edges, p->bond, h, at.bonds);
+    copy_shifted(d->bond_half_edge + at.bonds, p->bond_half_edge, p->n_bonds, at.half_edges);
+    for (int64_t e = 0; d->grain && e < n; ++e) d->grain[at.elements + e] = (int32_t)(at.grains + (p->grain ? p->grain[e] : 0));
+    if (!cells(p)) {
+        copy(d->radius + at.elements, p->radius, n);
+        return;
+    }
     copy(d->area_vector + 3 * at.half_edges, p->area_vector, 3 * h);
     copy(d->face_centroid + 3 * at.half_edges, p->face_centroid, 3 * h);
-    copy_shifted(d->bond_half_edge + at.bonds, p->bond_half_edge, p->n_bonds, at.half_edges);
     copy_rows(d->free_start + at.elements, p->free_start, n, at.free_faces);
     copy_shifted(d->free_element + at.free_faces, p->free_element, f, at.elements);
     copy(d->free_area_vector + 3 * at.free_faces, p->free_area_vector, 3 * f);
@@ -151,6 +184,17 @@ static void join_quality(const brc_domain *part, brc_quality *q)
     q->tiny_face_area_fraction += p->tiny_face_area_fraction * (double)part->n_bonds;
     q->volume_shape += p->volume_shape;
     q->twin_area_worst = fmax(q->twin_area_worst, p->twin_area_worst);
+    q->growth = fmax(q->growth, p->growth);
+}
+
+static brc_status check_kinds(brc_context *context, int32_t n, const brc_domain *const *parts)
+{
+    for (int32_t k = 1; k < n; ++k)
+        if (parts[k]->element_kind != parts[0]->element_kind)
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "body 0 is made of %s, body %d of %s, which one domain cannot hold; give `beams` to all bodies "
+                            "or to none", cells(parts[0]) ? "cells" : "spheres", k, cells(parts[k]) ? "cells" : "spheres");
+    return BRC_OK;
 }
 
 static brc_status describe(brc_context *context, int32_t n, const brc_domain *const *parts, brc_domain *d)
@@ -171,21 +215,26 @@ brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *co
     if (n < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "joining %d bodies, there must be at least one", n);
     brc_domain *d = NULL;
     int32_t *wall = NULL;
-    offsets total = {0, 0, 0, 0, 0, 0};
+    offsets total = {0};
+    bool grains = false;
+    BRC_TRY(check_kinds(context, n, parts));
+    BRC_TRY(brc_overlap_check(context, n, parts));
     int64_t n_walls = 0, n_sets = 0, most_walls = 0;
     for (int32_t k = 0; k < n; ++k) {
         total = after(total, parts[k]);
         n_walls += parts[k]->n_walls;
         n_sets += parts[k]->n_sets;
+        grains = grains || parts[k]->grain;
         if (parts[k]->n_walls > most_walls) most_walls = parts[k]->n_walls;
     }
     brc_status status = BRC_ALLOCATE(context, &d, 1, "joined domain");
     if (status != BRC_OK) goto cleanup;
-    BRC_TRY_OR(cleanup, allocate(context, total, d));
+    d->element_kind = parts[0]->element_kind;
+    BRC_TRY_OR(cleanup, allocate(context, total, grains, d));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &d->wall_name, n_walls, "wall names"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &d->sets, n_sets, "sets"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &wall, most_walls, "walls of a body"));
-    offsets at = {0, 0, 0, 0, 0, 0};
+    offsets at = {0};
     for (int c = 0; c < 3; ++c) {
         d->bounds[0][c] = HUGE_VAL;
         d->bounds[1][c] = -HUGE_VAL;
@@ -204,7 +253,7 @@ brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *co
         at = after(at, p);
     }
     if (d->n_bonds > 0) d->quality.tiny_face_area_fraction /= (double)d->n_bonds;
-    brc_quality_measure(d, 1);
+    brc_quality_measure(d, omp_get_max_threads());
     BRC_TRY_OR(cleanup, describe(context, n, parts, d));
     *out = d;
     d = NULL;

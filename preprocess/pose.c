@@ -52,9 +52,27 @@ static void turn_tensor(const double m[3][3], double t[6])
     }
 }
 
+/* From the corners of cells, or the spheres. */
+static void set_bounds(brc_domain *domain, int64_t n_vertices)
+{
+    const bool cells = domain->element_kind == BRC_ELEMENT_CELL;
+    const double *x = cells ? domain->vertex : domain->position;
+    for (int d = 0; d < 3; ++d) {
+        domain->bounds[0][d] = HUGE_VAL;
+        domain->bounds[1][d] = -HUGE_VAL;
+    }
+    for (int64_t p = 0; p < (cells ? n_vertices : domain->n_elements); ++p)
+        for (int d = 0; d < 3; ++d) {
+            const double r = cells ? 0.0 : domain->radius[p];
+            domain->bounds[0][d] = fmin(domain->bounds[0][d], x[3 * p + d] - r);
+            domain->bounds[1][d] = fmax(domain->bounds[1][d], x[3 * p + d] + r);
+        }
+}
+
 void brc_pose_apply(const double origin[3], const double rotation[3], const double translation[3], brc_domain *domain)
 {
-    const int64_t n = domain->n_elements, n_vertices = domain->vertex_start[n];
+    const bool cells = domain->element_kind == BRC_ELEMENT_CELL;
+    const int64_t n = domain->n_elements, n_vertices = cells ? domain->vertex_start[n] : 0;
     const bool rotate = rotation[0] != 0.0 || rotation[1] != 0.0 || rotation[2] != 0.0;
     const bool translate = translation[0] != 0.0 || translation[1] != 0.0 || translation[2] != 0.0;
     double m[3][3];
@@ -62,22 +80,16 @@ void brc_pose_apply(const double origin[3], const double rotation[3], const doub
     if (rotate || translate) {
         move(m, origin, translation, domain->position, n, rotate);
         move(m, origin, translation, domain->centroid, n, rotate);
+    }
+    if ((rotate || translate) && cells) {
         move(m, origin, translation, domain->face_centroid, domain->n_half_edges, rotate);
         move(m, origin, translation, domain->free_centroid, domain->n_free_faces, rotate);
         move(m, origin, translation, domain->vertex, n_vertices, rotate);
     }
-    if (rotate) {
+    if (rotate && cells) { /* the inertia of a sphere is the same whichever way it is turned */
         turn(m, domain->area_vector, domain->n_half_edges);
         turn(m, domain->free_area_vector, domain->n_free_faces);
         for (int64_t e = 0; e < n; ++e) turn_tensor(m, domain->inertia + 6 * e);
     }
-    for (int d = 0; d < 3; ++d) {
-        domain->bounds[0][d] = HUGE_VAL;
-        domain->bounds[1][d] = -HUGE_VAL;
-    }
-    for (int64_t p = 0; p < n_vertices; ++p)
-        for (int d = 0; d < 3; ++d) {
-            domain->bounds[0][d] = fmin(domain->bounds[0][d], domain->vertex[3 * p + d]);
-            domain->bounds[1][d] = fmax(domain->bounds[1][d], domain->vertex[3 * p + d]);
-        }
+    set_bounds(domain, n_vertices);
 }

@@ -49,6 +49,9 @@ static brc_status check_radius(brc_context *context, const char *what, double ra
 brc_status brc_predicate_check(brc_context *context, const brc_predicate *where, brc_set_kind kind,
                                const brc_domain *domain, const char *what)
 {
+    if (kind == BRC_SET_FACES && domain->element_kind == BRC_ELEMENT_SPHERE)
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "%s: spheres have no faces; pick elements instead (`wall` then means those that touch it)", what);
     if (where->has_wall && find_wall(domain, where->wall) < 0) {
         char known[256] = "";
         for (int32_t w = 0; w < domain->n_walls; ++w)
@@ -91,10 +94,25 @@ brc_status brc_predicate_check(brc_context *context, const brc_predicate *where,
     return BRC_OK;
 }
 
+static bool is_member(const brc_set *set, int64_t index)
+{
+    int64_t low = 0, high = set->n_members;
+    while (low < high) {
+        const int64_t middle = low + (high - low) / 2;
+        if (set->members[middle] < index) low = middle + 1;
+        else high = middle;
+    }
+    return low < set->n_members && set->members[low] == index;
+}
+
 static bool on_wall(const brc_domain *domain, brc_set_kind kind, int64_t index, const char *name)
 {
     const int32_t wall = find_wall(domain, name);
     if (kind == BRC_SET_FACES) return domain->free_wall[index] == wall;
+    if (domain->element_kind == BRC_ELEMENT_SPHERE) {
+        const int32_t set = brc_domain_find_set(domain, name);
+        return set >= 0 && is_member(&domain->sets[set], index);
+    }
     for (int64_t f = domain->free_start[index]; f < domain->free_start[index + 1]; ++f)
         if (domain->free_wall[f] == wall) return true;
     return false;
@@ -165,7 +183,7 @@ static brc_status build_one(brc_context *context, const brc_set_request *request
     if (count == 0)
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "%s is empty: none of the %lld %s fits; the body reaches from (%g, %g, %g) to (%g, %g, %g) m "
-                        "with cells of about %g m; widen the region",
+                        "with elements of about %g m; widen the region",
                         what, (long long)n, request->kind == BRC_SET_FACES ? "free faces" : "elements",
                         domain->bounds[0][0], domain->bounds[0][1], domain->bounds[0][2], domain->bounds[1][0],
                         domain->bounds[1][1], domain->bounds[1][2], domain->quality.mean_spacing);
@@ -177,18 +195,65 @@ static brc_status build_one(brc_context *context, const brc_set_request *request
     return BRC_OK;
 }
 
+/* The free faces of wall w. */
+static brc_status build_wall(brc_context *context, int32_t w, brc_domain *domain)
+{
+    int64_t count = 0;
+    for (int64_t f = 0; f < domain->n_free_faces; ++f) count += domain->free_wall[f] == w;
+    brc_set *set;
+    BRC_TRY(brc_sets_append(context, domain, domain->wall_name[w], BRC_SET_FACES, count, &set));
+    count = 0;
+    for (int64_t f = 0; f < domain->n_free_faces; ++f)
+        if (domain->free_wall[f] == w) set->members[count++] = (int32_t)f;
+    return BRC_OK;
+}
+
+/* Hand the set of this name over to the domain, which has room and no set of that name. */
+static void keep(brc_set *old, int32_t n_old, const char *name, brc_domain *domain)
+{
+    for (int32_t s = 0; s < n_old; ++s)
+        if (old[s].name && strcmp(old[s].name, name) == 0) {
+            domain->sets[domain->n_sets++] = old[s];
+            old[s].name = NULL;
+            old[s].members = NULL;
+        }
+}
+
+/* Which spheres touch a wall was seen when they were packed: those sets are kept. */
+static void keep_walls(brc_set *old, int32_t n_old, brc_domain *domain)
+{
+    char layer[BRC_LAYER_NAME];
+    for (int32_t w = 0; w < domain->n_walls; ++w) keep(old, n_old, domain->wall_name[w], domain);
+    for (int32_t w = 0; w < domain->n_walls; ++w) {
+        brc_sets_layer_name(domain->wall_name[w], layer);
+        keep(old, n_old, layer, domain);
+    }
+}
+
+void brc_sets_layer_name(const char *wall, char out[BRC_LAYER_NAME])
+{
+    snprintf(out, BRC_LAYER_NAME, "%.57s_layer", wall);
+}
+
 brc_status brc_sets_build(brc_context *context, int32_t n, const brc_set_request *requests, brc_domain *domain)
 {
-    BRC_TRY(BRC_ALLOCATE(context, &domain->sets, (int64_t)domain->n_walls + n, "sets"));
-    for (int32_t w = 0; w < domain->n_walls; ++w) {
-        int64_t count = 0;
-        for (int64_t f = 0; f < domain->n_free_faces; ++f) count += domain->free_wall[f] == w;
-        brc_set *set;
-        BRC_TRY(brc_sets_append(context, domain, domain->wall_name[w], BRC_SET_FACES, count, &set));
-        count = 0;
-        for (int64_t f = 0; f < domain->n_free_faces; ++f)
-            if (domain->free_wall[f] == w) set->members[count++] = (int32_t)f;
+    brc_set *fresh, *old = domain->sets;
+    const int32_t n_old = domain->n_sets;
+    BRC_TRY(BRC_ALLOCATE(context, &fresh, (int64_t)domain->n_walls + n + n_old, "sets"));
+    domain->sets = fresh;
+    domain->n_sets = 0;
+    brc_status status = BRC_OK;
+    if (domain->element_kind == BRC_ELEMENT_SPHERE) keep_walls(old, n_old, domain);
+    else
+        for (int32_t w = 0; w < domain->n_walls; ++w) BRC_TRY_OR(cleanup, build_wall(context, w, domain));
+    for (int32_t s = 0; s < n; ++s) BRC_TRY_OR(cleanup, build_one(context, &requests[s], domain));
+    for (int32_t s = 0; s < n_old; ++s)
+        if (old[s].name && brc_domain_find_set(domain, old[s].name) < 0) keep(old, n_old, old[s].name, domain);
+cleanup:
+    for (int32_t s = 0; s < n_old; ++s) {
+        brc_memory_free(old[s].name);
+        brc_memory_free(old[s].members);
     }
-    for (int32_t s = 0; s < n; ++s) BRC_TRY(build_one(context, &requests[s], domain));
-    return BRC_OK;
+    brc_memory_free(old);
+    return status;
 }

@@ -182,7 +182,7 @@ static void change_a_number(hid_t file)
 
 static void spoiled_files_are_refused_with_what_is_wrong(void **state)
 {
-    spoil(*state, set_version, "format version 99, this program reads version 1");
+    spoil(*state, set_version, "format version 99, this program reads versions 1 to 2");
     spoil(*state, set_count, "expected [2147483647]");
     spoil(*state, delete_array, "'half_edges/twin' is missing");
     spoil(*state, wrong_shape, "'elements/volume' has the shape [3][1], expected [3");

@@ -1,4 +1,8 @@
+#include "spheres.h"
 #include "support.h"
+
+#include "../../host/base/memory.h"
+#include "../../preprocess/pose.h"
 
 #include <string.h>
 
@@ -61,6 +65,7 @@ static void sets_of_one_name_and_two_kinds_are_refused(void **state)
     r.n_sets = 1;
     brc_domain *a = test_build(*state, &r);
     set.kind = BRC_SET_FACES;
+    r.translation[0] = 2.0;
     brc_domain *b = test_build(*state, &r), *d;
     const brc_domain *parts[2] = {a, b};
     assert_int_equal(brc_domain_join(*state, 2, parts, &d), BRC_BAD_INPUT);
@@ -71,12 +76,82 @@ static void sets_of_one_name_and_two_kinds_are_refused(void **state)
     brc_domain_free(&b);
 }
 
+static void give_grains(brc_context *context, brc_domain *d, int32_t n)
+{
+    assert_int_equal(BRC_ALLOCATE(context, &d->grain, d->n_elements, "grains"), BRC_OK);
+    for (int64_t e = 0; e < d->n_elements; ++e) d->grain[e] = (int32_t)(e % n);
+}
+
+/* Bodies of 3 and 2 grains and one without, which becomes a grain of its own. */
+static void grains_are_numbered_through_all_bodies(void **state)
+{
+    brc_build_request r = test_box(64, 0.9);
+    brc_domain *part[3], *d;
+    for (int k = 0; k < 3; ++k) {
+        r.translation[0] = 2.0 * k;
+        part[k] = test_build(*state, &r);
+    }
+    give_grains(*state, part[0], 3);
+    give_grains(*state, part[2], 2);
+    assert_int_equal(brc_domain_join(*state, 3, (const brc_domain *const *)part, &d), BRC_OK);
+    assert_int_equal(brc_domain_check(*state, d), BRC_OK);
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        assert_int_equal(d->grain[e], e < 64 ? e % 3 : e < 128 ? 3 : 4 + e % 2);
+    assert_int_equal(d->quality.n_pieces, 3);
+    for (int k = 0; k < 3; ++k) brc_domain_free(&part[k]);
+    brc_domain_free(&d);
+}
+
+static void spheres_are_joined_with_their_radii_and_walls(void **state)
+{
+    const int count[3] = {5, 4, 4}, more[3] = {3, 3, 3};
+    const double none[3] = {0.0, 0.0, 0.0}, up[3] = {0.0, 0.0, 4.5};
+    brc_domain *a = test_spheres(*state, count, 8.0, 0, 1), *b = test_spheres(*state, more, 9.0, 1, 1), *d;
+    brc_pose_apply(none, none, up, b);
+    const brc_domain *parts[2] = {a, b};
+    assert_int_equal(brc_domain_join(*state, 2, parts, &d), BRC_OK);
+    assert_int_equal(brc_domain_check(*state, d), BRC_OK);
+    assert_int_equal(d->element_kind, BRC_ELEMENT_SPHERE);
+    assert_int_equal(d->n_elements, 80 + 27);
+    assert_int_equal(d->n_bonds, a->n_bonds + b->n_bonds);
+    assert_memory_equal(d->radius, a->radius, 80 * sizeof(double));
+    assert_memory_equal(d->radius + 80, b->radius, 27 * sizeof(double));
+    assert_null(d->free_start);
+    assert_int_equal(d->n_sets, 12);
+    const brc_set *set = &d->sets[brc_domain_find_set(d, "z-")];
+    assert_int_equal(set->n_members, 20 + 9);
+    assert_int_equal(set->members[20], 80 + b->sets[brc_domain_find_set(b, "z-")].members[0]);
+    assert_near(d->quality.volume_shape, 80.0 + 27.0, 1e-12);
+    assert_near(d->quality.growth, fmax(a->quality.growth, b->quality.growth), 0.0);
+    assert_int_equal(d->quality.n_pieces, 2);
+    brc_domain_free(&a);
+    brc_domain_free(&b);
+    brc_domain_free(&d);
+}
+
+static void cells_and_spheres_are_not_joined(void **state)
+{
+    const int count[3] = {3, 3, 3};
+    brc_build_request r = test_box(64, 0.9);
+    r.translation[0] = 10.0;
+    brc_domain *a = test_spheres(*state, count, 8.0, 0, 1), *b = test_build(*state, &r), *d;
+    const brc_domain *parts[2] = {a, b};
+    assert_int_equal(brc_domain_join(*state, 2, parts, &d), BRC_BAD_INPUT);
+    assert_null(d);
+    test_says(*state, "body 0 is made of spheres, body 1 of cells, which one domain cannot hold; give `beams` to all bodies");
+    brc_domain_free(&a);
+    brc_domain_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(joined_bodies_keep_their_numbers_and_share_walls_and_sets, test_begin, test_end),
         cmocka_unit_test_setup_teardown(joining_one_body_gives_it_back, test_begin, test_end),
         cmocka_unit_test_setup_teardown(sets_of_one_name_and_two_kinds_are_refused, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(grains_are_numbered_through_all_bodies, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(spheres_are_joined_with_their_radii_and_walls, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(cells_and_spheres_are_not_joined, test_begin, test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

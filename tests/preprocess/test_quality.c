@@ -57,7 +57,7 @@ static void the_printed_table_holds_the_numbers_and_the_histogram(void **state)
     brc_domain *d = test_build(*state, &r);
     FILE *file = tmpfile();
     assert_non_null(file);
-    brc_quality_print(file, &d->quality);
+    brc_quality_print(file, d);
     char text[4096] = "";
     rewind(file);
     const size_t n = fread(text, 1, sizeof text - 1, file);

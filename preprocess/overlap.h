@@ -1,0 +1,12 @@
+/* Do bodies stand in one another? */
+#ifndef BRC_PREPROCESS_OVERLAP_H
+#define BRC_PREPROCESS_OVERLAP_H
+
+#include "domain.h"
+
+/* BRC_BAD_INPUT, one sentence for each pair of bodies that overlap (numbers of the bodies in the list, how many elements, the place of
+ * the first, the cure). Cells overlap if the position of one lies inside a cell of the other, deeper than 1e-6 of its spacing; spheres if their
+ * centres are nearer than 0.9 (R_i + R_j), as packed. Bodies that share a face or touch do not. All of one kind of elements. BRC_NO_MEMORY. */
+brc_status brc_overlap_check(brc_context *context, int32_t n, const brc_domain *const *bodies);
+
+#endif
