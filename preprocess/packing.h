@@ -12,6 +12,9 @@ typedef struct brc_packing {
     double coordination;    /* 2 contacts / n, contacts with walls not counted [-] */
     double volume_fraction; /* sphere volume (overlaps counted once per sphere) over the solid's volume [-] */
     double overlap_mean;    /* mean overlap of a contact over its distance [-] */
+    double wall_overlap_mean; /* of contacts with walls: mean of (radius - depth) / radius [-] */
+    double rattlers;        /* share of spheres that fewer than four contacts hold: they carry nothing [-] */
+    double residual;        /* root mean square of the forces left over, over the mean contact force [-] */
     double crystal;         /* share of spheres in ordered surroundings, -1: not measured [-] */
     int32_t iterations;     /* relaxation steps in all */
     int32_t relaxations;    /* densities tried */
