@@ -8,12 +8,14 @@
 
 #include <math.h>
 
+/* Layers of a regular grid lie at whole and half spacings: both sides must agree whether one is in the zone, whatever the rounding. */
+#define ZONE_SLACK 1e-6
 /* How far from the plane seeds are mirrored [spacings]: every seed that is nearest to some point of the plane must be. In a noisy grid
  * parallel to the plane, wherever the plane lies, one side has a seed within sqrt(6) = 2.45 spacings of it (a packing has one nearer);
  * images dropped for LEAST_GAP lie in the topmost half spacing of the zone. */
-#define REACH 3.0
+#define REACH (3.0 + ZONE_SLACK)
 /* How far beyond the rim [spacings]: more would lay a plane of faces ahead of the crack and lead it there. */
-#define BEYOND 0.5
+#define BEYOND (0.5 + ZONE_SLACK)
 /* Seeds keep this distance to the plane [spacings], and so twice that to their images. */
 #define LEAST_HEIGHT 0.25
 /* An image nearer than this to a seed that stays is not made [spacings]. */
