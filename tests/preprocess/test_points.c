@@ -1,5 +1,6 @@
 #include "support.h"
 
+#include "../../host/base/log.h"
 #include "../../host/base/memory.h"
 #include "../../host/base/random.h"
 #include "../../preprocess/points.h"
@@ -139,30 +140,37 @@ static void all_bad_lines_are_told_at_once_and_at_most_twenty_in_words(void **st
 /* Doubles of all magnitudes; %.17g is enough for any (IEEE 754), so equality is exact. */
 static void points_written_read_back_bit_for_bit(void **state)
 {
-    enum { N = 1000 };
-    static double position[3 * N], radius[N], volume[N];
-    static int32_t region[N], body[N], grain[N];
-    brc_domain domain = {.element_kind = BRC_ELEMENT_SPHERE, .n_elements = N, .position = position, .radius = radius,
-                         .volume = volume, .region = region, .body = body, .grain = grain};
+    enum { N = 200000 };
+    brc_domain d = {.element_kind = BRC_ELEMENT_SPHERE, .n_elements = N};
+    assert_int_equal(BRC_ALLOCATE(*state, &d.position, 3 * N, "positions"), BRC_OK);
+    assert_int_equal(BRC_ALLOCATE(*state, &d.radius, N, "radii"), BRC_OK);
+    assert_int_equal(BRC_ALLOCATE(*state, &d.region, N, "regions"), BRC_OK);
+    d.volume = d.radius;
+    d.body = d.grain = d.region;
     for (int e = 0; e < N; ++e) {
         double u[4];
         brc_random_uniform4(11, BRC_RANDOM_TEST, (uint64_t)e, 0, u);
-        for (int k = 0; k < 3; ++k) position[3 * e + k] = (u[k] - 0.5) * exp(200.0 * (u[3] - 0.5));
-        radius[e] = u[3] / 3.0;
-        volume[e] = 4.0 / 3.0 * 3.14 * radius[e];
-        region[e] = e % 3;
-        grain[e] = e / 7;
+        for (int k = 0; k < 3; ++k) d.position[3 * e + k] = (u[k] - 0.5) * exp(200.0 * (u[3] - 0.5));
+        d.radius[e] = u[3] / 3.0;
+        d.region[e] = e / 7;
     }
     setlocale(LC_ALL, "de_DE.UTF-8"); /* where it exists, it has a decimal comma */
-    assert_int_equal(brc_points_write(*state, &domain, path), BRC_OK);
+    const double start = brc_clock_s();
+    assert_int_equal(brc_points_write(*state, &d, path), BRC_OK);
+    const double written = brc_clock_s();
     points p;
     assert_int_equal(brc_points_read(*state, path, 1.0, &p.position, &p.radius, &p.n), BRC_OK);
+    print_message("%d points: %.2f s to write, %.2f s to read\n", N, written - start, brc_clock_s() - written);
     setlocale(LC_ALL, "C");
     assert_int_equal(p.n, N);
-    assert_memory_equal(p.position, position, sizeof position);
-    assert_memory_equal(p.radius, radius, sizeof radius);
+    assert_memory_equal(p.position, d.position, 3 * N * sizeof(double));
+    assert_memory_equal(p.radius, d.radius, N * sizeof(double));
     free_points(&p);
+    brc_memory_free(d.position);
+    brc_memory_free(d.radius);
+    brc_memory_free(d.region);
     assert_int_equal(remove("test-points.csv.part"), -1); /* nothing is left aside */
+    remove(path);
 }
 
 static void the_header_row_names_what_the_domain_has(void **state)
