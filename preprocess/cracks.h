@@ -6,7 +6,7 @@
 
 /* Refuse cracks without area, not finite, without or with a doubled name. */
 brc_status brc_cracks_check(brc_context *context, int32_t n, const brc_crack *cracks);
-/* Mirror seeds across the planes of flat cracks (others are passed over), so that faces lie in them: for every seed within three spacings of the
+/* Mirror seeds across the planes of flat cracks (others are passed over), after any relaxation, so that faces lie in them: for every seed within three spacings of the
  * plane over the crack (and half a spacing beyond its rim) on one side, its image; those on the other side there are dropped. The side
  * with more such seeds is mirrored, so a crack near a wall takes no seeds away. Mirrored seeds nearer to the plane than a quarter of a spacing are moved to
  * that distance (dropped where another seed is within it); images nearer than half a spacing to a seed that is not mirrored
