@@ -1,6 +1,5 @@
 /* The table of samples. */
 #include "history.h"
-#include "text.h"
 #include "../base/memory.h"
 #include <math.h>
 #include <string.h>
@@ -59,41 +58,4 @@ void brc_history_range(const brc_history *history, int32_t sensor, double *last,
         *smallest = fmin(*smallest, *last); /* of a number and NAN these give the number */
         *largest = fmax(*largest, *last);
     }
-}
-
-/* A field of CSV: quoted where it holds what separates fields. */
-static void add_field(brc_text *text, const char *name, const char *unit)
-{
-    const bool quote = strpbrk(name, ",\"\n\r") != NULL;
-    if (quote) brc_text_add(text, "\"");
-    for (const char *s = name; *s; ++s)
-        brc_text_add(text, *s == '"' ? "\"\"" : "%c", *s);
-    brc_text_add(text, " [%s]%s", unit, quote ? "\"" : "");
-}
-
-brc_status brc_history_write_csv(brc_context *context, const brc_history *history, const brc_scene *scene,
-                                 const char *path)
-{
-    brc_text text = {.context = context};
-    brc_text_add(&text, "stage,step,stage_time,time_s");
-    for (int32_t s = 0; s < history->n_sensors; ++s) {
-        brc_text_add(&text, ",");
-        add_field(&text, scene->sensors[s].name, brc_sensor_unit(&scene->sensors[s]));
-    }
-    brc_text_add(&text, "\n");
-    for (int64_t k = 0; k < history->n_samples; ++k) {
-        brc_text_add(&text, "%d,%lld,%.17g,%.17g", history->stage[k], (long long)history->step[k],
-                     history->stage_time[k], history->time[k]);
-        for (int32_t s = 0; s < history->n_sensors; ++s) {
-            const double value = history->value[k * history->n_sensors + s];
-            if (isnan(value))
-                brc_text_add(&text, ",");
-            else
-                brc_text_add(&text, ",%.17g", value);
-        }
-        brc_text_add(&text, "\n");
-    }
-    const brc_status status = brc_text_write(&text, path);
-    brc_text_free(&text);
-    return status;
 }

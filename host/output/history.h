@@ -23,8 +23,5 @@ brc_status brc_history_add(brc_context *context, brc_history *history, int32_t s
                            double time, const double *value);
 /* Last sample, smallest and largest of a column; NAN where there is none (NAN samples do not count for the latter). */
 void brc_history_range(const brc_history *history, int32_t sensor, double *last, double *smallest, double *largest);
-/* CSV: a head line "stage,step,stage_time,time_s,<name> [<unit>],...", then 17 significant digits; empty where NAN. */
-brc_status brc_history_write_csv(brc_context *context, const brc_history *history, const brc_scene *scene,
-                                 const char *path);
 
 #endif

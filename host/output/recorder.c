@@ -1,8 +1,9 @@
-/* The recorder. While the simulation runs it samples the sensors and writes frames, each with the index and the
- * histories so far, so that a killed run keeps all but its last interval. Nothing here draws: see picture.c, curve.c. */
+/* The recorder. While the simulation runs it samples the sensors, adds the samples to histories.csv and writes frames, each
+ * with the index and the histories so far, so that a killed run keeps all but its last interval. Nothing here draws: see picture.c, curve.c. */
 #include "recorder.h"
 #include "curve.h"
 #include "frame_file.h"
+#include "history_csv.h"
 #include "picture.h"
 #include "result_file.h"
 #include "sensors.h"
@@ -30,6 +31,7 @@ struct brc_recorder {
     brc_simulation *simulation;
     brc_sensors *sensors;
     brc_history *history;
+    brc_history_csv *csv;
     double *value; /* [n_sensors] of the sample being taken */
     int64_t n_frames;
     double *frame_time; /* [n_frames] for the index: strictly rising */
@@ -125,6 +127,7 @@ void brc_recorder_free(brc_recorder **recorder)
     brc_recorder *r = *recorder;
     brc_sensors_free(&r->sensors);
     brc_history_free(&r->history);
+    brc_history_csv_free(&r->csv);
     for (int k = 0; k < N_FILES; ++k)
         brc_memory_free(r->path[k]);
     brc_memory_free(r->value);
@@ -156,6 +159,7 @@ static brc_status sample(void *self, brc_simulation *simulation)
         status =
             brc_history_add(r->context, r->history, brc_simulation_stage(simulation), brc_simulation_step(simulation),
                             brc_simulation_time(simulation), brc_simulation_total_time(simulation), r->value);
+    if (status == BRC_OK) status = brc_history_csv_add(r->context, r->csv, r->history);
     r->output_s += brc_clock_s() - begin;
     return status;
 }
@@ -227,6 +231,7 @@ brc_status brc_recorder_observe(brc_recorder *recorder, brc_simulation *simulati
     BRC_TRY(brc_sensors_create(recorder->context, recorder->scene, recorder->domain, &recorder->sensors));
     BRC_TRY(brc_history_create(recorder->context, n, &recorder->history));
     BRC_TRY(BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample"));
+    BRC_TRY(brc_history_csv_create(recorder->context, recorder->scene, recorder->path[HISTORIES], &recorder->csv));
     const brc_observer observer = {.self = recorder, .sample = sample, .frame = frame};
     return brc_simulation_observe(simulation, &observer);
 }
@@ -262,7 +267,7 @@ static void write_results(brc_recorder *r, brc_context *quiet, brc_status *statu
     bool made;
     note(r, quiet, evaluate_measures(r, quiet), status);
     note(r, quiet, write_index(r, quiet, ledger), status);
-    note(r, quiet, brc_history_write_csv(quiet, r->history, r->scene, r->path[HISTORIES]), status);
+    note(r, quiet, brc_history_csv_finish(quiet, r->csv, r->history), status);
     if (*status == BRC_FILE_FAILED) return; /* no room for pictures */
     if (r->scene->output.picture && ledger) /* a simulation that gives no ledger has no state to show */
         warn(r, quiet, brc_picture_write(quiet, r->simulation, r->path[PICTURE]), "picture");
@@ -286,7 +291,7 @@ brc_status brc_recorder_finish(brc_recorder *recorder, brc_status end)
     brc_context *quiet = brc_context_create();
     if (!quiet) return end != BRC_OK ? end : BRC_FAIL(r->context, BRC_NO_MEMORY, "no memory for a context");
     brc_log_set_level(quiet, brc_log_get_level(r->context));
-    if (r->simulation && r->history) {
+    if (r->simulation && r->csv) {
         if (is_alive(end) && brc_simulation_stage(r->simulation) >= 0)
             has_ledger = brc_simulation_ledger(r->simulation, &ledger) == BRC_OK;
         write_results(r, quiet, &status, has_ledger ? &ledger : NULL);

@@ -1,7 +1,7 @@
 /* The recorder: writes down everything a run shows, into one folder. It observes a simulation and never changes it.
  *
  *     DIR/frames/NNNNNN.vtkhdf   deformed cells with their fields, one file a frame; index DIR/frames.vtkhdf.series
- *     DIR/histories.csv          the sensors, one column each
+ *     DIR/histories.csv          the sensors, one column each; rows are added while the run goes on
  *     DIR/result.h5              the index: histories, sensors, measures, ledger, resolved scene, provenance
  *     DIR/picture.png, curve.png where the scene asks for them
  *     DIR/summary.json           what scripts read (design.md "Commands"); written by every run, also a failed one

@@ -1,8 +1,6 @@
 #include "support.h"
-#include "../../host/base/memory.h"
 #include "../../host/output/history.h"
 #include <math.h>
-#include <string.h>
 
 static void samples_survive_the_growth_of_the_table(void **state)
 {
@@ -41,33 +39,11 @@ static void missing_values_do_not_count_in_the_range(void **state)
     brc_history_free(&h);
 }
 
-static void the_csv_has_units_all_digits_and_empty_fields_for_missing_values(void **state)
-{
-    (void)state;
-    char *folder = test_new_folder();
-    brc_sensor sensors[2] = {{.name = "a,\"b\"", .kind = BRC_SENSOR_REACTION},
-                             {.name = "c", .kind = BRC_SENSOR_STRAIN}};
-    const brc_scene scene = {.n_sensors = 2, .sensors = sensors};
-    brc_history *h;
-    assert_int_equal(brc_history_create(test_context, 2, &h), BRC_OK);
-    brc_history_add(test_context, h, 0, 0, 0, 0, (double[]){0.1, NAN});
-    brc_history_add(test_context, h, 1, 7, 0.5, 1.5, (double[]){-1e300, 2});
-    assert_int_equal(brc_history_write_csv(test_context, h, &scene, test_path(folder, "h.csv")), BRC_OK);
-    char *text = test_read(test_path(folder, "h.csv"));
-    assert_string_equal(text, "stage,step,stage_time,time_s,\"a,\"\"b\"\" [N]\",c [-]\n"
-                              "0,0,0,0,0.10000000000000001,\n"
-                              "1,7,0.5,1.5,-1.0000000000000001e+300,2\n");
-    brc_memory_free(text);
-    brc_history_free(&h);
-    test_remove_folder(folder);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_survive_the_growth_of_the_table),
         cmocka_unit_test(missing_values_do_not_count_in_the_range),
-        cmocka_unit_test(the_csv_has_units_all_digits_and_empty_fields_for_missing_values),
     };
     return cmocka_run_group_tests(tests, test_begin, test_end);
 }
