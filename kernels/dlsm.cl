@@ -117,7 +117,7 @@ LAW dlsm_flux_sums dlsm_group_flux_sums(int group, GLOBAL const int *restrict ro
     return sums;
 }
 
-/* Pass 3: B [Pa] [n][9]; with many materials the bond part [beta M - (1 + tau) H]/2 apart. ratio q = L/S [slot][C];
+/* Pass 3: B [Pa] [n][9]; with many materials the bond part [beta/(1 + tau) M - H]/2 apart. ratio q = L/S [slot][C];
  * held_moment [block][9][C]: what held faces and tractions add to Q. */
 KERNEL void dlsm_flux_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                            GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
@@ -157,7 +157,7 @@ KERNEL void dlsm_flux_pass(int n_groups, GLOBAL const int *restrict row_start, G
         lane_store9(flux, first, b);
         lane_store9(bond_part, first, part);
 #else
-        lane_store9(flux, first, lane_mat3_add(b, lane_mat3_scale(k, part)));
+        lane_store9(flux, first, lane_mat3_add(b, lane_mat3_scale(k * one_plus_tau, part)));
 #endif
     }
 }
@@ -191,7 +191,7 @@ KERNEL void dlsm_force(int n_groups, GLOBAL const int *restrict row_start, GLOBA
 #if BRC_MANY_MATERIALS
             const lane k_bond = lane_min(gather_component(modulus, j), k);
             const lane spring = k_bond * one_plus_tau;
-            sum = lane_mat3_add(sum, lane_mat3_scale(k_bond, lane_mat3_add(part, lane_gather9(bond_part, j))));
+            sum = lane_mat3_add(sum, lane_mat3_scale(spring, lane_mat3_add(part, lane_gather9(bond_part, j))));
 #endif
             f = lane_vec3_add(f, dlsm_bond_force(sum, lane_block3(area, slot, lane0), spring,
                                                  lane_load(ratio, (brc_size)slot * C + (brc_size)lane0), jump));

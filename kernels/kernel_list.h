@@ -36,4 +36,9 @@
     X(published_energy)                                                                                                \
     X(advance_rotation)                                                                                                \
     X(add_spin_energy)                                                                                                 \
-    X(small_rotation)
+    X(small_rotation)                                                                                                  \
+    X(turn_orientation)                                                                                                \
+    X(block6_precondition)                                                                                             \
+    X(cbm_force_pass)                                                                                                  \
+    X(cbm_energy)                                                                                                      \
+    X(cbm_virial)

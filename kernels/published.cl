@@ -1,4 +1,4 @@
-/* dlsm-published: the two passes over elements and their bonds, and the motion of orientations (AGH19).
+/* dlsm-published: the two passes over elements and their bonds (AGH19).
  * branch R = X_j - X_i [slot][3][C] (missing neighbours: a unit branch home with zero area), area S [slot][C]. */
 
 #if BRC_MANY_MATERIALS
@@ -104,50 +104,5 @@ KERNEL void published_energy(int n, GLOBAL const coeff *restrict strain, GLOBAL 
         const coeff trace = s[0] + s[1] + s[2];
         const coeff square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + REAL(2) * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
         elastic[e] = volume[e] * (state)(REAL(0.5) * lambda * trace * trace + mu * square);
-    }
-}
-
-/* Rotation: w += kick T / I [rad/s], then q <- exp(turn/2) q with turn = drift w_new + extra T / I [rad]; extra is
- * (phi - 1) dt^2 for Tchamwa-Wielgosz, else 0. inertia: mean moment of inertia of each cell [kg m^2]. */
-KERNEL void advance_rotation(int n, state kick, state drift, state extra, GLOBAL const state *restrict inertia,
-                             GLOBAL const state *restrict torque, GLOBAL state *restrict spin, GLOBAL state *restrict orientation)
-{
-    FOR_EACH_ITEM(e, n) {
-        state half_turn[3];
-        for (int c = 0; c < 3; ++c) {
-            const state a = torque[(brc_size)e * 3 + c] / inertia[e];
-            const state w = spin[(brc_size)e * 3 + c] + kick * a;
-            spin[(brc_size)e * 3 + c] = w;
-            half_turn[c] = STATE(0.5) * (drift * w + extra * a);
-        }
-        /* cos and sin(|h|)/|h| by their series: |h| is the half turn of one step, far below 1; normalised after */
-        const state hh = half_turn[0] * half_turn[0] + half_turn[1] * half_turn[1] + half_turn[2] * half_turn[2];
-        const state c0 = STATE(1) - hh * (STATE(0.5) - hh * (STATE(1.0 / 24) - hh * STATE(1.0 / 720)));
-        const state s0 = STATE(1) - hh * (STATE(1.0 / 6) - hh * (STATE(1.0 / 120) - hh * STATE(1.0 / 5040)));
-        GLOBAL state *q = orientation + (brc_size)e * 4;
-        const state w = q[0], x = q[1], y = q[2], z = q[3], p = s0 * half_turn[0], r = s0 * half_turn[1], t = s0 * half_turn[2];
-        const state nw = c0 * w - p * x - r * y - t * z, nx = c0 * x + p * w + r * z - t * y;
-        const state ny = c0 * y - p * z + r * w + t * x, nz = c0 * z + p * y - r * x + t * w;
-        const state scale = STATE(1) / SQRT_STATE(nw * nw + nx * nx + ny * ny + nz * nz);
-        q[0] = scale * nw, q[1] = scale * nx, q[2] = scale * ny, q[3] = scale * nz;
-    }
-}
-
-/* Rotational kinetic energy I w^2 / 2, added [J] [n]. */
-KERNEL void add_spin_energy(int n, GLOBAL const state *restrict inertia, GLOBAL const state *restrict spin, GLOBAL state *restrict out)
-{
-    FOR_EACH_ITEM(e, n) {
-        const state x = spin[(brc_size)e * 3], y = spin[(brc_size)e * 3 + 1], z = spin[(brc_size)e * 3 + 2];
-        out[e] += STATE(0.5) * inertia[e] * (x * x + y * y + z * z);
-    }
-}
-
-/* Linear solves: quaternions (1, theta/2) of small rotation vectors theta [n][3]. */
-KERNEL void small_rotation(int n, GLOBAL const state *restrict theta, GLOBAL state *restrict orientation)
-{
-    FOR_EACH_ITEM(e, n) {
-        GLOBAL state *q = orientation + (brc_size)e * 4;
-        q[0] = STATE(1);
-        for (int c = 0; c < 3; ++c) q[c + 1] = STATE(0.5) * theta[(brc_size)e * 3 + c];
     }
 }

@@ -5,28 +5,7 @@
 #ifndef BRC_KERNELS_PUBLISHED_BOND_H
 #define BRC_KERNELS_PUBLISHED_BOND_H
 
-#include "vec.h"
-
-LAW lane_vec3 quat_vector(lane_quat q) { return (lane_vec3){q.x, q.y, q.z}; }
-
-/* R x - x for the rotation of a unit quaternion, without cancellation: 2 w (v x a) + 2 v x (v x a). */
-LAW lane_vec3 quat_rotate_minus_identity(lane_quat q, lane_vec3 a, int finite)
-{
-    const lane_vec3 v = quat_vector(q);
-    const lane_vec3 once = lane_vec3_cross(v, a);
-    const lane two = LANE_ZERO + REAL(2);
-    if (!finite) return lane_vec3_scale(two, once);
-    return lane_vec3_scale(two, lane_vec3_add(lane_vec3_scale(q.w, once), lane_vec3_cross(v, once)));
-}
-
-LAW lane_quat quat_conjugate(lane_quat q) { return (lane_quat){q.w, -q.x, -q.y, -q.z}; }
-
-/* a b */
-LAW lane_quat quat_mul(lane_quat a, lane_quat b)
-{
-    return (lane_quat){a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-                       a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
-}
+#include "quaternion.h"
 
 /* Rotation matrix minus identity [-], columns R e - e. */
 LAW lane_mat3 quat_matrix_minus_identity(lane_quat q, int finite)

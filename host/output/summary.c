@@ -36,8 +36,7 @@ static void add_identity(brc_json *json, const brc_summary *s)
     brc_json_string(json, "title", s->scene ? s->scene->title : NULL);
     brc_json_string(json, "model",
                     !s->scene                                ? NULL
-                    : s->scene->model.kind == BRC_MODEL_DLSM ? "dlsm"
-                                                             : "dlsm-published");
+                                                             : brc_model_name(s->scene->model.kind));
     brc_json_string(json, "precision", device ? brc_precision_name(brc_device_get_precision(device)) : NULL);
     brc_json_string(json, "device", device ? name : NULL);
 }

@@ -43,6 +43,16 @@ int32_t brc_body_material(const brc_body *body, int32_t region)
     return region <= body->n_regions ? body->regions[region - 1].material : body->phases[region - body->n_regions - 1].material;
 }
 
+const char *brc_model_name(brc_model_kind kind)
+{
+    switch (kind) {
+    case BRC_MODEL_DLSM: return "dlsm";
+    case BRC_MODEL_DLSM_PUBLISHED: return "dlsm-published";
+    case BRC_MODEL_CBM: return "cbm";
+    }
+    return "";
+}
+
 double brc_table_value(const brc_table *table, double t)
 {
     if (table->n == 0) return 1;

@@ -15,11 +15,15 @@ typedef struct brc_material {
     double young;   /* E [Pa] > 0 */
     double poisson; /* nu [-] in (-1, 0.5) */
     double density; /* rho [kg/m^3] > 0 */
+    /* cbm, given directly; 0: from the calibrated laws */
+    double beam_radius; /* r_m: beam radius over the mean radius of the packed spheres [-] */
+    double beam_young;  /* E_m of the beams [Pa] */
 } brc_material;
 
 typedef enum brc_model_kind {
     BRC_MODEL_DLSM,          /* the conservative law, design-dlsm.md section 2 */
-    BRC_MODEL_DLSM_PUBLISHED /* the published law, AGH19, design-dlsm.md section 1 */
+    BRC_MODEL_DLSM_PUBLISHED, /* the published law, AGH19, design-dlsm.md section 1 */
+    BRC_MODEL_CBM             /* spheres joined by beams, NAH19, design-cbm.md */
 } brc_model_kind;
 
 typedef struct brc_model {
@@ -31,6 +35,9 @@ typedef struct brc_model {
     /* dlsm-published */
     bool area_weights;         /* least squares with weights S/L instead of 1 (default false, as printed) */
     double rotation_stiffness; /* [-] factor on K = E S^2 / (4 pi L0), default 1 */
+    /* cbm */
+    double beam_poisson; /* nu_m of the beams, default 0.3: hardly matters (design-cbm.md) [-] */
+    bool keep_isolated;  /* hold elements without bonds still instead of refusing them */
 } brc_model;
 
 typedef struct brc_region {
@@ -237,6 +244,8 @@ int32_t brc_body_material(const brc_body *body, int32_t region);
 int32_t brc_body_n_regions(const brc_body *body);
 /* a(t) of a table at time t. */
 double brc_table_value(const brc_table *table, double t);
+/* "dlsm", "dlsm-published", "cbm"; static storage. */
+const char *brc_model_name(brc_model_kind kind);
 /* Unit of a sensor's value ("N", "m", "-", "rad", "Pa", "J", "m/s", "Hz"); static storage. */
 const char *brc_sensor_unit(const brc_sensor *sensor);
 /* Unit of a measure's value, given the scene (for sensors' units); static storage. */

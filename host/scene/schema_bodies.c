@@ -1,6 +1,14 @@
 /* Schema: materials, the model, bodies and sets; shapes and fills are in schema_shapes.c. */
 #include "schema_internal.h"
 
+static const brc_entry MICRO[] = {
+    {"radius", BRC_TYPE_QUANTITY, "", POSITIVE, FIELD(brc_material, beam_radius), .required = true, .sample = "0.35",
+     .meaning = "r_m: beam radius over the mean radius of the packed spheres"},
+    {"E", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, beam_young), .required = true, .sample = "620 GPa",
+     .meaning = "E_m: Young's modulus of the beams"},
+};
+static const brc_section MICRO_SECTION = {
+    .title = "beam", .meaning = "Micro-parameters of model cbm, given directly in place of the calibrated laws.", ENTRIES(MICRO)};
 static const brc_entry MATERIAL[] = {
     {"E", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, young), .required = true, .sample = "72 GPa",
      .meaning = "Young's modulus"},
@@ -10,6 +18,7 @@ static const brc_entry MATERIAL[] = {
             "moduli are infinite"},
     {"density", BRC_TYPE_QUANTITY, "kg/m^3", POSITIVE, FIELD(brc_material, density), .required = true,
      .sample = "2500 kg/m^3", .meaning = "mass per volume"},
+    {"beam", BRC_TYPE_STRUCT, .section = &MICRO_SECTION, .meaning = "micro-parameters of model cbm; from the calibrated laws when left out"},
 };
 const brc_section brc_schema_material = {.title = "material",
                                          .meaning = "An isotropic elastic material.",
@@ -35,11 +44,21 @@ static const brc_entry PUBLISHED[] = {
 static const brc_section PUBLISHED_SECTION = {.title = "model dlsm-published",
                                               .meaning = "The law as Andre, Girardot and Hubert published it in 2019.",
                                               ENTRIES(PUBLISHED)};
+static const brc_entry CBM[] = {
+    {"nu", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(-1, 0.5), FIELD(brc_model, beam_poisson), .given = "0.3",
+     .meaning = "Poisson's ratio of the beams; hardly matters"},
+    {"keep_isolated", BRC_TYPE_BOOL, FIELD(brc_model, keep_isolated), .given = "false",
+     .meaning = "hold elements without bonds still instead of refusing the body"},
+};
+static const brc_section CBM_SECTION = {
+    .title = "model cbm", .meaning = "The cohesive beam model of Nguyen, Andre and Huger 2019, in potential form.", ENTRIES(CBM)};
 static const brc_entry MODEL[] = {
     {"dlsm", BRC_TYPE_STRUCT, .section = &DLSM_SECTION, .value = BRC_MODEL_DLSM,
      .meaning = "conservative distinct lattice spring model on Voronoi cells"},
     {"dlsm-published", BRC_TYPE_STRUCT, .section = &PUBLISHED_SECTION, .value = BRC_MODEL_DLSM_PUBLISHED,
      .meaning = "the published, not conservative form, for comparison"},
+    {"cbm", BRC_TYPE_STRUCT, .section = &CBM_SECTION, .value = BRC_MODEL_CBM,
+     .meaning = "spheres joined by beams; bodies need `beams`"},
 };
 const brc_section brc_schema_model = {.title = "model",
                                       .meaning = "The law between the elements.",
@@ -146,7 +165,7 @@ static const brc_entry BODY[] = {
     {"cracks", BRC_TYPE_LIST, .section = &brc_schema_crack, COUNTED(brc_body, cracks, n_cracks),
      .meaning = "notches and cracks that are there from the start; posed coordinates"},
     {"beams", BRC_TYPE_STRUCT, .section = &BEAMS_SECTION,
-     .meaning = "spheres joined by beams in place of cells; needs a fill with radii (`breccia build`; no model of this version moves them)"},
+     .meaning = "spheres joined by beams in place of cells; needs a fill with radii (`breccia build`; for model cbm)"},
     {"pose", BRC_TYPE_STRUCT, .section = &POSE_SECTION, .meaning = "where it stands; sets and regions see it posed"},
     {"model", BRC_TYPE_LATER, .meaning = "a model of its own comes with contact; until bodies touch, one model moves the whole scene"},
     {"tiny_face_threshold", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 0.01), FIELD(brc_body, tiny_face_threshold),

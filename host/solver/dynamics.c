@@ -12,7 +12,7 @@ static brc_status kick_and_drift(brc_simulation *s, double kick, double drift)
     const int32_t n = s->layout->n_rows;
     BRC_TRY(BRC_LAUNCH(s->kernel.advance, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_BUF(s->mass), BRC_BUF(s->force),
                        BRC_BUF(s->velocity), BRC_BUF(s->displacement)));
-    if (!brc_is_published(s)) return BRC_OK;
+    if (!brc_turns(s)) return BRC_OK;
     return BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(0),
                       BRC_BUF(s->inertia), BRC_BUF(s->torque), BRC_BUF(s->spin), BRC_BUF(s->orientation));
 }
@@ -47,7 +47,7 @@ static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double
     BRC_TRY(BRC_LAUNCH(s->kernel.advance_tchamwa, n, BRC_INT(n), BRC_STATE(dt), BRC_STATE(stage->phi), BRC_BUF(s->mass),
                        BRC_BUF(s->force), BRC_BUF(s->velocity), BRC_BUF(s->displacement), BRC_BUF(s->moved),
                        BRC_BUF(s->lost_numerical)));
-    if (brc_is_published(s)) /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
+    if (brc_turns(s)) /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
         BRC_TRY(BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(dt), BRC_STATE(dt),
                            BRC_STATE((stage->phi - 1) * dt * dt), BRC_BUF(s->inertia), BRC_BUF(s->torque), BRC_BUF(s->spin),
                            BRC_BUF(s->orientation)));
@@ -96,6 +96,7 @@ static brc_status guard(brc_simulation *s, brc_ledger *ledger)
                     : brc_is_published(s)
                         ? "The published law has no energy and diverges after thousands of steps (docs/theory.md): use model dlsm, "
                           "or tchamwa-wielgosz with a larger phi"
+                    : brc_is_beams(s) ? "Look for beams that were stretched or bent far beyond their law (sections turned by more than a right angle)"
                         : "Look for elements with few or flat neighbours (breccia build prints the quality) or strains beyond 40 %");
 }
 

@@ -18,13 +18,14 @@ void brc_effects_list(brc_simulation *s)
             traction = traction || kind == BRC_LOAD_TRACTION || kind == BRC_LOAD_PRESSURE;
         }
     }
-    const bool published = brc_is_published(s);
+    const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s);
     const struct {
         const char *name;
         bool in;
-    } effects[] = {{"conservative elasticity (dlsm)", !published},
-                   {"compaction", !published && scene->model.compaction && scene->model.beta != 0},
+    } effects[] = {{"conservative elasticity (dlsm)", dlsm},
+                   {"compaction", dlsm && scene->model.compaction && scene->model.beta != 0},
                    {"published elasticity (dlsm-published), element rotations", published},
+                   {"beams (cbm), element rotations", brc_is_beams(s)},
                    {"several materials", brc_device_has_many_materials(s->device)},
                    {"prescribed faces", held},
                    {"tractions", traction},
@@ -56,6 +57,11 @@ double brc_simulation_floor_bytes(const brc_simulation *s)
         const double force = half_edges * (4 + 4 * coeff) + n * (7 * state + (6 + 3 * many) * coeff + 6 * state);
         /* motion: f, v, u, m and t, w, q, I read; v, u, w, q written */
         return strain + force + n * (3 + 3 + 3 + 1 + 3 + 3 + 4 + 1 + 3 + 3 + 3 + 4) * state;
+    }
+    if (brc_is_beams(s)) {
+        /* force pass: neighbour, branch, 1/length; u, q read, f and t written; motion as above */
+        const double force = half_edges * (4 + 4 * coeff) + n * (7 * state + 3 * many * coeff + 6 * state);
+        return force + n * (3 + 3 + 3 + 1 + 3 + 3 + 4 + 1 + 3 + 3 + 3 + 4) * state;
     }
     const double pass1 = half_edges * (4 + 3 * coeff) + n * (3 * state + (6 + 9) * coeff);
     const double pass2 = half_edges * (4 + 6 * coeff) + n * (9 + 1 + 9 + 2 * many) * coeff;

@@ -1,4 +1,4 @@
-/* One evaluation of the forces of either model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2). */
+/* One evaluation of the forces of a model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2, design-cbm.md). */
 #include "simulation_internal.h"
 
 /* Constants handed to kernels; with several materials the kernels gather them instead. */
@@ -109,9 +109,18 @@ static brc_status published_evaluate(brc_simulation *s, const brc_force_request 
                       BRC_INT(finite), BRC_BUF(r->force), BRC_BUF(r->torque));
 }
 
+static brc_status beams_evaluate(brc_simulation *s, const brc_force_request *r)
+{
+    const brc_beam *b = brc_beam_of_element(s, 0);
+    return BRC_LAUNCH(s->kernel.cbm_force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                      BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->alive), BRC_INT(s->alive ? 1 : 0), BRC_BUF(r->displacement),
+                      BRC_BUF(r->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend), BRC_COEFF(b->twist), BRC_BUF(s->beam_of),
+                      BRC_INT(r->finite ? 1 : 0), BRC_BUF(r->force), BRC_BUF(r->torque));
+}
+
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
 {
-    BRC_TRY(brc_is_published(s) ? published_evaluate(s, r) : dlsm_evaluate(s, r));
+    BRC_TRY(brc_is_beams(s) ? beams_evaluate(s, r) : brc_is_published(s) ? published_evaluate(s, r) : dlsm_evaluate(s, r));
     if (r->homogeneous) return brc_loads_zero_imposed(s, r->force);
     if (s->scene->has_gravity) {
         const double *g = s->scene->gravity;
@@ -148,6 +157,14 @@ brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabil
 {
     const brc_elastic *m = one_material(s);
     *stabilisation = 0;
+    if (brc_is_beams(s)) {
+        const brc_beam *b = brc_beam_of_element(s, 0);
+        BRC_TRY(BRC_LAUNCH(s->kernel.cbm_energy, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                           BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->alive), BRC_INT(s->alive ? 1 : 0), BRC_BUF(s->displacement),
+                           BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend), BRC_COEFF(b->twist), BRC_BUF(s->beam_of),
+                           BRC_BUF(s->elastic_energy)));
+        return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);
+    }
     if (brc_is_published(s)) {
         BRC_TRY(BRC_LAUNCH(s->kernel.published_energy, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_BUF(s->gradient),
                            BRC_BUF(s->volume), BRC_COEFF(m->lambda), BRC_COEFF(m->mu), BRC_BUF(s->lame_of),

@@ -1,4 +1,5 @@
 /* Device arrays that depend on the domain and the materials alone: connectivity, face geometry, least squares, masses. */
+#include "consistent.h"
 #include "simulation_internal.h"
 #include "sym3.h"
 #include <math.h>
@@ -9,16 +10,21 @@
  * rounding: only flat or lone elements meet it. */
 static const double span_threshold = 1e-6;
 
+static void branch_of(const brc_domain *d, int64_t h, int32_t i, double branch[3])
+{
+    const int64_t j = d->neighbour[h];
+    for (int c = 0; c < 3; ++c) branch[c] = d->position[3 * j + c] - d->position[3 * (int64_t)i + c];
+}
+
 static void half_edge_geometry(const brc_domain *d, int64_t h, int32_t i, double branch[3], double area[3], double offset[3],
                                double *ratio)
 {
-    const int32_t j = d->neighbour[h];
+    const int64_t j = d->neighbour[h];
     double length = 0, surface = 0;
+    branch_of(d, h, i, branch);
     for (int c = 0; c < 3; ++c) {
-        const double xi = d->position[3 * (int64_t)i + c], xj = d->position[3 * (int64_t)j + c];
-        branch[c] = xj - xi;
         area[c] = d->area_vector[3 * h + c];
-        offset[c] = d->face_centroid[3 * h + c] - 0.5 * (xi + xj);
+        offset[c] = d->face_centroid[3 * h + c] - 0.5 * (d->position[3 * (int64_t)i + c] + d->position[3 * j + c]);
         length += branch[c] * branch[c];
         surface += area[c] * area[c];
     }
@@ -26,11 +32,11 @@ static void half_edge_geometry(const brc_domain *d, int64_t h, int32_t i, double
 }
 
 /* Fill [n_slots][width][C] from the half-edges. */
-typedef enum row_kind { ROW_AREA, ROW_OFFSET, ROW_RATIO, ROW_BRANCH, ROW_SURFACE } row_kind;
+typedef enum row_kind { ROW_AREA, ROW_OFFSET, ROW_RATIO, ROW_BRANCH, ROW_SURFACE, ROW_INVERSE_LENGTH } row_kind;
 static brc_status upload_rows(brc_simulation *s, brc_buffer *buffer, row_kind kind)
 {
     const brc_layout *layout = s->layout;
-    const int slice = layout->slice, width = kind == ROW_RATIO || kind == ROW_SURFACE ? 1 : 3;
+    const int slice = layout->slice, width = kind == ROW_RATIO || kind == ROW_SURFACE || kind == ROW_INVERSE_LENGTH ? 1 : 3;
     double *rows = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_slots * slice * width, "neighbour rows"));
 #pragma omp parallel for schedule(static)
@@ -40,13 +46,19 @@ static brc_status upload_rows(brc_simulation *s, brc_buffer *buffer, row_kind ki
                 const int32_t h = layout->half_edge[(int64_t)slot * slice + l];
                 /* missing neighbours point home: zero area, any non-zero ratio and branch */
                 double branch[3] = {1, 0, 0}, area[3] = {0, 0, 0}, offset[3] = {0, 0, 0}, ratio = 1;
-                if (h >= 0)
+                double inverse = 0; /* missing: no stiffness */
+                if (h >= 0 && brc_is_beams(s)) {
+                    branch_of(s->domain, h, layout->element_of_row[block * slice + l], branch);
+                    inverse = 1 / sqrt(branch[0] * branch[0] + branch[1] * branch[1] + branch[2] * branch[2]);
+                } else if (h >= 0)
                     half_edge_geometry(s->domain, h, layout->element_of_row[block * slice + l], branch, area, offset, &ratio);
+                if (h >= 0 && (kind == ROW_AREA || kind == ROW_RATIO))
+                    brc_consistent_bond(s, layout->element_of_row[block * slice + l], h, area, &ratio);
                 const double surface = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
                 const double *from = kind == ROW_AREA ? area : kind == ROW_OFFSET ? offset : branch;
                 for (int c = 0; c < width; ++c)
                     rows[((int64_t)slot * width + c) * slice + l] =
-                        kind == ROW_RATIO ? ratio : kind == ROW_SURFACE ? surface : from[c];
+                        kind == ROW_RATIO ? ratio : kind == ROW_SURFACE ? surface : kind == ROW_INVERSE_LENGTH ? inverse : from[c];
             }
     const brc_status status = brc_upload_coeff(s, buffer, rows, layout->n_slots * slice * width);
     brc_memory_free(rows);
@@ -104,7 +116,9 @@ static brc_status upload_inverse_shapes(brc_simulation *s)
         if (e < 0) continue;
         double a[6], inverse[6];
         shape_matrix(s, e, a);
-        flat += brc_sym3_pseudo_inverse(a, span_threshold, inverse) < 3;
+        const int spanned = brc_sym3_pseudo_inverse(a, span_threshold, inverse);
+        flat += spanned < 3;
+        if (spanned == 3 && !brc_is_published(s)) brc_consistent_inverse(s, e, inverse);
         for (int c = 0; c < 6; ++c) blocks[((int64_t)(r / slice) * 6 + c) * slice + r % slice] = inverse[c];
     }
     if (flat)
@@ -128,9 +142,11 @@ static brc_status upload_masses(brc_simulation *s)
     for (int64_t e = 0; e < d->n_elements; ++e) values[e] = d->volume[e] * s->elastic[s->material_of_element[e]].density;
     BRC_TRY_OR(cleanup, brc_new_state(s, &s->mass, layout->n_rows, "masses"));
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->mass, values, 1, 1));
-    if (brc_is_published(s)) {
-        BRC_TRY_OR(cleanup, brc_new_state(s, &s->volume, layout->n_rows, "volumes"));
-        BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->volume, d->volume, 1, 1));
+    if (brc_turns(s)) {
+        if (brc_is_published(s)) {
+            BRC_TRY_OR(cleanup, brc_new_state(s, &s->volume, layout->n_rows, "volumes"));
+            BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->volume, d->volume, 1, 1));
+        }
         /* mean of the principal moments: the trace of the inertia tensor over 3 */
         for (int64_t e = 0; e < d->n_elements; ++e)
             values[e] = s->elastic[s->material_of_element[e]].density *
@@ -194,8 +210,15 @@ brc_status brc_geometry_create(brc_simulation *s)
 {
     const int64_t entries = s->layout->n_slots * s->layout->slice;
     BRC_TRY(upload_connectivity(s));
-    BRC_TRY(upload_inverse_shapes(s));
     BRC_TRY(upload_masses(s));
+    if (brc_is_beams(s)) {
+        BRC_TRY(brc_beams_upload(s));
+        BRC_TRY(brc_new_coeff(s, &s->offset, entries * 3, "branches"));
+        BRC_TRY(upload_rows(s, s->offset, ROW_BRANCH));
+        BRC_TRY(brc_new_coeff(s, &s->ratio, entries, "inverse lengths"));
+        return upload_rows(s, s->ratio, ROW_INVERSE_LENGTH);
+    }
+    BRC_TRY(upload_inverse_shapes(s));
     BRC_TRY(upload_materials(s));
     if (brc_is_published(s)) {
         BRC_TRY(brc_new_coeff(s, &s->offset, entries * 3, "branches"));
@@ -215,7 +238,7 @@ void brc_geometry_free(brc_simulation *s)
 {
     brc_buffer **all[] = {&s->row_start, &s->neighbour, &s->boundary, &s->area, &s->offset, &s->ratio, &s->inv_shape,
                           &s->inv_volume, &s->material, &s->modulus, &s->ell_of, &s->lame_of,
-                          &s->mass, &s->volume, &s->inertia};
+                          &s->mass, &s->volume, &s->inertia, &s->beam_of, &s->alive};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_buffer_free(all[i]);
 }
 

@@ -33,10 +33,10 @@ static void precondition(const double *blocks, const double *v, double *z, int64
 /* out = K z through the device; the force is minus K p. */
 static brc_status multiply(brc_simulation *s, brc_solve_vectors *v, const double *z, double *out, int64_t n)
 {
-    BRC_TRY(brc_upload_state(s, v->p, z, n));
-    BRC_TRY(brc_loads_zero_imposed(s, v->p));
+    BRC_TRY(brc_upload_state(s, v->p.move, z, n));
+    BRC_TRY(brc_loads_zero_imposed(s, v->p.move));
     BRC_TRY(brc_statics_apply(s, v));
-    BRC_TRY(brc_download(s, v->kp, brc_precision_state_bytes(brc_device_get_precision(s->device)), out, n));
+    BRC_TRY(brc_download(s, v->kp.move, brc_precision_state_bytes(brc_device_get_precision(s->device)), out, n));
     for (int64_t i = 0; i < n; ++i) out[i] = -out[i];
     return BRC_OK;
 }
@@ -54,7 +54,7 @@ brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &z, n, "GMRES"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &blocks, 6 * rows, "preconditioner"));
     BRC_TRY_OR(cleanup, brc_download(s, v->blocks, bytes, blocks, 6 * rows));
-    BRC_TRY_OR(cleanup, brc_download(s, v->r, bytes, r, n));
+    BRC_TRY_OR(cleanup, brc_download(s, v->r.move, bytes, r, n));
     double norm = sqrt(dot(r, r, n));
     for (int32_t done = 0; done < most && norm > target;) {
         for (int64_t i = 0; i < n; ++i) basis[i] = r[i] / norm;
@@ -103,7 +103,7 @@ brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int
         add(1, z, x, n);
         /* true residual */
         BRC_TRY_OR(cleanup, multiply(s, v, x, z, n));
-        BRC_TRY_OR(cleanup, brc_download(s, v->r, bytes, r, n));
+        BRC_TRY_OR(cleanup, brc_download(s, v->r.move, bytes, r, n));
         add(-1, z, r, n);
         const double now = sqrt(dot(r, r, n));
         if (!(now < 0.9999 * norm)) { /* stagnation: keep what there is */
@@ -113,8 +113,8 @@ brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int
         norm = now;
     }
     *left = norm;
-    BRC_TRY_OR(cleanup, brc_upload_state(s, v->x, x, n));
-    BRC_TRY_OR(cleanup, brc_loads_zero_imposed(s, v->x));
+    BRC_TRY_OR(cleanup, brc_upload_state(s, v->x.move, x, n));
+    BRC_TRY_OR(cleanup, brc_loads_zero_imposed(s, v->x.move));
 cleanup:
     brc_memory_free(basis);
     brc_memory_free(x);

@@ -149,7 +149,7 @@ static brc_status create_held(brc_simulation *s, const brc_stage *stage, brc_hel
     for (int64_t f = 0; f < d->n_free_faces; ++f) n += bits[f] != 0;
     held->n_faces = n;
     if (n == 0) goto cleanup;
-    if (brc_is_published(s)) {
+    if (brc_turns(s)) {
         status = BRC_FAIL(s->context, BRC_BAD_INPUT,
                           "stage '%s': dlsm-published moves whole elements; use element_displacement or element_velocity",
                           stage->name);
@@ -395,9 +395,9 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
         if (is_element_motion(load)) {
             status = create_imposed(s, stage, l, taken, out->imposed + out->n_imposed++);
         } else if (!is_face_motion(load)) {
-            if (brc_is_published(s))
-                status = BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': dlsm-published takes no tractions; use model dlsm",
-                                  stage->name);
+            if (brc_turns(s))
+                status = BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': %s takes no tractions; use model dlsm, or prescribe elements",
+                                  stage->name, brc_is_beams(s) ? "cbm" : "dlsm-published");
             else if (first == BRC_OK)
                 status = create_traction(s, stage, l, &out->held, out->tractions + out->n_tractions++);
         }

@@ -47,7 +47,7 @@ static brc_status allocate(mode_space *t)
     BRC_TRY(brc_geometry_precondition_blocks(s, t->blocks));
     BRC_TRY(brc_new_state(s, &t->in, t->n, "modes"));
     BRC_TRY(brc_new_state(s, &t->out, t->n, "modes"));
-    if (brc_is_published(s)) {
+    if (brc_turns(s)) {
         BRC_TRY(brc_new_state(s, &t->orientation, 4 * (t->n / 3), "modes"));
         BRC_TRY(brc_new_state(s, &t->torque, t->n, "modes"));
     }
@@ -376,6 +376,9 @@ brc_status brc_modes_run(brc_simulation *s)
     brc_progress *progress = NULL;
     double *values = NULL;
     brc_status status = BRC_OK;
+    if (brc_is_beams(s))
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': free vibration modes are there for dlsm and dlsm-published; take them for cbm from a "
+                        "dynamic stage with `frequency`", stage->name);
     if (3 * s->domain->n_elements < 3 * t.m)
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': %d modes of %lld elements; ask for fewer modes or build more elements",
                         stage->name, wanted, (long long)s->domain->n_elements);

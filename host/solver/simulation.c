@@ -6,32 +6,37 @@
 static brc_status find_kernels(brc_simulation *s)
 {
     brc_kernels *k = &s->kernel;
-    const bool published = brc_is_published(s);
+    const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s), beams = brc_is_beams(s), turns = brc_turns(s);
     const struct {
         brc_kernel **slot;
         const char *name;
         bool wanted;
     } wanted[] = {
-        {&k->gradient, "dlsm_gradient", !published},
-        {&k->stress, "dlsm_stress", !published},
-        {&k->flux, "dlsm_flux_pass", !published},
-        {&k->force, "dlsm_force", !published},
-        {&k->energy, "dlsm_energy", !published},
-        {&k->deformation, "dlsm_deformation", !published},
-        {&k->held_prescribe, "held_prescribe", !published},
-        {&k->held_gradient, "held_gradient_pass", !published},
-        {&k->held_moment, "held_moment_pass", !published},
-        {&k->held_force, "held_force_pass", !published},
-        {&k->held_energy, "held_energy", !published},
-        {&k->traction_moment, "traction_moment_pass", !published},
-        {&k->traction_force, "traction_force_pass", !published},
-        {&k->face_displacement, "face_displacement", !published},
+        {&k->gradient, "dlsm_gradient", dlsm},
+        {&k->stress, "dlsm_stress", dlsm},
+        {&k->flux, "dlsm_flux_pass", dlsm},
+        {&k->force, "dlsm_force", dlsm},
+        {&k->energy, "dlsm_energy", dlsm},
+        {&k->deformation, "dlsm_deformation", dlsm},
+        {&k->held_prescribe, "held_prescribe", dlsm},
+        {&k->held_gradient, "held_gradient_pass", dlsm},
+        {&k->held_moment, "held_moment_pass", dlsm},
+        {&k->held_force, "held_force_pass", dlsm},
+        {&k->held_energy, "held_energy", dlsm},
+        {&k->traction_moment, "traction_moment_pass", dlsm},
+        {&k->traction_force, "traction_force_pass", dlsm},
+        {&k->face_displacement, "face_displacement", dlsm},
         {&k->published_strain, "published_strain_pass", published},
         {&k->published_force, "published_force_pass", published},
         {&k->published_energy, "published_energy", published},
-        {&k->advance_rotation, "advance_rotation", published},
-        {&k->add_spin_energy, "add_spin_energy", published},
-        {&k->small_rotation, "small_rotation", published},
+        {&k->cbm_force, "cbm_force_pass", beams},
+        {&k->cbm_energy, "cbm_energy", beams},
+        {&k->cbm_virial, "cbm_virial", beams},
+        {&k->turn_orientation, "turn_orientation", beams},
+        {&k->precondition6, "block6_precondition", beams},
+        {&k->advance_rotation, "advance_rotation", turns},
+        {&k->add_spin_energy, "add_spin_energy", turns},
+        {&k->small_rotation, "small_rotation", turns},
         {&k->advance, "advance", true},
         {&k->advance_tchamwa, "advance_tchamwa", true},
         {&k->numerical_close, "numerical_close", true},
@@ -107,7 +112,7 @@ typedef struct array_need {
 enum { MOST_ARRAYS = 24 };
 static int list_arrays(brc_simulation *s, array_need needs[MOST_ARRAYS])
 {
-    const bool published = brc_is_published(s), faces = any_stage(s->scene, has_face_load);
+    const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s), turns = brc_turns(s), faces = any_stage(s->scene, has_face_load);
     const bool tchamwa = any_stage(s->scene, has_tchamwa);
     const int64_t n = s->layout->n_rows, boundary = (int64_t)s->layout->n_boundary * s->layout->slice;
     const int64_t blocks = (3 * n + 1023) / 1024 + 1;
@@ -115,20 +120,20 @@ static int list_arrays(brc_simulation *s, array_need needs[MOST_ARRAYS])
         {&s->displacement, true, true, 3 * n, "displacements"},
         {&s->velocity, true, true, 3 * n, "velocities"},
         {&s->force, true, true, 3 * n, "forces"},
-        {&s->gradient, true, false, (published ? 6 : 9) * n, published ? "strains" : "displacement gradients"},
-        {&s->stress, !published, false, 9 * n, "stresses"},
-        {&s->flux, !published, false, 9 * n, "fluxes"},
-        {&s->bond_part, !published && brc_device_has_many_materials(s->device), false, 9 * n, "bond parts"},
-        {&s->held_gradient, !published && faces, false, 9 * boundary, "held gradients"},
-        {&s->held_moment, !published && faces, false, 9 * boundary, "held moments"},
-        {&s->orientation, published, true, 4 * n, "orientations"},
-        {&s->spin, published, true, 3 * n, "spins"},
-        {&s->torque, published, true, 3 * n, "torques"},
+        {&s->gradient, published || dlsm, false, (published ? 6 : 9) * n, published ? "strains" : "displacement gradients"},
+        {&s->stress, dlsm, false, 9 * n, "stresses"},
+        {&s->flux, dlsm, false, 9 * n, "fluxes"},
+        {&s->bond_part, dlsm && brc_device_has_many_materials(s->device), false, 9 * n, "bond parts"},
+        {&s->held_gradient, dlsm && faces, false, 9 * boundary, "held gradients"},
+        {&s->held_moment, dlsm && faces, false, 9 * boundary, "held moments"},
+        {&s->orientation, turns, true, 4 * n, "orientations"},
+        {&s->spin, turns, true, 3 * n, "spins"},
+        {&s->torque, turns, true, 3 * n, "torques"},
         {&s->moved, tchamwa, true, 3 * n, "moves of a step"},
         {&s->lost_numerical, tchamwa, true, n, "numerical dissipation"},
         {&s->lost_damping, any_stage(s->scene, has_damping), true, n, "damping dissipation"},
         {&s->elastic_energy, true, true, n, "elastic energies"},
-        {&s->stabilisation_energy, !published, true, n, "stabilisation energies"},
+        {&s->stabilisation_energy, dlsm, true, n, "stabilisation energies"},
         {&s->kinetic, true, true, n, "kinetic energies"},
         {&s->partial, true, true, blocks, "block sums"},
     };
@@ -145,7 +150,7 @@ static brc_status create_arrays(brc_simulation *s)
         BRC_TRY(needs[i].is_state ? brc_new_state(s, needs[i].buffer, needs[i].count, needs[i].what)
                                   : brc_new_coeff(s, needs[i].buffer, needs[i].count, needs[i].what));
     }
-    if (!brc_is_published(s)) return BRC_OK;
+    if (!brc_turns(s)) return BRC_OK;
     double *upright = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &upright, 4 * (int64_t)s->layout->n_rows, "orientations"));
     for (int64_t r = 0; r < s->layout->n_rows; ++r) upright[4 * r] = 1;
@@ -162,6 +167,8 @@ int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *
     const bool many = brc_simulation_needs_many_materials(scene, domain);
     const bool tchamwa = any_stage(scene, has_tchamwa), damped = any_stage(scene, has_damping);
     int64_t boundary = 0;
+    if (scene->model.kind == BRC_MODEL_CBM)
+        return entries * (4 + 4 * coeff) + n / slice * 8 + n * ((3 + 3 + 3 + 1 + 2 + 4 + 3 + 3 + 1 + (tchamwa ? 4 : 0) + (damped ? 1 : 0)) * state + (many ? 3 : 0) * coeff);
     for (int64_t e = 0; e < domain->n_elements; ++e) boundary += domain->free_start[e + 1] > domain->free_start[e];
     boundary = boundary + boundary / 8 < n ? boundary + boundary / 8 : n; /* blocks are whole slices */
     int64_t bytes = entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
@@ -196,6 +203,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     BRC_TRY_OR(cleanup, brc_layout_create(context, domain, brc_device_slice(device), &s->layout));
     s->n_groups = s->layout->n_slices * (brc_device_slice(device) / brc_device_lanes(device));
     BRC_TRY_OR(cleanup, find_materials(s));
+    if (brc_is_beams(s)) BRC_TRY_OR(cleanup, brc_beams_create(s));
     BRC_TRY_OR(cleanup, find_kernels(s));
     BRC_TRY_OR(cleanup, brc_geometry_create(s));
     BRC_TRY_OR(cleanup, create_arrays(s));
@@ -221,6 +229,7 @@ void brc_simulation_free(brc_simulation **simulation)
     brc_geometry_free(s);
     brc_layout_free(&s->layout);
     brc_memory_free(s->elastic);
+    brc_memory_free(s->beam);
     brc_memory_free(s->material_of_element);
     brc_memory_free(s->modes);
     brc_memory_free(s);

@@ -19,6 +19,12 @@ typedef struct brc_elastic {
 } brc_elastic;
 brc_elastic brc_elastic_of(const brc_material *material);
 
+/* Beams of one material in one body (beams.c). */
+typedef struct brc_beam {
+    double radius; /* of the beams [m] */
+    double axial, bend, twist; /* E S [N], 2 E I [N m^2], G J [N m^2] */
+} brc_beam;
+
 /* Face loads of a stage: held faces grouped by element, one entry list per load (loads.c). */
 typedef struct brc_held_load {
     int32_t load; /* index into the stage's loads */
@@ -60,6 +66,7 @@ typedef struct brc_kernels {
     brc_kernel *gradient, *stress, *flux, *force, *energy, *deformation;
     brc_kernel *held_prescribe, *held_gradient, *held_moment, *held_force, *held_energy, *traction_moment, *traction_force;
     brc_kernel *face_displacement;
+    brc_kernel *cbm_force, *cbm_energy, *cbm_virial, *turn_orientation, *precondition6;
     brc_kernel *published_strain, *published_force, *published_energy, *advance_rotation, *add_spin_energy, *small_rotation;
     brc_kernel *advance, *advance_tchamwa, *numerical_close, *damp_mass, *gravity, *kinetic_energy;
     brc_kernel *impose_motion, *impose_book, *impose_zero;
@@ -75,6 +82,7 @@ struct brc_simulation {
     brc_kernels kernel;
     int n_groups; /* work-items of an element pass */
     brc_elastic *elastic;      /* [n_materials] */
+    brc_beam *beam;            /* cbm: [n_bodies][n_materials] */
     int32_t *material_of_element; /* [n_elements] index into scene.materials */
 
     /* connectivity and geometry (geometry.c) */
@@ -83,6 +91,7 @@ struct brc_simulation {
     brc_buffer *inv_shape, *inv_volume;
     brc_buffer *material, *modulus, *ell_of, *lame_of;
     brc_buffer *mass, *volume, *inertia;
+    brc_buffer *beam_of, *alive; /* cbm: branch in offset, 1/length in ratio; stiffness of elements (several materials), whole bonds */
 
     /* state */
     brc_buffer *displacement, *velocity, *force;
@@ -134,6 +143,22 @@ void brc_geometry_free(brc_simulation *s);
 /* Symmetric 3 x 3 preconditioner blocks [n_rows][6]: inverse of sum (S/L) [mu I + (lambda + mu) n n^T]. */
 brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out);
 
+/* ---- beams.c: cbm ---- */
+/* Beams of every material in every body; isolated elements are refused or reported. */
+brc_status brc_beams_create(brc_simulation *s);
+/* Per-element stiffness, for several materials. */
+brc_status brc_beams_upload(brc_simulation *s);
+/* Stiffness of element e's own beams. */
+const brc_beam *brc_beam_of_element(const brc_simulation *s, int64_t e);
+/* Stress of every element [n_elements][6] xx yy zz yz xz xy [Pa], averaged over the element and its neighbours over bonds, `level` shells of
+ * them (NAH19 section 2.2; 1 in the paper). Volumes are those of the spheres over the packing's volume fraction. */
+brc_status brc_beams_stress(brc_simulation *s, int level, double *out);
+/* Inverses of the 6 x 6 diagonal blocks, upper triangles [n_rows][21]; elements without bonds get zero. */
+brc_status brc_beams_precondition_blocks(brc_simulation *s, double *out);
+/* Rigorous lower bound of the critical time step [s]: 2 / sqrt(2 max lambda(M_i^-1 D_i)) over the elements' diagonal blocks (design-cbm.md
+ * section 6). */
+brc_status brc_beams_node_bound(brc_simulation *s, double *out);
+
 /* ---- loads.c: one stage's loads ---- */
 brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads *out);
 void brc_loads_free(brc_loads *loads);
@@ -177,6 +202,10 @@ brc_status brc_notify_sample(brc_simulation *s);
 brc_status brc_notify_frame(brc_simulation *s);
 
 static inline const brc_stage *brc_current_stage(const brc_simulation *s) { return &s->scene->stages[s->stage]; }
+static inline bool brc_is_beams(const brc_simulation *s) { return s->scene->model.kind == BRC_MODEL_CBM; }
+static inline bool brc_is_dlsm(const brc_simulation *s) { return s->scene->model.kind == BRC_MODEL_DLSM; }
+/* Elements have rotations of their own. */
+static inline bool brc_turns(const brc_simulation *s) { return !brc_is_dlsm(s); }
 static inline bool brc_is_published(const brc_simulation *s) { return s->scene->model.kind == BRC_MODEL_DLSM_PUBLISHED; }
 
 #endif

@@ -42,7 +42,7 @@ brc_status brc_simulation_set_state(brc_simulation *s, const double *displacemen
 
 brc_status brc_simulation_orientation(brc_simulation *s, double *orientation, double *spin)
 {
-    if (!brc_is_published(s))
+    if (!brc_turns(s))
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "model dlsm has no orientations of its own; ask for strains instead");
     BRC_TRY(brc_state_from_rows(s, s->orientation, orientation, 4));
     return brc_state_from_rows(s, s->spin, spin, 3);
@@ -94,10 +94,34 @@ static void hooke(const brc_elastic *m, const double e[6], double out[6])
     for (int c = 0; c < 6; ++c) out[c] = 2 * m->mu * e[c] + (c < 3 ? pressure : 0);
 }
 
+/* Strain that Hooke's law of the material gives for a stress. */
+static void hooke_inverse(const brc_elastic *m, const double sigma[6], double out[6])
+{
+    const double nu = m->lambda / (2 * (m->lambda + m->mu)), trace = sigma[0] + sigma[1] + sigma[2];
+    for (int c = 0; c < 6; ++c) out[c] = c < 3 ? ((1 + nu) * sigma[c] - nu * trace) / m->young : sigma[c] / (2 * m->mu);
+}
+
+/* cbm: virial stress over an element and its neighbours, and the strain it means. */
+static brc_status beams_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
+{
+    const int64_t n = s->domain->n_elements;
+    double *sigma = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &sigma, 6 * n, "virial stress"));
+    const brc_status status = brc_beams_stress(s, 1, sigma);
+    for (int64_t e = 0; status == BRC_OK && e < n; ++e) {
+        if (strain) hooke_inverse(s->elastic + s->material_of_element[e], sigma + 6 * e, strain + 6 * e);
+        if (stress) memcpy(stress + 6 * e, sigma + 6 * e, 6 * sizeof *sigma);
+        if (cauchy) memcpy(cauchy + 6 * e, sigma + 6 * e, 6 * sizeof *sigma);
+    }
+    brc_memory_free(sigma);
+    return status;
+}
+
 brc_status brc_simulation_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
 {
     const int64_t n = s->domain->n_elements;
     const bool published = brc_is_published(s);
+    if (brc_is_beams(s)) return beams_strain_stress(s, strain, stress, cauchy);
     double *g = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &g, 9 * n, "deformation"));
     brc_status status = published ? brc_coeff_from_rows(s, s->gradient, g, 6) : deformation(s, g);

@@ -1,13 +1,52 @@
-/* Elastic equilibrium. dlsm: preconditioned conjugate gradients on the linearised conservative operator, matrix-free on the
- * device, inside a modified Newton iteration on the full law. dlsm-published has no symmetric operator: restarted GMRES
+/* Elastic equilibrium. dlsm and cbm: preconditioned conjugate gradients on the linearised operator, matrix-free on the device, inside a
+ * modified Newton iteration on the full law. dlsm-published has no symmetric operator: restarted GMRES
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
 #include "statics.h"
 #include "simulation_internal.h"
 #include <math.h>
+#include <string.h>
 
 enum { MOST_CORRECTIONS = 60 };
 
-brc_status brc_statics_residual(brc_simulation *s, bool finite, double *norm)
+/* The four operations on vectors of unknowns. */
+static brc_status add(brc_simulation *s, double a, brc_unknowns x, brc_unknowns y)
+{
+    const int32_t n = 3 * s->layout->n_rows;
+    BRC_TRY(BRC_LAUNCH(s->kernel.axpy, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x.move), BRC_BUF(y.move)));
+    return y.turn ? BRC_LAUNCH(s->kernel.axpy, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x.turn), BRC_BUF(y.turn)) : BRC_OK;
+}
+
+/* y = x + a y */
+static brc_status scale_add(brc_simulation *s, brc_unknowns x, double a, brc_unknowns y)
+{
+    const int32_t n = 3 * s->layout->n_rows;
+    BRC_TRY(BRC_LAUNCH(s->kernel.xpay, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x.move), BRC_BUF(y.move)));
+    return y.turn ? BRC_LAUNCH(s->kernel.xpay, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x.turn), BRC_BUF(y.turn)) : BRC_OK;
+}
+
+/* x.y, the rotations' part times `weight`. */
+static brc_status dot(brc_simulation *s, brc_unknowns x, brc_unknowns y, double weight, double *out)
+{
+    double turn = 0;
+    BRC_TRY(brc_vector_dot(s, x.move, y.move, 3 * (int64_t)s->layout->n_rows, out));
+    if (x.turn) BRC_TRY(brc_vector_dot(s, x.turn, y.turn, 3 * (int64_t)s->layout->n_rows, &turn));
+    *out += weight * turn;
+    return BRC_OK;
+}
+
+static brc_status copy(brc_unknowns from, brc_unknowns to)
+{
+    BRC_TRY(brc_buffer_copy(to.move, from.move, brc_buffer_bytes(from.move)));
+    return to.turn ? brc_buffer_copy(to.turn, from.turn, brc_buffer_bytes(from.turn)) : BRC_OK;
+}
+
+/* Sum of squares of forces and of torques over the arm. */
+static brc_status square_of(brc_simulation *s, const brc_solve_vectors *v, brc_unknowns r, double *out)
+{
+    return dot(s, r, r, 1 / (v->arm * v->arm), out);
+}
+
+brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, bool finite, double *norm)
 {
     BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
                                                        .force = s->force,
@@ -18,7 +57,7 @@ brc_status brc_statics_residual(brc_simulation *s, bool finite, double *norm)
     /* the residual of the free components; reactions of imposed elements were read just before */
     BRC_TRY(brc_loads_zero_imposed(s, s->force));
     double square;
-    BRC_TRY(brc_vector_dot(s, s->force, s->force, 3 * (int64_t)s->layout->n_rows, &square));
+    BRC_TRY(square_of(s, v, (brc_unknowns){s->force, brc_is_beams(s) ? s->torque : NULL}, &square));
     *norm = sqrt(square);
     return isfinite(square) ? BRC_OK
                             : BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
@@ -27,55 +66,92 @@ brc_status brc_statics_residual(brc_simulation *s, bool finite, double *norm)
                                        brc_current_stage(s)->name);
 }
 
-static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
+static brc_status create_blocks(brc_simulation *s, brc_solve_vectors *v)
 {
-    const int64_t n = s->layout->n_rows;
-    brc_buffer **all[] = {&v->x, &v->r, &v->z, &v->p, &v->kp, &v->move, &v->zero};
-    v->state_bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
-    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-        if (all[i] == &v->zero && !brc_is_published(s)) continue;
-        BRC_TRY(brc_new_state(s, all[i], 3 * n, "static solver"));
-    }
-    if (brc_is_published(s)) BRC_TRY(brc_new_state(s, &v->orientation, 4 * n, "static solver"));
-    BRC_TRY(brc_new_state(s, &v->blocks, 6 * n, "preconditioner"));
+    const int64_t n = s->layout->n_rows, width = brc_is_beams(s) ? 21 : 6;
     double *blocks = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &blocks, 6 * n, "preconditioner"));
-    brc_status status = brc_geometry_precondition_blocks(s, blocks);
-    if (status == BRC_OK) status = brc_upload_state(s, v->blocks, blocks, 6 * n);
+    BRC_TRY(brc_new_state(s, &v->blocks, width * n, "preconditioner"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &blocks, width * n, "preconditioner"));
+    brc_status status = brc_is_beams(s) ? brc_beams_precondition_blocks(s, blocks) : brc_geometry_precondition_blocks(s, blocks);
+    if (status == BRC_OK) status = brc_upload_state(s, v->blocks, blocks, width * n);
     brc_memory_free(blocks);
     return status;
 }
 
+/* Small rotations that stand for the orientations at the start of a linear stage. */
+static brc_status create_theta(brc_simulation *s, brc_solve_vectors *v)
+{
+    const int64_t n = s->domain->n_elements;
+    double *q = NULL, *theta = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * n, "orientations"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &theta, 3 * n, "rotations"));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
+    for (int64_t e = 0; e < n; ++e)
+        for (int c = 0; c < 3; ++c) theta[3 * e + c] = (q[4 * e] < 0 ? -2 : 2) * q[4 * e + 1 + c];
+    BRC_TRY_OR(cleanup, brc_new_state(s, &v->theta, 3 * (int64_t)s->layout->n_rows, "rotations"));
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->theta, theta, 3, 0));
+cleanup:
+    brc_memory_free(q);
+    brc_memory_free(theta);
+    return status;
+}
+
+static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
+{
+    const int64_t n = s->layout->n_rows;
+    brc_unknowns *all[] = {&v->x, &v->r, &v->z, &v->p, &v->kp};
+    v->state_bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    v->arm = 1;
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+        BRC_TRY(brc_new_state(s, &all[i]->move, 3 * n, "static solver"));
+        if (brc_is_beams(s)) BRC_TRY(brc_new_state(s, &all[i]->turn, 3 * n, "static solver"));
+    }
+    BRC_TRY(brc_new_state(s, &v->before, 3 * n, "static solver"));
+    if (brc_is_published(s)) BRC_TRY(brc_new_state(s, &v->zero, 3 * n, "static solver"));
+    if (brc_turns(s)) BRC_TRY(brc_new_state(s, &v->orientation, 4 * n, "static solver"));
+    if (brc_is_beams(s)) {
+        double sum = 0;
+        for (int64_t e = 0; e < s->domain->n_elements; ++e) sum += s->domain->radius[e];
+        v->arm = sum / (double)s->domain->n_elements;
+        BRC_TRY(create_theta(s, v));
+    }
+    return create_blocks(s, v);
+}
+
 static void free_vectors(brc_solve_vectors *v)
 {
-    brc_buffer_free(&v->x), brc_buffer_free(&v->r), brc_buffer_free(&v->z), brc_buffer_free(&v->p);
-    brc_buffer_free(&v->kp), brc_buffer_free(&v->move), brc_buffer_free(&v->zero), brc_buffer_free(&v->orientation), brc_buffer_free(&v->blocks);
+    brc_unknowns *all[] = {&v->x, &v->r, &v->z, &v->p, &v->kp};
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_buffer_free(&all[i]->move), brc_buffer_free(&all[i]->turn);
+    brc_buffer **rest[] = {&v->before, &v->blocks, &v->zero, &v->orientation, &v->theta};
+    for (size_t i = 0; i < sizeof rest / sizeof *rest; ++i) brc_buffer_free(rest[i]);
 }
 
 /* kp = -K p. Displacements: the force of the linearised law. Rotations (dlsm-published, whose forces do not depend on them
  * to first order): the torque of rotation vectors p at zero displacement. */
 static brc_status apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)
 {
-    brc_force_request r = {.displacement = v->p, .force = v->kp, .orientation = v->orientation, .torque = v->z, .homogeneous = true};
-    if (!brc_is_published(s)) return brc_force_evaluate(s, &r);
+    brc_force_request r = {.displacement = v->p.move, .force = v->kp.move, .orientation = v->orientation,
+                           .torque = brc_is_beams(s) ? v->kp.turn : v->z.move, .homogeneous = true};
+    if (brc_is_dlsm(s)) return brc_force_evaluate(s, &r);
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(rotations ? v->p : v->zero), BRC_BUF(v->orientation)));
-    if (rotations) r.displacement = v->zero, r.force = v->z, r.torque = v->kp;
+    brc_buffer *theta = brc_is_beams(s) ? v->p.turn : rotations ? v->p.move : v->zero;
+    BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(theta), BRC_BUF(v->orientation)));
+    if (rotations) r.displacement = v->zero, r.force = v->z.move, r.torque = v->kp.move;
     return brc_force_evaluate(s, &r);
 }
 
 brc_status brc_statics_apply(brc_simulation *s, brc_solve_vectors *v) { return apply(s, v, false); }
 
-static brc_status axpy(brc_simulation *s, double a, brc_buffer *x, brc_buffer *y)
-{
-    const int32_t n = 3 * s->layout->n_rows;
-    return BRC_LAUNCH(s->kernel.axpy, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x), BRC_BUF(y));
-}
-
-static brc_status precondition(brc_simulation *s, brc_solve_vectors *v)
+static brc_status precondition(brc_simulation *s, brc_solve_vectors *v, bool rotations)
 {
     const int32_t n = s->layout->n_rows;
-    return BRC_LAUNCH(s->kernel.precondition, n, BRC_INT(n), BRC_BUF(v->blocks), BRC_BUF(v->r), BRC_BUF(v->z));
+    if (brc_is_beams(s))
+        BRC_TRY(BRC_LAUNCH(s->kernel.precondition6, n, BRC_INT(n), BRC_BUF(v->blocks), BRC_BUF(v->r.move), BRC_BUF(v->r.turn),
+                           BRC_BUF(v->z.move), BRC_BUF(v->z.turn)));
+    else
+        BRC_TRY(BRC_LAUNCH(s->kernel.precondition, n, BRC_INT(n), BRC_BUF(v->blocks), BRC_BUF(v->r.move), BRC_BUF(v->z.move)));
+    return rotations ? BRC_OK : brc_loads_zero_imposed(s, v->z.move);
 }
 
 /* Solve K x = r to |r| <= target; v->r holds the right side and ends as the residual. Rigid motions that the supports
@@ -84,29 +160,27 @@ static brc_status precondition(brc_simulation *s, brc_solve_vectors *v)
 static brc_status conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool rotations, double target, int32_t most,
                                       brc_progress *progress, double *left)
 {
-    const int64_t count = 3 * (int64_t)s->layout->n_rows;
     double rz, rr, pkp, best = INFINITY;
     int64_t since_best = 0;
-    BRC_TRY(brc_buffer_fill_zero(v->x));
-    BRC_TRY(precondition(s, v));
-    if (!rotations) BRC_TRY(brc_loads_zero_imposed(s, v->z));
-    BRC_TRY(brc_buffer_copy(v->p, v->z, brc_buffer_bytes(v->z)));
-    BRC_TRY(brc_vector_dot(s, v->r, v->z, count, &rz));
-    BRC_TRY(brc_vector_dot(s, v->r, v->r, count, &rr));
+    BRC_TRY(brc_buffer_fill_zero(v->x.move));
+    if (v->x.turn) BRC_TRY(brc_buffer_fill_zero(v->x.turn));
+    BRC_TRY(precondition(s, v, rotations));
+    BRC_TRY(copy(v->z, v->p));
+    BRC_TRY(dot(s, v->r, v->z, 1, &rz));
+    BRC_TRY(square_of(s, v, v->r, &rr));
     for (int32_t i = 0; i < most && sqrt(rr) > target; ++i) {
         BRC_TRY(apply(s, v, rotations));
-        BRC_TRY(brc_vector_dot(s, v->p, v->kp, count, &pkp));
+        BRC_TRY(dot(s, v->p, v->kp, 1, &pkp));
         pkp = -pkp; /* the force is minus K p */
         if (!(pkp > 0)) break; /* only rounding and rigid motions are left */
         const double alpha = rz / pkp;
-        BRC_TRY(axpy(s, alpha, v->p, v->x));
-        BRC_TRY(axpy(s, alpha, v->kp, v->r));
-        BRC_TRY(precondition(s, v));
-        if (!rotations) BRC_TRY(brc_loads_zero_imposed(s, v->z));
+        BRC_TRY(add(s, alpha, v->p, v->x));
+        BRC_TRY(add(s, alpha, v->kp, v->r));
+        BRC_TRY(precondition(s, v, rotations));
         double next;
-        BRC_TRY(brc_vector_dot(s, v->r, v->z, count, &next));
-        BRC_TRY(brc_vector_dot(s, v->r, v->r, count, &rr));
-        BRC_TRY(BRC_LAUNCH(s->kernel.xpay, count, BRC_INT(count), BRC_STATE(next / rz), BRC_BUF(v->z), BRC_BUF(v->p)));
+        BRC_TRY(dot(s, v->r, v->z, 1, &next));
+        BRC_TRY(square_of(s, v, v->r, &rr));
+        BRC_TRY(scale_add(s, v->z, next / rz, v->p));
         rz = next;
         s->static_report.iterations += 1;
         brc_progress_update(progress, s->static_report.iterations);
@@ -156,28 +230,38 @@ static brc_status settle_rotations(brc_simulation *s, brc_solve_vectors *v, brc_
     double square, left;
     BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->zero), BRC_BUF(v->orientation)));
     BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
-                                                       .force = v->z,
+                                                       .force = v->z.move,
                                                        .orientation = v->orientation,
-                                                       .torque = v->r,
+                                                       .torque = v->r.move,
                                                        .homogeneous = true}));
-    BRC_TRY(remove_mean(s, v->r));
-    BRC_TRY(brc_vector_dot(s, v->r, v->r, 3 * (int64_t)n, &square));
+    BRC_TRY(remove_mean(s, v->r.move));
+    BRC_TRY(square_of(s, v, v->r, &square));
     BRC_TRY(conjugate_gradients(s, v, true, 1e-6 * sqrt(square), brc_statics_most_iterations(s), progress, &left));
-    return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->x), BRC_BUF(s->orientation));
+    return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->x.move), BRC_BUF(s->orientation));
 }
 
 /* Start from the last increment's move again: exact when the answer is proportional to the load, so that a stage of equal
- * increments costs little more than one. v->move holds the displacement before the last increment on entry, before this
+ * increments costs little more than one. v->before holds the displacement before the last increment on entry, before this
  * one on return. */
 static brc_status predict(brc_simulation *s, brc_solve_vectors *v, int32_t increment)
 {
-    if (increment > 1) { /* u becomes 2 u - move */
-        BRC_TRY(brc_buffer_copy(v->z, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes));
-        BRC_TRY(axpy(s, -1, v->move, s->displacement));
-        BRC_TRY(axpy(s, 1, v->z, s->displacement));
-        return brc_buffer_copy(v->move, v->z, 3 * (int64_t)s->layout->n_rows * v->state_bytes);
-    }
-    return brc_buffer_copy(v->move, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes);
+    const int64_t bytes = 3 * (int64_t)s->layout->n_rows * v->state_bytes;
+    const brc_unknowns state = {s->displacement, NULL};
+    if (increment == 1 || brc_is_beams(s)) return brc_buffer_copy(v->before, s->displacement, bytes);
+    BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, bytes)); /* u becomes 2 u - before */
+    BRC_TRY(add(s, -1, (brc_unknowns){v->before, NULL}, state));
+    BRC_TRY(add(s, 1, v->z, state));
+    return brc_buffer_copy(v->before, v->z.move, bytes);
+}
+
+/* The state takes the correction v->x. */
+static brc_status correct(brc_simulation *s, brc_solve_vectors *v, bool finite)
+{
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(add(s, 1, v->x, (brc_unknowns){s->displacement, v->theta}));
+    if (!brc_is_beams(s)) return BRC_OK;
+    if (finite) return BRC_LAUNCH(s->kernel.turn_orientation, n, BRC_INT(n), BRC_BUF(v->x.turn), BRC_BUF(s->orientation));
+    return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->theta), BRC_BUF(s->orientation));
 }
 
 static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, double *reference, brc_progress *progress)
@@ -187,7 +271,7 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
     const bool published = brc_is_published(s), finite = stage->finite_strain && !published;
     const bool coarse = brc_device_get_precision(s->device) != BRC_DOUBLE;
     double norm, left, last = INFINITY;
-    BRC_TRY(brc_statics_residual(s, finite, &norm));
+    BRC_TRY(brc_statics_residual(s, v, finite, &norm));
     if (norm > *reference) *reference = norm;
     for (int correction = 0; norm > tolerance * *reference; ++correction) {
         if (correction == MOST_CORRECTIONS || (correction > 2 && norm > 0.9 * last)) {
@@ -198,13 +282,13 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
                             stage->name, s->load_factor, norm / *reference, correction, tolerance);
         }
         last = norm;
-        BRC_TRY(brc_buffer_copy(v->r, s->force, brc_buffer_bytes(s->force)));
+        BRC_TRY(copy((brc_unknowns){s->force, s->torque}, v->r));
         const double target = 0.3 * tolerance * *reference;
         const int32_t most = brc_statics_most_iterations(s);
         BRC_TRY(published ? brc_gmres(s, v, target, most, progress, &left)
                           : conjugate_gradients(s, v, false, target, most, progress, &left));
-        BRC_TRY(axpy(s, 1, v->x, s->displacement));
-        BRC_TRY(brc_statics_residual(s, finite, &norm));
+        BRC_TRY(correct(s, v, finite));
+        BRC_TRY(brc_statics_residual(s, v, finite, &norm));
         s->static_report.corrections += 1;
     }
     s->static_report.residual = *reference > 0 ? norm / *reference : 0;

@@ -5,16 +5,23 @@
 #include "../base/log.h"
 #include "simulation.h"
 
-/* Device vectors [n_rows][3] of a linear solve K x = r, and preconditioner blocks [n_rows][6]; zero and orientation only for
- * dlsm-published. */
+/* A vector of all unknowns: displacements or forces [n_rows][3] and, for cbm, rotations or torques [n_rows][3] (else NULL). */
+typedef struct brc_unknowns {
+    brc_buffer *move, *turn;
+} brc_unknowns;
+
+/* Device vectors of a linear solve K x = r, and preconditioner blocks [n_rows][6], cbm [n_rows][21]; zero only for dlsm-published, orientation for
+ * models with rotations, theta for cbm. */
 typedef struct brc_solve_vectors {
-    brc_buffer *x, *r, *z, *p, *kp, *move, *blocks;
-    brc_buffer *zero, *orientation;
+    brc_unknowns x, r, z, p, kp;
+    brc_buffer *before, *blocks;
+    brc_buffer *zero, *orientation, *theta;
     int state_bytes;
+    double arm; /* a torque over this counts as a force: mean radius of the spheres [m] */
 } brc_solve_vectors;
 
 /* Force on the free components of the state into the simulation's own force array, and its norm [N]. finite: full law. */
-brc_status brc_statics_residual(brc_simulation *s, bool finite, double *norm);
+brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, bool finite, double *norm);
 /* kp = -K p of the linearised operator, imposed components zero. */
 brc_status brc_statics_apply(brc_simulation *s, brc_solve_vectors *v);
 /* Residual over load at which the stage's equilibrium counts as reached [-]. */

@@ -43,7 +43,7 @@ static brc_status create_work(brc_simulation *s, work_vectors *w)
     const int64_t n = s->layout->n_rows;
     BRC_TRY(brc_new_state(s, &w->x, 3 * n, "power iteration"));
     BRC_TRY(brc_new_state(s, &w->y, 3 * n, "power iteration"));
-    if (!brc_is_published(s)) return BRC_OK;
+    if (!brc_turns(s)) return BRC_OK;
     BRC_TRY(brc_new_state(s, &w->theta, 3 * n, "power iteration"));
     BRC_TRY(brc_new_state(s, &w->orientation, 4 * n, "power iteration"));
     return brc_new_state(s, &w->torque, 3 * n, "power iteration");
@@ -74,9 +74,9 @@ static brc_status random_vector(brc_simulation *s, brc_buffer *out, uint64_t whi
 static brc_status apply(brc_simulation *s, work_vectors *w, double *rayleigh)
 {
     const int32_t n = s->layout->n_rows;
-    const bool published = brc_is_published(s);
+    const bool turns = brc_turns(s);
     double mass_norm = 0, part, energy = 0;
-    if (published)
+    if (turns)
         BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(w->theta), BRC_BUF(w->orientation)));
     BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = w->x,
                                                        .force = w->y,
@@ -86,7 +86,7 @@ static brc_status apply(brc_simulation *s, work_vectors *w, double *rayleigh)
     BRC_TRY(brc_vector_dot(s, w->x, w->y, 3 * (int64_t)n, &part));
     energy -= part;
     BRC_TRY(BRC_LAUNCH(s->kernel.kinetic_energy, n, BRC_INT(n), BRC_BUF(s->mass), BRC_BUF(w->x), BRC_BUF(s->kinetic)));
-    if (published) {
+    if (turns) {
         BRC_TRY(brc_vector_dot(s, w->theta, w->torque, 3 * (int64_t)n, &part));
         energy -= part;
         BRC_TRY(BRC_LAUNCH(s->kernel.add_spin_energy, n, BRC_INT(n), BRC_BUF(s->inertia), BRC_BUF(w->theta), BRC_BUF(s->kinetic)));
@@ -102,7 +102,7 @@ static brc_status apply(brc_simulation *s, work_vectors *w, double *rayleigh)
     const double scale = *rayleigh != 0 ? 1 / (fabs(*rayleigh) * sqrt(mass_norm)) : 1;
     BRC_TRY(brc_buffer_fill_zero(w->x));
     BRC_TRY(BRC_LAUNCH(s->kernel.axpy, 3 * (int64_t)n, BRC_INT(3 * n), BRC_STATE(-scale), BRC_BUF(w->y), BRC_BUF(w->x)));
-    if (published) {
+    if (turns) {
         BRC_TRY(BRC_LAUNCH(s->kernel.divide_by_mass, n, BRC_INT(n), BRC_BUF(s->inertia), BRC_BUF(w->torque)));
         BRC_TRY(brc_buffer_fill_zero(w->theta));
         BRC_TRY(BRC_LAUNCH(s->kernel.axpy, 3 * (int64_t)n, BRC_INT(3 * n), BRC_STATE(-scale), BRC_BUF(w->torque), BRC_BUF(w->theta)));
@@ -119,7 +119,7 @@ static brc_status critical_step(brc_simulation *s, double *out)
     const double size = cbrt(s->domain->volume[0]);
     BRC_TRY_OR(cleanup, random_vector(s, w.x, 0, size));
     BRC_TRY_OR(cleanup, brc_loads_zero_imposed(s, w.x));
-    if (brc_is_published(s)) BRC_TRY_OR(cleanup, random_vector(s, w.theta, 1, 1));
+    if (brc_turns(s)) BRC_TRY_OR(cleanup, random_vector(s, w.theta, 1, 1));
     for (int i = 1; i <= MOST_ITERATIONS; ++i) {
         BRC_TRY_OR(cleanup, apply(s, &w, &rayleigh));
         if (fabs(rayleigh) > seen) seen = fabs(rayleigh);
@@ -135,7 +135,7 @@ cleanup:
 
 brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_time_step *out)
 {
-    *out = (brc_time_step){.published = published_rule(s)};
+    *out = (brc_time_step){.published = brc_is_beams(s) ? 0 : published_rule(s)};
     switch (stage->time_step_rule) {
     case BRC_TIME_STEP_FIXED:
         out->value = stage->time_step;
@@ -147,7 +147,12 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
         break;
     default: out->governed_by = "auto: power iteration";
     }
-    BRC_TRY(critical_step(s, &out->critical));
+    if (brc_is_beams(s) && stage->time_step_rule == BRC_TIME_STEP_AUTO) { /* rigorous, so no margin of its own is needed */
+        BRC_TRY(brc_beams_node_bound(s, &out->critical));
+        out->governed_by = "auto: node bound";
+    } else {
+        BRC_TRY(critical_step(s, &out->critical));
+    }
     /* Tchamwa-Wielgosz is stable for w dt <= 2 / sqrt(2 phi - 1) */
     if (stage->integrator == BRC_TCHAMWA_WIELGOSZ && stage->phi > 0.5) out->critical /= sqrt(2 * stage->phi - 1);
     if (stage->time_step_rule == BRC_TIME_STEP_AUTO) {

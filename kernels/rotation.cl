@@ -1,0 +1,85 @@
+/* Elements that turn: motion of orientations (unit quaternions w x y z [n][4]) and spins, for models whose elements have rotations of
+ * their own. One work-item does one element. */
+
+/* q <- exp(h) q, normalised; |h|, the half turn, is far below 1: cos and sin(|h|)/|h| by their series. */
+LAW void orientation_turn(GLOBAL state *restrict q, state hx, state hy, state hz)
+{
+    const state hh = hx * hx + hy * hy + hz * hz;
+    const state c0 = STATE(1) - hh * (STATE(0.5) - hh * (STATE(1.0 / 24) - hh * STATE(1.0 / 720)));
+    const state s0 = STATE(1) - hh * (STATE(1.0 / 6) - hh * (STATE(1.0 / 120) - hh * STATE(1.0 / 5040)));
+    const state w = q[0], x = q[1], y = q[2], z = q[3], p = s0 * hx, r = s0 * hy, t = s0 * hz;
+    const state nw = c0 * w - p * x - r * y - t * z, nx = c0 * x + p * w + r * z - t * y;
+    const state ny = c0 * y - p * z + r * w + t * x, nz = c0 * z + p * y - r * x + t * w;
+    const state scale = STATE(1) / SQRT_STATE(nw * nw + nx * nx + ny * ny + nz * nz);
+    q[0] = scale * nw, q[1] = scale * nx, q[2] = scale * ny, q[3] = scale * nz;
+}
+
+/* Rotation: w += kick T / I [rad/s], then q <- exp(turn/2) q with turn = drift w_new + extra T / I [rad]; extra is
+ * (phi - 1) dt^2 for Tchamwa-Wielgosz, else 0. inertia: mean moment of inertia of each cell [kg m^2]. */
+KERNEL void advance_rotation(int n, state kick, state drift, state extra, GLOBAL const state *restrict inertia,
+                             GLOBAL const state *restrict torque, GLOBAL state *restrict spin, GLOBAL state *restrict orientation)
+{
+    FOR_EACH_ITEM(e, n) {
+        state half_turn[3];
+        for (int c = 0; c < 3; ++c) {
+            const state a = torque[(brc_size)e * 3 + c] / inertia[e];
+            const state w = spin[(brc_size)e * 3 + c] + kick * a;
+            spin[(brc_size)e * 3 + c] = w;
+            half_turn[c] = STATE(0.5) * (drift * w + extra * a);
+        }
+        orientation_turn(orientation + (brc_size)e * 4, half_turn[0], half_turn[1], half_turn[2]);
+    }
+}
+
+/* Rotational kinetic energy I w^2 / 2, added [J] [n]. */
+KERNEL void add_spin_energy(int n, GLOBAL const state *restrict inertia, GLOBAL const state *restrict spin, GLOBAL state *restrict out)
+{
+    FOR_EACH_ITEM(e, n) {
+        const state x = spin[(brc_size)e * 3], y = spin[(brc_size)e * 3 + 1], z = spin[(brc_size)e * 3 + 2];
+        out[e] += STATE(0.5) * inertia[e] * (x * x + y * y + z * z);
+    }
+}
+
+/* Linear solves: quaternions (1, theta/2) of small rotation vectors theta [n][3]. */
+KERNEL void small_rotation(int n, GLOBAL const state *restrict theta, GLOBAL state *restrict orientation)
+{
+    FOR_EACH_ITEM(e, n) {
+        GLOBAL state *q = orientation + (brc_size)e * 4;
+        q[0] = STATE(1);
+        for (int c = 0; c < 3; ++c) q[c + 1] = STATE(0.5) * theta[(brc_size)e * 3 + c];
+    }
+}
+
+/* q <- exp(theta/2) q for finite rotation vectors theta [n][3] [rad], each far below a turn; normalised. */
+KERNEL void turn_orientation(int n, GLOBAL const state *restrict theta, GLOBAL state *restrict orientation)
+{
+    FOR_EACH_ITEM(e, n) {
+        GLOBAL const state *t = theta + (brc_size)e * 3;
+        orientation_turn(orientation + (brc_size)e * 4, STATE(0.5) * t[0], STATE(0.5) * t[1], STATE(0.5) * t[2]);
+    }
+}
+
+/* z = P r with a symmetric 6 x 6 block per element, upper triangle by rows [n][21]; r and z are split into forces or displacements [n][3]
+ * and torques or rotations [n][3]. */
+KERNEL void block6_precondition(int n, GLOBAL const state *restrict block, GLOBAL const state *restrict force,
+                                GLOBAL const state *restrict torque, GLOBAL state *restrict move, GLOBAL state *restrict turn)
+{
+    FOR_EACH_ITEM(e, n) {
+        GLOBAL const state *p = block + (brc_size)e * 21;
+        state r[6], z[6];
+        for (int c = 0; c < 3; ++c) {
+            r[c] = force[(brc_size)e * 3 + c];
+            r[c + 3] = torque[(brc_size)e * 3 + c];
+        }
+        for (int a = 0; a < 6; ++a) z[a] = 0;
+        for (int a = 0, at = 0; a < 6; ++a)
+            for (int b = a; b < 6; ++b, ++at) {
+                z[a] += p[at] * r[b];
+                if (b > a) z[b] += p[at] * r[a];
+            }
+        for (int c = 0; c < 3; ++c) {
+            move[(brc_size)e * 3 + c] = z[c];
+            turn[(brc_size)e * 3 + c] = z[c + 3];
+        }
+    }
+}
