@@ -172,9 +172,9 @@ static brc_status read_rows(const reader *r, const brc_node *node, brc_case_run 
 
 static brc_status read_run(const reader *r, const brc_node *node, brc_case_run *run)
 {
-    static const char *const operators[] = {"measures", "vibration", "drift", "build", NULL};
+    static const char *const operators[] = {"measures", "vibration", "drift", "build", "isotropy", NULL};
     static const char *const precisions[] = {"double", "mixed", "single", NULL};
-    *run = (brc_case_run){.name = "", .scene = "scene.yaml"};
+    *run = (brc_case_run){.name = "", .scene = "scene.yaml", .n_seeds = 1};
     if (node->kind != BRC_NODE_MAP) wrong(r, node, "a map");
     for (const brc_node *item = node->first; node->kind == BRC_NODE_MAP && item; item = item->next) {
         if (strcmp(item->key, "name") == 0)
@@ -197,7 +197,10 @@ static brc_status read_run(const reader *r, const brc_node *node, brc_case_run *
             run->has_precision = true, run->precision = (brc_precision)word_of(r, item, precisions);
         else if (strcmp(item->key, "threads") == 0)
             run->n_threads = (int)number_of(r, item);
-        else if (strcmp(item->key, "files") == 0)
+        else if (strcmp(item->key, "seeds") == 0) {
+            run->n_seeds = (int)number_of(r, item);
+            if (run->n_seeds < 1) wrong(r, item, "1 or more samples");
+        } else if (strcmp(item->key, "files") == 0)
             run->n_files = texts_of(r, item, run->files);
         else if (strcmp(item->key, "set") == 0)
             run->n_overrides = texts_of(r, item, run->overrides);
@@ -214,7 +217,7 @@ static brc_status read_run(const reader *r, const brc_node *node, brc_case_run *
 
 static void read_derived(const reader *r, const brc_node *node, brc_case_derived *derived)
 {
-    static const char *const formulas[] = {"mean", "worst", "order", "range", "difference", NULL};
+    static const char *const formulas[] = {"mean", "worst", "order", "range", "ratio", "difference", NULL};
     *derived = (brc_case_derived){.row = empty_row(""), .of = "", .against = "spacing"};
     if (node->kind != BRC_NODE_MAP) wrong(r, node, "a map");
     for (const brc_node *item = node->first; node->kind == BRC_NODE_MAP && item; item = item->next) {

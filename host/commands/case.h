@@ -35,7 +35,8 @@ typedef enum brc_case_operator {
     BRC_CASE_MEASURES,  /* nothing */
     BRC_CASE_VIBRATION, /* modes against Rayleigh-Ritz of the scene's box */
     BRC_CASE_DRIFT,     /* energy, momentum and angular momentum along the run */
-    BRC_CASE_BUILD      /* no run: seeds to domain file, timed */
+    BRC_CASE_BUILD,     /* no run: seeds to domain file, timed */
+    BRC_CASE_ISOTROPY   /* no run: directions of bonds over n_seeds samples */
 } brc_case_operator;
 
 typedef struct brc_case_run {
@@ -49,6 +50,7 @@ typedef struct brc_case_run {
     brc_precision precision;
     bool exact;    /* as in brc_device_request */
     int n_threads; /* 0: as the command line says */
+    int n_seeds;   /* isotropy: samples, the seed of every fill one larger each time */
     int n_overrides;
     const char *overrides[BRC_CASE_LIST];
     int n_files;   /* files of the case that the scene reads: put beside it before the run */
@@ -65,6 +67,7 @@ typedef enum brc_case_formula {
     BRC_CASE_WORST,     /* largest magnitude */
     BRC_CASE_ORDER,     /* slope of log |quantity - reference| against log `against`, sign so that convergence is positive */
     BRC_CASE_RANGE,     /* largest minus smallest of a quantity, over its mean */
+    BRC_CASE_RATIO,     /* magnitude of a quantity of the first run over that of the second; exactly two runs */
     BRC_CASE_DIFFERENCE /* largest difference of kept displacements, over the largest displacement; exactly two runs */
 } brc_case_formula;
 

@@ -134,8 +134,10 @@ static void put_rows_of_run(brc_campaign *campaign, const brc_outcome *outcome)
         snprintf(note, sizeof note, "%s%s%s", outcome->note, value || outcome->note[0] ? "" : "the run gives no ",
                  value || outcome->note[0] ? "" : row->quantity);
         /* A stopped run has no value to be trusted. */
+        if (!note[0] && value && !isnan(value->scatter)) snprintf(note, sizeof note, "scatter %.2g", value->scatter);
         put_row(campaign, row, outcome->run->n_labels, outcome->run->labels, outcome,
                 value && outcome->done ? value->value : NAN, reference, unit, note);
+        if (value && !isnan(value->scatter)) brc_rows_number(&campaign->rows, "scatter", value->scatter);
     }
 }
 
@@ -164,6 +166,7 @@ static brc_status carry_out(brc_campaign *campaign)
                 derived->row.unit, note);
     }
     BRC_TRY(brc_rows_write(&campaign->rows, campaign->folder));
+    BRC_TRY(brc_isotropy_figures(campaign));
     printf("%d of %d bounded rows within their bounds; %s/rows.json\n", campaign->n_judged - campaign->n_missed,
            campaign->n_judged, campaign->folder);
     if (campaign->n_missed > 0)
@@ -197,8 +200,10 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &campaign.outcomes, what->n_runs, "outcomes of a case"));
     status = carry_out(&campaign);
 cleanup:
-    for (int k = 0; campaign.outcomes && k < what->n_runs; ++k)
+    for (int k = 0; campaign.outcomes && k < what->n_runs; ++k) {
         brc_memory_free(campaign.outcomes[k].displacement);
+        brc_isotropy_forget(&campaign.outcomes[k]);
+    }
     brc_memory_free(campaign.outcomes);
     brc_rows_free(&campaign.rows);
     brc_case_free(&what);

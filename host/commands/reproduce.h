@@ -3,6 +3,7 @@
 #define BRC_COMMANDS_REPRODUCE_H
 
 #include "../../bench/rows.h"
+#include "../../preprocess/isotropy.h"
 #include "case.h"
 #include "command.h"
 #include "run_scene.h"
@@ -13,6 +14,7 @@ typedef struct brc_case_value {
     char unit[16];
     double value;
     double reference; /* NAN: the case says it, or there is none */
+    double scatter;   /* standard deviation over samples, NAN: there are not several */
 } brc_case_value;
 
 #define BRC_CASE_VALUES 96
@@ -30,6 +32,7 @@ typedef struct brc_outcome {
     int n_values;
     brc_case_value values[BRC_CASE_VALUES];
     double *displacement; /* [n_elements][3] kept on wish; owned */
+    brc_isotropy *isotropy; /* [2] of a run of isotropy: every bond once, weighted with area (empty for beams); owned */
 } brc_outcome;
 
 void brc_outcome_add(brc_outcome *outcome, const char *name, const char *unit, double value, double reference);
@@ -64,6 +67,14 @@ void brc_drift_free(brc_drift **drift);
 brc_observer brc_drift_observer(brc_drift *drift);
 /* energy_drift, momentum_drift, angular_momentum_drift, closure_worst, closure_rms, energy_spread. */
 void brc_drift_values(const brc_drift *drift, brc_outcome *outcome);
+
+/* The isotropy operator: build run->n_seeds samples of the scene (a text, its name a path) and add fabric_anisotropy, cubic,
+ * worst_bin, rms_bin (reference: noise), noise and excess, and the same with _area; means, with their scatter. */
+brc_status brc_isotropy_values(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes);
+/* Free what the operator keeps in an outcome. */
+void brc_isotropy_forget(brc_outcome *outcome);
+/* <case>.png and <case>-area.png into the campaign's folder, where runs of isotropy were made. */
+brc_status brc_isotropy_figures(brc_campaign *campaign);
 
 /* The vibration operator: rms of the relative errors of the modes, and each mode [rad/s] with its exact value. */
 brc_status brc_vibration_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome);

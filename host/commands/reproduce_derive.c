@@ -66,6 +66,7 @@ double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *d
     case BRC_CASE_WORST: return worst;
     case BRC_CASE_ORDER: return slope(derived->n_runs, x, y);
     case BRC_CASE_RANGE: return (high - low) / fabs(sum);
+    case BRC_CASE_RATIO: return derived->n_runs == 2 && y[1] > 0 ? y[0] / y[1] : NAN;
     case BRC_CASE_DIFFERENCE: return derived->n_runs == 2 ? difference(outcomes[0], outcomes[1]) : NAN;
     }
     return NAN;

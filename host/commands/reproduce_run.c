@@ -17,6 +17,7 @@ void brc_outcome_add(brc_outcome *outcome, const char *name, const char *unit, d
     snprintf(to->unit, sizeof to->unit, "%s", unit);
     to->value = value;
     to->reference = reference;
+    to->scatter = NAN;
 }
 
 const brc_case_value *brc_outcome_find(const brc_outcome *outcome, const char *name)
@@ -197,8 +198,9 @@ brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome)
     status = brc_file_join(context, folder, run->scene, &path);
     if (status == BRC_OK) status = put_files(campaign, run, folder);
     if (status == BRC_OK)
-        status = run->operator == BRC_CASE_BUILD ? build(campaign, outcome, path, text, bytes, folder)
-                                                 : simulate(campaign, outcome, path, text, bytes, folder);
+        status = run->operator == BRC_CASE_BUILD      ? build(campaign, outcome, path, text, bytes, folder)
+                 : run->operator == BRC_CASE_ISOTROPY ? brc_isotropy_values(campaign, outcome, path, text, bytes)
+                                                      : simulate(campaign, outcome, path, text, bytes, folder);
     outcome->done = status == BRC_OK || (status == BRC_PHYSICS_STOPPED && run->may_stop);
     if (status != BRC_OK && status != BRC_INTERRUPTED && status != BRC_NO_MEMORY) {
         brc_log(context, outcome->done ? BRC_LOG_INFO : BRC_LOG_ERROR, "run %s: %s", run->name, brc_context_message(context));

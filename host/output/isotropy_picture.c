@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SINGLE = 900, PANEL = 240, PANEL_HEAD = 34, PANEL_FOOT = 26, MONTAGE_HEAD = 44, MONTAGE_FOOT = 40 };
+enum { SINGLE = 900, PANEL = 220, PANEL_HEAD = 32, PANEL_FOOT = 26, MONTAGE_HEAD = 44, MONTAGE_FOOT = 40 };
 
 /* Where a histogram stands. */
 typedef struct place {
@@ -93,7 +93,7 @@ static void paint_histogram(brc_paint *paint, const brc_isotropy *i, const brc_p
         }
         for (int k = 0; k < 3; ++k)
             brc_paint_corner(paint, corner[k][0], corner[k][1]);
-        brc_paint_fill(paint, rgb, faces[f].shade, 0.06);
+        brc_paint_fill(paint, rgb, faces[f].shade, 0);
     }
 }
 
@@ -179,11 +179,11 @@ brc_status brc_isotropy_montage(brc_context *context, int n, const brc_isotropy_
     for (int k = 0; k < n; ++k) {
         const place at = place_of(k, columns);
         draw_scale(&paint, panels[k].isotropy, &view, &at);
-        brc_paint_words(&paint, panels[k].title, at.x, at.y - PANEL / 2.0 - 8, 16, 0.5, true);
-        brc_paint_words(&paint, panels[k].note, at.x, at.y + PANEL / 2.0 + 16, 13, 0.5, false);
+        brc_paint_words(&paint, panels[k].title, at.x, at.y - PANEL / 2.0 - 7, 15, 0.5, true);
+        brc_paint_words(&paint, panels[k].note, at.x, at.y + PANEL / 2.0 + 14, 13, 0.5, false);
     }
-    brc_paint_words(&paint, title, width / 2.0, 30, 20, 0.5, true);
-    write_legend(&paint, width / 2.0, height - 14, 13);
+    brc_paint_words(&paint, title, width / 2.0, 30, 18, 0.5, true);
+    write_legend(&paint, width / 2.0, height - 14, fmin(13, width / 75.0)); /* 135 letters */
     brc_memory_free(faces);
     return brc_paint_end(&paint, path);
 }

@@ -57,6 +57,19 @@ static void mean_and_worst_are_over_the_runs_named(void **state)
     assert_near(derive(m, BRC_CASE_WORST, "spacing", 0, 3, note), 5.75, 1e-12);
 }
 
+static void ratio_is_of_magnitudes_of_two_runs(void **state)
+{
+    (void)state;
+    char note[200];
+    made *m = make();
+    m->outcomes[0].values[0].value = -2;
+    m->outcomes[1].values[0].value = 8;
+    assert_near(derive(m, BRC_CASE_RATIO, "spacing", 0, 2, note), 0.25, 1e-15);
+    assert_true(isnan(derive(m, BRC_CASE_RATIO, "spacing", 0, 3, note)));
+    m->outcomes[1].values[0].value = 0;
+    assert_true(isnan(derive(m, BRC_CASE_RATIO, "spacing", 0, 2, note)));
+}
+
 static void difference_is_largest_over_largest(void **state)
 {
     (void)state;
@@ -122,6 +135,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(order_is_the_slope_against_spacing_or_another_quantity),
         cmocka_unit_test(mean_and_worst_are_over_the_runs_named),
+        cmocka_unit_test(ratio_is_of_magnitudes_of_two_runs),
         cmocka_unit_test(difference_is_largest_over_largest),
         cmocka_unit_test(a_missing_run_gives_no_value_and_a_reason),
         cmocka_unit_test(a_missed_bound_ends_with_one_and_a_kept_one_with_zero),
