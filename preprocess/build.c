@@ -1,12 +1,18 @@
-/* The way from a request to a domain, in the order of the steps: check, walls, grid, seeds, relaxation, cells,
- * half-edges, pose, regions, sets, quality. */
+/* The way from a request to a domain, in the order of the steps: check, solid and walls, seeds, relaxation, cells and half-edges (or spheres
+ * and beams), pose, cracks, regions, grains, sets, quality. */
 #include "build.h"
 
 #include "../host/base/log.h"
 #include "../host/base/memory.h"
-#include "../host/base/version.h"
-#include "cells.h"
+#include "beams.h"
+#include "conform.h"
+#include "cracks.h"
+#include "describe.h"
+#include "estimate.h"
+#include "grains.h"
 #include "halfedge.h"
+#include "packing.h"
+#include "points.h"
 #include "pose.h"
 #include "quality.h"
 #include "seeds.h"
@@ -16,21 +22,36 @@
 #include <omp.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Faces this small carry nothing, and dropping one leaves its two cells open by less than the patch test notices. */
 #define DEFAULT_TINY_FACE 1e-12
-/* While building, cells and half-edges are held at once, and the search of Voro++. */
-#define BUILD_OVER_DOMAIN 2.2
+/* Cells whose volumes sum to something this far from the shape's are refused even if nothing else is asked for. */
+#define WORST_VOLUME_ERROR 0.05
+/* Where walls are exact, volumes sum to the shape's but for rounding; what is more was lost. */
+#define LOST_VOLUME 1e-8
 
-static int n_threads_of(const brc_build_request *request)
+/* What building holds besides the domain. */
+typedef struct work {
+    const brc_build_request *request;
+    int n_threads;
+    brc_solid *solid;
+    brc_walls walls;
+    brc_grid grid;
+    double *position, *radius; /* of the seeds, or spheres; radius NULL: seeds only */
+    int64_t n;
+    double spacing; /* of the seeds [m] */
+} work;
+
+static void work_free(work *w)
 {
-    return request->n_threads > 0 ? request->n_threads : omp_get_max_threads();
+    brc_memory_free(w->position);
+    brc_memory_free(w->radius);
+    brc_walls_free(&w->walls);
+    brc_solid_free(&w->solid);
 }
 
 static brc_status check_request(brc_context *context, const brc_build_request *request)
 {
-    BRC_TRY(brc_shape_check(context, &request->shape));
     BRC_TRY(brc_fill_check(context, &request->fill));
     for (int k = 0; k < 3; ++k)
         if (!isfinite(request->translation[k]) || !isfinite(request->rotation[k]))
@@ -41,97 +62,198 @@ static brc_status check_request(brc_context *context, const brc_build_request *r
                         request->tiny_face_threshold);
     if (request->n_threads < 0)
         return BRC_FAIL(context, BRC_BAD_INPUT, "%d threads, must be 0 (default) or more", request->n_threads);
-    return BRC_OK;
+    if (!(request->beams >= 0.0 && isfinite(request->beams)))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "beams: the coordination number is %g, must be 0 (cells) or more", request->beams);
+    if (request->beams > 0.0 && request->fill.kind == BRC_FILL_NOISY_GRID)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "beams join spheres, and a noisy grid has none: fill with a packing, or with points that have radii");
+    if (request->beams > 0.0 && request->fill.lloyd_sweeps > 0)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: Lloyd sweeps even out cells; spheres have none, leave them out");
+    return brc_cracks_check(context, request->n_cracks, request->cracks);
 }
 
-/* Bonds' ends and free faces per element, fitted to built domains (docs/domain.md). w: cells at a wall, per element. A
- * cell of random seeds has 15.6 neighbours inside, fewer after relaxation, and loses four at a wall. A flat wall gives it
- * one free face; laying p planes a cell over a curved one gives 1 + p (cylinder) or (1 + sqrt p)^2 (sphere). Without
- * noise cells are cubes, until relaxation carries the disorder of a curved wall one layer a sweep inward. */
-static void estimate_faces(const brc_shape *shape, const brc_fill *fill, double h, double w, double *half_edges,
-                           double *free_faces)
+/* Everything known before a seed is placed: solid, walls, grid. What is held is the caller's to free in any case. */
+static brc_status plan(brc_context *context, const brc_build_request *request, work *w)
 {
-    const double sweeps = fill->lloyd_sweeps, r = shape->radius;
-    const bool sphere = shape->kind == BRC_SHAPE_SPHERE, cylinder = shape->kind == BRC_SHAPE_CYLINDER;
-    const double planes = brc_shape_planes(shape, h);
-    *free_faces = w;
-    if (cylinder) *free_faces = w * (r + (1.0 + planes * h / (6.283185307 * r)) * shape->length) / (r + shape->length);
-    if (sphere) *free_faces = w * pow(1.0 + sqrt(planes * h * h / 12.566370614) / r, 2.0);
-    if (fill->spread > 0.0) {
-        *half_edges = 14.9 + 0.7 * exp(-sweeps / 3.0) - 4.1 * w;
-    } else {
-        const double disorder = 1.0 - pow(fmax(0.0, 1.0 - w), sweeps);
-        *half_edges = 6.0 - (sphere ? 0.0 : cylinder ? 0.7 : 1.0) * w + (sphere ? 8.5 : cylinder ? 2.0 : 0.0) * disorder;
-    }
-}
-
-/* Bytes of a finished domain, by the sizes of domain.h. */
-static int64_t estimate_bytes(const brc_shape *shape, const brc_fill *fill, double n)
-{
-    double bounds[2][3], side[3], half_edges, free_faces;
-    brc_shape_bounds(shape, bounds);
-    for (int k = 0; k < 3; ++k) side[k] = bounds[1][k] - bounds[0][k];
-    const double r = shape->radius, h = cbrt(brc_shape_volume(shape) / n);
-    double surface = 2.0 * (side[0] * side[1] + side[1] * side[2] + side[2] * side[0]);
-    if (shape->kind == BRC_SHAPE_CYLINDER) surface = 6.283185307 * r * (r + shape->length);
-    if (shape->kind == BRC_SHAPE_SPHERE) surface = 12.566370614 * r * r;
-    estimate_faces(shape, fill, h, surface / (h * h * n), &half_edges, &free_faces);
-    const double corners = 2.0 * (half_edges + free_faces) - 4.0; /* three faces meet in a corner */
-    const double element = 3 * 8 + 8 + 3 * 8 + 6 * 8 + 4 + 4 + 3 * 8, half_edge = 3 * 4 + 6 * 8 + 2;
-    const double free_face = 2 * 4 + 6 * 8 + 8 + 5.2 * 4 + 4;
-    return (int64_t)(n * (element + half_edges * half_edge + free_faces * free_face + corners * 3 * 8));
-}
-
-static brc_status check_memory(brc_context *context, double n, double bytes)
-{
-    const double physical = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    const double needed = BUILD_OVER_DOMAIN * bytes;
-    if (physical <= 0.0 || needed <= physical) return BRC_OK;
-    return BRC_FAIL(context, BRC_BAD_INPUT,
-                    "fill: building %.3g elements needs about %.3g GB, this machine has %.3g GB; ask for at most %.2g "
-                    "elements",
-                    n, needed * 1e-9, physical * 1e-9, n * physical / needed);
-}
-
-/* Walls and grid, which both building and estimating need. *walls is the caller's to free in any case. */
-static brc_status plan(brc_context *context, const brc_build_request *request, brc_walls *walls, brc_grid *grid)
-{
-    memset(walls, 0, sizeof *walls);
+    memset(w, 0, sizeof *w);
+    w->request = request;
+    w->n_threads = request->n_threads > 0 ? request->n_threads : omp_get_max_threads();
     BRC_TRY(check_request(context, request));
-    const double spacing = brc_fill_spacing(&request->shape, &request->fill);
-    /* before anything is allocated by the number of elements */
-    const double n = brc_shape_volume(&request->shape) / (spacing * spacing * spacing);
-    if (n > 1e12)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: a spacing of %g m gives %.3g elements; use larger cells", spacing, n);
-    BRC_TRY(check_memory(context, n, (double)estimate_bytes(&request->shape, &request->fill, n) / 2.0));
-    BRC_TRY(brc_walls_create(context, &request->shape, spacing, walls));
-    BRC_TRY(brc_grid_plan(context, &request->shape, &request->fill, walls, n_threads_of(request), grid));
-    const double inside = (double)grid->n_inside;
-    return check_memory(context, inside, (double)estimate_bytes(&request->shape, &request->fill, inside));
+    BRC_TRY(brc_solid_create(context, &request->shape, w->n_threads, &w->solid));
+    if (request->fill.kind == BRC_FILL_POINTS) {
+        BRC_TRY(brc_points_read(context, request->fill.file, request->fill.scale, &w->position, &w->radius, &w->n));
+        if (w->n < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "fill: %s has no points", request->fill.file);
+    } else {
+        /* before anything is allocated by the number of elements */
+        const double n = brc_estimate_elements(w->solid, &request->fill);
+        if (n > 1e12)
+            return BRC_FAIL(context, BRC_BAD_INPUT, "fill: a spacing of %g m gives %.3g elements; use larger cells",
+                            brc_fill_spacing(w->solid, &request->fill), n);
+        BRC_TRY(brc_estimate_check_memory(context, n, brc_estimate_bytes(w->solid, request, n) / 2.0));
+        w->n = (int64_t)fmax(1.0, n);
+    }
+    w->spacing = cbrt(brc_solid_volume(w->solid, NULL) / (double)w->n);
+    if (request->fill.kind == BRC_FILL_NOISY_GRID) w->spacing = brc_fill_spacing(w->solid, &request->fill);
+    BRC_TRY(brc_walls_create(context, w->solid, w->spacing, &w->walls));
+    if (request->fill.kind == BRC_FILL_NOISY_GRID) {
+        BRC_TRY(brc_grid_plan(context, &request->fill, &w->walls, w->n_threads, &w->grid));
+        w->n = w->grid.n_inside;
+    }
+    return brc_estimate_check_memory(context, (double)w->n, brc_estimate_bytes(w->solid, request, (double)w->n));
 }
 
 brc_status brc_domain_estimate(brc_context *context, const brc_build_request *request, int64_t *n_elements,
                                int64_t *bytes)
 {
-    brc_walls walls;
-    brc_grid grid;
-    const brc_status status = plan(context, request, &walls, &grid);
+    work w;
+    const brc_status status = plan(context, request, &w);
     if (status == BRC_OK) {
-        *n_elements = grid.n_inside;
-        *bytes = estimate_bytes(&request->shape, &request->fill, (double)grid.n_inside);
+        *n_elements = w.n;
+        *bytes = (int64_t)brc_estimate_bytes(w.solid, request, (double)w.n);
     }
-    brc_walls_free(&walls);
+    work_free(&w);
     return status;
 }
 
-static brc_status name_walls(brc_context *context, const brc_walls *walls, brc_domain *domain)
+/* Points come from elsewhere: all must lie in the shape, and in places of their own. */
+static brc_status check_points(brc_context *context, const work *w)
 {
-    BRC_TRY(BRC_ALLOCATE(context, &domain->wall_name, walls->n_walls, "wall names"));
-    for (int32_t w = 0; w < walls->n_walls; ++w) {
-        BRC_TRY(BRC_ALLOCATE(context, &domain->wall_name[w], (int64_t)strlen(walls->wall_name[w]) + 1, "wall name"));
-        strcpy(domain->wall_name[w], walls->wall_name[w]);
+    int64_t outside = 0, first = -1;
+    for (int64_t e = 0; e < w->n; ++e) {
+        if (brc_solid_inside(w->solid, w->position + 3 * e, 0.0)) continue;
+        if (first < 0) first = e;
+        ++outside;
+    }
+    if (outside == 0) return BRC_OK;
+    const double *x = w->position + 3 * first;
+    return BRC_FAIL(context, BRC_BAD_INPUT,
+                    "fill: %lld of %lld points of %s lie outside the shape, the first (point %lld) at (%g, %g, %g) m; check scale, origin and size", (long long)outside,
+                    (long long)w->n, w->request->fill.file, (long long)first + 1, x[0], x[1], x[2]);
+}
+
+static brc_status place_seeds(brc_context *context, work *w, brc_quality *quality)
+{
+    const brc_fill *fill = &w->request->fill;
+    brc_packing packing;
+    quality->n_seeds_requested = fill->n_elements > 0 ? fill->n_elements : w->n;
+    switch (fill->kind) {
+    case BRC_FILL_NOISY_GRID: return brc_seeds_draw(context, &w->grid, fill, &w->walls, &w->position, &w->n, &quality->n_seeds_duplicate);
+    case BRC_FILL_PACKING:
+        BRC_TRY(brc_packing_make(context, w->solid, fill, w->n_threads, &packing));
+        w->position = packing.position;
+        w->radius = packing.radius;
+        w->n = packing.n;
+        return BRC_OK;
+    case BRC_FILL_POINTS: return check_points(context, w);
+    }
+    return BRC_FAIL(context, BRC_INTERNAL, "fill: kind %d was not refused", (int)fill->kind);
+}
+
+/* A crack in the coordinates of the shape, before the pose. */
+static brc_crack turned_back(const brc_crack *crack, const brc_build_request *request)
+{
+    double m[3][3];
+    brc_crack out = *crack;
+    const double *const vector[3] = {crack->normal, crack->edge[0], crack->edge[1]};
+    double *const turned[3] = {out.normal, out.edge[0], out.edge[1]};
+    const double *origin = request->shape.origin;
+    brc_pose_matrix(request->rotation, m);
+    for (int i = 0; i < 3; ++i) {
+        out.point[i] = origin[i];
+        for (int k = 0; k < 3; ++k) out.point[i] += m[k][i] * (crack->point[k] - request->translation[k] - origin[k]);
+        for (int v = 0; v < 3; ++v) turned[v][i] = m[0][i] * vector[v][0] + m[1][i] * vector[v][1] + m[2][i] * vector[v][2];
+    }
+    return out;
+}
+
+/* Seeds next to flat cracks become mirror images of one another; images outside the solid are dropped. */
+static brc_status mirror_at_cracks(brc_context *context, work *w)
+{
+    const brc_build_request *request = w->request;
+    brc_crack *crack = NULL;
+    brc_status status = BRC_OK;
+    bool flat = false;
+    for (int32_t k = 0; k < request->n_cracks; ++k) flat = flat || request->cracks[k].flat;
+    if (!flat) return BRC_OK;
+    const int64_t room = 2 * w->n, before = w->n;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &crack, request->n_cracks, "cracks"));
+    for (int32_t k = 0; k < request->n_cracks; ++k) crack[k] = turned_back(&request->cracks[k], request);
+    BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&w->position, 3 * room, sizeof(double), "seeds at cracks"));
+    BRC_TRY_OR(cleanup, brc_cracks_mirror_seeds(context, request->n_cracks, crack, w->spacing, w->position, &w->n, room));
+    int64_t to = 0;
+    for (int64_t e = 0; e < w->n; ++e) {
+        if (!brc_walls_inside(&w->walls, w->position + 3 * e, 1e-6 * w->spacing)) continue;
+        memmove(w->position + 3 * to++, w->position + 3 * e, 3 * sizeof(double));
+    }
+    w->n = to;
+    if (w->n < 1) status = BRC_FAIL(context, BRC_INTERNAL, "no seed of %lld is left at the cracks", (long long)before);
+cleanup:
+    brc_memory_free(crack);
+    return status;
+}
+
+static brc_status name_walls(brc_context *context, const brc_solid *solid, brc_domain *domain)
+{
+    const int32_t n = brc_solid_n_walls(solid);
+    BRC_TRY(BRC_ALLOCATE(context, &domain->wall_name, n, "wall names"));
+    for (int32_t w = 0; w < n; ++w) {
+        const char *name = brc_solid_wall_name(solid, w);
+        BRC_TRY(BRC_ALLOCATE(context, &domain->wall_name[w], (int64_t)strlen(name) + 1, "wall name"));
+        strcpy(domain->wall_name[w], name);
         domain->n_walls = w + 1;
     }
+    return BRC_OK;
+}
+
+static brc_status check_volume(brc_context *context, const work *w, const brc_domain *domain)
+{
+    double exact;
+    const brc_quality *q = &domain->quality;
+    brc_solid_volume(w->solid, &exact);
+    if (!w->walls.mirrored && !(fabs(q->volume_error) < LOST_VOLUME + exact))
+        return BRC_FAIL(context, BRC_INTERNAL,
+                        "the volumes of the cells sum to %.12g m^3, the shape has %.12g m^3: cells were lost",
+                        q->volume_cells, q->volume_shape);
+    if (!(fabs(q->volume_error) < WORST_VOLUME_ERROR))
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "shape: cells %.3g m wide fill %.2f %% more or less than the shape of %.6g m^3 has: they are too coarse for its round or thin places; ask for more "
+                        "elements (the error falls with the square of the cell size)",
+                        w->spacing, 100.0 * q->volume_error, q->volume_shape);
+    return BRC_OK;
+}
+
+/* Seeds to cells to half-edges, in the coordinates of the shape. */
+static brc_status build_cells(brc_context *context, work *w, brc_domain *domain)
+{
+    const brc_build_request *request = w->request;
+    const double threshold = request->tiny_face_threshold > 0.0 ? request->tiny_face_threshold : DEFAULT_TINY_FACE;
+    brc_cells cells = {.n_elements = 0};
+    brc_status status = BRC_OK;
+    w->spacing = cbrt(brc_solid_volume(w->solid, NULL) / (double)w->n);
+    for (int32_t sweep = 0; sweep < request->fill.lloyd_sweeps; ++sweep) {
+        char what[64];
+        snprintf(what, sizeof what, "Lloyd sweep %d of %d", sweep + 1, request->fill.lloyd_sweeps);
+        BRC_TRY_OR(cleanup, brc_conform_walls(context, w->position, w->n, w->spacing, false, w->n_threads, &w->walls));
+        BRC_TRY_OR(cleanup, brc_cells_relax(context, w->position, w->n, &w->walls, w->spacing, w->n_threads, what));
+    }
+    BRC_TRY_OR(cleanup, mirror_at_cracks(context, w));
+    domain->position = w->position;
+    domain->n_elements = w->n;
+    w->position = NULL;
+    BRC_TRY_OR(cleanup, brc_conform_cells(context, domain->position, w->n, w->spacing, w->n_threads, &w->walls, &cells));
+    BRC_TRY_OR(cleanup, brc_half_edges_build(context, &cells, threshold, w->n_threads, domain));
+    BRC_TRY_OR(cleanup, brc_conform_check(context, &w->walls, w->spacing, w->n_threads, domain));
+    status = name_walls(context, w->solid, domain);
+cleanup:
+    brc_cells_free(&cells);
+    return status;
+}
+
+static brc_status build_beams(brc_context *context, work *w, brc_domain *domain)
+{
+    if (!w->radius)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "beams join spheres, and the points of %s have no radii: add a column radius or diameter, or build cells", w->request->fill.file);
+    BRC_TRY(brc_beams_build(context, w->solid, w->position, w->radius, w->n, w->request->beams, w->n_threads, domain));
+    w->position = w->radius = NULL; /* the domain's now */
     return BRC_OK;
 }
 
@@ -156,81 +278,43 @@ static brc_status set_regions(brc_context *context, const brc_build_request *req
     return BRC_OK;
 }
 
-static brc_status describe(brc_context *context, const brc_build_request *request, const brc_grid *grid,
-                           brc_domain *domain)
+/* Everything named or measured in posed coordinates. */
+static brc_status finish(brc_context *context, const work *w, brc_domain *domain)
 {
-    const brc_shape *s = &request->shape;
-    const brc_fill *f = &request->fill;
-    char shape[192];
-    if (s->kind == BRC_SHAPE_BOX)
-        snprintf(shape, sizeof shape, "box %.17g x %.17g x %.17g m", s->size[0], s->size[1], s->size[2]);
-    else if (s->kind == BRC_SHAPE_CYLINDER)
-        snprintf(shape, sizeof shape, "cylinder along %c, length %.17g m, radius %.17g m", "xyz"[s->axis], s->length,
-                 s->radius);
-    else
-        snprintf(shape, sizeof shape, "sphere, radius %.17g m", s->radius);
-    enum { ROOM = 768 };
-    BRC_TRY(BRC_ALLOCATE(context, &domain->provenance, ROOM, "provenance"));
-    snprintf(domain->provenance, ROOM,
-             "breccia %s; %s at (%.17g, %.17g, %.17g) m; noisy grid %lld x %lld x %lld, spread %.17g, seed %llu, "
-             "%d Lloyd sweeps; translation (%.17g, %.17g, %.17g) m, rotation (%.17g, %.17g, %.17g) rad; Voro++ 0.4.6",
-             brc_version(), shape, s->origin[0], s->origin[1], s->origin[2], (long long)grid->cells[0],
-             (long long)grid->cells[1], (long long)grid->cells[2], f->spread, (unsigned long long)f->seed,
-             f->lloyd_sweeps, request->translation[0], request->translation[1], request->translation[2],
-             request->rotation[0], request->rotation[1], request->rotation[2]);
-    return BRC_OK;
-}
-
-/* What follows the half-edges: everything named or measured in posed coordinates. */
-static brc_status finish(brc_context *context, const brc_build_request *request, const brc_walls *walls,
-                         const brc_grid *grid, brc_domain *domain)
-{
+    const brc_build_request *request = w->request;
     brc_pose_apply(request->shape.origin, request->rotation, request->translation, domain);
-    BRC_TRY(name_walls(context, walls, domain));
-    domain->quality.volume_shape = brc_shape_volume(&request->shape);
-    brc_quality_measure(domain, n_threads_of(request));
-    if (!(fabs(domain->quality.volume_error) < 1e-8))
-        return BRC_FAIL(context, BRC_INTERNAL,
-                        "the volumes of the cells sum to %.12g m^3, the shape has %.12g m^3: cells were lost",
-                        domain->quality.volume_cells, domain->quality.volume_shape);
+    domain->quality.volume_shape = brc_solid_volume(w->solid, NULL);
+    if (request->n_cracks > 0) {
+        int64_t n_cut;
+        BRC_TRY(brc_cracks_cut(context, request->n_cracks, request->cracks, domain, &n_cut));
+        brc_log(context, BRC_LOG_INFO, "%d cracks cut %lld bonds", request->n_cracks, (long long)n_cut);
+    }
+    brc_quality_measure(domain, w->n_threads);
+    if (domain->element_kind == BRC_ELEMENT_CELL) BRC_TRY(check_volume(context, w, domain));
     BRC_TRY(set_regions(context, request, domain));
+    if (request->grains.n > 0 || request->grains.size > 0.0)
+        BRC_TRY(brc_grains_assign(context, &request->grains, request->n_regions, w->n_threads, domain));
     BRC_TRY(brc_sets_build(context, request->n_sets, request->sets, domain));
-    return describe(context, request, grid, domain);
+    BRC_TRY(brc_quality_judge(context, domain, request->n_limits, request->limits));
+    return brc_describe(context, request, &w->grid, domain);
 }
 
 brc_status brc_domain_build(brc_context *context, const brc_build_request *request, brc_domain **out)
 {
     *out = NULL;
-    brc_walls walls;
-    brc_grid grid;
-    brc_cells cells = {.n_elements = 0};
+    work w;
     brc_domain *domain = NULL;
-    const int n_threads = n_threads_of(request);
-    brc_status status = plan(context, request, &walls, &grid);
+    brc_status status = plan(context, request, &w);
     if (status != BRC_OK) goto cleanup;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain, 1, "domain"));
-    const brc_fill *fill = &request->fill;
-    brc_quality *quality = &domain->quality;
-    quality->n_seeds_requested = fill->n_elements > 0 ? fill->n_elements : grid.n_inside;
-    BRC_TRY_OR(cleanup, brc_seeds_draw(context, &grid, fill, &walls, &domain->position, &domain->n_elements,
-                                       &quality->n_seeds_duplicate));
-    const double spacing = cbrt(brc_shape_volume(&request->shape) / (double)domain->n_elements);
-    for (int32_t sweep = 0; sweep < fill->lloyd_sweeps; ++sweep) {
-        char what[64];
-        snprintf(what, sizeof what, "Lloyd sweep %d of %d", sweep + 1, fill->lloyd_sweeps);
-        BRC_TRY_OR(cleanup, brc_cells_relax(context, domain->position, domain->n_elements, &walls, spacing, n_threads,
-                                            what));
-    }
-    BRC_TRY_OR(cleanup, brc_cells_compute(context, domain->position, domain->n_elements, &walls, spacing, n_threads,
-                                          &cells));
-    const double threshold = request->tiny_face_threshold > 0.0 ? request->tiny_face_threshold : DEFAULT_TINY_FACE;
-    BRC_TRY_OR(cleanup, brc_half_edges_build(context, &cells, threshold, n_threads, domain));
-    BRC_TRY_OR(cleanup, finish(context, request, &walls, &grid, domain));
+    BRC_TRY_OR(cleanup, place_seeds(context, &w, &domain->quality));
+    if (request->beams > 0.0) BRC_TRY_OR(cleanup, build_beams(context, &w, domain));
+    else BRC_TRY_OR(cleanup, build_cells(context, &w, domain));
+    BRC_TRY_OR(cleanup, finish(context, &w, domain));
     *out = domain;
     domain = NULL;
 cleanup:
-    brc_cells_free(&cells);
-    brc_walls_free(&walls);
+    work_free(&w);
     brc_domain_free(&domain);
     return status;
 }

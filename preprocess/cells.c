@@ -24,8 +24,11 @@ enum { MOST_FACES = 4096 };
 typedef struct shared {
     brc_context *context;
     const double *position;
+    int64_t n;
     const brc_walls *walls;
     brc_voronoi *voronoi;
+    bool open; /* a cell reaches beyond mirrored walls */
+    double *farthest; /* [n_runs] of a corner from its seed, squared [m^2] */
     double face_limit; /* area below which a face may lie anywhere: rounding of a degenerate corner [m^2] */
     brc_status status;
     int64_t failed;
@@ -76,7 +79,7 @@ static bool reserve_cell(shared *all, brc_cell_run *run, const brc_polyhedron *c
     const column corners[] = {{(void **)&run->vertex, 3 * sizeof(double)}};
     int64_t n_free = 0, n_polygon = 0;
     for (int32_t f = 0; f < cell->n_faces; ++f)
-        if (cell->face_other[f] < 0) {
+        if (cell->face_other[f] < 0 || cell->face_other[f] >= all->n) {
             ++n_free;
             n_polygon += cell->face_start[f + 1] - cell->face_start[f];
         }
@@ -99,31 +102,48 @@ static void add_shared(const shared *all, brc_cell_run *run, const brc_polyhedro
     run->neighbour[run->n_faces++] = key.other;
 }
 
+/* Outward normal, distance from the seed and wall of a free face; wall -1: a side of the box that is no wall of the solid. */
+static int32_t free_plane(const shared *all, const double x[3], int32_t other, double normal[3], double *height)
+{
+    const brc_walls *walls = all->walls;
+    const int side = -1 - other;
+    if (other >= 0) { /* a ghost: the bisector, as with a neighbour */
+        const double *y = walls->ghost + 3 * (int64_t)(other - all->n);
+        const double r[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
+        const double length = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+        for (int d = 0; d < 3; ++d) normal[d] = r[d] / length;
+        *height = 0.5 * length;
+        return walls->ghost_wall[other - all->n];
+    }
+    if (side < 6) {
+        const double sign = side % 2 ? 1.0 : -1.0;
+        normal[0] = normal[1] = normal[2] = 0.0;
+        normal[side / 2] = sign;
+        *height = sign * (walls->box[side % 2][side / 2] - x[side / 2]);
+        return walls->side_wall[side];
+    }
+    const int32_t k = BRC_PLANE(other); /* its own inverse */
+    memcpy(normal, brc_walls_normal(walls, k), 3 * sizeof *normal);
+    *height = brc_walls_depth(walls, k, x);
+    return brc_walls_wall(walls, k);
+}
+
 /* A free face lies on its wall; false when it lies on a side of the box that is no wall of the shape. */
 static bool add_free(const shared *all, brc_cell_run *run, const brc_polyhedron *cell, int64_t e, face_key key)
 {
-    const brc_walls *walls = all->walls;
     const double *x = all->position + 3 * e;
-    double normal[3] = {0.0, 0.0, 0.0}, height, area;
+    double normal[3], height, area;
     double *s = run->free_geometry + 6 * run->n_free, *c = s + 3;
     const int side = -1 - key.other;
-    if (side < 6) {
-        const double sign = side % 2 ? 1.0 : -1.0;
-        normal[side / 2] = sign;
-        height = sign * (walls->box[side % 2][side / 2] - x[side / 2]);
-    } else {
-        const int32_t k = BRC_PLANE(key.other); /* its own inverse */
-        memcpy(normal, walls->normal + 3 * (int64_t)k, sizeof normal);
-        height = brc_walls_depth(walls, k, x);
-    }
+    const int32_t wall = free_plane(all, x, key.other, normal, &height);
     brc_polyhedron_face(cell, key.face, normal, height, &area, c);
-    if (side < 6 && walls->side_wall[side] < 0) return area <= all->face_limit;
+    if (wall < 0) return area <= all->face_limit;
     for (int d = 0; d < 3; ++d) {
         s[d] = area * normal[d];
         c[d] += x[d];
     }
-    if (side < 6) c[side / 2] = walls->box[side % 2][side / 2]; /* exactly on the wall */
-    run->free_wall[run->n_free] = side < 6 ? walls->side_wall[side] : walls->plane_wall;
+    if (side >= 0 && side < 6) c[side / 2] = all->walls->box[side % 2][side / 2]; /* exactly on the wall */
+    run->free_wall[run->n_free] = wall;
     const int32_t first = cell->face_start[key.face], n = cell->face_start[key.face + 1] - first;
     memcpy(run->polygon + run->n_polygon, cell->face_vertex + first, (size_t)n * sizeof(int32_t));
     run->free_corners[run->n_free++] = n;
@@ -131,7 +151,7 @@ static bool add_free(const shared *all, brc_cell_run *run, const brc_polyhedron 
     return true;
 }
 
-/* Write down one cell; the reason when it is not a proper one. */
+/* Write down one cell; the reason when it is not a proper one. Free faces: by wall and plane, those to ghosts last. */
 static const char *add_cell(shared *all, brc_cells *cells, brc_cell_run *run, const brc_polyhedron *cell, int64_t e)
 {
     const double *x = all->position + 3 * e;
@@ -147,17 +167,26 @@ static const char *add_cell(shared *all, brc_cells *cells, brc_cell_run *run, co
     if (!(cells->volume[e] > 0.0)) return "its cell has no volume";
     for (int d = 0; d < 3; ++d) cells->centroid[3 * e + d] += x[d];
     const int64_t faces_before = run->n_faces, free_before = run->n_free;
-    for (int32_t f = cell->n_faces - 1; f >= 0 && key[f].other >= 0; --f) cells->n_faces[e]++;
-    const int32_t n_outer = cell->n_faces - cells->n_faces[e];
-    for (int32_t f = n_outer; f < cell->n_faces; ++f) add_shared(all, run, cell, e, key[f]);
+    int32_t n_outer = 0, first_ghost = cell->n_faces;
+    while (n_outer < cell->n_faces && key[n_outer].other < 0) ++n_outer;
+    while (first_ghost > 0 && key[first_ghost - 1].other >= all->n) --first_ghost;
+    for (int32_t f = n_outer; f < first_ghost; ++f) add_shared(all, run, cell, e, key[f]);
     for (int32_t f = n_outer - 1; f >= 0; --f) /* downwards: -1 is the first side, -7 the first plane */
-        if (!add_free(all, run, cell, e, key[f])) return "its cell reaches beyond the curved wall";
+        if (!add_free(all, run, cell, e, key[f])) {
+            if (!all->walls->mirrored) return "its cell reaches beyond the curved wall";
+#pragma omp atomic write
+            all->open = true;
+        }
+    for (int32_t f = first_ghost; f < cell->n_faces; ++f) add_free(all, run, cell, e, key[f]);
     cells->n_faces[e] = (int32_t)(run->n_faces - faces_before);
     cells->n_free[e] = (int32_t)(run->n_free - free_before);
     cells->n_corners[e] = cell->n_vertices;
     double *v = run->vertex + 3 * run->n_vertices;
-    for (int32_t p = 0; p < cell->n_vertices; ++p)
-        for (int d = 0; d < 3; ++d) v[3 * p + d] = cell->vertex[3 * p + d] + x[d];
+    for (int32_t p = 0; p < cell->n_vertices; ++p) {
+        const double *r = cell->vertex + 3 * p;
+        all->farthest[e / BRC_RUN_LENGTH] = fmax(all->farthest[e / BRC_RUN_LENGTH], r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+        for (int d = 0; d < 3; ++d) v[3 * p + d] = r[d] + x[d];
+    }
     run->n_vertices += cell->n_vertices;
     return NULL;
 }
@@ -212,11 +241,12 @@ brc_status brc_cells_compute(brc_context *context, const double *position, int64
                              double spacing, int n_threads, brc_cells *cells)
 {
     memset(cells, 0, sizeof *cells);
-    shared all = {.context = context, .position = position, .walls = walls, .status = BRC_OK,
+    shared all = {.context = context, .position = position, .n = n, .walls = walls, .status = BRC_OK,
                   .face_limit = 1e-12 * spacing * spacing};
     brc_progress *progress = NULL;
     brc_status status = allocate(context, cells, n);
     if (status != BRC_OK) goto cleanup;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &all.farthest, cells->n_runs, "farthest corners"));
     BRC_TRY_OR(cleanup, brc_voronoi_create(context, position, n, walls, spacing, &all.voronoi));
     BRC_TRY_OR(cleanup, brc_progress_create(context, &progress, "Voronoi cells", n, "cells", 0.0, NULL));
     int64_t done = 0;
@@ -239,9 +269,12 @@ brc_status brc_cells_compute(brc_context *context, const double *position, int64
         brc_voronoi_worker_free(&worker);
     }
     status = report(&all, n);
+    for (int64_t r = 0; r < cells->n_runs; ++r) cells->farthest_corner = fmax(cells->farthest_corner, sqrt(all.farthest[r]));
+    if (all.open) cells->farthest_corner = HUGE_VAL;
 cleanup:
     brc_progress_finish(&progress);
     brc_voronoi_free(&all.voronoi);
+    brc_memory_free(all.farthest);
     if (status != BRC_OK) brc_cells_free(cells);
     return status;
 }
@@ -258,7 +291,7 @@ static void settle(const double x[3], double spacing, double move[3])
 brc_status brc_cells_relax(brc_context *context, double *position, int64_t n, const brc_walls *walls, double spacing,
                            int n_threads, const char *what)
 {
-    shared all = {.context = context, .position = position, .walls = walls, .status = BRC_OK};
+    shared all = {.context = context, .position = position, .n = n, .walls = walls, .status = BRC_OK};
     double *fresh = NULL;
     brc_progress *progress = NULL;
     brc_status status = BRC_ALLOCATE(context, &fresh, 3 * n, "relaxed seeds");

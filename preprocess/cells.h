@@ -36,10 +36,12 @@ typedef struct brc_cells {
     double *volume;     /* [n_elements] [m^3] */
     double *centroid;   /* [n_elements][3] [m] */
     double *inertia;    /* [n_elements][6] about the centroid at unit density [m^5] */
+    double farthest_corner; /* of any cell from its seed [m]; HUGE_VAL where a cell reaches beyond mirrored walls */
 } brc_cells;
 
 /* Compute all cells. BRC_INTERNAL when a cell comes out wrong (with the element and its position), BRC_BAD_INPUT and
- * BRC_NO_MEMORY as brc_voronoi_create. n_threads >= 1. Caller frees with brc_cells_free. */
+ * BRC_NO_MEMORY as brc_voronoi_create. Cells that reach beyond mirrored walls are no failure but have no place in a domain: see
+ * farthest_corner. n_threads >= 1. Caller frees with brc_cells_free. */
 brc_status brc_cells_compute(brc_context *context, const double *position, int64_t n, const brc_walls *walls,
                              double spacing, int n_threads, brc_cells *cells);
 /* Free one run, or everything; both accept what is already free. */

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* Rodrigues' formula; exact unit matrix for the zero vector. */
-static void rotation_matrix(const double v[3], double m[3][3])
+/* Rodrigues' formula. */
+void brc_pose_matrix(const double v[3], double m[3][3])
 {
     const double angle = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     const double s = angle > 0.0 ? sin(angle) / angle : 1.0;
@@ -76,7 +76,7 @@ void brc_pose_apply(const double origin[3], const double rotation[3], const doub
     const bool rotate = rotation[0] != 0.0 || rotation[1] != 0.0 || rotation[2] != 0.0;
     const bool translate = translation[0] != 0.0 || translation[1] != 0.0 || translation[2] != 0.0;
     double m[3][3];
-    rotation_matrix(rotation, m);
+    brc_pose_matrix(rotation, m);
     if (rotate || translate) {
         move(m, origin, translation, domain->position, n, rotate);
         move(m, origin, translation, domain->centroid, n, rotate);

@@ -13,11 +13,11 @@
 #define DEFAULT_MIN_DISTANCE 1e-6
 /* Less noise than this cannot be told from the rounding of a regular grid. */
 #define LEAST_SPREAD 1e-4
+/* Volume fraction of a random packing at rest: what a number of spheres is guessed from. */
+#define TYPICAL_PACKING 0.63
 
-brc_status brc_fill_check(brc_context *context, const brc_fill *fill)
+static brc_status check_grid(brc_context *context, const brc_fill *fill)
 {
-    if (fill->kind != BRC_FILL_NOISY_GRID)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: kind %d is unknown, must be the noisy grid", (int)fill->kind);
     const bool cells = fill->cells[0] != 0 || fill->cells[1] != 0 || fill->cells[2] != 0;
     const int given = (fill->n_elements != 0) + (fill->spacing != 0.0) + cells;
     if (given != 1)
@@ -25,9 +25,6 @@ brc_status brc_fill_check(brc_context *context, const brc_fill *fill)
                         "fill: %d of the number of elements, the spacing and the grid cells are given, must be exactly "
                         "one of them",
                         given);
-    if (fill->n_elements < 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: %lld elements wanted, must be at least 1",
-                        (long long)fill->n_elements);
     if (fill->spacing != 0.0 && !(isfinite(fill->spacing) && fill->spacing > 0.0))
         return BRC_FAIL(context, BRC_BAD_INPUT, "fill: spacing is %g m, must be finite and > 0", fill->spacing);
     for (int k = 0; k < 3 && cells; ++k)
@@ -40,6 +37,61 @@ brc_status brc_fill_check(brc_context *context, const brc_fill *fill)
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "fill: spread %g leaves faces as small as rounding; use 0 for cubes, or %g or more", fill->spread,
                         LEAST_SPREAD);
+    return BRC_OK;
+}
+
+static brc_status check_radii(brc_context *context, const brc_fill *fill)
+{
+    const brc_radius *r = fill->radii;
+    const int32_t n = fill->n_radii;
+    if (!(fill->radius_spread >= 0.0 && fill->radius_spread <= 0.9))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the spread of the radii is %g, must be 0 to 0.9", fill->radius_spread);
+    if (n == 0) return BRC_OK;
+    if (fill->radius_spread != 0.0) return BRC_FAIL(context, BRC_BAD_INPUT, "fill: give a spread of the radii or a table of them, not both");
+    if (n < 2) return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the table of radii has %d point, must have 2 or more", n);
+    for (int32_t k = 0; k < n; ++k) {
+        if (!(isfinite(r[k].radius) && r[k].radius > 0.0 && (k == 0 || r[k].radius >= r[k - 1].radius)))
+            return BRC_FAIL(context, BRC_BAD_INPUT, "fill: radius %d of the table is %g m, must be > 0 and not below the one before it", k + 1, r[k].radius);
+        if (!(r[k].fraction >= 0.0 && r[k].fraction <= 1.0 && (k == 0 || r[k].fraction >= r[k - 1].fraction)))
+            return BRC_FAIL(context, BRC_BAD_INPUT, "fill: fraction %d of the table of radii is %g, must be 0 to 1 and not below the one before it", k + 1,
+                            r[k].fraction);
+    }
+    if (r[0].fraction != 0.0 || r[n - 1].fraction != 1.0)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the table of radii runs from the fraction %g to %g, must run from 0 to 1", r[0].fraction,
+                        r[n - 1].fraction);
+    return BRC_OK;
+}
+
+static brc_status check_packing(brc_context *context, const brc_fill *fill)
+{
+    if ((fill->n_elements != 0) == (fill->radius != 0.0))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: a packing needs either the number of elements or their mean radius");
+    if (fill->radius != 0.0 && !(isfinite(fill->radius) && fill->radius > 0.0))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the mean radius is %g m, must be finite and > 0", fill->radius);
+    if ((fill->coordination != 0.0) == (fill->volume_fraction != 0.0))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: a packing needs either a coordination number (6.2 say) or a volume fraction (0.63 say)");
+    if (!(fill->coordination >= 0.0 && fill->coordination <= 12.0))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the coordination number is %g, must be up to 12; 5.8 to 7 can be reached at rest", fill->coordination);
+    if (!(fill->volume_fraction >= 0.0 && fill->volume_fraction < 1.0))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the volume fraction is %g, must be above 0 and below 1", fill->volume_fraction);
+    if (!(fill->tolerance >= 0.0 && isfinite(fill->tolerance)))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the tolerance is %g, must be 0 (default) or more", fill->tolerance);
+    return check_radii(context, fill);
+}
+
+brc_status brc_fill_check(brc_context *context, const brc_fill *fill)
+{
+    if (fill->n_elements < 0)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: %lld elements wanted, must be at least 1", (long long)fill->n_elements);
+    switch (fill->kind) {
+    case BRC_FILL_NOISY_GRID: BRC_TRY(check_grid(context, fill)); break;
+    case BRC_FILL_PACKING: BRC_TRY(check_packing(context, fill)); break;
+    case BRC_FILL_POINTS:
+        if (!(isfinite(fill->scale) && fill->scale > 0.0))
+            return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the scale of the points is %g m per unit of the file, must be finite and > 0", fill->scale);
+        break;
+    default: return BRC_FAIL(context, BRC_BAD_INPUT, "fill: kind %d is unknown, must be noisy grid, packing or points", (int)fill->kind);
+    }
     if (fill->lloyd_sweeps < 0)
         return BRC_FAIL(context, BRC_BAD_INPUT, "fill: %d Lloyd sweeps, must be 0 or more", fill->lloyd_sweeps);
     if (!(fill->min_distance >= 0.0 && isfinite(fill->min_distance)))
@@ -48,12 +100,14 @@ brc_status brc_fill_check(brc_context *context, const brc_fill *fill)
     return BRC_OK;
 }
 
-double brc_fill_spacing(const brc_shape *shape, const brc_fill *fill)
+double brc_fill_spacing(const brc_solid *solid, const brc_fill *fill)
 {
+    const double shape = brc_solid_volume(solid, NULL);
     if (fill->spacing > 0.0) return fill->spacing;
-    if (fill->n_elements > 0) return cbrt(brc_shape_volume(shape) / (double)fill->n_elements);
+    if (fill->n_elements > 0) return cbrt(shape / (double)fill->n_elements);
+    if (fill->radius > 0.0) return fill->radius * cbrt(4.0 / 3.0 * 3.14159265358979323846 / TYPICAL_PACKING);
     double bounds[2][3], volume = 1.0;
-    brc_shape_bounds(shape, bounds);
+    brc_solid_bounds(solid, bounds);
     for (int k = 0; k < 3; ++k) volume *= (bounds[1][k] - bounds[0][k]) / (double)fill->cells[k];
     return cbrt(volume);
 }
@@ -114,16 +168,21 @@ static void box_cells(const double size[3], int64_t n, int64_t cells[3])
             }
 }
 
+/* May the grid end exactly at both sides of the solid along k? */
+static bool flat_along(const brc_walls *walls, int k)
+{
+    return walls->flat_side[2 * k] && walls->flat_side[2 * k + 1];
+}
+
 /* Grid for a spacing h: exact between flat walls, centred and standing out where the wall is curved. */
-static void lay_grid(const brc_shape *shape, double h, brc_grid *grid)
+static void lay_grid(const brc_walls *walls, double h, brc_grid *grid)
 {
     double bounds[2][3];
-    brc_shape_bounds(shape, bounds);
+    brc_solid_bounds(walls->solid, bounds);
     for (int k = 0; k < 3; ++k) {
         const double size = bounds[1][k] - bounds[0][k];
-        const bool flat = shape->kind == BRC_SHAPE_BOX || (shape->kind == BRC_SHAPE_CYLINDER && k == shape->axis);
         const double wanted = size / h;
-        if (flat) {
+        if (flat_along(walls, k)) {
             grid->cells[k] = wanted < 1.0 ? 1 : llround(wanted);
             grid->spacing[k] = size / (double)grid->cells[k];
         } else {
@@ -135,10 +194,22 @@ static void lay_grid(const brc_shape *shape, double h, brc_grid *grid)
     }
 }
 
-static brc_status check_thickness(brc_context *context, const brc_shape *shape, const brc_grid *grid)
+/* Grid with given cells over the bounds. */
+static void fill_bounds(const brc_walls *walls, const int64_t cells[3], brc_grid *grid)
 {
     double bounds[2][3];
-    brc_shape_bounds(shape, bounds);
+    brc_solid_bounds(walls->solid, bounds);
+    for (int k = 0; k < 3; ++k) {
+        grid->cells[k] = cells[k];
+        grid->origin[k] = bounds[0][k];
+        grid->spacing[k] = (bounds[1][k] - bounds[0][k]) / (double)cells[k];
+    }
+}
+
+static brc_status check_thickness(brc_context *context, const brc_solid *solid, const brc_grid *grid)
+{
+    double bounds[2][3];
+    brc_solid_bounds(solid, bounds);
     for (int k = 0; k < 3; ++k) {
         const double size = bounds[1][k] - bounds[0][k];
         const double across = size / grid->spacing[k];
@@ -147,7 +218,7 @@ static brc_status check_thickness(brc_context *context, const brc_shape *shape, 
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "fill: %.3g cells across %c (%g m), must be at least 2, for one layer gives the strain nothing "
                         "to hold on to; use a spacing of %g m or less (about %.3g elements or more) or a thicker body",
-                        across, "xyz"[k], size, h, ceil(brc_shape_volume(shape) / (h * h * h)));
+                        across, "xyz"[k], size, h, ceil(brc_solid_volume(solid, NULL) / (h * h * h)));
     }
     return BRC_OK;
 }
@@ -163,17 +234,26 @@ static brc_status check_size(brc_context *context, const brc_grid *grid)
 }
 
 /* Spacing whose grid leaves as nearly as possible n seeds inside: the count falls with h^3, with jumps; secant steps
- * from the exact volume, the best one kept. */
-static brc_status search_spacing(brc_context *context, const brc_shape *shape, const brc_fill *fill,
-                                 const brc_walls *walls, int n_threads, brc_grid *best)
+ * from the exact volume, the best one kept. Between flat walls all round, where the spacing cannot be chosen freely, the same search
+ * runs over the number of cells that the bounds would hold. */
+static brc_status search_spacing(brc_context *context, const brc_fill *fill, const brc_walls *walls, int n_threads, brc_grid *best)
 {
     enum { TRIES = 12 };
     const int64_t n = fill->n_elements;
-    double h = cbrt(brc_shape_volume(shape) / (double)n);
+    const bool boxed = flat_along(walls, 0) && flat_along(walls, 1) && flat_along(walls, 2);
+    double h = cbrt(brc_solid_volume(walls->solid, NULL) / (double)n), bounds[2][3];
+    brc_solid_bounds(walls->solid, bounds);
+    const double size[3] = {bounds[1][0] - bounds[0][0], bounds[1][1] - bounds[0][1], bounds[1][2] - bounds[0][2]};
     int64_t least = INT64_MAX;
     for (int t = 0; t < TRIES && least != 0; ++t) {
         brc_grid grid = *best;
-        lay_grid(shape, h, &grid);
+        if (boxed) {
+            int64_t cells[3];
+            box_cells(size, llround(fmax(1.0, size[0] * size[1] * size[2] / (h * h * h))), cells);
+            fill_bounds(walls, cells, &grid);
+        } else {
+            lay_grid(walls, h, &grid);
+        }
         BRC_TRY(check_size(context, &grid));
         grid.n_inside = count_inside(&grid, fill, walls, n_threads);
         const int64_t off = llabs(grid.n_inside - n);
@@ -188,33 +268,25 @@ static brc_status search_spacing(brc_context *context, const brc_shape *shape, c
     return BRC_OK;
 }
 
-brc_status brc_grid_plan(brc_context *context, const brc_shape *shape, const brc_fill *fill, const brc_walls *walls,
-                         int n_threads, brc_grid *grid)
+brc_status brc_grid_plan(brc_context *context, const brc_fill *fill, const brc_walls *walls, int n_threads, brc_grid *grid)
 {
     *grid = (brc_grid){.n_requested = fill->n_elements};
-    double bounds[2][3];
-    brc_shape_bounds(shape, bounds);
-    const double h = brc_fill_spacing(shape, fill);
-    if (fill->cells[0] > 0 || (fill->n_elements > 0 && shape->kind == BRC_SHAPE_BOX)) {
-        if (fill->cells[0] > 0)
-            for (int k = 0; k < 3; ++k) grid->cells[k] = fill->cells[k];
-        else
-            box_cells(shape->size, fill->n_elements, grid->cells);
-        for (int k = 0; k < 3; ++k) {
-            grid->origin[k] = bounds[0][k];
-            grid->spacing[k] = (bounds[1][k] - bounds[0][k]) / (double)grid->cells[k];
-        }
+    const brc_shape *shape = brc_solid_shape(walls->solid);
+    const bool box = shape->kind == BRC_SHAPE_BOX;
+    if (fill->cells[0] > 0 || (fill->n_elements > 0 && box)) {
+        int64_t cells[3] = {fill->cells[0], fill->cells[1], fill->cells[2]};
+        if (cells[0] == 0) box_cells(shape->size, fill->n_elements, cells);
+        fill_bounds(walls, cells, grid);
     } else {
-        lay_grid(shape, h, grid);
+        lay_grid(walls, brc_fill_spacing(walls->solid, fill), grid);
     }
     BRC_TRY(check_size(context, grid));
-    BRC_TRY(check_thickness(context, shape, grid));
-    if (fill->n_elements > 0 && shape->kind != BRC_SHAPE_BOX) {
-        BRC_TRY(search_spacing(context, shape, fill, walls, n_threads, grid));
-        BRC_TRY(check_thickness(context, shape, grid));
+    BRC_TRY(check_thickness(context, walls->solid, grid));
+    if (fill->n_elements > 0 && !box) {
+        BRC_TRY(search_spacing(context, fill, walls, n_threads, grid));
+        BRC_TRY(check_thickness(context, walls->solid, grid));
     } else {
-        grid->n_inside = shape->kind == BRC_SHAPE_BOX ? grid->cells[0] * grid->cells[1] * grid->cells[2]
-                                                      : count_inside(grid, fill, walls, n_threads);
+        grid->n_inside = box ? grid->cells[0] * grid->cells[1] * grid->cells[2] : count_inside(grid, fill, walls, n_threads);
     }
     const double least = fmin(grid->spacing[0], fmin(grid->spacing[1], grid->spacing[2]));
     if (fill->min_distance > least)

@@ -200,6 +200,23 @@ bool brc_solid_is_convex(const brc_solid *solid)
     return solid->convex;
 }
 
+int32_t brc_solid_n_hull_planes(const brc_solid *solid)
+{
+    int32_t n = 0;
+    for (int32_t s = 0; s < solid->n_surfaces; ++s) n += solid->surface[s].hull != 0.0;
+    return n;
+}
+
+void brc_solid_hull_plane(const brc_solid *solid, int32_t plane, double normal[3], double *offset, int32_t *wall)
+{
+    int32_t s = 0;
+    while (solid->surface[s].hull == 0.0 || plane-- > 0) ++s;
+    const brc_surface *surface = &solid->surface[s];
+    for (int d = 0; d < 3; ++d) normal[d] = surface->hull * surface->axis[d];
+    *offset = brc_dot3(normal, surface->point);
+    *wall = surface->wall;
+}
+
 bool brc_solid_member(const brc_solid *solid, const double x[3])
 {
     bool in = false;

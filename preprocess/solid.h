@@ -15,6 +15,7 @@ typedef struct brc_foot {
     int32_t wall;     /* index of the wall */
     bool plane;       /* the wall is flat there and its plane bounds the solid all around x: mirror images across it stay exact
                        * even where the foot lies beyond an edge */
+    bool hull;        /* and it has the whole solid on one side (brc_solid_hull_plane) */
 } brc_foot;
 
 /* Check and prepare. BRC_BAD_INPUT with what to change: sizes that are not finite and positive, a torus that meets itself, parts
@@ -44,5 +45,10 @@ bool brc_solid_inside(const brc_solid *solid, const double x[3], double margin);
 int32_t brc_solid_feet(const brc_solid *solid, const double x[3], double reach, brc_foot *feet, int32_t most);
 /* Distance of x to the surface [m]: positive inside, negative outside. */
 double brc_solid_depth(const brc_solid *solid, const double x[3]);
+/* Distance of x, inside or outside, to the surface, or `reach` [m] where it is not nearer. */
+double brc_solid_distance(const brc_solid *solid, const double x[3], double reach);
+/* The planes with the whole solid on one side that are walls: x is on it or inside where normal . x <= offset [m]. */
+int32_t brc_solid_n_hull_planes(const brc_solid *solid);
+void brc_solid_hull_plane(const brc_solid *solid, int32_t plane, double normal[3], double *offset, int32_t *wall);
 
 #endif

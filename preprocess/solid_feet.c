@@ -228,6 +228,15 @@ double brc_solid_depth(const brc_solid *solid, const double x[3])
     }
 }
 
+double brc_solid_distance(const brc_solid *solid, const double x[3], double reach)
+{
+    near_surface near[MOST_NEAR];
+    double point[3];
+    int32_t wall;
+    if (solid->n_leaves == 1 && solid->n_surfaces == 1) return fmin(reach, fabs(brc_surface_height(solid, &solid->surface[0], x, NULL)));
+    return nearest(solid, x, near, gather(solid, x, reach, near), reach, point, &wall);
+}
+
 /* Add a foot unless an earlier one is the same place. */
 static int32_t add_foot(brc_foot *feet, int32_t n, int32_t most, const brc_foot *foot)
 {
@@ -277,7 +286,8 @@ int32_t brc_solid_feet(const brc_solid *solid, const double x[3], double reach, 
     double least = HUGE_VAL;
     for (int i = 0; i < n_near; ++i) {
         const near_surface *a = &near[i];
-        brc_foot foot = {.depth = fabs(a->height), .wall = a->surface->wall, .plane = a->surface->kind == BRC_SURFACE_PLANE};
+        brc_foot foot = {.depth = fabs(a->height), .wall = a->surface->wall, .plane = a->surface->kind == BRC_SURFACE_PLANE,
+                         .hull = a->surface->hull != 0.0};
         for (int d = 0; d < 3; ++d) foot.normal[d] = a->height < 0.0 ? a->normal[d] : -a->normal[d];
         if (!(foot.depth > 0.0)) continue;
         const int side = sides(solid, a->point, a->probe);

@@ -1,7 +1,6 @@
 /* One leaf of a solid: its checks, its surfaces and walls, and how far it reaches in a direction. */
+#include "pose.h"
 #include "solid_internal.h"
-
-#include "../host/base/memory.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -154,21 +153,12 @@ static void add_surfaces(brc_solid *solid, const char *part, const brc_shape *s)
     }
 }
 
-/* Rodrigues' formula for the axes of the part; exactly the unit matrix without rotation. */
 static void place(brc_leaf *leaf, const brc_shape_part *part)
 {
-    const double *v = part->rotation, angle = brc_length3(v);
-    const double s = angle > 0.0 ? sin(angle) / angle : 1.0, half = sin(0.5 * angle);
-    const double c = angle > 0.0 ? 2.0 * half * half / (angle * angle) : 0.5;
-    const double k[3][3] = {{0.0, -v[2], v[1]}, {v[2], 0.0, -v[0]}, {-v[1], v[0], 0.0}};
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            const double square = k[i][0] * k[0][j] + k[i][1] * k[1][j] + k[i][2] * k[2][j];
-            leaf->frame[i][j] = (i == j) + s * k[i][j] + c * square;
-        }
+    brc_pose_matrix(part->rotation, leaf->frame);
     memcpy(leaf->pivot, part->shape.origin, sizeof leaf->pivot);
     memcpy(leaf->shift, part->translation, sizeof leaf->shift);
-    leaf->posed = angle > 0.0 || brc_length3(part->translation) > 0.0;
+    leaf->posed = brc_length3(part->rotation) > 0.0 || brc_length3(part->translation) > 0.0;
 }
 
 brc_status brc_leaf_create(brc_context *context, brc_solid *solid, const brc_shape_part *part, int n_threads)
@@ -189,7 +179,7 @@ brc_status brc_leaf_create(brc_context *context, brc_solid *solid, const brc_sha
         for (int sign = 0; sign < 2; ++sign) {
             double direction[3] = {0.0, 0.0, 0.0};
             direction[k] = sign ? 1.0 : -1.0;
-            leaf->bounds[sign][k] = direction[k] * brc_leaf_support(leaf, direction);
+            leaf->bounds[sign][k] = direction[k] * brc_leaf_support(leaf, direction) + 0.0; /* no negative zero */
         }
     ++solid->n_leaves;
     return BRC_OK;

@@ -138,6 +138,13 @@ static void across(const double u[3], double e1[3], double e2[3])
     const double length = brc_length3(e1);
     for (int d = 0; d < 3; ++d) e1[d] /= length;
     for (int d = 0; d < 3; ++d) e2[d] = u[(d + 1) % 3] * e1[(d + 2) % 3] - u[(d + 2) % 3] * e1[(d + 1) % 3];
+    /* turned about u, for e1 is the shadow of an axis and the shadows of edges must not run along the rows of lines */
+    const double c = cos(0.6), s = sin(0.6);
+    for (int d = 0; d < 3; ++d) {
+        const double a = e1[d], b = e2[d];
+        e1[d] = c * a + s * b;
+        e2[d] = c * b - s * a;
+    }
 }
 
 /* Volume and crossings along n x n lines of direction u through the bounds; *per_line: area a line stands for. */

@@ -6,7 +6,7 @@
  * 4e-14 of a squared spacing, above the rounding of the coordinates and far below any face that matters. */
 extern "C" {
 #include "../host/base/status.h"
-#include "shape.h"
+#include "walls.h"
 }
 #include "voronoi.h"
 
@@ -25,26 +25,31 @@ constexpr int MOST_IN_BLOCK = 10000;
  * reach the finished cell cuts it afterwards. */
 constexpr double FIRST_REACH = 2.0;
 
-/* Cut a cell by the planes of the curved wall with low <= depth < high; depths and reach in metres. */
+template <class Cell> bool cut_by_plane(const brc_walls &walls, Cell &cell, int32_t k, const double x[3], double scale, double low, double high)
+{
+    const double depth = brc_walls_depth(&walls, k, x);
+    if (depth < low || depth >= high) return true;
+    /* Voro++'s plane is {y : y . a <= b / 2}; a is about a branch vector long, so that its tolerance means the same */
+    const double *n = brc_walls_normal(&walls, k);
+    return cell.nplane(10.0 * n[0], 10.0 * n[1], 10.0 * n[2], 20.0 * depth * scale, BRC_PLANE(k));
+}
+
+/* Cut a cell by the planes with low <= depth < high; depths and reach in metres. */
 template <class Cell>
 bool cut_by_planes(const brc_walls &walls, Cell &cell, const double x[3], double scale, double low, double high)
 {
     int64_t first, count;
     brc_walls_near(&walls, x, high, &first, &count);
-    for (int64_t m = first; m < first + count; ++m) {
-        const int32_t k = static_cast<int32_t>(m % walls.n_planes);
-        const double depth = brc_walls_depth(&walls, k, x);
-        if (depth < low || depth >= high) continue;
-        /* Voro++'s plane is {y : y . a <= b / 2}; a is about a branch vector long, so that its tolerance means the same */
-        const double *n = walls.normal + 3 * static_cast<int64_t>(k);
-        if (!cell.nplane(10.0 * n[0], 10.0 * n[1], 10.0 * n[2], 20.0 * depth * scale, BRC_PLANE(k))) return false;
-    }
+    for (int64_t m = first; m < first + count; ++m)
+        if (!cut_by_plane(walls, cell, static_cast<int32_t>(m % walls.n_planes), x, scale, low, high)) return false;
+    for (int32_t k = walls.n_planes; k < walls.n_planes + walls.n_flats; ++k)
+        if (!cut_by_plane(walls, cell, k, x, scale, low, high)) return false;
     return true;
 }
 
-class curved_wall final : public voro::wall {
+class planes final : public voro::wall {
 public:
-    curved_wall(const brc_walls &walls, double scale, double reach) : walls_(walls), scale_(scale), reach_(reach) {}
+    planes(const brc_walls &walls, double scale, double reach) : walls_(walls), scale_(scale), reach_(reach) {}
     bool point_inside(double, double, double) override { return true; } /* checked before */
     bool cut_cell(voro::voronoicell &cell, double x, double y, double z) override { return cut(cell, x, y, z); }
     bool cut_cell(voro::voronoicell_neighbor &cell, double x, double y, double z) override
@@ -85,7 +90,7 @@ struct brc_voronoi {
     const double *position;
     const brc_walls *walls;
     double scale, reach;
-    std::unique_ptr<curved_wall> wall;
+    std::unique_ptr<planes> wall;
     std::unique_ptr<voro::container> container;
     std::vector<int> block, slot; /* where each point lies in the container */
 };
@@ -103,10 +108,47 @@ struct brc_voronoi_worker {
     }
 };
 
-/* Put the points into the container; refuse what Voro++ would lose or end the program over. */
-static brc_status fill_container(brc_context *context, brc_voronoi &v, int64_t n)
+/* Put a point into the container; refuse what Voro++ would lose or end the program over. Ghosts are counted on after the n seeds. */
+static brc_status put(brc_context *context, brc_voronoi &v, int64_t id, int64_t n, const double *x)
 {
     voro::container &c = *v.container;
+    const double y[3] = {x[0] * v.scale, x[1] * v.scale, x[2] * v.scale};
+    /* Voro++'s own formula for the block, needed before put() to know the crowd and to find the point again */
+    int index[3];
+    const double low[3] = {c.ax, c.ay, c.az}, inverse[3] = {c.xsp, c.ysp, c.zsp};
+    const int blocks[3] = {c.nx, c.ny, c.nz};
+    bool inside = true;
+    for (int k = 0; k < 3; ++k) {
+        index[k] = static_cast<int>(std::floor((y[k] - low[k]) * inverse[k]));
+        inside = inside && index[k] >= 0 && index[k] < blocks[k];
+    }
+    const int block = index[0] + c.nx * (index[1] + c.ny * index[2]);
+    if (!inside && id >= n) return BRC_FAIL(context, BRC_INTERNAL, "a mirror image at (%g, %g, %g) m lies outside the box of the search", x[0], x[1], x[2]);
+    if (!inside)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "seed %lld at (%g, %g, %g) m touches the outline of the shape",
+                        (long long)id, x[0], x[1], x[2]);
+    const int crowd = c.co[block];
+    if (crowd >= MOST_IN_BLOCK)
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "seeds: more than %d points crowd near (%g, %g, %g) m; spread the seeds more evenly",
+                        MOST_IN_BLOCK, x[0], x[1], x[2]);
+    for (int q = 0; q < crowd; ++q) { /* equal points share a block */
+        const double *other = c.p[block] + 3 * q;
+        if (other[0] == y[0] && other[1] == y[1] && other[2] == y[2])
+            return BRC_FAIL(context, BRC_BAD_INPUT, "%s %lld and %lld are the same point (%g, %g, %g) m", id < n ? "seeds" : "points (mirror images come last)",
+                            (long long)c.id[block][q], (long long)id, x[0], x[1], x[2]);
+    }
+    c.put(static_cast<int>(id), y[0], y[1], y[2]);
+    if (c.co[block] != crowd + 1 || c.id[block][crowd] != id)
+        return BRC_FAIL(context, BRC_INTERNAL, "Voro++ did not take seed %lld", (long long)id);
+    if (id >= n) return BRC_OK;
+    v.block[static_cast<size_t>(id)] = block;
+    v.slot[static_cast<size_t>(id)] = crowd;
+    return BRC_OK;
+}
+
+static brc_status fill_container(brc_context *context, brc_voronoi &v, int64_t n)
+{
     v.block.resize(static_cast<size_t>(n));
     v.slot.resize(static_cast<size_t>(n));
     for (int64_t e = 0; e < n; ++e) {
@@ -114,40 +156,13 @@ static brc_status fill_container(brc_context *context, brc_voronoi &v, int64_t n
         if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
             return BRC_FAIL(context, BRC_BAD_INPUT, "seed %lld: position (%g, %g, %g) is not finite", (long long)e,
                             x[0], x[1], x[2]);
-        if (!brc_walls_inside(v.walls, x, 0.0))
+        /* whoever made ghosts has asked the solid already */
+        if (v.walls->n_ghosts == 0 && !brc_walls_inside(v.walls, x, 0.0))
             return BRC_FAIL(context, BRC_BAD_INPUT, "seed %lld at (%g, %g, %g) m lies outside the shape", (long long)e,
                             x[0], x[1], x[2]);
-        const double y[3] = {x[0] * v.scale, x[1] * v.scale, x[2] * v.scale};
-        /* Voro++'s own formula for the block, needed before put() to know the crowd and to find the point again */
-        int index[3];
-        const double low[3] = {c.ax, c.ay, c.az}, inverse[3] = {c.xsp, c.ysp, c.zsp};
-        const int blocks[3] = {c.nx, c.ny, c.nz};
-        bool inside = true;
-        for (int k = 0; k < 3; ++k) {
-            index[k] = static_cast<int>(std::floor((y[k] - low[k]) * inverse[k]));
-            inside = inside && index[k] >= 0 && index[k] < blocks[k];
-        }
-        const int block = index[0] + c.nx * (index[1] + c.ny * index[2]);
-        if (!inside)
-            return BRC_FAIL(context, BRC_BAD_INPUT, "seed %lld at (%g, %g, %g) m touches the outline of the shape",
-                            (long long)e, x[0], x[1], x[2]);
-        const int crowd = c.co[block];
-        if (crowd >= MOST_IN_BLOCK)
-            return BRC_FAIL(context, BRC_BAD_INPUT,
-                            "seeds: more than %d points crowd near (%g, %g, %g) m; spread the seeds more evenly",
-                            MOST_IN_BLOCK, x[0], x[1], x[2]);
-        for (int q = 0; q < crowd; ++q) { /* equal points share a block */
-            const double *other = c.p[block] + 3 * q;
-            if (other[0] == y[0] && other[1] == y[1] && other[2] == y[2])
-                return BRC_FAIL(context, BRC_BAD_INPUT, "seeds %d and %lld are the same point (%g, %g, %g) m",
-                                c.id[block][q], (long long)e, x[0], x[1], x[2]);
-        }
-        c.put(static_cast<int>(e), y[0], y[1], y[2]);
-        if (c.co[block] != crowd + 1 || c.id[block][crowd] != e)
-            return BRC_FAIL(context, BRC_INTERNAL, "Voro++ did not take seed %lld", (long long)e);
-        v.block[static_cast<size_t>(e)] = block;
-        v.slot[static_cast<size_t>(e)] = crowd;
+        BRC_TRY(put(context, v, e, n, x));
     }
+    for (int64_t g = 0; g < v.walls->n_ghosts; ++g) BRC_TRY(put(context, v, n + g, n, v.walls->ghost + 3 * g));
     return BRC_OK;
 }
 
@@ -155,8 +170,8 @@ extern "C" brc_status brc_voronoi_create(brc_context *context, const double *pos
                                          const brc_walls *walls, double spacing, brc_voronoi **out)
 {
     *out = nullptr;
-    if (n < 1 || n > INT32_MAX)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%lld seeds: there must be at least 1 and fewer than 2^31",
+    if (n < 1 || n + walls->n_ghosts > INT32_MAX)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "%lld seeds: there must be at least 1 and fewer than 2^31 with their mirror images",
                         (long long)n);
     try {
         std::unique_ptr<brc_voronoi> v(new brc_voronoi);
@@ -176,8 +191,8 @@ extern "C" brc_status brc_voronoi_create(brc_context *context, const double *pos
         }
         v->container.reset(new voro::container(low[0], high[0], low[1], high[1], low[2], high[2], blocks[0], blocks[1],
                                                blocks[2], false, false, false, 8));
-        if (walls->n_planes > 0) {
-            v->wall.reset(new curved_wall(*walls, v->scale, v->reach));
+        if (walls->n_planes + walls->n_flats > 0) {
+            v->wall.reset(new planes(*walls, v->scale, v->reach));
             v->container->add_wall(*v->wall);
         }
         const brc_status status = fill_container(context, *v, n);
@@ -254,7 +269,7 @@ extern "C" brc_status brc_voronoi_cell(brc_voronoi_worker *worker, int64_t e, br
         const int k = block / (con.nx * con.ny), rest = block - k * con.nx * con.ny;
         if (!w.compute.compute_cell(w.cell, block, v.slot[static_cast<size_t>(e)], rest % con.nx, rest / con.nx, k))
             return BRC_INTERNAL;
-        if (v.walls->n_planes > 0) {
+        if (v.walls->n_planes + v.walls->n_flats > 0) {
             double square = 0.0; /* Voro++ keeps corners times two */
             for (const double *p = w.cell.pts; p < w.cell.pts + 3 * w.cell.p; p += 3)
                 square = std::fmax(square, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);

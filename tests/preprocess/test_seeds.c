@@ -11,11 +11,14 @@ static double *draw(brc_context *context, const brc_build_request *r, brc_grid *
 {
     brc_walls walls;
     double *position;
-    assert_int_equal(brc_walls_create(context, &r->shape, brc_fill_spacing(&r->shape, &r->fill), &walls), BRC_OK);
-    assert_int_equal(brc_grid_plan(context, &r->shape, &r->fill, &walls, 1, grid), BRC_OK);
+    brc_solid *solid = NULL;
+    assert_int_equal(brc_solid_create(context, &r->shape, 1, &solid), BRC_OK);
+    assert_int_equal(brc_walls_create(context, solid, brc_fill_spacing(solid, &r->fill), &walls), BRC_OK);
+    assert_int_equal(brc_grid_plan(context, &r->fill, &walls, 1, grid), BRC_OK);
     assert_int_equal(brc_seeds_draw(context, grid, &r->fill, &walls, &position, n, n_duplicate), BRC_OK);
     for (int64_t e = 0; e < *n; ++e) assert_true(brc_walls_inside(&walls, position + 3 * e, 0.0));
     brc_walls_free(&walls);
+    brc_solid_free(&solid);
     return position;
 }
 

@@ -260,6 +260,16 @@ static void wrong_shapes_are_refused_with_the_cure(void **state)
     s = FRUSTUM;
     s.length = -1.0;
     refused(*state, &s, "the length of the cone is -1 m");
+    s = (brc_shape){.kind = BRC_SHAPE_BOX, .size = {1.0, 0.0, 1.0}};
+    refused(*state, &s, "an edge length of the box is 0 m");
+    s.size[1] = NAN;
+    refused(*state, &s, "must be finite and > 0");
+    s = (brc_shape){.kind = BRC_SHAPE_CYLINDER, .length = 1.0, .radius = 1.0, .axis = 3};
+    refused(*state, &s, "axis of the cylinder is 3");
+    s = (brc_shape){.kind = BRC_SHAPE_SPHERE, .radius = INFINITY};
+    refused(*state, &s, "the radius of the sphere");
+    s = (brc_shape){.kind = (brc_shape_kind)99};
+    refused(*state, &s, "kind 99 is unknown");
     s = (brc_shape){.kind = BRC_SHAPE_HALF_SPACE, .normal = {1, 0, 0}};
     refused(*state, &s, "as a part");
     s = (brc_shape){.kind = BRC_SHAPE_PARTS};

@@ -5,18 +5,26 @@
 
 #include <string.h>
 
-static brc_walls unit_box(brc_context *context)
+static brc_solid *unit_box(brc_context *context, brc_walls *walls)
 {
     const brc_shape shape = {.kind = BRC_SHAPE_BOX, .size = {1.0, 1.0, 1.0}};
-    brc_walls walls;
-    assert_int_equal(brc_walls_create(context, &shape, 0.5, &walls), BRC_OK);
-    return walls;
+    brc_solid *solid = NULL;
+    assert_int_equal(brc_solid_create(context, &shape, 1, &solid), BRC_OK);
+    assert_int_equal(brc_walls_create(context, solid, 0.5, walls), BRC_OK);
+    return solid;
+}
+
+static void release(brc_solid **solid, brc_walls *walls)
+{
+    brc_walls_free(walls);
+    brc_solid_free(solid);
 }
 
 /* Two points in a unit cube share it by the plane x = 0.5: the first cell is a slab with the corners of half the cube. */
 static void two_points_share_the_cube_at_their_bisector(void **state)
 {
-    const brc_walls walls = unit_box(*state);
+    brc_walls walls;
+    brc_solid *solid = unit_box(*state, &walls);
     const double x[6] = {0.25, 0.5, 0.5, 0.75, 0.5, 0.5};
     brc_voronoi *voronoi;
     assert_int_equal(brc_voronoi_create(*state, x, 2, &walls, 0.5, &voronoi), BRC_OK);
@@ -38,12 +46,14 @@ static void two_points_share_the_cube_at_their_bisector(void **state)
     assert_int_equal(seen, 1 << 7 | 1 << 5 | 1 << 3 | 1 << 2 | 1 << 1 | 1 << 0);
     brc_voronoi_worker_free(&worker);
     brc_voronoi_free(&voronoi);
+    release(&solid, &walls);
 }
 
 static void a_cell_does_not_depend_on_the_worker_or_on_what_it_did_before(void **state)
 {
     enum { N = 200 };
-    const brc_walls walls = unit_box(*state);
+    brc_walls walls;
+    brc_solid *solid = unit_box(*state, &walls);
     double x[3 * N];
     for (int e = 0; e < N; ++e) {
         double draw[4];
@@ -67,12 +77,14 @@ static void a_cell_does_not_depend_on_the_worker_or_on_what_it_did_before(void *
     }
     brc_voronoi_worker_free(&used);
     brc_voronoi_free(&voronoi);
+    release(&solid, &walls);
 }
 
 static void points_voro_would_lose_silently_are_refused(void **state)
 {
     brc_context *context = *state;
-    const brc_walls walls = unit_box(context);
+    brc_walls walls;
+    brc_solid *solid = unit_box(context, &walls);
     const struct {
         double x[9];
         const char *says;
@@ -87,6 +99,7 @@ static void points_voro_would_lose_silently_are_refused(void **state)
         assert_null(voronoi);
         test_says(context, cases[k].says);
     }
+    release(&solid, &walls);
 }
 
 /* Voro++ leaves the program when 2^24 points fall into one of its blocks; the wrapper refuses long before. */
@@ -95,7 +108,8 @@ static void a_crowd_in_one_spot_is_refused(void **state)
     brc_context *context = *state;
     enum { N = 10002 };
     static double x[3 * N];
-    const brc_walls walls = unit_box(context);
+    brc_walls walls;
+    brc_solid *solid = unit_box(context, &walls);
     for (int e = 0; e < N; ++e) {
         x[3 * e] = 0.5 + 1e-6 * e;
         x[3 * e + 1] = x[3 * e + 2] = 0.5;
@@ -103,6 +117,7 @@ static void a_crowd_in_one_spot_is_refused(void **state)
     brc_voronoi *voronoi;
     assert_int_equal(brc_voronoi_create(context, x, N, &walls, 0.5, &voronoi), BRC_BAD_INPUT);
     test_says(context, "crowd near");
+    release(&solid, &walls);
 }
 
 int main(void)

@@ -1,7 +1,7 @@
 /* A curved wall is replaced by planes at one common distance from its centre, chosen so that the polyhedron has exactly
  * the volume of the curved shape: nothing is scaled afterwards. A cylinder becomes a regular prism, a sphere the
- * polyhedron of half-spaces whose normals lie on a Fibonacci lattice. */
-#include "shape.h"
+ * polyhedron of half-spaces whose normals lie on a Fibonacci lattice, a cone a pyramid about its tip. */
+#include "walls.h"
 
 #include "../host/base/memory.h"
 
@@ -13,69 +13,18 @@
 /* Curved walls never get coarser than this: volume is exact at any number, but the outline should look round. */
 enum { LEAST_PRISM_SIDES = 32, LEAST_SPHERE_PLANES = 256 };
 
-static const char *const side_name[6] = {"x-", "x+", "y-", "y+", "z-", "z+"};
-
-static brc_status check_size(brc_context *context, const char *what, double value)
+double brc_walls_n_planes(const brc_shape *shape, double spacing)
 {
-    if (isfinite(value) && value > 0.0) return BRC_OK;
-    return BRC_FAIL(context, BRC_BAD_INPUT, "shape: %s is %g m, must be finite and > 0", what, value);
-}
-
-brc_status brc_shape_check(brc_context *context, const brc_shape *shape)
-{
-    for (int k = 0; k < 3; ++k)
-        if (!isfinite(shape->origin[k]))
-            return BRC_FAIL(context, BRC_BAD_INPUT, "shape: origin has the component %g, must be finite",
-                            shape->origin[k]);
+    const double r = (shape->kind == BRC_SHAPE_CONE ? fmax(shape->radius, shape->radius2) : shape->radius) / spacing;
     switch (shape->kind) {
-    case BRC_SHAPE_BOX:
-        for (int k = 0; k < 3; ++k) BRC_TRY(check_size(context, "an edge length of the box", shape->size[k]));
-        return BRC_OK;
     case BRC_SHAPE_CYLINDER:
-        if (shape->axis < 0 || shape->axis > 2)
-            return BRC_FAIL(context, BRC_BAD_INPUT, "shape: axis of the cylinder is %d, must be 0 (x), 1 (y) or 2 (z)",
-                            shape->axis);
-        BRC_TRY(check_size(context, "the length of the cylinder", shape->length));
-        return check_size(context, "the radius of the cylinder", shape->radius);
-    case BRC_SHAPE_SPHERE: return check_size(context, "the radius of the sphere", shape->radius);
-    }
-    return BRC_FAIL(context, BRC_BAD_INPUT, "shape: kind %d is unknown, must be box, cylinder or sphere",
-                    (int)shape->kind);
-}
-
-void brc_shape_bounds(const brc_shape *shape, double bounds[2][3])
-{
-    for (int k = 0; k < 3; ++k) {
-        const double x = shape->origin[k];
-        const bool along = shape->kind == BRC_SHAPE_CYLINDER && k == shape->axis;
-        if (shape->kind == BRC_SHAPE_BOX || along) {
-            bounds[0][k] = x;
-            bounds[1][k] = x + (along ? shape->length : shape->size[k]);
-        } else {
-            bounds[0][k] = x - shape->radius;
-            bounds[1][k] = x + shape->radius;
-        }
-    }
-}
-
-double brc_shape_volume(const brc_shape *shape)
-{
-    const double r = shape->radius;
-    switch (shape->kind) {
-    case BRC_SHAPE_BOX: return shape->size[0] * shape->size[1] * shape->size[2];
-    case BRC_SHAPE_CYLINDER: return PI * r * r * shape->length;
-    case BRC_SHAPE_SPHERE: return 4.0 / 3.0 * PI * r * r * r;
-    }
-    return 0.0;
-}
-
-double brc_shape_planes(const brc_shape *shape, double spacing)
-{
-    const double r = shape->radius / spacing;
-    switch (shape->kind) {
-    case BRC_SHAPE_BOX: return 0.0;
-    case BRC_SHAPE_CYLINDER: return fmax(LEAST_PRISM_SIDES, ceil(2.0 * PI * r));
+    case BRC_SHAPE_CONE: return fmax(LEAST_PRISM_SIDES, ceil(2.0 * PI * r));
     case BRC_SHAPE_SPHERE: return fmax(LEAST_SPHERE_PLANES, ceil(4.0 * PI * r * r));
+    case BRC_SHAPE_BOX:
+    case BRC_SHAPE_TORUS:
+    case BRC_SHAPE_HALF_SPACE:
+    case BRC_SHAPE_MESH:
+    case BRC_SHAPE_PARTS: break;
     }
     return 0.0;
 }
@@ -155,7 +104,7 @@ static bool facet_area(const brc_walls *unit, int32_t k, double half, double *ar
     return fits;
 }
 
-static void place_sphere(brc_walls *walls)
+static void place_sphere(brc_walls *walls, double radius)
 {
     const int32_t n = walls->n_planes;
     for (int32_t k = 0; k < n; ++k) fibonacci_normal(k, n, walls->normal + 3 * (int64_t)k);
@@ -168,67 +117,138 @@ static void place_sphere(brc_walls *walls)
         while (!facet_area(walls, k, half, &area) && half < 8.0) half *= 2.0;
         volume += area / 3.0;
     }
-    walls->offset = walls->shape.radius * cbrt(4.0 / 3.0 * PI / volume);
+    walls->offset = radius * cbrt(4.0 / 3.0 * PI / volume);
 }
 
-static void place_prism(brc_walls *walls)
+/* Sides of a prism, or of a pyramid about the same tip as the cone. */
+static void place_prism(brc_walls *walls, const brc_shape *shape)
 {
     const int32_t n = walls->n_planes;
-    const int u = (walls->shape.axis + 1) % 3, v = (walls->shape.axis + 2) % 3;
+    const int axis = shape->axis, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    /* a regular polygon of inner radius c has the area n c^2 tan(pi / n) */
+    const double inner = sqrt(PI / (n * tan(PI / n)));
+    const bool cone = shape->kind == BRC_SHAPE_CONE && shape->radius != shape->radius2;
+    walls->axis = axis;
+    walls->offset = cone ? 0.0 : shape->radius * inner;
+    if (cone) {
+        const double slope = (shape->radius2 - shape->radius) / shape->length;
+        walls->centre[axis] -= shape->radius / slope;
+        walls->slope = slope * inner;
+    }
+    const double inverse = 1.0 / sqrt(1.0 + walls->slope * walls->slope);
     for (int32_t k = 0; k < n; ++k) {
         const double phi = 2.0 * PI * k / n;
-        walls->normal[3 * (int64_t)k + u] = cos(phi);
-        walls->normal[3 * (int64_t)k + v] = sin(phi);
+        double *normal = walls->normal + 3 * (int64_t)k;
+        normal[u] = cos(phi);
+        normal[v] = sin(phi);
+        if (!cone) continue;
+        normal[u] *= inverse;
+        normal[v] *= inverse;
+        normal[axis] = -walls->slope * inverse;
     }
-    /* a regular polygon of inner radius c has the area n c^2 tan(pi / n) */
-    walls->offset = walls->shape.radius * sqrt(PI / (n * tan(PI / n)));
 }
 
-brc_status brc_walls_create(brc_context *context, const brc_shape *shape, double spacing, brc_walls *walls)
+static brc_status place_round(brc_context *context, const brc_shape *shape, double spacing, brc_walls *walls)
 {
-    memset(walls, 0, sizeof *walls);
-    walls->shape = *shape;
-    brc_shape_bounds(shape, walls->box);
-    const bool sphere = shape->kind == BRC_SHAPE_SPHERE, cylinder = shape->kind == BRC_SHAPE_CYLINDER;
-    for (int side = 0; side < 6; ++side) {
-        const int k = side / 2;
-        walls->side_wall[side] = -1;
-        if (!sphere && !(cylinder && k != shape->axis)) {
-            walls->side_wall[side] = walls->n_walls;
-            walls->wall_name[walls->n_walls++] = side_name[side];
-        } else {
-            /* corners of the polyhedron stand out of the curved wall by at most a few percent */
-            walls->box[side % 2][k] += (side % 2 ? 0.25 : -0.25) * shape->radius;
-        }
-    }
-    if (shape->kind == BRC_SHAPE_BOX) return BRC_OK;
+    walls->round = shape->kind;
     for (int k = 0; k < 3; ++k) walls->centre[k] = shape->origin[k];
-    walls->plane_wall = walls->n_walls;
-    walls->wall_name[walls->n_walls++] = sphere ? "surface" : "side";
-    const double n = brc_shape_planes(shape, spacing);
+    walls->plane_wall = brc_solid_n_walls(walls->solid) - 1; /* the last, after the ends */
+    const double n = brc_walls_n_planes(shape, spacing);
     if (n > 1e9)
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "fill: cells of %g m on a curved wall of radius %g m need %.3g wall planes; use larger cells",
-                        spacing, shape->radius, n);
+                        spacing, fmax(shape->radius, shape->radius2), n);
     BRC_TRY(BRC_ALLOCATE(context, &walls->normal, 3 * (int64_t)n, "planes of the curved wall"));
     walls->n_planes = (int32_t)n;
-    if (sphere) place_sphere(walls);
-    else place_prism(walls);
+    if (shape->kind == BRC_SHAPE_SPHERE) place_sphere(walls, shape->radius);
+    else place_prism(walls, shape);
     return BRC_OK;
+}
+
+/* Planes with the whole solid on one side. They become sides of the box, but not where there are ghosts: the box must hold those too. */
+static brc_status place_hull(brc_context *context, brc_walls *walls)
+{
+    const int32_t n = brc_solid_n_hull_planes(walls->solid);
+    BRC_TRY(BRC_ALLOCATE(context, &walls->flat, 4 * (int64_t)n, "flat walls"));
+    BRC_TRY(BRC_ALLOCATE(context, &walls->flat_wall, n, "flat walls"));
+    for (int32_t p = 0; p < n; ++p) {
+        double *plane = walls->flat + 4 * (int64_t)walls->n_flats;
+        int32_t wall;
+        brc_solid_hull_plane(walls->solid, p, plane, &plane[3], &wall);
+        int side = -1;
+        for (int k = 0; k < 3; ++k) {
+            if (plane[k] == -1.0 && -plane[3] == walls->box[0][k]) side = 2 * k;
+            if (plane[k] == 1.0 && plane[3] == walls->box[1][k]) side = 2 * k + 1;
+        }
+        bool known = false; /* two parts may end in one plane */
+        for (int32_t f = 0; f < walls->n_flats; ++f) {
+            const double *other = walls->flat + 4 * (int64_t)f, size = walls->box[1][0] - walls->box[0][0];
+            const double cosine = plane[0] * other[0] + plane[1] * other[1] + plane[2] * other[2];
+            known = known || (cosine > 1.0 - 1e-14 && fabs(plane[3] - other[3]) < 1e-7 * size);
+        }
+        if (side >= 0) walls->flat_side[side] = true;
+        if (side >= 0 && !walls->mirrored) walls->side_wall[side] = wall;
+        else if (!known) walls->flat_wall[walls->n_flats++] = wall;
+    }
+    return BRC_OK;
+}
+
+brc_status brc_walls_create(brc_context *context, const brc_solid *solid, double spacing, brc_walls *walls)
+{
+    memset(walls, 0, sizeof *walls);
+    walls->solid = solid;
+    walls->round = BRC_SHAPE_BOX;
+    for (int side = 0; side < 6; ++side) walls->side_wall[side] = -1;
+    brc_solid_bounds(solid, walls->box);
+    const brc_shape *shape = brc_solid_shape(solid);
+    walls->mirrored = shape->kind == BRC_SHAPE_TORUS || shape->kind == BRC_SHAPE_MESH || shape->kind == BRC_SHAPE_PARTS;
+    BRC_TRY(place_hull(context, walls));
+    if (brc_walls_n_planes(shape, spacing) > 0.0) {
+        /* corners of the polyhedron stand out of the curved wall by at most a few percent */
+        const double margin = 0.25 * (shape->kind == BRC_SHAPE_CONE ? fmax(shape->radius, shape->radius2) : shape->radius);
+        for (int side = 0; side < 6; ++side)
+            if (walls->side_wall[side] < 0) walls->box[side % 2][side / 2] += (side % 2 ? 1.0 : -1.0) * margin;
+        return place_round(context, shape, spacing, walls);
+    }
+    return BRC_OK;
+}
+
+void brc_walls_set_reach(brc_walls *walls, double reach)
+{
+    double bounds[2][3];
+    brc_solid_bounds(walls->solid, bounds);
+    walls->reach = reach;
+    for (int side = 0; side < 6; ++side)
+        if (walls->side_wall[side] < 0) walls->box[side % 2][side / 2] = bounds[side % 2][side / 2] + (side % 2 ? 1.5 : -1.5) * reach;
 }
 
 void brc_walls_free(brc_walls *walls)
 {
     if (!walls) return;
-    brc_memory_free(walls->normal);
-    walls->normal = NULL;
-    walls->n_planes = 0;
+    void *const block[] = {walls->normal, walls->flat, walls->flat_wall, walls->ghost, walls->ghost_wall, walls->ghost_owner, walls->ghost_foot,
+                           walls->ghost_flat};
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
+    memset(walls, 0, sizeof *walls);
 }
 
 double brc_walls_depth(const brc_walls *walls, int32_t k, const double x[3])
 {
+    if (k >= walls->n_planes) {
+        const double *p = walls->flat + 4 * (int64_t)(k - walls->n_planes);
+        return p[3] - (p[0] * x[0] + p[1] * x[1] + p[2] * x[2]);
+    }
     const double *n = walls->normal + 3 * (int64_t)k, *c = walls->centre;
     return walls->offset - (n[0] * (x[0] - c[0]) + n[1] * (x[1] - c[1]) + n[2] * (x[2] - c[2]));
+}
+
+const double *brc_walls_normal(const brc_walls *walls, int32_t k)
+{
+    return k < walls->n_planes ? walls->normal + 3 * (int64_t)k : walls->flat + 4 * (int64_t)(k - walls->n_planes);
+}
+
+int32_t brc_walls_wall(const brc_walls *walls, int32_t k)
+{
+    return k < walls->n_planes ? walls->plane_wall : walls->flat_wall[k - walls->n_planes];
 }
 
 void brc_walls_near(const brc_walls *walls, const double x[3], double reach, int64_t *first, int64_t *count)
@@ -237,15 +257,18 @@ void brc_walls_near(const brc_walls *walls, const double x[3], double reach, int
     const int64_t n = walls->n_planes;
     if (n == 0) return;
     double y[3], square = 0.0;
-    const bool sphere = walls->shape.kind == BRC_SHAPE_SPHERE;
+    const bool sphere = walls->round == BRC_SHAPE_SPHERE;
     for (int k = 0; k < 3; ++k) {
         y[k] = x[k] - walls->centre[k];
-        if (sphere || k != walls->shape.axis) square += y[k] * y[k];
+        if (sphere || k != walls->axis) square += y[k] * y[k];
     }
     const double radius = sqrt(square);
-    if (walls->offset - radius >= reach) return;
+    /* a cone's planes widen along the axis; across the axis they are nearer than they are along their normal */
+    const double widen = walls->slope != 0.0 ? walls->slope * y[walls->axis] : 0.0;
+    const double limit = walls->slope != 0.0 ? widen - reach * sqrt(1.0 + walls->slope * walls->slope) : walls->offset - reach;
+    if (limit - radius >= 0.0) return;
     /* plane k is nearer than reach where the angle between its normal and x is below alpha */
-    const double cosine = radius > 0.0 ? (walls->offset - reach) / radius : -1.0;
+    const double cosine = radius > 0.0 ? limit / radius : -1.0;
     const double alpha = cosine <= -1.0 ? PI : acos(fmin(cosine, 1.0));
     if (sphere) {
         const double polar = radius > 0.0 ? acos(fmax(-1.0, fmin(1.0, y[2] / radius))) : 0.0;
@@ -255,7 +278,7 @@ void brc_walls_near(const brc_walls *walls, const double x[3], double reach, int
         *first = low > 0.0 ? (int64_t)low : 0;
         *count = (high < (double)n ? (int64_t)high : n - 1) - *first + 1;
     } else {
-        const int u = (walls->shape.axis + 1) % 3, v = (walls->shape.axis + 2) % 3;
+        const int u = (walls->axis + 1) % 3, v = (walls->axis + 2) % 3;
         const double step = 2.0 * PI / (double)n, phi = atan2(y[v], y[u]);
         const int64_t low = (int64_t)floor((phi - alpha) / step) - 1, high = (int64_t)ceil((phi + alpha) / step) + 1;
         *first = ((low % n) + n) % n;
@@ -274,5 +297,7 @@ bool brc_walls_inside(const brc_walls *walls, const double x[3], double margin)
     brc_walls_near(walls, x, margin, &first, &count);
     for (int64_t m = first; m < first + count; ++m)
         if (!(brc_walls_depth(walls, (int32_t)(m % walls->n_planes), x) >= margin)) return false;
-    return true;
+    for (int32_t k = walls->n_planes; k < walls->n_planes + walls->n_flats; ++k)
+        if (!(brc_walls_depth(walls, k, x) >= margin)) return false;
+    return !walls->mirrored || brc_solid_inside(walls->solid, x, margin);
 }
