@@ -105,9 +105,15 @@ static void the_grains_do_not_depend_on_the_number_of_threads_but_on_the_seed(vo
     assert_memory_equal(one->grain, three->grain, bytes);
     assert_memory_equal(one->region, three->region, bytes);
     free_domain(&three);
+    int32_t *first = one->grain; /* equal bodies of one scene get grains of their own */
+    one->grain = NULL;
+    for (int64_t e = 0; e < one->n_elements; ++e) one->body[e] = 1;
+    assert_int_equal(brc_grains_assign(*state, &grains, 0, 1, one), BRC_OK);
+    assert_memory_not_equal(one->grain, first, bytes);
     grains.seed = 9;
     brc_domain *other = with_grains(*state, 3000, &grains, 0, 1);
-    assert_memory_not_equal(one->grain, other->grain, bytes);
+    assert_memory_not_equal(first, other->grain, bytes);
+    brc_memory_free(first);
     free_domain(&one);
     free_domain(&other);
 }
