@@ -106,6 +106,56 @@ static void force_is_the_gradient_with_held_faces(void **state)
     if (!(error < 1e-9)) fail_msg("%g", error);
 }
 
+/* Mean torque of a rigidly turned cube [N m], the largest over its axes and some angles: turns a little different from each
+ * other average the rounding of the arithmetic away, and what the rounding of coefficients does is left. */
+static double torque_of_turned_body(bench_case *c)
+{
+    enum { ANGLES = 4, TURNS = 100 };
+    const brc_domain *d = c->domain;
+    double *u = calloc((size_t)(3 * d->n_elements), sizeof *u), *f = calloc((size_t)(3 * d->n_elements), sizeof *f), worst = 0;
+    assert_done(c, brc_simulation_begin_stage(c->simulation, 0));
+    for (int a = 0; a < ANGLES; ++a) {
+        double mean[3] = {0};
+        for (int turn = 0; turn < TURNS; ++turn) {
+            const double angle = 0.8 + 1.5 * a + 1e-4 * random_at((uint64_t)turn), sine = sin(angle), versine = 2 * sin(angle / 2) * sin(angle / 2);
+            for (int64_t e = 0; e < d->n_elements; ++e) {
+                const double x = d->position[3 * e] - 0.5, y = d->position[3 * e + 1] - 0.5;
+                u[3 * e] = -versine * x - sine * y;
+                u[3 * e + 1] = sine * x - versine * y;
+            }
+            assert_done(c, brc_simulation_set_state(c->simulation, u, NULL));
+            assert_done(c, brc_simulation_force(c->simulation, f));
+            for (int64_t e = 0; e < d->n_elements; ++e)
+                for (int k = 0; k < 3; ++k) {
+                    const int a1 = (k + 1) % 3, a2 = (k + 2) % 3;
+                    mean[k] += ((d->position[3 * e + a1] + u[3 * e + a1] - 0.5) * f[3 * e + a2] -
+                                (d->position[3 * e + a2] + u[3 * e + a2] - 0.5) * f[3 * e + a1]) / TURNS;
+                }
+        }
+        for (int k = 0; k < 3; ++k) worst = fmax(worst, fabs(mean[k]));
+    }
+    free(u);
+    free(f);
+    return worst;
+}
+
+static void rounding_of_coefficients_does_not_turn_a_turned_body(void **state)
+{
+    (void)state;
+    /* Each element may keep a torque of half an ulp of E V_e with a sign of its own, which adds up to E V 2^-53/sqrt(N)
+     * over N elements. A constant whose rounding all bonds share would leave up to sqrt(N) = 15 times that, for some E. */
+    const double young[] = {1, 1.1, 1.3, 1.7, 1.9};
+    for (int k = 0; k < 5; ++k) {
+        char material[96];
+        bench_case c;
+        snprintf(material, sizeof material, "  stone: {E: %g Pa, nu: 0.3, density: 1 kg/m^3}", young[k]);
+        open_case(&c, (case_options){.materials = material});
+        const double bound = young[k] * 0x1p-53 / sqrt((double)c.domain->n_elements), torque = torque_of_turned_body(&c);
+        close_case(&c);
+        if (!(torque < bound)) fail_msg("E %g: torque %g, at most %g", young[k], torque, bound);
+    }
+}
+
 static void total_force_and_moment_vanish(void **state)
 {
     (void)state;
@@ -209,6 +259,7 @@ int main(void)
         cmocka_unit_test(force_is_the_gradient_without_compaction),
         cmocka_unit_test(force_is_the_gradient_with_held_faces),
         cmocka_unit_test(total_force_and_moment_vanish),
+        cmocka_unit_test(rounding_of_coefficients_does_not_turn_a_turned_body),
         cmocka_unit_test(rigid_motion_gives_no_force),
         cmocka_unit_test(linear_field_gives_no_force_inside),
     };
