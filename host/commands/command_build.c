@@ -2,29 +2,27 @@
 #include "command.h"
 #include "scene_domain.h"
 #include "../../preprocess/domain_file.h"
+#include "../../preprocess/quality.h"
+#include "../../preprocess/points.h"
 #include "../base/log.h"
+#include "../output/export_domain.h"
+#include "../output/isotropy_report.h"
 #include "../scene/scene_reader.h"
 
 static const brc_option options[] = {
     {"output", 'o', "FILE", false, "domain file to write (needed), e.g. domain.h5"},
+    {"vtu", 0, "FILE", false, "write the elements for ParaView too"},
+    {"csv", 0, "FILE", false, "write positions, radii and volumes too, as a table that `fill: {points: FILE}` reads"},
+    {"isotropy", 0, "DIR", false, "histogram of the bonds' directions as table, surface and picture, with its numbers"},
     BRC_OPTION_THREADS,
     BRC_OPTION_SET,
 };
 
-static void print_quality(const brc_domain *domain)
+static void print_domain(const brc_domain *domain)
 {
-    const brc_quality *quality = &domain->quality;
     printf("elements %lld, bonds %lld, free faces %lld\n", (long long)domain->n_elements, (long long)domain->n_bonds,
            (long long)domain->n_free_faces);
-    printf("coordination number %.4g, mean spacing %.6g m, smallest distance %.6g m\n", quality->coordination_mean,
-           quality->mean_spacing, quality->smallest_distance);
-    printf("volume %.9g m^3, off by %.2e from the shape's\n", quality->volume_cells, quality->volume_error);
-    printf("seeds: %lld asked, %lld too near another one, %lld lost\n", (long long)quality->n_seeds_requested,
-           (long long)quality->n_seeds_duplicate, (long long)quality->n_seeds_lost);
-    printf("faces below %.1e of the mean area dropped: %lld (%.1e of the area)\n", quality->tiny_face_threshold,
-           (long long)quality->n_tiny_faces_dropped, quality->tiny_face_area_fraction);
-    printf("worst closure of a cell %.1e, worst difference of twin areas %.1e, least support %.3g\n", quality->closure_worst,
-           quality->twin_area_worst, quality->support_smallest);
+    brc_quality_print(stdout, domain);
     for (int32_t s = 0; s < domain->n_sets; ++s)
         printf("set %-16s %10lld %s\n", domain->sets[s].name, (long long)domain->sets[s].n_members,
                domain->sets[s].kind == BRC_SET_FACES ? "faces" : "elements");
@@ -47,7 +45,12 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     BRC_TRY_OR(cleanup, brc_scene_domain_build(context, scene, (int)n_threads, &domain));
     const double built = brc_clock_s();
     BRC_TRY_OR(cleanup, brc_domain_write(context, domain, path));
-    print_quality(domain);
+    print_domain(domain);
+    const char *vtu = brc_arguments_value(arguments, "vtu"), *csv = brc_arguments_value(arguments, "csv");
+    const char *isotropy = brc_arguments_value(arguments, "isotropy");
+    if (vtu) BRC_TRY_OR(cleanup, brc_export_domain_vtu(context, domain, vtu));
+    if (csv) BRC_TRY_OR(cleanup, brc_points_write(context, domain, csv));
+    if (isotropy) BRC_TRY_OR(cleanup, brc_isotropy_report(context, domain, 3, isotropy));
     printf("seconds: build %.3g, write %.3g\n%s\n", built - start, brc_clock_s() - built, path);
 cleanup:
     brc_domain_free(&domain);

@@ -2,6 +2,7 @@
  * parts (a static load without a table grows from 0 to 1). */
 #include "reader_internal.h"
 #include "schema_internal.h"
+#include "../../preprocess/quality.h"
 #include "../base/memory.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -286,6 +287,25 @@ static void check_body(brc_reader *reader, int b)
                  "fraction: those of all phases sum to %.6g; expected at most 1", sum);
 }
 
+static void check_limits(brc_reader *reader)
+{
+    int32_t n;
+    const brc_quality_number *known = brc_quality_numbers(&n);
+    for (int32_t l = 0; l < reader->scene->n_limits; ++l) {
+        const brc_quality_limit *limit = &reader->scene->limits[l];
+        const char *names[64], *nearest = NULL;
+        bool found = false;
+        for (int32_t k = 0; k < n && k < 64; ++k) {
+            names[k] = known[k].name;
+            found |= strcmp(known[k].name, limit->number) == 0;
+        }
+        if (found) continue;
+        nearest = brc_problems_nearest(reader->problems, limit->number, n < 64 ? n : 64, names);
+        COMPLAIN(reader, NULL, limit, "quality: there is no number '%s'%s%s%s; docs/domain.md lists them", limit->number,
+                 nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
+    }
+}
+
 static void check_bodies(brc_reader *reader, const wall_names *walls)
 {
     const brc_scene *scene = reader->scene;
@@ -469,6 +489,7 @@ brc_status brc_reader_check(brc_reader *reader)
     if (status == BRC_OK && !is_broken(reader, "bodies")) check_bodies(reader, &walls);
     brc_memory_free(walls.name);
     BRC_TRY(status);
+    check_limits(reader);
     BRC_TRY(check_stages(reader));
     check_sensors(reader);
     for (int i = 0; i < reader->scene->n_measures; ++i)
