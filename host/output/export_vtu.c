@@ -1,160 +1,82 @@
-/* Frames as VTU. The head of the file needs the place of every array, so sizes are asked first and data copied after. */
+/* Frames as VTU: what stands where in both formats. */
 #include "export_vtu.h"
 #include "h5_read.h"
-#include "text.h"
-#include "../base/file.h"
-#include "../base/memory.h"
-#include <errno.h>
-#include <stdio.h>
-#include <string.h>
+#include "vtu.h"
 
-#define BLOCK_BYTES ((int64_t)1 << 22)
-
-typedef enum number { FLOAT32, FLOAT64, INT64, UINT8 } number;
-static const char *const NUMBER_NAME[] = {"Float32", "Float64", "Int64", "UInt8"};
-static const int NUMBER_BYTES[] = {4, 8, 8, 1};
-
-/* Element of the XML tree that an array stands in. */
-typedef enum place { FIELD_DATA, POINTS, CELLS, POINT_DATA, CELL_DATA, N_PLACES } place;
-static const char *const PLACE_NAME[N_PLACES] = {"FieldData", "Points", "Cells", "PointData", "CellData"};
-
-typedef struct array {
-    place place;
+typedef struct frame_array {
+    brc_vtu_place place;
     const char *source; /* in the frame */
     const char *name;   /* in the VTU */
-    number number;
+    brc_vtu_number number;
     int columns;
     int skip; /* leading rows left out: VTU's offsets are ends, without the first 0 */
-} array;
+} frame_array;
 
-static const array ARRAYS[] = {
-    {FIELD_DATA, "VTKHDF/FieldData/time", "TimeValue", FLOAT64, 1, 0},
-    {POINTS, "VTKHDF/Points", "Points", FLOAT32, 3, 0},
-    {CELLS, "VTKHDF/Connectivity", "connectivity", INT64, 1, 0},
-    {CELLS, "VTKHDF/Offsets", "offsets", INT64, 1, 1},
-    {CELLS, "VTKHDF/Types", "types", UINT8, 1, 0},
-    {POINT_DATA, "VTKHDF/PointData/displacement", "displacement", FLOAT32, 3, 0},
-    {CELL_DATA, "VTKHDF/CellData/element_id", "element_id", INT64, 1, 0},
-    {CELL_DATA, "VTKHDF/CellData/position", "position", FLOAT64, 3, 0},
-    {CELL_DATA, "VTKHDF/CellData/displacement", "displacement", FLOAT64, 3, 0},
-    {CELL_DATA, "VTKHDF/CellData/velocity", "velocity", FLOAT64, 3, 0},
-    {CELL_DATA, "VTKHDF/CellData/stress", "stress", FLOAT64, 6, 0},
-    {CELL_DATA, "VTKHDF/CellData/strain", "strain", FLOAT64, 6, 0},
-    {CELL_DATA, "VTKHDF/CellData/von_mises", "von_mises", FLOAT64, 1, 0},
+static const frame_array ARRAYS[] = {
+    {BRC_VTU_FIELD_DATA, "VTKHDF/FieldData/time", "TimeValue", BRC_VTU_FLOAT64, 1, 0},
+    {BRC_VTU_POINTS, "VTKHDF/Points", "Points", BRC_VTU_FLOAT32, 3, 0},
+    {BRC_VTU_CELLS, "VTKHDF/Connectivity", "connectivity", BRC_VTU_INT64, 1, 0},
+    {BRC_VTU_CELLS, "VTKHDF/Offsets", "offsets", BRC_VTU_INT64, 1, 1},
+    {BRC_VTU_CELLS, "VTKHDF/Types", "types", BRC_VTU_UINT8, 1, 0},
+    {BRC_VTU_POINT_DATA, "VTKHDF/PointData/displacement", "displacement", BRC_VTU_FLOAT32, 3, 0},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/element_id", "element_id", BRC_VTU_INT64, 1, 0},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/position", "position", BRC_VTU_FLOAT64, 3, 0},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/displacement", "displacement", BRC_VTU_FLOAT64, 3, 0},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/velocity", "velocity", BRC_VTU_FLOAT64, 3, 0},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/stress", "stress", BRC_VTU_FLOAT64, 6, 0},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/strain", "strain", BRC_VTU_FLOAT64, 6, 0},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/von_mises", "von_mises", BRC_VTU_FLOAT64, 1, 0},
 };
 enum { N_ARRAYS = sizeof ARRAYS / sizeof ARRAYS[0] };
 
-static hid_t memory_type(number n)
+/* Where an array is read from. */
+typedef struct place_in_frame {
+    const brc_h5_read *h5;
+    const char *name;
+} place_in_frame;
+
+static hid_t memory_type(brc_vtu_number n)
 {
     switch (n) {
-    case FLOAT32: return H5T_NATIVE_FLOAT;
-    case FLOAT64: return H5T_NATIVE_DOUBLE;
-    case INT64: return H5T_NATIVE_INT64;
-    case UINT8: break;
+    case BRC_VTU_FLOAT32: return H5T_NATIVE_FLOAT;
+    case BRC_VTU_FLOAT64: return H5T_NATIVE_DOUBLE;
+    case BRC_VTU_INT64: return H5T_NATIVE_INT64;
+    case BRC_VTU_UINT8: break;
     }
     return H5T_NATIVE_UINT8;
 }
 
-static brc_status ask_sizes(const brc_h5_read *h5, int64_t rows[N_ARRAYS])
+static brc_status read_rows(const brc_vtu_array *array, int64_t first, int64_t n, void *block)
+{
+    const place_in_frame *place = array->source;
+    return brc_h5_read_rows(place->h5, place->name, memory_type(array->number), first + array->skip, n, block);
+}
+
+static brc_status ask_sizes(const brc_h5_read *h5, place_in_frame places[N_ARRAYS], brc_vtu_array arrays[N_ARRAYS])
 {
     for (int k = 0; k < N_ARRAYS; ++k) {
+        const frame_array *a = &ARRAYS[k];
         int64_t columns;
-        BRC_TRY(brc_h5_read_size(h5, ARRAYS[k].source, &rows[k], &columns));
-        rows[k] -= ARRAYS[k].skip;
-        if (columns != ARRAYS[k].columns || rows[k] < 0)
+        places[k] = (place_in_frame){h5, a->source};
+        arrays[k] = (brc_vtu_array){a->place, a->name, a->number, a->columns, 0, read_rows, &places[k], a->skip};
+        BRC_TRY(brc_h5_read_size(h5, a->source, &arrays[k].rows, &columns));
+        arrays[k].rows -= a->skip;
+        if (columns != a->columns || arrays[k].rows < 0)
             return BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %s has %lld columns, %d are expected; the file is damaged",
-                            h5->path, ARRAYS[k].source, (long long)columns, ARRAYS[k].columns);
+                            h5->path, a->source, (long long)columns, a->columns);
     }
     return BRC_OK;
-}
-
-static void add_head(brc_text *text, const int64_t rows[N_ARRAYS])
-{
-    const uint16_t probe = 1;
-    const bool little = *(const unsigned char *)&probe == 1;
-    int64_t offset = 0;
-    brc_text_add(text,
-                 "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"%s\" "
-                 "header_type=\"UInt64\">\n<UnstructuredGrid>\n",
-                 little ? "LittleEndian" : "BigEndian");
-    for (int p = 0; p < N_PLACES; ++p) {
-        if (p == POINTS)
-            brc_text_add(text, "<Piece NumberOfPoints=\"%lld\" NumberOfCells=\"%lld\">\n", (long long)rows[1],
-                         (long long)rows[4]);
-        brc_text_add(text, "<%s>\n", PLACE_NAME[p]);
-        for (int k = 0; k < N_ARRAYS; ++k) {
-            const array *a = &ARRAYS[k];
-            if (a->place != (place)p) continue;
-            brc_text_add(text, "<DataArray type=\"%s\" Name=\"%s\" %s=\"%d\" format=\"appended\" offset=\"%lld\"/>\n",
-                         NUMBER_NAME[a->number], a->name, p == FIELD_DATA ? "NumberOfTuples" : "NumberOfComponents",
-                         a->columns, (long long)offset);
-            offset += 8 + rows[k] * a->columns * NUMBER_BYTES[a->number];
-        }
-        brc_text_add(text, "</%s>\n", PLACE_NAME[p]);
-    }
-    brc_text_add(text, "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
-}
-
-static brc_status copy_array(const brc_h5_read *h5, const array *a, int64_t rows, void *block, FILE *file)
-{
-    const int64_t row_bytes = (int64_t)a->columns * NUMBER_BYTES[a->number];
-    const uint64_t bytes = (uint64_t)(rows * row_bytes);
-    fwrite(&bytes, sizeof bytes, 1, file);
-    for (int64_t first = 0; first < rows;) {
-        int64_t n = BLOCK_BYTES / row_bytes;
-        if (n > rows - first) n = rows - first;
-        BRC_TRY(brc_h5_read_rows(h5, a->source, memory_type(a->number), first + a->skip, n, block));
-        fwrite(block, (size_t)row_bytes, (size_t)n, file);
-        first += n;
-    }
-    return BRC_OK;
-}
-
-static brc_status write_vtu(brc_context *context, const brc_h5_read *h5, const char *aside)
-{
-    static const char tail[] = "\n</AppendedData>\n</VTKFile>\n";
-    int64_t rows[N_ARRAYS];
-    brc_text head = {.context = context};
-    void *block = NULL;
-    FILE *file = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, ask_sizes(h5, rows));
-    BRC_TRY_OR(cleanup, brc_memory_allocate(context, &block, BLOCK_BYTES, 1, "block of a frame"));
-    add_head(&head, rows);
-    BRC_TRY_OR(cleanup, head.status);
-    errno = 0;
-    file = fopen(aside, "wb");
-    if (file) {
-        fwrite(head.data, 1, head.length, file);
-        for (int k = 0; k < N_ARRAYS; ++k)
-            BRC_TRY_OR(cleanup, copy_array(h5, &ARRAYS[k], rows[k], block, file));
-        fwrite(tail, 1, sizeof tail - 1, file);
-    }
-cleanup:
-    if (status == BRC_OK) { /* a refused write shows here at the latest; errno is that of the last one */
-        const bool bad = !file || ferror(file) != 0;
-        const bool closed = !file || fclose(file) == 0;
-        if (bad || !closed) status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write: %s", aside, strerror(errno));
-    } else if (file) {
-        fclose(file);
-    }
-    brc_text_free(&head);
-    brc_memory_free(block);
-    return status;
 }
 
 brc_status brc_export_vtu_frame(brc_context *context, const char *frame, const char *path)
 {
+    enum { POINTS = 1, TYPES = 4 };
     brc_h5_read h5;
-    char *aside = NULL;
+    place_in_frame places[N_ARRAYS];
+    brc_vtu_array arrays[N_ARRAYS];
     BRC_TRY(brc_h5_read_open(context, frame, &h5));
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, brc_file_aside(context, path, &aside));
-    BRC_TRY_OR(cleanup, write_vtu(context, &h5, aside));
-    status = brc_file_commit(context, aside, path);
-cleanup:
-    if (status != BRC_OK) brc_file_discard(aside);
-    brc_memory_free(aside);
+    brc_status status = ask_sizes(&h5, places, arrays);
+    if (status == BRC_OK) status = brc_vtu_write(context, path, arrays[POINTS].rows, arrays[TYPES].rows, N_ARRAYS, arrays);
     brc_h5_read_close(&h5);
     return status;
 }

@@ -4,7 +4,7 @@
 
 #include "../base/status.h"
 
-/* Frame (VTKHDF) to VTU: XML with the arrays appended as raw bytes behind 64-bit sizes, read and written in blocks.
+/* Frame (VTKHDF) to VTU (vtu.h), read and written in blocks.
  * BRC_BAD_INPUT: damaged frame; BRC_FILE_FAILED: cannot write. */
 brc_status brc_export_vtu_frame(brc_context *context, const char *frame, const char *path);
 
