@@ -173,6 +173,25 @@ static void points_written_read_back_bit_for_bit(void **state)
     remove(path);
 }
 
+/* Positions read back to the same bits, so the cells made of them are the same, bit for bit. */
+static void a_domain_built_from_its_own_elements_is_the_same(void **state)
+{
+    brc_build_request request = test_box(1000, 0.9);
+    brc_domain *first = test_build(*state, &request);
+    assert_int_equal(brc_points_write(*state, first, path), BRC_OK);
+    request.fill = (brc_fill){.kind = BRC_FILL_POINTS, .scale = 1.0};
+    strcpy(request.fill.file, path);
+    brc_domain *second = test_build(*state, &request);
+    assert_int_equal(second->n_elements, first->n_elements);
+    assert_int_equal(second->n_bonds, first->n_bonds);
+    assert_memory_equal(second->position, first->position, 3 * (size_t)first->n_elements * sizeof(double));
+    assert_memory_equal(second->volume, first->volume, (size_t)first->n_elements * sizeof(double));
+    assert_memory_equal(second->area_vector, first->area_vector, 3 * (size_t)first->n_half_edges * sizeof(double));
+    brc_domain_free(&first);
+    brc_domain_free(&second);
+    remove(path);
+}
+
 static void the_header_row_names_what_the_domain_has(void **state)
 {
     double position[3] = {0.5, 0.25, -1.0}, volume[1] = {2.0}, radius[1] = {0.125};
@@ -203,6 +222,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(every_fault_names_its_line_and_column, test_begin, test_end),
         cmocka_unit_test_setup_teardown(all_bad_lines_are_told_at_once_and_at_most_twenty_in_words, test_begin, test_end),
         cmocka_unit_test_setup_teardown(points_written_read_back_bit_for_bit, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(a_domain_built_from_its_own_elements_is_the_same, test_begin, test_end),
         cmocka_unit_test_setup_teardown(the_header_row_names_what_the_domain_has, test_begin, test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
