@@ -15,10 +15,12 @@ static const brc_option options[] = {
 };
 
 /* Iterations of a linear solve to 1e-10, in units of the elements along the longest line through the solid: a rule of
- * thumb from cubes and bars of 1e3 to 1e5 cells, right within a factor of two (docs/performance.md). */
-#define ITERATIONS_PER_CELL_ACROSS 8
+ * thumb that does not know the loads. Four examples took 0.5 to 2.4 times as many as it says (docs/performance.md). */
+#define ITERATIONS_PER_CELL_ACROSS 5
 /* Linear solves of a static increment: the first and the corrections of the finite-strain law. */
 #define SOLVES_PER_INCREMENT 4
+/* What a mode costs, in linear solves: eight rounds a cell across, each with dense sums that take longer than the forces. */
+#define SOLVES_PER_MODE 12.0
 
 static brc_status print_resolved(brc_context *context, const brc_scene *scene)
 {
@@ -127,7 +129,7 @@ static brc_status print_stage(brc_context *context, brc_scene *scene, const brc_
     for (int d = 0; d < 3; ++d)
         longest = fmax(longest, domain->bounds[1][d] - domain->bounds[0][d]);
     const double across = longest / domain->quality.mean_spacing;
-    const double solves = stage->solver == BRC_SOLVER_MODES ? 2.0 * stage->n_modes
+    const double solves = stage->solver == BRC_SOLVER_MODES ? SOLVES_PER_MODE * stage->n_modes
                                                             : stage->increments * (stage->finite_strain ? SOLVES_PER_INCREMENT : 1.0);
     const double seconds = solves * ITERATIONS_PER_CELL_ACROSS * across * per_step;
     printf("stage %s: %s; about %.2g iterations of %.3g s each: %.2g s (a rule of thumb)\n", stage->name,

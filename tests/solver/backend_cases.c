@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const shaken = "  - name: shake\n    solver: {dynamic: {steps: 100, time_step: 10 ms}}\n    loads:\n"
+static const char shaken[] = "  - name: shake\n    solver: {dynamic: {steps: 100, time_step: 10 ms}}\n    loads:\n"
                                   "      - %s: {set: left, x: 1 mm/s}\n    initial:\n"
                                   "      - random: {amplitude: [1 mm/s, 1 mm/s, 1 mm/s], seed: 3}\n";
 

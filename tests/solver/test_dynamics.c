@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const shaken =
+static const char shaken[] =
     "  - name: shake\n    solver: {dynamic: {steps: 100000, time_step: {auto: {safety: %s}}%s}}\n    initial:\n"
     "      - random: {amplitude: [1 mm/s, 1 mm/s, 1 mm/s], seed: 3}\n";
 

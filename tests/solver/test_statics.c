@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const pull =
+static const char pull[] =
     "  - name: pull\n    solver: {static: {increments: %d}}\n    loads:\n      - face_displacement: {set: x-, x: 0}\n"
     "      - face_displacement: {set: y-, y: 0}\n      - face_displacement: {set: z-, z: 0}\n      - face_displacement: {set: x+, x: %g m}\n";
 
