@@ -10,8 +10,11 @@
 /* Depth to which seeds are mirrored at first [of the spacing]: about the farthest corner of a cell of a random grid. */
 #define FIRST_REACH 2.0
 enum { MOST_TRIES = 4 };
-/* A shared face whose middle lies so far outside joins what is not joined [of the spacing]. */
-#define OUTSIDE_LIMIT 0.05
+/* A bond joins what is not joined when both its branch and its face have their middle outside: next to a concave wall the branch may
+ * leave the solid, at a thin tip the face may. A large face must not at all, a small one not far [of the spacing, its square]. */
+#define LARGE_FACE 0.2
+#define LARGE_OUTSIDE 1e-6
+#define SMALL_OUTSIDE 0.05
 
 brc_status brc_conform_walls(brc_context *context, const double *position, int64_t n, double spacing, bool fit, int n_threads, brc_walls *walls)
 {
@@ -34,38 +37,46 @@ brc_status brc_conform_cells(brc_context *context, const double *position, int64
                     walls->reach, walls->reach / spacing);
 }
 
+/* How far outside half-edge h of element e runs [m]; 0: it does not. own: a ball of this radius around the seed lies inside, < 0: not known yet. */
+static double bond_outside(const brc_walls *walls, const brc_domain *domain, int64_t e, int64_t h, double spacing, double *own)
+{
+    const double *x = domain->position + 3 * e, *y = domain->position + 3 * (int64_t)domain->neighbour[h], *s = domain->area_vector + 3 * h;
+    const double *c = domain->face_centroid + 3 * h;
+    const double away = sqrt((c[0] - x[0]) * (c[0] - x[0]) + (c[1] - x[1]) * (c[1] - x[1]) + (c[2] - x[2]) * (c[2] - x[2]));
+    if (*own < 0.0) *own = brc_solid_distance(walls->solid, x, walls->reach);
+    if (away < *own) return 0.0;
+    const bool large = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) > LARGE_FACE * spacing * spacing;
+    const double limit = (large ? LARGE_OUTSIDE : SMALL_OUTSIDE) * spacing;
+    const double outside = -brc_solid_depth(walls->solid, c);
+    if (outside <= limit) return 0.0;
+    const double middle[3] = {0.5 * (x[0] + y[0]), 0.5 * (x[1] + y[1]), 0.5 * (x[2] + y[2])};
+    return -brc_solid_depth(walls->solid, middle) > limit ? outside : 0.0;
+}
+
 brc_status brc_conform_check(brc_context *context, const brc_walls *walls, double spacing, int n_threads, const brc_domain *domain)
 {
-    if (!walls->mirrored) return BRC_OK;
-    int64_t n_bad = 0;
+    if (!walls->mirrored || brc_solid_is_convex(walls->solid)) return BRC_OK;
+    int64_t n_bad = 0, worst_half_edge = -1;
     double worst = 0.0;
-    int64_t worst_half_edge = -1;
 #pragma omp parallel num_threads(n_threads) reduction(+ : n_bad)
     {
-        double deepest = 0.0;
+        double most = 0.0;
         int64_t at = -1;
 #pragma omp for schedule(dynamic, 256)
         for (int64_t e = 0; e < domain->n_elements; ++e) {
-            const double *x = domain->position + 3 * e;
             double own = -1.0;
             for (int64_t h = domain->row_start[e]; h < domain->row_start[e + 1]; ++h) {
-                if (domain->neighbour[h] < e) continue;
-                const double *c = domain->face_centroid + 3 * h;
-                const double away = sqrt((c[0] - x[0]) * (c[0] - x[0]) + (c[1] - x[1]) * (c[1] - x[1]) + (c[2] - x[2]) * (c[2] - x[2]));
-                if (own < 0.0) own = brc_solid_distance(walls->solid, x, walls->reach);
-                if (away < own) continue; /* within the ball around the seed that lies inside */
-                const double outside = -brc_solid_depth(walls->solid, c);
-                if (outside <= OUTSIDE_LIMIT * spacing) continue;
-                ++n_bad;
-                if (outside > deepest || (outside == deepest && h < at)) {
-                    deepest = outside;
+                const double outside = domain->neighbour[h] < e ? 0.0 : bond_outside(walls, domain, e, h, spacing, &own);
+                n_bad += outside > 0.0;
+                if (outside > most || (outside > 0.0 && outside == most && h < at)) {
+                    most = outside;
                     at = h;
                 }
             }
         }
 #pragma omp critical(brc_conform)
-        if (at >= 0 && (deepest > worst || (deepest == worst && at < worst_half_edge))) {
-            worst = deepest;
+        if (at >= 0 && (most > worst || (most == worst && at < worst_half_edge))) {
+            worst = most;
             worst_half_edge = at;
         }
     }

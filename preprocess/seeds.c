@@ -10,6 +10,8 @@
 
 /* A seed this near to a wall [of the spacing] has no room for a cell of its own side and is dropped. */
 #define WALL_MARGIN 1e-6
+/* and this near to a mirrored wall it is moved to there: it needs some distance from its image. */
+#define MIRROR_MARGIN 0.05
 #define DEFAULT_MIN_DISTANCE 1e-6
 /* Less noise than this cannot be told from the rounding of a regular grid. */
 #define LEAST_SPREAD 1e-4
@@ -341,6 +343,7 @@ brc_status brc_seeds_draw(brc_context *context, const brc_grid *grid, const brc_
         double x[3];
         draw(grid, fill, cell, x);
         if (!brc_walls_inside(walls, x, margin)) continue;
+        brc_walls_keep_off(walls, MIRROR_MARGIN * h, x);
         if (crowds(grid, cell, x, distance, kept, *position)) {
             ++*n_duplicate;
             continue;

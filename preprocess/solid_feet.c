@@ -7,6 +7,7 @@
 #include <string.h>
 
 enum { MOST_NEAR = 128, MOST_STEPS = 40 };
+#define SAME_FOOT 1e-6 /* relative, and as an angle */
 
 /* A surface near x, or its other side where it curves around x. */
 typedef struct near_surface {
@@ -14,6 +15,10 @@ typedef struct near_surface {
     double height, normal[3], point[3];
     double probe[3]; /* across the surface at the point: the normal, but at a tip the axis */
     bool opposite;
+    bool flat;       /* a plane */
+    bool rim;        /* on a sharp edge of a mesh, where its patch ends */
+    bool concave;    /* and that is concave */
+    double plane[3]; /* normal of a mesh's patch there */
 } near_surface;
 
 static void step(const double x[3], double length, const double direction[3], double out[3])
@@ -31,6 +36,30 @@ static void set_probe(near_surface *a)
         for (int d = 0; d < 3; ++d) a->probe[d] = -s->axis[d];
 }
 
+/* The patches of a mesh near x. */
+static int gather_mesh(const brc_solid *solid, const brc_surface *surface, const double x[3], double reach, near_surface *near, int room)
+{
+    const brc_leaf *leaf = &solid->leaf[surface->leaf];
+    brc_mesh_foot feet[MOST_NEAR];
+    double local[3];
+    brc_leaf_to_part(leaf, x, local);
+    const int32_t found = brc_mesh_feet(leaf->mesh, local, reach, feet, room);
+    const int n = found < room ? found : room;
+    const double sign = n > 0 && brc_mesh_inside(leaf->mesh, local) ? 1.0 : -1.0;
+    for (int k = 0; k < n; ++k) {
+        near_surface *a = &near[k];
+        *a = (near_surface){.surface = surface, .height = -sign * feet[k].distance, .flat = feet[k].flat, .rim = feet[k].on_edge, .concave = feet[k].concave};
+        brc_leaf_from_part(leaf, feet[k].point, a->point);
+        brc_leaf_turn(leaf, feet[k].normal, a->plane);
+        memcpy(a->normal, a->plane, sizeof a->normal);
+        /* towards the point itself: on a patch that curves in facets it may lie on an edge of them */
+        if (feet[k].distance > 1e-3 * solid->tiny && !(feet[k].flat && !feet[k].on_edge))
+            for (int d = 0; d < 3; ++d) a->normal[d] = sign * (a->point[d] - x[d]) / feet[k].distance;
+        memcpy(a->probe, a->normal, sizeof a->probe);
+    }
+    return n;
+}
+
 /* Surfaces nearer to x than reach, in order; the opposite sides of curved ones too. */
 static int gather(const brc_solid *solid, const double x[3], double reach, near_surface *near)
 {
@@ -38,18 +67,20 @@ static int gather(const brc_solid *solid, const double x[3], double reach, near_
     for (int32_t s = 0; s < solid->n_surfaces && n + 1 < MOST_NEAR; ++s) {
         const brc_surface *surface = &solid->surface[s];
         near_surface *a = &near[n];
-        a->height = brc_surface_height(solid, surface, x, NULL);
-        if (fabs(a->height) >= reach) continue;
-        a->height = brc_surface_height(solid, surface, x, a->normal);
-        a->surface = surface;
-        a->opposite = false;
+        if (surface->kind == BRC_SURFACE_MESH) {
+            n += gather_mesh(solid, surface, x, reach, a, MOST_NEAR - n);
+            continue;
+        }
+        const double height = brc_surface_height(solid, surface, x, NULL);
+        if (fabs(height) >= reach) continue;
+        *a = (near_surface){.surface = surface, .height = height, .flat = surface->kind == BRC_SURFACE_PLANE};
+        brc_surface_height(solid, surface, x, a->normal);
         step(x, -a->height, a->normal, a->point);
         set_probe(a);
         ++n;
         near_surface *b = &near[n];
+        *b = (near_surface){.surface = surface, .opposite = true};
         if (!brc_surface_opposite(surface, x, &b->height, b->normal) || fabs(b->height) >= reach) continue;
-        b->surface = surface;
-        b->opposite = true;
         step(x, -b->height, b->normal, b->point);
         set_probe(b);
         ++n;
@@ -237,11 +268,11 @@ double brc_solid_distance(const brc_solid *solid, const double x[3], double reac
     return nearest(solid, x, near, gather(solid, x, reach, near), reach, point, &wall);
 }
 
-/* Add a foot unless an earlier one is the same place. */
+/* Add a foot unless an earlier one is the same place; planes of a file agree to its rounding only. */
 static int32_t add_foot(brc_foot *feet, int32_t n, int32_t most, const brc_foot *foot)
 {
     for (int32_t k = 0; k < n && k < most; ++k)
-        if (fabs(feet[k].depth - foot->depth) <= 1e-9 * foot->depth && brc_dot3(feet[k].normal, foot->normal) > 1.0 - 1e-12) return n;
+        if (fabs(feet[k].depth - foot->depth) <= SAME_FOOT * foot->depth && brc_dot3(feet[k].normal, foot->normal) > 1.0 - SAME_FOOT * SAME_FOOT) return n;
     if (n < most) feet[n] = *foot;
     return n + 1;
 }
@@ -277,6 +308,34 @@ static int32_t edge_feet(const brc_solid *solid, const double x[3], const near_s
     return n;
 }
 
+/* The plane of a mesh's flat patch that ends at a convex edge: the same for a foot beyond it. */
+static bool beyond_rim(const brc_solid *solid, const near_surface *a, const double x[3], brc_foot *foot)
+{
+    double y[3];
+    const double to[3] = {a->point[0] - x[0], a->point[1] - x[1], a->point[2] - x[2]};
+    if (!a->flat) return false;
+    foot->depth = brc_dot3(to, a->plane);
+    memcpy(foot->normal, a->plane, sizeof foot->normal);
+    step(x, foot->depth, foot->normal, y);
+    return foot->depth > 0.0 && sides(solid, y, a->plane) == 0;
+}
+
+/* The foot of x on a near surface; false: none there. */
+static bool foot_on(const brc_solid *solid, const near_surface *a, const double x[3], brc_foot *foot)
+{
+    *foot = (brc_foot){.depth = fabs(a->height), .wall = a->surface->wall, .plane = a->flat && !a->rim, .hull = a->surface->hull != 0.0};
+    for (int d = 0; d < 3; ++d) foot->normal[d] = a->height < 0.0 ? a->normal[d] : -a->normal[d];
+    if (a->rim && !a->concave) {
+        foot->plane = true;
+        return beyond_rim(solid, a, x, foot);
+    }
+    if (!(foot->depth > 0.0)) return false;
+    if (solid->n_leaves == 1 && solid->leaf[0].mesh) return true;
+    const int side = sides(solid, a->point, a->probe);
+    if (side == (a->height < 0.0 ? 1 : 2)) return leaf_ends(solid, a); /* outward is away from x */
+    return side == 0 && bounds_beyond(solid, a, x);
+}
+
 int32_t brc_solid_feet(const brc_solid *solid, const double x[3], double reach, brc_foot *feet, int32_t most)
 {
     if (!brc_solid_member(solid, x)) return 0;
@@ -285,31 +344,22 @@ int32_t brc_solid_feet(const brc_solid *solid, const double x[3], double reach, 
     int32_t n = 0;
     double least = HUGE_VAL;
     for (int i = 0; i < n_near; ++i) {
-        const near_surface *a = &near[i];
-        brc_foot foot = {.depth = fabs(a->height), .wall = a->surface->wall, .plane = a->surface->kind == BRC_SURFACE_PLANE,
-                         .hull = a->surface->hull != 0.0};
-        for (int d = 0; d < 3; ++d) foot.normal[d] = a->height < 0.0 ? a->normal[d] : -a->normal[d];
-        if (!(foot.depth > 0.0)) continue;
-        const int side = sides(solid, a->point, a->probe);
-        /* outward must be away from x */
-        const bool faces = side == (a->height < 0.0 ? 1 : 2) && leaf_ends(solid, a);
-        if (!faces && !(side == 0 && bounds_beyond(solid, a, x))) continue;
-        if (faces) least = fmin(least, foot.depth);
+        brc_foot foot;
+        if (!foot_on(solid, &near[i], x, &foot)) continue;
         n = add_foot(feet, n, most, &foot);
     }
-    if (solid->n_leaves == 1) return n; /* convex, or without edges */
+    if (solid->n_leaves == 1) return n; /* convex, without edges, or a mesh that knows its own */
     n = edge_feet(solid, x, near, n_near, reach, feet, n, most);
-    for (int32_t k = 0; k < n && k < most; ++k)
-        if (!feet[k].plane) least = fmin(least, feet[k].depth);
+    for (int32_t k = 0; k < n && k < most; ++k) least = fmin(least, feet[k].depth);
+    /* a concave corner is the nearest place where nothing else is */
     double point[3];
     brc_foot corner = {.wall = 0};
-    if (nearest(solid, x, near, n_near, fmin(reach, least * (1.0 - 1e-9)), point, &corner.wall) < fmin(reach, least * (1.0 - 1e-9))) {
+    const double nearer = fmin(reach, least * (1.0 - 1e-9));
+    if (nearest(solid, x, near, n_near, nearer, point, &corner.wall) < nearer) {
         for (int d = 0; d < 3; ++d) corner.normal[d] = point[d] - x[d];
         corner.depth = brc_length3(corner.normal);
-        if (corner.depth > 0.0) {
-            for (int d = 0; d < 3; ++d) corner.normal[d] /= corner.depth;
-            n = add_foot(feet, n, most, &corner);
-        }
+        for (int d = 0; d < 3; ++d) corner.normal[d] /= corner.depth;
+        if (corner.depth > 0.0) n = add_foot(feet, n, most, &corner);
     }
     return n;
 }

@@ -7,17 +7,6 @@
 #include "mesh.h"
 #include "solid.h"
 
-#pragma weak brc_mesh_read_stl
-#pragma weak brc_mesh_free
-#pragma weak brc_mesh_feet
-#pragma weak brc_mesh_depth
-#pragma weak brc_mesh_inside
-#pragma weak brc_mesh_bounds
-#pragma weak brc_mesh_volume
-#pragma weak brc_mesh_area
-#pragma weak brc_mesh_is_convex
-#pragma weak brc_mesh_crossings
-
 typedef enum brc_surface_kind {
     BRC_SURFACE_PLANE,
     BRC_SURFACE_CYLINDER, /* about an endless axis */

@@ -7,17 +7,21 @@
 #include "../host/base/memory.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CROSSINGS = 2048, LEAST_GRID = 96, MOST_GRID = 1536 };
+enum { MOST_CROSSINGS = 2048, LEAST_GRID = 64, MOST_GRID = 1024 };
 /* The grid of lines is refined until two grids differ by less [of the volume]. */
-#define GOAL 2e-7
+#define GOAL 1e-6
 
-static int ascending(const void *a, const void *b)
+/* Few values, nearly in order. */
+static void sort(double *t, int n)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    for (int k = 1; k < n; ++k) {
+        const double value = t[k];
+        int at = k;
+        for (; at > 0 && t[at - 1] > value; --at) t[at] = t[at - 1];
+        t[at] = value;
+    }
 }
 
 /* Crossings with a mesh along any line: walk by the distance to the surface, which is never too far, and halve where the side changes. */
@@ -109,7 +113,7 @@ static chords follow(const brc_solid *solid, const double x[3], const double u[3
             n += brc_surface_crossings(&solid->surface[s], x, u, cut + n);
     }
     cut[n++] = high;
-    qsort(cut, (size_t)n, sizeof *cut, ascending);
+    sort(cut, n);
     bool was = false;
     for (int k = 0; k + 1 < n; ++k) {
         const double a = fmax(cut[k], low), b = fmin(cut[k + 1], high);

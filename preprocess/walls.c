@@ -17,8 +17,10 @@ double brc_walls_n_planes(const brc_shape *shape, double spacing)
 {
     const double r = (shape->kind == BRC_SHAPE_CONE ? fmax(shape->radius, shape->radius2) : shape->radius) / spacing;
     switch (shape->kind) {
-    case BRC_SHAPE_CYLINDER:
-    case BRC_SHAPE_CONE: return fmax(LEAST_PRISM_SIDES, ceil(2.0 * PI * r));
+    case BRC_SHAPE_CONE: /* dozens of planes through one point, or nearly, are too much for Voro++ */
+        if (fmin(shape->radius, shape->radius2) < spacing) return 0.0;
+        return fmax(LEAST_PRISM_SIDES, ceil(2.0 * PI * r));
+    case BRC_SHAPE_CYLINDER: return fmax(LEAST_PRISM_SIDES, ceil(2.0 * PI * r));
     case BRC_SHAPE_SPHERE: return fmax(LEAST_SPHERE_PLANES, ceil(4.0 * PI * r * r));
     case BRC_SHAPE_BOX:
     case BRC_SHAPE_TORUS:
@@ -201,9 +203,10 @@ brc_status brc_walls_create(brc_context *context, const brc_solid *solid, double
     for (int side = 0; side < 6; ++side) walls->side_wall[side] = -1;
     brc_solid_bounds(solid, walls->box);
     const brc_shape *shape = brc_solid_shape(solid);
-    walls->mirrored = shape->kind == BRC_SHAPE_TORUS || shape->kind == BRC_SHAPE_MESH || shape->kind == BRC_SHAPE_PARTS;
+    const bool planes = brc_walls_n_planes(shape, spacing) > 0.0;
+    walls->mirrored = !planes && shape->kind != BRC_SHAPE_BOX;
     BRC_TRY(place_hull(context, walls));
-    if (brc_walls_n_planes(shape, spacing) > 0.0) {
+    if (planes) {
         /* corners of the polyhedron stand out of the curved wall by at most a few percent */
         const double margin = 0.25 * (shape->kind == BRC_SHAPE_CONE ? fmax(shape->radius, shape->radius2) : shape->radius);
         for (int side = 0; side < 6; ++side)
@@ -284,6 +287,18 @@ void brc_walls_near(const brc_walls *walls, const double x[3], double reach, int
         *first = ((low % n) + n) % n;
         *count = high - low + 1 < n ? high - low + 1 : n;
     }
+}
+
+void brc_walls_keep_off(const brc_walls *walls, double distance, double x[3])
+{
+    enum { MOST_FEET = 16 };
+    if (!walls->mirrored) return;
+    brc_foot feet[MOST_FEET];
+    const int32_t found = brc_solid_feet(walls->solid, x, distance, feet, MOST_FEET);
+    double y[3] = {x[0], x[1], x[2]};
+    for (int32_t f = 0; f < found && f < MOST_FEET; ++f)
+        for (int d = 0; d < 3 && !feet[f].hull; ++d) y[d] -= (distance - feet[f].depth) * feet[f].normal[d];
+    if (found > 0 && brc_walls_inside(walls, y, 0.0)) memcpy(x, y, sizeof y);
 }
 
 bool brc_walls_inside(const brc_walls *walls, const double x[3], double margin)

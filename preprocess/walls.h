@@ -37,7 +37,8 @@ typedef struct brc_walls {
     bool *ghost_flat;        /* [n_ghosts] the wall is plane there; owned */
 } brc_walls;
 
-/* Planes that stand for the curved wall: about as wide as a cell of size `spacing` [m], and never few. */
+/* Planes that stand for the curved wall: about as wide as a cell of size `spacing` [m], and never few. 0: not this way, also for a cone that is
+ * narrower than a cell at one end. */
 double brc_walls_n_planes(const brc_shape *shape, double spacing);
 
 /* Walls fine against `spacing`, the size of a cell [m]; no mirror images yet. Caller frees with brc_walls_free. */
@@ -53,6 +54,9 @@ double brc_walls_depth(const brc_walls *walls, int32_t k, const double x[3]);
 /* Outward unit normal and wall of plane k. */
 const double *brc_walls_normal(const brc_walls *walls, int32_t k);
 int32_t brc_walls_wall(const brc_walls *walls, int32_t k);
+/* Move x, a point inside, away from mirrored walls until it is `distance` [m] from them. A seed nearer to its image than that leaves corners as
+ * inexact as Voro++ compares. */
+void brc_walls_keep_off(const brc_walls *walls, double distance, double x[3]);
 /* Is x at least `margin` [m] inside every wall? */
 bool brc_walls_inside(const brc_walls *walls, const double x[3], double margin);
 
