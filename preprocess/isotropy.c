@@ -13,6 +13,8 @@ typedef struct source {
     int64_t n;
     const brc_domain *domain; /* NULL: arrays */
     brc_isotropy_weight kind;
+    const int32_t *away; /* [n_elements] bonds to the nearest element at a wall, at most `layers`; NULL: all bonds count */
+    int32_t layers;
     const double *direction, *weight;
 } source;
 
@@ -24,8 +26,10 @@ typedef struct moments {
 static double weight_of(const source *from, int64_t k)
 {
     if (!from->domain) return from->weight ? from->weight[k] : 1;
+    const int32_t h = from->domain->bond_half_edge[k];
+    if (from->away && (from->away[from->domain->neighbour[h]] < from->layers || from->away[from->domain->neighbour[from->domain->twin[h]]] < from->layers)) return 0;
     if (from->kind == BRC_ISOTROPY_BONDS) return 1;
-    const double *s = from->domain->area_vector + 3 * (int64_t)from->domain->bond_half_edge[k];
+    const double *s = from->domain->area_vector + 3 * (int64_t)h;
     return sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
 }
 
@@ -158,14 +162,17 @@ static brc_status measure(brc_context *context, const source *from, int level, i
             goto cleanup;
         }
         const double w = weight_of(from, k);
+        if (w == 0) continue;
+        ++out->n_directions;
         out->count[bin[k]] += w;
         out->count[sphere.opposite[bin[k]]] += w;
     }
     if (!(sum.weight > 0)) {
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%lld directions whose weights sum to 0; nothing can be said about them", (long long)from->n);
+        status = from->away ? BRC_FAIL(context, BRC_BAD_INPUT, "none of %lld bonds is %d layer(s) or more away from the walls; ask for fewer layers or build more elements",
+                                       (long long)from->n, (int)from->layers)
+                            : BRC_FAIL(context, BRC_BAD_INPUT, "%lld directions whose weights sum to 0; nothing can be said about them", (long long)from->n);
         goto cleanup;
     }
-    out->n_directions = from->n;
     conclude(out, &sum);
 cleanup:
     brc_icosphere_free(&sphere);
@@ -175,17 +182,48 @@ cleanup:
     return status;
 }
 
+/* Distance of every element from those at a wall, in bonds, as far as `layers`. Cells are at a wall with a free face, spheres as members
+ * of a wall's set. */
+static void find_layers(const brc_domain *d, int32_t layers, int32_t *away)
+{
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        away[e] = d->element_kind == BRC_ELEMENT_CELL && d->free_start[e] < d->free_start[e + 1] ? 0 : layers;
+    for (int32_t w = 0; d->element_kind == BRC_ELEMENT_SPHERE && w < d->n_walls; ++w) {
+        const int32_t set = brc_domain_find_set(d, d->wall_name[w]);
+        for (int64_t m = 0; set >= 0 && m < d->sets[set].n_members; ++m)
+            away[d->sets[set].members[m]] = 0;
+    }
+    for (int32_t layer = 0; layer + 1 < layers; ++layer)
+        for (int64_t e = 0; e < d->n_elements; ++e)
+            for (int64_t h = d->row_start[e]; away[e] == layer && h < d->row_start[e + 1]; ++h)
+                if (away[d->neighbour[h]] > layer + 1) away[d->neighbour[h]] = layer + 1;
+}
+
 brc_status brc_isotropy_measure(brc_context *context, const brc_domain *domain, int level, brc_isotropy_weight weight, int n_threads,
                                 brc_isotropy *out)
 {
+    return brc_isotropy_measure_inside(context, domain, 0, level, weight, n_threads, out);
+}
+
+brc_status brc_isotropy_measure_inside(brc_context *context, const brc_domain *domain, int layers, int level, brc_isotropy_weight weight,
+                                       int n_threads, brc_isotropy *out)
+{
+    int32_t *away = NULL;
     memset(out, 0, sizeof *out);
     if (domain->n_bonds < 1)
         return BRC_FAIL(context, BRC_BAD_INPUT, "the domain has %lld element(s) and no bond, so there are no directions to count",
                         (long long)domain->n_elements);
     if (weight == BRC_ISOTROPY_AREA && domain->element_kind != BRC_ELEMENT_CELL)
         return BRC_FAIL(context, BRC_BAD_INPUT, "spheres have no faces to weight directions with; count every bond once");
-    const source from = {.n = domain->n_bonds, .domain = domain, .kind = weight};
-    return measure(context, &from, level, n_threads, out);
+    if (layers < 0) return BRC_FAIL(context, BRC_BAD_INPUT, "%d layers away from the walls; expected 0 (all bonds) or more", layers);
+    if (layers > 0) {
+        BRC_TRY(BRC_ALLOCATE(context, &away, domain->n_elements, "distances from the walls"));
+        find_layers(domain, layers, away);
+    }
+    const source from = {.n = domain->n_bonds, .domain = domain, .kind = weight, .away = away, .layers = layers};
+    const brc_status status = measure(context, &from, level, n_threads, out);
+    brc_memory_free(away);
+    return status;
 }
 
 brc_status brc_isotropy_count(brc_context *context, int64_t n, const double *direction, const double *weight, int level, int n_threads,

@@ -41,6 +41,10 @@ typedef enum brc_isotropy_weight {
  * BRC_BAD_INPUT: no bonds, level out of range, area of spheres. *out is to be freed by brc_isotropy_free. */
 brc_status brc_isotropy_measure(brc_context *context, const brc_domain *domain, int level, brc_isotropy_weight weight, int n_threads,
                                 brc_isotropy *out);
+/* The same without what walls impose on their neighbourhood: only bonds of two elements that are both `layers` or more bonds away from the
+ * elements at a wall (0: all bonds; 1: neither is at a wall). BRC_BAD_INPUT too: no bond is left. */
+brc_status brc_isotropy_measure_inside(brc_context *context, const brc_domain *domain, int layers, int level, brc_isotropy_weight weight,
+                                       int n_threads, brc_isotropy *out);
 /* The same for any directions: direction [n][3] of any length above 0, weight [n] not negative (NULL: 1 each). */
 brc_status brc_isotropy_count(brc_context *context, int64_t n, const double *direction, const double *weight, int level, int n_threads,
                               brc_isotropy *out);

@@ -69,7 +69,8 @@ brc_observer brc_drift_observer(brc_drift *drift);
 void brc_drift_values(const brc_drift *drift, brc_outcome *outcome);
 
 /* The isotropy operator: build run->n_seeds samples of the scene (a text, its name a path) and add fabric_anisotropy, cubic,
- * worst_bin, rms_bin (reference: noise), noise and excess, and the same with _area; means, with their scatter. */
+ * worst_bin, rms_bin (reference: noise), noise, excess, means with their scatter, and common (what the samples share: chance falls out); the same
+ * with _area (weighted with it), _inside (three layers away from walls) and _area_inside. */
 brc_status brc_isotropy_values(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes);
 /* Free what the operator keeps in an outcome. */
 void brc_isotropy_forget(brc_outcome *outcome);

@@ -1,5 +1,6 @@
 /* Directions of bonds in samples that differ by their seed alone: each number as the mean over the samples and how it
- * scatters, every bond counted once and weighted with face area; and the histograms of the first samples as a picture. */
+ * scatters, every bond counted once and weighted with face area, of the whole samples and inside, where walls do not reach; and the
+ * histograms of the first samples as a picture. */
 #include "reproduce.h"
 #include "scene_domain.h"
 #include "../output/isotropy_picture.h"
@@ -9,10 +10,15 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEVEL = 3, COLUMNS = 5 };
+/* Spheres packed against a wall stand in layers that are lost after about three diameters. */
+enum { LEVEL = 3, COLUMNS = 5, LAYERS = 3 };
 
 enum { FABRIC, CUBIC, WORST, RMS, NOISE, EXCESS, NUMBERS };
 static const char *const number_names[NUMBERS] = {"fabric_anisotropy", "cubic", "worst_bin", "rms_bin", "noise", "excess"};
+
+/* What is counted: kind k has the weight k % 2, inside where k >= 2. */
+enum { KINDS = 4 };
+static const char *const kind_suffix[KINDS] = {"", "_area", "_inside", "_area_inside"};
 
 static void numbers_of(const brc_isotropy *i, double out[NUMBERS])
 {
@@ -24,20 +30,43 @@ static void numbers_of(const brc_isotropy *i, double out[NUMBERS])
 typedef struct tally {
     int n;
     double sum[NUMBERS], square[NUMBERS];
+    int32_t n_bins;
+    double *off;   /* [n_bins] density - 1; owned */
+    double *share; /* [n_bins] solid angle over that of the sphere; owned */
 } tally;
 
-static void add_sample(tally *t, const brc_isotropy *i)
+static brc_status add_sample(brc_context *context, tally *t, const brc_isotropy *i)
 {
     double x[NUMBERS];
+    if (t->n == 0) {
+        t->n_bins = i->n_bins;
+        BRC_TRY(BRC_ALLOCATE(context, &t->off, t->n_bins, "bins of directions"));
+        BRC_TRY(BRC_ALLOCATE(context, &t->share, t->n_bins, "bins of directions"));
+    }
+    for (int32_t b = 0; b < t->n_bins; ++b) {
+        t->off[b] += i->density[b] - 1;
+        t->share[b] = i->solid_angle[b] / (4 * M_PI);
+    }
     numbers_of(i, x);
     ++t->n;
     for (int k = 0; k < NUMBERS; ++k) {
         t->sum[k] += x[k];
         t->square[k] += x[k] * x[k];
     }
+    return BRC_OK;
 }
 
-/* "<number>" or "<number>_area"; even directions would give the noise as rms_bin. What exceeds the noise is taken from the mean
+/* What samples have in common: the root of the mean product of the deviations of two different samples, over all pairs. Chance, however
+ * strongly directions of one sample depend on each other, has the mean 0. NAN for one sample; 0 where the mean is negative. */
+static double common(const tally *t)
+{
+    double squares = 0;
+    for (int32_t b = 0; b < t->n_bins; ++b)
+        squares += t->share[b] * t->off[b] * t->off[b];
+    return t->n > 1 ? sqrt(fmax(squares - t->square[RMS], 0) / (t->n * (t->n - 1.0))) : NAN;
+}
+
+/* "<number>", "<number>_area" and so on; even directions would give the noise as rms_bin. What exceeds the noise is taken from the mean
  * squares: of a single sample it is cut off at 0 and so, on average, too large where the noise prevails. */
 static void add_values(const tally *t, const char *suffix, brc_outcome *outcome)
 {
@@ -49,23 +78,28 @@ static void add_values(const tally *t, const char *suffix, brc_outcome *outcome)
         brc_outcome_add(outcome, name, "-", value, k == RMS ? t->sum[NOISE] / t->n : NAN);
         outcome->values[outcome->n_values - 1].scatter = isnan(variance) ? NAN : sqrt(fmax(variance, 0));
     }
+    char name[BRC_NAME];
+    snprintf(name, sizeof name, "common%s", suffix);
+    brc_outcome_add(outcome, name, "-", common(t), NAN);
 }
 
 /* One sample: built, counted; the first one's histograms are kept. */
-static brc_status take_sample(brc_context *context, brc_scene *scene, int n_threads, bool first, tally tallies[2], brc_outcome *outcome)
+static brc_status take_sample(brc_context *context, brc_scene *scene, int n_threads, bool first, tally tallies[KINDS], brc_outcome *outcome)
 {
     brc_domain *domain = NULL;
     brc_status status = BRC_OK;
     BRC_TRY(brc_scene_domain_build(context, scene, n_threads, &domain));
-    const int kinds = domain->element_kind == BRC_ELEMENT_CELL ? 2 : 1;
-    for (int k = 0; k < kinds; ++k) {
+    for (int k = 0; k < KINDS; ++k) {
         brc_isotropy isotropy;
-        BRC_TRY_OR(cleanup, brc_isotropy_measure(context, domain, LEVEL, (brc_isotropy_weight)k, n_threads, &isotropy));
-        add_sample(&tallies[k], &isotropy);
-        if (first)
+        const brc_isotropy_weight weight = k % 2 ? BRC_ISOTROPY_AREA : BRC_ISOTROPY_BONDS;
+        if (weight == BRC_ISOTROPY_AREA && domain->element_kind != BRC_ELEMENT_CELL) continue;
+        BRC_TRY_OR(cleanup, brc_isotropy_measure_inside(context, domain, k < 2 ? 0 : LAYERS, LEVEL, weight, n_threads, &isotropy));
+        status = add_sample(context, &tallies[k], &isotropy);
+        if (first && k < 2)
             outcome->isotropy[k] = isotropy;
         else
             brc_isotropy_free(&isotropy);
+        if (status != BRC_OK) goto cleanup;
     }
     outcome->n_elements = domain->n_elements;
     outcome->n_bonds = domain->n_bonds;
@@ -80,7 +114,7 @@ brc_status brc_isotropy_values(brc_campaign *campaign, brc_outcome *outcome, con
     const brc_case_run *run = outcome->run;
     brc_status status = BRC_OK;
     brc_scene *scene = NULL;
-    tally tallies[2] = {{0}, {0}};
+    tally tallies[KINDS] = {{0}};
     const double start = brc_clock_s();
     BRC_TRY(brc_scene_read_text(context, name, text, bytes, run->n_overrides, run->overrides, &scene));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &outcome->isotropy, 2, "histograms of a run"));
@@ -91,12 +125,16 @@ brc_status brc_isotropy_values(brc_campaign *campaign, brc_outcome *outcome, con
             ++scene->bodies[b].fill.seed;
     }
     outcome->seconds = brc_clock_s() - start;
-    add_values(&tallies[0], "", outcome);
-    if (tallies[1].n > 0) add_values(&tallies[1], "_area", outcome);
+    for (int k = 0; k < KINDS; ++k)
+        if (tallies[k].n > 0) add_values(&tallies[k], kind_suffix[k], outcome);
     brc_outcome_add(outcome, "seconds", "s", outcome->seconds, NAN);
     brc_outcome_add(outcome, "elements", "-", (double)outcome->n_elements, NAN);
     brc_outcome_add(outcome, "bonds", "-", (double)outcome->n_bonds, NAN);
 cleanup:
+    for (int k = 0; k < KINDS; ++k) {
+        brc_memory_free(tallies[k].off);
+        brc_memory_free(tallies[k].share);
+    }
     brc_scene_free(&scene);
     return status;
 }

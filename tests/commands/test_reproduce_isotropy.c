@@ -9,7 +9,7 @@
 
 static const char scene[] = "version: 1\ntitle: Cube\nmaterials:\n  m: {E: 1 GPa, nu: 0.2, density: 1000 kg/m^3}\n"
                             "bodies:\n  - name: cube\n    shape: {box: {size: [1 m, 1 m, 1 m]}}\n"
-                            "    fill: {noisy_grid: {elements: 216, spread: 70 %, seed: 11}}\n"
+                            "    fill: {noisy_grid: {elements: 1000, spread: 70 %, seed: 11}}\n"
                             "stages:\n  - name: none\n    solver: {dynamic: {steps: 1}}\n";
 
 typedef struct made {
@@ -40,7 +40,7 @@ static brc_isotropy measure(brc_context *context, uint64_t seed, brc_isotropy_we
     brc_domain *domain;
     brc_isotropy isotropy;
     const brc_build_request request = {.shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}},
-                                       .fill = {.kind = BRC_FILL_NOISY_GRID, .n_elements = 216, .spread = 0.7, .seed = seed},
+                                       .fill = {.kind = BRC_FILL_NOISY_GRID, .n_elements = 1000, .spread = 0.7, .seed = seed},
                                        .n_threads = 1};
     assert_int_equal(brc_domain_build(context, &request, &domain), BRC_OK);
     assert_int_equal(brc_isotropy_measure(context, domain, 3, weight, 1, &isotropy), BRC_OK);
@@ -62,6 +62,11 @@ static void values_are_means_over_samples_with_their_scatter(void **state)
         assert_near(rms->reference, (a.noise + b.noise) / 2, 1e-15);
         assert_near(excess->value * excess->value, (a.rms_bin * a.rms_bin + b.rms_bin * b.rms_bin - a.noise * a.noise - b.noise * b.noise) / 2, 1e-12);
         assert_true(m->outcome.isotropy[w].cubic == a.cubic); /* the first is kept */
+        double product = 0; /* of the two samples' deviations */
+        for (int32_t bin = 0; bin < a.n_bins; ++bin)
+            product += a.solid_angle[bin] / (4 * M_PI) * (a.density[bin] - 1) * (b.density[bin] - 1);
+        assert_near(brc_outcome_find(&m->outcome, w ? "common_area" : "common")->value, sqrt(product), 1e-9);
+        assert_non_null(brc_outcome_find(&m->outcome, w ? "common_area_inside" : "common_inside"));
         brc_isotropy_free(&a);
         brc_isotropy_free(&b);
     }

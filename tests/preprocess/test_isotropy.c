@@ -213,6 +213,45 @@ static void the_bonds_of_a_domain_are_counted_once_or_with_their_area(void **sta
     brc_domain_free(&d);
 }
 
+/* Cubes, 8 a side: l layers less leave (8 - 2 l)^3 cells with 3 n^2 (n - 1) bonds among them. */
+static void layers_at_the_walls_are_left_out(void **state)
+{
+    const brc_build_request r = test_box(512, 0.0);
+    brc_domain *d = test_build(*state, &r);
+    brc_isotropy i;
+    for (int layers = 0; layers < 4; ++layers) {
+        const int n = 8 - 2 * layers;
+        assert_int_equal(brc_isotropy_measure_inside(*state, d, layers, 2, BRC_ISOTROPY_AREA, 1, &i), BRC_OK);
+        assert_int_equal(i.n_directions, 3 * n * n * (n - 1));
+        assert_near(i.n_effective, 3.0 * n * n * (n - 1), 1e-9);
+        brc_isotropy_free(&i);
+    }
+    assert_int_equal(brc_isotropy_measure_inside(*state, d, 4, 2, BRC_ISOTROPY_BONDS, 1, &i), BRC_BAD_INPUT);
+    test_says(*state, "fewer layers");
+    assert_int_equal(brc_isotropy_measure_inside(*state, d, -1, 2, BRC_ISOTROPY_BONDS, 1, &i), BRC_BAD_INPUT);
+    brc_domain_free(&d);
+}
+
+/* A chain of five spheres whose ends touch walls: four bonds, two of them between the three inner ones, none with two layers less. */
+static void spheres_at_a_wall_are_those_of_its_set(void **state)
+{
+    double position[15] = {0};
+    int64_t rows[6] = {0, 1, 3, 5, 7, 8};
+    int32_t neighbour[8] = {1, 0, 2, 1, 3, 2, 4, 3}, twin[8] = {1, 0, 3, 2, 5, 4, 7, 6}, bond_half_edge[4] = {0, 2, 4, 6};
+    int32_t low[1] = {0}, high[1] = {4};
+    char low_name[] = "x-", high_name[] = "x+", *names[2] = {low_name, high_name};
+    brc_set sets[2] = {{low_name, BRC_SET_ELEMENTS, 1, low}, {high_name, BRC_SET_ELEMENTS, 1, high}};
+    brc_isotropy i;
+    for (int e = 0; e < 5; ++e)
+        position[3 * e] = e;
+    const brc_domain d = {.element_kind = BRC_ELEMENT_SPHERE, .n_elements = 5, .n_bonds = 4, .n_half_edges = 8, .position = position, .row_start = rows,
+                          .neighbour = neighbour, .twin = twin, .bond_half_edge = bond_half_edge, .n_walls = 2, .wall_name = names, .n_sets = 2, .sets = sets};
+    assert_int_equal(brc_isotropy_measure_inside(*state, &d, 1, 1, BRC_ISOTROPY_BONDS, 1, &i), BRC_OK);
+    assert_int_equal(i.n_directions, 2);
+    brc_isotropy_free(&i);
+    assert_int_equal(brc_isotropy_measure_inside(*state, &d, 2, 1, BRC_ISOTROPY_BONDS, 1, &i), BRC_BAD_INPUT);
+}
+
 /* Volume inside the surface [m^3]: sum of a . (b x c) / 6. */
 static double volume_of(const brc_isotropy *i)
 {
@@ -342,6 +381,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(the_noise_is_the_exact_expectation, test_begin, test_end),
         cmocka_unit_test_setup_teardown(neither_threads_nor_the_sense_of_a_direction_change_a_bit, test_begin, test_end),
         cmocka_unit_test_setup_teardown(the_bonds_of_a_domain_are_counted_once_or_with_their_area, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(layers_at_the_walls_are_left_out, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(spheres_at_a_wall_are_those_of_its_set, test_begin, test_end),
         cmocka_unit_test_setup_teardown(an_stl_file_holds_the_closed_surface, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_vtp_file_holds_points_triangles_and_densities, test_begin, test_end),
         cmocka_unit_test_setup_teardown(the_printed_lines_hold_the_numbers, test_begin, test_end),
