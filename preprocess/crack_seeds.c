@@ -103,8 +103,10 @@ static brc_status make_images(brc_context *context, const mirror *m, double *pos
     }
     for (int64_t e = 0; e < n_before; ++e) kept += m->role[e] != DROP;
     if (kept + images > room)
-        return BRC_FAIL(context, BRC_INTERNAL, "mirroring seeds at a crack needs room for %lld seeds, there is room for %lld",
-                        (long long)(kept + images), (long long)room);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "flat cracks: mirrored seeds need room for %lld elements, there is room for %lld: cracks are too near to each other or to "
+                        "walls for cells of %.3g m; use smaller cells, or cracks that are not flat",
+                        (long long)(kept + images), (long long)room, m->spacing);
     double *fresh = NULL;
     BRC_TRY(BRC_ALLOCATE(context, &fresh, 3 * images, "mirrored seeds"));
     images = kept = 0;

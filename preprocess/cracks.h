@@ -14,7 +14,7 @@ brc_status brc_cracks_check(brc_context *context, int32_t n, const brc_crack *cr
  * rim, and about two spacings along walls that the plane meets at a slant or, nearer than one and a half, runs along (images fall outside there), and single faces within a spacing of a round wall, whose planes are not mirror images of one another; where two flat cracks come nearer than six spacings, only the later one is exact. Kept seeds keep their order, images follow in the order of their
  * sources: the result depends on the seeds alone. position [*n][3] (seeds inside the solid, before the pose: pass the cracks turned back) is changed
  * in place and *n with it; room for twice *n is enough for one crack. Images may lie outside the solid: the caller drops those.
- * spacing: mean distance of seeds [m]. BRC_INTERNAL when there is no room, BRC_NO_MEMORY; BRC_BAD_INPUT as brc_cracks_check. */
+ * spacing: mean distance of seeds [m]. BRC_BAD_INPUT when there is no room (several cracks nearer to each other than a spacing) and as brc_cracks_check; BRC_NO_MEMORY. */
 brc_status brc_cracks_mirror_seeds(brc_context *context, int32_t n_cracks, const brc_crack *cracks, double spacing, double *position, int64_t *n, int64_t room);
 /* Cut: every bond whose branch (the segment between the positions of its elements; cells and spheres alike) crosses a crack is removed. The rim belongs
  * to the crack, to 1e-9 of the mean spacing; an element in the plane counts as above it. For each such bond cells get two free faces of the wall "<name>", with

@@ -162,8 +162,8 @@ static void other_seeds_keep_place_and_order(void **state)
     assert_int_equal(brc_cracks_mirror_seeds(*state, 1, &rough, s.spacing, s.position, &s.n, s.room), BRC_OK);
     assert_int_equal(s.n, before.n);
     assert_memory_equal(s.position, before.position, 3 * (size_t)before.n * sizeof(double));
-    assert_int_equal(brc_cracks_mirror_seeds(*state, 1, &crack, s.spacing, s.position, &s.n, 1000), BRC_INTERNAL);
-    test_says(*state, "there is room for 1000");
+    assert_int_equal(brc_cracks_mirror_seeds(*state, 1, &crack, s.spacing, s.position, &s.n, 1000), BRC_BAD_INPUT);
+    test_says(*state, "there is room for 1000: cracks are too near to each other or to walls for cells of 0.0833 m");
     brc_memory_free(s.position);
     brc_memory_free(before.position);
 }
