@@ -1,3 +1,4 @@
+#include "spheres.h"
 #include "support.h"
 
 #include <string.h>
@@ -57,11 +58,48 @@ static void every_broken_property_is_named(void **state)
     brc_domain_free(&d);
 }
 
+/* Spoil one number of a sphere domain, expect the sentence, mend it. */
+#define SPOIL(field, wrong, sentence)                                                                                  \
+    do {                                                                                                               \
+        const double right = (field);                                                                                  \
+        (field) = (wrong);                                                                                             \
+        brc_context_clear(context);                                                                                    \
+        assert_int_equal(brc_domain_check(context, d), BRC_BAD_INPUT);                                                 \
+        test_says(context, sentence);                                                                                  \
+        (field) = right;                                                                                               \
+    } while (0)
+
+static void every_broken_property_of_spheres_is_named(void **state)
+{
+    brc_context *context = *state;
+    const int count[3] = {4, 3, 3};
+    brc_domain *d = test_spheres(context, count, 7.0, 0, 1);
+    SPOIL(d->radius[5], -d->radius[5], "sphere 5 has the radius -0.4");
+    SPOIL(d->radius[5], 2.0 * d->radius[5], "the volume of sphere 5 is not that of its radius");
+    SPOIL(d->inertia[6 * 7 + 4], 1e-6, "the inertia of sphere 7 is not that of its radius");
+    SPOIL(d->centroid[3 * 9], 0.0, "the centroid of sphere 9 is not its position");
+    SPOIL(d->position[3 * 9], NAN, "a position is not finite");
+    SPOIL(d->volume[2], 0.0, "element 2 has the volume 0");
+    double *radius = d->radius;
+    d->radius = NULL;
+    brc_context_clear(context);
+    assert_int_equal(brc_domain_check(context, d), BRC_BAD_INPUT);
+    test_says(context, "spheres without radii");
+    d->radius = radius;
+    d->element_kind = (brc_element_kind)7;
+    assert_int_equal(brc_domain_check(context, d), BRC_BAD_INPUT);
+    test_says(context, "elements of the unknown kind 7");
+    d->element_kind = BRC_ELEMENT_SPHERE;
+    assert_int_equal(brc_domain_check(context, d), BRC_OK);
+    brc_domain_free(&d);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_built_domain_passes_its_check, test_begin, test_end),
         cmocka_unit_test_setup_teardown(every_broken_property_is_named, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(every_broken_property_of_spheres_is_named, test_begin, test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

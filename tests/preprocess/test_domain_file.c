@@ -1,3 +1,4 @@
+#include "spheres.h"
 #include "support.h"
 
 #include "../../host/base/log.h"
@@ -86,6 +87,74 @@ static void what_was_written_is_read_back_bit_for_bit(void **state)
     remove(path);
 }
 
+static void spheres_and_grains_are_read_back_bit_for_bit(void **state)
+{
+    brc_context *context = *state;
+    const int count[3] = {6, 5, 4};
+    brc_domain *a = test_spheres(context, count, 8.0, 2, 1), *b;
+    const int64_t n = a->n_elements, h = a->n_half_edges;
+    assert_int_equal(BRC_ALLOCATE(context, &a->grain, n, "grains"), BRC_OK);
+    for (int64_t e = 0; e < n; ++e) a->grain[e] = (int32_t)(e % 5);
+    assert_int_equal(brc_domain_write(context, a, path), BRC_OK);
+    if (brc_domain_read(context, path, &b) != BRC_OK) fail_msg("%s", brc_context_message(context));
+    assert_int_equal(b->element_kind, BRC_ELEMENT_SPHERE);
+    assert_int_equal(b->n_elements, n);
+    assert_int_equal(b->n_bonds, a->n_bonds);
+    SAME(position, 3 * n);
+    SAME(radius, n);
+    SAME(grain, n);
+    SAME(volume, n);
+    SAME(centroid, 3 * n);
+    SAME(inertia, 6 * n);
+    SAME(body, n);
+    SAME(row_start, n + 1);
+    SAME(neighbour, h);
+    SAME(twin, h);
+    SAME(bond, h);
+    SAME(bond_half_edge, a->n_bonds);
+    assert_memory_equal(&a->quality, &b->quality, sizeof a->quality);
+    assert_int_equal(b->n_walls, 6);
+    assert_int_equal(b->n_sets, 12);
+    for (int32_t s = 0; s < 12; ++s) SAME(sets[s].members, a->sets[s].n_members);
+    assert_null(b->area_vector);
+    assert_null(b->free_start);
+    assert_null(b->vertex);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    assert_true(H5Lexists(file, "elements/radius", H5P_DEFAULT) > 0);
+    assert_int_equal(H5Lexists(file, "free_faces", H5P_DEFAULT), 0);
+    assert_int_equal(H5Lexists(file, "bonds/area_vector", H5P_DEFAULT), 0);
+    H5Fclose(file);
+    brc_domain_free(&a);
+    brc_domain_free(&b);
+    remove(path);
+}
+
+/* domain_version1.h5 was written by version 1 of the format: eight cubes of 1 m, body 3, region 1 above z = 1 m, set "top". */
+static void files_of_version_1_are_still_read(void **state)
+{
+    brc_domain *d;
+    if (brc_domain_read(*state, BRC_SOURCE_DIR_PATH "/tests/preprocess/domain_version1.h5", &d) != BRC_OK)
+        fail_msg("%s", brc_context_message(*state));
+    assert_int_equal(d->element_kind, BRC_ELEMENT_CELL);
+    assert_int_equal(d->n_elements, 8);
+    assert_int_equal(d->n_bonds, 12);
+    assert_int_equal(d->n_free_faces, 24);
+    assert_null(d->grain);
+    assert_null(d->radius);
+    for (int64_t e = 0; e < 8; ++e) {
+        assert_near(d->volume[e], 1.0, 1e-14);
+        assert_int_equal(d->body[e], 3);
+        assert_int_equal(d->region[e], d->position[3 * e + 2] > 1.0);
+    }
+    assert_int_equal(d->sets[brc_domain_find_set(d, "top")].n_members, 4);
+    /* numbers that version 1 did not have are measured */
+    assert_int_equal(d->quality.n_pieces, 1);
+    assert_near(d->quality.faces_spread[2], 6.0, 0.0);
+    assert_near(d->quality.branch_spread[4], 1.0, 1e-7); /* single precision */
+    assert_near(d->quality.coordination_mean, 3.0, 0.0);
+    brc_domain_free(&d);
+}
+
 static void numbers_are_stored_in_eight_bytes_little_endian(void **state)
 {
     brc_domain *d = sample(*state);
@@ -147,6 +216,18 @@ static void set_count(hid_t file)
     H5Aclose(attribute);
 }
 
+static void change_kind(hid_t file)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, 5);
+    H5Adelete(file, "element_kind");
+    const hid_t attribute = H5Acreate2(file, "element_kind", type, space, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(attribute, type, "cubes");
+    H5Aclose(attribute);
+    H5Sclose(space);
+    H5Tclose(type);
+}
+
 static void delete_array(hid_t file)
 {
     H5Ldelete(file, "half_edges/twin", H5P_DEFAULT);
@@ -184,6 +265,7 @@ static void spoiled_files_are_refused_with_what_is_wrong(void **state)
 {
     spoil(*state, set_version, "format version 99, this program reads versions 1 to 2");
     spoil(*state, set_count, "expected [2147483647]");
+    spoil(*state, change_kind, "kind of elements is unknown, expected cells or spheres");
     spoil(*state, delete_array, "'half_edges/twin' is missing");
     spoil(*state, wrong_shape, "'elements/volume' has the shape [3][1], expected [3");
     spoil(*state, wrong_type, "'elements/volume' has another type");
@@ -259,6 +341,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(what_was_written_is_read_back_bit_for_bit, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(spheres_and_grains_are_read_back_bit_for_bit, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(files_of_version_1_are_still_read, test_begin, test_end),
         cmocka_unit_test_setup_teardown(numbers_are_stored_in_eight_bytes_little_endian, test_begin, test_end),
         cmocka_unit_test_setup_teardown(foreign_and_missing_files_are_refused, test_begin, test_end),
         cmocka_unit_test_setup_teardown(spoiled_files_are_refused_with_what_is_wrong, test_begin, test_end),

@@ -1,4 +1,9 @@
+#include "spheres.h"
 #include "support.h"
+
+#include "../../preprocess/pose.h"
+
+#include <string.h>
 
 /* A quarter turn about z through the origin of the shape, then a shift: (x, y, z) -> (-y, x, z) + t. */
 static void a_posed_body_is_the_turned_and_shifted_one(void **state)
@@ -85,11 +90,36 @@ static void poses_that_are_not_finite_are_refused(void **state)
     test_refused(*state, &r, BRC_BAD_INPUT, "pose: translation and rotation must be finite");
 }
 
+/* A quarter turn about z: (x, y, z) -> (-y, x, z) + t; radii, volumes and inertia stay to the last bit. */
+static void spheres_are_turned_and_shifted(void **state)
+{
+    const int count[3] = {4, 3, 2};
+    const double origin[3] = {0.0, 0.0, 0.0}, turn[3] = {0.0, 0.0, 1.57079632679489662}, by[3] = {1.0, -2.0, 0.5};
+    brc_domain *a = test_spheres(*state, count, 7.0, 0, 1), *b = test_spheres(*state, count, 7.0, 0, 1);
+    brc_pose_apply(origin, turn, by, b);
+    assert_int_equal(brc_domain_check(*state, b), BRC_OK);
+    for (int64_t e = 0; e < a->n_elements; ++e) {
+        assert_near(b->position[3 * e], -a->position[3 * e + 1] + 1.0, 1e-15);
+        assert_near(b->position[3 * e + 1], a->position[3 * e] - 2.0, 1e-15);
+        assert_near(b->position[3 * e + 2], a->position[3 * e + 2] + 0.5, 1e-15);
+    }
+    assert_memory_equal(a->inertia, b->inertia, 6 * (size_t)a->n_elements * sizeof(double));
+    assert_memory_equal(a->radius, b->radius, (size_t)a->n_elements * sizeof(double));
+    const double low[3] = {-2.0, -2.0, 0.5}, high[3] = {1.0, 2.0, 2.5};
+    for (int c = 0; c < 3; ++c) {
+        assert_near(b->bounds[0][c], low[c], 1e-14);
+        assert_near(b->bounds[1][c], high[c], 1e-14);
+    }
+    brc_domain_free(&a);
+    brc_domain_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_posed_body_is_the_turned_and_shifted_one, test_begin, test_end),
         cmocka_unit_test_setup_teardown(any_turn_keeps_the_identities_of_the_cells, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(spheres_are_turned_and_shifted, test_begin, test_end),
         cmocka_unit_test_setup_teardown(sets_are_picked_in_posed_coordinates, test_begin, test_end),
         cmocka_unit_test_setup_teardown(poses_that_are_not_finite_are_refused, test_begin, test_end),
     };

@@ -1,3 +1,4 @@
+#include "spheres.h"
 #include "support.h"
 
 #include "../../preprocess/sets.h"
@@ -150,6 +151,51 @@ static void bad_sets_are_refused_with_a_sentence(void **state)
     test_refused(context, &r, BRC_BAD_INPUT, "empty name");
 }
 
+static void walls_of_spheres_are_the_elements_that_touch_them(void **state)
+{
+    const int count[3] = {6, 5, 4};
+    brc_domain *d = test_spheres(*state, count, 8.0, 0, 1);
+    brc_set_request sets[2] = {{.name = "grip", .kind = BRC_SET_ELEMENTS, .where = {.has_wall = true, .wall = "x+"}},
+                               {.name = "edge", .kind = BRC_SET_ELEMENTS, .where = {.has_wall = true, .wall = "x+"}}};
+    sets[1].where.has_half_space = true;
+    sets[1].where.half_space_point[2] = 3.0;
+    sets[1].where.half_space_normal[2] = 1.0;
+    for (int again = 0; again < 2; ++again) { /* wall sets are still there the second time */
+        assert_int_equal(brc_sets_build(*state, 2, sets, d), BRC_OK);
+        assert_int_equal(d->n_sets, 14);
+        const brc_set *wall = set_of(d, "x+"), *grip = set_of(d, "grip"), *edge = set_of(d, "edge");
+        assert_int_equal(wall->n_members, 20);
+        assert_int_equal(grip->n_members, 20);
+        assert_memory_equal(wall->members, grip->members, 20 * sizeof *wall->members);
+        assert_int_equal(edge->n_members, 5);
+        for (int64_t k = 0; k < 5; ++k) assert_int_equal(edge->members[k], 90 + 6 * k + 5);
+    }
+    sets[0].kind = BRC_SET_FACES;
+    assert_int_equal(brc_sets_build(*state, 1, sets, d), BRC_BAD_INPUT);
+    test_says(*state, "set 'grip': spheres have no faces; pick elements instead");
+    brc_domain_free(&d);
+}
+
+/* Sets that are asked for again replace those of the same name, others stay. */
+static void sets_built_again_keep_what_is_not_named(void **state)
+{
+    brc_set_request sets[2] = {face_set("clamp"), face_set("top")};
+    sets[0].where = (brc_predicate){.has_wall = true, .wall = "x-"};
+    sets[1].where = (brc_predicate){.has_wall = true, .wall = "z+"};
+    brc_build_request r = test_box(1000, 0.0);
+    r.n_sets = 2;
+    r.sets = sets;
+    brc_domain *d = test_build(*state, &r);
+    sets[0].kind = BRC_SET_ELEMENTS;
+    sets[0].where = (brc_predicate){.has_box = true, .box = {{0, 0, 0}, {0.05, 0.05, 0.05}}};
+    assert_int_equal(brc_sets_build(*state, 1, sets, d), BRC_OK);
+    assert_int_equal(d->n_sets, 8);
+    assert_int_equal(set_of(d, "clamp")->kind, BRC_SET_ELEMENTS);
+    assert_int_equal(set_of(d, "clamp")->n_members, 1);
+    assert_int_equal(set_of(d, "top")->n_members, 100);
+    brc_domain_free(&d);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -157,6 +203,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(curved_walls_are_named_and_ends_follow_the_axis, test_begin, test_end),
         cmocka_unit_test_setup_teardown(each_predicate_picks_what_it_says, test_begin, test_end),
         cmocka_unit_test_setup_teardown(elements_are_picked_by_position_and_by_wall, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(walls_of_spheres_are_the_elements_that_touch_them, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(sets_built_again_keep_what_is_not_named, test_begin, test_end),
         cmocka_unit_test_setup_teardown(bad_sets_are_refused_with_a_sentence, test_begin, test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
