@@ -32,7 +32,7 @@ typedef struct brc_outcome {
     int n_values;
     brc_case_value values[BRC_CASE_VALUES];
     double *displacement; /* [n_elements][3] kept on wish; owned */
-    brc_isotropy *isotropy; /* [2] of a run of isotropy: every bond once, weighted with area (empty for beams); owned */
+    brc_isotropy *isotropy; /* [4] of a run of isotropy: every bond once, weighted with area (empty for beams), and both inside; owned */
 } brc_outcome;
 
 void brc_outcome_add(brc_outcome *outcome, const char *name, const char *unit, double value, double reference);
@@ -74,7 +74,7 @@ void brc_drift_values(const brc_drift *drift, brc_outcome *outcome);
 brc_status brc_isotropy_values(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes);
 /* Free what the operator keeps in an outcome. */
 void brc_isotropy_forget(brc_outcome *outcome);
-/* <case>.png and <case>-area.png into the campaign's folder, where runs of isotropy were made. */
+/* <case>.png, <case>-area.png, <case>-inside.png, <case>-area-inside.png into the campaign's folder, where runs of isotropy were made. */
 brc_status brc_isotropy_figures(brc_campaign *campaign);
 
 /* The vibration operator: rms of the relative errors of the modes, and each mode [rad/s] with its exact value. */

@@ -95,7 +95,7 @@ static brc_status take_sample(brc_context *context, brc_scene *scene, int n_thre
         if (weight == BRC_ISOTROPY_AREA && domain->element_kind != BRC_ELEMENT_CELL) continue;
         BRC_TRY_OR(cleanup, brc_isotropy_measure_inside(context, domain, k < 2 ? 0 : LAYERS, LEVEL, weight, n_threads, &isotropy));
         status = add_sample(context, &tallies[k], &isotropy);
-        if (first && k < 2)
+        if (first)
             outcome->isotropy[k] = isotropy;
         else
             brc_isotropy_free(&isotropy);
@@ -117,7 +117,7 @@ brc_status brc_isotropy_values(brc_campaign *campaign, brc_outcome *outcome, con
     tally tallies[KINDS] = {{0}};
     const double start = brc_clock_s();
     BRC_TRY(brc_scene_read_text(context, name, text, bytes, run->n_overrides, run->overrides, &scene));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &outcome->isotropy, 2, "histograms of a run"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &outcome->isotropy, KINDS, "histograms of a run"));
     for (int k = 0; k < run->n_seeds; ++k) {
         const int n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads;
         BRC_TRY_OR(cleanup, take_sample(context, scene, n_threads, k == 0, tallies, outcome));
@@ -141,7 +141,7 @@ cleanup:
 
 void brc_isotropy_forget(brc_outcome *outcome)
 {
-    for (int k = 0; outcome->isotropy && k < 2; ++k)
+    for (int k = 0; outcome->isotropy && k < KINDS; ++k)
         brc_isotropy_free(&outcome->isotropy[k]);
     brc_memory_free(outcome->isotropy);
     outcome->isotropy = NULL;
@@ -151,6 +151,7 @@ void brc_isotropy_forget(brc_outcome *outcome)
 static brc_status draw(brc_campaign *campaign, int kind, brc_isotropy_panel *panels)
 {
     brc_context *context = campaign->session->context;
+    static const char *const endings[KINDS] = {"", "-area", "-inside", "-area-inside"};
     char name[160], title[160], *path = NULL;
     int n = 0;
     for (int k = 0; k < campaign->what->n_runs; ++k) {
@@ -163,8 +164,9 @@ static brc_status draw(brc_campaign *campaign, int kind, brc_isotropy_panel *pan
         snprintf(panel->note, sizeof panel->note, "rms %.3f, cubic order %.3f", i->rms_bin, i->cubic);
     }
     if (n == 0) return BRC_OK;
-    snprintf(name, sizeof name, "%s%s.png", campaign->what->name, kind == BRC_ISOTROPY_AREA ? "-area" : "");
-    snprintf(title, sizeof title, "Directions of faces, %s", kind == BRC_ISOTROPY_AREA ? "weighted with their area" : "every face once");
+    snprintf(name, sizeof name, "%s%s.png", campaign->what->name, endings[kind]);
+    snprintf(title, sizeof title, "Directions of faces, %s%s", kind % 2 ? "weighted with their area" : "every face once",
+             kind >= 2 ? ", three layers of cells away from the walls" : "");
     BRC_TRY(brc_file_join(context, campaign->folder, name, &path));
     const brc_status status = brc_isotropy_montage(context, n, panels, n < COLUMNS ? n : COLUMNS, title, path);
     brc_memory_free(path);
@@ -175,8 +177,9 @@ brc_status brc_isotropy_figures(brc_campaign *campaign)
 {
     brc_isotropy_panel *panels;
     BRC_TRY(BRC_ALLOCATE(campaign->session->context, &panels, campaign->what->n_runs, "panels of a figure"));
-    brc_status status = draw(campaign, BRC_ISOTROPY_BONDS, panels);
-    if (status == BRC_OK) status = draw(campaign, BRC_ISOTROPY_AREA, panels);
+    brc_status status = BRC_OK;
+    for (int kind = 0; status == BRC_OK && kind < KINDS; ++kind)
+        status = draw(campaign, kind, panels);
     brc_memory_free(panels);
     return status;
 }

@@ -83,6 +83,8 @@ static void one_sample_has_no_scatter_and_figures_are_drawn(void **state)
     assert_int_equal(brc_isotropy_figures(&m->campaign), BRC_OK);
     assert_true(brc_file_exists("made-isotropy/made.png"));
     assert_true(brc_file_exists("made-isotropy/made-area.png"));
+    assert_true(brc_file_exists("made-isotropy/made-inside.png"));
+    assert_true(brc_file_exists("made-isotropy/made-area-inside.png"));
     assert_int_equal(system("rm -r made-isotropy"), 0);
     brc_isotropy_forget(&m->outcome);
     brc_context_free(&m->session.context);
