@@ -2,6 +2,7 @@
 #include "scene_domain.h"
 #include "../../preprocess/domain_file.h"
 #include "../../preprocess/pose.h"
+#include "../../preprocess/quality.h"
 #include "../../preprocess/sets.h"
 #include "../base/file.h"
 #include "../base/memory.h"
@@ -23,7 +24,7 @@ static brc_status read_body(brc_context *context, const brc_scene *scene, int32_
                             "body '%s': %s holds region %d, the scene gives the body %d region(s); state them as when the "
                             "file was built", body->name, body->domain_file, (*out)->region[e], brc_body_n_regions(body));
     brc_pose_apply(body->shape.origin, body->rotation, body->translation, *out);
-    return BRC_OK;
+    return brc_quality_judge(context, *out, scene->n_limits, scene->limits);
 }
 
 /* A path of the scene as the builder needs it: relative to the scene's folder. */
@@ -93,28 +94,6 @@ static brc_status make_body(brc_context *context, const brc_scene *scene, int32_
     return status;
 }
 
-/* Make the sets of the scene on the finished domain and keep those it has that the scene does not name. */
-static brc_status name_sets(brc_context *context, const brc_scene *scene, brc_domain *domain)
-{
-    brc_set *old = domain->sets;
-    const int32_t n_old = domain->n_sets;
-    domain->sets = NULL;
-    domain->n_sets = 0;
-    brc_status status = brc_sets_build(context, scene->n_sets, scene->sets, domain);
-    if (status == BRC_OK)
-        status = brc_memory_resize(context, (void **)&domain->sets, (int64_t)domain->n_sets + n_old, sizeof *domain->sets, "sets");
-    for (int32_t s = 0; s < n_old; ++s) {
-        if (status == BRC_OK && brc_domain_find_set(domain, old[s].name) < 0) {
-            domain->sets[domain->n_sets++] = old[s];
-            continue;
-        }
-        brc_memory_free(old[s].name);
-        brc_memory_free(old[s].members);
-    }
-    brc_memory_free(old);
-    return status;
-}
-
 brc_status brc_scene_domain_build(brc_context *context, const brc_scene *scene, int n_threads, brc_domain **out)
 {
     brc_status status = BRC_OK;
@@ -129,7 +108,7 @@ brc_status brc_scene_domain_build(brc_context *context, const brc_scene *scene, 
     } else {
         BRC_TRY_OR(cleanup, brc_domain_join(context, scene->n_bodies, (const brc_domain *const *)parts, out));
     }
-    BRC_TRY_OR(cleanup, name_sets(context, scene, *out));
+    BRC_TRY_OR(cleanup, brc_sets_build(context, scene->n_sets, scene->sets, *out));
 cleanup:
     for (int32_t b = 0; parts && b < scene->n_bodies; ++b)
         brc_domain_free(&parts[b]);
