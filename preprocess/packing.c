@@ -13,19 +13,22 @@
 #define DENSITY_PER_OVERLAP 3.0
 #define CONTACTS_PER_ROOT 9.1
 /* The packing is first relaxed so much denser than it will be: spheres are pressed into place everywhere, also at the far ends of a
- * slender shape, and then only let go. Growing into contact instead leaves packings looser by 0.002. */
-#define PRESSED 0.03
+ * slender shape, and then only let go. Less of it (0.03) leaves packings looser by 0.001 to 0.002. */
+#define PRESSED 0.05
 /* Relaxed denser than this beyond first contact, spheres overlap by 3 % and are none any more. */
 #define DENSEST 0.09
+/* So much overlap [-] is the end where walls or many loose spheres keep the contacts few. */
+#define OVERLAP_MOST 0.06
+#define OVERLAP_USUAL 0.02
 #define PI 3.14159265358979323846
 /* Contacts a sphere needs to be held. */
 #define HOLD_LEAST 4
 #define MOST_DENSITIES 16
 #define MOST_ITERATIONS 20000
-/* Forces left over [of the mean contact force] while the density is still searched, and at the end. */
-#define TOLERANCE_FIRST 0.05
-#define TOLERANCE_NEXT 0.02
-#define TOLERANCE_LAST 0.01
+/* Forces left over [of the mean contact force] while pressed, and from then on. Less care in the first relaxation (0.05) costs more iterations in
+ * the next ones, and density. */
+#define TOLERANCE_PRESSED 0.02
+#define TOLERANCE 0.01
 #define DEFAULT_TOLERANCE 0.02
 #define BYTES_PER_SPHERE 300.0
 /* The least room, in diameters, at the thickest place of the solid. */
@@ -112,6 +115,7 @@ typedef struct pack_plan {
     double contacts;     /* wanted coordination number; 0: the volume fraction is wanted */
     double fraction;     /* wanted volume fraction */
     double tolerance;    /* of the coordination number */
+    double across;       /* diameters across the solid where it is thickest */
 } pack_plan;
 
 /* Mean radius [m] at which n spheres fill the fraction. */
@@ -176,9 +180,9 @@ static brc_status make_plan(brc_context *context, const brc_solid *solid, const 
     return BRC_OK;
 }
 
-static brc_status check_room(brc_context *context, const pack_plan *plan, int64_t n, double deepest)
+static brc_status check_room(brc_context *context, const pack_plan *plan, int64_t n)
 {
-    const double diameter = 2.0 * radius_at(plan, n, plan->touch), across = 2.0 * deepest / diameter;
+    const double across = plan->across;
     if (across >= ACROSS_LEAST) return BRC_OK;
     const double needed = (double)n * pow(ACROSS_LEAST / fmax(across, 0.01), 3.0);
     return BRC_FAIL(context, BRC_BAD_INPUT,
@@ -188,13 +192,14 @@ static brc_status check_room(brc_context *context, const pack_plan *plan, int64_
 }
 
 /* Spheres at the start points, pressed. */
-static brc_status place(brc_pack *pack, const brc_fill *fill, const pack_plan *plan, double *fraction)
+static brc_status place(brc_pack *pack, const brc_fill *fill, pack_plan *plan, double *fraction)
 {
+    const double expected = radius_at(plan, pack->n, plan->touch);
     *fraction = plan->contacts > 0.0 ? plan->touch + 0.01 + PRESSED : plan->fraction;
     double *start = NULL, deepest = 0.0, cube = 0.0;
-    BRC_TRY(brc_pack_start(pack->context, pack->solid, fill, pack->n, START_MARGIN * radius_at(plan, pack->n, plan->touch), pack->n_threads,
-                           &start, &deepest));
-    const brc_status status = check_room(pack->context, plan, pack->n, deepest);
+    BRC_TRY(brc_pack_start(pack->context, pack->solid, fill, pack->n, START_MARGIN * expected, pack->n_threads, &start, &deepest));
+    plan->across = deepest / expected;
+    const brc_status status = check_room(pack->context, plan, pack->n);
     for (int64_t i = 0; i < pack->n; ++i) {
         double *const x = pack->sphere[i];
         memcpy(x, start + 3 * i, 3 * sizeof *x);
@@ -229,36 +234,45 @@ static double aim(const brc_pack *pack, const pack_plan *plan, const brc_pack_su
     return fraction + fmin(change, 0.01);
 }
 
+/* Why the wanted number of contacts does not come, and what to change. */
+static brc_status not_reached(brc_pack *pack, const pack_plan *plan, const brc_pack_sums *sums, int32_t relaxations, double least)
+{
+    const double now = coordination(pack, sums);
+    if (mean_overlap(sums) > OVERLAP_MOST)
+        return BRC_FAIL(pack->context, BRC_BAD_INPUT,
+                        "fill: coordination number %.3g cannot be reached: pressed until they overlap by %.1f %%, the spheres have %.2f contacts (walls "
+                        "have no part in the number, and the shape is only %.2g diameters across where it is thickest); use more and so smaller "
+                        "spheres, or ask for a smaller number or a volume fraction",
+                        plan->contacts, 100.0 * mean_overlap(sums), now, plan->across);
+    if (plan->contacts < least)
+        return BRC_FAIL(pack->context, BRC_BAD_INPUT,
+                        "fill: coordination number %.3g cannot be reached: at rest a packing in this shape has at least about %.2f contacts a sphere, "
+                        "with fewer it falls apart; ask for 6.2, or for a volume fraction below %.2f",
+                        plan->contacts, least, plan->touch);
+    return BRC_FAIL(pack->context, BRC_BAD_INPUT,
+                    "fill: coordination number %.3g was not met within %.2g in %d relaxations, but %.3f: with %lld spheres it changes in jumps; use "
+                    "more spheres, a larger tolerance or another seed",
+                    plan->contacts, plan->tolerance, relaxations, now, (long long)pack->n);
+}
+
 /* Relax at the wanted volume fraction, or search the one with the wanted contacts. */
 static brc_status search(brc_pack *pack, const pack_plan *plan, double fraction, brc_packing *out)
 {
-    double tolerance = TOLERANCE_FIRST;
     for (out->relaxations = 1;; ++out->relaxations) {
+        const bool strict = out->relaxations > 1;
         brc_pack_sums sums;
         bool converged;
-        BRC_TRY(brc_pack_relax(pack, tolerance, MOST_ITERATIONS, &sums, &converged));
+        BRC_TRY(brc_pack_relax(pack, strict ? TOLERANCE : TOLERANCE_PRESSED, MOST_ITERATIONS, &sums, &converged));
         out->coordination = coordination(pack, &sums);
-        const double off = out->coordination - plan->contacts;
-        const bool strict = tolerance <= TOLERANCE_LAST;
         brc_log(pack->context, BRC_LOG_DEBUG, "packing: volume fraction %.5f gives coordination %.3f, overlaps %.3f %%, after %lld iterations",
                 fraction, out->coordination, 100.0 * mean_overlap(&sums), (long long)pack->iterations);
-        tolerance = tolerance > TOLERANCE_NEXT ? TOLERANCE_NEXT : TOLERANCE_LAST;
-        if (plan->contacts == 0.0) {
-            if (strict) return BRC_OK;
-            continue;
-        }
-        if (fabs(off) <= plan->tolerance) {
-            if (strict) return BRC_OK;
-            continue;
-        }
+        const bool there = plan->contacts == 0.0 || fabs(out->coordination - plan->contacts) <= plan->tolerance;
+        if (there && strict) return BRC_OK;
+        if (there) continue;
         double least;
         const double next = aim(pack, plan, &sums, fraction, &least);
-        if (out->relaxations >= MOST_DENSITIES || (strict && plan->contacts < least))
-            return BRC_FAIL(pack->context, BRC_BAD_INPUT,
-                            "fill: coordination number %.3g was not reached within %.2g, but %.3f after %d densities; this packing at rest has "
-                            "between %.2f and %.1f contacts a sphere (walls not counted), fewer than %.2f only while it falls apart; ask for a number "
-                            "well between, or for a volume fraction",
-                            plan->contacts, plan->tolerance, out->coordination, out->relaxations, least, BRC_PACK_MOST_CONTACTS, least);
+        if (out->relaxations >= MOST_DENSITIES || (strict && (plan->contacts < least || mean_overlap(&sums) > OVERLAP_MOST)))
+            return not_reached(pack, plan, &sums, out->relaxations, least);
         brc_pack_scale(pack, cbrt(next / fraction));
         fraction = next;
     }
@@ -301,6 +315,11 @@ static brc_status finish(brc_pack *pack, const brc_fill *fill, const pack_plan *
             "packing: %lld spheres of %.4g m mean radius, coordination %.3f, volume fraction %.4f, mean overlap %.2g %%, %.2g %% loose",
             (long long)pack->n, radius / (double)pack->n, out->coordination, out->volume_fraction, 100.0 * out->overlap_mean,
             100.0 * out->rattlers);
+    if (out->overlap_mean > OVERLAP_USUAL)
+        brc_log(pack->context, BRC_LOG_WARNING,
+                "packing: spheres overlap by %.2g %% in the mean (usual: below %.0f %%): the shape is only %.2g diameters across where it is thickest, the radii "
+                "vary much, or too many contacts or too much volume was asked for",
+                100.0 * out->overlap_mean, 100.0 * OVERLAP_USUAL, plan->across);
     if (out->crystal >= 0.0) brc_log(pack->context, BRC_LOG_INFO, "packing: %.2g %% in ordered surroundings", 100.0 * out->crystal);
     return BRC_OK;
 }

@@ -12,6 +12,8 @@
 #define MOST_GRIDS 40
 /* So many points too many [of all] are drawn and left out again. */
 #define MOST_SURPLUS 0.01
+/* A grid so much finer than the spheres lie apart has found no room. */
+#define LEAST_SPACING 0.2
 
 /* Mean of radius^power over the table, radii being uniform between its points (or all equal at a step). */
 static double table_moment(const brc_fill *fill, int power)
@@ -156,6 +158,7 @@ static brc_status find_grid(brc_context *context, start_grid *grid, int64_t n, i
     double bounds[2][3];
     brc_solid_bounds(grid->solid, bounds);
     double spacing = cbrt(brc_solid_volume(grid->solid, NULL) / (double)n);
+    const double finest = LEAST_SPACING * spacing;
     double least = 0.0, most = HUGE_VAL; /* spacings known to give enough, and too few */
     *n_points = 0;
     for (int k = 0; k < MOST_GRIDS; ++k) {
@@ -173,6 +176,7 @@ static brc_status find_grid(brc_context *context, start_grid *grid, int64_t n, i
         const double aim = spacing * cbrt(((double)*n_points + 0.3) / ((1.0 + 0.3 * MOST_SURPLUS) * (double)n + 0.3));
         spacing = aim > least && aim < most ? aim : least > 0.0 && most < HUGE_VAL ? 0.5 * (least + most) : fmin(0.8 * most, aim);
         if (least > 0.0 && k > MOST_GRIDS - 4) spacing = least;
+        if (spacing < finest) break;
     }
     if (*n_points >= n) return BRC_OK;
     return BRC_FAIL(context, BRC_BAD_INPUT,
