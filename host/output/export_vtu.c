@@ -10,22 +10,24 @@ typedef struct frame_array {
     brc_vtu_number number;
     int columns;
     int skip; /* leading rows left out: VTU's offsets are ends, without the first 0 */
+    bool optional; /* may be missing in the frame */
 } frame_array;
 
 static const frame_array ARRAYS[] = {
-    {BRC_VTU_FIELD_DATA, "VTKHDF/FieldData/time", "TimeValue", BRC_VTU_FLOAT64, 1, 0},
-    {BRC_VTU_POINTS, "VTKHDF/Points", "Points", BRC_VTU_FLOAT32, 3, 0},
-    {BRC_VTU_CELLS, "VTKHDF/Connectivity", "connectivity", BRC_VTU_INT64, 1, 0},
-    {BRC_VTU_CELLS, "VTKHDF/Offsets", "offsets", BRC_VTU_INT64, 1, 1},
-    {BRC_VTU_CELLS, "VTKHDF/Types", "types", BRC_VTU_UINT8, 1, 0},
-    {BRC_VTU_POINT_DATA, "VTKHDF/PointData/displacement", "displacement", BRC_VTU_FLOAT32, 3, 0},
-    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/element_id", "element_id", BRC_VTU_INT64, 1, 0},
-    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/position", "position", BRC_VTU_FLOAT64, 3, 0},
-    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/displacement", "displacement", BRC_VTU_FLOAT64, 3, 0},
-    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/velocity", "velocity", BRC_VTU_FLOAT64, 3, 0},
-    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/stress", "stress", BRC_VTU_FLOAT64, 6, 0},
-    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/strain", "strain", BRC_VTU_FLOAT64, 6, 0},
-    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/von_mises", "von_mises", BRC_VTU_FLOAT64, 1, 0},
+    {BRC_VTU_FIELD_DATA, "VTKHDF/FieldData/time", "TimeValue", BRC_VTU_FLOAT64, 1, 0, false},
+    {BRC_VTU_POINTS, "VTKHDF/Points", "Points", BRC_VTU_FLOAT32, 3, 0, false},
+    {BRC_VTU_CELLS, "VTKHDF/Connectivity", "connectivity", BRC_VTU_INT64, 1, 0, false},
+    {BRC_VTU_CELLS, "VTKHDF/Offsets", "offsets", BRC_VTU_INT64, 1, 1, false},
+    {BRC_VTU_CELLS, "VTKHDF/Types", "types", BRC_VTU_UINT8, 1, 0, false},
+    {BRC_VTU_POINT_DATA, "VTKHDF/PointData/displacement", "displacement", BRC_VTU_FLOAT32, 3, 0, false},
+    {BRC_VTU_POINT_DATA, "VTKHDF/PointData/radius", "radius", BRC_VTU_FLOAT64, 1, 0, true},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/element_id", "element_id", BRC_VTU_INT64, 1, 0, false},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/position", "position", BRC_VTU_FLOAT64, 3, 0, false},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/displacement", "displacement", BRC_VTU_FLOAT64, 3, 0, false},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/velocity", "velocity", BRC_VTU_FLOAT64, 3, 0, false},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/stress", "stress", BRC_VTU_FLOAT64, 6, 0, false},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/strain", "strain", BRC_VTU_FLOAT64, 6, 0, false},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/von_mises", "von_mises", BRC_VTU_FLOAT64, 1, 0, false},
 };
 enum { N_ARRAYS = sizeof ARRAYS / sizeof ARRAYS[0] };
 
@@ -52,16 +54,19 @@ static brc_status read_rows(const brc_vtu_array *array, int64_t first, int64_t n
     return brc_h5_read_rows(place->h5, place->name, memory_type(array->number), first + array->skip, n, block);
 }
 
-static brc_status ask_sizes(const brc_h5_read *h5, place_in_frame places[N_ARRAYS], brc_vtu_array arrays[N_ARRAYS])
+static brc_status ask_sizes(const brc_h5_read *h5, place_in_frame places[N_ARRAYS], brc_vtu_array arrays[N_ARRAYS], int *n_arrays)
 {
+    *n_arrays = 0;
     for (int k = 0; k < N_ARRAYS; ++k) {
         const frame_array *a = &ARRAYS[k];
         int64_t columns;
+        if (a->optional && !brc_h5_read_has(h5, a->source)) continue;
+        brc_vtu_array *array = &arrays[(*n_arrays)++];
         places[k] = (place_in_frame){h5, a->source};
-        arrays[k] = (brc_vtu_array){a->place, a->name, a->number, a->columns, 0, read_rows, &places[k], a->skip};
-        BRC_TRY(brc_h5_read_size(h5, a->source, &arrays[k].rows, &columns));
-        arrays[k].rows -= a->skip;
-        if (columns != a->columns || arrays[k].rows < 0)
+        *array = (brc_vtu_array){a->place, a->name, a->number, a->columns, 0, read_rows, &places[k], a->skip};
+        BRC_TRY(brc_h5_read_size(h5, a->source, &array->rows, &columns));
+        array->rows -= a->skip;
+        if (columns != a->columns || array->rows < 0)
             return BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %s has %lld columns, %d are expected; the file is damaged",
                             h5->path, a->source, (long long)columns, a->columns);
     }
@@ -70,13 +75,14 @@ static brc_status ask_sizes(const brc_h5_read *h5, place_in_frame places[N_ARRAY
 
 brc_status brc_export_vtu_frame(brc_context *context, const char *frame, const char *path)
 {
-    enum { POINTS = 1, TYPES = 4 };
+    enum { POINTS = 1, TYPES = 4 }; /* places in ARRAYS, before the optional one */
     brc_h5_read h5;
     place_in_frame places[N_ARRAYS];
     brc_vtu_array arrays[N_ARRAYS];
     BRC_TRY(brc_h5_read_open(context, frame, &h5));
-    brc_status status = ask_sizes(&h5, places, arrays);
-    if (status == BRC_OK) status = brc_vtu_write(context, path, arrays[POINTS].rows, arrays[TYPES].rows, N_ARRAYS, arrays);
+    int n_arrays;
+    brc_status status = ask_sizes(&h5, places, arrays, &n_arrays);
+    if (status == BRC_OK) status = brc_vtu_write(context, path, arrays[POINTS].rows, arrays[TYPES].rows, n_arrays, arrays);
     brc_h5_read_close(&h5);
     return status;
 }

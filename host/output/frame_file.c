@@ -5,9 +5,37 @@
 #include "text.h"
 #include "../base/memory.h"
 #include <stdio.h>
+#include <string.h>
 
 #define BLOCK_POINTS ((int64_t)1 << 17)
-#define CONVEX_POINT_SET 41 /* VTK's cell type */
+enum { VERTEX = 1, CONVEX_POINT_SET = 41 }; /* VTK's cell types */
+
+static bool is_sphere(const brc_domain *d)
+{
+    return d->element_kind == BRC_ELEMENT_SPHERE;
+}
+
+/* Points, Connectivity, PointData/displacement and radius of spheres: each is one point. */
+static brc_status write_centres(brc_context *context, brc_h5 *h5, const brc_domain *d, const double *displacement)
+{
+    const int64_t n = d->n_elements;
+    int64_t *id = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &id, n, "spheres of a frame"));
+    for (int64_t e = 0; e < n; ++e) id[e] = e;
+    brc_h5_dataset(h5, "VTKHDF/Connectivity", H5T_NATIVE_INT64, n, 0, id);
+    brc_memory_free(id);
+    const char *const name[2] = {"VTKHDF/Points", "VTKHDF/PointData/displacement"};
+    float *block = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &block, 3 * n, "spheres of a frame"));
+    for (int k = 0; k < 2; ++k) {
+        for (int64_t c = 0; c < 3 * n; ++c) block[c] = (float)(k == 0 ? d->position : displacement)[c];
+        brc_h5_dataset(h5, name[k], H5T_NATIVE_FLOAT, n, 3, block);
+    }
+    brc_memory_free(block);
+    brc_h5_dataset(h5, "VTKHDF/PointData/radius", H5T_NATIVE_DOUBLE, n, 0, d->radius);
+    brc_h5_attribute_text(h5, "VTKHDF/PointData/radius", "unit", "m");
+    return BRC_OK;
+}
 
 static int64_t largest_cell(const brc_domain *d)
 {
@@ -20,6 +48,7 @@ static int64_t largest_cell(const brc_domain *d)
 /* Points, Connectivity and PointData/displacement, a block of whole cells at a time. */
 static brc_status write_points(brc_context *context, brc_h5 *h5, const brc_domain *d, const double *displacement)
 {
+    if (is_sphere(d)) return write_centres(context, h5, d, displacement);
     const int64_t n_points = d->vertex_start[d->n_elements];
     const int64_t room = BLOCK_POINTS + largest_cell(d);
     float *corner = NULL, *moved = NULL;
@@ -66,21 +95,19 @@ static void write_field(brc_h5 *h5, const char *name, const char *unit, int64_t 
 
 static brc_status write_cells(brc_context *context, brc_h5 *h5, const brc_domain *d)
 {
-    const int64_t n = d->n_elements, n_points = d->vertex_start[n];
+    const int64_t n = d->n_elements, n_points = is_sphere(d) ? n : d->vertex_start[n];
     uint8_t *type = NULL;
-    int64_t *id = NULL;
+    int64_t *id = NULL; /* 0 .. n: ids, and where each sphere's one point begins */
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &type, n, "cell types of a frame"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &id, n, "element ids of a frame"));
-    for (int64_t e = 0; e < n; ++e) {
-        type[e] = CONVEX_POINT_SET;
-        id[e] = e;
-    }
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &id, n + 1, "element ids of a frame"));
+    memset(type, is_sphere(d) ? VERTEX : CONVEX_POINT_SET, (size_t)n);
+    for (int64_t e = 0; e <= n; ++e) id[e] = e;
     brc_h5_dataset(h5, "VTKHDF/NumberOfPoints", H5T_NATIVE_INT64, 1, 0, &n_points);
     brc_h5_dataset(h5, "VTKHDF/NumberOfCells", H5T_NATIVE_INT64, 1, 0, &n);
     brc_h5_dataset(h5, "VTKHDF/NumberOfConnectivityIds", H5T_NATIVE_INT64, 1, 0, &n_points);
     brc_h5_dataset(h5, "VTKHDF/Types", H5T_NATIVE_UINT8, n, 0, type);
-    brc_h5_dataset(h5, "VTKHDF/Offsets", H5T_NATIVE_INT64, n + 1, 0, d->vertex_start);
+    brc_h5_dataset(h5, "VTKHDF/Offsets", H5T_NATIVE_INT64, n + 1, 0, is_sphere(d) ? id : d->vertex_start);
     brc_h5_dataset(h5, "VTKHDF/CellData/element_id", H5T_NATIVE_INT64, n, 0, id);
     write_field(h5, "position", "m", n, 3, d->position);
 cleanup:

@@ -1,5 +1,5 @@
-/* picture.png by the painter's algorithm: free faces that look towards the viewer, the farthest first. Words and the colour
- * bar are drawn on top. */
+/* picture.png by the painter's algorithm: free faces that look towards the viewer, or spheres as discs with a highlight, the farthest
+ * first. Words and the colour bar are drawn on top. */
 #include "picture.h"
 #include "colour.h"
 #include "deform.h"
@@ -13,7 +13,7 @@
 enum { WIDTH = 1200, HEIGHT = 900 };
 static const double AREA[4] = {60, 100, 960, 820}; /* where the sample goes: left, top, right, bottom [px] */
 
-/* Corners of the deformed sample; picture coordinates come from here alone. */
+/* Corners (spheres: centres) of the deformed sample; picture coordinates come from here alone. */
 typedef struct canvas {
     brc_context *context;
     const brc_picture *picture;
@@ -21,8 +21,9 @@ typedef struct canvas {
     double centre[2]; /* of the sample, along right and up [m] */
     double zoom;      /* [px/m] */
     double scale;
-    double *point; /* [n corners of free faces][3] [m], in the order of domain.free_polygon */
-    brc_paint_face *faces; /* [n_free_faces] room, n_faces visible */
+    double *point; /* [n_points][3] [m]: corners in the order of domain.free_polygon, or centres of spheres */
+    int64_t n_points;
+    brc_paint_face *faces; /* [n_free_faces], or one a sphere: room, n_faces visible */
     int64_t n_faces;
     double low, high; /* of the colour bar */
     bool diverging;
@@ -31,6 +32,17 @@ typedef struct canvas {
 static double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static bool is_sphere(const canvas *c)
+{
+    return c->picture->domain->element_kind == BRC_ELEMENT_SPHERE;
+}
+
+/* Element of what is painted. */
+static int64_t element_of(const canvas *c, int64_t face)
+{
+    return is_sphere(c) ? face : c->picture->domain->free_element[face];
 }
 
 double brc_picture_automatic_scale(const brc_domain *d, const double *displacement)
@@ -57,6 +69,8 @@ static void move_points(canvas *c)
 {
     const brc_domain *d = c->picture->domain;
     double gradient[3][3] = {{0}};
+    for (int64_t k = 0; is_sphere(c) && k < 3 * d->n_elements; ++k)
+        c->point[k] = d->position[k] + c->scale * c->picture->displacement[k];
     for (int64_t f = 0, before = -1; f < d->n_free_faces; ++f) {
         const int64_t e = d->free_element[f];
         if (e != before) brc_deform_gradient(d, c->picture->displacement, e, gradient);
@@ -76,12 +90,13 @@ static void fit_view(canvas *c)
 {
     const brc_domain *d = c->picture->domain;
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    for (int64_t k = 0; k < d->free_polygon_start[d->n_free_faces]; ++k) {
+    for (int64_t k = 0; k < c->n_points; ++k) {
+        const double radius = is_sphere(c) ? d->radius[k] : 0;
         const double at[2] = {dot(c->point + 3 * k, c->view.right), dot(c->point + 3 * k, c->view.up)};
         if (!isfinite(at[0]) || !isfinite(at[1])) continue;
         for (int i = 0; i < 2; ++i) {
-            low[i] = fmin(low[i], at[i]);
-            high[i] = fmax(high[i], at[i]);
+            low[i] = fmin(low[i], at[i] - radius);
+            high[i] = fmax(high[i], at[i] + radius);
         }
     }
     for (int i = 0; i < 2; ++i)
@@ -111,6 +126,10 @@ static bool measure_face(const canvas *c, int64_t f, double normal[3], double mi
 /* Visible faces, the farthest first. */
 static void sort_faces(canvas *c)
 {
+    for (int64_t e = 0; is_sphere(c) && e < c->n_points; ++e) {
+        const double depth = dot(c->point + 3 * e, c->view.toward);
+        if (isfinite(depth)) c->faces[c->n_faces++] = (brc_paint_face){.depth = depth, .id = (int32_t)e, .shade = 1};
+    }
     for (int64_t f = 0; f < c->picture->domain->n_free_faces; ++f) {
         double normal[3], middle[3];
         if (!measure_face(c, f, normal, middle) || dot(normal, c->view.toward) <= 0) continue;
@@ -125,7 +144,7 @@ static void find_range(canvas *c)
     c->low = INFINITY;
     c->high = -INFINITY;
     for (int64_t k = 0; k < c->n_faces; ++k) {
-        const double value = c->picture->value[c->picture->domain->free_element[c->faces[k].id]];
+        const double value = c->picture->value[element_of(c, c->faces[k].id)];
         if (!isfinite(value)) continue;
         c->low = fmin(c->low, value);
         c->high = fmax(c->high, value);
@@ -151,6 +170,39 @@ static void colour_of(const canvas *c, double value, double rgb[3])
         brc_colour_sequential(t, rgb);
 }
 
+static double across(const canvas *c, const double *point)
+{
+    return (AREA[0] + AREA[2]) / 2 + c->zoom * (dot(point, c->view.right) - c->centre[0]);
+}
+
+static double down(const canvas *c, const double *point)
+{
+    return (AREA[1] + AREA[3]) / 2 - c->zoom * (dot(point, c->view.up) - c->centre[1]);
+}
+
+/* Discs inside each other, lighter towards the lamp over the viewer's left shoulder; a sphere of few pixels is one. */
+static void paint_spheres(const canvas *c, brc_paint *paint)
+{
+    enum { CORNERS = 20, RINGS = 3 };
+    static const struct {
+        double size, shift, shade;
+    } ring[RINGS] = {{1.0, 0.0, 0.78}, {0.8, 0.12, 0.9}, {0.45, 0.25, 1.0}};
+    for (int64_t k = 0; k < c->n_faces; ++k) {
+        const int64_t e = c->faces[k].id;
+        const double radius = c->zoom * c->picture->domain->radius[e], *x = c->point + 3 * e;
+        double rgb[3];
+        colour_of(c, c->picture->value[e], rgb);
+        for (int r = 0; r < (radius < 2 ? 1 : RINGS); ++r) {
+            for (int i = 0; i < CORNERS; ++i) {
+                const double angle = 2 * M_PI * i / CORNERS;
+                brc_paint_corner(paint, across(c, x) + radius * (ring[r].size * cos(angle) - 0.5 * ring[r].shift),
+                                 down(c, x) + radius * (ring[r].size * sin(angle) - ring[r].shift));
+            }
+            brc_paint_fill(paint, rgb, ring[r].shade, 0);
+        }
+    }
+}
+
 static void paint_faces(const canvas *c, brc_paint *paint)
 {
     const brc_domain *d = c->picture->domain;
@@ -162,8 +214,7 @@ static void paint_faces(const canvas *c, brc_paint *paint)
         double rgb[3];
         colour_of(c, c->picture->value[d->free_element[f]], rgb);
         for (int64_t p = d->free_polygon_start[f]; p < d->free_polygon_start[f + 1]; ++p)
-            brc_paint_corner(paint, (AREA[0] + AREA[2]) / 2 + c->zoom * (dot(c->point + 3 * p, c->view.right) - c->centre[0]),
-                             (AREA[1] + AREA[3]) / 2 - c->zoom * (dot(c->point + 3 * p, c->view.up) - c->centre[1]));
+            brc_paint_corner(paint, across(c, c->point + 3 * p), down(c, c->point + 3 * p));
         brc_paint_fill(paint, rgb, c->faces[k].shade, line);
     }
 }
@@ -230,11 +281,11 @@ static void draw_words(const canvas *c, brc_paint *paint)
     char words[96];
     cairo_set_source_rgb(cairo, 0.1, 0.1, 0.1);
     brc_paint_words(paint, c->picture->title, 40, 48, 26, 0, true);
+    const char *what = is_sphere(c) ? "spheres" : "cells";
     if (c->scale == 1)
-        snprintf(words, sizeof words, "%lld cells, true displacement", (long long)c->picture->domain->n_elements);
+        snprintf(words, sizeof words, "%lld %s, true displacement", (long long)c->picture->domain->n_elements, what);
     else
-        snprintf(words, sizeof words, "%lld cells, displacement \xc3\x97 %g", (long long)c->picture->domain->n_elements,
-                 c->scale);
+        snprintf(words, sizeof words, "%lld %s, displacement \xc3\x97 %g", (long long)c->picture->domain->n_elements, what, c->scale);
     cairo_set_source_rgb(cairo, 0.35, 0.35, 0.35);
     brc_paint_words(paint, words, 40, 78, 17, 0, false);
     cairo_set_source_rgb(cairo, 0.15, 0.15, 0.15);
@@ -250,7 +301,8 @@ static brc_status render(const canvas *c, const char *path)
 {
     brc_paint paint;
     brc_paint_begin(c->context, WIDTH, HEIGHT, &paint);
-    paint_faces(c, &paint);
+    if (is_sphere(c)) paint_spheres(c, &paint);
+    else paint_faces(c, &paint);
     brc_paint_top(&paint);
     draw_words(c, &paint);
     return brc_paint_end(&paint, path);
@@ -262,9 +314,9 @@ brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, co
     canvas c = {.context = context, .picture = picture, .scale = picture->scale, .view = brc_paint_corner_view()};
     brc_status status = BRC_OK;
     if (!(c.scale > 0)) c.scale = brc_picture_automatic_scale(d, picture->displacement);
-    const int64_t n_points = d->free_polygon_start[d->n_free_faces];
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.point, 3 * n_points, "corners of the picture"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.faces, d->n_free_faces, "faces of the picture"));
+    c.n_points = is_sphere(&c) ? d->n_elements : d->free_polygon_start[d->n_free_faces];
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.point, 3 * c.n_points, "corners of the picture"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.faces, is_sphere(&c) ? d->n_elements : d->n_free_faces, "faces of the picture"));
     move_points(&c);
     fit_view(&c);
     sort_faces(&c);

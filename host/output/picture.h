@@ -1,4 +1,4 @@
-/* picture.png: the deformed sample, its free faces coloured by a field. */
+/* picture.png: the deformed sample, its free faces, or spheres, coloured by a field. */
 #ifndef BRC_OUTPUT_PICTURE_H
 #define BRC_OUTPUT_PICTURE_H
 

@@ -1,0 +1,130 @@
+/* Spheres in frames, their export and the picture. */
+#include "support.h"
+#include "fake_simulation.h"
+#include "../../host/base/file.h"
+#include "../../host/base/memory.h"
+#include "../../host/output/export_vtu.h"
+#include "../../host/output/frame_file.h"
+#include "../../host/output/h5_read.h"
+#include "../../host/output/picture.h"
+#include "../../preprocess/beams.h"
+#include "../../preprocess/quality.h"
+#include <cairo.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { N = 3 };
+
+/* Three spheres along x, 1 m apart, of radii 0.3, 0.35 and 0.4 m. */
+static brc_domain *three_spheres(void)
+{
+    double *x, *r;
+    brc_domain *d;
+    assert_int_equal(BRC_ALLOCATE(test_context, &d, 1, "domain"), BRC_OK);
+    assert_int_equal(BRC_ALLOCATE(test_context, &x, 3 * N, "positions"), BRC_OK);
+    assert_int_equal(BRC_ALLOCATE(test_context, &r, N, "radii"), BRC_OK);
+    for (int e = 0; e < N; ++e) {
+        x[3 * e] = e;
+        r[e] = 0.3 + 0.05 * e;
+    }
+    if (brc_beams_bond(test_context, x, r, N, 1.3, 1, d) != BRC_OK) fail_msg("%s", brc_context_message(test_context));
+    d->quality.volume_shape = 3.0;
+    brc_quality_measure(d, 1);
+    return d;
+}
+
+static void *load(const brc_h5_read *h5, const char *name, hid_t type, int64_t rows, int64_t columns)
+{
+    int64_t r, c;
+    void *data;
+    assert_int_equal(brc_h5_read_size(h5, name, &r, &c), BRC_OK);
+    assert_int_equal(r, rows);
+    assert_int_equal(c, columns);
+    assert_int_equal(brc_memory_allocate(test_context, &data, rows * columns, 8, "test"), BRC_OK);
+    assert_int_equal(brc_h5_read_rows(h5, name, type, 0, rows, data), BRC_OK);
+    return data;
+}
+
+static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
+{
+    (void)state;
+    brc_domain *d = three_spheres();
+    brc_simulation s = {.domain = d, .factor = 1, .value = {0.1, 0, 0}, .gradient = {{0.5, 0, 0}}, .stress = {1e6}};
+    brc_h5_read h5;
+    assert_int_equal(brc_frame_write(test_context, &s, "spheres.vtkhdf"), BRC_OK);
+    assert_int_equal(brc_h5_read_open(test_context, "spheres.vtkhdf", &h5), BRC_OK);
+    float *point = load(&h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, N, 3), *moved = load(&h5, "VTKHDF/PointData/displacement", H5T_NATIVE_FLOAT, N, 3);
+    int64_t *offset = load(&h5, "VTKHDF/Offsets", H5T_NATIVE_INT64, N + 1, 1), *id = load(&h5, "VTKHDF/Connectivity", H5T_NATIVE_INT64, N, 1);
+    uint8_t *type = load(&h5, "VTKHDF/Types", H5T_NATIVE_UINT8, N, 1);
+    double *radius = load(&h5, "VTKHDF/PointData/radius", H5T_NATIVE_DOUBLE, N, 1);
+    for (int e = 0; e < N; ++e) {
+        assert_true(point[3 * e] == (float)e && point[3 * e + 1] == 0 && point[3 * e + 2] == 0);
+        assert_true(moved[3 * e] == (float)(0.1 + 0.5 * e));
+        assert_true(radius[e] == 0.3 + 0.05 * e);
+        assert_int_equal(type[e], 1);
+        assert_int_equal(id[e], e);
+        assert_int_equal(offset[e + 1], e + 1);
+    }
+    brc_h5_read_close(&h5);
+    void *const block[] = {point, moved, offset, id, type, radius};
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
+
+    assert_int_equal(brc_export_vtu_frame(test_context, "spheres.vtkhdf", "spheres.vtu"), BRC_OK);
+    char *text = test_read("spheres.vtu");
+    assert_non_null(strstr(text, "<Piece NumberOfPoints=\"3\" NumberOfCells=\"3\">"));
+    const char *name = strstr(text, "<DataArray type=\"Float64\" Name=\"radius\"");
+    assert_non_null(name);
+    assert_true(name > strstr(text, "<PointData>") && name < strstr(text, "</PointData>"));
+    double third;
+    memcpy(&third, strstr(text, "raw\">\n_") + 7 + atol(strstr(name, "offset=\"") + 8) + 8 + 16, sizeof third);
+    assert_true(third == 0.3 + 0.05 * 2);
+    brc_memory_free(text);
+    remove("spheres.vtkhdf");
+    remove("spheres.vtu");
+    brc_domain_free(&d);
+}
+
+/* Lightness of a pixel: sum of its colours. */
+static int light(cairo_surface_t *image, int x, int y)
+{
+    const unsigned char *p = cairo_image_surface_get_data(image) + (long)y * cairo_image_surface_get_stride(image) + 4L * x;
+    return p[0] + p[1] + p[2];
+}
+
+/* Three separate balls: along the line of their centres the picture is ball, gap, ball, gap, ball, each wider than the one before. */
+static void a_picture_shows_balls_with_gaps_between_them(void **state)
+{
+    (void)state;
+    brc_domain *d = three_spheres();
+    double u[3 * N] = {0}, value[N] = {0, 1, 2};
+    const brc_picture picture = {.domain = d, .displacement = u, .value = value, .name = "number", .unit = "-", .title = "", .scale = 1};
+    assert_int_equal(brc_picture_draw(test_context, &picture, "spheres.png"), BRC_OK);
+    cairo_surface_t *image = cairo_image_surface_create_from_png("spheres.png");
+    assert_int_equal(cairo_surface_status(image), CAIRO_STATUS_SUCCESS);
+    cairo_surface_flush(image);
+    int widest[8] = {0}, n = 0;
+    bool before = false;
+    for (int x = 40; x < 1000; ++x) { /* columns with paint, above the axes */
+        bool painted = false;
+        for (int y = 110; y < 760 && !painted; ++y) painted = light(image, x, y) < 3 * 250;
+        if (painted && !before && n < 7) ++n;
+        if (painted) ++widest[n];
+        before = painted;
+    }
+    assert_int_equal(n, N);
+    assert_true(widest[1] < widest[2] && widest[2] < widest[3]);
+    /* diameters are as 6 : 8, to a pixel at each rim of some hundred */
+    assert_true(fabs((double)widest[1] / widest[3] - 0.75) < 0.02);
+    cairo_surface_destroy(image);
+    remove("spheres.png");
+    brc_domain_free(&d);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_frame_holds_spheres_as_vertices_that_move_with_them),
+        cmocka_unit_test(a_picture_shows_balls_with_gaps_between_them),
+    };
+    return cmocka_run_group_tests(tests, test_begin, test_end);
+}
