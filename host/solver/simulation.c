@@ -169,7 +169,7 @@ int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *
     int64_t boundary = 0;
     if (scene->model.kind == BRC_MODEL_CBM)
         return entries * (4 + 4 * coeff) + n / slice * 8 + n * ((3 + 3 + 3 + 1 + 2 + 4 + 3 + 3 + 1 + (tchamwa ? 4 : 0) + (damped ? 1 : 0)) * state + (many ? 3 : 0) * coeff);
-    for (int64_t e = 0; e < domain->n_elements; ++e) boundary += domain->free_start[e + 1] > domain->free_start[e];
+    for (int64_t e = 0; domain->free_start && e < domain->n_elements; ++e) boundary += domain->free_start[e + 1] > domain->free_start[e];
     boundary = boundary + boundary / 8 < n ? boundary + boundary / 8 : n; /* blocks are whole slices */
     int64_t bytes = entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
     if (tchamwa) bytes += n * 4 * state;
@@ -188,6 +188,10 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     brc_simulation *s = NULL;
     brc_status status = BRC_OK;
     if (domain->n_elements < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "the domain has no elements");
+    if (domain->element_kind == BRC_ELEMENT_SPHERE && scene->model.kind != BRC_MODEL_CBM)
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "model %s needs cells, the bodies are spheres joined by beams; remove `beams` from the bodies, or use model: cbm",
+                        scene->model.kind == BRC_MODEL_DLSM ? "dlsm" : "dlsm-published");
     BRC_TRY(BRC_ALLOCATE(context, &s, 1, "simulation"));
     s->context = context;
     s->scene = scene;
