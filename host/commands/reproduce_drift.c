@@ -11,8 +11,8 @@ struct brc_drift {
     double closure_worst, closure_squares;
     double *mass, *displacement, *velocity; /* [n_elements], [n_elements][3] twice */
     double momentum[3], angular[3];         /* at the first sample */
-    double momentum_scale, angular_scale;   /* sums of magnitudes at the first sample */
-    double momentum_worst, angular_worst;   /* largest deviation over the scale [-] */
+    double momentum_scale, angular_scale;   /* largest sums of magnitudes of the parts */
+    double momentum_worst, angular_worst;   /* largest deviations [kg m/s], [kg m^2/s] */
 };
 
 brc_status brc_drift_create(brc_context *context, brc_drift **out)
@@ -99,7 +99,6 @@ static brc_status sample(void *self, brc_simulation *simulation)
         memcpy(d->momentum, momentum, sizeof momentum);
         memcpy(d->angular, angular, sizeof angular);
     }
-    /* A run released from rest gets its motion later: the largest scale so far counts. */
     d->momentum_scale = fmax(d->momentum_scale, scale[0]);
     d->angular_scale = fmax(d->angular_scale, scale[1]);
     for (int k = 0; k < 3; ++k) {
@@ -124,6 +123,14 @@ static double mean(const double *values, int64_t from, int64_t to)
     return sum / (double)(to - from);
 }
 
+/* What a deviation is relative to: the conserved vector itself where the run starts with one; a run without (released from
+ * rest, or shaken alone) has only the sum of the magnitudes of its parts. */
+static double relative(double deviation, const double initial[3], double parts)
+{
+    const double whole = length(initial);
+    return deviation / (whole > 1e-3 * parts ? whole : parts);
+}
+
 void brc_drift_values(const brc_drift *d, brc_outcome *outcome)
 {
     if (d->n_samples < 20) return; /* no tenth to speak of */
@@ -134,8 +141,8 @@ void brc_drift_values(const brc_drift *d, brc_outcome *outcome)
         squares += (d->total[k] - first) * (d->total[k] - first);
     brc_outcome_add(outcome, "energy_drift", "-", fabs(last - first) / fabs(first), 0);
     brc_outcome_add(outcome, "energy_spread", "-", sqrt(squares / (double)d->n_samples) / fabs(first), 0);
-    brc_outcome_add(outcome, "momentum_drift", "-", d->momentum_worst / d->momentum_scale, 0);
-    brc_outcome_add(outcome, "angular_momentum_drift", "-", d->angular_worst / d->angular_scale, 0);
+    brc_outcome_add(outcome, "momentum_drift", "-", relative(d->momentum_worst, d->momentum, d->momentum_scale), 0);
+    brc_outcome_add(outcome, "angular_momentum_drift", "-", relative(d->angular_worst, d->angular, d->angular_scale), 0);
     brc_outcome_add(outcome, "closure_worst", "-", d->closure_worst, 0);
     brc_outcome_add(outcome, "closure_rms", "-", sqrt(d->closure_squares / (double)d->n_samples), 0);
 }
