@@ -115,6 +115,7 @@ brc_status brc_beams_bond(brc_context *context, double *position, double *radius
                           brc_domain *domain)
 {
     int32_t(*pair)[2] = NULL;
+    const double start = brc_clock_s();
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, check(context, position, radius, n, coordination));
     domain->element_kind = BRC_ELEMENT_SPHERE;
@@ -129,6 +130,8 @@ brc_status brc_beams_bond(brc_context *context, double *position, double *radius
     BRC_TRY_OR(cleanup, make_spheres(context, position, radius, n_threads, domain));
     domain->position = position;
     domain->radius = radius;
+    brc_log(context, BRC_LOG_INFO, "bonds: %lld between %lld spheres in %.2f s, the longest %.4f times the sum of the radii",
+            (long long)domain->n_bonds, (long long)n, brc_clock_s() - start, domain->quality.growth);
     if (domain->quality.growth > LONG_BOND)
         brc_log(context, BRC_LOG_WARNING,
                 "bonds: for a coordination number of %g bonds reach to %.3g times the sum of the radii, past other elements; a "

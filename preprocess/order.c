@@ -118,6 +118,7 @@ brc_status brc_order_points(brc_context *context, double *position, double *radi
 {
     int32_t *order = NULL;
     brc_status status = BRC_OK;
+    if (n > INT32_MAX) return BRC_FAIL(context, BRC_BAD_INPUT, "%lld points, must be below 2^31; use fewer", (long long)n);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &order, n, "order of points"));
     BRC_TRY_OR(cleanup, brc_order_hilbert(context, position, n, NULL, n_threads, order));
     BRC_TRY_OR(cleanup, permute(context, order, n, 3, position));

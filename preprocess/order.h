@@ -10,8 +10,8 @@
  * as on its surface. The result does not depend on n_threads (>= 1). BRC_NO_MEMORY (32 bytes a point while it runs). */
 brc_status brc_order_hilbert(brc_context *context, const double *position, int64_t n, const double bounds[2][3], int n_threads,
                              int32_t *order);
-/* Put points along the curve in place; radius [n] goes with them (may be NULL). For packed and imported points, before they get
- * ids: domains keep the order of their elements. */
+/* Put points along the curve in place; radius [n] goes with them (may be NULL). For points drawn at random, before they get
+ * ids: domains keep the order of their elements. BRC_BAD_INPUT: 2^31 points or more; BRC_NO_MEMORY. */
 brc_status brc_order_points(brc_context *context, double *position, double *radius, int64_t n, int n_threads);
 
 #endif

@@ -44,23 +44,23 @@ static double coordination_least(const brc_domain *domain, const brc_isotropy *i
     return k;
 }
 
-#define RELAX "use lloyd_sweeps, or another seed"
-#define MORE_BONDS "raise the coordination of the bonds, or use another seed"
+#define RELAX "use a few `lloyd` sweeps, or another seed"
+#define MORE_BONDS "use another seed or, with `beams`, a larger coordination"
 #define DIRECTIONS "use a spread of 90 % or a packing, and more elements: few bonds are uneven by chance"
 static const brc_quality_number numbers[] = {
     /* name, meaning, unit, less is worse, of cells, of spheres, of directions, cure, value */
     {"volume_error", "volume of all cells against the shape's: the size of the relative difference", "-", false, true, false, false,
      "use more elements", volume_error},
     {"duplicates", "seeds dropped because they were too near to an earlier one", "", false, true, true, false,
-     "use a smaller min_distance, another seed, or points without doubles", duplicates},
+     "use a smaller `min_distance`, another seed, or points without doubles", duplicates},
     {"lost", "seeds that got no cell", "", false, true, false, false, "use another seed", lost},
-    {"tiny_faces", "faces below the threshold `tiny_faces`, which were dropped", "", false, true, false, false, RELAX, tiny_faces},
+    {"tiny_faces", "faces below `tiny_face_threshold`, which were dropped", "", false, true, false, false, RELAX, tiny_faces},
     {"tiny_face_area", "area of the dropped faces over the area of all", "-", false, true, false, false, RELAX, tiny_face_area},
     {"closure", "worst cell: size of the sum of its area vectors over its surface", "-", false, true, false, false, RELAX, closure},
     {"twin_area", "worst difference of a face's area seen from its two sides, over the mean area", "-", false, true, false, false,
      RELAX, twin_area},
     {"smallest_distance", "shortest branch over the mean spacing", "-", true, true, true, false,
-     "use lloyd_sweeps or a larger min_distance", smallest_distance},
+     "use a few `lloyd` sweeps or a larger `min_distance`", smallest_distance},
     {"support", "worst cell: smallest eigenvalue of its least-squares matrix A/(2V); 0.5 for the corner of a grid of cubes", "-", true, true,
      false, false, RELAX ", or a smaller spread", support},
     {"coordination_least", "least number of bonds of an element", "", true, true, true, false, MORE_BONDS, coordination_least},

@@ -216,6 +216,19 @@ static void one_and_two_threads_give_equal_bytes(void **state)
     brc_domain_free(&b);
 }
 
+/* The domain and all that is needed on the way, at the paper's largest coordination number. */
+static void bonding_needs_less_than_400_bytes_a_sphere(void **state)
+{
+    enum { N = 50000 };
+    const double size[3] = {37.0, 37.0, 37.0};
+    double *x, *r;
+    draw(*state, N, size, 1.3, &x, &r);
+    const int64_t before = brc_memory_held();
+    brc_domain *d = bond(*state, x, r, N, 13.0, 2);
+    assert_true(brc_memory_peak() - before < 400 * (int64_t)N);
+    brc_domain_free(&d);
+}
+
 static void refused(brc_context *context, double *x, double *r, int64_t n, double coordination, const char *part)
 {
     brc_domain *d;
@@ -253,6 +266,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(walls_know_the_spheres_that_touch_them_and_their_first_layer, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_layer_reaches_two_radii_deep, test_begin, test_end),
         cmocka_unit_test_setup_teardown(one_and_two_threads_give_equal_bytes, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(bonding_needs_less_than_400_bytes_a_sphere, test_begin, test_end),
         cmocka_unit_test_setup_teardown(wrong_spheres_and_unreachable_numbers_are_refused, test_begin, test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,8 @@
 #include "spheres.h"
 #include "support.h"
 
+#include "../../host/base/file.h"
+#include "../../host/base/memory.h"
 #include "../../preprocess/quality.h"
 
 #include <stdio.h>
@@ -82,6 +84,21 @@ static void unknown_and_unfitting_numbers_are_refused(void **state)
     brc_domain_free(&d);
 }
 
+static void every_number_is_in_the_documentation(void **state)
+{
+    int32_t n;
+    char *text;
+    size_t bytes;
+    const brc_quality_number *numbers = brc_quality_numbers(&n);
+    assert_int_equal(brc_file_read_whole(*state, BRC_SOURCE_DIR_PATH "/docs/domain.md", 1 << 20, &text, &bytes), BRC_OK);
+    for (int32_t k = 0; k < n; ++k) {
+        char row[512];
+        snprintf(row, sizeof row, "| `%s` | %s | %s |", numbers[k].name, numbers[k].meaning, numbers[k].less_is_worse ? "less" : "more");
+        if (!strstr(text, row)) fail_msg("docs/domain.md has no row \"%s\"", row);
+    }
+    brc_memory_free(text);
+}
+
 /* Few bonds among many spheres. */
 static void loose_elements_are_counted(void **state)
 {
@@ -104,6 +121,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(limits_hold_up_to_the_value_and_not_beyond, test_begin, test_end),
         cmocka_unit_test_setup_teardown(all_broken_limits_are_listed_in_one_sentence, test_begin, test_end),
         cmocka_unit_test_setup_teardown(unknown_and_unfitting_numbers_are_refused, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(every_number_is_in_the_documentation, test_begin, test_end),
         cmocka_unit_test_setup_teardown(loose_elements_are_counted, test_begin, test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
