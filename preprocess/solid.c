@@ -144,6 +144,7 @@ brc_status brc_solid_create(brc_context *context, const brc_shape *shape, int n_
     solid->convex = find_convex(solid);
     if (shape->kind == BRC_SHAPE_PARTS) BRC_TRY_OR(cleanup, brc_solid_measure(context, solid, n_threads));
     else measure_single(solid);
+    BRC_TRY_OR(cleanup, brc_solid_find_edges(context, solid));
     *out = solid;
     solid = NULL;
 cleanup:
@@ -160,6 +161,7 @@ void brc_solid_free(brc_solid **solid)
     brc_memory_free((*solid)->leaf);
     brc_memory_free((*solid)->surface);
     brc_memory_free((*solid)->wall_name);
+    brc_memory_free((*solid)->edge);
     brc_memory_free(*solid);
     *solid = NULL;
 }

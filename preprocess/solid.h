@@ -18,6 +18,12 @@ typedef struct brc_foot {
     bool hull;        /* and it has the whole solid on one side (brc_solid_hull_plane) */
 } brc_foot;
 
+/* A straight edge around which the solid takes up more than 180 degrees. */
+typedef struct brc_edge {
+    double end[2][3];    /* [m] */
+    double normal[2][3]; /* outward unit normals of the two walls that meet there */
+} brc_edge;
+
 /* Check and prepare. BRC_BAD_INPUT with what to change: sizes that are not finite and positive, a torus that meets itself, parts
  * that leave nothing, unreadable, open or self-intersecting meshes. Caller frees with brc_solid_free. */
 brc_status brc_solid_create(brc_context *context, const brc_shape *shape, int n_threads, brc_solid **out);
@@ -43,10 +49,20 @@ bool brc_solid_inside(const brc_solid *solid, const double x[3], double margin);
  * order. At most `most` are written; returns how many there are. A point outside gives none.
  * On a concave edge the foot is the nearest point of the edge. */
 int32_t brc_solid_feet(const brc_solid *solid, const double x[3], double reach, brc_foot *feet, int32_t most);
+/* The same, and more planes across which images of x bound the cell of x (mirror.h): tangent planes whose foot lies beyond an edge, and, where the solid is
+ * thinner than `reach` [m], tangent planes all around; there `depth` is the distance of x to the plane. */
+int32_t brc_solid_mirrors(const brc_solid *solid, const double x[3], double reach, brc_foot *feet, int32_t most);
 /* Distance of x to the surface [m]: positive inside, negative outside. */
 double brc_solid_depth(const brc_solid *solid, const double x[3]);
 /* Distance of x, inside or outside, to the surface, or `reach` [m] where it is not nearer. */
 double brc_solid_distance(const brc_solid *solid, const double x[3], double reach);
+/* The straight concave edges: between planes of parts, and of a mesh that is added. */
+int32_t brc_solid_n_edges(const brc_solid *solid);
+const brc_edge *brc_solid_edge(const brc_solid *solid, int32_t edge);
+/* Length of the straight way from a to b that is outside [m]; with meshes, gaps narrower than 1e-4 of the way may be missed. */
+double brc_solid_outside(const brc_solid *solid, const double a[3], const double b[3]);
+/* Is an edge nearer to x than `reach` [m] where two of the solid's walls meet from the inside of an angle beyond 180 degrees? */
+bool brc_solid_concave_edge_near(const brc_solid *solid, const double x[3], double reach);
 /* The planes with the whole solid on one side that are walls: x is on it or inside where normal . x <= offset [m]. */
 int32_t brc_solid_n_hull_planes(const brc_solid *solid);
 void brc_solid_hull_plane(const brc_solid *solid, int32_t plane, double normal[3], double *offset, int32_t *wall);

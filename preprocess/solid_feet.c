@@ -17,7 +17,7 @@ typedef struct near_surface {
     bool opposite;
     bool flat;       /* a plane */
     bool rim;        /* on a sharp edge of a mesh, where its patch ends */
-    bool concave;    /* and that is concave */
+    bool concave;    /* and that is concave, seen from the solid */
     double plane[3]; /* normal of a mesh's patch there */
 } near_surface;
 
@@ -48,7 +48,8 @@ static int gather_mesh(const brc_solid *solid, const brc_surface *surface, const
     const double sign = n > 0 && brc_mesh_inside(leaf->mesh, local) ? 1.0 : -1.0;
     for (int k = 0; k < n; ++k) {
         near_surface *a = &near[k];
-        *a = (near_surface){.surface = surface, .height = -sign * feet[k].distance, .flat = feet[k].flat, .rim = feet[k].on_edge, .concave = feet[k].concave};
+        *a = (near_surface){.surface = surface, .height = -sign * feet[k].distance, .flat = feet[k].flat, .rim = feet[k].on_edge,
+                            .concave = feet[k].concave != (leaf->role == BRC_PART_REMOVE)};
         brc_leaf_from_part(leaf, feet[k].point, a->point);
         brc_leaf_turn(leaf, feet[k].normal, a->plane);
         memcpy(a->normal, a->plane, sizeof a->normal);
@@ -277,10 +278,9 @@ static int32_t add_foot(brc_foot *feet, int32_t n, int32_t most, const brc_foot 
     return n + 1;
 }
 
-/* A plane whose foot lies beyond an edge, outside the solid, still bounds what is around x when x is on its inner side. */
+/* A surface whose foot lies beyond an edge, outside the solid, still bounds what is around x when x is on its inner side. */
 static bool bounds_beyond(const brc_solid *solid, const near_surface *a, const double x[3])
 {
-    if (a->surface->kind != BRC_SURFACE_PLANE) return false;
     const brc_leaf *leaf = &solid->leaf[a->surface->leaf];
     if (leaf->role == BRC_PART_REMOVE) return a->height > 0.0;
     return a->height < 0.0 && (leaf->role == BRC_PART_KEEP || brc_leaf_inside(solid, leaf, x));
@@ -308,6 +308,66 @@ static int32_t edge_feet(const brc_solid *solid, const double x[3], const near_s
     return n;
 }
 
+bool brc_solid_concave_there(const brc_solid *solid, const double x[3], const double a[3], const double b[3], double outward[2][3])
+{
+    double normal[3][3] = {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}};
+    const int outside = lone_outside(2, sectors(solid, 2, x, (const double(*)[3])normal));
+    for (int k = 0; k < 2 && outside >= 0; ++k)
+        for (int d = 0; d < 3; ++d) outward[k][d] = outside >> k & 1 ? normal[k][d] : -normal[k][d];
+    return outside >= 0;
+}
+
+static double distance_to_edge(const brc_edge *edge, const double x[3])
+{
+    double along[3], from[3], off[3];
+    for (int d = 0; d < 3; ++d) {
+        along[d] = edge->end[1][d] - edge->end[0][d];
+        from[d] = x[d] - edge->end[0][d];
+    }
+    const double t = fmax(0.0, fmin(1.0, brc_dot3(from, along) / brc_dot3(along, along)));
+    for (int d = 0; d < 3; ++d) off[d] = from[d] - t * along[d];
+    return brc_length3(off);
+}
+
+/* The point nearest to x where the planes of two flat patches of a mesh meet. */
+static bool patches_meet(const near_surface *a, const near_surface *b, const double x[3], double reach, double y[3], double normal[3][3])
+{
+    const near_surface *const pair[2] = {a, b};
+    double wanted[3] = {0.0, 0.0, 0.0}, weight[3], square = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        memcpy(normal[k], pair[k]->plane, sizeof pair[k]->plane);
+        for (int d = 0; d < 3; ++d) wanted[k] += (pair[k]->point[d] - x[d]) * normal[k][d];
+    }
+    if (!combine(2, (const double(*)[3])normal, wanted, weight)) return false;
+    for (int d = 0; d < 3; ++d) {
+        const double move = weight[0] * normal[0][d] + weight[1] * normal[1][d];
+        y[d] = x[d] + move;
+        square += move * move;
+    }
+    return square < reach * reach;
+}
+
+bool brc_solid_concave_edge_near(const brc_solid *solid, const double x[3], double reach)
+{
+    near_surface near[MOST_NEAR];
+    double y[3], normal[3][3], weight[3];
+    for (int32_t e = 0; e < solid->n_edges; ++e)
+        if (distance_to_edge(&solid->edge[e], x) < reach) return true;
+    const int n = gather(solid, x, reach, near);
+    for (int i = 0; i < n; ++i)
+        if (near[i].rim && near[i].concave) return true;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j) {
+            const near_surface *const pair[2] = {&near[j], &near[i]};
+            const bool patches = near[i].surface == near[j].surface && near[i].flat && near[j].flat;
+            if (patches ? !patches_meet(&near[j], &near[i], x, reach, y, normal)
+                        : near[i].surface == near[j].surface || !meet(solid, x, 2, pair, reach, y, normal, weight))
+                continue;
+            if (lone_outside(2, sectors(solid, 2, y, (const double(*)[3])normal)) >= 0) return true;
+        }
+    return false;
+}
+
 /* The plane of a mesh's flat patch that ends at a convex edge: the same for a foot beyond it. */
 static bool beyond_rim(const brc_solid *solid, const near_surface *a, const double x[3], brc_foot *foot)
 {
@@ -320,8 +380,8 @@ static bool beyond_rim(const brc_solid *solid, const near_surface *a, const doub
     return foot->depth > 0.0 && sides(solid, y, a->plane) == 0;
 }
 
-/* The foot of x on a near surface; false: none there. */
-static bool foot_on(const brc_solid *solid, const near_surface *a, const double x[3], brc_foot *foot)
+/* The foot of x on a near surface; false: none there. mirror: also on curved walls beyond their edges. */
+static bool foot_on(const brc_solid *solid, const near_surface *a, const double x[3], bool mirror, brc_foot *foot)
 {
     *foot = (brc_foot){.depth = fabs(a->height), .wall = a->surface->wall, .plane = a->flat && !a->rim, .hull = a->surface->hull != 0.0};
     for (int d = 0; d < 3; ++d) foot->normal[d] = a->height < 0.0 ? a->normal[d] : -a->normal[d];
@@ -333,10 +393,22 @@ static bool foot_on(const brc_solid *solid, const near_surface *a, const double 
     if (solid->n_leaves == 1 && solid->leaf[0].mesh) return true;
     const int side = sides(solid, a->point, a->probe);
     if (side == (a->height < 0.0 ? 1 : 2)) return leaf_ends(solid, a); /* outward is away from x */
-    return side == 0 && bounds_beyond(solid, a, x);
+    return side == 0 && (a->flat || mirror) && bounds_beyond(solid, a, x);
 }
 
-int32_t brc_solid_feet(const brc_solid *solid, const double x[3], double reach, brc_foot *feet, int32_t most)
+/* Tangent planes around x in a thin tube. */
+static int32_t around_feet(const near_surface *a, const double x[3], double reach, brc_foot *feet, int32_t n, int32_t most)
+{
+    for (int k = 1; k < BRC_TUBE_PLANES; ++k) {
+        double height, normal[3];
+        if (k == BRC_TUBE_PLANES / 2 || !brc_surface_around(a->surface, x, k, &height, normal) || !(height < 0.0 && -height < reach)) continue;
+        brc_foot foot = {.depth = -height, .wall = a->surface->wall, .normal = {normal[0], normal[1], normal[2]}};
+        n = add_foot(feet, n, most, &foot);
+    }
+    return n;
+}
+
+static int32_t find_feet(const brc_solid *solid, const double x[3], double reach, bool mirror, brc_foot *feet, int32_t most)
 {
     if (!brc_solid_member(solid, x)) return 0;
     near_surface near[MOST_NEAR];
@@ -345,8 +417,9 @@ int32_t brc_solid_feet(const brc_solid *solid, const double x[3], double reach, 
     double least = HUGE_VAL;
     for (int i = 0; i < n_near; ++i) {
         brc_foot foot;
-        if (!foot_on(solid, &near[i], x, &foot)) continue;
+        if (!foot_on(solid, &near[i], x, mirror, &foot)) continue;
         n = add_foot(feet, n, most, &foot);
+        if (mirror && near[i].opposite && near[i].height < 0.0) n = around_feet(&near[i], x, reach, feet, n, most);
     }
     if (solid->n_leaves == 1) return n; /* convex, without edges, or a mesh that knows its own */
     n = edge_feet(solid, x, near, n_near, reach, feet, n, most);
@@ -362,4 +435,14 @@ int32_t brc_solid_feet(const brc_solid *solid, const double x[3], double reach, 
         if (corner.depth > 0.0) n = add_foot(feet, n, most, &corner);
     }
     return n;
+}
+
+int32_t brc_solid_feet(const brc_solid *solid, const double x[3], double reach, brc_foot *feet, int32_t most)
+{
+    return find_feet(solid, x, reach, false, feet, most);
+}
+
+int32_t brc_solid_mirrors(const brc_solid *solid, const double x[3], double reach, brc_foot *feet, int32_t most)
+{
+    return find_feet(solid, x, reach, true, feet, most);
 }

@@ -44,6 +44,8 @@ struct brc_solid {
     brc_leaf *leaf;
     brc_surface *surface;
     char (*wall_name)[72];
+    int32_t n_edges;
+    brc_edge *edge; /* [n_edges] */
     double bounds[2][3];
     double volume, volume_error, area;
     double tiny; /* a step off a surface that tells its sides apart [m] */
@@ -67,11 +69,24 @@ void brc_leaf_from_part(const brc_leaf *leaf, const double x[3], double out[3]);
 double brc_surface_height(const brc_solid *solid, const brc_surface *surface, const double x[3], double normal[3]);
 /* On a curved surface around x: the other place where the distance is stationary, opposite the nearest one. Same meaning; false: none. */
 bool brc_surface_opposite(const brc_surface *surface, const double x[3], double *height, double normal[3]);
+/* On a surface like a tube around x: tangent plane k of BRC_TUBE_PLANES all around, k = 0 at the nearest point; height of x above it. False: no tube. */
+#define BRC_TUBE_PLANES 8
+bool brc_surface_around(const brc_surface *surface, const double x[3], int k, double *height, double normal[3]);
 /* Where the line x + t direction meets the surface, any order; at most 4 (not for meshes). Returns how many. */
 int brc_surface_crossings(const brc_surface *surface, const double x[3], const double direction[3], double t[4]);
 
 /* solid.c: is x in the combination of all leaves? */
 bool brc_solid_member(const brc_solid *solid, const double x[3]);
+
+/* solid_feet.c: do two surfaces with these normals make a concave edge at x, where they meet? outward: normals of its two walls. */
+bool brc_solid_concave_there(const brc_solid *solid, const double x[3], const double a[3], const double b[3], double outward[2][3]);
+
+/* solid_edges.c */
+brc_status brc_solid_find_edges(brc_context *context, brc_solid *solid);
+
+/* solid_volume.c: the piece of a line within a box (false: it misses), and values put in order. */
+bool brc_pass_box(const double bounds[2][3], const double x[3], const double u[3], double *low, double *high);
+void brc_sort(double *t, int n);
 
 /* solid_volume.c: fill bounds, volume and area of a solid of several parts. */
 brc_status brc_solid_measure(brc_context *context, brc_solid *solid, int n_threads);

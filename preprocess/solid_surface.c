@@ -99,28 +99,38 @@ double brc_surface_height(const brc_solid *solid, const brc_surface *s, const do
     return HUGE_VAL;
 }
 
+bool brc_surface_around(const brc_surface *s, const double x[3], int k, double *height, double normal[3])
+{
+    static const double turn = 6.283185307179586 / BRC_TUBE_PLANES;
+    const double c = cos(k * turn), q = sin(k * turn);
+    double z, rho, away[3], beside[3];
+    if (s->kind != BRC_SURFACE_CYLINDER && s->kind != BRC_SURFACE_CONE && s->kind != BRC_SURFACE_TORUS) return false;
+    cylindrical(s, x, &z, &rho, away);
+    if (s->kind == BRC_SURFACE_TORUS) { /* around the tube, whose axis is at right angles to both */
+        const double across = rho - s->radius, from_line = hypot(across, z);
+        const double u = from_line > 0.0 ? across / from_line : 1.0, v = from_line > 0.0 ? z / from_line : 0.0;
+        for (int d = 0; d < 3; ++d) normal[d] = (c * u - q * v) * away[d] + (c * v + q * u) * s->axis[d];
+        *height = from_line * c - s->radius2;
+        return true;
+    }
+    for (int d = 0; d < 3; ++d) beside[d] = s->axis[(d + 1) % 3] * away[(d + 2) % 3] - s->axis[(d + 2) % 3] * away[(d + 1) % 3];
+    for (int d = 0; d < 3; ++d) normal[d] = c * away[d] + q * beside[d];
+    *height = rho * c - s->radius;
+    if (s->kind == BRC_SURFACE_CYLINDER) return true;
+    for (int d = 0; d < 3; ++d) normal[d] = s->cosine * normal[d] - s->sine * s->axis[d];
+    *height = rho * c * s->cosine - z * s->sine;
+    return true;
+}
+
 bool brc_surface_opposite(const brc_surface *s, const double x[3], double *height, double normal[3])
 {
     double z, rho, away[3];
-    switch (s->kind) {
-    case BRC_SURFACE_SPHERE:
-        *height = -2.0 * s->radius - brc_surface_height(NULL, s, x, normal);
-        break;
-    case BRC_SURFACE_CYLINDER:
-        *height = -2.0 * s->radius - brc_surface_height(NULL, s, x, normal);
-        break;
-    case BRC_SURFACE_TORUS:
-        *height = -2.0 * s->radius2 - brc_surface_height(NULL, s, x, normal);
-        break;
-    case BRC_SURFACE_CONE:
+    if (s->kind == BRC_SURFACE_CONE) {
         cylindrical(s, x, &z, &rho, away);
         if (z * s->cosine - rho * s->sine <= 0.0) return false;
-        *height = -rho * s->cosine - z * s->sine;
-        for (int d = 0; d < 3; ++d) normal[d] = -s->cosine * away[d] - s->sine * s->axis[d];
-        return true;
-    case BRC_SURFACE_PLANE:
-    case BRC_SURFACE_MESH: return false;
     }
+    if (s->kind != BRC_SURFACE_SPHERE) return brc_surface_around(s, x, BRC_TUBE_PLANES / 2, height, normal);
+    *height = -2.0 * s->radius - brc_surface_height(NULL, s, x, normal);
     for (int d = 0; d < 3; ++d) normal[d] = -normal[d];
     return true;
 }

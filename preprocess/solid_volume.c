@@ -14,7 +14,7 @@ enum { MOST_CROSSINGS = 2048, LEAST_GRID = 64, MOST_GRID = 1024 };
 #define GOAL 1e-6
 
 /* Few values, nearly in order. */
-static void sort(double *t, int n)
+void brc_sort(double *t, int n)
 {
     for (int k = 1; k < n; ++k) {
         const double value = t[k];
@@ -30,7 +30,7 @@ static int walk_mesh(const brc_leaf *leaf, const double x[3], const double u[3],
     const double least = 1e-4 * (high - low);
     int n = 0;
     double here = low, y[3], z[3];
-    bool was_inside = false;
+    bool was_inside = false; /* at the very start: a crossing found there does no harm */
     while (here < high && n < most) {
         for (int d = 0; d < 3; ++d) y[d] = x[d] + here * u[d];
         brc_leaf_to_part(leaf, y, z);
@@ -72,7 +72,7 @@ static int mesh_crossings(const brc_leaf *leaf, const double x[3], const double 
 }
 
 /* The line's parameters where it passes the box; false when it misses it. */
-static bool pass_box(const double bounds[2][3], const double x[3], const double u[3], double *low, double *high)
+bool brc_pass_box(const double bounds[2][3], const double x[3], const double u[3], double *low, double *high)
 {
     *low = -HUGE_VAL;
     *high = HUGE_VAL;
@@ -93,18 +93,17 @@ typedef struct chords {
     int n;               /* crossings of the solid's surface */
 } chords;
 
-/* Follow the line x + t u through the solid. u: unit. */
-static chords follow(const brc_solid *solid, const double x[3], const double u[3])
+/* Follow the line x + t u through the solid from t = low to high. u: unit. */
+static chords follow_piece(const brc_solid *solid, const double x[3], const double u[3], double low, double high)
 {
     chords result = {.length = 0.0, .last = -HUGE_VAL};
-    double cut[MOST_CROSSINGS], low, high;
+    double cut[MOST_CROSSINGS];
     int n = 0;
-    if (!pass_box(solid->bounds, x, u, &low, &high)) return result;
     cut[n++] = low;
     for (int32_t k = 0; k < solid->n_leaves; ++k) {
         const brc_leaf *leaf = &solid->leaf[k];
         double from, to;
-        if (!pass_box(leaf->bounds, x, u, &from, &to)) continue;
+        if (!brc_pass_box(leaf->bounds, x, u, &from, &to) || from > high || to < low) continue;
         if (leaf->mesh) {
             n += mesh_crossings(leaf, x, u, low, high, cut + n, MOST_CROSSINGS - 8 - n);
             continue;
@@ -113,7 +112,7 @@ static chords follow(const brc_solid *solid, const double x[3], const double u[3
             n += brc_surface_crossings(&solid->surface[s], x, u, cut + n);
     }
     cut[n++] = high;
-    sort(cut, n);
+    brc_sort(cut, n);
     bool was = false;
     for (int k = 0; k + 1 < n; ++k) {
         const double a = fmax(cut[k], low), b = fmin(cut[k + 1], high);
@@ -132,6 +131,22 @@ static chords follow(const brc_solid *solid, const double x[3], const double u[3
     }
     result.n += was;
     return result;
+}
+
+static chords follow(const brc_solid *solid, const double x[3], const double u[3])
+{
+    double low, high;
+    if (!brc_pass_box(solid->bounds, x, u, &low, &high)) return (chords){.length = 0.0, .last = -HUGE_VAL};
+    return follow_piece(solid, x, u, low, high);
+}
+
+double brc_solid_outside(const brc_solid *solid, const double a[3], const double b[3])
+{
+    double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const double length = brc_length3(u);
+    if (!(length > 0.0)) return 0.0;
+    for (int d = 0; d < 3; ++d) u[d] /= length;
+    return length - follow_piece(solid, a, u, 0.0, length).length;
 }
 
 /* Two unit vectors at right angles to u and to each other. */

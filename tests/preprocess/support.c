@@ -2,9 +2,11 @@
 
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
+#include "../../preprocess/domain_file.h"
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static int64_t held_before;
 
@@ -68,6 +70,35 @@ void test_refused(brc_context *context, const brc_build_request *request, brc_st
     assert_int_equal(brc_domain_build(context, request, &domain), code);
     assert_null(domain);
     test_says(context, part);
+}
+
+/* Bytes of a whole file, freed by brc_memory_free. */
+static char *bytes_of(brc_context *context, const brc_domain *domain, const char *path, size_t *n)
+{
+    char *bytes = NULL;
+    assert_int_equal(brc_domain_write(context, domain, path), BRC_OK);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    fseek(file, 0, SEEK_END);
+    *n = (size_t)ftell(file);
+    rewind(file);
+    assert_int_equal(BRC_ALLOCATE(context, &bytes, (int64_t)*n, "file"), BRC_OK);
+    assert_int_equal(fread(bytes, 1, *n, file), *n);
+    fclose(file);
+    remove(path);
+    return bytes;
+}
+
+void test_same_bytes(brc_context *context, const brc_domain *a, const brc_domain *b)
+{
+    char path[64];
+    size_t n_a, n_b;
+    snprintf(path, sizeof path, "same_bytes_%d.h5", (int)getpid()); /* tests run side by side */
+    char *bytes_a = bytes_of(context, a, path, &n_a), *bytes_b = bytes_of(context, b, path, &n_b);
+    assert_int_equal(n_a, n_b);
+    assert_memory_equal(bytes_a, bytes_b, n_a);
+    brc_memory_free(bytes_a);
+    brc_memory_free(bytes_b);
 }
 
 void test_near_at(double value, double expected, double tolerance, const char *file, int line)

@@ -26,6 +26,9 @@ brc_domain *test_build(brc_context *context, const brc_build_request *request);
 /* The build is refused with this code and its sentence contains `part`. */
 void test_refused(brc_context *context, const brc_build_request *request, brc_status code, const char *part);
 
+/* The two domains write files of equal bytes. */
+void test_same_bytes(brc_context *context, const brc_domain *a, const brc_domain *b);
+
 #define assert_near(value, expected, tolerance) test_near_at((value), (expected), (tolerance), __FILE__, __LINE__)
 void test_near_at(double value, double expected, double tolerance, const char *file, int line);
 /* The context's last sentence contains `part`. */
