@@ -29,6 +29,8 @@
  * the next ones, and density. */
 #define TOLERANCE_PRESSED 0.02
 #define TOLERANCE 0.01
+/* More than this at the end is worth a word; creases of meshes alone leave 0.02. */
+#define RESIDUAL_USUAL 0.05
 #define DEFAULT_TOLERANCE 0.02
 #define BYTES_PER_SPHERE 300.0
 /* The least room, in diameters, at the thickest place of the solid. */
@@ -320,6 +322,9 @@ static brc_status finish(brc_pack *pack, const brc_fill *fill, const pack_plan *
                 "packing: spheres overlap by %.2g %% in the mean (usual: below %.0f %%): the shape is only %.2g diameters across where it is thickest, the radii "
                 "vary much, or too many contacts or too much volume was asked for",
                 100.0 * out->overlap_mean, 100.0 * OVERLAP_USUAL, plan->across);
+    if (out->residual > RESIDUAL_USUAL && out->overlap_mean > 1e-5)
+        brc_log(pack->context, BRC_LOG_WARNING, "packing: forces of %.2g %% of the mean contact force are left over after %d iterations (wanted: %.0f %%)",
+                100.0 * out->residual, (int)out->iterations, 100.0 * TOLERANCE);
     if (out->crystal >= 0.0) brc_log(pack->context, BRC_LOG_INFO, "packing: %.2g %% in ordered surroundings", 100.0 * out->crystal);
     return BRC_OK;
 }
