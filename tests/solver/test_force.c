@@ -142,15 +142,16 @@ static double torque_of_turned_body(bench_case *c)
 static void rounding_of_coefficients_does_not_turn_a_turned_body(void **state)
 {
     (void)state;
-    /* Each element may keep a torque of half an ulp of E V_e with a sign of its own, which adds up to E V 2^-53/sqrt(N)
-     * over N elements. A constant whose rounding all bonds share would leave up to sqrt(N) = 15 times that, for some E. */
+    /* The torque an element keeps is a sum of some 15 roundings of half an ulp of E V_e (its bonds), each with a sign of its own: over N
+     * elements they add up to sqrt(15) E V 2^-53 / sqrt(N). A constant whose rounding all bonds share would leave up to sqrt(N) = 15 times
+     * one of them, for some E. */
     const double young[] = {1, 1.1, 1.3, 1.7, 1.9};
     for (int k = 0; k < 5; ++k) {
         char material[96];
         bench_case c;
         snprintf(material, sizeof material, "  stone: {E: %g Pa, nu: 0.3, density: 1 kg/m^3}", young[k]);
         open_case(&c, (case_options){.materials = material});
-        const double bound = young[k] * 0x1p-53 / sqrt((double)c.domain->n_elements), torque = torque_of_turned_body(&c);
+        const double bound = sqrt(15) * young[k] * 0x1p-53 / sqrt((double)c.domain->n_elements), torque = torque_of_turned_body(&c);
         close_case(&c);
         if (!(torque < bound)) fail_msg("E %g: torque %g, at most %g", young[k], torque, bound);
     }
