@@ -20,9 +20,10 @@ typedef struct brc_packing {
     int32_t relaxations;    /* densities tried */
 } brc_packing;
 
-/* Pack. fill->kind is BRC_FILL_PACKING and was checked by brc_fill_check. The result depends on solid and fill alone, not on the number of
- * threads (n_threads >= 1), bit for bit. A progress line goes to the context's log. BRC_BAD_INPUT: a shape too thin for the spheres, a
- * coordination number or volume fraction that no packing at rest reaches (with what it got and what can be reached); BRC_NO_MEMORY. */
+/* Pack. fill->kind is BRC_FILL_PACKING and was checked by brc_fill_check. The result depends on solid and fill alone,
+ * not on the number of threads (n_threads >= 1), bit for bit. A progress line goes to the context's log. BRC_BAD_INPUT:
+ * a shape too thin for the spheres, a coordination number or volume fraction that no packing at rest reaches (with what
+ * it got and what can be reached); BRC_NO_MEMORY. */
 brc_status brc_packing_make(brc_context *context, const brc_solid *solid, const brc_fill *fill, int n_threads, brc_packing *out);
 void brc_packing_free(brc_packing *packing);
 

@@ -1,7 +1,8 @@
-/* Has a packing crystallised? Spheres in ordered surroundings by the coherence of bond-orientational order (Steinhardt, Nelson, Ronchetti, Phys. Rev.
- * B 28, 784, 1983; ten Wolde, Ruiz-Montero, Frenkel, J. Chem. Phys. 104, 9932, 1996): q6 of a sphere is the sum of the spherical harmonics
- * Y_6m of the directions to its neighbours, normalised. Two neighbours are connected when the product of their q6 is above 0.7, and a sphere with at least
- * seven connections is ordered. In a crystal all neighbours are connected, in a random packing few. */
+/* Has a packing crystallised? Spheres in ordered surroundings by the coherence of bond-orientational order (Steinhardt,
+ * Nelson, Ronchetti, Phys. Rev. B 28, 784, 1983; ten Wolde, Ruiz-Montero, Frenkel, J. Chem. Phys. 104, 9932, 1996): q6
+ * of a sphere is the sum of the spherical harmonics Y_6m of the directions to its neighbours, normalised. Two
+ * neighbours are connected when the product of their q6 is above 0.7, and a sphere with at least seven connections is
+ * ordered. In a crystal all neighbours are connected, in a random packing few. */
 #include "packing_internal.h"
 
 #include "../host/base/memory.h"

@@ -1,6 +1,7 @@
-/* Shared by the files packing_*.c: the packing while it is being made. Spheres are soft: two of them that overlap by o = R_i + R_j - d push each
- * other apart with the force o (stiffness 1), a wall counts as the sphere's mirror image: o = 2 (R - depth). Nothing here depends on the
- * number of threads: every sphere gathers its own forces in the order of its row, and sums are taken over fixed blocks of spheres, in order. */
+/* Shared by the files packing_*.c: the packing while it is being made. Spheres are soft: two of them that overlap by o
+ * = R_i + R_j - d push each other apart with the force o (stiffness 1), a wall counts as the sphere's mirror image: o =
+ * 2 (R - depth). Nothing here depends on the number of threads: every sphere gathers its own forces in the order of its
+ * row, and sums are taken over fixed blocks of spheres, in order. */
 #ifndef BRC_PREPROCESS_PACKING_INTERNAL_H
 #define BRC_PREPROCESS_PACKING_INTERNAL_H
 
@@ -83,9 +84,9 @@ double brc_pack_mean_cube(const brc_fill *fill);   /* mean of (radius / mean rad
 double brc_pack_largest(const brc_fill *fill);     /* largest radius / mean radius */
 /* Radius of an element over the mean radius: a draw by its id. */
 double brc_pack_radius(const brc_fill *fill, int64_t element);
-/* n start points inside the solid, at least `margin` [m] from the walls, along the Hilbert curve; *out [n][3] is the caller's. Every region holds
- * its share of them (one random point in each cell of a grid), so that nothing has to flow far. *deepest: largest distance of one to the walls
- * [m]. BRC_BAD_INPUT when the solid holds no such points. */
+/* n start points inside the solid, at least `margin` [m] from the walls, along the Hilbert curve; *out [n][3] is the
+ * caller's. Every region holds its share of them (one random point in each cell of a grid), so that nothing has to flow
+ * far. *deepest: largest distance of one to the walls [m]. BRC_BAD_INPUT when the solid holds no such points. */
 brc_status brc_pack_start(brc_context *context, const brc_solid *solid, const brc_fill *fill, int64_t n, double margin, int n_threads,
                           double **out, double *deepest);
 

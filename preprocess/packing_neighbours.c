@@ -19,7 +19,8 @@ static int64_t cell_of(const brc_pack *pack, const double *x)
     return slab * pack->n_cells[0] + cell_along(pack, x[0], 0);
 }
 
-/* Cells no smaller than the cutoff, and not many more of them than spheres: a thin or hollow solid fills little of its bounding box. */
+/* Cells no smaller than the cutoff, and not many more of them than spheres: a thin or hollow solid fills little of its
+ * bounding box. */
 static int64_t choose_cells(brc_pack *pack, double cutoff)
 {
     double side[3], box = 1.0;
@@ -72,8 +73,8 @@ int brc_pack_cells_around(const brc_pack *pack, const double *x, int32_t begin[9
     return n;
 }
 
-/* The neighbours of the spheres of block b, row after row, into its part of the list; past its end they are only counted. Returns the room it
- * takes. */
+/* The neighbours of the spheres of block b, row after row, into its part of the list; past its end they are only
+ * counted. Returns the room it takes. */
 static int64_t list_block(brc_pack *pack, int64_t b)
 {
     const int64_t first = b * BRC_PACK_BLOCK, end_of_block = first + BRC_PACK_BLOCK < pack->n ? first + BRC_PACK_BLOCK : pack->n;

@@ -1,6 +1,6 @@
-/* Forces of soft spheres, and their relaxation to rest by FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006, with the step back of
- * Guenole et al., Comput. Mater. Sci. 175, 109584, 2020): damped motion of unit masses that turns towards the forces while it runs downhill and
- * stops where it would climb. */
+/* Forces of soft spheres, and their relaxation to rest by FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006, with
+ * the step back of Guenole et al., Comput. Mater. Sci. 175, 109584, 2020): damped motion of unit masses that turns
+ * towards the forces while it runs downhill and stops where it would climb. */
 #include "packing_internal.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
-/* Walls of any solid as planes through the feet of the spheres near them. Asking the solid is dear (a mesh searches a tree), so a sphere
- * asks only when it can touch, and again when it has moved by a fiftieth of its radius: the depth is then off by at most 2e-4 R / (2 x radius of
- * curvature / R), and not at all at walls that are planes. */
+/* Walls of any solid as planes through the feet of the spheres near them. Asking the solid is dear (a mesh searches a
+ * tree), so a sphere asks only when it can touch, and again when it has moved by a fiftieth of its radius: the depth is
+ * then off by at most 2e-4 R / (2 x radius of curvature / R), and not at all at walls that are planes. */
 #include "packing_internal.h"
 
 #include "../host/base/memory.h"
@@ -14,7 +14,8 @@
 
 enum { MOST_FEET = 24 };
 
-/* Planes through the feet of x nearer than `reach`, the nearest ones if there are too many. Returns false outside the solid: the planes stay. */
+/* Planes through the feet of x nearer than `reach`, the nearest ones if there are too many. Returns false outside the
+ * solid: the planes stay. */
 static bool ask(const brc_solid *solid, const double *x, double reach, brc_pack_wall *wall)
 {
     brc_foot feet[MOST_FEET];

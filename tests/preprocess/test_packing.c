@@ -9,14 +9,17 @@
 
 static brc_fill usual(int64_t n)
 {
-    return (brc_fill){.kind = BRC_FILL_PACKING, .n_elements = n, .radius_spread = 0.125, .coordination = 6.2, .seed = 1};
+    return (brc_fill){
+        .kind = BRC_FILL_PACKING, .n_elements = n, .radius_spread = 0.125, .coordination = 6.2, .seed = 1};
 }
 
 static const brc_shape CUBE = {.kind = BRC_SHAPE_BOX, .origin = {-1.0, 2.0, 0.5}, .size = {1.0, 1.0, 1.0}};
 
-static void make(brc_context *context, const brc_shape *shape, const brc_fill *fill, int n_threads, brc_solid **solid, brc_packing *packing)
+static void make(brc_context *context, const brc_shape *shape, const brc_fill *fill, int n_threads, brc_solid **solid,
+                 brc_packing *packing)
 {
-    if (brc_solid_create(context, shape, n_threads, solid) != BRC_OK || brc_packing_make(context, *solid, fill, n_threads, packing) != BRC_OK)
+    if (brc_solid_create(context, shape, n_threads, solid) != BRC_OK ||
+        brc_packing_make(context, *solid, fill, n_threads, packing) != BRC_OK)
         fail_msg("%s", brc_context_message(context));
 }
 
@@ -50,8 +53,9 @@ static void check_against_all_pairs(const brc_solid *solid, const brc_packing *p
 /* Between random loose (0.60; walls loosen, too) and the densest random packings (0.65). */
 static void packings_of_any_shape_have_the_coordination_asked_for(void **state)
 {
-    brc_shape_part parts[] = {{.role = BRC_PART_ADD, .shape = {.kind = BRC_SHAPE_BOX, .size = {1.0, 1.0, 1.0}}},
-                              {.role = BRC_PART_REMOVE, .shape = {.kind = BRC_SHAPE_SPHERE, .radius = 0.5, .origin = {1.0, 1.0, 1.0}}}};
+    brc_shape_part parts[] = {
+        {.role = BRC_PART_ADD, .shape = {.kind = BRC_SHAPE_BOX, .size = {1.0, 1.0, 1.0}}},
+        {.role = BRC_PART_REMOVE, .shape = {.kind = BRC_SHAPE_SPHERE, .radius = 0.5, .origin = {1.0, 1.0, 1.0}}}};
     const brc_shape shapes[] = {CUBE,
                                 {.kind = BRC_SHAPE_SPHERE, .radius = 2.0},
                                 {.kind = BRC_SHAPE_CYLINDER, .radius = 1.0, .length = 2.0, .axis = 2},
@@ -117,7 +121,8 @@ static void seeds_give_different_packings_and_order_follows_space(void **state)
         way += sqrt(pow(x[0] - x[-3], 2) + pow(x[1] - x[-2], 2) + pow(x[2] - x[-1], 2)) / 999.0;
     }
     assert_true(way < 0.2);
-    for (int k = 0; k < 2; ++k) brc_packing_free(&packing[k]);
+    for (int k = 0; k < 2; ++k)
+        brc_packing_free(&packing[k]);
 }
 
 static void a_volume_fraction_is_met_exactly(void **state)
@@ -133,13 +138,15 @@ static void a_volume_fraction_is_met_exactly(void **state)
         assert_near(packing.volume_fraction, fractions[k], 1e-12);
         check_against_all_pairs(solid, &packing);
         if (k == 0) assert_true(packing.overlap_mean < 1e-4); /* far from jammed: nothing is left but the last touch */
-        if (k == 1) assert_true(packing.coordination > 6.0);  /* beyond random close packing spheres press on each other */
+        if (k == 1)
+            assert_true(packing.coordination > 6.0); /* beyond random close packing spheres press on each other */
         brc_packing_free(&packing);
         brc_solid_free(&solid);
     }
 }
 
-/* The number follows from a volume fraction that is estimated: to two percent the radius is met (a sixth of the 0.04 that fractions differ between shapes). */
+/* The number follows from a volume fraction that is estimated: to two percent the radius is met (a sixth of the 0.04
+ * that fractions differ between shapes). */
 static void a_mean_radius_is_met_nearly(void **state)
 {
     brc_radius table[] = {{1.0, 0.0}, {1.5, 1.0}};
@@ -152,7 +159,8 @@ static void a_mean_radius_is_met_nearly(void **state)
         brc_packing packing;
         make(*state, &CUBE, &fill, 1, &solid, &packing);
         double mean = 0.0;
-        for (int64_t i = 0; i < packing.n; ++i) mean += packing.radius[i] / (double)packing.n;
+        for (int64_t i = 0; i < packing.n; ++i)
+            mean += packing.radius[i] / (double)packing.n;
         assert_near(mean, 0.05, 0.02 * 0.05);
         brc_packing_free(&packing);
         brc_solid_free(&solid);

@@ -84,7 +84,8 @@ static void a_simple_cubic_lattice_has_too_few_neighbours(void **state)
     assert_near(lattice_share(*state, &SC, false), 0.0, 0.0);
 }
 
-/* Points without any order. Half of them have fewer than seven neighbours, and a product above 0.7 of two vectors of 13 parts is rare. */
+/* Points without any order. Half of them have fewer than seven neighbours, and a product above 0.7 of two vectors of 13
+ * parts is rare. */
 static void points_at_random_are_not_ordered(void **state)
 {
     enum { POINTS = 8000 };
@@ -97,8 +98,9 @@ static void points_at_random_are_not_ordered(void **state)
     assert_true(share_of(*state, POINTS, x) < 0.01);
 }
 
-/* A crystal shaken by 0.09 of a diameter (root mean square, each way) keeps some spheres and loses others: the harmonics of another frame must come to the same verdict
- * on each. Products closer than rounding (1e-6) to the limit are less than one in a thousand spheres. */
+/* A crystal shaken by 0.09 of a diameter (root mean square, each way) keeps some spheres and loses others: the
+ * harmonics of another frame must come to the same verdict on each. Products closer than rounding (1e-6) to the limit
+ * are less than one in a thousand spheres. */
 static void the_verdict_does_not_depend_on_the_frame(void **state)
 {
     enum { CELLS = 12, POINTS = 4 * CELLS * CELLS * CELLS };

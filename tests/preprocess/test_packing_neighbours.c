@@ -15,7 +15,8 @@ static void scatter(brc_pack *pack)
     for (int64_t i = 0; i < pack->n; ++i) {
         double u[4];
         brc_random_uniform4(11, BRC_RANDOM_TEST, (uint64_t)i, 0, u);
-        for (int c = 0; c < 3; ++c) pack->sphere[i][c] = (i % 3 ? 1.0 : 0.1) * u[c] * (c == 0 ? 3.0 : 1.0);
+        for (int c = 0; c < 3; ++c)
+            pack->sphere[i][c] = (i % 3 ? 1.0 : 0.1) * u[c] * (c == 0 ? 3.0 : 1.0);
         pack->sphere[i][3] = 0.01 + 0.09 * u[3];
         memcpy(pack->listed[i], pack->sphere[i], sizeof pack->listed[i]);
     }
@@ -31,7 +32,8 @@ static int ascending(const void *a, const void *b)
 static void the_list_holds_every_near_pair_from_both_sides(void **state)
 {
     const brc_shape box = {.kind = BRC_SHAPE_BOX, .size = {3.0, 1.0, 1.0}};
-    const double skins[3] = {0.001, 0.05, 0.4}; /* growing, so that the rows outgrow their room; and so wide that three cells span the box */
+    const double skins[3] = {
+        0.001, 0.05, 0.4}; /* growing, so that the rows outgrow their room; and so wide that three cells span the box */
     brc_solid *solid;
     brc_pack pack;
     assert_int_equal(brc_solid_create(*state, &box, 1, &solid), BRC_OK);
@@ -41,7 +43,8 @@ static void the_list_holds_every_near_pair_from_both_sides(void **state)
     for (int s = 0; s < 3; ++s) {
         assert_int_equal(brc_pack_list(&pack, skins[s]), BRC_OK);
         for (int64_t i = 0; i < N; ++i) {
-            const int64_t start = pack.row_start[i + i / BRC_PACK_BLOCK], end = pack.row_start[i + i / BRC_PACK_BLOCK + 1];
+            const int64_t start = pack.row_start[i + i / BRC_PACK_BLOCK],
+                          end = pack.row_start[i + i / BRC_PACK_BLOCK + 1];
             assert_in_range(end - start, 0, N);
             memcpy(row, pack.neighbour + start, (size_t)(end - start) * sizeof *row);
             qsort(row, (size_t)(end - start), sizeof *row, ascending);

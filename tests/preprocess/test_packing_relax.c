@@ -64,8 +64,9 @@ static double energy_at(brc_pack *pack, int64_t i, int axis, double x)
     return brc_pack_forces(pack).energy;
 }
 
-/* Central differences of the energy (about 60 m^2): truncation h^2 times a third derivative of some 10, rounding 60 * 1e-16 / h; together
- * below 1e-8 at h = 1e-5, and contacts that open within h add h: 1e-5. Walls: ends and the curved side of a cylinder. */
+/* Central differences of the energy (about 60 m^2): truncation h^2 times a third derivative of some 10, rounding 60 *
+ * 1e-16 / h; together below 1e-8 at h = 1e-5, and contacts that open within h add h: 1e-5. Walls: ends and the curved
+ * side of a cylinder. */
 static void forces_are_the_gradient_of_the_energy(void **state)
 {
     enum { N = 80 };
@@ -109,8 +110,8 @@ static double brute_energy(const brc_pack *pack, int64_t *ends)
     return energy;
 }
 
-/* Relaxing moves spheres by their own size; the lists must have been renewed whenever needed. In a box every wall is a plane, so that nothing but rounding
- * may differ from a sum over all pairs and walls. Energy falls. */
+/* Relaxing moves spheres by their own size; the lists must have been renewed whenever needed. In a box every wall is a
+ * plane, so that nothing but rounding may differ from a sum over all pairs and walls. Energy falls. */
 static void lists_stay_good_while_spheres_move(void **state)
 {
     const brc_shape box = {.kind = BRC_SHAPE_BOX, .size = {14.0, 12.0, 10.0}};
@@ -135,8 +136,8 @@ static void lists_stay_good_while_spheres_move(void **state)
     brc_solid_free(&solid);
 }
 
-/* Curved walls are planes through their feet, asked again after 0.02 R: the depth is off by at most (0.02 R)^2 / (2 * 4 R), 5e-5 R, so the overlaps of about
- * 0.1 R with the wall are within a part in a thousand, and energies within two. */
+/* Curved walls are planes through their feet, asked again after 0.02 R: the depth is off by at most (0.02 R)^2 / (2 * 4
+ * R), 5e-5 R, so the overlaps of about 0.1 R with the wall are within a part in a thousand, and energies within two. */
 static void curved_walls_are_followed(void **state)
 {
     brc_solid *solid;

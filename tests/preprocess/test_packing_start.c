@@ -44,8 +44,9 @@ static void exactly_as_many_start_points_as_asked_lie_inside(void **state)
     }
 }
 
-/* 64 000 points in eight octants. Thrown at random, the squares of the deviations from 8000 sum up to 8 * 8000 * 7/8 = 56 000 in the mean; one in each cell of
- * a grid, only the 3 * 400 cells that a plane between octants cuts can deviate, by at most 1/4 each: 8 * 1200 / 4 = 2400 at most in the mean. */
+/* 64 000 points in eight octants. Thrown at random, the squares of the deviations from 8000 sum up to 8 * 8000 * 7/8 =
+ * 56 000 in the mean; one in each cell of a grid, only the 3 * 400 cells that a plane between octants cuts can deviate,
+ * by at most 1/4 each: 8 * 1200 / 4 = 2400 at most in the mean. */
 static void every_region_holds_its_share_of_start_points(void **state)
 {
     const int64_t n = 64000;
@@ -54,8 +55,10 @@ static void every_region_holds_its_share_of_start_points(void **state)
     double *x, deepest, squares = 0.0;
     int64_t counts[8] = {0};
     assert_int_equal(brc_pack_start(*state, solid, &fill, n, 0.005, 1, &x, &deepest), BRC_OK);
-    for (int64_t i = 0; i < n; ++i) counts[(x[3 * i] > 0.5) + 2 * (x[3 * i + 1] > 0.5) + 4 * (x[3 * i + 2] > 0.5)]++;
-    for (int k = 0; k < 8; ++k) squares += pow((double)(counts[k] - n / 8), 2.0);
+    for (int64_t i = 0; i < n; ++i)
+        counts[(x[3 * i] > 0.5) + 2 * (x[3 * i + 1] > 0.5) + 4 * (x[3 * i + 2] > 0.5)]++;
+    for (int k = 0; k < 8; ++k)
+        squares += pow((double)(counts[k] - n / 8), 2.0);
     assert_true(squares < 3.0 * 2400.0);
     brc_memory_free(x);
     brc_solid_free(&solid);
@@ -63,7 +66,8 @@ static void every_region_holds_its_share_of_start_points(void **state)
 
 static void other_seeds_give_other_points_and_radii(void **state)
 {
-    const brc_fill one = {.kind = BRC_FILL_PACKING, .seed = 1, .radius_spread = 0.1}, two = {.kind = BRC_FILL_PACKING, .seed = 2, .radius_spread = 0.1};
+    const brc_fill one = {.kind = BRC_FILL_PACKING, .seed = 1, .radius_spread = 0.1},
+                   two = {.kind = BRC_FILL_PACKING, .seed = 2, .radius_spread = 0.1};
     brc_solid *solid = cube(*state);
     double *a, *b, deepest;
     assert_int_equal(brc_pack_start(*state, solid, &one, 100, 0.01, 1, &a, &deepest), BRC_OK);
@@ -92,7 +96,8 @@ static void compare_moments(const brc_fill *fill, double square, double cube_mea
     assert_near(brc_pack_mean_square(fill), square, 1e-12 * square);
     assert_near(brc_pack_mean_cube(fill), cube_mean, 1e-12 * cube_mean);
     assert_near(brc_pack_largest(fill), largest, 1e-12 * largest);
-    const double deviation = sqrt(square - 1.0), deviation3 = sqrt(sixth - cube_mean * cube_mean), errors = 5.0 / sqrt(DRAWS);
+    const double deviation = sqrt(square - 1.0), deviation3 = sqrt(sixth - cube_mean * cube_mean),
+                 errors = 5.0 / sqrt(DRAWS);
     assert_near(sum[0], 1.0, errors * deviation);
     assert_near(sum[1], square, errors * 2.0 * largest * deviation); /* |d(r^2)| <= 2 r_max |dr| */
     assert_near(sum[2], cube_mean, errors * deviation3 + 1e-12);
@@ -107,14 +112,15 @@ static void radii_are_uniform_over_the_spread(void **state)
     compare_moments(&fill, 1.0 + 0.0625 / 3.0, 1.0625, 1.25);
 }
 
-/* Half of the spheres uniform in 1 .. 3, a quarter uniform in 3 .. 4, a quarter of 8 (a step): mean 2/2 + 3.5/4 + 8/4 = 3.875; squares: (27 - 1)/6, (64 - 27)/3 and 64;
- * cubes: (81 - 1)/8, (256 - 81)/4 and 512. */
+/* Half of the spheres uniform in 1 .. 3, a quarter uniform in 3 .. 4, a quarter of 8 (a step): mean 2/2 + 3.5/4 + 8/4 =
+ * 3.875; squares: (27 - 1)/6, (64 - 27)/3 and 64; cubes: (81 - 1)/8, (256 - 81)/4 and 512. */
 static void radii_follow_a_table(void **state)
 {
     (void)state;
     brc_radius table[] = {{1.0, 0.0}, {3.0, 0.5}, {4.0, 0.75}, {8.0, 0.75}, {8.0, 1.0}};
     const brc_fill fill = {.n_radii = 5, .radii = table, .seed = 3};
-    const double mean = 3.875, square = 26.0 / 6.0 / 2.0 + 37.0 / 3.0 / 4.0 + 16.0, cube_mean = 10.0 / 2.0 + 175.0 / 4.0 / 4.0 + 128.0;
+    const double mean = 3.875, square = 26.0 / 6.0 / 2.0 + 37.0 / 3.0 / 4.0 + 16.0,
+                 cube_mean = 10.0 / 2.0 + 175.0 / 4.0 / 4.0 + 128.0;
     assert_near(brc_pack_mean_radius(&fill), mean, 1e-14);
     compare_moments(&fill, square / (mean * mean), cube_mean / pow(mean, 3), 8.0 / mean);
     int n_large = 0;
