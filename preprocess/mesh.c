@@ -56,7 +56,7 @@ static brc_status make(brc_context *context, brc_mesh *mesh, const brc_mesh_sour
     mark_slivers(mesh);
     BRC_TRY(brc_mesh_check_cuts(context, mesh, source));
     BRC_TRY(brc_mesh_nest(context, mesh, source));
-    return brc_mesh_smooth(context, mesh, source->n_threads);
+    return brc_mesh_smooth(context, mesh);
 }
 
 brc_status brc_mesh_read_stl(brc_context *context, const char *path, double scale, const double offset[3], int n_threads, brc_mesh **out)

@@ -40,8 +40,7 @@ void brc_mesh_bounds(const brc_mesh *mesh, double bounds[2][3]);
 /* Exact volume [m^3] and area [m^2] of the mesh. */
 double brc_mesh_volume(const brc_mesh *mesh);
 double brc_mesh_area(const brc_mesh *mesh);
-/* Is it convex: one shell, every vertex on or below every triangle's plane (to the rounding of the file; planes of flat patches, not of
- * their triangles)? */
+/* Is it convex: one shell, concave at no edge by more than the rounding of the file, nor as a whole? */
 bool brc_mesh_is_convex(const brc_mesh *mesh);
 /* Is x inside or on the surface? Right also near edges and vertices: see brc_mesh_depth. */
 bool brc_mesh_inside(const brc_mesh *mesh, const double x[3]);

@@ -88,7 +88,7 @@ brc_status brc_mesh_check_cuts(brc_context *context, const brc_mesh *mesh, const
 /* mesh_shells.c: turn shells that are inside out; refuse nested ones that do not alternate; fill volume and area. */
 brc_status brc_mesh_nest(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source);
 /* mesh_patch.c: normals, sharp edges, patches, convexity. */
-brc_status brc_mesh_smooth(brc_context *context, brc_mesh *mesh, int n_threads);
+brc_status brc_mesh_smooth(brc_context *context, brc_mesh *mesh);
 
 /* Called for every triangle that the line x + t e_axis crosses, in the order of the tree. */
 typedef void brc_mesh_hit(void *of, int32_t triangle, double t);

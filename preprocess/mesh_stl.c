@@ -33,10 +33,10 @@ static bool is_text(const char *text, size_t bytes)
     const char *c = text, *end = text + bytes;
     if (bytes >= 3 && memcmp(c, "\xef\xbb\xbf", 3) == 0) c += 3;
     while (c < end && (*c == ' ' || *c == '\t' || *c == '\r' || *c == '\n')) ++c;
-    if (end - c < 6 || strncasecmp(c, "solid", 5) != 0 || !strchr(" \t\r\n", c[5])) return false;
+    if (end - c < 6 || strncasecmp(c, "solid", 5) != 0 || !(c[5] == ' ' || (c[5] >= '\t' && c[5] <= '\r'))) return false;
     const char *last = bytes < SNIFF ? end : text + SNIFF;
     for (; c < last; ++c)
-        if ((unsigned char)*c < 32 && !strchr("\t\r\n\f\v", *c)) return false;
+        if ((unsigned char)*c < 32 && !(*c >= '\t' && *c <= '\r')) return false;
     return true;
 }
 
