@@ -8,6 +8,7 @@
 #include "conform.h"
 #include "cracks.h"
 #include "describe.h"
+#include "edges.h"
 #include "estimate.h"
 #include "grains.h"
 #include "halfedge.h"
@@ -138,7 +139,7 @@ static brc_status place_seeds(brc_context *context, work *w, brc_quality *qualit
     switch (fill->kind) {
     case BRC_FILL_NOISY_GRID: return brc_seeds_draw(context, &w->grid, fill, &w->walls, &w->position, &w->n, &quality->n_seeds_duplicate);
     case BRC_FILL_PACKING:
-        BRC_TRY(brc_packing_make(context, w->solid, fill, w->n_threads, &packing));
+        BRC_TRY((fill->cut ? brc_packing_cut : brc_packing_make)(context, w->solid, fill, w->n_threads, &packing));
         w->position = packing.position;
         w->radius = packing.radius;
         w->n = packing.n;
@@ -235,6 +236,8 @@ static brc_status build_cells(brc_context *context, work *w, brc_domain *domain)
         BRC_TRY_OR(cleanup, brc_conform_walls(context, w->position, w->n, w->spacing, false, w->n_threads, &w->walls));
         BRC_TRY_OR(cleanup, brc_cells_relax(context, w->position, w->n, &w->walls, w->spacing, w->n_threads, what));
     }
+    if (request->fill.kind != BRC_FILL_POINTS) /* those are as given */
+        BRC_TRY_OR(cleanup, brc_edges_place(context, &w->walls, w->spacing, request->fill.spread, request->fill.seed, w->n_threads, &w->position, &w->n));
     BRC_TRY_OR(cleanup, mirror_at_cracks(context, w));
     domain->position = w->position;
     domain->n_elements = w->n;

@@ -19,6 +19,8 @@ enum { MOST_FACES = 4096 };
 
 /* Seeds that relaxation would move by less stay [of the spacing]. */
 #define LEAST_MOVE 1e-5
+/* Relaxation moves no seed nearer to a mirrored wall [of the spacing]. */
+#define WALL_CLEARANCE 0.02
 
 /* What the threads of one computation share. The first failure, by element, is the one reported. */
 typedef struct shared {
@@ -280,12 +282,14 @@ cleanup:
 }
 
 /* Turn the move of a seed into its new place. Moves of nearly nothing, far inside a regular grid, are not made: they
- * would split the corners of the cubes into faces as small as Voro++'s tolerance, where it goes wrong. */
-static void settle(const double x[3], double spacing, double move[3])
+ * would split the corners of the cubes into faces as small as Voro++'s tolerance, where it goes wrong. Nor are moves out of a solid whose
+ * concave edges cells may overlap. */
+static void settle(const brc_walls *walls, const double x[3], double spacing, double move[3])
 {
     const double square = move[0] * move[0] + move[1] * move[1] + move[2] * move[2];
     const bool still = square < LEAST_MOVE * LEAST_MOVE * spacing * spacing;
     for (int d = 0; d < 3; ++d) move[d] = still ? x[d] : x[d] + move[d];
+    if (walls->mirrored && !still && !brc_walls_inside(walls, move, WALL_CLEARANCE * spacing)) memcpy(move, x, 3 * sizeof *move);
 }
 
 brc_status brc_cells_relax(brc_context *context, double *position, int64_t n, const brc_walls *walls, double spacing,
@@ -314,7 +318,7 @@ brc_status brc_cells_relax(brc_context *context, double *position, int64_t n, co
             }
             double volume, inertia[6];
             brc_polyhedron_mass(&cell, &volume, fresh + 3 * e, inertia);
-            settle(position + 3 * e, spacing, fresh + 3 * e);
+            settle(walls, position + 3 * e, spacing, fresh + 3 * e);
             if (e % BRC_RUN_LENGTH != 0) continue;
 #pragma omp atomic
             done += BRC_RUN_LENGTH;

@@ -278,12 +278,23 @@ static int32_t add_foot(brc_foot *feet, int32_t n, int32_t most, const brc_foot 
     return n + 1;
 }
 
-/* A surface whose foot lies beyond an edge, outside the solid, still bounds what is around x when x is on its inner side. */
-static bool bounds_beyond(const brc_solid *solid, const near_surface *a, const double x[3])
+/* A surface whose foot lies beyond an edge, outside the solid, still bounds what is around x when x is on its inner side and the wall itself begins near x, at
+ * an edge with another surface. */
+static bool bounds_beyond(const brc_solid *solid, const near_surface *near, int n_near, int self, const double x[3], double reach)
 {
+    const near_surface *a = &near[self];
     const brc_leaf *leaf = &solid->leaf[a->surface->leaf];
-    if (leaf->role == BRC_PART_REMOVE) return a->height > 0.0;
-    return a->height < 0.0 && (leaf->role == BRC_PART_KEEP || brc_leaf_inside(solid, leaf, x));
+    if (leaf->role == BRC_PART_REMOVE ? a->height < 0.0 : a->height > 0.0) return false;
+    if (leaf->role == BRC_PART_ADD && !brc_leaf_inside(solid, leaf, x)) return false;
+    if (a->surface->hull != 0.0) return true;
+    for (int k = 0; k < n_near; ++k) {
+        const near_surface *const pair[2] = {a, &near[k]};
+        double y[3], normal[3][3], weight[3];
+        if (near[k].surface == a->surface || !meet(solid, x, 2, pair, reach, y, normal, weight)) continue;
+        const int inside = sectors(solid, 2, y, (const double(*)[3])normal); /* sectors 0 and 1, 2 and 3 are apart by surface a */
+        if ((inside & 1) != (inside >> 1 & 1) || (inside >> 2 & 1) != (inside >> 3 & 1)) return true;
+    }
+    return false;
 }
 
 static int32_t edge_feet(const brc_solid *solid, const double x[3], const near_surface *near, int n_near, double reach, brc_foot *feet,
@@ -381,8 +392,9 @@ static bool beyond_rim(const brc_solid *solid, const near_surface *a, const doub
 }
 
 /* The foot of x on a near surface; false: none there. mirror: also on curved walls beyond their edges. */
-static bool foot_on(const brc_solid *solid, const near_surface *a, const double x[3], bool mirror, brc_foot *foot)
+static bool foot_on(const brc_solid *solid, const near_surface *near, int n_near, int self, const double x[3], double reach, bool mirror, brc_foot *foot)
 {
+    const near_surface *a = &near[self];
     *foot = (brc_foot){.depth = fabs(a->height), .wall = a->surface->wall, .plane = a->flat && !a->rim, .hull = a->surface->hull != 0.0};
     for (int d = 0; d < 3; ++d) foot->normal[d] = a->height < 0.0 ? a->normal[d] : -a->normal[d];
     if (a->rim && !a->concave) {
@@ -393,7 +405,7 @@ static bool foot_on(const brc_solid *solid, const near_surface *a, const double 
     if (solid->n_leaves == 1 && solid->leaf[0].mesh) return true;
     const int side = sides(solid, a->point, a->probe);
     if (side == (a->height < 0.0 ? 1 : 2)) return leaf_ends(solid, a); /* outward is away from x */
-    return side == 0 && (a->flat || mirror) && bounds_beyond(solid, a, x);
+    return side == 0 && (a->flat || mirror) && bounds_beyond(solid, near, n_near, self, x, reach);
 }
 
 /* Tangent planes around x in a thin tube. */
@@ -417,7 +429,7 @@ static int32_t find_feet(const brc_solid *solid, const double x[3], double reach
     double least = HUGE_VAL;
     for (int i = 0; i < n_near; ++i) {
         brc_foot foot;
-        if (!foot_on(solid, &near[i], x, mirror, &foot)) continue;
+        if (!foot_on(solid, near, n_near, i, x, reach, mirror, &foot)) continue;
         n = add_foot(feet, n, most, &foot);
         if (mirror && near[i].opposite && near[i].height < 0.0) n = around_feet(&near[i], x, reach, feet, n, most);
     }

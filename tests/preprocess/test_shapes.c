@@ -139,6 +139,32 @@ static void free_faces_know_their_wall(void **state)
     brc_domain_free(&d);
 }
 
+/* Rings of seeds around a straight concave edge are their own images, so the faces lie in the walls: the free area of the L is its surface, but for what
+ * rounding leaves. At a right-angled notch, whose flanks end at slanted convex edges, a few seeds beyond the rings still show. */
+static void faces_at_a_straight_concave_edge_lie_in_its_walls(void **state)
+{
+    static const char *const name[2] = {"L-shape", "V-notch"};
+    /* V-notch: 2 (4 - 1/4) + three full sides of 2, the top less 1, two flanks of sqrt 1/2 */
+    const double area[2] = {14.0, 7.5 + 6.0 + 1.0 + 1.4142135623730951};
+    for (int k = 0; k < 2; ++k) {
+        test_shape room;
+        brc_build_request r = request_for(test_shape_named(name[k], &room), 3000);
+        for (int lloyd = 0; lloyd <= 2; lloyd += 2) {
+            r.fill.lloyd_sweeps = lloyd;
+            brc_domain *d = test_build(*state, &r);
+            check_domain(*state, d, name[k]);
+            double sum = 0.0;
+            for (int64_t f = 0; f < d->n_free_faces; ++f) {
+                const double *s = d->free_area_vector + 3 * f;
+                sum += sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+            }
+            assert_near(sum / area[k], 1.0, k == 0 ? 1e-9 : 1e-3);
+            assert_near(d->quality.volume_cells / room.volume, 1.0, k == 0 ? 1e-9 : 1e-4);
+            brc_domain_free(&d);
+        }
+    }
+}
+
 static void a_gap_narrower_than_the_cells_is_refused_not_bridged(void **state)
 {
     test_shape room;
@@ -313,6 +339,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(curved_walls_by_mirror_images_are_met_to_second_order, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_turned_and_moved_shape_has_the_same_cells, test_begin, test_end),
         cmocka_unit_test_setup_teardown(free_faces_know_their_wall, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(faces_at_a_straight_concave_edge_lie_in_its_walls, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_gap_narrower_than_the_cells_is_refused_not_bridged, test_begin, test_end),
         cmocka_unit_test_setup_teardown(cells_too_coarse_for_the_shape_are_refused, test_begin, test_end),
         cmocka_unit_test_setup_teardown(meshes_are_filled_like_shapes, test_begin, test_end),

@@ -34,7 +34,7 @@ static void near_planes_are_found_wherever_the_point_lies(void **state)
     const brc_shape shape[4] = {{.kind = BRC_SHAPE_CYLINDER, .origin = {-1.0, 0.2, 0.3}, .length = 2.0, .radius = 0.7},
                                 {.kind = BRC_SHAPE_SPHERE, .origin = {0.1, 0.2, 0.3}, .radius = 0.7},
                                 {.kind = BRC_SHAPE_CONE, .origin = {-1.0, 0.2, 0.3}, .length = 2.0, .radius = 0.9, .radius2 = 0.5},
-                                {.kind = BRC_SHAPE_CONE, .origin = {-1.0, 0.2, 0.3}, .length = 2.0, .radius = 0.0, .radius2 = 1.4}};
+                                {.kind = BRC_SHAPE_CONE, .origin = {-1.0, 0.2, 0.3}, .length = 2.0, .radius = 0.1, .radius2 = 1.3}};
     const double direction[5][3] = {{0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}, {0.0, 1.0, 0.0}, {0.6, -0.64, 0.48}, {0.0, -0.28, -0.96}};
     const double radius[5] = {0.0, 0.35, 0.65, 0.7, 0.75}, reach[3] = {0.01, 0.1, 2.0};
     for (int s = 0; s < 4; ++s) {
