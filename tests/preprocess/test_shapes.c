@@ -3,7 +3,8 @@
 #include "support.h"
 #include "support_mesh.h"
 
-#include "../../host/base/memory.h"
+#include "../../host/base/log.h"
+#include "../../preprocess/solid.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -139,13 +140,28 @@ static void free_faces_know_their_wall(void **state)
     brc_domain_free(&d);
 }
 
-/* Rings of seeds around a straight concave edge are their own images, so the faces lie in the walls: the free area of the L is its surface, but for what
- * rounding leaves. At a right-angled notch, whose flanks end at slanted convex edges, a few seeds beyond the rings still show. */
+/* Root mean square of the free faces' distance from the surface, weighted with area, over the spacing. */
+static double unevenness(brc_context *context, const brc_shape *shape, const brc_domain *d)
+{
+    brc_solid *solid = NULL;
+    double sum = 0.0, total = 0.0;
+    assert_int_equal(brc_solid_create(context, shape, 1, &solid), BRC_OK);
+    for (int64_t f = 0; f < d->n_free_faces; ++f) {
+        const double *s = d->free_area_vector + 3 * f, area = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+        const double depth = brc_solid_depth(solid, d->free_centroid + 3 * f);
+        sum += area * depth * depth;
+        total += area;
+    }
+    brc_solid_free(&solid);
+    return sqrt(sum / total) / d->quality.mean_spacing;
+}
+
+/* Rings of seeds around a straight concave edge are their own images, so faces lie in the walls but where a seed beyond the rings still reaches one around the
+ * edge. Seeds at random (points of a file are not touched) leave faces uneven by a third of a spacing over about a spacing along the edge: 0.01 of these
+ * surfaces. A tenth of that is asked for. */
 static void faces_at_a_straight_concave_edge_lie_in_its_walls(void **state)
 {
     static const char *const name[2] = {"L-shape", "V-notch"};
-    /* V-notch: 2 (4 - 1/4) + three full sides of 2, the top less 1, two flanks of sqrt 1/2 */
-    const double area[2] = {14.0, 7.5 + 6.0 + 1.0 + 1.4142135623730951};
     for (int k = 0; k < 2; ++k) {
         test_shape room;
         brc_build_request r = request_for(test_shape_named(name[k], &room), 3000);
@@ -153,13 +169,9 @@ static void faces_at_a_straight_concave_edge_lie_in_its_walls(void **state)
             r.fill.lloyd_sweeps = lloyd;
             brc_domain *d = test_build(*state, &r);
             check_domain(*state, d, name[k]);
-            double sum = 0.0;
-            for (int64_t f = 0; f < d->n_free_faces; ++f) {
-                const double *s = d->free_area_vector + 3 * f;
-                sum += sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
-            }
-            assert_near(sum / area[k], 1.0, k == 0 ? 1e-9 : 1e-3);
-            assert_near(d->quality.volume_cells / room.volume, 1.0, k == 0 ? 1e-9 : 1e-4);
+            const double uneven = unevenness(*state, &r.shape, d);
+            if (!(uneven < 1e-3)) fail_msg("%s, %d sweeps: uneven by %g", name[k], lloyd, uneven);
+            assert_near(d->quality.volume_cells / room.volume, 1.0, 1e-5);
             brc_domain_free(&d);
         }
     }
@@ -331,8 +343,34 @@ static void fills_that_do_not_go_together_are_refused(void **state)
     test_refused(*state, &r, BRC_BAD_INPUT, "ask for at most");
 }
 
-int main(void)
+/* The table of docs/domain.md: test_shapes table [elements]. */
+static int print_table(int64_t n)
 {
+    brc_context *context = brc_context_create();
+    printf("| shape | cells | volume error | worst closure | worst twin | uneven by | free faces a cell | s |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    brc_log_set_level(context, BRC_LOG_ERROR);
+    for (int k = 0; k < test_n_shapes(); ++k) {
+        test_shape room;
+        brc_build_request r = request_for(test_shape_of(k, &room), n);
+        r.n_threads = 0;
+        brc_domain *d = NULL;
+        const double start = brc_clock_s();
+        if (brc_domain_build(context, &r, &d) != BRC_OK) {
+            printf("| %s | %s |\n", room.name, brc_context_message(context));
+            continue;
+        }
+        printf("| %s | %lld | %.1e | %.0e | %.0e | %.4f | %.2f | %.2f |\n", room.name, (long long)d->n_elements, d->quality.volume_cells / room.volume - 1.0,
+               test_worst_closure(d), d->quality.twin_area_worst, unevenness(context, &r.shape, d), (double)d->n_free_faces / (double)d->n_elements,
+               brc_clock_s() - start);
+        brc_domain_free(&d);
+    }
+    brc_context_free(&context);
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1 && strcmp(argv[1], "table") == 0) return print_table(argc > 2 ? atoll(argv[2]) : 10000);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(every_shape_is_filled_with_closed_cells_that_agree, test_begin, test_end),
         cmocka_unit_test_setup_teardown(counts_come_near_to_what_was_asked_for, test_begin, test_end),
