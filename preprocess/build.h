@@ -76,6 +76,8 @@ typedef struct brc_fill {
     double coordination;    /* stop when 2 contacts / elements is this (walls not counted); 0: use volume_fraction */
     double volume_fraction; /* stop at this; 0: use coordination */
     double tolerance;       /* on the coordination number, default 0.02 [-] */
+    int32_t cut;            /* 0: packed between the walls of the shape; 1: cut out of a larger packing, which has no layers along the walls;
+                             * the number of elements is then met nearly */
     bool check_crystal;     /* measure crystallisation and say so */
     /* points */
     char file[512]; /* CSV (x, y, z[, radius]) or LAMMPS data file; positions in units of `scale` metres */

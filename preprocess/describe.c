@@ -82,7 +82,7 @@ static void say_fill(text *t, const brc_fill *f, const brc_grid *grid)
             f->spread, seed);
         break;
     case BRC_FILL_PACKING:
-        say(t, "packing of spheres, ");
+        say(t, f->cut ? "packing of spheres cut by the walls, " : "packing of spheres, ");
         if (f->n_radii > 0) say(t, "radii by a table of %d points from %.17g to %.17g, ", f->n_radii, f->radii[0].radius, f->radii[f->n_radii - 1].radius);
         else say(t, "radii spread by %.17g, ", f->radius_spread);
         if (f->coordination > 0.0) say(t, "coordination number %.17g", f->coordination);

@@ -25,6 +25,10 @@ typedef struct brc_packing {
  * a shape too thin for the spheres, a coordination number or volume fraction that no packing at rest reaches (with what
  * it got and what can be reached); BRC_NO_MEMORY. */
 brc_status brc_packing_make(brc_context *context, const brc_solid *solid, const brc_fill *fill, int n_threads, brc_packing *out);
+/* The same, cut out of a packing in the shape's bounding box, three mean diameters larger on each side: spheres with their centres inside
+ * stay. No layers along the walls (spheres that touch a flat wall stand in a row), so the sample is as even at its skin as inside; the
+ * number of spheres is met to a few standard deviations. volume_fraction and the rest are those of the larger packing. */
+brc_status brc_packing_cut(brc_context *context, const brc_solid *solid, const brc_fill *fill, int n_threads, brc_packing *out);
 void brc_packing_free(brc_packing *packing);
 
 #endif

@@ -220,6 +220,8 @@ static void check_fill(brc_reader *reader, const brc_body *body)
     if (fill->n_radii == 1) COMPLAIN(reader, &fill->radii->radius, fill->radii, "radii: has one entry; expected two or more, or radius_spread: 0");
     if (body->beams > 0 && fill->kind == BRC_FILL_NOISY_GRID)
         COMPLAIN(reader, &body->beams, body, "beams: a noisy grid has no spheres; expected a fill with radii (packing, or points with a radius column)");
+    if (body->beams > 0 && fill->cut)
+        COMPLAIN(reader, &fill->cut, body, "walls: a packing cut by its walls touches none of them; expected contact with beams");
     if (body->beams > 0 && fill->lloyd_sweeps > 0)
         COMPLAIN(reader, &fill->lloyd_sweeps, body, "lloyd: moves the seeds of cells; expected 0 with beams");
 }
