@@ -17,6 +17,7 @@
     X(impose_motion)                                                                                                   \
     X(impose_book)                                                                                                     \
     X(impose_zero)                                                                                                     \
+    X(push_elements)                                                                                                   \
     X(dlsm_gradient)                                                                                                   \
     X(dlsm_stress)                                                                                                     \
     X(dlsm_flux_pass)                                                                                                  \
@@ -38,6 +39,8 @@
     X(add_spin_energy)                                                                                                 \
     X(small_rotation)                                                                                                  \
     X(turn_orientation)                                                                                                \
+    X(impose_turn)                                                                                                     \
+    X(turn_book)                                                                                                       \
     X(block6_precondition)                                                                                             \
     X(cbm_force_pass)                                                                                                  \
     X(cbm_energy)                                                                                                      \

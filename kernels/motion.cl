@@ -137,3 +137,21 @@ KERNEL void impose_zero(int n, GLOBAL const int *restrict element, GLOBAL const 
             if (component[(brc_size)i * 3 + c] > REAL(0.5)) vector[(brc_size)element[i] * 3 + c] = 0;
     }
 }
+
+/* Dead forces of one load on elements: f += factor total. total [n][3]: force per element at factor 1 [N]; book, last_factor, reach,
+ * work: the work of the load by the trapezoidal rule, as impose_book; reach [n]: total.u at the last booking. */
+KERNEL void push_elements(int n, state factor, state last_factor, int book, GLOBAL const int *restrict element,
+                          GLOBAL const state *restrict total, GLOBAL const state *restrict displacement, GLOBAL state *restrict force,
+                          GLOBAL state *restrict reach, GLOBAL state *restrict work)
+{
+    FOR_EACH_ITEM(i, n) {
+        state sum = 0;
+        for (int c = 0; c < 3; ++c) {
+            const brc_size at = (brc_size)i * 3 + c, to = (brc_size)element[i] * 3 + c;
+            force[to] += factor * total[at];
+            sum += total[at] * displacement[to];
+        }
+        if (book == 1) work[i] += STATE(0.5) * (factor + last_factor) * (sum - reach[i]);
+        if (book) reach[i] = sum;
+    }
+}

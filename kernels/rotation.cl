@@ -59,6 +59,51 @@ KERNEL void turn_orientation(int n, GLOBAL const state *restrict theta, GLOBAL s
     }
 }
 
+/* Turned elements of one load: turn the orientations by the chosen components of angle direction [rad] (finite: 1 q <- exp(turn/2) q; 0 the
+ * small rotations of a linear solve are added) unless the angle is 0, and set their spin to rate direction [rad/s]. */
+KERNEL void impose_turn(int n, state angle, int finite, state rate, GLOBAL const int *restrict element, GLOBAL const coeff *restrict component,
+                        GLOBAL const state *restrict direction, GLOBAL state *restrict spin, GLOBAL state *restrict orientation)
+{
+    FOR_EACH_ITEM(i, n) {
+        GLOBAL state *q = orientation + (brc_size)element[i] * 4;
+        state half_turn[3];
+        for (int c = 0; c < 3; ++c) {
+            const brc_size at = (brc_size)i * 3 + c;
+            const int chosen = component[at] > REAL(0.5);
+            half_turn[c] = chosen ? STATE(0.5) * angle * direction[at] : STATE(0);
+            if (chosen) spin[(brc_size)element[i] * 3 + c] = rate * direction[at];
+        }
+        if (angle != 0 && finite) orientation_turn(q, half_turn[0], half_turn[1], half_turn[2]);
+        else
+            for (int c = 0; c < 3; ++c) q[c + 1] += half_turn[c];
+    }
+}
+
+/* Moment of the load that turns elements, minus the internal torque [N m] [n][3]; the torque it balances becomes zero. step: what the angle's
+ * factor grew by since the last booking; book, rate, last_rate, work: as impose_book. */
+KERNEL void turn_book(int n, state step, state rate, state last_rate, int book, GLOBAL const int *restrict element,
+                      GLOBAL const coeff *restrict component, GLOBAL const state *restrict direction, GLOBAL const state *restrict inertia,
+                      GLOBAL state *restrict torque, GLOBAL state *restrict reaction, GLOBAL state *restrict last_reaction,
+                      GLOBAL state *restrict work)
+{
+    FOR_EACH_ITEM(i, n) {
+        for (int c = 0; c < 3; ++c) {
+            const brc_size at = (brc_size)i * 3 + c, to = (brc_size)element[i] * 3 + c;
+            if (component[at] > REAL(0.5)) {
+                const state now = -torque[to];
+                if (book == 1) {
+                    const state speed = rate * direction[at], old = last_rate * direction[at];
+                    work[i] += STATE(0.5) * (last_reaction[at] + now) * (step * direction[at]) +
+                               STATE(0.5) * inertia[element[i]] * (speed * speed - old * old);
+                }
+                reaction[at] = now;
+                if (book) last_reaction[at] = now;
+                torque[to] = 0;
+            }
+        }
+    }
+}
+
 /* z = P r with a symmetric 6 x 6 block per element, upper triangle by rows [n][21]; r and z are split into forces or displacements [n][3]
  * and torques or rotations [n][3]. */
 KERNEL void block6_precondition(int n, GLOBAL const state *restrict block, GLOBAL const state *restrict force,

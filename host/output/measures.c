@@ -1,6 +1,7 @@
 /* Measures: the samples of a window are collected and scaled, then one operator runs over them. */
 #include "measures.h"
 #include "fit.h"
+#include "sphere_box.h"
 #include "spectrum.h"
 #include "../base/memory.h"
 #include <math.h>
@@ -10,6 +11,7 @@
 
 double brc_measure_area(const brc_domain *domain, int32_t set)
 {
+    if (domain->element_kind == BRC_ELEMENT_SPHERE) return brc_sphere_box_section(domain, set);
     if (set < 0 || domain->sets[set].kind != BRC_SET_FACES) return NAN;
     const brc_set *members = &domain->sets[set];
     double sum[3] = {0}, area = 0;
@@ -63,7 +65,7 @@ static double factor_of(const brc_measure *measure, const brc_domain *domain, br
     if (measure->area_set[0] == '\0') return factor;
     const double area = domain ? brc_measure_area(domain, brc_domain_find_set(domain, measure->area_set)) : NAN;
     if (area > 0) return factor / area;
-    why_not(measured, "\"%s\" is not a face set with an area", measure->area_set);
+    why_not(measured, "\"%s\" is not a face set with an area, nor a wall of a box or cylinder of spheres", measure->area_set);
     return NAN;
 }
 

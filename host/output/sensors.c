@@ -1,6 +1,7 @@
-/* Sensors. Means over faces are weighted with face areas, means over elements with their volumes; all sums run in the
- * order of the set's members, so equal states give equal bytes. */
+/* Sensors. Means over faces are weighted with face areas, means over cells with their volumes; spheres of a wall count alike where they
+ * stand for a face. All sums run in the order of the set's members, so equal states give equal bytes. */
 #include "sensors.h"
+#include "sphere_box.h"
 #include "../base/memory.h"
 #include <math.h>
 #include <string.h>
@@ -26,9 +27,11 @@ struct brc_sensors {
     int32_t
         *first; /* [n_sensors] patch, or domain set (reaction, stress, strain), or element (points); -1: all, none */
     int32_t *second;                 /* [n_sensors] patch of set2 */
-    double *distance;                /* [n_sensors] face strain: reference distance along the component [m] */
+    double *distance;                /* [n_sensors] face strain: reference distance along the component; spheres: R [m] */
     double *displacement, *velocity; /* [n_elements][3] or NULL */
     double *strain, *stress;         /* [n_elements][6] or NULL */
+    double *orientation;             /* [n_elements][4] or NULL */
+    double *applied;                 /* element forces [n_elements][3] or NULL */
     bool needs_ledger;
 };
 
@@ -36,7 +39,7 @@ static const double *patch_point(const brc_domain *d, const patch *p, int64_t k,
 {
     const int64_t m = p->members ? p->members[k] : k;
     if (!p->faces) {
-        *weight = d->volume[m];
+        *weight = d->radius ? 1 : d->volume[m];
         return d->position + 3 * m;
     }
     const double *s = d->free_area_vector + 3 * m;
@@ -111,16 +114,57 @@ static brc_status prepare_strain(brc_sensors *sensors, const brc_sensor *sensor,
     const patch *a = &sensors->patches[sensors->first[s]];
     const patch *b = &sensors->patches[sensors->second[s]];
     const int c = sensor->component;
+    const bool spheres = sensors->domain->radius && a->set >= 0 && b->set >= 0;
     sensors->distance[s] = a->mean_position[c] - b->mean_position[c];
     double extent = 0;
     for (int k = 0; k < 3; ++k)
         extent = fmax(extent, sensors->domain->bounds[1][k] - sensors->domain->bounds[0][k]);
-    if (fabs(sensors->distance[s]) > 1e-9 * extent) return BRC_OK;
+    if (fabs(sensors->distance[s]) > 1e-9 * extent) {
+        if (spheres) sensors->distance[s] = brc_sphere_box_length(sensors->domain, a->set, b->set, c);
+        return BRC_OK;
+    }
     return BRC_FAIL(
         sensors->context, BRC_BAD_INPUT,
         "sensor %s: the sets \"%s\" and \"%s\" lie at the same %c (%.9g m); a strain needs two places along "
         "its component",
         sensor->name, sensor->set, sensor->set2, 'x' + c, a->mean_position[c]);
+}
+
+/* R of a sphere by its surface elements [m]. */
+static double surface_radius(const brc_sensors *sensors, const brc_sensor *sensor, const brc_set *set)
+{
+    double sum = 0;
+    for (int64_t k = 0; k < set->n_members; ++k) {
+        const double *x = sensors->domain->position + 3 * (int64_t)set->members[k];
+        sum += hypot(hypot(x[0] - sensor->point[0], x[1] - sensor->point[1]), x[2] - sensor->point[2]);
+    }
+    return sum / (double)set->n_members + brc_sphere_mean_diameter(sensors->domain) / 2;
+}
+
+/* Sum over the set of a vector's radial components. */
+static double radial_sum(const brc_sensors *sensors, const brc_sensor *sensor, const brc_set *set, const double *vector)
+{
+    double sum = 0;
+    for (int64_t k = 0; k < set->n_members; ++k) {
+        const int64_t e = set->members[k];
+        double r[3], along = 0, square = 0;
+        for (int c = 0; c < 3; ++c) {
+            r[c] = sensors->domain->position[3 * e + c] - sensor->point[c];
+            along += r[c] * vector[3 * e + c];
+            square += r[c] * r[c];
+        }
+        if (square > 0) sum += along / sqrt(square);
+    }
+    return sum;
+}
+
+static brc_status prepare_round(brc_sensors *sensors, const brc_sensor *sensor, int32_t s)
+{
+    if (!sensors->domain->radius)
+        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: its sphere is measured by packed spheres, the elements are cells; use stress and strain",
+                        sensor->name);
+    sensors->distance[s] = surface_radius(sensors, sensor, &sensors->domain->sets[sensors->first[s]]);
+    return BRC_OK;
 }
 
 static brc_status prepare(brc_sensors *sensors, int32_t s)
@@ -130,6 +174,7 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
     sensors->first[s] = sensors->second[s] = -1;
     switch (sensor->kind) {
     case BRC_SENSOR_REACTION:
+    case BRC_SENSOR_MOMENT:
         if (sensor->set[0] == '\0')
             return BRC_FAIL(sensors->context, BRC_BAD_INPUT,
                             "sensor %s: a reaction needs the set whose prescribed motion it belongs to", sensor->name);
@@ -155,6 +200,15 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
         BRC_TRY(find_set(sensors, sensor, sensor->set2, &set));
         BRC_TRY(find_patch(sensors, set, &sensors->second[s]));
         return prepare_strain(sensors, sensor, s);
+    case BRC_SENSOR_RADIAL_STRESS:
+    case BRC_SENSOR_VOLUME_STRAIN:
+        BRC_TRY(find_set(sensors, sensor, sensor->set, &sensors->first[s]));
+        return prepare_round(sensors, sensor, s);
+    case BRC_SENSOR_TURN:
+        if (sensors->scene->model.kind == BRC_MODEL_DLSM)
+            return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: elements of dlsm have no rotations of their own; use face_twist", sensor->name);
+        sensors->first[s] = nearest_element(sensors->domain, sensor->point);
+        return BRC_OK;
     case BRC_SENSOR_POINT:
     case BRC_SENSOR_POINT_VELOCITY: sensors->first[s] = nearest_element(sensors->domain, sensor->point); return BRC_OK;
     case BRC_SENSOR_ENERGY:
@@ -170,10 +224,12 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
 /* Arrays for the fields that some sensor reads, and for no others. */
 static brc_status allocate_fields(brc_sensors *sensors)
 {
-    bool displacement = false, velocity = false, strain = false, stress = false;
+    bool displacement = false, velocity = false, strain = false, stress = false, orientation = false, applied = false;
     for (int32_t s = 0; s < sensors->scene->n_sensors; ++s) {
         const brc_sensor_kind kind = sensors->scene->sensors[s].kind;
-        displacement |= kind == BRC_SENSOR_POINT;
+        displacement |= kind == BRC_SENSOR_POINT || kind == BRC_SENSOR_VOLUME_STRAIN;
+        orientation |= kind == BRC_SENSOR_TURN;
+        applied |= kind == BRC_SENSOR_RADIAL_STRESS;
         velocity |= kind == BRC_SENSOR_POINT_VELOCITY;
         strain |= kind == BRC_SENSOR_STRAIN;
         stress |= kind == BRC_SENSOR_STRESS;
@@ -187,6 +243,8 @@ static brc_status allocate_fields(brc_sensors *sensors)
     if (velocity) BRC_TRY(BRC_ALLOCATE(context, &sensors->velocity, 3 * n, "velocity for sensors"));
     if (strain) BRC_TRY(BRC_ALLOCATE(context, &sensors->strain, 6 * n, "strain for sensors"));
     if (stress) BRC_TRY(BRC_ALLOCATE(context, &sensors->stress, 6 * n, "stress for sensors"));
+    if (orientation) BRC_TRY(BRC_ALLOCATE(context, &sensors->orientation, 4 * n, "orientation for sensors"));
+    if (applied) BRC_TRY(BRC_ALLOCATE(context, &sensors->applied, 3 * n, "forces for sensors"));
     return BRC_OK;
 }
 
@@ -226,6 +284,8 @@ void brc_sensors_free(brc_sensors **sensors)
     brc_memory_free((*sensors)->velocity);
     brc_memory_free((*sensors)->strain);
     brc_memory_free((*sensors)->stress);
+    brc_memory_free((*sensors)->orientation);
+    brc_memory_free((*sensors)->applied);
     brc_memory_free(*sensors);
     *sensors = NULL;
 }
@@ -234,6 +294,8 @@ static brc_status read_fields(brc_sensors *sensors, brc_simulation *simulation)
 {
     if (sensors->displacement) BRC_TRY(brc_simulation_displacement(simulation, sensors->displacement));
     if (sensors->velocity) BRC_TRY(brc_simulation_velocity(simulation, sensors->velocity));
+    if (sensors->orientation) BRC_TRY(brc_simulation_orientation(simulation, sensors->orientation, NULL));
+    if (sensors->applied) BRC_TRY(brc_simulation_applied_force(simulation, sensors->applied));
     if (sensors->strain || sensors->stress)
         BRC_TRY(brc_simulation_strain_stress(simulation, sensors->strain, sensors->stress, NULL));
     for (int32_t k = 0; k < sensors->n_patches; ++k) {
@@ -290,6 +352,14 @@ static double twist_angle(const brc_sensors *sensors, const brc_sensor *sensor, 
     return atan2(turning, staying);
 }
 
+/* Component of the rotation vector of a unit quaternion: 2 atan2(|v|, w) v / |v|, the short way round. */
+static double turn_of(const double q[4], int component)
+{
+    const double sign = q[0] < 0 ? -1 : 1, length = hypot(hypot(q[1], q[2]), q[3]);
+    const double angle = 2 * atan2(length, sign * q[0]);
+    return length > 0 ? sign * q[1 + component] * (angle / length) : 0;
+}
+
 static double mode_frequency(const brc_simulation *simulation, int32_t index)
 {
     int32_t n = 0;
@@ -311,6 +381,19 @@ brc_status brc_sensors_evaluate(brc_sensors *sensors, brc_simulation *simulation
         case BRC_SENSOR_REACTION:
             BRC_TRY(brc_simulation_reaction(simulation, first, reaction));
             value[s] = reaction[c];
+            break;
+        case BRC_SENSOR_MOMENT:
+            BRC_TRY(brc_simulation_reaction_moment(simulation, first, sensor->point, reaction));
+            value[s] = reaction[c];
+            break;
+        case BRC_SENSOR_TURN: value[s] = turn_of(sensors->orientation + 4 * (int64_t)first, c); break;
+        case BRC_SENSOR_RADIAL_STRESS:
+            value[s] = radial_sum(sensors, sensor, &sensors->domain->sets[first], sensors->applied) /
+                       (4 * M_PI * sensors->distance[s] * sensors->distance[s]);
+            break;
+        case BRC_SENSOR_VOLUME_STRAIN:
+            value[s] = 3 * radial_sum(sensors, sensor, &sensors->domain->sets[first], sensors->displacement) /
+                       ((double)sensors->domain->sets[first].n_members * sensors->distance[s]);
             break;
         case BRC_SENSOR_FACE_MEAN: value[s] = sensors->patches[first].mean_u[c]; break;
         case BRC_SENSOR_FACE_STRAIN:

@@ -387,6 +387,8 @@ static brc_status check_stage(brc_reader *reader, brc_stage *stage)
 {
     for (int l = 0; l < stage->n_loads; ++l) {
         brc_load *load = &stage->loads[l];
+        if (load->radial && (load->value[0] != 0 || load->value[1] != 0 || load->value[2] != 0))
+            COMPLAIN(reader, NULL, load, "element_force: radial forces take no x, y, z; give those in a load of their own");
         if (load->kind == BRC_LOAD_TRACTION) load->component[0] = load->component[1] = load->component[2] = true;
         const bool velocity = load->kind == BRC_LOAD_FACE_VELOCITY || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
         if (stage->solver != BRC_SOLVER_DYNAMIC && velocity)

@@ -71,17 +71,18 @@ double brc_table_value(const brc_table *table, double t)
 }
 
 /* Units of sensors, and of the slope of one against another: [numerator][denominator]. */
-enum { NEWTON, METRE, PURE, RADIAN, PASCAL, JOULE, METRE_PER_SECOND, HERTZ, N_UNITS };
-static const char *const UNIT[N_UNITS] = {"N", "m", "-", "rad", "Pa", "J", "m/s", "Hz"};
+enum { NEWTON, METRE, PURE, RADIAN, PASCAL, JOULE, METRE_PER_SECOND, HERTZ, NEWTON_METRE, N_UNITS };
+static const char *const UNIT[N_UNITS] = {"N", "m", "-", "rad", "Pa", "J", "m/s", "Hz", "N m"};
 static const char *const SLOPE_UNIT[N_UNITS][N_UNITS] = {
-    {"-", "N/m", "N", "N/rad", "N/Pa", "N/J", "N s/m", "N/Hz"},
-    {"m/N", "-", "m", "m/rad", "m/Pa", "m/J", "s", "m/Hz"},
-    {"1/N", "1/m", "-", "1/rad", "1/Pa", "1/J", "s/m", "1/Hz"},
-    {"rad/N", "rad/m", "rad", "-", "rad/Pa", "rad/J", "rad s/m", "rad/Hz"},
-    {"Pa/N", "Pa/m", "Pa", "Pa/rad", "-", "Pa/J", "Pa s/m", "Pa/Hz"},
-    {"J/N", "J/m", "J", "J/rad", "J/Pa", "-", "J s/m", "J/Hz"},
-    {"m/s/N", "1/s", "m/s", "m/s/rad", "m/s/Pa", "m/s/J", "-", "m/s/Hz"},
-    {"Hz/N", "Hz/m", "Hz", "Hz/rad", "Hz/Pa", "Hz/J", "Hz s/m", "-"},
+    {"-", "N/m", "N", "N/rad", "N/Pa", "N/J", "N s/m", "N/Hz", "1/m"},
+    {"m/N", "-", "m", "m/rad", "m/Pa", "m/J", "s", "m/Hz", "1/N"},
+    {"1/N", "1/m", "-", "1/rad", "1/Pa", "1/J", "s/m", "1/Hz", "1/N/m"},
+    {"rad/N", "rad/m", "rad", "-", "rad/Pa", "rad/J", "rad s/m", "rad/Hz", "rad/N/m"},
+    {"Pa/N", "Pa/m", "Pa", "Pa/rad", "-", "Pa/J", "Pa s/m", "Pa/Hz", "Pa/N/m"},
+    {"J/N", "J/m", "J", "J/rad", "J/Pa", "-", "J s/m", "J/Hz", "-"},
+    {"m/s/N", "1/s", "m/s", "m/s/rad", "m/s/Pa", "m/s/J", "-", "m/s/Hz", "1/N/s"},
+    {"Hz/N", "Hz/m", "Hz", "Hz/rad", "Hz/Pa", "Hz/J", "Hz s/m", "-", "Hz/N/m"},
+    {"m", "N", "N m", "N m/rad", "m^3", "-", "N s", "N m/Hz", "-"},
 };
 
 static int unit_index(const brc_sensor *sensor)
@@ -96,6 +97,10 @@ static int unit_index(const brc_sensor *sensor)
     case BRC_SENSOR_ENERGY: return strcmp(sensor->term, "closure") == 0 ? PURE : JOULE;
     case BRC_SENSOR_POINT: return METRE;
     case BRC_SENSOR_POINT_VELOCITY: return METRE_PER_SECOND;
+    case BRC_SENSOR_MOMENT: return NEWTON_METRE;
+    case BRC_SENSOR_TURN: return RADIAN;
+    case BRC_SENSOR_RADIAL_STRESS: return PASCAL;
+    case BRC_SENSOR_VOLUME_STRAIN: return PURE;
     case BRC_SENSOR_MODE: return HERTZ;
     }
     return PURE;

@@ -82,8 +82,12 @@ typedef enum brc_load_kind {
     BRC_LOAD_ELEMENT_DISPLACEMENT, /* imposed elements, as the papers do it: u of whole elements */
     BRC_LOAD_ELEMENT_VELOCITY,
     BRC_LOAD_TRACTION, /* force per reference area, dead: t = a(t) value [Pa] */
-    BRC_LOAD_PRESSURE  /* dead pressure: t = -a(t) value[0] N [Pa] */
+    BRC_LOAD_PRESSURE, /* dead pressure: t = -a(t) value[0] N [Pa] */
+    BRC_LOAD_ELEMENT_FORCE,   /* dead: a(t) times value, a total over the set, shared out; or radial_force (below) [N] */
+    BRC_LOAD_ELEMENT_ROTATION /* rotation of elements since the start of the stage, a(t) value per component [rad]; models with rotations */
 } brc_load_kind;
+
+typedef enum brc_share { BRC_SHARE_NUMBER, BRC_SHARE_MASS } brc_share; /* of a total: equal parts, or by mass */
 
 typedef struct brc_load {
     brc_load_kind kind;
@@ -91,7 +95,10 @@ typedef struct brc_load {
     bool component[3]; /* prescribed components x y z; others stay free. Tractions: all true */
     double value[3];
     double gradient[3][3]; /* row i: d u_i / d x_j [-] or [1/s]; element loads: with C replaced by X */
-    double origin[3];      /* [m] */
+    double origin[3];      /* [m]; radial element force: the centre */
+    brc_share share;       /* element force */
+    bool radial;           /* element force: equal forces away from the origin, minus what would move the set rigidly */
+    double radial_force;   /* sum of their magnitudes, positive outward [N] */
     brc_table table;
 } brc_load;
 
@@ -166,6 +173,10 @@ typedef enum brc_sensor_kind {
     BRC_SENSOR_ENERGY,       /* a term of the ledger by name [J] */
     BRC_SENSOR_POINT,        /* displacement of the element nearest to a point [m] */
     BRC_SENSOR_POINT_VELOCITY, /* its velocity [m/s] */
+    BRC_SENSOR_MOMENT,       /* moment of the loads on the solid about a point, over a set with a prescribed motion [N m] */
+    BRC_SENSOR_TURN,         /* rotation vector of the element nearest to a point; models with rotations [rad] */
+    BRC_SENSOR_RADIAL_STRESS, /* element forces of a set along the radius from a point, over the sphere 4 pi R^2 [Pa] */
+    BRC_SENSOR_VOLUME_STRAIN, /* 3 times the mean radial displacement of a set over R [-] */
     BRC_SENSOR_MODE          /* frequency of mode `index` (0: lowest elastic) of the last modes stage [Hz] */
 } brc_sensor_kind;
 

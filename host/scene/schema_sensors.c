@@ -26,6 +26,30 @@ static const brc_section REACTION_SECTION = {
     .title = "reaction",
     .meaning = "Force of the loads on the solid, summed over a set with prescribed motion [N].",
     ENTRIES(ON_SET)};
+static const brc_entry MOMENT[] = {
+    {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_SET, .sample = "x+",
+     .meaning = "faces or elements"},
+    {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), .length = 3, .required = true, .sample = "[1 m, 0, 0]",
+     .meaning = "moments are about it"},
+    COMPONENT,
+};
+static const brc_section MOMENT_SECTION = {
+    .title = "moment",
+    .meaning = "Moment about a point of the forces (and of prescribed rotations) on a set with prescribed motion [N m].",
+    ENTRIES(MOMENT)};
+static const brc_entry ROUND[] = {
+    {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_ELEMENTS, .sample = "core",
+     .meaning = "elements of the surface"},
+    {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), .length = 3, .required = true, .sample = "[0, 0, 0]",
+     .meaning = "of the sphere"},
+};
+static const brc_section RADIAL_STRESS_SECTION = {
+    .title = "radial_stress",
+    .meaning = "Element forces of a set along the radii, over 4 pi R^2; R: mean distance of the set from the centre plus the mean radius of "
+               "all spheres. Positive outward [Pa].",
+    ENTRIES(ROUND)};
+static const brc_section VOLUME_STRAIN_SECTION = {
+    .title = "volume_strain", .meaning = "3 times the mean radial displacement of a set over R, as in radial_stress [-].", ENTRIES(ROUND)};
 static const brc_section FACE_MEAN_SECTION = {
     .title = "face_mean",
     .meaning = "Area mean of the displacement of faces, or mean of that of elements [m].",
@@ -39,16 +63,17 @@ static const brc_entry FACE_STRAIN[] = {
 };
 static const brc_section FACE_STRAIN_SECTION = {
     .title = "face_strain",
-    .meaning = "Difference of two mean displacements over the distance of the two sets, along the component [-].",
+    .meaning = "Difference of two mean displacements over the distance of the two sets, along the component; for spheres a mean diameter is "
+               "added to the distance of their centres [-].",
     ENTRIES(FACE_STRAIN)};
 static const brc_entry FACE_TWIST[] = {
-    {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_FACES, .sample = "x+",
-     .meaning = "faces"},
+    {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_SET, .sample = "x+",
+     .meaning = "faces or elements"},
     {"axis", BRC_TYPE_DIRECTION, "", FIELD(brc_sensor, axis), .length = 3, .required = true, .sample = "[1, 0, 0]",
      .meaning = "of the rotation"},
 };
 static const brc_section FACE_TWIST_SECTION = {
-    .title = "face_twist", .meaning = "Area mean of the rotation of faces about an axis [rad].", ENTRIES(FACE_TWIST)};
+    .title = "face_twist", .meaning = "Area mean of the rotation of faces about an axis, or mean of that of elements [rad].", ENTRIES(FACE_TWIST)};
 static const brc_entry TENSOR[] = {ELEMENT_SET, TENSOR_COMPONENT};
 static const brc_section STRESS_SECTION = {
     .title = "stress",
@@ -65,6 +90,8 @@ static const brc_section POINT_SECTION = {
     .title = "point", .meaning = "Displacement of an element [m].", ENTRIES(POINT)};
 static const brc_section POINT_VELOCITY_SECTION = {
     .title = "point_velocity", .meaning = "Velocity of an element [m/s].", ENTRIES(POINT)};
+static const brc_section TURN_SECTION = {
+    .title = "turn", .meaning = "Rotation vector of an element; for models whose elements have rotations [rad].", ENTRIES(POINT)};
 static const brc_entry SENSOR[] = {
     {"reaction", BRC_TYPE_STRUCT, .section = &REACTION_SECTION, .value = BRC_SENSOR_REACTION,
      .meaning = "force on a set with prescribed motion [N]"},
@@ -83,6 +110,14 @@ static const brc_entry SENSOR[] = {
      .meaning = "displacement of the element nearest to a point [m]"},
     {"point_velocity", BRC_TYPE_STRUCT, .section = &POINT_VELOCITY_SECTION, .value = BRC_SENSOR_POINT_VELOCITY,
      .meaning = "its velocity [m/s]"},
+    {"moment", BRC_TYPE_STRUCT, .section = &MOMENT_SECTION, .value = BRC_SENSOR_MOMENT,
+     .meaning = "moment on a set with prescribed motion [N m]"},
+    {"turn", BRC_TYPE_STRUCT, .section = &TURN_SECTION, .value = BRC_SENSOR_TURN,
+     .meaning = "rotation of the element nearest to a point [rad]"},
+    {"radial_stress", BRC_TYPE_STRUCT, .section = &RADIAL_STRESS_SECTION, .value = BRC_SENSOR_RADIAL_STRESS,
+     .meaning = "pull of radial element forces on a sphere [Pa]"},
+    {"volume_strain", BRC_TYPE_STRUCT, .section = &VOLUME_STRAIN_SECTION, .value = BRC_SENSOR_VOLUME_STRAIN,
+     .meaning = "change of volume of a sphere [-]"},
     {"mode", BRC_TYPE_INTEGER, WITHIN(0, 999), FIELD(brc_sensor, index), .value = BRC_SENSOR_MODE, .sample = "0",
      .meaning = "frequency of a mode of the last modes stage, 0 the lowest elastic one [Hz]"},
 };
@@ -103,8 +138,8 @@ const brc_section brc_schema_sensor = {.title = "sensor",
 #define AREA_ENTRY                                                                                                     \
     {                                                                                                                  \
         "area", BRC_TYPE_NAME, FIELD(brc_measure, area_set),                                                           \
-            .refers = BRC_REFERS_FACES, .sample = "x+",                                                                \
-            .meaning = "faces whose reference area divides the load; left out: the load is a stress"                   \
+            .refers = BRC_REFERS_SET, .sample = "x+",                                                                  \
+            .meaning = "faces, or a wall's spheres, whose reference area divides the load; left out: a stress"         \
     }
 #define COMMON_ENTRIES(target_sample)                                                                                  \
     {"stage",                                                                                                          \

@@ -123,6 +123,50 @@ static const brc_entry PRESSURE[] = {
 };
 static const brc_section PRESSURE_SECTION = {
     .title = "pressure", .meaning = "Against the reference normal of each face.", ENTRIES(PRESSURE)};
+static const brc_entry RADIAL[] = {
+    {"total", BRC_TYPE_QUANTITY, "N", FIELD(brc_load, radial_force), .required = true, .sample = "-1 kN",
+     .meaning = "sum of the magnitudes; positive pulls outward"},
+    {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_load, origin), .length = 3, .required = true, .sample = "[0, 0, 0]",
+     .meaning = "the forces point away from it"},
+};
+static const brc_section RADIAL_SECTION = {
+    .title = "radial", .meaning = "Equal forces along the radii, minus what would move or turn the set as a rigid body.", ENTRIES(RADIAL)};
+static const brc_entry ELEMENT_FORCE[] = {
+    {"set", BRC_TYPE_NAME, FIELD(brc_load, set), .required = true, .refers = BRC_REFERS_ELEMENTS, .sample = "core",
+     .meaning = "elements it acts on"},
+    {"x", BRC_TYPE_QUANTITY, "N", FIELD(brc_load, value[0]), .sample = "1 kN", .meaning = "x component of the total, 0 if left out"},
+    {"y", BRC_TYPE_QUANTITY, "N", FIELD(brc_load, value[1]), .sample = "1 kN", .meaning = "y component of the total, 0 if left out"},
+    {"z", BRC_TYPE_QUANTITY, "N", FIELD(brc_load, value[2]), .sample = "1 kN", .meaning = "z component of the total, 0 if left out"},
+    {"share", BRC_TYPE_CHOICE, FIELD(brc_load, share), CHOICES("number", "mass"), .given = "number",
+     .meaning = "of x, y, z: equal parts for all, or by mass"},
+    {"radial", BRC_TYPE_STRUCT, .section = &RADIAL_SECTION, FLAG(brc_load, radial),
+     .meaning = "in place of x, y, z: forces along radii, as on a sphere under pressure"},
+    TABLE_ENTRY,
+};
+static const brc_section ELEMENT_FORCE_SECTION = {
+    .title = "element_force",
+    .meaning = "A total force over a set of elements, at their centres; keeps its direction.",
+    ENTRIES(ELEMENT_FORCE),
+    .groups = {{BRC_GROUP_AT_LEAST_ONE, {"x", "y", "z", "radial"}}}};
+#define TURN(key_, i)                                                                                                  \
+    {                                                                                                                  \
+        key_, BRC_TYPE_QUANTITY, "rad", FIELD(brc_load, value[i]), FLAG(brc_load, component[i]), .sample = "0",        \
+            .meaning = "prescribed " key_ " component; 0 clamps, a component left out stays free"                      \
+    }
+static const brc_entry ELEMENT_ROTATION[] = {
+    {"set", BRC_TYPE_NAME, FIELD(brc_load, set), .required = true, .refers = BRC_REFERS_ELEMENTS, .sample = "core",
+     .meaning = "what turns"},
+    TURN("x", 0),
+    TURN("y", 1),
+    TURN("z", 2),
+    TABLE_ENTRY,
+};
+static const brc_section ELEMENT_ROTATION_SECTION = {
+    .title = "element_rotation",
+    .meaning = "Prescribed rotation of elements since the start of the stage, about axes through their own centres; for models whose "
+               "elements have rotations (cbm; dlsm-published in dynamic stages).",
+    ENTRIES(ELEMENT_ROTATION),
+    .groups = {{BRC_GROUP_AT_LEAST_ONE, {"x", "y", "z"}}}};
 static const brc_entry LOAD[] = {
     {"face_displacement", BRC_TYPE_STRUCT, .section = &FACE_DISPLACEMENT_SECTION, .value = BRC_LOAD_FACE_DISPLACEMENT,
      .meaning = "prescribed displacement of faces"},
@@ -136,6 +180,10 @@ static const brc_entry LOAD[] = {
      .meaning = "force per area"},
     {"pressure", BRC_TYPE_STRUCT, .section = &PRESSURE_SECTION, .value = BRC_LOAD_PRESSURE,
      .meaning = "force per area against the normal"},
+    {"element_force", BRC_TYPE_STRUCT, .section = &ELEMENT_FORCE_SECTION, .value = BRC_LOAD_ELEMENT_FORCE,
+     .meaning = "total force over elements"},
+    {"element_rotation", BRC_TYPE_STRUCT, .section = &ELEMENT_ROTATION_SECTION, .value = BRC_LOAD_ELEMENT_ROTATION,
+     .meaning = "prescribed rotation of elements"},
 };
 const brc_section brc_schema_load = {.title = "load",
                                      .meaning = "What acts on the solid during a stage.",

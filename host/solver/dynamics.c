@@ -1,5 +1,5 @@
 /* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
-#include "simulation_internal.h"
+#include "element_loads.h"
 #include <math.h>
 
 enum { SAMPLES = 500 };
@@ -29,6 +29,7 @@ static brc_status close_step(brc_simulation *s, double dt)
 
 static brc_status verlet_step(brc_simulation *s, const brc_stage *stage, double dt, double kick)
 {
+    BRC_TRY(brc_turns_begin_step(s, s->time, (double)(s->step + 1) * dt));
     if (stage->mass_damping > 0) { /* the drag acts in the middle of the drift: second order */
         const int32_t n = s->layout->n_rows;
         BRC_TRY(kick_and_drift(s, kick, 0.5 * dt));
@@ -44,6 +45,7 @@ static brc_status verlet_step(brc_simulation *s, const brc_stage *stage, double 
 static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double dt)
 {
     const int32_t n = s->layout->n_rows;
+    BRC_TRY(brc_turns_begin_step(s, s->time, (double)(s->step + 1) * dt));
     BRC_TRY(BRC_LAUNCH(s->kernel.advance_tchamwa, n, BRC_INT(n), BRC_STATE(dt), BRC_STATE(stage->phi), BRC_BUF(s->mass),
                        BRC_BUF(s->force), BRC_BUF(s->velocity), BRC_BUF(s->displacement), BRC_BUF(s->moved),
                        BRC_BUF(s->lost_numerical)));

@@ -4,7 +4,7 @@
 void brc_effects_list(brc_simulation *s)
 {
     const brc_scene *scene = s->scene;
-    bool held = false, traction = false, imposed = false, tchamwa = false, damped = false, statics = false, modes = false;
+    bool held = false, traction = false, imposed = false, pushed = false, turned = false, tchamwa = false, damped = false, statics = false, modes = false;
     for (int32_t i = 0; i < scene->n_stages; ++i) {
         const brc_stage *stage = scene->stages + i;
         statics = statics || stage->solver == BRC_SOLVER_STATIC;
@@ -16,6 +16,8 @@ void brc_effects_list(brc_simulation *s)
             held = held || kind == BRC_LOAD_FACE_DISPLACEMENT || kind == BRC_LOAD_FACE_VELOCITY;
             imposed = imposed || kind == BRC_LOAD_ELEMENT_DISPLACEMENT || kind == BRC_LOAD_ELEMENT_VELOCITY;
             traction = traction || kind == BRC_LOAD_TRACTION || kind == BRC_LOAD_PRESSURE;
+            pushed = pushed || kind == BRC_LOAD_ELEMENT_FORCE;
+            turned = turned || kind == BRC_LOAD_ELEMENT_ROTATION;
         }
     }
     const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s);
@@ -30,6 +32,8 @@ void brc_effects_list(brc_simulation *s)
                    {"prescribed faces", held},
                    {"tractions", traction},
                    {"imposed elements", imposed},
+                   {"forces on elements", pushed},
+                   {"prescribed rotations", turned},
                    {"gravity", scene->has_gravity},
                    {"mass damping", damped},
                    {"numerical damping (Tchamwa-Wielgosz)", tchamwa},

@@ -1,5 +1,5 @@
 /* One evaluation of the forces of a model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2, design-cbm.md). */
-#include "simulation_internal.h"
+#include "element_loads.h"
 
 /* Constants handed to kernels; with several materials the kernels gather them instead. */
 static const brc_elastic *one_material(const brc_simulation *s) { return s->elastic + s->material_of_element[0]; }
@@ -121,13 +121,17 @@ static brc_status beams_evaluate(brc_simulation *s, const brc_force_request *r)
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
 {
     BRC_TRY(brc_is_beams(s) ? beams_evaluate(s, r) : brc_is_published(s) ? published_evaluate(s, r) : dlsm_evaluate(s, r));
-    if (r->homogeneous) return brc_loads_zero_imposed(s, r->force);
+    if (r->homogeneous) {
+        BRC_TRY(brc_loads_zero_imposed(s, r->force));
+        return brc_loads_zero_turned(s, r->torque);
+    }
     if (s->scene->has_gravity) {
         const double *g = s->scene->gravity;
         BRC_TRY(BRC_LAUNCH(s->kernel.gravity, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_STATE(g[0]), BRC_STATE(g[1]),
                            BRC_STATE(g[2]), BRC_BUF(s->mass), BRC_BUF(r->force)));
     }
     const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
+    BRC_TRY(brc_pushes_apply(s, r));
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
         const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(stage->loads + m->load, r->t);
@@ -137,7 +141,7 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
                            BRC_BUF(m->last), BRC_BUF(m->last_reaction), BRC_BUF(m->work)));
         if (r->book != BRC_BOOK_NOTHING) m->last_rate = rate;
     }
-    return BRC_OK;
+    return brc_turns_book(s, r);
 }
 
 brc_status brc_force_of_state(brc_simulation *s, brc_booking book)

@@ -1,5 +1,5 @@
 /* The loads of one stage: held faces, tractions, imposed elements. Lists are sorted by storage row, then by id. */
-#include "simulation_internal.h"
+#include "element_loads.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,7 +41,7 @@ static void direction_at(const brc_load *load, const double *x, double out[3])
     }
 }
 
-static const brc_set *find_set(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind, brc_status *status)
+const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind, brc_status *status)
 {
     const int32_t index = brc_domain_find_set(s->domain, load->set);
     if (index < 0) {
@@ -118,7 +118,7 @@ static brc_status collect_held(brc_simulation *s, const brc_stage *stage, int32_
     for (int32_t l = 0; l < stage->n_loads; ++l) {
         const brc_load *load = stage->loads + l;
         if (!is_face_motion(load)) continue;
-        const brc_set *set = find_set(s, stage, load, BRC_SET_FACES, &status);
+        const brc_set *set = brc_load_find_set(s, stage, load, BRC_SET_FACES, &status);
         if (!set) continue;
         int64_t twice = 0;
         for (int64_t m = 0; m < set->n_members; ++m) {
@@ -208,7 +208,7 @@ static brc_status create_held(brc_simulation *s, const brc_stage *stage, brc_hel
     for (int32_t l = 0; l < stage->n_loads; ++l) {
         const brc_load *load = stage->loads + l;
         if (!is_face_motion(load)) continue;
-        const brc_set *set = find_set(s, stage, load, BRC_SET_FACES, &status);
+        const brc_set *set = brc_load_find_set(s, stage, load, BRC_SET_FACES, &status);
         if (!set) goto cleanup;
         brc_held_load *entry = held->loads + held->n_loads++;
         const int64_t count = set->n_members;
@@ -263,7 +263,7 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
     const brc_domain *d = s->domain;
     const brc_load *load = stage->loads + l;
     brc_status status = BRC_OK;
-    const brc_set *set = find_set(s, stage, load, BRC_SET_FACES, &status);
+    const brc_set *set = brc_load_find_set(s, stage, load, BRC_SET_FACES, &status);
     if (!set) return status;
     const int64_t count = set->n_members;
     row_item *items = NULL;
@@ -323,20 +323,11 @@ static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int3
     const brc_domain *d = s->domain;
     const brc_load *load = stage->loads + l;
     brc_status status = BRC_OK;
-    const brc_set *set = find_set(s, stage, load, BRC_SET_ELEMENTS, &status);
-    if (!set) return status;
-    row_item *items = NULL;
+    brc_load_member *items = NULL;
     int32_t *element = NULL, *flag = NULL, n = 0;
     int64_t twice = 0;
     double *base = NULL, *direction = NULL, *now = NULL;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &items, set->n_members, "imposed elements"));
-    for (int64_t m = 0; m < set->n_members; ++m) {
-        const int32_t e = set->kind == BRC_SET_ELEMENTS ? set->members[m] : d->free_element[set->members[m]];
-        items[m] = (row_item){s->layout->row_of_element[e], e};
-    }
-    qsort(items, (size_t)set->n_members, sizeof *items, compare_rows);
-    for (int64_t m = 0; m < set->n_members; ++m)
-        if (n == 0 || items[n - 1].id != items[m].id) items[n++] = items[m];
+    BRC_TRY_OR(cleanup, brc_load_members(s, stage, load, &items, &n));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->element_id, n, "imposed elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, n, "imposed elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &flag, n, "imposed elements"));
@@ -384,9 +375,12 @@ cleanup:
 
 brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads *out)
 {
-    int32_t *taken = NULL;
+    int32_t *taken = NULL, *turned = NULL;
     brc_status status = create_held(s, stage, &out->held), first = status;
-    BRC_TRY(BRC_ALLOCATE(s->context, &taken, s->domain->n_elements, "imposed elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &taken, s->domain->n_elements, "imposed elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &turned, s->domain->n_elements, "turned elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->pushes, stage->n_loads, "forces on elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->turns, stage->n_loads, "turned elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->tractions, stage->n_loads, "tractions"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->imposed, stage->n_loads, "imposed elements"));
     for (int32_t l = 0; l < stage->n_loads; ++l) { /* go on after an error: all in one pass */
@@ -394,9 +388,13 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
         status = BRC_OK;
         if (is_element_motion(load)) {
             status = create_imposed(s, stage, l, taken, out->imposed + out->n_imposed++);
+        } else if (load->kind == BRC_LOAD_ELEMENT_FORCE) {
+            status = brc_push_create(s, stage, l, out->pushes + out->n_pushes++);
+        } else if (load->kind == BRC_LOAD_ELEMENT_ROTATION) {
+            status = brc_turn_create(s, stage, l, turned, out->turns + out->n_turns++);
         } else if (!is_face_motion(load)) {
             if (brc_turns(s))
-                status = BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': %s takes no tractions; use model dlsm, or prescribe elements",
+                status = BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': %s takes no tractions; use model dlsm, element_force, or prescribe elements",
                                   stage->name, brc_is_beams(s) ? "cbm" : "dlsm-published");
             else if (first == BRC_OK)
                 status = create_traction(s, stage, l, &out->held, out->tractions + out->n_tractions++);
@@ -405,6 +403,7 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
     }
 cleanup:
     brc_memory_free(taken);
+    brc_memory_free(turned);
     return first != BRC_OK ? first : status;
 }
 
@@ -435,6 +434,7 @@ void brc_loads_free(brc_loads *loads)
     }
     brc_memory_free(loads->tractions);
     brc_memory_free(loads->imposed);
+    brc_element_loads_free(loads);
     memset(loads, 0, sizeof *loads);
 }
 
@@ -456,7 +456,7 @@ brc_status brc_loads_prescribe(brc_simulation *s, double t)
                            BRC_BUF(m->component), BRC_BUF(m->base), BRC_BUF(m->direction), BRC_BUF(s->velocity),
                            BRC_BUF(s->displacement)));
     }
-    return BRC_OK;
+    return brc_turns_prescribe(s, t);
 }
 
 brc_status brc_loads_impose_velocity(brc_simulation *s, double t)
@@ -469,7 +469,7 @@ brc_status brc_loads_impose_velocity(brc_simulation *s, double t)
                            BRC_BUF(m->component), BRC_BUF(m->base), BRC_BUF(m->direction), BRC_BUF(s->velocity),
                            BRC_BUF(s->displacement)));
     }
-    return BRC_OK;
+    return brc_turns_prescribe(s, t);
 }
 
 brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector)
@@ -478,6 +478,15 @@ brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector)
         brc_imposed_load *m = s->loads.imposed + i;
         BRC_TRY(BRC_LAUNCH(s->kernel.impose_zero, m->n, BRC_INT(m->n), BRC_BUF(m->element), BRC_BUF(m->component),
                            BRC_BUF(vector)));
+    }
+    return BRC_OK;
+}
+
+brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector)
+{
+    for (int32_t i = 0; i < s->loads.n_turns; ++i) {
+        brc_turn_load *m = s->loads.turns + i;
+        BRC_TRY(BRC_LAUNCH(s->kernel.impose_zero, m->n, BRC_INT(m->n), BRC_BUF(m->element), BRC_BUF(m->component), BRC_BUF(vector)));
     }
     return BRC_OK;
 }
@@ -495,6 +504,14 @@ brc_status brc_loads_work(brc_simulation *s, double *out)
     }
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         BRC_TRY(brc_vector_sum(s, s->loads.imposed[i].work, s->loads.imposed[i].n, &part));
+        sum += part;
+    }
+    for (int32_t i = 0; i < s->loads.n_pushes; ++i) {
+        BRC_TRY(brc_vector_sum(s, s->loads.pushes[i].work, s->loads.pushes[i].n, &part));
+        sum += part;
+    }
+    for (int32_t i = 0; i < s->loads.n_turns; ++i) {
+        BRC_TRY(brc_vector_sum(s, s->loads.turns[i].work, s->loads.turns[i].n, &part));
         sum += part;
     }
     *out = sum;

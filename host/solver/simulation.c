@@ -37,6 +37,8 @@ static brc_status find_kernels(brc_simulation *s)
         {&k->advance_rotation, "advance_rotation", turns},
         {&k->add_spin_energy, "add_spin_energy", turns},
         {&k->small_rotation, "small_rotation", turns},
+        {&k->impose_turn, "impose_turn", turns},
+        {&k->turn_book, "turn_book", turns},
         {&k->advance, "advance", true},
         {&k->advance_tchamwa, "advance_tchamwa", true},
         {&k->numerical_close, "numerical_close", true},
@@ -46,6 +48,7 @@ static brc_status find_kernels(brc_simulation *s)
         {&k->impose_motion, "impose_motion", true},
         {&k->impose_book, "impose_book", true},
         {&k->impose_zero, "impose_zero", true},
+        {&k->push_elements, "push_elements", true},
         {&k->axpy, "vector_axpy", true},
         {&k->copy, "vector_copy", true},
         {&k->xpay, "vector_xpay", true},
@@ -97,7 +100,7 @@ static bool has_face_load(const brc_stage *stage)
 {
     for (int32_t i = 0; i < stage->n_loads; ++i) {
         const brc_load_kind kind = stage->loads[i].kind;
-        if (kind != BRC_LOAD_ELEMENT_DISPLACEMENT && kind != BRC_LOAD_ELEMENT_VELOCITY) return true;
+        if (kind == BRC_LOAD_FACE_DISPLACEMENT || kind == BRC_LOAD_FACE_VELOCITY || kind == BRC_LOAD_TRACTION || kind == BRC_LOAD_PRESSURE) return true;
     }
     return false;
 }

@@ -68,7 +68,7 @@ brc_status brc_simulation_velocity(brc_simulation *simulation, double *out);
 brc_status brc_simulation_force(brc_simulation *simulation, double *out);
 /* Overwrite [n_elements][3] and re-evaluate the forces. NULL: leave. */
 brc_status brc_simulation_set_state(brc_simulation *simulation, const double *displacement, const double *velocity);
-/* Orientation (w x y z) [n_elements][4] and spin [n_elements][3] [rad/s] of dlsm-published; BRC_BAD_INPUT for dlsm. */
+/* Orientation (w x y z) [n_elements][4] and spin [n_elements][3] [rad/s] of dlsm-published and cbm; BRC_BAD_INPUT for dlsm. spin may be NULL. */
 brc_status brc_simulation_orientation(brc_simulation *simulation, double *orientation, double *spin);
 /* [n_elements][6] xx yy zz yz xz xy: Green strain [-], second Piola-Kirchhoff stress [Pa], Cauchy stress [Pa] (published:
  * its small strain and stress in the global frame, for all three). Any may be NULL. */
@@ -80,6 +80,11 @@ brc_status brc_simulation_face_displacement(brc_simulation *simulation, int64_t 
  * its held faces; an element set: its imposed elements; a face set under element loads: the imposed elements that own
  * one of its faces). */
 brc_status brc_simulation_reaction(brc_simulation *simulation, int32_t set, double out[3]);
+/* Moment about `point` of the same forces where they act now, plus the moments that hold prescribed rotations of the set's
+ * elements [N m]. */
+brc_status brc_simulation_reaction_moment(brc_simulation *simulation, int32_t set, const double point[3], double out[3]);
+/* Sum of all element_force loads on every element, at the last force evaluation [n_elements][3] [N]. */
+brc_status brc_simulation_applied_force(brc_simulation *simulation, double *out);
 
 /* The energy ledger [J]. closure = (kinetic + elastic + stabilisation + potential - work + damping + numerical - initial)
  * over the largest of peak elastic energy, initial kinetic energy and work done [-] (design.md). */

@@ -54,9 +54,27 @@ typedef struct brc_imposed_load {
     int32_t component_bits;
     brc_buffer *element, *component, *base, *direction, *reaction, *last, *last_reaction, *work;
 } brc_imposed_load;
+typedef struct brc_push_load { /* dead forces on elements (element_loads.c) */
+    int32_t load;
+    int32_t n;
+    double factor, last_factor; /* now, and at the last booking */
+    int32_t *element_id; /* [n] host */
+    double *total_of;    /* [n][3] forces at factor 1 [N]; host */
+    brc_buffer *element, *total, *reach, *work;
+} brc_push_load;
+typedef struct brc_turn_load { /* prescribed rotations of elements (element_loads.c) */
+    int32_t load;
+    int32_t n;
+    double turned;                 /* factor that the orientations are at */
+    double last_factor, last_rate; /* at the last booking */
+    int32_t *element_id;           /* [n] host */
+    brc_buffer *element, *component, *direction, *reaction, *last_reaction, *work;
+} brc_turn_load;
 typedef struct brc_loads {
     brc_held_faces held;
-    int32_t n_tractions, n_imposed;
+    int32_t n_tractions, n_imposed, n_pushes, n_turns;
+    brc_push_load *pushes;
+    brc_turn_load *turns;
     brc_traction_load *tractions;
     brc_imposed_load *imposed;
 } brc_loads;
@@ -69,7 +87,7 @@ typedef struct brc_kernels {
     brc_kernel *cbm_force, *cbm_energy, *cbm_virial, *turn_orientation, *precondition6;
     brc_kernel *published_strain, *published_force, *published_energy, *advance_rotation, *add_spin_energy, *small_rotation;
     brc_kernel *advance, *advance_tchamwa, *numerical_close, *damp_mass, *gravity, *kinetic_energy;
-    brc_kernel *impose_motion, *impose_book, *impose_zero;
+    brc_kernel *impose_motion, *impose_book, *impose_zero, *push_elements, *impose_turn, *turn_book;
     brc_kernel *axpy, *copy, *xpay, *dot, *sum, *precondition, *divide_by_mass;
 } brc_kernels;
 
@@ -169,8 +187,11 @@ brc_status brc_loads_impose_velocity(brc_simulation *s, double t);
 /* a(t), or its integral from 0 to t for velocity loads; rate: its derivative. */
 double brc_load_factor(const brc_load *load, double t, bool is_static);
 double brc_load_rate(const brc_load *load, double t);
-/* Zero the imposed components of a vector. */
+/* Zero the imposed components of a vector; of one of rotations or torques. */
 brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector);
+brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector);
+/* The set of a load; NULL with a sentence in *status when it is not there, empty, or of elements where faces are needed. */
+const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind, brc_status *status);
 /* Work of all loads of this stage so far [J]. */
 brc_status brc_loads_work(brc_simulation *s, double *out);
 

@@ -45,7 +45,7 @@ brc_status brc_simulation_orientation(brc_simulation *s, double *orientation, do
     if (!brc_turns(s))
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "model dlsm has no orientations of its own; ask for strains instead");
     BRC_TRY(brc_state_from_rows(s, s->orientation, orientation, 4));
-    return brc_state_from_rows(s, s->spin, spin, 3);
+    return spin ? brc_state_from_rows(s, s->spin, spin, 3) : BRC_OK;
 }
 
 /* G = F - I of every element [n_elements][9]. */
@@ -209,41 +209,113 @@ cleanup:
     return status;
 }
 
-brc_status brc_simulation_reaction(brc_simulation *s, int32_t set_index, double out[3])
+/* Sum of the loads with prescribed motion on the members of a set, moments about `point`. */
+typedef struct reaction_sum {
+    double force[3], moment[3], point[3];
+} reaction_sum;
+
+static void add_reaction(reaction_sum *sum, const double force[3], const double place[3])
+{
+    double arm[3];
+    for (int c = 0; c < 3; ++c) {
+        arm[c] = place[c] - sum->point[c];
+        sum->force[c] += force[c];
+    }
+    for (int c = 0; c < 3; ++c) sum->moment[c] += arm[(c + 1) % 3] * force[(c + 2) % 3] - arm[(c + 2) % 3] * force[(c + 1) % 3];
+}
+
+/* `reaction` of held faces holds the pull of the held face on its element: the force of the load on the solid. */
+static brc_status face_reactions(brc_simulation *s, const brc_set *set, reaction_sum *sum)
 {
     const brc_domain *d = s->domain;
-    const brc_set *set = d->sets + set_index;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
-    double *values = NULL;
-    bool *member = NULL;
-    brc_status status = BRC_OK;
-    out[0] = out[1] = out[2] = 0;
     const brc_held_faces *h = &s->loads.held;
-    if (set->kind == BRC_SET_FACES && h->n_faces) {
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, 3 * (int64_t)h->n_faces, "reactions"));
-        BRC_TRY_OR(cleanup, brc_download(s, h->reaction, bytes, values, 3 * (int64_t)h->n_faces));
-        for (int64_t m = 0; m < set->n_members; ++m) {
-            const int64_t at = h->index_of_free_face[set->members[m]];
-            /* `reaction` holds the pull of the held face on its element: the force of the load on the solid */
-            for (int c = 0; at >= 0 && c < 3; ++c) out[c] += values[3 * at + c];
-        }
-    }
-    if (s->loads.n_imposed) {
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, d->n_elements, "members"));
-        for (int64_t m = 0; m < set->n_members; ++m)
-            member[set->kind == BRC_SET_ELEMENTS ? set->members[m] : d->free_element[set->members[m]]] = true;
-    }
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
-        const brc_imposed_load *m = s->loads.imposed + i;
-        brc_memory_free(values);
-        values = NULL;
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, 3 * (int64_t)m->n, "reactions"));
-        BRC_TRY_OR(cleanup, brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
-        for (int32_t k = 0; k < m->n; ++k)
-            for (int c = 0; member[m->element_id[k]] && c < 3; ++c) out[c] += values[3 * (int64_t)k + c];
+    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    double *values = NULL, *u = NULL;
+    brc_status status = BRC_OK;
+    if (set->kind != BRC_SET_FACES || h->n_faces == 0) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, 3 * (int64_t)h->n_faces, "reactions"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * set->n_members, "reactions"));
+    BRC_TRY_OR(cleanup, brc_download(s, h->reaction, bytes, values, 3 * (int64_t)h->n_faces));
+    BRC_TRY_OR(cleanup, brc_simulation_face_displacement(s, set->n_members, set->members, u));
+    for (int64_t m = 0; m < set->n_members; ++m) {
+        const int64_t at = h->index_of_free_face[set->members[m]];
+        double place[3];
+        if (at < 0) continue;
+        for (int c = 0; c < 3; ++c) place[c] = d->free_centroid[3 * (int64_t)set->members[m] + c] + u[3 * m + c];
+        add_reaction(sum, values + 3 * at, place);
     }
 cleanup:
     brc_memory_free(values);
+    brc_memory_free(u);
+    return status;
+}
+
+static brc_status element_reactions(brc_simulation *s, const brc_set *set, reaction_sum *sum)
+{
+    const brc_domain *d = s->domain;
+    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    double *values = NULL, *u = NULL;
+    bool *member = NULL;
+    brc_status status = BRC_OK;
+    if (s->loads.n_imposed + s->loads.n_turns == 0) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, 3 * d->n_elements, "reactions"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "reactions"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, d->n_elements, "members"));
+    for (int64_t m = 0; m < set->n_members; ++m) member[set->kind == BRC_SET_ELEMENTS ? set->members[m] : d->free_element[set->members[m]]] = true;
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->displacement, u, 3));
+    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
+        const brc_imposed_load *m = s->loads.imposed + i;
+        BRC_TRY_OR(cleanup, brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
+        for (int32_t k = 0; k < m->n; ++k) {
+            const int64_t e = m->element_id[k];
+            double place[3];
+            if (!member[e]) continue;
+            for (int c = 0; c < 3; ++c) place[c] = d->position[3 * e + c] + u[3 * e + c];
+            add_reaction(sum, values + 3 * (int64_t)k, place);
+        }
+    }
+    for (int32_t i = 0; i < s->loads.n_turns; ++i) {
+        const brc_turn_load *m = s->loads.turns + i;
+        BRC_TRY_OR(cleanup, brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
+        for (int32_t k = 0; k < m->n; ++k)
+            for (int c = 0; member[m->element_id[k]] && c < 3; ++c) sum->moment[c] += values[3 * (int64_t)k + c];
+    }
+cleanup:
+    brc_memory_free(values);
+    brc_memory_free(u);
     brc_memory_free(member);
     return status;
+}
+
+static brc_status reactions(brc_simulation *s, int32_t set, reaction_sum *sum)
+{
+    BRC_TRY(face_reactions(s, s->domain->sets + set, sum));
+    return element_reactions(s, s->domain->sets + set, sum);
+}
+
+brc_status brc_simulation_reaction(brc_simulation *s, int32_t set, double out[3])
+{
+    reaction_sum sum = {.force = {0}};
+    BRC_TRY(reactions(s, set, &sum));
+    memcpy(out, sum.force, sizeof sum.force);
+    return BRC_OK;
+}
+
+brc_status brc_simulation_reaction_moment(brc_simulation *s, int32_t set, const double point[3], double out[3])
+{
+    reaction_sum sum = {.point = {point[0], point[1], point[2]}};
+    BRC_TRY(reactions(s, set, &sum));
+    memcpy(out, sum.moment, sizeof sum.moment);
+    return BRC_OK;
+}
+
+brc_status brc_simulation_applied_force(brc_simulation *s, double *out)
+{
+    memset(out, 0, 3 * (size_t)s->domain->n_elements * sizeof *out);
+    for (int32_t i = 0; i < s->loads.n_pushes; ++i) {
+        const brc_push_load *p = s->loads.pushes + i;
+        for (int32_t k = 0; k < p->n; ++k)
+            for (int c = 0; c < 3; ++c) out[3 * (int64_t)p->element_id[k] + c] += p->factor * p->total_of[3 * (int64_t)k + c];
+    }
+    return BRC_OK;
 }

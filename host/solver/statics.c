@@ -1,6 +1,7 @@
 /* Elastic equilibrium. dlsm and cbm: preconditioned conjugate gradients on the linearised operator, matrix-free on the device, inside a
  * modified Newton iteration on the full law. dlsm-published has no symmetric operator: restarted GMRES
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
+#include "balance.h"
 #include "statics.h"
 #include "simulation_internal.h"
 #include <math.h>
@@ -46,6 +47,41 @@ static brc_status square_of(brc_simulation *s, const brc_solve_vectors *v, brc_u
     return dot(s, r, r, 1 / (v->arm * v->arm), out);
 }
 
+/* A body of beams that no load holds: what would move it as a whole cannot be balanced and leaves the residual. Dead loads that balance do so to
+ * first order only, since they act where the elements went. More than `rigid_most` of the residual is an error of the scene. */
+static brc_status balance_free_body(brc_simulation *s, bool finite)
+{
+    static const double rigid_most = 1e-3;
+    const int64_t n = s->domain->n_elements;
+    double *place = NULL, *torque = NULL, *force = NULL, rigid, square = 0;
+    brc_status status = BRC_OK;
+    if (!brc_is_beams(s) || s->loads.n_imposed + s->loads.n_turns > 0) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "balance"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "balance"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "balance"));
+    if (finite) BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->displacement, place, 3));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->torque, torque, 3));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->force, force, 3));
+    for (int64_t k = 0; k < 3 * n; ++k) {
+        place[k] += s->domain->position[k];
+        square += force[k] * force[k];
+    }
+    brc_balance(n, place, torque, force, &rigid);
+    if (s->static_report.iterations == 0 && rigid > rigid_most * sqrt(square)) {
+        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
+                          "stage '%s': nothing holds the body and its loads do not balance: %.3g of them would move or turn it as a whole; hold "
+                          "some elements, or use a radial element_force",
+                          brc_current_stage(s)->name, rigid / sqrt(square));
+        goto cleanup;
+    }
+    status = brc_state_to_rows(s, s->force, force, 3, 0);
+cleanup:
+    brc_memory_free(place);
+    brc_memory_free(torque);
+    brc_memory_free(force);
+    return status;
+}
+
 brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, bool finite, double *norm)
 {
     BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
@@ -56,6 +92,7 @@ brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, b
                                                        .t = s->load_factor}));
     /* the residual of the free components; reactions of imposed elements were read just before */
     BRC_TRY(brc_loads_zero_imposed(s, s->force));
+    BRC_TRY(balance_free_body(s, finite));
     double square;
     BRC_TRY(square_of(s, v, (brc_unknowns){s->force, brc_is_beams(s) ? s->torque : NULL}, &square));
     *norm = sqrt(square);
@@ -78,8 +115,8 @@ static brc_status create_blocks(brc_simulation *s, brc_solve_vectors *v)
     return status;
 }
 
-/* Small rotations that stand for the orientations at the start of a linear stage. */
-static brc_status create_theta(brc_simulation *s, brc_solve_vectors *v)
+/* Small rotations that stand for the orientations of a linear stage: (1, theta/2), and those that its loads turn. */
+static brc_status read_theta(brc_simulation *s, brc_solve_vectors *v)
 {
     const int64_t n = s->domain->n_elements;
     double *q = NULL, *theta = NULL;
@@ -88,8 +125,7 @@ static brc_status create_theta(brc_simulation *s, brc_solve_vectors *v)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &theta, 3 * n, "rotations"));
     BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
     for (int64_t e = 0; e < n; ++e)
-        for (int c = 0; c < 3; ++c) theta[3 * e + c] = (q[4 * e] < 0 ? -2 : 2) * q[4 * e + 1 + c];
-    BRC_TRY_OR(cleanup, brc_new_state(s, &v->theta, 3 * (int64_t)s->layout->n_rows, "rotations"));
+        for (int c = 0; c < 3; ++c) theta[3 * e + c] = 2 * q[4 * e + 1 + c] / q[4 * e];
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->theta, theta, 3, 0));
 cleanup:
     brc_memory_free(q);
@@ -114,7 +150,7 @@ static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
         double sum = 0;
         for (int64_t e = 0; e < s->domain->n_elements; ++e) sum += s->domain->radius[e];
         v->arm = sum / (double)s->domain->n_elements;
-        BRC_TRY(create_theta(s, v));
+        BRC_TRY(brc_new_state(s, &v->theta, 3 * n, "rotations"));
     }
     return create_blocks(s, v);
 }
@@ -151,6 +187,7 @@ static brc_status precondition(brc_simulation *s, brc_solve_vectors *v, bool rot
                            BRC_BUF(v->z.move), BRC_BUF(v->z.turn)));
     else
         BRC_TRY(BRC_LAUNCH(s->kernel.precondition, n, BRC_INT(n), BRC_BUF(v->blocks), BRC_BUF(v->r.move), BRC_BUF(v->z.move)));
+    if (brc_is_beams(s)) BRC_TRY(brc_loads_zero_turned(s, v->z.turn));
     return rotations ? BRC_OK : brc_loads_zero_imposed(s, v->z.move);
 }
 
@@ -313,6 +350,7 @@ brc_status brc_statics_run(brc_simulation *s)
         s->load_factor = (double)i / increments;
         BRC_TRY_OR(cleanup, predict(s, &v, i));
         BRC_TRY_OR(cleanup, brc_loads_prescribe(s, s->load_factor));
+        if (brc_is_beams(s)) BRC_TRY_OR(cleanup, read_theta(s, &v));
         BRC_TRY_OR(cleanup, solve_increment(s, &v, &reference, progress));
         BRC_TRY_OR(cleanup, brc_force_of_state(s, BRC_BOOK_WORK));
         s->step = i;

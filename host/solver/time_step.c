@@ -119,7 +119,10 @@ static brc_status critical_step(brc_simulation *s, double *out)
     const double size = cbrt(s->domain->volume[0]);
     BRC_TRY_OR(cleanup, random_vector(s, w.x, 0, size));
     BRC_TRY_OR(cleanup, brc_loads_zero_imposed(s, w.x));
-    if (brc_turns(s)) BRC_TRY_OR(cleanup, random_vector(s, w.theta, 1, 1));
+    if (brc_turns(s)) {
+        BRC_TRY_OR(cleanup, random_vector(s, w.theta, 1, 1));
+        BRC_TRY_OR(cleanup, brc_loads_zero_turned(s, w.theta));
+    }
     for (int i = 1; i <= MOST_ITERATIONS; ++i) {
         BRC_TRY_OR(cleanup, apply(s, &w, &rayleigh));
         if (fabs(rayleigh) > seen) seen = fabs(rayleigh);

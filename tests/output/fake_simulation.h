@@ -128,6 +128,34 @@ brc_status brc_simulation_reaction(brc_simulation *s, int32_t set, double out[3]
     return BRC_OK;
 }
 
+/* As if it all acted at (1, 2, 3) m. */
+brc_status brc_simulation_reaction_moment(brc_simulation *s, int32_t set, const double point[3], double out[3])
+{
+    double force[3];
+    const double arm[3] = {1 - point[0], 2 - point[1], 3 - point[2]};
+    brc_simulation_reaction(s, set, force);
+    for (int c = 0; c < 3; ++c) out[c] = arm[(c + 1) % 3] * force[(c + 2) % 3] - arm[(c + 2) % 3] * force[(c + 1) % 3];
+    return BRC_OK;
+}
+
+/* Half a radian about z, times the factor. */
+brc_status brc_simulation_orientation(brc_simulation *s, double *orientation, double *spin)
+{
+    for (int64_t e = 0; e < s->domain->n_elements; ++e) {
+        const double q[4] = {cos(0.25 * s->factor), 0, 0, sin(0.25 * s->factor)};
+        for (int c = 0; c < 4; ++c) orientation[4 * e + c] = q[c];
+        for (int c = 0; spin && c < 3; ++c) spin[3 * e + c] = 0;
+    }
+    return BRC_OK;
+}
+
+/* 2 N along each position vector's direction from the origin, times its length in metres. */
+brc_status brc_simulation_applied_force(brc_simulation *s, double *out)
+{
+    for (int64_t k = 0; k < 3 * s->domain->n_elements; ++k) out[k] = 2 * s->factor * s->domain->position[k];
+    return BRC_OK;
+}
+
 brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
 {
     ++s->ledger_reads;
