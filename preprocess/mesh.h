@@ -42,7 +42,7 @@ double brc_mesh_volume(const brc_mesh *mesh);
 double brc_mesh_area(const brc_mesh *mesh);
 /* Is it convex: one shell, concave at no edge by more than the rounding of the file, nor as a whole? */
 bool brc_mesh_is_convex(const brc_mesh *mesh);
-/* Is x inside or on the surface? Right also near edges and vertices: see brc_mesh_depth. */
+/* Is x inside or on the surface? As the sign of brc_mesh_depth, but cheaper far from the surface. */
 bool brc_mesh_inside(const brc_mesh *mesh, const double x[3]);
 /* Distance of x to the surface [m]: positive inside, negative outside. The sign is that of the nearest feature's pseudonormal, weighted by angles at a
  * vertex (J. A. Baerentzen & H. Aanaes, IEEE Trans. Vis. Comput. Graph. 11 (2005) 243). */

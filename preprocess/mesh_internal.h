@@ -20,9 +20,12 @@ static inline void mesh_cross(const double a[3], const double b[3], double out[3
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* A node of the tree of boxes; the first child follows its node. */
+/* A node of the tree; the first child follows its node. Its box is for lines and overlaps; its disc, which lies along the surface, holds the
+ * triangles of small nodes so tightly that few are opened where the surface is about equally far. */
 typedef struct brc_mesh_node {
-    float low[3], high[3]; /* rounded outward [m] */
+    float low[3], high[3];      /* rounded outward [m] */
+    float centre[3], normal[3]; /* of the disc: [m], unit */
+    float half, radius;         /* half its thickness, its radius [m]; half < 0: none */
     int32_t next;          /* leaf: its first triangle; else the second child */
     int32_t count;         /* leaf: its triangles; else 0 */
     int32_t patch;         /* the patch of all triangles below; -1: several */

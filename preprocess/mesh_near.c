@@ -18,6 +18,21 @@ static double box_distance2(const brc_mesh_node *node, const double x[3])
     return sum;
 }
 
+/* Is the node's disc at this squared distance of x or further? The normal is a unit vector to 1e-7 only, hence a millionth to spare. */
+static bool beyond(const brc_mesh_node *node, const double x[3], double distance2)
+{
+    double along = 0.0, arm2 = 0.0;
+    if (node->half < 0.0f) return false;
+    for (int d = 0; d < 3; ++d) {
+        const double arm = x[d] - (double)node->centre[d];
+        along += arm * (double)node->normal[d];
+        arm2 += arm * arm;
+    }
+    const double above = fmax(0.0, fabs(along) - (double)node->half);
+    const double aside = fmax(0.0, sqrt(fmax(0.0, arm2 - along * along)) - (double)node->radius);
+    return (above * above + aside * aside) * (1.0 - 1e-6) >= distance2;
+}
+
 static int at_corner(const double p[3], int k, double point[3])
 {
     memcpy(point, p, 3 * sizeof *point);
@@ -92,6 +107,7 @@ static void nearest(const brc_mesh *mesh, const double x[3], candidate *best)
         const open_node top = stack[--n];
         if (!(top.distance2 < best->distance2)) continue;
         const brc_mesh_node *node = &mesh->node[top.node];
+        if (beyond(node, x, best->distance2)) continue;
         if (node->count > 0) {
             for (int32_t t = node->next; t < node->next + node->count; ++t) try_triangle(mesh, t, x, best);
             continue;
@@ -103,27 +119,55 @@ static void nearest(const brc_mesh *mesh, const double x[3], candidate *best)
     }
 }
 
+/* The distance to the nearest point found, with its sign. */
+static double signed_distance(const brc_mesh *mesh, const double x[3], const candidate *best)
+{
+    double normal[3], gap[3];
+    const int32_t t = best->triangle;
+    memcpy(normal, mesh->normal[t], sizeof normal);
+    if (best->feature >= BRC_MESH_CORNER)
+        memcpy(normal, mesh->vertex_normal[mesh->corner[t][best->feature - BRC_MESH_CORNER]], sizeof normal);
+    else if (best->feature >= BRC_MESH_EDGE)
+        for (int d = 0; d < 3; ++d) normal[d] += mesh->normal[mesh->across[t][best->feature - BRC_MESH_EDGE] / 3][d];
+    mesh_minus(x, best->point, gap);
+    const double distance = sqrt(best->distance2);
+    return mesh_dot(gap, normal) > 0.0 ? -distance : distance;
+}
+
 double brc_mesh_depth(const brc_mesh *mesh, const double x[3])
 {
     candidate best = {.distance2 = HUGE_VAL};
     nearest(mesh, x, &best);
-    double normal[3], gap[3];
-    const int32_t t = best.triangle;
-    memcpy(normal, mesh->normal[t], sizeof normal);
-    if (best.feature >= BRC_MESH_CORNER)
-        memcpy(normal, mesh->vertex_normal[mesh->corner[t][best.feature - BRC_MESH_CORNER]], sizeof normal);
-    else if (best.feature >= BRC_MESH_EDGE)
-        for (int d = 0; d < 3; ++d) normal[d] += mesh->normal[mesh->across[t][best.feature - BRC_MESH_EDGE] / 3][d];
-    mesh_minus(x, best.point, gap);
-    const double distance = sqrt(best.distance2);
-    return mesh_dot(gap, normal) > 0.0 ? -distance : distance;
+    return signed_distance(mesh, x, &best);
 }
 
+/* Crossings of a line before the point. In doubt when one is so flat to the line that its place is not sure. */
+typedef struct parity {
+    const brc_mesh *mesh;
+    bool odd, doubt;
+} parity;
+
+static void count(void *of, int32_t triangle, double t)
+{
+    parity *p = of;
+    double area[3];
+    brc_mesh_area_vector(p->mesh, triangle, area);
+    p->doubt = p->doubt || area[0] * area[0] <= 1e-16 * mesh_dot(area, area);
+    p->odd = p->odd != (t < 0.0);
+}
+
+/* Near the surface its nearest point decides; else a line does, which is cheaper than to find the nearest point far away. */
 bool brc_mesh_inside(const brc_mesh *mesh, const double x[3])
 {
     for (int d = 0; d < 3; ++d)
         if (!(x[d] >= mesh->bounds[0][d] && x[d] <= mesh->bounds[1][d])) return false;
-    return brc_mesh_depth(mesh, x) >= 0.0;
+    const double near = 1e-6 * mesh->size;
+    candidate best = {.distance2 = near * near, .triangle = -1};
+    nearest(mesh, x, &best);
+    if (best.triangle >= 0) return signed_distance(mesh, x, &best) >= 0.0;
+    parity p = {.mesh = mesh};
+    brc_mesh_pierce(mesh, x, 0, count, &p);
+    return p.doubt ? brc_mesh_depth(mesh, x) >= 0.0 : p.odd;
 }
 
 /* The candidates of a window of patches, ascending: those above `after`, the first WINDOW of them. */
@@ -169,13 +213,15 @@ static void offer(const brc_mesh *mesh, int32_t t, const double x[3], double rea
 }
 
 /* Can this node hold something new? */
-static bool worth(const brc_mesh_node *node, double distance2, double reach2, const window *w)
+static bool worth(const brc_mesh_node *node, const double x[3], double distance2, double reach2, const window *w)
 {
-    if (!(distance2 < reach2)) return false;
-    if (node->patch < 0) return true;
-    if (node->patch <= w->after) return false;
-    const int32_t at = find_patch(w, node->patch);
-    return at >= w->n || w->of[at].patch != node->patch || distance2 < w->of[at].distance2;
+    double limit2 = reach2;
+    if (node->patch >= 0) {
+        if (node->patch <= w->after) return false;
+        const int32_t at = find_patch(w, node->patch);
+        if (at < w->n && w->of[at].patch == node->patch) limit2 = w->of[at].distance2;
+    }
+    return distance2 < limit2 && !beyond(node, x, limit2);
 }
 
 static void gather(const brc_mesh *mesh, const double x[3], double reach2, window *w)
@@ -186,7 +232,7 @@ static void gather(const brc_mesh *mesh, const double x[3], double reach2, windo
     while (n > 0) {
         const open_node top = stack[--n];
         const brc_mesh_node *node = &mesh->node[top.node];
-        if (!worth(node, top.distance2, reach2, w)) continue;
+        if (!worth(node, x, top.distance2, reach2, w)) continue;
         if (node->count > 0) {
             for (int32_t t = node->next; t < node->next + node->count; ++t) offer(mesh, t, x, reach2, w);
             continue;

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEAF = 4 };
+enum { LEAF = 4, MOST_OF_DISC = 512 };
 
 typedef struct item {
     float centroid[3];
@@ -179,6 +179,52 @@ cleanup:
     return status;
 }
 
+/* The disc of n triangles from `first`: about the mean of their corners, along the sum of their area vectors. */
+static void fit_disc(const brc_mesh *mesh, int32_t first, int32_t n, brc_mesh_node *node)
+{
+    double centre[3] = {0.0, 0.0, 0.0}, normal[3] = {0.0, 0.0, 0.0}, half = 0.0, radius = 0.0;
+    for (int32_t t = first; t < first + n; ++t) {
+        double area[3];
+        brc_mesh_area_vector(mesh, t, area);
+        for (int d = 0; d < 3; ++d) {
+            normal[d] += area[d];
+            for (int k = 0; k < 3; ++k) centre[d] += mesh->vertex[mesh->corner[t][k]][d] / (3.0 * n);
+        }
+    }
+    const double length = sqrt(mesh_dot(normal, normal));
+    for (int d = 0; d < 3; ++d) {
+        node->centre[d] = (float)centre[d];
+        node->normal[d] = length > 0.0 ? (float)(normal[d] / length) : 0.0f;
+        centre[d] = (double)node->centre[d]; /* as it will be used */
+        normal[d] = (double)node->normal[d];
+    }
+    for (int32_t t = first; t < first + n; ++t)
+        for (int k = 0; k < 3; ++k) {
+            double arm[3];
+            mesh_minus(mesh->vertex[mesh->corner[t][k]], centre, arm);
+            const double along = mesh_dot(arm, normal);
+            half = fmax(half, fabs(along));
+            radius = fmax(radius, mesh_dot(arm, arm) - along * along);
+        }
+    node->half = up(half);
+    node->radius = up(sqrt(fmax(radius, 0.0)) * (1.0 + 1e-6) + 1e-3 * half); /* the normal is a unit vector to 1e-7 only */
+}
+
+static brc_status fit_discs(brc_context *context, brc_mesh *mesh)
+{
+    int32_t(*range)[2] = NULL; /* first triangle and number */
+    BRC_TRY(BRC_ALLOCATE(context, &range, mesh->n_nodes, "tree of a mesh"));
+    for (int32_t i = mesh->n_nodes - 1; i >= 0; --i) {
+        brc_mesh_node *node = &mesh->node[i];
+        range[i][0] = node->count ? node->next : range[i + 1][0];
+        range[i][1] = node->count ? node->count : range[i + 1][1] + range[node->next][1];
+        node->half = -1.0f;
+        if (range[i][1] <= MOST_OF_DISC) fit_disc(mesh, range[i][0], range[i][1], node);
+    }
+    brc_memory_free(range);
+    return BRC_OK;
+}
+
 brc_status brc_mesh_plant(brc_context *context, brc_mesh *mesh)
 {
     planter p = {0};
@@ -203,6 +249,7 @@ brc_status brc_mesh_plant(brc_context *context, brc_mesh *mesh)
     BRC_TRY_OR(cleanup, reorder_vertices(context, mesh));
     brc_mesh_measure(mesh); /* corners of dropped triangles alone are gone */
     fit_boxes(mesh);
+    BRC_TRY_OR(cleanup, fit_discs(context, mesh));
 cleanup:
     brc_memory_free(p.items);
     brc_memory_free(p.node);
