@@ -22,6 +22,7 @@ brc_dependency(voro voro++.hh voro++ voro++-dev PATH_SUFFIXES voro++)
 brc_dependency(ffi ffi.h ffi libffi-dev)
 brc_dependency(cairo cairo.h cairo libcairo2-dev PATH_SUFFIXES cairo)
 brc_dependency(lapacke lapacke.h lapacke liblapacke-dev)
+brc_dependency(cminpack cminpack.h cminpack libcminpack-dev PATH_SUFFIXES cminpack-1)
 target_compile_definitions(brc_opencl INTERFACE CL_TARGET_OPENCL_VERSION=120)
 
 find_path(BRC_RANDOM123_INCLUDE Random123/philox.h)

@@ -14,7 +14,7 @@ add_library(brc_library STATIC ${brc_objects})
 set_target_properties(brc_library PROPERTIES OUTPUT_NAME breccia LINKER_LANGUAGE C)
 
 set(libraries "")
-foreach(name yaml opencl voro ffi cairo lapacke hdf5)
+foreach(name yaml opencl voro ffi cairo lapacke cminpack hdf5)
     get_target_property(needed brc_${name} INTERFACE_LINK_LIBRARIES)
     list(APPEND libraries ${needed})
 endforeach()

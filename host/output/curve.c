@@ -1,23 +1,16 @@
 /* curve.png: the data and a script go into one file, gnuplot draws it. */
 #include "curve.h"
 #include "fit.h"
+#include "gnuplot.h"
 #include "label.h"
 #include "measures.h"
 #include "text.h"
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
-#include <spawn.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-extern char **environ;
 
 /* One axis: what it is called, and what values are multiplied with to be in its unit. */
 typedef struct axis {
@@ -115,13 +108,11 @@ static void add_script(brc_text *text, const brc_scene *scene, const brc_measure
     const double to_axes = y.factor / x.factor;
     char title[256], slope[96];
     clean_words(title, sizeof title, scene->title);
-    brc_text_add(text, "set terminal pngcairo size 1200,900 font 'sans,18' linewidth 1.5\nset output '");
-    for (const char *s = picture; *s; ++s)
-        brc_text_add(text, *s == '\'' ? "''" : "%c", *s);
-    brc_text_add(text, "'\nset title \"%s\" noenhanced\nset xlabel \"%s\"\nset ylabel \"%s%s\"\n", title, x.title,
+    brc_gnuplot_begin(text, 1200, 900, picture);
+    brc_text_add(text, "set title \"%s\" noenhanced\nset xlabel \"%s\"\nset ylabel \"%s%s\"\n", title, x.title,
                  measure->kind == BRC_MEASURE_NU ? "\xe2\x88\x92 " : "", y.title);
-    brc_text_add(text, "set key left top Left reverse spacing 1.3\nset grid linecolor rgb '#dddddd' linetype 1\n"
-                       "set border linecolor rgb '#333333'\nset autoscale noextend\nset offsets graph 0.02, graph "
+    brc_text_add(text, "set key left top Left reverse spacing 1.3\n"
+                       "set autoscale noextend\nset offsets graph 0.02, graph "
                        "0.04, graph 0.06, graph 0.02\n");
     brc_text_add(text, "$data << END\n");
     for (int64_t k = 0; k < series->n; ++k)
@@ -140,52 +131,6 @@ static void add_script(brc_text *text, const brc_scene *scene, const brc_measure
     }
     brc_text_add(text, ", \\\n $data using 1:2 title \"simulation\" with %s linecolor rgb '#222222'\n",
                  series->n > 60 ? "lines" : "points pointtype 7 pointsize 1.6");
-}
-
-/* Run gnuplot on the script; no shell, so that no path needs quoting. *found: false where there is no gnuplot. */
-static bool run_gnuplot(const char *script, bool *found)
-{
-    char program[] = "gnuplot", *argument = NULL;
-    if (asprintf(&argument, "%s", script) < 0) return false;
-    char *const arguments[] = {program, argument, NULL};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-    pid_t child;
-    int state = -1;
-    *found = posix_spawnp(&child, program, &actions, NULL, arguments, environ) == 0;
-    posix_spawn_file_actions_destroy(&actions);
-    free(argument);
-    if (!*found) return false;
-    while (waitpid(child, &state, 0) < 0 && errno == EINTR) {
-    }
-    *found = !(WIFEXITED(state) && WEXITSTATUS(state) == 127);
-    return WIFEXITED(state) && WEXITSTATUS(state) == 0;
-}
-
-static brc_status draw(brc_context *context, brc_text *script, const char *aside, const char *path, bool *made)
-{
-    char *name = NULL;
-    bool found = false;
-    brc_status status = BRC_OK;
-    const int64_t length = (int64_t)strlen(path) + 8;
-    BRC_TRY_OR(cleanup, brc_memory_allocate(context, (void **)&name, length, 1, "path"));
-    snprintf(name, (size_t)length, "%s.script", path);
-    BRC_TRY_OR(cleanup, brc_text_write(script, name));
-    const bool drawn = run_gnuplot(name, &found);
-    unlink(name);
-    if (drawn && brc_file_exists(aside)) {
-        status = brc_file_commit(context, aside, path);
-        *made = status == BRC_OK;
-    } else {
-        brc_log(context, BRC_LOG_WARNING, "no %s: gnuplot %s; the numbers are in histories.csv", path,
-                found ? "could not draw it" : "is not installed (Debian package gnuplot-nox)");
-        brc_file_discard(aside);
-    }
-cleanup:
-    brc_memory_free(name);
-    return status;
 }
 
 static const char *unit_of_sensor(const brc_scene *scene, const char *name)
@@ -216,7 +161,7 @@ brc_status brc_curve_write(brc_context *context, const brc_scene *scene, const b
     const double target = curve_target(context, scene, domain, history, &measure);
     add_script(&script, scene, &measure, &series, &fit, target, unit_of_sensor(scene, measure.x),
                measure.area_set[0] ? "Pa" : unit_of_sensor(scene, measure.y), aside);
-    status = draw(context, &script, aside, path, made);
+    status = brc_gnuplot_draw(context, &script, aside, path, "histories.csv", made);
 cleanup:
     brc_memory_free(aside);
     brc_text_free(&script);

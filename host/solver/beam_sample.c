@@ -1,4 +1,4 @@
-/* The elastic test of a bonded packing. The scene is made here: one material of E_m = 1 Pa, one static stage of the linearised operator. */
+/* The elastic test of a bonded packing. The scene is made here: one material, one static stage of the linearised operator. */
 #include "beam_sample.h"
 #include "../../preprocess/beams.h"
 #include "../../preprocess/packing.h"
@@ -135,7 +135,8 @@ brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const 
     if (domain->element_kind != BRC_ELEMENT_SPHERE)
         return BRC_FAIL(context, BRC_BAD_INPUT, "elastic sample test: the sample is made of cells; expected spheres joined by beams");
     BRC_TRY(find_walls(context, domain, set));
-    brc_material material = {.name = "unit", .young = 1, .poisson = 0.2, .density = 1, .beam_radius = pull->radius, .beam_young = 1};
+    brc_material material = {.name = "unit", .young = 1, .poisson = 0.2, .density = 1, .beam_radius = pull->radius,
+                             .beam_young = pull->beam_young > 0 ? pull->beam_young : 1};
     brc_body body = {.name = "sample"};
     brc_load loads[2] = {{.kind = BRC_LOAD_ELEMENT_DISPLACEMENT}, {.kind = BRC_LOAD_ELEMENT_DISPLACEMENT}};
     for (int side = 0; side < 2; ++side) {
@@ -153,7 +154,7 @@ brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const 
     BRC_TRY_OR(cleanup, brc_simulation_run(simulation));
     BRC_TRY_OR(cleanup, brc_simulation_displacement(simulation, displacement));
     BRC_TRY_OR(cleanup, brc_simulation_reaction(simulation, set[axis][1], reaction));
-    evaluate(domain, set, axis, displacement, reaction[axis], out);
+    evaluate(domain, set, axis, displacement, reaction[axis] / material.beam_young, out);
     out->n_bonds = domain->n_bonds;
     for (int64_t e = 0; e < domain->n_elements; ++e) out->n_loose += domain->row_start[e + 1] == domain->row_start[e];
     out->iterations = brc_simulation_static_report(simulation).iterations;
