@@ -58,9 +58,7 @@ static void mirror_seed(brc_context *context, const brc_walls *walls, const doub
         }
         ghost_record *ghost = &run->ghost[run->n];
         for (int d = 0; d < 3; ++d) ghost->position[d] = x[d] + 2.0 * feet[f].depth * feet[f].normal[d];
-        if (brc_solid_inside(solid, ghost->position, 0.0)) continue;
-        const double wanted = CLEARANCE * feet[f].depth;
-        if (brc_solid_distance(solid, ghost->position, wanted) < wanted) continue;
+        if (!brc_solid_clear(solid, ghost->position, CLEARANCE * feet[f].depth)) continue;
         memcpy(ghost->foot, feet[f].normal, sizeof feet[f].normal);
         ghost->foot[3] = feet[f].depth;
         ghost->wall = feet[f].wall;

@@ -236,6 +236,7 @@ bool brc_solid_inside(const brc_solid *solid, const double x[3], double margin)
 {
     if (!brc_solid_member(solid, x)) return false;
     if (!(margin > 0.0)) return true;
+    if (solid->n_leaves == 1 && solid->leaf[0].mesh) return brc_solid_distance(solid, x, margin) >= margin;
     for (int32_t s = 0; s < solid->n_surfaces; ++s) /* mostly no surface is near, and then the boundary is not either */
         if (fabs(brc_surface_height(solid, &solid->surface[s], x, NULL)) < margin) return brc_solid_depth(solid, x) >= margin;
     return true;

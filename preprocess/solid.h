@@ -56,6 +56,8 @@ int32_t brc_solid_mirrors(const brc_solid *solid, const double x[3], double reac
 double brc_solid_depth(const brc_solid *solid, const double x[3]);
 /* Distance of x, inside or outside, to the surface, or `reach` [m] where it is not nearer. */
 double brc_solid_distance(const brc_solid *solid, const double x[3], double reach);
+/* Is x outside, at least `distance` [m] away from the solid? */
+bool brc_solid_clear(const brc_solid *solid, const double x[3], double distance);
 /* The straight concave edges: between planes of parts, and of a mesh that is added. */
 int32_t brc_solid_n_edges(const brc_solid *solid);
 const brc_edge *brc_solid_edge(const brc_solid *solid, int32_t edge);

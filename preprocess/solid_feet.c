@@ -45,7 +45,8 @@ static int gather_mesh(const brc_solid *solid, const brc_surface *surface, const
     brc_leaf_to_part(leaf, x, local);
     const int32_t found = brc_mesh_feet(leaf->mesh, local, reach, feet, room);
     const int n = found < room ? found : room;
-    const double sign = n > 0 && brc_mesh_inside(leaf->mesh, local) ? 1.0 : -1.0;
+    const bool alone = solid->n_leaves == 1; /* then only points inside are asked for */
+    const double sign = n > 0 && (alone || brc_mesh_inside(leaf->mesh, local)) ? 1.0 : -1.0;
     for (int k = 0; k < n; ++k) {
         near_surface *a = &near[k];
         *a = (near_surface){.surface = surface, .height = -sign * feet[k].distance, .flat = feet[k].flat, .rim = feet[k].on_edge,
@@ -265,8 +266,21 @@ double brc_solid_distance(const brc_solid *solid, const double x[3], double reac
     near_surface near[MOST_NEAR];
     double point[3];
     int32_t wall;
+    if (solid->n_leaves == 1 && solid->leaf[0].mesh) { /* looking no farther than needed is much faster */
+        brc_mesh_foot feet[MOST_NEAR];
+        double y[3];
+        brc_leaf_to_part(&solid->leaf[0], x, y);
+        const int32_t n = brc_mesh_feet(solid->leaf[0].mesh, y, reach, feet, MOST_NEAR);
+        for (int32_t k = 0; k < n && k < MOST_NEAR; ++k) reach = fmin(reach, feet[k].distance);
+        return reach;
+    }
     if (solid->n_leaves == 1 && solid->n_surfaces == 1) return fmin(reach, fabs(brc_surface_height(solid, &solid->surface[0], x, NULL)));
     return nearest(solid, x, near, gather(solid, x, reach, near), reach, point, &wall);
+}
+
+bool brc_solid_clear(const brc_solid *solid, const double x[3], double distance)
+{
+    return !brc_solid_member(solid, x) && brc_solid_distance(solid, x, distance) >= distance;
 }
 
 /* Add a foot unless an earlier one is the same place; planes of a file agree to its rounding only. */
