@@ -1,7 +1,6 @@
 /* Elastic equilibrium. dlsm and cbm: preconditioned conjugate gradients on the linearised operator, matrix-free on the device, inside a
  * modified Newton iteration on the full law. dlsm-published has no symmetric operator: restarted GMRES
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
-#include "balance.h"
 #include "statics.h"
 #include "simulation_internal.h"
 #include <math.h>
@@ -133,6 +132,42 @@ cleanup:
     return status;
 }
 
+/* What the loads of the stage leave free to move as a whole. */
+static brc_status find_free_motions(brc_simulation *s, brc_free_motions *free)
+{
+    const double *place = s->domain->position;
+    brc_free_motions_begin(free, s->domain->n_elements, place);
+    for (int32_t i = 0; i < s->loads.n_imposed; ++i)
+        for (int32_t k = 0; k < s->loads.imposed[i].n; ++k)
+            for (int c = 0; c < 3; ++c)
+                if (s->loads.imposed[i].component_bits >> c & 1) brc_free_motions_hold(free, place + 3 * (int64_t)s->loads.imposed[i].element_id[k], c);
+    for (int32_t i = 0; i < s->loads.n_turns; ++i)
+        for (int c = 0; c < 3; ++c)
+            if (brc_current_stage(s)->loads[s->loads.turns[i].load].component[c]) brc_free_motions_clamp(free, c);
+    return brc_free_motions_find(free) ? BRC_OK : BRC_FAIL(s->context, BRC_INTERNAL, "the free motions of the stage were not found");
+}
+
+/* The right side v->r without what the supports leave free: a stiffness about the reference cannot take it, and of a residual about the moved
+ * sample a part as large as its strain is left in it, on which conjugate gradients would break down. */
+static brc_status project_free_motions(brc_simulation *s, brc_solve_vectors *v)
+{
+    const int64_t n = s->domain->n_elements;
+    double *force = NULL, *torque = NULL;
+    brc_status status = BRC_OK;
+    if (!brc_is_beams(s) || v->free.n == 0) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "free motions"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "free motions"));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, v->r.move, force, 3));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, v->r.turn, torque, 3));
+    brc_free_motions_project(&v->free, n, s->domain->position, force, torque);
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->r.move, force, 3, 0));
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->r.turn, torque, 3, 0));
+cleanup:
+    brc_memory_free(force);
+    brc_memory_free(torque);
+    return status;
+}
+
 static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
 {
     const int64_t n = s->layout->n_rows;
@@ -151,6 +186,7 @@ static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
         for (int64_t e = 0; e < s->domain->n_elements; ++e) sum += s->domain->radius[e];
         v->arm = sum / (double)s->domain->n_elements;
         BRC_TRY(brc_new_state(s, &v->theta, 3 * n, "rotations"));
+        BRC_TRY(find_free_motions(s, &v->free));
     }
     return create_blocks(s, v);
 }
@@ -320,6 +356,7 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
         }
         last = norm;
         BRC_TRY(copy((brc_unknowns){s->force, s->torque}, v->r));
+        BRC_TRY(project_free_motions(s, v));
         const double target = 0.3 * tolerance * *reference;
         const int32_t most = brc_statics_most_iterations(s);
         BRC_TRY(published ? brc_gmres(s, v, target, most, progress, &left)
