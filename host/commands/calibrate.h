@@ -14,6 +14,7 @@ typedef struct brc_calibration_plan {
     int64_t n_elements;
     double radius_spread;
     int n_samples, n_coordinations, n_radii, n_youngs;
+    int n_axes; /* 1: pulled along x, as in the paper; 3: along x, y and z, which are as good as samples of their own */
     uint64_t seed;
     double coordination[BRC_CALIBRATE_LIST], radius[BRC_CALIBRATE_LIST];
     double young[BRC_CALIBRATE_LIST]; /* E_m [Pa]; {1} where it is scaled out */
@@ -25,6 +26,7 @@ typedef struct brc_calibration_row {
     int64_t n_elements;
     double radius_spread;
     uint64_t seed;
+    int axis; /* 0 x 1 y 2 z */
     double coordination, radius, beam_young;
     double young, poisson, lateral[2]; /* as in brc_beam_answer */
     int64_t n_bonds, n_loose, iterations;
@@ -33,7 +35,7 @@ typedef struct brc_calibration_row {
 
 typedef struct brc_calibration_rows {
     int64_t n, capacity;
-    brc_calibration_row *rows; /* owned; sorted by coordination, radius, E_m, seed when the campaign is complete */
+    brc_calibration_row *rows; /* owned; sorted by coordination, radius, E_m, seed, axis when the campaign is complete */
 } brc_calibration_rows;
 
 /* Run what the plan asks and folder/solves.csv lacks; every result goes there at once, so that a campaign that was stopped or killed goes on
@@ -47,7 +49,7 @@ typedef struct brc_fit_quality {
     int64_t n;
     double r2;        /* coefficient of determination over all solves [-] */
     double worst, rms; /* relative error over all solves: largest, root mean square [-] */
-    double mean_worst, mean_rms; /* the same against the mean over the samples of each pair cn, r_m [-] */
+    double mean_worst, mean_rms; /* the same against the mean over the samples and axes of each pair cn, r_m [-] */
 } brc_fit_quality;
 
 enum { BRC_FORM_CUBICS, BRC_FORM_TWO_STAGE, BRC_FORM_JOINT, BRC_FORM_SURFACE, BRC_FORMS }; /* see calibrate_fit.c */
@@ -74,7 +76,7 @@ double brc_calibration_value(const brc_calibration_fit *fit, int form, int quant
 const char *brc_calibration_form(int form);
 const char *brc_calibration_quantity(int quantity);
 
-/* A pair of coordination number and radius, over its samples. */
+/* A pair of coordination number and radius, over its samples and axes. */
 typedef struct brc_calibration_mean {
     double coordination, radius;
     int n;

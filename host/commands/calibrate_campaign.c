@@ -17,7 +17,7 @@
 #define BEAM_POISSON 0.3
 #define FILE_BYTES_MOST ((size_t)1 << 30)
 
-static const char header[] = "elements,radius_spread,seed,cn,r_m,E_m_Pa,E_ratio,nu,nu_y,nu_z,bonds,loose,iterations,seconds\n";
+static const char header[] = "elements,radius_spread,seed,axis,cn,r_m,E_m_Pa,E_ratio,nu,nu_y,nu_z,bonds,loose,iterations,seconds\n";
 
 void brc_calibration_rows_free(brc_calibration_rows *rows)
 {
@@ -39,8 +39,8 @@ static brc_status add_row(brc_context *context, brc_calibration_rows *rows, cons
 
 static int print_line(char *out, size_t room, const brc_calibration_row *r)
 {
-    return snprintf(out, room, "%lld,%.17g,%llu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld,%lld,%.3f\n", (long long)r->n_elements,
-                    r->radius_spread, (unsigned long long)r->seed, r->coordination, r->radius, r->beam_young, r->young, r->poisson, r->lateral[0],
+    return snprintf(out, room, "%lld,%.17g,%llu,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld,%lld,%.3f\n", (long long)r->n_elements,
+                    r->radius_spread, (unsigned long long)r->seed, r->axis, r->coordination, r->radius, r->beam_young, r->young, r->poisson, r->lateral[0],
                     r->lateral[1], (long long)r->n_bonds, (long long)r->n_loose, (long long)r->iterations, r->seconds);
 }
 
@@ -49,14 +49,14 @@ static bool parse_line(const char *line, brc_calibration_row *r)
     long long elements, bonds, loose, iterations;
     unsigned long long seed;
     int end = 0;
-    const int n = sscanf(line, "%lld,%lf,%llu,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lld,%lld,%lld,%lf%n", &elements, &r->radius_spread, &seed, &r->coordination,
-                         &r->radius, &r->beam_young, &r->young, &r->poisson, &r->lateral[0], &r->lateral[1], &bonds, &loose, &iterations, &r->seconds, &end);
+    const int n = sscanf(line, "%lld,%lf,%llu,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lld,%lld,%lld,%lf%n", &elements, &r->radius_spread, &seed, &r->axis,
+                         &r->coordination, &r->radius, &r->beam_young, &r->young, &r->poisson, &r->lateral[0], &r->lateral[1], &bonds, &loose, &iterations, &r->seconds, &end);
     r->n_elements = elements;
     r->seed = seed;
     r->n_bonds = bonds;
     r->n_loose = loose;
     r->iterations = iterations;
-    return n == 14 && line[end] == '\n' && isfinite(r->young) && isfinite(r->poisson);
+    return n == 15 && line[end] == '\n' && isfinite(r->young) && isfinite(r->poisson);
 }
 
 /* Whole lines of an earlier campaign; a torn last line is left out and cut off the file. */
@@ -98,16 +98,16 @@ typedef struct work {
     brc_status status; /* the first failure */
 } work;
 
-static bool same(const work *w, int sample, double coordination, double radius, double young, const brc_calibration_row *row)
+static bool same(const work *w, int sample, int axis, double coordination, double radius, double young, const brc_calibration_row *row)
 {
     return row->n_elements == w->plan->n_elements && row->radius_spread == w->plan->radius_spread && row->seed == w->plan->seed + (uint64_t)sample &&
-           row->coordination == coordination && row->radius == radius && row->beam_young == young;
+           row->axis == axis && row->coordination == coordination && row->radius == radius && row->beam_young == young;
 }
 
-static const brc_calibration_row *find(const work *w, int sample, double coordination, double radius, double young)
+static const brc_calibration_row *find(const work *w, int sample, int axis, double coordination, double radius, double young)
 {
     for (int64_t k = 0; k < w->before->n; ++k)
-        if (same(w, sample, coordination, radius, young, &w->before->rows[k])) return &w->before->rows[k];
+        if (same(w, sample, axis, coordination, radius, young, &w->before->rows[k])) return &w->before->rows[k];
     return NULL;
 }
 
@@ -115,8 +115,9 @@ static const brc_calibration_row *find(const work *w, int sample, double coordin
 static int count_missing(const work *w, int sample, double coordination)
 {
     int n = 0;
-    for (int r = 0; r < w->plan->n_radii; ++r)
-        for (int y = 0; y < w->plan->n_youngs; ++y) n += !find(w, sample, coordination, w->plan->radius[r], w->plan->young[y]);
+    for (int axis = 0; axis < w->plan->n_axes; ++axis)
+        for (int r = 0; r < w->plan->n_radii; ++r)
+            for (int y = 0; y < w->plan->n_youngs; ++y) n += !find(w, sample, axis, coordination, w->plan->radius[r], w->plan->young[y]);
     return n;
 }
 
@@ -165,14 +166,15 @@ static brc_status solve(work *w, brc_context *context, brc_device *device, int s
     brc_domain *domain = NULL;
     brc_status status = BRC_OK;
     BRC_TRY(brc_beam_sample_bond(context, w->sample[sample], coordination, 1, &domain));
-    for (int r = 0; r < plan->n_radii && !stopped(w); ++r)
+    for (int k = 0; k < plan->n_axes * plan->n_radii && !stopped(w); ++k)
         for (int y = 0; y < plan->n_youngs; ++y) {
             brc_beam_answer answer;
-            if (find(w, sample, coordination, plan->radius[r], plan->young[y])) continue;
-            const brc_beam_pull pull = {.axis = 0, .radius = plan->radius[r], .beam_poisson = BEAM_POISSON, .beam_young = plan->young[y]};
+            const int axis = k / plan->n_radii, r = k % plan->n_radii;
+            if (find(w, sample, axis, coordination, plan->radius[r], plan->young[y])) continue;
+            const brc_beam_pull pull = {.axis = axis, .radius = plan->radius[r], .beam_poisson = BEAM_POISSON, .beam_young = plan->young[y]};
             BRC_TRY_OR(cleanup, brc_beam_sample_pull(context, device, domain, &pull, &answer));
             const brc_calibration_row row = {.n_elements = plan->n_elements, .radius_spread = plan->radius_spread,
-                                             .seed = plan->seed + (uint64_t)sample, .coordination = coordination, .radius = plan->radius[r],
+                                             .seed = plan->seed + (uint64_t)sample, .axis = axis, .coordination = coordination, .radius = plan->radius[r],
                                              .beam_young = plan->young[y], .young = answer.young, .poisson = answer.poisson,
                                              .lateral = {answer.lateral[0], answer.lateral[1]}, .n_bonds = answer.n_bonds, .n_loose = answer.n_loose,
                                              .iterations = answer.iterations, .seconds = answer.seconds};
@@ -232,8 +234,9 @@ static void solve_all(work *w)
 static int compare(const void *left, const void *right)
 {
     const brc_calibration_row *a = left, *b = right;
-    const double keys[2][4] = {{a->coordination, a->radius, a->beam_young, (double)a->seed}, {b->coordination, b->radius, b->beam_young, (double)b->seed}};
-    for (int k = 0; k < 4; ++k)
+    const double keys[2][5] = {{a->coordination, a->radius, a->beam_young, (double)a->seed, a->axis},
+                               {b->coordination, b->radius, b->beam_young, (double)b->seed, b->axis}};
+    for (int k = 0; k < 5; ++k)
         if (keys[0][k] != keys[1][k]) return keys[0][k] < keys[1][k] ? -1 : 1;
     return 0;
 }
@@ -246,8 +249,8 @@ static brc_status take_finished(work *w, int64_t *missing)
     for (int s = 0; s < plan->n_samples; ++s)
         for (int c = 0; c < plan->n_coordinations; ++c)
             for (int r = 0; r < plan->n_radii; ++r)
-                for (int y = 0; y < plan->n_youngs; ++y) {
-                    const brc_calibration_row *row = find(w, s, plan->coordination[c], plan->radius[r], plan->young[y]);
+                for (int y = 0; y < plan->n_youngs * plan->n_axes; ++y) {
+                    const brc_calibration_row *row = find(w, s, y % plan->n_axes, plan->coordination[c], plan->radius[r], plan->young[y / plan->n_axes]);
                     if (row) BRC_TRY(add_row(w->context, w->rows, row));
                     else ++*missing;
                 }

@@ -22,9 +22,9 @@ static double value_of(const brc_calibration_row *row, int quantity) { return qu
 static void against_radius(const figure *f, int quantity, brc_text *text)
 {
     const brc_calibration_plan *plan = f->plan;
-    brc_text_add(text, "set xlabel 'r_m'\nset ylabel '%s'\nset key outside right\nset palette defined (0 '#4477aa', 0.5 '#228833', 1 '#cc6677')\n"
+    brc_text_add(text, "set xlabel 'r_m'\nset ylabel '%s'\nset key %s\nset palette defined (0 '#4477aa', 0.5 '#228833', 1 '#cc6677')\n"
                        "set cbrange [%g:%g]\nset cblabel 'cn'\n",
-                 quantity == BRC_QUANTITY_NU ? "{/Symbol n}_M" : "E_M / E_m", plan->coordination[0], plan->coordination[plan->n_coordinations - 1] + 1e-9);
+                 quantity == BRC_QUANTITY_NU ? "{/Symbol n}_M" : "E_M / E_m", quantity == BRC_QUANTITY_NU ? "top right" : "bottom right", plan->coordination[0], plan->coordination[plan->n_coordinations - 1] + 1e-9);
     if (quantity == BRC_QUANTITY_E) brc_text_add(text, "set logscale xy\n");
     brc_text_add(text, "$points << END\n");
     for (int64_t k = 0; k < f->rows->n; ++k)
@@ -76,7 +76,7 @@ static void coefficients_of_e(const figure *f, brc_text *text) { coefficients(f,
 static void errors(const figure *f, brc_text *text)
 {
     static const int forms[2] = {BRC_FORM_TWO_STAGE, BRC_FORM_SURFACE};
-    brc_text_add(text, "set multiplot layout 2,2\nset xlabel 'cn'\nset ylabel 'r_m'\nset key off\nset cblabel 'error [%%]'\n"
+    brc_text_add(text, "set multiplot layout 2,2\nset xlabel 'cn'\nset ylabel 'r_m'\nset key off\nset cblabel 'error [%%]'\nset offsets 0.4, 0.4, 0.06, 0.06\n"
                        "set palette defined (0 '#4477aa', 0.5 '#f7f7f7', 1 '#cc6677')\n");
     for (int form = 0; form < 2; ++form)
         for (int q = 0; q < BRC_QUANTITIES; ++q) {

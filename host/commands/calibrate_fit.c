@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TERMS = BRC_BEAM_LAW_TERMS, CUBIC = 4, JOINT = 16 };
+enum { ROWS = BRC_BEAM_LAW_ROWS, COLUMNS = BRC_BEAM_LAW_COLUMNS, CUBIC = 4, JOINT = 16 };
 
 const char *brc_calibration_form(int form)
 {
@@ -219,14 +219,14 @@ cleanup:
 /* The surface of beam_law.h on relative errors; as many polynomials as the plan's values determine, the rest zero. */
 static brc_status fit_surface(brc_context *context, const brc_calibration_plan *plan, const brc_calibration_rows *rows, brc_calibration_fit *fit)
 {
-    const int ni = plan->n_radii < TERMS ? plan->n_radii : TERMS, nj = plan->n_coordinations < TERMS ? plan->n_coordinations : TERMS;
+    const int ni = plan->n_radii < ROWS ? plan->n_radii : ROWS, nj = plan->n_coordinations < COLUMNS ? plan->n_coordinations : COLUMNS;
     double *const out[BRC_QUANTITIES] = {&fit->law.poisson[0][0], &fit->law.young[0][0]};
     for (int q = 0; q < BRC_QUANTITIES; ++q) {
         equations e;
         brc_status status = equations_create(context, (int)rows->n, ni * nj, &e);
         for (int64_t k = 0; status == BRC_OK && k < rows->n; ++k) {
             const brc_calibration_row *row = &rows->rows[k];
-            double terms[TERMS][TERMS];
+            double terms[ROWS][COLUMNS];
             const double weight = q == BRC_QUANTITY_NU ? 1 / row->poisson : 1;
             brc_beam_law_terms(&fit->law, row->coordination, row->radius, terms);
             for (int i = 0; i < ni; ++i)
@@ -235,7 +235,7 @@ static brc_status fit_surface(brc_context *context, const brc_calibration_plan *
         }
         if (status == BRC_OK) status = solve(context, &e);
         for (int i = 0; status == BRC_OK && i < ni; ++i)
-            for (int j = 0; j < nj; ++j) out[q][TERMS * i + j] = e.b[i * nj + j];
+            for (int j = 0; j < nj; ++j) out[q][COLUMNS * i + j] = e.b[i * nj + j];
         equations_free(&e);
         BRC_TRY(status);
     }

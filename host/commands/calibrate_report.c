@@ -13,16 +13,16 @@ static const char *const columns[4] = {"A", "B", "C", "D"};
 
 static void describe(const brc_calibration_plan *plan, char *out, size_t room)
 {
-    snprintf(out, room, "%d samples of %lld spheres, radii +-%g %%, seeds %llu to %llu, %d coordination numbers %g to %g, %d radii %g to %g",
-             plan->n_samples, (long long)plan->n_elements, 100 * plan->radius_spread, (unsigned long long)plan->seed,
+    snprintf(out, room, "%d samples of %lld spheres, pulled along %s, radii +-%g %%, seeds %llu to %llu, %d coordination numbers %g to %g, %d radii %g to %g",
+             plan->n_samples, (long long)plan->n_elements, plan->n_axes == 1 ? "x" : plan->n_axes == 2 ? "x and y" : "x, y and z", 100 * plan->radius_spread, (unsigned long long)plan->seed,
              (unsigned long long)plan->seed + (unsigned long long)plan->n_samples - 1, plan->n_coordinations, plan->coordination[0],
              plan->coordination[plan->n_coordinations - 1], plan->n_radii, plan->radius[0], plan->radius[plan->n_radii - 1]);
 }
 
-static void add_table(brc_text *text, const char *name, int n, const double *c)
+static void add_table(brc_text *text, const char *name, int n_rows, int n, const double *c)
 {
     brc_text_add(text, "    .%s = {", name);
-    for (int i = 0; i < n; ++i) {
+    for (int i = 0; i < n_rows; ++i) {
         brc_text_add(text, "%s{", i ? ",\n        " : "");
         for (int j = 0; j < n; ++j) brc_text_add(text, "%s%.11g", j ? ", " : "", c[n * i + j]);
         brc_text_add(text, "}");
@@ -36,17 +36,17 @@ static brc_status write_c(brc_context *context, const brc_calibration_plan *plan
     char words[256];
     brc_text text = {.context = context};
     describe(plan, words, sizeof words);
-    brc_text_add(&text, "/* Written by breccia calibrate: %s. Relative error left, root mean square over the means of the samples: nu %.2f %%, E %.2f %%. */\n",
+    brc_text_add(&text, "/* Written by breccia calibrate: %s. Relative error left, root mean square over the means of samples and axes: nu %.2f %%, E %.2f %%. */\n",
                  words, 100 * fit->quality[BRC_FORM_SURFACE][BRC_QUANTITY_NU].mean_rms, 100 * fit->quality[BRC_FORM_SURFACE][BRC_QUANTITY_E].mean_rms);
     brc_text_add(&text, "{\n    .name = \"radii +-%g %%\", .radius_spread = %g,\n    .coordination = {%g, %g}, .radius = {%g, %g},\n", 100 * law->radius_spread,
                  law->radius_spread, law->coordination[0], law->coordination[1], law->radius[0], law->radius[1]);
-    add_table(&text, "poisson", BRC_BEAM_LAW_TERMS, &law->poisson[0][0]);
+    add_table(&text, "poisson", BRC_BEAM_LAW_ROWS, BRC_BEAM_LAW_COLUMNS, &law->poisson[0][0]);
     brc_text_add(&text, ",\n");
-    add_table(&text, "young", BRC_BEAM_LAW_TERMS, &law->young[0][0]);
+    add_table(&text, "young", BRC_BEAM_LAW_ROWS, BRC_BEAM_LAW_COLUMNS, &law->young[0][0]);
     brc_text_add(&text, ",\n");
-    add_table(&text, "paper_poisson", 4, &law->paper_poisson[0][0]);
+    add_table(&text, "paper_poisson", 4, 4, &law->paper_poisson[0][0]);
     brc_text_add(&text, ",\n");
-    add_table(&text, "paper_young", 4, &law->paper_young[0][0]);
+    add_table(&text, "paper_young", 4, 4, &law->paper_young[0][0]);
     brc_text_add(&text, ",\n}\n");
     const brc_status status = brc_text_write(&text, path);
     brc_text_free(&text);
@@ -67,9 +67,9 @@ static brc_status write_coefficients(brc_context *context, const brc_calibration
             for (int k = 0; fit->made[form] && k < 16; ++k)
                 brc_text_add(&text, "%s,%s,,%s,%s,%.17g\n", brc_calibration_form(form), quantity, letters[q][k / 4], columns[k % 4],
                              (form == BRC_FORM_JOINT ? fit->joint : fit->two_stage)[q][k / 4][k % 4]);
-        for (int k = 0; fit->made[BRC_FORM_SURFACE] && k < BRC_BEAM_LAW_TERMS * BRC_BEAM_LAW_TERMS; ++k)
-            brc_text_add(&text, "surface,%s,,%d,%d,%.17g\n", quantity, k / BRC_BEAM_LAW_TERMS, k % BRC_BEAM_LAW_TERMS,
-                         (q == BRC_QUANTITY_NU ? fit->law.poisson : fit->law.young)[k / BRC_BEAM_LAW_TERMS][k % BRC_BEAM_LAW_TERMS]);
+        for (int k = 0; fit->made[BRC_FORM_SURFACE] && k < BRC_BEAM_LAW_ROWS * BRC_BEAM_LAW_COLUMNS; ++k)
+            brc_text_add(&text, "surface,%s,,%d,%d,%.17g\n", quantity, k / BRC_BEAM_LAW_COLUMNS, k % BRC_BEAM_LAW_COLUMNS,
+                         (q == BRC_QUANTITY_NU ? fit->law.poisson : fit->law.young)[k / BRC_BEAM_LAW_COLUMNS][k % BRC_BEAM_LAW_COLUMNS]);
     }
     const brc_status status = brc_text_write(&text, path);
     brc_text_free(&text);
@@ -107,10 +107,10 @@ static brc_status write_errors(brc_context *context, const brc_calibration_fit *
     return status;
 }
 
-static void add_matrix(brc_json *json, const char *key, int n, const double *c)
+static void add_matrix(brc_json *json, const char *key, int n_rows, int n, const double *c)
 {
     brc_json_begin_array(json, key);
-    for (int i = 0; i < n; ++i) {
+    for (int i = 0; i < n_rows; ++i) {
         brc_json_begin_array(json, NULL);
         for (int j = 0; j < n; ++j) brc_json_number(json, NULL, c[n * i + j]);
         brc_json_end(json);
@@ -154,10 +154,10 @@ static brc_status write_json(brc_context *context, const brc_calibration_plan *p
                 for (int k = 0; k < 4; ++k) brc_json_number(&json, NULL, fit->stage_r2[q][k]);
                 brc_json_end(&json);
             }
-            if (form == BRC_FORM_TWO_STAGE) add_matrix(&json, "coefficients", 4, &fit->two_stage[q][0][0]);
-            if (form == BRC_FORM_JOINT) add_matrix(&json, "coefficients", 4, &fit->joint[q][0][0]);
+            if (form == BRC_FORM_TWO_STAGE) add_matrix(&json, "coefficients", 4, 4, &fit->two_stage[q][0][0]);
+            if (form == BRC_FORM_JOINT) add_matrix(&json, "coefficients", 4, 4, &fit->joint[q][0][0]);
             if (form == BRC_FORM_SURFACE)
-                add_matrix(&json, "coefficients", BRC_BEAM_LAW_TERMS, q == BRC_QUANTITY_NU ? &fit->law.poisson[0][0] : &fit->law.young[0][0]);
+                add_matrix(&json, "coefficients", BRC_BEAM_LAW_ROWS, BRC_BEAM_LAW_COLUMNS, q == BRC_QUANTITY_NU ? &fit->law.poisson[0][0] : &fit->law.young[0][0]);
             brc_json_end(&json);
         }
         brc_json_end(&json);

@@ -21,6 +21,7 @@ static const brc_option options[] = {
     {"coordination", 0, "LIST", false, "coordination numbers (default 5.5 to 13 by 0.5)"},
     {"radii", 0, "LIST", false, "r_m (default 0.2,0.4,0.6,0.8,1)"},
     {"fine", 0, NULL, false, "r_m from 0.1 in ten steps, for the law that breccia uses"},
+    {"axes", 0, "N", false, "1: pulled along x, as in the paper (default); 3: along x, y and z"},
     {"full", 0, NULL, false, "all five E_m of the paper too, though E_m scales out"},
     {"seed", 0, "N", false, "of the first sample (default 1001)"},
     {"threads", 't', "N", false, "solves at once (default: all)"},
@@ -50,7 +51,7 @@ static brc_status make_plan(brc_context *context, const brc_arguments *arguments
     static const double papers[] = {0.2, 0.4, 0.6, 0.8, 1.0}, fine[] = {0.1, 0.14, 0.2, 0.28, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0};
     const bool is_fine = brc_arguments_value(arguments, "fine") != NULL;
     const char *spread = brc_arguments_value(arguments, "spread");
-    int64_t samples, seed, threads;
+    int64_t samples, axes, seed, threads;
     *plan = (brc_calibration_plan){.radius_spread = 0.125, .n_coordinations = 16, .n_radii = is_fine ? 10 : 5, .n_youngs = 1, .young = {1}};
     for (int k = 0; k < plan->n_coordinations; ++k) plan->coordination[k] = 5.5 + 0.5 * k;
     for (int k = 0; k < plan->n_radii; ++k) plan->radius[k] = is_fine ? fine[k] : papers[k];
@@ -59,10 +60,12 @@ static brc_status make_plan(brc_context *context, const brc_arguments *arguments
     BRC_TRY(take_list(context, arguments, "coordination", 4, 20, &plan->n_coordinations, plan->coordination));
     BRC_TRY(take_list(context, arguments, "radii", 0.01, 2, &plan->n_radii, plan->radius));
     BRC_TRY(brc_arguments_integer(context, arguments, "samples", 1, 1000, 4, &samples));
+    BRC_TRY(brc_arguments_integer(context, arguments, "axes", 1, 3, 1, &axes));
     BRC_TRY(brc_arguments_integer(context, arguments, "elements", 100, 10000000, 10000, &plan->n_elements));
     BRC_TRY(brc_arguments_integer(context, arguments, "seed", 0, INT64_MAX - 1000, FIRST_SEED, &seed));
     BRC_TRY(brc_arguments_integer(context, arguments, "threads", 1, 4096, omp_get_max_threads(), &threads));
     plan->n_samples = (int)samples;
+    plan->n_axes = (int)axes;
     plan->seed = (uint64_t)seed;
     plan->n_threads = (int)threads;
     if (spread) {
@@ -94,7 +97,7 @@ static void print_scatter(const brc_calibration_mean *means, int64_t n)
             mean[q] += means[k].scatter[q] / (double)n;
             most[q] = fmax(most[q], means[k].scatter[q]);
         }
-    printf("samples scatter (standard deviation over mean): nu %.2f %% on average, at most %.2f %%; E %.2f %%, at most %.2f %%\n",
+    printf("samples and axes scatter (standard deviation over mean): nu %.2f %% on average, at most %.2f %%; E %.2f %%, at most %.2f %%\n",
            100 * mean[BRC_QUANTITY_NU], 100 * most[BRC_QUANTITY_NU], 100 * mean[BRC_QUANTITY_E], 100 * most[BRC_QUANTITY_E]);
 }
 
@@ -117,7 +120,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     BRC_TRY_OR(cleanup, brc_calibrate_figures(context, &plan, &rows, &fit, folder));
     BRC_TRY_OR(cleanup, brc_calibration_means(context, &rows, &n_means, &means));
     print_quality(&fit);
-    if (plan.n_samples > 1) print_scatter(means, n_means);
+    if (plan.n_samples * plan.n_axes > 1) print_scatter(means, n_means);
     if (!fit.made[BRC_FORM_TWO_STAGE]) printf("eq. 17 to 20 of the paper need at least 4 radii and 5 coordination numbers: not fitted\n");
     printf("%lld solves in %.1f s, fits in %.1f s; %s/laws.json\n", (long long)rows.n, solved - start, brc_clock_s() - solved, folder);
 cleanup:

@@ -21,28 +21,30 @@ const brc_beam_law *brc_beam_law_for(double radius_spread)
 static double cubic(const double c[4], double x) { return c[0] + x * (c[1] + x * (c[2] + x * c[3])); }
 
 /* T_0(x) ... */
-static void chebyshev(double x, double out[BRC_BEAM_LAW_TERMS])
+static void chebyshev(double x, int n, double *out)
 {
     out[0] = 1;
     out[1] = x;
-    for (int k = 2; k < BRC_BEAM_LAW_TERMS; ++k) out[k] = 2 * x * out[k - 1] - out[k - 2];
+    for (int k = 2; k < n; ++k) out[k] = 2 * x * out[k - 1] - out[k - 2];
 }
 
-void brc_beam_law_terms(const brc_beam_law *law, double coordination, double radius, double out[BRC_BEAM_LAW_TERMS][BRC_BEAM_LAW_TERMS])
+void brc_beam_law_terms(const brc_beam_law *law, double coordination, double radius, double out[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS])
 {
-    double of_radius[BRC_BEAM_LAW_TERMS], of_coordination[BRC_BEAM_LAW_TERMS];
-    chebyshev((2 * log(radius) - log(law->radius[0]) - log(law->radius[1])) / (log(law->radius[1]) - log(law->radius[0])), of_radius);
-    chebyshev((2 * coordination - law->coordination[0] - law->coordination[1]) / (law->coordination[1] - law->coordination[0]), of_coordination);
-    for (int i = 0; i < BRC_BEAM_LAW_TERMS; ++i)
-        for (int j = 0; j < BRC_BEAM_LAW_TERMS; ++j) out[i][j] = of_radius[i] * of_coordination[j];
+    double of_radius[BRC_BEAM_LAW_ROWS], of_coordination[BRC_BEAM_LAW_COLUMNS];
+    chebyshev((2 * log(radius) - log(law->radius[0]) - log(law->radius[1])) / (log(law->radius[1]) - log(law->radius[0])),
+              BRC_BEAM_LAW_ROWS, of_radius);
+    chebyshev((2 * coordination - law->coordination[0] - law->coordination[1]) / (law->coordination[1] - law->coordination[0]),
+              BRC_BEAM_LAW_COLUMNS, of_coordination);
+    for (int i = 0; i < BRC_BEAM_LAW_ROWS; ++i)
+        for (int j = 0; j < BRC_BEAM_LAW_COLUMNS; ++j) out[i][j] = of_radius[i] * of_coordination[j];
 }
 
-static double surface(const brc_beam_law *law, const double c[BRC_BEAM_LAW_TERMS][BRC_BEAM_LAW_TERMS], double coordination, double radius)
+static double surface(const brc_beam_law *law, const double c[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS], double coordination, double radius)
 {
-    double terms[BRC_BEAM_LAW_TERMS][BRC_BEAM_LAW_TERMS], sum = 0;
+    double terms[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS], sum = 0;
     brc_beam_law_terms(law, coordination, radius, terms);
-    for (int i = 0; i < BRC_BEAM_LAW_TERMS; ++i)
-        for (int j = 0; j < BRC_BEAM_LAW_TERMS; ++j) sum += c[i][j] * terms[i][j];
+    for (int i = 0; i < BRC_BEAM_LAW_ROWS; ++i)
+        for (int j = 0; j < BRC_BEAM_LAW_COLUMNS; ++j) sum += c[i][j] * terms[i][j];
     return sum;
 }
 

@@ -11,15 +11,15 @@
 
 #include "../base/status.h"
 
-/* Polynomials of the surface in each direction: T_0 to T_5. */
-enum { BRC_BEAM_LAW_TERMS = 6 };
+/* Polynomials of the surface: T_0 to T_5 of s, T_0 to T_8 of t. */
+enum { BRC_BEAM_LAW_ROWS = 6, BRC_BEAM_LAW_COLUMNS = 9 };
 
 typedef struct brc_beam_law {
     const char *name;     /* of the packings it was fitted to */
     double radius_spread; /* of these packings: radii within this either side of their mean [-] */
     double coordination[2], radius[2]; /* ranges of cn and r_m it was fitted in */
-    double poisson[BRC_BEAM_LAW_TERMS][BRC_BEAM_LAW_TERMS]; /* P_ij */
-    double young[BRC_BEAM_LAW_TERMS][BRC_BEAM_LAW_TERMS];   /* Y_ij */
+    double poisson[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS]; /* P_ij */
+    double young[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS];   /* Y_ij */
     double paper_poisson[4][4]; /* rows a1 b1 c1 d1, columns A B C D */
     double paper_young[4][4];   /* rows a2 b2 c2 d2 */
 } brc_beam_law;
@@ -33,7 +33,7 @@ double brc_beam_law_young(const brc_beam_law *law, double coordination, double r
 double brc_beam_law_paper_poisson(const double c[4][4], double coordination, double radius);
 double brc_beam_law_paper_young(const double c[4][4], double coordination, double radius);
 /* The products T_i(s) T_j(t) of a law's ranges, row i, column j. */
-void brc_beam_law_terms(const brc_beam_law *law, double coordination, double radius, double out[BRC_BEAM_LAW_TERMS][BRC_BEAM_LAW_TERMS]);
+void brc_beam_law_terms(const brc_beam_law *law, double coordination, double radius, double out[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS]);
 /* r_m [-] and E_m [Pa] that give nu and young [Pa]. BRC_BAD_INPUT: nu that beams cannot reach at this coordination number (with the range they
  * can), a coordination number outside the fit. *warning (may be NULL) becomes true when r_m lies so near to an end of the fit's range that nu
  * hardly depends on it there. */
