@@ -4,6 +4,7 @@
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "../output/recorder.h"
+#include "../solver/beam_polish.h"
 #include <string.h>
 
 static const char *const file_names[BRC_RUN_FILES] = {"summary.json",         "result.h5",   "histories.csv",
@@ -90,6 +91,8 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     }
     out->build_s = brc_clock_s() - build_start;
     if (now->recorder) brc_recorder_set_domain(now->recorder, now->domain, out->build_s);
+    if (now->scene->model.kind == BRC_MODEL_CBM && now->scene->model.polish)
+        BRC_TRY(brc_beam_polish_scene(context, now->scene, now->domain, request->n_threads));
     const brc_device_request device = {.selector = request->device ? request->device : "auto",
                                        .precision = request->precision,
                                        .many_materials = brc_simulation_needs_many_materials(now->scene, now->domain),

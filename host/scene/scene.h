@@ -38,6 +38,7 @@ typedef struct brc_model {
     /* cbm */
     double beam_poisson; /* nu_m of the beams, default 0.3: hardly matters (design-cbm.md) [-] */
     bool keep_isolated;  /* hold elements without bonds still instead of refusing them */
+    bool polish;         /* correct the laws' r_m and E_m on a sample (beam_polish.h) */
 } brc_model;
 
 typedef struct brc_region {

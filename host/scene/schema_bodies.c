@@ -49,6 +49,8 @@ static const brc_entry CBM[] = {
      .meaning = "Poisson's ratio of the beams; hardly matters"},
     {"keep_isolated", BRC_TYPE_BOOL, FIELD(brc_model, keep_isolated), .given = "false",
      .meaning = "hold elements without bonds still instead of refusing the body"},
+    {"polish", BRC_TYPE_BOOL, FIELD(brc_model, polish), .given = "false",
+     .meaning = "correct what the laws give on the sample itself (a box) or on a cube packed like the body, by a few static solves"},
 };
 static const brc_section CBM_SECTION = {
     .title = "model cbm", .meaning = "The cohesive beam model of Nguyen, Andre and Huger 2019, in potential form.", ENTRIES(CBM)};
