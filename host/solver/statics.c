@@ -343,17 +343,18 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
     const double tolerance = brc_statics_tolerance(s);
     const bool published = brc_is_published(s), finite = stage->finite_strain && !published;
     const bool coarse = brc_device_get_precision(s->device) != BRC_DOUBLE;
-    double norm, left, last = INFINITY;
+    double norm, left, last = INFINITY, earlier = INFINITY; /* slender beams: stretch and bending settle in turn, so two corrections count */
     BRC_TRY(brc_statics_residual(s, v, finite, &norm));
     if (norm > *reference) *reference = norm;
     for (int correction = 0; norm > tolerance * *reference; ++correction) {
-        if (correction == MOST_CORRECTIONS || (correction > 2 && norm > 0.9 * last)) {
+        if (correction == MOST_CORRECTIONS || (correction > 2 && norm > 0.9 * last && norm > 0.9 * earlier)) {
             if (coarse && norm < 100 * tolerance * *reference) break; /* the precision's own floor */
             return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
                             "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d corrections, asked %.3g; "
                             "check that the loads balance or the supports hold the body, use more increments, or relax `tolerance`",
                             stage->name, s->load_factor, norm / *reference, correction, tolerance);
         }
+        earlier = last;
         last = norm;
         BRC_TRY(copy((brc_unknowns){s->force, s->torque}, v->r));
         BRC_TRY(project_free_motions(s, v));
