@@ -1,5 +1,6 @@
 /* `breccia bench throughput`: how fast the laws go, in bond updates per second and as a fraction of what the device's
- * memory gives. Noisy-grid cubes, free faces, one material, undamped (the published law with its own integrator). */
+ * memory gives. Noisy-grid cubes, or packings with ten beams an element, free faces, one material, undamped (the published law with its
+ * own integrator). */
 #ifndef BRC_BENCH_THROUGHPUT_H
 #define BRC_BENCH_THROUGHPUT_H
 

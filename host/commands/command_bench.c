@@ -10,7 +10,7 @@
 static const brc_option options[] = {
     BRC_OPTION_OUTPUT("folder of rows.json and rows.csv (default results/throughput)"),
     {"sizes", 0, "LIST", false, "numbers of elements (default 1e4,1e5,1e6)"},
-    {"models", 0, "LIST", false, "dlsm, dlsm-published (default both)"},
+    {"models", 0, "LIST", false, "dlsm, dlsm-published, cbm (default the first two)"},
     {"devices", 0, "LIST", false, "default: cpu and every OpenCL device that is here"},
     {"precisions", 0, "LIST", false, "default double,mixed,single"},
     {"threads", 't', "LIST", false, "threads of the cpu device (default 1,2)"},
@@ -116,9 +116,11 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
         BRC_TRY(brc_precision_parse(context, pieces[k], &request.precisions[k]));
     BRC_TRY(take_list(context, arguments, "models", "dlsm,dlsm-published", copy[3], sizeof copy[3], pieces, &request.n_models));
     for (int k = 0; k < request.n_models; ++k) {
-        if (strcmp(pieces[k], "dlsm") != 0 && strcmp(pieces[k], "dlsm-published") != 0)
-            return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no model '%s', expected dlsm or dlsm-published", pieces[k]);
-        request.models[k] = strcmp(pieces[k], "dlsm") == 0 ? BRC_MODEL_DLSM : BRC_MODEL_DLSM_PUBLISHED;
+        int kind = BRC_MODEL_DLSM;
+        while (kind <= BRC_MODEL_CBM && strcmp(pieces[k], brc_model_name((brc_model_kind)kind)) != 0) ++kind;
+        if (kind > BRC_MODEL_CBM)
+            return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no model '%s', expected dlsm, dlsm-published or cbm", pieces[k]);
+        request.models[k] = (brc_model_kind)kind;
     }
     if (brc_arguments_value(arguments, "sample"))
         BRC_TRY(take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600, &request.sample_s));
@@ -143,7 +145,7 @@ const brc_command brc_command_bench = {.name = "bench",
                                        .least = 1,
                                        .most = 1,
                                        .summary = "measure speed: bond updates per second, fraction of the copy bandwidth",
-                                       .details = "Noisy-grid cubes. Lists are separated by commas; every combination is measured.",
+                                       .details = "Noisy-grid cubes; packings with ten beams an element for cbm. Lists are separated by commas; every combination is measured.",
                                        .options = options,
                                        .n_options = sizeof options / sizeof *options,
                                        .run = run};
