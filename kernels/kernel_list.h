@@ -43,5 +43,11 @@
     X(turn_book)                                                                                                       \
     X(block6_precondition)                                                                                             \
     X(cbm_force_pass)                                                                                                  \
+    X(fracture_force)                                                                                                  \
+    X(fracture_stress)                                                                                                 \
+    X(fracture_stress_second)                                                                                          \
+    X(fracture_choose)                                                                                                 \
+    X(fracture_ratio)                                                                                                  \
+    X(fracture_break)                                                                                                  \
     X(cbm_energy)                                                                                                      \
     X(cbm_virial)

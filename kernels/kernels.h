@@ -9,6 +9,7 @@
 #include "quaternion.h"
 #include "published_bond.h"
 #include "cbm_beam.h"
+#include "failure.h"
 #include "vector.cl"
 #include "motion.cl"
 #include "rotation.cl"
@@ -16,3 +17,4 @@
 #include "dlsm_faces.cl"
 #include "published.cl"
 #include "cbm.cl"
+#include "fracture.cl"

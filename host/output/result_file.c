@@ -71,6 +71,7 @@ static void write_ledger(brc_h5 *h5, const brc_ledger *l)
                 {"work", l->work},
                 {"damping", l->damping},
                 {"numerical", l->numerical},
+                {"fracture", l->fracture},
                 {"initial", l->initial},
                 {"total", l->total},
                 {"closure", l->closure},

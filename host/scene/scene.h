@@ -18,7 +18,22 @@ typedef struct brc_material {
     /* cbm, given directly; 0: from the calibrated laws */
     double beam_radius; /* r_m: beam radius over the mean radius of the packed spheres [-] */
     double beam_young;  /* E_m of the beams [Pa] */
+    /* only read in scenes with fracture; 0: no limit */
+    double tension, compression; /* strengths of the solid, positive [Pa] */
+    double beam_strength;        /* cbm: sigma_m, tensile limit of the virial stress; 0: from tension by the calibrated law [Pa] */
 } brc_material;
+
+typedef enum brc_criterion_kind {
+    BRC_CRITERION_PRINCIPAL, /* principal values of the virial stress, NAH19 section 2.2 */
+    BRC_CRITERION_MOHR_COULOMB,
+    BRC_CRITERION_DRUCKER_PRAGER
+} brc_criterion_kind;
+
+typedef struct brc_fracture {
+    brc_criterion_kind kind;
+    int32_t level;             /* shells of neighbours the stress is averaged over: 0, 1, 2 */
+    double cohesion, friction; /* the last two kinds: [Pa], [rad] */
+} brc_fracture;
 
 typedef enum brc_model_kind {
     BRC_MODEL_DLSM,          /* the conservative law, design-dlsm.md section 2 */
@@ -159,6 +174,7 @@ typedef struct brc_stage {
     double tolerance;     /* residual over load [-]; 0: by precision (1e-10, 1e-6, 1e-5) */
     int32_t increments;   /* load increments, default 1 */
     int32_t max_iterations; /* per linear solve; 0: automatic */
+    double to_failure;    /* scale the load so that the worst element is at this fraction of its limit; 0: the load as given [-] */
     bool finite_strain;   /* true (default): the full law, by modified Newton; false: the linearised operator alone */
     /* modes */
     int32_t n_modes;
@@ -187,7 +203,7 @@ typedef struct brc_sensor {
     char set[BRC_NAME], set2[BRC_NAME]; /* "" : all elements */
     int32_t component;  /* vectors: 0 x 1 y 2 z; tensors: 0 xx 1 yy 2 zz 3 yz 4 xz 5 xy */
     double point[3], axis[3];
-    char term[BRC_NAME]; /* energy: "kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "potential", "total", "closure" */
+    char term[BRC_NAME]; /* energy: "kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture", "potential", "total", "closure" */
     int32_t index;
 } brc_sensor;
 
@@ -237,6 +253,8 @@ typedef struct brc_scene {
     brc_set_request *sets;
     int32_t n_limits;
     brc_quality_limit *limits; /* [n_limits] for every body as it is built */
+    bool has_fracture;
+    brc_fracture fracture;
     bool has_gravity;
     double gravity[3]; /* [m/s^2] */
     int32_t n_stages;

@@ -17,6 +17,8 @@ static const brc_entry SCENE[] = {
      .meaning = "named parts, besides the walls"},
     {"quality", BRC_TYPE_NAMED, .section = &brc_schema_limit, COUNTED(brc_scene, limits, n_limits),
      .meaning = "limits on the numbers of the quality report, by name; each body is judged as it is built"},
+    {"fracture", BRC_TYPE_STRUCT, .section = &brc_schema_fracture, .offset = offsetof(brc_scene, fracture),
+     FLAG(brc_scene, has_fracture), .meaning = "how bonds break"},
     {"gravity", BRC_TYPE_VECTOR, "m/s^2", FIELD(brc_scene, gravity), .length = 3, FLAG(brc_scene, has_gravity),
      .sample = "[0, 0, -9.81 m/s^2]", .meaning = "acceleration of every element"},
     {"stages", BRC_TYPE_LIST, .section = &brc_schema_stage, COUNTED(brc_scene, stages, n_stages), .required = true,
@@ -29,7 +31,6 @@ static const brc_entry SCENE[] = {
      .meaning = "numbers computed from sensors when the run ends, by name"},
     {"interactions", BRC_TYPE_LATER,
      .meaning = "contact and interfaces come in a later version; bodies do not touch yet"},
-    {"fracture", BRC_TYPE_LATER, .meaning = "breaking comes in a later version; solids are elastic yet"},
 };
 static const brc_section SCENE_SECTION = {
     .title = "scene", .meaning = "The top of a scene file.", ENTRIES(SCENE), .size = sizeof(brc_scene)};

@@ -6,6 +6,8 @@ static const brc_entry MICRO[] = {
      .meaning = "r_m: beam radius over the mean radius of the packed spheres"},
     {"E", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, beam_young), .required = true, .sample = "620 GPa",
      .meaning = "E_m: Young's modulus of the beams"},
+    {"strength", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, beam_strength), .sample = "60 MPa",
+     .meaning = "sigma_m: tensile limit of the virial stress, in place of the law for it"},
 };
 static const brc_section MICRO_SECTION = {
     .title = "beam", .meaning = "Micro-parameters of model cbm, given directly in place of the calibrated laws.", ENTRIES(MICRO)};
@@ -18,6 +20,7 @@ static const brc_entry MATERIAL[] = {
             "moduli are infinite"},
     {"density", BRC_TYPE_QUANTITY, "kg/m^3", POSITIVE, FIELD(brc_material, density), .required = true,
      .sample = "2500 kg/m^3", .meaning = "mass per volume"},
+    {"strength", BRC_TYPE_STRUCT, .section = &brc_schema_strength, .meaning = "what it bears; for scenes with `fracture`"},
     {"beam", BRC_TYPE_STRUCT, .section = &MICRO_SECTION, .meaning = "micro-parameters of model cbm; from the calibrated laws when left out"},
 };
 const brc_section brc_schema_material = {.title = "material",

@@ -42,5 +42,7 @@ extern const brc_section brc_schema_initial;
 extern const brc_section brc_schema_sensor;
 extern const brc_section brc_schema_measure;
 extern const brc_section brc_schema_output;
+extern const brc_section brc_schema_strength;
+extern const brc_section brc_schema_fracture;
 
 #endif

@@ -104,7 +104,7 @@ static const brc_entry SENSOR[] = {
     {"stress", BRC_TYPE_STRUCT, .section = &STRESS_SECTION, .value = BRC_SENSOR_STRESS, .meaning = "mean stress [Pa]"},
     {"strain", BRC_TYPE_STRUCT, .section = &STRAIN_SECTION, .value = BRC_SENSOR_STRAIN, .meaning = "mean strain [-]"},
     {"energy", BRC_TYPE_WORD, FIELD(brc_sensor, term),
-     CHOICES("kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "potential", "total", "closure"),
+     CHOICES("kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture", "potential", "total", "closure"),
      .value = BRC_SENSOR_ENERGY, .sample = "kinetic", .meaning = "a term of the energy ledger [J]"},
     {"point", BRC_TYPE_STRUCT, .section = &POINT_SECTION, .value = BRC_SENSOR_POINT,
      .meaning = "displacement of the element nearest to a point [m]"},

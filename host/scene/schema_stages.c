@@ -344,6 +344,9 @@ static const brc_entry STATIC[] = {
      .meaning = "residual over load; auto: 1e-10 in double, 1e-6 in mixed, 1e-5 in single precision"},
     {"max_iterations", BRC_TYPE_INTEGER, WITHIN(1, 1e9), FIELD(brc_stage, max_iterations), .given = "auto",
      .word = "auto", .sample = "5000", .meaning = "of each linear solve"},
+    {"to_failure", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 1), FIELD(brc_stage, to_failure), .given = "off", .word = "off",
+     .sample = "80 %",
+     .meaning = "scale the whole load so that the element nearest to failure is at this fraction of its limit; needs `fracture`"},
     {"finite_strain", BRC_TYPE_BOOL, FIELD(brc_stage, finite_strain), .given = "true",
      .meaning = "false: only the law linearised about the reference"},
 };

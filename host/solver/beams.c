@@ -1,6 +1,6 @@
 /* Model cbm on the host: beams of each material and body, their diagonal blocks, and the time step that follows from them. */
 #include "beam_law.h"
-#include "simulation_internal.h"
+#include "fracture_internal.h"
 #include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
@@ -213,8 +213,9 @@ static brc_status virial(brc_simulation *s, double *out)
     return status;
 }
 
-/* Members of the average around element e: itself and `level` shells of neighbours, each once. mark[k] == e + 1: already in. */
-static int64_t collect(const brc_domain *d, int64_t e, int level, int32_t *mark, int32_t *member)
+/* Members of the average around element e: itself and `level` shells of neighbours, each once. mark[k] == e + 1: already in. whole: unbroken
+ * half-edges, NULL: all. */
+static int64_t collect(const brc_domain *d, const uint8_t *whole, int64_t e, int level, int32_t *mark, int32_t *member)
 {
     int64_t n = 1, begin = 0;
     member[0] = (int32_t)e;
@@ -224,7 +225,7 @@ static int64_t collect(const brc_domain *d, int64_t e, int level, int32_t *mark,
         for (; begin < end; ++begin)
             for (int64_t h = d->row_start[member[begin]]; h < d->row_start[member[begin] + 1]; ++h) {
                 const int32_t j = d->neighbour[h];
-                if (mark[j] == (int32_t)e + 1) continue;
+                if (mark[j] == (int32_t)e + 1 || (whole && !whole[h])) continue;
                 mark[j] = (int32_t)e + 1;
                 member[n++] = j;
             }
@@ -237,13 +238,15 @@ brc_status brc_beams_stress(brc_simulation *s, int level, double *out)
     const brc_domain *d = s->domain;
     double *sum = NULL;
     int32_t *mark = NULL, *member = NULL;
+    uint8_t *whole = NULL;
     brc_status status = BRC_OK;
+    if (s->fracture) BRC_TRY_OR(cleanup, brc_fracture_whole(s, &whole));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &sum, 9 * d->n_elements, "virial"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &mark, d->n_elements, "virial"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, d->n_elements, "virial"));
     BRC_TRY_OR(cleanup, virial(s, sum));
     for (int64_t e = 0; e < d->n_elements; ++e) {
-        const int64_t n = collect(d, e, level, mark, member);
+        const int64_t n = collect(d, whole, e, level, mark, member);
         double total[9] = {0}, volume = 0;
         for (int64_t k = 0; k < n; ++k) {
             volume += d->volume[member[k]] / d->quality.volume_fraction;
@@ -259,5 +262,6 @@ cleanup:
     brc_memory_free(sum);
     brc_memory_free(mark);
     brc_memory_free(member);
+    brc_memory_free(whole);
     return status;
 }

@@ -1,5 +1,6 @@
 /* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
 #include "element_loads.h"
+#include "fracture_internal.h"
 #include <math.h>
 
 enum { SAMPLES = 500 };
@@ -39,7 +40,8 @@ static brc_status verlet_step(brc_simulation *s, const brc_stage *stage, double 
     } else {
         BRC_TRY(kick_and_drift(s, kick, dt));
     }
-    return close_step(s, dt);
+    BRC_TRY(close_step(s, dt));
+    return s->fracture ? brc_fracture_step(s, 0.5 * dt) : BRC_OK;
 }
 
 static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double dt)
@@ -57,7 +59,8 @@ static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double
         BRC_TRY(BRC_LAUNCH(s->kernel.damp_mass, n, BRC_INT(n), BRC_STATE(exp(-stage->mass_damping * dt)), BRC_BUF(s->mass),
                            BRC_BUF(s->velocity), BRC_BUF(s->lost_damping)));
     BRC_TRY(close_step(s, dt));
-    return BRC_LAUNCH(s->kernel.numerical_close, n, BRC_INT(n), BRC_BUF(s->force), BRC_BUF(s->moved), BRC_BUF(s->lost_numerical));
+    BRC_TRY(BRC_LAUNCH(s->kernel.numerical_close, n, BRC_INT(n), BRC_BUF(s->force), BRC_BUF(s->moved), BRC_BUF(s->lost_numerical)));
+    return s->fracture ? brc_fracture_step(s, 0) : BRC_OK; /* velocities are at whole steps already */
 }
 
 brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps)

@@ -39,7 +39,7 @@ void brc_effects_list(brc_simulation *s)
                    {"numerical damping (Tchamwa-Wielgosz)", tchamwa},
                    {"static solver", statics},
                    {"free vibration modes", modes},
-                   {"fracture", false},
+                   {"fracture", s->fracture != NULL},
                    {"contact", false}};
     int in = 0, out = 0;
     for (size_t i = 0; i < sizeof effects / sizeof *effects; ++i) {

@@ -1,5 +1,6 @@
 /* One evaluation of the forces of a model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2, design-cbm.md). */
 #include "element_loads.h"
+#include "fracture_internal.h"
 
 /* Constants handed to kernels; with several materials the kernels gather them instead. */
 static const brc_elastic *one_material(const brc_simulation *s) { return s->elastic + s->material_of_element[0]; }
@@ -112,6 +113,7 @@ static brc_status published_evaluate(brc_simulation *s, const brc_force_request 
 static brc_status beams_evaluate(brc_simulation *s, const brc_force_request *r)
 {
     const brc_beam *b = brc_beam_of_element(s, 0);
+    if (s->fracture && r->finite) return brc_fracture_force(s, r);
     return BRC_LAUNCH(s->kernel.cbm_force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                       BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->alive), BRC_INT(s->alive ? 1 : 0), BRC_BUF(r->displacement),
                       BRC_BUF(r->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend), BRC_COEFF(b->twist), BRC_BUF(s->beam_of),

@@ -1,5 +1,5 @@
 /* The energy ledger (design.md: its terms are named once; closure is relative to the largest energy in play). */
-#include "simulation_internal.h"
+#include "fracture_internal.h"
 #include <math.h>
 #include <string.h>
 
@@ -39,6 +39,7 @@ brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
     out->work += s->work_before;
     BRC_TRY(lost(s, s->lost_damping, &out->damping));
     BRC_TRY(lost(s, s->lost_numerical, &out->numerical));
+    BRC_TRY(brc_fracture_lost(s, &out->fracture));
     out->initial = s->initial_energy;
     out->total = out->kinetic + out->elastic + out->stabilisation + out->potential;
     if (out->elastic > s->peak_elastic) s->peak_elastic = out->elastic;
@@ -46,7 +47,7 @@ brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
     out->peak_elastic = s->peak_elastic;
     out->peak_kinetic = s->peak_kinetic;
     const double scale = fmax(s->peak_elastic, fmax(fabs(out->initial), fabs(out->work)));
-    const double error = out->total - out->work + out->damping + out->numerical - out->initial;
+    const double error = out->total - out->work + out->damping + out->numerical + out->fracture - out->initial;
     out->closure = scale > 0 ? error / scale : 0;
     if (!isfinite(out->total)) out->closure = NAN;
     return BRC_OK;
@@ -59,7 +60,7 @@ double brc_ledger_term(const brc_ledger *ledger, const char *term)
         double value;
     } terms[] = {{"kinetic", ledger->kinetic},     {"elastic", ledger->elastic},     {"stabilisation", ledger->stabilisation},
                  {"potential", ledger->potential}, {"work", ledger->work},           {"damping", ledger->damping},
-                 {"numerical", ledger->numerical}, {"initial", ledger->initial},     {"total", ledger->total},
+                 {"numerical", ledger->numerical}, {"fracture", ledger->fracture}, {"initial", ledger->initial},     {"total", ledger->total},
                  {"closure", ledger->closure},     {"peak_elastic", ledger->peak_elastic}, {"peak_kinetic", ledger->peak_kinetic}};
     for (size_t i = 0; i < sizeof terms / sizeof *terms; ++i)
         if (strcmp(term, terms[i].name) == 0) return terms[i].value;

@@ -19,6 +19,7 @@ double brc_load_factor(const brc_load *load, double t, bool is_static)
 {
     const brc_table *table = &load->table;
     const bool velocity = load->kind == BRC_LOAD_FACE_VELOCITY || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
+    if (!velocity && is_static && table->n > 0 && t > 1) return t * brc_table_value(table, 1); /* beyond the whole load: to_failure */
     if (!velocity) return is_static && table->n == 0 ? t : brc_table_value(table, t);
     if (table->n == 0) return t;
     /* integral from 0 to t: exact by trapezoids between the table's own points */

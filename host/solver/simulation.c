@@ -1,5 +1,5 @@
 /* Making and freeing a simulation, entering stages, running them, and the observers. */
-#include "simulation_internal.h"
+#include "fracture_internal.h"
 #include <math.h>
 #include <string.h>
 
@@ -171,7 +171,7 @@ int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *
     const bool tchamwa = any_stage(scene, has_tchamwa), damped = any_stage(scene, has_damping);
     int64_t boundary = 0;
     if (scene->model.kind == BRC_MODEL_CBM)
-        return entries * (4 + 4 * coeff) + n / slice * 8 + n * ((3 + 3 + 3 + 1 + 2 + 4 + 3 + 3 + 1 + (tchamwa ? 4 : 0) + (damped ? 1 : 0)) * state + (many ? 3 : 0) * coeff);
+        return (scene->has_fracture ? brc_fracture_bytes(n, entries, state, coeff) : 0) + entries * (4 + 4 * coeff) + n / slice * 8 + n * ((3 + 3 + 3 + 1 + 2 + 4 + 3 + 3 + 1 + (tchamwa ? 4 : 0) + (damped ? 1 : 0)) * state + (many ? 3 : 0) * coeff);
     for (int64_t e = 0; domain->free_start && e < domain->n_elements; ++e) boundary += domain->free_start[e + 1] > domain->free_start[e];
     boundary = boundary + boundary / 8 < n ? boundary + boundary / 8 : n; /* blocks are whole slices */
     int64_t bytes = entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
@@ -214,6 +214,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     BRC_TRY_OR(cleanup, find_kernels(s));
     BRC_TRY_OR(cleanup, brc_geometry_create(s));
     BRC_TRY_OR(cleanup, create_arrays(s));
+    if (scene->has_fracture) BRC_TRY_OR(cleanup, brc_fracture_create(s));
     brc_effects_list(s);
     s->setup_seconds = brc_clock_s() - start;
     *out = s;
@@ -233,6 +234,7 @@ void brc_simulation_free(brc_simulation **simulation)
         for (int i = 0; i < n; ++i) brc_buffer_free(needs[i].buffer);
     }
     brc_loads_free(&s->loads);
+    brc_fracture_free(s);
     brc_geometry_free(s);
     brc_layout_free(&s->layout);
     brc_memory_free(s->elastic);
@@ -293,6 +295,7 @@ brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
     s->step = 0;
     s->time = s->load_factor = 0;
     if (next->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(brc_time_step_find(s, next, &s->time_step));
+    if (next->solver == BRC_SOLVER_DYNAMIC && s->fracture) BRC_TRY(brc_fracture_begin_stage(s));
     BRC_TRY(brc_loads_prescribe(s, 0));
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(brc_simulation_ledger(s, &after));

@@ -86,7 +86,7 @@ brc_status brc_simulation_reaction_moment(brc_simulation *simulation, int32_t se
 /* Sum of all element_force loads on every element, at the last force evaluation [n_elements][3] [N]. */
 brc_status brc_simulation_applied_force(brc_simulation *simulation, double *out);
 
-/* The energy ledger [J]. closure = (kinetic + elastic + stabilisation + potential - work + damping + numerical - initial)
+/* The energy ledger [J]. closure = (kinetic + elastic + stabilisation + potential - work + damping + numerical + fracture - initial)
  * over the largest of peak elastic energy, initial kinetic energy and work done [-] (design.md). */
 typedef struct brc_ledger {
     double kinetic, elastic, stabilisation;
@@ -98,6 +98,7 @@ typedef struct brc_ledger {
     double total;     /* kinetic + elastic + stabilisation + potential */
     double closure;
     double peak_elastic, peak_kinetic;
+    double fracture; /* elastic energy that bonds held when they broke */
 } brc_ledger;
 /* Evaluated now (a pass over the elements). */
 brc_status brc_simulation_ledger(brc_simulation *simulation, brc_ledger *out);

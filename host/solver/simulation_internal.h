@@ -91,6 +91,8 @@ typedef struct brc_kernels {
     brc_kernel *axpy, *copy, *xpay, *dot, *sum, *precondition, *divide_by_mass;
 } brc_kernels;
 
+typedef struct brc_breaking brc_breaking; /* fracture_internal.h */
+
 struct brc_simulation {
     brc_context *context;
     const brc_scene *scene;
@@ -119,6 +121,8 @@ struct brc_simulation {
     brc_buffer *moved, *lost_numerical, *lost_damping; /* only with these effects */
     brc_buffer *elastic_energy, *stabilisation_energy, *kinetic; /* [n_rows] scratch of the ledger */
     brc_buffer *partial;                               /* block sums */
+
+    brc_breaking *fracture; /* only in scenes with fracture */
 
     /* stage */
     int32_t stage;

@@ -2,7 +2,7 @@
  * modified Newton iteration on the full law. dlsm-published has no symmetric operator: restarted GMRES
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
 #include "statics.h"
-#include "simulation_internal.h"
+#include "fracture_internal.h"
 #include <math.h>
 #include <string.h>
 
@@ -370,6 +370,61 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
     return published ? settle_rotations(s, v, progress) : BRC_OK;
 }
 
+/* A guess at the state under `factor` times the load: everything in proportion. */
+static brc_status scale_state(brc_simulation *s, brc_solve_vectors *v, double factor, bool finite)
+{
+    const int64_t n = s->domain->n_elements;
+    double *q = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes));
+    BRC_TRY(add(s, factor - 1, (brc_unknowns){v->z.move, NULL}, (brc_unknowns){s->displacement, NULL}));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * n, "orientations"));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
+    for (int64_t e = 0; e < n; ++e) {
+        double square = 1;
+        for (int c = 1; c < 4; ++c) {
+            q[4 * e + c] *= factor / q[4 * e];
+            square += q[4 * e + c] * q[4 * e + c];
+        }
+        q[4 * e] = 1;
+        for (int c = 0; finite && c < 4; ++c) q[4 * e + c] /= sqrt(square);
+    }
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->orientation, q, 4, 0));
+cleanup:
+    brc_memory_free(q);
+    return status;
+}
+
+/* No table, or the one that stands for none: the fraction of the load itself. */
+static bool is_proportional(const brc_table *t)
+{
+    return t->n == 0 || (t->n == 2 && t->time[0] == 0 && t->value[0] == 0 && t->time[1] == 1 && t->value[1] == 1);
+}
+
+/* Scale the load so that the worst element is at the asked fraction of its limit. */
+static brc_status go_to_failure(brc_simulation *s, brc_solve_vectors *v, double *reference, brc_progress *progress)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    double ratio;
+    if (!s->fracture) return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': to_failure needs `fracture` and strengths in the scene", stage->name);
+    for (int32_t l = 0; l < stage->n_loads; ++l)
+        if (!is_proportional(&stage->loads[l].table))
+            return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': to_failure scales its loads, so they cannot follow a table; remove the table", stage->name);
+    BRC_TRY(brc_simulation_failure_ratio(s, &ratio));
+    if (!(ratio > 0) || !isfinite(ratio))
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': under its load no element comes nearer to failure, so to_failure cannot scale it", stage->name);
+    const double factor = stage->to_failure / ratio;
+    brc_log(s->context, BRC_LOG_INFO, "stage '%s': first failure at %.6g times the load, which is scaled to %.6g", stage->name, 1 / ratio, factor);
+    BRC_TRY(scale_state(s, v, factor, stage->finite_strain));
+    s->load_factor = factor;
+    BRC_TRY(brc_loads_prescribe(s, factor));
+    BRC_TRY(read_theta(s, v));
+    BRC_TRY(solve_increment(s, v, reference, progress));
+    BRC_TRY(brc_force_of_state(s, BRC_BOOK_WORK));
+    s->step += 1;
+    return brc_notify_sample(s);
+}
+
 brc_status brc_statics_run(brc_simulation *s)
 {
     const brc_stage *stage = brc_current_stage(s);
@@ -394,6 +449,7 @@ brc_status brc_statics_run(brc_simulation *s)
         s->step = i;
         BRC_TRY_OR(cleanup, brc_notify_sample(s));
     }
+    if (stage->to_failure > 0) BRC_TRY_OR(cleanup, go_to_failure(s, &v, &reference, progress));
 cleanup:
     brc_progress_finish(&progress);
     free_vectors(&v);

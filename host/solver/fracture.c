@@ -1,0 +1,292 @@
+/* Bonds that break: limits of the elements, the order of the passes, and what broke (kernels/fracture.cl). */
+#include "fracture_internal.h"
+#include "strength_law.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_MEMBERS = 500, MOST_ROWS = 1 << 29 }; /* below SECOND_SHELL in kernels/fracture.cl; rows times 4 fit an int */
+
+const char *brc_break_mode_name(int32_t mode)
+{
+    return mode == BRC_BREAK_TENSION ? "tension" : mode == BRC_BREAK_COMPRESSION ? "compression" : mode == BRC_BREAK_SHEAR ? "shear" : "none";
+}
+
+static int is_drucker_prager(const brc_simulation *s) { return s->scene->fracture.kind == BRC_CRITERION_DRUCKER_PRAGER; }
+
+/* ---- limits ---- */
+
+/* Slope of the shear limit and its size [Pa] of the solid. */
+static double shear_limit(const brc_fracture *f, double *slope)
+{
+    const double sine = sin(f->friction), cosine = cos(f->friction);
+    if (f->kind == BRC_CRITERION_MOHR_COULOMB) {
+        *slope = sine;
+        return 2 * f->cohesion * cosine;
+    }
+    if (f->kind == BRC_CRITERION_DRUCKER_PRAGER) { /* through the compressive edges of the Mohr-Coulomb pyramid */
+        *slope = 2 * sine / (sqrt(3) * (3 - sine));
+        return 6 * f->cohesion * cosine / (sqrt(3) * (3 - sine));
+    }
+    *slope = 0;
+    return 0;
+}
+
+/* Limits of the virial stress of one material in one body. */
+static brc_status limits_of(brc_simulation *s, const brc_material *m, double radius_ratio, double shear, double limit[3])
+{
+    const double coordination = s->domain->quality.coordination_mean;
+    double k = 1;
+    limit[0] = limit[1] = limit[2] = 0;
+    if (s->scene->fracture.kind == BRC_CRITERION_PRINCIPAL && !(m->tension > 0 || m->compression > 0 || m->beam_strength > 0))
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "fracture: material '%s' has no strength; give it `strength: {tension: 50 MPa}`, or one so large that it never breaks", m->name);
+    const bool by_law = (m->tension > 0 && !(m->beam_strength > 0)) || m->compression > 0 || shear > 0;
+    if (by_law) {
+        const brc_strength_law *law = brc_strength_law_published();
+        BRC_TRY(brc_strength_law_find(s->context, law, coordination, radius_ratio, &k));
+        if (s->scene->fracture.level != 1)
+            brc_log(s->context, BRC_LOG_WARNING, "fracture: the law for strength was fitted for level 1, the scene asks for level %d; give "
+                    "beam: {strength: ...} where that matters", (int)s->scene->fracture.level);
+        brc_log(s->context, BRC_LOG_INFO, "material '%s': limits are the strengths over k = %.4f (%s, cn %.4g, r_m %.4g)", m->name, k,
+                law->name, coordination, radius_ratio);
+    }
+    limit[0] = m->beam_strength > 0 ? m->beam_strength : m->tension / k;
+    limit[1] = m->compression / k;
+    limit[2] = shear / k;
+    return BRC_OK;
+}
+
+static brc_status find_limits(brc_simulation *s)
+{
+    const brc_domain *d = s->domain;
+    const int32_t n_materials = s->scene->n_materials, n_pairs = s->scene->n_bodies * n_materials;
+    double *pair = NULL, *mean = NULL;
+    int64_t *count = NULL;
+    bool *known = NULL;
+    brc_status status = BRC_OK;
+    const double shear = shear_limit(&s->scene->fracture, &s->fracture->slope);
+    s->fracture->friction = sin(s->scene->fracture.friction);
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &pair, 3 * (int64_t)n_pairs, "limits of materials"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &known, n_pairs, "limits of materials"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &mean, s->scene->n_bodies, "radii of bodies"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &count, s->scene->n_bodies, "radii of bodies"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->fracture->limit, 3 * d->n_elements, "limits of elements"));
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0;
+        mean[b] += d->radius[e];
+        count[b] += 1;
+    }
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0, m = s->material_of_element[e], at = b * n_materials + m;
+        if (!known[at])
+            BRC_TRY_OR(cleanup, limits_of(s, &s->scene->materials[m], brc_beam_of_element(s, e)->radius * (double)count[b] / mean[b], shear, pair + 3 * at));
+        known[at] = true;
+        memcpy(s->fracture->limit + 3 * e, pair + 3 * at, 3 * sizeof *pair);
+    }
+cleanup:
+    brc_memory_free(pair);
+    brc_memory_free(known);
+    brc_memory_free(mean);
+    brc_memory_free(count);
+    return status;
+}
+
+/* ---- arrays ---- */
+
+/* 1 where a half-edge is stored, 0 elsewhere. */
+static brc_status upload_alive(brc_simulation *s)
+{
+    const int64_t entries = s->layout->n_slots * s->layout->slice;
+    double *whole = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &whole, entries, "unbroken bonds"));
+    for (int64_t k = 0; k < entries; ++k) whole[k] = s->layout->half_edge[k] >= 0;
+    brc_status status = brc_new_coeff(s, &s->alive, entries, "unbroken bonds");
+    if (status == BRC_OK) status = brc_upload_coeff(s, s->alive, whole, entries);
+    brc_memory_free(whole);
+    return status;
+}
+
+/* Limits, and the volumes in the records. */
+static brc_status upload_rows(brc_simulation *s)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    double *record = NULL, *limit = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &record, 8 * (int64_t)layout->n_rows, "virial records"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, 3 * (int64_t)layout->n_rows, "limits"));
+    for (int64_t r = 0; r < layout->n_rows; ++r) {
+        const int32_t e = layout->element_of_row[r];
+        record[8 * r + 6] = e < 0 ? 1 : 2 * d->volume[e] / d->quality.volume_fraction;
+        for (int c = 0; e >= 0 && c < 3; ++c) limit[3 * r + c] = s->fracture->limit[3 * (int64_t)e + c];
+    }
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->fracture->record, record, 8 * (int64_t)layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->fracture->limits, limit, 3 * (int64_t)layout->n_rows));
+cleanup:
+    brc_memory_free(record);
+    brc_memory_free(limit);
+    return status;
+}
+
+static brc_status new_int(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
+{
+    return brc_buffer_create(s->device, out, count * 4, what);
+}
+
+static brc_status create_arrays(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    const int64_t n = s->layout->n_rows, entries = s->layout->n_slots * s->layout->slice;
+    BRC_TRY(upload_alive(s));
+    BRC_TRY(brc_new_coeff(s, &f->record, 8 * n, "virial records"));
+    BRC_TRY(brc_new_coeff(s, &f->stress, 6 * n, "virial stresses"));
+    BRC_TRY(brc_new_coeff(s, &f->limits, 3 * n, "limits"));
+    BRC_TRY(new_int(s, &f->choice, n, "chosen bonds"));
+    BRC_TRY(brc_new_coeff(s, &f->measure, n, "stresses at failure"));
+    BRC_TRY(new_int(s, &f->break_step, entries, "steps of breaks"));
+    BRC_TRY(new_int(s, &f->break_mode, entries, "modes of breaks"));
+    BRC_TRY(brc_new_coeff(s, &f->break_stress, entries, "stresses of breaks"));
+    BRC_TRY(brc_new_coeff(s, &f->break_energy, entries, "energies of breaks"));
+    BRC_TRY(brc_new_state(s, &f->lost, n, "energy of broken bonds"));
+    BRC_TRY(brc_new_state(s, &f->broken, n, "broken bonds"));
+    return upload_rows(s);
+}
+
+int64_t brc_fracture_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
+{
+    return n * (18 * coeff_bytes + 4 + 2 * state_bytes) + entries * (8 + 3 * coeff_bytes);
+}
+
+static brc_status find_kernels(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+    } wanted[] = {{&f->force, "fracture_force"}, {&f->stress_pass, "fracture_stress"}, {&f->stress_second, "fracture_stress_second"},
+                  {&f->choose, "fracture_choose"}, {&f->ratio, "fracture_ratio"}, {&f->break_pass, "fracture_break"}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    return BRC_OK;
+}
+
+/* Elements within two shells of one: no more than degrees allow. */
+static int64_t most_members(const brc_domain *d)
+{
+    int64_t most = 0;
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        int64_t sum = 1 + d->row_start[e + 1] - d->row_start[e];
+        for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h)
+            sum += d->row_start[d->neighbour[h] + 1] - d->row_start[d->neighbour[h]] - 1;
+        if (sum > most) most = sum;
+    }
+    return most;
+}
+
+brc_status brc_fracture_create(brc_simulation *s)
+{
+    if (!brc_is_beams(s))
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: bonds of model %s cannot break in this version; use model cbm, or remove `fracture`",
+                        brc_model_name(s->scene->model.kind));
+    if (s->layout->n_rows >= MOST_ROWS)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: %d elements are more than the %d that can break", (int)s->layout->n_rows, MOST_ROWS);
+    if (s->scene->fracture.level == 2 && most_members(s->domain) > MOST_MEMBERS)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "fracture: some element may have %lld others within two shells, level 2 counts up to %d; use level 1 or a lower coordination number",
+                        (long long)most_members(s->domain), MOST_MEMBERS);
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture, 1, "fracture"));
+    BRC_TRY(find_kernels(s));
+    BRC_TRY(find_limits(s));
+    return create_arrays(s);
+}
+
+void brc_fracture_free(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    if (!f) return;
+    brc_buffer **all[] = {&f->record, &f->stress, &f->limits, &f->choice, &f->measure, &f->break_step, &f->break_mode,
+                          &f->break_stress, &f->break_energy, &f->lost, &f->broken};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_memory_free(f->limit);
+    brc_memory_free(f->spans);
+    brc_memory_free(f->events);
+    brc_memory_free(f);
+    s->fracture = NULL;
+}
+
+/* ---- the step ---- */
+
+brc_status brc_fracture_begin_stage(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    BRC_TRY(brc_memory_resize(s->context, (void **)&f->spans, f->n_spans + 1, sizeof *f->spans, "stages with fracture"));
+    f->spans[f->n_spans++] = (brc_break_span){s->total_steps, s->total_time_before, s->time_step.value, s->stage};
+    return BRC_OK;
+}
+
+brc_status brc_fracture_force(brc_simulation *s, const brc_force_request *r)
+{
+    const brc_beam *b = brc_beam_of_element(s, 0);
+    return BRC_LAUNCH(s->fracture->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
+                      BRC_BUF(s->ratio), BRC_BUF(s->alive), BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_COEFF(b->axial),
+                      BRC_COEFF(b->bend), BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_BUF(r->force), BRC_BUF(r->torque),
+                      BRC_BUF(s->fracture->record));
+}
+
+static brc_status find_stress(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    const int32_t n = s->layout->n_rows, level = s->scene->fracture.level;
+    if (level == 2)
+        return BRC_LAUNCH(f->stress_second, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->alive), BRC_BUF(f->record),
+                          BRC_BUF(f->stress));
+    return BRC_LAUNCH(f->stress_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(level), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                      BRC_BUF(s->alive), BRC_BUF(f->record), BRC_BUF(f->stress));
+}
+
+brc_status brc_fracture_step(brc_simulation *s, double half_kick)
+{
+    brc_breaking *f = s->fracture;
+    const brc_beam *b = brc_beam_of_element(s, 0);
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(find_stress(s));
+    BRC_TRY(BRC_LAUNCH(f->choose, n, BRC_INT(n), BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_COEFF(f->friction),
+                       BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->alive), BRC_BUF(s->displacement),
+                       BRC_BUF(f->limits), BRC_BUF(f->stress), BRC_BUF(f->choice), BRC_BUF(f->measure)));
+    BRC_TRY(BRC_LAUNCH(f->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(s->total_steps), BRC_STATE(half_kick), BRC_BUF(s->row_start),
+                      BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->alive), BRC_BUF(f->choice),
+                      BRC_BUF(f->measure), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend),
+                      BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_BUF(s->mass), BRC_BUF(s->inertia), BRC_BUF(s->force), BRC_BUF(s->torque),
+                      BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
+                      BRC_BUF(f->break_energy), BRC_BUF(f->lost), BRC_BUF(f->broken)));
+    return brc_loads_zero_turned(s, s->torque); /* prescribed rotations balance theirs */
+}
+
+brc_status brc_fracture_lost(brc_simulation *s, double *out)
+{
+    *out = 0;
+    return s->fracture ? brc_vector_sum(s, s->fracture->lost, s->layout->n_rows, out) : BRC_OK;
+}
+
+brc_status brc_simulation_failure_ratio(brc_simulation *s, double *out)
+{
+    const int32_t n = s->layout->n_rows;
+    brc_buffer *ratio = NULL;
+    double *value = NULL;
+    brc_status status = BRC_OK;
+    *out = 0;
+    if (!s->fracture) return BRC_FAIL(s->context, BRC_BAD_INPUT, "the scene has no `fracture`, so nothing limits its stress");
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, n, "failure ratios"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
+    BRC_TRY_OR(cleanup, find_stress(s));
+    BRC_TRY_OR(cleanup, BRC_LAUNCH(s->fracture->ratio, n, BRC_INT(n), BRC_INT(is_drucker_prager(s)), BRC_COEFF(s->fracture->slope),
+                                   BRC_COEFF(s->fracture->friction), BRC_BUF(s->fracture->limits), BRC_BUF(s->fracture->stress), BRC_BUF(ratio)));
+    BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
+    for (int64_t e = 0; e < s->domain->n_elements; ++e) *out = fmax(*out, value[e]);
+cleanup:
+    brc_buffer_free(&ratio);
+    brc_memory_free(value);
+    return status;
+}
+
+double brc_simulation_element_strength(const brc_simulation *s, int64_t e) { return s->fracture ? s->fracture->limit[3 * e] : 0; }

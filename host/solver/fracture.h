@@ -1,0 +1,39 @@
+/* What broke: bonds as events, damage of elements, fragments. Of simulations whose scene has `fracture`; BRC_BAD_INPUT without. */
+#ifndef BRC_SOLVER_FRACTURE_H
+#define BRC_SOLVER_FRACTURE_H
+
+#include "simulation.h"
+
+typedef enum brc_break_mode { BRC_BREAK_TENSION = 1, BRC_BREAK_COMPRESSION, BRC_BREAK_SHEAR } brc_break_mode; /* as in kernels/failure.h */
+/* "tension", "compression", "shear". */
+const char *brc_break_mode_name(int32_t mode);
+
+/* One broken bond. Position and normal are those of the undeformed solid. */
+typedef struct brc_break {
+    double time;   /* total physical time [s] */
+    int64_t step;  /* total dynamic steps, 1: at the end of the first */
+    int32_t stage;
+    int32_t mode;  /* brc_break_mode */
+    int32_t bond, element_i, element_j; /* ids */
+    double position[3]; /* middle of the bond [m] */
+    double normal[3];   /* unit vector from i to j */
+    double stress; /* virial stress of the element that failed, in the direction of its mode; shear: half the difference of the outer two [Pa] */
+    double energy; /* elastic energy the bond held [J] */
+} brc_break;
+
+bool brc_simulation_has_fracture(const brc_simulation *simulation);
+/* Bonds broken so far; 0 without fracture. A pass over the elements. */
+brc_status brc_simulation_broken(brc_simulation *simulation, int64_t *out);
+/* All of them, by step and then by bond. *out is borrowed until the next call or the end of the simulation. */
+brc_status brc_simulation_breaks(brc_simulation *simulation, int64_t *n, const brc_break **out);
+/* Broken bonds over bonds at the start of every element [n_elements] [-]; 0 for an element that had none. */
+brc_status brc_simulation_damage(brc_simulation *simulation, double *out);
+/* Number of the fragment of every element [n_elements], counted from 0 in the order of the lowest element id of each; elements hang together
+ * over unbroken bonds. */
+brc_status brc_simulation_fragments(brc_simulation *simulation, int32_t *fragment, int64_t *n_fragments);
+/* The largest ratio of stress to limit over the elements as they stand: 1 is failure; 0 when nothing pulls. */
+brc_status brc_simulation_failure_ratio(brc_simulation *simulation, double *out);
+/* Limit of tension of the virial stress of element e, sigma_m [Pa]; 0: none. */
+double brc_simulation_element_strength(const brc_simulation *simulation, int64_t e);
+
+#endif

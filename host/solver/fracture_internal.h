@@ -1,0 +1,45 @@
+/* Fracture inside the solver. */
+#ifndef BRC_SOLVER_FRACTURE_INTERNAL_H
+#define BRC_SOLVER_FRACTURE_INTERNAL_H
+
+#include "fracture.h"
+#include "simulation_internal.h"
+
+/* A dynamic stage, for the times of its steps. */
+typedef struct brc_break_span {
+    int64_t first_step; /* total steps when it began */
+    double first_time, time_step; /* [s] */
+    int32_t stage;
+} brc_break_span;
+
+/* Everything that exists only in scenes with fracture, besides the array `alive`. */
+struct brc_breaking {
+    brc_kernel *force, *stress_pass, *stress_second, *choose, *ratio, *break_pass;
+    brc_buffer *record, *stress, *limits, *choice, *measure;             /* kernels/fracture.cl */
+    brc_buffer *break_step, *break_mode, *break_stress, *break_energy;   /* [n_slots][C] */
+    brc_buffer *lost, *broken;                                           /* [n_rows] */
+    double *limit;     /* [n_elements][3] host */
+    double slope, friction;
+    int n_spans;
+    brc_break_span *spans;
+    int64_t n_events;
+    brc_break *events; /* [n_events] as of the last call */
+};
+
+/* Arrays, limits and kernels; refuses models and materials that cannot break. */
+brc_status brc_fracture_create(brc_simulation *s);
+void brc_fracture_free(brc_simulation *s);
+/* Device bytes it takes (n elements, entries of the layout). */
+int64_t brc_fracture_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
+/* A dynamic stage begins. */
+brc_status brc_fracture_begin_stage(brc_simulation *s);
+/* Forces of the full law, with the records that brc_fracture_step needs. */
+brc_status brc_fracture_force(brc_simulation *s, const brc_force_request *r);
+/* After the forces of a step: break what fails. half_kick: as in kernels/fracture.cl. */
+brc_status brc_fracture_step(brc_simulation *s, double half_kick);
+/* Energy that left with broken bonds [J]. */
+brc_status brc_fracture_lost(brc_simulation *s, double *out);
+/* Unbroken half-edges of the domain [n_half_edges] (1, else 0); *out is the caller's (brc_memory_free). */
+brc_status brc_fracture_whole(brc_simulation *s, uint8_t **out);
+
+#endif

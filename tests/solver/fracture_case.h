@@ -1,0 +1,23 @@
+/* A packing of beams that may break, for the tests of fracture. */
+#ifndef BRC_TESTS_SOLVER_FRACTURE_CASE_H
+#define BRC_TESTS_SOLVER_FRACTURE_CASE_H
+
+#include "../../host/solver/fracture_internal.h"
+#include "support.h"
+
+/* Zero means the default. A cube of 1 m, glass of E 1 Pa, density 1 kg/m^3, beams of cn 8 with r_m 0.4. */
+typedef struct fracture_options {
+    const char *fracture; /* value of `fracture`; NULL: none */
+    const char *strength; /* keys of the material, e.g. "strength: {tension: 1e-4 Pa}"; NULL: none */
+    const char *beam;     /* value of `beam`; NULL: {radius: 0.4, E: 8 Pa} */
+    const char *stages;   /* keys `sets`, `stages` */
+    const char *device;
+    brc_precision precision;
+    int n_threads, lanes, elements, seed;
+    bool exact;
+} fracture_options;
+
+brc_status try_fracture(bench_case *c, fracture_options options);
+void open_fracture(bench_case *c, fracture_options options);
+
+#endif

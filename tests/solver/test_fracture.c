@@ -1,0 +1,425 @@
+/* Bonds of beams that break: which, when, what happens to force, energy and momentum; and nothing at all without `fracture`. */
+#include "fracture_case.h"
+#include "../../host/base/memory.h"
+#include "../../host/solver/strength_law.h"
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CRITERION(level) "{criterion: {virial-principal: {level: " #level "}}}"
+static const char *const STRENGTH = "strength: {tension: 2e-4 Pa}";
+/* A sudden pull along x, uneven along y so that no two elements are alike. */
+#define BURST(steps) \
+    "stages:\n  - name: burst\n    solver: {dynamic: {steps: " #steps "}}\n    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n"
+
+static void run(bench_case *c, int64_t steps)
+{
+    assert_done(c, brc_simulation_advance(c->simulation, steps));
+    assert_done(c, brc_simulation_wait(c->simulation));
+}
+
+static void begin(bench_case *c) { assert_done(c, brc_simulation_begin_stage(c->simulation, 0)); }
+
+static int64_t broken(bench_case *c)
+{
+    int64_t n;
+    assert_done(c, brc_simulation_broken(c->simulation, &n));
+    return n;
+}
+
+static bool lists(const char *const *names, const char *name)
+{
+    for (; *names; ++names)
+        if (strcmp(*names, name) == 0) return true;
+    return false;
+}
+
+/* ---- nothing without it ---- */
+
+static void without_fracture_there_is_neither_array_nor_pass(void **state)
+{
+    (void)state;
+    bench_case plain, strong, with;
+    open_fracture(&plain, (fracture_options){.stages = BURST(50)});
+    open_fracture(&strong, (fracture_options){.stages = BURST(50), .strength = STRENGTH});
+    open_fracture(&with, (fracture_options){.stages = BURST(50), .strength = STRENGTH, .fracture = CRITERION(1)});
+    assert_true(lists(brc_simulation_effects_out(strong.simulation), "fracture") && !lists(brc_simulation_effects_in(strong.simulation), "fracture"));
+    assert_true(lists(brc_simulation_effects_in(with.simulation), "fracture"));
+    assert_true(brc_device_bytes(plain.device) == brc_device_bytes(strong.device));
+    assert_true(brc_device_bytes(with.device) > brc_device_bytes(strong.device));
+    const int64_t n = 3 * plain.domain->n_elements;
+    double *u = calloc((size_t)(2 * n), sizeof *u);
+    begin(&plain), begin(&strong);
+    run(&plain, 50), run(&strong, 50);
+    assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
+    assert_done(&strong, brc_simulation_displacement(strong.simulation, u + n));
+    assert_memory_equal(u, u + n, (size_t)n * sizeof *u);
+    free(u);
+    close_case(&plain), close_case(&strong), close_case(&with);
+}
+
+/* The passes of fracture compute the same forces; the compiler may round them in another order. Per step some rounding of u, which a wave
+ * carries on: 50 steps of it are far below 1e-10 of the largest displacement. */
+static void what_never_breaks_moves_as_without_fracture(void **state)
+{
+    (void)state;
+    bench_case plain, with;
+    open_fracture(&plain, (fracture_options){.stages = BURST(50)});
+    open_fracture(&with, (fracture_options){.stages = BURST(50), .strength = "strength: {tension: 1 GPa}", .fracture = CRITERION(1)});
+    const int64_t n = 3 * plain.domain->n_elements;
+    double *u = calloc((size_t)(2 * n), sizeof *u), largest = 0;
+    begin(&plain), begin(&with);
+    run(&plain, 50), run(&with, 50);
+    assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
+    assert_done(&with, brc_simulation_displacement(with.simulation, u + n));
+    for (int64_t k = 0; k < n; ++k) largest = fmax(largest, fabs(u[k]));
+    for (int64_t k = 0; k < n; ++k) assert_true(fabs(u[k] - u[k + n]) < 1e-10 * largest);
+    assert_int_equal(broken(&with), 0);
+    free(u);
+    close_case(&plain), close_case(&with);
+}
+
+/* ---- which bonds ---- */
+
+/* Stress of every element as the passes see it (by id). */
+static double *device_stress(bench_case *c)
+{
+    double *stress = calloc((size_t)(6 * c->domain->n_elements), sizeof *stress);
+    assert_done(c, brc_coeff_from_rows(c->simulation, c->simulation->fracture->stress, stress, 6));
+    return stress;
+}
+
+/* The largest principal value by LAPACK, its axis. */
+static double principal(const double s[6], double axis[3])
+{
+    double a[9] = {s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2]}, value[3];
+    assert_int_equal(LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', 3, a, 3, value), 0);
+    for (int c = 0; c < 3; ++c) axis[c] = a[3 * c + 2];
+    return value[2];
+}
+
+/* Bonds that the text of NAH19 section 2.2 breaks in this state: [n_bonds] flags. */
+static int64_t should_break(bench_case *c, const double *stress, const uint8_t *whole, bool *bond)
+{
+    const brc_domain *d = c->domain;
+    double *u = calloc((size_t)(3 * d->n_elements), sizeof *u);
+    int64_t n = 0;
+    assert_done(c, brc_simulation_displacement(c->simulation, u));
+    memset(bond, 0, (size_t)d->n_bonds * sizeof *bond);
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        double axis[3], best = -1;
+        int64_t chosen = -1;
+        if (principal(stress + 6 * e, axis) < brc_simulation_element_strength(c->simulation, e)) continue;
+        for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
+            double x[3], product = 0, square = 0;
+            if (!whole[h]) continue;
+            for (int k = 0; k < 3; ++k) {
+                const int64_t j = d->neighbour[h];
+                x[k] = d->position[3 * j + k] + u[3 * j + k] - d->position[3 * e + k] - u[3 * e + k];
+                product += x[k] * axis[k];
+                square += x[k] * x[k];
+            }
+            if (fabs(product) / sqrt(square) > best) best = fabs(product) / sqrt(square), chosen = d->bond[h];
+        }
+        if (chosen >= 0 && !bond[chosen]) bond[chosen] = true, ++n;
+    }
+    free(u);
+    return n;
+}
+
+/* At every level: stresses against the host's own averages (sums in another order: 1e-12), and the bonds against the text of the paper. */
+static void elements_at_their_limit_lose_the_bond_nearest_to_the_pull(void **state)
+{
+    (void)state;
+    static const char *const criterion[] = {CRITERION(0), CRITERION(1), CRITERION(2)};
+    for (int level = 0; level < 3; ++level) {
+        bench_case c;
+        open_fracture(&c, (fracture_options){.stages = BURST(400), .strength = STRENGTH, .fracture = criterion[level]});
+        const brc_domain *d = c.domain;
+        bool *bond = calloc((size_t)d->n_bonds, sizeof *bond);
+        double *expected = calloc((size_t)(6 * d->n_elements), sizeof *expected);
+        int64_t total = 0, steps_with_breaks = 0;
+        begin(&c);
+        for (int step = 0; step < 150; ++step) {
+            uint8_t *whole = NULL;
+            const brc_break *events;
+            int64_t n_events, before = total;
+            assert_done(&c, brc_fracture_whole(c.simulation, &whole));
+            run(&c, 1); /* ends with breaks, in the state that it leaves */
+            double *stress = device_stress(&c);
+            total += should_break(&c, stress, whole, bond);
+            assert_done(&c, brc_simulation_breaks(c.simulation, &n_events, &events));
+            assert_int_equal(n_events, total);
+            for (int64_t k = before; k < total; ++k) {
+                assert_true(bond[events[k].bond]);
+                assert_int_equal(events[k].step, step + 1);
+                assert_int_equal(events[k].mode, BRC_BREAK_TENSION);
+                assert_true(events[k].stress >= brc_simulation_element_strength(c.simulation, 0) && events[k].energy > 0);
+            }
+            steps_with_breaks += total > before;
+            if (total == before && total > 0) { /* the state after the step is the one that was judged */
+                assert_done(&c, brc_beams_stress(c.simulation, level, expected));
+                double largest = 0;
+                for (int64_t k = 0; k < 6 * d->n_elements; ++k) largest = fmax(largest, fabs(expected[k]));
+                for (int64_t k = 0; k < 6 * d->n_elements; ++k) assert_true(fabs(stress[k] - expected[k]) < 1e-12 * largest);
+            }
+            free(stress);
+            brc_memory_free(whole);
+        }
+        assert_true(steps_with_breaks > 5 && total > 20); /* it tested something */
+        free(bond), free(expected);
+        close_case(&c);
+    }
+}
+
+/* ---- energy and momentum ---- */
+
+/* Closure after `time` at a fraction of the critical step; *count: bonds broken. */
+static double closure_at(double safety, double duration, int64_t *count)
+{
+    bench_case c;
+    brc_ledger ledger;
+    char stages[512];
+    snprintf(stages, sizeof stages,
+             "stages:\n  - name: burst\n    solver: {dynamic: {duration: %.17g s, time_step: {auto: {safety: %g}}}}\n"
+             "    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n", duration, safety);
+    open_fracture(&c, (fracture_options){.stages = stages, .strength = STRENGTH, .fracture = CRITERION(1), .elements = 1000});
+    begin(&c);
+    const brc_time_step step = brc_simulation_time_step(c.simulation);
+    run(&c, brc_simulation_planned_steps(c.simulation, 0, step.value));
+    assert_done(&c, brc_simulation_ledger(c.simulation, &ledger));
+    assert_true(ledger.fracture > 0.02 * ledger.initial); /* what is tested is a part of the whole */
+    *count = broken(&c);
+    close_case(&c);
+    return ledger.closure;
+}
+
+/* Issue: 5 % at 0.8 and 1 % at 0.35 of the critical step, second order. Different steps break different bonds at different moments, so the order
+ * shows in the whole, not in the last digit: from 0.8 to 0.2 the error falls sixteen times, and at least eight times is asked. */
+static void the_ledger_closes_through_breaking_to_second_order(void **state)
+{
+    (void)state;
+    int64_t n[3];
+    const double coarse = closure_at(0.8, 1, &n[0]), middle = closure_at(0.35, 1, &n[1]), fine = closure_at(0.2, 1, &n[2]);
+    print_message("closure %.2e %.2e %.2e at 0.8, 0.35, 0.2 of the critical step; %lld %lld %lld bonds broken\n", coarse, middle, fine,
+                  (long long)n[0], (long long)n[1], (long long)n[2]);
+    assert_true(fabs(coarse) < 0.05 && fabs(middle) < 0.01);
+    assert_true(fabs(fine) < fabs(coarse) / 8);
+}
+
+/* Momentum and angular momentum about the origin of a free body. */
+static void momenta(bench_case *c, double p[6])
+{
+    const brc_domain *d = c->domain;
+    const int64_t n = d->n_elements;
+    double *u = calloc((size_t)(13 * n), sizeof *u), *v = u + 3 * n, *w = u + 6 * n, *q = u + 9 * n;
+    assert_done(c, brc_simulation_displacement(c->simulation, u));
+    assert_done(c, brc_simulation_velocity(c->simulation, v));
+    assert_done(c, brc_simulation_orientation(c->simulation, q, w));
+    for (int k = 0; k < 6; ++k) p[k] = 0;
+    for (int64_t e = 0; e < n; ++e) {
+        const double inertia = (d->inertia[6 * e] + d->inertia[6 * e + 1] + d->inertia[6 * e + 2]) / 3;
+        double x[3];
+        for (int k = 0; k < 3; ++k) x[k] = d->position[3 * e + k] + u[3 * e + k];
+        for (int k = 0; k < 3; ++k) {
+            const int a = (k + 1) % 3, b = (k + 2) % 3;
+            p[k] += d->volume[e] * v[3 * e + k];
+            p[3 + k] += d->volume[e] * (x[a] * v[3 * e + b] - x[b] * v[3 * e + a]) + inertia * w[3 * e + k];
+        }
+    }
+    free(u);
+}
+
+/* What a bond takes away it takes from both ends: sums of some ten thousand terms over a hundred steps stay within 1e-12 of their size. */
+static void breaking_keeps_momentum_and_angular_momentum(void **state)
+{
+    (void)state;
+    bench_case c;
+    double before[6], after[6], size = 0;
+    open_fracture(&c, (fracture_options){.stages = BURST(400), .strength = STRENGTH, .fracture = CRITERION(1)});
+    begin(&c);
+    momenta(&c, before);
+    run(&c, 200);
+    momenta(&c, after);
+    assert_true(broken(&c) > 50);
+    for (int k = 0; k < 6; ++k) size = fmax(size, fabs(before[k]));
+    for (int k = 0; k < 6; ++k) assert_true(fabs(after[k] - before[k]) < 1e-12 * size);
+    close_case(&c);
+}
+
+/* A body blown apart: the strength is far below what the burst asks for, so every bond breaks, every element is a fragment and keeps its
+ * velocity from then on. */
+static void elements_without_bonds_fly_freely(void **state)
+{
+    (void)state;
+    bench_case c;
+    brc_ledger ledger;
+    open_fracture(&c, (fracture_options){.strength = STRENGTH, .beam = "{radius: 0.4, E: 8 Pa, strength: 1e-9 Pa}", .fracture = CRITERION(0),
+                                         .stages = BURST(100)});
+    const int64_t n = c.domain->n_elements;
+    int32_t *fragment = calloc((size_t)n, sizeof *fragment);
+    double *v = calloc((size_t)(6 * n), sizeof *v), *damage = calloc((size_t)n, sizeof *damage);
+    int64_t n_fragments;
+    begin(&c);
+    assert_done(&c, brc_simulation_fragments(c.simulation, fragment, &n_fragments));
+    const int64_t at_start = n_fragments;
+    assert_true(at_start < n / 10);
+    run(&c, 90);
+    assert_done(&c, brc_simulation_fragments(c.simulation, fragment, &n_fragments));
+    assert_int_equal(broken(&c), c.domain->n_bonds);
+    assert_int_equal(n_fragments, n);
+    for (int64_t e = 0; e < n; ++e) assert_int_equal(fragment[e], e);
+    assert_done(&c, brc_simulation_damage(c.simulation, damage));
+    for (int64_t e = 0; e < n; ++e) assert_true(damage[e] == (c.domain->row_start[e + 1] > c.domain->row_start[e] ? 1 : 0));
+    assert_done(&c, brc_simulation_velocity(c.simulation, v));
+    run(&c, 10);
+    assert_done(&c, brc_simulation_velocity(c.simulation, v + 3 * n));
+    /* The force keeps the rounding of what was added and taken off again. */
+    for (int64_t k = 0; k < 3 * n; ++k) assert_true(fabs(v[k] - v[k + 3 * n]) < 1e-12 * 2e-3);
+    assert_done(&c, brc_simulation_ledger(c.simulation, &ledger));
+    assert_true(ledger.elastic == 0 && fabs(ledger.closure) < 0.05);
+    free(fragment), free(v), free(damage);
+    close_case(&c);
+}
+
+/* ---- the same everywhere ---- */
+
+typedef struct outcome {
+    int64_t n;
+    brc_break *events;
+} outcome;
+
+static outcome outcome_of(fracture_options o)
+{
+    bench_case c;
+    const brc_break *events;
+    outcome out;
+    open_fracture(&c, o);
+    begin(&c);
+    run(&c, 120);
+    assert_done(&c, brc_simulation_breaks(c.simulation, &out.n, &events));
+    out.events = calloc((size_t)out.n, sizeof *events);
+    memcpy(out.events, events, (size_t)out.n * sizeof *events);
+    close_case(&c);
+    return out;
+}
+
+static void compare(fracture_options a, fracture_options b)
+{
+    outcome x = outcome_of(a), y = outcome_of(b);
+    assert_true(x.n > 20);
+    assert_int_equal(x.n, y.n);
+    assert_memory_equal(x.events, y.events, (size_t)x.n * sizeof *x.events);
+    free(x.events), free(y.events);
+}
+
+static void the_same_bonds_break_for_any_number_of_threads_and_lanes(void **state)
+{
+    (void)state;
+    static const char *const criteria[] = {CRITERION(1), CRITERION(2), "{criterion: {mohr-coulomb: {cohesion: 3e-4 Pa, friction: 30 deg}}}"};
+    for (int k = 0; k < 3; ++k) {
+        const fracture_options one = {.stages = BURST(400), .strength = STRENGTH, .fracture = criteria[k], .n_threads = 1, .exact = true};
+        fracture_options other = one;
+        other.n_threads = 2;
+        compare(one, other);
+        other.lanes = 8;
+        compare(one, other);
+    }
+}
+
+static void the_same_bonds_break_on_an_opencl_device(void **state)
+{
+    (void)state;
+    brc_context *context = brc_context_create();
+    brc_device_list *list;
+    assert_int_equal(brc_device_list_create(context, &list), BRC_OK);
+    bool there = false;
+    for (int k = 0; k < list->n; ++k) there |= list->items[k].usable && strcmp(list->items[k].selector, "opencl:0") == 0 && list->items[k].has_double;
+    brc_device_list_free(&list);
+    brc_context_free(&context);
+    if (!there) skip();
+    const fracture_options cpu = {.stages = BURST(400), .strength = STRENGTH, .fracture = CRITERION(1), .exact = true};
+    fracture_options other = cpu;
+    other.device = "opencl:0";
+    compare(cpu, other);
+}
+
+/* ---- what the scene asks ---- */
+
+static void refused(fracture_options o, const char *sentence)
+{
+    bench_case c;
+    assert_int_equal(try_fracture(&c, o), BRC_BAD_INPUT);
+    if (!strstr(brc_context_message(c.context), sentence)) fail_msg("%s", brc_context_message(c.context));
+    close_case(&c);
+}
+
+static void scenes_that_cannot_break_are_refused_with_the_cure(void **state)
+{
+    (void)state;
+    refused((fracture_options){.fracture = CRITERION(1)}, "material 'glass' has no strength; give it `strength:");
+    refused((fracture_options){.fracture = CRITERION(1), .strength = STRENGTH, .beam = "{radius: 3, E: 1 Pa}"}, "beam: {strength: ...}");
+    bench_case c;
+    assert_int_equal(try_case(&c, (case_options){.model = "dlsm\nfracture: {}"}), BRC_BAD_INPUT);
+    assert_non_null(strstr(brc_context_message(c.context), "bonds of model dlsm cannot break in this version; use model cbm"));
+    close_case(&c);
+}
+
+static void a_strength_for_beams_is_taken_as_given(void **state)
+{
+    (void)state;
+    bench_case c;
+    open_fracture(&c, (fracture_options){.fracture = CRITERION(1), .beam = "{radius: 0.4, E: 1 Pa, strength: 3 Pa}"});
+    assert_true(brc_simulation_element_strength(c.simulation, 0) == 3);
+    close_case(&c);
+}
+
+/* NAH19 Tables 9 and 10 give sigma_m = sigma_M / k for glass (50 MPa) and alumina (380 MPa); r_m of Tables 5 and 6. 0.05 %: the rounding of
+ * the printed coefficients (design-cbm.md section 4). */
+static void eq_22_gives_the_strengths_of_the_papers_tables(void **state)
+{
+    (void)state;
+    static const double glass[8][2] = {{0.506, 78.08}, {0.461, 70.58}, {0.417, 65.79}, {0.380, 62.43},
+                                       {0.348, 60.08}, {0.320, 58.44}, {0.298, 57.37}, {0.283, 56.80}};
+    const brc_strength_law *law = brc_strength_law_published();
+    for (int k = 0; k < 8; ++k) assert_true(fabs(50 / brc_strength_law_ratio(law, 6 + k, glass[k][0]) / glass[k][1] - 1) < 5e-4);
+    assert_true(fabs(380 / brc_strength_law_ratio(law, 6, 0.478) / 601.22 - 1) < 5e-4);
+    assert_true(fabs(380 / brc_strength_law_ratio(law, 13, 0.189) / 435.00 - 1) < 5e-4);
+}
+
+/* The state at 80 % is in proportion to the one that was measured, but for the strains of both (1e-5, and 2e-4 at failure), which turn bonds by
+ * some of their own size. */
+static void a_static_stage_goes_to_the_asked_part_of_failure(void **state)
+{
+    (void)state;
+    bench_case c;
+    double ratio;
+    open_fracture(&c, (fracture_options){.fracture = CRITERION(1), .strength = STRENGTH,
+                                         .stages = "stages:\n  - name: load\n    solver: {static: {to_failure: 80 %, finite_strain: false}}\n    loads:\n"
+                                                   "      - element_displacement: {set: x-, x: 0}\n      - element_displacement: {set: x+, x: 10 um}\n"});
+    assert_done(&c, brc_simulation_run(c.simulation));
+    assert_done(&c, brc_simulation_failure_ratio(c.simulation, &ratio));
+    assert_true(fabs(ratio - 0.8) < 1e-3);
+    assert_int_equal(broken(&c), 0);
+    close_case(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(without_fracture_there_is_neither_array_nor_pass),
+        cmocka_unit_test(what_never_breaks_moves_as_without_fracture),
+        cmocka_unit_test(elements_at_their_limit_lose_the_bond_nearest_to_the_pull),
+        cmocka_unit_test(the_ledger_closes_through_breaking_to_second_order),
+        cmocka_unit_test(breaking_keeps_momentum_and_angular_momentum),
+        cmocka_unit_test(elements_without_bonds_fly_freely),
+        cmocka_unit_test(the_same_bonds_break_for_any_number_of_threads_and_lanes),
+        cmocka_unit_test(the_same_bonds_break_on_an_opencl_device),
+        cmocka_unit_test(scenes_that_cannot_break_are_refused_with_the_cure),
+        cmocka_unit_test(a_strength_for_beams_is_taken_as_given),
+        cmocka_unit_test(eq_22_gives_the_strengths_of_the_papers_tables),
+        cmocka_unit_test(a_static_stage_goes_to_the_asked_part_of_failure),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
