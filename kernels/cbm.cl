@@ -26,11 +26,14 @@ LAW cbm_end cbm_group_force(int group, GLOBAL const int *restrict row_start, GLO
     const lane_int own = lane_own(group * W);
     const state_vec3 u = state_gather3(displacement, own);
     const lane_quat q = lane_gather4(orientation, own);
+    const lane_mat3 turn = quat_matrix_minus_identity(q, finite);
     cbm_end sum = {{LANE_ZERO, LANE_ZERO, LANE_ZERO}, {LANE_ZERO, LANE_ZERO, LANE_ZERO}};
     for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
         const lane_int j = int_block(neighbour, slot, lane0);
         rows_ahead3(branch, slot);
         rows_ahead1(inv_length, slot);
+        gathers_ahead(displacement, 3, neighbour, slot, row_start[slice + 1], lane0);
+        gathers_ahead(orientation, 4, neighbour, slot, row_start[slice + 1], lane0);
         const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
         const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
         cbm_stiffness k = cbm_stiffness_of(beam_of, own, j, axial, bend, twist);
@@ -38,7 +41,7 @@ LAW cbm_end cbm_group_force(int group, GLOBAL const int *restrict row_start, GLO
             const lane whole = lane_load(alive, (brc_size)slot * C + (brc_size)lane0);
             k = (cbm_stiffness){whole * k.axial, whole * k.bend, whole * k.twist};
         }
-        const cbm_shape shape = cbm_beam_shape(lane_block3(branch, slot, lane0), inverse, jump, q, lane_gather4(orientation, j), finite);
+        const cbm_shape shape = cbm_beam_shape_turned(lane_block3(branch, slot, lane0), inverse, jump, q, turn, lane_gather4(orientation, j), finite);
         const cbm_end end = cbm_beam_law(shape, inverse, k, finite);
         sum.force = lane_vec3_add(sum.force, end.force);
         sum.torque = lane_vec3_add(sum.torque, end.torque);
@@ -74,12 +77,13 @@ KERNEL void cbm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBA
         const lane_int own = lane_own(group * W);
         const state_vec3 u = state_gather3(displacement, own);
         const lane_quat q = lane_gather4(orientation, own);
+        const lane_mat3 turn = quat_matrix_minus_identity(q, 1);
         lane sum = LANE_ZERO;
         for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
             const lane_int j = int_block(neighbour, slot, lane0);
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
             const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
-            const cbm_shape shape = cbm_beam_shape(lane_block3(branch, slot, lane0), inverse, jump, q, lane_gather4(orientation, j), 1);
+            const cbm_shape shape = cbm_beam_shape_turned(lane_block3(branch, slot, lane0), inverse, jump, q, turn, lane_gather4(orientation, j), 1);
             const lane whole = fracture ? lane_load(alive, (brc_size)slot * C + (brc_size)lane0) : LANE_ZERO + REAL(1);
             sum += whole * cbm_beam_energy(shape, inverse, cbm_stiffness_of(beam_of, own, j, axial, bend, twist));
         }
@@ -99,12 +103,13 @@ KERNEL void cbm_virial(int n_groups, GLOBAL const int *restrict row_start, GLOBA
         const lane_int own = lane_own(group * W);
         const state_vec3 u = state_gather3(displacement, own);
         const lane_quat q = lane_gather4(orientation, own);
+        const lane_mat3 turn = quat_matrix_minus_identity(q, 1);
         lane_mat3 sum = lane_mat3_zero();
         for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
             const lane_int j = int_block(neighbour, slot, lane0);
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u), r = lane_block3(branch, slot, lane0);
             const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
-            const cbm_shape shape = cbm_beam_shape(r, inverse, jump, q, lane_gather4(orientation, j), 1);
+            const cbm_shape shape = cbm_beam_shape_turned(r, inverse, jump, q, turn, lane_gather4(orientation, j), 1);
             const cbm_end end = cbm_beam_law(shape, inverse, cbm_stiffness_of(beam_of, own, j, axial, bend, twist), 1);
             const lane whole = fracture ? lane_load(alive, (brc_size)slot * C + (brc_size)lane0) : LANE_ZERO + REAL(1);
             sum = lane_add_outer(sum, lane_vec3_add(r, jump), lane_vec3_scale(whole, end.force));

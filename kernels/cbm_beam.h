@@ -33,7 +33,8 @@ typedef struct {
 } cbm_shape;
 
 /* branch: X_j - X_i, jump: u_j - u_i [m]; inv_length0: 1/|branch|, 0 for a missing neighbour, which then feels nothing [1/m]. */
-LAW cbm_shape cbm_beam_shape(lane_vec3 branch, lane inv_length0, lane_vec3 jump, lane_quat q_i, lane_quat q_j, int finite)
+/* turn_i: R_i - I of q_i, the same for all beams of an element. */
+LAW cbm_shape cbm_beam_shape_turned(lane_vec3 branch, lane inv_length0, lane_vec3 jump, lane_quat q_i, lane_mat3 turn_i, lane_quat q_j, int finite)
 {
     cbm_shape s;
     const lane_vec3 e = lane_vec3_scale(inv_length0, branch);
@@ -51,19 +52,25 @@ LAW cbm_shape cbm_beam_shape(lane_vec3 branch, lane inv_length0, lane_vec3 jump,
         s.axis = e;
     }
     const lane_vec3 leaned = lane_vec3_scale(s.inv_length, lane_vec3_sub(jump, lane_vec3_scale(s.elongation, e))); /* n - e */
-    const lane_vec3 turned1 = quat_rotate_minus_identity(q_i, e, finite), turned2 = quat_rotate_minus_identity(q_j, e, finite);
-    s.bent1 = lane_vec3_sub(leaned, turned1);
-    s.bent2 = lane_vec3_sub(leaned, turned2);
-    s.own = finite ? lane_vec3_add(e, turned1) : e;
-    if (finite) { /* the relative rotation's vector part V in the global frame: tau = 2 V.X1, g = w X1 + V x X1 */
+    const lane_vec3 turned = lane_mat3_mul_vec(turn_i, e);
+    s.bent1 = lane_vec3_sub(leaned, turned);
+    s.own = finite ? lane_vec3_add(e, turned) : e;
+    if (finite) { /* the relative rotation w, V in the global frame: tau = 2 V.X1, g = w X1 + V x X1, X2 - X1 = 2 (w V x X1 + V x (V x X1)) = 2 V x g */
         const lane_quat turn = quat_mul(q_j, quat_conjugate(q_i));
         s.twist = REAL(2) * lane_vec3_dot(quat_vector(turn), s.own);
         s.twist_axis = lane_vec3_add(lane_vec3_scale(turn.w, s.own), lane_vec3_cross(quat_vector(turn), s.own));
+        s.bent2 = lane_vec3_sub(s.bent1, lane_vec3_scale(LANE_ZERO + REAL(2), lane_vec3_cross(quat_vector(turn), s.twist_axis)));
     } else {
+        s.bent2 = lane_vec3_sub(leaned, quat_rotate_minus_identity(q_j, e, finite));
         s.twist = REAL(2) * lane_vec3_dot(lane_vec3_sub(quat_vector(q_j), quat_vector(q_i)), e);
         s.twist_axis = e;
     }
     return s;
+}
+
+LAW cbm_shape cbm_beam_shape(lane_vec3 branch, lane inv_length0, lane_vec3 jump, lane_quat q_i, lane_quat q_j, int finite)
+{
+    return cbm_beam_shape_turned(branch, inv_length0, jump, q_i, quat_matrix_minus_identity(q_i, finite), q_j, finite);
 }
 
 /* What the beam does to element i. */

@@ -7,16 +7,6 @@
 
 #include "quaternion.h"
 
-/* Rotation matrix minus identity [-], columns R e - e. */
-LAW lane_mat3 quat_matrix_minus_identity(lane_quat q, int finite)
-{
-    const lane one = LANE_ZERO + REAL(1), zero = LANE_ZERO;
-    const lane_vec3 x = quat_rotate_minus_identity(q, (lane_vec3){one, zero, zero}, finite);
-    const lane_vec3 y = quat_rotate_minus_identity(q, (lane_vec3){zero, one, zero}, finite);
-    const lane_vec3 z = quat_rotate_minus_identity(q, (lane_vec3){zero, zero, one}, finite);
-    return (lane_mat3){x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
-}
-
 /* Strain in the global frame [-] (AGH19 eq. 5-15): least squares of d_j = R_i^T (branch + jump) - branch gives
  * H = R^T a A^-1 + R^T - I with a = sum jump (x) w branch; fitted: a A^-1 [-]. */
 LAW lane_sym3 published_strain(lane_mat3 fitted, lane_quat q, int finite)

@@ -16,6 +16,16 @@ LAW lane_vec3 quat_rotate_minus_identity(lane_quat q, lane_vec3 a, int finite)
     return lane_vec3_scale(two, lane_vec3_add(lane_vec3_scale(q.w, once), lane_vec3_cross(v, once)));
 }
 
+/* Rotation matrix minus identity [-], columns R e - e. */
+LAW lane_mat3 quat_matrix_minus_identity(lane_quat q, int finite)
+{
+    const lane one = LANE_ZERO + REAL(1), zero = LANE_ZERO;
+    const lane_vec3 x = quat_rotate_minus_identity(q, (lane_vec3){one, zero, zero}, finite);
+    const lane_vec3 y = quat_rotate_minus_identity(q, (lane_vec3){zero, one, zero}, finite);
+    const lane_vec3 z = quat_rotate_minus_identity(q, (lane_vec3){zero, zero, one}, finite);
+    return (lane_mat3){x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
+}
+
 LAW lane_quat quat_conjugate(lane_quat q) { return (lane_quat){q.w, -q.x, -q.y, -q.z}; }
 
 /* a b */

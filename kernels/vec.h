@@ -359,6 +359,18 @@ LAW void gathers_ahead9(GLOBAL const coeff *restrict p, GLOBAL const int *restri
 #endif
 }
 
+/* The same for short records of the state, [element][width]. */
+LAW void gathers_ahead(GLOBAL const state *restrict p, int width, GLOBAL const int *restrict neighbour, int slot, int last, int first_lane)
+{
+#ifdef ROWS_AHEAD
+    const int next = slot + GATHERS_AHEAD < last ? slot + GATHERS_AHEAD : slot;
+    const int *row = neighbour + (brc_size)next * C + (brc_size)first_lane;
+    for (int l = 0; l < W; ++l) PREFETCH(p, (brc_size)row[l] * (brc_size)width);
+#else
+    (void)p, (void)width, (void)neighbour, (void)slot, (void)last, (void)first_lane;
+#endif
+}
+
 /* ---- scalars, for kernels over short lists of faces or special elements ---- */
 typedef struct { coeff x, y, z; } vec3;
 typedef struct { coeff xx, xy, xz, yx, yy, yz, zx, zy, zz; } mat3;

@@ -1,5 +1,6 @@
 #include "backend_cases.h"
 #include "../skip.h"
+#include "beams_case.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,6 +27,26 @@ double *backend_shaken(const char *device, const char *model, brc_precision prec
     return u;
 }
 
+/* Beams with forces and prescribed rotations, in motion. */
+static double *shaken_beams(const char *device, brc_precision precision, bool exact, int64_t *n)
+{
+    static const char stages[] =
+        "sets:\n  low: {elements: {box: {from: [0, 0, 0], to: [80 cm, 9 m, 9 m]}}}\n  high: {elements: {box: {from: [3.2 m, 0, 0], to: [9 m, 9 m, 9 m]}}}\n"
+        "stages:\n  - name: shake\n    solver: {dynamic: {steps: 1000}}\n    initial:\n      - random: {amplitude: [10 mm/s, 10 mm/s, 10 mm/s], seed: 3}\n"
+        "    loads:\n      - element_velocity: {set: low, x: -1 mm/s}\n      - element_rotation: {set: low, y: 0.1 rad, table: [[0, 0], [100 s, 1]]}\n"
+        "      - element_force: {set: high, z: 1 mN}\n";
+    beams_case c;
+    open_lattice(&c, 4, (beams_options){.coordination = 6, .stages = stages, .device = device, .precision = precision, .exact = exact});
+    beams_done(&c, brc_simulation_begin_stage(c.simulation, 0));
+    beams_done(&c, brc_simulation_advance(c.simulation, 30));
+    *n = 7 * c.domain->n_elements;
+    double *u = calloc((size_t)*n, sizeof *u);
+    beams_done(&c, brc_simulation_displacement(c.simulation, u));
+    beams_done(&c, brc_simulation_orientation(c.simulation, u + 3 * c.domain->n_elements, NULL));
+    close_beams(&c);
+    return u;
+}
+
 /* The device the cases run on. */
 static const char *device_here;
 
@@ -41,6 +62,16 @@ static void exact_runs_equal_the_cpu_bit_for_bit(void **state)
         free(ours);
         free(theirs);
     }
+}
+
+static void exact_beams_equal_the_cpu_bit_for_bit(void **state)
+{
+    (void)state;
+    int64_t n = 0;
+    double *ours = shaken_beams("cpu", BRC_DOUBLE, true, &n), *theirs = shaken_beams(device_here, BRC_DOUBLE, true, &n);
+    assert_memory_equal(ours, theirs, (size_t)n * sizeof *ours);
+    free(ours);
+    free(theirs);
 }
 
 /* One model: PoCL takes some ten seconds to build each variant. */
@@ -68,6 +99,7 @@ int backend_cases_run(const char *device)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_runs_equal_the_cpu_bit_for_bit),
+        cmocka_unit_test(exact_beams_equal_the_cpu_bit_for_bit),
         cmocka_unit_test(fused_runs_equal_the_cpu_to_rounding_in_every_precision),
     };
     brc_context *context = brc_context_create();
