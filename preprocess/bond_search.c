@@ -216,7 +216,7 @@ brc_status brc_bond_search(brc_context *context, const double *position, const d
     if (p.nearest.ratio < SAME_PLACE) {
         const double *x = position + 3 * (int64_t)p.nearest.i;
         status = BRC_FAIL(context, BRC_BAD_INPUT,
-                          "spheres %d and %d are in one place, (%g, %g, %g) m: a bond needs a length; remove one of them", p.nearest.i,
+                          "spheres %d and %d (counted from 0) are in one place, (%g, %g, %g) m: a bond needs a length; remove one of them", p.nearest.i,
                           p.nearest.j, x[0], x[1], x[2]);
         goto cleanup;
     }

@@ -271,6 +271,7 @@ brc_status brc_cells_compute(brc_context *context, const double *position, int64
         brc_voronoi_worker_free(&worker);
     }
     status = report(&all, n);
+    if (status == BRC_OK) brc_progress_update(progress, n);
     for (int64_t r = 0; r < cells->n_runs; ++r) cells->farthest_corner = fmax(cells->farthest_corner, sqrt(all.farthest[r]));
     if (all.open) cells->farthest_corner = HUGE_VAL;
 cleanup:
@@ -332,6 +333,7 @@ brc_status brc_cells_relax(brc_context *context, double *position, int64_t n, co
         brc_voronoi_worker_free(&worker);
     }
     status = report(&all, n);
+    if (status == BRC_OK) brc_progress_update(progress, n);
     if (status == BRC_OK) memcpy(position, fresh, 3 * (size_t)n * sizeof *fresh);
 cleanup:
     brc_progress_finish(&progress);

@@ -62,11 +62,11 @@ static brc_status allocate_faces(brc_context *context, offsets total, brc_domain
 static brc_status allocate(brc_context *context, offsets total, bool grains, brc_domain *d)
 {
     const int64_t n = total.elements, h = total.half_edges;
-    if (n > INT32_MAX || h > INT32_MAX || total.vertices > INT32_MAX)
+    if (n > INT32_MAX || h > INT32_MAX || total.free_faces > INT32_MAX || total.vertices > INT32_MAX)
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "joined domain: %lld elements, %lld half-edges, %lld corners, each must be below 2^31; use "
+                        "joined domain: %lld elements, %lld half-edges, %lld free faces, %lld corners, each must be below 2^31; use "
                         "fewer elements",
-                        (long long)n, (long long)h, (long long)total.vertices);
+                        (long long)n, (long long)h, (long long)total.free_faces, (long long)total.vertices);
     d->n_elements = n;
     d->n_half_edges = h;
     d->n_bonds = total.bonds;
@@ -187,13 +187,15 @@ static void join_quality(const brc_domain *part, brc_quality *q)
     q->growth = fmax(q->growth, p->growth);
 }
 
-static brc_status check_kinds(brc_context *context, int32_t n, const brc_domain *const *parts)
+static brc_status check_kinds(brc_context *context, int32_t n, const brc_domain *const *parts, const char *const *name)
 {
+    char words[2][BRC_OVERLAP_NAME];
     for (int32_t k = 1; k < n; ++k)
         if (parts[k]->element_kind != parts[0]->element_kind)
             return BRC_FAIL(context, BRC_BAD_INPUT,
-                            "body 0 is made of %s, body %d of %s, which one domain cannot hold; give `beams` to all bodies "
-                            "or to none", cells(parts[0]) ? "cells" : "spheres", k, cells(parts[k]) ? "cells" : "spheres");
+                            "body %s is made of %s, body %s of %s, which one domain cannot hold; give `beams` to all bodies "
+                            "or to none", brc_overlap_name(name, 0, words[0]), cells(parts[0]) ? "cells" : "spheres",
+                            brc_overlap_name(name, k, words[1]), cells(parts[k]) ? "cells" : "spheres");
     return BRC_OK;
 }
 
@@ -209,7 +211,7 @@ static brc_status describe(brc_context *context, int32_t n, const brc_domain *co
     return BRC_OK;
 }
 
-brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *const *parts, brc_domain **out)
+brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *const *parts, const char *const *name, brc_domain **out)
 {
     *out = NULL;
     if (n < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "joining %d bodies, there must be at least one", n);
@@ -217,8 +219,8 @@ brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *co
     int32_t *wall = NULL;
     offsets total = {0};
     bool grains = false;
-    BRC_TRY(check_kinds(context, n, parts));
-    BRC_TRY(brc_overlap_check(context, n, parts));
+    BRC_TRY(check_kinds(context, n, parts, name));
+    BRC_TRY(brc_overlap_check(context, n, parts, name));
     int64_t n_walls = 0, n_sets = 0, most_walls = 0;
     for (int32_t k = 0; k < n; ++k) {
         total = after(total, parts[k]);

@@ -82,7 +82,9 @@ void brc_lines_bad(brc_lines *lines, const char *place, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    BRC_FAIL(lines->context, BRC_BAD_INPUT, "%s:%lld:%lld: %s", lines->path, (long long)lines->number,
+    for (char *c = sentence; *c; ++c) /* what is quoted from a binary file must not reach a terminal */
+        if ((unsigned char)*c < ' ' || (unsigned char)*c > '~') *c = '?';
+    BRC_FAIL(lines->context, BRC_BAD_INPUT, "%s:%lld:%lld: %s", lines->path, (long long)(lines->number > 0 ? lines->number : 1),
              (long long)(place - lines->line_start) + 1, sentence);
 }
 

@@ -5,11 +5,16 @@
 
 #include <math.h>
 #include <omp.h>
+#include <stdio.h>
+#include <string.h>
 
 /* A position this deep inside a cell is inside, in spacings; bodies that touch share planes to rounding. */
 #define DEEP 1e-6
 /* Packed spheres of one body overlap by a thousandth; those of two bodies in contact may by a little more. */
 #define NEAR 0.9
+/* Cells reach into another body by less than the distance of positions from walls: then corners tell. Round walls that touch reach into each
+ * other by the square of the cell size; so much [spacings] is no rounding of that kind. */
+#define CORNER_DEEP 0.1
 
 /* Elements of `body` by the boxes of a grid over `low` .. `high`, the region in which it may overlap with the other. */
 typedef struct box_list {
@@ -118,75 +123,133 @@ static bool below_faces(const double *x, const double *centroid, const double *a
     return true;
 }
 
+/* Is x inside cell b, `deep` below its free faces and `margin` below the others? */
+static bool in_cell(const double *x, const brc_domain *body, int64_t b, double deep, double margin)
+{
+    const int64_t h = body->row_start[b], f = body->free_start[b];
+    return below_faces(x, body->free_centroid + 3 * f, body->free_area_vector + 3 * f, body->free_start[b + 1] - f, deep) &&
+           below_faces(x, body->face_centroid + 3 * h, body->area_vector + 3 * h, body->row_start[b + 1] - h, margin);
+}
+
 /* Does element e of `other` stand in element b of the list's body? */
 static bool stands_in(const brc_domain *other, int64_t e, const brc_domain *body, int64_t b)
 {
-    const double *x = other->position + 3 * e, *y = body->position + 3 * b;
-    if (is_sphere(body)) {
-        const double r[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]}, near = NEAR * (other->radius[e] + body->radius[b]);
-        return r[0] * r[0] + r[1] * r[1] + r[2] * r[2] < near * near;
+    const double *x = other->position + 3 * e, *y = body->position + 3 * b, margin = DEEP * body->quality.mean_spacing;
+    if (!is_sphere(body)) return in_cell(x, body, b, margin, margin);
+    const double r[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]}, near = NEAR * (other->radius[e] + body->radius[b]);
+    return r[0] * r[0] + r[1] * r[1] + r[2] * r[2] < near * near;
+}
+
+/* The box of x; -1: outside the region. */
+static int64_t box_of(const box_list *list, const double *x)
+{
+    int64_t box = 0;
+    for (int c = 0; c < 3; ++c) {
+        if (x[c] < list->low[c] || x[c] > list->high[c]) return -1;
+        box = box * list->dims[c] + box_along(list, c, x[c]);
     }
-    const double margin = DEEP * body->quality.mean_spacing;
-    const int64_t h = body->row_start[b], f = body->free_start[b];
-    return below_faces(x, body->free_centroid + 3 * f, body->free_area_vector + 3 * f, body->free_start[b + 1] - f, margin) &&
-           below_faces(x, body->face_centroid + 3 * h, body->area_vector + 3 * h, body->row_start[b + 1] - h, margin);
+    return box;
+}
+
+/* A corner of a free face of cell e of `other` that lies deep inside the list's body; NULL: none. */
+static const double *deep_corner(const box_list *list, const brc_domain *other, int64_t e)
+{
+    const double deep = CORNER_DEEP * list->body->quality.mean_spacing;
+    for (int64_t p = other->free_polygon_start[other->free_start[e]]; p < other->free_polygon_start[other->free_start[e + 1]]; ++p) {
+        const double *x = other->vertex + 3 * (int64_t)other->free_polygon[p];
+        const int64_t box = box_of(list, x);
+        for (int64_t k = box < 0 ? 0 : list->start[box]; box >= 0 && k < list->start[box + 1]; ++k)
+            if (in_cell(x, list->body, list->element[k], deep, 0.0)) return x;
+    }
+    return NULL;
 }
 
 static bool element_overlaps(const box_list *list, const brc_domain *other, int64_t e)
 {
-    const double *x = other->position + 3 * e;
-    int64_t box = 0;
-    for (int c = 0; c < 3; ++c) {
-        if (x[c] < list->low[c] || x[c] > list->high[c]) return false;
-        box = box * list->dims[c] + box_along(list, c, x[c]);
-    }
+    const int64_t box = box_of(list, other->position + 3 * e);
+    if (box < 0) return false;
     for (int64_t k = list->start[box]; k < list->start[box + 1]; ++k)
         if (stands_in(other, e, list->body, list->element[k])) return true;
     return false;
 }
 
-/* Elements of `other` that stand in `body`: how many, and the first. */
-static brc_status count_inside(brc_context *context, const brc_domain *other, const brc_domain *body, int64_t *count, int64_t *first)
+/* How far `other` stands in `body`. */
+typedef struct finding {
+    int64_t n, first;    /* elements whose positions do, and the first of them */
+    int64_t n_corners;   /* cells of which a corner of a free face does; looked at where no position does */
+    double corner[3];    /* of the first of them [m] */
+} finding;
+
+static brc_status find_inside(brc_context *context, const brc_domain *other, const brc_domain *body, finding *out)
 {
     box_list list = {.body = body, .reach = largest_radius(other)};
-    int64_t n = 0, least = INT64_MAX;
+    int64_t n = 0, n_corners = 0, first = INT64_MAX, first_corner = INT64_MAX;
     brc_status status = BRC_OK;
-    *count = 0;
+    *out = (finding){.n = 0};
     for (int c = 0; c < 3; ++c) {
         list.low[c] = fmax(other->bounds[0][c], body->bounds[0][c] - list.reach);
         list.high[c] = fmin(other->bounds[1][c], body->bounds[1][c] + list.reach);
         if (!(list.low[c] < list.high[c])) return BRC_OK;
     }
     BRC_TRY_OR(cleanup, make_boxes(context, &list));
-#pragma omp parallel for schedule(dynamic, 256) num_threads(omp_get_max_threads()) reduction(+ : n) reduction(min : least)
+#pragma omp parallel for schedule(dynamic, 256) num_threads(omp_get_max_threads()) reduction(+ : n) reduction(min : first)
     for (int64_t e = 0; e < other->n_elements; ++e)
         if (element_overlaps(&list, other, e)) {
             ++n;
-            if (e < least) least = e;
+            if (e < first) first = e;
         }
-    *count = n;
-    *first = least;
+    *out = (finding){.n = n, .first = first};
+    if (n > 0 || is_sphere(body)) goto cleanup;
+#pragma omp parallel for schedule(dynamic, 256) num_threads(omp_get_max_threads()) reduction(+ : n_corners) reduction(min : first_corner)
+    for (int64_t e = 0; e < other->n_elements; ++e)
+        if (deep_corner(&list, other, e)) {
+            ++n_corners;
+            if (e < first_corner) first_corner = e;
+        }
+    out->n_corners = n_corners;
+    if (n_corners > 0) memcpy(out->corner, deep_corner(&list, other, first_corner), sizeof out->corner);
 cleanup:
     brc_memory_free(list.start);
     brc_memory_free(list.element);
     return status;
 }
 
-brc_status brc_overlap_check(brc_context *context, int32_t n, const brc_domain *const *bodies)
+const char *brc_overlap_name(const char *const *name, int32_t body, char words[BRC_OVERLAP_NAME])
+{
+    if (name) snprintf(words, BRC_OVERLAP_NAME, "'%s'", name[body]);
+    else snprintf(words, BRC_OVERLAP_NAME, "%d", body);
+    return words;
+}
+
+/* found[0]: of body a in b, found[1]: of b in a. */
+static brc_status fail_overlap(brc_context *context, const char *a, const char *b, const brc_domain *const both[2], const finding found[2])
+{
+    const int side = found[0].n + found[1].n > 0 ? found[0].n == 0 : found[0].n_corners == 0;
+    if (found[0].n + found[1].n > 0) {
+        const double *x = both[side]->position + 3 * found[side].first;
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "bodies %s and %s overlap: %lld elements of body %s and %lld of body %s stand in the other one, the first at "
+                        "(%g, %g, %g) m; move them apart with `pose`, or make one body of several `parts`",
+                        a, b, (long long)found[0].n, a, (long long)found[1].n, b, x[0], x[1], x[2]);
+    }
+    const double *x = found[side].corner;
+    return BRC_FAIL(context, BRC_BAD_INPUT,
+                    "bodies %s and %s overlap by less than a cell: corners of %lld cells of body %s and of %lld of body %s lie in the other one, the "
+                    "first at (%g, %g, %g) m; move them apart with `pose`, or make one body of several `parts`",
+                    a, b, (long long)found[0].n_corners, a, (long long)found[1].n_corners, b, x[0], x[1], x[2]);
+}
+
+brc_status brc_overlap_check(brc_context *context, int32_t n, const brc_domain *const *bodies, const char *const *name)
 {
     brc_status status = BRC_OK;
     for (int32_t a = 0; a < n; ++a)
         for (int32_t b = a + 1; b < n; ++b) {
-            int64_t count[2], first[2];
-            for (int side = 0; side < 2; ++side)
-                BRC_TRY(count_inside(context, bodies[side ? b : a], bodies[side ? a : b], &count[side], &first[side]));
-            if (count[0] + count[1] == 0) continue;
-            const int side = count[0] > 0 ? 0 : 1;
-            const double *x = bodies[side ? b : a]->position + 3 * first[side];
-            status = BRC_FAIL(context, BRC_BAD_INPUT,
-                              "bodies %d and %d overlap: %lld elements of body %d and %lld of body %d stand in the other one, the first at "
-                              "(%g, %g, %g) m; move them apart with `pose`, or make one body of several `parts`",
-                              a, b, (long long)count[0], a, (long long)count[1], b, x[0], x[1], x[2]);
+            const brc_domain *const both[2] = {bodies[a], bodies[b]};
+            char words[2][BRC_OVERLAP_NAME];
+            finding found[2];
+            for (int side = 0; side < 2; ++side) BRC_TRY(find_inside(context, both[side], both[1 - side], &found[side]));
+            if (found[0].n + found[1].n + found[0].n_corners + found[1].n_corners == 0) continue;
+            status = fail_overlap(context, brc_overlap_name(name, a, words[0]), brc_overlap_name(name, b, words[1]), both, found);
         }
     return status;
 }

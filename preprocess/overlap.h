@@ -4,9 +4,14 @@
 
 #include "domain.h"
 
-/* BRC_BAD_INPUT, one sentence for each pair of bodies that overlap (numbers of the bodies in the list, how many elements, the place of
- * the first, the cure). Cells overlap if the position of one lies inside a cell of the other, deeper than 1e-6 of its spacing; spheres if their
- * centres are nearer than 0.9 (R_i + R_j), as packed. Bodies that share a face or touch do not. All of one kind of elements. BRC_NO_MEMORY. */
-brc_status brc_overlap_check(brc_context *context, int32_t n, const brc_domain *const *bodies);
+/* BRC_BAD_INPUT, one sentence for each pair of bodies that overlap (which, how many elements, the place of the first, the cure). Cells overlap
+ * if the position of one lies inside a cell of the other, deeper than 1e-6 of its spacing, or a corner of a free face deeper than a tenth; spheres if
+ * their centres are nearer than 0.9 (R_i + R_j), as packed. Bodies that share a face or touch do not. All of one kind of elements. name [n]: what
+ * sentences call the bodies, NULL: by number, from 0. BRC_NO_MEMORY. */
+brc_status brc_overlap_check(brc_context *context, int32_t n, const brc_domain *const *bodies, const char *const *name);
+
+enum { BRC_OVERLAP_NAME = 80 };
+/* How sentences call a body: its name in quotes, or its number. Returns words. */
+const char *brc_overlap_name(const char *const *name, int32_t body, char words[BRC_OVERLAP_NAME]);
 
 #endif

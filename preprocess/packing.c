@@ -343,7 +343,7 @@ static brc_status finish(brc_pack *pack, const brc_fill *fill, const pack_plan *
     out->volume_fraction = 4.0 / 3.0 * PI * cube / plan->volume;
     brc_log(pack->context, BRC_LOG_INFO,
             "packing: %lld spheres of %.4g m mean radius, coordination %.3f, volume fraction %.4f, mean overlap %.2g "
-            "%%, %.2g %% loose",
+            "%%, %.3g %% loose",
             (long long)pack->n, radius / (double)pack->n, out->coordination, out->volume_fraction,
             100.0 * out->overlap_mean, 100.0 * out->rattlers);
     if (out->overlap_mean > OVERLAP_USUAL)

@@ -10,6 +10,8 @@
 #define SKIN_DIAMETERS 3.0
 /* Between two spheres that touch at this share of the volume lie mean diameters of (6 / pi * share * V / n)^(1/3). */
 #define USUAL_FRACTION 0.63
+/* The least room of the shape's bounds, as between walls (packing.c). */
+#define DIAMETERS_LEAST 2.0
 /* A centre nearer than this to a wall [mean diameters] would leave its cell, or the gap to its mirror image, no room. */
 #define WALL_MARGIN 0.05
 
@@ -39,6 +41,10 @@ brc_status brc_packing_cut(brc_context *context, const brc_solid *solid, const b
         box.origin[k] = bounds[0][k] - SKIN_DIAMETERS * diameter;
         box.size[k] = bounds[1][k] - bounds[0][k] + 2.0 * SKIN_DIAMETERS * diameter;
         larger *= box.size[k];
+        if (bounds[1][k] - bounds[0][k] >= DIAMETERS_LEAST * diameter) continue;
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "fill: the shape is %.2g diameters of its spheres across %c (%g m), at least %.0f are needed; use more and so "
+                          "smaller spheres", (bounds[1][k] - bounds[0][k]) / diameter, "xyz"[k], bounds[1][k] - bounds[0][k], DIAMETERS_LEAST);
+        goto cleanup;
     }
     if (fill->n_elements > 0) all.n_elements = llround((double)fill->n_elements * larger / volume);
     BRC_TRY_OR(cleanup, brc_solid_create(context, &box, n_threads, &around));

@@ -13,9 +13,7 @@
 #define STEP_SHRINKS 0.5
 #define TURN_START 0.1
 #define TURN_SHRINKS 0.98
-#ifndef DOWNHILL_LEAST
-#define DOWNHILL_LEAST 5
-#endif /* iterations downhill before the step grows */
+#define DOWNHILL_LEAST 5 /* iterations downhill before the step grows */
 /* No sphere moves farther in one iteration [of the mean radius]: nothing jumps a wall or another sphere. */
 #define MOVE_MOST 0.1
 /* Contacts overlap less than this on the average [-]: nothing carries. */

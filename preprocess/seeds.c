@@ -212,15 +212,17 @@ static brc_status check_thickness(brc_context *context, const brc_solid *solid, 
 {
     double bounds[2][3];
     brc_solid_bounds(solid, bounds);
+    int thin = 0;
+    for (int k = 1; k < 3; ++k)
+        if (bounds[1][k] - bounds[0][k] < bounds[1][thin] - bounds[0][thin]) thin = k;
     for (int k = 0; k < 3; ++k) {
-        const double size = bounds[1][k] - bounds[0][k];
-        const double across = size / grid->spacing[k];
+        const double size = bounds[1][k] - bounds[0][k], across = size / grid->spacing[k];
         if (across >= 2.0 * (1.0 - 1e-9)) continue;
-        const double h = 0.5 * size;
+        const double h = 0.5 * (bounds[1][thin] - bounds[0][thin]), least = ceil(brc_solid_volume(solid, NULL) / (h * h * h));
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "fill: %.3g cells across %c (%g m), must be at least 2, for one layer gives the strain nothing "
                         "to hold on to; use a spacing of %g m or less (about %.3g elements or more) or a thicker body",
-                        across, "xyz"[k], size, h, ceil(brc_solid_volume(solid, NULL) / (h * h * h)));
+                        across, "xyz"[k], size, h, fmax(least, (double)grid->n_requested + 1.0));
     }
     return BRC_OK;
 }

@@ -135,7 +135,7 @@ static brc_status put(brc_context *context, brc_voronoi &v, int64_t id, int64_t 
     for (int q = 0; q < crowd; ++q) { /* equal points share a block */
         const double *other = c.p[block] + 3 * q;
         if (other[0] == y[0] && other[1] == y[1] && other[2] == y[2])
-            return BRC_FAIL(context, BRC_BAD_INPUT, "%s %lld and %lld are the same point (%g, %g, %g) m", id < n ? "seeds" : "points (mirror images come last)",
+            return BRC_FAIL(context, BRC_BAD_INPUT, "%s %lld and %lld (counted from 0) are the same point (%g, %g, %g) m; remove one of them", id < n ? "seeds" : "points (mirror images come last)",
                             (long long)c.id[block][q], (long long)id, x[0], x[1], x[2]);
     }
     c.put(static_cast<int>(id), y[0], y[1], y[2]);

@@ -149,6 +149,25 @@ cleanup:
     return status;
 }
 
+brc_status brc_file_check_place(brc_context *context, const char *path)
+{
+    struct stat information;
+    char *folder = NULL;
+    brc_status status = BRC_OK;
+    if (stat(path, &information) == 0 && S_ISDIR(information.st_mode))
+        return BRC_FAIL(context, BRC_FILE_FAILED, "%s: is a folder, name a file to write", path);
+    BRC_TRY(BRC_ALLOCATE(context, &folder, (int64_t)strlen(path) + 2, "path"));
+    strcpy(folder, path);
+    char *const slash = strrchr(folder, '/');
+    if (!slash) strcpy(folder, ".");
+    else slash[slash == folder] = '\0'; /* "/" stays */
+    if (access(folder, W_OK | X_OK) != 0)
+        status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot be written to %s: %s; name a folder that is there and may be written to", path, folder,
+                          strerror(errno));
+    brc_memory_free(folder);
+    return status;
+}
+
 /* Read until the end or `limit` + 1 bytes: a pipe or a device tells its size only by being read. */
 static brc_status read_all(brc_context *context, int descriptor, const char *path, size_t limit, char **out,
                            size_t *bytes)

@@ -4,6 +4,7 @@
 #include "../../preprocess/domain_file.h"
 #include "../../preprocess/quality.h"
 #include "../../preprocess/points.h"
+#include "../base/file.h"
 #include "../base/log.h"
 #include "../output/export_domain.h"
 #include "../output/isotropy_report.h"
@@ -34,6 +35,12 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     const double start = brc_clock_s();
     const char *path = brc_arguments_value(arguments, "output");
     if (!path) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia build: say where the domain goes with -o FILE");
+    const char *vtu = brc_arguments_value(arguments, "vtu"), *csv = brc_arguments_value(arguments, "csv");
+    const char *isotropy = brc_arguments_value(arguments, "isotropy");
+    const char *const files[] = {path, vtu, csv};
+    for (size_t k = 0; k < sizeof files / sizeof *files; ++k)
+        if (files[k]) BRC_TRY(brc_file_check_place(context, files[k]));
+    if (isotropy) BRC_TRY(brc_file_make_folder(context, isotropy));
     int64_t n_threads;
     BRC_TRY(brc_arguments_integer(context, arguments, "threads", 0, 4096, 0, &n_threads));
     int n_overrides;
@@ -46,8 +53,6 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     const double built = brc_clock_s();
     BRC_TRY_OR(cleanup, brc_domain_write(context, domain, path));
     print_domain(domain);
-    const char *vtu = brc_arguments_value(arguments, "vtu"), *csv = brc_arguments_value(arguments, "csv");
-    const char *isotropy = brc_arguments_value(arguments, "isotropy");
     if (vtu) BRC_TRY_OR(cleanup, brc_export_domain_vtu(context, domain, vtu));
     if (csv) BRC_TRY_OR(cleanup, brc_points_write(context, domain, csv));
     if (isotropy) BRC_TRY_OR(cleanup, brc_isotropy_report(context, domain, 3, isotropy));

@@ -98,21 +98,26 @@ brc_status brc_scene_domain_build(brc_context *context, const brc_scene *scene, 
 {
     brc_status status = BRC_OK;
     brc_domain **parts = NULL;
+    const char **name = NULL;
     *out = NULL;
-    BRC_TRY(BRC_ALLOCATE(context, &parts, scene->n_bodies, "bodies of a scene"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &parts, scene->n_bodies, "bodies of a scene"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &name, scene->n_bodies, "bodies of a scene"));
+    for (int32_t b = 0; b < scene->n_bodies; ++b)
+        name[b] = scene->bodies[b].name;
     for (int32_t b = 0; b < scene->n_bodies; ++b)
         BRC_TRY_OR(cleanup, make_body(context, scene, b, n_threads, &parts[b]));
     if (scene->n_bodies == 1) {
         *out = parts[0];
         parts[0] = NULL;
     } else {
-        BRC_TRY_OR(cleanup, brc_domain_join(context, scene->n_bodies, (const brc_domain *const *)parts, out));
+        BRC_TRY_OR(cleanup, brc_domain_join(context, scene->n_bodies, (const brc_domain *const *)parts, name, out));
     }
     BRC_TRY_OR(cleanup, brc_sets_build(context, scene->n_sets, scene->sets, *out));
 cleanup:
     for (int32_t b = 0; parts && b < scene->n_bodies; ++b)
         brc_domain_free(&parts[b]);
     brc_memory_free(parts);
+    brc_memory_free(name);
     if (status != BRC_OK) brc_domain_free(out);
     return status;
 }

@@ -334,6 +334,7 @@ static void complete(brc_scene *scene)
         brc_fill *fill = &scene->bodies[b].fill;
         const bool packed = fill->kind == BRC_FILL_PACKING && (fill->n_elements > 0 || fill->radius > 0);
         if (packed && fill->coordination == 0 && fill->volume_fraction == 0) fill->coordination = USUAL_COORDINATION;
+        if (fill->n_radii > 0) fill->radius_spread = 0; /* the table stands in place of its default */
     }
 }
 

@@ -92,7 +92,7 @@ struct brc_section {
     size_t kind_offset;
     const char *short_key;   /* a scalar in place of the map is the value of this key (one-of: of this variant) */
     const char *sample_name; /* of a named item */
-    brc_group groups[2];
+    brc_group groups[3];
 };
 
 /* The top of the schema: the struct brc_scene. */

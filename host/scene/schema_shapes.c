@@ -169,6 +169,7 @@ static const brc_section PACKING_SECTION = {.title = "packing",
                                             .meaning = "Centres of randomly packed spheres.",
                                             ENTRIES(PACKING),
                                             .groups = {{BRC_GROUP_EXACTLY_ONE, {"elements", "radius"}},
+                                                       {BRC_GROUP_AT_MOST_ONE, {"radius_spread", "radii"}},
                                                        {BRC_GROUP_AT_MOST_ONE, {"coordination", "volume_fraction"}}}};
 static const brc_entry POINTS[] = {
     {"file", BRC_TYPE_STRING, FIELD(brc_fill, file), .required = true, .sample = "packing.csv",

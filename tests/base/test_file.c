@@ -187,6 +187,20 @@ static void an_aside_is_committed_or_discarded(void **state)
     brc_memory_free(aside);
 }
 
+static void a_place_that_cannot_be_written_to_is_known_before(void **state)
+{
+    fixture *f = *state;
+    char missing[160];
+    snprintf(missing, sizeof missing, "%s/missing/new", f->folder);
+    assert_int_equal(brc_file_check_place(f->context, f->path), BRC_OK);
+    assert_false(brc_file_exists(f->path)); /* asked, not made */
+    assert_int_equal(brc_file_check_place(f->context, "new"), BRC_OK);
+    assert_int_equal(brc_file_check_place(f->context, f->folder), BRC_FILE_FAILED);
+    assert_int_equal(brc_file_check_place(f->context, missing), BRC_FILE_FAILED);
+    assert_non_null(strstr(brc_context_message(f->context), "is a folder"));
+    assert_non_null(strstr(brc_context_message(f->context), "No such file or directory"));
+}
+
 static void joining_puts_one_slash(void **state)
 {
     fixture *f = *state;
@@ -212,6 +226,7 @@ int main(void)
         CASE(a_failed_write_leaves_the_old_file_and_no_part),
         CASE(a_full_disk_is_one_sentence),
         CASE(an_aside_is_committed_or_discarded),
+        CASE(a_place_that_cannot_be_written_to_is_known_before),
         CASE(joining_puts_one_slash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -253,7 +253,7 @@ static void wrong_spheres_and_unreachable_numbers_are_refused(void **state)
     x[3][1] = INFINITY;
     refused(*state, x[0], r, 4, 2.0, "sphere 3 at (0, inf, 1) m");
     memcpy(x[3], x[1], sizeof x[3]);
-    refused(*state, x[0], r, 4, 2.0, "spheres 1 and 3 are in one place, (1, 0, 0) m");
+    refused(*state, x[0], r, 4, 2.0, "spheres 1 and 3 (counted from 0) are in one place, (1, 0, 0) m");
 }
 
 int main(void)

@@ -19,7 +19,7 @@ static brc_status check(brc_context *context, const brc_domain *a, const brc_dom
 {
     const brc_domain *bodies[2] = {a, b};
     brc_context_clear(context);
-    return brc_overlap_check(context, 2, bodies);
+    return brc_overlap_check(context, 2, bodies, NULL);
 }
 
 /* Two cubes of ten cells a side without noise: positions at 0.05, 0.15, ... */
@@ -40,6 +40,22 @@ static void overlapping_cubes_are_counted_and_touching_ones_are_not(void **state
                       "move them apart with `pose`");
     assert_int_equal(check(*state, b, a), BRC_BAD_INPUT);
     test_says(*state, "300 elements of body 0 and 300 of body 1");
+    brc_domain_free(&a);
+    brc_domain_free(&b);
+}
+
+/* Cells of a regular grid have their positions half a cell from the wall; what reaches in less is told by corners, from a tenth of a cell on. */
+static void less_than_a_cell_of_overlap_is_found(void **state)
+{
+    const char *const name[2] = {"anvil", "ball"};
+    const brc_build_request r = test_box(1000, 0.0);
+    brc_domain *a = test_build(*state, &r), *b = test_build(*state, &r);
+    const brc_domain *bodies[2] = {a, b};
+    move(b, 0.97, 0.05, 0.05); /* corners of b in the middle of faces of cells of a, 0.3 cells deep: 10 x 10 less those beside a */
+    assert_int_equal(brc_overlap_check(*state, 2, bodies, name), BRC_BAD_INPUT);
+    test_says(*state, "bodies 'anvil' and 'ball' overlap by less than a cell: corners of 100 cells of body 'anvil' and of 100 of body 'ball'");
+    move(b, 0.021, 0.0, 0.0); /* 0.09 cells: what round walls that touch may do */
+    assert_int_equal(check(*state, a, b), BRC_OK);
     brc_domain_free(&a);
     brc_domain_free(&b);
 }
@@ -129,7 +145,7 @@ static void every_overlapping_pair_is_named(void **state)
         d[k] = test_build(*state, &r);
         move(d[k], 0.6 * k, 0.0, 0.0);
     }
-    assert_int_equal(brc_overlap_check(*state, 3, (const brc_domain *const *)d), BRC_BAD_INPUT);
+    assert_int_equal(brc_overlap_check(*state, 3, (const brc_domain *const *)d, NULL), BRC_BAD_INPUT);
     test_says(*state, "bodies 0 and 1 overlap");
     test_says(*state, "bodies 1 and 2 overlap");
     assert_null(strstr(brc_context_message(*state), "bodies 0 and 2"));
@@ -140,6 +156,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(overlapping_cubes_are_counted_and_touching_ones_are_not, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(less_than_a_cell_of_overlap_is_found, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_small_body_inside_a_large_cell_is_found, test_begin, test_end),
         cmocka_unit_test_setup_teardown(bodies_with_overlapping_bounds_may_stand_apart, test_begin, test_end),
         cmocka_unit_test_setup_teardown(overlapping_spheres_are_counted_like_all_pairs, test_begin, test_end),

@@ -88,7 +88,7 @@ static void points_voro_would_lose_silently_are_refused(void **state)
     const struct {
         double x[9];
         const char *says;
-    } cases[] = {{{0.2, 0.2, 0.2, 0.7, 0.7, 0.7, 0.2, 0.2, 0.2}, "seeds 0 and 2 are the same point"},
+    } cases[] = {{{0.2, 0.2, 0.2, 0.7, 0.7, 0.7, 0.2, 0.2, 0.2}, "seeds 0 and 2 (counted from 0) are the same point"},
                  {{0.2, 0.2, 0.2, 0.7, 0.7, 1.7, 0.3, 0.2, 0.2}, "seed 1 at (0.7, 0.7, 1.7) m lies outside"},
                  {{0.2, 0.2, 0.2, 0.7, NAN, 0.7, 0.3, 0.2, 0.2}, "seed 1: position (0.7, nan, 0.7) is not finite"},
                  {{0.2, 0.2, 0.2, 0.7, INFINITY, 0.7, 0.3, 0.2, 0.2}, "is not finite"}};

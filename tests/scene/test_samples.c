@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "../../host/scene/scene_reader.h"
+#include "../../preprocess/seeds.h"
 #include "bad.h"
 
 #define TOP "version: 1\nmaterials:\n  a: {E: 72 GPa, nu: 0.2, density: 2500 kg/m^3}\n  b: {E: 7 GPa, nu: 0.3, density: 1500 kg/m^3}\n"
@@ -71,6 +72,8 @@ static void a_packing_stops_at_the_usual_coordination_unless_told_otherwise(void
                  "    fill: {packing: {radius: 2 cm, volume_fraction: 60 %, radii: [{radius: 1 mm, below: 0}, {radius: 2 mm, below: 1}]}}\n" END);
     fill = &scene->bodies[0].fill;
     assert_true(fill->coordination == 0 && fill->volume_fraction == 0.6 && fill->n_radii == 2 && fill->radii[1].radius == 2e-3);
+    assert_true(fill->radius_spread == 0); /* not the default of the key that the table replaces */
+    assert_int_equal(brc_fill_check(context, fill), BRC_OK);
     brc_scene_free(&scene);
     brc_context_free(&context);
 }
