@@ -10,6 +10,8 @@ struct brc_drift {
     double *total;   /* [n_samples] total energy [J] */
     double closure_worst, closure_squares;
     double *mass, *displacement, *velocity; /* [n_elements], [n_elements][3] twice */
+    double *inertia, *orientation, *spin;   /* elements with rotations: [n_elements], [n_elements][4], [n_elements][3]; else NULL */
+    double lean;                            /* least cosine between a beam and a section's normal at its ends */
     double momentum[3], angular[3];         /* at the first sample */
     double momentum_scale, angular_scale;   /* largest sums of magnitudes of the parts */
     double momentum_worst, angular_worst;   /* largest deviations [kg m/s], [kg m^2/s] */
@@ -19,6 +21,7 @@ brc_status brc_drift_create(brc_context *context, brc_drift **out)
 {
     BRC_TRY(BRC_ALLOCATE(context, out, 1, "drift of a run"));
     (*out)->context = context;
+    (*out)->lean = 1;
     return BRC_OK;
 }
 
@@ -29,6 +32,9 @@ void brc_drift_free(brc_drift **drift)
     brc_memory_free((*drift)->mass);
     brc_memory_free((*drift)->displacement);
     brc_memory_free((*drift)->velocity);
+    brc_memory_free((*drift)->inertia);
+    brc_memory_free((*drift)->orientation);
+    brc_memory_free((*drift)->spin);
     brc_memory_free(*drift);
     *drift = NULL;
 }
@@ -40,10 +46,16 @@ static brc_status prepare(brc_drift *d, brc_simulation *simulation)
     BRC_TRY(BRC_ALLOCATE(d->context, &d->mass, domain->n_elements, "masses of the drift"));
     BRC_TRY(BRC_ALLOCATE(d->context, &d->displacement, 3 * domain->n_elements, "displacements of the drift"));
     BRC_TRY(BRC_ALLOCATE(d->context, &d->velocity, 3 * domain->n_elements, "velocities of the drift"));
+    const bool turns = scene->model.kind != BRC_MODEL_DLSM;
+    if (turns) BRC_TRY(BRC_ALLOCATE(d->context, &d->inertia, domain->n_elements, "inertia of the drift"));
+    if (turns) BRC_TRY(BRC_ALLOCATE(d->context, &d->orientation, 4 * domain->n_elements, "orientations of the drift"));
+    if (turns) BRC_TRY(BRC_ALLOCATE(d->context, &d->spin, 3 * domain->n_elements, "spins of the drift"));
     for (int64_t e = 0; e < domain->n_elements; ++e) {
         const brc_body *body = &scene->bodies[domain->body[e]];
         const int32_t material = brc_body_material(body, domain->region[e]);
         d->mass[e] = domain->volume[e] * scene->materials[material].density;
+        const double *moment = domain->inertia + 6 * e;
+        if (turns) d->inertia[e] = scene->materials[material].density * (moment[0] + moment[1] + moment[2]) / 3;
     }
     return BRC_OK;
 }
@@ -74,6 +86,28 @@ static void add_momenta(const brc_drift *d, const brc_domain *domain, double mom
         }
         scale[0] += d->mass[e] * length(v);
         scale[1] += d->mass[e] * length(turn);
+        for (int k = 0; d->spin && k < 3; ++k) angular[k] += d->inertia[e] * d->spin[3 * e + k];
+        if (d->spin) scale[1] += d->inertia[e] * length(d->spin + 3 * e);
+    }
+}
+
+/* How far sections lean from their beams now: both ends of every beam. */
+static void look_at_sections(brc_drift *d, const brc_domain *domain)
+{
+    for (int64_t e = 0; e < domain->n_elements; ++e) {
+        const double w = d->orientation[4 * e], *v = d->orientation + 4 * e + 1;
+        for (int64_t h = domain->row_start[e]; h < domain->row_start[e + 1]; ++h) {
+            const int64_t j = domain->neighbour[h];
+            double axis[3], now[3], once[3], twice[3], along = 0;
+            for (int k = 0; k < 3; ++k) {
+                axis[k] = domain->position[3 * j + k] - domain->position[3 * e + k];
+                now[k] = axis[k] + d->displacement[3 * j + k] - d->displacement[3 * e + k];
+            }
+            cross(v, axis, once);
+            cross(v, once, twice);
+            for (int k = 0; k < 3; ++k) along += now[k] * (axis[k] + 2 * (w * once[k] + twice[k]));
+            d->lean = fmin(d->lean, along / (length(axis) * length(now)));
+        }
     }
 }
 
@@ -93,6 +127,8 @@ static brc_status sample(void *self, brc_simulation *simulation)
     d->closure_squares += ledger.closure * ledger.closure;
     BRC_TRY(brc_simulation_displacement(simulation, d->displacement));
     BRC_TRY(brc_simulation_velocity(simulation, d->velocity));
+    if (d->spin) BRC_TRY(brc_simulation_orientation(simulation, d->orientation, d->spin));
+    if (d->spin && domain->radius) look_at_sections(d, domain);
     double momentum[3] = {0}, angular[3] = {0}, scale[2] = {0}, off[3], turn_off[3];
     add_momenta(d, domain, momentum, angular, scale);
     if (d->n_samples++ == 0) {
@@ -143,6 +179,7 @@ void brc_drift_values(const brc_drift *d, brc_outcome *outcome)
     brc_outcome_add(outcome, "energy_spread", "-", sqrt(squares / (double)d->n_samples) / fabs(first), 0);
     brc_outcome_add(outcome, "momentum_drift", "-", relative(d->momentum_worst, d->momentum, d->momentum_scale), 0);
     brc_outcome_add(outcome, "angular_momentum_drift", "-", relative(d->angular_worst, d->angular, d->angular_scale), 0);
+    if (d->spin) brc_outcome_add(outcome, "largest_section_angle", "deg", acos(d->lean) * 180 / M_PI, 0);
     brc_outcome_add(outcome, "closure_worst", "-", d->closure_worst, 0);
     brc_outcome_add(outcome, "closure_rms", "-", sqrt(d->closure_squares / (double)d->n_samples), 0);
 }
