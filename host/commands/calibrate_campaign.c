@@ -84,7 +84,7 @@ cleanup:
     return status;
 }
 
-/* A campaign at work. What several threads touch is touched inside `omp critical (calibrate)`. */
+/* A campaign at work. What several threads touch is touched inside `omp critical (brc_calibrate)`. */
 typedef struct work {
     brc_context *context;
     const brc_calibration_plan *plan;
@@ -123,14 +123,14 @@ static int count_missing(const work *w, int sample, double coordination)
 
 static void fail(work *w, brc_status status, const char *message)
 {
-#pragma omp critical(calibrate)
+#pragma omp critical(brc_calibrate)
     if (w->status == BRC_OK) w->status = BRC_FAIL(w->context, status, "%s", message);
 }
 
 static bool stopped(work *w)
 {
     brc_status status;
-#pragma omp critical(calibrate)
+#pragma omp critical(brc_calibrate)
     status = w->status;
     return status != BRC_OK;
 }
@@ -140,7 +140,7 @@ static brc_status keep(work *w, const brc_calibration_row *row)
     char line[512];
     const int length = print_line(line, sizeof line, row);
     brc_status status;
-#pragma omp critical(calibrate)
+#pragma omp critical(brc_calibrate)
     {
         status = add_row(w->context, w->rows, row);
         if (status == BRC_OK && (fwrite(line, 1, (size_t)length, w->file) != (size_t)length || fflush(w->file) != 0))

@@ -33,12 +33,16 @@ static void add_table(brc_text *text, const char *name, int n_rows, int n, const
 static brc_status write_c(brc_context *context, const brc_calibration_plan *plan, const brc_calibration_fit *fit, const char *path)
 {
     const brc_beam_law *law = &fit->law;
-    char words[256];
+    char words[256], spread[32];
     brc_text text = {.context = context};
     describe(plan, words, sizeof words);
+    snprintf(spread, sizeof spread, "%g", 100 * law->radius_spread);
+    for (char *c = spread; *c; ++c)
+        if (*c == '.') *c = '_';
     brc_text_add(&text, "/* Written by breccia calibrate: %s. Relative error left, root mean square over the means of samples and axes: nu %.2f %%, E %.2f %%. */\n",
                  words, 100 * fit->quality[BRC_FORM_SURFACE][BRC_QUANTITY_NU].mean_rms, 100 * fit->quality[BRC_FORM_SURFACE][BRC_QUANTITY_E].mean_rms);
-    brc_text_add(&text, "{\n    .name = \"radii +-%g %%\", .radius_spread = %g,\n    .coordination = {%g, %g}, .radius = {%g, %g},\n", 100 * law->radius_spread,
+    brc_text_add(&text, "#ifndef BRC_LAWS_SPREAD_%s_H\n#define BRC_LAWS_SPREAD_%s_H\n\n#include \"../beam_law.h\"\n\nstatic const brc_beam_law brc_beam_law_spread_%s = {\n", spread, spread, spread);
+    brc_text_add(&text, "    .name = \"radii +-%g %%\", .radius_spread = %g,\n    .coordination = {%g, %g}, .radius = {%g, %g},\n", 100 * law->radius_spread,
                  law->radius_spread, law->coordination[0], law->coordination[1], law->radius[0], law->radius[1]);
     add_table(&text, "poisson", BRC_BEAM_LAW_ROWS, BRC_BEAM_LAW_COLUMNS, &law->poisson[0][0]);
     brc_text_add(&text, ",\n");
@@ -47,7 +51,7 @@ static brc_status write_c(brc_context *context, const brc_calibration_plan *plan
     add_table(&text, "paper_poisson", 4, 4, &law->paper_poisson[0][0]);
     brc_text_add(&text, ",\n");
     add_table(&text, "paper_young", 4, 4, &law->paper_young[0][0]);
-    brc_text_add(&text, ",\n}\n");
+    brc_text_add(&text, ",\n};\n\n#endif\n");
     const brc_status status = brc_text_write(&text, path);
     brc_text_free(&text);
     return status;

@@ -36,7 +36,8 @@ typedef enum brc_case_operator {
     BRC_CASE_VIBRATION, /* modes against Rayleigh-Ritz of the scene's box */
     BRC_CASE_DRIFT,     /* energy, momentum and angular momentum along the run */
     BRC_CASE_BUILD,     /* no run: seeds to domain file, timed */
-    BRC_CASE_ISOTROPY   /* no run: directions of bonds over n_seeds samples */
+    BRC_CASE_ISOTROPY,  /* no run: directions of bonds over n_seeds samples */
+    BRC_CASE_BEAMS      /* elastic tests of n_seeds samples of beams */
 } brc_case_operator;
 
 typedef struct brc_case_run {
@@ -50,7 +51,7 @@ typedef struct brc_case_run {
     brc_precision precision;
     bool exact;    /* as in brc_device_request */
     int n_threads; /* 0: as the command line says */
-    int n_seeds;   /* isotropy: samples, the seed of every fill one larger each time */
+    int n_seeds;   /* isotropy, beams: samples, the seed of every fill one larger each time */
     int n_overrides;
     const char *overrides[BRC_CASE_LIST];
     int n_files;   /* files of the case that the scene reads: put beside it before the run */

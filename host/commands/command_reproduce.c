@@ -205,6 +205,7 @@ cleanup:
         brc_isotropy_forget(&campaign.outcomes[k]);
     }
     brc_memory_free(campaign.outcomes);
+    brc_sample_store_free(&campaign.samples);
     brc_rows_free(&campaign.rows);
     brc_case_free(&what);
     return status;

@@ -52,6 +52,7 @@ typedef struct brc_campaign {
     brc_rows rows;
     brc_outcome *outcomes; /* [what->n_runs] */
     int n_judged, n_missed;
+    struct brc_sample_store *samples; /* of reproduce_beams.c; owned */
 } brc_campaign;
 
 /* Carry out one run; a failure of the run itself is kept in its outcome (note), BRC_OK is returned. Not BRC_OK: an
@@ -76,6 +77,11 @@ brc_status brc_isotropy_values(brc_campaign *campaign, brc_outcome *outcome, con
 void brc_isotropy_forget(brc_outcome *outcome);
 /* <case>.png, <case>-area.png, <case>-inside.png, <case>-area-inside.png into the campaign's folder, where runs of isotropy were made. */
 brc_status brc_isotropy_figures(brc_campaign *campaign);
+
+/* The beams operator: elastic tests of run->n_seeds samples of the scene's box: nu, E (means with scatter; references: the material's), r_m, E_m, nu_worst, E_worst.
+ * A scene with `polish` is polished on one sample and tried on the next along all axes (no means then); nu_axis_worst, E_axis_worst: of one axis of the polished sample. */
+brc_status brc_beams_values(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes);
+void brc_sample_store_free(struct brc_sample_store **store);
 
 /* The vibration operator: rms of the relative errors of the modes, and each mode [rad/s] with its exact value. */
 brc_status brc_vibration_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome);

@@ -200,6 +200,7 @@ brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome)
     if (status == BRC_OK)
         status = run->operator == BRC_CASE_BUILD      ? build(campaign, outcome, path, text, bytes, folder)
                  : run->operator == BRC_CASE_ISOTROPY ? brc_isotropy_values(campaign, outcome, path, text, bytes)
+                 : run->operator == BRC_CASE_BEAMS    ? brc_beams_values(campaign, outcome, path, text, bytes)
                                                       : simulate(campaign, outcome, path, text, bytes, folder);
     outcome->done = status == BRC_OK || (status == BRC_PHYSICS_STOPPED && run->may_stop);
     if (status != BRC_OK && status != BRC_INTERRUPTED && status != BRC_NO_MEMORY) {

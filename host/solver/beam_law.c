@@ -1,20 +1,18 @@
 /* Coefficients: written by `breccia calibrate` as law.h (docs/beams-calibration.md has its command, the solves behind it and what is left). */
 #include "beam_law.h"
+#include "laws/spread-12.5.h"
+#include "laws/spread-25.h"
 #include <math.h>
 
-static const brc_beam_law LAWS[] = {
-#include "laws/spread-12.5.h"
-    ,
-#include "laws/spread-25.h"
-};
+static const brc_beam_law *const LAWS[] = {&brc_beam_law_spread_12_5, &brc_beam_law_spread_25};
 /* Nearer to the end of the fit than this share of its range (of nu) a small error of nu is a large one of r_m. */
 static const double NEAR_END = 0.03;
 
 const brc_beam_law *brc_beam_law_for(double radius_spread)
 {
-    const brc_beam_law *best = LAWS;
+    const brc_beam_law *best = LAWS[0];
     for (size_t k = 1; k < sizeof LAWS / sizeof *LAWS; ++k)
-        if (fabs(LAWS[k].radius_spread - radius_spread) < fabs(best->radius_spread - radius_spread)) best = &LAWS[k];
+        if (fabs(LAWS[k]->radius_spread - radius_spread) < fabs(best->radius_spread - radius_spread)) best = LAWS[k];
     return best;
 }
 

@@ -1,0 +1,16 @@
+#!/bin/sh
+# breccia calibrate end to end on small samples: 25 solves, every file, and nothing left to do the second time.
+program=${BRC_PROGRAM:-breccia}
+command -v "$program" >/dev/null || { echo "$program is not built; skipped"; exit 77; }
+folder=calibrate-$$
+"$program" calibrate -o "$folder" --samples 1 --elements 1200 --coordination 6,7.5,9,10.5,12 || exit 1
+for file in solves.csv laws.json laws.csv errors.csv law.h rows.json rows.csv; do
+    [ -s "$folder/$file" ] || { echo "$folder/$file is missing"; exit 1; }
+done
+[ "$(wc -l <"$folder/solves.csv")" = 26 ] || { echo "expected 25 solves"; exit 1; }
+cp "$folder/laws.csv" "$folder/before.csv"
+"$program" calibrate -o "$folder" --samples 1 --elements 1200 --coordination 6,7.5,9,10.5,12 --resume || exit 1
+cmp "$folder/laws.csv" "$folder/before.csv" || exit 1
+"$program" calibrate -o "$folder" 2>"$folder/message" && { echo "a second campaign in one folder was not refused"; exit 1; }
+grep -q -- '--resume' "$folder/message" || { cat "$folder/message"; exit 1; }
+rm -rf "$folder"
