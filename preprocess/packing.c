@@ -26,6 +26,8 @@
 #define HOLD_LEAST 4
 #define MOST_DENSITIES 16
 #define MOST_ITERATIONS 20000
+/* Densities at which the packing may fail to come to rest before the search is given up. */
+#define MOST_RESTLESS 2
 /* Forces left over [of the mean contact force] while pressed, and from then on. Less care in the first relaxation
  * (0.05) costs more iterations in the next ones, and density. */
 #define TOLERANCE_PRESSED 0.02
@@ -284,6 +286,7 @@ static brc_status not_reached(brc_pack *pack, const pack_plan *plan, const brc_p
 /* Relax at the wanted volume fraction, or search the one with the wanted contacts. */
 static brc_status search(brc_pack *pack, const pack_plan *plan, double fraction, brc_packing *out)
 {
+    int restless = 0;
     for (out->relaxations = 1;; ++out->relaxations) {
         const bool strict = out->relaxations > 1;
         brc_pack_sums sums;
@@ -296,6 +299,12 @@ static brc_status search(brc_pack *pack, const pack_plan *plan, double fraction,
         const bool there = plan->contacts == 0.0 || fabs(out->coordination - plan->contacts) <= plan->tolerance;
         if (there && strict) return BRC_OK;
         if (there) continue;
+        restless += !converged;
+        if (restless > MOST_RESTLESS)
+            return BRC_FAIL(pack->context, BRC_BAD_INPUT,
+                            "fill: coordination number %.3g was not found: %d times the packing did not come to rest in %d iterations (it has %.3f); use "
+                            "radii that differ less (the largest is %.3g times the mean), more spheres, or a volume fraction",
+                            plan->contacts, restless, MOST_ITERATIONS, out->coordination, pack->largest_radius / pack->mean_radius);
         double least;
         const double next = aim(pack, plan, &sums, fraction, &least);
         if (out->relaxations >= MOST_DENSITIES ||
