@@ -136,7 +136,7 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
     BRC_TRY(brc_pushes_apply(s, r));
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
-        const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(stage->loads + m->load, r->t);
+        const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(brc_imposed_of(stage, m), r->t);
         BRC_TRY(BRC_LAUNCH(s->kernel.impose_book, m->n, BRC_INT(m->n), BRC_STATE(rate), BRC_STATE(m->last_rate),
                            BRC_INT(r->book), BRC_BUF(m->element), BRC_BUF(m->component), BRC_BUF(m->direction),
                            BRC_BUF(s->mass), BRC_BUF(r->displacement), BRC_BUF(r->force), BRC_BUF(m->reaction),

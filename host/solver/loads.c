@@ -374,6 +374,55 @@ cleanup:
     return status;
 }
 
+const brc_load *brc_imposed_of(const brc_stage *stage, const brc_imposed_load *imposed)
+{
+    static const brc_load still = {.kind = BRC_LOAD_ELEMENT_DISPLACEMENT};
+    return imposed->load < 0 ? &still : stage->loads + imposed->load;
+}
+
+/* Elements that no beam holds stay where they are, in the components that no load of the stage prescribes. */
+static brc_status create_still(brc_simulation *s, const int32_t *taken, brc_imposed_load *out, bool *any)
+{
+    const brc_domain *d = s->domain;
+    int32_t *element = NULL, *flag = NULL, n = 0;
+    double *base = NULL, *now = NULL;
+    brc_status status = BRC_OK;
+    *any = false;
+    if (!brc_is_beams(s)) return BRC_OK;
+    for (int64_t e = 0; e < d->n_elements; ++e) n += d->row_start[e + 1] == d->row_start[e];
+    if (n == 0) return BRC_OK;
+    *any = true;
+    *out = (brc_imposed_load){.load = -1, .n = n, .component_bits = 7};
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->element_id, n, "isolated elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, n, "isolated elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &flag, n, "isolated elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &base, 3 * (int64_t)n, "isolated elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &now, 3 * d->n_elements, "isolated elements"));
+    BRC_TRY_OR(cleanup, brc_simulation_displacement(s, now));
+    n = 0;
+    for (int32_t r = 0; r < s->layout->n_rows; ++r) {
+        const int32_t e = s->layout->element_of_row[r];
+        if (e < 0 || d->row_start[e + 1] > d->row_start[e]) continue;
+        element[n] = r;
+        out->element_id[n] = e;
+        flag[n] = 7 & ~taken[e];
+        for (int c = 0; c < 3; ++c) base[3 * (int64_t)n + c] = now[3 * (int64_t)e + c];
+        ++n;
+    }
+    BRC_TRY_OR(cleanup, brc_new_int(s, &out->element, element, n, "isolated elements"));
+    BRC_TRY_OR(cleanup, upload_components(s, &out->component, flag, n));
+    BRC_TRY_OR(cleanup, new_uploaded_state(s, &out->base, base, 3 * (int64_t)n, "isolated elements"));
+    brc_buffer **states[] = {&out->direction, &out->reaction, &out->last, &out->last_reaction};
+    for (size_t i = 0; i < sizeof states / sizeof *states; ++i) BRC_TRY_OR(cleanup, brc_new_state(s, states[i], 3 * (int64_t)n, "isolated elements"));
+    BRC_TRY_OR(cleanup, brc_new_state(s, &out->work, n, "isolated elements"));
+cleanup:
+    brc_memory_free(element);
+    brc_memory_free(flag);
+    brc_memory_free(base);
+    brc_memory_free(now);
+    return status;
+}
+
 brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads *out)
 {
     int32_t *taken = NULL, *turned = NULL;
@@ -383,7 +432,7 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->pushes, stage->n_loads, "forces on elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->turns, stage->n_loads, "turned elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->tractions, stage->n_loads, "tractions"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->imposed, stage->n_loads, "imposed elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->imposed, stage->n_loads + 1, "imposed elements"));
     for (int32_t l = 0; l < stage->n_loads; ++l) { /* go on after an error: all in one pass */
         const brc_load *load = stage->loads + l;
         status = BRC_OK;
@@ -401,6 +450,11 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
                 status = create_traction(s, stage, l, &out->held, out->tractions + out->n_tractions++);
         }
         if (status != BRC_OK) first = status;
+    }
+    if (first == BRC_OK) {
+        bool any;
+        status = create_still(s, taken, out->imposed + out->n_imposed, &any);
+        out->n_imposed += any;
     }
 cleanup:
     brc_memory_free(taken);
@@ -451,7 +505,7 @@ brc_status brc_loads_prescribe(brc_simulation *s, double t)
     }
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
-        const brc_load *load = stage->loads + m->load;
+        const brc_load *load = brc_imposed_of(stage, m);
         BRC_TRY(BRC_LAUNCH(s->kernel.impose_motion, m->n, BRC_INT(m->n), BRC_STATE(brc_load_factor(load, t, is_static)),
                            BRC_STATE(is_static ? 0 : brc_load_rate(load, t)), BRC_INT(1), BRC_BUF(m->element),
                            BRC_BUF(m->component), BRC_BUF(m->base), BRC_BUF(m->direction), BRC_BUF(s->velocity),
@@ -466,7 +520,7 @@ brc_status brc_loads_impose_velocity(brc_simulation *s, double t)
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
         BRC_TRY(BRC_LAUNCH(s->kernel.impose_motion, m->n, BRC_INT(m->n), BRC_STATE(0),
-                           BRC_STATE(brc_load_rate(stage->loads + m->load, t)), BRC_INT(0), BRC_BUF(m->element),
+                           BRC_STATE(brc_load_rate(brc_imposed_of(stage, m), t)), BRC_INT(0), BRC_BUF(m->element),
                            BRC_BUF(m->component), BRC_BUF(m->base), BRC_BUF(m->direction), BRC_BUF(s->velocity),
                            BRC_BUF(s->displacement)));
     }

@@ -47,7 +47,7 @@ typedef struct brc_traction_load {
     brc_buffer *element, *place, *total, *moment, *reach, *work;
 } brc_traction_load;
 typedef struct brc_imposed_load {
-    int32_t load;
+    int32_t load; /* -1: elements without bonds, held still (model.keep_isolated) */
     int32_t n;
     double last_rate;
     int32_t *element_id; /* [n] host */
@@ -188,6 +188,8 @@ void brc_loads_free(brc_loads *loads);
 brc_status brc_loads_prescribe(brc_simulation *s, double t);
 /* Velocities of imposed elements at t. */
 brc_status brc_loads_impose_velocity(brc_simulation *s, double t);
+/* Load of an imposed list. */
+const brc_load *brc_imposed_of(const brc_stage *stage, const brc_imposed_load *imposed);
 /* a(t), or its integral from 0 to t for velocity loads; rate: its derivative. */
 double brc_load_factor(const brc_load *load, double t, bool is_static);
 double brc_load_rate(const brc_load *load, double t);

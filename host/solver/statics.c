@@ -54,7 +54,9 @@ static brc_status balance_free_body(brc_simulation *s, bool finite)
     const int64_t n = s->domain->n_elements;
     double *place = NULL, *torque = NULL, *force = NULL, rigid, square = 0;
     brc_status status = BRC_OK;
-    if (!brc_is_beams(s) || s->loads.n_imposed + s->loads.n_turns > 0) return BRC_OK;
+    for (int32_t i = 0; i < s->loads.n_imposed; ++i)
+        if (s->loads.imposed[i].load >= 0) return BRC_OK;
+    if (!brc_is_beams(s) || s->loads.n_turns > 0) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "balance"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "balance"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "balance"));
@@ -138,7 +140,7 @@ static brc_status find_free_motions(brc_simulation *s, brc_free_motions *free)
     const double *place = s->domain->position;
     brc_free_motions_begin(free, s->domain->n_elements, place);
     for (int32_t i = 0; i < s->loads.n_imposed; ++i)
-        for (int32_t k = 0; k < s->loads.imposed[i].n; ++k)
+        for (int32_t k = 0; s->loads.imposed[i].load >= 0 && k < s->loads.imposed[i].n; ++k)
             for (int c = 0; c < 3; ++c)
                 if (s->loads.imposed[i].component_bits >> c & 1) brc_free_motions_hold(free, place + 3 * (int64_t)s->loads.imposed[i].element_id[k], c);
     for (int32_t i = 0; i < s->loads.n_turns; ++i)

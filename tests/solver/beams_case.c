@@ -22,10 +22,10 @@ void open_beams(beams_case *c, beams_options o)
         fprintf(file, "%.17g,%.17g,%.17g,%.17g\n", o.position[3 * i], o.position[3 * i + 1], o.position[3 * i + 2], o.radius);
     fclose(file);
     const int length = snprintf(text, sizeof text,
-                                "version: 1\nmaterials:\n%s\nmodel: cbm\nbodies:\n  - name: body\n    shape: {box: {origin: [-5 m, -5 m, -5 m], size: [30 m, 30 m, 30 m]}}\n"
+                                "version: 1\nmaterials:\n%s\nmodel: %s\nbodies:\n  - name: body\n    shape: {box: {origin: [-5 m, -5 m, -5 m], size: [30 m, 30 m, 30 m]}}\n"
                                 "    fill: {points: {file: %s}}\n    beams: %.17g\n    material: stone\n%s%soutput: {frames: none, picture: false}\n",
-                                o.materials ? o.materials : "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.2, E: 1 Pa}}", name,
-                                o.coordination, o.regions ? o.regions : "", o.stages);
+                                o.materials ? o.materials : "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.2, E: 1 Pa}}", o.model ? o.model : "cbm",
+                                name, o.coordination, o.regions ? o.regions : "", o.stages);
     assert_true(length < (int)sizeof text);
     assert_done(c, brc_scene_read_text(c->context, "test.yaml", text, (size_t)length, 0, NULL, &c->scene));
     const brc_body *body = c->scene->bodies;
@@ -41,7 +41,9 @@ void open_beams(beams_case *c, beams_options o)
                                      .n_threads = o.n_threads,
                                      .exact = o.exact};
     assert_done(c, brc_device_open(c->context, &open, &c->device));
-    assert_done(c, brc_simulation_create(c->context, c->scene, c->domain, c->device, &c->simulation));
+    const brc_status status = brc_simulation_create(c->context, c->scene, c->domain, c->device, &c->simulation);
+    if (o.refused) assert_int_equal(status, BRC_BAD_INPUT);
+    else assert_done(c, status);
 }
 
 void open_lattice(beams_case *c, int n, beams_options o)

@@ -14,6 +14,8 @@ typedef struct beams_options {
     double coordination;
     const char *materials, *regions;
     const char *stages;     /* keys `sets` and `stages` */
+    const char *model; /* default "cbm" */
+    bool refused;      /* brc_simulation_create is expected to fail with BRC_BAD_INPUT */
     const char *device;
     brc_precision precision;
     int n_threads;
