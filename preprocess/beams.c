@@ -183,11 +183,7 @@ brc_status brc_beams_walls(brc_context *context, const brc_solid *solid, int n_t
     int32_t *last = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->wall_name, n_walls, "wall names"));
-    for (; domain->n_walls < n_walls; ++domain->n_walls) {
-        const char *name = brc_solid_wall_name(solid, domain->n_walls);
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->wall_name[domain->n_walls], (int64_t)strlen(name) + 1, "wall name"));
-        strcpy(domain->wall_name[domain->n_walls], name);
-    }
+    for (int32_t w = 0; w < n_walls; ++w) BRC_TRY_OR(cleanup, brc_domain_add_wall(context, domain, brc_solid_wall_name(solid, w)));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &skin, domain->n_elements, "elements of the skin"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &count, 2 * n_walls, "sizes of wall sets"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &last, 2 * n_walls, "sizes of wall sets"));

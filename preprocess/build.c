@@ -196,12 +196,7 @@ static brc_status name_walls(brc_context *context, const brc_solid *solid, brc_d
 {
     const int32_t n = brc_solid_n_walls(solid);
     BRC_TRY(BRC_ALLOCATE(context, &domain->wall_name, n, "wall names"));
-    for (int32_t w = 0; w < n; ++w) {
-        const char *name = brc_solid_wall_name(solid, w);
-        BRC_TRY(BRC_ALLOCATE(context, &domain->wall_name[w], (int64_t)strlen(name) + 1, "wall name"));
-        strcpy(domain->wall_name[w], name);
-        domain->n_walls = w + 1;
-    }
+    for (int32_t w = 0; w < n; ++w) BRC_TRY(brc_domain_add_wall(context, domain, brc_solid_wall_name(solid, w)));
     return BRC_OK;
 }
 

@@ -2,6 +2,7 @@
  * between them lie in the plane, and no other face does. */
 #include "cracks.h"
 
+#include "../host/base/log.h"
 #include "../host/base/memory.h"
 #include "crack_patch.h"
 #include "point_grid.h"
@@ -158,11 +159,36 @@ cleanup:
     return status;
 }
 
+/* Does a seed lie in the zones of both cracks? */
+static bool zones_meet(const brc_crack *a, const brc_crack *b, double spacing, const double *position, int64_t n)
+{
+    mirror first = {.spacing = spacing}, second = {.spacing = spacing};
+    double height;
+    brc_crack_patch_make(a, &first.patch);
+    brc_crack_patch_make(b, &second.patch);
+    for (int64_t e = 0; e < n; ++e)
+        if (in_zone(&first, position + 3 * e, &height) && in_zone(&second, position + 3 * e, &height)) return true;
+    return false;
+}
+
+/* The later crack moves what the earlier one has mirrored. */
+static void warn_of_neighbours(brc_context *context, int32_t c, const brc_crack *cracks, double spacing, const double *position, int64_t n)
+{
+    for (int32_t k = 0; k < c; ++k)
+        if (cracks[k].flat && zones_meet(&cracks[k], &cracks[c], spacing, position, n))
+            brc_log(context, BRC_LOG_WARNING,
+                    "cracks '%s' and '%s' come nearer to each other than six cells (%.3g m): there only the faces of '%s' lie in its plane; use smaller cells, "
+                    "or flat: false for one of them", cracks[k].name, cracks[c].name, 6.0 * spacing, cracks[c].name);
+}
+
 brc_status brc_cracks_mirror_seeds(brc_context *context, int32_t n_cracks, const brc_crack *cracks, double spacing, double *position,
                                    int64_t *n, int64_t room)
 {
     BRC_TRY(brc_cracks_check(context, n_cracks, cracks));
     for (int32_t c = 0; c < n_cracks && *n > 0; ++c)
-        if (cracks[c].flat) BRC_TRY(mirror_one(context, &cracks[c], spacing, position, n, room));
+        if (cracks[c].flat) {
+            warn_of_neighbours(context, c, cracks, spacing, position, *n);
+            BRC_TRY(mirror_one(context, &cracks[c], spacing, position, n, room));
+        }
     return BRC_OK;
 }

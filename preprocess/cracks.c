@@ -121,12 +121,7 @@ static brc_status name_walls(brc_context *context, int32_t n, const brc_crack *c
 {
     if (d->element_kind == BRC_ELEMENT_SPHERE) return BRC_OK;
     BRC_TRY(brc_memory_resize(context, (void **)&d->wall_name, (int64_t)d->n_walls + n, sizeof *d->wall_name, "wall names"));
-    for (int32_t k = 0; k < n; ++k) {
-        char **name = &d->wall_name[d->n_walls];
-        BRC_TRY(BRC_ALLOCATE(context, name, (int64_t)strlen(cracks[k].name) + 1, "wall name"));
-        strcpy(*name, cracks[k].name);
-        d->n_walls++;
-    }
+    for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_domain_add_wall(context, d, cracks[k].name));
     return BRC_OK;
 }
 

@@ -11,7 +11,7 @@ brc_status brc_cracks_check(brc_context *context, int32_t n, const brc_crack *cr
  * with more such seeds is mirrored, so a crack near a wall takes no seeds away. Mirrored seeds nearer to the plane than a quarter of a spacing are moved to
  * that distance (dropped where another seed is within it); images nearer than half a spacing to a seed that is not mirrored
  * are not made. No two seeds coincide that did not before. Faces are then exactly in the plane but for a seam about one spacing wide along the
- * rim, and about two spacings along walls that the plane meets at a slant or, nearer than one and a half, runs along (images fall outside there), and single faces within a spacing of a round wall, whose planes are not mirror images of one another; where two flat cracks come nearer than six spacings, only the later one is exact. Kept seeds keep their order, images follow in the order of their
+ * rim, and about two spacings along walls that the plane meets at a slant or, nearer than one and a half, runs along (images fall outside there), and single faces within a spacing of a round wall, whose planes are not mirror images of one another; where two flat cracks come nearer than six spacings, only the later one is exact (said as a warning). Kept seeds keep their order, images follow in the order of their
  * sources: the result depends on the seeds alone. position [*n][3] (seeds inside the solid, before the pose: pass the cracks turned back) is changed
  * in place and *n with it; room for twice *n is enough for one crack. Images may lie outside the solid: the caller drops those.
  * spacing: mean distance of seeds [m]. BRC_BAD_INPUT when there is no room (several cracks nearer to each other than a spacing) and as brc_cracks_check; BRC_NO_MEMORY. */

@@ -29,6 +29,15 @@ void brc_domain_free(brc_domain **domain)
     *domain = NULL;
 }
 
+brc_status brc_domain_add_wall(brc_context *context, brc_domain *domain, const char *name)
+{
+    char **to = &domain->wall_name[domain->n_walls];
+    BRC_TRY(BRC_ALLOCATE(context, to, (int64_t)strlen(name) + 1, "wall name"));
+    strcpy(*to, name);
+    domain->n_walls++;
+    return BRC_OK;
+}
+
 int32_t brc_domain_find_set(const brc_domain *domain, const char *name)
 {
     for (int32_t s = 0; s < domain->n_sets; ++s)

@@ -104,6 +104,8 @@ typedef struct brc_domain {
 
 /* Free a domain and all its arrays; accepts a pointer to NULL; sets *domain to NULL. */
 void brc_domain_free(brc_domain **domain);
+/* Append a copy of the name to the walls; wall_name has room for it. BRC_NO_MEMORY. */
+brc_status brc_domain_add_wall(brc_context *context, brc_domain *domain, const char *name);
 /* Index of the named set, -1 when there is none. */
 int32_t brc_domain_find_set(const brc_domain *domain, const char *name);
 /* Closure of element e: |sum of its face area vectors| over its total face area [-]. */

@@ -143,10 +143,8 @@ static brc_status join_wall(brc_context *context, const char *name, brc_domain *
             *out = w;
             return BRC_OK;
         }
-    BRC_TRY(BRC_ALLOCATE(context, &d->wall_name[d->n_walls], (int64_t)strlen(name) + 1, "wall name"));
-    strcpy(d->wall_name[d->n_walls], name);
-    *out = d->n_walls++;
-    return BRC_OK;
+    *out = d->n_walls;
+    return brc_domain_add_wall(context, d, name);
 }
 
 /* Append the members of one part's set, shifted, to the joined set of the same name, made at its first part. */

@@ -23,7 +23,7 @@ const brc_command *brc_command_find(brc_context *context, const char *name)
 
 void brc_command_print_list(FILE *file)
 {
-    fprintf(file, "breccia %s: elastic solids of Voronoi cells, on the CPU and through OpenCL\n\nusage: breccia COMMAND ...\n\n",
+    fprintf(file, "breccia %s: brittle solids of Voronoi cells or spheres joined by beams, on the CPU and through OpenCL\n\nusage: breccia COMMAND ...\n\n",
             brc_version());
     for (int k = 0; k < N_COMMANDS; ++k)
         fprintf(file, "  %-10s %-18s %s\n", commands[k]->name, commands[k]->operands, commands[k]->summary);

@@ -136,3 +136,22 @@ double test_worst_first_moment(const brc_domain *d)
     }
     return worst;
 }
+
+test_caught test_catch_stderr(void)
+{
+    fflush(stderr);
+    test_caught caught = {.file = tmpfile(), .before = dup(2)};
+    assert_non_null(caught.file);
+    dup2(fileno(caught.file), 2);
+    return caught;
+}
+
+void test_release_stderr(test_caught *caught, char *text, size_t room)
+{
+    fflush(stderr);
+    dup2(caught->before, 2);
+    close(caught->before);
+    rewind(caught->file);
+    text[fread(text, 1, room - 1, caught->file)] = '\0';
+    fclose(caught->file);
+}

@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "../../preprocess/build.h"
+#include <stdio.h>
 
 /* cmocka set-up and tear-down: *state is a context that logs errors only. The tear-down fails when memory is still held
  * that the test did not free. */
@@ -37,5 +38,13 @@ void test_says(brc_context *context, const char *part);
 /* Worst relative error of the two identities every cell obeys: sum of area vectors = 0, sum of C (x) s = V I. */
 double test_worst_closure(const brc_domain *domain);
 double test_worst_first_moment(const brc_domain *domain);
+
+/* What is said on stderr from here on goes into a file, until it is read and put back: at most room - 1 letters. */
+typedef struct test_caught {
+    FILE *file;
+    int before;
+} test_caught;
+test_caught test_catch_stderr(void);
+void test_release_stderr(test_caught *caught, char *text, size_t room);
 
 #endif

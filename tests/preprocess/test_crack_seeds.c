@@ -1,5 +1,6 @@
 #include "support.h"
 
+#include "../../host/base/log.h"
 #include "../../host/base/memory.h"
 #include "../../host/base/random.h"
 #include "../../preprocess/cracks.h"
@@ -168,12 +169,33 @@ static void other_seeds_keep_place_and_order(void **state)
     brc_memory_free(before.position);
 }
 
+/* Twelve cells a side: planes 0.4 apart are 4.8 spacings from each other, 0.6 are 7.2. */
+static void flat_cracks_nearer_than_six_spacings_are_warned_of(void **state)
+{
+    for (int far = 0; far < 2; ++far) {
+        seeds s = noisy(12, 0.9, 4);
+        char text[1024];
+        brc_crack cracks[2] = {penny(far ? 0.2 : 0.3, 0.3), penny(far ? 0.8 : 0.7, 0.3)};
+        strcpy(cracks[0].name, "low");
+        strcpy(cracks[1].name, "high");
+        test_caught caught = test_catch_stderr();
+        brc_log_set_level(*state, BRC_LOG_WARNING);
+        const brc_status status = brc_cracks_mirror_seeds(*state, 2, cracks, s.spacing, s.position, &s.n, s.room);
+        test_release_stderr(&caught, text, sizeof text);
+        assert_int_equal(status, BRC_OK);
+        if (far) assert_string_equal(text, "");
+        else if (!strstr(text, "cracks 'low' and 'high' come nearer to each other than six cells")) fail_msg("%s", text);
+        brc_memory_free(s.position);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(over_the_crack_the_nearest_seeds_are_mirror_pairs, test_begin, test_end),
         cmocka_unit_test_setup_teardown(mirroring_keeps_seeds_apart, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_plane_through_seeds_pushes_them_aside, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(flat_cracks_nearer_than_six_spacings_are_warned_of, test_begin, test_end),
         cmocka_unit_test_setup_teardown(other_seeds_keep_place_and_order, test_begin, test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -115,19 +115,10 @@ static void the_first_line_is_never_read(void **state)
 static void said(brc_context *context, const char *section, const char *rows, const char *part)
 {
     char text[2048];
-    fflush(stderr);
-    FILE *caught = tmpfile();
-    assert_non_null(caught);
-    const int before = dup(2);
-    dup2(fileno(caught), 2);
+    test_caught caught = test_catch_stderr();
     brc_log_set_level(context, BRC_LOG_INFO);
     points p = read_rows(context, section, rows);
-    fflush(stderr);
-    dup2(before, 2);
-    close(before);
-    rewind(caught);
-    text[fread(text, 1, sizeof text - 1, caught)] = '\0';
-    fclose(caught);
+    test_release_stderr(&caught, text, sizeof text);
     free_points(&p);
     if (!strstr(text, part)) fail_msg("expected '%s' in: %s", part, text);
 }
