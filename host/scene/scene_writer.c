@@ -48,6 +48,13 @@ static bool is_absent(const brc_entry *entry, const char *base)
     return true;
 }
 
+static bool is_in_group(const brc_group *group, const char *key)
+{
+    for (int k = 0; group->keys[k]; ++k)
+        if (strcmp(group->keys[k], key) == 0) return true;
+    return false;
+}
+
 static bool is_written(const brc_section *section, const brc_entry *entry, const char *base)
 {
     if (entry->type == BRC_TYPE_LATER) return false;
@@ -56,7 +63,7 @@ static bool is_written(const brc_section *section, const brc_entry *entry, const
     if (!is_absent(entry, base)) return true;
     for (size_t g = 0; g < sizeof section->groups / sizeof section->groups[0]; ++g) {
         const brc_group *group = &section->groups[g];
-        if (group->rule == BRC_GROUP_AT_MOST_ONE && entry->given)
+        if (group->rule == BRC_GROUP_AT_MOST_ONE && entry->given && is_in_group(group, entry->key))
             for (int k = 0; group->keys[k]; ++k) { /* its default would clash with the key that is there */
                 const brc_entry *other = brc_section_find(section, group->keys[k]);
                 if (other != entry && !is_absent(other, base)) return false;

@@ -135,6 +135,16 @@ static void every_example_reads_and_survives_being_written(void **state)
     globfree(&found);
 }
 
+/* Found by the fuzzer: a value that is zero where the default is not, beside a group of which another key is given. */
+static void zeros_survive_beside_a_group_of_keys(void **state)
+{
+    (void)state;
+    static const char text[] = "version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\n"
+                               "bodies:\n  - shape: {box: {size: [1 m, 1 m, 1 m]}}\n    fill: {packing: {elements: 10, seed: 0, coordination: 6}}\n"
+                               "stages: [{name: pull, solver: static}]\n";
+    expect_round_trip(text, strlen(text));
+}
+
 static void texts_with_special_characters_survive(void **state)
 {
     (void)state;
@@ -188,6 +198,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_entry_survives_being_written),
         cmocka_unit_test(every_example_reads_and_survives_being_written),
+        cmocka_unit_test(zeros_survive_beside_a_group_of_keys),
         cmocka_unit_test(texts_with_special_characters_survive),
         cmocka_unit_test(reference_in_docs_is_the_table),
         cmocka_unit_test(writing_to_a_full_disk_is_an_error),
