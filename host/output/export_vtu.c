@@ -28,6 +28,7 @@ static const frame_array ARRAYS[] = {
     {BRC_VTU_CELL_DATA, "VTKHDF/CellData/stress", "stress", BRC_VTU_FLOAT64, 6, 0, false},
     {BRC_VTU_CELL_DATA, "VTKHDF/CellData/strain", "strain", BRC_VTU_FLOAT64, 6, 0, false},
     {BRC_VTU_CELL_DATA, "VTKHDF/CellData/von_mises", "von_mises", BRC_VTU_FLOAT64, 1, 0, false},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/orientation", "orientation", BRC_VTU_FLOAT64, 4, 0, true},
 };
 enum { N_ARRAYS = sizeof ARRAYS / sizeof ARRAYS[0] };
 
@@ -75,7 +76,7 @@ static brc_status ask_sizes(const brc_h5_read *h5, place_in_frame places[N_ARRAY
 
 brc_status brc_export_vtu_frame(brc_context *context, const char *frame, const char *path)
 {
-    enum { POINTS = 1, TYPES = 4 }; /* places in ARRAYS, before the optional one */
+    enum { POINTS = 1, TYPES = 4 }; /* places in ARRAYS, before the optional ones */
     brc_h5_read h5;
     place_in_frame places[N_ARRAYS];
     brc_vtu_array arrays[N_ARRAYS];

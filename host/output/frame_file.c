@@ -165,7 +165,7 @@ static brc_status write_content(brc_context *context, brc_h5 *h5, brc_simulation
     static const int64_t vtk_version[2] = {1, 0}, format_version = BRC_FRAME_FORMAT_VERSION;
     const brc_domain *d = brc_simulation_domain(simulation);
     const int64_t n = d->n_elements;
-    double *vector = NULL;
+    double *vector = NULL, *orientation = NULL;
     brc_status status = BRC_OK;
     brc_h5_group(h5, "VTKHDF");
     brc_h5_attribute_integers(h5, "VTKHDF", "Version", 2, vtk_version);
@@ -181,10 +181,16 @@ static brc_status write_content(brc_context *context, brc_h5 *h5, brc_simulation
     write_field(h5, "displacement", "m", n, 3, vector);
     BRC_TRY_OR(cleanup, brc_simulation_velocity(simulation, vector));
     write_field(h5, "velocity", "m/s", n, 3, vector);
+    if (is_sphere(d)) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &orientation, 4 * n, "orientation of a frame"));
+        BRC_TRY_OR(cleanup, brc_simulation_orientation(simulation, orientation, NULL));
+        write_field(h5, "orientation", "-", n, 4, orientation);
+    }
     BRC_TRY_OR(cleanup, write_tensors(context, h5, simulation, n));
     write_moment(h5, simulation);
 cleanup:
     brc_memory_free(vector);
+    brc_memory_free(orientation);
     return status;
 }
 

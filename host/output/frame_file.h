@@ -11,7 +11,8 @@
  *   least-squares gradient of the element's neighbourhood (deform.h), so that "Warp By Vector" shows deformed cells;
  *   CellData, double: position (of the element, reference) [m], displacement [m], velocity [m/s], stress (Cauchy) [Pa],
  *   strain (Green) [-], von_mises [Pa]; integer: element_id. Tensors in VTK's order XX YY ZZ XY YZ XZ.
- *   Spheres are vertices (type 1): Points their reference positions, PointData/displacement their own, PointData/radius [m], as packed.
+ *   Spheres are vertices (type 1): Points their reference positions, PointData/displacement their own, PointData/radius [m], as packed;
+ *   CellData/orientation: unit quaternion w x y z, the rotation since the reference.
  *   FieldData: time [s] (all stages), stage_time [s] (static: load factor), stage, step.
  * Written aside block by block (about 4 MB of buffers and 18 doubles an element), fsynced, renamed. BRC_FILE_FAILED. */
 brc_status brc_frame_write(brc_context *context, brc_simulation *simulation, const char *path);

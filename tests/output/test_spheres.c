@@ -57,16 +57,18 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
     int64_t *offset = load(&h5, "VTKHDF/Offsets", H5T_NATIVE_INT64, N + 1, 1), *id = load(&h5, "VTKHDF/Connectivity", H5T_NATIVE_INT64, N, 1);
     uint8_t *type = load(&h5, "VTKHDF/Types", H5T_NATIVE_UINT8, N, 1);
     double *radius = load(&h5, "VTKHDF/PointData/radius", H5T_NATIVE_DOUBLE, N, 1);
+    double *turn = load(&h5, "VTKHDF/CellData/orientation", H5T_NATIVE_DOUBLE, N, 4);
     for (int e = 0; e < N; ++e) {
         assert_true(point[3 * e] == (float)e && point[3 * e + 1] == 0 && point[3 * e + 2] == 0);
         assert_true(moved[3 * e] == (float)(0.1 + 0.5 * e));
         assert_true(radius[e] == 0.3 + 0.05 * e);
+        assert_true(turn[4 * e] == cos(0.25) && turn[4 * e + 3] == sin(0.25));
         assert_int_equal(type[e], 1);
         assert_int_equal(id[e], e);
         assert_int_equal(offset[e + 1], e + 1);
     }
     brc_h5_read_close(&h5);
-    void *const block[] = {point, moved, offset, id, type, radius};
+    void *const block[] = {point, moved, offset, id, type, radius, turn};
     for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
 
     assert_int_equal(brc_export_vtu_frame(test_context, "spheres.vtkhdf", "spheres.vtu"), BRC_OK);
