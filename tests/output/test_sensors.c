@@ -146,6 +146,39 @@ static void a_point_between_two_elements_belongs_to_the_smaller_id(void **state)
     brc_sensors_free(&sensors);
 }
 
+static void spheres_are_read_by_their_centres_and_a_mean_diameter(void **state)
+{
+    (void)state;
+    /* one sphere at the left, two at the right, of radii 0.5, 0.6, 1.0 m: mean diameter 1.4 m */
+    double position[] = {0, 0, 0, 4, 3, 0, 4, -3, 0}, volume[] = {1, 1, 9}, radius[] = {0.5, 0.6, 1.0};
+    int32_t low[] = {0}, high[] = {1, 2};
+    char name[2][3] = {"x-", "x+"};
+    brc_set sets[2] = {{.name = name[0], .kind = BRC_SET_ELEMENTS, .n_members = 1, .members = low},
+                       {.name = name[1], .kind = BRC_SET_ELEMENTS, .n_members = 2, .members = high}};
+    brc_domain three = {.element_kind = BRC_ELEMENT_SPHERE, .n_elements = 3, .position = position, .volume = volume, .radius = radius, .n_sets = 2,
+                        .sets = sets, .bounds = {{-1, -4, -1}, {5, 4, 1}}};
+    brc_sensor list[] = {{.kind = BRC_SENSOR_FACE_STRAIN, .name = "a", .set = "x+", .set2 = "x-", .component = 0},
+                         {.kind = BRC_SENSOR_FACE_MEAN, .name = "b", .set = "x+", .component = 1},
+                         {.kind = BRC_SENSOR_VOLUME_STRAIN, .name = "c", .set = "x+"},
+                         {.kind = BRC_SENSOR_RADIAL_STRESS, .name = "d", .set = "x+"},
+                         {.kind = BRC_SENSOR_MOMENT, .name = "e", .set = "x+", .point = {1, 0, 3}, .component = 2},
+                         {.kind = BRC_SENSOR_TURN, .name = "f", .point = {0, 0, 0}, .component = 2}};
+    const brc_scene scene = {.model = {.kind = BRC_MODEL_CBM}, .n_sensors = 6, .sensors = list};
+    brc_simulation s = {.domain = &three, .factor = 1, .gradient = {{0.01, 0, 0}, {0.02, 0, 0}}, .reaction = {3, 4, 5}};
+    brc_sensors *sensors;
+    double value[6];
+    assert_int_equal(brc_sensors_create(test_context, &scene, &three, &sensors), BRC_OK);
+    assert_int_equal(brc_sensors_evaluate(sensors, &s, value), BRC_OK);
+    const double r = 5 + 0.7; /* from the origin */
+    assert_true(fabs(value[0] - 0.04 / (4 + 1.4)) < 1e-16);
+    assert_true(fabs(value[1] - 0.08) < 1e-16); /* a plain mean, whatever the volumes */
+    assert_true(fabs(value[2] - 3 * 0.04 * 4 / 5 / r) < 1e-15); /* u = (0.04, 0.08) on both: the y parts cancel */
+    assert_true(fabs(value[3] - 2 * 2 * 5 / (4 * M_PI * r * r)) < 1e-14);
+    assert_true(fabs(value[4] - (0 * 4 - 2 * 3)) < 1e-14); /* at (1, 2, 3) m: arm (0, 2, 0) */
+    assert_true(fabs(value[5] - 0.5) < 1e-14);
+    brc_sensors_free(&sensors);
+}
+
 static void only_what_some_sensor_reads_is_fetched_and_that_once(void **state)
 {
     (void)state;
@@ -200,6 +233,7 @@ int main(void)
         cmocka_unit_test(stress_and_strain_are_volume_means_over_the_set),
         cmocka_unit_test(reactions_energies_points_and_modes_are_passed_on),
         cmocka_unit_test(a_point_between_two_elements_belongs_to_the_smaller_id),
+        cmocka_unit_test(spheres_are_read_by_their_centres_and_a_mean_diameter),
         cmocka_unit_test(only_what_some_sensor_reads_is_fetched_and_that_once),
         cmocka_unit_test(every_wrong_sensor_is_named_in_one_pass),
     };
