@@ -162,7 +162,8 @@ KERNEL void fracture_ratio(int n, int drucker_prager, coeff slope, coeff frictio
 {
     FOR_EACH_ITEM(e, n) {
         const failure_shear shear = {drucker_prager, slope, friction};
-        ratio[e] = failure_of(failure_principal_of(fracture_stress_of(stress, e)), fracture_limits_of(limits, e), shear).ratio;
+        const failure_state failed = failure_of(failure_principal_of(fracture_stress_of(stress, e)), fracture_limits_of(limits, e), shear);
+        ratio[e] = failed.ratio; /* of a name: clang's target reading cannot map a member of a call's value */
     }
 }
 
