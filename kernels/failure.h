@@ -17,9 +17,12 @@
 
 typedef struct { coeff xx, yy, zz, yz, xz, xy; } failure_stress; /* [Pa] */
 
-/* value[0] >= value[1] >= value[2] [Pa]; axis[k]: unit vector that belongs to value[k], its sign open. */
+typedef struct { coeff x, y, z; } failure_axis;
+
+/* first >= second >= third [Pa], and their unit vectors, signs open. */
 typedef struct {
-    coeff value[3], axis[3][3];
+    coeff first, second, third;
+    failure_axis first_axis, second_axis, third_axis;
 } failure_principal;
 
 /* Limits of one element; tension, compression [Pa]; shear: 2 c cos phi, or k [Pa]. */
@@ -32,62 +35,66 @@ typedef struct {
 } failure_shear;
 
 typedef struct {
-    coeff ratio;        /* >= 1: failed [-] */
-    coeff stress;       /* the principal value that counts; shear: half the difference of the outer two [Pa] */
-    coeff normal[2][3]; /* normals of the planes it fails on, both equal unless it shears */
-    int mode;           /* FAILURE_..., 0: no limit */
+    coeff ratio;  /* >= 1: failed [-] */
+    coeff stress; /* the principal value that counts; shear: half the difference of the outer two [Pa] */
+    failure_axis normal, other; /* normals of the planes it fails on, both equal unless it shears */
+    int mode; /* FAILURE_..., 0: no limit */
 } failure_state;
 
 LAW coeff failure_absolute(coeff x) { return x < 0 ? -x : x; }
+LAW coeff failure_larger(coeff a, coeff b) { return a > b ? a : b; }
+/* k a + m b */
+LAW failure_axis failure_mix(coeff k, failure_axis a, coeff m, failure_axis b)
+{
+    return (failure_axis){k * a.x + m * b.x, k * a.y + m * b.y, k * a.z + m * b.z};
+}
+
+/* What one rotation of axes p and q touches: their block, the two entries with the third axis r, and the axes. */
+typedef struct {
+    coeff pp, qq, pq, rp, rq;
+    failure_axis p, q;
+} failure_pair;
+
+/* Turn so that pq becomes 0. */
+LAW failure_pair failure_turn(failure_pair a)
+{
+    if (!(failure_absolute(a.pq) > REAL(1e-18))) return a;
+    const coeff theta = (a.qq - a.pp) / (REAL(2) * a.pq);
+    const coeff t = (theta < 0 ? REAL(-1) : REAL(1)) / (failure_absolute(theta) + SQRT(theta * theta + REAL(1)));
+    const coeff c = REAL(1) / SQRT(t * t + REAL(1)), n = t * c;
+    return (failure_pair){a.pp - t * a.pq,         a.qq + t * a.pq,         0, c * a.rp - n * a.rq, n * a.rp + c * a.rq,
+                          failure_mix(c, a.p, -n, a.q), failure_mix(n, a.p, c, a.q)};
+}
+
+/* Larger value first. */
+LAW failure_pair failure_order(failure_pair a)
+{
+    return a.pp >= a.qq ? a : (failure_pair){a.qq, a.pp, a.pq, a.rq, a.rp, a.q, a.p};
+}
 
 /* Cyclic Jacobi rotations: only sums, products, quotients and roots, so all devices agree; exact for multiple values too. Values to
  * rounding of the largest, whatever their size. */
 LAW failure_principal failure_principal_of(failure_stress s)
 {
-    coeff a[3][3] = {{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
-    failure_principal out = {{0, 0, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    coeff size = 0;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) size = failure_absolute(a[i][j]) > size ? failure_absolute(a[i][j]) : size;
-    if (!(size > 0)) return out;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) a[i][j] /= size;
+    const coeff size = failure_larger(failure_larger(failure_larger(failure_absolute(s.xx), failure_absolute(s.yy)),
+                                                     failure_larger(failure_absolute(s.zz), failure_absolute(s.yz))),
+                                      failure_larger(failure_absolute(s.xz), failure_absolute(s.xy)));
+    failure_axis x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
+    if (!(size > 0)) return (failure_principal){0, 0, 0, x, y, z};
+    coeff xx = s.xx / size, yy = s.yy / size, zz = s.zz / size, yz = s.yz / size, xz = s.xz / size, xy = s.xy / size;
     for (int sweep = 0; sweep < 12; ++sweep) {
-        const coeff off = a[0][1] * a[0][1] + a[0][2] * a[0][2] + a[1][2] * a[1][2];
-        if (!(off > REAL(1e-34))) break;
-        for (int k = 0; k < 3; ++k) {
-            const int p = k == 2 ? 1 : 0, q = k == 0 ? 1 : 2, r = 3 - p - q;
-            if (!(failure_absolute(a[p][q]) > REAL(1e-18))) continue;
-            const coeff theta = (a[q][q] - a[p][p]) / (REAL(2) * a[p][q]);
-            const coeff t = (theta < 0 ? REAL(-1) : REAL(1)) / (failure_absolute(theta) + SQRT(theta * theta + REAL(1)));
-            const coeff c = REAL(1) / SQRT(t * t + REAL(1)), n = t * c, was = a[p][q];
-            a[p][p] -= t * was;
-            a[q][q] += t * was;
-            a[p][q] = a[q][p] = 0;
-            const coeff rp = c * a[r][p] - n * a[r][q], rq = n * a[r][p] + c * a[r][q];
-            a[r][p] = a[p][r] = rp;
-            a[r][q] = a[q][r] = rq;
-            for (int i = 0; i < 3; ++i) {
-                const coeff vp = c * out.axis[p][i] - n * out.axis[q][i];
-                out.axis[q][i] = n * out.axis[p][i] + c * out.axis[q][i];
-                out.axis[p][i] = vp;
-            }
-        }
+        if (!(yz * yz + xz * xz + xy * xy > REAL(1e-34))) break;
+        failure_pair a = failure_turn((failure_pair){xx, yy, xy, xz, yz, x, y});
+        xx = a.pp, yy = a.qq, xy = a.pq, xz = a.rp, yz = a.rq, x = a.p, y = a.q;
+        a = failure_turn((failure_pair){xx, zz, xz, xy, yz, x, z});
+        xx = a.pp, zz = a.qq, xz = a.pq, xy = a.rp, yz = a.rq, x = a.p, z = a.q;
+        a = failure_turn((failure_pair){yy, zz, yz, xy, xz, y, z});
+        yy = a.pp, zz = a.qq, yz = a.pq, xy = a.rp, xz = a.rq, y = a.p, z = a.q;
     }
-    for (int i = 0; i < 3; ++i) out.value[i] = size * a[i][i];
-    for (int pass = 0; pass < 3; ++pass) { /* order by size */
-        const int i = pass == 1 ? 1 : 0, j = i + 1;
-        if (out.value[i] >= out.value[j]) continue;
-        const coeff value = out.value[i];
-        out.value[i] = out.value[j];
-        out.value[j] = value;
-        for (int c = 0; c < 3; ++c) {
-            const coeff axis = out.axis[i][c];
-            out.axis[i][c] = out.axis[j][c];
-            out.axis[j][c] = axis;
-        }
-    }
-    return out;
+    const failure_pair one = failure_order((failure_pair){xx, yy, 0, 0, 0, x, y});
+    const failure_pair two = failure_order((failure_pair){one.qq, zz, 0, 0, 0, one.q, z});
+    const failure_pair top = failure_order((failure_pair){one.pp, two.pp, 0, 0, 0, one.p, two.p});
+    return (failure_principal){size * top.pp, size * top.qq, size * two.qq, top.p, top.q, two.q};
 }
 
 /* limit - sign sigma is positive definite: every principal value of sign sigma is below the limit. */
@@ -114,47 +121,32 @@ LAW int failure_possible(failure_stress s, failure_limits limits, failure_shear 
     return 0;
 }
 
-LAW failure_state failure_set(failure_state now, coeff ratio, coeff stress, failure_principal p, int k, int mode)
-{
-    if (!(ratio > now.ratio)) return now;
-    now.ratio = ratio;
-    now.stress = stress;
-    now.mode = mode;
-    for (int c = 0; c < 3; ++c) now.normal[0][c] = now.normal[1][c] = p.axis[k][c];
-    return now;
-}
+LAW failure_state failure_worse(failure_state a, failure_state b) { return b.ratio > a.ratio ? b : a; }
 
 LAW failure_state failure_of(failure_principal p, failure_limits limits, failure_shear shear)
 {
-    failure_state out = {0, 0, {{0, 0, 0}, {0, 0, 0}}, 0};
-    const coeff first = p.value[0], third = p.value[2];
-    if (limits.tension > 0) out = failure_set(out, first / limits.tension, first, p, 0, FAILURE_TENSION);
-    if (limits.compression > 0) out = failure_set(out, -third / limits.compression, third, p, 2, FAILURE_COMPRESSION);
-    if (limits.shear > 0) {
-        coeff measure = (first - third) + shear.slope * (first + third);
-        if (shear.drucker_prager) {
-            const coeff a = first - p.value[1], b = p.value[1] - third, c = first - third;
-            measure = SQRT((a * a + b * b + c * c) / REAL(6)) + shear.slope * (first + p.value[1] + third);
-        }
-        const coeff before = out.ratio;
-        out = failure_set(out, measure / limits.shear, REAL(0.5) * (first - third), p, 0, FAILURE_SHEAR);
-        if (out.ratio > before) { /* planes at 45 deg + phi / 2 between the outer axes */
-            const coeff along = SQRT(REAL(0.5) * (REAL(1) + shear.friction)), across = SQRT(REAL(0.5) * (REAL(1) - shear.friction));
-            for (int c = 0; c < 3; ++c) {
-                out.normal[0][c] = along * p.axis[0][c] + across * p.axis[2][c];
-                out.normal[1][c] = along * p.axis[0][c] - across * p.axis[2][c];
-            }
-        }
+    failure_state out = {0, 0, {0, 0, 0}, {0, 0, 0}, 0};
+    if (limits.tension > 0)
+        out = failure_worse(out, (failure_state){p.first / limits.tension, p.first, p.first_axis, p.first_axis, FAILURE_TENSION});
+    if (limits.compression > 0)
+        out = failure_worse(out, (failure_state){-p.third / limits.compression, p.third, p.third_axis, p.third_axis, FAILURE_COMPRESSION});
+    if (limits.shear > 0) { /* planes at 45 deg + phi / 2 between the outer axes */
+        const coeff along = SQRT(REAL(0.5) * (REAL(1) + shear.friction)), across = SQRT(REAL(0.5) * (REAL(1) - shear.friction));
+        const coeff a = p.first - p.second, b = p.second - p.third, c = p.first - p.third;
+        const coeff measure = shear.drucker_prager ? SQRT((a * a + b * b + c * c) / REAL(6)) + shear.slope * (p.first + p.second + p.third)
+                                                   : c + shear.slope * (p.first + p.third);
+        out = failure_worse(out, (failure_state){measure / limits.shear, REAL(0.5) * c, failure_mix(along, p.first_axis, across, p.third_axis),
+                                                 failure_mix(along, p.first_axis, -across, p.third_axis), FAILURE_SHEAR});
     }
     return out;
 }
 
-/* |cos| of the angle between a direction (need not be a unit vector; 1/length given) and the nearer plane's normal. */
-LAW coeff failure_alignment(failure_state f, coeff x, coeff y, coeff z, coeff inv_length)
+/* |cos| of the angle between a direction and the nearer plane's normal; inv_length: 1 / length of x. */
+LAW coeff failure_alignment(failure_state f, failure_axis x, coeff inv_length)
 {
-    const coeff a = failure_absolute(f.normal[0][0] * x + f.normal[0][1] * y + f.normal[0][2] * z);
-    const coeff b = failure_absolute(f.normal[1][0] * x + f.normal[1][1] * y + f.normal[1][2] * z);
-    return (a > b ? a : b) * inv_length;
+    const coeff a = failure_absolute(f.normal.x * x.x + f.normal.y * x.y + f.normal.z * x.z);
+    const coeff b = failure_absolute(f.other.x * x.x + f.other.y * x.y + f.other.z * x.z);
+    return failure_larger(a, b) * inv_length;
 }
 
 #endif

@@ -18,6 +18,7 @@ KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, G
         const lane_int own = lane_own(group * W);
         const state_vec3 u = state_gather3(displacement, own);
         const lane_quat q = lane_gather4(orientation, own);
+        const lane_mat3 turn = quat_matrix_minus_identity(q, 1);
         const lane zero = LANE_ZERO, mean = LANE_ZERO + REAL(0.5);
         cbm_end sum = {{zero, zero, zero}, {zero, zero, zero}};
         lane_sym3 virial = {zero, zero, zero, zero, zero, zero};
@@ -25,10 +26,13 @@ KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, G
             const lane_int j = int_block(neighbour, slot, lane0);
             rows_ahead3(branch, slot);
             rows_ahead1(inv_length, slot);
+            rows_ahead1(alive, slot);
+            gathers_ahead(displacement, 3, neighbour, slot, row_start[slice + 1], lane0);
+            gathers_ahead(orientation, 4, neighbour, slot, row_start[slice + 1], lane0);
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u), r = lane_block3(branch, slot, lane0);
             const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
             const lane whole = lane_load(alive, (brc_size)slot * C + (brc_size)lane0);
-            const cbm_shape shape = cbm_beam_shape(r, inverse, jump, q, lane_gather4(orientation, j), 1);
+            const cbm_shape shape = cbm_beam_shape_turned(r, inverse, jump, q, turn, lane_gather4(orientation, j), 1);
             const cbm_end end = cbm_beam_law(shape, inverse, cbm_stiffness_of(beam_of, own, j, axial, bend, twist), 1);
             const lane_vec3 f = lane_vec3_scale(whole, end.force), x = lane_vec3_add(r, jump);
             sum.force = lane_vec3_add(sum.force, f);
@@ -140,13 +144,11 @@ KERNEL void fracture_choose(int n, int drucker_prager, coeff slope, coeff fricti
                 const brc_size entry = (brc_size)slot * C + e % C;
                 if (!(alive[entry] > 0)) continue;
                 const int j = neighbour[entry];
-                coeff x[3], square = 0;
-                for (int c = 0; c < 3; ++c) {
-                    x[c] = branch[((brc_size)slot * 3 + c) * C + e % C] +
-                           (coeff)(displacement[(brc_size)j * 3 + c] - displacement[(brc_size)e * 3 + c]);
-                    square += x[c] * x[c];
-                }
-                const coeff aligned = failure_alignment(failed, x[0], x[1], x[2], REAL(1) / SQRT(square));
+                failure_axis x;
+                x.x = branch[(brc_size)slot * 3 * C + e % C] + (coeff)(displacement[(brc_size)j * 3] - displacement[(brc_size)e * 3]);
+                x.y = branch[((brc_size)slot * 3 + 1) * C + e % C] + (coeff)(displacement[(brc_size)j * 3 + 1] - displacement[(brc_size)e * 3 + 1]);
+                x.z = branch[((brc_size)slot * 3 + 2) * C + e % C] + (coeff)(displacement[(brc_size)j * 3 + 2] - displacement[(brc_size)e * 3 + 2]);
+                const coeff aligned = failure_alignment(failed, x, REAL(1) / SQRT(x.x * x.x + x.y * x.y + x.z * x.z));
                 if (!(aligned > best)) continue;
                 best = aligned;
                 choice[e] = 4 * j + failed.mode;

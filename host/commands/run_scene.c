@@ -8,7 +8,7 @@
 #include <string.h>
 
 static const char *const file_names[BRC_RUN_FILES] = {"summary.json",         "result.h5",   "histories.csv",
-                                                      "frames.vtkhdf.series", "picture.png", "curve.png"};
+                                                      "frames.vtkhdf.series", "picture.png", "curve.png", "cracks.csv"};
 
 const char *brc_run_file_name(int k)
 {

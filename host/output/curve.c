@@ -118,6 +118,11 @@ static void add_script(brc_text *text, const brc_scene *scene, const brc_measure
     for (int64_t k = 0; k < series->n; ++k)
         brc_text_add(text, "%.12g %.12g\n", x.factor * series->x[k], y.factor * series->y[k]);
     brc_text_add(text, "END\n");
+    const char *const lines = series->n > 60 ? "lines" : "points pointtype 7 pointsize 1.6";
+    if (scene->has_fracture) { /* a slope at zero says nothing of a curve that breaks off */
+        brc_text_add(text, "plot $data using 1:2 title \"simulation\" with %s linecolor rgb '#222222'\n", lines);
+        return;
+    }
     number_with_unit(fit->coefficient[1], unit, slope);
     brc_text_add(text, "slope(x) = %.12g + %.12g * x\n", y.factor * fit->coefficient[0], to_axes * fit->coefficient[1]);
     brc_text_add(text, "plot slope(x) title \"slope at zero: %s\" with lines linewidth 2 linecolor rgb '#4477aa'",
@@ -129,8 +134,7 @@ static void add_script(brc_text *text, const brc_scene *scene, const brc_measure
                      "linecolor rgb '#cc6677'",
                      y.factor * fit->coefficient[0], to_axes * target, slope);
     }
-    brc_text_add(text, ", \\\n $data using 1:2 title \"simulation\" with %s linecolor rgb '#222222'\n",
-                 series->n > 60 ? "lines" : "points pointtype 7 pointsize 1.6");
+    brc_text_add(text, ", \\\n $data using 1:2 title \"simulation\" with %s linecolor rgb '#222222'\n", lines);
 }
 
 static const char *unit_of_sensor(const brc_scene *scene, const char *name)

@@ -1,5 +1,6 @@
 /* Frames as VTKHDF. */
 #include "frame_file.h"
+#include "cracks.h"
 #include "deform.h"
 #include "h5.h"
 #include "text.h"
@@ -187,6 +188,7 @@ static brc_status write_content(brc_context *context, brc_h5 *h5, brc_simulation
         write_field(h5, "orientation", "-", n, 4, orientation);
     }
     BRC_TRY_OR(cleanup, write_tensors(context, h5, simulation, n));
+    if (brc_simulation_has_fracture(simulation)) BRC_TRY_OR(cleanup, brc_cracks_write_frame(context, h5, simulation));
     write_moment(h5, simulation);
 cleanup:
     brc_memory_free(vector);

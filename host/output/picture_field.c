@@ -1,12 +1,13 @@
 /* Which field the picture shows: words of the scene to numbers of the elements. */
 #include "picture.h"
+#include "../solver/fracture.h"
 #include "deform.h"
 #include "../base/memory.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-typedef enum source { DISPLACEMENT, VELOCITY, STRESS, STRAIN } source;
+typedef enum source { DISPLACEMENT, VELOCITY, STRESS, STRAIN, DAMAGE } source;
 
 typedef struct field {
     source source;
@@ -21,6 +22,10 @@ static bool parse(const char *word, field *out)
     static const char *const pair[] = {"xx", "yy", "zz", "yz", "xz", "xy"};
     if (strcmp(word, "von_mises") == 0) {
         *out = (field){.source = STRESS, .component = -1, .name = "von Mises stress"};
+        return true;
+    }
+    if (strcmp(word, "damage") == 0) {
+        *out = (field){.source = DAMAGE, .name = "damage"};
         return true;
     }
     for (int k = 0; k < 2; ++k) {
@@ -52,7 +57,8 @@ static const char *unit_of(source from)
     case DISPLACEMENT: return "m";
     case VELOCITY: return "m/s";
     case STRESS: return "Pa";
-    case STRAIN: break;
+    case STRAIN:
+    case DAMAGE: break;
     }
     return "-";
 }
@@ -61,6 +67,7 @@ static double pick(const field *f, const double *data, int64_t e)
 {
     if (f->source == STRESS || f->source == STRAIN)
         return f->component < 0 ? brc_deform_von_mises(data + 6 * e) : data[6 * e + f->component];
+    if (f->source == DAMAGE) return data[e];
     const double *v = data + 3 * e;
     return f->component < 0 ? sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) : v[f->component];
 }
@@ -77,7 +84,7 @@ brc_status brc_picture_write(brc_context *context, brc_simulation *simulation, c
     if (!parse(word, &f))
         return BRC_FAIL(
             context, BRC_BAD_INPUT,
-            "a picture cannot be coloured by \"%s\"; known are von_mises, displacement, velocity (also with "
+            "a picture cannot be coloured by \"%s\"; known are von_mises, damage, displacement, velocity (also with "
             "_x, _y, _z), stress and strain with _xx, _yy, _zz, _yz, _xz, _xy",
             word);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &displacement, 3 * n, "displacement of the picture"));
@@ -89,6 +96,7 @@ brc_status brc_picture_write(brc_context *context, brc_simulation *simulation, c
     case VELOCITY: status = brc_simulation_velocity(simulation, data); break;
     case STRESS: status = brc_simulation_strain_stress(simulation, NULL, NULL, data); break;
     case STRAIN: status = brc_simulation_strain_stress(simulation, data, NULL, NULL); break;
+    case DAMAGE: status = brc_simulation_damage(simulation, data); break;
     }
     if (status != BRC_OK) goto cleanup;
     for (int64_t e = 0; e < n; ++e)

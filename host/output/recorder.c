@@ -1,6 +1,7 @@
 /* The recorder. While the simulation runs it samples the sensors, adds the samples to histories.csv and writes frames, each
  * with the index and the histories so far, so that a killed run keeps all but its last interval. Nothing here draws: see picture.c, curve.c. */
 #include "recorder.h"
+#include "cracks.h"
 #include "curve.h"
 #include "frame_file.h"
 #include "history_csv.h"
@@ -19,9 +20,9 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SUMMARY, RESULT, HISTORIES, PICTURE, CURVE, SERIES, FRAMES, N_FILES };
+enum { SUMMARY, RESULT, HISTORIES, CRACKS, PICTURE, CURVE, SERIES, FRAMES, N_FILES };
 static const char *const FILE_NAME[N_FILES] = {
-    "summary.json", "result.h5", "histories.csv", "picture.png", "curve.png", "frames.vtkhdf.series", "frames"};
+    "summary.json", "result.h5", "histories.csv", "cracks.csv", "picture.png", "curve.png", "frames.vtkhdf.series", "frames"};
 
 struct brc_recorder {
     brc_context *context;
@@ -37,6 +38,8 @@ struct brc_recorder {
     double *frame_time; /* [n_frames] for the index: strictly rising */
     brc_measured *measures;
     int32_t n_measures;
+    bool has_cracks; /* the simulation can break and was asked what broke */
+    brc_cracks cracks;
     double start, build_s, output_s; /* start: brc_clock_s() then; the others: wall seconds */
 };
 
@@ -88,6 +91,7 @@ static brc_status write_summary(brc_recorder *recorder, brc_context *context, bo
         .domain = recorder->domain,
         .simulation = recorder->simulation,
         .ledger = ledger,
+        .cracks = recorder->has_cracks ? &recorder->cracks : NULL,
         .history = recorder->history,
         .n_measures = recorder->n_measures,
         .measures = recorder->measures,
@@ -172,6 +176,7 @@ static brc_status write_index(brc_recorder *r, brc_context *context, const brc_l
         .domain = r->domain,
         .simulation = r->simulation,
         .ledger = ledger,
+        .cracks = r->has_cracks ? &r->cracks : NULL,
         .history = r->history,
         .n_measures = r->n_measures,
         .measures = r->measures,
@@ -179,6 +184,16 @@ static brc_status write_index(brc_recorder *r, brc_context *context, const brc_l
         .frame_time = r->frame_time,
     };
     return brc_result_write(context, &result, r->path[RESULT]);
+}
+
+/* What broke so far, for the index and the summary. */
+static brc_status take_cracks(brc_recorder *r, brc_context *context)
+{
+    r->has_cracks = false;
+    if (!brc_simulation_has_fracture(r->simulation)) return BRC_OK;
+    BRC_TRY(brc_cracks_take(context, r->simulation, &r->cracks));
+    r->has_cracks = true;
+    return BRC_OK;
 }
 
 /* Viewers need rising times: physical time where some stage has it, else stages and their load factors; equal moments
@@ -209,6 +224,7 @@ static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
     r->frame_time[r->n_frames] = index_time(r, simulation);
     ++r->n_frames;
     BRC_TRY(brc_frame_write_series(r->context, r->n_frames, r->frame_time, r->path[SERIES]));
+    BRC_TRY(take_cracks(r, r->context));
     return write_index(r, r->context, NULL);
 }
 
@@ -265,6 +281,8 @@ static brc_status evaluate_measures(brc_recorder *r, brc_context *quiet)
 static void write_results(brc_recorder *r, brc_context *quiet, brc_status *status, const brc_ledger *ledger)
 {
     bool made;
+    if (ledger) note(r, quiet, take_cracks(r, quiet), status); /* else: as of the last frame */
+    if (r->has_cracks) note(r, quiet, brc_cracks_write_csv(quiet, &r->cracks, r->path[CRACKS]), status);
     note(r, quiet, evaluate_measures(r, quiet), status);
     note(r, quiet, write_index(r, quiet, ledger), status);
     note(r, quiet, brc_history_csv_finish(quiet, r->csv, r->history), status);

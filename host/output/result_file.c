@@ -124,6 +124,7 @@ static brc_status write_content(brc_context *context, brc_h5 *h5, const brc_resu
     if (result->history) BRC_TRY(write_histories(context, h5, result));
     write_measures(h5, result);
     if (result->ledger) write_ledger(h5, result->ledger);
+    if (result->cracks) BRC_TRY(brc_cracks_write_h5(context, h5, result->cracks));
     write_frames(h5, result);
     write_provenance(h5, result);
     return BRC_OK;

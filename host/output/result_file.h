@@ -3,6 +3,7 @@
 #define BRC_OUTPUT_RESULT_FILE_H
 
 #include "../solver/simulation.h"
+#include "cracks.h"
 #include "history.h"
 #include "measures.h"
 
@@ -14,6 +15,7 @@ typedef struct brc_result {
     const brc_domain *domain;         /* NULL: left out */
     const brc_simulation *simulation; /* NULL: left out */
     const brc_ledger *ledger;         /* NULL: left out */
+    const brc_cracks *cracks;         /* NULL: left out */
     const brc_history *history;       /* NULL: left out */
     int32_t n_measures;
     const brc_measured *measures; /* [n_measures] */
@@ -26,6 +28,8 @@ typedef struct brc_result {
  *   /histories     stage, step, stage_time, time; sensors/<name> with attributes unit, last, min, max
  *   /measures      <name> with attributes unit, target, error
  *   /ledger        <term> [J]; closure [-]
+ *   /cracks        time, step, stage, mode, bond, element_i, element_j, position, normal, stress, energy of every broken bond; attribute fragments;
+ *                  only of scenes with fracture
  *   /frames        NNNNNN: external links to frames/NNNNNN.vtkhdf; time
  *   /provenance    attributes domain, device, driver, precision
  * Made in memory, written aside, renamed. BRC_FILE_FAILED, BRC_NO_MEMORY. */

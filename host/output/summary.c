@@ -47,7 +47,7 @@ static void add_size(brc_json *json, const brc_summary *s)
     if (s->domain) {
         brc_json_integer(json, "elements", s->domain->n_elements);
         brc_json_integer(json, "bonds", s->domain->n_bonds);
-        brc_json_integer(json, "broken", 0); /* bonds of this version hold for ever */
+        brc_json_integer(json, "broken", s->cracks ? s->cracks->n_broken : 0);
     } else {
         brc_json_null(json, "elements");
         brc_json_null(json, "bonds");
@@ -188,6 +188,7 @@ brc_status brc_summary_write(brc_context *context, const brc_summary *summary, c
     add_size(&json, summary);
     add_cost(&json, summary);
     add_ledger(&json, summary->ledger);
+    if (summary->cracks) brc_cracks_add(&json, summary->cracks);
     add_effects(&json, summary->simulation);
     add_measures(&json, summary);
     add_sensors(&json, summary);

@@ -3,6 +3,7 @@
 #define BRC_OUTPUT_SUMMARY_H
 
 #include "../solver/simulation.h"
+#include "cracks.h"
 #include "history.h"
 #include "measures.h"
 
@@ -12,6 +13,7 @@ typedef struct brc_summary {
     const brc_domain *domain;
     const brc_simulation *simulation;
     const brc_ledger *ledger;
+    const brc_cracks *cracks; /* NULL: nothing can break */
     const brc_history *history;
     int32_t n_measures;
     const brc_measured *measures;

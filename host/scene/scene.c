@@ -127,6 +127,8 @@ const char *brc_measure_unit(const brc_scene *scene, const brc_measure *measure)
     case BRC_MEASURE_NU: return "-";
     case BRC_MEASURE_FREQUENCY: return "Hz";
     case BRC_MEASURE_PEAK:
+        if (measure->area_set[0]) return "Pa";
+        break;
     case BRC_MEASURE_MEAN:
     case BRC_MEASURE_SLOPE: break;
     }

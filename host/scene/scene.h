@@ -222,7 +222,7 @@ typedef struct brc_measure {
     char name[BRC_NAME];
     brc_measure_kind kind;
     char y[BRC_NAME], x[BRC_NAME]; /* sensor names; x "" where the operator needs none */
-    char area_set[BRC_NAME];       /* E, K, G: face set whose reference area divides y; "" : y is a stress already */
+    char area_set[BRC_NAME];       /* E, K, G, peak: face set whose reference area divides y; "" : y is a stress already */
     char stage[BRC_NAME];          /* "" : the last stage */
     double window[2];              /* [s] of the stage; 0 0: all of it */
     bool has_target;

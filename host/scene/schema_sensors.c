@@ -203,8 +203,9 @@ static const brc_entry OF_FREQUENCY[] = {SENSOR_ENTRY("of", y, "force", "sensor"
 static const brc_section FREQUENCY_SECTION = {
     .title = "frequency", .meaning = "Largest peak of the spectrum of a sensor, interpolated.", ENTRIES(OF_FREQUENCY)};
 static const brc_entry OF_SENSOR[] = {SENSOR_ENTRY("of", y, "force", "sensor"), COMMON_ENTRIES("1 N")};
+static const brc_entry OF_PEAK[] = {SENSOR_ENTRY("of", y, "force", "sensor"), AREA_ENTRY, COMMON_ENTRIES("1 N")};
 static const brc_section PEAK_SECTION = {
-    .title = "peak", .meaning = "The value of largest magnitude.", ENTRIES(OF_SENSOR)};
+    .title = "peak", .meaning = "The value of largest magnitude; of a load over an area, the strength.", ENTRIES(OF_PEAK)};
 static const brc_section MEAN_SECTION = {.title = "mean", .meaning = "Mean over time.", ENTRIES(OF_SENSOR)};
 static const brc_entry OF_TWO[] = {SENSOR_ENTRY("of", y, "force", "sensor"),
                                    SENSOR_ENTRY("against", x, "force", "sensor it depends on"), COMMON_ENTRIES("1")};
@@ -234,7 +235,7 @@ const brc_section brc_schema_measure = {.title = "measure",
 static const brc_entry PICTURE[] = {
     {"draw", BRC_TYPE_BOOL, FIELD(brc_output, picture), .given = "true", .meaning = "draw picture.png at the end"},
     {"colour", BRC_TYPE_WORD, FIELD(brc_output, picture_colour),
-     CHOICES("von_mises", "displacement", "displacement_x", "displacement_y", "displacement_z", "velocity",
+     CHOICES("von_mises", "damage", "displacement", "displacement_x", "displacement_y", "displacement_z", "velocity",
              "velocity_x", "velocity_y", "velocity_z", "stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz",
              "stress_xy", "strain_xx", "strain_yy", "strain_zz", "strain_yz", "strain_xz", "strain_xy"),
      .given = "von_mises", .meaning = "what the colours show"},

@@ -54,12 +54,12 @@ static double norm(failure_stress s)
     return sqrt(s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + 2 * (s.yz * s.yz + s.xz * s.xz + s.xy * s.xy));
 }
 
-static void multiply(failure_stress s, const double v[3], double out[3])
+static failure_axis multiply(failure_stress s, failure_axis v)
 {
-    out[0] = s.xx * v[0] + s.xy * v[1] + s.xz * v[2];
-    out[1] = s.xy * v[0] + s.yy * v[1] + s.yz * v[2];
-    out[2] = s.xz * v[0] + s.yz * v[1] + s.zz * v[2];
+    return (failure_axis){s.xx * v.x + s.xy * v.y + s.xz * v.z, s.xy * v.x + s.yy * v.y + s.yz * v.z, s.xz * v.x + s.yz * v.y + s.zz * v.z};
 }
+
+static double dot(failure_axis a, failure_axis b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /* What defines them, to rounding: a Jacobi sweep makes a few operations on numbers up to |s|, at most some ten sweeps. */
 static void principal_values_and_axes_satisfy_their_definition_for_every_kind_of_tensor(void **state)
@@ -69,16 +69,15 @@ static void principal_values_and_axes_satisfy_their_definition_for_every_kind_of
     for (int k = 0; k < STATES; ++k) {
         const failure_stress s = random_stress(k);
         const failure_principal p = failure_principal_of(s);
-        assert_true(p.value[0] >= p.value[1] && p.value[1] >= p.value[2]);
+        const double value[3] = {p.first, p.second, p.third};
+        const failure_axis axis[3] = {p.first_axis, p.second_axis, p.third_axis};
+        assert_true(p.first >= p.second && p.second >= p.third);
         for (int i = 0; i < 3; ++i) {
-            double image[3];
-            multiply(s, p.axis[i], image);
-            for (int c = 0; c < 3; ++c) assert_true(fabs(image[c] - p.value[i] * p.axis[i][c]) <= rounding * norm(s));
-            for (int j = 0; j < 3; ++j) {
-                double product = 0;
-                for (int c = 0; c < 3; ++c) product += p.axis[i][c] * p.axis[j][c];
-                assert_true(fabs(product - (i == j)) <= rounding);
-            }
+            const failure_axis image = multiply(s, axis[i]);
+            assert_true(fabs(image.x - value[i] * axis[i].x) <= rounding * norm(s));
+            assert_true(fabs(image.y - value[i] * axis[i].y) <= rounding * norm(s));
+            assert_true(fabs(image.z - value[i] * axis[i].z) <= rounding * norm(s));
+            for (int j = 0; j < 3; ++j) assert_true(fabs(dot(axis[i], axis[j]) - (i == j)) <= rounding);
         }
     }
 }
@@ -88,10 +87,8 @@ static void a_pressure_and_no_stress_have_axes_too(void **state)
     (void)state;
     const failure_principal none = failure_principal_of((failure_stress){0, 0, 0, 0, 0, 0});
     const failure_principal same = failure_principal_of((failure_stress){-7, -7, -7, 0, 0, 0});
-    for (int i = 0; i < 3; ++i) {
-        assert_true(none.value[i] == 0 && same.value[i] == -7);
-        assert_true(none.axis[i][i] == 1 && same.axis[i][i] == 1);
-    }
+    assert_true(none.first == 0 && none.third == 0 && same.first == -7 && same.third == -7);
+    assert_true(none.first_axis.x == 1 && same.first_axis.x == 1 && same.third_axis.z == 1);
 }
 
 /* Pure shear xy of 3: principal values 3, 0, -3 along (1, 1, 0), z, (1, -1, 0). */
@@ -99,8 +96,8 @@ static void pure_shear_pulls_at_45_degrees(void **state)
 {
     (void)state;
     const failure_principal p = failure_principal_of((failure_stress){0, 0, 0, 0, 0, 3});
-    assert_true(fabs(p.value[0] - 3) < 1e-15 && fabs(p.value[1]) < 1e-15 && fabs(p.value[2] + 3) < 1e-15);
-    assert_true(fabs(p.axis[0][0] - p.axis[0][1]) < 1e-15 && fabs(fabs(p.axis[0][0]) - sqrt(0.5)) < 1e-15);
+    assert_true(fabs(p.first - 3) < 1e-15 && fabs(p.second) < 1e-15 && fabs(p.third + 3) < 1e-15);
+    assert_true(fabs(p.first_axis.x - p.first_axis.y) < 1e-15 && fabs(fabs(p.first_axis.x) - sqrt(0.5)) < 1e-15);
 }
 
 static void the_larger_of_tension_and_compression_decides(void **state)
@@ -110,10 +107,10 @@ static void the_larger_of_tension_and_compression_decides(void **state)
     const failure_principal p = failure_principal_of((failure_stress){4, 0, -30, 0, 0, 0});
     failure_state f = failure_of(p, (failure_limits){5, 50, 0}, none);
     assert_int_equal(f.mode, FAILURE_TENSION);
-    assert_true(f.ratio == 0.8 && f.stress == 4 && fabs(f.normal[0][0]) == 1);
+    assert_true(f.ratio == 0.8 && f.stress == 4 && fabs(f.normal.x) == 1);
     f = failure_of(p, (failure_limits){5, 25, 0}, none);
     assert_int_equal(f.mode, FAILURE_COMPRESSION);
-    assert_true(f.ratio == 1.2 && f.stress == -30 && fabs(f.normal[0][2]) == 1);
+    assert_true(f.ratio == 1.2 && f.stress == -30 && fabs(f.normal.z) == 1);
     f = failure_of(p, (failure_limits){0, 0, 0}, none);
     assert_true(f.mode == 0 && f.ratio == 0);
 }
@@ -130,10 +127,10 @@ static void mohr_coulomb_slides_on_its_plane(void **state)
     const failure_state f = failure_of(failure_principal_of((failure_stress){-strength, 0, -1e-9, 0, 0, 0}), mohr_limits(), mohr());
     assert_int_equal(f.mode, FAILURE_SHEAR);
     assert_true(fabs(f.ratio - 1) < 1e-9);
-    for (int k = 0; k < 2; ++k) assert_true(fabs(fabs(f.normal[k][0]) - cos(M_PI / 3)) < 1e-12);
+    assert_true(fabs(fabs(f.normal.x) - cos(M_PI / 3)) < 1e-12 && fabs(fabs(f.other.x) - cos(M_PI / 3)) < 1e-12);
     /* a bond along that normal is the best there is, one along the load is not */
-    assert_true(fabs(failure_alignment(f, f.normal[1][0], f.normal[1][1], f.normal[1][2], 1) - 1) < 1e-12);
-    assert_true(failure_alignment(f, 3, 0, 0, 1.0 / 3) < 0.51);
+    assert_true(fabs(failure_alignment(f, f.other, 1) - 1) < 1e-12);
+    assert_true(failure_alignment(f, (failure_axis){3, 0, 0}, 1.0 / 3) < 0.51);
 }
 
 /* The cone touches the pyramid where two principal values are equal and larger than the third (compression). */

@@ -3,7 +3,7 @@
 #ifndef BRC_TEST_OUTPUT_FAKE_SIMULATION_H
 #define BRC_TEST_OUTPUT_FAKE_SIMULATION_H
 
-#include "../../host/solver/simulation.h"
+#include "../../host/solver/fracture.h"
 #include <math.h>
 #include <string.h>
 
@@ -25,6 +25,8 @@ struct brc_simulation {
     brc_ledger ledger;
     const double *modes; /* [n_modes] [rad/s] */
     int32_t n_modes;
+    const brc_break *breaks; /* [n_breaks]; NULL: nothing can break */
+    int64_t n_breaks;
     int displacement_reads, ledger_reads; /* counted */
     brc_status end;                       /* what the run returns after its last increment */
 };
@@ -200,6 +202,44 @@ const char *const *brc_simulation_effects_out(const brc_simulation *s)
     static const char *const out[] = {"gravity", NULL};
     (void)s;
     return out;
+}
+
+bool brc_simulation_has_fracture(const brc_simulation *s)
+{
+    return s->breaks != NULL;
+}
+
+brc_status brc_simulation_broken(brc_simulation *s, int64_t *out)
+{
+    *out = s->n_breaks;
+    return BRC_OK;
+}
+
+brc_status brc_simulation_breaks(brc_simulation *s, int64_t *n, const brc_break **out)
+{
+    *n = s->n_breaks;
+    *out = s->breaks;
+    return BRC_OK;
+}
+
+/* Element e: e / n. */
+brc_status brc_simulation_damage(brc_simulation *s, double *out)
+{
+    for (int64_t e = 0; e < s->domain->n_elements; ++e) out[e] = (double)e / (double)s->domain->n_elements;
+    return BRC_OK;
+}
+
+/* The last element is one of its own. */
+brc_status brc_simulation_fragments(brc_simulation *s, int32_t *fragment, int64_t *n_fragments)
+{
+    for (int64_t e = 0; e < s->domain->n_elements; ++e) fragment[e] = e + 1 == s->domain->n_elements;
+    *n_fragments = 2;
+    return BRC_OK;
+}
+
+const char *brc_break_mode_name(int32_t mode)
+{
+    return mode == BRC_BREAK_TENSION ? "tension" : mode == BRC_BREAK_COMPRESSION ? "compression" : "shear";
 }
 
 double brc_simulation_setup_seconds(const brc_simulation *s)

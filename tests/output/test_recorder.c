@@ -94,6 +94,51 @@ static void a_run_leaves_every_file_the_header_lists(void **state)
     end_run(&r);
 }
 
+/* Two broken bonds: the stream in result.h5 and cracks.csv, counts in the summary, damage and fragments in the frames. */
+static void what_broke_is_in_every_file(void **state)
+{
+    (void)state;
+    static const brc_break breaks[] = {{.time = 1e-3, .step = 4, .mode = BRC_BREAK_TENSION, .bond = 7, .element_i = 1, .element_j = 5,
+                                        .position = {0.1, 0.2, 0.3}, .normal = {1, 0, 0}, .stress = 5e7, .energy = 1e-6},
+                                       {.time = 2e-3, .step = 8, .mode = BRC_BREAK_SHEAR, .bond = 3, .element_i = 0, .element_j = 2}};
+    run r;
+    begin_run(&r);
+    r.simulation.breaks = breaks;
+    r.simulation.n_breaks = 2;
+    assert_int_equal(record(&r), BRC_OK);
+    char *text = test_read(test_path(r.folder, "cracks.csv"));
+    assert_holds(text, "0.001,4,0,tension,7,1,5,0.1");
+    assert_holds(text, "0.002,8,0,shear,3,0,2,0,0,0");
+    brc_memory_free(text);
+    text = test_read(test_path(r.folder, "summary.json"));
+    assert_holds(text, "\"broken\": 2");
+    assert_holds(text, "\"fragments\": 2");
+    assert_holds(text, "\"first_break_s\": 0.001");
+    assert_holds(text, "\"shear\": 1");
+    brc_memory_free(text);
+    hid_t file = H5Fopen(test_path(r.folder, "result.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
+    int64_t bond[2];
+    double position[6];
+    hid_t set = H5Dopen2(file, "cracks/bond", H5P_DEFAULT);
+    assert_true(H5Dread(set, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, bond) >= 0);
+    H5Dclose(set);
+    set = H5Dopen2(file, "cracks/position", H5P_DEFAULT);
+    assert_true(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, position) >= 0);
+    H5Dclose(set);
+    H5Fclose(file);
+    assert_true(bond[0] == 7 && bond[1] == 3 && position[2] == 0.3);
+    const int64_t n = r.domain->n_elements;
+    double *damage = calloc((size_t)n, sizeof *damage);
+    file = H5Fopen(test_path(r.folder, "frames/000001.vtkhdf"), H5F_ACC_RDONLY, H5P_DEFAULT);
+    set = H5Dopen2(file, "VTKHDF/CellData/damage", H5P_DEFAULT);
+    assert_true(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, damage) >= 0);
+    H5Dclose(set);
+    H5Fclose(file);
+    assert_true(damage[n - 1] == (double)(n - 1) / (double)n);
+    free(damage);
+    end_run(&r);
+}
+
 static void the_summary_has_the_stable_keys_with_the_values_of_the_run(void **state)
 {
     (void)state;
@@ -291,6 +336,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_leaves_every_file_the_header_lists),
+        cmocka_unit_test(what_broke_is_in_every_file),
         cmocka_unit_test(the_summary_has_the_stable_keys_with_the_values_of_the_run),
         cmocka_unit_test(a_scene_that_cannot_be_read_still_leaves_a_summary),
         cmocka_unit_test(a_stopped_run_keeps_its_results_and_its_status),

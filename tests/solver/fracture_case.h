@@ -20,4 +20,10 @@ typedef struct fracture_options {
 brc_status try_fracture(bench_case *c, fracture_options options);
 void open_fracture(bench_case *c, fracture_options options);
 
+/* A sudden pull along x, uneven along y so that no two elements are alike. */
+#define FRACTURE_BURST(steps) \
+    "stages:\n  - name: burst\n    solver: {dynamic: {steps: " #steps "}}\n    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n"
+/* After 120 steps both have broken the same bonds, and some: every event to its last bit. */
+void fracture_compare(fracture_options a, fracture_options b);
+
 #endif

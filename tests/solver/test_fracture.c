@@ -9,9 +9,7 @@
 
 #define CRITERION(level) "{criterion: {virial-principal: {level: " #level "}}}"
 static const char *const STRENGTH = "strength: {tension: 2e-4 Pa}";
-/* A sudden pull along x, uneven along y so that no two elements are alike. */
-#define BURST(steps) \
-    "stages:\n  - name: burst\n    solver: {dynamic: {steps: " #steps "}}\n    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n"
+#define BURST(steps) FRACTURE_BURST(steps)
 
 static void run(bench_case *c, int64_t steps)
 {
@@ -285,35 +283,6 @@ static void elements_without_bonds_fly_freely(void **state)
 
 /* ---- the same everywhere ---- */
 
-typedef struct outcome {
-    int64_t n;
-    brc_break *events;
-} outcome;
-
-static outcome outcome_of(fracture_options o)
-{
-    bench_case c;
-    const brc_break *events;
-    outcome out;
-    open_fracture(&c, o);
-    begin(&c);
-    run(&c, 120);
-    assert_done(&c, brc_simulation_breaks(c.simulation, &out.n, &events));
-    out.events = calloc((size_t)out.n, sizeof *events);
-    memcpy(out.events, events, (size_t)out.n * sizeof *events);
-    close_case(&c);
-    return out;
-}
-
-static void compare(fracture_options a, fracture_options b)
-{
-    outcome x = outcome_of(a), y = outcome_of(b);
-    assert_true(x.n > 20);
-    assert_int_equal(x.n, y.n);
-    assert_memory_equal(x.events, y.events, (size_t)x.n * sizeof *x.events);
-    free(x.events), free(y.events);
-}
-
 static void the_same_bonds_break_for_any_number_of_threads_and_lanes(void **state)
 {
     (void)state;
@@ -322,27 +291,10 @@ static void the_same_bonds_break_for_any_number_of_threads_and_lanes(void **stat
         const fracture_options one = {.stages = BURST(400), .strength = STRENGTH, .fracture = criteria[k], .n_threads = 1, .exact = true};
         fracture_options other = one;
         other.n_threads = 2;
-        compare(one, other);
+        fracture_compare(one, other);
         other.lanes = 8;
-        compare(one, other);
+        fracture_compare(one, other);
     }
-}
-
-static void the_same_bonds_break_on_an_opencl_device(void **state)
-{
-    (void)state;
-    brc_context *context = brc_context_create();
-    brc_device_list *list;
-    assert_int_equal(brc_device_list_create(context, &list), BRC_OK);
-    bool there = false;
-    for (int k = 0; k < list->n; ++k) there |= list->items[k].usable && strcmp(list->items[k].selector, "opencl:0") == 0 && list->items[k].has_double;
-    brc_device_list_free(&list);
-    brc_context_free(&context);
-    if (!there) skip();
-    const fracture_options cpu = {.stages = BURST(400), .strength = STRENGTH, .fracture = CRITERION(1), .exact = true};
-    fracture_options other = cpu;
-    other.device = "opencl:0";
-    compare(cpu, other);
 }
 
 /* ---- what the scene asks ---- */
@@ -415,7 +367,6 @@ int main(void)
         cmocka_unit_test(breaking_keeps_momentum_and_angular_momentum),
         cmocka_unit_test(elements_without_bonds_fly_freely),
         cmocka_unit_test(the_same_bonds_break_for_any_number_of_threads_and_lanes),
-        cmocka_unit_test(the_same_bonds_break_on_an_opencl_device),
         cmocka_unit_test(scenes_that_cannot_break_are_refused_with_the_cure),
         cmocka_unit_test(a_strength_for_beams_is_taken_as_given),
         cmocka_unit_test(eq_22_gives_the_strengths_of_the_papers_tables),
