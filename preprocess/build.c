@@ -28,6 +28,8 @@
 #define DEFAULT_TINY_FACE 1e-12
 /* Cells whose volumes sum to something this far from the shape's are refused even if nothing else is asked for. */
 #define WORST_VOLUME_ERROR 0.05
+/* And beyond this it is worth a warning: smooth shapes keep below it at 10 000 cells (docs/domain.md). */
+#define DOUBTFUL_VOLUME_ERROR 0.005
 /* Where walls are exact, volumes sum to the shape's but for rounding; what is more was lost. */
 #define LOST_VOLUME 1e-8
 
@@ -214,6 +216,10 @@ static brc_status check_volume(brc_context *context, const work *w, const brc_do
                         "shape: cells %.3g m wide fill %.2f %% more or less than the shape of %.6g m^3 has: they are too coarse for its round or thin places; ask for more "
                         "elements (the error falls with the square of the cell size)",
                         w->spacing, 100.0 * q->volume_error, q->volume_shape);
+    if (fabs(q->volume_error) > DOUBTFUL_VOLUME_ERROR)
+        brc_log(context, BRC_LOG_WARNING,
+                "shape: cells %.3g m wide fill %.2f %% more or less than the shape has; more elements bring them nearer (the error falls with the square of the cell size)",
+                w->spacing, 100.0 * q->volume_error);
     return BRC_OK;
 }
 
