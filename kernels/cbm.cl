@@ -15,6 +15,53 @@ LAW cbm_stiffness cbm_stiffness_of(GLOBAL const coeff *restrict beam_of, lane_in
 #endif
 }
 
+/* What the elements of a group bring to each of their beams. */
+typedef struct {
+    lane_int row;
+    state_vec3 displacement; /* u [m] */
+    lane_quat orientation;
+    lane_mat3 turn;          /* its rotation minus identity [-] */
+} cbm_own;
+
+LAW cbm_own cbm_own_of(int group, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, int finite)
+{
+    const lane_int row = lane_own(group * W);
+    const lane_quat q = lane_gather4(orientation, row);
+    return (cbm_own){row, state_gather3(displacement, row), q, quat_matrix_minus_identity(q, finite)};
+}
+
+/* One beam as the group sees it. */
+typedef struct {
+    cbm_shape shape;
+    lane inv_length0;        /* [1/m] */
+    cbm_stiffness stiffness; /* 0 where the bond is broken */
+    lane_vec3 branch;        /* x_j - x_i now [m] */
+} cbm_bond;
+
+/* The beams of a slot: gathered, and those of the slots to come asked for. Only called with a constant `finite`. */
+LAW cbm_bond cbm_bond_at(int slot, int last, int lane0, cbm_own own, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                         GLOBAL const coeff *restrict inv_length, GLOBAL const coeff *restrict alive, int fracture,
+                         GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
+                         coeff twist, GLOBAL const coeff *restrict beam_of, int finite)
+{
+    const lane_int j = int_block(neighbour, slot, lane0);
+    rows_ahead3(branch, slot);
+    rows_ahead1(inv_length, slot);
+    gathers_ahead(displacement, 3, neighbour, slot, last, lane0);
+    gathers_ahead(orientation, 4, neighbour, slot, last, lane0);
+    const lane_vec3 r = lane_block3(branch, slot, lane0);
+    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
+    const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
+    cbm_stiffness k = cbm_stiffness_of(beam_of, own.row, j, axial, bend, twist);
+    if (fracture) {
+        rows_ahead1(alive, slot);
+        const lane whole = lane_load(alive, (brc_size)slot * C + (brc_size)lane0);
+        k = (cbm_stiffness){whole * k.axial, whole * k.bend, whole * k.twist};
+    }
+    const cbm_shape shape = cbm_beam_shape_turned(r, inverse, jump, own.orientation, own.turn, lane_gather4(orientation, j), finite);
+    return (cbm_bond){shape, inverse, k, lane_vec3_add(r, jump)};
+}
+
 /* Sums over the beams of a group; only called with a constant `finite`. */
 LAW cbm_end cbm_group_force(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
@@ -22,27 +69,13 @@ LAW cbm_end cbm_group_force(int group, GLOBAL const int *restrict row_start, GLO
                             GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
                             GLOBAL const coeff *restrict beam_of, int finite)
 {
-    const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
-    const lane_int own = lane_own(group * W);
-    const state_vec3 u = state_gather3(displacement, own);
-    const lane_quat q = lane_gather4(orientation, own);
-    const lane_mat3 turn = quat_matrix_minus_identity(q, finite);
+    const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
+    const cbm_own own = cbm_own_of(group, displacement, orientation, finite);
     cbm_end sum = {{LANE_ZERO, LANE_ZERO, LANE_ZERO}, {LANE_ZERO, LANE_ZERO, LANE_ZERO}};
-    for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-        const lane_int j = int_block(neighbour, slot, lane0);
-        rows_ahead3(branch, slot);
-        rows_ahead1(inv_length, slot);
-        gathers_ahead(displacement, 3, neighbour, slot, row_start[slice + 1], lane0);
-        gathers_ahead(orientation, 4, neighbour, slot, row_start[slice + 1], lane0);
-        const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
-        const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
-        cbm_stiffness k = cbm_stiffness_of(beam_of, own, j, axial, bend, twist);
-        if (fracture) {
-            const lane whole = lane_load(alive, (brc_size)slot * C + (brc_size)lane0);
-            k = (cbm_stiffness){whole * k.axial, whole * k.bend, whole * k.twist};
-        }
-        const cbm_shape shape = cbm_beam_shape_turned(lane_block3(branch, slot, lane0), inverse, jump, q, turn, lane_gather4(orientation, j), finite);
-        const cbm_end end = cbm_beam_law(shape, inverse, k, finite);
+    for (int slot = row_start[slice]; slot < last; ++slot) {
+        const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, alive, fracture, displacement, orientation,
+                                          axial, bend, twist, beam_of, finite);
+        const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, finite);
         sum.force = lane_vec3_add(sum.force, end.force);
         sum.torque = lane_vec3_add(sum.torque, end.torque);
     }
@@ -73,47 +106,35 @@ KERNEL void cbm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBA
                        coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL state *restrict elastic)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
-        const lane_int own = lane_own(group * W);
-        const state_vec3 u = state_gather3(displacement, own);
-        const lane_quat q = lane_gather4(orientation, own);
-        const lane_mat3 turn = quat_matrix_minus_identity(q, 1);
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
+        const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
         lane sum = LANE_ZERO;
-        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-            const lane_int j = int_block(neighbour, slot, lane0);
-            const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
-            const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
-            const cbm_shape shape = cbm_beam_shape_turned(lane_block3(branch, slot, lane0), inverse, jump, q, turn, lane_gather4(orientation, j), 1);
-            const lane whole = fracture ? lane_load(alive, (brc_size)slot * C + (brc_size)lane0) : LANE_ZERO + REAL(1);
-            sum += whole * cbm_beam_energy(shape, inverse, cbm_stiffness_of(beam_of, own, j, axial, bend, twist));
+        for (int slot = row_start[slice]; slot < last; ++slot) {
+            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, alive, fracture, displacement, orientation,
+                                              axial, bend, twist, beam_of, 1);
+            sum += cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness);
         }
         state_store1(elastic, group * W, REAL(0.5) * sum);
     }
 }
 
-/* Sum over the beams of x_ij (x) f_ij of every element [J] [n][9]: branch now times the force of the beam on the element. A stress is its
- * symmetric part over twice a volume (NAH19 eq. 5). */
+/* Virial of every element [J] [n][6] xx yy zz yz xz xy (cbm_add_virial, summed over its beams). A stress is that over twice a volume
+ * (NAH19 eq. 5). */
 KERNEL void cbm_virial(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                        GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length, GLOBAL const coeff *restrict alive,
                        int fracture, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial,
                        coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL coeff *restrict virial)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
-        const lane_int own = lane_own(group * W);
-        const state_vec3 u = state_gather3(displacement, own);
-        const lane_quat q = lane_gather4(orientation, own);
-        const lane_mat3 turn = quat_matrix_minus_identity(q, 1);
-        lane_mat3 sum = lane_mat3_zero();
-        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-            const lane_int j = int_block(neighbour, slot, lane0);
-            const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u), r = lane_block3(branch, slot, lane0);
-            const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
-            const cbm_shape shape = cbm_beam_shape_turned(r, inverse, jump, q, turn, lane_gather4(orientation, j), 1);
-            const cbm_end end = cbm_beam_law(shape, inverse, cbm_stiffness_of(beam_of, own, j, axial, bend, twist), 1);
-            const lane whole = fracture ? lane_load(alive, (brc_size)slot * C + (brc_size)lane0) : LANE_ZERO + REAL(1);
-            sum = lane_add_outer(sum, lane_vec3_add(r, jump), lane_vec3_scale(whole, end.force));
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
+        const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
+        lane_sym3 sum = {LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO};
+        for (int slot = row_start[slice]; slot < last; ++slot) {
+            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, alive, fracture, displacement, orientation,
+                                              axial, bend, twist, beam_of, 1);
+            const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
+            sum = cbm_add_virial(sum, bond.branch, end.force);
         }
-        lane_store9(virial, group * W, sum);
+        lane_store6(virial, group * W, sum);
     }
 }

@@ -14,35 +14,18 @@ KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, G
                            GLOBAL coeff *restrict record)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
-        const lane_int own = lane_own(group * W);
-        const state_vec3 u = state_gather3(displacement, own);
-        const lane_quat q = lane_gather4(orientation, own);
-        const lane_mat3 turn = quat_matrix_minus_identity(q, 1);
-        const lane zero = LANE_ZERO, mean = LANE_ZERO + REAL(0.5);
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
+        const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
+        const lane zero = LANE_ZERO;
         cbm_end sum = {{zero, zero, zero}, {zero, zero, zero}};
         lane_sym3 virial = {zero, zero, zero, zero, zero, zero};
-        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-            const lane_int j = int_block(neighbour, slot, lane0);
-            rows_ahead3(branch, slot);
-            rows_ahead1(inv_length, slot);
-            rows_ahead1(alive, slot);
-            gathers_ahead(displacement, 3, neighbour, slot, row_start[slice + 1], lane0);
-            gathers_ahead(orientation, 4, neighbour, slot, row_start[slice + 1], lane0);
-            const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u), r = lane_block3(branch, slot, lane0);
-            const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
-            const lane whole = lane_load(alive, (brc_size)slot * C + (brc_size)lane0);
-            const cbm_shape shape = cbm_beam_shape_turned(r, inverse, jump, q, turn, lane_gather4(orientation, j), 1);
-            const cbm_end end = cbm_beam_law(shape, inverse, cbm_stiffness_of(beam_of, own, j, axial, bend, twist), 1);
-            const lane_vec3 f = lane_vec3_scale(whole, end.force), x = lane_vec3_add(r, jump);
-            sum.force = lane_vec3_add(sum.force, f);
-            sum.torque = lane_vec3_add(sum.torque, lane_vec3_scale(whole, end.torque));
-            virial.xx += x.x * f.x;
-            virial.yy += x.y * f.y;
-            virial.zz += x.z * f.z;
-            virial.yz += mean * (x.y * f.z + x.z * f.y);
-            virial.xz += mean * (x.x * f.z + x.z * f.x);
-            virial.xy += mean * (x.x * f.y + x.y * f.x);
+        for (int slot = row_start[slice]; slot < last; ++slot) {
+            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, alive, 1, displacement, orientation, axial,
+                                              bend, twist, beam_of, 1);
+            const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
+            sum.force = lane_vec3_add(sum.force, end.force);
+            sum.torque = lane_vec3_add(sum.torque, end.torque);
+            virial = cbm_add_virial(virial, bond.branch, end.force);
         }
         state_store3(force, group * W, sum.force);
         state_store3(torque, group * W, sum.torque);

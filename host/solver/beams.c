@@ -203,12 +203,12 @@ static brc_status virial(brc_simulation *s, double *out)
 {
     const brc_beam *b = brc_beam_of_element(s, 0);
     brc_buffer *rows = NULL; /* asked for at samples and frames only: not kept */
-    BRC_TRY(brc_new_coeff(s, &rows, 9 * (int64_t)s->layout->n_rows, "virial"));
+    BRC_TRY(brc_new_coeff(s, &rows, 6 * (int64_t)s->layout->n_rows, "virial"));
     brc_status status = BRC_LAUNCH(s->kernel.cbm_virial, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                                    BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->alive), BRC_INT(s->alive ? 1 : 0),
                                    BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend),
                                    BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_BUF(rows));
-    if (status == BRC_OK) status = brc_coeff_from_rows(s, rows, out, 9);
+    if (status == BRC_OK) status = brc_coeff_from_rows(s, rows, out, 6);
     brc_buffer_free(&rows);
     return status;
 }
@@ -241,22 +241,18 @@ brc_status brc_beams_stress(brc_simulation *s, int level, double *out)
     uint8_t *whole = NULL;
     brc_status status = BRC_OK;
     if (s->fracture) BRC_TRY_OR(cleanup, brc_fracture_whole(s, &whole));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &sum, 9 * d->n_elements, "virial"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &sum, 6 * d->n_elements, "virial"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &mark, d->n_elements, "virial"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, d->n_elements, "virial"));
     BRC_TRY_OR(cleanup, virial(s, sum));
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int64_t n = collect(d, whole, e, level, mark, member);
-        double total[9] = {0}, volume = 0;
+        double total[6] = {0}, volume = 0;
         for (int64_t k = 0; k < n; ++k) {
             volume += d->volume[member[k]] / d->quality.volume_fraction;
-            for (int c = 0; c < 9; ++c) total[c] += sum[9 * (int64_t)member[k] + c];
+            for (int c = 0; c < 6; ++c) total[c] += sum[6 * (int64_t)member[k] + c];
         }
-        double *to = out + 6 * e;
-        for (int c = 0; c < 3; ++c) to[c] = total[4 * c] / (2 * volume);
-        to[3] = (total[5] + total[7]) / (4 * volume);
-        to[4] = (total[2] + total[6]) / (4 * volume);
-        to[5] = (total[1] + total[3]) / (4 * volume);
+        for (int c = 0; c < 6; ++c) out[6 * e + c] = total[c] / (2 * volume);
     }
 cleanup:
     brc_memory_free(sum);

@@ -120,10 +120,7 @@ brc_status brc_turn_create(brc_simulation *s, const brc_stage *stage, int32_t l,
         twice += again;
     }
     if (twice) {
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                          "stage '%s': the element_rotation of '%s' prescribes components of %lld elements that another load of the stage "
-                          "prescribes too; give each component of an element to one load",
-                          stage->name, load->set, (long long)twice);
+        status = brc_loads_refuse_twice(s, stage, load, twice);
         goto cleanup;
     }
     BRC_TRY_OR(cleanup, brc_new_int(s, &out->element, element, n, "turned elements"));

@@ -318,6 +318,14 @@ cleanup:
     return status;
 }
 
+brc_status brc_loads_refuse_twice(brc_simulation *s, const brc_stage *stage, const brc_load *load, int64_t n)
+{
+    return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                    "stage '%s': the %s of '%s' prescribes components of %lld elements that another load of the stage prescribes too; give each "
+                    "component of an element to one load",
+                    stage->name, load->kind == BRC_LOAD_ELEMENT_ROTATION ? "rotation" : "motion", load->set, (long long)n);
+}
+
 /* Imposed elements: the members of an element set, or the owners of a face set. taken: bits per element. */
 static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int32_t l, int32_t *taken, brc_imposed_load *out)
 {
@@ -350,10 +358,7 @@ static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int3
         for (int c = 0; c < 3; ++c) base[3 * (int64_t)i + c] = now[3 * e + c];
     }
     if (twice) {
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                          "stage '%s': the load on '%s' prescribes components of %lld elements that another load of the stage "
-                          "prescribes too; give each component of an element to one load",
-                          stage->name, load->set, (long long)twice);
+        status = brc_loads_refuse_twice(s, stage, load, twice);
         goto cleanup;
     }
     BRC_TRY_OR(cleanup, brc_new_int(s, &out->element, element, n, "imposed elements"));

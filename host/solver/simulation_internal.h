@@ -184,6 +184,8 @@ brc_status brc_beams_node_bound(brc_simulation *s, double *out);
 /* ---- loads.c: one stage's loads ---- */
 brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads *out);
 void brc_loads_free(brc_loads *loads);
+/* The refusal of a load that prescribes what an earlier one of the stage does, for n elements: BRC_BAD_INPUT. */
+brc_status brc_loads_refuse_twice(brc_simulation *s, const brc_stage *stage, const brc_load *load, int64_t n);
 /* Put held faces and imposed elements where they are at time t of the stage (static: load factor). */
 brc_status brc_loads_prescribe(brc_simulation *s, double t);
 /* Velocities of imposed elements at t. */

@@ -4,6 +4,7 @@
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
 #include "../../host/scene/scene_reader.h"
+#include "../../preprocess/beams.h"
 #include "../../preprocess/build.h"
 #include <ftw.h>
 #include <stdio.h>
@@ -84,6 +85,21 @@ brc_domain *test_domain(int64_t n)
     };
     if (brc_domain_build(test_context, &request, &domain) != BRC_OK) fail_msg("%s", brc_context_message(test_context));
     return domain;
+}
+
+brc_domain *test_row_of_spheres(int n, double first, double step)
+{
+    double *x, *r;
+    brc_domain *d;
+    assert_int_equal(BRC_ALLOCATE(test_context, &d, 1, "domain"), BRC_OK);
+    assert_int_equal(BRC_ALLOCATE(test_context, &x, 3 * n, "positions"), BRC_OK);
+    assert_int_equal(BRC_ALLOCATE(test_context, &r, n, "radii"), BRC_OK);
+    for (int e = 0; e < n; ++e) {
+        x[3 * e] = e;
+        r[e] = first + step * e;
+    }
+    if (brc_beams_bond(test_context, x, r, n, 2.0 * (n - 1) / n, 1, d) != BRC_OK) fail_msg("%s", brc_context_message(test_context));
+    return d;
 }
 
 brc_scene *test_scene(const char *yaml)

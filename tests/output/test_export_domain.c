@@ -2,7 +2,6 @@
 #include "../../host/base/file.h"
 #include "../../host/base/memory.h"
 #include "../../host/output/export_domain.h"
-#include "../../preprocess/beams.h"
 #include "../../preprocess/sets.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -117,16 +116,7 @@ static void spheres_are_vertices_with_a_radius(void **state)
 {
     (void)state;
     enum { N = 5 };
-    double *x, *r;
-    brc_domain *d;
-    assert_int_equal(BRC_ALLOCATE(test_context, &d, 1, "domain"), BRC_OK);
-    assert_int_equal(BRC_ALLOCATE(test_context, &x, 3 * N, "positions"), BRC_OK);
-    assert_int_equal(BRC_ALLOCATE(test_context, &r, N, "radii"), BRC_OK);
-    for (int e = 0; e < N; ++e) {
-        x[3 * e] = e;
-        r[e] = 0.5 + 0.01 * e;
-    }
-    assert_int_equal(brc_beams_bond(test_context, x, r, N, 1.6, 1, d), BRC_OK);
+    brc_domain *d = test_row_of_spheres(N, 0.5, 0.01);
     assert_int_equal(BRC_ALLOCATE(test_context, &d->region, N, "regions"), BRC_OK);
     assert_int_equal(BRC_ALLOCATE(test_context, &d->body, N, "bodies"), BRC_OK);
     vtu file = write_and_read(d);

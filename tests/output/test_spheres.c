@@ -7,7 +7,6 @@
 #include "../../host/output/frame_file.h"
 #include "../../host/output/h5_read.h"
 #include "../../host/output/picture.h"
-#include "../../preprocess/beams.h"
 #include "../../preprocess/quality.h"
 #include <cairo.h>
 #include <stdio.h>
@@ -18,16 +17,7 @@ enum { N = 3 };
 /* Three spheres along x, 1 m apart, of radii 0.3, 0.35 and 0.4 m. */
 static brc_domain *three_spheres(void)
 {
-    double *x, *r;
-    brc_domain *d;
-    assert_int_equal(BRC_ALLOCATE(test_context, &d, 1, "domain"), BRC_OK);
-    assert_int_equal(BRC_ALLOCATE(test_context, &x, 3 * N, "positions"), BRC_OK);
-    assert_int_equal(BRC_ALLOCATE(test_context, &r, N, "radii"), BRC_OK);
-    for (int e = 0; e < N; ++e) {
-        x[3 * e] = e;
-        r[e] = 0.3 + 0.05 * e;
-    }
-    if (brc_beams_bond(test_context, x, r, N, 1.3, 1, d) != BRC_OK) fail_msg("%s", brc_context_message(test_context));
+    brc_domain *d = test_row_of_spheres(N, 0.3, 0.05);
     d->quality.volume_shape = 3.0;
     brc_quality_measure(d, 1);
     return d;
