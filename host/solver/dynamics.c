@@ -86,8 +86,8 @@ int64_t brc_simulation_planned_steps(const brc_simulation *s, int32_t stage, dou
     return time_step > 0 ? (int64_t)ceil(plan->duration / time_step - 1e-9) : 0;
 }
 
-/* Stop on what is not finite or runs away; the sentence names the likely cause. */
-static brc_status guard(brc_simulation *s, brc_ledger *ledger)
+/* Stop on what is not finite or runs away; the sentence names the likely cause, and the model where there are several. */
+static brc_status guard(brc_simulation *s, bool several, brc_ledger *ledger)
 {
     BRC_TRY(brc_simulation_ledger(s, ledger));
     const brc_stage *stage = brc_current_stage(s);
@@ -95,8 +95,9 @@ static brc_status guard(brc_simulation *s, brc_ledger *ledger)
     const bool finite = isfinite(ledger->total);
     if (finite && !(ledger->total > runaway * put_in && put_in > 0)) return BRC_OK;
     return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
-                    "stage '%s' stopped at step %lld, t = %.6g s: %s (energy %.4g J, put in %.4g J). %s", stage->name,
-                    (long long)s->step, s->time, finite ? "the energy runs away" : "a value is not finite", ledger->total, put_in,
+                    "stage '%s' stopped at step %lld, t = %.6g s: %s%s%s (energy %.4g J, put in %.4g J). %s", stage->name,
+                    (long long)s->step, s->time, finite ? "the energy runs away" : "a value is not finite",
+                    several ? " in the bodies of model " : "", several ? brc_model_name(s->scene->model.kind) : "", ledger->total, put_in,
                     s->time_step.safety > 1 ? "The time step is above the critical one: use time_step: auto"
                     : brc_is_published(s)
                         ? "The published law has no energy and diverges after thousands of steps (docs/theory.md): use model dlsm, "
@@ -107,8 +108,31 @@ static brc_status guard(brc_simulation *s, brc_ledger *ledger)
 
 static int64_t next_multiple(int64_t step, int64_t every) { return (step / every + 1) * every; }
 
-brc_status brc_dynamics_run(brc_simulation *s)
+/* The same steps for every part; devices that queue work at the same time. */
+static brc_status advance_all(int32_t n, brc_simulation *const *part, int64_t n_steps)
 {
+    for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_dynamics_advance(part[k], n_steps));
+    for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_device_wait(part[k]->device));
+    return BRC_OK;
+}
+
+/* Is the motion of all parts together down to the stage's fraction of their elastic energy? */
+static brc_status guard_all(int32_t n, brc_simulation *const *part, bool *calm)
+{
+    double kinetic = 0, elastic = 0;
+    for (int32_t k = 0; k < n; ++k) {
+        brc_ledger ledger;
+        BRC_TRY(guard(part[k], n > 1, &ledger));
+        kinetic += ledger.kinetic;
+        elastic += ledger.elastic;
+    }
+    *calm = kinetic <= brc_current_stage(part[0])->stop_kinetic * elastic;
+    return BRC_OK;
+}
+
+brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part)
+{
+    brc_simulation *s = part[0];
     const brc_stage *stage = brc_current_stage(s);
     const brc_output *output = &s->scene->output;
     const int64_t total = brc_simulation_planned_steps(s, s->stage, s->time_step.value);
@@ -120,9 +144,10 @@ brc_status brc_dynamics_run(brc_simulation *s)
     if (frame_every < 1 && (output->n_frames > 0 || output->frame_interval > 0)) frame_every = 1;
     brc_progress *progress = NULL;
     brc_status status = BRC_OK;
-    brc_ledger ledger;
-    int64_t calm = 0;
-    BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total, "steps", (double)s->domain->n_bonds, "bond updates/s"));
+    int64_t calm_steps = 0;
+    double n_bonds = 0;
+    for (int32_t k = 0; k < n; ++k) n_bonds += (double)part[k]->domain->n_bonds;
+    BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total, "steps", n_bonds, "bond updates/s"));
     BRC_TRY_OR(cleanup, brc_notify_sample(s));
     while (s->step < total) {
         int64_t until = next_multiple(s->step, every);
@@ -131,8 +156,7 @@ brc_status brc_dynamics_run(brc_simulation *s)
         const int64_t begin = s->step;
         while (s->step < until) { /* short batches keep the progress line and signals alive */
             const int64_t left = until - s->step, batch = left < 256 ? left : 256;
-            BRC_TRY_OR(cleanup, brc_dynamics_advance(s, batch));
-            BRC_TRY_OR(cleanup, brc_device_wait(s->device));
+            BRC_TRY_OR(cleanup, advance_all(n, part, batch));
             brc_progress_update(progress, s->step);
             if (s->interrupted) {
                 status = BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at step %lld of %lld", stage->name,
@@ -141,10 +165,11 @@ brc_status brc_dynamics_run(brc_simulation *s)
             }
         }
         if (s->step % every == 0 || s->step == total) {
-            BRC_TRY_OR(cleanup, guard(s, &ledger));
+            bool calm;
+            BRC_TRY_OR(cleanup, guard_all(n, part, &calm));
             BRC_TRY_OR(cleanup, brc_notify_sample(s));
-            calm = ledger.kinetic <= stage->stop_kinetic * ledger.elastic ? calm + (s->step - begin) : 0;
-            if (stage->stop_kinetic > 0 && calm >= 100) break;
+            calm_steps = calm ? calm_steps + (s->step - begin) : 0;
+            if (stage->stop_kinetic > 0 && calm_steps >= 100) break;
         }
         if (frame_every && s->step % frame_every == 0 && s->step < total) BRC_TRY_OR(cleanup, brc_notify_frame(s));
     }

@@ -397,7 +397,6 @@ brc_status brc_modes_run(brc_simulation *s)
     s->step = 1;
     s->load_factor = 1;
     BRC_TRY_OR(cleanup, brc_force_of_state(s, BRC_BOOK_NOTHING));
-    BRC_TRY_OR(cleanup, brc_notify_sample(s));
 cleanup:
     brc_progress_finish(&progress);
     release(&t);

@@ -279,14 +279,15 @@ static brc_status leave_stage(brc_simulation *s)
     return BRC_OK;
 }
 
-brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
+brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
 {
     if (stage < 0 || stage >= s->scene->n_stages)
         return BRC_FAIL(s->context, BRC_INTERNAL, "stage %d of %d", (int)stage, (int)s->scene->n_stages);
     const double start = brc_clock_s();
     const brc_stage *next = s->scene->stages + stage;
-    brc_ledger before = {0}, after;
+    brc_ledger before = {0};
     if (s->stage >= 0) BRC_TRY(brc_simulation_ledger(s, &before));
+    s->total_before_stage = before.total;
     BRC_TRY(leave_stage(s));
     s->stage = -1; /* lists of the next stage are not there yet */
     BRC_TRY(brc_initial_apply(s, next));
@@ -295,34 +296,27 @@ brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
     s->step = 0;
     s->time = s->load_factor = 0;
     if (next->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(brc_time_step_find(s, next, &s->time_step));
-    if (next->solver == BRC_SOLVER_DYNAMIC && s->fracture) BRC_TRY(brc_fracture_begin_stage(s));
-    BRC_TRY(brc_loads_prescribe(s, 0));
-    BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
-    BRC_TRY(brc_simulation_ledger(s, &after));
-    s->initial_energy += after.total - before.total; /* initial fields, and what changed supports hold or release */
     s->setup_seconds += brc_clock_s() - start;
     return BRC_OK;
 }
 
-brc_status brc_simulation_run(brc_simulation *s)
+brc_status brc_stage_start(brc_simulation *s)
 {
-    for (int32_t i = 0; i < s->scene->n_stages; ++i) {
-        const brc_stage *stage = s->scene->stages + i;
-        BRC_TRY(brc_simulation_begin_stage(s, i));
-        for (int k = 0; k < s->n_observers; ++k)
-            if (s->observers[k].stage_begin) BRC_TRY(s->observers[k].stage_begin(s->observers[k].self, s, i));
-        if (i == 0 && s->scene->output.n_frames >= 0) BRC_TRY(brc_notify_frame(s));
-        const double start = brc_clock_s();
-        const brc_status status = stage->solver == BRC_SOLVER_STATIC ? brc_statics_run(s)
-                                  : stage->solver == BRC_SOLVER_MODES ? brc_modes_run(s)
-                                                                      : brc_dynamics_run(s);
-        s->step_seconds += brc_clock_s() - start;
-        BRC_TRY(status);
-        if (s->scene->output.n_frames >= 0) BRC_TRY(brc_notify_frame(s));
-        for (int k = 0; k < s->n_observers; ++k)
-            if (s->observers[k].stage_end) BRC_TRY(s->observers[k].stage_end(s->observers[k].self, s, i));
-    }
+    const double start = brc_clock_s();
+    brc_ledger after;
+    if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && s->fracture) BRC_TRY(brc_fracture_begin_stage(s));
+    BRC_TRY(brc_loads_prescribe(s, 0));
+    BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
+    BRC_TRY(brc_simulation_ledger(s, &after));
+    s->initial_energy += after.total - s->total_before_stage; /* initial fields, and what changed supports hold or release */
+    s->setup_seconds += brc_clock_s() - start;
     return BRC_OK;
+}
+
+brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
+{
+    BRC_TRY(brc_stage_enter(s, stage));
+    return brc_stage_start(s);
 }
 
 void brc_simulation_interrupt(brc_simulation *s) { s->interrupted = 1; }

@@ -132,6 +132,7 @@ struct brc_simulation {
     brc_loads loads;
     double work_before, damping_before, numerical_before; /* of earlier stages */
     double initial_energy, peak_elastic, peak_kinetic;
+    double total_before_stage; /* energy when the stage was entered [J] */
     double *modes;
     int32_t n_modes;
     brc_static_report static_report;
@@ -223,8 +224,15 @@ brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabil
 brc_status brc_initial_apply(brc_simulation *s, const brc_stage *stage);
 brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_time_step *out);
 brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps);
-brc_status brc_dynamics_run(brc_simulation *s);
-brc_status brc_statics_run(brc_simulation *s);
+/* Leave the stage before; initial fields, loads and the time step of this one, which may be made shorter before brc_stage_start evaluates the
+ * first forces. */
+brc_status brc_stage_enter(brc_simulation *s, int32_t stage);
+brc_status brc_stage_start(brc_simulation *s);
+/* The current stage of the n simulations of one scene (lockstep.c), one for each of its models: all take the same steps or increments, and observers
+ * of the first hear of each when all have arrived. */
+brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part);
+brc_status brc_statics_run(int32_t n, brc_simulation *const *part);
+/* Modes of one; tells nobody. */
 brc_status brc_modes_run(brc_simulation *s);
 void brc_effects_list(brc_simulation *s);
 brc_status brc_notify_sample(brc_simulation *s);

@@ -403,57 +403,80 @@ static bool is_proportional(const brc_table *t)
     return t->n == 0 || (t->n == 2 && t->time[0] == 0 && t->value[0] == 0 && t->time[1] == 1 && t->value[1] == 1);
 }
 
-/* Scale the load so that the worst element is at the asked fraction of its limit. */
-static brc_status go_to_failure(brc_simulation *s, brc_solve_vectors *v, double *reference, brc_progress *progress)
+/* What a part keeps from increment to increment. */
+typedef struct static_run {
+    brc_solve_vectors vectors;
+    double reference; /* largest norm of the load so far [N] */
+} static_run;
+
+static brc_status solve_at(brc_simulation *s, static_run *run, brc_progress *progress)
 {
-    const brc_stage *stage = brc_current_stage(s);
-    double ratio;
-    if (!s->fracture) return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': to_failure needs `fracture` and strengths in the scene", stage->name);
-    for (int32_t l = 0; l < stage->n_loads; ++l)
-        if (!is_proportional(&stage->loads[l].table))
-            return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': to_failure scales its loads, so they cannot follow a table; remove the table", stage->name);
-    BRC_TRY(brc_simulation_failure_ratio(s, &ratio));
-    if (!(ratio > 0) || !isfinite(ratio))
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': under its load no element comes nearer to failure, so to_failure cannot scale it", stage->name);
-    const double factor = stage->to_failure / ratio;
-    brc_log(s->context, BRC_LOG_INFO, "stage '%s': first failure at %.6g times the load, which is scaled to %.6g", stage->name, 1 / ratio, factor);
-    BRC_TRY(scale_state(s, v, factor, stage->finite_strain));
-    s->load_factor = factor;
-    BRC_TRY(brc_loads_prescribe(s, factor));
-    BRC_TRY(read_theta(s, v));
-    BRC_TRY(solve_increment(s, v, reference, progress));
-    BRC_TRY(brc_force_of_state(s, BRC_BOOK_WORK));
-    s->step += 1;
-    return brc_notify_sample(s);
+    BRC_TRY(brc_loads_prescribe(s, s->load_factor));
+    if (brc_is_beams(s)) BRC_TRY(read_theta(s, &run->vectors));
+    BRC_TRY(solve_increment(s, &run->vectors, &run->reference, progress));
+    return brc_force_of_state(s, BRC_BOOK_WORK);
 }
 
-brc_status brc_statics_run(brc_simulation *s)
+/* Scale the load so that the worst element of all parts is at the asked fraction of its limit. */
+static brc_status go_to_failure(int32_t n, brc_simulation *const *part, static_run *run, brc_progress *progress)
 {
-    const brc_stage *stage = brc_current_stage(s);
+    brc_context *context = part[0]->context;
+    const brc_stage *stage = brc_current_stage(part[0]);
+    double ratio = 0;
+    for (int32_t k = 0; k < n; ++k) {
+        double one;
+        if (!part[k]->fracture)
+            return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': to_failure needs `fracture` and strengths in the scene", stage->name);
+        for (int32_t l = 0; l < brc_current_stage(part[k])->n_loads; ++l)
+            if (!is_proportional(&brc_current_stage(part[k])->loads[l].table))
+                return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': to_failure scales its loads, so they cannot follow a table; remove the table", stage->name);
+        BRC_TRY(brc_simulation_failure_ratio(part[k], &one));
+        ratio = isfinite(ratio) && isfinite(one) ? fmax(ratio, one) : NAN;
+    }
+    if (!(ratio > 0))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': under its load no element comes nearer to failure, so to_failure cannot scale it", stage->name);
+    const double factor = stage->to_failure / ratio;
+    brc_log(context, BRC_LOG_INFO, "stage '%s': first failure at %.6g times the load, which is scaled to %.6g", stage->name, 1 / ratio, factor);
+    for (int32_t k = 0; k < n; ++k) {
+        BRC_TRY(scale_state(part[k], &run[k].vectors, factor, stage->finite_strain));
+        part[k]->load_factor = factor;
+        BRC_TRY(solve_at(part[k], &run[k], progress));
+        part[k]->step += 1;
+    }
+    return brc_notify_sample(part[0]);
+}
+
+brc_status brc_statics_run(int32_t n, brc_simulation *const *part)
+{
+    brc_context *context = part[0]->context;
+    const brc_stage *stage = brc_current_stage(part[0]);
     const int32_t increments = stage->increments > 0 ? stage->increments : 1;
-    brc_solve_vectors v = {0};
+    static_run *run = NULL;
     brc_progress *progress = NULL;
     brc_status status = BRC_OK;
-    double reference = 0;
-    s->static_report = (brc_static_report){0};
-    BRC_TRY(brc_buffer_fill_zero(s->velocity));
-    BRC_TRY_OR(cleanup, brc_progress_create(s->context, &progress, stage->name, 0, "iterations", (double)s->domain->n_bonds,
-                                            "bond updates/s"));
-    BRC_TRY_OR(cleanup, create_vectors(s, &v));
-    BRC_TRY_OR(cleanup, brc_notify_sample(s));
-    for (int32_t i = 1; i <= increments; ++i) {
-        s->load_factor = (double)i / increments;
-        BRC_TRY_OR(cleanup, predict(s, &v, i));
-        BRC_TRY_OR(cleanup, brc_loads_prescribe(s, s->load_factor));
-        if (brc_is_beams(s)) BRC_TRY_OR(cleanup, read_theta(s, &v));
-        BRC_TRY_OR(cleanup, solve_increment(s, &v, &reference, progress));
-        BRC_TRY_OR(cleanup, brc_force_of_state(s, BRC_BOOK_WORK));
-        s->step = i;
-        BRC_TRY_OR(cleanup, brc_notify_sample(s));
+    double n_bonds = 0;
+    for (int32_t k = 0; k < n; ++k) {
+        part[k]->static_report = (brc_static_report){0};
+        BRC_TRY(brc_buffer_fill_zero(part[k]->velocity));
+        n_bonds += (double)part[k]->domain->n_bonds;
     }
-    if (stage->to_failure > 0) BRC_TRY_OR(cleanup, go_to_failure(s, &v, &reference, progress));
+    BRC_TRY_OR(cleanup, brc_progress_create(context, &progress, stage->name, 0, "iterations", n_bonds / n, "bond updates/s"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &run, n, "static stage"));
+    for (int32_t k = 0; k < n; ++k) BRC_TRY_OR(cleanup, create_vectors(part[k], &run[k].vectors));
+    BRC_TRY_OR(cleanup, brc_notify_sample(part[0]));
+    for (int32_t i = 1; i <= increments; ++i) {
+        for (int32_t k = 0; k < n; ++k) { /* one after the other: they share the device's memory and threads */
+            part[k]->load_factor = (double)i / increments;
+            BRC_TRY_OR(cleanup, predict(part[k], &run[k].vectors, i));
+            BRC_TRY_OR(cleanup, solve_at(part[k], &run[k], progress));
+            part[k]->step = i;
+        }
+        BRC_TRY_OR(cleanup, brc_notify_sample(part[0]));
+    }
+    if (stage->to_failure > 0) BRC_TRY_OR(cleanup, go_to_failure(n, part, run, progress));
 cleanup:
     brc_progress_finish(&progress);
-    free_vectors(&v);
+    for (int32_t k = 0; run && k < n; ++k) free_vectors(&run[k].vectors);
+    brc_memory_free(run);
     return status;
 }

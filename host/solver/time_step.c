@@ -145,6 +145,9 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
         out->governed_by = "fixed";
         break;
     case BRC_TIME_STEP_PUBLISHED:
+        if (brc_is_beams(s))
+            return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': the published rule for the time step is one for cells, model cbm has none; use "
+                            "time_step: auto", stage->name);
         out->value = out->published;
         out->governed_by = "published: AGH19 eq. 39";
         break;
