@@ -48,24 +48,34 @@ static bool is_broken(const brc_reader *reader, const char *key)
     return false;
 }
 
+/* What the set of a wall holds: the faces of cells, the spheres that touch it, or, of bodies of both kinds, each in its own. */
+enum { OF_FACES = 1, OF_ELEMENTS = 2 };
+typedef struct wall_name {
+    char name[BRC_NAME + 16];
+    int holds;
+} wall_name;
+
 /* The walls of all bodies, each name once. */
 typedef struct wall_names {
-    char (*name)[BRC_NAME + 16]; /* [n] owned */
+    wall_name *wall; /* [n] owned */
     int n, held;
-    bool of_elements; /* bodies of spheres: a wall's set holds the elements that touch it */
+    int holds; /* of what is added now */
 } wall_names;
 
 static brc_status add_wall(brc_reader *reader, const char *prefix, const char *wall, const char *suffix, wall_names *out)
 {
-    char name[sizeof *out->name];
-    snprintf(name, sizeof name, "%s%s%s%s", prefix, prefix[0] ? "_" : "", wall, suffix);
+    wall_name added = {.holds = out->holds};
+    snprintf(added.name, sizeof added.name, "%s%s%s%s", prefix, prefix[0] ? "_" : "", wall, suffix);
     for (int w = 0; w < out->n; ++w)
-        if (strcmp(out->name[w], name) == 0) return BRC_OK;
+        if (strcmp(out->wall[w].name, added.name) == 0) {
+            out->wall[w].holds |= added.holds;
+            return BRC_OK;
+        }
     if (out->n == out->held) {
         out->held = out->held ? 2 * out->held : 16;
-        BRC_TRY(brc_memory_resize(reader->context, (void **)&out->name, out->held, sizeof *out->name, "names of walls"));
+        BRC_TRY(brc_memory_resize(reader->context, (void **)&out->wall, out->held, sizeof *out->wall, "names of walls"));
     }
-    memcpy(out->name[out->n++], name, sizeof name);
+    out->wall[out->n++] = added;
     return BRC_OK;
 }
 
@@ -89,6 +99,7 @@ static brc_status find_walls(brc_reader *reader, wall_names *out)
     const brc_scene *scene = reader->scene;
     for (int b = 0; b < scene->n_bodies; ++b) {
         const brc_body *body = &scene->bodies[b];
+        out->holds = body->beams > 0 ? OF_ELEMENTS : OF_FACES;
         if (body->domain_file[0]) { /* the file may have any of them */
             const brc_shape box = {.kind = BRC_SHAPE_BOX}, round = {.kind = BRC_SHAPE_CYLINDER}, sphere = {.kind = BRC_SHAPE_SPHERE};
             BRC_TRY(add_leaf_walls(reader, &box, "", "", out));
@@ -96,7 +107,6 @@ static brc_status find_walls(brc_reader *reader, wall_names *out)
             BRC_TRY(add_leaf_walls(reader, &sphere, "", "", out));
             continue;
         }
-        out->of_elements |= body->beams > 0;
         const char *const suffixes[2] = {"", "_layer"};
         for (int s = 0; s < (body->beams > 0 ? 2 : 1); ++s) {
             if (body->shape.kind != BRC_SHAPE_PARTS) BRC_TRY(add_leaf_walls(reader, &body->shape, "", suffixes[s], out));
@@ -121,10 +131,12 @@ static bool any_domain_file(const brc_scene *scene)
 static int known_names(const brc_scene *scene, const wall_names *walls, brc_reference refers, const char **out)
 {
     int n = 0;
-    const brc_reference wall_is = walls->of_elements ? BRC_REFERS_ELEMENTS : BRC_REFERS_FACES;
-    if (refers == BRC_REFERS_WALL || refers == BRC_REFERS_SET || refers == wall_is)
-        for (int w = 0; w < walls->n; ++w)
-            out[n++] = walls->name[w];
+    const int wanted = refers == BRC_REFERS_WALL || refers == BRC_REFERS_SET ? OF_FACES | OF_ELEMENTS
+                       : refers == BRC_REFERS_FACES                          ? OF_FACES
+                       : refers == BRC_REFERS_ELEMENTS                       ? OF_ELEMENTS
+                                                                             : 0;
+    for (int w = 0; w < walls->n; ++w)
+        if (walls->wall[w].holds & wanted) out[n++] = walls->wall[w].name;
     for (int i = 0; i < scene->n_sets && refers != BRC_REFERS_WALL; ++i)
         if (refers == BRC_REFERS_SET || (refers == BRC_REFERS_FACES && scene->sets[i].kind == BRC_SET_FACES) ||
             (refers == BRC_REFERS_ELEMENTS && scene->sets[i].kind == BRC_SET_ELEMENTS))
@@ -317,7 +329,7 @@ static void check_bodies(brc_reader *reader, const wall_names *walls)
         const brc_set_request *set = &scene->sets[s];
         check_predicate(reader, &set->where, set->kind == BRC_SET_ELEMENTS);
         for (int w = 0; w < walls->n; ++w)
-            if (strcmp(set->name, walls->name[w]) == 0)
+            if (strcmp(set->name, walls->wall[w].name) == 0)
                 COMPLAIN(reader, NULL, set,
                          "the set '%s' has the name of a wall; walls are sets already, choose another "
                          "name",
@@ -328,14 +340,63 @@ static void check_bodies(brc_reader *reader, const wall_names *walls)
 /* What follows from other keys. */
 static void complete(brc_scene *scene)
 {
-    brc_model *model = &scene->model;
-    if (model->kind == BRC_MODEL_DLSM && !model->compaction) model->beta = 0;
+    for (int b = -1; b < scene->n_bodies; ++b) {
+        brc_model *model = b < 0 ? &scene->model : &scene->bodies[b].model;
+        if (model->kind == BRC_MODEL_DLSM && !model->compaction) model->beta = 0;
+    }
     for (int b = 0; b < scene->n_bodies; ++b) {
         brc_fill *fill = &scene->bodies[b].fill;
         const bool packed = fill->kind == BRC_FILL_PACKING && (fill->n_elements > 0 || fill->radius > 0);
         if (packed && fill->coordination == 0 && fill->volume_fraction == 0) fill->coordination = USUAL_COORDINATION;
         if (fill->n_radii > 0) fill->radius_spread = 0; /* the table stands in place of its default */
     }
+}
+
+/* Strengths that contradict themselves. */
+static void check_material(brc_reader *reader, const brc_material *material)
+{
+    const brc_scatter *scatter = &material->scatter;
+    if (material->fracture_energy > 0 && !(material->tension > 0))
+        COMPLAIN(reader, &material->fracture_energy, material, "fracture_energy: says how cohesion falls from the strength; expected `tension` beside it");
+    if (scatter->kind != BRC_SCATTER_TABLE) return;
+    for (int q = 0; q < scatter->n_quantiles; ++q) {
+        const brc_quantile *now = &scatter->quantiles[q], *before = q ? now - 1 : NULL;
+        const bool last = q == scatter->n_quantiles - 1;
+        if ((q == 0 && now->below != 0) || (last && now->below != 1) || (before && now->below < before->below))
+            COMPLAIN(reader, &now->below, now, "below: expected shares that grow from 0 at the first factor to 1 at the last");
+        if (before && now->factor < before->factor)
+            COMPLAIN(reader, &now->factor, now, "factor: is smaller than the one before; expected factors that grow");
+    }
+    if (scatter->n_quantiles == 1) COMPLAIN(reader, &scatter->quantiles->below, scatter->quantiles, "table: has one entry; expected two or more");
+}
+
+/* What only scenes with fracture know. */
+static void check_fracture(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    const bool known = scene->has_fracture || is_broken(reader, "fracture");
+    static const char *const CURE = "needs `fracture: {}` at the top of the scene";
+    for (int m = 0; m < scene->n_materials; ++m)
+        check_material(reader, &scene->materials[m]);
+    for (int k = 0; k < scene->n_stages && !known; ++k) {
+        const brc_stage *stage = &scene->stages[k];
+        if (stage->to_failure > 0) COMPLAIN(reader, &stage->to_failure, stage, "to_failure: %s", CURE);
+        if (stage->most_events > 0) COMPLAIN(reader, &stage->most_events, stage, "events: %s", CURE);
+        if (stage->stop_broken > 0) COMPLAIN(reader, &stage->stop_broken, stage, "stop_when_broken: %s", CURE);
+    }
+    for (int k = 0; k < scene->n_stages; ++k) {
+        const brc_stage *stage = &scene->stages[k];
+        if (stage->most_events > 0 && (stage->increments > 1 || stage->to_failure > 0))
+            COMPLAIN(reader, &stage->most_events, stage, "events: they find the load themselves; leave out increments and to_failure");
+    }
+    for (int i = 0; i < scene->n_sensors && !known; ++i) {
+        const brc_sensor *sensor = &scene->sensors[i];
+        if (sensor->kind == BRC_SENSOR_FRACTURE) COMPLAIN(reader, sensor->term, sensor, "fracture: this sensor %s", CURE);
+        if (sensor->kind == BRC_SENSOR_CRACK_TIP) COMPLAIN(reader, NULL, sensor, "crack_tip: this sensor %s", CURE);
+    }
+    for (int i = 0; i < scene->n_measures && !known; ++i)
+        if (scene->measures[i].kind == BRC_MEASURE_AT_FIRST_BREAK)
+            COMPLAIN(reader, NULL, &scene->measures[i], "at_first_break: this measure %s", CURE);
 }
 
 static bool is_motion(const brc_load *load)
@@ -471,30 +532,34 @@ static void check_measure(brc_reader *reader, const brc_measure *measure)
     case BRC_MEASURE_FREQUENCY:
     case BRC_MEASURE_PEAK:
     case BRC_MEASURE_SLOPE:
+    case BRC_MEASURE_RATE:
+    case BRC_MEASURE_AT_FIRST_BREAK:
     case BRC_MEASURE_MEAN: break;
     }
     if (measure->window[1] <= measure->window[0] && (measure->window[0] != 0 || measure->window[1] != 0))
         COMPLAIN(reader, measure->window, measure, "window: ends before it begins; expected [from, to]");
-    if (measure->kind != BRC_MEASURE_FREQUENCY || scene->n_stages == 0 || is_broken(reader, "stages")) return;
+    const bool in_time = measure->kind == BRC_MEASURE_FREQUENCY || measure->kind == BRC_MEASURE_RATE;
+    if (!in_time || scene->n_stages == 0 || is_broken(reader, "stages")) return;
     const brc_stage *stage = &scene->stages[scene->n_stages - 1];
     for (int k = 0; k < scene->n_stages; ++k)
         if (measure->stage[0] && strcmp(scene->stages[k].name, measure->stage) == 0) stage = &scene->stages[k];
     if (stage->solver != BRC_SOLVER_DYNAMIC)
-        COMPLAIN(reader, measure->stage, measure, "frequency: the stage '%s' is not dynamic and has no history in time",
-                 stage->name);
+        COMPLAIN(reader, measure->stage, measure, "%s: the stage '%s' is not dynamic and has no history in time",
+                 measure->kind == BRC_MEASURE_RATE ? "rate" : "frequency", stage->name);
 }
 
 brc_status brc_reader_check(brc_reader *reader)
 {
     if (reader->n_places > 0) qsort(reader->places, (size_t)reader->n_places, sizeof *reader->places, by_address);
     complete(reader->scene);
-    wall_names walls = {.name = NULL};
+    wall_names walls = {.wall = NULL};
     brc_status status = find_walls(reader, &walls);
     if (status == BRC_OK) status = check_references(reader, &walls);
     if (status == BRC_OK && !is_broken(reader, "bodies")) check_bodies(reader, &walls);
-    brc_memory_free(walls.name);
+    brc_memory_free(walls.wall);
     BRC_TRY(status);
     check_limits(reader);
+    check_fracture(reader);
     BRC_TRY(check_stages(reader));
     check_sensors(reader);
     for (int i = 0; i < reader->scene->n_measures; ++i)

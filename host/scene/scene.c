@@ -21,7 +21,9 @@ void brc_scene_free(brc_scene **scene)
         brc_memory_free(s->stages[k].loads);
         brc_memory_free(s->stages[k].initials);
     }
+    for (int m = 0; m < s->n_materials; ++m) brc_memory_free(s->materials[m].scatter.quantiles);
     brc_memory_free(s->materials);
+    brc_memory_free(s->interfaces);
     brc_memory_free(s->bodies);
     brc_memory_free(s->sets);
     brc_memory_free(s->limits);
@@ -41,6 +43,12 @@ int32_t brc_body_material(const brc_body *body, int32_t region)
 {
     if (region < 1 || region > brc_body_n_regions(body)) return body->material;
     return region <= body->n_regions ? body->regions[region - 1].material : body->phases[region - body->n_regions - 1].material;
+}
+
+brc_criterion_kind brc_criterion_of(const brc_fracture *fracture, brc_model_kind model)
+{
+    if (fracture->kind != BRC_CRITERION_AUTO) return fracture->kind;
+    return model == BRC_MODEL_CBM ? BRC_CRITERION_PRINCIPAL : BRC_CRITERION_BOND_NORMAL;
 }
 
 const char *brc_model_name(brc_model_kind kind)
@@ -71,18 +79,20 @@ double brc_table_value(const brc_table *table, double t)
 }
 
 /* Units of sensors, and of the slope of one against another: [numerator][denominator]. */
-enum { NEWTON, METRE, PURE, RADIAN, PASCAL, JOULE, METRE_PER_SECOND, HERTZ, NEWTON_METRE, N_UNITS };
-static const char *const UNIT[N_UNITS] = {"N", "m", "-", "rad", "Pa", "J", "m/s", "Hz", "N m"};
+enum { NEWTON, METRE, PURE, RADIAN, PASCAL, JOULE, METRE_PER_SECOND, HERTZ, NEWTON_METRE, SQUARE_METRE, N_UNITS };
+static const char *const UNIT[N_UNITS] = {"N", "m", "-", "rad", "Pa", "J", "m/s", "Hz", "N m", "m^2"};
+static const char *const RATE_UNIT[N_UNITS] = {"N/s", "m/s", "1/s", "rad/s", "Pa/s", "W", "m/s^2", "Hz/s", "N m/s", "m^2/s"};
 static const char *const SLOPE_UNIT[N_UNITS][N_UNITS] = {
-    {"-", "N/m", "N", "N/rad", "N/Pa", "N/J", "N s/m", "N/Hz", "1/m"},
-    {"m/N", "-", "m", "m/rad", "m/Pa", "m/J", "s", "m/Hz", "1/N"},
-    {"1/N", "1/m", "-", "1/rad", "1/Pa", "1/J", "s/m", "1/Hz", "1/N/m"},
-    {"rad/N", "rad/m", "rad", "-", "rad/Pa", "rad/J", "rad s/m", "rad/Hz", "rad/N/m"},
-    {"Pa/N", "Pa/m", "Pa", "Pa/rad", "-", "Pa/J", "Pa s/m", "Pa/Hz", "Pa/N/m"},
-    {"J/N", "J/m", "J", "J/rad", "J/Pa", "-", "J s/m", "J/Hz", "-"},
-    {"m/s/N", "1/s", "m/s", "m/s/rad", "m/s/Pa", "m/s/J", "-", "m/s/Hz", "1/N/s"},
-    {"Hz/N", "Hz/m", "Hz", "Hz/rad", "Hz/Pa", "Hz/J", "Hz s/m", "-", "Hz/N/m"},
-    {"m", "N", "N m", "N m/rad", "m^3", "-", "N s", "N m/Hz", "-"},
+    {"-", "N/m", "N", "N/rad", "N/Pa", "N/J", "N s/m", "N/Hz", "1/m", "N/m^2"},
+    {"m/N", "-", "m", "m/rad", "m/Pa", "m/J", "s", "m/Hz", "1/N", "1/m"},
+    {"1/N", "1/m", "-", "1/rad", "1/Pa", "1/J", "s/m", "1/Hz", "1/N/m", "1/m^2"},
+    {"rad/N", "rad/m", "rad", "-", "rad/Pa", "rad/J", "rad s/m", "rad/Hz", "rad/N/m", "rad/m^2"},
+    {"Pa/N", "Pa/m", "Pa", "Pa/rad", "-", "Pa/J", "Pa s/m", "Pa/Hz", "Pa/N/m", "Pa/m^2"},
+    {"J/N", "J/m", "J", "J/rad", "J/Pa", "-", "J s/m", "J/Hz", "-", "J/m^2"},
+    {"m/s/N", "1/s", "m/s", "m/s/rad", "m/s/Pa", "m/s/J", "-", "m/s/Hz", "1/N/s", "1/m/s"},
+    {"Hz/N", "Hz/m", "Hz", "Hz/rad", "Hz/Pa", "Hz/J", "Hz s/m", "-", "Hz/N/m", "Hz/m^2"},
+    {"m", "N", "N m", "N m/rad", "m^3", "-", "N s", "N m/Hz", "-", "N/m"},
+    {"m^2/N", "m", "m^2", "m^2/rad", "m^2/Pa", "m^2/J", "m s", "m^2/Hz", "m/N", "-"},
 };
 
 static int unit_index(const brc_sensor *sensor)
@@ -101,6 +111,8 @@ static int unit_index(const brc_sensor *sensor)
     case BRC_SENSOR_TURN: return RADIAN;
     case BRC_SENSOR_RADIAL_STRESS: return PASCAL;
     case BRC_SENSOR_VOLUME_STRAIN: return PURE;
+    case BRC_SENSOR_FRACTURE: return strcmp(sensor->term, "crack_area") == 0 ? SQUARE_METRE : PURE;
+    case BRC_SENSOR_CRACK_TIP: return METRE;
     case BRC_SENSOR_MODE: return HERTZ;
     }
     return PURE;
@@ -127,13 +139,16 @@ const char *brc_measure_unit(const brc_scene *scene, const brc_measure *measure)
     case BRC_MEASURE_NU: return "-";
     case BRC_MEASURE_FREQUENCY: return "Hz";
     case BRC_MEASURE_PEAK:
+    case BRC_MEASURE_AT_FIRST_BREAK:
         if (measure->area_set[0]) return "Pa";
         break;
     case BRC_MEASURE_MEAN:
+    case BRC_MEASURE_RATE:
     case BRC_MEASURE_SLOPE: break;
     }
     const brc_sensor *y = find_sensor(scene, measure->y);
     const brc_sensor *x = find_sensor(scene, measure->x);
     if (!y || (measure->kind == BRC_MEASURE_SLOPE && !x)) return "-";
+    if (measure->kind == BRC_MEASURE_RATE) return RATE_UNIT[unit_index(y)];
     return measure->kind == BRC_MEASURE_SLOPE ? SLOPE_UNIT[unit_index(y)][unit_index(x)] : brc_sensor_unit(y);
 }

@@ -10,6 +10,29 @@
 
 #define BRC_NAME 64 /* longest name in a scene, with its NUL */
 
+/* Strength of bonds around that of their material: factors with which it is multiplied, drawn by bond. */
+typedef enum brc_scatter_kind {
+    BRC_SCATTER_NONE,
+    BRC_SCATTER_WEIBULL, /* factor (-ln(1 - p) V_0 / V)^(1/m), p uniform, V the volume of the bond (S L / 3 of a cell's face, its share of a sphere) */
+    BRC_SCATTER_TABLE,   /* quantiles: the factor at probability p, linear between them */
+    BRC_SCATTER_FILE     /* a factor a bond, from a CSV with columns element_i, element_j, factor; 1 for a bond not in it */
+} brc_scatter_kind;
+typedef struct brc_quantile {
+    double below;  /* share of the bonds with a smaller factor: 0 at the first, 1 at the last [-] */
+    double factor; /* [-], ascending */
+} brc_quantile;
+typedef struct brc_scatter {
+    brc_scatter_kind kind;
+    double modulus; /* m [-] */
+    double volume;  /* V_0 [m^3]; 0: V_0 = V, so that the strength is that of a bond whatever its size */
+    int32_t n_quantiles;
+    brc_quantile *quantiles; /* [n_quantiles] */
+    char file[512];          /* relative to the scene */
+} brc_scatter;
+
+/* How the traction of a bond falls from the strength to nothing while its crack opens; G_c is the area below. */
+typedef enum brc_softening { BRC_SOFTENING_LINEAR, BRC_SOFTENING_EXPONENTIAL } brc_softening;
+
 typedef struct brc_material {
     char name[BRC_NAME];
     double young;   /* E [Pa] > 0 */
@@ -21,18 +44,35 @@ typedef struct brc_material {
     /* only read in scenes with fracture; 0: no limit */
     double tension, compression; /* strengths of the solid, positive [Pa] */
     double beam_strength;        /* cbm: sigma_m, tensile limit of the virial stress; 0: from tension by the calibrated law [Pa] */
+    double beam_compression;     /* cbm: its limit of compression, positive; 0: from compression by the law [Pa] */
+    double fracture_energy;      /* G_c, energy per area of a crack [J/m^2]; 0: bonds break at once */
+    brc_softening softening;     /* with a fracture energy: how cohesion falls with the opening */
+    brc_scatter scatter;         /* of the strength between bonds */
 } brc_material;
 
 typedef enum brc_criterion_kind {
-    BRC_CRITERION_PRINCIPAL, /* principal values of the virial stress, NAH19 section 2.2 */
+    BRC_CRITERION_AUTO,        /* bond-normal for cells, virial-principal for beams (brc_criterion_of) */
+    BRC_CRITERION_BOND_NORMAL, /* normal stress of the bond's mean stress, AGH19 eq. 35 */
+    BRC_CRITERION_PRINCIPAL,   /* principal values of the virial stress, NAH19 section 2.2 */
     BRC_CRITERION_MOHR_COULOMB,
     BRC_CRITERION_DRUCKER_PRAGER
 } brc_criterion_kind;
 
+/* Bonds between two materials, or between grains, that are weaker or stronger than what they join. Later ones win. */
+typedef enum brc_interface_kind { BRC_INTERFACE_GRAINS, BRC_INTERFACE_MATERIALS } brc_interface_kind;
+typedef struct brc_interface {
+    brc_interface_kind kind;
+    int32_t material[2];    /* materials: indices into scene.materials, in any order */
+    double factor;          /* on the strength and the fracture energy of the weaker side [-]; 0: left out, which means 1 */
+    double tension;         /* in place of the factor's strength; 0: by the factor [Pa] */
+    double fracture_energy; /* in place of the factor's; 0: by the factor [J/m^2] */
+} brc_interface;
+
 typedef struct brc_fracture {
     brc_criterion_kind kind;
-    int32_t level;             /* shells of neighbours the stress is averaged over: 0, 1, 2 */
+    int32_t level;             /* shells of neighbours the stress is averaged over: 0, 1, 2; not for bond-normal */
     double cohesion, friction; /* the last two kinds: [Pa], [rad] */
+    uint64_t seed;             /* of the draws of strengths, keyed by the ids of a bond's elements */
 } brc_fracture;
 
 typedef enum brc_model_kind {
@@ -73,6 +113,8 @@ typedef struct brc_body {
     brc_fill fill;
     double translation[3], rotation[3]; /* pose, as in brc_build_request */
     double tiny_face_threshold;         /* as in brc_build_request; 0: default */
+    bool has_model;
+    brc_model model;                    /* its own, in place of the scene's */
     int32_t material;                   /* index into scene.materials */
     int32_t n_regions;
     brc_region *regions; /* [n_regions] later ones win */
@@ -170,11 +212,16 @@ typedef struct brc_stage {
     int64_t steps;    /* 0: by duration */
     double mass_damping; /* force -c m v, c [1/s] >= 0: drag of a surrounding fluid on every element; 0: none */
     double stop_kinetic; /* stop when kinetic <= this fraction of elastic energy for 100 steps; 0: off */
+    double stop_broken;  /* stop when more than this fraction of the bonds is broken; 0: off */
+    char stop_sensor[BRC_NAME]; /* stop when this sensor fell below stop_share of its largest magnitude in the stage; "" : off */
+    double stop_share;   /* [-] */
     /* static */
     double tolerance;     /* residual over load [-]; 0: by precision (1e-10, 1e-6, 1e-5) */
     int32_t increments;   /* load increments, default 1 */
     int32_t max_iterations; /* per linear solve; 0: automatic */
     double to_failure;    /* scale the load so that the worst element is at this fraction of its limit; 0: the load as given [-] */
+    int32_t most_events;  /* quasi-static fracture: the load is scaled to the next failing bond, most_events times; 0: nothing breaks */
+    double stop_load;     /* events end when the load that breaks falls below this share of the largest so far [-] */
     bool finite_strain;   /* true (default): the full law, by modified Newton; false: the linearised operator alone */
     /* modes */
     int32_t n_modes;
@@ -194,6 +241,9 @@ typedef enum brc_sensor_kind {
     BRC_SENSOR_TURN,         /* rotation vector of the element nearest to a point; models with rotations [rad] */
     BRC_SENSOR_RADIAL_STRESS, /* element forces of a set along the radius from a point, over the sphere 4 pi R^2 [Pa] */
     BRC_SENSOR_VOLUME_STRAIN, /* 3 times the mean radial displacement of a set over R [-] */
+    BRC_SENSOR_FRACTURE,     /* `term`: broken (bonds) [-], crack_area [m^2], fragments [-], largest_fragment (share of the mass) [-],
+                              * failure_ratio (largest stress over limit) [-] */
+    BRC_SENSOR_CRACK_TIP,    /* farthest broken bond along `axis` from `point` [m]; 0 before the first */
     BRC_SENSOR_MODE          /* frequency of mode `index` (0: lowest elastic) of the last modes stage [Hz] */
 } brc_sensor_kind;
 
@@ -215,7 +265,9 @@ typedef enum brc_measure_kind {
     BRC_MEASURE_FREQUENCY, /* largest spectral peak of a sensor, Hann window, interpolated [Hz] */
     BRC_MEASURE_PEAK,      /* value of largest magnitude in the window [sensor's unit] */
     BRC_MEASURE_SLOPE,     /* slope at zero of sensor y against sensor x, polynomial fit through the window */
-    BRC_MEASURE_MEAN       /* time mean over the window */
+    BRC_MEASURE_MEAN,      /* time mean over the window */
+    BRC_MEASURE_RATE,      /* slope of a sensor against time, straight line through the window [sensor's unit/s] */
+    BRC_MEASURE_AT_FIRST_BREAK /* value of a sensor when the first bond of the window breaks, between samples by a straight line */
 } brc_measure_kind;
 
 typedef struct brc_measure {
@@ -237,6 +289,7 @@ typedef struct brc_output {
     bool picture;            /* render picture.png at the end, default true */
     char picture_colour[BRC_NAME];  /* "stress_xx", "von_mises", "displacement", ... default "von_mises" */
     double picture_scale;    /* factor on the displacement; 0: automatic */
+    bool crack_surface;      /* with fracture: broken faces as polygons beside every frame, default true */
     char curve_x[BRC_NAME], curve_y[BRC_NAME]; /* sensors of curve.png; "" : none */
 } brc_output;
 
@@ -255,6 +308,8 @@ typedef struct brc_scene {
     brc_quality_limit *limits; /* [n_limits] for every body as it is built */
     bool has_fracture;
     brc_fracture fracture;
+    int32_t n_interfaces;
+    brc_interface *interfaces; /* [n_interfaces] only read with fracture */
     bool has_gravity;
     double gravity[3]; /* [m/s^2] */
     int32_t n_stages;
@@ -274,9 +329,11 @@ int32_t brc_body_material(const brc_body *body, int32_t region);
 int32_t brc_body_n_regions(const brc_body *body);
 /* a(t) of a table at time t. */
 double brc_table_value(const brc_table *table, double t);
+/* The criterion of a model: fracture.kind, or what AUTO stands for. */
+brc_criterion_kind brc_criterion_of(const brc_fracture *fracture, brc_model_kind model);
 /* "dlsm", "dlsm-published", "cbm"; static storage. */
 const char *brc_model_name(brc_model_kind kind);
-/* Unit of a sensor's value ("N", "m", "-", "rad", "Pa", "J", "m/s", "Hz"); static storage. */
+/* Unit of a sensor's value ("N", "m", "-", "rad", "Pa", "J", "m/s", "Hz", "N m", "m^2"); static storage. */
 const char *brc_sensor_unit(const brc_sensor *sensor);
 /* Unit of a measure's value, given the scene (for sensors' units); static storage. */
 const char *brc_measure_unit(const brc_scene *scene, const brc_measure *measure);

@@ -29,8 +29,7 @@ static const brc_entry SCENE[] = {
      .meaning = "numbers watched through the run, by name"},
     {"measure", BRC_TYPE_NAMED, .section = &brc_schema_measure, COUNTED(brc_scene, measures, n_measures),
      .meaning = "numbers computed from sensors when the run ends, by name"},
-    {"interactions", BRC_TYPE_LATER,
-     .meaning = "contact and interfaces come in a later version; bodies do not touch yet"},
+    {"interactions", BRC_TYPE_STRUCT, .section = &brc_schema_interactions, .meaning = "what joins materials and grains"},
 };
 static const brc_section SCENE_SECTION = {
     .title = "scene", .meaning = "The top of a scene file.", ENTRIES(SCENE), .size = sizeof(brc_scene)};

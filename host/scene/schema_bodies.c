@@ -8,6 +8,8 @@ static const brc_entry MICRO[] = {
      .meaning = "E_m: Young's modulus of the beams"},
     {"strength", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, beam_strength), .sample = "60 MPa",
      .meaning = "sigma_m: tensile limit of the virial stress, in place of the law for it"},
+    {"compression", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, beam_compression), .sample = "600 MPa",
+     .meaning = "compressive limit of the virial stress, a positive number, in place of the law for it"},
 };
 static const brc_section MICRO_SECTION = {
     .title = "beam", .meaning = "Micro-parameters of model cbm, given directly in place of the calibrated laws.", ENTRIES(MICRO)};
@@ -172,7 +174,8 @@ static const brc_entry BODY[] = {
     {"beams", BRC_TYPE_STRUCT, .section = &BEAMS_SECTION,
      .meaning = "spheres joined by beams in place of cells; needs a fill with radii (`breccia build`; for model cbm)"},
     {"pose", BRC_TYPE_STRUCT, .section = &POSE_SECTION, .meaning = "where it stands; sets and regions see it posed"},
-    {"model", BRC_TYPE_LATER, .meaning = "a model of its own comes with contact; until bodies touch, one model moves the whole scene"},
+    {"model", BRC_TYPE_STRUCT, .section = &brc_schema_model, .offset = offsetof(brc_body, model), FLAG(brc_body, has_model),
+     .meaning = "the law between its elements; left out: the scene's"},
     {"tiny_face_threshold", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 0.01), FIELD(brc_body, tiny_face_threshold),
      .given = "auto", .word = "auto", .sample = "1e-7",
      .meaning = "faces below this part of the mean face area are dropped; auto: 1e-12"},

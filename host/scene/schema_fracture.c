@@ -1,11 +1,50 @@
-/* Schema: fracture. What a material bears is with the material (`strength`), how it fails is with the scene. */
+/* Schema: fracture. What a material bears is with the material (`strength`), how it fails is with the scene, what joins materials and grains
+ * is with its interactions. */
 #include "schema_internal.h"
 
+#define ENERGY_SAMPLE "8 J/m^2"
+static const brc_entry WEIBULL[] = {
+    {"modulus", BRC_TYPE_QUANTITY, "", WITHIN(1, 1000), FIELD(brc_material, scatter.modulus), .required = true, .sample = "10",
+     .meaning = "m: the larger, the less they scatter"},
+    {"volume", BRC_TYPE_QUANTITY, "m^3", POSITIVE, FIELD(brc_material, scatter.volume), .sample = "1 mm^3",
+     .meaning = "V_0 that the strength belongs to: a bond of volume V has (V_0 / V)^(1/m) times as much; left out: bonds of any size have the "
+                "same"},
+};
+static const brc_section WEIBULL_SECTION = {.title = "weibull",
+                                            .meaning = "Share 1 - exp(-f^m V / V_0) of the bonds has a factor below f.",
+                                            ENTRIES(WEIBULL),
+                                            .short_key = "modulus"};
+static const brc_entry QUANTILE[] = {
+    {"below", BRC_TYPE_QUANTITY, "", WITHIN(0, 1), FIELD(brc_quantile, below), .required = true, .sample = "0",
+     .meaning = "share of the bonds with a smaller factor: 0 at the first, 1 at the last"},
+    {"factor", BRC_TYPE_QUANTITY, "", POSITIVE, FIELD(brc_quantile, factor), .required = true, .sample = "0.8", .meaning = "ascending"},
+};
+static const brc_section QUANTILE_SECTION = {
+    .title = "quantile", .meaning = "A point of the distribution of strengths.", ENTRIES(QUANTILE), .size = sizeof(brc_quantile)};
+static const brc_entry SCATTER[] = {
+    {"weibull", BRC_TYPE_STRUCT, .section = &WEIBULL_SECTION, .value = BRC_SCATTER_WEIBULL, .meaning = "the weakest link"},
+    {"table", BRC_TYPE_LIST, .section = &QUANTILE_SECTION, COUNTED(brc_material, scatter.quantiles, scatter.n_quantiles), .value = BRC_SCATTER_TABLE,
+     .meaning = "quantiles, linear between them"},
+    {"file", BRC_TYPE_STRING, FIELD(brc_material, scatter.file), .value = BRC_SCATTER_FILE, .sample = "factors.csv",
+     .meaning = "CSV with columns element_i, element_j, factor, relative to the scene; 1 for bonds that are not in it"},
+};
+static const brc_section SCATTER_SECTION = {.title = "scatter",
+                                            .meaning = "Strength of bonds over that of the material: a factor a bond, drawn from the ids of its elements "
+                                                       "and the seed of `fracture`.",
+                                            ENTRIES(SCATTER),
+                                            .one_of = true,
+                                            .has_kind = true,
+                                            .kind_offset = offsetof(brc_material, scatter.kind)};
 static const brc_entry STRENGTH[] = {
     {"tension", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, tension), .sample = "50 MPa",
      .meaning = "largest principal stress it bears"},
     {"compression", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, compression), .sample = "500 MPa",
      .meaning = "largest compressive principal stress it bears, a positive number; left out: any"},
+    {"fracture_energy", BRC_TYPE_QUANTITY, "J/m^2", POSITIVE, FIELD(brc_material, fracture_energy), .sample = ENERGY_SAMPLE,
+     .meaning = "energy per area of a crack: bonds soften in place of breaking at once; left out: what strength and cells make of it"},
+    {"softening", BRC_TYPE_CHOICE, FIELD(brc_material, softening), CHOICES("linear", "exponential"), .given = "linear",
+     .meaning = "with a fracture energy: how the cohesion falls while a crack opens"},
+    {"scatter", BRC_TYPE_STRUCT, .section = &SCATTER_SECTION, .meaning = "of the strength between bonds; left out: none"},
 };
 const brc_section brc_schema_strength = {.title = "strength",
                                          .meaning = "What the material bears, measured on a sample of it; used by scenes with `fracture`.",
@@ -40,7 +79,14 @@ static const brc_section DRUCKER_PRAGER_SECTION = {
     .title = "drucker-prager",
     .meaning = "As mohr-coulomb, with the smooth cone sqrt(J2) + a I1 = k through its compressive edges.",
     ENTRIES(DRUCKER_PRAGER)};
+static const brc_entry AUTO_CRITERION[] = {LEVEL_ENTRY};
+static const brc_section AUTO_CRITERION_SECTION = {
+    .title = "auto", .meaning = "bond-normal for cells, virial-principal for beams.", ENTRIES(AUTO_CRITERION)};
 static const brc_entry CRITERION[] = {
+    {"auto", BRC_TYPE_STRUCT, .section = &AUTO_CRITERION_SECTION, .value = BRC_CRITERION_AUTO, .meaning = "by the model"},
+    {"bond-normal", BRC_TYPE_STRUCT, .value = BRC_CRITERION_BOND_NORMAL,
+     .meaning = "normal stress of a bond: the mean stress of its two elements, with the bond's own elongation (Andre, Girardot and Hubert 2019, "
+                "eq. 35); for cells"},
     {"virial-principal", BRC_TYPE_STRUCT, .section = &PRINCIPAL_SECTION, .value = BRC_CRITERION_PRINCIPAL,
      .meaning = "principal values of the virial stress"},
     {"mohr-coulomb", BRC_TYPE_STRUCT, .section = &MOHR_COULOMB_SECTION, .value = BRC_CRITERION_MOHR_COULOMB,
@@ -55,8 +101,48 @@ static const brc_section CRITERION_SECTION = {.title = "criterion",
                                               .has_kind = true,
                                               .kind_offset = offsetof(brc_fracture, kind)};
 static const brc_entry FRACTURE[] = {
-    {"criterion", BRC_TYPE_STRUCT, .section = &CRITERION_SECTION, .given = "virial-principal", .meaning = "when bonds break"},
+    {"criterion", BRC_TYPE_STRUCT, .section = &CRITERION_SECTION, .given = "auto", .meaning = "when bonds break"},
+    {"seed", BRC_TYPE_INTEGER, WITHIN(0, 9e15), FIELD(brc_fracture, seed), .given = "1",
+     .meaning = "of the strengths that scatter; the draw of a bond depends on its elements' ids only"},
 };
 const brc_section brc_schema_fracture = {.title = "fracture",
-                                         .meaning = "Bonds break in dynamic stages; left out: they hold for ever. For model cbm.",
+                                         .meaning = "Bonds break in dynamic stages; left out: they hold for ever.",
                                          ENTRIES(FRACTURE)};
+
+#define INTERFACE_ENTRIES                                                                                              \
+    {"factor", BRC_TYPE_QUANTITY, "", POSITIVE, FIELD(brc_interface, factor), .sample = "50 %",                        \
+     .meaning = "on the strength and the fracture energy of the weaker side"},                                         \
+    {"tension", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_interface, tension), .sample = "20 MPa",                  \
+     .meaning = "its strength"},                                                                                       \
+    {"fracture_energy", BRC_TYPE_QUANTITY, "J/m^2", POSITIVE, FIELD(brc_interface, fracture_energy), .sample = ENERGY_SAMPLE, \
+     .meaning = "energy per area of a crack along it; left out: that of the weaker side, times the factor"}
+#define INTERFACE_GROUPS                                                                                               \
+    .groups = {{BRC_GROUP_AT_LEAST_ONE, {"factor", "tension", "fracture_energy"}}, {BRC_GROUP_AT_MOST_ONE, {"factor", "tension"}}}
+static const brc_entry GRAINS[] = {INTERFACE_ENTRIES};
+static const brc_section GRAINS_SECTION = {
+    .title = "interface of grains", .meaning = "Bonds between elements of different grains.", ENTRIES(GRAINS), INTERFACE_GROUPS};
+static const brc_entry MATERIALS[] = {
+    {"first", BRC_TYPE_MATERIAL, FIELD(brc_interface, material[0]), .required = true, .sample = "glass", .meaning = "one side"},
+    {"second", BRC_TYPE_MATERIAL, FIELD(brc_interface, material[1]), .required = true, .sample = "glass", .meaning = "the other side"},
+    INTERFACE_ENTRIES,
+};
+static const brc_section MATERIALS_SECTION = {
+    .title = "interface of materials", .meaning = "Bonds between elements of two materials.", ENTRIES(MATERIALS), INTERFACE_GROUPS};
+static const brc_entry INTERFACE[] = {
+    {"grains", BRC_TYPE_STRUCT, .section = &GRAINS_SECTION, .value = BRC_INTERFACE_GRAINS, .meaning = "between grains of a body"},
+    {"materials", BRC_TYPE_STRUCT, .section = &MATERIALS_SECTION, .value = BRC_INTERFACE_MATERIALS, .meaning = "between two materials"},
+};
+static const brc_section INTERFACE_SECTION = {.title = "interface",
+                                              .meaning = "Bonds with a strength of their own; later ones win. For scenes with `fracture`.",
+                                              ENTRIES(INTERFACE),
+                                              .size = sizeof(brc_interface),
+                                              .one_of = true,
+                                              .has_kind = true,
+                                              .kind_offset = offsetof(brc_interface, kind)};
+static const brc_entry INTERACTIONS[] = {
+    {"interfaces", BRC_TYPE_LIST, .section = &INTERFACE_SECTION, COUNTED(brc_scene, interfaces, n_interfaces),
+     .meaning = "bonds between materials or grains"},
+    {"contact", BRC_TYPE_LATER, .meaning = "contact comes in a later version; bodies and fragments do not touch yet"},
+};
+const brc_section brc_schema_interactions = {
+    .title = "interactions", .meaning = "What joins parts of the solids.", ENTRIES(INTERACTIONS)};

@@ -44,5 +44,6 @@ extern const brc_section brc_schema_measure;
 extern const brc_section brc_schema_output;
 extern const brc_section brc_schema_strength;
 extern const brc_section brc_schema_fracture;
+extern const brc_section brc_schema_interactions;
 
 #endif

@@ -92,6 +92,15 @@ static const brc_section POINT_VELOCITY_SECTION = {
     .title = "point_velocity", .meaning = "Velocity of an element [m/s].", ENTRIES(POINT)};
 static const brc_section TURN_SECTION = {
     .title = "turn", .meaning = "Rotation vector of an element; for models whose elements have rotations [rad].", ENTRIES(POINT)};
+static const brc_entry TIP[] = {
+    {"direction", BRC_TYPE_DIRECTION, "", FIELD(brc_sensor, axis), .length = 3, .required = true, .sample = "[1, 0, 0]",
+     .meaning = "where the crack runs"},
+    {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), .length = 3, .sample = "[0, 0, 0]", .meaning = "where lengths count from"},
+};
+static const brc_section TIP_SECTION = {
+    .title = "crack_tip",
+    .meaning = "How far broken bonds reach along a direction; 0 before the first. `rate` of it is the speed of the tip [m].",
+    ENTRIES(TIP)};
 static const brc_entry SENSOR[] = {
     {"reaction", BRC_TYPE_STRUCT, .section = &REACTION_SECTION, .value = BRC_SENSOR_REACTION,
      .meaning = "force on a set with prescribed motion [N]"},
@@ -118,6 +127,11 @@ static const brc_entry SENSOR[] = {
      .meaning = "pull of radial element forces on a sphere [Pa]"},
     {"volume_strain", BRC_TYPE_STRUCT, .section = &VOLUME_STRAIN_SECTION, .value = BRC_SENSOR_VOLUME_STRAIN,
      .meaning = "change of volume of a sphere [-]"},
+    {"fracture", BRC_TYPE_WORD, FIELD(brc_sensor, term),
+     CHOICES("broken", "crack_area", "fragments", "largest_fragment", "failure_ratio"), .value = BRC_SENSOR_FRACTURE, .sample = "broken",
+     .meaning = "broken bonds [-], their area [m^2], number of fragments [-], share of the mass in the largest [-], largest stress over its "
+                "limit [-]"},
+    {"crack_tip", BRC_TYPE_STRUCT, .section = &TIP_SECTION, .value = BRC_SENSOR_CRACK_TIP, .meaning = "how far a crack has come [m]"},
     {"mode", BRC_TYPE_INTEGER, WITHIN(0, 999), FIELD(brc_sensor, index), .value = BRC_SENSOR_MODE, .sample = "0",
      .meaning = "frequency of a mode of the last modes stage, 0 the lowest elastic one [Hz]"},
 };
@@ -203,12 +217,19 @@ static const brc_entry OF_FREQUENCY[] = {SENSOR_ENTRY("of", y, "force", "sensor"
 static const brc_section FREQUENCY_SECTION = {
     .title = "frequency", .meaning = "Largest peak of the spectrum of a sensor, interpolated.", ENTRIES(OF_FREQUENCY)};
 static const brc_entry OF_SENSOR[] = {SENSOR_ENTRY("of", y, "force", "sensor"), COMMON_ENTRIES("1 N")};
+static const brc_entry OF_RATE[] = {SENSOR_ENTRY("of", y, "force", "sensor"), COMMON_ENTRIES("1 N/s")};
 static const brc_entry OF_PEAK[] = {SENSOR_ENTRY("of", y, "force", "sensor"), AREA_ENTRY, COMMON_ENTRIES("1 N")};
 static const brc_section PEAK_SECTION = {
     .title = "peak", .meaning = "The value of largest magnitude; of a load over an area, the strength.", ENTRIES(OF_PEAK)};
 static const brc_section MEAN_SECTION = {.title = "mean", .meaning = "Mean over time.", ENTRIES(OF_SENSOR)};
 static const brc_entry OF_TWO[] = {SENSOR_ENTRY("of", y, "force", "sensor"),
                                    SENSOR_ENTRY("against", x, "force", "sensor it depends on"), COMMON_ENTRIES("1")};
+static const brc_section RATE_SECTION = {
+    .title = "rate", .meaning = "Slope of a sensor against time, by a straight line through the window.", ENTRIES(OF_RATE)};
+static const brc_section AT_FIRST_BREAK_SECTION = {
+    .title = "at_first_break",
+    .meaning = "The value when the first bond breaks, between samples by a straight line; of a load over an area, the stress at failure.",
+    ENTRIES(OF_PEAK)};
 static const brc_section SLOPE_SECTION = {
     .title = "slope", .meaning = "Slope at zero of one sensor against another.", ENTRIES(OF_TWO)};
 static const brc_entry MEASURE[] = {
@@ -222,6 +243,9 @@ static const brc_entry MEASURE[] = {
     {"slope", BRC_TYPE_STRUCT, .section = &SLOPE_SECTION, .value = BRC_MEASURE_SLOPE,
      .meaning = "slope of one sensor against another"},
     {"mean", BRC_TYPE_STRUCT, .section = &MEAN_SECTION, .value = BRC_MEASURE_MEAN, .meaning = "mean of a sensor"},
+    {"rate", BRC_TYPE_STRUCT, .section = &RATE_SECTION, .value = BRC_MEASURE_RATE, .meaning = "change of a sensor per time"},
+    {"at_first_break", BRC_TYPE_STRUCT, .section = &AT_FIRST_BREAK_SECTION, .value = BRC_MEASURE_AT_FIRST_BREAK,
+     .meaning = "a sensor when the first bond breaks"},
 };
 const brc_section brc_schema_measure = {.title = "measure",
                                         .meaning = "A number computed from sensors when the run ends.",
@@ -266,6 +290,8 @@ static const brc_entry OUTPUT[] = {
      .meaning =
          "steps between samples of the sensors; auto: 500 samples a dynamic stage, every increment of a static one"},
     {"picture", BRC_TYPE_STRUCT, .section = &PICTURE_SECTION, .given = "{}", .meaning = "the deformed solid"},
+    {"crack_surface", BRC_TYPE_BOOL, FIELD(brc_output, crack_surface), .given = "true",
+     .meaning = "with fracture: broken faces as polygons beside every frame"},
     {"curve", BRC_TYPE_STRUCT, .section = &CURVE_SECTION, .meaning = "one sensor against another; left out: none"},
 };
 const brc_section brc_schema_output = {.title = "output",

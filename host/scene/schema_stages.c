@@ -319,6 +319,16 @@ static const brc_section TIME_STEP_SECTION = {.title = "time_step",
                                               .has_kind = true,
                                               .kind_offset = offsetof(brc_stage, time_step_rule),
                                               .short_key = "fixed"};
+static const brc_entry STOP[] = {
+    {"sensor", BRC_TYPE_NAME, FIELD(brc_stage, stop_sensor), .required = true, .refers = BRC_REFERS_SENSOR, .sample = "force",
+     .meaning = "what is watched"},
+    {"below", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_stage, stop_share), .given = "50 %",
+     .meaning = "share of its largest magnitude in the stage"},
+};
+static const brc_section STOP_SECTION = {.title = "stop_after_peak",
+                                         .meaning = "Ends the stage when a sensor has fallen from its peak; judged when sensors are sampled.",
+                                         ENTRIES(STOP),
+                                         .short_key = "sensor"};
 static const brc_entry DYNAMIC[] = {
     {"duration", BRC_TYPE_QUANTITY, "s", POSITIVE, FIELD(brc_stage, duration), .sample = "1 ms",
      .meaning = "time simulated"},
@@ -331,11 +341,26 @@ static const brc_entry DYNAMIC[] = {
     {"stop_when_kinetic_below", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_stage, stop_kinetic),
      .given = "off", .word = "off", .sample = "1e-6",
      .meaning = "ends the stage when the kinetic energy was below this part of the elastic energy for 100 steps"},
+    {"stop_when_broken", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_stage, stop_broken), .given = "off", .word = "off",
+     .sample = "10 %", .meaning = "ends the stage when more than this share of all bonds is broken; needs `fracture`"},
+    {"stop_after_peak", BRC_TYPE_STRUCT, .section = &STOP_SECTION, .meaning = "ends the stage when a load has dropped; left out: it runs on"},
 };
 static const brc_section DYNAMIC_SECTION = {.title = "solver dynamic",
                                             .meaning = "Explicit steps through time.",
                                             ENTRIES(DYNAMIC),
                                             .groups = {{BRC_GROUP_EXACTLY_ONE, {"duration", "steps"}}}};
+static const brc_entry EVENTS[] = {
+    {"most", BRC_TYPE_INTEGER, WITHIN(1, 1e9), FIELD(brc_stage, most_events), .required = true, .sample = "200",
+     .meaning = "events after which the stage ends"},
+    {"below", BRC_TYPE_QUANTITY, "", WITHIN(0, 1), FIELD(brc_stage, stop_load), .given = "0",
+     .meaning = "ends the stage when the load of an event falls below this share of the largest so far"},
+};
+static const brc_section EVENTS_SECTION = {
+    .title = "events",
+    .meaning = "Quasi-static fracture: the load is scaled to where the next bond fails, that bond breaks, and the body is solved anew. Needs "
+               "`fracture`; for small damage, a dynamic stage is cheaper for much.",
+    ENTRIES(EVENTS),
+    .short_key = "most"};
 static const brc_entry STATIC[] = {
     {"increments", BRC_TYPE_INTEGER, WITHIN(1, 100000), FIELD(brc_stage, increments), .given = "1",
      .meaning = "steps from no load to the whole load"},
@@ -347,6 +372,7 @@ static const brc_entry STATIC[] = {
     {"to_failure", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 1), FIELD(brc_stage, to_failure), .given = "off", .word = "off",
      .sample = "80 %",
      .meaning = "scale the whole load so that the element nearest to failure is at this fraction of its limit; needs `fracture`"},
+    {"events", BRC_TYPE_STRUCT, .section = &EVENTS_SECTION, .meaning = "bonds break one event after the other; left out: none breaks"},
     {"finite_strain", BRC_TYPE_BOOL, FIELD(brc_stage, finite_strain), .given = "true",
      .meaning = "false: only the law linearised about the reference"},
 };

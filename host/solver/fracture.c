@@ -12,7 +12,8 @@ const char *brc_break_mode_name(int32_t mode)
     return mode == BRC_BREAK_TENSION ? "tension" : mode == BRC_BREAK_COMPRESSION ? "compression" : mode == BRC_BREAK_SHEAR ? "shear" : "none";
 }
 
-static int is_drucker_prager(const brc_simulation *s) { return s->scene->fracture.kind == BRC_CRITERION_DRUCKER_PRAGER; }
+static brc_criterion_kind criterion(const brc_simulation *s) { return brc_criterion_of(&s->scene->fracture, s->scene->model.kind); }
+static int is_drucker_prager(const brc_simulation *s) { return criterion(s) == BRC_CRITERION_DRUCKER_PRAGER; }
 
 /* ---- limits ---- */
 
@@ -38,10 +39,10 @@ static brc_status limits_of(brc_simulation *s, const brc_material *m, double rad
     const double coordination = s->domain->quality.coordination_mean;
     double k = 1;
     limit[0] = limit[1] = limit[2] = 0;
-    if (s->scene->fracture.kind == BRC_CRITERION_PRINCIPAL && !(m->tension > 0 || m->compression > 0 || m->beam_strength > 0))
+    if (criterion(s) == BRC_CRITERION_PRINCIPAL && !(m->tension > 0 || m->compression > 0 || m->beam_strength > 0 || m->beam_compression > 0))
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
                         "fracture: material '%s' has no strength; give it `strength: {tension: 50 MPa}`, or one so large that it never breaks", m->name);
-    const bool by_law = (m->tension > 0 && !(m->beam_strength > 0)) || m->compression > 0 || shear > 0;
+    const bool by_law = (m->tension > 0 && !(m->beam_strength > 0)) || (m->compression > 0 && !(m->beam_compression > 0)) || shear > 0;
     if (by_law) {
         const brc_strength_law *law = brc_strength_law_published();
         BRC_TRY(brc_strength_law_find(s->context, law, coordination, radius_ratio, &k));
@@ -52,7 +53,7 @@ static brc_status limits_of(brc_simulation *s, const brc_material *m, double rad
                 law->name, coordination, radius_ratio);
     }
     limit[0] = m->beam_strength > 0 ? m->beam_strength : m->tension / k;
-    limit[1] = m->compression / k;
+    limit[1] = m->beam_compression > 0 ? m->beam_compression : m->compression / k;
     limit[2] = shear / k;
     return BRC_OK;
 }
@@ -188,6 +189,8 @@ brc_status brc_fracture_create(brc_simulation *s)
     if (!brc_is_beams(s))
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: bonds of model %s cannot break in this version; use model cbm, or remove `fracture`",
                         brc_model_name(s->scene->model.kind));
+    if (criterion(s) == BRC_CRITERION_BOND_NORMAL)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: the criterion bond-normal is for cells; use virial-principal with model cbm");
     if (s->layout->n_rows >= MOST_ROWS)
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: %d elements are more than the %d that can break", (int)s->layout->n_rows, MOST_ROWS);
     if (s->scene->fracture.level == 2 && most_members(s->domain) > MOST_MEMBERS)
@@ -209,20 +212,13 @@ void brc_fracture_free(brc_simulation *s)
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     brc_memory_free(f->limit);
     brc_memory_free(f->spans);
+    brc_memory_free(f->load);
     brc_memory_free(f->events);
     brc_memory_free(f);
     s->fracture = NULL;
 }
 
 /* ---- the step ---- */
-
-brc_status brc_fracture_begin_stage(brc_simulation *s)
-{
-    brc_breaking *f = s->fracture;
-    BRC_TRY(brc_memory_resize(s->context, (void **)&f->spans, f->n_spans + 1, sizeof *f->spans, "stages with fracture"));
-    f->spans[f->n_spans++] = (brc_break_span){s->total_steps, s->total_time_before, s->time_step.value, s->stage};
-    return BRC_OK;
-}
 
 brc_status brc_fracture_force(brc_simulation *s, const brc_force_request *r)
 {
@@ -253,7 +249,7 @@ brc_status brc_fracture_step(brc_simulation *s, double half_kick)
     BRC_TRY(BRC_LAUNCH(f->choose, n, BRC_INT(n), BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_COEFF(f->friction),
                        BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->alive), BRC_BUF(s->displacement),
                        BRC_BUF(f->limits), BRC_BUF(f->stress), BRC_BUF(f->choice), BRC_BUF(f->measure)));
-    BRC_TRY(BRC_LAUNCH(f->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(s->total_steps), BRC_STATE(half_kick), BRC_BUF(s->row_start),
+    BRC_TRY(BRC_LAUNCH(f->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(brc_fracture_moment(s)), BRC_STATE(half_kick), BRC_BUF(s->row_start),
                       BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->alive), BRC_BUF(f->choice),
                       BRC_BUF(f->measure), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend),
                       BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_BUF(s->mass), BRC_BUF(s->inertia), BRC_BUF(s->force), BRC_BUF(s->torque),

@@ -53,7 +53,7 @@ static const brc_entry *usual_variant(const maker *m, const brc_section *section
     const char *wanted = NULL;
     if (strcmp(section->title, "solver") == 0) {
         if (path_has(m->path, "face_velocity") || path_has(m->path, "element_velocity") ||
-            path_has(m->path, "frequency"))
+            path_has(m->path, "frequency") || path_has(m->path, "rate"))
             wanted = "dynamic";
         if (path_has(m->path, "mode")) wanted = "modes";
     }
@@ -66,6 +66,7 @@ static bool is_used(const brc_section *section, const brc_entry *entry, const br
     if (entry == on_path || entry->required) return true;
     if (section == brc_schema() && strcmp(entry->key, "sets") == 0) return true; /* the samples refer to them */
     if (section == brc_schema() && strcmp(entry->key, "sensors") == 0) return true;
+    if (section == brc_schema() && strcmp(entry->key, "fracture") == 0) return true; /* sensors and stops need it */
     if (strcmp(section->title, "body") == 0 && strcmp(entry->key, "fill") == 0)
         return !on_path || strcmp(on_path->key, "domain") != 0;
     for (int g = 0; g < 2; ++g) {
@@ -98,7 +99,7 @@ static const char *sample_value(const maker *m, const brc_entry *entry)
         return path_has(m->path, "face_velocity") || path_has(m->path, "element_velocity") ? "[[0 s, 0], [1 ms, 1]]"
                                                                                            : "[[0, 0], [1, 1]]";
     if (strcmp(entry->key, "load") == 0 && path_has(m->path, "area")) return "force"; /* the area divides a reaction */
-    if (strcmp(entry->key, "window") == 0 && path_has(m->path, "frequency")) return "[0, 1 ms]";
+    if (strcmp(entry->key, "window") == 0 && (path_has(m->path, "frequency") || path_has(m->path, "rate"))) return "[0, 1 ms]";
     if (entry->sample && (strcmp(entry->sample, "x+") == 0 || strcmp(entry->sample, "x-") == 0))
         return wall(m, entry->sample);
     return entry->sample ? entry->sample : entry->given ? entry->given : entry->choices ? entry->choices[0] : "true";

@@ -62,8 +62,7 @@ static void misspelt_keys_are_guessed(void **state)
 static void later_keys_are_refused_as_such(void **state)
 {
     (void)state;
-    bad_scene(HEAD STAGES "interactions: {}\n", "10:1", "'interactions' is not in this version of breccia");
-    bad_scene(HEAD STAGES "interactions: {contact: on}\n", "10:1", "'interactions' is not in this version of breccia");
+    bad_scene(HEAD STAGES "interactions: {contact: on}\n", "10:16", "'contact' is not in this version of breccia");
 }
 
 static void all_errors_are_told_in_one_pass_in_the_order_of_the_text(void **state)

@@ -155,7 +155,6 @@ static void cracks_and_phases_that_cannot_be_are_refused(void **state)
         {"    grains: {number: 3, phases: [{material: b, fraction: 60 %}, {material: a, fraction: 50 %}]}\n", "9:89", "sum to 1.1"},
         {"    grains: {number: 3, size: 1 cm}\n", "9:25", "expected only one of number, size"},
         {"quality: {volume_eror: {warn: 1}}\n", "9:24", "did you mean 'volume_error'?"},
-        {"    model: dlsm\n", "9:5", "until bodies touch, one model moves the whole scene"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
         char text[2048];

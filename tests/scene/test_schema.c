@@ -24,8 +24,9 @@ static const char *leaf_unit(const sample_path *path)
         if (strcmp(unit, BRC_UNIT_MEASURE) == 0) {
             if (strcmp(key, "E") == 0 || strcmp(key, "K") == 0 || strcmp(key, "G") == 0) return "Pa";
             if (strcmp(key, "frequency") == 0) return "Hz";
-            if (strcmp(key, "peak") == 0 || strcmp(key, "mean") == 0) return "N";
-        } else if (strcmp(key, "frequency") == 0) {
+            if (strcmp(key, "rate") == 0) return "N/s";
+            if (strcmp(key, "peak") == 0 || strcmp(key, "at_first_break") == 0 || strcmp(key, "mean") == 0) return "N";
+        } else if (strcmp(key, "frequency") == 0 || strcmp(key, "rate") == 0) {
             return "s";
         }
     }
@@ -39,11 +40,12 @@ static bool path_has(const sample_path *path, const char *key)
     return false;
 }
 
-/* Elements have no normal, a half-space alone no end, a noisy grid no spheres, and one radius is no distribution: no valid
+/* Elements have no normal, a half-space alone no end, a noisy grid no spheres, and one radius or factor is no distribution: no valid
  * scene made of samples alone contains these entries there. tests/scene/test_reader_check.c reads valid ones. */
 static bool cannot_be_valid(const sample_path *path)
 {
     return path->chain[path->depth - 1]->type == BRC_TYPE_LATER || path_has(path, "beams") || path_has(path, "radii") ||
+           (path_has(path, "scatter") && path_has(path, "table")) ||
            (path_has(path, "half_space") && path_has(path, "parts")) ||
            (path_has(path, "normal") && !path_has(path, "faces") && !path_has(path, "half_space") && !path_has(path, "disc"));
 }
