@@ -4,6 +4,7 @@
 
 #include "../host/base/file.h"
 #include "../host/base/memory.h"
+#include "csv.h"
 #include "points_lammps.h"
 
 #include <errno.h>
@@ -15,13 +16,6 @@
 enum { HEADER_LINES = 200 };
 enum { X, Y, Z, RADIUS, DIAMETER, N_ROLES };
 static const char *const role_name[N_ROLES] = {"x", "y", "z", "radius", "diameter"};
-
-/* Where the columns of a CSV file are. */
-typedef struct csv_header {
-    char separator; /* ' ': any run of blanks and tabs */
-    int64_t n_columns;
-    int64_t column[N_ROLES]; /* index, -1: none */
-} csv_header;
 
 static bool says_atoms(const char *line, const char *end)
 {
@@ -40,117 +34,36 @@ static bool is_lammps(brc_lines lines)
     return false;
 }
 
-/* The next field of a line at or after *at, which is NULL once the last one was given. Blanks and a pair of quotes around a
- * field are no part of it; a separator within quotes separates nothing. */
-static bool next_field(char separator, const char **at, const char *end, const char **first, const char **last)
+static bool read_row(brc_lines *lines, const brc_csv *csv, double value[N_ROLES])
 {
-    if (!*at) return false;
-    if (separator == ' ') return brc_lines_token(at, end, first, last);
-    const char *c = *at;
-    while (c < end && *c == ' ') ++c;
-    const bool quoted = c < end && *c == '"';
-    *first = c;
-    if (quoted)
-        for (++c; c < end && *c != '"';) ++c;
-    while (c < end && *c != separator) ++c;
-    *at = c < end ? c + 1 : NULL;
-    while (c > *first && c[-1] == ' ') --c;
-    *last = c;
-    if (quoted && c - *first >= 2 && c[-1] == '"') {
-        ++*first;
-        --*last;
-    }
-    return true;
-}
-
-/* The next line that holds something. */
-static bool next_row(brc_lines *lines)
-{
-    while (brc_lines_next(lines))
-        if (lines->line < lines->line_end && *lines->line != '#') return true;
-    return false;
-}
-
-static char separator_of(const brc_lines *lines)
-{
-    const size_t length = (size_t)(lines->line_end - lines->line);
-    static const char known[] = ",;\t";
-    for (const char *c = known; *c; ++c)
-        if (memchr(lines->line, *c, length)) return *c;
-    return ' ';
-}
-
-/* Read the row of names. False: faults were recorded, and reading on would only repeat them. */
-static bool read_header(brc_lines *lines, csv_header *header)
-{
-    static const char want[] = "a row of names: x, y, z and, for spheres, radius or diameter";
-    for (int k = 0; k < N_ROLES; ++k) header->column[k] = -1;
-    header->n_columns = 0;
-    if (!next_row(lines)) {
-        brc_lines_bad(lines, lines->line_start, "no row found, expected %s, then a row for each point", want);
-        return false;
-    }
-    header->separator = separator_of(lines);
-    const int64_t bad_before = lines->n_bad;
-    const char *first, *last, *at = lines->line;
-    while (next_field(header->separator, &at, lines->line_end, &first, &last)) {
-        for (int k = 0; k < N_ROLES; ++k) {
-            if (!brc_lines_is(first, last, role_name[k])) continue;
-            if (header->column[k] >= 0) brc_lines_bad(lines, first, "a second column '%s', expected one", role_name[k]);
-            header->column[k] = header->n_columns;
-        }
-        header->n_columns++;
-    }
-    if (lines->n_bad > bad_before) return false;
-    if (header->column[X] < 0 && header->column[Y] < 0 && header->column[Z] < 0) {
-        brc_lines_bad(lines, lines->line, "'%.*s' names no coordinate, expected %s (a row behind '#' is a comment)",
-                      (int)(lines->line_end - lines->line < 60 ? lines->line_end - lines->line : 60), lines->line, want);
-        return false;
-    }
-    for (int k = X; k <= Z; ++k)
-        if (header->column[k] < 0) brc_lines_bad(lines, lines->line, "no column '%s', expected %s", role_name[k], want);
-    if (header->column[RADIUS] >= 0 && header->column[DIAMETER] >= 0)
-        brc_lines_bad(lines, lines->line, "columns 'radius' and 'diameter', expected one of them; rename the other");
-    return lines->n_bad == bad_before;
-}
-
-static bool read_row(brc_lines *lines, const csv_header *header, double value[N_ROLES])
-{
-    const char *first, *last, *at = header->separator == '\t' ? lines->line_start : lines->line;
-    int64_t column = 0;
-    for (; next_field(header->separator, &at, lines->line_end, &first, &last); ++column) {
-        if (column >= header->n_columns && first == last && !at) break; /* a separator at the end of the row */
-        if (column >= header->n_columns) {
-            brc_lines_bad(lines, first, "more fields than the %lld names of the header%s", (long long)header->n_columns,
-                          header->separator == ',' ? "; numbers need a decimal point, not a comma" : "");
-            return false;
-        }
-        for (int k = 0; k < N_ROLES; ++k)
-            if (column == header->column[k] && !brc_lines_number(lines, first, last, role_name[k], &value[k])) return false;
-    }
-    if (column < header->n_columns) {
-        brc_lines_bad(lines, lines->line_end, "%lld fields, expected the %lld of the header", (long long)column,
-                      (long long)header->n_columns);
-        return false;
-    }
+    if (!brc_csv_row(lines, csv, value, NULL)) return false;
     for (int k = RADIUS; k <= DIAMETER; ++k)
-        if (header->column[k] >= 0 && !(value[k] > 0.0)) {
+        if (csv->column[k] >= 0 && !(value[k] > 0.0)) {
             brc_lines_bad(lines, lines->line, "%s is %g, must be > 0", role_name[k], value[k]);
             return false;
         }
     return true;
 }
 
+static bool read_header(brc_lines *lines, brc_csv *csv)
+{
+    if (!brc_csv_header(lines, csv)) return false;
+    if (csv->column[RADIUS] < 0 || csv->column[DIAMETER] < 0) return true;
+    brc_lines_bad(lines, lines->line, "columns 'radius' and 'diameter', expected one of them; rename the other");
+    return false;
+}
+
 static brc_status read_csv(brc_lines *lines, double **position, double **radius, int64_t *n)
 {
-    csv_header header;
+    brc_csv header = {.n_roles = N_ROLES, .n_required = 3, .role = role_name, .what = "coordinate",
+                      .wanted = "a row of names: x, y, z and, for spheres, radius or diameter, then a row for each point"};
     if (!read_header(lines, &header)) return brc_lines_verdict(lines);
     const int64_t room = brc_lines_left(lines);
     const int role = header.column[RADIUS] >= 0 ? RADIUS : DIAMETER;
     const bool spheres = header.column[role] >= 0;
     BRC_TRY(BRC_ALLOCATE(lines->context, position, 3 * room, "points"));
     if (spheres) BRC_TRY(BRC_ALLOCATE(lines->context, radius, room, "radii of points"));
-    while (next_row(lines)) {
+    while (brc_csv_next(lines)) {
         double value[N_ROLES] = {0.0};
         if (!read_row(lines, &header, value)) continue;
         memcpy(*position + 3 * *n, value, 3 * sizeof *value);

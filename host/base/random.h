@@ -17,6 +17,7 @@ typedef enum brc_random_use {
     BRC_RANDOM_GRAIN = 8,
     BRC_RANDOM_GRAIN_PHASE = 9,
     BRC_RANDOM_EDGE_RING = 10,
+    BRC_RANDOM_STRENGTH = 11,
 } brc_random_use;
 
 /* Four doubles uniform in (0, 1), a function of (seed, use, a, b) alone. a, b: ids of the thing drawn for. */
