@@ -172,7 +172,7 @@ static brc_status read_rows(const reader *r, const brc_node *node, brc_case_run 
 
 static brc_status read_run(const reader *r, const brc_node *node, brc_case_run *run)
 {
-    static const char *const operators[] = {"measures", "vibration", "drift", "build", "isotropy", "beams", NULL};
+    static const char *const operators[] = {"measures", "vibration", "drift", "build", "isotropy", "beams", "hondros", NULL};
     static const char *const precisions[] = {"double", "mixed", "single", NULL};
     *run = (brc_case_run){.name = "", .scene = "scene.yaml", .n_seeds = 1};
     if (node->kind != BRC_NODE_MAP) wrong(r, node, "a map");
@@ -200,7 +200,9 @@ static brc_status read_run(const reader *r, const brc_node *node, brc_case_run *
         else if (strcmp(item->key, "seeds") == 0) {
             run->n_seeds = (int)number_of(r, item);
             if (run->n_seeds < 1) wrong(r, item, "1 or more samples");
-        } else if (strcmp(item->key, "files") == 0)
+        } else if (strcmp(item->key, "half_angle") == 0)
+            run->half_angle = number_of(r, item);
+        else if (strcmp(item->key, "files") == 0)
             run->n_files = texts_of(r, item, run->files);
         else if (strcmp(item->key, "set") == 0)
             run->n_overrides = texts_of(r, item, run->overrides);

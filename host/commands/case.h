@@ -37,7 +37,8 @@ typedef enum brc_case_operator {
     BRC_CASE_DRIFT,     /* energy, momentum and angular momentum along the run */
     BRC_CASE_BUILD,     /* no run: seeds to domain file, timed */
     BRC_CASE_ISOTROPY,  /* no run: directions of bonds over n_seeds samples */
-    BRC_CASE_BEAMS      /* elastic tests of n_seeds samples of beams */
+    BRC_CASE_BEAMS,     /* elastic tests of n_seeds samples of beams */
+    BRC_CASE_HONDROS    /* stresses on the loaded diameter of a disc against Hondros */
 } brc_case_operator;
 
 typedef struct brc_case_run {
@@ -51,7 +52,8 @@ typedef struct brc_case_run {
     brc_precision precision;
     bool exact;    /* as in brc_device_request */
     int n_threads; /* 0: as the command line says */
-    int n_seeds;   /* isotropy, beams: samples, the seed of every fill one larger each time */
+    int n_seeds;   /* samples, the seed of the fill one larger each time; values are means. Not with drift, build, vibration or keep */
+    double half_angle; /* hondros: of the loaded arcs [rad] */
     int n_overrides;
     const char *overrides[BRC_CASE_LIST];
     int n_files;   /* files of the case that the scene reads: put beside it before the run */

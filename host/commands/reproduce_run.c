@@ -1,5 +1,5 @@
 /* Carrying out one run of a case. */
-#include "reproduce.h"
+#include "reproduce_hondros.h"
 #include "scene_domain.h"
 #include "../../preprocess/domain_file.h"
 #include "../base/file.h"
@@ -44,6 +44,7 @@ static brc_status finished(void *self, brc_simulation *simulation)
     const brc_static_report report = brc_simulation_static_report(simulation);
     brc_outcome_add(h->outcome, "iterations", "-", (double)report.iterations, NAN);
     brc_outcome_add(h->outcome, "residual", "-", report.residual, NAN);
+    if (h->outcome->run->operator == BRC_CASE_HONDROS) return brc_hondros_values(h->context, simulation, h->outcome);
     if (h->outcome->run->operator == BRC_CASE_VIBRATION) return brc_vibration_values(h->context, simulation, h->outcome);
     return BRC_OK;
 }
@@ -111,6 +112,57 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
     brc_drift_free(&drift);
     brc_run_results_free(&results);
     return status;
+}
+
+/* Sums of a value over samples. */
+typedef struct sums {
+    double sum, square;
+} sums;
+
+/* The run once for each of its seeds, each in a folder of its own; values are means with their scatter, seconds and steps those of all together. */
+static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text, size_t bytes, const char *folder)
+{
+    brc_context *context = campaign->session->context;
+    brc_case_run run = *outcome->run;
+    brc_scene *read;
+    sums all[BRC_CASE_VALUES] = {{0}};
+    if (run.keep || run.may_stop || run.n_overrides == BRC_CASE_LIST || run.operator == BRC_CASE_DRIFT || run.operator == BRC_CASE_VIBRATION)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no seeds together with keep, may_stop, drift, vibration or %d overrides", run.name, BRC_CASE_LIST);
+    BRC_TRY(brc_scene_read_text(context, scene, text, bytes, run.n_overrides, run.overrides, &read));
+    const uint64_t seed = read->bodies[0].fill.seed;
+    const bool packed = read->n_bodies == 1 && read->bodies[0].fill.kind == BRC_FILL_PACKING;
+    brc_scene_free(&read);
+    if (!packed) return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: seeds expect one packed body", run.name);
+    const int n = run.n_seeds;
+    for (int k = 0; k < n; ++k) {
+        char override[64], name[32], *one_folder;
+        brc_outcome one = {.run = &run, .precision = outcome->precision};
+        snprintf(override, sizeof override, "bodies.0.fill.packing.seed=%llu", (unsigned long long)seed + k);
+        snprintf(name, sizeof name, "seed-%llu", (unsigned long long)seed + k);
+        run.n_overrides = outcome->run->n_overrides + 1;
+        run.overrides[run.n_overrides - 1] = override;
+        BRC_TRY(brc_file_join(context, folder, name, &one_folder));
+        const brc_status status = simulate(campaign, &one, scene, text, bytes, one_folder);
+        brc_memory_free(one_folder);
+        outcome->seconds += one.seconds;
+        outcome->steps += one.steps;
+        BRC_TRY(status);
+        outcome->n_elements = one.n_elements;
+        outcome->n_bonds = one.n_bonds;
+        memcpy(outcome->device, one.device, sizeof one.device);
+        if (!outcome->note[0]) memcpy(outcome->note, one.note, sizeof one.note);
+        for (int v = 0; v < one.n_values; ++v) {
+            if (k == 0) brc_outcome_add(outcome, one.values[v].name, one.values[v].unit, 0, one.values[v].reference);
+            all[v].sum += one.values[v].value;
+            all[v].square += one.values[v].value * one.values[v].value;
+        }
+    }
+    for (int v = 0; v < outcome->n_values; ++v) {
+        const double mean = all[v].sum / n;
+        outcome->values[v].value = mean;
+        outcome->values[v].scatter = sqrt(fmax(all[v].square - n * mean * mean, 0) / (n - 1));
+    }
+    return BRC_OK;
 }
 
 /* Seeds to domain file. The file itself is not kept: at a million elements it is larger than all other results. */
@@ -201,6 +253,7 @@ brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome)
         status = run->operator == BRC_CASE_BUILD      ? build(campaign, outcome, path, text, bytes, folder)
                  : run->operator == BRC_CASE_ISOTROPY ? brc_isotropy_values(campaign, outcome, path, text, bytes)
                  : run->operator == BRC_CASE_BEAMS    ? brc_beams_values(campaign, outcome, path, text, bytes)
+                 : run->n_seeds > 1                   ? simulate_samples(campaign, outcome, path, text, bytes, folder)
                                                       : simulate(campaign, outcome, path, text, bytes, folder);
     outcome->done = status == BRC_OK || (status == BRC_PHYSICS_STOPPED && run->may_stop);
     if (status != BRC_OK && status != BRC_INTERRUPTED && status != BRC_NO_MEMORY) {
