@@ -1,4 +1,5 @@
 /* What broke, read from the device: events, damage, fragments. */
+#include "bond_area.h"
 #include "fracture_internal.h"
 #include <math.h>
 #include <stdlib.h>
@@ -46,14 +47,40 @@ static brc_status read_entries(brc_simulation *s, entries *e)
     return brc_download(s, f->break_energy, coeff, e->energy, n);
 }
 
-/* Stage and time of the end of a step. */
+/* ---- moments ---- */
+
+int64_t brc_fracture_moment(const brc_simulation *s) { return s->total_steps + s->fracture->n_loads; }
+
+brc_status brc_fracture_begin_stage(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    const bool dynamic = brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC;
+    BRC_TRY(brc_memory_resize(s->context, (void **)&f->spans, f->n_spans + 1, sizeof *f->spans, "stages with fracture"));
+    f->spans[f->n_spans++] = (brc_break_span){brc_fracture_moment(s), f->n_loads, s->total_time_before, dynamic ? s->time_step.value : 0, s->stage};
+    return BRC_OK;
+}
+
+brc_status brc_fracture_begin_event(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    BRC_TRY(brc_memory_resize(s->context, (void **)&f->load, f->n_loads + 1, sizeof *f->load, "events"));
+    f->load[f->n_loads++] = s->load_factor;
+    return BRC_OK;
+}
+
+/* Stage, time and load of the end of a step. */
 static void place_in_time(const brc_breaking *f, brc_break *event)
 {
-    int span = f->n_spans - 1;
-    while (span > 0 && f->spans[span].first_step >= event->step) --span;
-    event->stage = f->spans[span].stage;
-    event->time = f->spans[span].first_time + (double)(event->step - f->spans[span].first_step) * f->spans[span].time_step;
+    int at = f->n_spans - 1;
+    while (at > 0 && f->spans[at].first_step >= event->step) --at;
+    const brc_break_span *span = &f->spans[at];
+    const int64_t steps = event->step - span->first_step;
+    event->stage = span->stage;
+    event->time = span->first_time + (double)steps * span->time_step;
+    event->load = span->time_step > 0 ? 0 : f->load[span->first_load + steps - 1];
 }
+
+/* ---- events ---- */
 
 static void describe(const brc_simulation *s, int64_t h, brc_break *event)
 {
@@ -68,6 +95,7 @@ static void describe(const brc_simulation *s, int64_t h, brc_break *event)
         length += event->normal[c] * event->normal[c];
     }
     for (int c = 0; c < 3; ++c) event->normal[c] /= sqrt(length);
+    event->area = brc_bond_area(d, event->bond);
     place_in_time(s->fracture, event);
 }
 

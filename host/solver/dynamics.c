@@ -1,7 +1,9 @@
 /* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
 #include "element_loads.h"
 #include "fracture_internal.h"
+#include "stage_end.h"
 #include <math.h>
+#include <stdio.h>
 
 enum { SAMPLES = 500 };
 /* Energy may exceed what was put in by this factor before the run is stopped as running away. Verlet's own oscillation is
@@ -116,18 +118,52 @@ static brc_status advance_all(int32_t n, brc_simulation *const *part, int64_t n_
     return BRC_OK;
 }
 
-/* Is the motion of all parts together down to the stage's fraction of their elastic energy? */
-static brc_status guard_all(int32_t n, brc_simulation *const *part, bool *calm)
+/* Kinetic and elastic energy of all parts together [J] and their broken bonds, after the guard of each. */
+typedef struct moment {
+    double kinetic, elastic;
+    int64_t broken;
+} moment;
+
+static brc_status guard_all(int32_t n, brc_simulation *const *part, moment *now)
 {
-    double kinetic = 0, elastic = 0;
+    *now = (moment){0};
     for (int32_t k = 0; k < n; ++k) {
         brc_ledger ledger;
+        int64_t broken;
         BRC_TRY(guard(part[k], n > 1, &ledger));
-        kinetic += ledger.kinetic;
-        elastic += ledger.elastic;
+        BRC_TRY(brc_simulation_broken(part[k], &broken));
+        now->kinetic += ledger.kinetic;
+        now->elastic += ledger.elastic;
+        now->broken += broken;
     }
-    *calm = kinetic <= brc_current_stage(part[0])->stop_kinetic * elastic;
+    if (part[0]->fracture) brc_regime_follow(&part[0]->regime, now->kinetic, now->elastic, now->broken > 0);
     return BRC_OK;
+}
+
+/* What the scene lets end the stage: too many broken bonds, or calm for 100 steps. */
+static void judge(brc_simulation *s, const moment *now, double n_bonds, int64_t calm_steps)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    char reason[160];
+    if (stage->stop_broken > 0 && (double)now->broken > stage->stop_broken * n_bonds) {
+        snprintf(reason, sizeof reason, "stop_when_broken: %lld of %.0f bonds are broken, more than %.4g %%", (long long)now->broken, n_bonds,
+                 100 * stage->stop_broken);
+        brc_simulation_end_stage(s, reason);
+    }
+    if (stage->stop_kinetic > 0 && calm_steps >= 100) {
+        snprintf(reason, sizeof reason, "stop_kinetic: the kinetic energy has been below %.4g of the elastic for %lld steps", stage->stop_kinetic,
+                 (long long)calm_steps);
+        brc_simulation_end_stage(s, reason);
+    }
+}
+
+/* One line on how quick the fracture was, where this stage had some of it. */
+static void tell_regime(const brc_simulation *s, const brc_regime *before)
+{
+    const brc_regime *r = &s->regime;
+    if (!r->broke || (before->broke && before->peak_elastic == r->peak_elastic)) return;
+    brc_log(s->context, BRC_LOG_INFO, "fracture is %s: kinetic energy %.3g %% of elastic at the first break, at most %.3g %% until the peak",
+            brc_regime_name(r), 100 * r->at_first_break, 100 * fmax(r->until_peak, r->at_peak));
 }
 
 brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part)
@@ -148,8 +184,11 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part)
     double n_bonds = 0;
     for (int32_t k = 0; k < n; ++k) n_bonds += (double)part[k]->domain->n_bonds;
     BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total, "steps", n_bonds, "bond updates/s"));
+    moment now;
+    const brc_regime before = s->regime;
+    if (s->fracture) BRC_TRY_OR(cleanup, guard_all(n, part, &now));
     BRC_TRY_OR(cleanup, brc_notify_sample(s));
-    while (s->step < total) {
+    while (s->step < total && !s->note[s->stage].ended) {
         int64_t until = next_multiple(s->step, every);
         if (frame_every && next_multiple(s->step, frame_every) < until) until = next_multiple(s->step, frame_every);
         if (until > total) until = total;
@@ -165,14 +204,14 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part)
             }
         }
         if (s->step % every == 0 || s->step == total) {
-            bool calm;
-            BRC_TRY_OR(cleanup, guard_all(n, part, &calm));
+            BRC_TRY_OR(cleanup, guard_all(n, part, &now));
+            calm_steps = now.kinetic <= stage->stop_kinetic * now.elastic ? calm_steps + (s->step - begin) : 0;
+            judge(s, &now, n_bonds, calm_steps);
             BRC_TRY_OR(cleanup, brc_notify_sample(s));
-            calm_steps = calm ? calm_steps + (s->step - begin) : 0;
-            if (stage->stop_kinetic > 0 && calm_steps >= 100) break;
         }
-        if (frame_every && s->step % frame_every == 0 && s->step < total) BRC_TRY_OR(cleanup, brc_notify_frame(s));
+        if (frame_every && s->step % frame_every == 0 && s->step < total && !s->note[s->stage].ended) BRC_TRY_OR(cleanup, brc_notify_frame(s));
     }
+    tell_regime(s, &before);
 cleanup:
     brc_progress_finish(&progress);
     return status;

@@ -10,8 +10,8 @@ const char *brc_break_mode_name(int32_t mode);
 
 /* One broken bond. Position and normal are those of the undeformed solid. */
 typedef struct brc_break {
-    double time;   /* total physical time [s] */
-    int64_t step;  /* total dynamic steps, 1: at the end of the first */
+    double time;   /* total physical time [s]; of an event of a static stage: that before the stage */
+    int64_t step;  /* steps of dynamic stages and events of static ones so far, 1: at the end of the first */
     int32_t stage;
     int32_t mode;  /* brc_break_mode */
     int32_t bond, element_i, element_j; /* ids */
@@ -19,6 +19,8 @@ typedef struct brc_break {
     double normal[3];   /* unit vector from i to j */
     double stress; /* virial stress of the element that failed, in the direction of its mode; shear: half the difference of the outer two [Pa] */
     double energy; /* elastic energy the bond held [J] */
+    double area;   /* of crack it leaves (bond_area.h) [m^2] */
+    double load;   /* static stages: load factor at which it broke; else 0 [-] */
 } brc_break;
 
 bool brc_simulation_has_fracture(const brc_simulation *simulation);

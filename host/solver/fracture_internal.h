@@ -5,10 +5,11 @@
 #include "fracture.h"
 #include "simulation_internal.h"
 
-/* A dynamic stage, for the times of its steps. */
+/* A stage, for the times of its steps. */
 typedef struct brc_break_span {
-    int64_t first_step; /* total steps when it began */
-    double first_time, time_step; /* [s] */
+    int64_t first_step; /* brc_fracture_moment when it began */
+    int64_t first_load; /* n_loads when it began */
+    double first_time, time_step; /* [s]; time_step 0: static */
     int32_t stage;
 } brc_break_span;
 
@@ -22,6 +23,8 @@ struct brc_breaking {
     double slope, friction;
     int n_spans;
     brc_break_span *spans;
+    int64_t n_loads;   /* events of static stages so far */
+    double *load;      /* [n_loads] their load factors [-] */
     int64_t n_events;
     brc_break *events; /* [n_events] as of the last call */
 };
@@ -31,8 +34,12 @@ brc_status brc_fracture_create(brc_simulation *s);
 void brc_fracture_free(brc_simulation *s);
 /* Device bytes it takes (n elements, entries of the layout). */
 int64_t brc_fracture_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
-/* A dynamic stage begins. */
+/* A stage begins. */
 brc_status brc_fracture_begin_stage(brc_simulation *s);
+/* Steps and static events so far: what orders breaks. */
+int64_t brc_fracture_moment(const brc_simulation *s);
+/* An event of a static stage at the present load factor: what brc_fracture_step breaks next belongs to it. */
+brc_status brc_fracture_begin_event(brc_simulation *s);
 /* Forces of the full law, with the records that brc_fracture_step needs. */
 brc_status brc_fracture_force(brc_simulation *s, const brc_force_request *r);
 /* After the forces of a step: break what fails. half_kick: as in kernels/fracture.cl. */

@@ -209,6 +209,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     }
     BRC_TRY_OR(cleanup, brc_layout_create(context, domain, brc_device_slice(device), &s->layout));
     s->n_groups = s->layout->n_slices * (brc_device_slice(device) / brc_device_lanes(device));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &s->note, scene->n_stages, "stages"));
     BRC_TRY_OR(cleanup, find_materials(s));
     if (brc_is_beams(s)) BRC_TRY_OR(cleanup, brc_beams_create(s));
     BRC_TRY_OR(cleanup, find_kernels(s));
@@ -241,6 +242,7 @@ void brc_simulation_free(brc_simulation **simulation)
     brc_memory_free(s->beam);
     brc_memory_free(s->material_of_element);
     brc_memory_free(s->modes);
+    brc_memory_free(s->note);
     brc_memory_free(s);
     *simulation = NULL;
 }
@@ -304,7 +306,7 @@ brc_status brc_stage_start(brc_simulation *s)
 {
     const double start = brc_clock_s();
     brc_ledger after;
-    if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && s->fracture) BRC_TRY(brc_fracture_begin_stage(s));
+    if (s->fracture) BRC_TRY(brc_fracture_begin_stage(s));
     BRC_TRY(brc_loads_prescribe(s, 0));
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(brc_simulation_ledger(s, &after));

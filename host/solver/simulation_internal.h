@@ -5,6 +5,7 @@
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "layout.h"
+#include "regime.h"
 #include "simulation.h"
 #include <signal.h>
 
@@ -93,6 +94,12 @@ typedef struct brc_kernels {
 
 typedef struct brc_breaking brc_breaking; /* fracture_internal.h */
 
+/* Why a stage ended early (stage_end.c). */
+typedef struct brc_stage_note {
+    bool ended;
+    char reason[192];
+} brc_stage_note;
+
 struct brc_simulation {
     brc_context *context;
     const brc_scene *scene;
@@ -136,6 +143,9 @@ struct brc_simulation {
     double *modes;
     int32_t n_modes;
     brc_static_report static_report;
+    brc_stage_note *note; /* [n_stages] */
+    brc_regime regime;    /* of all parts, in the first one */
+    double released;      /* elastic energy beyond that of the broken bonds that events of static stages set free [J] */
 
     int n_observers;
     brc_observer observers[BRC_MOST_OBSERVERS];
