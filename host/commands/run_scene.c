@@ -1,10 +1,10 @@
 /* One whole run. */
 #include "run_scene.h"
-#include "scene_domain.h"
+#include "setup.h"
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "../output/recorder.h"
-#include "../solver/beam_polish.h"
+#include "../solver/lockstep.h"
 #include <string.h>
 
 static const char *const file_names[BRC_RUN_FILES] = {"summary.json",         "result.h5",   "histories.csv",
@@ -27,10 +27,7 @@ void brc_run_results_free(brc_run_results *results)
 typedef struct run {
     brc_recorder *recorder;
     brc_scene *scene;
-    brc_domain *built;        /* by this run; NULL when it was given */
-    const brc_domain *domain; /* used */
-    brc_device *device;
-    brc_simulation *simulation;
+    brc_setup setup;
 } run;
 
 static brc_status take_results(brc_context *context, const run *now, brc_run_results *out)
@@ -54,21 +51,21 @@ static brc_status take_results(brc_context *context, const run *now, brc_run_res
         BRC_TRY(BRC_ALLOCATE(context, &out->file[k], strlen(path) + 1, "path of a result"));
         memcpy(out->file[k], path, strlen(path));
     }
-    if (now->domain) {
-        out->n_elements = now->domain->n_elements;
-        out->n_bonds = now->domain->n_bonds;
-    }
-    if (now->device) {
-        const brc_device_info *info = brc_device_get_info(now->device);
+    out->n_elements = brc_setup_n_elements(&now->setup);
+    out->n_bonds = brc_setup_n_bonds(&now->setup);
+    for (int32_t k = 0; k < now->setup.n; ++k) {
+        if (!now->setup.device[k]) continue;
+        const brc_device_info *info = brc_device_get_info(now->setup.device[k]);
         snprintf(out->device, sizeof out->device, "%s", info->selector);
         snprintf(out->device_name, sizeof out->device_name, "%s", info->name);
-        out->device_bytes = brc_device_bytes(now->device);
+        out->device_bytes += brc_device_bytes(now->setup.device[k]);
     }
-    if (now->simulation) {
-        out->steps = brc_simulation_total_steps(now->simulation);
-        out->setup_s = brc_simulation_setup_seconds(now->simulation);
-        out->steps_s = brc_simulation_step_seconds(now->simulation);
-        out->time_step = brc_simulation_time_step(now->simulation);
+    const brc_assembly *assembly = &now->setup.assembly;
+    if (assembly->n > 0) {
+        out->steps = brc_simulation_total_steps(assembly->part[0]);
+        out->setup_s = brc_assembly_setup_seconds(assembly);
+        out->steps_s = brc_simulation_step_seconds(assembly->part[0]);
+        out->time_step = brc_assembly_time_step(assembly);
     }
     out->output_s = now->recorder ? brc_recorder_seconds(now->recorder) : 0;
     return BRC_OK;
@@ -84,31 +81,25 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
         BRC_TRY(brc_scene_read(context, request->path, request->n_overrides, request->overrides, &now->scene));
     if (now->recorder) brc_recorder_set_scene(now->recorder, now->scene);
     const double build_start = brc_clock_s();
-    now->domain = request->domain;
-    if (!now->domain) {
-        BRC_TRY(brc_scene_domain_build(context, now->scene, request->n_threads, &now->built));
-        now->domain = now->built;
-    }
+    BRC_TRY(brc_setup_domains(context, now->scene, request->domain, request->n_threads, &now->setup));
     out->build_s = brc_clock_s() - build_start;
-    if (now->recorder) brc_recorder_set_domain(now->recorder, now->domain, out->build_s);
-    if (now->scene->model.kind == BRC_MODEL_CBM && now->scene->model.polish)
-        BRC_TRY(brc_beam_polish_scene(context, now->scene, now->domain, request->n_threads));
+    if (now->recorder) brc_recorder_set_domains(now->recorder, now->setup.n, now->setup.domain, out->build_s);
     const brc_device_request device = {.selector = request->device ? request->device : "auto",
                                        .precision = request->precision,
-                                       .many_materials = brc_simulation_needs_many_materials(now->scene, now->domain),
                                        .n_threads = request->n_threads,
                                        .exact = request->exact};
-    BRC_TRY(brc_device_open(context, &device, &now->device));
-    BRC_TRY(brc_simulation_create(context, now->scene, now->domain, now->device, &now->simulation));
-    if (now->recorder) BRC_TRY(brc_recorder_observe(now->recorder, now->simulation));
-    if (request->observer) BRC_TRY(brc_simulation_observe(now->simulation, request->observer));
-    if (request->created) BRC_TRY(request->created(request->self, now->simulation));
-    if (request->running) request->running(now->simulation);
-    const brc_status status = brc_simulation_run(now->simulation);
+    BRC_TRY(brc_setup_simulations(context, &device, &now->setup));
+    brc_assembly *assembly = &now->setup.assembly;
+    brc_simulation *first = assembly->part[0]; /* hears, and is told, for all */
+    if (now->recorder) BRC_TRY(brc_recorder_observe(now->recorder, assembly));
+    if (request->observer) BRC_TRY(brc_simulation_observe(first, request->observer));
+    if (request->created) BRC_TRY(request->created(request->self, first));
+    if (request->running) request->running(first);
+    const brc_status status = brc_lockstep_run(assembly->n, assembly->part);
     if (request->running) request->running(NULL);
     BRC_TRY(status);
-    BRC_TRY(brc_simulation_ledger(now->simulation, &out->ledger));
-    return request->finished ? request->finished(request->self, now->simulation) : BRC_OK;
+    BRC_TRY(brc_assembly_ledger(assembly, &out->ledger));
+    return request->finished ? request->finished(request->self, first) : BRC_OK;
 }
 
 brc_status brc_run_scene(brc_context *context, const brc_run_request *request, brc_run_results *out)
@@ -123,9 +114,7 @@ brc_status brc_run_scene(brc_context *context, const brc_run_request *request, b
     const brc_status taken = take_results(context, &now, out);
     if (status == BRC_OK) status = taken;
     brc_recorder_free(&now.recorder);
-    brc_simulation_free(&now.simulation);
-    brc_device_close(&now.device);
-    brc_domain_free(&now.built);
+    brc_setup_free(&now.setup);
     brc_scene_free(&now.scene);
     out->total_s = brc_clock_s() - start;
     return status;

@@ -21,7 +21,7 @@ typedef struct brc_run_request {
     int n_threads;
     bool exact; /* as in brc_device_request */
     const brc_observer *observer; /* besides the recorder; its self may be filled in `created` */
-    /* Called when the simulation exists, before it runs; may be NULL. */
+    /* Called when the simulation exists (of several models: the first), before it runs; may be NULL. */
     brc_status (*created)(void *self, brc_simulation *simulation);
     /* Called when it ended, with its state still there; may be NULL. */
     brc_status (*finished)(void *self, brc_simulation *simulation);

@@ -1,6 +1,7 @@
 /* From what a scene asks to a domain. */
 #include "scene_domain.h"
 #include "../../preprocess/domain_file.h"
+#include "../../preprocess/overlap.h"
 #include "../../preprocess/pose.h"
 #include "../../preprocess/quality.h"
 #include "../../preprocess/sets.h"
@@ -94,30 +95,128 @@ static brc_status make_body(brc_context *context, const brc_scene *scene, int32_
     return status;
 }
 
+/* The bodies of a scene, each by itself, and their names. */
+typedef struct bodies {
+    int32_t n;
+    brc_domain **domain; /* [n] */
+    const char **name;   /* [n] */
+} bodies;
+
+static void free_bodies(bodies *b)
+{
+    for (int32_t k = 0; b->domain && k < b->n; ++k) brc_domain_free(&b->domain[k]);
+    brc_memory_free(b->domain);
+    brc_memory_free(b->name);
+    *b = (bodies){0};
+}
+
+static brc_status make_bodies(brc_context *context, const brc_scene *scene, int n_threads, bodies *out)
+{
+    *out = (bodies){.n = scene->n_bodies};
+    BRC_TRY(BRC_ALLOCATE(context, &out->domain, scene->n_bodies, "bodies of a scene"));
+    BRC_TRY(BRC_ALLOCATE(context, &out->name, scene->n_bodies, "bodies of a scene"));
+    for (int32_t b = 0; b < scene->n_bodies; ++b) out->name[b] = scene->bodies[b].name;
+    for (int32_t b = 0; b < scene->n_bodies; ++b) BRC_TRY(make_body(context, scene, b, n_threads, &out->domain[b]));
+    return BRC_OK;
+}
+
+/* One domain of all; a single body is handed over. */
+static brc_status join_bodies(brc_context *context, bodies *b, brc_domain **out)
+{
+    if (b->n > 1) return brc_domain_join(context, b->n, (const brc_domain *const *)b->domain, b->name, out);
+    *out = b->domain[0];
+    b->domain[0] = NULL;
+    return BRC_OK;
+}
+
 brc_status brc_scene_domain_build(brc_context *context, const brc_scene *scene, int n_threads, brc_domain **out)
 {
-    brc_status status = BRC_OK;
-    brc_domain **parts = NULL;
-    const char **name = NULL;
+    bodies own;
     *out = NULL;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &parts, scene->n_bodies, "bodies of a scene"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &name, scene->n_bodies, "bodies of a scene"));
-    for (int32_t b = 0; b < scene->n_bodies; ++b)
-        name[b] = scene->bodies[b].name;
-    for (int32_t b = 0; b < scene->n_bodies; ++b)
-        BRC_TRY_OR(cleanup, make_body(context, scene, b, n_threads, &parts[b]));
-    if (scene->n_bodies == 1) {
-        *out = parts[0];
-        parts[0] = NULL;
-    } else {
-        BRC_TRY_OR(cleanup, brc_domain_join(context, scene->n_bodies, (const brc_domain *const *)parts, name, out));
-    }
-    BRC_TRY_OR(cleanup, brc_sets_build(context, scene->n_sets, scene->sets, *out));
-cleanup:
-    for (int32_t b = 0; parts && b < scene->n_bodies; ++b)
-        brc_domain_free(&parts[b]);
-    brc_memory_free(parts);
-    brc_memory_free(name);
+    brc_status status = make_bodies(context, scene, n_threads, &own);
+    if (status == BRC_OK) status = join_bodies(context, &own, out);
+    if (status == BRC_OK) status = brc_sets_build(context, scene->n_sets, scene->sets, *out);
+    free_bodies(&own);
     if (status != BRC_OK) brc_domain_free(out);
+    return status;
+}
+
+/* Bodies of different parts; those of one part are looked at when they are joined. */
+static brc_status check_overlaps(brc_context *context, int32_t n, const bodies *part)
+{
+    brc_status status = BRC_OK;
+    for (int32_t k = 0; k < n; ++k)
+        for (int32_t other = 0; other < k; ++other)
+            for (int32_t a = 0; a < part[other].n; ++a)
+                for (int32_t b = 0; b < part[k].n; ++b) {
+                    const brc_domain *const pair[2] = {part[other].domain[a], part[k].domain[b]};
+                    const char *const name[2] = {part[other].name[a], part[k].name[b]};
+                    const brc_status one = brc_overlap_check(context, 2, pair, name);
+                    if (one != BRC_OK) status = one;
+                }
+    return status;
+}
+
+/* Has the set members in the domain? */
+static brc_status is_there(const brc_set_request *set, const brc_domain *domain, bool *out)
+{
+    brc_context *quiet = brc_context_create();
+    *out = false;
+    if (!quiet) return BRC_NO_MEMORY;
+    const int64_t n = set->kind == BRC_SET_FACES ? domain->n_free_faces : domain->n_elements;
+    const bool fits = brc_predicate_check(quiet, &set->where, set->kind, domain, set->name) == BRC_OK;
+    for (int64_t k = 0; fits && !*out && k < n; ++k) *out = brc_predicate_holds(&set->where, set->kind, domain, k);
+    brc_context_free(&quiet);
+    return BRC_OK;
+}
+
+/* Sets go to the parts in which they have members; what no part has goes to the first, which refuses it. */
+static brc_status build_sets(brc_context *context, const brc_split *split, brc_domain *const *domain)
+{
+    const brc_scene *scene = split->scene;
+    brc_set_request *given = NULL;
+    bool *there = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &given, scene->n_sets, "sets of a model"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &there, (int64_t)split->n * scene->n_sets, "sets of a model"));
+    for (int32_t s = 0; s < scene->n_sets; ++s) {
+        bool any = false;
+        for (int32_t k = 0; k < split->n; ++k) {
+            bool *has = &there[(int64_t)k * scene->n_sets + s];
+            if (is_there(&scene->sets[s], domain[k], has) != BRC_OK) {
+                status = BRC_FAIL(context, BRC_NO_MEMORY, "no memory for the sets of a model");
+                goto cleanup;
+            }
+            any |= *has;
+        }
+        if (!any) there[s] = true;
+    }
+    for (int32_t k = 0; k < split->n; ++k) {
+        int32_t n = 0;
+        for (int32_t s = 0; s < scene->n_sets; ++s)
+            if (there[(int64_t)k * scene->n_sets + s]) given[n++] = scene->sets[s];
+        BRC_TRY_OR(cleanup, brc_sets_build(context, n, given, domain[k]));
+    }
+cleanup:
+    brc_memory_free(given);
+    brc_memory_free(there);
+    return status;
+}
+
+brc_status brc_split_domains_build(brc_context *context, const brc_split *split, int n_threads, brc_domain **out)
+{
+    bodies *part = NULL;
+    brc_status status = BRC_OK;
+    for (int32_t k = 0; k < split->n; ++k) out[k] = NULL;
+    if (split->n == 1) return brc_scene_domain_build(context, split->scene, n_threads, out);
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &part, split->n, "parts of a scene"));
+    for (int32_t k = 0; k < split->n; ++k) BRC_TRY_OR(cleanup, make_bodies(context, split->part[k].scene, n_threads, &part[k]));
+    BRC_TRY_OR(cleanup, check_overlaps(context, split->n, part));
+    for (int32_t k = 0; k < split->n; ++k) BRC_TRY_OR(cleanup, join_bodies(context, &part[k], &out[k]));
+    status = build_sets(context, split, out);
+cleanup:
+    for (int32_t k = 0; part && k < split->n; ++k) free_bodies(&part[k]);
+    brc_memory_free(part);
+    for (int32_t k = 0; status != BRC_OK && k < split->n; ++k) brc_domain_free(&out[k]);
     return status;
 }

@@ -4,6 +4,7 @@
 
 #include "../../preprocess/domain.h"
 #include "../scene/scene.h"
+#include "../solver/split.h"
 
 /* What the builder is asked for one body, with the arrays it borrows. */
 typedef struct brc_scene_request {
@@ -18,8 +19,11 @@ typedef struct brc_scene_request {
 brc_status brc_scene_request_make(brc_context *context, const brc_scene *scene, int32_t index, int n_threads, brc_scene_request *out);
 void brc_scene_request_free(brc_scene_request *request);
 
-/* Sets of the scene see all bodies where they stand; a body read from a file keeps its own sets besides, unless the
+/* The whole scene as one domain, whatever the bodies' models. Sets of the scene see all bodies where they stand; a body read from a file keeps its own sets besides, unless the
  * scene names one alike. n_threads: 0 as OpenMP decides. The caller frees *out. */
 brc_status brc_scene_domain_build(brc_context *context, const brc_scene *scene, int n_threads, brc_domain **out);
+/* One domain for every part of the scene, out [n]: a set may be empty in some parts, not in all. BRC_BAD_INPUT also where bodies of different parts
+ * overlap. The caller frees each of *out. */
+brc_status brc_split_domains_build(brc_context *context, const brc_split *split, int n_threads, brc_domain **out);
 
 #endif

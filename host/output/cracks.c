@@ -2,14 +2,64 @@
 #include "../base/memory.h"
 #include <math.h>
 
-brc_status brc_cracks_take(brc_context *context, brc_simulation *simulation, brc_cracks *out)
+/* Breaks of all parts by step, those of a step part after part. list [n], count [n], next [n]: zeroed. */
+static void merge(const brc_assembly *a, const brc_break *const *list, const int64_t *count, int64_t *next, brc_break *out)
 {
-    int32_t *fragment = NULL;
-    BRC_TRY(BRC_ALLOCATE(context, &fragment, brc_simulation_domain(simulation)->n_elements, "fragments"));
-    brc_status status = brc_simulation_breaks(simulation, &out->n_broken, &out->breaks);
-    if (status == BRC_OK) status = brc_simulation_fragments(simulation, fragment, &out->n_fragments);
-    brc_memory_free(fragment);
+    for (;; ++out) {
+        int32_t from = -1;
+        for (int32_t k = 0; k < a->n; ++k)
+            if (next[k] < count[k] && (from < 0 || list[k][next[k]].step < list[from][next[from]].step)) from = k;
+        if (from < 0) return;
+        const int32_t elements = (int32_t)brc_assembly_first_element(a, from), bonds = (int32_t)brc_assembly_first_bond(a, from);
+        *out = list[from][next[from]++];
+        out->element_i += elements;
+        out->element_j += elements;
+        out->bond += bonds;
+    }
+}
+
+static brc_status take_breaks(brc_context *context, const brc_assembly *a, brc_cracks *out)
+{
+    if (a->n == 1) return brc_simulation_breaks(a->part[0], &out->n_broken, &out->breaks);
+    const brc_break **list = NULL;
+    int64_t *count = NULL, *next = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &list, a->n, "broken bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &count, a->n, "broken bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &next, a->n, "broken bonds"));
+    for (int32_t k = 0; k < a->n; ++k) {
+        BRC_TRY_OR(cleanup, brc_simulation_breaks(a->part[k], &count[k], &list[k]));
+        out->n_broken += count[k];
+    }
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->own, out->n_broken, "broken bonds"));
+    merge(a, list, count, next, out->own);
+    out->breaks = out->own;
+cleanup:
+    brc_memory_free(list);
+    brc_memory_free(count);
+    brc_memory_free(next);
     return status;
+}
+
+brc_status brc_cracks_take(brc_context *context, const brc_assembly *assembly, brc_cracks *out)
+{
+    brc_cracks_free(out);
+    for (int32_t k = 0; k < assembly->n; ++k) {
+        int32_t *fragment = NULL;
+        int64_t n;
+        BRC_TRY(BRC_ALLOCATE(context, &fragment, brc_simulation_domain(assembly->part[k])->n_elements, "fragments"));
+        const brc_status status = brc_simulation_fragments(assembly->part[k], fragment, &n);
+        brc_memory_free(fragment);
+        BRC_TRY(status);
+        out->n_fragments += n;
+    }
+    return take_breaks(context, assembly, out);
+}
+
+void brc_cracks_free(brc_cracks *cracks)
+{
+    brc_memory_free(cracks->own);
+    *cracks = (brc_cracks){0};
 }
 
 /* Columns of the stream; those of several numbers are x, y, z. */
@@ -82,18 +132,25 @@ brc_status brc_cracks_write_csv(brc_context *context, const brc_cracks *cracks, 
     return brc_text_write(&text, path);
 }
 
-brc_status brc_cracks_write_frame(brc_context *context, brc_h5 *h5, brc_simulation *simulation)
+brc_status brc_cracks_write_frame(brc_context *context, brc_h5 *h5, const brc_assembly *assembly)
 {
-    const int64_t n = brc_simulation_domain(simulation)->n_elements;
-    int64_t n_fragments, n_broken;
+    const int64_t n = brc_assembly_first_element(assembly, assembly->n);
+    int64_t n_fragments = 0, n_broken = 0;
     double *damage = NULL;
     int32_t *fragment = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &damage, n, "damage of a frame"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &fragment, n, "fragments of a frame"));
-    BRC_TRY_OR(cleanup, brc_simulation_damage(simulation, damage));
-    BRC_TRY_OR(cleanup, brc_simulation_fragments(simulation, fragment, &n_fragments));
-    BRC_TRY_OR(cleanup, brc_simulation_broken(simulation, &n_broken));
+    for (int32_t k = 0; k < assembly->n; ++k) {
+        const int64_t first = brc_assembly_first_element(assembly, k), end = brc_assembly_first_element(assembly, k + 1);
+        int64_t fragments, broken;
+        BRC_TRY_OR(cleanup, brc_simulation_damage(assembly->part[k], damage + first));
+        BRC_TRY_OR(cleanup, brc_simulation_fragments(assembly->part[k], fragment + first, &fragments));
+        BRC_TRY_OR(cleanup, brc_simulation_broken(assembly->part[k], &broken));
+        for (int64_t e = first; e < end; ++e) fragment[e] += (int32_t)n_fragments;
+        n_fragments += fragments;
+        n_broken += broken;
+    }
     brc_h5_dataset(h5, "VTKHDF/CellData/damage", H5T_NATIVE_DOUBLE, n, 0, damage);
     brc_h5_attribute_text(h5, "VTKHDF/CellData/damage", "unit", "-");
     brc_h5_dataset(h5, "VTKHDF/CellData/fragment", H5T_NATIVE_INT32, n, 0, fragment);

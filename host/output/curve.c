@@ -37,6 +37,12 @@ static brc_measure curve_measure(const brc_scene *scene)
     return measure;
 }
 
+void brc_curve_area_set(const brc_scene *scene, char out[BRC_NAME])
+{
+    const brc_measure measure = curve_measure(scene);
+    memcpy(out, measure.area_set, BRC_NAME);
+}
+
 /* The slope aimed at: of the measure drawn, else of one against the same sensor in the same unit (a curve of stress
  * beside a modulus measured from forces). */
 static double curve_target(brc_context *context, const brc_scene *scene, const brc_domain *domain,

@@ -29,6 +29,8 @@ static const frame_array ARRAYS[] = {
     {BRC_VTU_CELL_DATA, "VTKHDF/CellData/strain", "strain", BRC_VTU_FLOAT64, 6, 0, false},
     {BRC_VTU_CELL_DATA, "VTKHDF/CellData/von_mises", "von_mises", BRC_VTU_FLOAT64, 1, 0, false},
     {BRC_VTU_CELL_DATA, "VTKHDF/CellData/orientation", "orientation", BRC_VTU_FLOAT64, 4, 0, true},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/body", "body", BRC_VTU_INT64, 1, 0, true},
+    {BRC_VTU_CELL_DATA, "VTKHDF/CellData/model", "model", BRC_VTU_INT64, 1, 0, true},
 };
 enum { N_ARRAYS = sizeof ARRAYS / sizeof ARRAYS[0] };
 

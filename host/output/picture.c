@@ -21,9 +21,11 @@ typedef struct canvas {
     double centre[2]; /* of the sample, along right and up [m] */
     double zoom;      /* [px/m] */
     double scale;
-    double *point; /* [n_points][3] [m]: corners in the order of domain.free_polygon, or centres of spheres */
-    int64_t n_points;
-    brc_paint_face *faces; /* [n_free_faces], or one a sphere: room, n_faces visible */
+    /* what every part has, part after part, begins here; [n_parts + 1] */
+    int64_t *first_point; /* corners in the order of domain.free_polygon, or centres of spheres */
+    int64_t *first_face;  /* free faces, or spheres */
+    double *point;         /* [points of all][3] [m] */
+    brc_paint_face *faces; /* [faces of all]: room, n_faces visible; id: among all */
     int64_t n_faces;
     double low, high; /* of the colour bar */
     bool diverging;
@@ -34,53 +36,86 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static bool is_sphere(const canvas *c)
+static bool is_sphere(const brc_picture_part *p)
 {
-    return c->picture->domain->element_kind == BRC_ELEMENT_SPHERE;
+    return p->domain->element_kind == BRC_ELEMENT_SPHERE;
 }
 
-/* Element of what is painted. */
-static int64_t element_of(const canvas *c, int64_t face)
+static int64_t n_points_of(const brc_picture_part *p)
 {
-    return is_sphere(c) ? face : c->picture->domain->free_element[face];
+    return is_sphere(p) ? p->domain->n_elements : p->domain->free_polygon_start[p->domain->n_free_faces];
 }
 
-double brc_picture_automatic_scale(const brc_domain *d, const double *displacement)
+static int64_t n_faces_of(const brc_picture_part *p)
 {
-    double mean[3] = {0}, most = 0, diagonal = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e)
-        for (int c = 0; c < 3; ++c)
-            mean[c] += displacement[3 * e + c] / (double)d->n_elements;
-    for (int64_t e = 0; e < d->n_elements; ++e) {
-        double square = 0;
-        for (int c = 0; c < 3; ++c)
-            square += pow(displacement[3 * e + c] - mean[c], 2);
-        most = fmax(most, sqrt(square));
+    return is_sphere(p) ? p->domain->n_elements : p->domain->n_free_faces;
+}
+
+/* The part of what is painted, and its number there. */
+static const brc_picture_part *part_of(const canvas *c, int64_t face, int64_t *own, int32_t *index)
+{
+    int32_t k = 0;
+    while (face >= c->first_face[k + 1]) ++k;
+    *own = face - c->first_face[k];
+    *index = k;
+    return &c->picture->part[k];
+}
+
+static double value_of(const canvas *c, int64_t face)
+{
+    int64_t own;
+    int32_t k;
+    const brc_picture_part *p = part_of(c, face, &own, &k);
+    return p->value[is_sphere(p) ? own : p->domain->free_element[own]];
+}
+
+double brc_picture_automatic_scale(int32_t n, const brc_picture_part *part)
+{
+    double mean[3] = {0}, most = 0, diagonal = 0, low[3], high[3];
+    int64_t n_elements = 0;
+    for (int32_t k = 0; k < n; ++k) n_elements += part[k].domain->n_elements;
+    for (int32_t k = 0; k < n; ++k)
+        for (int64_t e = 0; e < part[k].domain->n_elements; ++e)
+            for (int c = 0; c < 3; ++c)
+                mean[c] += part[k].displacement[3 * e + c] / (double)n_elements;
+    for (int32_t k = 0; k < n; ++k)
+        for (int64_t e = 0; e < part[k].domain->n_elements; ++e) {
+            double square = 0;
+            for (int c = 0; c < 3; ++c)
+                square += pow(part[k].displacement[3 * e + c] - mean[c], 2);
+            most = fmax(most, sqrt(square));
+        }
+    for (int c = 0; c < 3; ++c) {
+        low[c] = part[0].domain->bounds[0][c];
+        high[c] = part[0].domain->bounds[1][c];
+        for (int32_t k = 1; k < n; ++k) {
+            low[c] = fmin(low[c], part[k].domain->bounds[0][c]);
+            high[c] = fmax(high[c], part[k].domain->bounds[1][c]);
+        }
+        diagonal += pow(high[c] - low[c], 2);
     }
-    for (int c = 0; c < 3; ++c)
-        diagonal += pow(d->bounds[1][c] - d->bounds[0][c], 2);
     const double wanted = 0.04 * sqrt(diagonal) / most;
     if (!isfinite(wanted) || wanted < 2) return 1;
     const double decade = pow(10, floor(log10(wanted)));
     return decade * (wanted / decade < 2 ? 1 : wanted / decade < 5 ? 2 : 5);
 }
 
-static void move_points(canvas *c)
+static void move_points(canvas *c, const brc_picture_part *p, double *point)
 {
-    const brc_domain *d = c->picture->domain;
+    const brc_domain *d = p->domain;
     double gradient[3][3] = {{0}};
-    for (int64_t k = 0; is_sphere(c) && k < 3 * d->n_elements; ++k)
-        c->point[k] = d->position[k] + c->scale * c->picture->displacement[k];
+    for (int64_t k = 0; is_sphere(p) && k < 3 * d->n_elements; ++k)
+        point[k] = d->position[k] + c->scale * p->displacement[k];
     for (int64_t f = 0, before = -1; f < d->n_free_faces; ++f) {
         const int64_t e = d->free_element[f];
-        if (e != before) brc_deform_gradient(d, c->picture->displacement, e, gradient);
+        if (e != before) brc_deform_gradient(d, p->displacement, e, gradient);
         before = e;
         for (int64_t k = d->free_polygon_start[f]; k < d->free_polygon_start[f + 1]; ++k) {
             const double *x = d->vertex + 3 * (int64_t)d->free_polygon[k];
             double u[3];
-            brc_deform_point(d, c->picture->displacement, e, (const double(*)[3])gradient, x, u);
+            brc_deform_point(d, p->displacement, e, (const double(*)[3])gradient, x, u);
             for (int i = 0; i < 3; ++i)
-                c->point[3 * k + i] = x[i] + c->scale * u[i];
+                point[3 * k + i] = x[i] + c->scale * u[i];
         }
     }
 }
@@ -88,15 +123,17 @@ static void move_points(canvas *c)
 /* Fit the sample into AREA. */
 static void fit_view(canvas *c)
 {
-    const brc_domain *d = c->picture->domain;
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    for (int64_t k = 0; k < c->n_points; ++k) {
-        const double radius = is_sphere(c) ? d->radius[k] : 0;
-        const double at[2] = {dot(c->point + 3 * k, c->view.right), dot(c->point + 3 * k, c->view.up)};
-        if (!isfinite(at[0]) || !isfinite(at[1])) continue;
-        for (int i = 0; i < 2; ++i) {
-            low[i] = fmin(low[i], at[i] - radius);
-            high[i] = fmax(high[i], at[i] + radius);
+    for (int32_t part = 0; part < c->picture->n; ++part) {
+        const brc_picture_part *p = &c->picture->part[part];
+        for (int64_t k = c->first_point[part]; k < c->first_point[part + 1]; ++k) {
+            const double radius = is_sphere(p) ? p->domain->radius[k - c->first_point[part]] : 0;
+            const double at[2] = {dot(c->point + 3 * k, c->view.right), dot(c->point + 3 * k, c->view.up)};
+            if (!isfinite(at[0]) || !isfinite(at[1])) continue;
+            for (int i = 0; i < 2; ++i) {
+                low[i] = fmin(low[i], at[i] - radius);
+                high[i] = fmax(high[i], at[i] + radius);
+            }
         }
     }
     for (int i = 0; i < 2; ++i)
@@ -105,10 +142,10 @@ static void fit_view(canvas *c)
 }
 
 /* Area vector (twice the area) and middle of a deformed polygon; false where it is not finite. */
-static bool measure_face(const canvas *c, int64_t f, double normal[3], double middle[3])
+static bool measure_face(const canvas *c, int32_t part, int64_t f, double normal[3], double middle[3])
 {
-    const int64_t first = c->picture->domain->free_polygon_start[f],
-                  end = c->picture->domain->free_polygon_start[f + 1];
+    const brc_domain *d = c->picture->part[part].domain;
+    const int64_t first = c->first_point[part] + d->free_polygon_start[f], end = c->first_point[part] + d->free_polygon_start[f + 1];
     memset(normal, 0, 3 * sizeof *normal);
     memset(middle, 0, 3 * sizeof *middle);
     for (int64_t k = first; k < end; ++k) {
@@ -123,19 +160,25 @@ static bool measure_face(const canvas *c, int64_t f, double normal[3], double mi
     return isfinite(dot(normal, normal)) && isfinite(dot(middle, middle)) && dot(normal, normal) > 0;
 }
 
+static void add_visible(canvas *c, int32_t part)
+{
+    const brc_picture_part *p = &c->picture->part[part];
+    for (int64_t e = 0; is_sphere(p) && e < p->domain->n_elements; ++e) {
+        const double depth = dot(c->point + 3 * (c->first_point[part] + e), c->view.toward);
+        if (isfinite(depth)) c->faces[c->n_faces++] = (brc_paint_face){.depth = depth, .id = (int32_t)(c->first_face[part] + e), .shade = 1};
+    }
+    for (int64_t f = 0; f < p->domain->n_free_faces; ++f) {
+        double normal[3], middle[3];
+        if (!measure_face(c, part, f, normal, middle) || dot(normal, c->view.toward) <= 0) continue;
+        c->faces[c->n_faces++] = (brc_paint_face){
+            .depth = dot(middle, c->view.toward), .id = (int32_t)(c->first_face[part] + f), .shade = brc_paint_shade(normal)};
+    }
+}
+
 /* Visible faces, the farthest first. */
 static void sort_faces(canvas *c)
 {
-    for (int64_t e = 0; is_sphere(c) && e < c->n_points; ++e) {
-        const double depth = dot(c->point + 3 * e, c->view.toward);
-        if (isfinite(depth)) c->faces[c->n_faces++] = (brc_paint_face){.depth = depth, .id = (int32_t)e, .shade = 1};
-    }
-    for (int64_t f = 0; f < c->picture->domain->n_free_faces; ++f) {
-        double normal[3], middle[3];
-        if (!measure_face(c, f, normal, middle) || dot(normal, c->view.toward) <= 0) continue;
-        c->faces[c->n_faces++] =
-            (brc_paint_face){.depth = dot(middle, c->view.toward), .id = (int32_t)f, .shade = brc_paint_shade(normal)};
-    }
+    for (int32_t k = 0; k < c->picture->n; ++k) add_visible(c, k);
     brc_paint_sort(c->n_faces, c->faces);
 }
 
@@ -144,7 +187,7 @@ static void find_range(canvas *c)
     c->low = INFINITY;
     c->high = -INFINITY;
     for (int64_t k = 0; k < c->n_faces; ++k) {
-        const double value = c->picture->value[element_of(c, c->faces[k].id)];
+        const double value = value_of(c, c->faces[k].id);
         if (!isfinite(value)) continue;
         c->low = fmin(c->low, value);
         c->high = fmax(c->high, value);
@@ -181,41 +224,46 @@ static double down(const canvas *c, const double *point)
 }
 
 /* Discs inside each other, lighter towards the lamp over the viewer's left shoulder; a sphere of few pixels is one. */
-static void paint_spheres(const canvas *c, brc_paint *paint)
+static void paint_sphere(const canvas *c, brc_paint *paint, const double *x, double size, const double rgb[3])
 {
     enum { CORNERS = 20, RINGS = 3 };
     static const struct {
         double size, shift, shade;
     } ring[RINGS] = {{1.0, 0.0, 0.78}, {0.8, 0.12, 0.9}, {0.45, 0.25, 1.0}};
-    for (int64_t k = 0; k < c->n_faces; ++k) {
-        const int64_t e = c->faces[k].id;
-        const double radius = c->zoom * c->picture->domain->radius[e], *x = c->point + 3 * e;
-        double rgb[3];
-        colour_of(c, c->picture->value[e], rgb);
-        for (int r = 0; r < (radius < 2 ? 1 : RINGS); ++r) {
-            for (int i = 0; i < CORNERS; ++i) {
-                const double angle = 2 * M_PI * i / CORNERS;
-                brc_paint_corner(paint, across(c, x) + radius * (ring[r].size * cos(angle) - 0.5 * ring[r].shift),
-                                 down(c, x) + radius * (ring[r].size * sin(angle) - ring[r].shift));
-            }
-            brc_paint_fill(paint, rgb, ring[r].shade, 0);
+    const double radius = c->zoom * size;
+    for (int r = 0; r < (radius < 2 ? 1 : RINGS); ++r) {
+        for (int i = 0; i < CORNERS; ++i) {
+            const double angle = 2 * M_PI * i / CORNERS;
+            brc_paint_corner(paint, across(c, x) + radius * (ring[r].size * cos(angle) - 0.5 * ring[r].shift),
+                             down(c, x) + radius * (ring[r].size * sin(angle) - ring[r].shift));
         }
+        brc_paint_fill(paint, rgb, ring[r].shade, 0);
     }
+}
+
+/* Darkness of the lines between cells: only where cells are large enough to carry them. */
+static double line_of(const canvas *c, const brc_domain *d)
+{
+    const double cell = d->quality.mean_spacing > 0 ? d->quality.mean_spacing * c->zoom : 0;
+    return cell > 7 ? fmin(0.22, 0.02 * (cell - 7)) : 0;
 }
 
 static void paint_faces(const canvas *c, brc_paint *paint)
 {
-    const brc_domain *d = c->picture->domain;
-    /* Lines between cells only where cells are large enough to carry them. */
-    const double cell = d->quality.mean_spacing > 0 ? d->quality.mean_spacing * c->zoom : 0;
-    const double line = cell > 7 ? fmin(0.22, 0.02 * (cell - 7)) : 0;
     for (int64_t k = 0; k < c->n_faces; ++k) {
-        const int64_t f = c->faces[k].id;
+        int64_t own;
+        int32_t part;
         double rgb[3];
-        colour_of(c, c->picture->value[d->free_element[f]], rgb);
-        for (int64_t p = d->free_polygon_start[f]; p < d->free_polygon_start[f + 1]; ++p)
-            brc_paint_corner(paint, across(c, c->point + 3 * p), down(c, c->point + 3 * p));
-        brc_paint_fill(paint, rgb, c->faces[k].shade, line);
+        const brc_picture_part *p = part_of(c, c->faces[k].id, &own, &part);
+        const double *point = c->point + 3 * c->first_point[part];
+        colour_of(c, value_of(c, c->faces[k].id), rgb);
+        if (is_sphere(p)) {
+            paint_sphere(c, paint, point + 3 * own, p->domain->radius[own], rgb);
+            continue;
+        }
+        for (int64_t i = p->domain->free_polygon_start[own]; i < p->domain->free_polygon_start[own + 1]; ++i)
+            brc_paint_corner(paint, across(c, point + 3 * i), down(c, point + 3 * i));
+        brc_paint_fill(paint, rgb, c->faces[k].shade, line_of(c, p->domain));
     }
 }
 
@@ -275,17 +323,27 @@ static void draw_axes(const canvas *c, brc_paint *paint)
     brc_paint_words(paint, words, left + px + 14, y + 6, 17, 0, false);
 }
 
+/* "8000 cells, 500 spheres" */
+static void count_words(const brc_picture *picture, char words[80])
+{
+    int64_t n_cells = 0, n_spheres = 0;
+    words[0] = '\0';
+    for (int32_t k = 0; k < picture->n; ++k) *(is_sphere(&picture->part[k]) ? &n_spheres : &n_cells) += picture->part[k].domain->n_elements;
+    const int n = n_cells > 0 ? snprintf(words, 80, "%lld cells", (long long)n_cells) : 0;
+    if (n_spheres > 0) snprintf(words + n, 80 - (size_t)n, "%s%lld spheres", n > 0 ? ", " : "", (long long)n_spheres);
+}
+
 static void draw_words(const canvas *c, brc_paint *paint)
 {
     cairo_t *cairo = paint->cairo;
-    char words[96];
+    char what[80], words[128];
     cairo_set_source_rgb(cairo, 0.1, 0.1, 0.1);
     brc_paint_words(paint, c->picture->title, 40, 48, 26, 0, true);
-    const char *what = is_sphere(c) ? "spheres" : "cells";
+    count_words(c->picture, what);
     if (c->scale == 1)
-        snprintf(words, sizeof words, "%lld %s, true displacement", (long long)c->picture->domain->n_elements, what);
+        snprintf(words, sizeof words, "%s, true displacement", what);
     else
-        snprintf(words, sizeof words, "%lld %s, displacement \xc3\x97 %g", (long long)c->picture->domain->n_elements, what, c->scale);
+        snprintf(words, sizeof words, "%s, displacement \xc3\x97 %g", what, c->scale);
     cairo_set_source_rgb(cairo, 0.35, 0.35, 0.35);
     brc_paint_words(paint, words, 40, 78, 17, 0, false);
     cairo_set_source_rgb(cairo, 0.15, 0.15, 0.15);
@@ -301,8 +359,7 @@ static brc_status render(const canvas *c, const char *path)
 {
     brc_paint paint;
     brc_paint_begin(c->context, WIDTH, HEIGHT, &paint);
-    if (is_sphere(c)) paint_spheres(c, &paint);
-    else paint_faces(c, &paint);
+    paint_faces(c, &paint);
     brc_paint_top(&paint);
     draw_words(c, &paint);
     return brc_paint_end(&paint, path);
@@ -310,19 +367,25 @@ static brc_status render(const canvas *c, const char *path)
 
 brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, const char *path)
 {
-    const brc_domain *d = picture->domain;
     canvas c = {.context = context, .picture = picture, .scale = picture->scale, .view = brc_paint_corner_view()};
     brc_status status = BRC_OK;
-    if (!(c.scale > 0)) c.scale = brc_picture_automatic_scale(d, picture->displacement);
-    c.n_points = is_sphere(&c) ? d->n_elements : d->free_polygon_start[d->n_free_faces];
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.point, 3 * c.n_points, "corners of the picture"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.faces, is_sphere(&c) ? d->n_elements : d->n_free_faces, "faces of the picture"));
-    move_points(&c);
+    if (!(c.scale > 0)) c.scale = brc_picture_automatic_scale(picture->n, picture->part);
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_point, picture->n + 1, "parts of the picture"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_face, picture->n + 1, "parts of the picture"));
+    for (int32_t k = 0; k < picture->n; ++k) {
+        c.first_point[k + 1] = c.first_point[k] + n_points_of(&picture->part[k]);
+        c.first_face[k + 1] = c.first_face[k] + n_faces_of(&picture->part[k]);
+    }
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.point, 3 * c.first_point[picture->n], "corners of the picture"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.faces, c.first_face[picture->n], "faces of the picture"));
+    for (int32_t k = 0; k < picture->n; ++k) move_points(&c, &picture->part[k], c.point + 3 * c.first_point[k]);
     fit_view(&c);
     sort_faces(&c);
     find_range(&c);
     status = render(&c, path);
 cleanup:
+    brc_memory_free(c.first_point);
+    brc_memory_free(c.first_face);
     brc_memory_free(c.point);
     brc_memory_free(c.faces);
     return status;

@@ -2,13 +2,19 @@
 #ifndef BRC_OUTPUT_PICTURE_H
 #define BRC_OUTPUT_PICTURE_H
 
-#include "../solver/simulation.h"
+#include "../solver/assembly.h"
 
-/* What is drawn; all borrowed for the call. */
-typedef struct brc_picture {
+/* Elements of one kind, all cells or all spheres. */
+typedef struct brc_picture_part {
     const brc_domain *domain;
     const double *displacement; /* [n_elements][3] [m] */
     const double *value;        /* [n_elements] what is coloured, in `unit` */
+} brc_picture_part;
+
+/* What is drawn; all borrowed for the call. */
+typedef struct brc_picture {
+    int32_t n;
+    const brc_picture_part *part; /* [n] */
     const char *name;           /* of the field, beside the colour bar: "von Mises stress" */
     const char *unit;
     const char *title; /* "" : none */
@@ -17,12 +23,12 @@ typedef struct brc_picture {
 
 /* 1200 x 900, seen from above one corner without perspective. BRC_FILE_FAILED: cannot be written. */
 brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, const char *path);
-/* The simulation as it is now, as scene.output asks: picture_colour is "von_mises", "displacement[_x|_y|_z]",
+/* The whole as it is now, as scene.output asks: picture_colour is "von_mises", "displacement[_x|_y|_z]",
  * "velocity[_x|_y|_z]", "stress_xx" ... "stress_xy" (Cauchy) or "strain_xx" ... "strain_xy" (Green). BRC_BAD_INPUT for
  * another word, with the list. */
-brc_status brc_picture_write(brc_context *context, brc_simulation *simulation, const char *path);
+brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly, const char *path);
 /* Factor on the displacement that makes it visible: one of 1, 2, 5 times a power of ten, so that the largest
  * displacement (less its mean) is about 4 % of the sample's diagonal; 1 where it is as large by itself or zero. */
-double brc_picture_automatic_scale(const brc_domain *domain, const double *displacement);
+double brc_picture_automatic_scale(int32_t n, const brc_picture_part *part);
 
 #endif

@@ -72,13 +72,39 @@ static double pick(const field *f, const double *data, int64_t e)
     return f->component < 0 ? sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) : v[f->component];
 }
 
-brc_status brc_picture_write(brc_context *context, brc_simulation *simulation, const char *path)
+/* What of a part is drawn, each array owned until the picture is there. */
+typedef struct shown {
+    double *displacement, *value;
+} shown;
+
+static brc_status read_part(brc_context *context, brc_simulation *simulation, const field *f, shown *out)
 {
-    const brc_scene *scene = brc_simulation_scene(simulation);
-    const brc_domain *domain = brc_simulation_domain(simulation);
+    const int64_t n = brc_simulation_domain(simulation)->n_elements;
+    double *data = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->displacement, 3 * n, "displacement of the picture"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &data, 6 * n, "field of the picture"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->value, n, "colours of the picture"));
+    BRC_TRY_OR(cleanup, brc_simulation_displacement(simulation, out->displacement));
+    switch (f->source) {
+    case DISPLACEMENT: memcpy(data, out->displacement, 3 * (size_t)n * sizeof *data); break;
+    case VELOCITY: status = brc_simulation_velocity(simulation, data); break;
+    case STRESS: status = brc_simulation_strain_stress(simulation, NULL, NULL, data); break;
+    case STRAIN: status = brc_simulation_strain_stress(simulation, data, NULL, NULL); break;
+    case DAMAGE: status = brc_simulation_damage(simulation, data); break;
+    }
+    for (int64_t e = 0; status == BRC_OK && e < n; ++e) out->value[e] = pick(f, data, e);
+cleanup:
+    brc_memory_free(data);
+    return status;
+}
+
+brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly, const char *path)
+{
+    const brc_scene *scene = assembly->scene;
     const char *word = scene->output.picture_colour[0] ? scene->output.picture_colour : "von_mises";
-    const int64_t n = domain->n_elements;
-    double *displacement = NULL, *data = NULL, *value = NULL;
+    shown *own = NULL;
+    brc_picture_part *part = NULL;
     brc_status status = BRC_OK;
     field f;
     if (!parse(word, &f))
@@ -87,24 +113,15 @@ brc_status brc_picture_write(brc_context *context, brc_simulation *simulation, c
             "a picture cannot be coloured by \"%s\"; known are von_mises, damage, displacement, velocity (also with "
             "_x, _y, _z), stress and strain with _xx, _yy, _zz, _yz, _xz, _xy",
             word);
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &displacement, 3 * n, "displacement of the picture"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &data, 6 * n, "field of the picture"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &value, n, "colours of the picture"));
-    BRC_TRY_OR(cleanup, brc_simulation_displacement(simulation, displacement));
-    switch (f.source) {
-    case DISPLACEMENT: memcpy(data, displacement, 3 * (size_t)n * sizeof *data); break;
-    case VELOCITY: status = brc_simulation_velocity(simulation, data); break;
-    case STRESS: status = brc_simulation_strain_stress(simulation, NULL, NULL, data); break;
-    case STRAIN: status = brc_simulation_strain_stress(simulation, data, NULL, NULL); break;
-    case DAMAGE: status = brc_simulation_damage(simulation, data); break;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &own, assembly->n, "parts of the picture"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &part, assembly->n, "parts of the picture"));
+    for (int32_t k = 0; k < assembly->n; ++k) {
+        BRC_TRY_OR(cleanup, read_part(context, assembly->part[k], &f, &own[k]));
+        part[k] = (brc_picture_part){brc_simulation_domain(assembly->part[k]), own[k].displacement, own[k].value};
     }
-    if (status != BRC_OK) goto cleanup;
-    for (int64_t e = 0; e < n; ++e)
-        value[e] = pick(&f, data, e);
     const brc_picture picture = {
-        .domain = domain,
-        .displacement = displacement,
-        .value = value,
+        .n = assembly->n,
+        .part = part,
         .name = f.name,
         .unit = unit_of(f.source),
         .title = scene->title,
@@ -112,8 +129,11 @@ brc_status brc_picture_write(brc_context *context, brc_simulation *simulation, c
     };
     status = brc_picture_draw(context, &picture, path);
 cleanup:
-    brc_memory_free(displacement);
-    brc_memory_free(data);
-    brc_memory_free(value);
+    for (int32_t k = 0; own && k < assembly->n; ++k) {
+        brc_memory_free(own[k].displacement);
+        brc_memory_free(own[k].value);
+    }
+    brc_memory_free(own);
+    brc_memory_free(part);
     return status;
 }

@@ -1,13 +1,13 @@
 /* The recorder. While the simulation runs it samples the sensors, adds the samples to histories.csv and writes frames, each
  * with the index and the histories so far, so that a killed run keeps all but its last interval. Nothing here draws: see picture.c, curve.c. */
 #include "recorder.h"
+#include "assembly_sensors.h"
 #include "cracks.h"
 #include "curve.h"
 #include "frame_file.h"
 #include "history_csv.h"
 #include "picture.h"
 #include "result_file.h"
-#include "sensors.h"
 #include "summary.h"
 #include "../base/file.h"
 #include "../base/log.h"
@@ -28,9 +28,10 @@ struct brc_recorder {
     brc_context *context;
     char *path[N_FILES]; /* owned */
     const brc_scene *scene;
-    const brc_domain *domain;
-    brc_simulation *simulation;
-    brc_sensors *sensors;
+    int32_t n_domains;
+    const brc_domain *const *domains; /* [n_domains] */
+    brc_assembly *assembly;
+    brc_assembly_sensors *sensors;
     brc_history *history;
     brc_history_csv *csv;
     double *value; /* [n_sensors] of the sample being taken */
@@ -88,8 +89,9 @@ static brc_status write_summary(brc_recorder *recorder, brc_context *context, bo
 {
     const brc_summary summary = {
         .scene = recorder->scene,
-        .domain = recorder->domain,
-        .simulation = recorder->simulation,
+        .n_domains = recorder->n_domains,
+        .domains = recorder->domains,
+        .assembly = recorder->assembly,
         .ledger = ledger,
         .cracks = recorder->has_cracks ? &recorder->cracks : NULL,
         .history = recorder->history,
@@ -129,7 +131,8 @@ void brc_recorder_free(brc_recorder **recorder)
 {
     if (!recorder || !*recorder) return;
     brc_recorder *r = *recorder;
-    brc_sensors_free(&r->sensors);
+    brc_assembly_sensors_free(&r->sensors);
+    brc_cracks_free(&r->cracks);
     brc_history_free(&r->history);
     brc_history_csv_free(&r->csv);
     for (int k = 0; k < N_FILES; ++k)
@@ -146,9 +149,10 @@ void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene)
     recorder->scene = scene;
 }
 
-void brc_recorder_set_domain(brc_recorder *recorder, const brc_domain *domain, double build_seconds)
+void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domain *const *domains, double build_seconds)
 {
-    recorder->domain = domain;
+    recorder->n_domains = n;
+    recorder->domains = domains;
     recorder->build_s = build_seconds;
 }
 
@@ -158,7 +162,7 @@ static brc_status sample(void *self, brc_simulation *simulation)
 {
     brc_recorder *r = self;
     const double begin = brc_clock_s();
-    brc_status status = brc_sensors_evaluate(r->sensors, simulation, r->value);
+    brc_status status = brc_assembly_sensors_evaluate(r->sensors, r->value);
     if (status == BRC_OK)
         status =
             brc_history_add(r->context, r->history, brc_simulation_stage(simulation), brc_simulation_step(simulation),
@@ -173,8 +177,9 @@ static brc_status write_index(brc_recorder *r, brc_context *context, const brc_l
 {
     const brc_result result = {
         .scene = r->scene,
-        .domain = r->domain,
-        .simulation = r->simulation,
+        .n_domains = r->n_domains,
+        .domains = r->domains,
+        .assembly = r->assembly,
         .ledger = ledger,
         .cracks = r->has_cracks ? &r->cracks : NULL,
         .history = r->history,
@@ -190,8 +195,8 @@ static brc_status write_index(brc_recorder *r, brc_context *context, const brc_l
 static brc_status take_cracks(brc_recorder *r, brc_context *context)
 {
     r->has_cracks = false;
-    if (!brc_simulation_has_fracture(r->simulation)) return BRC_OK;
-    BRC_TRY(brc_cracks_take(context, r->simulation, &r->cracks));
+    if (!brc_simulation_has_fracture(r->assembly->part[0])) return BRC_OK;
+    BRC_TRY(brc_cracks_take(context, r->assembly, &r->cracks));
     r->has_cracks = true;
     return BRC_OK;
 }
@@ -218,7 +223,7 @@ static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
     BRC_TRY(
         brc_memory_resize(r->context, (void **)&r->frame_time, r->n_frames + 1, sizeof *r->frame_time, "frame times"));
     BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
-    const brc_status status = brc_frame_write(r->context, simulation, path);
+    const brc_status status = brc_frame_write(r->context, r->assembly, path);
     brc_memory_free(path);
     BRC_TRY(status);
     r->frame_time[r->n_frames] = index_time(r, simulation);
@@ -238,18 +243,16 @@ static brc_status frame(void *self, brc_simulation *simulation)
     return status;
 }
 
-brc_status brc_recorder_observe(brc_recorder *recorder, brc_simulation *simulation)
+brc_status brc_recorder_observe(brc_recorder *recorder, brc_assembly *assembly)
 {
-    if (!recorder->scene) recorder->scene = brc_simulation_scene(simulation);
-    if (!recorder->domain) recorder->domain = brc_simulation_domain(simulation);
-    recorder->simulation = simulation;
+    recorder->assembly = assembly;
     const int32_t n = recorder->scene->n_sensors;
-    BRC_TRY(brc_sensors_create(recorder->context, recorder->scene, recorder->domain, &recorder->sensors));
+    BRC_TRY(brc_assembly_sensors_create(recorder->context, assembly, &recorder->sensors));
     BRC_TRY(brc_history_create(recorder->context, n, &recorder->history));
     BRC_TRY(BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample"));
     BRC_TRY(brc_history_csv_create(recorder->context, recorder->scene, recorder->path[HISTORIES], &recorder->csv));
     const brc_observer observer = {.self = recorder, .sample = sample, .frame = frame};
-    return brc_simulation_observe(simulation, &observer);
+    return brc_simulation_observe(assembly->part[0], &observer);
 }
 
 /* ---- the end ---- */
@@ -268,19 +271,33 @@ static void warn(brc_recorder *r, brc_context *quiet, brc_status one, const char
     brc_context_clear(quiet);
 }
 
+/* The domain that has an area's set; any where there is none. */
+static const brc_domain *domain_of(const brc_recorder *r, const char *set)
+{
+    const int32_t owner = r->assembly->split ? brc_split_owner(r->assembly->split, r->domains, set) : 0;
+    return r->domains[owner > 0 ? owner : 0];
+}
+
 static brc_status evaluate_measures(brc_recorder *r, brc_context *quiet)
 {
     const int32_t n = r->scene->n_measures;
     BRC_TRY(BRC_ALLOCATE(quiet, &r->measures, n, "measures"));
     for (r->n_measures = 0; r->n_measures < n; ++r->n_measures)
-        BRC_TRY(
-            brc_measure_evaluate(quiet, r->scene, r->domain, r->history, r->n_measures, &r->measures[r->n_measures]));
+        BRC_TRY(brc_measure_evaluate(quiet, r->scene, domain_of(r, r->scene->measures[r->n_measures].area_set), r->history, r->n_measures,
+                                     &r->measures[r->n_measures]));
     return BRC_OK;
+}
+
+static brc_status write_curve(brc_recorder *r, brc_context *quiet)
+{
+    char set[BRC_NAME];
+    bool made;
+    brc_curve_area_set(r->scene, set);
+    return brc_curve_write(quiet, r->scene, domain_of(r, set), r->history, r->path[CURVE], &made);
 }
 
 static void write_results(brc_recorder *r, brc_context *quiet, brc_status *status, const brc_ledger *ledger)
 {
-    bool made;
     if (ledger) note(r, quiet, take_cracks(r, quiet), status); /* else: as of the last frame */
     if (r->has_cracks) note(r, quiet, brc_cracks_write_csv(quiet, &r->cracks, r->path[CRACKS]), status);
     note(r, quiet, evaluate_measures(r, quiet), status);
@@ -288,15 +305,23 @@ static void write_results(brc_recorder *r, brc_context *quiet, brc_status *statu
     note(r, quiet, brc_history_csv_finish(quiet, r->csv, r->history), status);
     if (*status == BRC_FILE_FAILED) return; /* no room for pictures */
     if (r->scene->output.picture && ledger) /* a simulation that gives no ledger has no state to show */
-        warn(r, quiet, brc_picture_write(quiet, r->simulation, r->path[PICTURE]), "picture");
+        warn(r, quiet, brc_picture_write(quiet, r->assembly, r->path[PICTURE]), "picture");
     if (r->scene->output.curve_x[0] && r->scene->output.curve_y[0])
-        warn(r, quiet, brc_curve_write(quiet, r->scene, r->domain, r->history, r->path[CURVE], &made), "curve");
+        warn(r, quiet, write_curve(r, quiet), "curve");
 }
 
 /* Whether the device can still be asked. */
 static bool is_alive(brc_status end)
 {
     return end != BRC_DEVICE_FAILED && end != BRC_INTERNAL;
+}
+
+/* Are all parts in a stage? One that failed to enter has no loads and forces to show. */
+static bool has_begun(const brc_assembly *assembly)
+{
+    for (int32_t k = 0; k < assembly->n; ++k)
+        if (brc_simulation_stage(assembly->part[k]) < 0) return false;
+    return true;
 }
 
 brc_status brc_recorder_finish(brc_recorder *recorder, brc_status end)
@@ -309,9 +334,9 @@ brc_status brc_recorder_finish(brc_recorder *recorder, brc_status end)
     brc_context *quiet = brc_context_create();
     if (!quiet) return end != BRC_OK ? end : BRC_FAIL(r->context, BRC_NO_MEMORY, "no memory for a context");
     brc_log_set_level(quiet, brc_log_get_level(r->context));
-    if (r->simulation && r->csv) {
-        if (is_alive(end) && brc_simulation_stage(r->simulation) >= 0)
-            has_ledger = brc_simulation_ledger(r->simulation, &ledger) == BRC_OK;
+    if (r->assembly && r->csv) {
+        if (is_alive(end) && has_begun(r->assembly))
+            has_ledger = brc_assembly_ledger(r->assembly, &ledger) == BRC_OK;
         write_results(r, quiet, &status, has_ledger ? &ledger : NULL);
     }
     r->output_s += brc_clock_s() - begin;

@@ -1,4 +1,5 @@
-/* The recorder: writes down everything a run shows, into one folder. It observes a simulation and never changes it.
+/* The recorder: writes down everything a run shows, into one folder, of all models of the scene together. It observes simulations and never
+ * changes them.
  *
  *     DIR/frames/NNNNNN.vtkhdf   deformed cells with their fields, one file a frame; index DIR/frames.vtkhdf.series
  *     DIR/histories.csv          the sensors, one column each; rows are added while the run goes on
@@ -11,9 +12,9 @@
  *     const double start = brc_clock_s();
  *     brc_recorder_create(context, folder, start, &recorder);         // before anything of the run can fail
  *     status = brc_scene_read(...);          if ok brc_recorder_set_scene(recorder, scene);
- *     status = brc_domain_build(...);        if ok brc_recorder_set_domain(recorder, domain, build_seconds);
- *     status = brc_simulation_create(...);   if ok brc_recorder_observe(recorder, simulation);
- *     status = brc_simulation_run(simulation);
+ *     status = brc_domain_build(...);        if ok brc_recorder_set_domains(recorder, n, domains, build_seconds);
+ *     status = brc_simulation_create(...);   if ok brc_recorder_observe(recorder, assembly);
+ *     status = brc_lockstep_run(...);
  *     end = brc_recorder_finish(recorder, status);                    // always, whatever status is
  *     brc_recorder_free(&recorder);                                   // before simulation, domain and scene are freed
  *
@@ -23,7 +24,7 @@
 
 #include "../../preprocess/domain.h"
 #include "../scene/scene.h"
-#include "../solver/simulation.h"
+#include "../solver/assembly.h"
 #include "measures.h"
 
 typedef struct brc_recorder brc_recorder;
@@ -37,12 +38,12 @@ void brc_recorder_free(brc_recorder **recorder);
 
 /* All borrowed until brc_recorder_finish has returned; each in turn, the later ones may be missing. */
 void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene);
-/* build_seconds: wall time of making or reading the domain. */
-void brc_recorder_set_domain(brc_recorder *recorder, const brc_domain *domain, double build_seconds);
-/* Register as an observer of `simulation` (whose scene and domain are taken where none was set). Sensors are checked
+/* domains [n]: of the parts. build_seconds: wall time of making or reading them. */
+void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domain *const *domains, double build_seconds);
+/* Register as an observer of the assembly's first part, which hears of all of them. Sensors are checked
  * against the domain here: unknown or empty sets, faces where elements are needed and the like give BRC_BAD_INPUT with
  * one sentence each. */
-brc_status brc_recorder_observe(brc_recorder *recorder, brc_simulation *simulation);
+brc_status brc_recorder_observe(brc_recorder *recorder, brc_assembly *assembly);
 
 /* The end: last histories, result.h5, measures, picture, curve and, last of all, summary.json. end: what the run
  * returned; its reason is brc_context_message(context) at this moment. Returns `end` if that is a failure, else the

@@ -1,6 +1,7 @@
 /* The index of a run as HDF5. */
 #include "result_file.h"
 #include "h5.h"
+#include "text.h"
 #include "../base/memory.h"
 #include "../base/version.h"
 #include "../scene/scene_reader.h"
@@ -96,17 +97,22 @@ static void write_frames(brc_h5 *h5, const brc_result *result)
     }
 }
 
-static void write_provenance(brc_h5 *h5, const brc_result *result)
+static brc_status write_provenance(brc_context *context, brc_h5 *h5, const brc_result *result)
 {
+    brc_text made = {.context = context};
+    for (int32_t k = 0; k < result->n_domains; ++k)
+        if (result->domains[k]->provenance) brc_text_add(&made, "%s%s", k > 0 ? " | " : "", result->domains[k]->provenance);
     brc_h5_group(h5, "provenance");
-    if (result->domain && result->domain->provenance)
-        brc_h5_attribute_text(h5, "provenance", "domain", result->domain->provenance);
-    if (!result->simulation) return;
-    const brc_device *device = brc_simulation_device(result->simulation);
+    if (made.status == BRC_OK && made.length > 0) brc_h5_attribute_text(h5, "provenance", "domain", made.data);
+    const brc_status status = made.status;
+    brc_text_free(&made);
+    if (status != BRC_OK || !result->assembly) return status;
+    const brc_device *device = brc_simulation_device(result->assembly->part[0]);
     const brc_device_info *info = brc_device_get_info(device);
     brc_h5_attribute_text(h5, "provenance", "device", info->name);
     brc_h5_attribute_text(h5, "provenance", "driver", info->driver);
     brc_h5_attribute_text(h5, "provenance", "precision", brc_precision_name(brc_device_get_precision(device)));
+    return BRC_OK;
 }
 
 static brc_status write_content(brc_context *context, brc_h5 *h5, const brc_result *result)
@@ -126,8 +132,7 @@ static brc_status write_content(brc_context *context, brc_h5 *h5, const brc_resu
     if (result->ledger) write_ledger(h5, result->ledger);
     if (result->cracks) BRC_TRY(brc_cracks_write_h5(context, h5, result->cracks));
     write_frames(h5, result);
-    write_provenance(h5, result);
-    return BRC_OK;
+    return write_provenance(context, h5, result);
 }
 
 brc_status brc_result_write(brc_context *context, const brc_result *result, const char *path)

@@ -2,7 +2,7 @@
 #ifndef BRC_OUTPUT_RESULT_FILE_H
 #define BRC_OUTPUT_RESULT_FILE_H
 
-#include "../solver/simulation.h"
+#include "../solver/assembly.h"
 #include "cracks.h"
 #include "history.h"
 #include "measures.h"
@@ -12,8 +12,9 @@
 /* What goes into it; all borrowed for the call. */
 typedef struct brc_result {
     const brc_scene *scene;
-    const brc_domain *domain;         /* NULL: left out */
-    const brc_simulation *simulation; /* NULL: left out */
+    int32_t n_domains;                /* 0: left out */
+    const brc_domain *const *domains; /* [n_domains] of the parts */
+    const brc_assembly *assembly;     /* NULL: left out */
     const brc_ledger *ledger;         /* NULL: left out */
     const brc_cracks *cracks;         /* NULL: left out */
     const brc_history *history;       /* NULL: left out */
@@ -31,7 +32,7 @@ typedef struct brc_result {
  *   /cracks        time, step, stage, mode, bond, element_i, element_j, position, normal, stress, energy of every broken bond; attribute fragments;
  *                  only of scenes with fracture
  *   /frames        NNNNNN: external links to frames/NNNNNN.vtkhdf; time
- *   /provenance    attributes domain, device, driver, precision
+ *   /provenance    attributes domain (of every part, between bars), device, driver, precision
  * Made in memory, written aside, renamed. BRC_FILE_FAILED, BRC_NO_MEMORY. */
 brc_status brc_result_write(brc_context *context, const brc_result *result, const char *path);
 

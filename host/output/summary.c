@@ -5,6 +5,7 @@
 #include "../base/version.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char *end_name(const brc_summary *summary)
 {
@@ -25,8 +26,8 @@ static const char *end_name(const brc_summary *summary)
 
 static void add_identity(brc_json *json, const brc_summary *s)
 {
-    const brc_device *device = s->simulation ? brc_simulation_device(s->simulation) : NULL;
-    char name[256] = "";
+    const brc_device *device = s->assembly ? brc_simulation_device(s->assembly->part[0]) : NULL;
+    char name[256] = "", models[256] = "";
     if (device) {
         const brc_device_info *info = brc_device_get_info(device);
         snprintf(name, sizeof name, "%s (%s)", info->selector, info->name);
@@ -34,51 +35,79 @@ static void add_identity(brc_json *json, const brc_summary *s)
     brc_json_string(json, "version", brc_version());
     brc_json_string(json, "commit", brc_version_commit());
     brc_json_string(json, "title", s->scene ? s->scene->title : NULL);
-    brc_json_string(json, "model",
-                    !s->scene                                ? NULL
-                                                             : brc_model_name(s->scene->model.kind));
+    for (int32_t k = 0; s->assembly && k < s->assembly->n; ++k) {
+        const size_t at = strlen(models);
+        snprintf(models + at, sizeof models - at, "%s%s", k > 0 ? ", " : "", brc_assembly_part_name(s->assembly, k));
+    }
+    brc_json_string(json, "model", s->assembly ? models : s->scene ? brc_model_name(s->scene->model.kind) : NULL);
     brc_json_string(json, "precision", device ? brc_precision_name(brc_device_get_precision(device)) : NULL);
     brc_json_string(json, "device", device ? name : NULL);
 }
 
-static void add_size(brc_json *json, const brc_summary *s)
+static void add_counts(brc_json *json, int32_t n, const brc_domain *const *domains, int64_t n_broken)
 {
+    int64_t n_elements = 0, n_bonds = 0;
+    for (int32_t k = 0; k < n; ++k) {
+        n_elements += domains[k]->n_elements;
+        n_bonds += domains[k]->n_bonds;
+    }
     brc_json_begin_object(json, "counts");
-    if (s->domain) {
-        brc_json_integer(json, "elements", s->domain->n_elements);
-        brc_json_integer(json, "bonds", s->domain->n_bonds);
-        brc_json_integer(json, "broken", s->cracks ? s->cracks->n_broken : 0);
+    if (n > 0) {
+        brc_json_integer(json, "elements", n_elements);
+        brc_json_integer(json, "bonds", n_bonds);
+        brc_json_integer(json, "broken", n_broken);
     } else {
         brc_json_null(json, "elements");
         brc_json_null(json, "bonds");
         brc_json_null(json, "broken");
     }
     brc_json_end(json);
-    brc_time_step step = {.value = NAN, .critical = NAN, .published = NAN, .safety = NAN};
-    if (s->simulation) step = brc_simulation_time_step(s->simulation);
-    const bool stepped = step.value > 0; /* a static stage has none */
+}
+
+static void add_time_step(brc_json *json, const brc_time_step *step)
+{
+    const bool stepped = step->value > 0; /* a static stage has none */
     brc_json_begin_object(json, "time_step");
-    brc_json_number(json, "value_s", stepped ? step.value : NAN);
-    brc_json_string(json, "governed_by", stepped ? step.governed_by : NULL);
-    brc_json_number(json, "safety", stepped && step.critical > 0 ? step.safety : NAN);
-    brc_json_number(json, "critical_s", step.critical > 0 ? step.critical : NAN);
-    brc_json_number(json, "published_s", step.published > 0 ? step.published : NAN);
+    brc_json_number(json, "value_s", stepped ? step->value : NAN);
+    brc_json_string(json, "governed_by", stepped ? step->governed_by : NULL);
+    brc_json_number(json, "safety", stepped && step->critical > 0 ? step->safety : NAN);
+    brc_json_number(json, "critical_s", step->critical > 0 ? step->critical : NAN);
+    brc_json_number(json, "published_s", step->published > 0 ? step->published : NAN);
     brc_json_end(json);
-    if (s->simulation)
-        brc_json_integer(json, "steps", brc_simulation_total_steps(s->simulation));
+}
+
+static void add_size(brc_json *json, const brc_summary *s)
+{
+    brc_time_step step = {.value = NAN, .critical = NAN, .published = NAN, .safety = NAN};
+    add_counts(json, s->n_domains, s->domains, s->cracks ? s->cracks->n_broken : 0);
+    if (s->assembly) step = brc_assembly_time_step(s->assembly);
+    add_time_step(json, &step);
+    if (s->assembly)
+        brc_json_integer(json, "steps", brc_simulation_total_steps(s->assembly->part[0]));
     else
         brc_json_null(json, "steps");
     brc_json_integer(json, "frames", s->n_frames);
 }
 
+static void add_memory(brc_json *json, int64_t device_bytes)
+{
+    brc_json_begin_object(json, "memory");
+    brc_json_integer(json, "host_bytes", brc_memory_peak());
+    if (device_bytes >= 0)
+        brc_json_integer(json, "device_bytes", device_bytes);
+    else
+        brc_json_null(json, "device_bytes");
+    brc_json_end(json);
+}
+
 static void add_cost(brc_json *json, const brc_summary *s)
 {
     double setup = NAN, steps = NAN, rate = NAN;
-    if (s->simulation) {
-        setup = brc_simulation_setup_seconds(s->simulation);
-        steps = brc_simulation_step_seconds(s->simulation);
-        const double updates =
-            (double)brc_simulation_total_steps(s->simulation) * (double)brc_simulation_domain(s->simulation)->n_bonds;
+    if (s->assembly) {
+        const brc_assembly *a = s->assembly;
+        setup = brc_assembly_setup_seconds(a);
+        steps = brc_simulation_step_seconds(a->part[0]);
+        const double updates = (double)brc_simulation_total_steps(a->part[0]) * (double)brc_assembly_first_bond(a, a->n);
         if (updates > 0 && steps > 0) rate = updates / steps;
     }
     brc_json_begin_object(json, "timing");
@@ -89,13 +118,7 @@ static void add_cost(brc_json *json, const brc_summary *s)
     brc_json_number(json, "output_s", s->output_s);
     brc_json_number(json, "bond_updates_per_s", rate);
     brc_json_end(json);
-    brc_json_begin_object(json, "memory");
-    brc_json_integer(json, "host_bytes", brc_memory_peak());
-    if (s->simulation)
-        brc_json_integer(json, "device_bytes", brc_device_bytes(brc_simulation_device(s->simulation)));
-    else
-        brc_json_null(json, "device_bytes");
-    brc_json_end(json);
+    add_memory(json, s->assembly ? brc_assembly_device_bytes(s->assembly) : -1);
 }
 
 static void add_ledger(brc_json *json, const brc_ledger *ledger)
@@ -127,11 +150,66 @@ static void add_names(brc_json *json, const char *key, const char *const *names)
     brc_json_end(json);
 }
 
-static void add_effects(brc_json *json, const brc_simulation *simulation)
+static bool is_named(const char *const *names, const char *name)
+{
+    for (; names && *names; ++names)
+        if (strcmp(*names, name) == 0) return true;
+    return false;
+}
+
+/* Effects of the parts before k hold this one in. */
+static bool in_before(const brc_assembly *a, int32_t k, const char *name)
+{
+    for (int32_t other = 0; other < k; ++other)
+        if (is_named(brc_simulation_effects_in(a->part[other]), name)) return true;
+    return false;
+}
+
+static void add_effects(brc_json *json, const brc_assembly *a)
 {
     brc_json_begin_object(json, "effects");
-    add_names(json, "in", simulation ? brc_simulation_effects_in(simulation) : NULL);
-    add_names(json, "out", simulation ? brc_simulation_effects_out(simulation) : NULL);
+    brc_json_begin_array(json, "in");
+    for (int32_t k = 0; a && k < a->n; ++k)
+        for (const char *const *name = brc_simulation_effects_in(a->part[k]); *name; ++name)
+            if (!in_before(a, k, *name)) brc_json_string(json, NULL, *name);
+    brc_json_end(json);
+    brc_json_begin_array(json, "out"); /* every part lists all effects, in or out */
+    for (const char *const *name = a ? brc_simulation_effects_out(a->part[0]) : NULL; name && *name; ++name)
+        if (!in_before(a, a->n, *name)) brc_json_string(json, NULL, *name);
+    brc_json_end(json);
+    brc_json_end(json);
+}
+
+/* One object a model, where there are several. The ledgers are left out where the whole's is: the device cannot be asked any more. */
+static void add_parts(brc_json *json, const brc_summary *s)
+{
+    const brc_assembly *a = s->assembly;
+    if (!a || a->n == 1) return;
+    brc_json_begin_array(json, "parts");
+    for (int32_t k = 0; k < a->n; ++k) {
+        const brc_scene_part *part = &a->split->part[k];
+        const brc_domain *const domain = brc_simulation_domain(a->part[k]);
+        const brc_time_step step = brc_simulation_time_step(a->part[k]);
+        const int64_t first = brc_assembly_first_bond(a, k), end = brc_assembly_first_bond(a, k + 1);
+        int64_t n_broken = 0;
+        brc_ledger ledger;
+        for (int64_t b = 0; s->cracks && b < s->cracks->n_broken; ++b) n_broken += s->cracks->breaks[b].bond >= first && s->cracks->breaks[b].bond < end;
+        const bool has_ledger = s->ledger && brc_simulation_ledger(a->part[k], &ledger) == BRC_OK;
+        brc_json_begin_object(json, NULL);
+        brc_json_string(json, "model", part->name);
+        brc_json_begin_array(json, "bodies");
+        for (int32_t b = 0; b < part->n_bodies; ++b) brc_json_string(json, NULL, s->scene->bodies[part->body[b]].name);
+        brc_json_end(json);
+        add_counts(json, 1, &domain, n_broken);
+        add_time_step(json, &step);
+        add_ledger(json, has_ledger ? &ledger : NULL);
+        add_memory(json, brc_device_bytes(brc_simulation_device(a->part[k])));
+        brc_json_begin_object(json, "effects");
+        add_names(json, "in", brc_simulation_effects_in(a->part[k]));
+        add_names(json, "out", brc_simulation_effects_out(a->part[k]));
+        brc_json_end(json);
+        brc_json_end(json);
+    }
     brc_json_end(json);
 }
 
@@ -167,12 +245,18 @@ static void add_sensors(brc_json *json, const brc_summary *s)
     brc_json_end(json);
 }
 
-/* Of the last stage, where it was solved rather than stepped. */
+/* Of the last stage, where it was solved rather than stepped; of several parts the sums and the largest residual. */
 static void add_static(brc_json *json, const brc_summary *s)
 {
-    const int32_t stage = s->simulation ? brc_simulation_stage(s->simulation) : -1;
+    const int32_t stage = s->assembly ? brc_simulation_stage(s->assembly->part[0]) : -1;
     if (stage < 0 || !s->scene || s->scene->stages[stage].solver != BRC_SOLVER_STATIC) return;
-    const brc_static_report report = brc_simulation_static_report(s->simulation);
+    brc_static_report report = {0};
+    for (int32_t k = 0; k < s->assembly->n; ++k) {
+        const brc_static_report one = brc_simulation_static_report(s->assembly->part[k]);
+        report.iterations += one.iterations;
+        report.corrections += one.corrections;
+        report.residual = k == 0 ? one.residual : fmax(report.residual, one.residual);
+    }
     brc_json_begin_object(json, "static");
     brc_json_integer(json, "iterations", report.iterations);
     brc_json_integer(json, "corrections", report.corrections);
@@ -189,10 +273,11 @@ brc_status brc_summary_write(brc_context *context, const brc_summary *summary, c
     add_cost(&json, summary);
     add_ledger(&json, summary->ledger);
     if (summary->cracks) brc_cracks_add(&json, summary->cracks);
-    add_effects(&json, summary->simulation);
+    add_effects(&json, summary->assembly);
     add_measures(&json, summary);
     add_sensors(&json, summary);
     add_static(&json, summary);
+    add_parts(&json, summary);
     brc_json_begin_object(&json, "end");
     brc_json_string(&json, "status", end_name(summary));
     brc_json_string(&json, "reason", summary->reason ? summary->reason : "");

@@ -41,15 +41,11 @@ brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
     BRC_TRY(lost(s, s->lost_numerical, &out->numerical));
     BRC_TRY(brc_fracture_lost(s, &out->fracture));
     out->initial = s->initial_energy;
-    out->total = out->kinetic + out->elastic + out->stabilisation + out->potential;
     if (out->elastic > s->peak_elastic) s->peak_elastic = out->elastic;
     if (out->kinetic > s->peak_kinetic) s->peak_kinetic = out->kinetic;
     out->peak_elastic = s->peak_elastic;
     out->peak_kinetic = s->peak_kinetic;
-    const double scale = fmax(s->peak_elastic, fmax(fabs(out->initial), fabs(out->work)));
-    const double error = out->total - out->work + out->damping + out->numerical + out->fracture - out->initial;
-    out->closure = scale > 0 ? error / scale : 0;
-    if (!isfinite(out->total)) out->closure = NAN;
+    brc_ledger_close(out);
     return BRC_OK;
 }
 

@@ -23,7 +23,9 @@ static int begin(void **state)
                         .value = {0.1, 0, 0},
                         .gradient = {{1e-2, 2e-2, 0}, {0, -3e-3, 0}, {5e-3, 0, 4e-2}},
                         .stress = {1e6, 2e6, 3e6, 4e6, 5e6, 6e6}};
-    if (brc_frame_write(test_context, &s, test_path(folder, "f.vtkhdf")) != BRC_OK) return -1;
+    brc_simulation *const alone = &s;
+    const brc_assembly whole = brc_assembly_make(s.scene, NULL, 1, &alone);
+    if (brc_frame_write(test_context, &whole, test_path(folder, "f.vtkhdf")) != BRC_OK) return -1;
     static char path[512];
     snprintf(path, sizeof path, "%s/f.vtkhdf", folder);
     return brc_h5_read_open(test_context, path, &h5) == BRC_OK ? 0 : -1;

@@ -36,8 +36,9 @@ static cairo_surface_t *draw(double low, double slope, double bad)
         u[3 * e] = bad;
         value[e] = low + slope * domain->position[3 * e];
     }
+    const brc_picture_part cells = {domain, u, value};
     const brc_picture picture = {
-        .domain = domain, .displacement = u, .value = value, .name = "field", .unit = "Pa", .title = "Title"};
+        .n = 1, .part = &cells, .name = "field", .unit = "Pa", .title = "Title"};
     assert_int_equal(brc_picture_draw(test_context, &picture, test_path(folder, "p.png")), BRC_OK);
     brc_memory_free(u);
     brc_memory_free(value);
@@ -114,17 +115,19 @@ static void an_unknown_colour_word_is_refused_with_the_list(void **state)
     (void)state;
     brc_scene scene = {.output = {.picture_colour = "temperature"}};
     brc_simulation s = {.scene = &scene, .domain = domain, .factor = 1};
-    assert_int_equal(brc_picture_write(test_context, &s, test_path(folder, "q.png")), BRC_BAD_INPUT);
+    brc_simulation *const alone = &s;
+    const brc_assembly whole = brc_assembly_make(s.scene, NULL, 1, &alone);
+    assert_int_equal(brc_picture_write(test_context, &whole, test_path(folder, "q.png")), BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(test_context), "von_mises"));
     brc_context_clear(test_context);
     static const char *const good[] = {"von_mises",  "displacement", "displacement_z",
                                        "velocity_x", "stress_xy",    "strain_yz"};
     strcpy(scene.output.picture_colour, good[5]);
-    assert_int_equal(brc_picture_write(test_context, &s, test_path(folder, "q.png")), BRC_OK);
+    assert_int_equal(brc_picture_write(test_context, &whole, test_path(folder, "q.png")), BRC_OK);
     static const char *const wrong[] = {"displacement_w", "stress", "stress_xyz", "velocityx", "displacement_xx"};
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; ++k) {
         strcpy(scene.output.picture_colour, wrong[k]);
-        assert_int_equal(brc_picture_write(test_context, &s, test_path(folder, "q.png")), BRC_BAD_INPUT);
+        assert_int_equal(brc_picture_write(test_context, &whole, test_path(folder, "q.png")), BRC_BAD_INPUT);
         brc_context_clear(test_context);
     }
 }
@@ -134,7 +137,9 @@ static void a_picture_that_cannot_be_written_is_file_trouble(void **state)
     (void)state;
     brc_scene scene = {.n_stages = 0};
     brc_simulation s = {.scene = &scene, .domain = domain, .factor = 1};
-    assert_int_equal(brc_picture_write(test_context, &s, "no-such-folder/p.png"), BRC_FILE_FAILED);
+    brc_simulation *const alone = &s;
+    const brc_assembly whole = brc_assembly_make(s.scene, NULL, 1, &alone);
+    assert_int_equal(brc_picture_write(test_context, &whole, "no-such-folder/p.png"), BRC_FILE_FAILED);
     brc_context_clear(test_context);
 }
 
@@ -143,14 +148,15 @@ static void the_automatic_scale_is_round_and_makes_motion_visible(void **state)
     (void)state;
     double *u;
     assert_int_equal(BRC_ALLOCATE(test_context, &u, 3 * domain->n_elements, "test"), BRC_OK);
-    assert_true(brc_picture_automatic_scale(domain, u) == 1); /* nothing moves */
+    const brc_picture_part cells = {domain, u, NULL};
+    assert_true(brc_picture_automatic_scale(1, &cells) == 1); /* nothing moves */
     for (int64_t e = 0; e < domain->n_elements; ++e)
         u[3 * e] = 3e-7 * domain->position[3 * e] + 1; /* a rigid part does not count */
-    const double scale = brc_picture_automatic_scale(domain, u);
+    const double scale = brc_picture_automatic_scale(1, &cells);
     assert_true(scale == 2e5); /* 0.04 of 2.45 m over 0.9 to 1 times 3e-7 m is 3.3e5 to 3.6e5 */
     for (int64_t e = 0; e < domain->n_elements; ++e)
         u[3 * e] = 0.5 * domain->position[3 * e];
-    assert_true(brc_picture_automatic_scale(domain, u) == 1);
+    assert_true(brc_picture_automatic_scale(1, &cells) == 1);
     brc_memory_free(u);
 }
 

@@ -40,9 +40,11 @@ static void a_bar_gives_its_moduli_and_its_bar_wave(void **state)
     assert_int_equal(brc_device_open(test_context, &request, &device), BRC_OK);
     assert_int_equal(brc_recorder_create(test_context, folder, brc_clock_s(), &recorder), BRC_OK);
     brc_recorder_set_scene(recorder, scene);
-    brc_recorder_set_domain(recorder, domain, 0);
+    const brc_domain *const built = domain;
+    brc_recorder_set_domains(recorder, 1, &built, 0);
     assert_int_equal(brc_simulation_create(test_context, scene, domain, device, &simulation), BRC_OK);
-    assert_int_equal(brc_recorder_observe(recorder, simulation), BRC_OK);
+    brc_assembly whole = brc_assembly_make(scene, NULL, 1, &simulation);
+    assert_int_equal(brc_recorder_observe(recorder, &whole), BRC_OK);
     const brc_status status = brc_recorder_finish(recorder, brc_simulation_run(simulation));
     if (status != BRC_OK) fail_msg("%s", brc_context_message(test_context));
     const brc_measured *m = brc_recorder_measures(recorder);

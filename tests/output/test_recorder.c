@@ -30,6 +30,9 @@ typedef struct run {
     brc_domain *domain;
     brc_device *device;
     brc_simulation simulation;
+    const brc_domain *built;
+    brc_simulation *alone;
+    brc_assembly whole;
     brc_recorder *recorder;
     char *folder;
 } run;
@@ -67,8 +70,11 @@ static brc_status record(run *r)
 {
     BRC_TRY(brc_recorder_create(test_context, r->folder, brc_clock_s(), &r->recorder));
     brc_recorder_set_scene(r->recorder, r->scene);
-    brc_recorder_set_domain(r->recorder, r->domain, 1.5);
-    brc_status status = brc_recorder_observe(r->recorder, &r->simulation);
+    r->built = r->domain;
+    r->alone = &r->simulation;
+    r->whole = brc_assembly_make(r->scene, NULL, 1, &r->alone);
+    brc_recorder_set_domains(r->recorder, 1, &r->built, 1.5);
+    brc_status status = brc_recorder_observe(r->recorder, &r->whole);
     if (status == BRC_OK) status = brc_simulation_run(&r->simulation);
     return brc_recorder_finish(r->recorder, status);
 }

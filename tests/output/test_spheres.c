@@ -40,8 +40,10 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
     (void)state;
     brc_domain *d = three_spheres();
     brc_simulation s = {.domain = d, .factor = 1, .value = {0.1, 0, 0}, .gradient = {{0.5, 0, 0}}, .stress = {1e6}};
+    brc_simulation *const alone = &s;
+    const brc_assembly whole = brc_assembly_make(s.scene, NULL, 1, &alone);
     brc_h5_read h5;
-    assert_int_equal(brc_frame_write(test_context, &s, "spheres.vtkhdf"), BRC_OK);
+    assert_int_equal(brc_frame_write(test_context, &whole, "spheres.vtkhdf"), BRC_OK);
     assert_int_equal(brc_h5_read_open(test_context, "spheres.vtkhdf", &h5), BRC_OK);
     float *point = load(&h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, N, 3), *moved = load(&h5, "VTKHDF/PointData/displacement", H5T_NATIVE_FLOAT, N, 3);
     int64_t *offset = load(&h5, "VTKHDF/Offsets", H5T_NATIVE_INT64, N + 1, 1), *id = load(&h5, "VTKHDF/Connectivity", H5T_NATIVE_INT64, N, 1);
@@ -89,7 +91,8 @@ static void a_picture_shows_balls_with_gaps_between_them(void **state)
     (void)state;
     brc_domain *d = three_spheres();
     double u[3 * N] = {0}, value[N] = {0, 1, 2};
-    const brc_picture picture = {.domain = d, .displacement = u, .value = value, .name = "number", .unit = "-", .title = "", .scale = 1};
+    const brc_picture_part balls = {d, u, value};
+    const brc_picture picture = {.n = 1, .part = &balls, .name = "number", .unit = "-", .title = "", .scale = 1};
     assert_int_equal(brc_picture_draw(test_context, &picture, "spheres.png"), BRC_OK);
     cairo_surface_t *image = cairo_image_surface_create_from_png("spheres.png");
     assert_int_equal(cairo_surface_status(image), CAIRO_STATUS_SUCCESS);

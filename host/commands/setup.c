@@ -1,0 +1,74 @@
+/* Parts, domains, devices, simulations of a scene. */
+#include "setup.h"
+#include "scene_domain.h"
+#include "../base/memory.h"
+#include "../solver/beam_polish.h"
+#include <string.h>
+
+brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads, brc_setup *setup)
+{
+    BRC_TRY(brc_split_create(context, scene, &setup->split));
+    const int32_t n = setup->split->n;
+    BRC_TRY(BRC_ALLOCATE(context, &setup->built, n, "domains of a scene"));
+    BRC_TRY(BRC_ALLOCATE(context, &setup->domain, n, "domains of a scene"));
+    BRC_TRY(BRC_ALLOCATE(context, &setup->device, n, "devices of a scene"));
+    BRC_TRY(BRC_ALLOCATE(context, &setup->simulation, n, "simulations of a scene"));
+    setup->n = n;
+    if (given && n > 1) return BRC_FAIL(context, BRC_INTERNAL, "one domain was given for bodies of %d models", (int)n);
+    if (!given) BRC_TRY(brc_split_domains_build(context, setup->split, n_threads, setup->built));
+    for (int32_t k = 0; k < n; ++k) setup->domain[k] = given ? given : setup->built[k];
+    return brc_split_share(context, setup->split, setup->domain);
+}
+
+brc_status brc_setup_simulations(brc_context *context, const brc_device_request *request, brc_setup *setup)
+{
+    for (int32_t k = 0; k < setup->n; ++k) {
+        brc_scene *scene = setup->split->part[k].scene;
+        if (scene->model.kind == BRC_MODEL_CBM && scene->model.polish)
+            BRC_TRY(brc_beam_polish_scene(context, scene, setup->domain[k], request->n_threads));
+    }
+    for (int32_t k = 0; k < setup->n; ++k) {
+        const brc_scene *scene = setup->split->part[k].scene;
+        brc_device_request own = *request;
+        own.many_materials = brc_simulation_needs_many_materials(scene, setup->domain[k]);
+        BRC_TRY(brc_device_open(context, &own, &setup->device[k]));
+        BRC_TRY(brc_simulation_create(context, scene, setup->domain[k], setup->device[k], &setup->simulation[k]));
+    }
+    setup->assembly = brc_assembly_make(setup->split->scene, setup->split, setup->n, setup->simulation);
+    return BRC_OK;
+}
+
+void brc_setup_free_simulations(brc_setup *setup)
+{
+    for (int32_t k = 0; k < setup->n; ++k) brc_simulation_free(&setup->simulation[k]);
+    setup->assembly = (brc_assembly){0};
+}
+
+void brc_setup_free(brc_setup *setup)
+{
+    brc_setup_free_simulations(setup);
+    for (int32_t k = 0; k < setup->n; ++k) {
+        brc_device_close(&setup->device[k]);
+        brc_domain_free(&setup->built[k]);
+    }
+    brc_memory_free(setup->simulation);
+    brc_memory_free(setup->device);
+    brc_memory_free(setup->domain);
+    brc_memory_free(setup->built);
+    brc_split_free(&setup->split);
+    memset(setup, 0, sizeof *setup);
+}
+
+int64_t brc_setup_n_elements(const brc_setup *setup)
+{
+    int64_t n = 0;
+    for (int32_t k = 0; k < setup->n; ++k) n += setup->domain[k] ? setup->domain[k]->n_elements : 0;
+    return n;
+}
+
+int64_t brc_setup_n_bonds(const brc_setup *setup)
+{
+    int64_t n = 0;
+    for (int32_t k = 0; k < setup->n; ++k) n += setup->domain[k] ? setup->domain[k]->n_bonds : 0;
+    return n;
+}
