@@ -28,7 +28,7 @@ typedef struct brc_calibration_row {
     uint64_t seed;
     int axis; /* 0 x 1 y 2 z */
     double coordination, radius, beam_young;
-    double young, poisson, lateral[2]; /* as in brc_beam_answer */
+    double young, poisson, lateral[2], inner; /* as in brc_beam_answer */
     int64_t n_bonds, n_loose, iterations;
     double seconds;
 } brc_calibration_row;

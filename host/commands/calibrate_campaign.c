@@ -17,7 +17,7 @@
 #define BEAM_POISSON 0.3
 #define FILE_BYTES_MOST ((size_t)1 << 30)
 
-static const char header[] = "elements,radius_spread,seed,axis,cn,r_m,E_m_Pa,E_ratio,nu,nu_y,nu_z,bonds,loose,iterations,seconds\n";
+static const char header[] = "elements,radius_spread,seed,axis,cn,r_m,E_m_Pa,E_ratio,nu,nu_y,nu_z,inner,bonds,loose,iterations,seconds\n";
 
 void brc_calibration_rows_free(brc_calibration_rows *rows)
 {
@@ -39,9 +39,9 @@ static brc_status add_row(brc_context *context, brc_calibration_rows *rows, cons
 
 static int print_line(char *out, size_t room, const brc_calibration_row *r)
 {
-    return snprintf(out, room, "%lld,%.17g,%llu,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld,%lld,%.3f\n", (long long)r->n_elements,
+    return snprintf(out, room, "%lld,%.17g,%llu,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld,%lld,%.3f\n", (long long)r->n_elements,
                     r->radius_spread, (unsigned long long)r->seed, r->axis, r->coordination, r->radius, r->beam_young, r->young, r->poisson, r->lateral[0],
-                    r->lateral[1], (long long)r->n_bonds, (long long)r->n_loose, (long long)r->iterations, r->seconds);
+                    r->lateral[1], r->inner, (long long)r->n_bonds, (long long)r->n_loose, (long long)r->iterations, r->seconds);
 }
 
 static bool parse_line(const char *line, brc_calibration_row *r)
@@ -49,14 +49,14 @@ static bool parse_line(const char *line, brc_calibration_row *r)
     long long elements, bonds, loose, iterations;
     unsigned long long seed;
     int end = 0;
-    const int n = sscanf(line, "%lld,%lf,%llu,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lld,%lld,%lld,%lf%n", &elements, &r->radius_spread, &seed, &r->axis,
-                         &r->coordination, &r->radius, &r->beam_young, &r->young, &r->poisson, &r->lateral[0], &r->lateral[1], &bonds, &loose, &iterations, &r->seconds, &end);
+    const int n = sscanf(line, "%lld,%lf,%llu,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lld,%lld,%lld,%lf%n", &elements, &r->radius_spread, &seed, &r->axis,
+                         &r->coordination, &r->radius, &r->beam_young, &r->young, &r->poisson, &r->lateral[0], &r->lateral[1], &r->inner, &bonds, &loose, &iterations, &r->seconds, &end);
     r->n_elements = elements;
     r->seed = seed;
     r->n_bonds = bonds;
     r->n_loose = loose;
     r->iterations = iterations;
-    return n == 15 && line[end] == '\n' && isfinite(r->young) && isfinite(r->poisson);
+    return n == 16 && line[end] == '\n' && isfinite(r->young) && isfinite(r->poisson);
 }
 
 /* Whole lines of an earlier campaign; a torn last line is left out and cut off the file. */
@@ -176,7 +176,7 @@ static brc_status solve(work *w, brc_context *context, brc_device *device, int s
             const brc_calibration_row row = {.n_elements = plan->n_elements, .radius_spread = plan->radius_spread,
                                              .seed = plan->seed + (uint64_t)sample, .axis = axis, .coordination = coordination, .radius = plan->radius[r],
                                              .beam_young = plan->young[y], .young = answer.young, .poisson = answer.poisson,
-                                             .lateral = {answer.lateral[0], answer.lateral[1]}, .n_bonds = answer.n_bonds, .n_loose = answer.n_loose,
+                                             .lateral = {answer.lateral[0], answer.lateral[1]}, .inner = answer.inner, .n_bonds = answer.n_bonds, .n_loose = answer.n_loose,
                                              .iterations = answer.iterations, .seconds = answer.seconds};
             BRC_TRY_OR(cleanup, keep(w, &row));
         }

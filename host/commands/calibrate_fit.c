@@ -216,6 +216,28 @@ cleanup:
     return status;
 }
 
+/* Bonds inside over bonds in all, against cn; all zero where samples are too small to have an inside. */
+static brc_status fit_inner(brc_context *context, const brc_calibration_plan *plan, const brc_calibration_rows *rows, brc_calibration_fit *fit)
+{
+    const int n = plan->n_coordinations < BRC_BEAM_LAW_INNER ? plan->n_coordinations : BRC_BEAM_LAW_INNER;
+    equations e;
+    brc_status status = BRC_OK;
+    for (int64_t k = 0; k < rows->n; ++k)
+        if (!(rows->rows[k].inner > 0)) return BRC_OK;
+    BRC_TRY_OR(cleanup, equations_create(context, (int)rows->n, n, &e));
+    for (int64_t k = 0; k < rows->n; ++k) {
+        double terms[ROWS][COLUMNS];
+        brc_beam_law_terms(&fit->law, rows->rows[k].coordination, fit->law.radius[0], terms); /* row 0 depends on cn alone */
+        memcpy(e.a + k * n, terms[0], (size_t)n * sizeof *e.a);
+        e.b[k] = rows->rows[k].inner / rows->rows[k].coordination;
+    }
+    BRC_TRY_OR(cleanup, solve(context, &e));
+    memcpy(fit->law.inner, e.b, (size_t)n * sizeof *e.b);
+cleanup:
+    equations_free(&e);
+    return status;
+}
+
 /* The surface of beam_law.h on relative errors; as many polynomials as the plan's values determine, the rest zero. */
 static brc_status fit_surface(brc_context *context, const brc_calibration_plan *plan, const brc_calibration_rows *rows, brc_calibration_fit *fit)
 {
@@ -240,7 +262,7 @@ static brc_status fit_surface(brc_context *context, const brc_calibration_plan *
         BRC_TRY(status);
     }
     fit->made[BRC_FORM_SURFACE] = true;
-    return BRC_OK;
+    return fit_inner(context, plan, rows, fit);
 }
 
 double brc_calibration_value(const brc_calibration_fit *fit, int form, int quantity, double coordination, double radius)

@@ -51,7 +51,9 @@ static brc_status write_c(brc_context *context, const brc_calibration_plan *plan
     add_table(&text, "paper_poisson", 4, 4, &law->paper_poisson[0][0]);
     brc_text_add(&text, ",\n");
     add_table(&text, "paper_young", 4, 4, &law->paper_young[0][0]);
-    brc_text_add(&text, ",\n};\n\n#endif\n");
+    brc_text_add(&text, ",\n    .inner = {");
+    for (int j = 0; j < BRC_BEAM_LAW_INNER; ++j) brc_text_add(&text, "%s%.11g", j ? ", " : "", law->inner[j]);
+    brc_text_add(&text, "},\n};\n\n#endif\n");
     const brc_status status = brc_text_write(&text, path);
     brc_text_free(&text);
     return status;
@@ -75,6 +77,7 @@ static brc_status write_coefficients(brc_context *context, const brc_calibration
             brc_text_add(&text, "surface,%s,,%d,%d,%.17g\n", quantity, k / BRC_BEAM_LAW_COLUMNS, k % BRC_BEAM_LAW_COLUMNS,
                          (q == BRC_QUANTITY_NU ? fit->law.poisson : fit->law.young)[k / BRC_BEAM_LAW_COLUMNS][k % BRC_BEAM_LAW_COLUMNS]);
     }
+    for (int j = 0; fit->made[BRC_FORM_SURFACE] && j < BRC_BEAM_LAW_INNER; ++j) brc_text_add(&text, "surface,cn_in/cn,,,%d,%.17g\n", j, fit->law.inner[j]);
     const brc_status status = brc_text_write(&text, path);
     brc_text_free(&text);
     return status;
@@ -142,6 +145,9 @@ static brc_status write_json(brc_context *context, const brc_calibration_plan *p
     brc_json_string(&json, "commit", brc_version_commit());
     brc_json_string(&json, "campaign", words);
     brc_json_integer(&json, "solves", rows->n);
+    brc_json_begin_array(&json, "inner");
+    for (int j = 0; j < BRC_BEAM_LAW_INNER; ++j) brc_json_number(&json, NULL, fit->law.inner[j]);
+    brc_json_end(&json);
     for (int form = 0; form < BRC_FORMS; ++form) {
         if (!fit->made[form]) continue;
         brc_json_begin_object(&json, brc_calibration_form(form));

@@ -78,8 +78,9 @@ void brc_isotropy_forget(brc_outcome *outcome);
 /* <case>.png, <case>-area.png, <case>-inside.png, <case>-area-inside.png into the campaign's folder, where runs of isotropy were made. */
 brc_status brc_isotropy_figures(brc_campaign *campaign);
 
-/* The beams operator: elastic tests of run->n_seeds samples of the scene's box: nu, E (means with scatter; references: the material's), r_m, E_m, nu_worst, E_worst.
- * A scene with `polish` is polished on one sample and tried on the next along all axes (no means then); nu_axis_worst, E_axis_worst: of one axis of the polished sample. */
+/* The beams operator: elastic tests of run->n_seeds samples of the scene's box along x: nu, E (means with scatter; references: the material's), r_m, E_m, nu_worst, E_worst.
+ * A scene with `polish`: each sample polished along all axes, the result tried on a fresh sample (seeds after the last), means over its axes; and polished along x and y,
+ * tried along z: nu_axis, E_axis (means with scatter), nu_axis_worst, E_axis_worst. */
 brc_status brc_beams_values(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes);
 void brc_sample_store_free(struct brc_sample_store **store);
 

@@ -1,5 +1,5 @@
 /* Sensors. Means over faces are weighted with face areas, means over cells with their volumes; spheres of a wall count alike where they
- * stand for a face. All sums run in the order of the set's members, so equal states give equal bytes. */
+ * stand for a face; those without bonds, which are held still, count nowhere. All sums run in the order of the set's members, so equal states give equal bytes. */
 #include "sensors.h"
 #include "sphere_box.h"
 #include "../base/memory.h"
@@ -39,7 +39,7 @@ static const double *patch_point(const brc_domain *d, const patch *p, int64_t k,
 {
     const int64_t m = p->members ? p->members[k] : k;
     if (!p->faces) {
-        *weight = d->radius ? 1 : d->volume[m];
+        *weight = d->radius ? brc_sphere_is_bonded(d, m) : d->volume[m];
         return d->position + 3 * m;
     }
     const double *s = d->free_area_vector + 3 * m;
@@ -71,6 +71,8 @@ static brc_status find_patch(brc_sensors *sensors, int32_t set, int32_t *out)
         for (int c = 0; c < 3; ++c)
             p->mean_position[c] += weight * x[c];
     }
+    if (!(p->weight > 0))
+        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensors: no element of \"%s\" has a bond; name another set", set >= 0 ? d->sets[set].name : "all");
     for (int c = 0; c < 3; ++c)
         p->mean_position[c] /= p->weight;
     if (p->faces) BRC_TRY(BRC_ALLOCATE(sensors->context, &p->u, 3 * p->n, "displacement of sensor faces"));
@@ -136,9 +138,10 @@ static double surface_radius(const brc_sensors *sensors, const brc_sensor *senso
     double sum = 0;
     for (int64_t k = 0; k < set->n_members; ++k) {
         const double *x = sensors->domain->position + 3 * (int64_t)set->members[k];
-        sum += hypot(hypot(x[0] - sensor->point[0], x[1] - sensor->point[1]), x[2] - sensor->point[2]);
+        if (brc_sphere_is_bonded(sensors->domain, set->members[k]))
+            sum += hypot(hypot(x[0] - sensor->point[0], x[1] - sensor->point[1]), x[2] - sensor->point[2]);
     }
-    return sum / (double)set->n_members + brc_sphere_mean_diameter(sensors->domain) / 2;
+    return sum / (double)brc_sphere_count_bonded(sensors->domain, set) + brc_sphere_mean_diameter(sensors->domain) / 2;
 }
 
 /* Sum over the set of a vector's radial components. */
@@ -163,6 +166,8 @@ static brc_status prepare_round(brc_sensors *sensors, const brc_sensor *sensor, 
     if (!sensors->domain->radius)
         return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: its sphere is measured by packed spheres, the elements are cells; use stress and strain",
                         sensor->name);
+    if (brc_sphere_count_bonded(sensors->domain, &sensors->domain->sets[sensors->first[s]]) == 0)
+        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: no element of \"%s\" has a bond; name another set", sensor->name, sensor->set);
     sensors->distance[s] = surface_radius(sensors, sensor, &sensors->domain->sets[sensors->first[s]]);
     return BRC_OK;
 }
@@ -393,7 +398,7 @@ brc_status brc_sensors_evaluate(brc_sensors *sensors, brc_simulation *simulation
             break;
         case BRC_SENSOR_VOLUME_STRAIN:
             value[s] = 3 * radial_sum(sensors, sensor, &sensors->domain->sets[first], sensors->displacement) /
-                       ((double)sensors->domain->sets[first].n_members * sensors->distance[s]);
+                       ((double)brc_sphere_count_bonded(sensors->domain, &sensors->domain->sets[first]) * sensors->distance[s]);
             break;
         case BRC_SENSOR_FACE_MEAN: value[s] = sensors->patches[first].mean_u[c]; break;
         case BRC_SENSOR_FACE_STRAIN:

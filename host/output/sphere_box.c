@@ -3,6 +3,15 @@
 #include <stdio.h>
 #include <string.h>
 
+bool brc_sphere_is_bonded(const brc_domain *d, int64_t element) { return d->row_start[element + 1] > d->row_start[element]; }
+
+int64_t brc_sphere_count_bonded(const brc_domain *d, const brc_set *set)
+{
+    int64_t n = 0;
+    for (int64_t k = 0; k < set->n_members; ++k) n += brc_sphere_is_bonded(d, set->members[k]);
+    return n;
+}
+
 double brc_sphere_mean_diameter(const brc_domain *d)
 {
     double sum = 0;
@@ -14,8 +23,9 @@ static double mean_position(const brc_domain *d, int32_t set, int axis)
 {
     const brc_set *s = &d->sets[set];
     double sum = 0;
-    for (int64_t k = 0; k < s->n_members; ++k) sum += d->position[3 * (int64_t)s->members[k] + axis];
-    return sum / (double)s->n_members;
+    for (int64_t k = 0; k < s->n_members; ++k)
+        if (brc_sphere_is_bonded(d, s->members[k])) sum += d->position[3 * (int64_t)s->members[k] + axis];
+    return sum / (double)brc_sphere_count_bonded(d, s);
 }
 
 double brc_sphere_box_length(const brc_domain *d, int32_t set, int32_t against, int axis)
@@ -39,6 +49,7 @@ static double round_section(const brc_domain *d, int32_t end, int32_t side, int 
     double sum = 0;
     for (int64_t k = 0; k < s->n_members; ++k) {
         double square = 0;
+        if (!brc_sphere_is_bonded(d, s->members[k])) continue;
         for (int c = 1; c < 3; ++c) {
             const int across = (axis + c) % 3;
             const double r = d->position[3 * (int64_t)s->members[k] + across] - mean_position(d, end, across);
@@ -46,7 +57,7 @@ static double round_section(const brc_domain *d, int32_t end, int32_t side, int 
         }
         sum += sqrt(square);
     }
-    const double radius = sum / (double)s->n_members + brc_sphere_mean_diameter(d) / 2;
+    const double radius = sum / (double)brc_sphere_count_bonded(d, s) + brc_sphere_mean_diameter(d) / 2;
     return M_PI * radius * radius;
 }
 

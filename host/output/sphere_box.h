@@ -1,10 +1,15 @@
 /* The size of a sample of packed spheres, by its walls: there are no faces to measure. Along an axis it is the distance of the mean positions of
- * the spheres at two walls plus the mean diameter of all spheres as packed (NAH19; docs/beams.md). Samples are aligned with the axes. */
+ * the spheres at two walls plus the mean diameter of all spheres as packed (NAH19; docs/beams.md). Spheres without bonds count in no mean of a wall.
+ * Samples are aligned with the axes. */
 #ifndef BRC_OUTPUT_SPHERE_BOX_H
 #define BRC_OUTPUT_SPHERE_BOX_H
 
 #include "../../preprocess/domain.h"
 
+/* Has it any bonds as built? Those that broke since are counted as there. */
+bool brc_sphere_is_bonded(const brc_domain *domain, int64_t element);
+/* Members of an element set that have. */
+int64_t brc_sphere_count_bonded(const brc_domain *domain, const brc_set *set);
 /* Mean diameter of all spheres [m]. */
 double brc_sphere_mean_diameter(const brc_domain *domain);
 /* Distance between two element sets along an axis (0 x, 1 y, 2 z), a diameter added, with the sign of the distance [m]. */

@@ -1,5 +1,6 @@
 /* Coefficients: written by `breccia calibrate` as law.h (docs/beams-calibration.md has its command, the solves behind it and what is left). */
 #include "beam_law.h"
+#include "../base/log.h"
 #include "laws/spread-12.5.h"
 #include "laws/spread-25.h"
 #include <math.h>
@@ -7,6 +8,8 @@
 static const brc_beam_law *const LAWS[] = {&brc_beam_law_spread_12_5, &brc_beam_law_spread_25};
 /* Nearer to the end of the fit than this share of its range (of nu) a small error of nu is a large one of r_m. */
 static const double NEAR_END = 0.03;
+/* Bonds inside may leave the fit by this share without a word: samples differ by as much. */
+static const double FAR_OUT = 0.005;
 
 const brc_beam_law *brc_beam_law_for(double radius_spread)
 {
@@ -26,13 +29,18 @@ static void chebyshev(double x, int n, double *out)
     for (int k = 2; k < n; ++k) out[k] = 2 * x * out[k - 1] - out[k - 2];
 }
 
+/* t of a coordination number. */
+static double place(const brc_beam_law *law, double coordination)
+{
+    return (2 * coordination - law->coordination[0] - law->coordination[1]) / (law->coordination[1] - law->coordination[0]);
+}
+
 void brc_beam_law_terms(const brc_beam_law *law, double coordination, double radius, double out[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS])
 {
     double of_radius[BRC_BEAM_LAW_ROWS], of_coordination[BRC_BEAM_LAW_COLUMNS];
     chebyshev((2 * log(radius) - log(law->radius[0]) - log(law->radius[1])) / (log(law->radius[1]) - log(law->radius[0])),
               BRC_BEAM_LAW_ROWS, of_radius);
-    chebyshev((2 * coordination - law->coordination[0] - law->coordination[1]) / (law->coordination[1] - law->coordination[0]),
-              BRC_BEAM_LAW_COLUMNS, of_coordination);
+    chebyshev(place(law, coordination), BRC_BEAM_LAW_COLUMNS, of_coordination);
     for (int i = 0; i < BRC_BEAM_LAW_ROWS; ++i)
         for (int j = 0; j < BRC_BEAM_LAW_COLUMNS; ++j) out[i][j] = of_radius[i] * of_coordination[j];
 }
@@ -64,21 +72,47 @@ double brc_beam_law_paper_young(const double c[4][4], double coordination, doubl
     return cubic(k, radius);
 }
 
-brc_status brc_beam_law_invert(brc_context *context, const brc_beam_law *law, double coordination, double nu, double young, double *radius,
+double brc_beam_law_inner(const brc_beam_law *law, double coordination)
+{
+    double terms[BRC_BEAM_LAW_INNER], sum = 0;
+    chebyshev(place(law, coordination), BRC_BEAM_LAW_INNER, terms);
+    for (int j = 0; j < BRC_BEAM_LAW_INNER; ++j) sum += law->inner[j] * terms[j];
+    return sum;
+}
+
+double brc_beam_law_coordination(const brc_beam_law *law, const brc_beam_body *body)
+{
+    double low = law->coordination[0], high = law->coordination[1];
+    if (!(body->inner > 0 && law->inner[0] > 0)) return body->coordination;
+    for (int i = 0; i < 60; ++i) { /* bonds inside grow with bonds in all */
+        const double middle = 0.5 * (low + high);
+        if (middle * brc_beam_law_inner(law, middle) < body->inner) low = middle;
+        else high = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+brc_status brc_beam_law_invert(brc_context *context, const brc_beam_law *law, const brc_beam_body *body, double nu, double young, double *radius,
                                double *beam_young, bool *warning)
 {
-    if (!(coordination >= law->coordination[0] - 0.1 && coordination <= law->coordination[1] + 0.1))
+    if (!(body->coordination >= law->coordination[0] - 0.1 && body->coordination <= law->coordination[1] + 0.1))
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "model cbm: the coordination number %.4g lies outside the calibrated laws (%.4g to %.4g); choose another one under "
                         "`beams`, or give the material's `beam` parameters",
-                        coordination, law->coordination[0], law->coordination[1]);
+                        body->coordination, law->coordination[0], law->coordination[1]);
+    const double coordination = brc_beam_law_coordination(law, body);
+    if (body->inner > 0 && law->inner[0] > 0 && fabs(coordination * brc_beam_law_inner(law, coordination) / body->inner - 1) > FAR_OUT)
+        brc_log(context, BRC_LOG_WARNING,
+                "model cbm: a body of its size and shape with %.4g bonds an element has %.4g inside, beyond the calibrated laws (%.4g to %.4g): they are taken as there",
+                body->coordination, body->inner, law->coordination[0] * brc_beam_law_inner(law, law->coordination[0]),
+                law->coordination[1] * brc_beam_law_inner(law, law->coordination[1]));
     double low = law->radius[0], high = law->radius[1]; /* nu falls with r_m */
     const double most = brc_beam_law_poisson(law, coordination, low), least = brc_beam_law_poisson(law, coordination, high);
     if (!(nu <= most && nu >= least))
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "model cbm: beams cannot give nu = %.4g at the coordination number %.4g, only %.3f to %.3f; choose another "
                         "coordination number, or give the material's `beam` parameters",
-                        nu, coordination, least, most);
+                        nu, body->coordination, least, most);
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
         if (brc_beam_law_poisson(law, coordination, middle) > nu) low = middle;

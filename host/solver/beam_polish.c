@@ -3,22 +3,39 @@
 #include "beam_law.h"
 #include "beam_sample.h"
 #include "../base/log.h"
+#include "../base/memory.h"
 #include <math.h>
 #include <string.h>
 
-enum { MOST_TESTS = 3, REFERENCE_SPHERES = 10000 };
+enum { MOST_TESTS = 3, REFERENCE_SPHERES = 10000, REFERENCES = 4 };
 static const double CLOSE_ENOUGH = 5e-4;
 
-/* nu and E / E_m, means over the axes. */
-static brc_status test(brc_context *context, brc_device *device, const brc_domain *domain, double radius, double beam_poisson, double *nu, double *ratio)
+/* The request at work: the law, and the coordination numbers to enter it with. */
+typedef struct work {
+    brc_context *context;
+    brc_device *device;
+    const brc_polish_request *request;
+    const brc_beam_law *law;
+    double body;    /* of the body */
+    double *sample; /* [n_samples] */
+} work;
+
+/* nu and E / E_m of the body, from those of the samples. */
+static brc_status test(const work *w, double radius, double *nu, double *ratio)
 {
-    *nu = *ratio = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        brc_beam_answer answer;
-        BRC_TRY(brc_beam_sample_pull(context, device, domain, &(brc_beam_pull){.axis = axis, .radius = radius, .beam_poisson = beam_poisson}, &answer));
-        *nu += answer.poisson / 3;
-        *ratio += answer.young / 3;
-    }
+    const brc_polish_request *request = w->request;
+    const double share = 1.0 / (request->n_samples * request->n_axes);
+    *nu = brc_beam_law_poisson(w->law, w->body, radius);
+    *ratio = 0;
+    for (int k = 0; k < request->n_samples; ++k)
+        for (int axis = 0; axis < request->n_axes; ++axis) {
+            brc_beam_answer answer;
+            const brc_beam_pull pull = {.axis = axis, .radius = radius, .beam_poisson = request->beam_poisson};
+            BRC_TRY(brc_beam_sample_pull(w->context, w->device, request->samples[k], &pull, &answer));
+            *nu += share * (answer.poisson - brc_beam_law_poisson(w->law, w->sample[k], radius));
+            *ratio += share * answer.young / brc_beam_law_young(w->law, w->sample[k], radius);
+        }
+    *ratio *= brc_beam_law_young(w->law, w->body, radius);
     return BRC_OK;
 }
 
@@ -34,20 +51,39 @@ static double spread_of(const brc_domain *domain)
     return (most - least) / 2 / (sum / (double)domain->n_elements);
 }
 
-brc_status brc_beam_polish(brc_context *context, brc_device *device, const brc_domain *domain, double poisson, double young, double beam_poisson,
-                           brc_polish *out)
+/* Bonds of the body and of the samples. */
+static brc_status prepare(work *w, brc_beam_body *body)
 {
-    const double start = brc_clock_s();
-    const double coordination = 2.0 * (double)domain->n_bonds / (double)domain->n_elements;
+    const brc_polish_request *request = w->request;
+    for (int k = 0; k < request->n_samples; ++k) {
+        brc_beam_body own;
+        if (!request->samples[k]->radius)
+            return BRC_FAIL(w->context, BRC_BAD_INPUT, "polish: the sample is made of cells; expected spheres joined by beams");
+        if (k == 0) w->law = brc_beam_law_for(spread_of(request->samples[0]));
+        BRC_TRY(brc_beam_body_of(w->context, request->samples[k], -1, &own));
+        w->sample[k] = brc_beam_law_coordination(w->law, &own);
+        if (k == 0) *body = own;
+    }
+    if (request->body) *body = *request->body;
+    w->body = brc_beam_law_coordination(w->law, body);
+    return BRC_OK;
+}
+
+brc_status brc_beam_polish(brc_context *context, brc_device *device, const brc_polish_request *request, brc_polish *out)
+{
+    const double start = brc_clock_s(), poisson = request->poisson;
+    work w = {.context = context, .device = device, .request = request};
+    brc_beam_body body;
+    brc_status status = BRC_OK;
     memset(out, 0, sizeof *out);
-    if (!domain->radius) return BRC_FAIL(context, BRC_BAD_INPUT, "polish: the sample is made of cells; expected spheres joined by beams");
-    const brc_beam_law *law = brc_beam_law_for(spread_of(domain));
-    BRC_TRY(brc_beam_law_invert(context, law, coordination, poisson, young, &out->law_radius, &out->law_beam_young, NULL));
+    BRC_TRY(BRC_ALLOCATE(context, &w.sample, request->n_samples, "samples of a polish"));
+    BRC_TRY_OR(cleanup, prepare(&w, &body));
+    BRC_TRY_OR(cleanup, brc_beam_law_invert(context, w.law, &body, poisson, request->young, &out->law_radius, &out->law_beam_young, NULL));
     const double step = 1e-3 * out->law_radius;
     double radius = out->law_radius, last_radius = 0, last_nu = 0, nu, ratio;
-    double slope = (brc_beam_law_poisson(law, coordination, radius + step) - brc_beam_law_poisson(law, coordination, radius - step)) / (2 * step);
+    double slope = (brc_beam_law_poisson(w.law, w.body, radius + step) - brc_beam_law_poisson(w.law, w.body, radius - step)) / (2 * step);
     for (;;) {
-        BRC_TRY(test(context, device, domain, radius, beam_poisson, &nu, &ratio));
+        BRC_TRY_OR(cleanup, test(&w, radius, &nu, &ratio));
         if (out->n_tests == 0) {
             out->law_poisson = nu;
             out->law_young = ratio * out->law_beam_young;
@@ -57,15 +93,17 @@ brc_status brc_beam_polish(brc_context *context, brc_device *device, const brc_d
         if (++out->n_tests == MOST_TESTS || fabs(nu / poisson - 1) <= CLOSE_ENOUGH) break;
         last_radius = radius;
         last_nu = nu;
-        radius = fmin(fmax(radius + (poisson - nu) / slope, law->radius[0]), law->radius[1]);
+        radius = fmin(fmax(radius + (poisson - nu) / slope, w.law->radius[0]), w.law->radius[1]);
     }
     out->radius = radius;
-    out->beam_young = young / ratio;
+    out->beam_young = request->young / ratio;
     out->poisson = nu;
     out->seconds = brc_clock_s() - start;
     if (fabs(nu / poisson - 1) > 2 * CLOSE_ENOUGH)
         brc_log(context, BRC_LOG_WARNING, "polish: nu = %.5g after %d tests, asked %.5g: the sample hardly reaches it", nu, out->n_tests, poisson);
-    return BRC_OK;
+cleanup:
+    brc_memory_free(w.sample);
+    return status;
 }
 
 static bool uses(const brc_body *body, int32_t material)
@@ -83,30 +121,37 @@ static bool is_plain_box(const brc_scene *scene)
            brc_body_n_regions(b) == 0 && b->rotation[0] == 0 && b->rotation[1] == 0 && b->rotation[2] == 0;
 }
 
-/* A cube packed as the body is. */
-static brc_status make_reference(brc_context *context, const brc_body *body, int n_threads, brc_domain **out)
+/* Cubes packed as the body is. */
+static brc_status make_references(brc_context *context, const brc_body *body, int n_threads, brc_domain *out[REFERENCES])
 {
     const brc_shape cube = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}};
     brc_fill fill = body->fill;
-    brc_beam_sample *sample;
     if (fill.kind != BRC_FILL_PACKING || body->domain_file[0])
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "polish: body '%s' is not packed by its scene, so no reference sample can be packed like it; give the material's `beam` parameters, or "
                         "leave `polish` out", body->name);
     if (fill.n_elements == 0 || fill.n_elements > REFERENCE_SPHERES) fill.n_elements = REFERENCE_SPHERES;
     fill.radius = 0;
-    BRC_TRY(brc_beam_sample_pack(context, &cube, &fill, n_threads, &sample));
-    const brc_status status = brc_beam_sample_bond(context, sample, body->beams, n_threads, out);
-    brc_beam_sample_free(&sample);
-    return status;
+    for (int k = 0; k < REFERENCES; ++k, ++fill.seed) {
+        brc_beam_sample *sample;
+        BRC_TRY(brc_beam_sample_pack(context, &cube, &fill, n_threads, &sample));
+        const brc_status status = brc_beam_sample_bond(context, sample, body->beams, n_threads, &out[k]);
+        brc_beam_sample_free(&sample);
+        BRC_TRY(status);
+    }
+    return BRC_OK;
 }
 
 static brc_status polish_material(brc_context *context, brc_scene *scene, int32_t m, const brc_domain *domain, brc_device *device, int n_threads)
 {
     brc_material *material = &scene->materials[m];
     const brc_body *first = NULL;
-    brc_domain *reference = NULL;
+    brc_domain *reference[REFERENCES] = {NULL};
+    const brc_domain *samples[REFERENCES] = {domain};
+    const bool plain = is_plain_box(scene);
+    brc_beam_body bonds;
     brc_polish polish;
+    brc_status status = BRC_OK;
     for (int32_t b = 0; b < scene->n_bodies; ++b) {
         const brc_body *body = &scene->bodies[b];
         if (!uses(body, m)) continue;
@@ -116,17 +161,21 @@ static brc_status polish_material(brc_context *context, brc_scene *scene, int32_
         if (!first) first = body;
     }
     if (!first || material->beam_radius > 0) return BRC_OK;
-    if (!is_plain_box(scene)) BRC_TRY(make_reference(context, first, n_threads, &reference));
-    const brc_status status = brc_beam_polish(context, device, reference ? reference : domain, material->poisson, material->young, scene->model.beam_poisson, &polish);
-    brc_domain_free(&reference);
-    BRC_TRY(status);
+    BRC_TRY(brc_beam_body_of(context, domain, (int32_t)(first - scene->bodies), &bonds));
+    if (!plain) BRC_TRY_OR(cleanup, make_references(context, first, n_threads, reference));
+    for (int k = 0; !plain && k < REFERENCES; ++k) samples[k] = reference[k];
+    const brc_polish_request request = {.n_samples = plain ? 1 : REFERENCES, .samples = samples, .n_axes = 3, .body = &bonds, .poisson = material->poisson,
+                                        .young = material->young, .beam_poisson = scene->model.beam_poisson};
+    BRC_TRY_OR(cleanup, brc_beam_polish(context, device, &request, &polish));
     material->beam_radius = polish.radius;
     material->beam_young = polish.beam_young;
     brc_log(context, BRC_LOG_INFO,
-            "material '%s': r_m = %.4f, E_m = %.5g Pa, polished on %s in %d tests, %.1f s; the law's r_m = %.4f, E_m = %.5g Pa gave nu = %.4f, E = %.5g Pa there, now nu = %.4f",
-            material->name, polish.radius, polish.beam_young, is_plain_box(scene) ? "the sample itself" : "a reference cube", polish.n_tests, polish.seconds,
+            "material '%s': r_m = %.4f, E_m = %.5g Pa, polished on %s in %d tests, %.1f s; by the law r_m = %.4f, E_m = %.5g Pa, which would give nu = %.4f, E = %.5g Pa; now nu = %.4f",
+            material->name, polish.radius, polish.beam_young, plain ? "the sample itself" : "four reference cubes", polish.n_tests, polish.seconds,
             polish.law_radius, polish.law_beam_young, polish.law_poisson, polish.law_young, polish.poisson);
-    return BRC_OK;
+cleanup:
+    for (int k = 0; k < REFERENCES; ++k) brc_domain_free(&reference[k]);
+    return status;
 }
 
 brc_status brc_beam_polish_scene(brc_context *context, brc_scene *scene, const brc_domain *domain, int n_threads)

@@ -5,6 +5,7 @@
 #include "../../preprocess/seeds.h"
 #include "../base/log.h"
 #include "../base/memory.h"
+#include "beam_body.h"
 #include "simulation.h"
 #include <stdio.h>
 #include <string.h>
@@ -155,6 +156,9 @@ brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const 
     BRC_TRY_OR(cleanup, brc_simulation_displacement(simulation, displacement));
     BRC_TRY_OR(cleanup, brc_simulation_reaction(simulation, set[axis][1], reaction));
     evaluate(domain, set, axis, displacement, reaction[axis] / material.beam_young, out);
+    brc_beam_body bonds;
+    BRC_TRY_OR(cleanup, brc_beam_body_of(context, domain, -1, &bonds));
+    out->inner = bonds.inner;
     out->n_bonds = domain->n_bonds;
     for (int64_t e = 0; e < domain->n_elements; ++e) out->n_loose += domain->row_start[e + 1] == domain->row_start[e];
     out->iterations = brc_simulation_static_report(simulation).iterations;

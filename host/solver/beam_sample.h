@@ -27,6 +27,7 @@ typedef struct brc_beam_answer {
     double young;      /* E_M / E_m [-]: force over the lateral edges of the bounding box, over the strain of its axial edge */
     double poisson;    /* nu_M [-]: mean of the two lateral strains over the axial one */
     double lateral[2]; /* the two ratios, axes in cyclic order [-] */
+    double inner;      /* bonds of an element away from the walls, mean (beam_body.h) [-] */
     int64_t n_bonds, n_loose; /* bonds; elements without bonds, which are held still and counted in no mean */
     int64_t iterations;
     double seconds;

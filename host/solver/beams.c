@@ -27,18 +27,21 @@ static brc_status find_radii(brc_simulation *s, body_radii *radii)
 }
 
 /* r_m and E_m of a material: as given, or by the law for the sample. */
-static brc_status micro_parameters(brc_simulation *s, const brc_material *material, const body_radii *r, double *ratio, double *young)
+static brc_status micro_parameters(brc_simulation *s, const brc_material *material, int32_t body, const body_radii *r, double *ratio, double *young)
 {
+    brc_beam_body bonds;
     *ratio = material->beam_radius;
     *young = material->beam_young;
     if (*ratio > 0) return BRC_OK;
     const double mean = r->sum / (double)r->n;
     const brc_beam_law *law = brc_beam_law_for((r->most - r->least) / (2 * mean));
     bool outside = false;
-    BRC_TRY(brc_beam_law_invert(s->context, law, s->domain->quality.coordination_mean, material->poisson, material->young, ratio, young, &outside));
+    BRC_TRY(brc_beam_body_of(s->context, s->domain, body, &bonds));
+    BRC_TRY(brc_beam_law_invert(s->context, law, &bonds, material->poisson, material->young, ratio, young, &outside));
     brc_log(s->context, outside ? BRC_LOG_WARNING : BRC_LOG_INFO,
-            "material '%s': r_m = %.4f, E_m = %.5g Pa by the law for %s at coordination number %.4g%s", material->name, *ratio, *young, law->name,
-            s->domain->quality.coordination_mean, outside ? "; r_m is outside the range the law was fitted in" : "");
+            "material '%s': r_m = %.4f, E_m = %.5g Pa by the law for %s at coordination number %.4g, as of cubes of 10 000 spheres with %.4g%s",
+            material->name, *ratio, *young, law->name, bonds.coordination, brc_beam_law_coordination(law, &bonds),
+            outside ? "; r_m is outside the range the law was fitted in" : "");
     return BRC_OK;
 }
 
@@ -82,7 +85,7 @@ brc_status brc_beams_create(brc_simulation *s)
             bool used = false; /* a material that the body lacks may be out of reach of its law */
             for (int32_t r = 0; r <= brc_body_n_regions(&scene->bodies[b]); ++r) used |= brc_body_material(&scene->bodies[b], r) == m;
             if (!used || radii[b].n == 0) continue;
-            BRC_TRY_OR(cleanup, micro_parameters(s, &scene->materials[m], &radii[b], &ratio, &young));
+            BRC_TRY_OR(cleanup, micro_parameters(s, &scene->materials[m], b, &radii[b], &ratio, &young));
             beam->radius = ratio * radii[b].sum / (double)radii[b].n;
             const double square = beam->radius * beam->radius, bending = M_PI * square * square / 4;
             beam->axial = young * M_PI * square;

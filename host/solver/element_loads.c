@@ -31,6 +31,21 @@ brc_status brc_load_members(brc_simulation *s, const brc_stage *stage, const brc
     return BRC_OK;
 }
 
+/* A force on an element that has no bond and is held still would be lost, and the body out of balance: those with bonds share the total. */
+static brc_status leave_isolated_out(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_load_member *items, int32_t *n)
+{
+    const int64_t *start = s->domain->row_start;
+    int32_t kept = 0;
+    if (!brc_is_beams(s)) return BRC_OK;
+    for (int32_t i = 0; i < *n; ++i)
+        if (start[items[i].id + 1] > start[items[i].id]) items[kept++] = items[i];
+    if (kept == 0 && *n > 0)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': none of the %d elements of '%s' has a bond, so a force on them has nothing to hold it; load others",
+                        stage->name, (int)*n, load->set);
+    *n = kept;
+    return BRC_OK;
+}
+
 static double mass_of(const brc_simulation *s, int32_t e) { return s->domain->volume[e] * s->elastic[s->material_of_element[e]].density; }
 
 /* Forces at factor 1 [n][3]. */
@@ -66,6 +81,7 @@ brc_status brc_push_create(brc_simulation *s, const brc_stage *stage, int32_t l,
     int32_t n = 0, *element = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, brc_load_members(s, stage, load, &items, &n));
+    BRC_TRY_OR(cleanup, leave_isolated_out(s, stage, load, items, &n));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, n, "forces on elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->element_id, n, "forces on elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->total_of, 3 * (int64_t)n, "forces on elements"));

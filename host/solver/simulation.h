@@ -73,6 +73,9 @@ brc_status brc_simulation_orientation(brc_simulation *simulation, double *orient
 /* [n_elements][6] xx yy zz yz xz xy: Green strain [-], second Piola-Kirchhoff stress [Pa], Cauchy stress [Pa] (published:
  * its small strain and stress in the global frame, for all three). Any may be NULL. */
 brc_status brc_simulation_strain_stress(brc_simulation *simulation, double *strain, double *stress, double *cauchy);
+/* Model cbm: virial stress of every element over `level` shells of neighbours (NAH19 eq. 5 and 6, shells over unbroken bonds) [n_elements][6] xx yy zz yz xz xy [Pa],
+ * tension positive; the stress above is that of level 1. BRC_BAD_INPUT: another model, a level outside 0 to 2. */
+brc_status brc_simulation_virial_stress(brc_simulation *simulation, int level, double *stress);
 /* u_f [n][3] of listed free faces [m]: prescribed components as prescribed, the others u_i + H_i (C - X_i)
  * (dlsm-published: u_i + (R_i - I)(C - X_i)). */
 brc_status brc_simulation_face_displacement(brc_simulation *simulation, int64_t n, const int32_t *faces, double *out);

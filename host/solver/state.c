@@ -117,6 +117,14 @@ static brc_status beams_strain_stress(brc_simulation *s, double *strain, double 
     return status;
 }
 
+brc_status brc_simulation_virial_stress(brc_simulation *s, int level, double *stress)
+{
+    if (!brc_is_beams(s) || level < 0 || level > 2)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "virial stress of level %d in model %s: expected level 0, 1 or 2 and model cbm", level,
+                        brc_model_name(s->scene->model.kind));
+    return brc_beams_stress(s, level, stress);
+}
+
 brc_status brc_simulation_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
 {
     const int64_t n = s->domain->n_elements;

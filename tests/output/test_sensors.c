@@ -152,11 +152,12 @@ static void spheres_are_read_by_their_centres_and_a_mean_diameter(void **state)
     /* one sphere at the left, two at the right, of radii 0.5, 0.6, 1.0 m: mean diameter 1.4 m */
     double position[] = {0, 0, 0, 4, 3, 0, 4, -3, 0}, volume[] = {1, 1, 9}, radius[] = {0.5, 0.6, 1.0};
     int32_t low[] = {0}, high[] = {1, 2};
+    int64_t row_start[] = {0, 1, 2, 4};
     char name[2][3] = {"x-", "x+"};
     brc_set sets[2] = {{.name = name[0], .kind = BRC_SET_ELEMENTS, .n_members = 1, .members = low},
                        {.name = name[1], .kind = BRC_SET_ELEMENTS, .n_members = 2, .members = high}};
-    brc_domain three = {.element_kind = BRC_ELEMENT_SPHERE, .n_elements = 3, .position = position, .volume = volume, .radius = radius, .n_sets = 2,
-                        .sets = sets, .bounds = {{-1, -4, -1}, {5, 4, 1}}};
+    brc_domain three = {.element_kind = BRC_ELEMENT_SPHERE, .n_elements = 3, .position = position, .volume = volume, .radius = radius, .row_start = row_start,
+                        .n_sets = 2, .sets = sets, .bounds = {{-1, -4, -1}, {5, 4, 1}}};
     brc_sensor list[] = {{.kind = BRC_SENSOR_FACE_STRAIN, .name = "a", .set = "x+", .set2 = "x-", .component = 0},
                          {.kind = BRC_SENSOR_FACE_MEAN, .name = "b", .set = "x+", .component = 1},
                          {.kind = BRC_SENSOR_VOLUME_STRAIN, .name = "c", .set = "x+"},
@@ -177,6 +178,17 @@ static void spheres_are_read_by_their_centres_and_a_mean_diameter(void **state)
     assert_true(fabs(value[4] - (0 * 4 - 2 * 3)) < 1e-14); /* at (1, 2, 3) m: arm (0, 2, 0) */
     assert_true(fabs(value[5] - 0.5) < 1e-14);
     brc_sensors_free(&sensors);
+    /* the last sphere without bonds: the right side is the other one alone; R and the strain's length follow */
+    row_start[3] = 2;
+    assert_int_equal(brc_sensors_create(test_context, &scene, &three, &sensors), BRC_OK);
+    assert_int_equal(brc_sensors_evaluate(sensors, &s, value), BRC_OK);
+    assert_true(fabs(value[0] - 0.04 / (4 + 1.4)) < 1e-16);
+    assert_true(fabs(value[1] - 0.08) < 1e-16);
+    brc_sensors_free(&sensors);
+    row_start[2] = row_start[3] = 1; /* and nothing left of it */
+    assert_int_equal(brc_sensors_create(test_context, &scene, &three, &sensors), BRC_BAD_INPUT);
+    assert_non_null(strstr(brc_context_message(test_context), "no element of \"x+\" has a bond"));
+    brc_context_clear(test_context);
 }
 
 static void only_what_some_sensor_reads_is_fetched_and_that_once(void **state)

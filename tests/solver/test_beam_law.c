@@ -49,7 +49,7 @@ static void inversion_gives_what_was_asked(void **state)
         for (double nu = 0.15; nu < 0.235; nu += 0.02) {
             double r, e;
             bool warning;
-            assert_int_equal(brc_beam_law_invert(context, law, cn, nu, 72e9, &r, &e, &warning), BRC_OK);
+            assert_int_equal(brc_beam_law_invert(context, law, &(brc_beam_body){.coordination = cn}, nu, 72e9, &r, &e, &warning), BRC_OK);
             assert_true(fabs(brc_beam_law_poisson(law, cn, r) - nu) < 1e-12);
             assert_true(fabs(brc_beam_law_young(law, cn, r) * e / 72e9 - 1) < 1e-12);
         }
@@ -95,24 +95,73 @@ static void what_beams_cannot_give_is_refused_with_the_range(void **state)
     brc_context *context = quiet();
     double r, e;
     bool warning;
-    assert_int_equal(brc_beam_law_invert(context, brc_beam_law_for(0.125), 10, 0.35, 72e9, &r, &e, NULL), BRC_BAD_INPUT);
+    assert_int_equal(brc_beam_law_invert(context, brc_beam_law_for(0.125), &(brc_beam_body){.coordination = 10}, 0.35, 72e9, &r, &e, NULL), BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(context), "beams cannot give nu = 0.35 at the coordination number 10, only 0.0"));
     brc_context_clear(context);
-    assert_int_equal(brc_beam_law_invert(context, brc_beam_law_for(0.125), 14, 0.2, 72e9, &r, &e, NULL), BRC_BAD_INPUT);
+    assert_int_equal(brc_beam_law_invert(context, brc_beam_law_for(0.125), &(brc_beam_body){.coordination = 14}, 0.2, 72e9, &r, &e, NULL), BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(context), "outside the calibrated laws (5.5 to 13)"));
     /* the flat end, where r_m is not determined well */
     const brc_beam_law *law = brc_beam_law_for(0.125);
-    assert_int_equal(brc_beam_law_invert(context, law, 12, brc_beam_law_poisson(law, 12, 0.11), 72e9, &r, &e, &warning), BRC_OK);
+    const brc_beam_body twelve = {.coordination = 12};
+    assert_int_equal(brc_beam_law_invert(context, law, &twelve, brc_beam_law_poisson(law, 12, 0.11), 72e9, &r, &e, &warning), BRC_OK);
     assert_true(warning);
-    assert_int_equal(brc_beam_law_invert(context, law, 12, 0.2, 72e9, &r, &e, &warning), BRC_OK);
+    assert_int_equal(brc_beam_law_invert(context, law, &twelve, 0.2, 72e9, &r, &e, &warning), BRC_OK);
     assert_false(warning);
     brc_context_free(&context);
+}
+
+/* A body with as many bonds inside as the fit's cubes has their law; bisection halves the range 60 times. */
+static void a_body_is_as_stiff_as_the_cube_with_its_bonds_inside(void **state)
+{
+    (void)state;
+    static const double spreads[] = {0.125, 0.25};
+    for (int s = 0; s < 2; ++s) {
+        const brc_beam_law *law = brc_beam_law_for(spreads[s]);
+        for (double cn = 5.5; cn <= 13; cn += 0.5) {
+            const brc_beam_body alike = {.coordination = cn + 0.3, .inner = cn * brc_beam_law_inner(law, cn)}, unknown = {.coordination = cn};
+            assert_true(fabs(brc_beam_law_coordination(law, &alike) - cn) < 1e-12);
+            assert_true(brc_beam_law_coordination(law, &unknown) == cn);
+        }
+    }
+}
+
+/* An infinite body has no walls: at one cn it has fewer bonds inside than the cubes, so it takes stiffer beams. By how much: the shares of elements at the walls
+ * of a cube of 21 diameters, about 6 / 21, miss up to half their bonds each; inside there are 5 to 9 % more. */
+static void a_large_body_takes_stiffer_beams_than_a_small_one(void **state)
+{
+    (void)state;
+    brc_context *context = quiet();
+    const brc_beam_law *law = brc_beam_law_for(0.125);
+    for (double cn = 6; cn <= 13; ++cn) {
+        double radius[3], young[3];
+        assert_true(brc_beam_law_inner(law, cn) > 1.05 && brc_beam_law_inner(law, cn) < 1.09);
+        for (int k = 0; k < 3; ++k) {
+            const brc_beam_body body = {.coordination = cn, .inner = cn * (1 + 0.03 * k)};
+            assert_int_equal(brc_beam_law_invert(context, law, &body, 0.2, 1, &radius[k], &young[k], NULL), BRC_OK);
+        }
+        /* E S of a beam at the same nu */
+        for (int k = 0; k < 2; ++k) assert_true(radius[k] * radius[k] * young[k] > radius[k + 1] * radius[k + 1] * young[k + 1]);
+    }
+    brc_context_free(&context);
+}
+
+/* Bonds inside beyond the fit: the fit's end, with a word; where the coordination number itself is far out, refused as before. */
+static void bonds_beyond_the_fit_are_taken_as_at_its_end(void **state)
+{
+    (void)state;
+    const brc_beam_law *law = brc_beam_law_for(0.125);
+    const brc_beam_body many = {.coordination = 13, .inner = 16}, few = {.coordination = 5.5, .inner = 5.5};
+    assert_true(fabs(brc_beam_law_coordination(law, &many) - 13) < 1e-12);
+    assert_true(fabs(brc_beam_law_coordination(law, &few) - 5.5) < 1e-12);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_nearest_spread_is_taken),
+        cmocka_unit_test(a_body_is_as_stiff_as_the_cube_with_its_bonds_inside),
+        cmocka_unit_test(a_large_body_takes_stiffer_beams_than_a_small_one),
+        cmocka_unit_test(bonds_beyond_the_fit_are_taken_as_at_its_end),
         cmocka_unit_test(nu_falls_and_e_grows_with_r_m_everywhere),
         cmocka_unit_test(inversion_gives_what_was_asked),
         cmocka_unit_test(the_laws_give_what_the_paper_measured),

@@ -319,6 +319,34 @@ static void isolated_elements_are_refused_or_held_still(void **state)
     close_beams(&c);
 }
 
+/* Two joined spheres and one far away, all in the loaded set: the two share the total, and what holds the first takes all of the reaction. In a body that nothing
+ * holds, radial forces balance though the third would have had a share. The solves end at 1e-10 of the load. */
+static void forces_are_shared_by_the_elements_that_have_bonds(void **state)
+{
+    (void)state;
+    beams_case c;
+    static const double x[9] = {1, 1, 1, 2, 1, 1, 9, 9, 9};
+    double reaction[3], u[9];
+    open_beams(&c, (beams_options){.n = 3, .position = x, .radius = 0.5, .coordination = 2.0 / 3, .model = "{cbm: {keep_isolated: true}}",
+                                   .stages = "sets:\n  root: {elements: {sphere: {centre: [1 m, 1 m, 1 m], radius: 10 cm}}}\n  rest: {elements: {box: {from: [1.5 m, 0, 0], to: [10 m, 10 m, 10 m]}}}\n"
+                                             "stages:\n  - name: pull\n    solver: {static: {}}\n    loads:\n      - element_displacement: {set: root, x: 0, y: 0, z: 0}\n"
+                                             "      - element_rotation: {set: root, x: 0, y: 0, z: 0}\n      - element_force: {set: rest, x: 1e-6 N}\n"});
+    beams_done(&c, brc_simulation_run(c.simulation));
+    beams_done(&c, brc_simulation_reaction(c.simulation, brc_domain_find_set(c.domain, "root"), reaction));
+    assert_true(fabs(reaction[0] / -1e-6 - 1) < 1e-8);
+    close_beams(&c);
+    open_beams(&c, (beams_options){.n = 3, .position = x, .radius = 0.5, .coordination = 2.0 / 3, .model = "{cbm: {keep_isolated: true}}",
+                                   .stages = "sets:\n  both: {elements: {box: {from: [0, 0, 0], to: [10 m, 10 m, 10 m]}}}\n"
+                                             "stages:\n  - name: press\n    solver: {static: {}}\n    loads:\n"
+                                             "      - element_force: {set: both, radial: {total: -1e-6 N, centre: [1.5 m, 1 m, 1 m]}}\n"});
+    beams_done(&c, brc_simulation_run(c.simulation));
+    beams_done(&c, brc_simulation_displacement(c.simulation, u));
+    /* half the total on each, along the beam: E S / l = pi 0.1^2 N/m */
+    assert_true(fabs((u[0] - u[3]) / (0.5e-6 / (M_PI * 0.01)) - 1) < 1e-5);
+    for (int k = 6; k < 9; ++k) assert_true(u[k] == 0);
+    close_beams(&c);
+}
+
 static void mixed_and_single_follow_double(void **state)
 {
     (void)state;
@@ -357,6 +385,7 @@ int main(void)
         cmocka_unit_test(beams_of_two_materials_are_in_series),
         cmocka_unit_test(forces_are_the_gradient_of_the_energy_with_two_materials),
         cmocka_unit_test(isolated_elements_are_refused_or_held_still),
+        cmocka_unit_test(forces_are_shared_by_the_elements_that_have_bonds),
         cmocka_unit_test(mixed_and_single_follow_double),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
