@@ -43,16 +43,12 @@ cleanup:
 
 brc_status brc_cracks_take(brc_context *context, const brc_assembly *assembly, brc_cracks *out)
 {
+    int32_t *fragment = NULL;
     brc_cracks_free(out);
-    for (int32_t k = 0; k < assembly->n; ++k) {
-        int32_t *fragment = NULL;
-        int64_t n;
-        BRC_TRY(BRC_ALLOCATE(context, &fragment, brc_simulation_domain(assembly->part[k])->n_elements, "fragments"));
-        const brc_status status = brc_simulation_fragments(assembly->part[k], fragment, &n);
-        brc_memory_free(fragment);
-        BRC_TRY(status);
-        out->n_fragments += n;
-    }
+    BRC_TRY(BRC_ALLOCATE(context, &fragment, brc_assembly_first_element(assembly, assembly->n), "fragments"));
+    const brc_status status = brc_cracks_fragments(assembly, fragment, &out->n_fragments);
+    brc_memory_free(fragment);
+    BRC_TRY(status);
     return take_breaks(context, assembly, out);
 }
 
@@ -73,8 +69,11 @@ static double position_of(const brc_break *b, int c) { return b->position[c]; }
 static double normal_of(const brc_break *b, int c) { return b->normal[c]; }
 static double stress_of(const brc_break *b, int c) { return (void)c, b->stress; }
 static double energy_of(const brc_break *b, int c) { return (void)c, b->energy; }
+static double area_of(const brc_break *b, int c) { return (void)c, b->area; }
+static double load_of(const brc_break *b, int c) { return (void)c, b->load; }
 static const column NUMBERS[] = {{"time", "s", 1, time_of},     {"position", "m", 3, position_of}, {"normal", "-", 3, normal_of},
-                                 {"stress", "Pa", 1, stress_of}, {"energy", "J", 1, energy_of}};
+                                 {"stress", "Pa", 1, stress_of}, {"energy", "J", 1, energy_of},     {"area", "m^2", 1, area_of},
+                                 {"load", "-", 1, load_of}};
 static int64_t step_of(const brc_break *b) { return b->step; }
 static int64_t stage_of(const brc_break *b) { return b->stage; }
 static int64_t mode_of(const brc_break *b) { return b->mode; }
@@ -117,38 +116,55 @@ cleanup:
     return status;
 }
 
-brc_status brc_cracks_write_csv(brc_context *context, const brc_cracks *cracks, const char *path)
+const char *brc_cracks_csv_head(void)
+{
+    return "time [s],step,stage,mode,bond,element_i,element_j,x [m],y [m],z [m],nx,ny,nz,stress [Pa],energy [J],area [m^2],load\n";
+}
+
+brc_status brc_cracks_csv_add(brc_context *context, brc_append *file, const brc_cracks *cracks, int64_t *n_written)
 {
     brc_text text = {.context = context};
-    brc_text_add(&text, "time [s],step,stage,mode,bond,element_i,element_j,x [m],y [m],z [m],nx,ny,nz,stress [Pa],energy [J]\n");
-    for (int64_t k = 0; k < cracks->n_broken; ++k) {
+    for (int64_t k = *n_written; k < cracks->n_broken; ++k) {
         const brc_break *b = &cracks->breaks[k];
         brc_text_add(&text, "%.17g,%lld,%d,%s,%d,%d,%d", b->time, (long long)b->step, (int)b->stage, brc_break_mode_name(b->mode), (int)b->bond,
                      (int)b->element_i, (int)b->element_j);
         for (int c = 0; c < 3; ++c) brc_text_add(&text, ",%.17g", b->position[c]);
         for (int c = 0; c < 3; ++c) brc_text_add(&text, ",%.17g", b->normal[c]);
-        brc_text_add(&text, ",%.17g,%.17g\n", b->stress, b->energy);
+        brc_text_add(&text, ",%.17g,%.17g,%.17g,%.17g\n", b->stress, b->energy, b->area, b->load);
     }
-    return brc_text_write(&text, path);
+    const brc_status status = brc_append_add(context, file, &text);
+    brc_text_free(&text);
+    if (status == BRC_OK) *n_written = cracks->n_broken;
+    return status;
+}
+
+brc_status brc_cracks_fragments(const brc_assembly *assembly, int32_t *fragment, int64_t *n_fragments)
+{
+    *n_fragments = 0;
+    for (int32_t k = 0; k < assembly->n; ++k) {
+        const int64_t first = brc_assembly_first_element(assembly, k), end = brc_assembly_first_element(assembly, k + 1);
+        int64_t n;
+        BRC_TRY(brc_simulation_fragments(assembly->part[k], fragment + first, &n));
+        for (int64_t e = first; e < end; ++e) fragment[e] += (int32_t)*n_fragments;
+        *n_fragments += n;
+    }
+    return BRC_OK;
 }
 
 brc_status brc_cracks_write_frame(brc_context *context, brc_h5 *h5, const brc_assembly *assembly)
 {
     const int64_t n = brc_assembly_first_element(assembly, assembly->n);
-    int64_t n_fragments = 0, n_broken = 0;
+    int64_t n_fragments, n_broken = 0;
     double *damage = NULL;
     int32_t *fragment = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &damage, n, "damage of a frame"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &fragment, n, "fragments of a frame"));
+    BRC_TRY_OR(cleanup, brc_cracks_fragments(assembly, fragment, &n_fragments));
     for (int32_t k = 0; k < assembly->n; ++k) {
-        const int64_t first = brc_assembly_first_element(assembly, k), end = brc_assembly_first_element(assembly, k + 1);
-        int64_t fragments, broken;
-        BRC_TRY_OR(cleanup, brc_simulation_damage(assembly->part[k], damage + first));
-        BRC_TRY_OR(cleanup, brc_simulation_fragments(assembly->part[k], fragment + first, &fragments));
+        int64_t broken;
+        BRC_TRY_OR(cleanup, brc_simulation_damage(assembly->part[k], damage + brc_assembly_first_element(assembly, k)));
         BRC_TRY_OR(cleanup, brc_simulation_broken(assembly->part[k], &broken));
-        for (int64_t e = first; e < end; ++e) fragment[e] += (int32_t)n_fragments;
-        n_fragments += fragments;
         n_broken += broken;
     }
     brc_h5_dataset(h5, "VTKHDF/CellData/damage", H5T_NATIVE_DOUBLE, n, 0, damage);
@@ -160,17 +176,4 @@ cleanup:
     brc_memory_free(damage);
     brc_memory_free(fragment);
     return status;
-}
-
-void brc_cracks_add(brc_json *json, const brc_cracks *cracks)
-{
-    const int64_t n = cracks->n_broken;
-    int64_t by_mode[4] = {0};
-    for (int64_t k = 0; k < n; ++k) by_mode[cracks->breaks[k].mode & 3] += 1;
-    brc_json_begin_object(json, "fracture");
-    brc_json_integer(json, "fragments", cracks->n_fragments);
-    brc_json_number(json, "first_break_s", n > 0 ? cracks->breaks[0].time : NAN);
-    brc_json_number(json, "last_break_s", n > 0 ? cracks->breaks[n - 1].time : NAN);
-    for (int mode = BRC_BREAK_TENSION; mode <= BRC_BREAK_SHEAR; ++mode) brc_json_integer(json, brc_break_mode_name(mode), by_mode[mode]);
-    brc_json_end(json);
 }

@@ -4,8 +4,8 @@
 
 #include "../solver/assembly.h"
 #include "../solver/fracture.h"
+#include "append.h"
 #include "h5.h"
-#include "text.h"
 
 /* What broke so far; ids of elements and bonds are those of the whole (assembly.h). */
 typedef struct brc_cracks {
@@ -18,13 +18,15 @@ typedef struct brc_cracks {
 /* Of a scene with fracture. What *out held is freed. */
 brc_status brc_cracks_take(brc_context *context, const brc_assembly *assembly, brc_cracks *out);
 void brc_cracks_free(brc_cracks *cracks);
+/* Number of the fragment of every element of the whole, part after part; [elements of all parts]. */
+brc_status brc_cracks_fragments(const brc_assembly *assembly, int32_t *fragment, int64_t *n_fragments);
 /* Group `cracks` of an open file: one dataset a column, one row a broken bond; attribute fragments. */
 brc_status brc_cracks_write_h5(brc_context *context, brc_h5 *h5, const brc_cracks *cracks);
-/* The same rows as text. */
-brc_status brc_cracks_write_csv(brc_context *context, const brc_cracks *cracks, const char *path);
+/* cracks.csv: its head line, static storage; and the rows that it has not yet, *n_written being those it has: later breaks come after all earlier ones,
+ * so that the file only grows. */
+const char *brc_cracks_csv_head(void);
+brc_status brc_cracks_csv_add(brc_context *context, brc_append *file, const brc_cracks *cracks, int64_t *n_written);
 /* CellData damage [-] and fragment, FieldData n_fragments and n_broken of a frame. */
 brc_status brc_cracks_write_frame(brc_context *context, brc_h5 *h5, const brc_assembly *assembly);
-/* Object `fracture` of summary.json: fragments, when the first and the last bond broke, how many by mode. */
-void brc_cracks_add(brc_json *json, const brc_cracks *cracks);
 
 #endif

@@ -56,7 +56,7 @@ static double curve_target(brc_context *context, const brc_scene *scene, const b
         if (!is_slope(measure->kind) || strcmp(measure->x, drawn->x) != 0) continue;
         if (!same && (drawn->name[0] || strcmp(brc_measure_unit(scene, measure), unit) != 0)) continue;
         if (!same && measure->scale != 1) continue; /* of another quantity */
-        if (brc_measure_evaluate(context, scene, domain, history, m, &measured) == BRC_OK && measured.has_target)
+        if (brc_measure_evaluate(context, scene, domain, history, NULL, m, &measured) == BRC_OK && measured.has_target)
             return measured.target;
     }
     return NAN;

@@ -19,11 +19,12 @@ static bool invert(const double a[3][3], double out[3][3])
     return true;
 }
 
-void brc_deform_gradient(const brc_domain *domain, const double *displacement, int64_t element, double gradient[3][3])
+void brc_deform_gradient(const brc_domain *domain, const uint8_t *whole, const double *displacement, int64_t element, double gradient[3][3])
 {
     double shape[3][3] = {{0}}, jump[3][3] = {{0}}, inverse[3][3];
     const double *x = domain->position + 3 * element, *u = displacement + 3 * element;
     for (int64_t h = domain->row_start[element]; h < domain->row_start[element + 1]; ++h) {
+        if (whole && !whole[h]) continue;
         const int64_t j = domain->neighbour[h];
         const double *s = domain->area_vector + 3 * h;
         const double *xj = domain->position + 3 * j, *uj = displacement + 3 * j;

@@ -124,27 +124,56 @@ static brc_status convert(job *j, const char *prefix, const char *suffix,
     return BRC_OK;
 }
 
+static brc_status write_series(job *j, int64_t n, const char *suffix, const char *name)
+{
+    char *path = NULL;
+    BRC_TRY(brc_file_join(j->context, j->out, name, &path));
+    const brc_status status = brc_frame_write_series(j->context, n, j->time, suffix, path);
+    brc_memory_free(path);
+    j->n_files += status == BRC_OK;
+    return status;
+}
+
+/* A file of the run as it is, where it is there. */
+static brc_status copy_if_there(job *j, const char *name, bool *there)
+{
+    char *path = NULL;
+    BRC_TRY(brc_file_join(j->context, j->folder, name, &path));
+    *there = brc_file_exists(path);
+    brc_memory_free(path);
+    return *there ? copy_file(j, name) : BRC_OK;
+}
+
+/* Crack surfaces are VTU already. */
+static brc_status copy_crack_surfaces(job *j)
+{
+    int64_t n = 0;
+    for (bool there = true; there && n < j->n_frames; n += there) {
+        char name[48];
+        snprintf(name, sizeof name, "frames/%06lld.cracks.vtu", (long long)n);
+        BRC_TRY(copy_if_there(j, name, &there));
+    }
+    return n > 0 ? write_series(j, n, ".cracks.vtu", "cracks.vtu.series") : BRC_OK;
+}
+
 static brc_status export_vtu(job *j)
 {
     BRC_TRY(make_frames_folder(j));
     BRC_TRY(convert(j, "frames/", ".vtu", brc_export_vtu_frame));
+    BRC_TRY(copy_crack_surfaces(j));
     return write_pvd(j);
 }
 
 static brc_status export_vtkhdf(job *j)
 {
-    char *path = NULL;
     BRC_TRY(make_frames_folder(j));
     for (int64_t k = 0; k < j->n_frames; ++k) {
         char name[48];
         snprintf(name, sizeof name, "frames/%06lld.vtkhdf", (long long)k);
         BRC_TRY(copy_file(j, name));
     }
-    BRC_TRY(brc_file_join(j->context, j->out, "frames.vtkhdf.series", &path));
-    const brc_status status = brc_frame_write_series(j->context, j->n_frames, j->time, path);
-    brc_memory_free(path);
-    j->n_files += status == BRC_OK;
-    return status;
+    BRC_TRY(copy_crack_surfaces(j));
+    return write_series(j, j->n_frames, ".vtkhdf", "frames.vtkhdf.series");
 }
 
 /* Columns of an element's row: dataset of the frame and the names of its columns. */
@@ -213,11 +242,9 @@ static brc_status csv_frame(brc_context *context, const char *frame, const char 
 
 static brc_status export_csv(job *j)
 {
-    char *path = NULL;
-    BRC_TRY(brc_file_join(j->context, j->folder, "histories.csv", &path));
-    const bool histories = brc_file_exists(path);
-    brc_memory_free(path);
-    if (histories) BRC_TRY(copy_file(j, "histories.csv"));
+    static const char *const TABLES[] = {"histories.csv", "cracks.csv", "fragments.csv"};
+    bool there;
+    for (size_t k = 0; k < sizeof TABLES / sizeof TABLES[0]; ++k) BRC_TRY(copy_if_there(j, TABLES[k], &there));
     return convert(j, "elements_", ".csv", csv_frame);
 }
 

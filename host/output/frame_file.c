@@ -112,7 +112,9 @@ static brc_status write_corners(const frame_part *p, const double *displacement)
     const int64_t room = BLOCK_POINTS + largest_cell(d), before = p->points.first;
     float *corner = NULL, *moved = NULL;
     int64_t *id = NULL;
+    uint8_t *whole = NULL;
     brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, brc_simulation_whole(p->simulation, &whole));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(p->context, &corner, 3 * room, "corners of a frame"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(p->context, &moved, 3 * room, "corners of a frame"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(p->context, &id, room, "corners of a frame"));
@@ -123,7 +125,7 @@ static brc_status write_corners(const frame_part *p, const double *displacement)
     }
     for (int64_t e = 0, first = 0; e < d->n_elements && h5->status == BRC_OK; ++e) {
         double gradient[3][3], u[3];
-        brc_deform_gradient(d, displacement, e, gradient);
+        brc_deform_gradient(d, whole, displacement, e, gradient);
         for (int64_t v = d->vertex_start[e]; v < d->vertex_start[e + 1]; ++v) {
             brc_deform_point(d, displacement, e, (const double(*)[3])gradient, d->vertex + 3 * v, u);
             for (int c = 0; c < 3; ++c) {
@@ -142,6 +144,7 @@ static brc_status write_corners(const frame_part *p, const double *displacement)
 cleanup:
     brc_memory_free(corner);
     brc_memory_free(moved);
+    brc_memory_free(whole);
     brc_memory_free(id);
     return status;
 }
@@ -316,7 +319,7 @@ brc_status brc_frame_write(brc_context *context, const brc_assembly *assembly, c
     return status;
 }
 
-brc_status brc_frame_write_series(brc_context *context, int64_t n, const double *time, const char *path)
+brc_status brc_frame_write_series(brc_context *context, int64_t n, const double *time, const char *suffix, const char *path)
 {
     brc_json json = {.text = {.context = context}};
     brc_json_begin_object(&json, NULL);
@@ -324,7 +327,7 @@ brc_status brc_frame_write_series(brc_context *context, int64_t n, const double 
     brc_json_begin_array(&json, "files");
     for (int64_t k = 0; k < n; ++k) {
         char name[48];
-        snprintf(name, sizeof name, "frames/%06lld.vtkhdf", (long long)k);
+        snprintf(name, sizeof name, "frames/%06lld%s", (long long)k, suffix);
         brc_json_begin_object(&json, NULL);
         brc_json_string(&json, "name", name);
         brc_json_number(&json, "time", time[k]);

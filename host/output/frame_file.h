@@ -18,7 +18,7 @@
  *   FieldData: time [s] (all stages), stage_time [s] (static: load factor), stage, step.
  * Written aside block by block (about 4 MB of buffers and 18 doubles an element), fsynced, renamed. BRC_FILE_FAILED. */
 brc_status brc_frame_write(brc_context *context, const brc_assembly *assembly, const char *path);
-/* Index of n frames "frames/NNNNNN.vtkhdf" at these times, for ParaView: JSON, written whole. */
-brc_status brc_frame_write_series(brc_context *context, int64_t n, const double *time, const char *path);
+/* Index of n frames "frames/NNNNNN<suffix>" at these times, for ParaView: JSON, written whole. suffix: ".vtkhdf", ".cracks.vtu". */
+brc_status brc_frame_write_series(brc_context *context, int64_t n, const double *time, const char *suffix, const char *path);
 
 #endif

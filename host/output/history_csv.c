@@ -1,18 +1,14 @@
-/* Rows go to the file by write(), from where the system brings them to the disk even if this program is killed. */
+/* Rows of samples, and how often they go to the file. */
 #include "history_csv.h"
+#include "append.h"
 #include "text.h"
 #include "../base/log.h"
 #include "../base/memory.h"
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 struct brc_history_csv {
-    char *path; /* owned, for sentences */
-    int file;
-    int64_t bytes;     /* of whole rows in the file */
+    brc_append *file;
     int64_t n_samples; /* in the file */
     double begin, last, spent; /* brc_clock_s() at the start and after the last rows; seconds of writing */
 };
@@ -41,25 +37,6 @@ static void add_row(brc_text *text, const brc_history *history, int64_t k)
     brc_text_add(text, "\n");
 }
 
-/* The text behind what is there; where it does not fit, the file stays as it was. */
-static brc_status append(brc_context *context, brc_history_csv *csv, const brc_text *text)
-{
-    BRC_TRY(text->status);
-    for (size_t done = 0; done < text->length;) {
-        const ssize_t written = write(csv->file, text->data + done, text->length - done);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) {
-            const int reason = errno;
-            if (ftruncate(csv->file, csv->bytes) == 0) (void)lseek(csv->file, csv->bytes, SEEK_SET);
-            return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write: %s%s", csv->path, strerror(reason),
-                            reason == ENOSPC ? "; free some space or name another folder" : "");
-        }
-        done += (size_t)written;
-    }
-    csv->bytes += (int64_t)text->length;
-    return BRC_OK;
-}
-
 brc_status brc_history_csv_create(brc_context *context, const brc_scene *scene, const char *path, brc_history_csv **out)
 {
     brc_status status = BRC_OK;
@@ -67,22 +44,15 @@ brc_status brc_history_csv_create(brc_context *context, const brc_scene *scene, 
     brc_text head = {.context = context};
     *out = NULL;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &csv, 1, "history file"));
-    csv->file = -1;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &csv->path, (int64_t)strlen(path) + 1, "path"));
-    strcpy(csv->path, path);
     csv->begin = csv->last = brc_clock_s();
-    csv->file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (csv->file < 0) {
-        status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot create: %s", path, strerror(errno));
-        goto cleanup;
-    }
     brc_text_add(&head, "stage,step,stage_time,time_s");
     for (int32_t s = 0; s < scene->n_sensors; ++s) {
         brc_text_add(&head, ",");
         add_field(&head, scene->sensors[s].name, brc_sensor_unit(&scene->sensors[s]));
     }
     brc_text_add(&head, "\n");
-    BRC_TRY_OR(cleanup, append(context, csv, &head));
+    BRC_TRY_OR(cleanup, head.status);
+    BRC_TRY_OR(cleanup, brc_append_create(context, path, head.data, &csv->file));
     *out = csv;
     csv = NULL;
 cleanup:
@@ -97,7 +67,7 @@ static brc_status add_all(brc_context *context, brc_history_csv *csv, const brc_
     brc_text rows = {.context = context};
     for (int64_t k = csv->n_samples; k < history->n_samples; ++k)
         add_row(&rows, history, k);
-    const brc_status status = append(context, csv, &rows);
+    const brc_status status = brc_append_add(context, csv->file, &rows);
     brc_text_free(&rows);
     if (status == BRC_OK) csv->n_samples = history->n_samples;
     csv->last = brc_clock_s();
@@ -115,16 +85,14 @@ brc_status brc_history_csv_add(brc_context *context, brc_history_csv *csv, const
 brc_status brc_history_csv_finish(brc_context *context, brc_history_csv *csv, const brc_history *history)
 {
     BRC_TRY(add_all(context, csv, history));
-    if (fsync(csv->file) == 0 || errno == EINVAL || errno == EROFS) return BRC_OK; /* some file systems cannot */
-    return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot reach the disk: %s", csv->path, strerror(errno));
+    return brc_append_finish(context, csv->file);
 }
 
 void brc_history_csv_free(brc_history_csv **handle)
 {
     brc_history_csv *const csv = handle ? *handle : NULL;
     if (!csv) return;
-    if (csv->file >= 0) close(csv->file);
-    brc_memory_free(csv->path);
+    brc_append_free(&csv->file);
     brc_memory_free(csv);
     *handle = NULL;
 }

@@ -136,6 +136,55 @@ static double peak(const brc_measure_series *series)
     return most;
 }
 
+/* Slope of y against time. */
+static void rate(const brc_measure_series *series, brc_measured *measured)
+{
+    double t = 0, y = 0, ty = 0, tt = 0;
+    for (int64_t k = 0; k < series->n; ++k) {
+        t += series->time[k] / (double)series->n;
+        y += series->y[k] / (double)series->n;
+    }
+    for (int64_t k = 0; k < series->n; ++k) {
+        ty += (series->time[k] - t) * (series->y[k] - y);
+        tt += (series->time[k] - t) * (series->time[k] - t);
+    }
+    if (tt > 0) measured->value = ty / tt;
+    else why_not(measured, "a rate needs samples at two times");
+}
+
+/* When the first bond of the stage and window broke: time of the stage, of a static one its load factor; NAN: none did. */
+static double first_break(const brc_scene *scene, const brc_history *history, const brc_cracks *cracks, const brc_measure *measure)
+{
+    const int32_t stage = find_stage(scene, measure->stage);
+    const bool whole = !(measure->window[1] > measure->window[0]);
+    double begin = 0;
+    for (int64_t k = history->n_samples - 1; k >= 0; --k)
+        if (history->stage[k] == stage) begin = history->time[k] - history->stage_time[k];
+    for (int64_t k = 0; cracks && k < cracks->n_broken; ++k) {
+        const brc_break *b = &cracks->breaks[k];
+        const double t = scene->stages[stage].solver == BRC_SOLVER_DYNAMIC ? b->time - begin : b->load;
+        if (b->stage == stage && (whole || (t >= measure->window[0] && t <= measure->window[1]))) return t;
+    }
+    return NAN;
+}
+
+/* y at time t, by a straight line from the sample before the first that is not earlier. */
+static void at_time(const brc_measure_series *series, double t, brc_measured *measured)
+{
+    int64_t k = 0;
+    if (isnan(t)) {
+        why_not(measured, "no bond broke in its stage and window");
+        return;
+    }
+    while (k + 1 < series->n && series->time[k] < t) ++k;
+    if (k == 0 || !(series->time[k] > series->time[k - 1])) {
+        measured->value = series->y[k];
+        return;
+    }
+    const double share = fmin((t - series->time[k - 1]) / (series->time[k] - series->time[k - 1]), 1);
+    measured->value = series->y[k - 1] + share * (series->y[k] - series->y[k - 1]);
+}
+
 static brc_status frequency(brc_context *context, const brc_measure_series *series, brc_measured *measured)
 {
     int64_t n = series->n;
@@ -171,8 +220,8 @@ static bool target_of(const brc_scene *scene, const brc_measure *measure, double
     }
 }
 
-brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, const brc_domain *domain,
-                                const brc_history *history, int32_t index, brc_measured *out)
+brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, const brc_domain *domain, const brc_history *history,
+                                const brc_cracks *cracks, int32_t index, brc_measured *out)
 {
     const brc_measure *measure = &scene->measures[index];
     brc_measure_series series;
@@ -186,6 +235,8 @@ brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, co
         case BRC_MEASURE_FREQUENCY: status = frequency(context, &series, out); break;
         case BRC_MEASURE_PEAK: out->value = peak(&series); break;
         case BRC_MEASURE_MEAN: out->value = time_mean(&series); break;
+        case BRC_MEASURE_RATE: rate(&series, out); break;
+        case BRC_MEASURE_AT_FIRST_BREAK: at_time(&series, first_break(scene, history, cracks, measure), out); break;
         default:
             fit = brc_fit_polynomial(series.n, series.x, series.y);
             if (fit.order > 0)

@@ -3,6 +3,7 @@
 #define BRC_OUTPUT_MEASURES_H
 
 #include "../../preprocess/domain.h"
+#include "cracks.h"
 #include "history.h"
 
 typedef struct brc_measured {
@@ -17,9 +18,9 @@ typedef struct brc_measured {
 } brc_measured;
 
 /* Evaluate measure `index` of the scene. Never fails for want of data: value NAN and why_not say so.
- * BRC_NO_MEMORY only. domain may be NULL where no measure has an area_set. */
-brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, const brc_domain *domain,
-                                const brc_history *history, int32_t index, brc_measured *out);
+ * BRC_NO_MEMORY only. domain may be NULL where no measure has an area_set; cracks: what broke, for at_first_break, or NULL. */
+brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, const brc_domain *domain, const brc_history *history,
+                                const brc_cracks *cracks, int32_t index, brc_measured *out);
 /* The samples that a measure reads: those of its stage and window that are numbers. */
 typedef struct brc_measure_series {
     int64_t n;

@@ -108,7 +108,7 @@ static void move_points(canvas *c, const brc_picture_part *p, double *point)
         point[k] = d->position[k] + c->scale * p->displacement[k];
     for (int64_t f = 0, before = -1; f < d->n_free_faces; ++f) {
         const int64_t e = d->free_element[f];
-        if (e != before) brc_deform_gradient(d, p->displacement, e, gradient);
+        if (e != before) brc_deform_gradient(d, p->whole, p->displacement, e, gradient);
         before = e;
         for (int64_t k = d->free_polygon_start[f]; k < d->free_polygon_start[f + 1]; ++k) {
             const double *x = d->vertex + 3 * (int64_t)d->free_polygon[k];

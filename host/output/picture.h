@@ -7,6 +7,7 @@
 /* Elements of one kind, all cells or all spheres. */
 typedef struct brc_picture_part {
     const brc_domain *domain;
+    const uint8_t *whole;       /* [n_half_edges] 1: unbroken; NULL: all are */
     const double *displacement; /* [n_elements][3] [m] */
     const double *value;        /* [n_elements] what is coloured, in `unit` */
 } brc_picture_part;

@@ -74,6 +74,7 @@ static double pick(const field *f, const double *data, int64_t e)
 
 /* What of a part is drawn, each array owned until the picture is there. */
 typedef struct shown {
+    uint8_t *whole;
     double *displacement, *value;
 } shown;
 
@@ -86,6 +87,7 @@ static brc_status read_part(brc_context *context, brc_simulation *simulation, co
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &data, 6 * n, "field of the picture"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->value, n, "colours of the picture"));
     BRC_TRY_OR(cleanup, brc_simulation_displacement(simulation, out->displacement));
+    BRC_TRY_OR(cleanup, brc_simulation_whole(simulation, &out->whole));
     switch (f->source) {
     case DISPLACEMENT: memcpy(data, out->displacement, 3 * (size_t)n * sizeof *data); break;
     case VELOCITY: status = brc_simulation_velocity(simulation, data); break;
@@ -117,7 +119,7 @@ brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly,
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &part, assembly->n, "parts of the picture"));
     for (int32_t k = 0; k < assembly->n; ++k) {
         BRC_TRY_OR(cleanup, read_part(context, assembly->part[k], &f, &own[k]));
-        part[k] = (brc_picture_part){brc_simulation_domain(assembly->part[k]), own[k].displacement, own[k].value};
+        part[k] = (brc_picture_part){.domain = brc_simulation_domain(assembly->part[k]), .whole = own[k].whole, .displacement = own[k].displacement, .value = own[k].value};
     }
     const brc_picture picture = {
         .n = assembly->n,
@@ -130,6 +132,7 @@ brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly,
     status = brc_picture_draw(context, &picture, path);
 cleanup:
     for (int32_t k = 0; own && k < assembly->n; ++k) {
+        brc_memory_free(own[k].whole);
         brc_memory_free(own[k].displacement);
         brc_memory_free(own[k].value);
     }

@@ -2,16 +2,18 @@
  * with the index and the histories so far, so that a killed run keeps all but its last interval. Nothing here draws: see picture.c, curve.c. */
 #include "recorder.h"
 #include "assembly_sensors.h"
-#include "cracks.h"
+#include "crack_records.h"
 #include "curve.h"
 #include "frame_file.h"
 #include "history_csv.h"
 #include "picture.h"
 #include "result_file.h"
+#include "stop.h"
 #include "summary.h"
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
+#include "../solver/stage_end.h"
 #include <dirent.h>
 #include <errno.h>
 #include <math.h>
@@ -20,9 +22,10 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SUMMARY, RESULT, HISTORIES, CRACKS, PICTURE, CURVE, SERIES, FRAMES, N_FILES };
+enum { SUMMARY, RESULT, HISTORIES, CRACKS, FRAGMENTS, PICTURE, CURVE, SERIES, CRACK_SERIES, FRAMES, N_FILES };
 static const char *const FILE_NAME[N_FILES] = {
-    "summary.json", "result.h5", "histories.csv", "cracks.csv", "picture.png", "curve.png", "frames.vtkhdf.series", "frames"};
+    "summary.json", "result.h5", "histories.csv", "cracks.csv", "fragments.csv", "picture.png", "curve.png", "frames.vtkhdf.series",
+    "cracks.vtu.series", "frames"};
 
 struct brc_recorder {
     brc_context *context;
@@ -39,18 +42,20 @@ struct brc_recorder {
     double *frame_time; /* [n_frames] for the index: strictly rising */
     brc_measured *measures;
     int32_t n_measures;
-    bool has_cracks; /* the simulation can break and was asked what broke */
-    brc_cracks cracks;
+    brc_crack_records *cracks; /* NULL: nothing can break */
     double start, build_s, output_s; /* start: brc_clock_s() then; the others: wall seconds */
 };
 
 /* ---- the folder ---- */
 
-/* "NNNNNN.vtkhdf", or what a killed run left of one. */
+/* "NNNNNN.vtkhdf", "NNNNNN.cracks.vtu", or what a killed run left of one. */
 static bool is_frame(const char *name)
 {
-    size_t digits = strspn(name, "0123456789");
-    return digits >= 6 && (strcmp(name + digits, ".vtkhdf") == 0 || strcmp(name + digits, ".vtkhdf.part") == 0);
+    static const char *const suffix[] = {".vtkhdf", ".vtkhdf.part", ".cracks.vtu", ".cracks.vtu.part"};
+    const size_t digits = strspn(name, "0123456789");
+    for (size_t k = 0; digits >= 6 && k < sizeof suffix / sizeof suffix[0]; ++k)
+        if (strcmp(name + digits, suffix[k]) == 0) return true;
+    return false;
 }
 
 static brc_status remove_file(brc_context *context, const char *path)
@@ -93,7 +98,7 @@ static brc_status write_summary(brc_recorder *recorder, brc_context *context, bo
         .domains = recorder->domains,
         .assembly = recorder->assembly,
         .ledger = ledger,
-        .cracks = recorder->has_cracks ? &recorder->cracks : NULL,
+        .cracks = brc_crack_records_state(recorder->cracks),
         .history = recorder->history,
         .n_measures = recorder->n_measures,
         .measures = recorder->measures,
@@ -132,7 +137,7 @@ void brc_recorder_free(brc_recorder **recorder)
     if (!recorder || !*recorder) return;
     brc_recorder *r = *recorder;
     brc_assembly_sensors_free(&r->sensors);
-    brc_cracks_free(&r->cracks);
+    brc_crack_records_free(&r->cracks);
     brc_history_free(&r->history);
     brc_history_csv_free(&r->csv);
     for (int k = 0; k < N_FILES; ++k)
@@ -158,6 +163,18 @@ void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domai
 
 /* ---- while the simulation runs ---- */
 
+/* The stage may end when a sensor has fallen. */
+static brc_status stop_if_asked(brc_recorder *r, brc_simulation *simulation)
+{
+    char reason[192];
+    int64_t broken = 0;
+    if (r->scene->stages[brc_simulation_stage(simulation)].stop_sensor[0] == '\0') return BRC_OK;
+    for (int32_t k = 0; k < r->assembly->n && broken == 0; ++k) BRC_TRY(brc_simulation_broken(r->assembly->part[k], &broken));
+    if (brc_stop_after_peak(r->scene, r->history, broken > 0 || !r->scene->has_fracture, reason, sizeof reason))
+        brc_simulation_end_stage(simulation, reason);
+    return BRC_OK;
+}
+
 static brc_status sample(void *self, brc_simulation *simulation)
 {
     brc_recorder *r = self;
@@ -168,6 +185,7 @@ static brc_status sample(void *self, brc_simulation *simulation)
             brc_history_add(r->context, r->history, brc_simulation_stage(simulation), brc_simulation_step(simulation),
                             brc_simulation_time(simulation), brc_simulation_total_time(simulation), r->value);
     if (status == BRC_OK) status = brc_history_csv_add(r->context, r->csv, r->history);
+    if (status == BRC_OK) status = stop_if_asked(r, simulation);
     r->output_s += brc_clock_s() - begin;
     return status;
 }
@@ -181,7 +199,7 @@ static brc_status write_index(brc_recorder *r, brc_context *context, const brc_l
         .domains = r->domains,
         .assembly = r->assembly,
         .ledger = ledger,
-        .cracks = r->has_cracks ? &r->cracks : NULL,
+        .cracks = brc_crack_records_state(r->cracks),
         .history = r->history,
         .n_measures = r->n_measures,
         .measures = r->measures,
@@ -189,16 +207,6 @@ static brc_status write_index(brc_recorder *r, brc_context *context, const brc_l
         .frame_time = r->frame_time,
     };
     return brc_result_write(context, &result, r->path[RESULT]);
-}
-
-/* What broke so far, for the index and the summary. */
-static brc_status take_cracks(brc_recorder *r, brc_context *context)
-{
-    r->has_cracks = false;
-    if (!brc_simulation_has_fracture(r->assembly->part[0])) return BRC_OK;
-    BRC_TRY(brc_cracks_take(context, r->assembly, &r->cracks));
-    r->has_cracks = true;
-    return BRC_OK;
 }
 
 /* Viewers need rising times: physical time where some stage has it, else stages and their load factors; equal moments
@@ -212,6 +220,20 @@ static double index_time(const brc_recorder *r, const brc_simulation *simulation
                                 : brc_simulation_stage(simulation) + brc_simulation_time(simulation);
     const double before = r->n_frames > 0 ? r->frame_time[r->n_frames - 1] : -INFINITY;
     return time > before ? time : nextafter(before, INFINITY);
+}
+
+/* Beside the frame just written. */
+static brc_status write_cracks(brc_recorder *r)
+{
+    const bool surface = r->scene->output.crack_surface;
+    char name[32];
+    char *path = NULL;
+    snprintf(name, sizeof name, "%06lld.cracks.vtu", (long long)r->n_frames - 1);
+    BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
+    const brc_status status = brc_crack_records_frame(r->context, r->cracks, r->n_frames - 1, surface ? path : NULL);
+    brc_memory_free(path);
+    BRC_TRY(status);
+    return surface ? brc_frame_write_series(r->context, r->n_frames, r->frame_time, ".cracks.vtu", r->path[CRACK_SERIES]) : BRC_OK;
 }
 
 static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
@@ -228,8 +250,8 @@ static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
     BRC_TRY(status);
     r->frame_time[r->n_frames] = index_time(r, simulation);
     ++r->n_frames;
-    BRC_TRY(brc_frame_write_series(r->context, r->n_frames, r->frame_time, r->path[SERIES]));
-    BRC_TRY(take_cracks(r, r->context));
+    BRC_TRY(brc_frame_write_series(r->context, r->n_frames, r->frame_time, ".vtkhdf", r->path[SERIES]));
+    if (r->cracks) BRC_TRY(write_cracks(r));
     return write_index(r, r->context, NULL);
 }
 
@@ -251,6 +273,8 @@ brc_status brc_recorder_observe(brc_recorder *recorder, brc_assembly *assembly)
     BRC_TRY(brc_history_create(recorder->context, n, &recorder->history));
     BRC_TRY(BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample"));
     BRC_TRY(brc_history_csv_create(recorder->context, recorder->scene, recorder->path[HISTORIES], &recorder->csv));
+    if (brc_simulation_has_fracture(assembly->part[0]))
+        BRC_TRY(brc_crack_records_create(recorder->context, assembly, recorder->path[CRACKS], recorder->path[FRAGMENTS], &recorder->cracks));
     const brc_observer observer = {.self = recorder, .sample = sample, .frame = frame};
     return brc_simulation_observe(assembly->part[0], &observer);
 }
@@ -281,10 +305,11 @@ static const brc_domain *domain_of(const brc_recorder *r, const char *set)
 static brc_status evaluate_measures(brc_recorder *r, brc_context *quiet)
 {
     const int32_t n = r->scene->n_measures;
+    const brc_crack_state *cracks = brc_crack_records_state(r->cracks);
     BRC_TRY(BRC_ALLOCATE(quiet, &r->measures, n, "measures"));
     for (r->n_measures = 0; r->n_measures < n; ++r->n_measures)
-        BRC_TRY(brc_measure_evaluate(quiet, r->scene, domain_of(r, r->scene->measures[r->n_measures].area_set), r->history, r->n_measures,
-                                     &r->measures[r->n_measures]));
+        BRC_TRY(brc_measure_evaluate(quiet, r->scene, domain_of(r, r->scene->measures[r->n_measures].area_set), r->history,
+                                     cracks ? &cracks->cracks : NULL, r->n_measures, &r->measures[r->n_measures]));
     return BRC_OK;
 }
 
@@ -298,8 +323,7 @@ static brc_status write_curve(brc_recorder *r, brc_context *quiet)
 
 static void write_results(brc_recorder *r, brc_context *quiet, brc_status *status, const brc_ledger *ledger)
 {
-    if (ledger) note(r, quiet, take_cracks(r, quiet), status); /* else: as of the last frame */
-    if (r->has_cracks) note(r, quiet, brc_cracks_write_csv(quiet, &r->cracks, r->path[CRACKS]), status);
+    if (r->cracks) note(r, quiet, brc_crack_records_finish(quiet, r->cracks, ledger != NULL), status);
     note(r, quiet, evaluate_measures(r, quiet), status);
     note(r, quiet, write_index(r, quiet, ledger), status);
     note(r, quiet, brc_history_csv_finish(quiet, r->csv, r->history), status);
@@ -324,6 +348,12 @@ static bool has_begun(const brc_assembly *assembly)
     return true;
 }
 
+/* Why the last stage of a run that went well ended early; "" where it did not. */
+static const char *last_reason(const brc_recorder *r)
+{
+    return r->assembly ? brc_simulation_stage_reason(r->assembly->part[0], r->scene->n_stages - 1) : "";
+}
+
 brc_status brc_recorder_finish(brc_recorder *recorder, brc_status end)
 {
     brc_recorder *r = recorder;
@@ -340,7 +370,7 @@ brc_status brc_recorder_finish(brc_recorder *recorder, brc_status end)
         write_results(r, quiet, &status, has_ledger ? &ledger : NULL);
     }
     r->output_s += brc_clock_s() - begin;
-    const char *reason = status == BRC_OK ? "" : brc_context_message(r->context);
+    const char *reason = status == BRC_OK ? last_reason(r) : brc_context_message(r->context);
     note(r, quiet, write_summary(r, quiet, false, status, reason, has_ledger ? &ledger : NULL), &status);
     brc_context_free(&quiet);
     return status;

@@ -130,7 +130,10 @@ static brc_status write_content(brc_context *context, brc_h5 *h5, const brc_resu
     if (result->history) BRC_TRY(write_histories(context, h5, result));
     write_measures(h5, result);
     if (result->ledger) write_ledger(h5, result->ledger);
-    if (result->cracks) BRC_TRY(brc_cracks_write_h5(context, h5, result->cracks));
+    if (result->cracks) {
+        BRC_TRY(brc_cracks_write_h5(context, h5, &result->cracks->cracks));
+        BRC_TRY(brc_fragment_table_write_h5(context, h5, &result->cracks->fragments));
+    }
     write_frames(h5, result);
     return write_provenance(context, h5, result);
 }

@@ -3,7 +3,7 @@
 #define BRC_OUTPUT_RESULT_FILE_H
 
 #include "../solver/assembly.h"
-#include "cracks.h"
+#include "crack_records.h"
 #include "history.h"
 #include "measures.h"
 
@@ -16,7 +16,7 @@ typedef struct brc_result {
     const brc_domain *const *domains; /* [n_domains] of the parts */
     const brc_assembly *assembly;     /* NULL: left out */
     const brc_ledger *ledger;         /* NULL: left out */
-    const brc_cracks *cracks;         /* NULL: left out */
+    const brc_crack_state *cracks;    /* NULL: left out */
     const brc_history *history;       /* NULL: left out */
     int32_t n_measures;
     const brc_measured *measures; /* [n_measures] */
@@ -29,8 +29,10 @@ typedef struct brc_result {
  *   /histories     stage, step, stage_time, time; sensors/<name> with attributes unit, last, min, max
  *   /measures      <name> with attributes unit, target, error
  *   /ledger        <term> [J]; closure [-]
- *   /cracks        time, step, stage, mode, bond, element_i, element_j, position, normal, stress, energy of every broken bond; attribute fragments;
- *                  only of scenes with fracture
+ *   /cracks        time, step, stage, mode, bond, element_i, element_j, position, normal, stress, energy, area, load of every broken bond; attribute
+ *                  fragments; only of scenes with fracture
+ *   /fragments     first_element, elements, mass, centre, velocity, spin, inertia, translation, rotation, internal, share_below of every fragment at
+ *                  the last frame or the end (fragments.h); attribute time; likewise
  *   /frames        NNNNNN: external links to frames/NNNNNN.vtkhdf; time
  *   /provenance    attributes domain (of every part, between bars), device, driver, precision
  * Made in memory, written aside, renamed. BRC_FILE_FAILED, BRC_NO_MEMORY. */

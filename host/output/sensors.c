@@ -1,6 +1,7 @@
 /* Sensors. Means over faces are weighted with face areas, means over cells with their volumes; spheres of a wall count alike where they
  * stand for a face; those without bonds, which are held still, count nowhere. All sums run in the order of the set's members, so equal states give equal bytes. */
 #include "sensors.h"
+#include "crack_sensors.h"
 #include "sphere_box.h"
 #include "../base/memory.h"
 #include <math.h>
@@ -33,6 +34,7 @@ struct brc_sensors {
     double *orientation;             /* [n_elements][4] or NULL */
     double *applied;                 /* element forces [n_elements][3] or NULL */
     bool needs_ledger;
+    brc_crack_sensors *cracks; /* NULL: no sensor watches cracks */
 };
 
 static const double *patch_point(const brc_domain *d, const patch *p, int64_t k, double *weight)
@@ -214,6 +216,8 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
             return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: elements of dlsm have no rotations of their own; use face_twist", sensor->name);
         sensors->first[s] = nearest_element(sensors->domain, sensor->point);
         return BRC_OK;
+    case BRC_SENSOR_FRACTURE:
+    case BRC_SENSOR_CRACK_TIP: return sensors->cracks ? BRC_OK : brc_crack_sensors_create(sensors->context, sensors->scene, sensors->domain, &sensors->cracks);
     case BRC_SENSOR_POINT:
     case BRC_SENSOR_POINT_VELOCITY: sensors->first[s] = nearest_element(sensors->domain, sensor->point); return BRC_OK;
     case BRC_SENSOR_ENERGY:
@@ -291,6 +295,7 @@ void brc_sensors_free(brc_sensors **sensors)
     brc_memory_free((*sensors)->stress);
     brc_memory_free((*sensors)->orientation);
     brc_memory_free((*sensors)->applied);
+    brc_crack_sensors_free(&(*sensors)->cracks);
     brc_memory_free(*sensors);
     *sensors = NULL;
 }
@@ -411,6 +416,8 @@ brc_status brc_sensors_evaluate(brc_sensors *sensors, brc_simulation *simulation
         case BRC_SENSOR_ENERGY: value[s] = brc_ledger_term(&ledger, sensor->term); break;
         case BRC_SENSOR_POINT: value[s] = sensors->displacement[3 * (int64_t)first + c]; break;
         case BRC_SENSOR_POINT_VELOCITY: value[s] = sensors->velocity[3 * (int64_t)first + c]; break;
+        case BRC_SENSOR_FRACTURE:
+        case BRC_SENSOR_CRACK_TIP: BRC_TRY(brc_crack_sensors_read(sensors->cracks, simulation, sensor, &value[s])); break;
         case BRC_SENSOR_MODE: value[s] = mode_frequency(simulation, sensor->index); break;
         }
     }

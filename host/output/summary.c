@@ -3,6 +3,7 @@
 #include "text.h"
 #include "../base/memory.h"
 #include "../base/version.h"
+#include "../solver/stage_end.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -79,7 +80,7 @@ static void add_time_step(brc_json *json, const brc_time_step *step)
 static void add_size(brc_json *json, const brc_summary *s)
 {
     brc_time_step step = {.value = NAN, .critical = NAN, .published = NAN, .safety = NAN};
-    add_counts(json, s->n_domains, s->domains, s->cracks ? s->cracks->n_broken : 0);
+    add_counts(json, s->n_domains, s->domains, s->cracks ? s->cracks->cracks.n_broken : 0);
     if (s->assembly) step = brc_assembly_time_step(s->assembly);
     add_time_step(json, &step);
     if (s->assembly)
@@ -193,7 +194,8 @@ static void add_parts(brc_json *json, const brc_summary *s)
         const int64_t first = brc_assembly_first_bond(a, k), end = brc_assembly_first_bond(a, k + 1);
         int64_t n_broken = 0;
         brc_ledger ledger;
-        for (int64_t b = 0; s->cracks && b < s->cracks->n_broken; ++b) n_broken += s->cracks->breaks[b].bond >= first && s->cracks->breaks[b].bond < end;
+        for (int64_t b = 0; s->cracks && b < s->cracks->cracks.n_broken; ++b)
+            n_broken += s->cracks->cracks.breaks[b].bond >= first && s->cracks->cracks.breaks[b].bond < end;
         const bool has_ledger = s->ledger && brc_simulation_ledger(a->part[k], &ledger) == BRC_OK;
         brc_json_begin_object(json, NULL);
         brc_json_string(json, "model", part->name);
@@ -264,6 +266,20 @@ static void add_static(brc_json *json, const brc_summary *s)
     brc_json_end(json);
 }
 
+/* Stages that were begun, and why they ended before their plan, if they did. */
+static void add_stages(brc_json *json, const brc_summary *s)
+{
+    const int32_t last = s->assembly ? brc_simulation_stage(s->assembly->part[0]) : -1;
+    brc_json_begin_array(json, "stages");
+    for (int32_t k = 0; s->scene && k <= last; ++k) {
+        brc_json_begin_object(json, NULL);
+        brc_json_string(json, "name", s->scene->stages[k].name);
+        brc_json_string(json, "ended_by", brc_simulation_stage_reason(s->assembly->part[0], k));
+        brc_json_end(json);
+    }
+    brc_json_end(json);
+}
+
 brc_status brc_summary_write(brc_context *context, const brc_summary *summary, const char *path)
 {
     brc_json json = {.text = {.context = context}};
@@ -272,11 +288,12 @@ brc_status brc_summary_write(brc_context *context, const brc_summary *summary, c
     add_size(&json, summary);
     add_cost(&json, summary);
     add_ledger(&json, summary->ledger);
-    if (summary->cracks) brc_cracks_add(&json, summary->cracks);
+    if (summary->cracks) brc_crack_report_add(&json, summary->scene, &summary->cracks->cracks, &summary->cracks->report);
     add_effects(&json, summary->assembly);
     add_measures(&json, summary);
     add_sensors(&json, summary);
     add_static(&json, summary);
+    add_stages(&json, summary);
     add_parts(&json, summary);
     brc_json_begin_object(&json, "end");
     brc_json_string(&json, "status", end_name(summary));

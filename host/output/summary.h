@@ -3,7 +3,7 @@
 #define BRC_OUTPUT_SUMMARY_H
 
 #include "../solver/assembly.h"
-#include "cracks.h"
+#include "crack_records.h"
 #include "history.h"
 #include "measures.h"
 
@@ -14,7 +14,7 @@ typedef struct brc_summary {
     const brc_domain *const *domains; /* [n_domains] of the parts; 0: not built */
     const brc_assembly *assembly;
     const brc_ledger *ledger;
-    const brc_cracks *cracks; /* NULL: nothing can break */
+    const brc_crack_state *cracks; /* NULL: nothing can break */
     const brc_history *history;
     int32_t n_measures;
     const brc_measured *measures;
@@ -22,7 +22,7 @@ typedef struct brc_summary {
     double total_s, build_s, output_s; /* wall seconds; setup_s and steps_s are the assembly's */
     bool running;                      /* true: end.status is "running" */
     brc_status end;                    /* how the run ended */
-    const char *reason;                /* sentences of the failure; "" : none */
+    const char *reason;                /* sentences of the failure; why the last stage ended early; "" : none */
 } brc_summary;
 
 /* Written aside and renamed. With several models `model` names all of them, counts, energies and memory are sums, effects.in is what some part

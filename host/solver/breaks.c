@@ -172,6 +172,16 @@ cleanup:
     return status;
 }
 
+brc_regime brc_simulation_regime(const brc_simulation *s) { return s->regime; }
+
+brc_status brc_simulation_whole(brc_simulation *s, uint8_t **out)
+{
+    *out = NULL;
+    return s->fracture ? brc_fracture_whole(s, out) : BRC_OK;
+}
+
+double brc_simulation_beam_radius(const brc_simulation *s, int64_t e) { return brc_is_beams(s) ? brc_beam_of_element(s, e)->radius : 0; }
+
 /* Lowest element id of the fragment of e, with halved paths. */
 static int32_t root_of(int32_t *parent, int32_t e)
 {

@@ -33,6 +33,10 @@ brc_status brc_simulation_damage(brc_simulation *simulation, double *out);
 /* Number of the fragment of every element [n_elements], counted from 0 in the order of the lowest element id of each; elements hang together
  * over unbroken bonds. */
 brc_status brc_simulation_fragments(brc_simulation *simulation, int32_t *fragment, int64_t *n_fragments);
+/* Half-edges of the domain whose bonds are unbroken [n_half_edges] (1, else 0); *out is the caller's (brc_memory_free), NULL without fracture. */
+brc_status brc_simulation_whole(brc_simulation *simulation, uint8_t **out);
+/* Radius of the beams of element e [m]; 0 for cells. */
+double brc_simulation_beam_radius(const brc_simulation *simulation, int64_t e);
 /* The largest ratio of stress to limit over the elements as they stand: 1 is failure; 0 when nothing pulls. */
 brc_status brc_simulation_failure_ratio(brc_simulation *simulation, double *out);
 /* Limit of tension of the virial stress of element e, sigma_m [Pa]; 0: none. */

@@ -38,6 +38,7 @@ brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
     if (s->stage >= 0) BRC_TRY(brc_loads_work(s, &out->work));
     out->work += s->work_before;
     BRC_TRY(lost(s, s->lost_damping, &out->damping));
+    out->damping += s->released;
     BRC_TRY(lost(s, s->lost_numerical, &out->numerical));
     BRC_TRY(brc_fracture_lost(s, &out->fracture));
     out->initial = s->initial_energy;

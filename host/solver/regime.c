@@ -1,5 +1,4 @@
 #include "regime.h"
-#include "simulation_internal.h"
 #include <math.h>
 
 void brc_regime_follow(brc_regime *r, double kinetic, double elastic, bool broken)
@@ -7,7 +6,7 @@ void brc_regime_follow(brc_regime *r, double kinetic, double elastic, bool broke
     const double ratio = elastic > 0 ? kinetic / elastic : NAN;
     if (broken && !r->broke) {
         r->broke = true;
-        r->at_first_break = r->most = r->until_peak = r->peak_elastic > 0 ? r->last : NAN;
+        r->at_first_break = r->most = r->until_peak = r->peak_elastic > 0 ? r->last : ratio;
     }
     if (r->broke) r->most = fmax(r->most, ratio); /* of a number and NAN this is the number */
     if (elastic > r->peak_elastic) {
@@ -23,5 +22,3 @@ const char *brc_regime_name(const brc_regime *r)
     if (!r->broke) return "";
     return fmax(r->until_peak, r->at_peak) <= BRC_QUASI_STATIC ? "quasi-static" : "dynamic";
 }
-
-brc_regime brc_simulation_regime(const brc_simulation *s) { return s->regime; }

@@ -3,6 +3,7 @@
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
 #include "statics.h"
 #include "fracture_internal.h"
+#include "static_events.h"
 #include <math.h>
 #include <string.h>
 
@@ -372,14 +373,15 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
     return published ? settle_rotations(s, v, progress) : BRC_OK;
 }
 
-/* A guess at the state under `factor` times the load: everything in proportion. */
-static brc_status scale_state(brc_simulation *s, brc_solve_vectors *v, double factor, bool finite)
+brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double factor)
 {
     const int64_t n = s->domain->n_elements;
+    const bool finite = brc_current_stage(s)->finite_strain;
     double *q = NULL;
     brc_status status = BRC_OK;
     BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes));
     BRC_TRY(add(s, factor - 1, (brc_unknowns){v->z.move, NULL}, (brc_unknowns){s->displacement, NULL}));
+    if (!brc_turns(s)) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * n, "orientations"));
     BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
     for (int64_t e = 0; e < n; ++e) {
@@ -403,13 +405,7 @@ static bool is_proportional(const brc_table *t)
     return t->n == 0 || (t->n == 2 && t->time[0] == 0 && t->value[0] == 0 && t->time[1] == 1 && t->value[1] == 1);
 }
 
-/* What a part keeps from increment to increment. */
-typedef struct static_run {
-    brc_solve_vectors vectors;
-    double reference; /* largest norm of the load so far [N] */
-} static_run;
-
-static brc_status solve_at(brc_simulation *s, static_run *run, brc_progress *progress)
+brc_status brc_statics_solve_at(brc_simulation *s, brc_static_run *run, brc_progress *progress)
 {
     BRC_TRY(brc_loads_prescribe(s, s->load_factor));
     if (brc_is_beams(s)) BRC_TRY(read_theta(s, &run->vectors));
@@ -417,30 +413,45 @@ static brc_status solve_at(brc_simulation *s, static_run *run, brc_progress *pro
     return brc_force_of_state(s, BRC_BOOK_WORK);
 }
 
-/* Scale the load so that the worst element of all parts is at the asked fraction of its limit. */
-static brc_status go_to_failure(int32_t n, brc_simulation *const *part, static_run *run, brc_progress *progress)
+brc_status brc_statics_failure(int32_t n, brc_simulation *const *part, double *ratio)
+{
+    *ratio = 0;
+    for (int32_t k = 0; k < n; ++k) {
+        double one;
+        BRC_TRY(brc_simulation_failure_ratio(part[k], &one));
+        *ratio = isfinite(*ratio) && isfinite(one) ? fmax(*ratio, one) : NAN;
+    }
+    return BRC_OK;
+}
+
+brc_status brc_statics_refuse_unscalable(int32_t n, brc_simulation *const *part, const char *key)
 {
     brc_context *context = part[0]->context;
     const brc_stage *stage = brc_current_stage(part[0]);
-    double ratio = 0;
-    for (int32_t k = 0; k < n; ++k) {
-        double one;
-        if (!part[k]->fracture)
-            return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': to_failure needs `fracture` and strengths in the scene", stage->name);
+    if (!part[0]->fracture)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': %s needs `fracture` and strengths in the scene", stage->name, key);
+    for (int32_t k = 0; k < n; ++k)
         for (int32_t l = 0; l < brc_current_stage(part[k])->n_loads; ++l)
             if (!is_proportional(&brc_current_stage(part[k])->loads[l].table))
-                return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': to_failure scales its loads, so they cannot follow a table; remove the table", stage->name);
-        BRC_TRY(brc_simulation_failure_ratio(part[k], &one));
-        ratio = isfinite(ratio) && isfinite(one) ? fmax(ratio, one) : NAN;
-    }
+                return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': %s scales its loads, so they cannot follow a table; remove the table", stage->name, key);
+    return BRC_OK;
+}
+
+/* Scale the load so that the worst element of all parts is at the asked fraction of its limit. */
+static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
+{
+    brc_context *context = part[0]->context;
+    const brc_stage *stage = brc_current_stage(part[0]);
+    double ratio;
+    BRC_TRY(brc_statics_failure(n, part, &ratio));
     if (!(ratio > 0))
         return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': under its load no element comes nearer to failure, so to_failure cannot scale it", stage->name);
     const double factor = stage->to_failure / ratio;
     brc_log(context, BRC_LOG_INFO, "stage '%s': first failure at %.6g times the load, which is scaled to %.6g", stage->name, 1 / ratio, factor);
     for (int32_t k = 0; k < n; ++k) {
-        BRC_TRY(scale_state(part[k], &run[k].vectors, factor, stage->finite_strain));
+        BRC_TRY(brc_statics_scale(part[k], &run[k].vectors, factor));
         part[k]->load_factor = factor;
-        BRC_TRY(solve_at(part[k], &run[k], progress));
+        BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
         part[k]->step += 1;
     }
     return brc_notify_sample(part[0]);
@@ -451,10 +462,12 @@ brc_status brc_statics_run(int32_t n, brc_simulation *const *part)
     brc_context *context = part[0]->context;
     const brc_stage *stage = brc_current_stage(part[0]);
     const int32_t increments = stage->increments > 0 ? stage->increments : 1;
-    static_run *run = NULL;
+    brc_static_run *run = NULL;
     brc_progress *progress = NULL;
     brc_status status = BRC_OK;
     double n_bonds = 0;
+    if (stage->most_events > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "events"));
+    if (stage->to_failure > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "to_failure"));
     for (int32_t k = 0; k < n; ++k) {
         part[k]->static_report = (brc_static_report){0};
         BRC_TRY(brc_buffer_fill_zero(part[k]->velocity));
@@ -464,11 +477,15 @@ brc_status brc_statics_run(int32_t n, brc_simulation *const *part)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &run, n, "static stage"));
     for (int32_t k = 0; k < n; ++k) BRC_TRY_OR(cleanup, create_vectors(part[k], &run[k].vectors));
     BRC_TRY_OR(cleanup, brc_notify_sample(part[0]));
+    if (stage->most_events > 0) {
+        BRC_TRY_OR(cleanup, brc_static_events_run(n, part, run, progress));
+        goto cleanup;
+    }
     for (int32_t i = 1; i <= increments; ++i) {
         for (int32_t k = 0; k < n; ++k) { /* one after the other: they share the device's memory and threads */
             part[k]->load_factor = (double)i / increments;
             BRC_TRY_OR(cleanup, predict(part[k], &run[k].vectors, i));
-            BRC_TRY_OR(cleanup, solve_at(part[k], &run[k], progress));
+            BRC_TRY_OR(cleanup, brc_statics_solve_at(part[k], &run[k], progress));
             part[k]->step = i;
         }
         BRC_TRY_OR(cleanup, brc_notify_sample(part[0]));

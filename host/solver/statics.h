@@ -4,7 +4,7 @@
 
 #include "../base/log.h"
 #include "balance.h"
-#include "simulation.h"
+#include "simulation_internal.h"
 
 /* A vector of all unknowns: displacements or forces [n_rows][3] and, for cbm, rotations or torques [n_rows][3] (else NULL). */
 typedef struct brc_unknowns {
@@ -21,6 +21,21 @@ typedef struct brc_solve_vectors {
     brc_free_motions free; /* cbm */
     double arm; /* a torque over this counts as a force: mean radius of the spheres [m] */
 } brc_solve_vectors;
+
+/* What a part keeps from solve to solve. */
+typedef struct brc_static_run {
+    brc_solve_vectors vectors;
+    double reference; /* largest norm of the load so far [N] */
+} brc_static_run;
+
+/* Equilibrium at the simulation's load factor, from the state as it is; the work of the loads is booked. BRC_PHYSICS_STOPPED: there is none. */
+brc_status brc_statics_solve_at(brc_simulation *s, brc_static_run *run, brc_progress *progress);
+/* The state times `factor`: under as much more of a load in proportion it is an equilibrium, exactly of the linear law, a guess of the full one. */
+brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double factor);
+/* The largest failure ratio of all parts; NAN where one is not finite. */
+brc_status brc_statics_failure(int32_t n, brc_simulation *const *part, double *ratio);
+/* The refusals of a key that scales the loads of the stage: BRC_BAD_INPUT. */
+brc_status brc_statics_refuse_unscalable(int32_t n, brc_simulation *const *part, const char *key);
 
 /* Force on the free components of the state into the simulation's own force array, and its norm [N]. finite: full law. */
 brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, bool finite, double *norm);

@@ -3,8 +3,12 @@
 #ifndef BRC_TEST_OUTPUT_FAKE_SIMULATION_H
 #define BRC_TEST_OUTPUT_FAKE_SIMULATION_H
 
-#include "../../host/solver/fracture.h"
+#include "../../host/base/memory.h"
+#include "../../host/solver/fragments.h"
+#include "../../host/solver/regime.h"
+#include "../../host/solver/stage_end.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 struct brc_simulation {
@@ -29,6 +33,8 @@ struct brc_simulation {
     int64_t n_breaks;
     int displacement_reads, ledger_reads; /* counted */
     brc_status end;                       /* what the run returns after its last increment */
+    bool ended;                           /* an observer ended the stage */
+    char reason[192];
 };
 
 static void fake_point(const brc_simulation *s, const double *x, double *u)
@@ -235,6 +241,54 @@ brc_status brc_simulation_fragments(brc_simulation *s, int32_t *fragment, int64_
     for (int64_t e = 0; e < s->domain->n_elements; ++e) fragment[e] = e + 1 == s->domain->n_elements;
     *n_fragments = 2;
     return BRC_OK;
+}
+
+/* What the fragments above are: all mass in the first, but for a hundredth. */
+brc_status brc_simulation_fragment_list(brc_simulation *s, int64_t *n, brc_fragment **out)
+{
+    brc_context *none = NULL;
+    *n = 2;
+    BRC_TRY(BRC_ALLOCATE(none, out, 2, "fragments"));
+    (*out)[0] = (brc_fragment){.n_elements = s->domain->n_elements - 1, .mass = 99, .inertia = {1, 2, 3, 4, 5, 6}, .translation = 7};
+    (*out)[1] = (brc_fragment){.first_element = (int32_t)s->domain->n_elements - 1, .n_elements = 1, .mass = 1, .velocity = {1, 0, 0}};
+    return BRC_OK;
+}
+
+brc_status brc_simulation_whole(brc_simulation *s, uint8_t **out)
+{
+    (void)s;
+    *out = NULL;
+    return BRC_OK;
+}
+
+double brc_simulation_beam_radius(const brc_simulation *s, int64_t e)
+{
+    (void)s, (void)e;
+    return 0.1;
+}
+
+/* The load factor. */
+brc_status brc_simulation_failure_ratio(brc_simulation *s, double *out)
+{
+    *out = s->factor;
+    return BRC_OK;
+}
+
+brc_regime brc_simulation_regime(const brc_simulation *s)
+{
+    (void)s;
+    return (brc_regime){.broke = true, .at_first_break = 0.01, .at_peak = 0.02, .until_peak = 0.03};
+}
+
+void brc_simulation_end_stage(brc_simulation *s, const char *reason)
+{
+    s->ended = true;
+    snprintf(s->reason, sizeof s->reason, "%s", reason);
+}
+
+const char *brc_simulation_stage_reason(const brc_simulation *s, int32_t stage)
+{
+    return stage == s->stage ? s->reason : "";
 }
 
 const char *brc_break_mode_name(int32_t mode)

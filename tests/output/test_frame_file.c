@@ -149,7 +149,7 @@ static void the_index_lists_every_frame_with_its_time(void **state)
 {
     (void)state;
     const double time[] = {0, 0.1};
-    assert_int_equal(brc_frame_write_series(test_context, 2, time, test_path(folder, "s.series")), BRC_OK);
+    assert_int_equal(brc_frame_write_series(test_context, 2, time, ".vtkhdf", test_path(folder, "s.series")), BRC_OK);
     char *text = test_read(test_path(folder, "s.series"));
     assert_non_null(strstr(text, "\"file-series-version\": \"1.0\""));
     assert_non_null(strstr(text, "\"name\": \"frames/000001.vtkhdf\",\n      \"time\": 0.1\n"));

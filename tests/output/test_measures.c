@@ -23,7 +23,7 @@ static brc_measured evaluate(const brc_measure *measure, const brc_domain *domai
                              .materials = &material,
                              .n_measures = 1,
                              .measures = &copy};
-    assert_int_equal(brc_measure_evaluate(test_context, &scene, domain, history, 0, &out), BRC_OK);
+    assert_int_equal(brc_measure_evaluate(test_context, &scene, domain, history, NULL, 0, &out), BRC_OK);
     return out;
 }
 

@@ -36,7 +36,7 @@ static cairo_surface_t *draw(double low, double slope, double bad)
         u[3 * e] = bad;
         value[e] = low + slope * domain->position[3 * e];
     }
-    const brc_picture_part cells = {domain, u, value};
+    const brc_picture_part cells = {.domain = domain, .displacement = u, .value = value};
     const brc_picture picture = {
         .n = 1, .part = &cells, .name = "field", .unit = "Pa", .title = "Title"};
     assert_int_equal(brc_picture_draw(test_context, &picture, test_path(folder, "p.png")), BRC_OK);
@@ -148,7 +148,7 @@ static void the_automatic_scale_is_round_and_makes_motion_visible(void **state)
     (void)state;
     double *u;
     assert_int_equal(BRC_ALLOCATE(test_context, &u, 3 * domain->n_elements, "test"), BRC_OK);
-    const brc_picture_part cells = {domain, u, NULL};
+    const brc_picture_part cells = {.domain = domain, .displacement = u};
     assert_true(brc_picture_automatic_scale(1, &cells) == 1); /* nothing moves */
     for (int64_t e = 0; e < domain->n_elements; ++e)
         u[3 * e] = 3e-7 * domain->position[3 * e] + 1; /* a rigid part does not count */

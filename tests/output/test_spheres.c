@@ -91,7 +91,7 @@ static void a_picture_shows_balls_with_gaps_between_them(void **state)
     (void)state;
     brc_domain *d = three_spheres();
     double u[3 * N] = {0}, value[N] = {0, 1, 2};
-    const brc_picture_part balls = {d, u, value};
+    const brc_picture_part balls = {.domain = d, .displacement = u, .value = value};
     const brc_picture picture = {.n = 1, .part = &balls, .name = "number", .unit = "-", .title = "", .scale = 1};
     assert_int_equal(brc_picture_draw(test_context, &picture, "spheres.png"), BRC_OK);
     cairo_surface_t *image = cairo_image_surface_create_from_png("spheres.png");

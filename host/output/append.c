@@ -1,0 +1,71 @@
+#include "append.h"
+#include "../base/memory.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <unistd.h>
+
+struct brc_append {
+    char *path; /* owned, for sentences */
+    int file;
+    int64_t bytes; /* of whole texts in the file */
+};
+
+brc_status brc_append_create(brc_context *context, const char *path, const char *head, brc_append **out)
+{
+    brc_append *a = NULL;
+    brc_text text = {.context = context};
+    brc_status status = BRC_OK;
+    *out = NULL;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &a, 1, "growing file"));
+    a->file = -1;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &a->path, (int64_t)strlen(path) + 1, "path"));
+    strcpy(a->path, path);
+    a->file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (a->file < 0) {
+        status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot create: %s", path, strerror(errno));
+        goto cleanup;
+    }
+    brc_text_add_bytes(&text, head, strlen(head));
+    BRC_TRY_OR(cleanup, brc_append_add(context, a, &text));
+    *out = a;
+    a = NULL;
+cleanup:
+    brc_text_free(&text);
+    brc_append_free(&a);
+    return status;
+}
+
+brc_status brc_append_add(brc_context *context, brc_append *a, const brc_text *text)
+{
+    BRC_TRY(text->status);
+    for (size_t done = 0; done < text->length;) {
+        const ssize_t written = write(a->file, text->data + done, text->length - done);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) {
+            const int reason = errno;
+            if (ftruncate(a->file, a->bytes) == 0) (void)lseek(a->file, a->bytes, SEEK_SET);
+            return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write: %s%s", a->path, strerror(reason),
+                            reason == ENOSPC ? "; free some space or name another folder" : "");
+        }
+        done += (size_t)written;
+    }
+    a->bytes += (int64_t)text->length;
+    return BRC_OK;
+}
+
+brc_status brc_append_finish(brc_context *context, brc_append *a)
+{
+    if (fsync(a->file) == 0 || errno == EINVAL || errno == EROFS) return BRC_OK; /* some file systems cannot */
+    return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot reach the disk: %s", a->path, strerror(errno));
+}
+
+void brc_append_free(brc_append **file)
+{
+    brc_append *const a = file ? *file : NULL;
+    if (!a) return;
+    if (a->file >= 0) close(a->file);
+    brc_memory_free(a->path);
+    brc_memory_free(a);
+    *file = NULL;
+}

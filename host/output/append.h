@@ -1,0 +1,19 @@
+/* A text file that only grows: rows go to it by write(), from where the system brings them to the disk even if this program is killed. */
+#ifndef BRC_OUTPUT_APPEND_H
+#define BRC_OUTPUT_APPEND_H
+
+#include "text.h"
+
+typedef struct brc_append brc_append;
+
+/* A new file that begins with `head`. Caller frees. BRC_FILE_FAILED, BRC_NO_MEMORY. */
+brc_status brc_append_create(brc_context *context, const char *path, const char *head, brc_append **out);
+/* The text behind what is there; where it does not fit, the file stays as it was and the same may be tried again. The text's own failure, or
+ * BRC_FILE_FAILED. */
+brc_status brc_append_add(brc_context *context, brc_append *file, const brc_text *text);
+/* See it to the disk. */
+brc_status brc_append_finish(brc_context *context, brc_append *file);
+/* Accepts NULL and a pointer to NULL. */
+void brc_append_free(brc_append **file);
+
+#endif
