@@ -192,7 +192,7 @@ static brc_status check_kinds(brc_context *context, int32_t n, const brc_domain 
         if (parts[k]->element_kind != parts[0]->element_kind)
             return BRC_FAIL(context, BRC_BAD_INPUT,
                             "body %s is made of %s, body %s of %s, which one domain cannot hold; give `beams` to all bodies "
-                            "or to none", brc_overlap_name(name, 0, words[0]), cells(parts[0]) ? "cells" : "spheres",
+                            "or to none, or each kind a `model` of its own", brc_overlap_name(name, 0, words[0]), cells(parts[0]) ? "cells" : "spheres",
                             brc_overlap_name(name, k, words[1]), cells(parts[k]) ? "cells" : "spheres");
     return BRC_OK;
 }

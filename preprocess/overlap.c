@@ -55,6 +55,8 @@ static void extent(const box_list *list, int64_t e, double low[3], double high[3
             low[c] = fmin(low[c], d->vertex[3 * v + c]);
             high[c] = fmax(high[c], d->vertex[3 * v + c]);
         }
+        low[c] -= NEAR * list->reach;
+        high[c] += NEAR * list->reach;
     }
 }
 
@@ -131,13 +133,51 @@ static bool in_cell(const double *x, const brc_domain *body, int64_t b, double d
            below_faces(x, body->face_centroid + 3 * h, body->area_vector + 3 * h, body->row_start[b + 1] - h, margin);
 }
 
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Square of the distance of x from free face f, a convex polygon. */
+static double square_to_face(const double *x, const brc_domain *body, int64_t f)
+{
+    const int32_t *corner = body->free_polygon + body->free_polygon_start[f];
+    const int64_t n = body->free_polygon_start[f + 1] - body->free_polygon_start[f];
+    const double *normal = body->free_area_vector + 3 * f, area = sqrt(dot(normal, normal));
+    double least = HUGE_VAL;
+    bool above = true; /* of the face itself, not beside it */
+    for (int64_t k = 0; k < n; ++k) {
+        const double *a = body->vertex + 3 * (int64_t)corner[k], *b = body->vertex + 3 * (int64_t)corner[(k + 1) % n];
+        const double edge[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, r[3] = {x[0] - a[0], x[1] - a[1], x[2] - a[2]};
+        const double outward[3] = {edge[1] * normal[2] - edge[2] * normal[1], edge[2] * normal[0] - edge[0] * normal[2],
+                                   edge[0] * normal[1] - edge[1] * normal[0]};
+        const double along = dot(edge, edge) > 0.0 ? fmin(fmax(dot(r, edge) / dot(edge, edge), 0.0), 1.0) : 0.0;
+        double square = 0.0;
+        for (int c = 0; c < 3; ++c) square += (r[c] - along * edge[c]) * (r[c] - along * edge[c]);
+        least = fmin(least, square);
+        above = above && dot(r, outward) <= 0.0;
+    }
+    if (!above || !(area > 0.0)) return least;
+    const double *c = body->free_centroid + 3 * f, r[3] = {x[0] - c[0], x[1] - c[1], x[2] - c[2]}, height = dot(r, normal) / area;
+    return height * height;
+}
+
+/* Does a sphere reach through a free face of cell b? Its middle may be outside. */
+static bool reaches_in(const double *x, double radius, const brc_domain *body, int64_t b)
+{
+    for (int64_t f = body->free_start[b]; f < body->free_start[b + 1]; ++f)
+        if (square_to_face(x, body, f) < NEAR * radius * NEAR * radius) return true;
+    return false;
+}
+
 /* Does element e of `other` stand in element b of the list's body? */
 static bool stands_in(const brc_domain *other, int64_t e, const brc_domain *body, int64_t b)
 {
     const double *x = other->position + 3 * e, *y = body->position + 3 * b, margin = DEEP * body->quality.mean_spacing;
-    if (!is_sphere(body)) return in_cell(x, body, b, margin, margin);
-    const double r[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]}, near = NEAR * (other->radius[e] + body->radius[b]);
-    return r[0] * r[0] + r[1] * r[1] + r[2] * r[2] < near * near;
+    const double radius = is_sphere(other) ? other->radius[e] : 0.0;
+    if (!is_sphere(body)) return in_cell(x, body, b, margin, margin) || (radius > 0.0 && reaches_in(x, radius, body, b));
+    const double r[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]}, near = NEAR * (radius + body->radius[b]);
+    return dot(r, r) < near * near;
 }
 
 /* The box of x; -1: outside the region. */
@@ -199,7 +239,7 @@ static brc_status find_inside(brc_context *context, const brc_domain *other, con
             if (e < first) first = e;
         }
     *out = (finding){.n = n, .first = first};
-    if (n > 0 || is_sphere(body)) goto cleanup;
+    if (n > 0 || is_sphere(body) || is_sphere(other)) goto cleanup;
 #pragma omp parallel for schedule(dynamic, 256) num_threads(omp_get_max_threads()) reduction(+ : n_corners) reduction(min : first_corner)
     for (int64_t e = 0; e < other->n_elements; ++e)
         if (deep_corner(&list, other, e)) {

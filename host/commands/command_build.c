@@ -6,9 +6,11 @@
 #include "../../preprocess/points.h"
 #include "../base/file.h"
 #include "../base/log.h"
+#include "../base/memory.h"
 #include "../output/export_domain.h"
 #include "../output/isotropy_report.h"
 #include "../scene/scene_reader.h"
+#include <string.h>
 
 static const brc_option options[] = {
     {"output", 'o', "FILE", false, "domain file to write (needed), e.g. domain.h5"},
@@ -29,36 +31,92 @@ static void print_domain(const brc_domain *domain)
                domain->sets[s].kind == BRC_SET_FACES ? "faces" : "elements");
 }
 
+/* Where the domains, tables and pictures go. */
+typedef struct targets {
+    const char *path, *vtu, *csv, *isotropy; /* NULL: not asked for */
+} targets;
+
+/* path, or of one model among several "name-model.ending"; freed by brc_memory_free. NULL stays NULL. */
+static brc_status path_of_model(brc_context *context, const char *path, const char *model, char **out)
+{
+    *out = NULL;
+    if (!path) return BRC_OK;
+    const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+    const size_t length = strlen(path), stem = dot && dot > (slash ? slash + 1 : path) ? (size_t)(dot - path) : length;
+    const size_t room = length + (model ? strlen(model) + 1 : 0) + 1;
+    BRC_TRY(BRC_ALLOCATE(context, out, (int64_t)room, "name of a file"));
+    snprintf(*out, room, "%.*s%s%s%s", (int)stem, path, model ? "-" : "", model ? model : "", path + stem);
+    return BRC_OK;
+}
+
+/* The folders of the reports, before anything is built. */
+static brc_status make_folders(brc_context *context, const brc_split *split, const char *isotropy)
+{
+    brc_status status = BRC_OK;
+    for (int32_t k = 0; isotropy && status == BRC_OK && k < split->n; ++k) {
+        char *path;
+        BRC_TRY(path_of_model(context, isotropy, split->n > 1 ? split->part[k].name : NULL, &path));
+        status = brc_file_make_folder(context, path);
+        brc_memory_free(path);
+    }
+    return status;
+}
+
+/* model: NULL where there is one domain. */
+static brc_status write_domain(brc_context *context, const brc_domain *domain, const char *model, const targets *to)
+{
+    char *path = NULL, *vtu = NULL, *csv = NULL, *isotropy = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, path_of_model(context, to->path, model, &path));
+    BRC_TRY_OR(cleanup, path_of_model(context, to->vtu, model, &vtu));
+    BRC_TRY_OR(cleanup, path_of_model(context, to->csv, model, &csv));
+    BRC_TRY_OR(cleanup, path_of_model(context, to->isotropy, model, &isotropy));
+    BRC_TRY_OR(cleanup, brc_domain_write(context, domain, path));
+    if (model) printf("model %s\n", model);
+    print_domain(domain);
+    if (vtu) BRC_TRY_OR(cleanup, brc_export_domain_vtu(context, domain, vtu));
+    if (csv) BRC_TRY_OR(cleanup, brc_points_write(context, domain, csv));
+    if (isotropy) BRC_TRY_OR(cleanup, brc_isotropy_report(context, domain, 3, isotropy));
+    printf("%s\n", path);
+cleanup:
+    brc_memory_free(path);
+    brc_memory_free(vtu);
+    brc_memory_free(csv);
+    brc_memory_free(isotropy);
+    return status;
+}
+
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
 {
     brc_context *context = session->context;
     const double start = brc_clock_s();
-    const char *path = brc_arguments_value(arguments, "output");
-    if (!path) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia build: say where the domain goes with -o FILE");
-    const char *vtu = brc_arguments_value(arguments, "vtu"), *csv = brc_arguments_value(arguments, "csv");
-    const char *isotropy = brc_arguments_value(arguments, "isotropy");
-    const char *const files[] = {path, vtu, csv};
+    const targets to = {.path = brc_arguments_value(arguments, "output"), .vtu = brc_arguments_value(arguments, "vtu"),
+                        .csv = brc_arguments_value(arguments, "csv"), .isotropy = brc_arguments_value(arguments, "isotropy")};
+    if (!to.path) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia build: say where the domain goes with -o FILE");
+    const char *const files[] = {to.path, to.vtu, to.csv};
     for (size_t k = 0; k < sizeof files / sizeof *files; ++k)
         if (files[k]) BRC_TRY(brc_file_check_place(context, files[k]));
-    if (isotropy) BRC_TRY(brc_file_make_folder(context, isotropy));
     int64_t n_threads;
     BRC_TRY(brc_arguments_integer(context, arguments, "threads", 0, 4096, 0, &n_threads));
     int n_overrides;
     const char *const *overrides = brc_arguments_values(arguments, "set", &n_overrides);
     brc_status status = BRC_OK;
     brc_scene *scene = NULL;
-    brc_domain *domain = NULL;
+    brc_split *split = NULL;
+    brc_domain **domain = NULL;
     BRC_TRY_OR(cleanup, brc_scene_read(context, arguments->positional[0], n_overrides, overrides, &scene));
-    BRC_TRY_OR(cleanup, brc_scene_domain_build(context, scene, (int)n_threads, &domain));
+    BRC_TRY_OR(cleanup, brc_split_create(context, scene, &split));
+    BRC_TRY_OR(cleanup, make_folders(context, split, to.isotropy));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain, split->n, "domains of a scene"));
+    BRC_TRY_OR(cleanup, brc_split_domains_build(context, split, (int)n_threads, domain));
     const double built = brc_clock_s();
-    BRC_TRY_OR(cleanup, brc_domain_write(context, domain, path));
-    print_domain(domain);
-    if (vtu) BRC_TRY_OR(cleanup, brc_export_domain_vtu(context, domain, vtu));
-    if (csv) BRC_TRY_OR(cleanup, brc_points_write(context, domain, csv));
-    if (isotropy) BRC_TRY_OR(cleanup, brc_isotropy_report(context, domain, 3, isotropy));
-    printf("seconds: build %.3g, write %.3g\n%s\n", built - start, brc_clock_s() - built, path);
+    for (int32_t k = 0; k < split->n; ++k)
+        BRC_TRY_OR(cleanup, write_domain(context, domain[k], split->n > 1 ? split->part[k].name : NULL, &to));
+    printf("seconds: build %.3g, write %.3g\n", built - start, brc_clock_s() - built);
 cleanup:
-    brc_domain_free(&domain);
+    for (int32_t k = 0; domain && k < split->n; ++k) brc_domain_free(&domain[k]);
+    brc_memory_free(domain);
+    brc_split_free(&split);
     brc_scene_free(&scene);
     return status;
 }
@@ -68,7 +126,8 @@ const brc_command brc_command_build = {.name = "build",
                                        .least = 1,
                                        .most = 1,
                                        .summary = "build the domain of a scene (seeds, cells, bonds, sets) and write it",
-                                       .details = "A scene uses the file with `domain: FILE` in place of shape and fill.",
+                                       .details = "A scene uses the file with `domain: FILE` in place of shape and fill. Bodies of several models are "
+                                                  "written model by model, each file's name with the model's before its ending.",
                                        .options = options,
                                        .n_options = sizeof options / sizeof *options,
                                        .run = run};

@@ -1,9 +1,11 @@
 /* breccia check: what a scene asks for and what it will cost, before it runs. */
 #include "command.h"
 #include "scene_domain.h"
+#include "setup.h"
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "../scene/scene_reader.h"
+#include "../solver/lockstep.h"
 #include <math.h>
 
 static const brc_option options[] = {
@@ -31,9 +33,10 @@ static brc_status print_resolved(brc_context *context, const brc_scene *scene)
     return BRC_OK;
 }
 
-static void print_effects(const char *head, const char *const *effects)
+/* model: NULL where all bodies have one. */
+static void print_effects(const char *head, const char *model, const char *const *effects)
 {
-    printf("%s", head);
+    printf("%s%s%s:", head, model ? " with " : "", model ? model : "");
     for (int k = 0; effects[k]; ++k)
         printf("%s%s", k ? ", " : " ", effects[k]);
     printf("%s\n", effects[0] ? "" : " none");
@@ -97,23 +100,37 @@ typedef struct plan {
     int64_t n_steps;
 } plan;
 
-static brc_status make_plans(const brc_scene *scene, brc_simulation *simulation, plan *plans)
+static brc_status make_plans(const brc_assembly *assembly, plan *plans)
 {
-    for (int32_t k = 0; k < scene->n_stages; ++k) {
-        if (scene->stages[k].solver != BRC_SOLVER_DYNAMIC) continue;
-        BRC_TRY(brc_simulation_find_time_step(simulation, k, &plans[k].step));
-        plans[k].n_steps = brc_simulation_planned_steps(simulation, k, plans[k].step.value);
+    for (int32_t k = 0; k < assembly->scene->n_stages; ++k) {
+        if (assembly->scene->stages[k].solver != BRC_SOLVER_DYNAMIC) continue;
+        BRC_TRY(brc_lockstep_begin_stage(assembly->n, assembly->part, k));
+        plans[k].step = brc_assembly_time_step(assembly);
+        plans[k].n_steps = brc_simulation_planned_steps(assembly->part[0], k, plans[k].step.value);
     }
     return BRC_OK;
 }
 
-/* A line or two a stage; adds its predicted seconds to *total. */
-static brc_status print_stage(brc_context *context, brc_scene *scene, const brc_domain *domain, brc_device *device,
-                              int32_t index, const plan *planned, double *total)
+/* What a solve repeats, in steps, by a part's size. */
+static double cells_across(const brc_domain *domain)
 {
-    const brc_stage *stage = &scene->stages[index];
-    double per_step = 0;
-    BRC_TRY(time_a_step(context, scene, domain, device, index, &per_step));
+    double longest = 0;
+    for (int d = 0; d < 3; ++d)
+        longest = fmax(longest, domain->bounds[1][d] - domain->bounds[0][d]);
+    return longest / domain->quality.mean_spacing;
+}
+
+/* A line or two a stage; adds its predicted seconds to *total. */
+static brc_status print_stage(brc_context *context, const brc_setup *setup, int32_t index, const plan *planned, double *total)
+{
+    const brc_stage *stage = &setup->split->scene->stages[index];
+    double per_step = 0, iterated = 0; /* iterated: a step of each part times what is across it */
+    for (int32_t k = 0; k < setup->n; ++k) {
+        double one;
+        BRC_TRY(time_a_step(context, setup->split->part[k].scene, setup->domain[k], setup->device[k], index, &one));
+        per_step += one;
+        iterated += one * cells_across(setup->domain[k]);
+    }
     if (stage->solver == BRC_SOLVER_DYNAMIC) {
         const brc_time_step step = planned->step;
         const int64_t n = planned->n_steps;
@@ -121,21 +138,49 @@ static brc_status print_stage(brc_context *context, brc_scene *scene, const brc_
         if (step.critical > 0) printf(", %.3g of the critical %.6g s", step.value / step.critical, step.critical);
         printf("; the paper's rule would give %.6g s)\n", step.published);
         printf("stage %s: %lld steps of %.3g s each, %.3g bond updates/s: %.3g s\n", stage->name, (long long)n, per_step,
-               (double)domain->n_bonds / per_step, per_step * (double)n);
+               (double)brc_setup_n_bonds(setup) / per_step, per_step * (double)n);
         *total += per_step * (double)n;
         return BRC_OK;
     }
-    double longest = 0;
-    for (int d = 0; d < 3; ++d)
-        longest = fmax(longest, domain->bounds[1][d] - domain->bounds[0][d]);
-    const double across = longest / domain->quality.mean_spacing;
     const double solves = stage->solver == BRC_SOLVER_MODES ? SOLVES_PER_MODE * stage->n_modes
                                                             : stage->increments * (stage->finite_strain ? SOLVES_PER_INCREMENT : 1.0);
-    const double seconds = solves * ITERATIONS_PER_CELL_ACROSS * across * per_step;
+    const double seconds = solves * ITERATIONS_PER_CELL_ACROSS * iterated;
     printf("stage %s: %s; about %.2g iterations of %.3g s each: %.2g s (a rule of thumb)\n", stage->name,
-           stage->solver == BRC_SOLVER_MODES ? "modes" : "static", solves * ITERATIONS_PER_CELL_ACROSS * across, per_step, seconds);
+           stage->solver == BRC_SOLVER_MODES ? "modes" : "static", seconds / per_step, per_step, seconds);
     *total += seconds;
     return BRC_OK;
+}
+
+/* Model by model where there are several. */
+static void print_counts(const brc_setup *setup, double build_s)
+{
+    int64_t n_free = 0;
+    for (int32_t k = 0; k < setup->n; ++k) {
+        const brc_domain *domain = setup->domain[k];
+        char bodies[256];
+        n_free += domain->n_free_faces;
+        if (setup->n > 1)
+            printf("model %s: %lld elements, %lld bonds, bodies %s\n", setup->split->part[k].name, (long long)domain->n_elements,
+                   (long long)domain->n_bonds, brc_split_bodies(setup->split, k, bodies, sizeof bodies));
+    }
+    printf("counts: %lld elements, %lld bonds, %lld free faces (built in %.3g s)\n", (long long)brc_setup_n_elements(setup),
+           (long long)brc_setup_n_bonds(setup), (long long)n_free, build_s);
+}
+
+/* Device, effects and memory. */
+static void print_setup(const brc_setup *setup, brc_precision precision)
+{
+    const brc_assembly *a = &setup->assembly;
+    const double bytes = (double)brc_assembly_device_bytes(a);
+    const brc_device_info *info = brc_device_get_info(setup->device[0]);
+    printf("device: %s (%s), %s precision\n", info->selector, info->name, brc_precision_name(precision));
+    for (int32_t k = 0; k < a->n; ++k) {
+        const char *model = a->split ? brc_assembly_part_name(a, k) : NULL;
+        print_effects("effects in", model, brc_simulation_effects_in(a->part[k]));
+        print_effects("effects out", model, brc_simulation_effects_out(a->part[k]));
+    }
+    printf("memory: %.4g MB on the device (%.0f bytes an element), %.4g MB on the host\n", bytes / 1e6,
+           bytes / (double)brc_setup_n_elements(setup), (double)brc_memory_peak() / 1e6);
 }
 
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
@@ -143,9 +188,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     brc_context *context = session->context;
     brc_status status = BRC_OK;
     brc_scene *scene = NULL;
-    brc_domain *domain = NULL;
-    brc_device *device = NULL;
-    brc_simulation *simulation = NULL;
+    brc_setup setup = {0};
     plan *plans = NULL;
     int64_t n_threads;
     brc_precision precision;
@@ -160,34 +203,22 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
         goto cleanup;
     }
     const double build_start = brc_clock_s();
-    BRC_TRY_OR(cleanup, brc_scene_domain_build(context, scene, (int)n_threads, &domain));
+    BRC_TRY_OR(cleanup, brc_setup_domains(context, scene, NULL, (int)n_threads, &setup));
     double total = brc_clock_s() - build_start;
-    printf("counts: %lld elements, %lld bonds, %lld free faces (built in %.3g s)\n", (long long)domain->n_elements,
-           (long long)domain->n_bonds, (long long)domain->n_free_faces, total);
+    print_counts(&setup, total);
     const char *selector = brc_arguments_value(arguments, "device");
-    const brc_device_request request = {.selector = selector ? selector : "auto",
-                                        .precision = precision,
-                                        .many_materials = brc_simulation_needs_many_materials(scene, domain),
-                                        .n_threads = (int)n_threads};
-    BRC_TRY_OR(cleanup, brc_device_open(context, &request, &device));
-    BRC_TRY_OR(cleanup, brc_simulation_create(context, scene, domain, device, &simulation));
-    const brc_device_info *info = brc_device_get_info(device);
-    printf("device: %s (%s), %s precision\n", info->selector, info->name, brc_precision_name(precision));
-    print_effects("effects in:", brc_simulation_effects_in(simulation));
-    print_effects("effects out:", brc_simulation_effects_out(simulation));
-    printf("memory: %.4g MB on the device (%.0f bytes an element), %.4g MB on the host\n", (double)brc_device_bytes(device) / 1e6,
-           (double)brc_device_bytes(device) / (double)domain->n_elements, (double)brc_memory_peak() / 1e6);
+    const brc_device_request request = {.selector = selector ? selector : "auto", .precision = precision, .n_threads = (int)n_threads};
+    BRC_TRY_OR(cleanup, brc_setup_simulations(context, &request, &setup));
+    print_setup(&setup, precision);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &plans, scene->n_stages, "plans of the stages"));
-    BRC_TRY_OR(cleanup, make_plans(scene, simulation, plans));
-    brc_simulation_free(&simulation); /* the timing makes its own, and both may not fit */
+    BRC_TRY_OR(cleanup, make_plans(&setup.assembly, plans));
+    brc_setup_free_simulations(&setup); /* the timing makes its own, and both may not fit */
     for (int32_t k = 0; k < scene->n_stages; ++k)
-        BRC_TRY_OR(cleanup, print_stage(context, scene, domain, device, k, &plans[k], &total));
+        BRC_TRY_OR(cleanup, print_stage(context, &setup, k, &plans[k], &total));
     printf("predicted: %.3g s with building, without output\n", total);
 cleanup:
     brc_memory_free(plans);
-    brc_simulation_free(&simulation);
-    brc_device_close(&device);
-    brc_domain_free(&domain);
+    brc_setup_free(&setup);
     brc_scene_free(&scene);
     return status;
 }

@@ -84,6 +84,7 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     BRC_TRY(brc_setup_domains(context, now->scene, request->domain, request->n_threads, &now->setup));
     out->build_s = brc_clock_s() - build_start;
     if (now->recorder) brc_recorder_set_domains(now->recorder, now->setup.n, now->setup.domain, out->build_s);
+    BRC_TRY(brc_setup_polish(context, request->n_threads, &now->setup));
     const brc_device_request device = {.selector = request->device ? request->device : "auto",
                                        .precision = request->precision,
                                        .n_threads = request->n_threads,

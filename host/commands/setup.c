@@ -20,13 +20,18 @@ brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_d
     return brc_split_share(context, setup->split, setup->domain);
 }
 
-brc_status brc_setup_simulations(brc_context *context, const brc_device_request *request, brc_setup *setup)
+brc_status brc_setup_polish(brc_context *context, int n_threads, brc_setup *setup)
 {
     for (int32_t k = 0; k < setup->n; ++k) {
         brc_scene *scene = setup->split->part[k].scene;
         if (scene->model.kind == BRC_MODEL_CBM && scene->model.polish)
-            BRC_TRY(brc_beam_polish_scene(context, scene, setup->domain[k], request->n_threads));
+            BRC_TRY(brc_beam_polish_scene(context, scene, setup->domain[k], n_threads));
     }
+    return BRC_OK;
+}
+
+brc_status brc_setup_simulations(brc_context *context, const brc_device_request *request, brc_setup *setup)
+{
     for (int32_t k = 0; k < setup->n; ++k) {
         const brc_scene *scene = setup->split->part[k].scene;
         brc_device_request own = *request;

@@ -17,7 +17,9 @@ typedef struct brc_setup {
 /* Split the scene and build its domains, or take the one given (of a scene of one model; NULL: built), and hand out what the stages ask. scene and
  * given are borrowed until the setup is freed. */
 brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads, brc_setup *setup);
-/* A device for every part, as asked but for many_materials, and the simulations on them. Beams that ask for it are polished first. */
+/* Correct the laws of the beams that ask for it (beam_polish.h): seconds of tests. */
+brc_status brc_setup_polish(brc_context *context, int n_threads, brc_setup *setup);
+/* A device for every part, as asked but for many_materials, and the simulations on them. */
 brc_status brc_setup_simulations(brc_context *context, const brc_device_request *request, brc_setup *setup);
 /* Only the simulations; devices and domains stay. */
 void brc_setup_free_simulations(brc_setup *setup);

@@ -1,0 +1,469 @@
+/* Bodies with models of their own: a bar of cells (dlsm) beside a packing of spheres (cbm), each in its own place and turned. What one simulation for
+ * each must give is known exactly: what the two scenes give alone. */
+#include "support.h"
+#include "../../host/base/file.h"
+#include "../../host/base/memory.h"
+#include "../../host/commands/run_scene.h"
+#include "../../host/commands/setup.h"
+#include "../../host/output/h5_read.h"
+#include "../../host/scene/scene_reader.h"
+#include "../../host/solver/lockstep.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define MATERIALS                                                                                                      \
+    "version: 1\nmaterials:\n  glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3}\n"                                   \
+    "  steel: {E: 200 GPa, nu: 0.3, density: 7800 kg/m^3, beam: {radius: 0.5, E: 500 GPa}}\n"
+#define CELLS                                                                                                          \
+    "  - name: bar\n    shape:\n      box: {size: [40 mm, 20 mm, 20 mm]}\n"                                           \
+    "    fill:\n      noisy_grid: {cells: [8, 4, 4], spread: 50 %, seed: 3}\n    material: glass\n"                     \
+    "    pose: {translation: [0, 30 mm, 0], rotation: [0, 0, 30 deg]}\n"
+#define SPHERES                                                                                                        \
+    "  - name: ball\n    shape:\n      box: {size: [30 mm, 20 mm, 20 mm]}\n"                                          \
+    "    fill:\n      packing: {elements: 150, seed: 2}\n    material: steel\n    beams: 9\n"                           \
+    "    pose: {translation: [0, -40 mm, 0], rotation: [0, 20 deg, 0]}\n"
+#define BOTH MATERIALS "bodies:\n" CELLS "    model: dlsm\n" SPHERES "    model: cbm\n"
+#define ALONE_CELLS MATERIALS "model: dlsm\nbodies:\n" CELLS
+#define ALONE_SPHERES MATERIALS "model: cbm\nbodies:\n" SPHERES
+#define UPPER_SET "  upper:\n    elements:\n      half_space: {point: [0, 5 mm, 0], normal: [0, 1, 0]}\n"
+#define LOWER_SET "  lower:\n    elements:\n      half_space: {point: [0, 5 mm, 0], normal: [0, -1, 0]}\n"
+#define ENDS "  left:\n    elements: {wall: x-}\n  right:\n    elements: {wall: x+}\n"
+#define ALL_SET "  everything:\n    elements:\n      box: {from: [-1 m, -1 m, -1 m], to: [1 m, 1 m, 1 m]}\n"
+#define QUIET "output:\n  frames: none\n  picture: false\n"
+
+/* Fifty steps of 20 ns after a spin and a random push: half the critical step of the cells. */
+#define SPIN "stages:\n  - name: fly\n    initial:\n      - spin: {angular_velocity: [0, 0, 100 rad/s]}\n"            \
+             "      - random: {amplitude: [1 m/s, 1 m/s, 1 m/s], seed: 5}\n"                                            \
+             "    solver:\n      dynamic: {steps: 50, time_step: 20 ns}\n"
+
+static brc_context *context;
+
+static int begin(void **state)
+{
+    (void)state;
+    context = brc_context_create();
+    return context ? 0 : -1;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    brc_context_free(&context);
+    return 0;
+}
+
+static void must(brc_status status)
+{
+    if (status != BRC_OK) fail_msg("%s", brc_context_message(context));
+}
+
+static void says(const char *part)
+{
+    const char *text = brc_context_message(context);
+    if (!strstr(text, part)) fail_msg("\"%s\" is not in: %s", part, text);
+    brc_context_clear(context);
+}
+
+typedef struct sample {
+    brc_scene *scene;
+    brc_setup setup;
+} sample;
+
+static const brc_device_request CPU = {.selector = "cpu", .precision = BRC_DOUBLE, .n_threads = 1};
+
+static brc_status prepare(const char *text, sample *out)
+{
+    *out = (sample){0};
+    BRC_TRY(brc_scene_read_text(context, "test", text, strlen(text), 0, NULL, &out->scene));
+    BRC_TRY(brc_setup_domains(context, out->scene, NULL, 1, &out->setup));
+    return brc_setup_simulations(context, &CPU, &out->setup);
+}
+
+static sample ready(const char *text)
+{
+    sample s;
+    must(prepare(text, &s));
+    return s;
+}
+
+static void release(sample *s)
+{
+    brc_setup_free(&s->setup);
+    brc_scene_free(&s->scene);
+}
+
+static void run(sample *s) { must(brc_lockstep_run(s->setup.n, s->setup.assembly.part)); }
+
+/* Positions of the state, of one quantity by element. */
+typedef brc_status (*reading)(brc_simulation *, double *);
+
+static void assert_same(brc_simulation *a, brc_simulation *b, reading read)
+{
+    const int64_t n = brc_simulation_domain(a)->n_elements;
+    double *values[2];
+    assert_int_equal(n, brc_simulation_domain(b)->n_elements);
+    for (int k = 0; k < 2; ++k) {
+        must(BRC_ALLOCATE(context, &values[k], 3 * n, "test"));
+        must(read(k == 0 ? a : b, values[k]));
+    }
+    assert_memory_equal(values[0], values[1], 3 * (size_t)n * sizeof(double));
+    for (int k = 0; k < 2; ++k) brc_memory_free(values[k]);
+}
+
+static void assert_parts_are_the_scenes_alone(const char *both, const char *cells, const char *spheres)
+{
+    sample whole = ready(both), alone[2] = {ready(cells), ready(spheres)};
+    assert_int_equal(whole.setup.n, 2);
+    run(&whole);
+    for (int k = 0; k < 2; ++k) {
+        assert_int_equal(alone[k].setup.n, 1);
+        run(&alone[k]);
+        brc_simulation *a = whole.setup.simulation[k], *b = alone[k].setup.simulation[0];
+        assert_same(a, b, brc_simulation_displacement);
+        assert_same(a, b, brc_simulation_velocity);
+        assert_same(a, b, brc_simulation_force);
+        brc_ledger one, other;
+        must(brc_simulation_ledger(a, &one));
+        must(brc_simulation_ledger(b, &other));
+        assert_memory_equal(&one, &other, sizeof one);
+        release(&alone[k]);
+    }
+    release(&whole);
+}
+
+static void each_body_moves_bit_for_bit_as_in_a_scene_of_its_own(void **state)
+{
+    (void)state;
+    assert_parts_are_the_scenes_alone(BOTH SPIN QUIET, ALONE_CELLS SPIN QUIET, ALONE_SPHERES SPIN QUIET);
+}
+
+/* Static stage of three increments, then a dynamic one that starts from it. */
+static void static_stages_are_solved_as_in_a_scene_of_its_own(void **state)
+{
+    (void)state;
+#define STAGES(loads)                                                                                                  \
+    "stages:\n  - name: pull\n    solver:\n      static: {increments: 3}\n    loads:\n"                                \
+    "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n" loads                                               \
+    "  - name: ring\n    solver:\n      dynamic: {steps: 20, time_step: 20 ns}\n"
+#define FORCE_UP "      - element_force: {set: upper, x: 1 N, y: 2 N}\n"
+#define FORCE_LOW "      - element_force: {set: lower, z: 3 N}\n"
+    assert_parts_are_the_scenes_alone(BOTH "sets:\n" ENDS UPPER_SET LOWER_SET STAGES(FORCE_UP FORCE_LOW) QUIET, ALONE_CELLS "sets:\n" ENDS UPPER_SET STAGES(FORCE_UP) QUIET,
+                                      ALONE_SPHERES "sets:\n" ENDS LOWER_SET STAGES(FORCE_LOW) QUIET);
+}
+
+/* Two bodies of cells whose models differ in a parameter; a third of the first model: it belongs to the first part. */
+static void models_that_differ_in_a_parameter_are_parts_of_their_own(void **state)
+{
+    (void)state;
+#define CUBE(name, x, model)                                                                                           \
+    "  - name: " name "\n    shape:\n      box: {size: [1 m, 1 m, 1 m]}\n    fill:\n      noisy_grid: {cells: [2, 2, 2], seed: 1}\n"             \
+    "    material: glass\n    pose: {translation: [" x ", 0, 0]}\n" model
+    sample s = ready(MATERIALS "model: dlsm\nbodies:\n" CUBE("a", "0", "") CUBE("b", "2 m", "    model:\n      dlsm: {tau: 0.3}\n")
+                         CUBE("c", "4 m", "    model: dlsm\n") "stages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n");
+    const brc_split *split = s.setup.split;
+    assert_int_equal(split->n, 2);
+    assert_string_equal(split->part[0].name, "dlsm");
+    assert_string_equal(split->part[1].name, "dlsm-2");
+    assert_int_equal(split->part[0].n_bodies, 2);
+    assert_int_equal(split->part[0].body[1], 2);
+    assert_int_equal(split->part[1].body[0], 1);
+    assert_true(split->part[1].scene->model.tau == 0.3);
+    assert_int_equal(brc_assembly_body(&s.setup.assembly, 0, 0), 0);
+    assert_int_equal(brc_assembly_body(&s.setup.assembly, 0, 15), 2);
+    assert_int_equal(brc_assembly_body(&s.setup.assembly, 1, 0), 1);
+    release(&s);
+}
+
+/* All bodies have one model of their own: it is the scene's, which stays whole. */
+static void a_scene_of_one_model_is_its_own_only_part(void **state)
+{
+    (void)state;
+    sample s = ready(MATERIALS "bodies:\n" CELLS "    model: dlsm-published\nstages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n");
+    assert_int_equal(s.setup.n, 1);
+    assert_ptr_equal(s.setup.split->part[0].scene, s.scene);
+    assert_int_equal(s.scene->model.kind, BRC_MODEL_DLSM_PUBLISHED);
+    assert_null(s.setup.assembly.split);
+    release(&s);
+}
+
+#define AUTO "stages:\n  - name: fly\n    solver:\n      dynamic: {duration: 5 us}\n"
+static void all_take_the_shortest_of_the_automatic_steps_and_end_together(void **state)
+{
+    (void)state;
+    sample whole = ready(BOTH AUTO QUIET), cells = ready(ALONE_CELLS AUTO QUIET), spheres = ready(ALONE_SPHERES AUTO QUIET);
+    double least = INFINITY;
+    sample *const alone[2] = {&cells, &spheres};
+    for (int k = 0; k < 2; ++k) {
+        brc_time_step step;
+        must(brc_simulation_find_time_step(alone[k]->setup.simulation[0], 0, &step));
+        least = fmin(least, step.value);
+    }
+    run(&whole);
+    const brc_time_step shared = brc_assembly_time_step(&whole.setup.assembly);
+    assert_true(shared.value == least);
+    assert_true(fabs(shared.safety - 0.8) < 1e-12); /* the default of the part that governs */
+    for (int k = 0; k < 2; ++k) {
+        assert_true(brc_simulation_time_step(whole.setup.simulation[k]).value == least);
+        assert_int_equal(brc_simulation_total_steps(whole.setup.simulation[k]), (int64_t)ceil(5e-6 / least - 1e-9));
+    }
+    release(&whole);
+    release(&cells);
+    release(&spheres);
+}
+
+/* 5 N over all elements by number, 3 N by mass: sums and single forces. */
+static void a_total_force_over_both_models_is_shared_out(void **state)
+{
+    (void)state;
+    sample s = ready(BOTH "sets:\n" ALL_SET "stages:\n  - name: push\n    solver:\n      dynamic: {steps: 1, time_step: 1 ns}\n    loads:\n"
+                          "      - element_force: {set: everything, x: 5 N}\n      - element_force: {set: everything, y: 3 N, share: mass}\n" QUIET);
+    run(&s);
+    const int64_t n = brc_setup_n_elements(&s.setup);
+    double sum[3] = {0}, mass = 0;
+    for (int k = 0; k < 2; ++k) mass += brc_split_mass(&s.setup.split->part[k], s.setup.domain[k]);
+    for (int k = 0; k < 2; ++k) {
+        const brc_domain *d = s.setup.domain[k];
+        double *f;
+        must(BRC_ALLOCATE(context, &f, 3 * d->n_elements, "test"));
+        must(brc_simulation_applied_force(s.setup.simulation[k], f));
+        for (int64_t e = 0; e < d->n_elements; ++e) {
+            const double m = d->volume[e] * (k == 0 ? 2500 : 7800);
+            assert_near(f[3 * e], 5.0 / (double)n, 1e-14); /* rounding of two quotients of order 0.01 */
+            assert_near(f[3 * e + 1], 3.0 * m / mass, 1e-14);
+            for (int c = 0; c < 3; ++c) sum[c] += f[3 * e + c];
+        }
+        brc_memory_free(f);
+    }
+    assert_near(sum[0], 5, 1e-12);
+    assert_near(sum[1], 3, 1e-12);
+    assert_true(sum[2] == 0);
+    release(&s);
+}
+
+static void refused(const char *text, const char *part)
+{
+    sample s;
+    assert_int_equal(prepare(text, &s), BRC_BAD_INPUT);
+    release(&s);
+    says(part);
+}
+
+static void what_no_model_can_do_is_refused(void **state)
+{
+    (void)state;
+    static const char *const REST = "stages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n";
+    char text[4096];
+    /* a body of cells moved by beams */
+    snprintf(text, sizeof text, "%s%s", MATERIALS "bodies:\n" CELLS "    model: cbm\n" SPHERES "    model: dlsm\n", REST);
+    sample s;
+    assert_int_equal(prepare(text, &s), BRC_BAD_INPUT);
+    release(&s);
+    says("model cbm needs spheres joined by beams");
+    /* the bar turned the other way and moved down into the packing */
+    snprintf(text, sizeof text, "%s%s", BOTH "  - name: wall\n    shape:\n      box: {size: [50 mm, 15 mm, 5 mm]}\n    fill:\n"
+             "      noisy_grid: {cells: [10, 3, 2]}\n    material: glass\n    model: dlsm\n    pose: {translation: [0, -40 mm, 0]}\n", REST);
+    refused(text, "bodies 'wall' and 'ball' overlap");
+    /* sets nobody has */
+    snprintf(text, sizeof text, "%s%s", BOTH "sets:\n  far:\n    elements:\n      sphere: {centre: [1 km, 0, 0], radius: 1 m}\n", REST);
+    refused(text, "set 'far' is empty");
+    /* faces of spheres: the cells' alone count */
+    s = ready(BOTH "sets:\n  ends:\n    faces: {wall: x+}\nstages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n    loads:\n"
+                   "      - traction: {set: ends, x: 1 Pa}\n");
+    assert_int_equal(brc_domain_find_set(s.setup.domain[1], "ends"), -1);
+    assert_int_equal(s.setup.split->part[0].scene->stages[0].n_loads, 1);
+    assert_int_equal(s.setup.split->part[1].scene->stages[0].n_loads, 0);
+    release(&s);
+    /* means over two kinds */
+    snprintf(text, sizeof text, "%s%s%s", BOTH "sets:\n" ALL_SET, REST, "sensors:\n  s:\n    stress: {set: everything, component: xx}\n");
+    refused(text, "sensor s: the set \"everything\" spans bodies of 2 models");
+    snprintf(text, sizeof text, "%s%s%s", BOTH, REST, "sensors:\n  s:\n    stress: {component: xx}\n");
+    refused(text, "sensor s: it averages over the bodies of 2 models");
+    snprintf(text, sizeof text, "%s%s%s", BOTH "sets:\n" UPPER_SET LOWER_SET, REST,
+             "sensors:\n  s:\n    face_strain: {set: upper, against: lower, component: y}\n");
+    refused(text, "sensor s: \"upper\" and \"lower\" lie in bodies of different models");
+    /* one file for the elements of two models */
+    snprintf(text, sizeof text, "%s", BOTH "stages:\n  - name: rest\n    initial:\n      - file: start.h5\n    solver:\n      dynamic: {steps: 1}\n");
+    refused(text, "stage 'rest': a file of initial values has a row for every element of one model");
+}
+
+static void a_part_that_runs_away_names_its_model(void **state)
+{
+    (void)state;
+    /* 1 us is far above the critical step of both; the cells' bar alone is pushed, so it is the cells that run away */
+    sample s = ready(BOTH "sets:\n" UPPER_SET "stages:\n  - name: boom\n    initial:\n      - random: {set: upper, amplitude: [1 m/s, 1 m/s, 1 m/s], seed: 1}\n"
+                          "    solver:\n      dynamic: {steps: 400, time_step: 3 us}\n" QUIET);
+    assert_int_equal(brc_lockstep_run(2, s.setup.assembly.part), BRC_PHYSICS_STOPPED);
+    says("in the bodies of model dlsm");
+    release(&s);
+}
+
+static brc_status interrupt(void *self, brc_simulation *simulation)
+{
+    (void)self;
+    brc_simulation_interrupt(simulation);
+    return BRC_OK;
+}
+
+/* ---- results ---- */
+
+static char folder[] = "/tmp/breccia-several-XXXXXX";
+
+static double *read_cells(const char *run, const char *name, int64_t first, int64_t n, int64_t columns)
+{
+    char path[512];
+    double *out;
+    brc_h5_read h5;
+    snprintf(path, sizeof path, "%s/%s/frames/000001.vtkhdf", folder, run);
+    must(brc_h5_read_open(context, path, &h5));
+    snprintf(path, sizeof path, "VTKHDF/CellData/%s", name);
+    must(BRC_ALLOCATE(context, &out, n * columns, "test"));
+    must(brc_h5_read_rows(&h5, path, H5T_NATIVE_DOUBLE, first, n, out));
+    brc_h5_read_close(&h5);
+    return out;
+}
+
+static brc_status record(const char *text, const char *name, bool stop, brc_run_results *out)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    const brc_run_request request = {.path = "test", .text = text, .text_bytes = strlen(text), .folder = path, .device = "cpu", .n_threads = 1,
+                                     .created = stop ? interrupt : NULL};
+    return brc_run_scene(context, &request, out);
+}
+
+static char *summary_of(const char *name)
+{
+    char path[512], *text;
+    snprintf(path, sizeof path, "%s/%s/summary.json", folder, name);
+    must(BRC_ALLOCATE(context, &text, 1 << 20, "test"));
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    assert_true(fread(text, 1, (1 << 20) - 1, file) > 0);
+    fclose(file);
+    return text;
+}
+
+static double last_of(const char *summary, const char *sensor)
+{
+    char key[96];
+    snprintf(key, sizeof key, "\"%s\": {", sensor);
+    const char *at = strstr(strstr(summary, "\"sensors\""), key);
+    assert_non_null(at);
+    return strtod(strstr(at, "\"last\": ") + strlen("\"last\": "), NULL);
+}
+
+#define PULL                                                                                                           \
+    "sets:\n" ENDS "stages:\n  - name: pull\n    solver:\n      static: {increments: 1}\n    loads:\n"                    \
+    "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n      - element_displacement: {set: right, x: 1 um}\n"
+#define SENSORS                                                                                                        \
+    "sensors:\n  force:\n    reaction: {set: right, component: x}\n  elastic:\n    energy: elastic\n"                      \
+    "  tip:\n    point: {point: [20 mm, 60 mm, 10 mm], component: x}\n"
+
+static void one_folder_of_results_holds_both_models(void **state)
+{
+    (void)state;
+    static const char *const field[] = {"displacement", "velocity", "stress", "strain", "von_mises", "position"};
+    static const int columns[] = {3, 3, 6, 6, 1, 3};
+    brc_run_results both, alone[2];
+    assert_non_null(mkdtemp(folder));
+    must(record(BOTH PULL SENSORS, "both", false, &both));
+    must(record(ALONE_CELLS PULL SENSORS, "cells", false, &alone[0]));
+    must(record(ALONE_SPHERES PULL SENSORS, "spheres", false, &alone[1]));
+    assert_int_equal(both.n_elements, alone[0].n_elements + alone[1].n_elements);
+    assert_int_equal(both.n_bonds, alone[0].n_bonds + alone[1].n_bonds);
+    for (size_t f = 0; f < sizeof field / sizeof *field; ++f)
+        for (int k = 0; k < 2; ++k) {
+            const int64_t n = alone[k].n_elements, first = k == 0 ? 0 : alone[0].n_elements;
+            double *a = read_cells("both", field[f], first, n, columns[f]), *b = read_cells(k == 0 ? "cells" : "spheres", field[f], 0, n, columns[f]);
+            assert_memory_equal(a, b, (size_t)(n * columns[f]) * sizeof *a);
+            brc_memory_free(a);
+            brc_memory_free(b);
+        }
+    double *body = read_cells("both", "body", 0, both.n_elements, 1), *model = read_cells("both", "model", 0, both.n_elements, 1),
+           *id = read_cells("both", "element_id", 0, both.n_elements, 1);
+    for (int64_t e = 0; e < both.n_elements; ++e) {
+        assert_true(body[e] == (e >= alone[0].n_elements) && model[e] == body[e]);
+        assert_true(id[e] == (double)e);
+    }
+    brc_memory_free(body);
+    brc_memory_free(model);
+    brc_memory_free(id);
+    char *text = summary_of("both"), *part[2] = {summary_of("cells"), summary_of("spheres")};
+    assert_non_null(strstr(text, "\"model\": \"dlsm, cbm\""));
+    assert_non_null(strstr(text, "\"parts\": ["));
+    assert_non_null(strstr(text, "\"beams (cbm), element rotations\""));
+    assert_non_null(strstr(text, "\"status\": \"done\""));
+    /* sums of two numbers that the files hold to the last digit */
+    assert_true(last_of(text, "force") == last_of(part[0], "force") + last_of(part[1], "force"));
+    assert_true(last_of(text, "elastic") == last_of(part[0], "elastic") + last_of(part[1], "elastic"));
+    assert_true(last_of(text, "tip") == last_of(part[0], "tip")); /* nearest to the bar */
+    assert_true(both.ledger.work == alone[0].ledger.work + alone[1].ledger.work);
+    /* errors add and so do the energies they are measured by, but for which of them (elastic, work) is the larger: the same to the error itself */
+    assert_true(fabs(both.ledger.closure) <= 1.01 * fmax(fabs(alone[0].ledger.closure), fabs(alone[1].ledger.closure)));
+    brc_memory_free(text);
+    for (int k = 0; k < 2; ++k) {
+        brc_memory_free(part[k]);
+        brc_run_results_free(&alone[k]);
+    }
+    for (int f = 0; f < 5; ++f)
+        if (f != 2) assert_non_null(both.file[f]); /* all but histories are looked at here */
+    brc_run_results_free(&both);
+}
+
+static void an_interrupt_stops_both_and_keeps_the_results(void **state)
+{
+    (void)state;
+    brc_run_results out;
+    assert_int_equal(record(BOTH "sets:\n" ENDS SPIN SENSORS, "stopped", true, &out), BRC_INTERRUPTED);
+    brc_context_clear(context);
+    assert_int_equal(out.steps, 1); /* every step is sampled, and the signal is looked at after each batch */
+    char *text = summary_of("stopped");
+    assert_non_null(strstr(text, "\"status\": \"interrupted\""));
+    brc_memory_free(text);
+    brc_run_results_free(&out);
+}
+
+static void export_check_and_build_know_both_models(void **state)
+{
+    (void)state;
+    char arguments[1024], path[512];
+    snprintf(path, sizeof path, "%s/scene.yaml", folder);
+    must(brc_file_write_whole(context, path, BOTH PULL SENSORS, strlen(BOTH PULL SENSORS)));
+    snprintf(arguments, sizeof arguments, "export %s/both --format vtu", folder);
+    assert_int_equal(test_program(arguments), 0);
+    snprintf(arguments, sizeof arguments, "export %s/both --format csv", folder);
+    assert_int_equal(test_program(arguments), 0);
+    snprintf(arguments, sizeof arguments, "check %s/scene.yaml --device cpu --threads 1", folder);
+    assert_int_equal(test_program(arguments), 0);
+    assert_non_null(strstr(test_program_stdout(), "model cbm: 150 elements"));
+    assert_non_null(strstr(test_program_stdout(), "effects in with dlsm: conservative elasticity (dlsm)"));
+    assert_non_null(strstr(test_program_stdout(), "effects in with cbm: beams (cbm), element rotations"));
+    snprintf(arguments, sizeof arguments, "build %s/scene.yaml -o %s/d.h5 --threads 1", folder, folder);
+    assert_int_equal(test_program(arguments), 0);
+    snprintf(path, sizeof path, "%s/d-dlsm.h5", folder);
+    assert_true(brc_file_exists(path));
+    snprintf(path, sizeof path, "%s/d-cbm.h5", folder);
+    assert_true(brc_file_exists(path));
+    snprintf(arguments, sizeof arguments, "rm -r '%s'", folder);
+    assert_int_equal(system(arguments), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_body_moves_bit_for_bit_as_in_a_scene_of_its_own),
+        cmocka_unit_test(static_stages_are_solved_as_in_a_scene_of_its_own),
+        cmocka_unit_test(models_that_differ_in_a_parameter_are_parts_of_their_own),
+        cmocka_unit_test(a_scene_of_one_model_is_its_own_only_part),
+        cmocka_unit_test(all_take_the_shortest_of_the_automatic_steps_and_end_together),
+        cmocka_unit_test(a_total_force_over_both_models_is_shared_out),
+        cmocka_unit_test(what_no_model_can_do_is_refused),
+        cmocka_unit_test(a_part_that_runs_away_names_its_model),
+        cmocka_unit_test(one_folder_of_results_holds_both_models),
+        cmocka_unit_test(an_interrupt_stops_both_and_keeps_the_results),
+        cmocka_unit_test(export_check_and_build_know_both_models),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}
