@@ -172,7 +172,7 @@ static brc_status read_rows(const reader *r, const brc_node *node, brc_case_run 
 
 static brc_status read_run(const reader *r, const brc_node *node, brc_case_run *run)
 {
-    static const char *const operators[] = {"measures", "vibration", "drift", "build", "isotropy", "beams", "hondros", "virial", NULL};
+    static const char *const operators[] = {"measures", "vibration", "drift", "build", "isotropy", "beams", "hondros", "virial", "pressing", NULL};
     static const char *const precisions[] = {"double", "mixed", "single", NULL};
     *run = (brc_case_run){.name = "", .scene = "scene.yaml", .n_seeds = 1};
     if (node->kind != BRC_NODE_MAP) wrong(r, node, "a map");

@@ -39,7 +39,8 @@ typedef enum brc_case_operator {
     BRC_CASE_ISOTROPY,  /* no run: directions of bonds over n_seeds samples */
     BRC_CASE_BEAMS,     /* elastic tests of n_seeds samples of beams */
     BRC_CASE_HONDROS,   /* stresses on the loaded diameter of a disc against Hondros */
-    BRC_CASE_VIRIAL     /* virial stresses of a pulled box of spheres against force over section */
+    BRC_CASE_VIRIAL,    /* virial stresses of a pulled box of spheres against force over section */
+    BRC_CASE_PRESSING   /* load over strain of the measure K along the run */
 } brc_case_operator;
 
 typedef struct brc_case_run {

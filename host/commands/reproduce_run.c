@@ -1,5 +1,6 @@
 /* Carrying out one run of a case. */
 #include "reproduce_hondros.h"
+#include "reproduce_pressing.h"
 #include "reproduce_virial.h"
 #include "scene_domain.h"
 #include "../../preprocess/domain_file.h"
@@ -88,6 +89,7 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
     const brc_case_run *run = outcome->run;
     hooks h = {context, outcome};
     brc_drift *drift = NULL;
+    brc_pressing *pressing = NULL;
     brc_observer observer;
     brc_run_request request = {.path = scene,
                                .text = text,
@@ -107,11 +109,18 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
         observer = brc_drift_observer(drift);
         request.observer = &observer;
     }
+    if (run->operator == BRC_CASE_PRESSING) {
+        BRC_TRY(brc_pressing_create(context, &pressing));
+        observer = brc_pressing_observer(pressing);
+        request.observer = &observer;
+    }
     brc_run_results results;
-    const brc_status status = brc_run_scene(context, &request, &results);
+    brc_status status = brc_run_scene(context, &request, &results);
     take(outcome, &results, status == BRC_PHYSICS_STOPPED);
     if (drift) brc_drift_values(drift, outcome);
     brc_drift_free(&drift);
+    if (pressing && status == BRC_OK) status = brc_pressing_values(campaign, pressing, outcome);
+    brc_pressing_free(&pressing);
     brc_run_results_free(&results);
     return status;
 }
