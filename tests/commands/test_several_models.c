@@ -5,6 +5,7 @@
 #include "../../host/base/memory.h"
 #include "../../host/commands/run_scene.h"
 #include "../../host/commands/setup.h"
+#include "../../host/output/cracks.h"
 #include "../../host/output/h5_read.h"
 #include "../../host/scene/scene_reader.h"
 #include "../../host/solver/lockstep.h"
@@ -299,6 +300,56 @@ static void a_part_that_runs_away_names_its_model(void **state)
     release(&s);
 }
 
+/* ---- what breaks ---- */
+
+#define BRITTLE                                                                                                        \
+    "version: 1\nfracture: {}\nmaterials:\n"                                                                          \
+    "  glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3, beam: {radius: 0.5, E: 200 GPa, strength: 50 MPa}}\n"
+#define BLOCK(name, seed, y, model)                                                                                    \
+    "  - name: " name "\n    shape:\n      box: {size: [30 mm, 20 mm, 20 mm]}\n    fill:\n      packing: {elements: 150, seed: " seed "}\n"   \
+    "    material: glass\n    beams: 9\n    pose: {translation: [0, " y ", 0]}\n" model
+/* Both fly apart along x, at 4000 1/s: a strain of 1.6 % in all, many times what their beams bear. */
+#define BURST                                                                                                          \
+    "stages:\n  - name: burst\n    initial:\n      - velocity: {gradient: {x: [4000 1/s, 0, 0]}, origin: [15 mm, 0, 0]}\n"                     \
+    "    solver:\n      dynamic: {steps: 40, time_step: 100 ns}\n"
+#define SOFT "    model:\n      cbm: {nu: 0.1}\n"
+
+static void broken_bonds_of_both_are_one_stream_by_step(void **state)
+{
+    (void)state;
+    sample whole = ready(BRITTLE "bodies:\n" BLOCK("a", "2", "0", "    model: cbm\n") BLOCK("b", "3", "50 mm", SOFT) BURST QUIET);
+    sample alone[2] = {ready(BRITTLE "bodies:\n" BLOCK("a", "2", "0", "    model: cbm\n") BURST QUIET),
+                       ready(BRITTLE "bodies:\n" BLOCK("b", "3", "50 mm", SOFT) BURST QUIET)};
+    brc_cracks all = {0}, own[2] = {{0}, {0}};
+    int64_t at[2] = {0, 0};
+    assert_string_equal(whole.setup.split->part[1].name, "cbm-2");
+    run(&whole);
+    must(brc_cracks_take(context, &whole.setup.assembly, &all));
+    for (int k = 0; k < 2; ++k) {
+        run(&alone[k]);
+        must(brc_cracks_take(context, &alone[k].setup.assembly, &own[k]));
+        assert_true(own[k].n_broken > 10);
+    }
+    assert_int_equal(all.n_broken, own[0].n_broken + own[1].n_broken);
+    assert_int_equal(all.n_fragments, own[0].n_fragments + own[1].n_fragments);
+    for (int64_t b = 0; b < all.n_broken; ++b) {
+        const brc_break *found = &all.breaks[b];
+        const int k = found->element_i >= 150;
+        const brc_break *alike = &own[k].breaks[at[k]++];
+        assert_true(b == 0 || found->step >= found[-1].step);
+        assert_int_equal(found->element_i, alike->element_i + 150 * k);
+        assert_int_equal(found->element_j, alike->element_j + 150 * k);
+        assert_int_equal(found->bond, alike->bond + (k ? alone[0].setup.domain[0]->n_bonds : 0));
+        assert_true(found->step == alike->step && found->time == alike->time && found->energy == alike->energy);
+    }
+    brc_cracks_free(&all);
+    for (int k = 0; k < 2; ++k) {
+        brc_cracks_free(&own[k]);
+        release(&alone[k]);
+    }
+    release(&whole);
+}
+
 static brc_status interrupt(void *self, brc_simulation *simulation)
 {
     (void)self;
@@ -461,6 +512,7 @@ int main(void)
         cmocka_unit_test(a_total_force_over_both_models_is_shared_out),
         cmocka_unit_test(what_no_model_can_do_is_refused),
         cmocka_unit_test(a_part_that_runs_away_names_its_model),
+        cmocka_unit_test(broken_bonds_of_both_are_one_stream_by_step),
         cmocka_unit_test(one_folder_of_results_holds_both_models),
         cmocka_unit_test(an_interrupt_stops_both_and_keeps_the_results),
         cmocka_unit_test(export_check_and_build_know_both_models),
