@@ -9,7 +9,8 @@
  *     brc_run_results_free(&results);
  *     brc_context_free(&context);
  *
- * or step by step: brc_scene_read, brc_scene_domain_build, brc_device_open, brc_simulation_create. Nothing here ends the
+ * or step by step: brc_scene_read, brc_scene_domain_build, brc_device_open, brc_simulation_create; or, also where bodies have models of their own,
+ * brc_scene_read, brc_setup_domains, brc_setup_simulations, brc_lockstep_run. Nothing here ends the
  * program or keeps state outside the objects you create; a context belongs to one thread. C++ is not supported. */
 #ifndef BRC_INCLUDE_BRECCIA_H
 #define BRC_INCLUDE_BRECCIA_H
@@ -24,10 +25,12 @@
 #include "../device/device.h"
 #include "../scene/scene.h"
 #include "../scene/scene_reader.h"
+#include "../solver/lockstep.h"
 #include "../solver/simulation.h"
 #include "../output/export.h"
 #include "../output/recorder.h"
 #include "../commands/run_scene.h"
 #include "../commands/scene_domain.h"
+#include "../commands/setup.h"
 
 #endif

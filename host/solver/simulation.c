@@ -1,5 +1,6 @@
 /* Making and freeing a simulation, entering stages, running them, and the observers. */
 #include "fracture_internal.h"
+#include "split.h"
 #include <math.h>
 #include <string.h>
 
@@ -195,6 +196,10 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "model %s needs cells, the bodies are spheres joined by beams; remove `beams` from the bodies, or use model: cbm",
                         scene->model.kind == BRC_MODEL_DLSM ? "dlsm" : "dlsm-published");
+    for (int32_t b = 0; b < scene->n_bodies; ++b)
+        if (scene->bodies[b].has_model && !brc_split_same_model(&scene->bodies[b].model, &scene->model))
+            return BRC_FAIL(context, BRC_BAD_INPUT, "body '%s' has a model of its own, which one simulation of the whole scene cannot move; split the scene (split.h)",
+                            scene->bodies[b].name);
     BRC_TRY(BRC_ALLOCATE(context, &s, 1, "simulation"));
     s->context = context;
     s->scene = scene;

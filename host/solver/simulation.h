@@ -13,7 +13,8 @@ typedef struct brc_simulation brc_simulation;
 
 /* Scene, domain and device are borrowed until brc_simulation_free. The device must have been opened with many_materials
  * = brc_simulation_needs_many_materials(scene, domain). Sets named in loads are looked up in the domain; overlapping
- * prescribed components, unknown sets, face loads on element sets and the like: BRC_BAD_INPUT, all in one pass. */
+ * prescribed components, unknown sets, face loads on element sets and the like: BRC_BAD_INPUT, all in one pass; also a body whose model is not the
+ * scene's (split.h). */
 brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain, brc_device *device,
                                  brc_simulation **out);
 void brc_simulation_free(brc_simulation **simulation);

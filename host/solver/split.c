@@ -9,7 +9,7 @@ static const brc_model *model_of(const brc_scene *scene, int32_t body)
     return scene->bodies[body].has_model ? &scene->bodies[body].model : &scene->model;
 }
 
-static bool same_model(const brc_model *a, const brc_model *b)
+bool brc_split_same_model(const brc_model *a, const brc_model *b)
 {
     return a->kind == b->kind && a->compaction == b->compaction && a->beta == b->beta && a->tau == b->tau && a->area_weights == b->area_weights &&
            a->rotation_stiffness == b->rotation_stiffness && a->beam_poisson == b->beam_poisson && a->keep_isolated == b->keep_isolated &&
@@ -23,7 +23,7 @@ static int32_t number_parts(const brc_scene *scene, int32_t *part)
     for (int32_t b = 0; b < scene->n_bodies; ++b) {
         part[b] = -1;
         for (int32_t c = 0; c < b && part[b] < 0; ++c)
-            if (same_model(model_of(scene, b), model_of(scene, c))) part[b] = part[c];
+            if (brc_split_same_model(model_of(scene, b), model_of(scene, c))) part[b] = part[c];
         if (part[b] < 0) part[b] = n++;
     }
     return n;

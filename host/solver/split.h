@@ -36,6 +36,9 @@ void brc_split_free(brc_split **split);
  * strain between two models, a file of initial values for all bodies, a measure's area on walls of several models. */
 brc_status brc_split_share(brc_context *context, brc_split *split, const brc_domain *const *domain);
 
+/* Do two models move bodies alike, with all their parameters? */
+bool brc_split_same_model(const brc_model *a, const brc_model *b);
+
 /* How the values of one sensor in several parts make one. */
 typedef enum brc_combine {
     BRC_COMBINE_NONE,  /* it belongs to one part */

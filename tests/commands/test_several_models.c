@@ -284,6 +284,15 @@ static void what_no_model_can_do_is_refused(void **state)
     snprintf(text, sizeof text, "%s%s%s", BOTH "sets:\n" UPPER_SET LOWER_SET, REST,
              "sensors:\n  s:\n    face_strain: {set: upper, against: lower, component: y}\n");
     refused(text, "sensor s: \"upper\" and \"lower\" lie in bodies of different models");
+    /* one simulation for a scene that was not split */
+    s = ready(ALONE_CELLS "stages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n");
+    brc_simulation *simulation;
+    s.scene->bodies[0].has_model = true;
+    s.scene->bodies[0].model = s.scene->model;
+    s.scene->bodies[0].model.tau = 0.5;
+    assert_int_equal(brc_simulation_create(context, s.scene, s.setup.domain[0], s.setup.device[0], &simulation), BRC_BAD_INPUT);
+    says("body 'bar' has a model of its own");
+    release(&s);
     /* one file for the elements of two models */
     snprintf(text, sizeof text, "%s", BOTH "stages:\n  - name: rest\n    initial:\n      - file: start.h5\n    solver:\n      dynamic: {steps: 1}\n");
     refused(text, "stage 'rest': a file of initial values has a row for every element of one model");
