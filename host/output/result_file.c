@@ -118,12 +118,13 @@ static brc_status write_provenance(brc_context *context, brc_h5 *h5, const brc_r
 static brc_status write_content(brc_context *context, brc_h5 *h5, const brc_result *result)
 {
     static const int64_t format_version = BRC_RESULT_FORMAT_VERSION;
-    char *yaml = NULL;
+    char *yaml = NULL, models[256];
     BRC_TRY(brc_scene_to_yaml(context, result->scene, &yaml));
     brc_h5_attribute_integers(h5, "/", "format_version", 1, &format_version);
     brc_h5_attribute_text(h5, "/", "version", brc_version());
     brc_h5_attribute_text(h5, "/", "commit", brc_version_commit());
     brc_h5_attribute_text(h5, "/", "compiler", brc_version_compiler());
+    if (result->assembly) brc_h5_attribute_text(h5, "/", "model", brc_assembly_models(result->assembly, models, sizeof models));
     brc_h5_attribute_text(h5, "/", "title", result->scene->title);
     brc_h5_text(h5, "scene", yaml);
     brc_memory_free(yaml);

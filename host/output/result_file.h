@@ -24,7 +24,7 @@ typedef struct brc_result {
     const double *frame_time; /* [n_frames] [s] */
 } brc_result;
 
-/*   /              attributes format_version, version, commit, compiler, model, title
+/*   /              attributes format_version, version, commit, compiler, model (all, in the order of CellData/model of frames), title
  *   /scene         the resolved scene with all defaults, YAML
  *   /histories     stage, step, stage_time, time; sensors/<name> with attributes unit, last, min, max
  *   /measures      <name> with attributes unit, target, error

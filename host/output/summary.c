@@ -28,7 +28,7 @@ static const char *end_name(const brc_summary *summary)
 static void add_identity(brc_json *json, const brc_summary *s)
 {
     const brc_device *device = s->assembly ? brc_simulation_device(s->assembly->part[0]) : NULL;
-    char name[256] = "", models[256] = "";
+    char name[256] = "", models[256];
     if (device) {
         const brc_device_info *info = brc_device_get_info(device);
         snprintf(name, sizeof name, "%s (%s)", info->selector, info->name);
@@ -36,11 +36,7 @@ static void add_identity(brc_json *json, const brc_summary *s)
     brc_json_string(json, "version", brc_version());
     brc_json_string(json, "commit", brc_version_commit());
     brc_json_string(json, "title", s->scene ? s->scene->title : NULL);
-    for (int32_t k = 0; s->assembly && k < s->assembly->n; ++k) {
-        const size_t at = strlen(models);
-        snprintf(models + at, sizeof models - at, "%s%s", k > 0 ? ", " : "", brc_assembly_part_name(s->assembly, k));
-    }
-    brc_json_string(json, "model", s->assembly ? models : s->scene ? brc_model_name(s->scene->model.kind) : NULL);
+    brc_json_string(json, "model", s->assembly ? brc_assembly_models(s->assembly, models, sizeof models) : s->scene ? brc_model_name(s->scene->model.kind) : NULL);
     brc_json_string(json, "precision", device ? brc_precision_name(brc_device_get_precision(device)) : NULL);
     brc_json_string(json, "device", device ? name : NULL);
 }

@@ -1,6 +1,8 @@
 /* Sums over the parts of a scene. With one part every function is that of its simulation. */
 #include "assembly.h"
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 brc_assembly brc_assembly_make(const brc_scene *scene, const brc_split *split, int32_t n, brc_simulation *const *part)
 {
@@ -10,6 +12,16 @@ brc_assembly brc_assembly_make(const brc_scene *scene, const brc_split *split, i
 const char *brc_assembly_part_name(const brc_assembly *a, int32_t part)
 {
     return a->split ? a->split->part[part].name : brc_model_name(a->scene->model.kind);
+}
+
+const char *brc_assembly_models(const brc_assembly *a, char *words, size_t room)
+{
+    words[0] = '\0';
+    for (int32_t k = 0; k < a->n; ++k) {
+        const size_t at = strlen(words);
+        snprintf(words + at, room - at, "%s%s", k > 0 ? ", " : "", brc_assembly_part_name(a, k));
+    }
+    return words;
 }
 
 int64_t brc_assembly_first_element(const brc_assembly *a, int32_t part)

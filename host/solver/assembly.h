@@ -19,6 +19,8 @@ typedef struct brc_assembly {
 brc_assembly brc_assembly_make(const brc_scene *scene, const brc_split *split, int32_t n, brc_simulation *const *part);
 /* The model of a part, with a number where another has one of the kind. */
 const char *brc_assembly_part_name(const brc_assembly *assembly, int32_t part);
+/* "dlsm, cbm": the models of all parts, cut where `room` ends. Returns words. */
+const char *brc_assembly_models(const brc_assembly *assembly, char *words, size_t room);
 /* Ids of a part's first element and bond in the whole; part n: their numbers in all. */
 int64_t brc_assembly_first_element(const brc_assembly *assembly, int32_t part);
 int64_t brc_assembly_first_bond(const brc_assembly *assembly, int32_t part);
