@@ -25,6 +25,20 @@ static const char *end_name(const brc_summary *summary)
     return "internal";
 }
 
+/* The kinds of models that bodies ask for, of a run that did not come to simulations. */
+static const char *asked_models(const brc_scene *scene, char *words, size_t room)
+{
+    bool told[BRC_MODEL_CBM + 1] = {false};
+    words[0] = '\0';
+    for (int32_t b = 0; b < scene->n_bodies; ++b) {
+        const brc_model_kind kind = scene->bodies[b].has_model ? scene->bodies[b].model.kind : scene->model.kind;
+        const size_t at = strlen(words);
+        if (!told[kind]) snprintf(words + at, room - at, "%s%s", at > 0 ? ", " : "", brc_model_name(kind));
+        told[kind] = true;
+    }
+    return words;
+}
+
 static void add_identity(brc_json *json, const brc_summary *s)
 {
     const brc_device *device = s->assembly ? brc_simulation_device(s->assembly->part[0]) : NULL;
@@ -36,7 +50,7 @@ static void add_identity(brc_json *json, const brc_summary *s)
     brc_json_string(json, "version", brc_version());
     brc_json_string(json, "commit", brc_version_commit());
     brc_json_string(json, "title", s->scene ? s->scene->title : NULL);
-    brc_json_string(json, "model", s->assembly ? brc_assembly_models(s->assembly, models, sizeof models) : s->scene ? brc_model_name(s->scene->model.kind) : NULL);
+    brc_json_string(json, "model", s->assembly ? brc_assembly_models(s->assembly, models, sizeof models) : s->scene ? asked_models(s->scene, models, sizeof models) : NULL);
     brc_json_string(json, "precision", device ? brc_precision_name(brc_device_get_precision(device)) : NULL);
     brc_json_string(json, "device", device ? name : NULL);
 }

@@ -177,6 +177,34 @@ static void models_that_differ_in_a_parameter_are_parts_of_their_own(void **stat
     release(&s);
 }
 
+/* Four modes of each of two cubes, 1 m and 0.9 m, that do not touch: the first four of all eight, ascending. */
+static void modes_of_all_bodies_are_counted_together(void **state)
+{
+    (void)state;
+#define SOLID(name, size, x) "  - name: " name "\n    shape:\n      box: {size: [" size ", " size ", " size "]}\n    fill:\n      noisy_grid: {cells: [4, 4, 4], seed: 1}\n"  \
+                             "    material: glass\n    pose: {translation: [" x ", 0, 0]}\n"
+#define MODES "stages:\n  - name: ring\n    solver:\n      modes: {count: 4}\n"
+    sample whole = ready(MATERIALS "bodies:\n" SOLID("a", "1 m", "0") "    model: dlsm\n" SOLID("b", "90 cm", "2 m") "    model:\n      dlsm: {tau: 0.3}\n" MODES QUIET);
+    sample alone[2] = {ready(MATERIALS "bodies:\n" SOLID("a", "1 m", "0") "    model: dlsm\n" MODES QUIET),
+                       ready(MATERIALS "bodies:\n" SOLID("b", "90 cm", "2 m") "    model:\n      dlsm: {tau: 0.3}\n" MODES QUIET)};
+    const double *omega[2];
+    int32_t n, at[2] = {0, 0};
+    run(&whole);
+    for (int k = 0; k < 2; ++k) {
+        run(&alone[k]);
+        omega[k] = brc_simulation_modes(alone[k].setup.simulation[0], &n);
+        assert_int_equal(n, 4);
+    }
+    for (int32_t index = 0; index < 8; ++index) {
+        const int k = at[1] == 4 || (at[0] < 4 && omega[0][at[0]] <= omega[1][at[1]]) ? 0 : 1;
+        assert_true(brc_assembly_mode(&whole.setup.assembly, index) == omega[k][at[k]]);
+        ++at[k];
+    }
+    assert_true(isnan(brc_assembly_mode(&whole.setup.assembly, 8)));
+    release(&whole);
+    for (int k = 0; k < 2; ++k) release(&alone[k]);
+}
+
 /* All bodies have one model of their own: it is the scene's, which stays whole. */
 static void a_scene_of_one_model_is_its_own_only_part(void **state)
 {
@@ -276,6 +304,11 @@ static void what_no_model_can_do_is_refused(void **state)
     assert_int_equal(s.setup.split->part[0].scene->stages[0].n_loads, 1);
     assert_int_equal(s.setup.split->part[1].scene->stages[0].n_loads, 0);
     release(&s);
+    /* a wall of both: faces here, spheres there */
+    s = ready(BOTH "stages:\n  - name: pull\n    solver:\n      dynamic: {steps: 1}\n    loads:\n      - face_displacement: {set: x+, x: 1 um}\n");
+    assert_int_equal(brc_lockstep_begin_stage(2, s.setup.assembly.part, 0), BRC_BAD_INPUT);
+    release(&s);
+    says("a face load names the set 'x+', which is of elements; name a set of faces");
     /* means over two kinds */
     snprintf(text, sizeof text, "%s%s%s", BOTH "sets:\n" ALL_SET, REST, "sensors:\n  s:\n    stress: {set: everything, component: xx}\n");
     refused(text, "sensor s: the set \"everything\" spans bodies of 2 models");
@@ -472,6 +505,21 @@ static void one_folder_of_results_holds_both_models(void **state)
     brc_run_results_free(&both);
 }
 
+static void a_run_that_fails_at_once_names_the_models_it_was_asked_for(void **state)
+{
+    (void)state;
+    brc_run_results out;
+    assert_int_equal(record(BOTH "sets:\n  far:\n    elements:\n      sphere: {centre: [1 km, 0, 0], radius: 1 m}\n" SPIN, "failed", false, &out),
+                     BRC_BAD_INPUT);
+    brc_context_clear(context);
+    char *text = summary_of("failed");
+    assert_non_null(strstr(text, "\"model\": \"dlsm, cbm\""));
+    assert_non_null(strstr(text, "\"status\": \"bad_input\""));
+    assert_null(strstr(text, "\"parts\""));
+    brc_memory_free(text);
+    brc_run_results_free(&out);
+}
+
 static void an_interrupt_stops_both_and_keeps_the_results(void **state)
 {
     (void)state;
@@ -516,6 +564,7 @@ int main(void)
         cmocka_unit_test(each_body_moves_bit_for_bit_as_in_a_scene_of_its_own),
         cmocka_unit_test(static_stages_are_solved_as_in_a_scene_of_its_own),
         cmocka_unit_test(models_that_differ_in_a_parameter_are_parts_of_their_own),
+        cmocka_unit_test(modes_of_all_bodies_are_counted_together),
         cmocka_unit_test(a_scene_of_one_model_is_its_own_only_part),
         cmocka_unit_test(all_take_the_shortest_of_the_automatic_steps_and_end_together),
         cmocka_unit_test(a_total_force_over_both_models_is_shared_out),
@@ -523,6 +572,7 @@ int main(void)
         cmocka_unit_test(a_part_that_runs_away_names_its_model),
         cmocka_unit_test(broken_bonds_of_both_are_one_stream_by_step),
         cmocka_unit_test(one_folder_of_results_holds_both_models),
+        cmocka_unit_test(a_run_that_fails_at_once_names_the_models_it_was_asked_for),
         cmocka_unit_test(an_interrupt_stops_both_and_keeps_the_results),
         cmocka_unit_test(export_check_and_build_know_both_models),
     };
