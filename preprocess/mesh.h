@@ -56,10 +56,25 @@ typedef struct brc_mesh_edge {
 } brc_mesh_edge;
 /* The sharp concave edges, one entry an edge of the mesh, in the order of the mesh; at most `most` are written; returns how many there are. */
 int64_t brc_mesh_concave_edges(const brc_mesh *mesh, brc_mesh_edge *edges, int64_t most);
-/* The nearest point of every patch nearer than `reach` [m], by ascending patch; at most `most` are written; returns how many there are. */
+/* The nearest point of every patch nearer than `reach` [m], by ascending patch; returns how many there are. Where there are more than `most`, the search
+ * stops, returns most + 1, and *feet holds nothing of use: ask brc_mesh_views. */
 int32_t brc_mesh_feet(const brc_mesh *mesh, const double x[3], double reach, brc_mesh_foot *feet, int32_t most);
+/* Of a surface with so many patches near x that they mean nothing, rough at the scale of `reach` [m]: the nearest point of a triangle in each of
+ * BRC_MESH_VIEWS directions that has one nearer than that, nearest first; returns how many. flat and on_edge are false; concave: the point lies on a sharp
+ * concave edge. */
+enum { BRC_MESH_VIEWS = 384 };
+int32_t brc_mesh_views(const brc_mesh *mesh, const double x[3], double reach, brc_mesh_foot feet[BRC_MESH_VIEWS]);
+/* The mean plane of the surface around a point: of the triangles with centroids within `radius` [m] of it whose normals are less than about 80 degrees from
+ * `normal`, which becomes that of their sum, unit and outward. *height: of the plane along it [m], in the mesh's coordinates; *rough: how far corners
+ * stand off it, at most [m]. False: there are none. */
+bool brc_mesh_mean_plane(const brc_mesh *mesh, const double point[3], double radius, double normal[3], double *height, double *rough);
+/* Distance of x to the surface, or `reach` where it is not nearer [m]: without a side, and so faster than the depth. */
+double brc_mesh_distance(const brc_mesh *mesh, const double x[3], double reach);
 /* Where the line {x + t e_axis} enters and leaves the mesh: t ascending, in pairs, at most `most` written; returns how many. Lines through
  * an edge or vertex are counted consistently (a fixed symbolic shift), so the number is always even. */
 int32_t brc_mesh_crossings(const brc_mesh *mesh, const double x[3], int axis, double *t, int32_t most);
+/* Where the line x + t u (u: unit) passes triangles with low < t < high, unordered, at most `most` written; returns how many. At an edge both triangles may
+ * count, and one that is touched sideways: each piece between is to be asked for its side. */
+int32_t brc_mesh_passes(const brc_mesh *mesh, const double x[3], const double u[3], double low, double high, double *t, int32_t most);
 
 #endif

@@ -83,3 +83,63 @@ int32_t brc_mesh_crossings(const brc_mesh *mesh, const double x[3], int axis, do
     brc_mesh_pierce(mesh, x, axis, insert, &l);
     return l.n;
 }
+
+/* Does x + t u pass the node's box with low < t < high? */
+static bool meets_box(const brc_mesh_node *node, const double x[3], const double u[3], double low, double high)
+{
+    for (int d = 0; d < 3; ++d) {
+        if (u[d] == 0.0) {
+            if (x[d] < (double)node->low[d] || x[d] > (double)node->high[d]) return false;
+            continue;
+        }
+        const double a = ((double)node->low[d] - x[d]) / u[d], b = ((double)node->high[d] - x[d]) / u[d];
+        low = fmax(low, fmin(a, b));
+        high = fmin(high, fmax(a, b));
+    }
+    return low <= high * (1.0 + 1e-12) + 1e-300;
+}
+
+/* Where the line passes triangle t, a little widened so that nothing slips through between two (T. Moeller & B. Trumbore, J. Graph. Tools 2 (1997) 21). */
+static bool passes(const brc_mesh *mesh, int32_t triangle, const double x[3], const double u[3], double *t)
+{
+    static const double WIDER = 1e-9;
+    const int32_t *corner = mesh->corner[triangle];
+    double ab[3], ac[3], ax[3], p[3], q[3];
+    mesh_minus(mesh->vertex[corner[1]], mesh->vertex[corner[0]], ab);
+    mesh_minus(mesh->vertex[corner[2]], mesh->vertex[corner[0]], ac);
+    mesh_cross(u, ac, p);
+    const double determinant = mesh_dot(ab, p);
+    if (determinant * determinant <= 1e-24 * mesh_dot(ab, ab) * mesh_dot(p, p)) return false; /* along the plane: its neighbours tell */
+    mesh_minus(x, mesh->vertex[corner[0]], ax);
+    const double v = mesh_dot(ax, p) / determinant;
+    if (v < -WIDER || v > 1.0 + WIDER) return false;
+    mesh_cross(ax, ab, q);
+    const double w = mesh_dot(u, q) / determinant;
+    if (w < -WIDER || v + w > 1.0 + WIDER) return false;
+    *t = mesh_dot(ac, q) / determinant;
+    return true;
+}
+
+int32_t brc_mesh_passes(const brc_mesh *mesh, const double x[3], const double u[3], double low, double high, double *t, int32_t most)
+{
+    int32_t stack[BRC_MESH_STACK];
+    int32_t n = 0, count = 0;
+    stack[n++] = 0;
+    while (n > 0) {
+        const int32_t at = stack[--n];
+        const brc_mesh_node *node = &mesh->node[at];
+        if (!meets_box(node, x, u, low, high)) continue;
+        if (node->count == 0) {
+            stack[n++] = node->next;
+            stack[n++] = at + 1;
+            continue;
+        }
+        for (int32_t k = node->next; k < node->next + node->count; ++k) {
+            double where;
+            if (!passes(mesh, k, x, u, &where) || !(where > low && where < high)) continue;
+            if (count < most) t[count] = where;
+            ++count;
+        }
+    }
+    return count;
+}

@@ -224,12 +224,13 @@ static bool worth(const brc_mesh_node *node, const double x[3], double distance2
     return distance2 < limit2 && !beyond(node, x, limit2);
 }
 
-static void gather(const brc_mesh *mesh, const double x[3], double reach2, window *w)
+/* Stops when the window holds more than `most`. */
+static void gather(const brc_mesh *mesh, const double x[3], double reach2, int32_t most, window *w)
 {
     open_node stack[BRC_MESH_STACK];
     int n = 0;
     stack[n++] = (open_node){0, box_distance2(&mesh->node[0], x)};
-    while (n > 0) {
+    while (n > 0 && w->n <= most) {
         const open_node top = stack[--n];
         const brc_mesh_node *node = &mesh->node[top.node];
         if (!worth(node, x, top.distance2, reach2, w)) continue;
@@ -281,10 +282,17 @@ int32_t brc_mesh_feet(const brc_mesh *mesh, const double x[3], double reach, brc
     do {
         w.n = 0;
         w.more = false;
-        gather(mesh, x, reach * reach, &w);
-        for (int32_t k = 0; k < w.n; ++k, ++n)
-            if (n < most) make_foot(mesh, &w.of[k], &feet[n]);
+        gather(mesh, x, reach * reach, most - n, &w);
+        if (w.n > most - n || (w.more && w.n >= most - n)) return most + 1;
+        for (int32_t k = 0; k < w.n; ++k) make_foot(mesh, &w.of[k], &feet[n++]);
         if (w.n > 0) w.after = w.of[w.n - 1].patch;
     } while (w.more);
     return n;
+}
+
+double brc_mesh_distance(const brc_mesh *mesh, const double x[3], double reach)
+{
+    candidate best = {.distance2 = reach * reach, .triangle = -1};
+    nearest(mesh, x, &best);
+    return best.triangle < 0 ? reach : sqrt(best.distance2);
 }

@@ -12,7 +12,8 @@
 brc_status brc_mirror_make(brc_context *context, const double *position, int64_t n, double reach, int n_threads, brc_walls *walls);
 
 /* Move the ghosts of curved walls along their normals such that the mean height of each seed's own face above the solid's surface is
- * zero: a plane that touches a curved wall lies above it everywhere else. Uses the cells the ghosts now give. spacing: of seeds [m]. */
+ * zero: a plane that touches a curved wall lies above it everywhere else. Uses the cells the ghosts now give. spacing: of seeds [m]. BRC_INTERNAL names
+ * the first seed that Voro++ gives no cell; BRC_NO_MEMORY. */
 brc_status brc_mirror_fit(brc_context *context, const double *position, int64_t n, double spacing, int n_threads, brc_walls *walls);
 
 #endif

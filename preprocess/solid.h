@@ -15,6 +15,7 @@ typedef struct brc_foot {
     int32_t wall;     /* index of the wall */
     bool plane;       /* the wall is flat there and its plane bounds the solid all around x: mirror images across it stay exact
                        * even where the foot lies beyond an edge */
+    double rough;     /* a mean plane of a rough mesh: so far the surface stands off it [m]; else 0 */
     bool hull;        /* and it has the whole solid on one side (brc_solid_hull_plane) */
 } brc_foot;
 
@@ -46,11 +47,12 @@ bool brc_solid_is_convex(const brc_solid *solid);
 /* Is x inside, at least `margin` >= 0 [m] away from the surface? */
 bool brc_solid_inside(const brc_solid *solid, const double x[3], double margin);
 /* The feet of x nearer than `reach` [m]: one per smooth piece of the surface (each wall of each part, each smooth patch of a mesh), in a fixed
- * order. At most `most` are written; returns how many there are. A point outside gives none.
+ * order. At most `most` are written, the nearest ones; returns how many there are. A point outside gives none. Where a mesh is so rough that dozens of
+ * patches come near, feet are its nearest points in directions at least 45 degrees apart.
  * On a concave edge the foot is the nearest point of the edge. */
 int32_t brc_solid_feet(const brc_solid *solid, const double x[3], double reach, brc_foot *feet, int32_t most);
 /* The same, and more planes across which images of x bound the cell of x (mirror.h): tangent planes whose foot lies beyond an edge, and, where the solid is
- * thinner than `reach` [m], tangent planes all around; there `depth` is the distance of x to the plane. */
+ * thinner than `reach` [m], tangent planes all around; there `depth` is the distance of x to the plane. Rough meshes: mean planes over a quarter of the reach. */
 int32_t brc_solid_mirrors(const brc_solid *solid, const double x[3], double reach, brc_foot *feet, int32_t most);
 /* Distance of x to the surface [m]: positive inside, negative outside. */
 double brc_solid_depth(const brc_solid *solid, const double x[3]);
@@ -61,7 +63,7 @@ bool brc_solid_clear(const brc_solid *solid, const double x[3], double distance)
 /* The straight concave edges: between planes of parts, and of a mesh that is added. */
 int32_t brc_solid_n_edges(const brc_solid *solid);
 const brc_edge *brc_solid_edge(const brc_solid *solid, int32_t edge);
-/* Length of the straight way from a to b that is outside [m]; with meshes, gaps narrower than 1e-4 of the way may be missed. */
+/* Length of the straight way from a to b that is outside [m]. */
 double brc_solid_outside(const brc_solid *solid, const double a[3], const double b[3]);
 /* Is an edge nearer to x than `reach` [m] where two of the solid's walls meet from the inside of an angle beyond 180 degrees? */
 bool brc_solid_concave_edge_near(const brc_solid *solid, const double x[3], double reach);

@@ -5,6 +5,7 @@
 #include "../host/base/memory.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static brc_status add_edge(brc_context *context, brc_solid *solid, const brc_edge *edge)
@@ -33,10 +34,10 @@ static bool common_line(const brc_surface *a, const brc_surface *b, double x[3],
     return true;
 }
 
-static brc_status find_between(brc_context *context, brc_solid *solid, const brc_surface *a, const brc_surface *b)
+/* cut: room for 4 values a surface and 2. */
+static brc_status find_between(brc_context *context, brc_solid *solid, const brc_surface *a, const brc_surface *b, double *cut)
 {
-    enum { MOST_CUTS = 512 };
-    double x[3], u[3], cut[MOST_CUTS], low, high;
+    double x[3], u[3], low, high;
     int n = 0;
     if (!common_line(a, b, x, u)) return BRC_OK;
     /* the edge lies on both leaves */
@@ -54,13 +55,14 @@ static brc_status find_between(brc_context *context, brc_solid *solid, const brc
     }
     if (!(high - low > solid->tiny)) return BRC_OK;
     cut[n++] = low;
-    for (int32_t s = 0; s < solid->n_surfaces && n + 6 < MOST_CUTS; ++s) {
+    for (int32_t s = 0; s < solid->n_surfaces; ++s) {
         const brc_surface *other = &solid->surface[s];
         if (other == a || other == b || other->kind == BRC_SURFACE_MESH) continue;
         const int found = brc_surface_crossings(other, x, u, cut + n);
+        int kept = 0;
         for (int k = 0; k < found; ++k)
-            if (cut[n + k] <= low || cut[n + k] >= high) cut[n + k] = low;
-        n += found;
+            if (cut[n + k] > low && cut[n + k] < high) cut[n + kept++] = cut[n + k];
+        n += kept;
     }
     cut[n++] = high;
     brc_sort(cut, n);
@@ -82,55 +84,87 @@ static brc_status find_between(brc_context *context, brc_solid *solid, const brc
     return open ? add_edge(context, solid, &edge) : BRC_OK;
 }
 
-static double gap_between(const double a[3], const double b[3])
+/* An end of a piece of edge, to be sorted by place. */
+typedef struct edge_end {
+    double x[3];
+    int64_t piece;
+    int end;
+} edge_end;
+
+static int by_place(const void *a, const void *b)
 {
-    const double r[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    return brc_length3(r);
+    const edge_end *p = a, *q = b;
+    for (int d = 0; d < 3; ++d)
+        if (p->x[d] != q->x[d]) return p->x[d] < q->x[d] ? -1 : 1;
+    if (p->piece != q->piece) return p->piece < q->piece ? -1 : 1;
+    return p->end - q->end;
 }
 
-/* Lengthen an earlier edge by this one if they are one straight edge. */
-static bool joins(brc_edge *edge, const brc_edge *more, double same)
+/* Are they pieces of one straight edge? */
+static bool in_line(const brc_edge *a, const brc_edge *b)
 {
-    for (int side = 0; side < 2; ++side)
-        if (brc_dot3(edge->normal[side], more->normal[side]) < 1.0 - 1e-8) return false;
-    for (int end = 0; end < 2; ++end)
-        if (gap_between(edge->end[end], more->end[1 - end]) <= same) {
-            memcpy(edge->end[end], more->end[end], sizeof edge->end[end]);
-            return true;
+    return brc_dot3(a->normal[0], b->normal[0]) >= 1.0 - 1e-8 && brc_dot3(a->normal[1], b->normal[1]) >= 1.0 - 1e-8;
+}
+
+/* after[k]: the piece that goes on where piece k ends, before[k] the other way; -1: none. Pieces of a mesh share vertices, to the bit. */
+static void link_pieces(const brc_edge *piece, int64_t n, edge_end *ends, int64_t *after, int64_t *before)
+{
+    for (int64_t k = 0; k < n; ++k) {
+        after[k] = before[k] = -1;
+        for (int end = 0; end < 2; ++end) {
+            ends[2 * k + end] = (edge_end){.piece = k, .end = end};
+            memcpy(ends[2 * k + end].x, piece[k].end[end], sizeof ends[0].x);
         }
-    return false;
+    }
+    qsort(ends, (size_t)(2 * n), sizeof *ends, by_place);
+    for (int64_t i = 0, j; i < 2 * n; i = j) {
+        for (j = i + 1; j < 2 * n && memcmp(ends[j].x, ends[i].x, sizeof ends[0].x) == 0;) ++j;
+        for (int64_t a = i; a < j; ++a)
+            for (int64_t b = i; b < j && ends[a].end == 1; ++b) {
+                const int64_t p = ends[a].piece, q = ends[b].piece;
+                if (ends[b].end != 0 || after[p] >= 0 || before[q] >= 0 || p == q || !in_line(&piece[p], &piece[q])) continue;
+                after[p] = q;
+                before[q] = p;
+            }
+    }
 }
 
-/* Edges of the mesh of a leaf that is added; joined until nothing joins. */
+/* Edges of the mesh of a leaf that is added: its pieces, joined where they go straight on. */
 static brc_status take_mesh(brc_context *context, brc_solid *solid, const brc_leaf *leaf)
 {
     brc_mesh_edge *list = NULL;
+    brc_edge *piece = NULL;
+    edge_end *ends = NULL;
+    int64_t *after = NULL, *before = NULL;
     const int64_t n = brc_mesh_concave_edges(leaf->mesh, NULL, 0);
     brc_status status = BRC_ALLOCATE(context, &list, n, "concave edges of a mesh");
     if (status != BRC_OK) goto cleanup;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &piece, n, "concave edges of a mesh"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &ends, 2 * n, "concave edges of a mesh"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &after, n, "concave edges of a mesh"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &before, n, "concave edges of a mesh"));
     brc_mesh_concave_edges(leaf->mesh, list, n);
-    const int32_t first = solid->n_edges;
-    for (int64_t k = 0; k < n; ++k) {
-        brc_edge edge;
+    for (int64_t k = 0; k < n; ++k)
         for (int end = 0; end < 2; ++end) {
-            brc_leaf_from_part(leaf, list[k].end[end], edge.end[end]);
-            brc_leaf_turn(leaf, list[k].normal[end], edge.normal[end]);
+            brc_leaf_from_part(leaf, list[k].end[end], piece[k].end[end]);
+            brc_leaf_turn(leaf, list[k].normal[end], piece[k].normal[end]);
         }
-        bool joined = false;
-        for (int32_t e = first; e < solid->n_edges && !joined; ++e) joined = joins(&solid->edge[e], &edge, solid->tiny);
-        if (!joined) BRC_TRY_OR(cleanup, add_edge(context, solid, &edge));
-    }
-    for (bool again = true; again;) { /* pieces that grew towards one another */
-        again = false;
-        for (int32_t e = first; e < solid->n_edges; ++e)
-            for (int32_t f = e + 1; f < solid->n_edges; ++f)
-                if (joins(&solid->edge[e], &solid->edge[f], solid->tiny)) {
-                    solid->edge[f--] = solid->edge[--solid->n_edges];
-                    again = true;
-                }
+    link_pieces(piece, n, ends, after, before);
+    BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&solid->edge, solid->n_edges + n, sizeof *solid->edge, "concave edges"));
+    for (int64_t k = 0; k < n; ++k) {
+        if (before[k] >= 0) continue;
+        brc_edge *edge = &solid->edge[solid->n_edges++];
+        int64_t last = k;
+        while (after[last] >= 0) last = after[last];
+        *edge = piece[k];
+        memcpy(edge->end[1], piece[last].end[1], sizeof edge->end[1]);
     }
 cleanup:
     brc_memory_free(list);
+    brc_memory_free(piece);
+    brc_memory_free(ends);
+    brc_memory_free(after);
+    brc_memory_free(before);
     return status;
 }
 
@@ -139,11 +173,16 @@ brc_status brc_solid_find_edges(brc_context *context, brc_solid *solid)
     for (int32_t k = 0; k < solid->n_leaves; ++k)
         if (solid->leaf[k].mesh && solid->leaf[k].role == BRC_PART_ADD) BRC_TRY(take_mesh(context, solid, &solid->leaf[k]));
     if (solid->n_leaves == 1) return BRC_OK;
+    double *cut = NULL;
+    brc_status status = BRC_ALLOCATE(context, &cut, 4 * (int64_t)solid->n_surfaces + 2, "cuts of concave edges");
+    if (status != BRC_OK) goto cleanup;
     for (int32_t a = 0; a < solid->n_surfaces; ++a)
         for (int32_t b = 0; b < a; ++b)
             if (solid->surface[a].kind == BRC_SURFACE_PLANE && solid->surface[b].kind == BRC_SURFACE_PLANE)
-                BRC_TRY(find_between(context, solid, &solid->surface[b], &solid->surface[a]));
-    return BRC_OK;
+                BRC_TRY_OR(cleanup, find_between(context, solid, &solid->surface[b], &solid->surface[a], cut));
+cleanup:
+    brc_memory_free(cut);
+    return status;
 }
 
 int32_t brc_solid_n_edges(const brc_solid *solid)

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_NEAR = 128, MOST_STEPS = 40 };
+/* A mesh with more patches than MOST_PATCHES near x is rough there; then it counts as a few walls. */
+enum { MOST_NEAR = 128, MOST_STEPS = 40, MOST_PATCHES = 32, MOST_WALLS = 16 };
 #define SAME_FOOT 1e-6 /* relative, and as an angle */
 
 /* A surface near x, or its other side where it curves around x. */
@@ -19,6 +20,8 @@ typedef struct near_surface {
     bool rim;        /* on a sharp edge of a mesh, where its patch ends */
     bool concave;    /* and that is concave, seen from the solid */
     double plane[3]; /* normal of a mesh's patch there */
+    bool rough;      /* a wall of a rough mesh: */
+    brc_rough_wall wall; /* normal from x outward */
 } near_surface;
 
 static void step(const double x[3], double length, const double direction[3], double out[3])
@@ -36,15 +39,37 @@ static void set_probe(near_surface *a)
         for (int d = 0; d < 3; ++d) a->probe[d] = -s->axis[d];
 }
 
+/* The walls of a rough mesh near x, as nearest points or as mean planes. */
+static int gather_rough(const brc_leaf *leaf, const brc_surface *surface, const double local[3], double reach, bool mirror, near_surface *near, int room)
+{
+    brc_rough_wall walls[MOST_WALLS];
+    const int n = brc_rough_walls(leaf->mesh, local, reach, mirror, walls, room < MOST_WALLS ? room : MOST_WALLS);
+    const double sign = n > 0 && brc_mesh_inside(leaf->mesh, local) ? 1.0 : -1.0;
+    for (int k = 0; k < n; ++k) {
+        near_surface *a = &near[k];
+        const brc_mesh_foot *foot = &walls[k].foot;
+        double out[3];
+        *a = (near_surface){.surface = surface, .height = -sign * foot->distance, .rough = true, .wall = walls[k],
+                            .concave = foot->concave != (leaf->role == BRC_PART_REMOVE)};
+        brc_leaf_from_part(leaf, foot->point, a->point);
+        brc_leaf_turn(leaf, walls[k].normal, a->wall.normal);
+        brc_leaf_turn(leaf, foot->normal, a->plane);
+        memcpy(a->probe, a->plane, sizeof a->probe);
+        for (int d = 0; d < 3; ++d) out[d] = sign * (foot->point[d] - local[d]) / foot->distance;
+        brc_leaf_turn(leaf, out, a->normal);
+    }
+    return n;
+}
+
 /* The patches of a mesh near x. */
-static int gather_mesh(const brc_solid *solid, const brc_surface *surface, const double x[3], double reach, near_surface *near, int room)
+static int gather_mesh(const brc_solid *solid, const brc_surface *surface, const double x[3], double reach, bool mirror, near_surface *near, int room)
 {
     const brc_leaf *leaf = &solid->leaf[surface->leaf];
-    brc_mesh_foot feet[MOST_NEAR];
+    brc_mesh_foot feet[MOST_PATCHES];
     double local[3];
     brc_leaf_to_part(leaf, x, local);
-    const int32_t found = brc_mesh_feet(leaf->mesh, local, reach, feet, room);
-    const int n = found < room ? found : room;
+    const int32_t n = brc_mesh_feet(leaf->mesh, local, reach, feet, room < MOST_PATCHES ? room : MOST_PATCHES);
+    if (n > MOST_PATCHES || n > room) return gather_rough(leaf, surface, local, reach, mirror, near, room);
     const bool alone = solid->n_leaves == 1; /* then only points inside are asked for */
     const double sign = n > 0 && (alone || brc_mesh_inside(leaf->mesh, local)) ? 1.0 : -1.0;
     for (int k = 0; k < n; ++k) {
@@ -62,15 +87,15 @@ static int gather_mesh(const brc_solid *solid, const brc_surface *surface, const
     return n;
 }
 
-/* Surfaces nearer to x than reach, in order; the opposite sides of curved ones too. */
-static int gather(const brc_solid *solid, const double x[3], double reach, near_surface *near)
+/* Surfaces nearer to x than reach, in order; the opposite sides of curved ones too. mirror: rough meshes as mean planes. */
+static int gather(const brc_solid *solid, const double x[3], double reach, bool mirror, near_surface *near)
 {
     int n = 0;
     for (int32_t s = 0; s < solid->n_surfaces && n + 1 < MOST_NEAR; ++s) {
         const brc_surface *surface = &solid->surface[s];
         near_surface *a = &near[n];
         if (surface->kind == BRC_SURFACE_MESH) {
-            n += gather_mesh(solid, surface, x, reach, a, MOST_NEAR - n);
+            n += gather_mesh(solid, surface, x, reach, mirror, a, MOST_NEAR - n);
             continue;
         }
         const double height = brc_surface_height(solid, surface, x, NULL);
@@ -254,7 +279,7 @@ double brc_solid_depth(const brc_solid *solid, const double x[3])
     /* look near first: most questions are asked near the surface */
     const double all = brc_length3(diagonal) + away;
     for (double reach = 1.0 / 64.0 * all;; reach *= 4.0) {
-        const int n = gather(solid, x, reach, near);
+        const int n = gather(solid, x, reach, false, near);
         const double distance = nearest(solid, x, near, n, reach, point, &wall);
         if (distance < reach) return sign * distance;
         if (reach > all) return sign * all;
@@ -267,15 +292,12 @@ double brc_solid_distance(const brc_solid *solid, const double x[3], double reac
     double point[3];
     int32_t wall;
     if (solid->n_leaves == 1 && solid->leaf[0].mesh) { /* looking no farther than needed is much faster */
-        brc_mesh_foot feet[MOST_NEAR];
         double y[3];
         brc_leaf_to_part(&solid->leaf[0], x, y);
-        const int32_t n = brc_mesh_feet(solid->leaf[0].mesh, y, reach, feet, MOST_NEAR);
-        for (int32_t k = 0; k < n && k < MOST_NEAR; ++k) reach = fmin(reach, feet[k].distance);
-        return reach;
+        return brc_mesh_distance(solid->leaf[0].mesh, y, reach);
     }
     if (solid->n_leaves == 1 && solid->n_surfaces == 1) return fmin(reach, fabs(brc_surface_height(solid, &solid->surface[0], x, NULL)));
-    return nearest(solid, x, near, gather(solid, x, reach, near), reach, point, &wall);
+    return nearest(solid, x, near, gather(solid, x, reach, false, near), reach, point, &wall);
 }
 
 bool brc_solid_clear(const brc_solid *solid, const double x[3], double distance)
@@ -283,12 +305,18 @@ bool brc_solid_clear(const brc_solid *solid, const double x[3], double distance)
     return !brc_solid_member(solid, x) && brc_solid_distance(solid, x, distance) >= distance;
 }
 
-/* Add a foot unless an earlier one is the same place; planes of a file agree to its rounding only. */
+/* Add a foot unless an earlier one is the same place; planes of a file agree to its rounding only. Of too many the nearest stay. */
 static int32_t add_foot(brc_foot *feet, int32_t n, int32_t most, const brc_foot *foot)
 {
     for (int32_t k = 0; k < n && k < most; ++k)
         if (fabs(feet[k].depth - foot->depth) <= SAME_FOOT * foot->depth && brc_dot3(feet[k].normal, foot->normal) > 1.0 - SAME_FOOT * SAME_FOOT) return n;
     if (n < most) feet[n] = *foot;
+    else if (most > 0) {
+        int32_t deepest = 0;
+        for (int32_t k = 1; k < most; ++k)
+            if (feet[k].depth > feet[deepest].depth) deepest = k;
+        if (foot->depth < feet[deepest].depth) feet[deepest] = *foot;
+    }
     return n + 1;
 }
 
@@ -376,14 +404,15 @@ bool brc_solid_concave_edge_near(const brc_solid *solid, const double x[3], doub
 {
     near_surface near[MOST_NEAR];
     double y[3], normal[3][3], weight[3];
+    const int n = gather(solid, x, reach, false, near);
+    for (int i = 0; i < n; ++i)
+        if ((near[i].rim || near[i].rough) && near[i].concave) return true;
     for (int32_t e = 0; e < solid->n_edges; ++e)
         if (distance_to_edge(&solid->edge[e], x) < reach) return true;
-    const int n = gather(solid, x, reach, near);
-    for (int i = 0; i < n; ++i)
-        if (near[i].rim && near[i].concave) return true;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j) {
             const near_surface *const pair[2] = {&near[j], &near[i]};
+            if (near[i].rough || near[j].rough) continue;
             const bool patches = near[i].surface == near[j].surface && near[i].flat && near[j].flat;
             if (patches ? !patches_meet(&near[j], &near[i], x, reach, y, normal)
                         : near[i].surface == near[j].surface || !meet(solid, x, 2, pair, reach, y, normal, weight))
@@ -411,6 +440,15 @@ static bool foot_on(const brc_solid *solid, const near_surface *near, int n_near
     const near_surface *a = &near[self];
     *foot = (brc_foot){.depth = fabs(a->height), .wall = a->surface->wall, .plane = a->flat && !a->rim, .hull = a->surface->hull != 0.0};
     for (int d = 0; d < 3; ++d) foot->normal[d] = a->height < 0.0 ? a->normal[d] : -a->normal[d];
+    if (a->rough) {
+        foot->depth = a->wall.depth;
+        foot->rough = a->wall.rough;
+        memcpy(foot->normal, a->wall.normal, sizeof foot->normal);
+        if (!(foot->depth > 0.0)) return false;
+        if (solid->n_leaves == 1) return true;
+        const int there = sides(solid, a->point, a->probe);
+        return (there == 1 || there == 2) && leaf_ends(solid, a);
+    }
     if (a->rim && !a->concave) {
         foot->plane = true;
         return beyond_rim(solid, a, x, foot);
@@ -438,7 +476,7 @@ static int32_t find_feet(const brc_solid *solid, const double x[3], double reach
 {
     if (!brc_solid_member(solid, x)) return 0;
     near_surface near[MOST_NEAR];
-    const int n_near = gather(solid, x, reach, near);
+    const int n_near = gather(solid, x, reach, mirror, near);
     int32_t n = 0;
     double least = HUGE_VAL;
     for (int i = 0; i < n_near; ++i) {

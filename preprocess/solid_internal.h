@@ -81,6 +81,15 @@ bool brc_solid_member(const brc_solid *solid, const double x[3]);
 /* solid_feet.c: do two surfaces with these normals make a concave edge at x, where they meet? outward: normals of its two walls. */
 bool brc_solid_concave_there(const brc_solid *solid, const double x[3], const double a[3], const double b[3], double outward[2][3]);
 
+/* solid_rough.c: the walls of a rough mesh near x, inside or outside it: nearer than `reach` [m], nearest first, at most `most`. mean: as mean planes, which a
+ * bump does not tilt; else through the nearest points. Returns how many. */
+typedef struct brc_rough_wall {
+    brc_mesh_foot foot;
+    double normal[3], depth; /* unit vector from x to the plane, its distance from x [m] */
+    double rough;            /* how far the surface stands off the plane there; 0 when not a mean one [m] */
+} brc_rough_wall;
+int32_t brc_rough_walls(const brc_mesh *mesh, const double x[3], double reach, bool mean, brc_rough_wall *walls, int32_t most);
+
 /* solid_edges.c */
 brc_status brc_solid_find_edges(brc_context *context, brc_solid *solid);
 

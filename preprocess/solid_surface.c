@@ -35,15 +35,14 @@ static void cylindrical(const brc_surface *s, const double x[3], double *z, doub
 /* The nearest foot of a point outside a mesh or inside; the mesh may have several patches. */
 static double mesh_height(const brc_leaf *leaf, const double x[3], double normal[3])
 {
-    enum { MOST = 64 };
     double y[3];
     brc_leaf_to_part(leaf, x, y);
     const double depth = brc_mesh_depth(leaf->mesh, y);
     if (!normal) return -depth;
-    brc_mesh_foot feet[MOST];
+    brc_mesh_foot feet[BRC_MESH_VIEWS];
     const double reach = fabs(depth) * (1.0 + 1e-9) + 1e-12 * (brc_length3(leaf->bounds[1]) + brc_length3(leaf->bounds[0]));
-    const int32_t found = brc_mesh_feet(leaf->mesh, y, reach, feet, MOST);
-    const int32_t n = found < MOST ? found : MOST;
+    int32_t n = brc_mesh_feet(leaf->mesh, y, reach, feet, BRC_MESH_VIEWS);
+    if (n > BRC_MESH_VIEWS) n = brc_mesh_views(leaf->mesh, y, reach, feet);
     const brc_mesh_foot *best = NULL;
     for (int32_t k = 0; k < n; ++k)
         if (!best || feet[k].distance < best->distance) best = &feet[k];

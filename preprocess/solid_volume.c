@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_CROSSINGS = 2048, LEAST_GRID = 64, MOST_GRID = 1024 };
+enum { MOST_CROSSINGS = 512, MOST_HALVINGS = 40, LEAST_GRID = 64, MOST_GRID = 1024 };
 /* The grid of lines is refined until two grids differ by less [of the volume]. */
 #define GOAL 1e-6
 
@@ -24,35 +24,6 @@ void brc_sort(double *t, int n)
     }
 }
 
-/* Crossings with a mesh along any line: walk by the distance to the surface, which is never too far, and halve where the side changes. */
-static int walk_mesh(const brc_leaf *leaf, const double x[3], const double u[3], double low, double high, double *t, int most)
-{
-    const double least = 1e-4 * (high - low);
-    int n = 0;
-    double here = low, y[3], z[3];
-    bool was_inside = false; /* at the very start: a crossing found there does no harm */
-    while (here < high && n < most) {
-        for (int d = 0; d < 3; ++d) y[d] = x[d] + here * u[d];
-        brc_leaf_to_part(leaf, y, z);
-        const double depth = brc_mesh_depth(leaf->mesh, z);
-        const bool inside = depth > 0.0;
-        if (inside != was_inside) {
-            double a = here - least, b = here;
-            for (int i = 0; i < 48; ++i) {
-                const double middle = 0.5 * (a + b);
-                for (int d = 0; d < 3; ++d) y[d] = x[d] + middle * u[d];
-                brc_leaf_to_part(leaf, y, z);
-                if ((brc_mesh_depth(leaf->mesh, z) > 0.0) == was_inside) a = middle;
-                else b = middle;
-            }
-            t[n++] = 0.5 * (a + b);
-            was_inside = inside;
-        }
-        here += fmax(least, fabs(depth));
-    }
-    return n;
-}
-
 /* Does the line run along an axis of the part's own frame? */
 static int axis_of(const brc_leaf *leaf, const double u[3])
 {
@@ -61,14 +32,18 @@ static int axis_of(const brc_leaf *leaf, const double u[3])
     return -1;
 }
 
+/* How many there are; those beyond `most` are not written. */
 static int mesh_crossings(const brc_leaf *leaf, const double x[3], const double u[3], double low, double high, double *t, int most)
 {
     const int axis = axis_of(leaf, u);
-    if (axis < 0) return walk_mesh(leaf, x, u, low, high, t, most);
-    double y[3];
+    double y[3], v[3];
     brc_leaf_to_part(leaf, x, y);
-    const int32_t n = brc_mesh_crossings(leaf->mesh, y, axis, t, most);
-    return n < most ? n : most;
+    if (axis >= 0) {
+        const int32_t n = brc_mesh_crossings(leaf->mesh, y, axis, t, most);
+        if (n <= most) return n;
+    }
+    for (int d = 0; d < 3; ++d) v[d] = u[0] * leaf->frame[0][d] + u[1] * leaf->frame[1][d] + u[2] * leaf->frame[2][d];
+    return brc_mesh_passes(leaf->mesh, y, v, low, high, t, most);
 }
 
 /* The line's parameters where it passes the box; false when it misses it. */
@@ -90,45 +65,75 @@ bool brc_pass_box(const double bounds[2][3], const double x[3], const double u[3
 
 typedef struct chords {
     double length, last; /* inside the solid; where the line leaves it for good */
-    int n;               /* crossings of the solid's surface */
+    int n;               /* crossings of the solid's surface, begin and end of the line in it among them */
+    bool begins, ends;   /* in the solid */
 } chords;
 
-/* Follow the line x + t u through the solid from t = low to high. u: unit. */
-static chords follow_piece(const brc_solid *solid, const double x[3], const double u[3], double low, double high)
+static bool member_at(const brc_solid *solid, const double x[3], const double u[3], double t)
+{
+    const double y[3] = {x[0] + t * u[0], x[1] + t * u[1], x[2] + t * u[2]};
+    return brc_solid_member(solid, y);
+}
+
+/* All places of low < t < high where the line may enter or leave, and both ends; more than MOST_CROSSINGS: too many to be written. */
+static int find_cuts(const brc_solid *solid, const double x[3], const double u[3], double low, double high, double cut[MOST_CROSSINGS])
+{
+    int n = 0;
+    cut[n++] = low;
+    cut[n++] = high;
+    for (int32_t k = 0; k < solid->n_leaves; ++k) {
+        const brc_leaf *leaf = &solid->leaf[k];
+        double from, to, some[4];
+        if (!brc_pass_box(leaf->bounds, x, u, &from, &to) || from > high || to < low) continue;
+        if (leaf->mesh) {
+            n += mesh_crossings(leaf, x, u, low, high, cut + n, MOST_CROSSINGS - n);
+            if (n > MOST_CROSSINGS) return n;
+            continue;
+        }
+        for (int32_t s = leaf->first; s < leaf->first + leaf->n_surfaces; ++s) {
+            const int found = brc_surface_crossings(&solid->surface[s], x, u, some);
+            for (int i = 0; i < found; ++i) {
+                if (!(some[i] > low && some[i] < high)) continue;
+                if (n == MOST_CROSSINGS) return n + 1;
+                cut[n++] = some[i];
+            }
+        }
+    }
+    return n;
+}
+
+/* Follow the line x + t u through the solid from t = low to high. u: unit. Where there are more crossings than fit, by halves. */
+static chords follow_piece(const brc_solid *solid, const double x[3], const double u[3], double low, double high, int halvings)
 {
     chords result = {.length = 0.0, .last = -HUGE_VAL};
     double cut[MOST_CROSSINGS];
-    int n = 0;
-    cut[n++] = low;
-    for (int32_t k = 0; k < solid->n_leaves; ++k) {
-        const brc_leaf *leaf = &solid->leaf[k];
-        double from, to;
-        if (!brc_pass_box(leaf->bounds, x, u, &from, &to) || from > high || to < low) continue;
-        if (leaf->mesh) {
-            n += mesh_crossings(leaf, x, u, low, high, cut + n, MOST_CROSSINGS - 8 - n);
-            continue;
-        }
-        for (int32_t s = leaf->first; s < leaf->first + leaf->n_surfaces && n + 8 < MOST_CROSSINGS; ++s)
-            n += brc_surface_crossings(&solid->surface[s], x, u, cut + n);
+    const int n = find_cuts(solid, x, u, low, high, cut);
+    if (n > MOST_CROSSINGS && halvings < MOST_HALVINGS) {
+        const double middle = 0.5 * (low + high);
+        const chords a = follow_piece(solid, x, u, low, middle, halvings + 1), b = follow_piece(solid, x, u, middle, high, halvings + 1);
+        return (chords){.length = a.length + b.length, .last = fmax(a.last, b.last), .n = a.n + b.n - (a.ends && b.begins ? 2 : 0), .begins = a.begins, .ends = b.ends};
     }
-    cut[n++] = high;
+    if (n > MOST_CROSSINGS) { /* a piece without length */
+        result.begins = result.ends = member_at(solid, x, u, 0.5 * (low + high));
+        result.n = result.begins ? 2 : 0;
+        return result;
+    }
     brc_sort(cut, n);
     bool was = false;
     for (int k = 0; k + 1 < n; ++k) {
         const double a = fmax(cut[k], low), b = fmin(cut[k + 1], high);
         if (!(b > a)) continue;
-        bool in = true; /* at both of two points: a line may touch a surface at one without a crossing being found */
-        for (int half = 1; half <= 2; ++half) {
-            const double t = a + 0.382 * half * (b - a), y[3] = {x[0] + t * u[0], x[1] + t * u[1], x[2] + t * u[2]};
-            in = in && brc_solid_member(solid, y);
-        }
+        /* at both of two points: a line may touch a surface at one without a crossing being found */
+        const bool in = member_at(solid, x, u, a + 0.382 * (b - a)) && member_at(solid, x, u, a + 0.764 * (b - a));
         if (in) {
             result.length += b - a;
             result.last = b;
         }
+        result.begins = result.begins || (in && a == low);
         result.n += in != was;
         was = in;
     }
+    result.ends = was;
     result.n += was;
     return result;
 }
@@ -137,7 +142,7 @@ static chords follow(const brc_solid *solid, const double x[3], const double u[3
 {
     double low, high;
     if (!brc_pass_box(solid->bounds, x, u, &low, &high)) return (chords){.length = 0.0, .last = -HUGE_VAL};
-    return follow_piece(solid, x, u, low, high);
+    return follow_piece(solid, x, u, low, high, 0);
 }
 
 double brc_solid_outside(const brc_solid *solid, const double a[3], const double b[3])
@@ -146,7 +151,7 @@ double brc_solid_outside(const brc_solid *solid, const double a[3], const double
     const double length = brc_length3(u);
     if (!(length > 0.0)) return 0.0;
     for (int d = 0; d < 3; ++d) u[d] /= length;
-    return length - follow_piece(solid, a, u, 0.0, length).length;
+    return length - follow_piece(solid, a, u, 0.0, length, 0).length;
 }
 
 /* Two unit vectors at right angles to u and to each other. */

@@ -229,7 +229,7 @@ void brc_walls_free(brc_walls *walls)
 {
     if (!walls) return;
     void *const block[] = {walls->normal, walls->flat, walls->flat_wall, walls->ghost, walls->ghost_wall, walls->ghost_owner, walls->ghost_foot,
-                           walls->ghost_flat};
+                           walls->ghost_rough, walls->ghost_flat};
     for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
     memset(walls, 0, sizeof *walls);
 }

@@ -34,6 +34,7 @@ typedef struct brc_walls {
     int32_t *ghost_wall;     /* [n_ghosts] owned */
     int32_t *ghost_owner;    /* [n_ghosts] seed it is the image of, ascending; owned */
     double *ghost_foot;      /* [n_ghosts][4] outward unit normal, depth of the seed below the foot [m]; owned */
+    double *ghost_rough;     /* [n_ghosts] how far the surface stands off the mirror's plane, 0: it is smooth [m], owned */
     bool *ghost_flat;        /* [n_ghosts] the wall is plane there; owned */
 } brc_walls;
 

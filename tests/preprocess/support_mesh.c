@@ -1,6 +1,8 @@
 #include "support_mesh.h"
 #include "support.h"
 
+#include "../../host/base/random.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -102,6 +104,30 @@ void test_mesh_l_profile(test_mesh *mesh, double height)
         test_mesh_add(mesh, p[0][FAN[k][0]], p[0][FAN[k][2]], p[0][FAN[k][1]]);
     }
     for (int k = 0; k < 6; ++k) add_quad(mesh, p[0][k], p[0][(k + 1) % 6], p[1][(k + 1) % 6], p[1][k]);
+}
+
+/* -1 to 1, the same for all triangles at a vertex. */
+static double roughness(const double x[3], double wavelength)
+{
+    double u[4], sum = 0.0;
+    if (wavelength > 0.0) {
+        for (int d = 0; d < 3; ++d) sum += sin(2.0 * acos(-1.0) / wavelength * (x[d] + 0.31 * x[(d + 1) % 3])) / 3.0;
+        return sum;
+    }
+    uint64_t word[3];
+    for (int d = 0; d < 3; ++d) word[d] = (uint64_t)llround(1e9 * x[d]);
+    brc_random_uniform4(word[0], BRC_RANDOM_TEST, word[1], word[2], u);
+    return 2.0 * u[0] - 1.0;
+}
+
+void test_mesh_roughen(test_mesh *mesh, const double centre[3], double amplitude, double wavelength)
+{
+    for (int64_t k = 0; k < 3 * mesh->n; ++k) {
+        double *x = mesh->corner[k], arm[3];
+        for (int d = 0; d < 3; ++d) arm[d] = x[d] - centre[d];
+        const double stretch = 1.0 + amplitude * roughness(x, wavelength) / sqrt(arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]);
+        for (int d = 0; d < 3; ++d) x[d] = centre[d] + stretch * arm[d];
+    }
 }
 
 void test_mesh_reverse(test_mesh *mesh, int64_t first, int64_t step)

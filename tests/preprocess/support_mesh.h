@@ -21,6 +21,9 @@ void test_mesh_sphere(test_mesh *mesh, const double centre[3], double radius, in
 void test_mesh_torus(test_mesh *mesh, double radius, double tube, int n, int m);
 /* (2 x 2) - (1 x 1) in x and y, from z = 0 to `height`; the concave edge is x = y = 1. 20 triangles. */
 void test_mesh_l_profile(test_mesh *mesh, double height);
+/* Move every vertex away from the centre, or towards it, by up to `amplitude`: a scan's noise, each vertex by itself (wavelength 0), or bumps as
+ * long as `wavelength`. A surface all of which is seen from the centre does not cut itself for that. */
+void test_mesh_roughen(test_mesh *mesh, const double centre[3], double amplitude, double wavelength);
 /* Reverse triangles first, first + step, ... */
 void test_mesh_reverse(test_mesh *mesh, int64_t first, int64_t step);
 /* Turn by the angle about (1, 2, 3), then move. */
