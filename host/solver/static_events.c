@@ -16,7 +16,7 @@ typedef struct events {
     brc_static_run *run;
     brc_progress *progress;
     double margin;       /* elements within this of their limit fail together [-] */
-    double nothing;      /* failure ratios below are those of a body that carries nothing [-] */
+    double nothing;      /* failure ratios below are those of a body that carries nothing: rounding, and pieces that the linear law turned [-] */
     bool moves;          /* some motion is prescribed */
     double largest_load; /* so far [J] or [-] */
 } events;
@@ -55,19 +55,23 @@ static brc_status scale_all(events *v, double factor, bool solve)
     return BRC_OK;
 }
 
-/* To the load at which the worst element is past its limit by half the margin. carries: false where nothing is left that a load could break. */
+/* To the load at which the worst element is past its limit by half the margin. carries: false where nothing is left that a load could break. The ratio
+ * grows as the load, or as a power of it where pieces that hang on by little turn far: the power is that of the last step. */
 static brc_status go_to_next(events *v, bool *carries)
 {
     /* A change this small is strain squared away from an equilibrium of the full law: less than any tolerance. */
     static const double small = 1e-7;
-    double ratio;
+    const double target = 1 + 0.5 * v->margin;
+    const double most = v->stage->finite_strain ? 3 : 1e3; /* the full law is followed in steps */
+    double ratio, power = 1;
     BRC_TRY(brc_statics_failure(v->n, v->part, &ratio));
     *carries = ratio > v->nothing;
-    for (int i = 0; *carries && i < MOST_SCALINGS && !(fabs(ratio - 1 - 0.5 * v->margin) <= 0.5 * v->margin); ++i) {
-        const double factor = (1 + 0.5 * v->margin) / ratio;
+    for (int i = 0; *carries && i < MOST_SCALINGS && !(fabs(ratio - target) <= 0.5 * v->margin); ++i) {
+        const double factor = fmin(fmax(pow(target / ratio, 1 / power), 1 / most), most), before = ratio;
         BRC_TRY(scale_all(v, factor, v->stage->finite_strain && fabs(factor - 1) > small));
         BRC_TRY(brc_statics_failure(v->n, v->part, &ratio));
         *carries = ratio > v->nothing;
+        if (fabs(factor - 1) > small) power = fmin(fmax(log(ratio / before) / log(factor), 0.5), 4);
     }
     return isfinite(ratio) ? BRC_OK : BRC_FAIL(v->context, BRC_PHYSICS_STOPPED, "stage '%s': a failure ratio is not finite", v->stage->name);
 }
@@ -118,7 +122,6 @@ static brc_status break_next(events *v)
 /* What the ledger's terms must keep: all but what relaxing sets free. */
 static double balance(const brc_ledger *l) { return l->total - l->work + l->damping + l->fracture; }
 
-/* Nothing holds what dead loads pull away: the pieces are left without load. */
 static brc_status unload(events *v)
 {
     brc_context_clear(v->context);
@@ -129,8 +132,26 @@ static brc_status unload(events *v)
         BRC_TRY(brc_loads_prescribe(s, 0));
         BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     }
-    brc_simulation_end_stage(v->part[0], "the body came apart: no equilibrium at the load of the last event");
     return BRC_OK;
+}
+
+static brc_status come_apart(events *v)
+{
+    BRC_TRY(unload(v));
+    brc_simulation_end_stage(v->part[0], "the body came apart: what is left has no equilibrium under load");
+    return BRC_OK;
+}
+
+/* No equilibrium at the load of the last event: what is left may stand under a share of it. Where nothing holds a piece that a dead load pulls
+ * away there is none under any load, and the pieces are left without. */
+static brc_status start_again(events *v)
+{
+    static const double share = 0.1; /* far above `nothing` */
+    const double load = v->part[0]->load_factor;
+    BRC_TRY(unload(v));
+    for (int32_t k = 0; k < v->n; ++k) v->part[k]->load_factor = share * load;
+    const brc_status solved = solve_all(v);
+    return solved == BRC_PHYSICS_STOPPED ? come_apart(v) : solved;
 }
 
 /* The next bonds break, and what is left comes to rest at the same load. before: [n] room. */
@@ -138,9 +159,12 @@ static brc_status do_event(events *v, brc_ledger *before)
 {
     for (int32_t k = 0; k < v->n; ++k) BRC_TRY(brc_simulation_ledger(v->part[k], &before[k]));
     BRC_TRY(break_next(v));
-    for (int32_t k = 0; k < v->n; ++k) v->part[k]->step += 1;
+    for (int32_t k = 0; k < v->n; ++k) {
+        v->part[k]->step += 1;
+        if (brc_is_beams(v->part[k])) BRC_TRY(brc_pieces_find(v->part[k], &v->run[k].vectors.pieces));
+    }
     const brc_status solved = solve_all(v);
-    if (solved == BRC_PHYSICS_STOPPED) BRC_TRY(unload(v));
+    if (solved == BRC_PHYSICS_STOPPED) BRC_TRY(start_again(v));
     else BRC_TRY(solved);
     for (int32_t k = 0; k < v->n; ++k) {
         brc_ledger after;
@@ -173,7 +197,7 @@ brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_sta
     brc_status status = BRC_OK;
     bool carries;
     v.margin = is_double ? 1e-9 : 2e-6;
-    v.nothing = fmax(1e-6, 100 * brc_statics_tolerance(s));
+    v.nothing = fmax(1e-3, 100 * brc_statics_tolerance(s));
     for (int32_t k = 0; k < n; ++k)
         for (int32_t l = 0; l < brc_current_stage(part[k])->n_loads; ++l) v.moves |= is_motion(&brc_current_stage(part[k])->loads[l]);
     if (s->scene->has_gravity)
@@ -183,7 +207,17 @@ brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_sta
     BRC_TRY_OR(cleanup, solve_all(&v));
     for (int32_t event = 0; !s->note[s->stage].ended; ++event) {
         double load;
-        BRC_TRY_OR(cleanup, go_to_next(&v, &carries));
+        status = go_to_next(&v, &carries);
+        if (status == BRC_PHYSICS_STOPPED && event > 0) { /* too far from the last state to follow it */
+            BRC_TRY_OR(cleanup, start_again(&v));
+            if (s->note[s->stage].ended) break;
+            status = go_to_next(&v, &carries);
+            if (status == BRC_PHYSICS_STOPPED) {
+                status = come_apart(&v);
+                break;
+            }
+        }
+        BRC_TRY_OR(cleanup, status);
         if (!carries && event == 0) {
             status = BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': under its load no element comes nearer to failure, so there is no event", stage->name);
             goto cleanup;

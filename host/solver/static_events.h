@@ -13,8 +13,8 @@
  *      is booked as damping.
  *
  * It ends after most_events of them, when the load falls below stop_load of its largest so far, when an observer says so (stage_end.h) and when what is
- * left carries nothing. It leaves an equilibrium at the load that would break the next bond; a body that came apart under forces that nothing holds
- * is left without load. The load that stop_load compares is that of a testing machine: for prescribed motion the force that goes with it, 2 U / l with
+ * left carries less than a thousandth of what broke it. It leaves an equilibrium at the load that would break the next bond; a body that came apart under forces that nothing holds
+ * is left without load. Where the load of an event has no equilibrium any more, the next one is looked for from no load. The load that stop_load compares is that of a testing machine: for prescribed motion the force that goes with it, 2 U / l with
  * the elastic energy U, else l itself. */
 brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress);
 

@@ -135,21 +135,6 @@ cleanup:
     return status;
 }
 
-/* What the loads of the stage leave free to move as a whole. */
-static brc_status find_free_motions(brc_simulation *s, brc_free_motions *free)
-{
-    const double *place = s->domain->position;
-    brc_free_motions_begin(free, s->domain->n_elements, place);
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i)
-        for (int32_t k = 0; s->loads.imposed[i].load >= 0 && k < s->loads.imposed[i].n; ++k)
-            for (int c = 0; c < 3; ++c)
-                if (s->loads.imposed[i].component_bits >> c & 1) brc_free_motions_hold(free, place + 3 * (int64_t)s->loads.imposed[i].element_id[k], c);
-    for (int32_t i = 0; i < s->loads.n_turns; ++i)
-        for (int c = 0; c < 3; ++c)
-            if (brc_current_stage(s)->loads[s->loads.turns[i].load].component[c]) brc_free_motions_clamp(free, c);
-    return brc_free_motions_find(free) ? BRC_OK : BRC_FAIL(s->context, BRC_INTERNAL, "the free motions of the stage were not found");
-}
-
 /* The right side v->r without what the supports leave free: a stiffness about the reference cannot take it, and of a residual about the moved
  * sample a part as large as its strain is left in it, on which conjugate gradients would break down. */
 static brc_status project_free_motions(brc_simulation *s, brc_solve_vectors *v)
@@ -157,12 +142,12 @@ static brc_status project_free_motions(brc_simulation *s, brc_solve_vectors *v)
     const int64_t n = s->domain->n_elements;
     double *force = NULL, *torque = NULL;
     brc_status status = BRC_OK;
-    if (!brc_is_beams(s) || v->free.n == 0) return BRC_OK;
+    if (!brc_is_beams(s) || !v->pieces.any) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "free motions"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "free motions"));
     BRC_TRY_OR(cleanup, brc_state_from_rows(s, v->r.move, force, 3));
     BRC_TRY_OR(cleanup, brc_state_from_rows(s, v->r.turn, torque, 3));
-    brc_free_motions_project(&v->free, n, s->domain->position, force, torque);
+    BRC_TRY_OR(cleanup, brc_pieces_project(s->context, &v->pieces, force, torque));
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->r.move, force, 3, 0));
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->r.turn, torque, 3, 0));
 cleanup:
@@ -189,7 +174,7 @@ static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
         for (int64_t e = 0; e < s->domain->n_elements; ++e) sum += s->domain->radius[e];
         v->arm = sum / (double)s->domain->n_elements;
         BRC_TRY(brc_new_state(s, &v->theta, 3 * n, "rotations"));
-        BRC_TRY(find_free_motions(s, &v->free));
+        BRC_TRY(brc_pieces_find(s, &v->pieces));
     }
     return create_blocks(s, v);
 }
@@ -200,6 +185,7 @@ static void free_vectors(brc_solve_vectors *v)
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_buffer_free(&all[i]->move), brc_buffer_free(&all[i]->turn);
     brc_buffer **rest[] = {&v->before, &v->blocks, &v->zero, &v->orientation, &v->theta};
     for (size_t i = 0; i < sizeof rest / sizeof *rest; ++i) brc_buffer_free(rest[i]);
+    brc_pieces_free(&v->pieces);
 }
 
 /* kp = -K p. Displacements: the force of the linearised law. Rotations (dlsm-published, whose forces do not depend on them
@@ -379,6 +365,10 @@ brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double fac
     const bool finite = brc_current_stage(s)->finite_strain;
     double *q = NULL;
     brc_status status = BRC_OK;
+    if (factor == 0) { /* also of a state that is not finite */
+        BRC_TRY(brc_buffer_fill_zero(s->displacement));
+        return brc_turns(s) ? BRC_LAUNCH(s->kernel.small_rotation, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_BUF(s->displacement), BRC_BUF(s->orientation)) : BRC_OK;
+    }
     BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes));
     BRC_TRY(add(s, factor - 1, (brc_unknowns){v->z.move, NULL}, (brc_unknowns){s->displacement, NULL}));
     if (!brc_turns(s)) return BRC_OK;
@@ -393,7 +383,7 @@ brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double fac
         q[4 * e] = 1;
         for (int c = 0; finite && c < 4; ++c) q[4 * e + c] /= sqrt(square);
     }
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->orientation, q, 4, 0));
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->orientation, q, 4, 0.5)); /* rows of padding: some unit quaternion, none of length 0 */
 cleanup:
     brc_memory_free(q);
     return status;

@@ -3,7 +3,7 @@
 #define BRC_SOLVER_STATICS_H
 
 #include "../base/log.h"
-#include "balance.h"
+#include "pieces.h"
 #include "simulation_internal.h"
 
 /* A vector of all unknowns: displacements or forces [n_rows][3] and, for cbm, rotations or torques [n_rows][3] (else NULL). */
@@ -18,7 +18,7 @@ typedef struct brc_solve_vectors {
     brc_buffer *before, *blocks;
     brc_buffer *zero, *orientation, *theta;
     int state_bytes;
-    brc_free_motions free; /* cbm */
+    brc_pieces pieces; /* cbm */
     double arm; /* a torque over this counts as a force: mean radius of the spheres [m] */
 } brc_solve_vectors;
 
