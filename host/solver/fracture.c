@@ -1,4 +1,5 @@
 /* Bonds that break: limits of the elements, the order of the passes, and what broke (kernels/fracture.cl). */
+#include "beam_law.h"
 #include "fracture_internal.h"
 #include "strength_law.h"
 #include <math.h>
@@ -33,10 +34,33 @@ static double shear_limit(const brc_fracture *f, double *slope)
     return 0;
 }
 
-/* Limits of the virial stress of one material in one body. */
-static brc_status limits_of(brc_simulation *s, const brc_material *m, double radius_ratio, double shear, double limit[3])
+/* k of one body's beams. Refused by the body's own coordination number; taken at that of the cube of 10 000 spheres with as many bonds inside, since a body's walls
+ * should no more change its strength than its stiffness. */
+static brc_status strength_ratio(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double *k)
 {
-    const double coordination = s->domain->quality.coordination_mean;
+    const brc_domain *d = s->domain;
+    const brc_strength_law *law = brc_strength_law_default();
+    brc_beam_body bonds;
+    double least = INFINITY, most = 0;
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        if (d->body[e] != body) continue;
+        least = fmin(least, d->radius[e]);
+        most = fmax(most, d->radius[e]);
+    }
+    BRC_TRY(brc_beam_body_of(s->context, d, body, &bonds));
+    BRC_TRY(brc_strength_law_find(s->context, law, bonds.coordination, radius_ratio, k));
+    const double coordination = brc_beam_law_coordination(brc_beam_law_for(most > 0 ? (most - least) / (most + least) : 0), &bonds);
+    *k = brc_strength_law_ratio(law, coordination, radius_ratio);
+    brc_log(s->context, BRC_LOG_INFO,
+            "material '%s': limits are the strengths over k = %.4f (%s, r_m %.4g, coordination number %.4g, as of cubes of 10 000 spheres with %.4g; %s: %.4f)", m->name, *k,
+            law->name, radius_ratio, bonds.coordination, coordination, brc_strength_law_published()->name,
+            brc_strength_law_ratio(brc_strength_law_published(), coordination, radius_ratio));
+    return BRC_OK;
+}
+
+/* Limits of the virial stress of one material in one body. */
+static brc_status limits_of(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double shear, double limit[3])
+{
     double k = 1;
     limit[0] = limit[1] = limit[2] = 0;
     if (criterion(s) == BRC_CRITERION_PRINCIPAL && !(m->tension > 0 || m->compression > 0 || m->beam_strength > 0 || m->beam_compression > 0))
@@ -44,13 +68,10 @@ static brc_status limits_of(brc_simulation *s, const brc_material *m, double rad
                         "fracture: material '%s' has no strength; give it `strength: {tension: 50 MPa}`, or one so large that it never breaks", m->name);
     const bool by_law = (m->tension > 0 && !(m->beam_strength > 0)) || (m->compression > 0 && !(m->beam_compression > 0)) || shear > 0;
     if (by_law) {
-        const brc_strength_law *law = brc_strength_law_published();
-        BRC_TRY(brc_strength_law_find(s->context, law, coordination, radius_ratio, &k));
+        BRC_TRY(strength_ratio(s, m, body, radius_ratio, &k));
         if (s->scene->fracture.level != 1)
             brc_log(s->context, BRC_LOG_WARNING, "fracture: the law for strength was fitted for level 1, the scene asks for level %d; give "
                     "beam: {strength: ...} where that matters", (int)s->scene->fracture.level);
-        brc_log(s->context, BRC_LOG_INFO, "material '%s': limits are the strengths over k = %.4f (%s, cn %.4g, r_m %.4g)", m->name, k,
-                law->name, coordination, radius_ratio);
     }
     limit[0] = m->beam_strength > 0 ? m->beam_strength : m->tension / k;
     limit[1] = m->beam_compression > 0 ? m->beam_compression : m->compression / k;
@@ -81,7 +102,7 @@ static brc_status find_limits(brc_simulation *s)
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0, m = s->material_of_element[e], at = b * n_materials + m;
         if (!known[at])
-            BRC_TRY_OR(cleanup, limits_of(s, &s->scene->materials[m], brc_beam_of_element(s, e)->radius * (double)count[b] / mean[b], shear, pair + 3 * at));
+            BRC_TRY_OR(cleanup, limits_of(s, &s->scene->materials[m], b, brc_beam_of_element(s, e)->radius * (double)count[b] / mean[b], shear, pair + 3 * at));
         known[at] = true;
         memcpy(s->fracture->limit + 3 * e, pair + 3 * at, 3 * sizeof *pair);
     }

@@ -1,26 +1,53 @@
+/* Coefficients of the surface: written by `breccia calibrate` as strength/law.h (docs/beams-calibration.md has its command and the tests behind it). */
 #include "strength_law.h"
+#include "chebyshev.h"
+#include "laws/strength.h"
+#include <math.h>
 
 static const brc_strength_law PUBLISHED = {.name = "NAH19 eq. 22",
                                            .coordination = {6, 13},
                                            .radius = {0.2, 1},
-                                           .m0 = -0.56467,
-                                           .n0 = 0.20824,
-                                           .p0 = -0.00760,
-                                           .m1 = 0.67697,
-                                           .n1 = 0.09328,
-                                           .p1 = -0.02298,
-                                           .q1 = 0.00095,
-                                           .m2 = -0.73898,
-                                           .n2 = 0.08438,
-                                           .p2 = -0.00240};
+                                           .is_paper = true,
+                                           .paper = {-0.56467, 0.20824, -0.00760, 0.67697, 0.09328, -0.02298, 0.00095, -0.73898, 0.08438, -0.00240}};
+
+const brc_strength_law *brc_strength_law_default(void) { return &brc_strength_law_fitted; }
 
 const brc_strength_law *brc_strength_law_published(void) { return &PUBLISHED; }
 
+void brc_strength_law_paper_terms(double coordination, double radius, double out[BRC_STRENGTH_LAW_PAPER])
+{
+    static const int cubic[] = {3, 4, 3}; /* polynomials of cn that go with 1, r_m and r_m^2 */
+    double of_radius = 1;
+    for (int i = 0, at = 0; i < 3; ++i, of_radius *= radius) {
+        double power = of_radius;
+        for (int j = 0; j < cubic[i]; ++j, power *= coordination) out[at++] = power;
+    }
+}
+
+void brc_strength_law_terms(const brc_strength_law *law, double coordination, double radius, double out[BRC_STRENGTH_LAW_ROWS][BRC_STRENGTH_LAW_COLUMNS])
+{
+    const double logarithms[2] = {log(law->radius[0]), log(law->radius[1])};
+    double of_radius[BRC_STRENGTH_LAW_ROWS], of_coordination[BRC_STRENGTH_LAW_COLUMNS];
+    brc_chebyshev(brc_chebyshev_place(logarithms, log(radius)), BRC_STRENGTH_LAW_ROWS, of_radius);
+    brc_chebyshev(brc_chebyshev_place(law->coordination, coordination), BRC_STRENGTH_LAW_COLUMNS, of_coordination);
+    for (int i = 0; i < BRC_STRENGTH_LAW_ROWS; ++i)
+        for (int j = 0; j < BRC_STRENGTH_LAW_COLUMNS; ++j) out[i][j] = of_radius[i] * of_coordination[j];
+}
+
 double brc_strength_law_ratio(const brc_strength_law *law, double coordination, double radius)
 {
-    const double c = coordination;
-    const double constant = law->m0 + c * (law->n0 + c * law->p0), linear = law->m1 + c * (law->n1 + c * (law->p1 + c * law->q1));
-    return constant + radius * (linear + radius * (law->m2 + c * (law->n2 + c * law->p2)));
+    double sum = 0;
+    if (law->is_paper) {
+        double terms[BRC_STRENGTH_LAW_PAPER];
+        brc_strength_law_paper_terms(coordination, radius, terms);
+        for (int k = 0; k < BRC_STRENGTH_LAW_PAPER; ++k) sum += law->paper[k] * terms[k];
+        return sum;
+    }
+    double terms[BRC_STRENGTH_LAW_ROWS][BRC_STRENGTH_LAW_COLUMNS];
+    brc_strength_law_terms(law, coordination, radius, terms);
+    for (int i = 0; i < BRC_STRENGTH_LAW_ROWS; ++i)
+        for (int j = 0; j < BRC_STRENGTH_LAW_COLUMNS; ++j) sum += law->surface[i][j] * terms[i][j];
+    return sum;
 }
 
 static bool within(const double range[2], double value) { return value >= 0.9 * range[0] && value <= 1.1 * range[1]; }

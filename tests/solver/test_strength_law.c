@@ -1,0 +1,71 @@
+/* The law of strength: what it holds for, and that its two forms are what they say. */
+#include "support.h"
+#include "../../host/solver/strength_law.h"
+#include <math.h>
+#include <string.h>
+
+/* Eq. 22 written out, at a place off all nodes; rounding of ten products. */
+static void eq_22_is_the_printed_polynomial(void **state)
+{
+    (void)state;
+    const double c = 8.3, r = 0.37, *p = brc_strength_law_published()->paper;
+    const double by_hand = p[0] + p[1] * c + p[2] * c * c + r * (p[3] + p[4] * c + p[5] * c * c + p[6] * c * c * c) + r * r * (p[7] + p[8] * c + p[9] * c * c);
+    assert_true(fabs(brc_strength_law_ratio(brc_strength_law_published(), c, r) - by_hand) <= 1e-13);
+}
+
+/* T_i(1) = 1: at the far corner the surface is the sum of its coefficients; T_i(-1) = (-1)^i. */
+static void the_surface_at_its_corners_is_the_sum_of_its_coefficients(void **state)
+{
+    (void)state;
+    const brc_strength_law *law = brc_strength_law_default();
+    double far = 0, near = 0;
+    for (int i = 0; i < BRC_STRENGTH_LAW_ROWS; ++i)
+        for (int j = 0; j < BRC_STRENGTH_LAW_COLUMNS; ++j) {
+            far += law->surface[i][j];
+            near += (i + j) % 2 ? -law->surface[i][j] : law->surface[i][j];
+        }
+    assert_true(fabs(brc_strength_law_ratio(law, law->coordination[1], law->radius[1]) - far) <= 1e-13);
+    assert_true(fabs(brc_strength_law_ratio(law, law->coordination[0], law->radius[0]) - near) <= 1e-13);
+}
+
+/* Samples are stronger with more bonds and thicker beams; 0.5 %: what the fit may ripple between its nodes (its own error, docs/beams-calibration.md). */
+static void k_grows_with_bonds_and_thickness(void **state)
+{
+    (void)state;
+    const brc_strength_law *law = brc_strength_law_default();
+    for (double r = law->radius[0]; r <= law->radius[1]; r *= 1.1)
+        for (double c = law->coordination[0]; c <= law->coordination[1] - 0.5; c += 0.25) {
+            const double k = brc_strength_law_ratio(law, c, r);
+            assert_true(k > 0 && k < 1);
+            assert_true(brc_strength_law_ratio(law, c + 0.5, r) > 0.995 * k);
+            if (1.1 * r <= law->radius[1]) assert_true(brc_strength_law_ratio(law, c, 1.1 * r) > 0.995 * k);
+        }
+}
+
+static void a_sample_outside_the_law_is_refused_with_the_cure(void **state)
+{
+    (void)state;
+    const brc_strength_law *const laws[] = {brc_strength_law_default(), brc_strength_law_published()};
+    brc_context *context = brc_context_create();
+    double k = 0;
+    for (int i = 0; i < 2; ++i) {
+        assert_int_equal(brc_strength_law_find(context, laws[i], 10, 0.5, &k), BRC_OK);
+        assert_true(k == brc_strength_law_ratio(laws[i], 10, 0.5));
+        assert_int_equal(brc_strength_law_find(context, laws[i], 1.11 * laws[i]->coordination[1], 0.5, &k), BRC_BAD_INPUT);
+        assert_non_null(strstr(brc_context_message(context), laws[i]->name));
+        assert_int_equal(brc_strength_law_find(context, laws[i], 10, 0.89 * laws[i]->radius[0], &k), BRC_BAD_INPUT);
+        assert_non_null(strstr(brc_context_message(context), "`beam: {strength: ...}`"));
+    }
+    brc_context_free(&context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(eq_22_is_the_printed_polynomial),
+        cmocka_unit_test(the_surface_at_its_corners_is_the_sum_of_its_coefficients),
+        cmocka_unit_test(k_grows_with_bonds_and_thickness),
+        cmocka_unit_test(a_sample_outside_the_law_is_refused_with_the_cure),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
