@@ -38,7 +38,7 @@ static brc_status run_stage(int32_t n, brc_simulation *const *part)
     return brc_notify_sample(part[0]);
 }
 
-brc_status brc_lockstep_run(int32_t n, brc_simulation *const *part)
+static brc_status run_stages(int32_t n, brc_simulation *const *part)
 {
     brc_simulation *first = part[0];
     const bool frames = first->scene->output.n_frames >= 0;
@@ -56,6 +56,15 @@ brc_status brc_lockstep_run(int32_t n, brc_simulation *const *part)
             if (first->observers[k].stage_end) BRC_TRY(first->observers[k].stage_end(first->observers[k].self, first, i));
     }
     return BRC_OK;
+}
+
+brc_status brc_lockstep_run(int32_t n, brc_simulation *const *part)
+{
+    part[0]->others = part + 1;
+    part[0]->n_others = n - 1;
+    const brc_status status = run_stages(n, part);
+    part[0]->n_others = 0;
+    return status;
 }
 
 brc_status brc_simulation_run(brc_simulation *s) { return brc_lockstep_run(1, &s); }

@@ -326,7 +326,11 @@ brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
     return brc_stage_start(s);
 }
 
-void brc_simulation_interrupt(brc_simulation *s) { s->interrupted = 1; }
+void brc_simulation_interrupt(brc_simulation *s)
+{
+    s->interrupted = 1;
+    for (int32_t k = 0; k < s->n_others; ++k) s->others[k]->interrupted = 1;
+}
 
 brc_status brc_simulation_advance(brc_simulation *s, int64_t n_steps)
 {

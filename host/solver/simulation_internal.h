@@ -150,6 +150,8 @@ struct brc_simulation {
     int n_observers;
     brc_observer observers[BRC_MOST_OBSERVERS];
     volatile sig_atomic_t interrupted;
+    brc_simulation *const *volatile others; /* [n_others] while they run in step with this one: an interrupt reaches them too */
+    volatile int32_t n_others;
     const char *effects_in[BRC_MOST_EFFECTS], *effects_out[BRC_MOST_EFFECTS];
     double setup_seconds, step_seconds;
 };

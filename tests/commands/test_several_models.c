@@ -392,11 +392,34 @@ static void broken_bonds_of_both_are_one_stream_by_step(void **state)
     release(&whole);
 }
 
+static brc_status interrupt_at_first_increment(void *self, brc_simulation *simulation)
+{
+    (void)self;
+    if (brc_simulation_step(simulation) == 1) brc_simulation_interrupt(simulation);
+    return BRC_OK;
+}
+
 static brc_status interrupt(void *self, brc_simulation *simulation)
 {
     (void)self;
     brc_simulation_interrupt(simulation);
     return BRC_OK;
+}
+
+/* Asked while the first increment is sampled: the second part stops in its next one, though it was the first that was asked. */
+static void an_interrupt_reaches_every_part(void **state)
+{
+    (void)state;
+    sample s = ready(BOTH "sets:\n" ENDS "stages:\n  - name: pull\n    solver:\n      static: {increments: 2, finite_strain: false}\n    loads:\n"
+                          "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n      - element_displacement: {set: right, x: 1 um}\n" QUIET);
+    const brc_observer observer = {.sample = interrupt_at_first_increment};
+    must(brc_simulation_observe(s.setup.simulation[0], &observer));
+    assert_int_equal(brc_lockstep_run(2, s.setup.assembly.part), BRC_INTERRUPTED);
+    assert_int_equal(brc_simulation_step(s.setup.simulation[1]), 1); /* the increment under way is not done */
+    brc_context_clear(context);
+    assert_int_equal(brc_simulation_run(s.setup.simulation[1]), BRC_INTERRUPTED); /* it was told and keeps it */
+    brc_context_clear(context);
+    release(&s);
 }
 
 /* ---- results ---- */
@@ -573,6 +596,7 @@ int main(void)
         cmocka_unit_test(broken_bonds_of_both_are_one_stream_by_step),
         cmocka_unit_test(one_folder_of_results_holds_both_models),
         cmocka_unit_test(a_run_that_fails_at_once_names_the_models_it_was_asked_for),
+        cmocka_unit_test(an_interrupt_reaches_every_part),
         cmocka_unit_test(an_interrupt_stops_both_and_keeps_the_results),
         cmocka_unit_test(export_check_and_build_know_both_models),
     };
