@@ -10,6 +10,7 @@
 #include "describe.h"
 #include "edges.h"
 #include "estimate.h"
+#include "features.h"
 #include "grains.h"
 #include "halfedge.h"
 #include "packing.h"
@@ -295,6 +296,7 @@ static brc_status finish(brc_context *context, const work *w, brc_domain *domain
     }
     brc_quality_measure(domain, w->n_threads);
     if (domain->element_kind == BRC_ELEMENT_CELL) BRC_TRY(check_volume(context, w, domain));
+    brc_features_warn(context, w->solid, domain->quality.mean_spacing, domain);
     BRC_TRY(set_regions(context, request, domain));
     if (request->grains.n > 0 || request->grains.size > 0.0)
         BRC_TRY(brc_grains_assign(context, &request->grains, request->n_regions, w->n_threads, domain));

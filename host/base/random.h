@@ -18,6 +18,7 @@ typedef enum brc_random_use {
     BRC_RANDOM_GRAIN_PHASE = 9,
     BRC_RANDOM_EDGE_RING = 10,
     BRC_RANDOM_STRENGTH = 11,
+    BRC_RANDOM_FEATURE = 12,
 } brc_random_use;
 
 /* Four doubles uniform in (0, 1), a function of (seed, use, a, b) alone. a, b: ids of the thing drawn for. */

@@ -193,6 +193,57 @@ static void a_gap_narrower_than_the_cells_is_refused_not_bridged(void **state)
     brc_domain_free(&d);
 }
 
+/* Build, and what was warned of. */
+static brc_domain *build_and_listen(brc_context *context, const brc_build_request *r, char *said, size_t room)
+{
+    brc_domain *d = NULL;
+    brc_log_set_level(context, BRC_LOG_WARNING);
+    test_caught caught = test_catch_stderr();
+    const brc_status status = brc_domain_build(context, r, &d);
+    test_release_stderr(&caught, said, room);
+    brc_log_set_level(context, BRC_LOG_ERROR);
+    if (status != BRC_OK) fail_msg("%s", brc_context_message(context));
+    return d;
+}
+
+static void features_smaller_than_a_cell_are_warned_of_by_name_and_size(void **state)
+{
+    test_shape room;
+    char said[4096];
+    brc_build_request r = request_for(test_shape_named("box minus ball", &room), 1000); /* cells of 0.2 m */
+    brc_domain_free(&(brc_domain *){build_and_listen(*state, &r, said, sizeof said)});
+    assert_string_equal(said, "");
+    room.part[1].shape.radius = 0.05;
+    brc_domain_free(&(brc_domain *){build_and_listen(*state, &r, said, sizeof said)});
+    assert_non_null(strstr(said, "part 2 ('void') is 0.1 m thick, less than one of the cells of 0.2 m"));
+    room.part[1].shape.origin[0] = 5.0; /* far away: no part of the solid ends there */
+    brc_domain_free(&(brc_domain *){build_and_listen(*state, &r, said, sizeof said)});
+    assert_string_equal(said, "");
+    r.fill = (brc_fill){.kind = BRC_FILL_PACKING, .n_elements = 500, .radius_spread = 0.1, .coordination = 6.2};
+    r.beams = 8.0;
+    room.part[1].shape.origin[0] = 1.0;
+    brc_domain_free(&(brc_domain *){build_and_listen(*state, &r, said, sizeof said)});
+    assert_non_null(strstr(said, "part 2 ('void') is 0.1 m thick, less than one of the spheres"));
+}
+
+static void a_wall_without_a_face_is_warned_of_by_name_and_size(void **state)
+{
+    test_shape room;
+    char said[4096];
+    brc_build_request r = request_for(test_shape_named("wedge", &room), 1000);
+    room.part[1] = (brc_shape_part){.role = BRC_PART_REMOVE, .name = "corner", /* cuts 0.03 m off a corner, cells are 0.1 m */
+                                    .shape = {.kind = BRC_SHAPE_HALF_SPACE, .origin = {0.97, 1.0, 1.0}, .normal = {-1, -1, -1}}};
+    brc_domain_free(&(brc_domain *){build_and_listen(*state, &r, said, sizeof said)});
+    /* a plane with the whole solid on one side cuts the cells itself, so it is met whatever its size */
+    assert_string_equal(said, "");
+    room.part[1] = (brc_shape_part){.role = BRC_PART_REMOVE, .name = "dent", /* a cap 0.02 m deep of a large ball */
+                                    .shape = {.kind = BRC_SHAPE_SPHERE, .origin = {0.5, 0.5, 1.48}, .radius = 0.5}};
+    brc_domain *d = build_and_listen(*state, &r, said, sizeof said);
+    const int32_t set = brc_domain_find_set(d, "dent_surface");
+    assert_true((set >= 0 && d->sets[set].n_members > 0) || strstr(said, "no cell has a face on the wall 'dent_surface', which is 0.3") != NULL);
+    brc_domain_free(&d);
+}
+
 static void cells_too_coarse_for_the_shape_are_refused(void **state)
 {
     test_shape room;
@@ -379,6 +430,8 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(free_faces_know_their_wall, test_begin, test_end),
         cmocka_unit_test_setup_teardown(faces_at_a_straight_concave_edge_lie_in_its_walls, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_gap_narrower_than_the_cells_is_refused_not_bridged, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(features_smaller_than_a_cell_are_warned_of_by_name_and_size, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(a_wall_without_a_face_is_warned_of_by_name_and_size, test_begin, test_end),
         cmocka_unit_test_setup_teardown(cells_too_coarse_for_the_shape_are_refused, test_begin, test_end),
         cmocka_unit_test_setup_teardown(meshes_are_filled_like_shapes, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_mesh_may_be_a_part, test_begin, test_end),
