@@ -528,6 +528,29 @@ static void one_folder_of_results_holds_both_models(void **state)
     brc_run_results_free(&both);
 }
 
+static void assert_same_file(const char *a, const char *b, const char *name)
+{
+    char path[2][512], command[1200];
+    snprintf(path[0], sizeof path[0], "%s/%s/%s", folder, a, name);
+    snprintf(path[1], sizeof path[1], "%s/%s/%s", folder, b, name);
+    snprintf(command, sizeof command, "cmp '%s' '%s'", path[0], path[1]);
+    assert_int_equal(system(command), 0);
+}
+
+/* Whether the scene or its only body names the model is the same run, byte for byte. */
+static void one_model_gives_the_same_bytes_wherever_it_is_written(void **state)
+{
+    (void)state;
+    brc_run_results out[2];
+    must(record(ALONE_SPHERES PULL SENSORS, "above", false, &out[0]));
+    must(record(MATERIALS "bodies:\n" SPHERES "    model: cbm\n" PULL SENSORS, "within", false, &out[1]));
+    assert_same_file("above", "within", "frames/000000.vtkhdf");
+    assert_same_file("above", "within", "frames/000001.vtkhdf");
+    assert_same_file("above", "within", "histories.csv");
+    assert_same_file("above", "within", "picture.png");
+    for (int k = 0; k < 2; ++k) brc_run_results_free(&out[k]);
+}
+
 static void a_run_that_fails_at_once_names_the_models_it_was_asked_for(void **state)
 {
     (void)state;
@@ -595,6 +618,7 @@ int main(void)
         cmocka_unit_test(a_part_that_runs_away_names_its_model),
         cmocka_unit_test(broken_bonds_of_both_are_one_stream_by_step),
         cmocka_unit_test(one_folder_of_results_holds_both_models),
+        cmocka_unit_test(one_model_gives_the_same_bytes_wherever_it_is_written),
         cmocka_unit_test(a_run_that_fails_at_once_names_the_models_it_was_asked_for),
         cmocka_unit_test(an_interrupt_reaches_every_part),
         cmocka_unit_test(an_interrupt_stops_both_and_keeps_the_results),
