@@ -135,10 +135,56 @@ static void what_cannot_be_measured_says_why(void **state)
     brc_history_free(&h);
 }
 
+/* A straight line with a kink outside of the window, by hand; a break half way between two samples. */
+static void a_rate_is_a_line_through_the_window(void **state)
+{
+    (void)state;
+    brc_history *h;
+    assert_int_equal(brc_history_create(test_context, 4, &h), BRC_OK);
+    for (int k = 0; k <= 10; ++k)
+        brc_history_add(test_context, h, 1, k, k, 100 + k, (double[]){k < 8 ? 3 * k + (k % 2 ? 1e-3 : -1e-3) : 100, 0, 0, NAN});
+    brc_measured m = evaluate(&(brc_measure){.name = "v", .kind = BRC_MEASURE_RATE, .y = "force", .stage = "ring", .scale = 2, .window = {0, 7}}, NULL, h);
+    /* alternating +-1e-3 on 8 points: least squares gives 1e-3 * 4 / 42 of slope */
+    assert_true(fabs(m.value - 2 * (3 + 4e-3 / 42)) < 1e-12);
+    m = evaluate(&(brc_measure){.name = "v", .kind = BRC_MEASURE_RATE, .y = "force", .stage = "ring", .scale = 1, .window = {2.5, 3.5}}, NULL, h);
+    assert_true(isnan(m.value) && strstr(m.why_not, "two times"));
+    brc_history_free(&h);
+}
+
+static void the_first_break_is_met_between_samples(void **state)
+{
+    (void)state;
+    brc_measure measure = {.name = "s", .kind = BRC_MEASURE_AT_FIRST_BREAK, .y = "force", .stage = "ring", .scale = 1};
+    const brc_break breaks[] = {{.stage = 0, .load = 0.25}, {.stage = 1, .time = 102.25}, {.stage = 1, .time = 107.5}};
+    const brc_cracks cracks = {.n_broken = 3, .breaks = breaks};
+    brc_stage two[2] = {{.name = "pull", .solver = BRC_SOLVER_STATIC}, {.name = "ring", .solver = BRC_SOLVER_DYNAMIC}};
+    const brc_scene scene = {.n_sensors = 4, .sensors = sensors, .n_stages = 2, .stages = two, .n_materials = 1, .materials = &material,
+                             .n_measures = 1, .measures = &measure};
+    brc_measured m;
+    brc_history *h;
+    assert_int_equal(brc_history_create(test_context, 4, &h), BRC_OK);
+    /* events of a static stage, the second at a lower load: time is the load factor */
+    brc_history_add(test_context, h, 0, 0, 0, 100, (double[]){0, 0, 0, NAN});
+    brc_history_add(test_context, h, 0, 0, 0.25, 100, (double[]){50, 0, 0, NAN});
+    brc_history_add(test_context, h, 0, 1, 0.2, 100, (double[]){30, 0, 0, NAN});
+    for (int k = 0; k <= 10; ++k) brc_history_add(test_context, h, 1, k, k, 100 + k, (double[]){k * k, 0, 0, NAN});
+    assert_int_equal(brc_measure_evaluate(test_context, &scene, NULL, h, &cracks, 0, &m), BRC_OK);
+    assert_true(fabs(m.value - (4 + 0.25 * 5)) < 1e-12);
+    measure.window[0] = 3, measure.window[1] = 9; /* the first break of the window */
+    assert_int_equal(brc_measure_evaluate(test_context, &scene, NULL, h, &cracks, 0, &m), BRC_OK);
+    assert_true(fabs(m.value - (49 + 0.5 * 15)) < 1e-12);
+    measure = (brc_measure){.name = "s", .kind = BRC_MEASURE_AT_FIRST_BREAK, .y = "force", .stage = "pull", .scale = 1};
+    assert_int_equal(brc_measure_evaluate(test_context, &scene, NULL, h, &cracks, 0, &m), BRC_OK);
+    assert_true(m.value == 50);
+    assert_int_equal(brc_measure_evaluate(test_context, &scene, NULL, h, NULL, 0, &m), BRC_OK);
+    assert_true(isnan(m.value) && strstr(m.why_not, "no bond broke"));
+    brc_history_free(&h);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_modulus_is_force_over_the_flat_area_of_the_set),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_rate_is_a_line_through_the_window), cmocka_unit_test(the_first_break_is_met_between_samples),
+                                      cmocka_unit_test(the_modulus_is_force_over_the_flat_area_of_the_set),
         cmocka_unit_test(poissons_ratio_is_minus_the_slope_and_its_error_absolute),
         cmocka_unit_test(a_frequency_leaves_out_the_early_last_sample),
         cmocka_unit_test(peak_and_mean_look_at_their_window_alone),

@@ -105,8 +105,8 @@ static void what_broke_is_in_every_file(void **state)
 {
     (void)state;
     static const brc_break breaks[] = {{.time = 1e-3, .step = 4, .mode = BRC_BREAK_TENSION, .bond = 7, .element_i = 1, .element_j = 5,
-                                        .position = {0.1, 0.2, 0.3}, .normal = {1, 0, 0}, .stress = 5e7, .energy = 1e-6},
-                                       {.time = 2e-3, .step = 8, .mode = BRC_BREAK_SHEAR, .bond = 3, .element_i = 0, .element_j = 2}};
+                                        .position = {0.1, 0.2, 0.3}, .normal = {1, 0, 0}, .stress = 5e7, .energy = 1e-6, .area = 0.5},
+                                       {.time = 2e-3, .step = 8, .mode = BRC_BREAK_SHEAR, .bond = 3, .element_i = 0, .element_j = 2, .area = 0.25}};
     run r;
     begin_run(&r);
     r.simulation.breaks = breaks;
@@ -121,6 +121,19 @@ static void what_broke_is_in_every_file(void **state)
     assert_holds(text, "\"fragments\": 2");
     assert_holds(text, "\"first_break_s\": 0.001");
     assert_holds(text, "\"shear\": 1");
+    assert_holds(text, "\"crack_area_m2\": 0.75");
+    assert_holds(text, "\"largest_fragment\": 0.99");
+    assert_holds(text, "\"kinetic_over_elastic_at_first_break\": 0.01");
+    assert_holds(text, "\"name\": \"quasi-static\"");
+    brc_memory_free(text);
+    text = test_read(test_path(r.folder, "fragments.csv")); /* two frames of two */
+    assert_holds(text, "0,0,0,0,0,");
+    assert_holds(text, "1,0,0,1,");
+    assert_holds(text, ",99,0,0,0,0,0,0,0,0,0,1,2,3,4,5,6,7,0,0,1\n");
+    brc_memory_free(text);
+    assert_true(brc_file_exists(test_path(r.folder, "frames/000001.cracks.vtu")));
+    text = test_read(test_path(r.folder, "cracks.vtu.series"));
+    assert_holds(text, "frames/000000.cracks.vtu");
     brc_memory_free(text);
     hid_t file = H5Fopen(test_path(r.folder, "result.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
     int64_t bond[2];
