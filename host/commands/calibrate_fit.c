@@ -1,9 +1,9 @@
-/* Fits of the laws: what is linear in its coefficients by LAPACK's least squares, the rest by Levenberg and Marquardt's method as in the paper
+/* Fits of the laws: what is linear in its coefficients by least squares, the rest by Levenberg and Marquardt's method as in the paper
  * (MINPACK through cminpack). */
 #include "calibrate.h"
+#include "least_squares.h"
 #include "../base/memory.h"
 #include <cminpack.h>
-#include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,34 +29,6 @@ static bool of_the_paper(double radius)
     return false;
 }
 
-/* A table of equations, m rows of n unknowns, and their right sides. */
-typedef struct equations {
-    int m, n;
-    double *a; /* [m][n] */
-    double *b; /* [m] the unknowns after the solution */
-} equations;
-
-static brc_status equations_create(brc_context *context, int m, int n, equations *out)
-{
-    *out = (equations){.m = m, .n = n};
-    brc_status status = BRC_ALLOCATE(context, &out->a, (int64_t)m * n, "equations of a fit");
-    if (status == BRC_OK) status = BRC_ALLOCATE(context, &out->b, m > n ? m : n, "equations of a fit");
-    return status;
-}
-
-static void equations_free(equations *e)
-{
-    brc_memory_free(e->a);
-    brc_memory_free(e->b);
-}
-
-static brc_status solve(brc_context *context, equations *e)
-{
-    if (LAPACKE_dgels(LAPACK_ROW_MAJOR, 'N', e->m, e->n, 1, e->a, e->n, e->b, 1) != 0)
-        return BRC_FAIL(context, BRC_INTERNAL, "the %d equations of a fit do not determine its %d coefficients", e->m, e->n);
-    return BRC_OK;
-}
-
 static void powers(double x, double out[CUBIC])
 {
     out[0] = 1;
@@ -66,16 +38,16 @@ static void powers(double x, double out[CUBIC])
 /* y = c0 + c1 x + c2 x^2 + c3 x^3 through n points; *r2: coefficient of determination. */
 static brc_status fit_cubic(brc_context *context, int n, const double *x, const double *y, double c[CUBIC], double *r2)
 {
-    equations e;
+    brc_equations e;
     double mean = 0, left = 0, all = 0;
-    brc_status status = equations_create(context, n, CUBIC, &e);
+    brc_status status = brc_equations_create(context, n, CUBIC, &e);
     if (status != BRC_OK) goto cleanup;
     for (int k = 0; k < n; ++k) {
         powers(x[k], e.a + CUBIC * k);
         e.b[k] = y[k];
         mean += y[k] / n;
     }
-    BRC_TRY_OR(cleanup, solve(context, &e));
+    BRC_TRY_OR(cleanup, brc_equations_solve(context, &e));
     memcpy(c, e.b, CUBIC * sizeof *c);
     for (int k = 0; k < n; ++k) {
         const double fitted = c[0] + x[k] * (c[1] + x[k] * (c[2] + x[k] * c[3]));
@@ -84,7 +56,7 @@ static brc_status fit_cubic(brc_context *context, int n, const double *x, const 
     }
     *r2 = all > 0 ? 1 - left / all : 1;
 cleanup:
-    equations_free(&e);
+    brc_equations_free(&e);
     return status;
 }
 
@@ -194,12 +166,12 @@ cleanup:
 /* All coefficients of the paper's form at once, on relative errors. E is linear in them; nu starts from the two stages. */
 static brc_status fit_joint(brc_context *context, int n, const brc_calibration_row **rows, brc_calibration_fit *fit)
 {
-    equations e;
+    brc_equations e;
     double sum;
     residuals r = {.n = n, .rows = rows};
     memcpy(fit->joint[BRC_QUANTITY_NU], fit->two_stage[BRC_QUANTITY_NU], sizeof fit->joint[BRC_QUANTITY_NU]);
     BRC_TRY(minimise(context, joint_residual, &r, JOINT, &fit->joint[BRC_QUANTITY_NU][0][0], &sum));
-    brc_status status = equations_create(context, n, JOINT, &e);
+    brc_status status = brc_equations_create(context, n, JOINT, &e);
     if (status != BRC_OK) goto cleanup;
     for (int k = 0; k < n; ++k) {
         double of_radius[CUBIC], of_coordination[CUBIC];
@@ -208,11 +180,11 @@ static brc_status fit_joint(brc_context *context, int n, const brc_calibration_r
         for (int i = 0; i < JOINT; ++i) e.a[JOINT * k + i] = of_radius[i / CUBIC] * of_coordination[i % CUBIC] / rows[k]->young;
         e.b[k] = 1;
     }
-    BRC_TRY_OR(cleanup, solve(context, &e));
+    BRC_TRY_OR(cleanup, brc_equations_solve(context, &e));
     memcpy(fit->joint[BRC_QUANTITY_E], e.b, JOINT * sizeof *e.b);
     fit->made[BRC_FORM_JOINT] = true;
 cleanup:
-    equations_free(&e);
+    brc_equations_free(&e);
     return status;
 }
 
@@ -220,21 +192,21 @@ cleanup:
 static brc_status fit_inner(brc_context *context, const brc_calibration_plan *plan, const brc_calibration_rows *rows, brc_calibration_fit *fit)
 {
     const int n = plan->n_coordinations < BRC_BEAM_LAW_INNER ? plan->n_coordinations : BRC_BEAM_LAW_INNER;
-    equations e;
+    brc_equations e;
     brc_status status = BRC_OK;
     for (int64_t k = 0; k < rows->n; ++k)
         if (!(rows->rows[k].inner > 0)) return BRC_OK;
-    BRC_TRY_OR(cleanup, equations_create(context, (int)rows->n, n, &e));
+    BRC_TRY_OR(cleanup, brc_equations_create(context, (int)rows->n, n, &e));
     for (int64_t k = 0; k < rows->n; ++k) {
         double terms[ROWS][COLUMNS];
         brc_beam_law_terms(&fit->law, rows->rows[k].coordination, fit->law.radius[0], terms); /* row 0 depends on cn alone */
         memcpy(e.a + k * n, terms[0], (size_t)n * sizeof *e.a);
         e.b[k] = rows->rows[k].inner / rows->rows[k].coordination;
     }
-    BRC_TRY_OR(cleanup, solve(context, &e));
+    BRC_TRY_OR(cleanup, brc_equations_solve(context, &e));
     memcpy(fit->law.inner, e.b, (size_t)n * sizeof *e.b);
 cleanup:
-    equations_free(&e);
+    brc_equations_free(&e);
     return status;
 }
 
@@ -244,8 +216,8 @@ static brc_status fit_surface(brc_context *context, const brc_calibration_plan *
     const int ni = plan->n_radii < ROWS ? plan->n_radii : ROWS, nj = plan->n_coordinations < COLUMNS ? plan->n_coordinations : COLUMNS;
     double *const out[BRC_QUANTITIES] = {&fit->law.poisson[0][0], &fit->law.young[0][0]};
     for (int q = 0; q < BRC_QUANTITIES; ++q) {
-        equations e;
-        brc_status status = equations_create(context, (int)rows->n, ni * nj, &e);
+        brc_equations e;
+        brc_status status = brc_equations_create(context, (int)rows->n, ni * nj, &e);
         for (int64_t k = 0; status == BRC_OK && k < rows->n; ++k) {
             const brc_calibration_row *row = &rows->rows[k];
             double terms[ROWS][COLUMNS];
@@ -255,10 +227,10 @@ static brc_status fit_surface(brc_context *context, const brc_calibration_plan *
                 for (int j = 0; j < nj; ++j) e.a[(k * ni + i) * nj + j] = weight * terms[i][j];
             e.b[k] = q == BRC_QUANTITY_NU ? 1 : log(row->young);
         }
-        if (status == BRC_OK) status = solve(context, &e);
+        if (status == BRC_OK) status = brc_equations_solve(context, &e);
         for (int i = 0; status == BRC_OK && i < ni; ++i)
             for (int j = 0; j < nj; ++j) out[q][COLUMNS * i + j] = e.b[i * nj + j];
-        equations_free(&e);
+        brc_equations_free(&e);
         BRC_TRY(status);
     }
     fit->made[BRC_FORM_SURFACE] = true;

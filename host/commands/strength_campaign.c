@@ -1,16 +1,13 @@
 /* The fracture tests of a campaign: a packing is bonded once for all that is missing at one coordination number. */
 #include "strength_campaign.h"
 #include "../base/memory.h"
-#include "../solver/beam_sample.h"
 #include "ensemble.h"
 #include "strength_test.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Contacts of a packing at rest (NAH19 section 2.3), its cube, and nu_m, which hardly matters (design: 0.3 % of E). */
-#define CONTACTS 6.2
-#define CONTACTS_TOLERANCE 0.02
+/* The paper's cube [m], and nu_m, which hardly matters (0.3 % of E from 0 to 0.45). */
 #define EDGE 2e-3
 #define BEAM_POISSON 0.3
 
@@ -114,13 +111,10 @@ static brc_status pack(void *self, brc_context *context, brc_device *device, int
 {
     work *w = self;
     const brc_calibration_plan *s = &w->plan->samples;
-    const brc_shape shape = {.kind = BRC_SHAPE_BOX, .size = {EDGE, EDGE, EDGE}};
-    const brc_fill fill = {.kind = BRC_FILL_PACKING, .n_elements = s->n_elements, .seed = s->seed + (uint64_t)sample, .radius_spread = s->radius_spread,
-                           .coordination = CONTACTS, .tolerance = CONTACTS_TOLERANCE};
     int missing = 0;
     (void)device;
     for (int c = 0; c < s->n_coordinations; ++c) missing += count_missing(w, (int)sample, s->coordination[c]);
-    return missing ? brc_beam_sample_pack(context, &shape, &fill, 1, &w->sample[sample]) : BRC_OK;
+    return missing ? brc_calibrate_pack(context, s, sample, EDGE, &w->sample[sample]) : BRC_OK;
 }
 
 static brc_status keep(work *w, brc_context *context, const brc_strength_row *row)

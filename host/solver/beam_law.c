@@ -1,5 +1,6 @@
 /* Coefficients: written by `breccia calibrate` as law.h (docs/beams-calibration.md has its command, the solves behind it and what is left). */
 #include "beam_law.h"
+#include "chebyshev.h"
 #include "../base/log.h"
 #include "laws/spread-12.5.h"
 #include "laws/spread-25.h"
@@ -21,26 +22,12 @@ const brc_beam_law *brc_beam_law_for(double radius_spread)
 
 static double cubic(const double c[4], double x) { return c[0] + x * (c[1] + x * (c[2] + x * c[3])); }
 
-/* T_0(x) ... */
-static void chebyshev(double x, int n, double *out)
-{
-    out[0] = 1;
-    out[1] = x;
-    for (int k = 2; k < n; ++k) out[k] = 2 * x * out[k - 1] - out[k - 2];
-}
-
-/* t of a coordination number. */
-static double place(const brc_beam_law *law, double coordination)
-{
-    return (2 * coordination - law->coordination[0] - law->coordination[1]) / (law->coordination[1] - law->coordination[0]);
-}
-
 void brc_beam_law_terms(const brc_beam_law *law, double coordination, double radius, double out[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS])
 {
+    const double logarithms[2] = {log(law->radius[0]), log(law->radius[1])};
     double of_radius[BRC_BEAM_LAW_ROWS], of_coordination[BRC_BEAM_LAW_COLUMNS];
-    chebyshev((2 * log(radius) - log(law->radius[0]) - log(law->radius[1])) / (log(law->radius[1]) - log(law->radius[0])),
-              BRC_BEAM_LAW_ROWS, of_radius);
-    chebyshev(place(law, coordination), BRC_BEAM_LAW_COLUMNS, of_coordination);
+    brc_chebyshev(brc_chebyshev_place(logarithms, log(radius)), BRC_BEAM_LAW_ROWS, of_radius);
+    brc_chebyshev(brc_chebyshev_place(law->coordination, coordination), BRC_BEAM_LAW_COLUMNS, of_coordination);
     for (int i = 0; i < BRC_BEAM_LAW_ROWS; ++i)
         for (int j = 0; j < BRC_BEAM_LAW_COLUMNS; ++j) out[i][j] = of_radius[i] * of_coordination[j];
 }
@@ -75,7 +62,7 @@ double brc_beam_law_paper_young(const double c[4][4], double coordination, doubl
 double brc_beam_law_inner(const brc_beam_law *law, double coordination)
 {
     double terms[BRC_BEAM_LAW_INNER], sum = 0;
-    chebyshev(place(law, coordination), BRC_BEAM_LAW_INNER, terms);
+    brc_chebyshev(brc_chebyshev_place(law->coordination, coordination), BRC_BEAM_LAW_INNER, terms);
     for (int j = 0; j < BRC_BEAM_LAW_INNER; ++j) sum += law->inner[j] * terms[j];
     return sum;
 }
