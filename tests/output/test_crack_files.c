@@ -8,7 +8,6 @@
 #include "../../host/output/crack_surface.h"
 #include "../../host/output/stop.h"
 #include <stdlib.h>
-#include <unistd.h>
 
 /* ---- files that grow ---- */
 
@@ -43,7 +42,6 @@ static void a_full_disk_is_told(void **state)
 {
     (void)state;
     brc_append *file;
-    if (access("/dev/full", W_OK) != 0) skip();
     assert_int_equal(brc_append_create(test_context, "/dev/full", "head\n", &file), BRC_FILE_FAILED);
     if (!strstr(brc_context_message(test_context), "free some space")) fail_msg("%s", brc_context_message(test_context));
     brc_context_clear(test_context);
