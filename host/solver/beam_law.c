@@ -79,6 +79,12 @@ double brc_beam_law_coordination(const brc_beam_law *law, const brc_beam_body *b
     return 0.5 * (low + high);
 }
 
+double brc_beam_law_reading(const brc_beam_body *body)
+{
+    static const double edges[3] = {20.37, 20.37, 20.37}; /* of a cube of 10 000 spheres, as packed for the fits */
+    return body->reading > 0 ? body->reading / brc_beam_body_reading(edges) : 1;
+}
+
 brc_status brc_beam_law_invert(brc_context *context, const brc_beam_law *law, const brc_beam_body *body, double nu, double young, double *radius,
                                double *beam_young, bool *warning)
 {
@@ -106,7 +112,7 @@ brc_status brc_beam_law_invert(brc_context *context, const brc_beam_law *law, co
         else high = middle;
     }
     *radius = 0.5 * (low + high);
-    *beam_young = young / brc_beam_law_young(law, coordination, *radius);
+    *beam_young = young / (brc_beam_law_young(law, coordination, *radius) * brc_beam_law_reading(body));
     if (warning) *warning = most - nu < NEAR_END * (most - least) || nu - least < NEAR_END * (most - least);
     return BRC_OK;
 }

@@ -41,6 +41,8 @@ void brc_beam_law_terms(const brc_beam_law *law, double coordination, double rad
 double brc_beam_law_inner(const brc_beam_law *law, double coordination);
 /* The cn of the fit's packings that has the body's bonds inside, within the range of the fit; the body's own where its inside is not known, or the fit's. */
 double brc_beam_law_coordination(const brc_beam_law *law, const brc_beam_body *body);
+/* E by the bounding box of the body over that of the fit's packings with the same bonds inside (brc_beam_body.reading) [-]; 1 where the body's is not known. */
+double brc_beam_law_reading(const brc_beam_body *body);
 /* r_m [-] and E_m [Pa] that give nu and young [Pa] in a body. BRC_BAD_INPUT: nu that beams cannot reach at its coordination number (with the range they
  * can), a coordination number outside the fit. *warning (may be NULL) becomes true when r_m lies so near to an end of the fit's range that nu
  * hardly depends on it there. */

@@ -16,8 +16,8 @@ typedef struct work {
     brc_device *device;
     const brc_polish_request *request;
     const brc_beam_law *law;
-    double body;    /* of the body */
-    double *sample; /* [n_samples] */
+    double body, reading;              /* of the body; its brc_beam_law_reading */
+    double *sample, *sample_reading;   /* [n_samples] */
 } work;
 
 /* nu and E / E_m of the body, from those of the samples. */
@@ -33,9 +33,9 @@ static brc_status test(const work *w, double radius, double *nu, double *ratio)
             const brc_beam_pull pull = {.axis = axis, .radius = radius, .beam_poisson = request->beam_poisson};
             BRC_TRY(brc_beam_sample_pull(w->context, w->device, request->samples[k], &pull, &answer));
             *nu += share * (answer.poisson - brc_beam_law_poisson(w->law, w->sample[k], radius));
-            *ratio += share * answer.young / brc_beam_law_young(w->law, w->sample[k], radius);
+            *ratio += share * answer.young / (brc_beam_law_young(w->law, w->sample[k], radius) * w->sample_reading[k]);
         }
-    *ratio *= brc_beam_law_young(w->law, w->body, radius);
+    *ratio *= brc_beam_law_young(w->law, w->body, radius) * w->reading;
     return BRC_OK;
 }
 
@@ -62,10 +62,12 @@ static brc_status prepare(work *w, brc_beam_body *body)
         if (k == 0) w->law = brc_beam_law_for(spread_of(request->samples[0]));
         BRC_TRY(brc_beam_body_of(w->context, request->samples[k], -1, &own));
         w->sample[k] = brc_beam_law_coordination(w->law, &own);
+        w->sample_reading[k] = brc_beam_law_reading(&own);
         if (k == 0) *body = own;
     }
     if (request->body) *body = *request->body;
     w->body = brc_beam_law_coordination(w->law, body);
+    w->reading = brc_beam_law_reading(body);
     return BRC_OK;
 }
 
@@ -76,7 +78,8 @@ brc_status brc_beam_polish(brc_context *context, brc_device *device, const brc_p
     brc_beam_body body;
     brc_status status = BRC_OK;
     memset(out, 0, sizeof *out);
-    BRC_TRY(BRC_ALLOCATE(context, &w.sample, request->n_samples, "samples of a polish"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &w.sample, request->n_samples, "samples of a polish"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &w.sample_reading, request->n_samples, "samples of a polish"));
     BRC_TRY_OR(cleanup, prepare(&w, &body));
     BRC_TRY_OR(cleanup, brc_beam_law_invert(context, w.law, &body, poisson, request->young, &out->law_radius, &out->law_beam_young, NULL));
     const double step = 1e-3 * out->law_radius;
@@ -103,6 +106,7 @@ brc_status brc_beam_polish(brc_context *context, brc_device *device, const brc_p
         brc_log(context, BRC_LOG_WARNING, "polish: nu = %.5g after %d tests, asked %.5g: the sample hardly reaches it", nu, out->n_tests, poisson);
 cleanup:
     brc_memory_free(w.sample);
+    brc_memory_free(w.sample_reading);
     return status;
 }
 

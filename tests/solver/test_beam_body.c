@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 #include <math.h>
+#include <string.h>
 
 static brc_context *context;
 
@@ -17,11 +18,11 @@ static void done(brc_status status)
     if (status != BRC_OK) fail_msg("%s", brc_context_message(context));
 }
 
-/* n^3 spheres of radius 1/2 at distance 1 that touch each other and the walls of a cube; all contacts bonded. */
-static brc_domain *lattice(int n)
+/* l x m x n spheres of radius 1/2 at distance 1 that touch each other and the walls of a box; all contacts bonded. */
+static brc_domain *box(int l, int m, int n)
 {
-    const brc_shape shape = {.kind = BRC_SHAPE_BOX, .size = {n, n, n}};
-    const int64_t count = (int64_t)n * n * n;
+    const brc_shape shape = {.kind = BRC_SHAPE_BOX, .size = {l, m, n}};
+    const int64_t count = (int64_t)l * m * n;
     brc_solid *solid;
     brc_domain *domain;
     double *position, *radius;
@@ -32,15 +33,17 @@ static brc_domain *lattice(int n)
     double bounds[2][3];
     brc_solid_bounds(solid, bounds);
     for (int64_t e = 0; e < count; ++e) {
-        const int64_t at[3] = {e % n, e / n % n, e / n / n};
+        const int64_t at[3] = {e % l, e / l % m, e / l / m};
         for (int c = 0; c < 3; ++c) position[3 * e + c] = bounds[0][c] + 0.5 + (double)at[c];
         radius[e] = 0.5;
     }
-    done(brc_beams_build(context, solid, position, radius, count, 6.0 * (n - 1) / n, 1, domain));
+    done(brc_beams_build(context, solid, position, radius, count, 6 - 2.0 / l - 2.0 / m - 2.0 / n, 1, domain));
     done(BRC_ALLOCATE(context, &domain->body, count, "bodies"));
     brc_solid_free(&solid);
     return domain;
 }
+
+static brc_domain *lattice(int n) { return box(n, n, n); }
 
 /* Every element inside has six neighbours, whatever the size; of all they are 6 (n - 1) / n. Whole numbers: exact. */
 static void inside_a_lattice_every_element_has_six_bonds_at_any_size(void **state)
@@ -88,6 +91,51 @@ static void bodies_are_counted_one_by_one(void **state)
     brc_domain_free(&domain);
 }
 
+/* Edges are whole numbers of diameters: the formula of the header by hand. A turned body is the same; one with a wall less is no box. */
+static void the_reading_of_a_box_is_that_of_its_edges(void **state)
+{
+    (void)state;
+    brc_domain *domain = box(24, 8, 12);
+    brc_beam_body body, turned;
+    done(brc_beam_body_of(context, domain, -1, &body));
+    assert_true(fabs(body.reading - (1 + 1.0 / 24 - 0.2 * (1.0 / 8 + 1.0 / 12))) < 1e-14);
+    for (int64_t e = 0; e < domain->n_elements; ++e) {
+        double *x = domain->position + 3 * e;
+        const double y = x[1];
+        x[1] = 0.6 * y - 0.8 * x[2];
+        x[2] = 0.8 * y + 0.6 * x[2];
+    }
+    done(brc_beam_body_of(context, domain, -1, &turned));
+    assert_true(fabs(turned.reading - body.reading) < 1e-13);
+    domain->sets[brc_domain_find_set(domain, "y+")].n_members = 0;
+    domain->sets[brc_domain_find_set(domain, "z+")].n_members = 0;
+    done(brc_beam_body_of(context, domain, -1, &body));
+    assert_true(body.reading == 0);
+    brc_domain_free(&domain);
+}
+
+/* The same lattice with a name changed: its two other walls as the side of a rod along x; mean distance from the axis by hand. */
+static void the_reading_of_a_cylinder_is_that_of_its_side(void **state)
+{
+    (void)state;
+    brc_domain *domain = box(20, 7, 7);
+    brc_beam_body body;
+    double sum = 0;
+    const int32_t w = brc_domain_find_set(domain, "y-");
+    for (int32_t s = 0; s < domain->n_walls; ++s)
+        if (domain->wall_name[s][0] != 'x' && s != w) domain->wall_name[s][0] = 'u';
+    brc_memory_free(domain->wall_name[w]);
+    brc_memory_free(domain->sets[w].name);
+    done(BRC_ALLOCATE(context, &domain->wall_name[w], 5, "name"));
+    done(BRC_ALLOCATE(context, &domain->sets[w].name, 5, "name"));
+    strcpy(domain->wall_name[w], "side");
+    strcpy(domain->sets[w].name, "side");
+    for (int k = 0; k < 7; ++k) sum += sqrt(9.0 + (k - 3) * (k - 3)) / 7; /* the face y-, three from the axis */
+    done(brc_beam_body_of(context, domain, -1, &body));
+    assert_true(fabs(body.reading - (1 + 1.0 / 20 - 0.4 / (2 * sum + 1))) < 1e-13);
+    brc_domain_free(&domain);
+}
+
 static int begin(void **state)
 {
     (void)state;
@@ -109,6 +157,8 @@ int main(void)
         cmocka_unit_test(inside_a_lattice_every_element_has_six_bonds_at_any_size),
         cmocka_unit_test(few_elements_inside_or_no_walls_say_nothing),
         cmocka_unit_test(bodies_are_counted_one_by_one),
+        cmocka_unit_test(the_reading_of_a_box_is_that_of_its_edges),
+        cmocka_unit_test(the_reading_of_a_cylinder_is_that_of_its_side),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -155,11 +155,32 @@ static void bonds_beyond_the_fit_are_taken_as_at_its_end(void **state)
     assert_true(fabs(brc_beam_law_coordination(law, &few) - 5.5) < 1e-12);
 }
 
+/* E_m makes up for how E reads by the bounding box; the cube of 10 000 spheres is where the law is at home: d / L 0.0491. A bar of 10 : 1 : 1 has soft sides and stiff beams. */
+static void beams_make_up_for_the_reading_of_a_body(void **state)
+{
+    (void)state;
+    brc_context *context = quiet();
+    const brc_beam_law *law = brc_beam_law_for(0.125);
+    const double cube[3] = {1 / 0.0491, 1 / 0.0491, 1 / 0.0491}, bar[3] = {10 / 0.103, 1 / 0.103, 1 / 0.103};
+    const brc_beam_body at_home = {.coordination = 10, .reading = brc_beam_body_reading(cube)}, slender = {.coordination = 10, .reading = brc_beam_body_reading(bar)}, unknown = {.coordination = 10};
+    double r[3], e[3];
+    assert_true(fabs(brc_beam_law_reading(&at_home) - 1) < 1e-4);
+    assert_true(brc_beam_law_reading(&unknown) == 1);
+    assert_int_equal(brc_beam_law_invert(context, law, &at_home, 0.23, 1, &r[0], &e[0], NULL), BRC_OK);
+    assert_int_equal(brc_beam_law_invert(context, law, &slender, 0.23, 1, &r[1], &e[1], NULL), BRC_OK);
+    assert_int_equal(brc_beam_law_invert(context, law, &unknown, 0.23, 1, &r[2], &e[2], NULL), BRC_OK);
+    assert_true(r[0] == r[1] && r[0] == r[2]);
+    assert_true(fabs(e[0] / e[2] - 1) < 1e-4);
+    assert_true(fabs(e[1] / e[2] * (1 + 0.0103 - 0.2 * 0.206) / (1 + 0.6 * 0.0491) - 1) < 1e-4);
+    brc_context_free(&context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_nearest_spread_is_taken),
         cmocka_unit_test(a_body_is_as_stiff_as_the_cube_with_its_bonds_inside),
+        cmocka_unit_test(beams_make_up_for_the_reading_of_a_body),
         cmocka_unit_test(a_large_body_takes_stiffer_beams_than_a_small_one),
         cmocka_unit_test(bonds_beyond_the_fit_are_taken_as_at_its_end),
         cmocka_unit_test(nu_falls_and_e_grows_with_r_m_everywhere),
