@@ -18,8 +18,8 @@ typedef struct figure {
 static void colours(const figure *f, brc_text *text)
 {
     const brc_calibration_plan *s = &f->plan->samples;
-    brc_text_add(text, "set palette defined (0 '#4477aa', 0.5 '#228833', 1 '#cc6677')\nset cbrange [%g:%g]\nset cblabel 'cn'\n", s->coordination[0],
-                 s->coordination[s->n_coordinations - 1] + 1e-9);
+    const double low = s->coordination[0], high = s->coordination[s->n_coordinations - 1];
+    brc_text_add(text, "set palette defined (0 '#4477aa', 0.5 '#228833', 1 '#cc6677')\nset cbrange [%g:%g]\nset cblabel 'cn'\n", low, high > low ? high : low + 1);
 }
 
 /* The tests of a narrow plan determine no surface: the built-in one stands in. */

@@ -112,7 +112,7 @@ static void judge(const brc_strength_fit *fit, int form, int n, const brc_streng
         f.mean_rms += off * off;
         ++n_seen;
     }
-    f.r2 = 1 - left / spread;
+    f.r2 = spread > 0 ? 1 - left / spread : NAN; /* one test has no spread */
     f.rms = sqrt(f.rms);
     f.mean_rms = sqrt(f.mean_rms / (double)n_seen);
     *out = f;
