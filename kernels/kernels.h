@@ -10,7 +10,6 @@
 #include "published_bond.h"
 #include "cbm_beam.h"
 #include "failure.h"
-#include "cell_normal.h"
 #include "vector.cl"
 #include "motion.cl"
 #include "rotation.cl"
@@ -19,4 +18,3 @@
 #include "published.cl"
 #include "cbm.cl"
 #include "fracture.cl"
-#include "cells.cl"
