@@ -43,6 +43,12 @@
     X(turn_book)                                                                                                       \
     X(block6_precondition)                                                                                             \
     X(cbm_force_pass)                                                                                                  \
+    X(cells_gradient)                                                                                                  \
+    X(cells_check)                                                                                                     \
+    X(cells_ratio)                                                                                                     \
+    X(cells_break)                                                                                                     \
+    X(cells_rebuild)                                                                                                   \
+    X(cells_share)                                                                                                     \
     X(fracture_force)                                                                                                  \
     X(fracture_stress)                                                                                                 \
     X(fracture_stress_second)                                                                                          \

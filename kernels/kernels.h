@@ -10,6 +10,7 @@
 #include "published_bond.h"
 #include "cbm_beam.h"
 #include "failure.h"
+#include "cell_normal.h"
 #include "vector.cl"
 #include "motion.cl"
 #include "rotation.cl"
@@ -18,3 +19,4 @@
 #include "published.cl"
 #include "cbm.cl"
 #include "fracture.cl"
+#include "cells.cl"

@@ -97,8 +97,8 @@ void brc_free_motions_project(const brc_free_motions *free, int64_t n, const dou
         for (int m = 0; m < free->n; ++m) motion_at(free, m, place + 3 * i, u[m]);
         for (int m = 0; m < free->n; ++m)
             for (int c = 0; c < 3; ++c) {
-                done[m] += u[m][c] * force[3 * i + c] + free->motion[m][3 + c] * torque[3 * i + c];
-                for (int k = 0; k < free->n; ++k) gram[m][k] += u[m][c] * u[k][c] + free->motion[m][3 + c] * free->motion[k][3 + c];
+                done[m] += u[m][c] * force[3 * i + c] + (torque ? free->motion[m][3 + c] * torque[3 * i + c] : 0);
+                for (int k = 0; k < free->n; ++k) gram[m][k] += u[m][c] * u[k][c] + (torque ? free->motion[m][3 + c] * free->motion[k][3 + c] : 0);
             }
     }
     if (free->n == 0 || LAPACKE_dposv(LAPACK_ROW_MAJOR, 'U', free->n, 1, &gram[0][0], 6, done, 1) != 0) return;
@@ -107,7 +107,7 @@ void brc_free_motions_project(const brc_free_motions *free, int64_t n, const dou
         for (int m = 0; m < free->n; ++m)
             for (int c = 0; c < 3; ++c) {
                 force[3 * i + c] -= done[m] * u[m][c];
-                torque[3 * i + c] -= done[m] * free->motion[m][3 + c];
+                if (torque) torque[3 * i + c] -= done[m] * free->motion[m][3 + c];
             }
     }
 }

@@ -24,8 +24,8 @@ void brc_free_motions_hold(brc_free_motions *free, const double place[3], int co
 void brc_free_motions_clamp(brc_free_motions *free, int component);
 /* Find what is left free; false when the eigenvalues did not converge. */
 bool brc_free_motions_find(brc_free_motions *free);
-/* Take off forces and torques [n][3] what does work on the free motions; they are then in the range of a stiffness whose null space these
- * motions are. */
+/* Take off forces and torques [n][3] (NULL: elements are points) what does work on the free motions; they are then in the range of a stiffness whose
+ * null space these motions are. */
 void brc_free_motions_project(const brc_free_motions *free, int64_t n, const double *place, double *force, double *torque);
 
 #endif

@@ -90,7 +90,7 @@ static void describe(const brc_simulation *s, int64_t h, brc_break *event)
     event->element_i = (int32_t)i;
     event->element_j = (int32_t)j;
     for (int c = 0; c < 3; ++c) {
-        event->position[c] = 0.5 * (d->position[3 * i + c] + d->position[3 * j + c]);
+        event->position[c] = d->element_kind == BRC_ELEMENT_CELL ? d->face_centroid[3 * h + c] : 0.5 * (d->position[3 * i + c] + d->position[3 * j + c]);
         event->normal[c] = d->position[3 * j + c] - d->position[3 * i + c];
         length += event->normal[c] * event->normal[c];
     }

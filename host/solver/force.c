@@ -1,4 +1,5 @@
 /* One evaluation of the forces of a model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2, design-cbm.md). */
+#include "cell_breaks.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
 
@@ -9,15 +10,17 @@ static double beta(const brc_simulation *s) { return s->scene->model.compaction 
 static bool has_face_loads(const brc_simulation *s) { return s->loads.held.n_faces > 0 || s->loads.n_tractions > 0; }
 
 /* H and, where faces are held, their part of G. */
-static brc_status dlsm_gradients(brc_simulation *s, brc_buffer *displacement, bool homogeneous)
+static brc_status dlsm_gradients(brc_simulation *s, const brc_force_request *r)
 {
     brc_held_faces *h = &s->loads.held;
-    BRC_TRY(BRC_LAUNCH(s->kernel.gradient, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->area), BRC_BUF(displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient)));
+    if (s->fracture && r->finite) BRC_TRY(brc_cell_breaks_gradients(s, r->displacement));
+    else
+        BRC_TRY(BRC_LAUNCH(s->kernel.gradient, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                           BRC_BUF(s->area), BRC_BUF(r->displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient)));
     if (h->n_faces)
         BRC_TRY(BRC_LAUNCH(s->kernel.held_gradient, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
                            BRC_BUF(h->place), BRC_BUF(h->face_start), BRC_BUF(h->area), BRC_BUF(h->arm), BRC_BUF(h->held),
-                           BRC_BUF(homogeneous ? h->zero_value : h->value), BRC_BUF(displacement), BRC_BUF(s->gradient),
+                           BRC_BUF(r->homogeneous ? h->zero_value : h->value), BRC_BUF(r->displacement), BRC_BUF(s->gradient),
                            BRC_BUF(s->held_gradient)));
     return BRC_OK;
 }
@@ -76,7 +79,7 @@ static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
     const brc_elastic *m = one_material(s);
     const double one_plus_tau = 1 + s->scene->model.tau;
     const int finite = r->finite ? 1 : 0, face_loads = has_face_loads(s) ? 1 : 0;
-    BRC_TRY(dlsm_gradients(s, r->displacement, r->homogeneous));
+    BRC_TRY(dlsm_gradients(s, r));
     BRC_TRY(BRC_LAUNCH(s->kernel.stress, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
                        BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),

@@ -1,5 +1,6 @@
 /* Bonds that break: limits of the elements, the order of the passes, and what broke (kernels/fracture.cl). */
 #include "beam_law.h"
+#include "cell_breaks.h"
 #include "fracture_internal.h"
 #include "strength_law.h"
 #include <math.h>
@@ -10,7 +11,8 @@ enum { MOST_MEMBERS = 500, MOST_ROWS = 1 << 29 }; /* below SECOND_SHELL in kerne
 
 const char *brc_break_mode_name(int32_t mode)
 {
-    return mode == BRC_BREAK_TENSION ? "tension" : mode == BRC_BREAK_COMPRESSION ? "compression" : mode == BRC_BREAK_SHEAR ? "shear" : "none";
+    static const char *const name[] = {"none", "tension", "compression", "shear", "detached"};
+    return mode >= BRC_BREAK_TENSION && mode <= BRC_BREAK_DETACHED ? name[mode] : name[0];
 }
 
 static brc_criterion_kind criterion(const brc_simulation *s) { return brc_criterion_of(&s->scene->fracture, s->scene->model.kind); }
@@ -207,9 +209,7 @@ static int64_t most_members(const brc_domain *d)
 
 brc_status brc_fracture_create(brc_simulation *s)
 {
-    if (!brc_is_beams(s))
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: bonds of model %s cannot break in this version; use model cbm, or remove `fracture`",
-                        brc_model_name(s->scene->model.kind));
+    if (!brc_is_beams(s)) return brc_cell_breaks_create(s);
     if (criterion(s) == BRC_CRITERION_BOND_NORMAL)
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: the criterion bond-normal is for cells; use virial-principal with model cbm");
     if (s->layout->n_rows >= MOST_ROWS)
@@ -228,6 +228,7 @@ void brc_fracture_free(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
     if (!f) return;
+    brc_cell_breaks_free(s);
     brc_buffer **all[] = {&f->record, &f->stress, &f->limits, &f->choice, &f->measure, &f->break_step, &f->break_mode,
                           &f->break_stress, &f->break_energy, &f->lost, &f->broken};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
@@ -266,6 +267,7 @@ brc_status brc_fracture_step(brc_simulation *s, double half_kick)
     brc_breaking *f = s->fracture;
     const brc_beam *b = brc_beam_of_element(s, 0);
     const int32_t n = s->layout->n_rows;
+    if (f->cells) return brc_cell_breaks_step(s, half_kick, 1);
     BRC_TRY(find_stress(s));
     BRC_TRY(BRC_LAUNCH(f->choose, n, BRC_INT(n), BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_COEFF(f->friction),
                        BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->alive), BRC_BUF(s->displacement),
@@ -293,6 +295,7 @@ brc_status brc_simulation_failure_ratio(brc_simulation *s, double *out)
     brc_status status = BRC_OK;
     *out = 0;
     if (!s->fracture) return BRC_FAIL(s->context, BRC_BAD_INPUT, "the scene has no `fracture`, so nothing limits its stress");
+    if (s->fracture->cells) return brc_cell_breaks_failure_ratio(s, out);
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, n, "failure ratios"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
     BRC_TRY_OR(cleanup, find_stress(s));
@@ -306,4 +309,4 @@ cleanup:
     return status;
 }
 
-double brc_simulation_element_strength(const brc_simulation *s, int64_t e) { return s->fracture ? s->fracture->limit[3 * e] : 0; }
+double brc_simulation_element_strength(const brc_simulation *s, int64_t e) { return s->fracture && s->fracture->limit ? s->fracture->limit[3 * e] : 0; }

@@ -4,8 +4,13 @@
 
 #include "simulation.h"
 
-typedef enum brc_break_mode { BRC_BREAK_TENSION = 1, BRC_BREAK_COMPRESSION, BRC_BREAK_SHEAR } brc_break_mode; /* as in kernels/failure.h */
-/* "tension", "compression", "shear". */
+typedef enum brc_break_mode {
+    BRC_BREAK_TENSION = 1, /* the first three as in kernels/failure.h */
+    BRC_BREAK_COMPRESSION,
+    BRC_BREAK_SHEAR,
+    BRC_BREAK_DETACHED /* cells: what was left of an element that its other bonds no longer held in place */
+} brc_break_mode;
+/* "tension", "compression", "shear", "detached". */
 const char *brc_break_mode_name(int32_t mode);
 
 /* One broken bond. Position and normal are those of the undeformed solid. */
@@ -15,7 +20,7 @@ typedef struct brc_break {
     int32_t stage;
     int32_t mode;  /* brc_break_mode */
     int32_t bond, element_i, element_j; /* ids */
-    double position[3]; /* middle of the bond [m] */
+    double position[3]; /* middle of the bond; cells: centroid of the face [m] */
     double normal[3];   /* unit vector from i to j */
     double stress; /* virial stress of the element that failed, in the direction of its mode; shear: half the difference of the outer two [Pa] */
     double energy; /* elastic energy the bond held [J] */

@@ -21,6 +21,7 @@ struct brc_breaking {
     brc_buffer *lost, *broken;                                           /* [n_rows] */
     double *limit;     /* [n_elements][3] host */
     double slope, friction;
+    struct brc_cell_breaks *cells; /* models of cells (cell_breaks.c), which use the arrays of entries and `lost`, `broken` */
     int n_spans;
     brc_break_span *spans;
     int64_t n_loads;   /* events of static stages so far */

@@ -31,6 +31,12 @@ static brc_status find_free(brc_simulation *s, const int32_t *piece, brc_pieces 
                 const int32_t e = s->loads.imposed[i].element_id[k];
                 if (s->loads.imposed[i].component_bits >> c & 1) brc_free_motions_hold(&p->free[piece[e]], place + 3 * (int64_t)e, c);
             }
+    for (int64_t f = 0; s->loads.held.n_faces > 0 && f < s->domain->n_free_faces; ++f) {
+        const int32_t at = s->loads.held.index_of_free_face[f];
+        for (int c = 0; at >= 0 && c < 3; ++c)
+            if (s->loads.held.component_of_face[at] >> c & 1)
+                brc_free_motions_hold(&p->free[piece[s->domain->free_element[f]]], s->domain->free_centroid + 3 * f, c);
+    }
     for (int32_t i = 0; i < s->loads.n_turns; ++i)
         for (int32_t k = 0; k < s->loads.turns[i].n; ++k)
             for (int c = 0; c < 3; ++c)
@@ -75,13 +81,15 @@ brc_status brc_pieces_project(brc_context *context, const brc_pieces *p, double 
         const int64_t first = p->start[i], n = p->start[i + 1] - first;
         if (p->free[i].n == 0) continue;
         for (int64_t k = 0; k < 3 * n; ++k) {
-            part[k] = force[3 * (int64_t)p->element[first + k / 3] + k % 3];
-            part[3 * n + k] = torque[3 * (int64_t)p->element[first + k / 3] + k % 3];
+            const int64_t of = 3 * (int64_t)p->element[first + k / 3] + k % 3;
+            part[k] = force[of];
+            if (torque) part[3 * n + k] = torque[of];
         }
-        brc_free_motions_project(&p->free[i], n, p->place + 3 * first, part, part + 3 * n);
+        brc_free_motions_project(&p->free[i], n, p->place + 3 * first, part, torque ? part + 3 * n : NULL);
         for (int64_t k = 0; k < 3 * n; ++k) {
-            force[3 * (int64_t)p->element[first + k / 3] + k % 3] = part[k];
-            torque[3 * (int64_t)p->element[first + k / 3] + k % 3] = part[3 * n + k];
+            const int64_t of = 3 * (int64_t)p->element[first + k / 3] + k % 3;
+            force[of] = part[k];
+            if (torque) torque[of] = part[3 * n + k];
         }
     }
     brc_memory_free(part);

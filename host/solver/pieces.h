@@ -1,4 +1,4 @@
-/* The pieces of a body of beams in a static stage: what each may do as a whole, since nothing holds it there, takes no part in an equilibrium. */
+/* The pieces of a body in a static stage: what each may do as a whole, since nothing holds it there, takes no part in an equilibrium. */
 #ifndef BRC_SOLVER_PIECES_H
 #define BRC_SOLVER_PIECES_H
 
@@ -17,7 +17,8 @@ typedef struct brc_pieces {
 /* Of the current stage: fragments where bonds can break, else all elements as one. *out is freed first. */
 brc_status brc_pieces_find(brc_simulation *simulation, brc_pieces *out);
 void brc_pieces_free(brc_pieces *pieces);
-/* Take off forces and torques [n_elements][3] by id what does work on free motions (balance.h). BRC_NO_MEMORY. */
+/* Take off forces and torques [n_elements][3] by id what does work on free motions; torque NULL: cells, of which single ones and rows of them are held still
+ * by not moving (balance.h). BRC_NO_MEMORY. */
 brc_status brc_pieces_project(brc_context *context, const brc_pieces *pieces, double *force, double *torque);
 
 #endif

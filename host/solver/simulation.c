@@ -1,4 +1,5 @@
 /* Making and freeing a simulation, entering stages, running them, and the observers. */
+#include "cell_breaks.h"
 #include "fracture_internal.h"
 #include "split.h"
 #include <math.h>
@@ -175,7 +176,7 @@ int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *
         return (scene->has_fracture ? brc_fracture_bytes(n, entries, state, coeff) : 0) + entries * (4 + 4 * coeff) + n / slice * 8 + n * ((3 + 3 + 3 + 1 + 2 + 4 + 3 + 3 + 1 + (tchamwa ? 4 : 0) + (damped ? 1 : 0)) * state + (many ? 3 : 0) * coeff);
     for (int64_t e = 0; domain->free_start && e < domain->n_elements; ++e) boundary += domain->free_start[e + 1] > domain->free_start[e];
     boundary = boundary + boundary / 8 < n ? boundary + boundary / 8 : n; /* blocks are whole slices */
-    int64_t bytes = entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
+    int64_t bytes = (scene->has_fracture ? brc_cell_breaks_bytes(n, entries, state, coeff) : 0) + entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
     if (tchamwa) bytes += n * 4 * state;
     if (damped) bytes += n * state;
     if (scene->model.kind == BRC_MODEL_DLSM_PUBLISHED)

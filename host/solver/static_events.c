@@ -161,7 +161,7 @@ static brc_status do_event(events *v, brc_ledger *before)
     BRC_TRY(break_next(v));
     for (int32_t k = 0; k < v->n; ++k) {
         v->part[k]->step += 1;
-        if (brc_is_beams(v->part[k])) BRC_TRY(brc_pieces_find(v->part[k], &v->run[k].vectors.pieces));
+        BRC_TRY(brc_statics_find_pieces(v->part[k], &v->run[k].vectors));
     }
     const brc_status solved = solve_all(v);
     if (solved == BRC_PHYSICS_STOPPED) BRC_TRY(start_again(v));

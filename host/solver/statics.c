@@ -142,18 +142,29 @@ static brc_status project_free_motions(brc_simulation *s, brc_solve_vectors *v)
     const int64_t n = s->domain->n_elements;
     double *force = NULL, *torque = NULL;
     brc_status status = BRC_OK;
-    if (!brc_is_beams(s) || !v->pieces.any) return BRC_OK;
+    if (!v->pieces.any) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "free motions"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "free motions"));
     BRC_TRY_OR(cleanup, brc_state_from_rows(s, v->r.move, force, 3));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, v->r.turn, torque, 3));
+    if (v->r.turn) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "free motions"));
+        BRC_TRY_OR(cleanup, brc_state_from_rows(s, v->r.turn, torque, 3));
+    }
     BRC_TRY_OR(cleanup, brc_pieces_project(s->context, &v->pieces, force, torque));
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->r.move, force, 3, 0));
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->r.turn, torque, 3, 0));
+    if (torque) BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->r.turn, torque, 3, 0));
 cleanup:
     brc_memory_free(force);
     brc_memory_free(torque);
     return status;
+}
+
+brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)
+{
+    const bool cells_break = brc_is_dlsm(s) && s->fracture;
+    if (!brc_is_beams(s) && !cells_break) return BRC_OK;
+    BRC_TRY(brc_pieces_find(s, &v->pieces));
+    if (cells_break && v->pieces.n == 1) brc_pieces_free(&v->pieces); /* whole bodies of cells do without */
+    return BRC_OK;
 }
 
 static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
@@ -174,8 +185,8 @@ static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
         for (int64_t e = 0; e < s->domain->n_elements; ++e) sum += s->domain->radius[e];
         v->arm = sum / (double)s->domain->n_elements;
         BRC_TRY(brc_new_state(s, &v->theta, 3 * n, "rotations"));
-        BRC_TRY(brc_pieces_find(s, &v->pieces));
     }
+    BRC_TRY(brc_statics_find_pieces(s, v));
     return create_blocks(s, v);
 }
 

@@ -18,7 +18,7 @@ typedef struct brc_solve_vectors {
     brc_buffer *before, *blocks;
     brc_buffer *zero, *orientation, *theta;
     int state_bytes;
-    brc_pieces pieces; /* cbm */
+    brc_pieces pieces; /* cbm, and dlsm in pieces; else empty */
     double arm; /* a torque over this counts as a force: mean radius of the spheres [m] */
 } brc_solve_vectors;
 
@@ -32,6 +32,8 @@ typedef struct brc_static_run {
 brc_status brc_statics_solve_at(brc_simulation *s, brc_static_run *run, brc_progress *progress);
 /* The state times `factor`: under as much more of a load in proportion it is an equilibrium, exactly of the linear law, a guess of the full one. */
 brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double factor);
+/* The pieces of the body as it is now, for the solves to come. */
+brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v);
 /* The largest failure ratio of all parts; NAN where one is not finite. */
 brc_status brc_statics_failure(int32_t n, brc_simulation *const *part, double *ratio);
 /* The refusals of a key that scales the loads of the stage: BRC_BAD_INPUT. */

@@ -1,0 +1,321 @@
+#include "cell_breaks.h"
+#include "consistent.h"
+#include "fracture_internal.h"
+#include "strengths.h"
+#include "sym3.h"
+#include <math.h>
+
+/* An element is held while the smallest eigenvalue of A / (2 V) is above this share of its value in the whole body, and above `support_least`
+ * (design-dlsm.md section 3; 0.57 or more inside a body, 0.07 to 0.5 at its boundary). */
+static const double support_share = 0.2, support_least = 0.05;
+static const double never = 1e30; /* CELLS_NEVER of kernels/cells.cl */
+
+struct brc_cell_breaks {
+    brc_kernel *gradient, *check, *ratio, *break_pass, *rebuild, *share;
+    brc_buffer *limit, *twin, *alive, *mark, *measure;              /* [n_slots][C] */
+    brc_buffer *modulus, *misfit, *least, *support, *stiffest, *changed; /* [n_rows] */
+    brc_buffer *weight, *found;                                     /* [n_rows] */
+};
+
+/* ---- what is made once ---- */
+
+static brc_status find_kernels(brc_simulation *s, brc_cell_breaks *c)
+{
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+    } wanted[] = {{&c->gradient, "cells_gradient"}, {&c->check, "cells_check"}, {&c->ratio, "cells_ratio"},
+                  {&c->break_pass, "cells_break"}, {&c->rebuild, "cells_rebuild"}, {&c->share, "cells_share"}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    return BRC_OK;
+}
+
+/* Limits of the bonds, the smallest of each element, and where a bond's other half is stored. */
+static brc_status upload_bonds(brc_simulation *s, const double *strength)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int64_t n_entries = layout->n_slots * layout->slice;
+    brc_cell_breaks *cells = s->fracture->cells;
+    double *limit = NULL, *whole = NULL, *least = NULL;
+    int32_t *entry_of = NULL, *twin = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, n_entries, "limits of bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &whole, n_entries, "unbroken bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &least, layout->n_rows, "smallest limits"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &entry_of, d->n_half_edges, "twins"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &twin, n_entries, "twins"));
+    for (int32_t r = 0; r < layout->n_rows; ++r) least[r] = never;
+    for (int64_t k = 0; k < n_entries; ++k)
+        if (layout->half_edge[k] >= 0) entry_of[layout->half_edge[k]] = (int32_t)k;
+    for (int64_t k = 0; k < n_entries; ++k) {
+        const int32_t h = layout->half_edge[k];
+        const double value = h >= 0 ? strength[d->bond[h]] : 0;
+        limit[k] = value > 0 ? value : never;
+        whole[k] = h >= 0;
+        twin[k] = h >= 0 ? entry_of[d->twin[h]] : 0;
+        if (h < 0) continue;
+        double *own = &least[layout->row_of_element[d->neighbour[d->twin[h]]]];
+        *own = fmin(*own, limit[k]);
+    }
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->limit, n_entries, "limits of bonds"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->limit, limit, n_entries));
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->alive, n_entries, "unbroken bonds"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->alive, whole, n_entries));
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->least, layout->n_rows, "smallest limits"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->least, least, layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_new_int(s, &cells->twin, twin, n_entries, "twins"));
+cleanup:
+    brc_memory_free(limit);
+    brc_memory_free(whole);
+    brc_memory_free(least);
+    brc_memory_free(entry_of);
+    brc_memory_free(twin);
+    return status;
+}
+
+/* What holds an element in the whole body, from the coefficients that the device has: *least: smallest eigenvalue of A / (2 V) [-]; *stiff: largest
+ * eigenvalue of A^-1 (sum s (x) s + t (x) t) A^-1, t = sum s (cells_stiffness) [1/m^2]. */
+static void support_of(const brc_simulation *s, int64_t e, double *least, double *stiff)
+{
+    double a[6] = {0}, b[6] = {0}, total[3] = {0}, value[3], axis[3][3], root[3][3] = {{0}}, whole[6] = {0};
+    static const int at[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
+    for (int64_t h = s->domain->row_start[e]; h <= s->domain->row_start[e + 1]; ++h) { /* and once more for t */
+        const bool is_sum = h == s->domain->row_start[e + 1];
+        double x[3], ratio = 0;
+        if (!is_sum) brc_consistent_bond(s, e, h, x, &ratio);
+        for (int c = 0; c < 3; ++c) {
+            if (is_sum) x[c] = total[c];
+            else total[c] += x[c];
+        }
+        const double six[6] = {x[0] * x[0], x[1] * x[1], x[2] * x[2], x[1] * x[2], x[0] * x[2], x[0] * x[1]};
+        for (int c = 0; c < 6; ++c) a[c] += ratio * six[c], b[c] += six[c];
+    }
+    brc_sym3_eigen(a, value, axis);
+    *least = 0.5 * value[0] / s->domain->volume[e];
+    *stiff = 0;
+    if (!(value[0] > 1e-12 * value[2])) return;
+    for (int i = 0; i < 3; ++i) /* A^-1 */
+        for (int j = 0; j < 3; ++j)
+            for (int k = 0; k < 3; ++k) root[i][j] += axis[k][i] * axis[k][j] / value[k];
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j)
+            for (int k = 0; k < 3; ++k)
+                for (int l = 0; l < 3; ++l) whole[at[i][j]] += root[i][k] * b[at[k][l]] * root[l][j];
+    brc_sym3_eigen(whole, value, NULL);
+    *stiff = value[2];
+}
+
+/* Per element: lambda + 2 mu, what it must keep of its support, and how stiff it may become: as the stiffest of the whole body, whose frequency the
+ * time step bears. */
+static brc_status upload_elements(brc_simulation *s)
+{
+    const brc_layout *layout = s->layout;
+    brc_cell_breaks *cells = s->fracture->cells;
+    double *modulus = NULL, *support = NULL, *stiffest = NULL, largest = 0;
+    brc_status status = BRC_OK;
+    int64_t weak = 0;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &modulus, layout->n_rows, "moduli"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &support, layout->n_rows, "supports"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &stiffest, layout->n_rows, "supports"));
+#pragma omp parallel for schedule(static) reduction(+ : weak) reduction(max : largest)
+    for (int32_t r = 0; r < layout->n_rows; ++r) {
+        const int32_t e = layout->element_of_row[r];
+        if (e < 0) continue;
+        const brc_elastic *m = s->elastic + s->material_of_element[e];
+        double whole, stiff;
+        support_of(s, e, &whole, &stiff);
+        modulus[r] = m->lambda + 2 * m->mu;
+        support[r] = fmax(support_share * whole, support_least);
+        weak += whole <= support_least;
+        largest = fmax(largest, modulus[r] / m->density * stiff);
+    }
+    for (int32_t r = 0; r < layout->n_rows; ++r) {
+        const int32_t e = layout->element_of_row[r];
+        if (e >= 0) stiffest[r] = largest * s->elastic[s->material_of_element[e]].density / modulus[r];
+    }
+    if (weak)
+        brc_log(s->context, BRC_LOG_WARNING,
+                "fracture: %lld of %lld elements are held by their neighbours so weakly (smallest eigenvalue of A/2V up to %.2g) that they come off with "
+                "their first broken bond; a relaxed grid (`lloyd`) has fewer",
+                (long long)weak, (long long)s->domain->n_elements, support_least);
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->modulus, layout->n_rows, "moduli"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->modulus, modulus, layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->support, layout->n_rows, "supports"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->support, support, layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->stiffest, layout->n_rows, "supports"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->stiffest, stiffest, layout->n_rows));
+cleanup:
+    brc_memory_free(modulus);
+    brc_memory_free(support);
+    brc_memory_free(stiffest);
+    return status;
+}
+
+static brc_status create_arrays(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    brc_cell_breaks *c = f->cells;
+    const int64_t n = s->layout->n_rows, entries = s->layout->n_slots * s->layout->slice;
+    BRC_TRY(brc_buffer_create(s->device, &c->mark, 4 * entries, "marked bonds"));
+    BRC_TRY(brc_buffer_create(s->device, &c->changed, 4 * n, "changed elements"));
+    BRC_TRY(brc_new_coeff(s, &c->measure, entries, "stresses of marked bonds"));
+    BRC_TRY(brc_new_coeff(s, &c->misfit, n, "misfits"));
+    BRC_TRY(brc_new_state(s, &c->weight, n, "weights of broken bonds"));
+    BRC_TRY(brc_new_state(s, &c->found, n, "marks of elements"));
+    BRC_TRY(brc_buffer_create(s->device, &f->break_step, 4 * entries, "steps of breaks"));
+    BRC_TRY(brc_buffer_create(s->device, &f->break_mode, 4 * entries, "modes of breaks"));
+    BRC_TRY(brc_new_coeff(s, &f->break_stress, entries, "stresses of breaks"));
+    BRC_TRY(brc_new_coeff(s, &f->break_energy, entries, "energies of breaks"));
+    BRC_TRY(brc_new_state(s, &f->lost, n, "energy of broken bonds"));
+    return brc_new_state(s, &f->broken, n, "broken bonds");
+}
+
+int64_t brc_cell_breaks_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
+{
+    return n * (5 * coeff_bytes + 4 + 4 * state_bytes) + entries * (16 + 5 * coeff_bytes);
+}
+
+static brc_status check_scene(const brc_simulation *s)
+{
+    const brc_criterion_kind kind = brc_criterion_of(&s->scene->fracture, s->scene->model.kind);
+    if (kind != BRC_CRITERION_BOND_NORMAL || !brc_is_dlsm(s))
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "fracture: bonds of model %s break by criterion bond-normal of model dlsm only in this version; use `criterion: bond-normal` and "
+                        "model dlsm, or model cbm", brc_model_name(s->scene->model.kind));
+    for (int32_t b = 0; b < s->scene->n_bodies; ++b)
+        for (int32_t r = 0; r <= brc_body_n_regions(&s->scene->bodies[b]); ++r) {
+            const brc_material *m = &s->scene->materials[brc_body_material(&s->scene->bodies[b], r)];
+            if (!(m->tension > 0))
+                return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                                "fracture: material '%s' has no tensile strength; give it `strength: {tension: 50 MPa}`, or one so large that it never breaks",
+                                m->name);
+        }
+    return BRC_OK;
+}
+
+brc_status brc_cell_breaks_create(brc_simulation *s)
+{
+    brc_strengths strengths = {0};
+    brc_status status = BRC_OK;
+    BRC_TRY(check_scene(s));
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture, 1, "fracture"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells, 1, "fracture"));
+    BRC_TRY(find_kernels(s, s->fracture->cells));
+    BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
+    if (strengths.softens)
+        BRC_TRY_OR(cleanup, BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: bonds of cells do not soften in this version; remove `fracture_energy`"));
+    BRC_TRY_OR(cleanup, upload_bonds(s, strengths.tension));
+    BRC_TRY_OR(cleanup, upload_elements(s));
+    BRC_TRY_OR(cleanup, create_arrays(s));
+cleanup:
+    brc_strengths_free(&strengths);
+    return status;
+}
+
+void brc_cell_breaks_free(brc_simulation *s)
+{
+    brc_cell_breaks *c = s->fracture->cells;
+    if (!c) return;
+    brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->misfit, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_memory_free(c);
+    s->fracture->cells = NULL;
+}
+
+/* ---- the step ---- */
+
+brc_status brc_cell_breaks_gradients(brc_simulation *s, brc_buffer *displacement)
+{
+    brc_cell_breaks *c = s->fracture->cells;
+    return BRC_LAUNCH(c->gradient, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area),
+                      BRC_BUF(s->ratio), BRC_BUF(displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient), BRC_BUF(c->misfit));
+}
+
+/* Bonds above a share of their limit are marked; *n: marks. */
+static brc_status mark_bonds(brc_simulation *s, double share, double *n)
+{
+    brc_cell_breaks *c = s->fracture->cells;
+    BRC_TRY(BRC_LAUNCH(c->check, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(share), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                       BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress),
+                       BRC_BUF(c->modulus), BRC_BUF(c->misfit), BRC_BUF(c->least), BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure),
+                       BRC_BUF(c->found)));
+    return brc_vector_sum(s, c->found, s->n_groups, n);
+}
+
+/* Marked bonds go, then the bonds of elements that the others no longer hold, until all that are left are held. */
+static brc_status break_marked(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    brc_cell_breaks *c = f->cells;
+    const int32_t n = s->layout->n_rows;
+    double left = 1;
+    for (int round = 0; left > 0; ++round) {
+        BRC_TRY(BRC_LAUNCH(c->break_pass, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_INT(round == 0), BRC_INT(3), BRC_BUF(s->row_start),
+                           BRC_BUF(c->twin), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->alive), BRC_BUF(s->neighbour), BRC_BUF(s->area),
+                           BRC_BUF(s->ratio), BRC_BUF(c->limit), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
+                           BRC_BUF(f->break_energy), BRC_BUF(c->weight), BRC_BUF(c->changed), BRC_BUF(f->broken)));
+        BRC_TRY(BRC_LAUNCH(c->rebuild, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(c->alive),
+                           BRC_BUF(c->limit), BRC_BUF(s->inv_volume), BRC_BUF(c->support), BRC_BUF(c->stiffest), BRC_BUF(c->changed), BRC_BUF(c->least),
+                           BRC_BUF(s->inv_shape), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->found)));
+        BRC_TRY(brc_vector_sum(s, c->found, n, &left));
+    }
+    return BRC_OK;
+}
+
+/* Velocities gain kick times force over mass. */
+static brc_status kick(brc_simulation *s, double by)
+{
+    const int32_t n = s->layout->n_rows;
+    if (by == 0) return BRC_OK;
+    BRC_TRY(BRC_LAUNCH(s->kernel.advance, n, BRC_INT(n), BRC_STATE(by), BRC_STATE(0), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(s->velocity),
+                       BRC_BUF(s->displacement)));
+    return BRC_OK;
+}
+
+/* All that cells hold together with their bonds [J]. */
+static brc_status held_energy(brc_simulation *s, double *out)
+{
+    double elastic, stabilisation;
+    BRC_TRY(brc_force_energies(s, &elastic, &stabilisation));
+    *out = elastic + stabilisation;
+    return BRC_OK;
+}
+
+brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double share)
+{
+    brc_breaking *f = s->fracture;
+    const int32_t n = s->layout->n_rows;
+    double marked, before, after, weight;
+    BRC_TRY(mark_bonds(s, share, &marked));
+    if (!(marked > 0)) return BRC_OK;
+    BRC_TRY(held_energy(s, &before));
+    BRC_TRY(kick(s, half_kick)); /* the step closes with the force of the whole bonds ... */
+    BRC_TRY(break_marked(s));
+    BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
+    BRC_TRY(kick(s, -half_kick)); /* ... and the next one opens with that of those that are left */
+    BRC_TRY(held_energy(s, &after));
+    BRC_TRY(brc_vector_sum(s, f->cells->weight, n, &weight));
+    return BRC_LAUNCH(f->cells->share, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_STATE((before - after) / weight), BRC_BUF(s->row_start),
+                      BRC_BUF(f->break_step), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy), BRC_BUF(f->lost));
+}
+
+brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out)
+{
+    brc_cell_breaks *c = s->fracture->cells;
+    brc_buffer *ratio = NULL;
+    double *value = NULL;
+    brc_status status = BRC_OK;
+    *out = 0;
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, s->layout->n_rows, "failure ratios"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
+    BRC_TRY_OR(cleanup, BRC_LAUNCH(c->ratio, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area),
+                                   BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(c->modulus),
+                                   BRC_BUF(c->limit), BRC_BUF(ratio)));
+    BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
+    for (int64_t e = 0; e < s->domain->n_elements; ++e) *out = fmax(*out, value[e]);
+cleanup:
+    brc_buffer_free(&ratio);
+    brc_memory_free(value);
+    return status;
+}

@@ -1,0 +1,23 @@
+/* Fracture of cells: how strong their bonds are, when they break, and the topology that is left (kernels/cells.cl). */
+#ifndef BRC_SOLVER_CELL_BREAKS_H
+#define BRC_SOLVER_CELL_BREAKS_H
+
+#include "simulation_internal.h"
+
+typedef struct brc_cell_breaks brc_cell_breaks;
+
+/* s->fracture with everything that cells need; refuses materials without strength. */
+brc_status brc_cell_breaks_create(brc_simulation *s);
+/* What brc_fracture_free does not know. */
+void brc_cell_breaks_free(brc_simulation *s);
+/* Device bytes it takes (n elements, entries of the layout). */
+int64_t brc_cell_breaks_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
+/* dlsm: the displacement gradients of the state, with what the check needs. */
+brc_status brc_cell_breaks_gradients(brc_simulation *s, brc_buffer *displacement);
+/* After the forces of a step: bonds above `share` of their limit break (1: those that fail). half_kick: dt/2 where the step's velocities still
+ * want the force at its end, half of it that of before the breaks (velocity Verlet); 0: none. */
+brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double share);
+/* The largest ratio of stress to limit. */
+brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out);
+
+#endif

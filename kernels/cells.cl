@@ -1,0 +1,262 @@
+/* Fracture of cells, dlsm and dlsm-published (design-dlsm.md section 3): which bonds break, and what becomes of their elements. A broken bond
+ * is stored like a missing one: its neighbour is home, its area 0, its ratio 1; the face is then a free face of both cells without any more
+ * words, since the law reads intact faces only (docs/theory.md T2). So the elastic passes do not know that anything broke.
+ *
+ * Of the entries [n_slots][C]: limit: normal stress at which the bond breaks, CELLS_NEVER where there is none [Pa]; twin: the entry of the same
+ * bond seen from the other element; alive: 1 while it holds, else 0; mark: 0, or how it breaks at the end of this step; measure: its stress
+ * then [Pa]. found: of an element or group of elements, how many bonds it marked. */
+
+#define CELLS_NEVER REAL(1e30)
+#define CELLS_TENSION 1
+#define CELLS_DETACHED 4
+
+/* As dlsm_gradient, and the largest |e - N.E N| of the element's bonds, misfit [n] [-] (cell_normal.h). */
+KERNEL void cells_gradient(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                           GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                           GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient, GLOBAL coeff *restrict misfit)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
+        const state_vec3 u = state_gather3(displacement, lane_own(first));
+        lane_mat3 a = lane_mat3_zero();
+        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+            const lane_int j = int_block(neighbour, slot, lane0);
+            rows_ahead3(area, slot);
+            rows_ahead1(ratio, slot);
+            a = dlsm_add_jump(a, state_vec3_difference(state_gather3(displacement, j), u), lane_block3(area, slot, lane0));
+        }
+        const lane_mat3 h = lane_mat3_mul_sym(a, lane_block6(inv_shape, slice, lane0));
+        lane largest = LANE_ZERO;
+        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+            const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, int_block(neighbour, slot, lane0)), u);
+            const lane_vec3 r = lane_vec3_scale(lane_load(ratio, (brc_size)slot * C + (brc_size)lane0), lane_block3(area, slot, lane0));
+            const lane inverse = cell_inverse_square(r);
+            const lane one = cell_misfit(h, r, cell_bond_strain(r, jump, inverse), inverse);
+            largest = cell_larger(largest, cell_larger(one, -one));
+        }
+        lane_store9(gradient, first, h);
+#define PUT(l) misfit[(brc_size)first + 0x##l] = LANE_ITEM(largest, l);
+        LANE_EACH(PUT)
+#undef PUT
+    }
+}
+
+/* Bonds whose normal stress is above share * limit are marked. modulus [n]: lambda + 2 mu [Pa]; least [n]: smallest limit of the element's
+ * bonds [Pa]; found [n_groups]. Elements whose stress cannot reach their weakest bond's limit do not look at their bonds. */
+KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict modulus,
+                        GLOBAL const coeff *restrict misfit, GLOBAL const coeff *restrict least, GLOBAL const coeff *restrict limit,
+                        GLOBAL int *restrict mark, GLOBAL coeff *restrict measure, GLOBAL state *restrict found)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
+        const lane_int own = lane_own(first);
+        const lane_mat3 h = lane_gather9(gradient, own), p = lane_gather9(stress, own);
+        const lane k = lane_load(modulus, (brc_size)first);
+        const lane spare = cell_spare(h, p, k, lane_load(misfit, (brc_size)first), share * lane_load(least, (brc_size)first));
+        int look = 0, marked = 0;
+#define LOOK(l) look |= !(LANE_ITEM(spare, l) > REAL(0));
+        LANE_EACH(LOOK)
+#undef LOOK
+        if (look) {
+            const state_vec3 u = state_gather3(displacement, own);
+            for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+                const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
+                const lane_int j = int_block(neighbour, slot, lane0);
+                const lane_vec3 r = lane_vec3_scale(lane_load(ratio, entry), lane_block3(area, slot, lane0));
+                const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
+                const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse);
+                const lane bound = share * lane_load(limit, entry);
+                const lane tau = cell_half_stress(h, p, k, r, strain, inverse);
+                int above = 0; /* of the two halves of a bond above its limit one is above it too */
+#define ABOVE(l) above |= LANE_ITEM(tau, l) > LANE_ITEM(bound, l);
+                LANE_EACH(ABOVE)
+#undef ABOVE
+                if (above) {
+                    const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j), gather_component(modulus, j), r,
+                                                        strain, inverse);
+                    const lane sigma = REAL(0.5) * (tau + other);
+#define MARK(l)                                                                                                        \
+    if (LANE_ITEM(sigma, l) > LANE_ITEM(bound, l)) {                                                                   \
+        mark[entry + 0x##l] = CELLS_TENSION;                                                                           \
+        measure[entry + 0x##l] = LANE_ITEM(sigma, l);                                                                  \
+        marked += 1;                                                                                                   \
+    }
+                    LANE_EACH(MARK)
+#undef MARK
+                }
+            }
+        }
+        found[group] = (state)marked;
+    }
+}
+
+/* The largest sigma / limit of each element's bonds [n] [-]. */
+KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict modulus,
+                        GLOBAL const coeff *restrict limit, GLOBAL coeff *restrict out)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
+        const lane_int own = lane_own(first);
+        const lane_mat3 h = lane_gather9(gradient, own), p = lane_gather9(stress, own);
+        const lane k = lane_load(modulus, (brc_size)first);
+        const state_vec3 u = state_gather3(displacement, own);
+        lane largest = LANE_ZERO;
+        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+            const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
+            const lane_int j = int_block(neighbour, slot, lane0);
+            const lane_vec3 r = lane_vec3_scale(lane_load(ratio, entry), lane_block3(area, slot, lane0));
+            const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
+            const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse);
+            const lane tau = cell_half_stress(h, p, k, r, strain, inverse);
+            const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j), gather_component(modulus, j), r, strain, inverse);
+            largest = cell_larger(largest, REAL(0.5) * (tau + other) / lane_load(limit, entry));
+        }
+#define PUT(l) out[(brc_size)first + 0x##l] = LANE_ITEM(largest, l);
+        LANE_EACH(PUT)
+#undef PUT
+    }
+}
+
+/* Bonds marked on either side become missing ones. width: numbers a face's area has, 3 for a vector. weight [n]: sum over the element's bonds
+ * that broke in this step, in its first round and later ones, of stress^2 times volume (S L; without a ratio S^(3/2)): shares of the energy
+ * that they release, kept in break_energy until cells_share. changed [n]: 1 where a bond went. broken [n]: bonds lost so far. */
+KERNEL void cells_break(int n, int step, int is_first, int width, GLOBAL const int *restrict row_start, GLOBAL const int *restrict twin,
+                        GLOBAL const int *restrict mark, GLOBAL const coeff *restrict measure, GLOBAL coeff *restrict alive,
+                        GLOBAL int *restrict neighbour, GLOBAL coeff *restrict area, GLOBAL coeff *restrict ratio,
+                        GLOBAL coeff *restrict limit, GLOBAL int *restrict break_step,
+                        GLOBAL int *restrict break_mode, GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
+                        GLOBAL state *restrict weight, GLOBAL int *restrict changed, GLOBAL state *restrict broken)
+{
+    FOR_EACH_ITEM(e, n) {
+        state sum = 0;
+        int count = 0;
+        for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = (brc_size)slot * C + e % C;
+            if (!(alive[entry] > 0)) continue;
+            const int other = twin[entry], mode = mark[entry] ? mark[entry] : mark[other];
+            if (!mode) continue;
+            const coeff stress = mark[entry] ? measure[entry] : measure[other];
+            coeff square = 0; /* S^2 */
+            for (int c = 0; c < width; ++c) {
+                const brc_size at = ((brc_size)slot * width + c) * C + e % C;
+                square += area[at] * area[at];
+                area[at] = 0;
+            }
+            const coeff part = stress * stress * (width == 3 ? square * ratio[entry] : square / SQRT(SQRT(square)));
+            alive[entry] = 0;
+            neighbour[entry] = e;
+            if (width == 3) ratio[entry] = 1;
+            limit[entry] = CELLS_NEVER;
+            break_step[entry] = step;
+            break_mode[entry] = mode;
+            break_stress[entry] = stress;
+            break_energy[entry] = part;
+            sum += (state)part;
+            count += 1;
+        }
+        weight[e] = is_first ? sum : weight[e] + sum;
+        changed[e] = count > 0;
+        if (count) broken[e] += (state)count;
+    }
+}
+
+/* A symmetric matrix in state: sums of what breaks go on in the precision of the state. */
+typedef struct { state xx, yy, zz, yz, xz, xy; } cells_sym;
+LAW cells_sym cells_add_square(cells_sym a, state w, state x, state y, state z)
+{
+    return (cells_sym){a.xx + w * x * x, a.yy + w * y * y, a.zz + w * z * z, a.yz + w * y * z, a.xz + w * x * z, a.xy + w * x * y};
+}
+LAW cells_sym cells_inverse(cells_sym a)
+{
+    const state xx = a.yy * a.zz - a.yz * a.yz, xy = a.xz * a.yz - a.xy * a.zz, xz = a.xy * a.yz - a.xz * a.yy;
+    const state per = STATE(1) / (a.xx * xx + a.xy * xy + a.xz * xz);
+    return (cells_sym){per * xx, per * (a.xx * a.zz - a.xz * a.xz), per * (a.xx * a.yy - a.xy * a.xy), per * (a.xy * a.xz - a.xx * a.yz), per * xz,
+                       per * xy};
+}
+LAW void cells_put(GLOBAL coeff *restrict block, int e, cells_sym a)
+{
+    const coeff six[6] = {(coeff)a.xx, (coeff)a.yy, (coeff)a.zz, (coeff)a.yz, (coeff)a.xz, (coeff)a.xy};
+    for (int c = 0; c < 6; ++c) block[((brc_size)(e / C) * 6 + c) * C + e % C] = six[c];
+}
+
+LAW failure_stress cells_narrow(cells_sym a) { return (failure_stress){(coeff)a.xx, (coeff)a.yy, (coeff)a.zz, (coeff)a.yz, (coeff)a.xz, (coeff)a.xy}; }
+
+/* How stiffly an element answers its neighbours: the largest eigenvalue of A^-1 (sum s (x) s + t (x) t) A^-1, t = sum s [1/m^2]. Times
+ * (lambda + 2 mu) / density it is of the order of the square of the highest frequency that the element takes part in. */
+LAW coeff cells_stiffness(cells_sym inverse, cells_sym squares, state x, state y, state z)
+{
+    const cells_sym b = cells_add_square(squares, STATE(1), x, y, z), i = inverse;
+    /* rows of A^-1 B, then (A^-1 B) A^-1, symmetric */
+    const state p = i.xx * b.xx + i.xy * b.xy + i.xz * b.xz, q = i.xx * b.xy + i.xy * b.yy + i.xz * b.yz, r = i.xx * b.xz + i.xy * b.yz + i.xz * b.zz;
+    const state k = i.xy * b.xx + i.yy * b.xy + i.yz * b.xz, l = i.xy * b.xy + i.yy * b.yy + i.yz * b.yz, m = i.xy * b.xz + i.yy * b.yz + i.yz * b.zz;
+    const state u = i.xz * b.xx + i.yz * b.xy + i.zz * b.xz, v = i.xz * b.xy + i.yz * b.yy + i.zz * b.yz, w = i.xz * b.xz + i.yz * b.yz + i.zz * b.zz;
+    const failure_principal largest = failure_principal_of(
+        (failure_stress){(coeff)(p * i.xx + q * i.xy + r * i.xz), (coeff)(k * i.xy + l * i.yy + m * i.yz), (coeff)(u * i.xz + v * i.yz + w * i.zz),
+                         (coeff)(k * i.xz + l * i.yz + m * i.zz), (coeff)(p * i.xz + q * i.yz + r * i.zz), (coeff)(p * i.xy + q * i.yy + r * i.yz)});
+    return largest.first;
+}
+
+/* Elements that lost a bond: the inverse of A = sum q s (x) s, smallest limit, marks cleared. An element that its neighbours no longer hold marks
+ * the bonds it has left: the smallest eigenvalue of A / (2 V) is below support [n], or it has become stiffer than stiffest [n] [1/m^2], which
+ * the time step does not bear. found [n]. */
+KERNEL void cells_rebuild(int n, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                          GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict limit, GLOBAL const coeff *restrict inv_volume,
+                          GLOBAL const coeff *restrict support, GLOBAL const coeff *restrict stiffest, GLOBAL int *restrict changed,
+                          GLOBAL coeff *restrict least, GLOBAL coeff *restrict inv_shape, GLOBAL int *restrict mark,
+                          GLOBAL coeff *restrict measure, GLOBAL state *restrict found)
+{
+    FOR_EACH_ITEM(e, n) {
+        int count = 0;
+        if (changed[e]) {
+            cells_sym a = {0, 0, 0, 0, 0, 0}, squares = {0, 0, 0, 0, 0, 0}, inverse = {0, 0, 0, 0, 0, 0};
+            state tx = 0, ty = 0, tz = 0;
+            coeff weakest = CELLS_NEVER;
+            changed[e] = 0;
+            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+                const brc_size entry = (brc_size)slot * C + e % C, at = (brc_size)slot * 3 * C + e % C;
+                const state x = (state)area[at], y = (state)area[at + C], z = (state)area[at + 2 * C];
+                a = cells_add_square(a, (state)ratio[entry], x, y, z);
+                squares = cells_add_square(squares, STATE(1), x, y, z);
+                tx += x, ty += y, tz += z;
+                weakest = limit[entry] < weakest ? limit[entry] : weakest;
+                mark[entry] = 0;
+            }
+            const failure_principal spans = failure_principal_of(cells_narrow(a));
+            int held = REAL(0.5) * spans.third * inv_volume[e] > support[e];
+            if (held) {
+                inverse = cells_inverse(a);
+                held = !(cells_stiffness(inverse, squares, tx, ty, tz) > stiffest[e]);
+            }
+            if (!held) inverse = (cells_sym){0, 0, 0, 0, 0, 0};
+            cells_put(inv_shape, e, inverse);
+            for (int slot = row_start[e / C]; !held && slot < row_start[e / C + 1]; ++slot) {
+                const brc_size entry = (brc_size)slot * C + e % C;
+                if (!(alive[entry] > 0)) continue;
+                mark[entry] = CELLS_DETACHED;
+                measure[entry] = 0;
+                count += 1;
+            }
+            least[e] = weakest;
+        }
+        found[e] = (state)count;
+    }
+}
+
+/* The energy that the bonds of this step release, by their weights: per_weight [J/weight] is that of one side. lost [n] [J]. */
+KERNEL void cells_share(int n, int step, state per_weight, GLOBAL const int *restrict row_start, GLOBAL const int *restrict break_step,
+                        GLOBAL const state *restrict weight, GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost)
+{
+    FOR_EACH_ITEM(e, n) {
+        if (weight[e] > 0) {
+            lost[e] += per_weight * weight[e];
+            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+                const brc_size entry = (brc_size)slot * C + e % C;
+                if (break_step[entry] == step) break_energy[entry] *= (coeff)(STATE(2) * per_weight);
+            }
+        }
+    }
+}

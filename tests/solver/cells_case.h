@@ -1,0 +1,19 @@
+/* Pieces of scenes of cells that may break, for the tests of fracture. */
+#ifndef BRC_TESTS_SOLVER_CELLS_CASE_H
+#define BRC_TESTS_SOLVER_CELLS_CASE_H
+
+#include "../../host/solver/fracture_internal.h"
+#include "support.h"
+
+/* Key `fracture`, where open_case takes keys of the scene. */
+#define CELLS_FRACTURE "fracture: {criterion: bond-normal}\n"
+/* One material of E 1 Pa, density 1 kg/m^3. */
+#define CELLS_STRENGTH(tension) "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: " tension "}}"
+/* A sudden pull along x, uneven along y so that no two elements are alike. */
+#define CELLS_BURST(steps) \
+    "  - name: burst\n    solver: {dynamic: {steps: " #steps "}}\n    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n"
+
+/* After 60 steps both have broken the same bonds, and some: every event to its last bit. */
+void cells_compare(case_options a, case_options b);
+
+#endif
