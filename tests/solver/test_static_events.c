@@ -248,6 +248,38 @@ static void single_precision_finds_the_same_first_load(void **state)
     close_case(&c);
 }
 
+/* Cells with a strength that scatters, so that no two bonds fail together: the same promises. Each bond's own limit, 2e-4 of E: the first event lies near the
+ * strain of its weakest bond, below that without scatter. The ledger closes to the
+ * strain, and what fails in tension looks along the pull, within 60 degrees. */
+static void bonds_of_cells_break_one_by_one(void **state)
+{
+    (void)state;
+    bench_case c;
+    curve seen = {0};
+    const brc_break *list;
+    int64_t n;
+    open_case(&c, (case_options){.materials = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: 2e-4 Pa, scatter: {weibull: {modulus: 20}}}}",
+                                 .gravity = "fracture: {}\n", .shape = "{box: {size: [1 m, 0.5 m, 0.5 m]}}", .fill = "cells: [8, 4, 4], spread: 50 %, seed: 3",
+                                 .stages = "  - name: crack\n    solver: {static: {events: 12, tolerance: 1e-9}}\n    loads:\n"
+                                           "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: x+, x: 100 um}\n"});
+    const brc_observer observer = {.self = &seen, .sample = take};
+    assert_done(&c, brc_simulation_observe(c.simulation, &observer));
+    assert_done(&c, brc_simulation_run(c.simulation));
+    assert_int_equal(seen.n, 14);
+    assert_true(seen.load[1] > 1 && seen.load[1] < 2);
+    for (int k = 1; k < seen.n; ++k) {
+        assert_true(seen.ratio[k] >= 1 && seen.ratio[k] <= 1 + 1e-9);
+        assert_true(fabs(seen.ledger[k].closure) < 1e-3);
+    }
+    assert_done(&c, brc_simulation_breaks(c.simulation, &n, &list));
+    assert_true(n >= 12);
+    for (int64_t k = 0; k < n; ++k) {
+        assert_true(list[k].load == seen.load[list[k].step] && list[k].area > 0);
+        if (list[k].mode == BRC_BREAK_TENSION) assert_true(fabs(list[k].normal[0]) > 0.5);
+    }
+    close_case(&c);
+}
+
 static void refuse(const char *stages, const char *sentence)
 {
     bench_case c;
@@ -279,6 +311,7 @@ int main(void)
         cmocka_unit_test(an_observer_may_end_the_stage),
         cmocka_unit_test(a_dynamic_stage_breaks_on),
         cmocka_unit_test(single_precision_finds_the_same_first_load),
+        cmocka_unit_test(bonds_of_cells_break_one_by_one),
         cmocka_unit_test(loads_that_do_not_scale_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
