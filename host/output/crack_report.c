@@ -110,7 +110,8 @@ void brc_crack_report_add(brc_json *json, const brc_scene *scene, const brc_crac
     brc_json_number(json, "mean_fragment_kg", report->sizes.mean_mass);
     brc_json_number(json, "first_break_s", n > 0 ? cracks->breaks[0].time : NAN);
     brc_json_number(json, "last_break_s", n > 0 ? cracks->breaks[n - 1].time : NAN);
-    for (int mode = BRC_BREAK_TENSION; mode <= BRC_BREAK_SHEAR; ++mode) brc_json_integer(json, brc_break_mode_name(mode), s->count[mode]);
+    for (int mode = BRC_BREAK_TENSION; mode < BRC_BREAK_MODES; ++mode)
+        if (mode <= BRC_BREAK_SHEAR || s->count[mode] > 0) brc_json_integer(json, brc_break_mode_name(mode), s->count[mode]);
     brc_json_number(json, "crack_area_m2", s->total_area);
     brc_json_begin_object(json, "area_of_mode_m2");
     for (int mode = BRC_BREAK_TENSION; mode < BRC_BREAK_MODES; ++mode)
