@@ -4,7 +4,12 @@
 #include "mesh_internal.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+
+enum { OPEN_WORDS = 192 };
+/* Vertices so much nearer to each other than an edge is long were meant to be one. */
+#define NEARLY_CLOSED 0.1
 
 static int by_key(const void *a, const void *b)
 {
@@ -71,6 +76,29 @@ static void join(brc_mesh *mesh, const int64_t *start, const uint64_t *key, faul
         }
 }
 
+/* Distance from vertex v to the nearest other one [m]. */
+static double nearest_vertex(const brc_mesh *mesh, int32_t v)
+{
+    double least = HUGE_VAL;
+    for (int32_t w = 0; w < mesh->n_vertices; ++w) {
+        double gap[3];
+        mesh_minus(mesh->vertex[w], mesh->vertex[v], gap);
+        if (w != v) least = fmin(least, mesh_dot(gap, gap));
+    }
+    return sqrt(least);
+}
+
+/* Open edges whose ends lie next to other vertices were meant to be closed: what to say of it. */
+static void explain_open(const brc_mesh *mesh, const brc_mesh_source *source, int32_t a, int32_t b, char words[OPEN_WORDS])
+{
+    double along[3];
+    mesh_minus(mesh->vertex[b], mesh->vertex[a], along);
+    const double apart = fmax(nearest_vertex(mesh, a), nearest_vertex(mesh, b));
+    words[0] = 0;
+    if (apart < NEARLY_CLOSED * sqrt(mesh_dot(along, along)))
+        snprintf(words, OPEN_WORDS, "; its ends lie only %.2g from other vertices: merge vertices nearer than that (here only those within 1e-9 of the size are one)", apart / source->scale);
+}
+
 brc_status brc_mesh_join_edges(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source)
 {
     int64_t *start = NULL;
@@ -83,11 +111,13 @@ brc_status brc_mesh_join_edges(brc_context *context, brc_mesh *mesh, const brc_m
     join(mesh, start, key, &open, &crowded);
     if (open.n > 0) {
         const int32_t *corner = mesh->corner[open.first / 3];
+        char words[OPEN_WORDS];
+        explain_open(mesh, source, corner[open.first % 3], corner[(open.first + 1) % 3], words);
         status = BRC_FAIL(context, BRC_BAD_INPUT,
-                          "%s: the mesh is open: %lld edges have one triangle only, the first from %s to %s (units of the file); close the mesh in your CAD "
+                          "%s: the mesh is open: %lld edges have one triangle only, the first from %s to %s (units of the file)%s; close the mesh in your CAD "
                           "program or with a repair tool",
                           source->path, (long long)open.n, brc_mesh_place(source, mesh->vertex[corner[open.first % 3]], from),
-                          brc_mesh_place(source, mesh->vertex[corner[(open.first + 1) % 3]], to));
+                          brc_mesh_place(source, mesh->vertex[corner[(open.first + 1) % 3]], to), words);
     }
     if (crowded.n > 0) {
         const int32_t *corner = mesh->corner[crowded.first / 3];

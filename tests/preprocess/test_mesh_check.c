@@ -46,6 +46,14 @@ static void an_open_cube_is_refused_with_the_number_of_edges_and_the_first(void 
     refused(*state, &list, "open: 3 edges have one triangle only, the first from (0, 0, 0) to (0, 1, 1)", "repair tool");
 }
 
+static void vertices_that_nearly_meet_are_named_as_the_cause_of_open_edges(void **state)
+{
+    test_mesh list = {0};
+    add_cube(&list, 0.0, 0.0, 0.0, 1.0, 1);
+    for (int64_t k = 0; k < 3 * list.n; ++k) list.corner[k][k % 3] += 1e-5 * sin((double)(7 * k)); /* every triangle for itself */
+    refused(*state, &list, "the mesh is open: 36 edges", "from other vertices: merge vertices nearer than that");
+}
+
 static void an_inner_wall_is_refused_as_an_edge_of_three_triangles(void **state)
 {
     test_mesh list = {0};
@@ -251,6 +259,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(an_open_cube_is_refused_with_the_number_of_edges_and_the_first, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(vertices_that_nearly_meet_are_named_as_the_cause_of_open_edges, test_begin, test_end),
         cmocka_unit_test_setup_teardown(an_inner_wall_is_refused_as_an_edge_of_three_triangles, test_begin, test_end),
         cmocka_unit_test_setup_teardown(triangles_facing_the_wrong_way_are_turned, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_surface_with_one_side_is_refused, test_begin, test_end),
