@@ -8,7 +8,8 @@
 #include <string.h>
 
 static const char *const file_names[BRC_RUN_FILES] = {"summary.json",         "result.h5",   "histories.csv",
-                                                      "frames.vtkhdf.series", "picture.png", "curve.png", "cracks.csv"};
+                                                      "frames.vtkhdf.series", "picture.png", "curve.png", "cracks.csv",
+                                                      "fragments.csv",        "cracks.vtu.series"};
 
 const char *brc_run_file_name(int k)
 {

@@ -29,7 +29,7 @@ typedef struct brc_run_request {
     void (*running)(brc_simulation *simulation); /* as in brc_session */
 } brc_run_request;
 
-#define BRC_RUN_FILES 7
+#define BRC_RUN_FILES 9
 
 typedef struct brc_run_measure {
     char name[BRC_NAME];

@@ -3,6 +3,7 @@
 #include "../../host/base/file.h"
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
+#include "../../host/output/export.h"
 #include "../../host/output/recorder.h"
 #include "../../host/scene/scene_reader.h"
 #include "../../host/solver/fracture.h"
@@ -137,6 +138,11 @@ static void every_file_tells_the_same(void **state)
     char *text = test_read(test_path(r.folder, "summary.json"));
     assert_non_null(strstr(text, "\"ended_by\": \"stop_after_peak"));
     brc_memory_free(text);
+    assert_int_equal(brc_export(test_context, r.folder, "vtu", NULL, NULL), BRC_OK);
+    assert_int_equal(brc_export(test_context, r.folder, "csv", NULL, NULL), BRC_OK);
+    static const char *const exported[] = {"export/frames/000000.cracks.vtu", "export/cracks.vtu.series", "export/cracks.csv", "export/fragments.csv"};
+    for (size_t k = 0; k < sizeof exported / sizeof exported[0]; ++k)
+        if (!brc_file_exists(test_path(r.folder, exported[k]))) fail_msg("no %s", exported[k]);
     end_run(&r);
 }
 
