@@ -343,6 +343,61 @@ static void packings_become_cells_or_beams_in_any_shape(void **state)
     brc_domain_free(&d);
 }
 
+/* Every shape, packed, turned and moved, and twice side by side in one domain. */
+static void every_shape_is_packed_turned_and_put_beside_another(void **state)
+{
+    for (int k = 0; k < test_n_shapes(); ++k) {
+        test_shape room;
+        const int64_t n = 600;
+        brc_build_request r = request_for(test_shape_of(k, &room), n);
+        r.fill = (brc_fill){.kind = BRC_FILL_PACKING, .n_elements = n, .radius_spread = 0.125, .coordination = 6.2, .tolerance = 0.1, .seed = 2};
+        r.rotation[0] = 0.4;
+        r.rotation[1] = -0.7;
+        r.translation[2] = 2.5;
+        brc_domain *pair[2], *joined = NULL, *other;
+        pair[0] = test_build(*state, &r);
+        check_domain(*state, pair[0], room.name);
+        const double h = cbrt(room.volume / (double)pair[0]->n_elements), off = pair[0]->quality.volume_cells / room.volume - 1.0;
+        const double bound = room.wall == TEST_EXACT ? 1e-9 : room.wall == TEST_CURVED ? curved_bound(n) : 0.1 * h * h / room.volume;
+        if (!(fabs(off) < bound)) fail_msg("%s: volume off by %g, bound %g", room.name, off, bound);
+        r.n_threads = 2;
+        other = test_build(*state, &r);
+        test_same_bytes(*state, pair[0], other);
+        brc_domain_free(&other);
+        r.translation[0] = 10.0;
+        r.body = 1;
+        pair[1] = test_build(*state, &r);
+        if (brc_domain_join(*state, 2, (const brc_domain *const *)pair, NULL, &joined) != BRC_OK) fail_msg("%s: %s", room.name, brc_context_message(*state));
+        if (brc_domain_check(*state, joined) != BRC_OK) fail_msg("%s, twice: %s", room.name, brc_context_message(*state));
+        assert_int_equal(joined->n_elements, 2 * pair[0]->n_elements);
+        assert_int_equal(joined->n_bonds, 2 * pair[0]->n_bonds);
+        brc_domain_free(&joined);
+        brc_domain_free(&pair[0]);
+        brc_domain_free(&pair[1]);
+    }
+}
+
+/* Bodies face to face, edge to edge, and one in the cavity of another touch and are taken; one inside the other is refused. */
+static void bodies_that_touch_are_taken_and_those_inside_each_other_are_not(void **state)
+{
+    static const double at[4][3] = {{1, 0, 0}, {1, 1, 0}, {0, 0, 1.0}, {0.25, 0.25, 0.25}};
+    brc_build_request r = test_box(300, 0.9);
+    brc_domain *pair[2], *joined = NULL;
+    pair[0] = test_build(*state, &r);
+    for (int k = 0; k < 4; ++k) {
+        r.fill.seed = 7;
+        if (k == 3) r.shape.size[0] = r.shape.size[1] = r.shape.size[2] = 0.5;
+        memcpy(r.translation, at[k], sizeof r.translation);
+        pair[1] = test_build(*state, &r);
+        const brc_status status = brc_domain_join(*state, 2, (const brc_domain *const *)pair, NULL, &joined);
+        assert_int_equal(status, k < 3 ? BRC_OK : BRC_BAD_INPUT);
+        if (k == 3) test_says(*state, "overlap");
+        brc_domain_free(&joined);
+        brc_domain_free(&pair[1]);
+    }
+    brc_domain_free(&pair[0]);
+}
+
 static void write_points(const char *path, const char *text)
 {
     FILE *file = fopen(path, "w");
@@ -438,6 +493,8 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(relaxed_cells_fill_the_shape_too, test_begin, test_end),
         cmocka_unit_test_setup_teardown(cubes_in_a_shape_with_concave_edges_are_proper_cells, test_begin, test_end),
         cmocka_unit_test_setup_teardown(packings_become_cells_or_beams_in_any_shape, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(every_shape_is_packed_turned_and_put_beside_another, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(bodies_that_touch_are_taken_and_those_inside_each_other_are_not, test_begin, test_end),
         cmocka_unit_test_setup_teardown(points_of_a_file_become_cells, test_begin, test_end),
         cmocka_unit_test_setup_teardown(fills_that_do_not_go_together_are_refused, test_begin, test_end),
     };
