@@ -1,7 +1,7 @@
 /* cbm: spheres joined by beams (NAH19; design-cbm.md). One pass over elements and their bonds, each element computing its own side of
  * every beam. branch X_j - X_i [slot][3][C] (missing neighbours: any branch home), inv_length 1/|branch| [slot][C] (missing: 0).
  * beam_of [n][3]: E S, 2 E I, G J of each element's beams for several materials (a bond is two half beams in series); else the three scalars.
- * alive [slot][C]: 1, or 0 where the bond is broken; only read in scenes with fracture. */
+ * Broken bonds are as missing neighbours (fracture.cl). */
 
 LAW cbm_stiffness cbm_stiffness_of(GLOBAL const coeff *restrict beam_of, lane_int own, lane_int j, coeff axial, coeff bend, coeff twist)
 {
@@ -34,15 +34,15 @@ LAW cbm_own cbm_own_of(int group, GLOBAL const state *restrict displacement, GLO
 typedef struct {
     cbm_shape shape;
     lane inv_length0;        /* [1/m] */
-    cbm_stiffness stiffness; /* 0 where the bond is broken */
+    cbm_stiffness stiffness;
     lane_vec3 branch;        /* x_j - x_i now [m] */
 } cbm_bond;
 
 /* The beams of a slot: gathered, and those of the slots to come asked for. Only called with a constant `finite`. */
 LAW cbm_bond cbm_bond_at(int slot, int last, int lane0, cbm_own own, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                         GLOBAL const coeff *restrict inv_length, GLOBAL const coeff *restrict alive, int fracture,
-                         GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                         coeff twist, GLOBAL const coeff *restrict beam_of, int finite)
+                         GLOBAL const coeff *restrict inv_length, GLOBAL const state *restrict displacement,
+                         GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
+                         GLOBAL const coeff *restrict beam_of, int finite)
 {
     const lane_int j = int_block(neighbour, slot, lane0);
     rows_ahead3(branch, slot);
@@ -52,12 +52,7 @@ LAW cbm_bond cbm_bond_at(int slot, int last, int lane0, cbm_own own, GLOBAL cons
     const lane_vec3 r = lane_block3(branch, slot, lane0);
     const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
     const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
-    cbm_stiffness k = cbm_stiffness_of(beam_of, own.row, j, axial, bend, twist);
-    if (fracture) {
-        rows_ahead1(alive, slot);
-        const lane whole = lane_load(alive, (brc_size)slot * C + (brc_size)lane0);
-        k = (cbm_stiffness){whole * k.axial, whole * k.bend, whole * k.twist};
-    }
+    const cbm_stiffness k = cbm_stiffness_of(beam_of, own.row, j, axial, bend, twist);
     const cbm_shape shape = cbm_beam_shape_turned(r, inverse, jump, own.orientation, own.turn, lane_gather4(orientation, j), finite);
     return (cbm_bond){shape, inverse, k, lane_vec3_add(r, jump)};
 }
@@ -65,7 +60,7 @@ LAW cbm_bond cbm_bond_at(int slot, int last, int lane0, cbm_own own, GLOBAL cons
 /* Sums over the beams of a group; only called with a constant `finite`. */
 LAW cbm_end cbm_group_force(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                            GLOBAL const coeff *restrict alive, int fracture, GLOBAL const state *restrict displacement,
+                            GLOBAL const state *restrict displacement,
                             GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
                             GLOBAL const coeff *restrict beam_of, int finite)
 {
@@ -73,7 +68,7 @@ LAW cbm_end cbm_group_force(int group, GLOBAL const int *restrict row_start, GLO
     const cbm_own own = cbm_own_of(group, displacement, orientation, finite);
     cbm_end sum = {{LANE_ZERO, LANE_ZERO, LANE_ZERO}, {LANE_ZERO, LANE_ZERO, LANE_ZERO}};
     for (int slot = row_start[slice]; slot < last; ++slot) {
-        const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, alive, fracture, displacement, orientation,
+        const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation,
                                           axial, bend, twist, beam_of, finite);
         const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, finite);
         sum.force = lane_vec3_add(sum.force, end.force);
@@ -85,15 +80,15 @@ LAW cbm_end cbm_group_force(int group, GLOBAL const int *restrict row_start, GLO
 /* Force [N] and torque about its own centre [N m] on every element [n][3]. orientation: unit quaternions (w x y z) [n][4]. */
 KERNEL void cbm_force_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                           GLOBAL const coeff *restrict alive, int fracture, GLOBAL const state *restrict displacement,
-                           GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
-                           GLOBAL const coeff *restrict beam_of, int finite, GLOBAL state *restrict force, GLOBAL state *restrict torque)
+                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
+                           coeff twist, GLOBAL const coeff *restrict beam_of, int finite, GLOBAL state *restrict force,
+                           GLOBAL state *restrict torque)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const cbm_end sum = finite ? cbm_group_force(group, row_start, neighbour, branch, inv_length, alive, fracture, displacement,
-                                                     orientation, axial, bend, twist, beam_of, 1)
-                                   : cbm_group_force(group, row_start, neighbour, branch, inv_length, alive, fracture, displacement,
-                                                     orientation, axial, bend, twist, beam_of, 0);
+        const cbm_end sum = finite ? cbm_group_force(group, row_start, neighbour, branch, inv_length, displacement, orientation, axial, bend,
+                                                     twist, beam_of, 1)
+                                   : cbm_group_force(group, row_start, neighbour, branch, inv_length, displacement, orientation, axial, bend,
+                                                     twist, beam_of, 0);
         state_store3(force, group * W, sum.force);
         state_store3(torque, group * W, sum.torque);
     }
@@ -101,16 +96,16 @@ KERNEL void cbm_force_pass(int n_groups, GLOBAL const int *restrict row_start, G
 
 /* Elastic energy of every element, half of each of its beams [J] [n]. */
 KERNEL void cbm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                       GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length, GLOBAL const coeff *restrict alive,
-                       int fracture, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial,
-                       coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL state *restrict elastic)
+                       GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
+                       GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
+                       coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL state *restrict elastic)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
         const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
         lane sum = LANE_ZERO;
         for (int slot = row_start[slice]; slot < last; ++slot) {
-            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, alive, fracture, displacement, orientation,
+            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation,
                                               axial, bend, twist, beam_of, 1);
             sum += cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness);
         }
@@ -121,20 +116,21 @@ KERNEL void cbm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBA
 /* Virial of every element [J] [n][6] xx yy zz yz xz xy (cbm_add_virial, summed over its beams). A stress is that over twice a volume
  * (NAH19 eq. 5). */
 KERNEL void cbm_virial(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                       GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length, GLOBAL const coeff *restrict alive,
-                       int fracture, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial,
-                       coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL coeff *restrict virial)
+                       GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
+                       GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
+                       coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL coeff *restrict virial)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
         const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
         lane_sym3 sum = {LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO};
         for (int slot = row_start[slice]; slot < last; ++slot) {
-            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, alive, fracture, displacement, orientation,
+            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation,
                                               axial, bend, twist, beam_of, 1);
             const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
             sum = cbm_add_virial(sum, bond.branch, end.force);
         }
-        lane_store6(virial, group * W, sum);
+        const lane_sym3 whole = cbm_virial_of(sum);
+        lane_store6(virial, group * W, whole);
     }
 }

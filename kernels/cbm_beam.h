@@ -89,12 +89,18 @@ LAW cbm_end cbm_beam_law(cbm_shape s, lane inv_length0, cbm_stiffness k, int fin
     return (cbm_end){f, lane_vec3_add(lane_vec3_cross(s.own, lean), lane_vec3_scale(twist * s.twist, s.twist_axis))};
 }
 
-/* Virial sum [J] with one more beam: the symmetric part of x (x) f, x the branch now and f the force of the beam on the element (NAH19 eq. 5). */
+/* Sum over beams of x (x) f [J], x the branch now and f the force of the beam on the element (NAH19 eq. 5), with one more; its parts off the
+ * diagonal twice. */
 LAW lane_sym3 cbm_add_virial(lane_sym3 sum, lane_vec3 x, lane_vec3 f)
 {
-    const lane mean = LANE_ZERO + REAL(0.5);
-    return (lane_sym3){sum.xx + x.x * f.x, sum.yy + x.y * f.y, sum.zz + x.z * f.z, sum.yz + mean * (x.y * f.z + x.z * f.y),
-                       sum.xz + mean * (x.x * f.z + x.z * f.x), sum.xy + mean * (x.x * f.y + x.y * f.x)};
+    return (lane_sym3){sum.xx + x.x * f.x, sum.yy + x.y * f.y, sum.zz + x.z * f.z, sum.yz + x.y * f.z + x.z * f.y,
+                       sum.xz + x.x * f.z + x.z * f.x, sum.xy + x.x * f.y + x.y * f.x};
+}
+
+/* The symmetric part of such a sum. */
+LAW lane_sym3 cbm_virial_of(lane_sym3 sum)
+{
+    return (lane_sym3){sum.xx, sum.yy, sum.zz, REAL(0.5) * sum.yz, REAL(0.5) * sum.xz, REAL(0.5) * sum.xy};
 }
 
 /* U [J]. */

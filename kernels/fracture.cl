@@ -1,17 +1,27 @@
-/* Fracture of cbm (NAH19 section 2.2): forces with the virial, its mean over neighbours, elements that fail and the bond each loses, and
- * what goes with a lost bond. The passes run in this order in every step; each writes arrays of its own element only.
+/* Fracture of cbm (NAH19 section 2.2): forces with the virial, elements that fail by its mean over neighbours and the bond each loses, and
+ * what goes with a lost bond: fracture_force, fracture_check, fracture_break in every step. Each writes arrays of its own element only, but for
+ * `mark`.
  *
- * record [n][8]: sum over the beams of an element of the symmetric part of x_ij (x) f_ij, xx yy zz yz xz xy [J]; twice its volume with its
- * share of the voids [m^3]; one unused. choice [n]: 4 * (row of the neighbour that loses the bond) + mode of failure, or -1. */
+ * A bond that broke becomes padding: its entry points home and its inverse length is 0, so that elastic passes need to know nothing.
+ * record [slice][8][C]: sum over the beams of an element of the symmetric part of x_ij (x) f_ij, xx yy zz yz xz xy [J]; twice its volume with its
+ * share of the voids [m^3]; one over that. choice [n]: 4 * (row of the neighbour that loses the bond) + mode of failure, or -1.
+ * mark [n / W]: the last step in which a bond of the group was chosen; the host counts steps from 1.
+ * reach [n]: upper bound of the element's own ratio of failure by the smallest limits of all, times record's volume [m^3] (failure_bound.h).
+ * weight [n]: volume of record over the element and its neighbours [m^3]; ease [n]: how much farther than the smallest its own limits are, times
+ * its weakest factor, a little less [-]. While the sum of reach over the members is below ease times weight the element cannot fail.
+ * factor [slot][C], weakest [n]: of the strength of each bond, and the smallest of an element; only read if weighted. */
 
 #define RECORD 8
+/* Component 0 of a row or of a lane of rows; the next are C further on. */
+#define RECORD_OF(row) ((row) / C * (RECORD * C) + (row) % C)
 
 /* As cbm_force_pass with the full law, and the records. */
 KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                           GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length, GLOBAL const coeff *restrict alive,
+                           GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                           coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL state *restrict force, GLOBAL state *restrict torque,
-                           GLOBAL coeff *restrict record)
+                           coeff twist, GLOBAL const coeff *restrict beam_of, coeff inv_tension, coeff inv_compression, coeff inv_shear,
+                           int drucker_prager, coeff slope, GLOBAL state *restrict force, GLOBAL state *restrict torque,
+                           GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
@@ -20,48 +30,57 @@ KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, G
         cbm_end sum = {{zero, zero, zero}, {zero, zero, zero}};
         lane_sym3 virial = {zero, zero, zero, zero, zero, zero};
         for (int slot = row_start[slice]; slot < last; ++slot) {
-            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, alive, 1, displacement, orientation, axial,
-                                              bend, twist, beam_of, 1);
+            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation, axial, bend,
+                                              twist, beam_of, 1);
             const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
             sum.force = lane_vec3_add(sum.force, end.force);
             sum.torque = lane_vec3_add(sum.torque, end.torque);
             virial = cbm_add_virial(virial, bond.branch, end.force);
         }
+        virial = cbm_virial_of(virial);
         state_store3(force, group * W, sum.force);
         state_store3(torque, group * W, sum.torque);
-        GLOBAL coeff *to = record + (brc_size)(group * W) * RECORD;
-#define PUT(l)                                                                                                         \
-    to[0x##l * RECORD] = LANE_ITEM(virial.xx, l), to[0x##l * RECORD + 1] = LANE_ITEM(virial.yy, l),                    \
-                    to[0x##l * RECORD + 2] = LANE_ITEM(virial.zz, l), to[0x##l * RECORD + 3] = LANE_ITEM(virial.yz, l), \
-                    to[0x##l * RECORD + 4] = LANE_ITEM(virial.xz, l), to[0x##l * RECORD + 5] = LANE_ITEM(virial.xy, l);
-        LANE_EACH(PUT)
-#undef PUT
+        const brc_size to = (brc_size)slice * RECORD * C + (brc_size)lane0;
+        lane_store(record, to, virial.xx);
+        lane_store(record, to + C, virial.yy);
+        lane_store(record, to + 2 * C, virial.zz);
+        lane_store(record, to + 3 * C, virial.yz);
+        lane_store(record, to + 4 * C, virial.xz);
+        lane_store(record, to + 5 * C, virial.xy);
+        const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
+        const lane volume = lane_load(record, to + 6 * C), inverse = lane_load(record, to + 7 * C);
+        const lane_sym3 stress = {inverse * virial.xx, inverse * virial.yy, inverse * virial.zz,
+                                  inverse * virial.yz, inverse * virial.xz, inverse * virial.xy};
+        const lane bound = volume * failure_bound(stress, scale);
+        lane_store(reach, (brc_size)(group * W), bound);
     }
 }
 
-/* Stress of every element [n][6], over itself (level 0) or itself and its neighbours over unbroken bonds (level 1). */
+/* Mean stress of a group's elements over themselves (level 0) or with their neighbours over unbroken bonds (level 1). */
+LAW lane_sym3 fracture_mean(int group, int level, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                            GLOBAL const coeff *restrict record)
+{
+    const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
+    const lane_int own = lane_own(group * W);
+    lane sum[7];
+    for (int c = 0; c < 7; ++c) sum[c] = lane_block(record, slice, RECORD, c, lane0);
+    for (int slot = row_start[slice]; level > 0 && slot < row_start[slice + 1]; ++slot) {
+        const lane_int j = int_block(neighbour, slot, lane0);
+        const lane whole = LANE_DIFFERENT(j, own);
+        const lane_int at = RECORD_OF(j);
+        for (int c = 0; c < 7; ++c) sum[c] += whole * gather_component(record + c * C, at);
+    }
+    const lane inverse = REAL(1) / sum[6];
+    return (lane_sym3){inverse * sum[0], inverse * sum[1], inverse * sum[2], inverse * sum[3], inverse * sum[4], inverse * sum[5]};
+}
+
+/* Stress of every element [n][6]; level 0 or 1. */
 KERNEL void fracture_stress(int n_groups, int level, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                            GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict record, GLOBAL coeff *restrict stress)
+                            GLOBAL const coeff *restrict record, GLOBAL coeff *restrict stress)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
-        lane_int at = lane_own(group * W) * RECORD;
-        lane sum[7];
-        for (int c = 0; c < 7; ++c) sum[c] = gather_component(record + c, at);
-        for (int slot = row_start[slice]; level > 0 && slot < row_start[slice + 1]; ++slot) {
-            const lane whole = lane_load(alive, (brc_size)slot * C + (brc_size)lane0);
-            at = int_block(neighbour, slot, lane0) * RECORD;
-#ifdef LANE_SHUFFLE
-            const lane_columns near = lane_gather_columns(record, at);
-            sum[0] += whole * near.c0, sum[1] += whole * near.c1, sum[2] += whole * near.c2, sum[3] += whole * near.c3;
-            sum[4] += whole * near.c4, sum[5] += whole * near.c5, sum[6] += whole * near.c6;
-#else
-            for (int c = 0; c < 7; ++c) sum[c] += whole * gather_component(record + c, at);
-#endif
-        }
-        const lane inverse = REAL(1) / sum[6];
-        lane_store6(stress, group * W, (lane_sym3){inverse * sum[0], inverse * sum[1], inverse * sum[2], inverse * sum[3],
-                                                   inverse * sum[4], inverse * sum[5]});
+        const lane_sym3 mean = fracture_mean(group, level, row_start, neighbour, record);
+        lane_store6(stress, group * W, mean);
     }
 }
 
@@ -69,28 +88,24 @@ KERNEL void fracture_stress(int n_groups, int level, GLOBAL const int *restrict 
  * samples with elements that have more members. */
 #define SECOND_SHELL 512
 KERNEL void fracture_stress_second(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                   GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict record, GLOBAL coeff *restrict stress)
+                                   GLOBAL const coeff *restrict record, GLOBAL coeff *restrict stress)
 {
     FOR_EACH_ITEM(e, n) {
         int seen[SECOND_SHELL];
         coeff sum[7];
         for (int k = 0; k < SECOND_SHELL; ++k) seen[k] = -1;
         seen[e % SECOND_SHELL] = e;
-        for (int c = 0; c < 7; ++c) sum[c] = record[(brc_size)e * RECORD + c];
+        for (int c = 0; c < 7; ++c) sum[c] = record[RECORD_OF(e) + c * C];
         for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
-            const brc_size entry = (brc_size)slot * C + e % C;
-            if (!(alive[entry] > 0)) continue;
-            const int j = neighbour[entry];
+            const int j = neighbour[(brc_size)slot * C + e % C];
+            if (j == e) continue;
             for (int next = row_start[j / C] - 1; next < row_start[j / C + 1]; ++next) { /* first j itself, then its neighbours */
-                const brc_size there = (brc_size)next * C + j % C;
-                const int itself = next < row_start[j / C];
-                if (!itself && !(alive[there] > 0)) continue;
-                const int k = itself ? j : neighbour[there];
+                const int k = next < row_start[j / C] ? j : neighbour[(brc_size)next * C + j % C];
                 int place = k % SECOND_SHELL;
                 while (seen[place] != -1 && seen[place] != k) place = (place + 1) % SECOND_SHELL;
                 if (seen[place] == k) continue;
                 seen[place] = k;
-                for (int c = 0; c < 7; ++c) sum[c] += record[(brc_size)k * RECORD + c];
+                for (int c = 0; c < 7; ++c) sum[c] += record[RECORD_OF(k) + c * C];
             }
         }
         for (int c = 0; c < 6; ++c) stress[(brc_size)e * 6 + c] = sum[c] / sum[6];
@@ -109,56 +124,135 @@ LAW failure_limits fracture_limits_of(GLOBAL const coeff *restrict limits, int e
     return (failure_limits){l[0], l[1], l[2]};
 }
 
-/* Elements at a limit choose the unbroken bond nearest to the direction of failure, the first of equals; measure [n]: their stress then [Pa]. */
-KERNEL void fracture_choose(int n, int drucker_prager, coeff slope, coeff friction, GLOBAL const int *restrict row_start,
-                            GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict alive,
+/* The bond that an element would lose, and what the ratio of its stress counts there. */
+typedef struct {
+    int other;  /* row of the neighbour, -1: none is left */
+    coeff gain; /* [-] */
+} fracture_pick;
+
+/* The bond with the largest |cos| to the direction of failure over its factor, the first of equals. gain: that over the largest |cos| of all: the
+ * element fails when ratio times gain is 1, so a bond of factor f in the direction of failure goes at f times the limit, and one farther
+ * off at as much more as its |cos| is smaller. Without factors the nearest bond, and gain is 1. */
+LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, GLOBAL const int *restrict row_start,
+                                   GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                   GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict factor)
+{
+    coeff best = REAL(-1), nearest = REAL(-1);
+    int other = -1;
+    for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+        const brc_size entry = (brc_size)slot * C + e % C;
+        const int j = neighbour[entry];
+        if (j == e) continue;
+        failure_axis x;
+        x.x = branch[(brc_size)slot * 3 * C + e % C] + (coeff)(displacement[(brc_size)j * 3] - displacement[(brc_size)e * 3]);
+        x.y = branch[((brc_size)slot * 3 + 1) * C + e % C] + (coeff)(displacement[(brc_size)j * 3 + 1] - displacement[(brc_size)e * 3 + 1]);
+        x.z = branch[((brc_size)slot * 3 + 2) * C + e % C] + (coeff)(displacement[(brc_size)j * 3 + 2] - displacement[(brc_size)e * 3 + 2]);
+        const coeff aligned = failure_alignment(failed, x, REAL(1) / SQRT(x.x * x.x + x.y * x.y + x.z * x.z));
+        const coeff counts = weighted ? aligned / factor[entry] : aligned;
+        nearest = failure_larger(nearest, aligned);
+        if (!(counts > best)) continue;
+        best = counts;
+        other = j;
+    }
+    return (fracture_pick){other, nearest > 0 ? best / nearest : REAL(1)};
+}
+
+/* An element at a limit chooses a bond; measure: its stress then [Pa]. */
+LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear shear, int weighted, GLOBAL const int *restrict row_start,
+                            GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
                             GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict limits,
-                            GLOBAL const coeff *restrict stress, GLOBAL int *restrict choice, GLOBAL coeff *restrict measure)
+                            GLOBAL const coeff *restrict factor, GLOBAL const coeff *restrict weakest, GLOBAL int *restrict choice,
+                            GLOBAL coeff *restrict measure, GLOBAL int *restrict mark)
+{
+    const failure_limits limit = fracture_limits_of(limits, e);
+    const coeff least = weighted ? weakest[e] : REAL(1);
+    const failure_limits reachable = {least * limit.tension, least * limit.compression, least * limit.shear};
+    if (!failure_possible(s, reachable, shear)) return;
+    const failure_principal p = failure_principal_of(s);
+    const failure_state failed = failure_of(p, limit, shear);
+    if (!(failed.ratio >= least)) return;
+    const fracture_pick pick = fracture_pick_of(e, failed, weighted, row_start, neighbour, branch, displacement, factor);
+    if (pick.other < 0 || !(failed.ratio * pick.gain >= REAL(1))) return;
+    choice[e] = 4 * pick.other + failed.mode;
+    measure[e] = failed.stress;
+    STORE_SAME(mark + e / W, step);
+    STORE_SAME(mark + pick.other / W, step);
+}
+
+/* Levels 0 and 1: what each element loses. Only groups in which the bound lets one fail look at stresses. */
+KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager, coeff slope, coeff friction, int weighted,
+                           GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict limits,
+                           GLOBAL const coeff *restrict factor, GLOBAL const coeff *restrict weakest, GLOBAL const coeff *restrict record,
+                           GLOBAL const coeff *restrict reach, GLOBAL const coeff *restrict ease, GLOBAL const coeff *restrict weight,
+                           GLOBAL int *restrict choice, GLOBAL coeff *restrict measure, GLOBAL int *restrict mark)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
+        lane sum = lane_load(reach, (brc_size)first);
+        for (int slot = row_start[slice]; level > 0 && slot < last; ++slot) { /* what points home adds the element's own: it is no less a bound */
+            GLOBAL const int *at = neighbour + (brc_size)slot * C + (brc_size)lane0;
+#define REACH(l) reach[at[0x##l]]
+            sum += LANE_MAKE(lane, REACH);
+#undef REACH
+        }
+        const lane room = lane_load(ease, (brc_size)first) * lane_load(weight, (brc_size)first) - sum;
+        int near = 0;
+#define NEAR(l)                                                                                                            choice[first + 0x##l] = -1;                                                                                            near |= !(LANE_ITEM(room, l) > 0);
+        LANE_EACH(NEAR)
+#undef NEAR
+        if (near) {
+            const failure_shear shear = {drucker_prager, slope, friction};
+            const lane_sym3 mean = fracture_mean(group, level, row_start, neighbour, record);
+#define CHOOSE(l)                                                                                                          {                                                                                                                          const failure_stress s = {LANE_ITEM(mean.xx, l), LANE_ITEM(mean.yy, l), LANE_ITEM(mean.zz, l),                                                   LANE_ITEM(mean.yz, l), LANE_ITEM(mean.xz, l), LANE_ITEM(mean.xy, l)};                        fracture_choose_of(first + 0x##l, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits, factor, weakest,                            choice, measure, mark);                                                                         }
+            LANE_EACH(CHOOSE)
+#undef CHOOSE
+        }
+    }
+}
+
+/* The same from stresses [n][6]. */
+KERNEL void fracture_choose(int n, int step, int drucker_prager, coeff slope, coeff friction, int weighted,
+                            GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict limits,
+                            GLOBAL const coeff *restrict factor, GLOBAL const coeff *restrict weakest, GLOBAL const coeff *restrict stress,
+                            GLOBAL int *restrict choice, GLOBAL coeff *restrict measure, GLOBAL int *restrict mark)
+{
+    FOR_EACH_ITEM(e, n) {
+        const failure_shear shear = {drucker_prager, slope, friction};
+        const failure_stress s = fracture_stress_of(stress, e);
+        choice[e] = -1;
+        fracture_choose_of(e, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits, factor, weakest, choice, measure,
+                           mark);
+    }
+}
+
+/* How far every element is on its way to failure [n]. */
+KERNEL void fracture_ratio(int n, int drucker_prager, coeff slope, coeff friction, int weighted, GLOBAL const int *restrict row_start,
+                           GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict limits,
+                           GLOBAL const coeff *restrict factor, GLOBAL const coeff *restrict stress, GLOBAL coeff *restrict ratio)
 {
     FOR_EACH_ITEM(e, n) {
         const failure_shear shear = {drucker_prager, slope, friction};
         const failure_stress s = fracture_stress_of(stress, e);
         const failure_limits limit = fracture_limits_of(limits, e);
-        choice[e] = -1;
-        if (failure_possible(s, limit, shear)) {
-            const failure_state failed = failure_of(failure_principal_of(s), limit, shear);
-            coeff best = REAL(-1);
-            for (int slot = row_start[e / C]; failed.ratio >= REAL(1) && slot < row_start[e / C + 1]; ++slot) {
-                const brc_size entry = (brc_size)slot * C + e % C;
-                if (!(alive[entry] > 0)) continue;
-                const int j = neighbour[entry];
-                failure_axis x;
-                x.x = branch[(brc_size)slot * 3 * C + e % C] + (coeff)(displacement[(brc_size)j * 3] - displacement[(brc_size)e * 3]);
-                x.y = branch[((brc_size)slot * 3 + 1) * C + e % C] + (coeff)(displacement[(brc_size)j * 3 + 1] - displacement[(brc_size)e * 3 + 1]);
-                x.z = branch[((brc_size)slot * 3 + 2) * C + e % C] + (coeff)(displacement[(brc_size)j * 3 + 2] - displacement[(brc_size)e * 3 + 2]);
-                const coeff aligned = failure_alignment(failed, x, REAL(1) / SQRT(x.x * x.x + x.y * x.y + x.z * x.z));
-                if (!(aligned > best)) continue;
-                best = aligned;
-                choice[e] = 4 * j + failed.mode;
-                measure[e] = failed.stress;
-            }
+        const failure_principal p = failure_principal_of(s);
+        const failure_state failed = failure_of(p, limit, shear);
+        coeff gain = REAL(1);
+        if (weighted) {
+            const fracture_pick pick = fracture_pick_of(e, failed, 1, row_start, neighbour, branch, displacement, factor);
+            gain = pick.gain;
         }
-    }
-}
-
-/* How far every element is on its way to failure [n]. */
-KERNEL void fracture_ratio(int n, int drucker_prager, coeff slope, coeff friction, GLOBAL const coeff *restrict limits,
-                           GLOBAL const coeff *restrict stress, GLOBAL coeff *restrict ratio)
-{
-    FOR_EACH_ITEM(e, n) {
-        const failure_shear shear = {drucker_prager, slope, friction};
-        const failure_state failed = failure_of(failure_principal_of(fracture_stress_of(stress, e)), fracture_limits_of(limits, e), shear);
-        ratio[e] = failed.ratio; /* of a name: clang's target reading cannot map a member of a call's value */
+        ratio[e] = failed.ratio * gain; /* of names: clang's target reading cannot map a member of a call's value */
     }
 }
 
 /* The bond of an entry is unbroken and chosen by one of its two elements. */
-LAW int fracture_dies(GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict alive, GLOBAL const int *restrict choice, int e,
-                      brc_size entry)
+LAW int fracture_dies(GLOBAL const int *restrict neighbour, GLOBAL const int *restrict choice, int e, brc_size entry)
 {
-    if (!(alive[entry] > 0)) return 0;
     const int j = neighbour[entry], own = choice[e], other = choice[j];
-    return (own >= 0 && own / 4 == j) || (other >= 0 && other / 4 == e);
+    return j != e && ((own >= 0 && own / 4 == j) || (other >= 0 && other / 4 == e));
 }
 
 /* x = (x, y, z) of one element: force -= f, velocity += half_kick f / m. */
@@ -171,12 +265,24 @@ LAW void fracture_take(GLOBAL state *restrict force, GLOBAL state *restrict velo
     }
 }
 
+/* Volume of an element and its neighbours over unbroken bonds [m^3]. */
+LAW coeff fracture_weight(int e, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict record)
+{
+    coeff sum = record[RECORD_OF(e) + 6 * C];
+    for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+        const int j = neighbour[(brc_size)slot * C + e % C];
+        if (j != e) sum += record[RECORD_OF(j) + 6 * C];
+    }
+    return sum;
+}
+
 /* Bonds chosen by either of their elements break. What they carried leaves the forces, which then are those of the step to come; half_kick
  * dt/2 gives the step that ends its share of them back (velocity Verlet closes with the old force and opens with the new one), 0 none.
  * Of every entry that breaks: step, stress [Pa] and mode of the element that chose it (its own if both did), energy of the bond [J].
  * lost, broken [n]: half the energy and the number of bonds of each element, added up. */
-KERNEL void fracture_break(int n_groups, int step, state half_kick, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                           GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length, GLOBAL coeff *restrict alive,
+KERNEL void fracture_break(int n_groups, int level, int step, state half_kick, GLOBAL const int *restrict row_start,
+                           GLOBAL int *restrict neighbour, GLOBAL const coeff *restrict branch, GLOBAL coeff *restrict inv_length,
+                           GLOBAL const int *restrict mark, GLOBAL const coeff *restrict record, GLOBAL coeff *restrict weight,
                            GLOBAL const int *restrict choice, GLOBAL const coeff *restrict measure,
                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
                            coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL const state *restrict mass,
@@ -187,10 +293,10 @@ KERNEL void fracture_break(int n_groups, int step, state half_kick, GLOBAL const
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
-        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+        for (int slot = row_start[slice]; mark[group] == step && slot < row_start[slice + 1]; ++slot) {
             const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
             int any = 0;
-            for (int l = 0; l < W; ++l) any |= fracture_dies(neighbour, alive, choice, first + l, entry + l);
+            for (int l = 0; l < W; ++l) any |= fracture_dies(neighbour, choice, first + l, entry + l);
             if (!any) continue;
             const lane_int own = lane_own(first), j = int_block(neighbour, slot, lane0);
             const state_vec3 u = state_gather3(displacement, own);
@@ -202,10 +308,12 @@ KERNEL void fracture_break(int n_groups, int step, state half_kick, GLOBAL const
             const cbm_end end = cbm_beam_law(shape, inverse, k, 1);
             const lane energy = cbm_beam_energy(shape, inverse, k);
 #define TAKE(l)                                                                                                        \
-    if (fracture_dies(neighbour, alive, choice, first + 0x##l, entry + 0x##l)) {                                       \
+    if (fracture_dies(neighbour, choice, first + 0x##l, entry + 0x##l)) {                                       \
         const int e = first + 0x##l, other = neighbour[entry + 0x##l];                                                 \
         const int by = choice[e] >= 0 && choice[e] / 4 == other ? e : other;                                           \
-        alive[entry + 0x##l] = 0;                                                                                      \
+        neighbour[entry + 0x##l] = e;                                                                                  \
+        inv_length[entry + 0x##l] = 0;                                                                                 \
+        if (level == 1) weight[e] = fracture_weight(e, row_start, neighbour, record);                                  \
         break_step[entry + 0x##l] = step;                                                                              \
         break_mode[entry + 0x##l] = choice[by] % 4;                                                                    \
         break_stress[entry + 0x##l] = measure[by];                                                                     \

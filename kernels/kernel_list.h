@@ -52,6 +52,7 @@
     X(fracture_force)                                                                                                  \
     X(fracture_stress)                                                                                                 \
     X(fracture_stress_second)                                                                                          \
+    X(fracture_check)                                                                                                  \
     X(fracture_choose)                                                                                                 \
     X(fracture_ratio)                                                                                                  \
     X(fracture_break)                                                                                                  \

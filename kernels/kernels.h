@@ -10,6 +10,7 @@
 #include "published_bond.h"
 #include "cbm_beam.h"
 #include "failure.h"
+#include "failure_bound.h"
 #include "cell_normal.h"
 #include "vector.cl"
 #include "motion.cl"

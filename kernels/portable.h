@@ -62,15 +62,18 @@ typedef state lane_state;
 typedef int lane_int;
 #define LANE_FROM_STATE(x) ((coeff)(x))
 #define STATE_FROM_LANE(x) ((state)(x))
+#define LANE_DIFFERENT(a, b) ((coeff)((a) != (b)))
 #else
 typedef BRC_JOIN(COEFF_NAME, BRC_LANES) lane;
 typedef BRC_JOIN(STATE_NAME, BRC_LANES) lane_state;
 typedef BRC_JOIN(int, BRC_LANES) lane_int;
 #define LANE_FROM_STATE(x) BRC_JOIN(BRC_JOIN(convert_, COEFF_NAME), BRC_LANES)(x)
 #define STATE_FROM_LANE(x) BRC_JOIN(BRC_JOIN(convert_, STATE_NAME), BRC_LANES)(x)
+#define LANE_DIFFERENT(a, b) (-BRC_JOIN(BRC_JOIN(convert_, COEFF_NAME), BRC_LANES)((a) != (b)))
 #define BRC_VLOAD BRC_JOIN(vload, BRC_LANES)
 #define BRC_VSTORE BRC_JOIN(vstore, BRC_LANES)
 #endif
+#define STORE_SAME(place, value) (*(place) = (value))
 #define LANE_SQRT(x) sqrt(x)
 #define SQRT(x) sqrt(x)
 #define SQRT_STATE(x) sqrt(x)
@@ -85,6 +88,7 @@ typedef BRC_JOIN(int, BRC_LANES) lane_int;
 #define GLOBAL
 #define LAW static inline __attribute__((always_inline))
 typedef size_t brc_size;
+#define STORE_SAME(place, value) __atomic_store_n((place), (value), __ATOMIC_RELAXED)
 #define BRC_PRAGMA(x) _Pragma(#x)
 #ifdef BRC_TARGET
 #define FOR_EACH_ITEM(i, n)                                                                                            \
@@ -126,6 +130,7 @@ typedef int lane_int;
 #define LANE_FROM_STATE(x) ((coeff)(x))
 #define STATE_FROM_LANE(x) ((state)(x))
 #define LANE_SQRT(x) SQRT(x)
+#define LANE_DIFFERENT(a, b) ((coeff)((a) != (b)))
 #else
 typedef coeff lane __attribute__((vector_size(W * sizeof(coeff))));
 typedef state lane_state __attribute__((vector_size(W * sizeof(state))));
@@ -139,6 +144,7 @@ LAW lane brc_lane_sqrt(lane x)
     return root;
 }
 #define LANE_SQRT(x) brc_lane_sqrt(x)
+#define LANE_DIFFERENT(a, b) (-__builtin_convertvector((a) != (b), lane))
 #endif
 #define LANE_MAKE_(type, ...) ((type){__VA_ARGS__})
 #define LANE_ZERO ((lane){0})

@@ -104,10 +104,12 @@ LAW lane_sym3 lane_sym3_scale_shift(lane k, lane_sym3 a, lane m)
 /* ---- loads and stores ---- */
 #if W == 1
 LAW lane lane_load(GLOBAL const coeff *restrict p, brc_size at) { return p[at]; }
+LAW void lane_store(GLOBAL coeff *restrict p, brc_size at, lane a) { p[at] = a; }
 LAW lane_state state_load(GLOBAL const state *restrict p, brc_size at) { return p[at]; }
 LAW lane_int int_load(GLOBAL const int *restrict p, brc_size at) { return p[at]; }
 #elif defined(__OPENCL_VERSION__)
 LAW lane lane_load(GLOBAL const coeff *restrict p, brc_size at) { return BRC_VLOAD(0, p + at); }
+LAW void lane_store(GLOBAL coeff *restrict p, brc_size at, lane a) { BRC_VSTORE(a, 0, p + at); }
 LAW lane_state state_load(GLOBAL const state *restrict p, brc_size at) { return BRC_VLOAD(0, p + at); }
 LAW lane_int int_load(GLOBAL const int *restrict p, brc_size at) { return BRC_VLOAD(0, p + at); }
 #else
@@ -115,6 +117,7 @@ typedef lane lane_anywhere __attribute__((aligned(4), may_alias));
 typedef lane_state state_anywhere __attribute__((aligned(4), may_alias));
 typedef lane_int int_anywhere __attribute__((aligned(4), may_alias));
 LAW lane lane_load(const coeff *restrict p, brc_size at) { return *(const lane_anywhere *)(p + at); }
+LAW void lane_store(coeff *restrict p, brc_size at, lane a) { *(lane_anywhere *)(p + at) = a; }
 LAW lane_state state_load(const state *restrict p, brc_size at) { return *(const state_anywhere *)(p + at); }
 LAW lane_int int_load(const int *restrict p, brc_size at) { return *(const int_anywhere *)(p + at); }
 #endif
@@ -322,6 +325,8 @@ LAW lane lane_min(lane a, lane b)
     return LANE_MAKE(lane, ITEM);
 #undef ITEM
 }
+
+LAW lane lane_max(lane a, lane b) { return -lane_min(-a, -b); }
 
 /* Prefetch of the rows that a loop reads: three-component and one-component. */
 LAW void rows_ahead3(GLOBAL const coeff *restrict p, int slot)

@@ -118,7 +118,7 @@ static brc_status beams_evaluate(brc_simulation *s, const brc_force_request *r)
     const brc_beam *b = brc_beam_of_element(s, 0);
     if (s->fracture && r->finite) return brc_fracture_force(s, r);
     return BRC_LAUNCH(s->kernel.cbm_force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                      BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->alive), BRC_INT(s->alive ? 1 : 0), BRC_BUF(r->displacement),
+                      BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(r->displacement),
                       BRC_BUF(r->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend), BRC_COEFF(b->twist), BRC_BUF(s->beam_of),
                       BRC_INT(r->finite ? 1 : 0), BRC_BUF(r->force), BRC_BUF(r->torque));
 }
@@ -169,7 +169,7 @@ brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabil
     if (brc_is_beams(s)) {
         const brc_beam *b = brc_beam_of_element(s, 0);
         BRC_TRY(BRC_LAUNCH(s->kernel.cbm_energy, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                           BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->alive), BRC_INT(s->alive ? 1 : 0), BRC_BUF(s->displacement),
+                           BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement),
                            BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend), BRC_COEFF(b->twist), BRC_BUF(s->beam_of),
                            BRC_BUF(s->elastic_energy)));
         return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);

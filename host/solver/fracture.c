@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_MEMBERS = 500, MOST_ROWS = 1 << 29 }; /* below SECOND_SHELL in kernels/fracture.cl; rows times 4 fit an int */
+enum { MOST_MEMBERS = 500, MOST_ROWS = 1 << 28 }; /* below SECOND_SHELL in kernels/fracture.cl; rows times 8 fit an int */
 
 const char *brc_break_mode_name(int32_t mode)
 {
@@ -118,19 +118,6 @@ cleanup:
 
 /* ---- arrays ---- */
 
-/* 1 where a half-edge is stored, 0 elsewhere. */
-static brc_status upload_alive(brc_simulation *s)
-{
-    const int64_t entries = s->layout->n_slots * s->layout->slice;
-    double *whole = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &whole, entries, "unbroken bonds"));
-    for (int64_t k = 0; k < entries; ++k) whole[k] = s->layout->half_edge[k] >= 0;
-    brc_status status = brc_new_coeff(s, &s->alive, entries, "unbroken bonds");
-    if (status == BRC_OK) status = brc_upload_coeff(s, s->alive, whole, entries);
-    brc_memory_free(whole);
-    return status;
-}
-
 /* Limits, and the volumes in the records. */
 static brc_status upload_rows(brc_simulation *s)
 {
@@ -142,7 +129,9 @@ static brc_status upload_rows(brc_simulation *s)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, 3 * (int64_t)layout->n_rows, "limits"));
     for (int64_t r = 0; r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
-        record[8 * r + 6] = e < 0 ? 1 : 2 * d->volume[e] / d->quality.volume_fraction;
+        double *volume = record + (8 * (r / layout->slice) + 6) * layout->slice + r % layout->slice;
+        volume[0] = e < 0 ? 1 : 2 * d->volume[e] / d->quality.volume_fraction;
+        volume[layout->slice] = 1 / volume[0];
         for (int c = 0; e >= 0 && c < 3; ++c) limit[3 * r + c] = s->fracture->limit[3 * (int64_t)e + c];
     }
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->fracture->record, record, 8 * (int64_t)layout->n_rows));
@@ -162,7 +151,7 @@ static brc_status create_arrays(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
     const int64_t n = s->layout->n_rows, entries = s->layout->n_slots * s->layout->slice;
-    BRC_TRY(upload_alive(s));
+    BRC_TRY(brc_fracture_bound(s));
     BRC_TRY(brc_new_coeff(s, &f->record, 8 * n, "virial records"));
     BRC_TRY(brc_new_coeff(s, &f->stress, 6 * n, "virial stresses"));
     BRC_TRY(brc_new_coeff(s, &f->limits, 3 * n, "limits"));
@@ -179,7 +168,7 @@ static brc_status create_arrays(brc_simulation *s)
 
 int64_t brc_fracture_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
 {
-    return n * (18 * coeff_bytes + 4 + 2 * state_bytes) + entries * (8 + 3 * coeff_bytes);
+    return n * (21 * coeff_bytes + 4 + 2 * state_bytes) + entries * (8 + 2 * coeff_bytes);
 }
 
 static brc_status find_kernels(brc_simulation *s)
@@ -189,7 +178,7 @@ static brc_status find_kernels(brc_simulation *s)
         brc_kernel **slot;
         const char *name;
     } wanted[] = {{&f->force, "fracture_force"}, {&f->stress_pass, "fracture_stress"}, {&f->stress_second, "fracture_stress_second"},
-                  {&f->choose, "fracture_choose"}, {&f->ratio, "fracture_ratio"}, {&f->break_pass, "fracture_break"}};
+                  {&f->check, "fracture_check"}, {&f->choose, "fracture_choose"}, {&f->ratio, "fracture_ratio"}, {&f->break_pass, "fracture_break"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     return BRC_OK;
 }
@@ -229,6 +218,7 @@ void brc_fracture_free(brc_simulation *s)
     brc_breaking *f = s->fracture;
     if (!f) return;
     brc_cell_breaks_free(s);
+    brc_fracture_bound_free(s);
     brc_buffer **all[] = {&f->record, &f->stress, &f->limits, &f->choice, &f->measure, &f->break_step, &f->break_mode,
                           &f->break_stress, &f->break_energy, &f->lost, &f->broken};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
@@ -245,10 +235,12 @@ void brc_fracture_free(brc_simulation *s)
 brc_status brc_fracture_force(brc_simulation *s, const brc_force_request *r)
 {
     const brc_beam *b = brc_beam_of_element(s, 0);
-    return BRC_LAUNCH(s->fracture->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
-                      BRC_BUF(s->ratio), BRC_BUF(s->alive), BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_COEFF(b->axial),
-                      BRC_COEFF(b->bend), BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_BUF(r->force), BRC_BUF(r->torque),
-                      BRC_BUF(s->fracture->record));
+    const brc_breaking *f = s->fracture;
+    return BRC_LAUNCH(f->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
+                      BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend),
+                      BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_COEFF(f->scale[0]), BRC_COEFF(f->scale[1]), BRC_COEFF(f->scale[2]),
+                      BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(f->record),
+                      BRC_BUF(f->reach));
 }
 
 static brc_status find_stress(brc_simulation *s)
@@ -256,26 +248,41 @@ static brc_status find_stress(brc_simulation *s)
     brc_breaking *f = s->fracture;
     const int32_t n = s->layout->n_rows, level = s->scene->fracture.level;
     if (level == 2)
-        return BRC_LAUNCH(f->stress_second, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->alive), BRC_BUF(f->record),
-                          BRC_BUF(f->stress));
+        return BRC_LAUNCH(f->stress_second, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->record), BRC_BUF(f->stress));
     return BRC_LAUNCH(f->stress_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(level), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                      BRC_BUF(s->alive), BRC_BUF(f->record), BRC_BUF(f->stress));
+                      BRC_BUF(f->record), BRC_BUF(f->stress));
+}
+
+/* Which bond each element loses. */
+static brc_status choose(brc_simulation *s, int32_t moment)
+{
+    brc_breaking *f = s->fracture;
+    const int32_t n = s->layout->n_rows, level = s->scene->fracture.level;
+    if (level < 2)
+        return BRC_LAUNCH(f->check, s->n_groups, BRC_INT(s->n_groups), BRC_INT(level), BRC_INT(moment), BRC_INT(is_drucker_prager(s)),
+                          BRC_COEFF(f->slope), BRC_COEFF(f->friction), BRC_INT(f->weighted ? 1 : 0), BRC_BUF(s->row_start),
+                          BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->displacement), BRC_BUF(f->limits), BRC_BUF(f->factor),
+                          BRC_BUF(f->weakest), BRC_BUF(f->record), BRC_BUF(f->reach), BRC_BUF(f->ease), BRC_BUF(f->weight),
+                          BRC_BUF(f->choice), BRC_BUF(f->measure), BRC_BUF(f->mark));
+    BRC_TRY(find_stress(s));
+    return BRC_LAUNCH(f->choose, n, BRC_INT(n), BRC_INT(moment), BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_COEFF(f->friction),
+                      BRC_INT(f->weighted ? 1 : 0), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
+                      BRC_BUF(s->displacement), BRC_BUF(f->limits), BRC_BUF(f->factor), BRC_BUF(f->weakest), BRC_BUF(f->stress),
+                      BRC_BUF(f->choice), BRC_BUF(f->measure), BRC_BUF(f->mark));
 }
 
 brc_status brc_fracture_step(brc_simulation *s, double half_kick)
 {
     brc_breaking *f = s->fracture;
     const brc_beam *b = brc_beam_of_element(s, 0);
-    const int32_t n = s->layout->n_rows;
+    const int32_t moment = (int32_t)brc_fracture_moment(s);
     if (f->cells) return brc_cell_breaks_step(s, half_kick, 1);
-    BRC_TRY(find_stress(s));
-    BRC_TRY(BRC_LAUNCH(f->choose, n, BRC_INT(n), BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_COEFF(f->friction),
-                       BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->alive), BRC_BUF(s->displacement),
-                       BRC_BUF(f->limits), BRC_BUF(f->stress), BRC_BUF(f->choice), BRC_BUF(f->measure)));
-    BRC_TRY(BRC_LAUNCH(f->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(brc_fracture_moment(s)), BRC_STATE(half_kick), BRC_BUF(s->row_start),
-                      BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->alive), BRC_BUF(f->choice),
-                      BRC_BUF(f->measure), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend),
-                      BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_BUF(s->mass), BRC_BUF(s->inertia), BRC_BUF(s->force), BRC_BUF(s->torque),
+    BRC_TRY(choose(s, moment));
+    BRC_TRY(BRC_LAUNCH(f->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(s->scene->fracture.level), BRC_INT(moment),
+                      BRC_STATE(half_kick), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->ratio),
+                      BRC_BUF(f->mark), BRC_BUF(f->record), BRC_BUF(f->weight), BRC_BUF(f->choice), BRC_BUF(f->measure),
+                      BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend), BRC_COEFF(b->twist),
+                      BRC_BUF(s->beam_of), BRC_BUF(s->mass), BRC_BUF(s->inertia), BRC_BUF(s->force), BRC_BUF(s->torque),
                       BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
                       BRC_BUF(f->break_energy), BRC_BUF(f->lost), BRC_BUF(f->broken)));
     return brc_loads_zero_turned(s, s->torque); /* prescribed rotations balance theirs */
@@ -300,7 +307,9 @@ brc_status brc_simulation_failure_ratio(brc_simulation *s, double *out)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
     BRC_TRY_OR(cleanup, find_stress(s));
     BRC_TRY_OR(cleanup, BRC_LAUNCH(s->fracture->ratio, n, BRC_INT(n), BRC_INT(is_drucker_prager(s)), BRC_COEFF(s->fracture->slope),
-                                   BRC_COEFF(s->fracture->friction), BRC_BUF(s->fracture->limits), BRC_BUF(s->fracture->stress), BRC_BUF(ratio)));
+                                   BRC_COEFF(s->fracture->friction), BRC_INT(s->fracture->weighted ? 1 : 0), BRC_BUF(s->row_start),
+                                   BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->displacement), BRC_BUF(s->fracture->limits),
+                                   BRC_BUF(s->fracture->factor), BRC_BUF(s->fracture->stress), BRC_BUF(ratio)));
     BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
     for (int64_t e = 0; e < s->domain->n_elements; ++e) *out = fmax(*out, value[e]);
 cleanup:

@@ -13,12 +13,16 @@ typedef struct brc_break_span {
     int32_t stage;
 } brc_break_span;
 
-/* Everything that exists only in scenes with fracture, besides the array `alive`. */
+/* Everything that exists only in scenes with fracture. */
 struct brc_breaking {
-    brc_kernel *force, *stress_pass, *stress_second, *choose, *ratio, *break_pass;
+    brc_kernel *force, *stress_pass, *stress_second, *check, *choose, *ratio, *break_pass;
     brc_buffer *record, *stress, *limits, *choice, *measure;             /* kernels/fracture.cl */
     brc_buffer *break_step, *break_mode, *break_stress, *break_energy;   /* [n_slots][C] */
     brc_buffer *lost, *broken;                                           /* [n_rows] */
+    brc_buffer *reach, *ease, *weight, *mark;                            /* kernels/fracture.cl */
+    brc_buffer *factor, *weakest;                                        /* only if weighted */
+    bool weighted;     /* bonds differ in strength */
+    double scale[3];   /* 1 / smallest limit of tension, compression, shear; 0: none [1/Pa] */
     double *limit;     /* [n_elements][3] host */
     double slope, friction;
     struct brc_cell_breaks *cells; /* models of cells (cell_breaks.c), which use the arrays of entries and `lost`, `broken` */
@@ -33,6 +37,9 @@ struct brc_breaking {
 /* Arrays, limits and kernels; refuses models and materials that cannot break. */
 brc_status brc_fracture_create(brc_simulation *s);
 void brc_fracture_free(brc_simulation *s);
+/* Strengths of bonds, and bounds of stress (fracture_bound.c); the limits of the elements are there. */
+brc_status brc_fracture_bound(brc_simulation *s);
+void brc_fracture_bound_free(brc_simulation *s);
 /* Device bytes it takes (n elements, entries of the layout). */
 int64_t brc_fracture_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
 /* A stage begins. */

@@ -238,7 +238,7 @@ void brc_geometry_free(brc_simulation *s)
 {
     brc_buffer **all[] = {&s->row_start, &s->neighbour, &s->boundary, &s->area, &s->offset, &s->ratio, &s->inv_shape,
                           &s->inv_volume, &s->material, &s->modulus, &s->ell_of, &s->lame_of,
-                          &s->mass, &s->volume, &s->inertia, &s->beam_of, &s->alive};
+                          &s->mass, &s->volume, &s->inertia, &s->beam_of};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_buffer_free(all[i]);
 }
 

@@ -163,10 +163,12 @@ static void fill_bond(const brc_scene *scene, const brc_domain *d, int64_t bond,
     out->softens = out->softens || out->energy[bond] > 0;
 }
 
-static void warn_of_unused(brc_context *context, const brc_scene *scene, const int64_t *count)
+static void tell_interfaces(brc_context *context, const brc_scene *scene, const brc_domain *d, const int64_t *count)
 {
     for (int32_t k = 0; k < scene->n_interfaces; ++k)
-        if (count[k] == 0)
+        if (count[k] > 0)
+            brc_log(context, BRC_LOG_INFO, "interfaces, number %d: %lld of %lld bonds", (int)k + 1, (long long)count[k], (long long)d->n_bonds);
+        else
             brc_log(context, BRC_LOG_WARNING, "interfaces, number %d: no bond lies in it%s", (int)k + 1,
                     scene->interfaces[k].kind == BRC_INTERFACE_GRAINS ? "; grains come with `grains: {number: ...}` of a body"
                                                                       : " (later interfaces win)");
@@ -195,7 +197,7 @@ brc_status brc_strengths_create(brc_context *context, const brc_scene *scene, co
         if (k >= 0) ++count[k];
         fill_bond(scene, d, b, weak, k >= 0 ? &scene->interfaces[k] : NULL, from_file[m], out);
     }
-    warn_of_unused(context, scene, count);
+    tell_interfaces(context, scene, d, count);
 cleanup:
     for (int32_t m = 0; from_file && m < scene->n_materials; ++m) brc_memory_free(from_file[m]);
     brc_memory_free(from_file);

@@ -10,7 +10,8 @@ typedef struct fracture_options {
     const char *fracture; /* value of `fracture`; NULL: none */
     const char *strength; /* keys of the material, e.g. "strength: {tension: 1e-4 Pa}"; NULL: none */
     const char *beam;     /* value of `beam`; NULL: {radius: 0.4, E: 8 Pa} */
-    const char *stages;   /* keys `sets`, `stages` */
+    const char *grains;   /* value of the body's `grains`; NULL: none */
+    const char *stages;   /* keys `interactions`, `sets`, `stages` */
     const char *device;
     brc_precision precision;
     int n_threads, lanes, elements, seed;

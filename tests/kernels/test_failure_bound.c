@@ -1,0 +1,121 @@
+/* The bound that spares elements their stresses: above the ratio itself, sublinear, and tight where it matters. One lane, double. */
+// clang-format off
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+// clang-format on
+#include <math.h>
+#include <stdbool.h>
+#define BRC_PRECISION 0
+#define BRC_LANES 1
+#define BRC_SLICE 1
+#define BRC_MANY_MATERIALS 0
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wshadow"
+#include "../../host/base/random.h"
+#include "../../kernels/failure.h"
+#include "../../kernels/failure_bound.h"
+
+enum { STATES = 5000, KINDS = 4 };
+
+static double uniform(int state, int which)
+{
+    double draws[4];
+    brc_random_uniform4(6, BRC_RANDOM_TEST, (uint64_t)state, (uint64_t)(which / 4), draws);
+    return 2 * draws[which % 4] - 1;
+}
+
+/* General, nearly uniaxial, nearly a pressure, and of two equal values. */
+static lane_sym3 random_stress(int state)
+{
+    const double size = 1e6 * pow(10, 3 * uniform(state, 8));
+    const double a[3] = {uniform(state, 0), uniform(state, 1), uniform(state, 2)};
+    const double shift = state % 4 == 2 ? 2 * uniform(state, 9) : 0, little = state % 4 == 0 ? 1 : 1e-3, dyad = state % 2 ? uniform(state, 10) : 0;
+    return (lane_sym3){size * (shift + dyad * a[0] * a[0] + little * uniform(state, 3)), size * (shift + dyad * a[1] * a[1] + little * uniform(state, 4)),
+                       size * (shift + dyad * a[2] * a[2] + little * uniform(state, 5)), size * (dyad * a[1] * a[2] + little * uniform(state, 6)),
+                       size * (dyad * a[0] * a[2] + little * uniform(state, 7)), size * (dyad * a[0] * a[1] + little * uniform(state, 11))};
+}
+
+static const struct {
+    failure_limits limit;
+    failure_shear shear;
+} kind[KINDS] = {
+    {{50e6, 0, 0}, {0, 0, 0}},
+    {{50e6, 400e6, 0}, {0, 0, 0}},
+    {{80e6, 0, 60e6}, {0, 0.5, 0.5}},
+    {{0, 300e6, 40e6}, {1, 0.2, 0.4}},
+};
+
+static failure_scale scale_of(int k)
+{
+    const failure_limits l = kind[k].limit;
+    return (failure_scale){l.tension > 0 ? 1 / l.tension : 0, l.compression > 0 ? 1 / l.compression : 0, l.shear > 0 ? 1 / l.shear : 0,
+                           kind[k].shear.drucker_prager, kind[k].shear.slope};
+}
+
+static double ratio_of(lane_sym3 s, int k)
+{
+    return failure_of(failure_principal_of((failure_stress){s.xx, s.yy, s.zz, s.yz, s.xz, s.xy}), kind[k].limit, kind[k].shear).ratio;
+}
+
+/* To some roundings of the tensor's own size; the host leaves 1e-3. */
+static double size_of(lane_sym3 s, int k)
+{
+    return 10 * (fabs(s.xx) + fabs(s.yy) + fabs(s.zz) + fabs(s.yz) + fabs(s.xz) + fabs(s.xy)) *
+           (scale_of(k).tension + scale_of(k).compression + scale_of(k).shear);
+}
+
+static void no_ratio_is_above_its_bound(void **state)
+{
+    (void)state;
+    for (int k = 0; k < KINDS; ++k)
+        for (int i = 0; i < STATES; ++i) {
+            const lane_sym3 s = random_stress(i);
+            assert_true(failure_bound(s, scale_of(k)) >= ratio_of(s, k) - 1e-15 * size_of(s, k));
+        }
+}
+
+/* What fracture_check relies on: the ratio of a mean of six is below the mean of their bounds. */
+static void the_mean_of_bounds_bounds_the_mean(void **state)
+{
+    (void)state;
+    for (int k = 0; k < KINDS; ++k)
+        for (int i = 0; i + 6 < STATES; ++i) {
+            lane_sym3 mean = {0, 0, 0, 0, 0, 0};
+            double bound = 0, volume = 0, size = 0;
+            for (int m = 0; m < 6; ++m) {
+                const double v = 1.5 + uniform(i + m, 12);
+                const lane_sym3 s = random_stress(i + m);
+                mean = lane_sym3_add(mean, (lane_sym3){v * s.xx, v * s.yy, v * s.zz, v * s.yz, v * s.xz, v * s.xy});
+                bound += v * failure_bound(s, scale_of(k));
+                size += v * size_of(s, k);
+                volume += v;
+            }
+            mean = (lane_sym3){mean.xx / volume, mean.yy / volume, mean.zz / volume, mean.yz / volume, mean.xz / volume, mean.xy / volume};
+            assert_true(bound / volume >= ratio_of(mean, k) - 1e-15 * size / volume);
+        }
+}
+
+static void it_is_exact_in_uniaxial_tension_and_close_in_shear(void **state)
+{
+    (void)state;
+    const failure_scale scale = scale_of(0);
+    assert_true(fabs(failure_bound((lane_sym3){25e6, 0, 0, 0, 0, 0}, scale) - 0.5) < 1e-15);
+    assert_true(fabs(failure_bound((lane_sym3){0, 10e6, 10e6, 10e6, 0, 0}, scale) - 0.4) < 1e-15); /* pull of 20 MPa between y and z */
+    const double shear = failure_bound((lane_sym3){0, 0, 0, 0, 50e6, 0}, scale);
+    assert_true(shear >= 1 && shear < 1.027); /* 16/9 / sqrt 3 */
+    assert_true(failure_bound((lane_sym3){0, 0, 0, 0, 0, 0}, scale) == 0);
+    assert_true(failure_bound((lane_sym3){-1e6, -1e6, -1e6, 0, 0, 0}, scale) == 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_ratio_is_above_its_bound),
+        cmocka_unit_test(the_mean_of_bounds_bounds_the_mean),
+        cmocka_unit_test(it_is_exact_in_uniaxial_tension_and_close_in_shear),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
