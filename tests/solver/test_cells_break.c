@@ -357,7 +357,7 @@ static void breaking_keeps_momentum_and_angular_momentum(void **state)
     close_case(&c);
 }
 
-static void the_same_bonds_break_for_any_number_of_threads_and_lanes(void **state)
+static void the_same_bonds_break_for_any_number_of_threads(void **state)
 {
     (void)state;
     const case_options one = {.stages = CELLS_BURST(60), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE, .n_threads = 1, .exact = true};
@@ -395,7 +395,7 @@ int main(void)
         cmocka_unit_test(the_ledger_of_a_bar_closes_through_its_fracture),
         cmocka_unit_test(the_error_of_the_ledger_is_of_second_order),
         cmocka_unit_test(breaking_keeps_momentum_and_angular_momentum),
-        cmocka_unit_test(the_same_bonds_break_for_any_number_of_threads_and_lanes),
+        cmocka_unit_test(the_same_bonds_break_for_any_number_of_threads),
         cmocka_unit_test(materials_without_strength_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
