@@ -1,4 +1,5 @@
 #include "cracks.h"
+#include "h5.h"
 #include "../base/memory.h"
 #include <math.h>
 

@@ -5,7 +5,8 @@
 #include "../solver/assembly.h"
 #include "../solver/fracture.h"
 #include "append.h"
-#include "h5.h"
+
+typedef struct brc_h5 brc_h5; /* h5.h */
 
 /* What broke so far; ids of elements and bonds are those of the whole (assembly.h). */
 typedef struct brc_cracks {
