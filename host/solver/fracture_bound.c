@@ -94,8 +94,8 @@ brc_status brc_fracture_bound(brc_simulation *s)
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
     f->weighted = !strengths.uniform;
     if (strengths.softens) {
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture_energy: beams break at once in this version, only bonds of cells soften; remove it from the "
-                          "strengths and interfaces, or use model dlsm");
+        status = BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture_energy: bonds break at once in this version, none softens; remove it from the "
+                          "strengths and interfaces");
         goto cleanup;
     }
     if (f->weighted) BRC_TRY_OR(cleanup, upload_factors(s, strengths.factor, &weakest));

@@ -382,7 +382,7 @@ static void scenes_that_cannot_break_are_refused_with_the_cure(void **state)
     refused((fracture_options){.fracture = CRITERION(1)}, "material 'glass' has no strength; give it `strength:");
     refused((fracture_options){.fracture = CRITERION(1), .strength = STRENGTH, .beam = "{radius: 3, E: 1 Pa}"}, "beam: {strength: ...}");
     refused((fracture_options){.fracture = CRITERION(1), .strength = "strength: {tension: 1 Pa, fracture_energy: 1 J/m^2}"},
-            "fracture_energy: beams break at once in this version");
+            "fracture_energy: bonds break at once in this version");
     bench_case c;
     assert_int_equal(try_case(&c, (case_options){.model = "dlsm\nfracture: {}"}), BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(c.context), "material 'stone' has no tensile strength"));
