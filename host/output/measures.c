@@ -118,14 +118,18 @@ void brc_measure_series_free(brc_measure_series *series)
     *series = (brc_measure_series){0};
 }
 
-static double time_mean(const brc_measure_series *series)
+static double integral(const brc_measure_series *series)
 {
     double sum = 0;
-    const double duration = series->time[series->n - 1] - series->time[0];
-    if (!(duration > 0)) return series->y[series->n - 1];
     for (int64_t k = 1; k < series->n; ++k)
         sum += (series->time[k] - series->time[k - 1]) * (series->y[k] + series->y[k - 1]) / 2;
-    return sum / duration;
+    return sum;
+}
+
+static double time_mean(const brc_measure_series *series)
+{
+    const double duration = series->time[series->n - 1] - series->time[0];
+    return duration > 0 ? integral(series) / duration : series->y[series->n - 1];
 }
 
 static double peak(const brc_measure_series *series)
@@ -235,6 +239,7 @@ brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, co
         case BRC_MEASURE_FREQUENCY: status = frequency(context, &series, out); break;
         case BRC_MEASURE_PEAK: out->value = peak(&series); break;
         case BRC_MEASURE_MEAN: out->value = time_mean(&series); break;
+        case BRC_MEASURE_INTEGRAL: out->value = integral(&series); break;
         case BRC_MEASURE_RATE: rate(&series, out); break;
         case BRC_MEASURE_AT_FIRST_BREAK: at_time(&series, first_break(scene, history, cracks, measure), out); break;
         default:

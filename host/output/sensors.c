@@ -226,6 +226,10 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
                             sensor->term);
         return BRC_OK;
     case BRC_SENSOR_MODE: return BRC_OK;
+    case BRC_SENSOR_SPIN:
+    case BRC_SENSOR_STRIKER:
+    case BRC_SENSOR_CONTACT:
+        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: sensors of contact, strikers and spin are not in this version", sensor->name);
     }
     return BRC_FAIL(sensors->context, BRC_INTERNAL, "sensor %s: unknown kind %d", sensor->name, (int)sensor->kind);
 }
@@ -419,6 +423,9 @@ brc_status brc_sensors_evaluate(brc_sensors *sensors, brc_simulation *simulation
         case BRC_SENSOR_FRACTURE:
         case BRC_SENSOR_CRACK_TIP: BRC_TRY(brc_crack_sensors_read(sensors->cracks, simulation, sensor, &value[s])); break;
         case BRC_SENSOR_MODE: value[s] = mode_frequency(simulation, sensor->index); break;
+        case BRC_SENSOR_SPIN:
+        case BRC_SENSOR_STRIKER:
+        case BRC_SENSOR_CONTACT: break;
         }
     }
     return BRC_OK;

@@ -134,7 +134,7 @@ static void add_cost(brc_json *json, const brc_summary *s)
 
 static void add_ledger(brc_json *json, const brc_ledger *ledger)
 {
-    const brc_ledger none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    const brc_ledger none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     const brc_ledger *l = ledger ? ledger : &none;
     brc_json_begin_object(json, "ledger");
     brc_json_number(json, "kinetic_J", l->kinetic);
@@ -144,6 +144,9 @@ static void add_ledger(brc_json *json, const brc_ledger *ledger)
     brc_json_number(json, "work_J", l->work);
     brc_json_number(json, "damping_J", l->damping);
     brc_json_number(json, "numerical_J", l->numerical);
+    brc_json_number(json, "contact_J", l->contact);
+    brc_json_number(json, "friction_J", l->friction);
+    brc_json_number(json, "impact_J", l->impact);
     brc_json_number(json, "fracture_J", l->fracture);
     brc_json_number(json, "initial_J", l->initial);
     brc_json_number(json, "total_J", l->total);

@@ -145,6 +145,8 @@ static int known_names(const brc_scene *scene, const wall_names *walls, brc_refe
         out[n++] = scene->sensors[i].name;
     for (int i = 0; i < scene->n_stages && refers == BRC_REFERS_STAGE; ++i)
         out[n++] = scene->stages[i].name;
+    for (int i = 0; i < scene->n_strikers && refers == BRC_REFERS_STRIKER; ++i)
+        out[n++] = scene->strikers[i].name;
     return n;
 }
 
@@ -159,21 +161,23 @@ static bool is_known(const brc_scene *scene, const wall_names *walls, brc_refere
 static void check_reference(brc_reader *reader, const wall_names *walls, const brc_place *place, const char **words)
 {
     static const char *const WHAT[] = {
-        "", "wall or set of faces", "set of elements", "wall or set", "wall", "sensor", "stage"};
+        "", "wall or set of faces", "set of elements", "wall or set", "wall", "sensor", "stage", "striker"};
     const brc_scene *scene = reader->scene;
     const brc_reference refers = place->entry->refers;
     const char *name = place->address;
     int n;
     if (name[0] == '\0' || is_known(scene, walls, refers, name, words, &n)) return;
-    const bool about_sets = refers != BRC_REFERS_SENSOR && refers != BRC_REFERS_STAGE;
+    const bool about_sets = refers != BRC_REFERS_SENSOR && refers != BRC_REFERS_STAGE && refers != BRC_REFERS_STRIKER;
     if (about_sets && (any_domain_file(scene) || is_broken(reader, "bodies") || is_broken(reader, "sets"))) return;
     if (refers == BRC_REFERS_SENSOR && is_broken(reader, "sensors")) return;
     if (refers == BRC_REFERS_STAGE && is_broken(reader, "stages")) return;
+    if (refers == BRC_REFERS_STRIKER && is_broken(reader, "strikers")) return;
     const char *near = brc_problems_nearest(reader->problems, name, n, words);
     const char *hint = near                          ? ""
                        : refers == BRC_REFERS_WALL   ? ""
                        : about_sets                  ? "; define it under sets"
                        : refers == BRC_REFERS_SENSOR ? "; define it under sensors"
+                       : refers == BRC_REFERS_STRIKER ? "; define it under strikers"
                                                      : "";
     int n_sets;
     const char *kind = refers == BRC_REFERS_ELEMENTS && is_known(scene, walls, BRC_REFERS_SET, name, words, &n_sets)
@@ -190,7 +194,7 @@ static brc_status check_references(brc_reader *reader, const wall_names *walls)
 {
     const brc_scene *scene = reader->scene;
     const char **words = NULL;
-    BRC_TRY(BRC_ALLOCATE(reader->context, &words, walls->n + scene->n_sets + scene->n_sensors + scene->n_stages, "names"));
+    BRC_TRY(BRC_ALLOCATE(reader->context, &words, walls->n + scene->n_sets + scene->n_sensors + scene->n_stages + scene->n_strikers, "names"));
     for (int64_t i = 0; i < reader->n_places; ++i)
         if (reader->places[i].entry && reader->places[i].entry->refers)
             check_reference(reader, walls, &reader->places[i], words);
@@ -216,6 +220,18 @@ static void check_leaf(brc_reader *reader, const brc_shape *shape)
         COMPLAIN(reader, &shape->radius2, shape, "tube: is not below the radius of the centre line, the ring would meet itself; expected less");
     if (shape->kind == BRC_SHAPE_CONE && shape->radius == 0 && shape->radius2 == 0)
         COMPLAIN(reader, &shape->radius, shape, "radius: both ends of the cone are tips; expected one radius above 0");
+}
+
+static void check_shape(brc_reader *reader, const brc_shape *shape)
+{
+    check_leaf(reader, shape);
+    for (int p = 0; p < shape->n_parts; ++p) {
+        check_leaf(reader, &shape->parts[p].shape);
+        const bool first_cuts = p == 0 && shape->parts[p].role != BRC_PART_ADD;
+        if (first_cuts) COMPLAIN(reader, &shape->parts[p].role, &shape->parts[p], "role: the first part has nothing before it; expected add");
+        if (shape->parts[p].role == BRC_PART_ADD && shape->parts[p].shape.kind == BRC_SHAPE_HALF_SPACE)
+            COMPLAIN(reader, &shape->parts[p].role, &shape->parts[p], "role: a half-space has no end; expected keep or remove");
+    }
 }
 
 static void check_fill(brc_reader *reader, const brc_body *body)
@@ -282,14 +298,7 @@ static void check_body(brc_reader *reader, int b)
         }
     for (int r = 0; r < body->n_regions; ++r)
         check_predicate(reader, &body->regions[r].where, true);
-    check_leaf(reader, shape);
-    for (int p = 0; p < shape->n_parts; ++p) {
-        check_leaf(reader, &shape->parts[p].shape);
-        const bool first_cuts = p == 0 && shape->parts[p].role != BRC_PART_ADD;
-        if (first_cuts) COMPLAIN(reader, &shape->parts[p].role, &shape->parts[p], "role: the first part has nothing before it; expected add");
-        if (shape->parts[p].role == BRC_PART_ADD && shape->parts[p].shape.kind == BRC_SHAPE_HALF_SPACE)
-            COMPLAIN(reader, &shape->parts[p].role, &shape->parts[p], "role: a half-space has no end; expected keep or remove");
-    }
+    check_shape(reader, shape);
     check_fill(reader, body);
     for (int c = 0; c < body->n_cracks; ++c)
         check_crack(reader, body, c);
@@ -397,6 +406,23 @@ static void check_fracture(brc_reader *reader)
     for (int i = 0; i < scene->n_measures && !known; ++i)
         if (scene->measures[i].kind == BRC_MEASURE_AT_FIRST_BREAK)
             COMPLAIN(reader, NULL, &scene->measures[i], "at_first_break: this measure %s", CURE);
+}
+
+/* Walls, strikers and what watches contact. */
+static void check_contact(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    const bool known = scene->has_contact || is_broken(reader, "interactions");
+    static const char *const CURE = "needs `interactions: {contact: {}}` at the top of the scene";
+    for (int k = 0; k < scene->n_strikers; ++k) {
+        const brc_striker *striker = &scene->strikers[k];
+        if (!known) COMPLAIN(reader, NULL, striker, "striker '%s': touches nothing: it %s", striker->name, CURE);
+        if (striker->is_plane && striker->motion == BRC_STRIKER_FREE)
+            COMPLAIN(reader, &striker->motion, striker, "motion: an endless plane has no mass; expected fixed or driven");
+        if (!striker->is_plane) check_shape(reader, &striker->shape);
+    }
+    for (int i = 0; i < scene->n_sensors && !known; ++i)
+        if (scene->sensors[i].kind == BRC_SENSOR_CONTACT) COMPLAIN(reader, scene->sensors[i].term, &scene->sensors[i], "contact: this sensor %s", CURE);
 }
 
 static bool is_motion(const brc_load *load)
@@ -533,19 +559,21 @@ static void check_measure(brc_reader *reader, const brc_measure *measure)
     case BRC_MEASURE_PEAK:
     case BRC_MEASURE_SLOPE:
     case BRC_MEASURE_RATE:
+    case BRC_MEASURE_INTEGRAL:
     case BRC_MEASURE_AT_FIRST_BREAK:
     case BRC_MEASURE_MEAN: break;
     }
     if (measure->window[1] <= measure->window[0] && (measure->window[0] != 0 || measure->window[1] != 0))
         COMPLAIN(reader, measure->window, measure, "window: ends before it begins; expected [from, to]");
-    const bool in_time = measure->kind == BRC_MEASURE_FREQUENCY || measure->kind == BRC_MEASURE_RATE;
+    const bool in_time =
+        measure->kind == BRC_MEASURE_FREQUENCY || measure->kind == BRC_MEASURE_RATE || measure->kind == BRC_MEASURE_INTEGRAL;
     if (!in_time || scene->n_stages == 0 || is_broken(reader, "stages")) return;
     const brc_stage *stage = &scene->stages[scene->n_stages - 1];
     for (int k = 0; k < scene->n_stages; ++k)
         if (measure->stage[0] && strcmp(scene->stages[k].name, measure->stage) == 0) stage = &scene->stages[k];
     if (stage->solver != BRC_SOLVER_DYNAMIC)
         COMPLAIN(reader, measure->stage, measure, "%s: the stage '%s' is not dynamic and has no history in time",
-                 measure->kind == BRC_MEASURE_RATE ? "rate" : "frequency", stage->name);
+                 measure->kind == BRC_MEASURE_RATE ? "rate" : measure->kind == BRC_MEASURE_INTEGRAL ? "integral" : "frequency", stage->name);
 }
 
 brc_status brc_reader_check(brc_reader *reader)
@@ -560,6 +588,7 @@ brc_status brc_reader_check(brc_reader *reader)
     BRC_TRY(status);
     check_limits(reader);
     check_fracture(reader);
+    check_contact(reader);
     BRC_TRY(check_stages(reader));
     check_sensors(reader);
     for (int i = 0; i < reader->scene->n_measures; ++i)

@@ -68,7 +68,6 @@ const char *brc_entry_expects(const brc_entry *entry, const char *unit, char *ou
     case BRC_TYPE_STRUCT: snprintf(what, sizeof what, "a map"); break;
     case BRC_TYPE_LIST: snprintf(what, sizeof what, "a list"); break;
     case BRC_TYPE_NAMED: snprintf(what, sizeof what, "a map of names"); break;
-    case BRC_TYPE_LATER: snprintf(what, sizeof what, "nothing"); break;
     }
     brc_range_text(entry, range, sizeof range);
     snprintf(out, size, "%s%s%s%s%s%s%s", what, range[0] ? " " : "", range, sample[0] ? " such as " : "", sample,
@@ -330,8 +329,7 @@ brc_status brc_reader_value(brc_reader *reader, const brc_entry *entry, const br
     case BRC_TYPE_TABLE: return read_table(reader, entry, node, field);
     case BRC_TYPE_STRUCT:
     case BRC_TYPE_LIST:
-    case BRC_TYPE_NAMED:
-    case BRC_TYPE_LATER: break;
+    case BRC_TYPE_NAMED: break;
     }
     return BRC_FAIL(reader->context, BRC_INTERNAL, "entry '%s' is not a value", entry->key);
 }

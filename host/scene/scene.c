@@ -21,6 +21,13 @@ void brc_scene_free(brc_scene **scene)
         brc_memory_free(s->stages[k].loads);
         brc_memory_free(s->stages[k].initials);
     }
+    for (int k = 0; k < s->n_strikers; ++k) {
+        brc_memory_free(s->strikers[k].table.time);
+        brc_memory_free(s->strikers[k].table.value);
+        brc_memory_free(s->strikers[k].shape.parts);
+    }
+    brc_memory_free(s->strikers);
+    brc_memory_free(s->contact.pairs);
     for (int m = 0; m < s->n_materials; ++m) brc_memory_free(s->materials[m].scatter.quantiles);
     brc_memory_free(s->materials);
     brc_memory_free(s->interfaces);
@@ -79,21 +86,35 @@ double brc_table_value(const brc_table *table, double t)
 }
 
 /* Units of sensors, and of the slope of one against another: [numerator][denominator]. */
-enum { NEWTON, METRE, PURE, RADIAN, PASCAL, JOULE, METRE_PER_SECOND, HERTZ, NEWTON_METRE, SQUARE_METRE, N_UNITS };
-static const char *const UNIT[N_UNITS] = {"N", "m", "-", "rad", "Pa", "J", "m/s", "Hz", "N m", "m^2"};
-static const char *const RATE_UNIT[N_UNITS] = {"N/s", "m/s", "1/s", "rad/s", "Pa/s", "W", "m/s^2", "Hz/s", "N m/s", "m^2/s"};
+enum { NEWTON, METRE, PURE, RADIAN, PASCAL, JOULE, METRE_PER_SECOND, HERTZ, NEWTON_METRE, SQUARE_METRE, RADIAN_PER_SECOND, N_UNITS };
+static const char *const UNIT[N_UNITS] = {"N", "m", "-", "rad", "Pa", "J", "m/s", "Hz", "N m", "m^2", "rad/s"};
+static const char *const RATE_UNIT[N_UNITS] = {"N/s", "m/s", "1/s", "rad/s", "Pa/s", "W", "m/s^2", "Hz/s", "N m/s", "m^2/s", "rad/s^2"};
+static const char *const INTEGRAL_UNIT[N_UNITS] = {"N s", "m s", "s", "rad s", "Pa s", "J s", "m", "-", "N m s", "m^2 s", "rad"};
 static const char *const SLOPE_UNIT[N_UNITS][N_UNITS] = {
-    {"-", "N/m", "N", "N/rad", "N/Pa", "N/J", "N s/m", "N/Hz", "1/m", "N/m^2"},
-    {"m/N", "-", "m", "m/rad", "m/Pa", "m/J", "s", "m/Hz", "1/N", "1/m"},
-    {"1/N", "1/m", "-", "1/rad", "1/Pa", "1/J", "s/m", "1/Hz", "1/N/m", "1/m^2"},
-    {"rad/N", "rad/m", "rad", "-", "rad/Pa", "rad/J", "rad s/m", "rad/Hz", "rad/N/m", "rad/m^2"},
-    {"Pa/N", "Pa/m", "Pa", "Pa/rad", "-", "Pa/J", "Pa s/m", "Pa/Hz", "Pa/N/m", "Pa/m^2"},
-    {"J/N", "J/m", "J", "J/rad", "J/Pa", "-", "J s/m", "J/Hz", "-", "J/m^2"},
-    {"m/s/N", "1/s", "m/s", "m/s/rad", "m/s/Pa", "m/s/J", "-", "m/s/Hz", "1/N/s", "1/m/s"},
-    {"Hz/N", "Hz/m", "Hz", "Hz/rad", "Hz/Pa", "Hz/J", "Hz s/m", "-", "Hz/N/m", "Hz/m^2"},
-    {"m", "N", "N m", "N m/rad", "m^3", "-", "N s", "N m/Hz", "-", "N/m"},
-    {"m^2/N", "m", "m^2", "m^2/rad", "m^2/Pa", "m^2/J", "m s", "m^2/Hz", "m/N", "-"},
+    {"-", "N/m", "N", "N/rad", "N/Pa", "N/J", "N s/m", "N/Hz", "1/m", "N/m^2", "N s/rad"},
+    {"m/N", "-", "m", "m/rad", "m/Pa", "m/J", "s", "m/Hz", "1/N", "1/m", "m s/rad"},
+    {"1/N", "1/m", "-", "1/rad", "1/Pa", "1/J", "s/m", "1/Hz", "1/N/m", "1/m^2", "s/rad"},
+    {"rad/N", "rad/m", "rad", "-", "rad/Pa", "rad/J", "rad s/m", "rad/Hz", "rad/N/m", "rad/m^2", "s"},
+    {"Pa/N", "Pa/m", "Pa", "Pa/rad", "-", "Pa/J", "Pa s/m", "Pa/Hz", "Pa/N/m", "Pa/m^2", "Pa s/rad"},
+    {"J/N", "J/m", "J", "J/rad", "J/Pa", "-", "J s/m", "J/Hz", "-", "J/m^2", "J s/rad"},
+    {"m/s/N", "1/s", "m/s", "m/s/rad", "m/s/Pa", "m/s/J", "-", "m/s/Hz", "1/N/s", "1/m/s", "m/rad"},
+    {"Hz/N", "Hz/m", "Hz", "Hz/rad", "Hz/Pa", "Hz/J", "Hz s/m", "-", "Hz/N/m", "Hz/m^2", "Hz s/rad"},
+    {"m", "N", "N m", "N m/rad", "m^3", "-", "N s", "N m/Hz", "-", "N/m", "N m s/rad"},
+    {"m^2/N", "m", "m^2", "m^2/rad", "m^2/Pa", "m^2/J", "m s", "m^2/Hz", "m/N", "-", "m^2 s/rad"},
+    {"rad/s/N", "rad/s/m", "rad/s", "1/s", "rad/s/Pa", "rad/s/J", "rad/m", "rad", "rad/N/m/s", "rad/s/m^2", "-"},
 };
+
+static int unit_of_striker(const char *term)
+{
+    static const struct {
+        const char *term;
+        int unit;
+    } TERM[] = {{"position", METRE},         {"displacement", METRE}, {"velocity", METRE_PER_SECOND}, {"rotation", RADIAN},
+                {"spin", RADIAN_PER_SECOND}, {"force", NEWTON},       {"torque", NEWTON_METRE},       {"energy", JOULE}};
+    for (size_t k = 0; k < sizeof TERM / sizeof *TERM; ++k)
+        if (strcmp(term, TERM[k].term) == 0) return TERM[k].unit;
+    return PURE;
+}
 
 static int unit_index(const brc_sensor *sensor)
 {
@@ -113,6 +134,10 @@ static int unit_index(const brc_sensor *sensor)
     case BRC_SENSOR_VOLUME_STRAIN: return PURE;
     case BRC_SENSOR_FRACTURE: return strcmp(sensor->term, "crack_area") == 0 ? SQUARE_METRE : PURE;
     case BRC_SENSOR_CRACK_TIP: return METRE;
+    case BRC_SENSOR_SPIN: return RADIAN_PER_SECOND;
+    case BRC_SENSOR_STRIKER: return unit_of_striker(sensor->term);
+    case BRC_SENSOR_CONTACT:
+        return strcmp(sensor->term, "penetration") == 0 ? METRE : strcmp(sensor->term, "force") == 0 ? NEWTON : PURE;
     case BRC_SENSOR_MODE: return HERTZ;
     }
     return PURE;
@@ -144,11 +169,13 @@ const char *brc_measure_unit(const brc_scene *scene, const brc_measure *measure)
         break;
     case BRC_MEASURE_MEAN:
     case BRC_MEASURE_RATE:
+    case BRC_MEASURE_INTEGRAL:
     case BRC_MEASURE_SLOPE: break;
     }
     const brc_sensor *y = find_sensor(scene, measure->y);
     const brc_sensor *x = find_sensor(scene, measure->x);
     if (!y || (measure->kind == BRC_MEASURE_SLOPE && !x)) return "-";
+    if (measure->kind == BRC_MEASURE_INTEGRAL) return INTEGRAL_UNIT[unit_index(y)];
     if (measure->kind == BRC_MEASURE_RATE) return RATE_UNIT[unit_index(y)];
     return measure->kind == BRC_MEASURE_SLOPE ? SLOPE_UNIT[unit_index(y)][unit_index(x)] : brc_sensor_unit(y);
 }

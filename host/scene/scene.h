@@ -88,6 +88,7 @@ typedef struct brc_model {
     double beta;     /* [-] cross term, default 1.06 (docs/theory.md T2) */
     double tau;      /* [-] stabilisation, default 0.15; beta^2 <= 1 + tau keeps W positive */
     /* dlsm-published */
+    bool small_rotations; /* dlsm and published: the law linearised about the reference, in which turning costs energy; for comparison */
     bool area_weights;         /* least squares with weights S/L instead of 1 (default false, as printed) */
     double rotation_stiffness; /* [-] factor on K = E S^2 / (4 pi L0), default 1 */
     /* cbm */
@@ -95,6 +96,54 @@ typedef struct brc_model {
     bool keep_isolated;  /* hold elements without bonds still instead of refusing them */
     bool polish;         /* correct the laws' r_m and E_m on a sample (beam_polish.h) */
 } brc_model;
+
+/* How surfaces of two materials meet. */
+typedef struct brc_contact_law {
+    int32_t material[2]; /* of a pair: indices into scene.materials, in any order */
+    double friction;     /* Coulomb mu [-] */
+    double restitution;  /* of a central blow between rigid bodies, in (0, 1]; 0: left out, which means 1: no damping [-] */
+    double damping;      /* viscous, as a share of the critical one, in place of the restitution; 0: by the restitution [-] */
+    double stiffness;    /* K_s of a touching pair [N/m]; 0: from the materials */
+    double tangential;   /* tangential over normal stiffness, of sticking surfaces [-]; 0: from Poisson's ratios, 2 (1 - nu) / (2 - nu) */
+} brc_contact_law;
+
+typedef enum brc_sphere_law { BRC_SPHERES_HERTZ, BRC_SPHERES_LINEAR } brc_sphere_law;
+
+typedef struct brc_contact {
+    brc_contact_law law; /* of all pairs of materials but those in `pairs`; its material[] is not read */
+    int32_t n_pairs;
+    brc_contact_law *pairs; /* [n_pairs] later ones win */
+    brc_sphere_law spheres; /* normal force of spheres; cells: pressure from the energy of their overlap */
+    bool within;            /* elements of one body touch each other: closed cracks, fragments */
+    bool rotation;          /* cells without bonds turn as rigid bodies */
+    double skin;            /* pairs nearer than this are kept in the list [m]; 0: automatic */
+} brc_contact;
+
+/* Factor of time a(t): linear between its points, constant outside. n = 0: 1 at all times. t = 0 at the start of the
+ * stage. A static stage runs it over its increments: t from 0 to 1 [-]. */
+typedef struct brc_table {
+    int32_t n;
+    double *time;  /* [n] ascending [s] */
+    double *value; /* [n] [-] */
+} brc_table;
+
+/* A rigid wall or striker. */
+typedef enum brc_striker_motion { BRC_STRIKER_FIXED, BRC_STRIKER_DRIVEN, BRC_STRIKER_FREE } brc_striker_motion;
+typedef struct brc_striker {
+    char name[BRC_NAME];
+    bool is_plane;             /* the half-space behind a plane, in place of a shape */
+    double point[3], normal[3]; /* plane: a point of it, and the unit vector out of the wall */
+    brc_shape shape;
+    int32_t facets;            /* curved shapes: flat faces around a full turn */
+    double translation[3], rotation[3]; /* pose of the shape, as of a body */
+    int32_t material;          /* index into scene.materials */
+    brc_striker_motion motion;
+    double velocity[3], spin[3]; /* driven: times the table; free: at the start of the run [m/s], [rad/s] about the mass centre */
+    brc_table table;           /* driven: factor of time since the start of the run; n = 0: 1 */
+    double mass;               /* free: [kg]; 0: volume times density */
+    bool held[3];              /* free: components of its motion that stay zero */
+    bool held_rotation;        /* free: it does not turn */
+} brc_striker;
 
 typedef struct brc_region {
     int32_t material; /* index into scene.materials */
@@ -125,14 +174,6 @@ typedef struct brc_body {
     int32_t n_phases;
     brc_phase *phases;   /* [n_phases] phase p is region n_regions + 1 + p */
 } brc_body;
-
-/* Factor of time a(t): linear between its points, constant outside. n = 0: 1 at all times. t = 0 at the start of the
- * stage. A static stage runs it over its increments: t from 0 to 1 [-]. */
-typedef struct brc_table {
-    int32_t n;
-    double *time;  /* [n] ascending [s] */
-    double *value; /* [n] [-] */
-} brc_table;
 
 typedef enum brc_load_kind {
     BRC_LOAD_FACE_DISPLACEMENT, /* u_f = a(t) (value + gradient (C - origin)) on boundary faces, per component [m] */
@@ -244,6 +285,10 @@ typedef enum brc_sensor_kind {
     BRC_SENSOR_FRACTURE,     /* `term`: broken (bonds) [-], crack_area [m^2], fragments [-], largest_fragment (share of the mass) [-],
                               * failure_ratio (largest stress over limit) [-] */
     BRC_SENSOR_CRACK_TIP,    /* farthest broken bond along `axis` from `point` [m]; 0 before the first */
+    BRC_SENSOR_SPIN,         /* angular velocity of an element set: inverse of its inertia times its angular momentum about its mass centre [rad/s] */
+    BRC_SENSOR_STRIKER,      /* striker `set`, `term`: position, displacement [m], velocity [m/s], rotation [rad], spin [rad/s], force [N] and
+                              * torque [N m] of the elements on it, energy (kinetic) [J]; `component` of the vectors */
+    BRC_SENSOR_CONTACT,      /* `term`: pairs (touching), sliding (of them) [-], penetration (deepest) [m], force (sum of the magnitudes of normal forces) [N] */
     BRC_SENSOR_MODE          /* frequency of mode `index` (0: lowest elastic) of the last modes stage [Hz] */
 } brc_sensor_kind;
 
@@ -253,7 +298,7 @@ typedef struct brc_sensor {
     char set[BRC_NAME], set2[BRC_NAME]; /* "" : all elements */
     int32_t component;  /* vectors: 0 x 1 y 2 z; tensors: 0 xx 1 yy 2 zz 3 yz 4 xz 5 xy */
     double point[3], axis[3];
-    char term[BRC_NAME]; /* energy: "kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture", "potential", "total", "closure" */
+    char term[BRC_NAME]; /* energy: "kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture", "contact", "friction", "impact", "potential", "total", "closure" */
     int32_t index;
 } brc_sensor;
 
@@ -267,6 +312,7 @@ typedef enum brc_measure_kind {
     BRC_MEASURE_SLOPE,     /* slope at zero of sensor y against sensor x, polynomial fit through the window */
     BRC_MEASURE_MEAN,      /* time mean over the window */
     BRC_MEASURE_RATE,      /* slope of a sensor against time, straight line through the window [sensor's unit/s] */
+    BRC_MEASURE_INTEGRAL, /* of a sensor over time, by trapezoids [sensor's unit s] */
     BRC_MEASURE_AT_FIRST_BREAK /* value of a sensor when the first bond of the window breaks, between samples by a straight line */
 } brc_measure_kind;
 
@@ -290,8 +336,17 @@ typedef struct brc_output {
     char picture_colour[BRC_NAME];  /* "stress_xx", "von_mises", "displacement", ... default "von_mises" */
     double picture_scale;    /* factor on the displacement; 0: automatic */
     bool crack_surface;      /* with fracture: broken faces as polygons beside every frame, default true */
+    bool has_checkpoint;       /* checkpoints by interval; on a signal and before a stop there is one in any case */
+    double checkpoint_every;   /* simulated time between them [s]; 0: off */
+    double checkpoint_wall;    /* time of the clock between them [s]; 0: off */
     char curve_x[BRC_NAME], curve_y[BRC_NAME]; /* sensors of curve.png; "" : none */
 } brc_output;
+
+/* What watches over a run. */
+typedef struct brc_guard {
+    int64_t every;  /* steps between looks; 0: automatic */
+    double closure; /* largest |closure| of the energy ledger [-]; 0: off (running away is always looked for) */
+} brc_guard;
 
 typedef struct brc_scene {
     int32_t version; /* of the format: 1 */
@@ -299,7 +354,7 @@ typedef struct brc_scene {
     char folder[512]; /* of the scene file, for relative paths; "." when made in code */
     int32_t n_materials;
     brc_material *materials;
-    brc_model model; /* one dynamic model a scene */
+    brc_model model; /* of bodies without their own */
     int32_t n_bodies;
     brc_body *bodies;
     int32_t n_sets;
@@ -310,6 +365,13 @@ typedef struct brc_scene {
     brc_fracture fracture;
     int32_t n_interfaces;
     brc_interface *interfaces; /* [n_interfaces] only read with fracture */
+    bool has_contact;
+    brc_contact contact;
+    int32_t n_strikers;
+    brc_striker *strikers; /* [n_strikers] */
+    brc_guard guard;
+    double accuracy; /* wanted relative error, for proposals of `breccia check` [-]; 0: not asked */
+    double budget;   /* wanted time of the run, likewise [s]; 0: not asked */
     bool has_gravity;
     double gravity[3]; /* [m/s^2] */
     int32_t n_stages;

@@ -74,10 +74,6 @@ static brc_status read_entry(brc_reader *reader, const brc_entry *entry, const b
     case BRC_TYPE_STRUCT: return read_section(reader, entry->section, node, base + entry->offset);
     case BRC_TYPE_LIST:
     case BRC_TYPE_NAMED: return read_list(reader, entry, node, base);
-    case BRC_TYPE_LATER:
-        brc_problems_add(reader->problems, node->key_mark, "'%s' is not in this version of breccia: %s", entry->key,
-                         entry->meaning);
-        return BRC_OK;
     default:
         BRC_TRY(brc_reader_remember(reader, base + entry->offset, entry, node->mark));
         return brc_reader_value(reader, entry, node, base + entry->offset);
@@ -91,7 +87,6 @@ static const char *known_keys(const brc_section *section, const char **words, in
     *n = 0;
     out[0] = '\0';
     for (int i = 0; i < section->n_entries && *n < MANY_KEYS; ++i) {
-        if (section->entries[i].type == BRC_TYPE_LATER) continue;
         words[(*n)++] = section->entries[i].key;
         const int more = at < size ? snprintf(out + at, size - at, "%s%s", at ? ", " : "", section->entries[i].key) : 0;
         at += (size_t)more;

@@ -55,8 +55,7 @@ static const char *type_text(const brc_entry *entry, char *out, size_t size)
         return out;
     case BRC_TYPE_STRUCT:
     case BRC_TYPE_LIST:
-    case BRC_TYPE_NAMED:
-    case BRC_TYPE_LATER: break;
+    case BRC_TYPE_NAMED: break;
     }
     switch (entry->refers) {
     case BRC_REFERS_FACES: return "name of a wall or of a set of faces";
@@ -65,6 +64,7 @@ static const char *type_text(const brc_entry *entry, char *out, size_t size)
     case BRC_REFERS_WALL: return "name of a wall";
     case BRC_REFERS_SENSOR: return "name of a sensor";
     case BRC_REFERS_STAGE: return "name of a stage";
+    case BRC_REFERS_STRIKER: return "name of a striker";
     case BRC_REFERS_NOTHING: break;
     }
     return "name";
@@ -97,9 +97,7 @@ static void write_row(FILE *file, const brc_section *section, const brc_entry *e
 {
     char text[512];
     fprintf(file, "| `%s` | ", entry->key);
-    if (entry->type == BRC_TYPE_LATER)
-        fputs("not in this version", file);
-    else if (entry->type == BRC_TYPE_STRUCT && !entry->section)
+    if (entry->type == BRC_TYPE_STRUCT && !entry->section)
         fputs("the word alone", file);
     else if (entry->section) {
         fputs(entry->type == BRC_TYPE_LIST    ? "list of "
@@ -113,7 +111,7 @@ static void write_row(FILE *file, const brc_section *section, const brc_entry *e
     write_unit(file, entry);
     fprintf(file, " | %s%s%s%s | ", brc_range_text(entry, text, sizeof text), entry->word ? " or `" : "",
             entry->word ? entry->word : "", entry->word ? "`" : "");
-    if (section->one_of || entry->type == BRC_TYPE_LATER)
+    if (section->one_of)
         fputs(" | ", file);
     else if (entry->required)
         fputs("required | ", file);

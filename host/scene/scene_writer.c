@@ -35,7 +35,6 @@ static bool is_absent(const brc_entry *entry, const char *base)
         memcpy(&table, base + entry->offset, sizeof table);
         return table.n == 0;
     }
-    if (entry->type == BRC_TYPE_LATER) return true;
     if (entry->type == BRC_TYPE_STRUCT) {
         for (int i = 0; entry->section && i < entry->section->n_entries; ++i)
             if (!is_absent(&entry->section->entries[i], base + entry->offset)) return false;
@@ -57,7 +56,6 @@ static bool is_in_group(const brc_group *group, const char *key)
 
 static bool is_written(const brc_section *section, const brc_entry *entry, const char *base)
 {
-    if (entry->type == BRC_TYPE_LATER) return false;
     if (entry->has_flag) return base[entry->has_offset];
     if (entry->required || entry->type == BRC_TYPE_MATERIAL) return true;
     if (!is_absent(entry, base)) return true;

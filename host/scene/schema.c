@@ -3,6 +3,14 @@
 #include <stdio.h>
 #include <string.h>
 
+static const brc_entry GUARD[] = {
+    {"every", BRC_TYPE_INTEGER, WITHIN(1, 1e12), FIELD(brc_guard, every), .given = "auto", .word = "auto", .sample = "1000",
+     .meaning = "steps between looks at the energy ledger and at every element"},
+    {"closure", BRC_TYPE_QUANTITY, "", POSITIVE, FIELD(brc_guard, closure), .given = "off", .word = "off", .sample = "5 %",
+     .meaning = "largest error of the energy ledger; off: only a run that runs away or is not finite is stopped"},
+};
+static const brc_section GUARD_SECTION = {.title = "guard", .meaning = "Stops a run that goes wrong, and says where.", ENTRIES(GUARD)};
+
 static const brc_entry SCENE[] = {
     {"version", BRC_TYPE_INTEGER, WITHIN(1, 1), FIELD(brc_scene, version), .required = true, .sample = "1",
      .why = "this breccia reads format 1", .meaning = "of the scene format"},
@@ -19,6 +27,13 @@ static const brc_entry SCENE[] = {
      .meaning = "limits on the numbers of the quality report, by name; each body is judged as it is built"},
     {"fracture", BRC_TYPE_STRUCT, .section = &brc_schema_fracture, .offset = offsetof(brc_scene, fracture),
      FLAG(brc_scene, has_fracture), .meaning = "how bonds break"},
+    {"strikers", BRC_TYPE_NAMED, .section = &brc_schema_striker, COUNTED(brc_scene, strikers, n_strikers),
+     .meaning = "rigid walls and strikers, by name"},
+    {"guard", BRC_TYPE_STRUCT, .section = &GUARD_SECTION, .offset = offsetof(brc_scene, guard), .given = "{}", .meaning = "what stops a run that goes wrong"},
+    {"accuracy", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_scene, accuracy), .sample = "1 %",
+     .meaning = "wanted relative error: `breccia check` proposes resolution, precision and time step for it"},
+    {"budget", BRC_TYPE_QUANTITY, "s", POSITIVE, FIELD(brc_scene, budget), .sample = "10 min",
+     .meaning = "wanted time of the run: `breccia check` proposes what it buys"},
     {"gravity", BRC_TYPE_VECTOR, "m/s^2", FIELD(brc_scene, gravity), .length = 3, FLAG(brc_scene, has_gravity),
      .sample = "[0, 0, -9.81 m/s^2]", .meaning = "acceleration of every element"},
     {"stages", BRC_TYPE_LIST, .section = &brc_schema_stage, COUNTED(brc_scene, stages, n_stages), .required = true,
@@ -32,7 +47,8 @@ static const brc_entry SCENE[] = {
     {"interactions", BRC_TYPE_STRUCT, .section = &brc_schema_interactions, .meaning = "what joins materials and grains"},
 };
 static const brc_section SCENE_SECTION = {
-    .title = "scene", .meaning = "The top of a scene file.", ENTRIES(SCENE), .size = sizeof(brc_scene)};
+    .title = "scene", .meaning = "The top of a scene file.", ENTRIES(SCENE), .size = sizeof(brc_scene),
+    .groups = {{BRC_GROUP_AT_MOST_ONE, {"accuracy", "budget"}}}};
 
 const brc_section *brc_schema(void)
 {

@@ -22,8 +22,7 @@ typedef enum brc_type {
     BRC_TYPE_TABLE,     /* list of [time, factor]; brc_table */
     BRC_TYPE_STRUCT,    /* a map of `section`, in place; or a one-of */
     BRC_TYPE_LIST,      /* list of `section`: pointer at `offset`, int32_t count at `count_offset` */
-    BRC_TYPE_NAMED,     /* map from name to `section`, whose struct begins with char name[BRC_NAME]; kept as a list */
-    BRC_TYPE_LATER      /* a key of a later version: refused with its meaning */
+    BRC_TYPE_NAMED      /* map from name to `section`, whose struct begins with char name[BRC_NAME]; kept as a list */
 } brc_type;
 
 /* What a name must be the name of; checked when the whole scene is read. */
@@ -34,7 +33,8 @@ typedef enum brc_reference {
     BRC_REFERS_SET,      /* either */
     BRC_REFERS_WALL,     /* a wall of a body's shape */
     BRC_REFERS_SENSOR,
-    BRC_REFERS_STAGE
+    BRC_REFERS_STAGE,
+    BRC_REFERS_STRIKER
 } brc_reference;
 
 /* Units that depend on the scene. */

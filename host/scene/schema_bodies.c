@@ -31,6 +31,12 @@ const brc_section brc_schema_material = {.title = "material",
                                          .size = sizeof(brc_material),
                                          .sample_name = "glass"};
 
+#define SMALL_ROTATIONS                                                                                                \
+    {                                                                                                                  \
+        "small_rotations", BRC_TYPE_BOOL, FIELD(brc_model, small_rotations), .given = "false",                         \
+            .meaning = "true: the law linearised about the reference, in which turning costs energy; for comparison"   \
+    }
+
 static const brc_entry DLSM[] = {
     {"compaction", BRC_TYPE_BOOL, FIELD(brc_model, compaction), .given = "true",
      .meaning = "the cross term beta that makes near-incompressible and auxetic solids accurate"},
@@ -38,6 +44,7 @@ static const brc_entry DLSM[] = {
      .meaning = "weight of the cross term; without effect when compaction is false"},
     {"tau", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 10), FIELD(brc_model, tau), .given = "0.15",
      .why = "without it modes of the grid cost no energy", .meaning = "weight of the stabilisation"},
+    SMALL_ROTATIONS,
 };
 static const brc_section DLSM_SECTION = {.title = "model dlsm", .meaning = "The conservative law.", ENTRIES(DLSM)};
 static const brc_entry PUBLISHED[] = {
@@ -45,6 +52,7 @@ static const brc_entry PUBLISHED[] = {
      .meaning = "least squares weighted with face area over distance instead of 1"},
     {"rotation_stiffness", BRC_TYPE_QUANTITY, "", NOT_NEGATIVE, FIELD(brc_model, rotation_stiffness), .given = "1",
      .meaning = "factor on the published stiffness against spurious rotation"},
+    SMALL_ROTATIONS,
 };
 static const brc_section PUBLISHED_SECTION = {.title = "model dlsm-published",
                                               .meaning = "The law as Andre, Girardot and Hubert published it in 2019.",

@@ -142,7 +142,7 @@ static const brc_section INTERFACE_SECTION = {.title = "interface",
 static const brc_entry INTERACTIONS[] = {
     {"interfaces", BRC_TYPE_LIST, .section = &INTERFACE_SECTION, COUNTED(brc_scene, interfaces, n_interfaces),
      .meaning = "bonds between materials or grains"},
-    {"contact", BRC_TYPE_LATER, .meaning = "contact comes in a later version; bodies and fragments do not touch yet"},
+    {"contact", BRC_TYPE_STRUCT, .section = &brc_schema_contact, FLAG(brc_scene, has_contact), .meaning = "surfaces that meet touch"},
 };
 const brc_section brc_schema_interactions = {
     .title = "interactions", .meaning = "What joins parts of the solids.", ENTRIES(INTERACTIONS)};

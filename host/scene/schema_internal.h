@@ -45,5 +45,7 @@ extern const brc_section brc_schema_output;
 extern const brc_section brc_schema_strength;
 extern const brc_section brc_schema_fracture;
 extern const brc_section brc_schema_interactions;
+extern const brc_section brc_schema_contact;
+extern const brc_section brc_schema_striker;
 
 #endif

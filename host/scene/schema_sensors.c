@@ -101,6 +101,18 @@ static const brc_section TIP_SECTION = {
     .title = "crack_tip",
     .meaning = "How far broken bonds reach along a direction; 0 before the first. `rate` of it is the speed of the tip [m].",
     ENTRIES(TIP)};
+static const brc_entry SPIN[] = {ELEMENT_SET, COMPONENT};
+static const brc_section SPIN_SECTION = {
+    .title = "spin", .meaning = "Angular velocity of a set of elements about its mass centre [rad/s].", ENTRIES(SPIN)};
+static const brc_entry OF_STRIKER[] = {
+    {"name", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_STRIKER, .sample = "anvil", .meaning = "of the striker"},
+    {"quantity", BRC_TYPE_WORD, FIELD(brc_sensor, term),
+     CHOICES("position", "displacement", "velocity", "rotation", "spin", "force", "torque", "energy"), .required = true, .sample = "force",
+     .meaning = "of its mass centre (a plane: its point) [m], [m/s], [rad], [rad/s]; force and torque of the elements on it [N], [N m]; its "
+                "kinetic energy [J]"},
+    {"component", BRC_TYPE_CHOICE, FIELD(brc_sensor, component), CHOICES("x", "y", "z"), .given = "x", .meaning = "of the vector"},
+};
+static const brc_section OF_STRIKER_SECTION = {.title = "sensor striker", .meaning = "Motion of a striker, or what acts on it.", ENTRIES(OF_STRIKER)};
 static const brc_entry SENSOR[] = {
     {"reaction", BRC_TYPE_STRUCT, .section = &REACTION_SECTION, .value = BRC_SENSOR_REACTION,
      .meaning = "force on a set with prescribed motion [N]"},
@@ -113,7 +125,8 @@ static const brc_entry SENSOR[] = {
     {"stress", BRC_TYPE_STRUCT, .section = &STRESS_SECTION, .value = BRC_SENSOR_STRESS, .meaning = "mean stress [Pa]"},
     {"strain", BRC_TYPE_STRUCT, .section = &STRAIN_SECTION, .value = BRC_SENSOR_STRAIN, .meaning = "mean strain [-]"},
     {"energy", BRC_TYPE_WORD, FIELD(brc_sensor, term),
-     CHOICES("kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture", "potential", "total", "closure"),
+     CHOICES("kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture", "contact", "friction", "impact", "potential",
+             "total", "closure"),
      .value = BRC_SENSOR_ENERGY, .sample = "kinetic", .meaning = "a term of the energy ledger [J]"},
     {"point", BRC_TYPE_STRUCT, .section = &POINT_SECTION, .value = BRC_SENSOR_POINT,
      .meaning = "displacement of the element nearest to a point [m]"},
@@ -132,6 +145,10 @@ static const brc_entry SENSOR[] = {
      .meaning = "broken bonds [-], their area [m^2], number of fragments [-], share of the mass in the largest [-], largest stress over its "
                 "limit [-]"},
     {"crack_tip", BRC_TYPE_STRUCT, .section = &TIP_SECTION, .value = BRC_SENSOR_CRACK_TIP, .meaning = "how far a crack has come [m]"},
+    {"spin", BRC_TYPE_STRUCT, .section = &SPIN_SECTION, .value = BRC_SENSOR_SPIN, .meaning = "angular velocity of a set [rad/s]"},
+    {"striker", BRC_TYPE_STRUCT, .section = &OF_STRIKER_SECTION, .value = BRC_SENSOR_STRIKER, .meaning = "of a striker"},
+    {"contact", BRC_TYPE_WORD, FIELD(brc_sensor, term), CHOICES("pairs", "sliding", "penetration", "force"), .value = BRC_SENSOR_CONTACT,
+     .sample = "pairs", .meaning = "touching pairs [-], those that slide [-], deepest overlap [m], sum of normal forces [N]"},
     {"mode", BRC_TYPE_INTEGER, WITHIN(0, 999), FIELD(brc_sensor, index), .value = BRC_SENSOR_MODE, .sample = "0",
      .meaning = "frequency of a mode of the last modes stage, 0 the lowest elastic one [Hz]"},
 };
@@ -226,6 +243,9 @@ static const brc_entry OF_TWO[] = {SENSOR_ENTRY("of", y, "force", "sensor"),
                                    SENSOR_ENTRY("against", x, "force", "sensor it depends on"), COMMON_ENTRIES("1")};
 static const brc_section RATE_SECTION = {
     .title = "rate", .meaning = "Slope of a sensor against time, by a straight line through the window.", ENTRIES(OF_RATE)};
+static const brc_entry OF_INTEGRAL[] = {SENSOR_ENTRY("of", y, "force", "sensor"), COMMON_ENTRIES("1 N s")};
+static const brc_section INTEGRAL_SECTION = {
+    .title = "integral", .meaning = "Of a sensor over time, by trapezoids between samples.", ENTRIES(OF_INTEGRAL)};
 static const brc_section AT_FIRST_BREAK_SECTION = {
     .title = "at_first_break",
     .meaning = "The value when the first bond breaks, between samples by a straight line; of a load over an area, the stress at failure.",
@@ -244,6 +264,7 @@ static const brc_entry MEASURE[] = {
      .meaning = "slope of one sensor against another"},
     {"mean", BRC_TYPE_STRUCT, .section = &MEAN_SECTION, .value = BRC_MEASURE_MEAN, .meaning = "mean of a sensor"},
     {"rate", BRC_TYPE_STRUCT, .section = &RATE_SECTION, .value = BRC_MEASURE_RATE, .meaning = "change of a sensor per time"},
+    {"integral", BRC_TYPE_STRUCT, .section = &INTEGRAL_SECTION, .value = BRC_MEASURE_INTEGRAL, .meaning = "a sensor summed over time"},
     {"at_first_break", BRC_TYPE_STRUCT, .section = &AT_FIRST_BREAK_SECTION, .value = BRC_MEASURE_AT_FIRST_BREAK,
      .meaning = "a sensor when the first bond breaks"},
 };
@@ -279,6 +300,16 @@ static const brc_entry CURVE[] = {
 };
 static const brc_section CURVE_SECTION = {
     .title = "curve", .meaning = "One sensor against another, in curve.png.", ENTRIES(CURVE)};
+static const brc_entry CHECKPOINT[] = {
+    {"every", BRC_TYPE_QUANTITY, "s", POSITIVE, FIELD(brc_output, checkpoint_every), .given = "off", .word = "off", .sample = "1 ms",
+     .meaning = "simulated time between checkpoints"},
+    {"wall", BRC_TYPE_QUANTITY, "s", POSITIVE, FIELD(brc_output, checkpoint_wall), .given = "off", .word = "off", .sample = "10 min",
+     .meaning = "time of the clock between checkpoints"},
+};
+static const brc_section CHECKPOINT_SECTION = {.title = "checkpoint",
+                                               .meaning = "Files from which `breccia run --resume` goes on; the last two are kept.",
+                                               ENTRIES(CHECKPOINT),
+                                               .short_key = "wall"};
 static const brc_entry OUTPUT[] = {
     {"frames", BRC_TYPE_INTEGER, WITHIN(0, 1e6), FIELD(brc_output, n_frames), .given = "0", .word = "none",
      .word_value = -1, .sample = "10",
@@ -292,6 +323,8 @@ static const brc_entry OUTPUT[] = {
     {"picture", BRC_TYPE_STRUCT, .section = &PICTURE_SECTION, .given = "{}", .meaning = "the deformed solid"},
     {"crack_surface", BRC_TYPE_BOOL, FIELD(brc_output, crack_surface), .given = "true",
      .meaning = "with fracture: broken faces as polygons beside every frame"},
+    {"checkpoint", BRC_TYPE_STRUCT, .section = &CHECKPOINT_SECTION, FLAG(brc_output, has_checkpoint),
+     .meaning = "left out: only when the run is interrupted or stopped"},
     {"curve", BRC_TYPE_STRUCT, .section = &CURVE_SECTION, .meaning = "one sensor against another; left out: none"},
 };
 const brc_section brc_schema_output = {.title = "output",

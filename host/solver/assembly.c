@@ -58,6 +58,9 @@ brc_status brc_assembly_ledger(brc_assembly *a, brc_ledger *out)
         sum.work += one.work;
         sum.damping += one.damping;
         sum.numerical += one.numerical;
+        sum.contact += one.contact;
+        sum.friction += one.friction;
+        sum.impact += one.impact;
         sum.fracture += one.fracture;
         sum.initial += one.initial;
     }

@@ -155,7 +155,7 @@ brc_status brc_force_of_state(brc_simulation *s, brc_booking book)
                                                       .force = s->force,
                                                       .orientation = s->orientation,
                                                       .torque = s->torque,
-                                                      .finite = true,
+                                                      .finite = !s->scene->model.small_rotations,
                                                       .book = book,
                                                       .t = s->stage >= 0 && brc_current_stage(s)->solver == BRC_SOLVER_STATIC
                                                                ? s->load_factor
@@ -185,7 +185,7 @@ brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabil
                        BRC_BUF(s->gradient), BRC_BUF(s->inv_volume), BRC_BUF(s->boundary),
                        BRC_BUF(s->held_gradient), BRC_INT(has_face_loads(s) ? 1 : 0), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
                        BRC_COEFF(m->k), BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(1 + s->scene->model.tau),
-                       BRC_BUF(s->material), BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(1),
+                       BRC_BUF(s->material), BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(s->scene->model.small_rotations ? 0 : 1),
                        BRC_BUF(s->elastic_energy), BRC_BUF(s->stabilisation_energy)));
     BRC_TRY(brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic));
     BRC_TRY(brc_vector_sum(s, s->stabilisation_energy, s->layout->n_rows, stabilisation));

@@ -57,7 +57,7 @@ double brc_ledger_term(const brc_ledger *ledger, const char *term)
         double value;
     } terms[] = {{"kinetic", ledger->kinetic},     {"elastic", ledger->elastic},     {"stabilisation", ledger->stabilisation},
                  {"potential", ledger->potential}, {"work", ledger->work},           {"damping", ledger->damping},
-                 {"numerical", ledger->numerical}, {"fracture", ledger->fracture}, {"initial", ledger->initial},     {"total", ledger->total},
+                 {"numerical", ledger->numerical}, {"fracture", ledger->fracture}, {"contact", ledger->contact}, {"friction", ledger->friction}, {"impact", ledger->impact}, {"initial", ledger->initial},     {"total", ledger->total},
                  {"closure", ledger->closure},     {"peak_elastic", ledger->peak_elastic}, {"peak_kinetic", ledger->peak_kinetic}};
     for (size_t i = 0; i < sizeof terms / sizeof *terms; ++i)
         if (strcmp(term, terms[i].name) == 0) return terms[i].value;

@@ -201,6 +201,10 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
         if (scene->bodies[b].has_model && !brc_split_same_model(&scene->bodies[b].model, &scene->model))
             return BRC_FAIL(context, BRC_BAD_INPUT, "body '%s' has a model of its own, which one simulation of the whole scene cannot move; split the scene (split.h)",
                             scene->bodies[b].name);
+    if (scene->model.small_rotations && scene->has_fracture)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "small_rotations: a linearised law does not break; leave out small_rotations or fracture");
+    if (scene->has_contact)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "interactions: contact: is read, but not in this version: surfaces pass through each other; leave it out");
     BRC_TRY(BRC_ALLOCATE(context, &s, 1, "simulation"));
     s->context = context;
     s->scene = scene;

@@ -90,7 +90,7 @@ brc_status brc_simulation_reaction_moment(brc_simulation *simulation, int32_t se
 /* Sum of all element_force loads on every element, at the last force evaluation [n_elements][3] [N]. */
 brc_status brc_simulation_applied_force(brc_simulation *simulation, double *out);
 
-/* The energy ledger [J]. closure = (kinetic + elastic + stabilisation + potential - work + damping + numerical + fracture - initial)
+/* The energy ledger [J]. closure = (kinetic + elastic + stabilisation + potential - work + damping + numerical + fracture + contact + friction + impact - initial)
  * over the largest of peak elastic energy, initial kinetic energy and work done [-] (design.md). */
 typedef struct brc_ledger {
     double kinetic, elastic, stabilisation;
@@ -99,10 +99,13 @@ typedef struct brc_ledger {
     double damping;   /* lost to mass damping, and to what events of static stages set free */
     double numerical; /* lost to the integrator (Tchamwa-Wielgosz), by its exact expression on a linear system */
     double initial;   /* total brought in by initial fields */
-    double total;     /* kinetic + elastic + stabilisation + potential */
+    double total;     /* kinetic + elastic + stabilisation + potential + contact */
     double closure;
     double peak_elastic, peak_kinetic;
     double fracture; /* elastic energy that bonds held when they broke */
+    double contact;  /* held by touching surfaces; part of the total */
+    double friction; /* lost to sliding */
+    double impact;   /* lost to the damping of contact */
 } brc_ledger;
 /* Evaluated now (a pass over the elements). */
 brc_status brc_simulation_ledger(brc_simulation *simulation, brc_ledger *out);

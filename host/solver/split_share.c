@@ -124,8 +124,11 @@ brc_combine brc_split_combine(const brc_sensor *sensor)
         return strcmp(sensor->term, "failure_ratio") == 0      ? BRC_COMBINE_LARGEST
                : strcmp(sensor->term, "largest_fragment") == 0 ? BRC_COMBINE_LARGEST_MASS
                                                                : BRC_COMBINE_SUM;
+    case BRC_SENSOR_CONTACT: return strcmp(sensor->term, "penetration") == 0 ? BRC_COMBINE_LARGEST : BRC_COMBINE_SUM;
     case BRC_SENSOR_ENERGY:
     case BRC_SENSOR_MODE: return BRC_COMBINE_WHOLE;
+    case BRC_SENSOR_STRIKER:
+    case BRC_SENSOR_SPIN:
     case BRC_SENSOR_FACE_MEAN:
     case BRC_SENSOR_FACE_STRAIN:
     case BRC_SENSOR_FACE_TWIST:

@@ -53,7 +53,7 @@ static const brc_entry *usual_variant(const maker *m, const brc_section *section
     const char *wanted = NULL;
     if (strcmp(section->title, "solver") == 0) {
         if (path_has(m->path, "face_velocity") || path_has(m->path, "element_velocity") ||
-            path_has(m->path, "frequency") || path_has(m->path, "rate"))
+            path_has(m->path, "frequency") || path_has(m->path, "rate") || path_has(m->path, "integral"))
             wanted = "dynamic";
         if (path_has(m->path, "mode")) wanted = "modes";
     }
@@ -67,6 +67,9 @@ static bool is_used(const brc_section *section, const brc_entry *entry, const br
     if (section == brc_schema() && strcmp(entry->key, "sets") == 0) return true; /* the samples refer to them */
     if (section == brc_schema() && strcmp(entry->key, "sensors") == 0) return true;
     if (section == brc_schema() && strcmp(entry->key, "fracture") == 0) return true; /* sensors and stops need it */
+    if (section == brc_schema() && strcmp(entry->key, "strikers") == 0) return true; /* and a sensor refers to one */
+    if (section == brc_schema() && strcmp(entry->key, "interactions") == 0) return true; /* which needs contact */
+    if (strcmp(section->title, "interactions") == 0 && strcmp(entry->key, "contact") == 0) return true;
     if (strcmp(section->title, "body") == 0 && strcmp(entry->key, "fill") == 0)
         return !on_path || strcmp(on_path->key, "domain") != 0;
     for (int g = 0; g < 2; ++g) {
@@ -86,6 +89,8 @@ static void write_section(maker *m, const brc_section *section, int level, int i
 static const char *wall(const maker *m, const char *of_box)
 {
     static const char *const ROUND[4][2] = {{"sphere", "surface"}, {"torus", "surface"}, {"mesh", "surface"}, {"cone", "side"}};
+    const bool of_body = m->path->depth > 0 && strcmp(m->path->chain[0]->key, "bodies") == 0; /* strikers have shapes too */
+    if (!of_body) return of_box;
     for (int i = 1; i < m->path->depth; ++i)
         for (int r = 0; r < 4 && strcmp(m->path->chain[i - 1]->key, "shape") == 0; ++r)
             if (strcmp(m->path->chain[i]->key, ROUND[r][0]) == 0) return ROUND[r][1];
@@ -96,10 +101,10 @@ static const char *wall(const maker *m, const char *of_box)
 static const char *sample_value(const maker *m, const brc_entry *entry)
 {
     if (entry->type == BRC_TYPE_TABLE)
-        return path_has(m->path, "face_velocity") || path_has(m->path, "element_velocity") ? "[[0 s, 0], [1 ms, 1]]"
+        return path_has(m->path, "face_velocity") || path_has(m->path, "element_velocity") || path_has(m->path, "driven") ? "[[0 s, 0], [1 ms, 1]]"
                                                                                            : "[[0, 0], [1, 1]]";
     if (strcmp(entry->key, "load") == 0 && path_has(m->path, "area")) return "force"; /* the area divides a reaction */
-    if (strcmp(entry->key, "window") == 0 && (path_has(m->path, "frequency") || path_has(m->path, "rate"))) return "[0, 1 ms]";
+    if (strcmp(entry->key, "window") == 0 && (path_has(m->path, "frequency") || path_has(m->path, "rate") || path_has(m->path, "integral"))) return "[0, 1 ms]";
     if (entry->sample && (strcmp(entry->sample, "x+") == 0 || strcmp(entry->sample, "x-") == 0))
         return wall(m, entry->sample);
     return entry->sample ? entry->sample : entry->given ? entry->given : entry->choices ? entry->choices[0] : "true";

@@ -59,10 +59,26 @@ static void misspelt_keys_are_guessed(void **state)
     bad_scene(HEAD STAGES "xyzzyplugh: 1\n", "10:1", "unknown key 'xyzzyplugh' in a scene; known: version, title");
 }
 
-static void later_keys_are_refused_as_such(void **state)
+static void walls_and_strikers_need_contact_and_a_free_one_a_shape(void **state)
 {
     (void)state;
-    bad_scene(HEAD STAGES "interactions: {contact: on}\n", "10:16", "'contact' is not in this version of breccia");
+    static const char plane[] = "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: glass}}\n";
+    char text[1024];
+    bad_scene(HEAD STAGES "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: glass}}\n", "10:19",
+              "touches nothing: it needs `interactions: {contact: {}}`");
+    snprintf(text, sizeof text, "%sinteractions: {contact: {friction: 0.4}}\n%s", HEAD STAGES, plane);
+    assert_int_equal(count_errors(text), 0);
+    snprintf(text, sizeof text, "%sinteractions: {contact: {}}\n%s", HEAD STAGES,
+             "strikers: {ball: {shape: {sphere: {centre: [0, 0, 2 m], radius: 10 cm}}, material: glass,"
+             " motion: {free: {velocity: [0, 0, -5 m/s], spin: [1 rad/s, 0, 0], mass: 2 kg, hold: {x: true}}}}}\n");
+    assert_int_equal(count_errors(text), 0);
+    bad_scene(HEAD STAGES "interactions: {contact: {}}\n"
+                          "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: glass, motion: free}}\n",
+              "11:19", "an endless plane has no mass");
+    bad_scene(HEAD STAGES "sensors: {pairs: {contact: pairs}}\n", "10:28", "this sensor needs `interactions");
+    bad_scene(HEAD STAGES "interactions: {contact: {}}\nsensors: {push: {striker: {name: flor, quantity: force}}}\n"
+                          "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: glass}}\n",
+              "11:34", "there is no striker 'flor'; did you mean 'floor'?");
 }
 
 static void all_errors_are_told_in_one_pass_in_the_order_of_the_text(void **state)
@@ -251,7 +267,7 @@ int main(void)
         cmocka_unit_test(missing_keys_are_named_where_their_map_begins),
         cmocka_unit_test(extreme_poisson_ratios_are_refused_with_the_reason),
         cmocka_unit_test(misspelt_keys_are_guessed),
-        cmocka_unit_test(later_keys_are_refused_as_such),
+        cmocka_unit_test(walls_and_strikers_need_contact_and_a_free_one_a_shape),
         cmocka_unit_test(all_errors_are_told_in_one_pass_in_the_order_of_the_text),
         cmocka_unit_test(several_of_one_and_none_of_several_are_refused),
         cmocka_unit_test(a_shape_needs_a_fill_and_a_file_none),

@@ -40,11 +40,11 @@ static bool path_has(const sample_path *path, const char *key)
     return false;
 }
 
-/* Elements have no normal, a half-space alone no end, a noisy grid no spheres, and one radius or factor is no distribution: no valid
+/* Elements have no normal, a half-space alone no end, a noisy grid no spheres, a plane no mass, and one radius or factor is no distribution: no valid
  * scene made of samples alone contains these entries there. tests/scene/test_reader_check.c reads valid ones. */
 static bool cannot_be_valid(const sample_path *path)
 {
-    return path->chain[path->depth - 1]->type == BRC_TYPE_LATER || path_has(path, "beams") || path_has(path, "radii") ||
+    return path_has(path, "beams") || (path_has(path, "strikers") && path_has(path, "free")) || path_has(path, "radii") ||
            (path_has(path, "scatter") && path_has(path, "table")) ||
            (path_has(path, "half_space") && path_has(path, "parts")) ||
            (path_has(path, "normal") && !path_has(path, "faces") && !path_has(path, "half_space") && !path_has(path, "disc"));
@@ -152,7 +152,6 @@ static void wrong_type_is_refused(const sample_path *path, void *data)
     case BRC_TYPE_STRUCT: value_refused(path, "[1, 2]", counted); break;
     case BRC_TYPE_LIST:
     case BRC_TYPE_NAMED: value_refused(path, "17", counted); break;
-    case BRC_TYPE_LATER: break; /* any value is refused, see the test of later keys */
     }
 }
 
@@ -213,7 +212,7 @@ static void out_of_range_is_refused(const sample_path *path, void *data)
 
 static void duplicate_is_refused(const sample_path *path, void *data)
 {
-    if (path->chain[path->depth - 1]->type != BRC_TYPE_LATER) expect_refusal(path, SAMPLE_DUPLICATE, NULL, 0, data);
+    expect_refusal(path, SAMPLE_DUPLICATE, NULL, 0, data);
 }
 
 static void missing_is_refused(const sample_path *path, void *data)
