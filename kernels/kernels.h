@@ -1,6 +1,7 @@
 /* Every kernel, in one translation unit: what an instance of the C builds and an OpenCL program are made of. */
 #include "portable.h"
 #include "vec.h"
+#include "svec.h"
 #include "elastic_svk.h"
 #include "dlsm_gradient.h"
 #include "dlsm_compaction.h"
