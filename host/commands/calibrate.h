@@ -44,8 +44,6 @@ typedef struct brc_calibration_rows {
 brc_status brc_calibrate_campaign(brc_context *context, const brc_calibration_plan *plan, const char *folder, bool resume,
                                   brc_calibration_rows *out);
 void brc_calibration_rows_free(brc_calibration_rows *rows);
-/* The cube of sample 0, 1, ... of a plan, packed to rest (NAH19 section 2.3) on one thread. edge [m]. */
-brc_status brc_calibrate_pack(brc_context *context, const brc_calibration_plan *plan, int64_t sample, double edge, brc_beam_sample **out);
 
 /* How well a form holds. */
 typedef struct brc_fit_quality {

@@ -1,6 +1,5 @@
 /* Figures of the campaign, as NAH19 Figs. 5 to 7 with our points, and the error map. */
 #include "calibrate.h"
-#include "../base/file.h"
 #include "../base/memory.h"
 #include "../output/gnuplot.h"
 #include <math.h>
@@ -47,8 +46,8 @@ static void against_radius(const figure *f, int quantity, brc_text *text)
                        "$points using 1:2:3 with points pointtype 7 pointsize 0.7 linecolor palette title 'solves'\n");
 }
 
-static void surface_of_nu(const figure *f, brc_text *text) { against_radius(f, BRC_QUANTITY_NU, text); }
-static void surface_of_e(const figure *f, brc_text *text) { against_radius(f, BRC_QUANTITY_E, text); }
+static void surface_of_nu(const void *self, brc_text *text) { against_radius(self, BRC_QUANTITY_NU, text); }
+static void surface_of_e(const void *self, brc_text *text) { against_radius(self, BRC_QUANTITY_E, text); }
 
 /* a b c d of eq. 17 or 18 against cn, with eq. 19 or 20 through them. */
 static void coefficients(const figure *f, int quantity, brc_text *text)
@@ -69,12 +68,13 @@ static void coefficients(const figure *f, int quantity, brc_text *text)
     brc_text_add(text, "unset multiplot\n");
 }
 
-static void coefficients_of_nu(const figure *f, brc_text *text) { coefficients(f, BRC_QUANTITY_NU, text); }
-static void coefficients_of_e(const figure *f, brc_text *text) { coefficients(f, BRC_QUANTITY_E, text); }
+static void coefficients_of_nu(const void *self, brc_text *text) { coefficients(self, BRC_QUANTITY_NU, text); }
+static void coefficients_of_e(const void *self, brc_text *text) { coefficients(self, BRC_QUANTITY_E, text); }
 
 /* Relative errors of the paper's form and of the law, over cn and r_m. */
-static void errors(const figure *f, brc_text *text)
+static void errors(const void *self, brc_text *text)
 {
+    const figure *f = self;
     static const int forms[2] = {BRC_FORM_TWO_STAGE, BRC_FORM_SURFACE};
     brc_text_add(text, "set multiplot layout 2,2\nset xlabel 'cn'\nset ylabel 'r_m'\nset key off\nset cblabel 'error [%%]'\nset offsets 0.4, 0.4, 0.06, 0.06\n"
                        "set palette defined (0 '#4477aa', 0.5 '#f7f7f7', 1 '#cc6677')\n");
@@ -100,7 +100,7 @@ brc_status brc_calibrate_figures(brc_context *context, const brc_calibration_pla
 {
     static const struct {
         const char *name;
-        void (*draw)(const figure *f, brc_text *text);
+        void (*draw)(const void *self, brc_text *text);
     } figures[] = {{"fig5a.png", surface_of_nu}, {"fig5b.png", surface_of_e}, {"fig6.png", coefficients_of_nu}, {"fig7.png", coefficients_of_e}, {"errors.png", errors}};
     brc_calibration_mean *means = NULL;
     figure f = {.plan = plan, .rows = rows, .fit = fit};
@@ -108,21 +108,11 @@ brc_status brc_calibrate_figures(brc_context *context, const brc_calibration_pla
     if (!fit->made[BRC_FORM_TWO_STAGE] || !fit->made[BRC_FORM_SURFACE]) return BRC_OK;
     BRC_TRY(brc_calibration_means(context, rows, &f.n_means, &means));
     f.means = means;
-    for (size_t k = 0; status == BRC_OK && k < sizeof figures / sizeof *figures; ++k) {
-        brc_text script = {.context = context};
-        char *path = NULL, *aside = NULL;
-        bool made = true;
-        status = brc_file_join(context, folder, figures[k].name, &path);
-        if (status == BRC_OK) status = brc_file_aside(context, path, &aside);
-        if (status == BRC_OK) {
-            brc_gnuplot_begin(&script, 1400, 1000, aside);
-            figures[k].draw(&f, &script);
-            status = brc_gnuplot_draw(context, &script, aside, path, "solves.csv", &made);
-        }
-        brc_text_free(&script);
-        brc_memory_free(aside);
-        brc_memory_free(path);
-        if (!made) break; /* one warning is enough */
+    bool made = true; /* one warning is enough */
+    for (size_t k = 0; status == BRC_OK && made && k < sizeof figures / sizeof *figures; ++k) {
+        const brc_gnuplot_figure one = {
+            .folder = folder, .name = figures[k].name, .numbers = "solves.csv", .width = 1400, .height = 1000, .draw = figures[k].draw, .self = &f};
+        status = brc_gnuplot_make(context, &one, &made);
     }
     brc_memory_free(means);
     return status;

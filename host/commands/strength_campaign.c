@@ -1,11 +1,9 @@
-/* The fracture tests of a campaign: a packing is bonded once for all that is missing at one coordination number. */
+/* The fracture tests of a campaign (sample_campaign.h). */
 #include "strength_campaign.h"
-#include "../base/memory.h"
-#include "ensemble.h"
+#include "sample_campaign.h"
 #include "strength_test.h"
+#include "../base/memory.h"
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* The paper's cube [m], and nu_m, which hardly matters (0.3 % of E from 0 to 0.45). */
 #define EDGE 2e-3
@@ -13,32 +11,17 @@
 
 static const char header[] = "elements,radius_spread,seed,axis,cn,r_m,E_m_Pa,sigma_m_Pa,passages,k,k_first,strain,bonds,loose,broken,steps,seconds\n";
 
-void brc_strength_rows_free(brc_strength_rows *rows)
+static void print_line(const void *row, char *out, size_t room)
 {
-    brc_memory_free(rows->rows);
-    memset(rows, 0, sizeof *rows);
-}
-
-static brc_status add_row(brc_context *context, brc_strength_rows *rows, const brc_strength_row *row)
-{
-    if (rows->n == rows->capacity) {
-        const int64_t room = rows->capacity > 0 ? 2 * rows->capacity : 256;
-        BRC_TRY(brc_memory_resize(context, (void **)&rows->rows, room, sizeof *rows->rows, "results of a campaign"));
-        rows->capacity = room;
-    }
-    rows->rows[rows->n++] = *row;
-    return BRC_OK;
-}
-
-static void print_line(char *out, size_t room, const brc_strength_row *r)
-{
+    const brc_strength_row *r = row;
     snprintf(out, room, "%lld,%.17g,%llu,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld,%lld,%lld,%.3f\n", (long long)r->n_elements,
              r->radius_spread, (unsigned long long)r->seed, r->axis, r->coordination, r->radius, r->beam_young, r->limit, r->passages, r->ratio, r->first,
              r->strain, (long long)r->n_bonds, (long long)r->n_loose, (long long)r->n_broken, (long long)r->n_steps, r->seconds);
 }
 
-static bool parse_line(const char *line, brc_strength_row *r)
+static bool parse_line(const char *line, void *row)
 {
+    brc_strength_row *r = row;
     long long elements, bonds, loose, broken, steps;
     unsigned long long seed;
     int end = 0;
@@ -54,113 +37,47 @@ static bool parse_line(const char *line, brc_strength_row *r)
     return n == 17 && line[end] == '\0' && isfinite(r->ratio) && isfinite(r->first);
 }
 
-/* A campaign at work. What several threads touch is touched inside `omp critical (brc_strength)`. */
-typedef struct work {
-    brc_context *context;
-    const brc_strength_plan *plan;
-    brc_beam_sample **sample; /* [n_samples] NULL: nothing left to do with it */
-    brc_strength_rows before;
-    brc_strength_rows *rows;
-    brc_ensemble_file file;
-} work;
-
-static bool take_line(void *self, const char *line, brc_status *status)
+static int count(const void *plan)
 {
-    work *w = self;
-    brc_strength_row row;
-    if (!parse_line(line, &row)) return false;
-    *status = add_row(w->context, &w->before, &row);
-    return true;
+    const brc_strength_plan *p = plan;
+    return p->samples.n_axes * p->samples.n_radii * p->samples.n_youngs * p->n_limits;
 }
 
-/* Test k of a sample and a coordination number, with its keys alone. */
-static int n_each(const brc_strength_plan *plan) { return plan->samples.n_axes * plan->samples.n_radii * plan->samples.n_youngs * plan->n_limits; }
-
-static brc_strength_row test_of(const brc_strength_plan *plan, int sample, double coordination, int k)
+static void key(const void *plan, uint64_t seed, double coordination, int k, void *row)
 {
-    const brc_calibration_plan *s = &plan->samples;
-    const int limit = k % plan->n_limits, young = k / plan->n_limits % s->n_youngs, radius = k / plan->n_limits / s->n_youngs % s->n_radii;
-    return (brc_strength_row){.n_elements = s->n_elements, .radius_spread = s->radius_spread, .seed = s->seed + (uint64_t)sample,
-                              .axis = k / plan->n_limits / s->n_youngs / s->n_radii, .coordination = coordination, .radius = s->radius[radius],
-                              .beam_young = s->young[young], .limit = plan->limit[limit], .passages = plan->passages};
+    const brc_strength_plan *p = plan;
+    const brc_calibration_plan *s = &p->samples;
+    const int limit = k % p->n_limits, young = k / p->n_limits % s->n_youngs, radius = k / p->n_limits / s->n_youngs % s->n_radii;
+    *(brc_strength_row *)row = (brc_strength_row){.n_elements = s->n_elements, .radius_spread = s->radius_spread, .seed = seed,
+                                                  .axis = k / p->n_limits / s->n_youngs / s->n_radii, .coordination = coordination,
+                                                  .radius = s->radius[radius], .beam_young = s->young[young], .limit = p->limit[limit],
+                                                  .passages = p->passages};
 }
 
-static const brc_strength_row *find(const work *w, const brc_strength_row *key)
+static bool same(const void *row, const void *wanted)
 {
-    for (int64_t k = 0; k < w->before.n; ++k) {
-        const brc_strength_row *row = &w->before.rows[k];
-        if (row->n_elements == key->n_elements && row->radius_spread == key->radius_spread && row->seed == key->seed && row->axis == key->axis &&
-            row->coordination == key->coordination && row->radius == key->radius && row->beam_young == key->beam_young && row->limit == key->limit &&
-            row->passages == key->passages)
-            return row;
-    }
-    return NULL;
+    const brc_strength_row *a = row, *b = wanted;
+    return a->n_elements == b->n_elements && a->radius_spread == b->radius_spread && a->seed == b->seed && a->axis == b->axis &&
+           a->coordination == b->coordination && a->radius == b->radius && a->beam_young == b->beam_young && a->limit == b->limit &&
+           a->passages == b->passages;
 }
 
-static int count_missing(const work *w, int sample, double coordination)
+static brc_status test(brc_context *context, brc_device *device, const brc_domain *domain, void *row)
 {
-    int n = 0;
-    for (int k = 0; k < n_each(w->plan); ++k) {
-        const brc_strength_row key = test_of(w->plan, sample, coordination, k);
-        n += !find(w, &key);
-    }
-    return n;
-}
-
-static brc_status pack(void *self, brc_context *context, brc_device *device, int64_t sample)
-{
-    work *w = self;
-    const brc_calibration_plan *s = &w->plan->samples;
-    int missing = 0;
-    (void)device;
-    for (int c = 0; c < s->n_coordinations; ++c) missing += count_missing(w, (int)sample, s->coordination[c]);
-    return missing ? brc_calibrate_pack(context, s, sample, EDGE, &w->sample[sample]) : BRC_OK;
-}
-
-static brc_status keep(work *w, brc_context *context, const brc_strength_row *row)
-{
-    char line[512];
-    brc_status status;
-    print_line(line, sizeof line, row);
-#pragma omp critical(brc_strength)
-    {
-        status = add_row(context, w->rows, row);
-        if (status == BRC_OK) status = brc_ensemble_keep(context, &w->file, line);
-    }
-    return status;
-}
-
-/* All that is missing at one coordination number of one sample. Few bonds first: their tests take longest. */
-static brc_status test_all(void *self, brc_context *context, brc_device *device, int64_t task)
-{
-    work *w = self;
-    const brc_calibration_plan *s = &w->plan->samples;
-    const int sample = (int)(task % s->n_samples);
-    const double coordination = s->coordination[task / s->n_samples];
-    brc_domain *domain = NULL;
-    brc_status status = BRC_OK;
-    if (count_missing(w, sample, coordination) == 0) return BRC_OK;
-    BRC_TRY(brc_beam_sample_bond(context, w->sample[sample], coordination, 1, &domain));
-    for (int k = 0; k < n_each(w->plan); ++k) {
-        brc_strength_row row = test_of(w->plan, sample, coordination, k);
-        brc_strength_answer answer;
-        if (find(w, &row)) continue;
-        const brc_strength_pull pull = {.axis = row.axis, .radius_spread = row.radius_spread, .radius = row.radius, .beam_poisson = BEAM_POISSON,
-                                        .beam_young = row.beam_young, .limit = row.limit, .passages = row.passages};
-        BRC_TRY_OR(cleanup, brc_strength_test(context, device, domain, &pull, &answer));
-        row.ratio = answer.ratio;
-        row.first = answer.first;
-        row.strain = answer.strain;
-        row.n_bonds = answer.n_bonds;
-        row.n_loose = answer.n_loose;
-        row.n_broken = answer.n_broken;
-        row.n_steps = answer.n_steps;
-        row.seconds = answer.seconds;
-        BRC_TRY_OR(cleanup, keep(w, context, &row));
-    }
-cleanup:
-    brc_domain_free(&domain);
-    return status;
+    brc_strength_row *r = row;
+    brc_strength_answer answer;
+    const brc_strength_pull pull = {.axis = r->axis, .radius_spread = r->radius_spread, .radius = r->radius, .beam_poisson = BEAM_POISSON,
+                                    .beam_young = r->beam_young, .limit = r->limit, .passages = r->passages};
+    BRC_TRY(brc_strength_test(context, device, domain, &pull, &answer));
+    r->ratio = answer.ratio;
+    r->first = answer.first;
+    r->strain = answer.strain;
+    r->n_bonds = answer.n_bonds;
+    r->n_loose = answer.n_loose;
+    r->n_broken = answer.n_broken;
+    r->n_steps = answer.n_steps;
+    r->seconds = answer.seconds;
+    return BRC_OK;
 }
 
 static int compare(const void *left, const void *right)
@@ -173,44 +90,19 @@ static int compare(const void *left, const void *right)
     return 0;
 }
 
-/* Tests of the plan that were there already go to the rows of this campaign. */
-static brc_status take_finished(work *w, int64_t *missing)
-{
-    const brc_calibration_plan *s = &w->plan->samples;
-    *missing = 0;
-    for (int sample = 0; sample < s->n_samples; ++sample)
-        for (int c = 0; c < s->n_coordinations; ++c)
-            for (int k = 0; k < n_each(w->plan); ++k) {
-                const brc_strength_row key = test_of(w->plan, sample, s->coordination[c], k), *row = find(w, &key);
-                if (row) BRC_TRY(add_row(w->context, w->rows, row));
-                else ++*missing;
-            }
-    return BRC_OK;
-}
-
 brc_status brc_strength_campaign(brc_context *context, const brc_strength_plan *plan, const char *folder, bool resume, brc_strength_rows *out)
 {
-    const brc_calibration_plan *s = &plan->samples;
-    work w = {.context = context, .plan = plan, .rows = out};
-    brc_status status = BRC_OK;
-    int64_t missing = 0;
-    memset(out, 0, sizeof *out);
-    BRC_TRY_OR(cleanup, brc_ensemble_open(context, folder, "tests.csv", header, resume, take_line, &w, &w.file));
-    BRC_TRY_OR(cleanup, take_finished(&w, &missing));
-    if (out->n > 0) brc_log(context, BRC_LOG_INFO, "%s: %lld tests are there, %lld to go", w.file.path, (long long)out->n, (long long)missing);
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &w.sample, s->n_samples, "samples of a campaign"));
-    if (missing > 0) {
-        BRC_TRY_OR(cleanup, brc_ensemble_each(context, s->n_threads, s->n_samples, pack, &w));
-        BRC_TRY_OR(cleanup, brc_progress_create(context, &w.file.progress, "fracture tests", missing, "tests", 0, NULL));
-        BRC_TRY_OR(cleanup, brc_ensemble_each(context, s->n_threads, (int64_t)s->n_samples * s->n_coordinations, test_all, &w));
-    }
-    qsort(out->rows, (size_t)out->n, sizeof *out->rows, compare);
-cleanup:
-    if (status == BRC_OK) status = brc_ensemble_close(context, &w.file);
-    else brc_ensemble_close(context, &w.file);
-    for (int k = 0; w.sample && k < s->n_samples; ++k) brc_beam_sample_free(&w.sample[k]);
-    brc_memory_free(w.sample);
-    brc_strength_rows_free(&w.before);
-    if (status != BRC_OK) brc_strength_rows_free(out);
+    static const brc_sample_campaign_kind kind = {.file = "tests.csv", .header = header, .title = "fracture tests", .unit = "tests", .edge = EDGE,
+                                           .row_size = sizeof(brc_strength_row), .count = count, .key = key, .same = same, .compare = compare,
+                                           .print = print_line, .parse = parse_line, .test = test};
+    brc_sample_campaign_rows rows;
+    const brc_status status = brc_sample_campaign_run(context, &kind, &plan->samples, plan, folder, resume, &rows);
+    *out = (brc_strength_rows){.n = rows.n, .capacity = rows.capacity, .rows = rows.row};
     return status;
+}
+
+void brc_strength_rows_free(brc_strength_rows *rows)
+{
+    brc_memory_free(rows->rows);
+    *rows = (brc_strength_rows){0};
 }

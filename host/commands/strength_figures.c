@@ -1,6 +1,5 @@
 /* Figures of the fracture campaign: NAH19 Figs. 8 and 9 with our points, and the error map. */
 #include "strength_campaign.h"
-#include "../base/file.h"
 #include "../base/memory.h"
 #include "../output/gnuplot.h"
 #include <math.h>
@@ -26,8 +25,9 @@ static void colours(const figure *f, brc_text *text)
 static const brc_strength_law *law_of(const figure *f, int form) { return f->fit->made[form] ? &f->fit->law[form] : brc_strength_law_default(); }
 
 /* sigma_M against sigma_m: points of all tests; k times sigma_m by our law and by eq. 22, for the least and the most bonds at each radius of the plan. */
-static void against_limit(const figure *f, brc_text *text)
+static void against_limit(const void *self, brc_text *text)
 {
+    const figure *f = self;
     const brc_calibration_plan *s = &f->plan->samples;
     const double ends[2] = {s->coordination[0], s->coordination[s->n_coordinations - 1]};
     brc_text_add(text, "set xlabel '{/Symbol s}_m [MPa]'\nset ylabel '{/Symbol s}_M [MPa]'\nset key top left\nset logscale xy\n");
@@ -52,8 +52,9 @@ static void against_limit(const figure *f, brc_text *text)
 }
 
 /* k against E_m, one symbol a sigma_m: what is left of both when k is taken. */
-static void against_young(const figure *f, brc_text *text)
+static void against_young(const void *self, brc_text *text)
 {
+    const figure *f = self;
     const double *limit = f->plan->limit;
     brc_text_add(text, "set xlabel 'E_m [GPa]'\nset ylabel 'k = {/Symbol s}_M / {/Symbol s}_m'\nset key outside right\nset xrange [400:2100]\n");
     for (int l = 0; l < f->plan->n_limits; ++l) {
@@ -68,8 +69,9 @@ static void against_young(const figure *f, brc_text *text)
 }
 
 /* k against r_m, one colour a coordination number: means of the tests with their standard deviation, and three forms. */
-static void against_radius(const figure *f, brc_text *text)
+static void against_radius(const void *self, brc_text *text)
 {
+    const figure *f = self;
     const brc_calibration_plan *s = &f->plan->samples;
     brc_text_add(text, "set xlabel 'r_m'\nset ylabel 'k = {/Symbol s}_M / {/Symbol s}_m'\nset key bottom right\n");
     colours(f, text);
@@ -97,8 +99,9 @@ static void against_radius(const figure *f, brc_text *text)
 }
 
 /* Relative errors of the three forms over cn and r_m. */
-static void errors(const figure *f, brc_text *text)
+static void errors(const void *self, brc_text *text)
 {
+    const figure *f = self;
     brc_text_add(text, "set multiplot layout 2,2\nset xlabel 'cn'\nset ylabel 'r_m'\nset key off\nset cblabel 'error of k [%%]'\nset offsets 0.4, 0.4, 0.06, 0.06\n"
                        "set palette defined (0 '#4477aa', 0.5 '#f7f7f7', 1 '#cc6677')\n");
     for (int form = 0; form < BRC_STRENGTH_FORMS; ++form) {
@@ -122,7 +125,7 @@ brc_status brc_strength_figures(brc_context *context, const brc_strength_plan *p
 {
     static const struct {
         const char *name;
-        void (*draw)(const figure *f, brc_text *text);
+        void (*draw)(const void *self, brc_text *text);
         bool of_fits;
     } figures[] = {{"fig8a.png", against_limit, false}, {"fig8b.png", against_young, false}, {"fig9.png", against_radius, true}, {"errors.png", errors, true}};
     brc_strength_mean *means = NULL;
@@ -131,22 +134,12 @@ brc_status brc_strength_figures(brc_context *context, const brc_strength_plan *p
     const bool all_made = fit->made[BRC_STRENGTH_PUBLISHED] && fit->made[BRC_STRENGTH_REFITTED] && fit->made[BRC_STRENGTH_SURFACE];
     BRC_TRY(brc_strength_means(context, fit, rows, &f.n_means, &means));
     f.means = means;
-    for (size_t k = 0; status == BRC_OK && k < sizeof figures / sizeof *figures; ++k) {
-        brc_text script = {.context = context};
-        char *path = NULL, *aside = NULL;
-        bool made = true;
+    bool made = true; /* one warning is enough */
+    for (size_t k = 0; status == BRC_OK && made && k < sizeof figures / sizeof *figures; ++k) {
         if (figures[k].of_fits && !all_made) continue;
-        status = brc_file_join(context, folder, figures[k].name, &path);
-        if (status == BRC_OK) status = brc_file_aside(context, path, &aside);
-        if (status == BRC_OK) {
-            brc_gnuplot_begin(&script, 1400, 1000, aside);
-            figures[k].draw(&f, &script);
-            status = brc_gnuplot_draw(context, &script, aside, path, "tests.csv", &made);
-        }
-        brc_text_free(&script);
-        brc_memory_free(aside);
-        brc_memory_free(path);
-        if (!made) break; /* one warning is enough */
+        const brc_gnuplot_figure one = {
+            .folder = folder, .name = figures[k].name, .numbers = "tests.csv", .width = 1400, .height = 1000, .draw = figures[k].draw, .self = &f};
+        status = brc_gnuplot_make(context, &one, &made);
     }
     brc_memory_free(means);
     return status;

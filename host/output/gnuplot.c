@@ -68,3 +68,21 @@ cleanup:
     brc_memory_free(name);
     return status;
 }
+
+brc_status brc_gnuplot_make(brc_context *context, const brc_gnuplot_figure *figure, bool *made)
+{
+    brc_text script = {.context = context};
+    char *path = NULL, *aside = NULL;
+    brc_status status = BRC_OK;
+    *made = false;
+    BRC_TRY_OR(cleanup, brc_file_join(context, figure->folder, figure->name, &path));
+    BRC_TRY_OR(cleanup, brc_file_aside(context, path, &aside));
+    brc_gnuplot_begin(&script, figure->width, figure->height, aside);
+    figure->draw(figure->self, &script);
+    status = brc_gnuplot_draw(context, &script, aside, path, figure->numbers, made);
+cleanup:
+    brc_text_free(&script);
+    brc_memory_free(aside);
+    brc_memory_free(path);
+    return status;
+}
