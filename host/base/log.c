@@ -27,12 +27,16 @@ struct brc_progress {
     char rate_name[32];
 };
 
-double brc_clock_s(void)
+static double read_clock(clockid_t clock)
 {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(clock, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
+
+double brc_clock_s(void) { return read_clock(CLOCK_MONOTONIC); }
+
+double brc_processor_s(void) { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
 
 void brc_log_set_level(brc_context *context, brc_log_level level)
 {

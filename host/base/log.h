@@ -26,5 +26,7 @@ void brc_progress_finish(brc_progress **progress);
 
 /* Monotonic wall clock [s]. */
 double brc_clock_s(void);
+/* Processor time of all threads of the process [s]: what work takes on a machine that others use too. */
+double brc_processor_s(void);
 
 #endif

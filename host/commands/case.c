@@ -1,10 +1,8 @@
 /* Reading a case: the node tree of scenes, with keys of our own. */
-#include "case.h"
 #include "case_files.h"
+#include "case_node.h"
 #include "../base/file.h"
 #include "../base/memory.h"
-#include "../scene/node.h"
-#include "../scene/unit.h"
 #include <math.h>
 #include <stdlib.h>
 #include <stdio.h>
@@ -45,99 +43,23 @@ brc_status brc_case_text(brc_context *context, const char *folder, const char *n
     return BRC_FAIL(context, BRC_BAD_INPUT, "case '%s' has no file %s; `breccia reproduce --list` names the cases", name, file);
 }
 
-/* Everything a reading function needs. */
-typedef struct reader {
-    brc_context *context;
-    brc_problems *problems;
-} reader;
-
-static void wrong(const reader *r, const brc_node *node, const char *expected)
-{
-    char found[96];
-    brc_problems_add(r->problems, node->mark, "%s%sfound %s, expected %s", node->key, node->key[0] ? ": " : "",
-                     brc_node_describe(node, found, sizeof found), expected);
-}
-
-static const char *text_of(const reader *r, const brc_node *node)
-{
-    if (node->kind == BRC_NODE_SCALAR) return node->text;
-    wrong(r, node, "a text");
-    return "";
-}
-
-static bool flag_of(const reader *r, const brc_node *node)
-{
-    if (node->kind == BRC_NODE_SCALAR && strcmp(node->text, "true") == 0) return true;
-    if (node->kind != BRC_NODE_SCALAR || strcmp(node->text, "false") != 0) wrong(r, node, "true or false");
-    return false;
-}
-
-/* A number, with a unit or without; in SI. */
-static double number_of(const reader *r, const brc_node *node)
-{
-    double value = NAN;
-    brc_dimension dimension;
-    bool bare;
-    if (node->kind != BRC_NODE_SCALAR || brc_quantity_parse(node->text, &value, &dimension, &bare) != BRC_QUANTITY_OK)
-        wrong(r, node, "a number, e.g. 20 GPa or 1e-5");
-    return value;
-}
-
-static int word_of(const reader *r, const brc_node *node, const char *const *words)
-{
-    char expected[160] = "one of:";
-    for (int k = 0; words[k]; ++k) {
-        if (node->kind == BRC_NODE_SCALAR && strcmp(node->text, words[k]) == 0) return k;
-        snprintf(expected + strlen(expected), sizeof expected - strlen(expected), " %s", words[k]);
-    }
-    wrong(r, node, expected);
-    return 0;
-}
-
-/* Texts of a list (a lone text is a list of one). */
-static int texts_of(const reader *r, const brc_node *node, const char **out)
-{
-    if (node->kind == BRC_NODE_SCALAR) {
-        out[0] = node->text;
-        return 1;
-    }
-    int n = 0;
-    if (node->kind != BRC_NODE_LIST || node->n_children > BRC_CASE_LIST)
-        wrong(r, node, "a list of at most " BRC_STRING(BRC_CASE_LIST) " texts");
-    else
-        for (const brc_node *item = node->first; item; item = item->next)
-            out[n++] = text_of(r, item);
-    return n;
-}
-
-static int pairs_of(const reader *r, const brc_node *node, brc_case_pair *out)
-{
-    int n = 0;
-    if (node->kind != BRC_NODE_MAP || node->n_children > BRC_CASE_LIST)
-        wrong(r, node, "a map of at most " BRC_STRING(BRC_CASE_LIST) " texts");
-    else
-        for (const brc_node *item = node->first; item; item = item->next)
-            out[n++] = (brc_case_pair){item->key, text_of(r, item)};
-    return n;
-}
-
 /* A key of a row; false when it is none. */
-static bool read_row_key(const reader *r, const brc_node *item, brc_case_row *row)
+static bool read_row_key(const brc_case_reader *r, const brc_node *item, brc_case_row *row)
 {
     if (strcmp(item->key, "unit") == 0)
-        row->unit = text_of(r, item);
+        row->unit = brc_case_text_of(r, item);
     else if (strcmp(item->key, "reference") == 0)
-        row->reference = number_of(r, item);
+        row->reference = brc_case_number_of(r, item);
     else if (strcmp(item->key, "paper") == 0)
-        row->paper = number_of(r, item);
+        row->paper = brc_case_number_of(r, item);
     else if (strcmp(item->key, "absolute") == 0)
-        row->absolute = flag_of(r, item);
+        row->absolute = brc_case_flag_of(r, item);
     else if (strcmp(item->key, "bound") == 0)
-        row->rule = BRC_CASE_ERROR_BOUND, row->bound = number_of(r, item);
+        row->rule = BRC_CASE_ERROR_BOUND, row->bound = brc_case_number_of(r, item);
     else if (strcmp(item->key, "at_most") == 0)
-        row->rule = BRC_CASE_AT_MOST, row->bound = number_of(r, item);
+        row->rule = BRC_CASE_AT_MOST, row->bound = brc_case_number_of(r, item);
     else if (strcmp(item->key, "at_least") == 0)
-        row->rule = BRC_CASE_AT_LEAST, row->bound = number_of(r, item);
+        row->rule = BRC_CASE_AT_LEAST, row->bound = brc_case_number_of(r, item);
     else
         return false;
     return true;
@@ -148,105 +70,99 @@ static brc_case_row empty_row(const char *quantity)
     return (brc_case_row){.quantity = quantity, .unit = "-", .reference = NAN, .paper = NAN, .rule = BRC_CASE_INFORMATION};
 }
 
-static void unknown_key(const reader *r, const brc_node *item, const char *where)
-{
-    brc_problems_add(r->problems, item->key_mark, "unknown key '%s' in a %s", item->key, where);
-}
-
-static brc_status read_rows(const reader *r, const brc_node *node, brc_case_run *run)
+static brc_status read_rows(const brc_case_reader *r, const brc_node *node, brc_case_run *run)
 {
     if (node->kind != BRC_NODE_MAP) {
-        wrong(r, node, "a map from quantity to what is expected of it");
+        brc_case_wrong(r, node, "a map from quantity to what is expected of it");
         return BRC_OK;
     }
     BRC_TRY(BRC_ALLOCATE(r->context, &run->rows, node->n_children, "rows of a case"));
     for (const brc_node *item = node->first; item; item = item->next) {
         brc_case_row *row = &run->rows[run->n_rows++];
         *row = empty_row(item->key);
-        if (item->kind != BRC_NODE_MAP) wrong(r, item, "a map such as {reference: 0.3, bound: 1e-5}");
+        if (item->kind != BRC_NODE_MAP) brc_case_wrong(r, item, "a map such as {reference: 0.3, bound: 1e-5}");
         for (const brc_node *key = item->first; item->kind == BRC_NODE_MAP && key; key = key->next)
-            if (!read_row_key(r, key, row)) unknown_key(r, key, "row");
+            if (!read_row_key(r, key, row)) brc_case_unknown_key(r, key, "row");
     }
     return BRC_OK;
 }
 
-static brc_status read_run(const reader *r, const brc_node *node, brc_case_run *run)
+static brc_status read_run(const brc_case_reader *r, const brc_node *node, brc_case_run *run)
 {
-    static const char *const operators[] = {"measures", "vibration", "drift", "build", "isotropy", "beams", "hondros", "virial", "pressing", NULL};
     static const char *const precisions[] = {"double", "mixed", "single", NULL};
     *run = (brc_case_run){.name = "", .scene = "scene.yaml", .n_seeds = 1};
-    if (node->kind != BRC_NODE_MAP) wrong(r, node, "a map");
+    if (node->kind != BRC_NODE_MAP) brc_case_wrong(r, node, "a map");
     for (const brc_node *item = node->first; node->kind == BRC_NODE_MAP && item; item = item->next) {
         if (strcmp(item->key, "name") == 0)
-            run->name = text_of(r, item);
+            run->name = brc_case_text_of(r, item);
         else if (strcmp(item->key, "scene") == 0)
-            run->scene = text_of(r, item);
+            run->scene = brc_case_text_of(r, item);
         else if (strcmp(item->key, "quick") == 0)
-            run->quick = flag_of(r, item);
+            run->quick = brc_case_flag_of(r, item);
         else if (strcmp(item->key, "keep") == 0)
-            run->keep = flag_of(r, item);
+            run->keep = brc_case_flag_of(r, item);
         else if (strcmp(item->key, "may_stop") == 0)
-            run->may_stop = flag_of(r, item);
+            run->may_stop = brc_case_flag_of(r, item);
         else if (strcmp(item->key, "exact") == 0)
-            run->exact = flag_of(r, item);
+            run->exact = brc_case_flag_of(r, item);
         else if (strcmp(item->key, "with") == 0)
-            run->operator = (brc_case_operator)word_of(r, item, operators);
+            run->operator = (brc_case_operator)brc_case_word_of(r, item, brc_case_operators);
         else if (strcmp(item->key, "device") == 0)
-            run->device = text_of(r, item);
+            run->device = brc_case_text_of(r, item);
         else if (strcmp(item->key, "precision") == 0)
-            run->has_precision = true, run->precision = (brc_precision)word_of(r, item, precisions);
+            run->has_precision = true, run->precision = (brc_precision)brc_case_word_of(r, item, precisions);
         else if (strcmp(item->key, "threads") == 0)
-            run->n_threads = (int)number_of(r, item);
+            run->n_threads = (int)brc_case_number_of(r, item);
         else if (strcmp(item->key, "seeds") == 0) {
-            run->n_seeds = (int)number_of(r, item);
-            if (run->n_seeds < 1) wrong(r, item, "1 or more samples");
+            run->n_seeds = (int)brc_case_number_of(r, item);
+            if (run->n_seeds < 1) brc_case_wrong(r, item, "1 or more samples");
         } else if (strcmp(item->key, "half_angle") == 0)
-            run->half_angle = number_of(r, item);
+            run->half_angle = brc_case_number_of(r, item);
         else if (strcmp(item->key, "files") == 0)
-            run->n_files = texts_of(r, item, run->files);
+            run->n_files = brc_case_texts_of(r, item, run->files);
         else if (strcmp(item->key, "set") == 0)
-            run->n_overrides = texts_of(r, item, run->overrides);
+            run->n_overrides = brc_case_texts_of(r, item, run->overrides);
         else if (strcmp(item->key, "label") == 0)
-            run->n_labels = pairs_of(r, item, run->labels);
+            run->n_labels = brc_case_pairs_of(r, item, run->labels);
         else if (strcmp(item->key, "rows") == 0)
             BRC_TRY(read_rows(r, item, run));
         else
-            unknown_key(r, item, "run");
+            brc_case_unknown_key(r, item, "run");
     }
-    if (!run->name[0]) wrong(r, node, "a run with a name");
+    if (!run->name[0]) brc_case_wrong(r, node, "a run with a name");
     return BRC_OK;
 }
 
-static void read_derived(const reader *r, const brc_node *node, brc_case_derived *derived)
+static void read_derived(const brc_case_reader *r, const brc_node *node, brc_case_derived *derived)
 {
     static const char *const formulas[] = {"mean", "worst", "order", "range", "ratio", "difference", NULL};
     *derived = (brc_case_derived){.row = empty_row(""), .of = "", .against = "spacing"};
-    if (node->kind != BRC_NODE_MAP) wrong(r, node, "a map");
+    if (node->kind != BRC_NODE_MAP) brc_case_wrong(r, node, "a map");
     for (const brc_node *item = node->first; node->kind == BRC_NODE_MAP && item; item = item->next) {
         if (strcmp(item->key, "quantity") == 0)
-            derived->row.quantity = text_of(r, item);
+            derived->row.quantity = brc_case_text_of(r, item);
         else if (strcmp(item->key, "formula") == 0)
-            derived->formula = (brc_case_formula)word_of(r, item, formulas);
+            derived->formula = (brc_case_formula)brc_case_word_of(r, item, formulas);
         else if (strcmp(item->key, "quick") == 0)
-            derived->quick = flag_of(r, item);
+            derived->quick = brc_case_flag_of(r, item);
         else if (strcmp(item->key, "of") == 0)
-            derived->of = text_of(r, item);
+            derived->of = brc_case_text_of(r, item);
         else if (strcmp(item->key, "against") == 0)
-            derived->against = text_of(r, item);
+            derived->against = brc_case_text_of(r, item);
         else if (strcmp(item->key, "origin") == 0)
-            derived->origin = number_of(r, item);
+            derived->origin = brc_case_number_of(r, item);
         else if (strcmp(item->key, "runs") == 0)
-            derived->n_runs = texts_of(r, item, derived->runs);
+            derived->n_runs = brc_case_texts_of(r, item, derived->runs);
         else if (strcmp(item->key, "label") == 0)
-            derived->n_labels = pairs_of(r, item, derived->labels);
+            derived->n_labels = brc_case_pairs_of(r, item, derived->labels);
         else if (!read_row_key(r, item, &derived->row))
-            unknown_key(r, item, "derived row");
+            brc_case_unknown_key(r, item, "derived row");
     }
-    if (derived->n_runs == 0) wrong(r, node, "a derived row with runs");
+    if (derived->n_runs == 0) brc_case_wrong(r, node, "a derived row with runs");
 }
 
 /* Every run that a derived row names exists, and is quick where the row is. */
-static void check_names(const reader *r, const brc_node *root, const brc_case *what)
+static void check_names(const brc_case_reader *r, const brc_node *root, const brc_case *what)
 {
     for (int d = 0; d < what->n_derived; ++d)
         for (int k = 0; k < what->derived[d].n_runs; ++k) {
@@ -259,17 +175,17 @@ static void check_names(const reader *r, const brc_node *root, const brc_case *w
         }
 }
 
-static brc_status read_top(const reader *r, const brc_node *root, brc_case *what)
+static brc_status read_top(const brc_case_reader *r, const brc_node *root, brc_case *what)
 {
     if (root->kind != BRC_NODE_MAP) {
-        wrong(r, root, "a map with title and runs");
+        brc_case_wrong(r, root, "a map with title and runs");
         return BRC_OK;
     }
     for (const brc_node *item = root->first; item; item = item->next) {
         if (strcmp(item->key, "title") == 0)
-            what->title = text_of(r, item);
+            what->title = brc_case_text_of(r, item);
         else if (strcmp(item->key, "about") == 0)
-            what->about = text_of(r, item);
+            what->about = brc_case_text_of(r, item);
         else if (strcmp(item->key, "runs") == 0 && item->kind == BRC_NODE_LIST) {
             BRC_TRY(BRC_ALLOCATE(r->context, &what->runs, item->n_children, "runs of a case"));
             for (const brc_node *run = item->first; run; run = run->next)
@@ -279,7 +195,7 @@ static brc_status read_top(const reader *r, const brc_node *root, brc_case *what
             for (const brc_node *derived = item->first; derived; derived = derived->next)
                 read_derived(r, derived, &what->derived[what->n_derived++]);
         } else
-            unknown_key(r, item, "case");
+            brc_case_unknown_key(r, item, "case");
     }
     check_names(r, root, what);
     return BRC_OK;
@@ -303,12 +219,11 @@ static brc_status unknown_case(brc_context *context, const char *name)
 brc_status brc_case_read(brc_context *context, const char *folder, const char *name, brc_case **out)
 {
     brc_status status = BRC_OK;
-    char *text = NULL;
-    size_t bytes = 0;
     brc_problems *problems = NULL;
     brc_case *what = NULL;
     brc_node *root = NULL;
     char file_name[160];
+    snprintf(file_name, sizeof file_name, "%s/case.yaml", name);
     *out = NULL;
     if (!folder) {
         bool known = false;
@@ -317,16 +232,12 @@ brc_status brc_case_read(brc_context *context, const char *folder, const char *n
             known = strlen(name) == case_part(path) && memcmp(name, path, case_part(path)) == 0;
         if (!known) return unknown_case(context, name);
     }
-    snprintf(file_name, sizeof file_name, "%s/case.yaml", name);
-    BRC_TRY_OR(cleanup, brc_case_text(context, folder, name, "case.yaml", &text, &bytes));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &what, 1, "a case"));
     what->name = name;
     what->folder = folder;
     what->title = what->about = "";
-    BRC_TRY_OR(cleanup, brc_tree_create(context, &what->tree));
-    BRC_TRY_OR(cleanup, brc_problems_create(context, file_name, 0, NULL, &problems));
-    BRC_TRY_OR(cleanup, brc_tree_parse(what->tree, problems, 0, text, bytes, &root));
-    const reader r = {context, problems};
+    BRC_TRY_OR(cleanup, brc_case_parse(context, folder, name, "case.yaml", file_name, &what->tree, &problems, &root));
+    const brc_case_reader r = {context, problems};
     if (root) BRC_TRY_OR(cleanup, read_top(&r, root, what));
     BRC_TRY_OR(cleanup, brc_problems_report(problems));
     *out = what;
@@ -334,7 +245,6 @@ brc_status brc_case_read(brc_context *context, const char *folder, const char *n
 cleanup:
     brc_problems_free(&problems);
     brc_case_free(&what);
-    brc_memory_free(text);
     return status;
 }
 

@@ -1,11 +1,17 @@
-# cmake -DFOLDER=tests/validation -DOUTPUT=file.c -P case_files.cmake: every *.yaml and (ASCII) *.stl one folder below as a C string, one
-# literal a line.
+# cmake -DFOLDER=tests/validation -DSWEEPS=bench -DOUTPUT=file.c -P case_files.cmake: every *.yaml and (ASCII) *.stl one folder below FOLDER, and
+# those of SWEEPS/accuracy/*/, as a C string, one literal a line.
 file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/*/*.yaml ${FOLDER}/*/*.stl)
 list(SORT files)
+file(GLOB sweeps RELATIVE ${SWEEPS} ${SWEEPS}/accuracy/*/*.yaml)
+list(SORT sweeps)
 set(text "#include \"case_files.h\"\nconst brc_case_file brc_case_files[] = {\n")
 set(count 0)
-foreach(file IN LISTS files)
-    file(READ "${FOLDER}/${file}" content)
+foreach(file IN LISTS files sweeps)
+    if(file MATCHES "^accuracy/")
+        file(READ "${SWEEPS}/${file}" content)
+    else()
+        file(READ "${FOLDER}/${file}" content)
+    endif()
     string(LENGTH "${content}" bytes)
     string(REPLACE "\\" "\\\\" content "${content}")
     string(REPLACE "\"" "\\\"" content "${content}")

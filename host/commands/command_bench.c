@@ -1,5 +1,5 @@
-/* breccia bench: measurements of speed. This version knows one kind. */
-#include "command.h"
+/* breccia bench: measurements of speed, and of what accuracy costs. */
+#include "bench_accuracy.h"
 #include "../../bench/throughput.h"
 #include "../base/memory.h"
 #include <errno.h>
@@ -17,6 +17,10 @@ static const brc_option options[] = {
     BRC_OPTION_EXACT,
     {"sample", 0, "SECONDS", false, "least time of each of the five samples (default 0.5)"},
     {"copy", 0, "MB", false, "array of the copy that gives the bandwidth (default 256)"},
+    {"problems", 0, "LIST", false, "accuracy: which problems (default all; `--problems list` names them)"},
+    {"quick", 'q', NULL, false, "accuracy: only the runs small enough for continuous integration"},
+    {"folder", 'f', "DIR", false, "accuracy: read the problems from DIR/accuracy instead of from the program"},
+    {"resume", 'r', NULL, false, "accuracy: go on with the points that the output folder has"},
 };
 
 /* The list of an option, or its default, split in `copy`. */
@@ -87,11 +91,48 @@ static brc_status print_row(void *self, const brc_rows *rows)
     return brc_rows_write(rows, self); /* a long bench that is stopped keeps its rows */
 }
 
+/* Options of the other kind of bench are slips. */
+static brc_status refuse_options(brc_context *context, const brc_arguments *arguments, const char *kind, int n, const char *const *names)
+{
+    for (int k = 0; k < n; ++k)
+        if (brc_arguments_value(arguments, names[k])) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench %s: --%s is not for this bench", kind, names[k]);
+    return BRC_OK;
+}
+
+static brc_status run_accuracy(const brc_session *session, const brc_arguments *arguments)
+{
+    static const char *const others[] = {"sizes", "models", "precisions", "exact", "sample", "copy"};
+    brc_context *context = session->context;
+    char problems[256], devices[256], threads[32];
+    const char *pieces[BRC_THROUGHPUT_LIST], *device[BRC_THROUGHPUT_LIST], *count[BRC_THROUGHPUT_LIST];
+    int n_devices = 0, n_counts = 0;
+    double n_threads;
+    brc_accuracy_request request = {.problems = pieces};
+    BRC_TRY(refuse_options(context, arguments, "accuracy", sizeof others / sizeof *others, others));
+    request.output = brc_arguments_value(arguments, "output") ? brc_arguments_value(arguments, "output") : "results/accuracy";
+    request.folder = brc_arguments_value(arguments, "folder");
+    request.quick = brc_arguments_value(arguments, "quick") != NULL;
+    request.resume = brc_arguments_value(arguments, "resume") != NULL;
+    const char *asked = brc_arguments_value(arguments, "problems");
+    if (asked && strcmp(asked, "list") == 0) return brc_bench_accuracy_list(context, request.folder);
+    if (asked) BRC_TRY(take_list(context, arguments, "problems", "", problems, sizeof problems, pieces, &request.n_problems));
+    BRC_TRY(take_list(context, arguments, "devices", "cpu", devices, sizeof devices, device, &n_devices));
+    BRC_TRY(take_list(context, arguments, "threads", "1", threads, sizeof threads, count, &n_counts));
+    BRC_TRY(take_number(context, "threads", count[0], 1, 4096, &n_threads));
+    if (n_devices > 1 || n_counts > 1) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench accuracy: one device and one number of threads, found several");
+    request.device = device[0];
+    request.n_threads = (int)n_threads;
+    return brc_bench_accuracy(session, &request);
+}
+
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
 {
+    static const char *const others[] = {"problems", "quick", "folder", "resume"};
     brc_context *context = session->context;
+    if (strcmp(arguments->positional[0], "accuracy") == 0) return run_accuracy(session, arguments);
     if (strcmp(arguments->positional[0], "throughput") != 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput", arguments->positional[0]);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy", arguments->positional[0]);
+    BRC_TRY(refuse_options(context, arguments, "throughput", sizeof others / sizeof *others, others));
     const char *given_folder = brc_arguments_value(arguments, "output");
     char folder[512], here[256], copy[4][256], devices[256];
     snprintf(folder, sizeof folder, "%s", given_folder ? given_folder : "results/throughput");
@@ -141,11 +182,12 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
 }
 
 const brc_command brc_command_bench = {.name = "bench",
-                                       .operands = "throughput",
+                                       .operands = "throughput|accuracy",
                                        .least = 1,
                                        .most = 1,
-                                       .summary = "measure speed: bond updates per second, fraction of the copy bandwidth",
-                                       .details = "Noisy-grid cubes; packings with ten beams an element for cbm. Lists are separated by commas; every combination is measured.",
+                                       .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy costs",
+                                       .details = "Noisy-grid cubes; packings with ten beams an element for cbm. Lists are separated by commas; every combination is measured. "
+                                                  "accuracy: problems with exact answers, error against seconds (one device, one number of threads).",
                                        .options = options,
                                        .n_options = sizeof options / sizeof *options,
                                        .run = run};

@@ -49,6 +49,7 @@ typedef struct brc_campaign {
     int n_threads;
     bool exact;
     bool quick;
+    bool priced; /* processor seconds of the runs, and the price of dynamics on their elements (pace.h), are wanted too */
     brc_rows rows;
     brc_outcome *outcomes; /* [what->n_runs] */
     int n_judged, n_missed;

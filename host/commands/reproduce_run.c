@@ -1,4 +1,5 @@
 /* Carrying out one run of a case. */
+#include "pace.h"
 #include "reproduce_hondros.h"
 #include "reproduce_pressing.h"
 #include "reproduce_virial.h"
@@ -33,11 +34,27 @@ const brc_case_value *brc_outcome_find(const brc_outcome *outcome, const char *n
 typedef struct hooks {
     brc_context *context;
     brc_outcome *outcome;
+    const brc_device_request *priced; /* NULL: the dynamics of the run is not priced */
+    double begun_s, created_s;        /* processor time at the start and when the simulation was there */
 } hooks;
+
+static brc_status created(void *self, brc_simulation *simulation)
+{
+    hooks *h = self;
+    (void)simulation;
+    h->created_s = brc_processor_s();
+    return BRC_OK;
+}
 
 static brc_status finished(void *self, brc_simulation *simulation)
 {
     const hooks *h = self;
+    if (h->priced) {
+        brc_outcome_add(h->outcome, "build_processor_seconds", "s", h->created_s - h->begun_s, NAN);
+        brc_outcome_add(h->outcome, "run_processor_seconds", "s", brc_processor_s() - h->created_s, NAN);
+        brc_outcome_add(h->outcome, "host_bytes", "byte", (double)brc_memory_held(), NAN);
+        BRC_TRY(brc_pace_values(h->context, simulation, h->priced, h->outcome));
+    }
     if (h->outcome->run->keep) {
         const int64_t n = 3 * brc_simulation_domain(simulation)->n_elements;
         BRC_TRY(BRC_ALLOCATE(h->context, &h->outcome->displacement, n, "kept displacement"));
@@ -87,7 +104,9 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
 {
     brc_context *context = campaign->session->context;
     const brc_case_run *run = outcome->run;
-    hooks h = {context, outcome};
+    const brc_device_request device = {.selector = run->device ? run->device : campaign->device ? campaign->device : "auto", .precision = outcome->precision,
+                                       .n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads, .exact = run->exact || campaign->exact};
+    hooks h = {context, outcome, campaign->priced ? &device : NULL, brc_processor_s(), 0};
     brc_drift *drift = NULL;
     brc_pressing *pressing = NULL;
     brc_observer observer;
@@ -97,10 +116,11 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
                                .n_overrides = run->n_overrides,
                                .overrides = run->overrides,
                                .folder = folder,
-                               .device = run->device ? run->device : campaign->device,
-                               .precision = outcome->precision,
-                               .n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads,
-                               .exact = run->exact || campaign->exact,
+                               .device = device.selector,
+                               .precision = device.precision,
+                               .n_threads = device.n_threads,
+                               .exact = device.exact,
+                               .created = created,
                                .finished = finished,
                                .self = &h,
                                .running = campaign->session->running};

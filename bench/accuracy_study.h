@@ -1,0 +1,52 @@
+/* What points of accuracy say together: means over seeds, orders of convergence, Pareto fronts, and the price of an error. Knows no files.
+ *
+ * A question is a problem with one Poisson's ratio; a series answers it in one way (model, preparation, precision, integrator ...) at several
+ * resolutions; a mean is a series at one resolution, over its seeds. */
+#ifndef BRC_BENCH_ACCURACY_STUDY_H
+#define BRC_BENCH_ACCURACY_STUDY_H
+
+#include "accuracy_point.h"
+
+typedef struct brc_accuracy_mean {
+    const brc_accuracy_point *point; /* one of them, for what they share; borrowed from the points */
+    int n;                           /* points */
+    int32_t series;
+    double error;                    /* root of the mean square [-] */
+    double cost_s, build_s, run_s;   /* means [s] */
+    double crossing_s;               /* of one crossing in dynamics [s] */
+    double spacing;                  /* spacing_over_length [-] */
+    bool front; /* no mean of its question is cheaper and at most as wrong */
+} brc_accuracy_mean;
+
+typedef struct brc_accuracy_series {
+    const brc_accuracy_point *point; /* borrowed */
+    int32_t question;
+    int n; /* means */
+    double order; /* slope of log error against log spacing; NAN: fewer than two resolutions with an error */
+} brc_accuracy_series;
+
+typedef struct brc_accuracy_question {
+    const brc_accuracy_point *point; /* borrowed */
+} brc_accuracy_question;
+
+typedef struct brc_accuracy_study {
+    int32_t n_questions, n_series;
+    int64_t n_means;
+    brc_accuracy_question *questions; /* [n_questions] in order of appearance */
+    brc_accuracy_series *series;      /* [n_series] */
+    brc_accuracy_mean *means;         /* [n_means] by question, series, spacing (coarse first) */
+} brc_accuracy_study;
+
+/* Points without an error are left out. The points are borrowed until the study is freed. */
+brc_status brc_accuracy_study_create(brc_context *context, const brc_accuracy_points *points, brc_accuracy_study **out);
+void brc_accuracy_study_free(brc_accuracy_study **study);
+
+/* The cheapest mean of a question whose error is at most `error`; model NULL: of any model. -1: none was measured. */
+int64_t brc_accuracy_cheapest(const brc_accuracy_study *study, int32_t question, const char *model, double error);
+/* What an error costs with a model [s]: along the model's own Pareto front, straight in the logarithms between its means. *beyond -1: every measured mean is
+ * more wrong (NAN); +1: every one is better (the cheapest one's cost, an upper bound); 0: in between. */
+double brc_accuracy_cost(const brc_accuracy_study *study, int32_t question, const char *model, double error, int *beyond);
+/* What it would cost beyond the best mean of a model, drawn on from the last two means of its front [s]; NAN where these do not fall. */
+double brc_accuracy_cost_beyond(const brc_accuracy_study *study, int32_t question, const char *model, double error);
+
+#endif
