@@ -88,7 +88,7 @@ typedef struct brc_model {
     double beta;     /* [-] cross term, default 1.06 (docs/theory.md T2) */
     double tau;      /* [-] stabilisation, default 0.15; beta^2 <= 1 + tau keeps W positive */
     /* dlsm-published */
-    bool small_rotations; /* dlsm and published: the law linearised about the reference, in which turning costs energy; for comparison */
+    bool small_rotations; /* dlsm and published: the law linearised about the reference: a body that turns grows and strains; for comparison */
     bool area_weights;         /* least squares with weights S/L instead of 1 (default false, as printed) */
     double rotation_stiffness; /* [-] factor on K = E S^2 / (4 pi L0), default 1 */
     /* cbm */

@@ -34,7 +34,7 @@ const brc_section brc_schema_material = {.title = "material",
 #define SMALL_ROTATIONS                                                                                                \
     {                                                                                                                  \
         "small_rotations", BRC_TYPE_BOOL, FIELD(brc_model, small_rotations), .given = "false",                         \
-            .meaning = "true: the law linearised about the reference, in which turning costs energy; for comparison"   \
+            .meaning = "true: the law linearised about the reference: a body that turns grows and strains; for comparison" \
     }
 
 static const brc_entry DLSM[] = {
