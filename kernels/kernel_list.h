@@ -42,6 +42,9 @@
     X(impose_turn)                                                                                                     \
     X(turn_book)                                                                                                       \
     X(block6_precondition)                                                                                             \
+    X(striker_advance)                                                                                                 \
+    X(striker_place)                                                                                                   \
+    X(striker_book)                                                                                                    \
     X(cbm_force_pass)                                                                                                  \
     X(cells_gradient)                                                                                                  \
     X(cells_check)                                                                                                     \

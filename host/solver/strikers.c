@@ -1,0 +1,224 @@
+/* Strikers: made from the scene, moved, and asked. How they move is in kernels/rigid.h and strikers.cl; what pushes them is contact. */
+#include "strikers_internal.h"
+#include <math.h>
+#include <string.h>
+
+enum { MOVES = 7, TURNS = 8 }; /* bits of `freedom`, kernels/strikers.cl */
+
+static const brc_striker *asked(const brc_simulation *s, int32_t i) { return s->scene->strikers + i; }
+static bool is_driven(const brc_simulation *s, int32_t i) { return asked(s, i)->motion == BRC_STRIKER_DRIVEN; }
+static bool is_free(const brc_simulation *s, int32_t i) { return asked(s, i)->motion == BRC_STRIKER_FREE; }
+
+static int32_t freedom_of(const brc_striker *striker)
+{
+    int32_t bits = 0;
+    if (striker->motion != BRC_STRIKER_FREE) return 0;
+    for (int c = 0; c < 3; ++c) bits |= striker->held[c] ? 0 : 1 << c;
+    return striker->held_rotation ? bits : bits | TURNS;
+}
+
+/* ---- making ---- */
+
+static brc_status new_uploaded(brc_simulation *s, brc_buffer **out, int width, const double *values, const char *what)
+{
+    BRC_TRY(brc_new_state(s, out, (int64_t)width * s->strikers->n, what));
+    return values ? brc_upload_state(s, *out, values, (int64_t)width * s->strikers->n) : BRC_OK;
+}
+
+/* I w of a symmetric tensor. */
+static void times(const double i[6], const double w[3], double out[3])
+{
+    out[0] = i[0] * w[0] + i[5] * w[1] + i[4] * w[2];
+    out[1] = i[5] * w[0] + i[1] * w[1] + i[3] * w[2];
+    out[2] = i[4] * w[0] + i[3] * w[1] + i[2] * w[2];
+}
+
+/* The state as the run starts. */
+static brc_status upload_start(brc_simulation *s)
+{
+    brc_strikers *t = s->strikers;
+    const int32_t n = t->n;
+    double *room = NULL;
+    int32_t *freedom = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &room, 20 * (int64_t)n, "strikers"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &freedom, n, "strikers"));
+    double *upright = room, *velocity = upright + 4 * n, *momentum = velocity + 3 * n, *spin = momentum + 3 * n, *mass = spin + 3 * n, *inertia = mass + n;
+    for (int32_t i = 0; i < n; ++i) {
+        const brc_striker *striker = asked(s, i);
+        upright[4 * i] = 1;
+        freedom[i] = freedom_of(striker);
+        mass[i] = is_free(s, i) ? t->body[i].mass : 1; /* others have none, and are never divided by it */
+        memcpy(inertia + 6 * i, t->body[i].inertia, sizeof t->body[i].inertia);
+        if (!is_free(s, i)) continue;
+        for (int c = 0; c < 3; ++c) {
+            velocity[3 * i + c] = striker->held[c] ? 0 : striker->velocity[c];
+            spin[3 * i + c] = striker->held_rotation ? 0 : striker->spin[c];
+        }
+        times(t->body[i].inertia, spin + 3 * i, momentum + 3 * i);
+    }
+    BRC_TRY_OR(cleanup, brc_new_int(s, &t->freedom, freedom, n, "strikers"));
+    BRC_TRY_OR(cleanup, new_uploaded(s, &t->orientation, 4, upright, "orientations of strikers"));
+    BRC_TRY_OR(cleanup, new_uploaded(s, &t->velocity, 3, velocity, "velocities of strikers"));
+    BRC_TRY_OR(cleanup, new_uploaded(s, &t->momentum, 3, momentum, "momenta of strikers"));
+    BRC_TRY_OR(cleanup, new_uploaded(s, &t->spin, 3, spin, "spins of strikers"));
+    BRC_TRY_OR(cleanup, new_uploaded(s, &t->mass, 1, mass, "masses of strikers"));
+    BRC_TRY_OR(cleanup, new_uploaded(s, &t->inertia, 6, inertia, "inertia of strikers"));
+    const struct {
+        brc_buffer **buffer;
+        int width;
+    } zero[] = {{&t->displacement, 3}, {&t->force, 3}, {&t->torque, 3}, {&t->moved, 6}, {&t->last, 6}, {&t->work, 1}, {&t->lost, 1}};
+    for (size_t k = 0; k < sizeof zero / sizeof *zero; ++k) BRC_TRY_OR(cleanup, new_uploaded(s, zero[k].buffer, zero[k].width, NULL, "state of strikers"));
+cleanup:
+    brc_memory_free(room);
+    brc_memory_free(freedom);
+    return status;
+}
+
+brc_status brc_strikers_create(brc_simulation *s)
+{
+    if (s->scene->n_strikers == 0) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->strikers, 1, "strikers"));
+    brc_strikers *t = s->strikers;
+    t->n = s->scene->n_strikers;
+    BRC_TRY(BRC_ALLOCATE(s->context, &t->body, t->n, "strikers"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &t->placed, t->n, "strikers"));
+    for (int32_t i = 0; i < t->n; ++i) BRC_TRY(brc_striker_body_make(s, i, &t->body[i]));
+    BRC_TRY(brc_kernel_find(s->device, "striker_advance", &t->advance));
+    BRC_TRY(brc_kernel_find(s->device, "striker_place", &t->place));
+    BRC_TRY(brc_kernel_find(s->device, "striker_book", &t->book));
+    return upload_start(s);
+}
+
+void brc_strikers_free(brc_simulation *s)
+{
+    brc_strikers *t = s->strikers;
+    if (!t) return;
+    brc_buffer **buffers[] = {&t->displacement, &t->velocity, &t->momentum, &t->spin, &t->force, &t->torque, &t->orientation,
+                              &t->freedom, &t->mass, &t->inertia, &t->moved, &t->last, &t->work, &t->lost};
+    for (size_t k = 0; k < sizeof buffers / sizeof *buffers; ++k) brc_buffer_free(buffers[k]);
+    brc_memory_free(t->body);
+    brc_memory_free(t->placed);
+    brc_memory_free(t);
+    s->strikers = NULL;
+}
+
+/* ---- motion ---- */
+
+static const double *gravity(const brc_simulation *s)
+{
+    static const double none[3] = {0, 0, 0};
+    return s->scene->has_gravity ? s->scene->gravity : none;
+}
+
+brc_status brc_strikers_advance(brc_simulation *s, double kick, double drift, double extra, bool numerical)
+{
+    const brc_strikers *t = s->strikers;
+    const double *g = gravity(s);
+    return BRC_LAUNCH(t->advance, t->n, BRC_INT(t->n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(extra), BRC_INT(numerical ? 1 : 0), BRC_STATE(g[0]),
+                      BRC_STATE(g[1]), BRC_STATE(g[2]), BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->inertia), BRC_BUF(t->force), BRC_BUF(t->torque),
+                      BRC_BUF(t->velocity), BRC_BUF(t->momentum), BRC_BUF(t->spin), BRC_BUF(t->displacement), BRC_BUF(t->orientation), BRC_BUF(t->moved),
+                      BRC_BUF(t->lost));
+}
+
+/* exp of the rotation vector `turn`. */
+static void quaternion(const double turn[3], double q[4])
+{
+    const double angle = sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]), share = angle > 0 ? sin(0.5 * angle) / angle : 0.5;
+    q[0] = cos(0.5 * angle);
+    for (int c = 0; c < 3; ++c) q[c + 1] = share * turn[c];
+}
+
+brc_status brc_strikers_prescribe(brc_simulation *s)
+{
+    brc_strikers *t = s->strikers;
+    const double now = brc_simulation_total_time(s);
+    for (int32_t i = 0; i < t->n; ++i) {
+        if (!is_driven(s, i)) continue;
+        const brc_striker *striker = asked(s, i);
+        const double factor = brc_table_value(&striker->table, now), path = brc_table_integral(&striker->table, now), step = path - t->placed[i];
+        const double *v = striker->velocity, *w = striker->spin, turn[3] = {path * w[0], path * w[1], path * w[2]};
+        double q[4];
+        quaternion(turn, q);
+        BRC_TRY(BRC_LAUNCH(t->place, 1, BRC_INT(1), BRC_INT(i), BRC_STATE(path * v[0]), BRC_STATE(path * v[1]), BRC_STATE(path * v[2]), BRC_STATE(q[0]),
+                           BRC_STATE(q[1]), BRC_STATE(q[2]), BRC_STATE(q[3]), BRC_STATE(factor * v[0]), BRC_STATE(factor * v[1]), BRC_STATE(factor * v[2]),
+                           BRC_STATE(factor * w[0]), BRC_STATE(factor * w[1]), BRC_STATE(factor * w[2]), BRC_STATE(step * v[0]), BRC_STATE(step * v[1]),
+                           BRC_STATE(step * v[2]), BRC_STATE(step * w[0]), BRC_STATE(step * w[1]), BRC_STATE(step * w[2]), BRC_BUF(t->displacement),
+                           BRC_BUF(t->orientation), BRC_BUF(t->velocity), BRC_BUF(t->spin), BRC_BUF(t->moved)));
+        t->placed[i] = path;
+    }
+    return BRC_OK;
+}
+
+brc_status brc_strikers_book(brc_simulation *s, brc_booking book)
+{
+    const brc_strikers *t = s->strikers;
+    const double *g = gravity(s);
+    const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
+    const bool numerical = stage && stage->solver == BRC_SOLVER_DYNAMIC && stage->integrator == BRC_TCHAMWA_WIELGOSZ;
+    return BRC_LAUNCH(t->book, t->n, BRC_INT(t->n), BRC_INT(book), BRC_INT(numerical ? 1 : 0), BRC_STATE(g[0]), BRC_STATE(g[1]), BRC_STATE(g[2]),
+                      BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->force), BRC_BUF(t->torque), BRC_BUF(t->moved), BRC_BUF(t->last), BRC_BUF(t->work),
+                      BRC_BUF(t->lost));
+}
+
+/* ---- asking ---- */
+
+int32_t brc_simulation_n_strikers(const brc_simulation *s) { return s->strikers ? s->strikers->n : 0; }
+const brc_striker_body *brc_simulation_striker_body(const brc_simulation *s, int32_t striker) { return s->strikers->body + striker; }
+
+/* `width` numbers of one striker. */
+static brc_status read_one(brc_simulation *s, brc_buffer *buffer, int32_t striker, int width, double *out)
+{
+    if (brc_precision_state_bytes(brc_device_get_precision(s->device)) == 8)
+        return brc_buffer_read(buffer, (int64_t)striker * width * 8, out, (int64_t)width * 8);
+    float narrow[6];
+    BRC_TRY(brc_buffer_read(buffer, (int64_t)striker * width * 4, narrow, (int64_t)width * 4));
+    for (int c = 0; c < width; ++c) out[c] = narrow[c];
+    return BRC_OK;
+}
+
+/* Rotation vector of a unit quaternion, at most half a turn. */
+static void rotation_vector(const double q[4], double out[3])
+{
+    const double sine = sqrt(q[1] * q[1] + q[2] * q[2] + q[3] * q[3]), sign = q[0] < 0 ? -1 : 1;
+    const double share = sine > 0 ? 2 * atan2(sine, sign * q[0]) / sine : 2;
+    for (int c = 0; c < 3; ++c) out[c] = sign * share * q[c + 1];
+}
+
+brc_status brc_simulation_striker_now(brc_simulation *s, int32_t i, brc_striker_now *out)
+{
+    const brc_strikers *t = s->strikers;
+    double momentum[3];
+    BRC_TRY(read_one(s, t->displacement, i, 3, out->displacement));
+    BRC_TRY(read_one(s, t->orientation, i, 4, out->orientation));
+    BRC_TRY(read_one(s, t->velocity, i, 3, out->velocity));
+    BRC_TRY(read_one(s, t->momentum, i, 3, momentum));
+    BRC_TRY(read_one(s, t->spin, i, 3, out->spin));
+    BRC_TRY(read_one(s, t->force, i, 3, out->force));
+    BRC_TRY(read_one(s, t->torque, i, 3, out->torque));
+    rotation_vector(out->orientation, out->rotation);
+    out->kinetic = 0;
+    for (int c = 0; c < 3; ++c) {
+        out->position[c] = t->body[i].centre[c] + out->displacement[c];
+        if (is_free(s, i)) out->kinetic += 0.5 * t->body[i].mass * out->velocity[c] * out->velocity[c] + 0.5 * momentum[c] * out->spin[c];
+    }
+    return BRC_OK;
+}
+
+brc_status brc_strikers_energies(brc_simulation *s, brc_striker_energies *out)
+{
+    const double *g = gravity(s);
+    *out = (brc_striker_energies){0};
+    for (int32_t i = 0; i < s->strikers->n; ++i) {
+        brc_striker_now now;
+        double work, lost;
+        BRC_TRY(brc_simulation_striker_now(s, i, &now));
+        BRC_TRY(read_one(s, s->strikers->work, i, 1, &work));
+        BRC_TRY(read_one(s, s->strikers->lost, i, 1, &lost));
+        out->kinetic += now.kinetic;
+        out->work += work;
+        out->numerical += lost;
+        for (int c = 0; c < 3; ++c) out->potential -= s->strikers->body[i].mass * g[c] * now.displacement[c];
+    }
+    return BRC_OK;
+}

@@ -1,0 +1,39 @@
+/* Strikers inside the solver. */
+#ifndef BRC_SOLVER_STRIKERS_INTERNAL_H
+#define BRC_SOLVER_STRIKERS_INTERNAL_H
+
+#include "simulation_internal.h"
+#include "strikers.h"
+
+/* Everything that exists only in scenes with strikers. Buffers of numbers are of the state, [n][3] unless said; what they hold is told in kernels/strikers.cl. */
+struct brc_strikers {
+    int32_t n;
+    brc_kernel *advance, *place, *book;
+    brc_striker_body *body; /* [n] host */
+    double *placed;         /* [n] driven: integral of the table up to where they are placed now [s]; host */
+    brc_buffer *displacement, *velocity, *momentum, *spin, *force, *torque;
+    brc_buffer *orientation;                             /* [n][4] */
+    brc_buffer *freedom, *mass, *inertia;                /* [n] int, [n], [n][6] */
+    brc_buffer *moved, *last, *work, *lost;              /* [n][6], [n][6], [n], [n] */
+};
+
+/* Energies of all strikers [J]. */
+typedef struct brc_striker_energies {
+    double kinetic;   /* of free ones */
+    double potential; /* of free ones in gravity, 0 where they started */
+    double work;      /* that driven ones have done on what they touched */
+    double numerical; /* lost to the integrator */
+} brc_striker_energies;
+
+/* Make them, where the scene has some; velocities are those of the start of the run. BRC_BAD_INPUT: a free one without mass ... */
+brc_status brc_strikers_create(brc_simulation *s);
+void brc_strikers_free(brc_simulation *s);
+/* Free ones: kick and drift [s] of velocity and spin; extra: (phi - 1) dt of Tchamwa-Wielgosz, else 0. numerical: book the loss of that scheme. */
+brc_status brc_strikers_advance(brc_simulation *s, double kick, double drift, double extra, bool numerical);
+/* Driven ones are put where they are at the present time of the run. */
+brc_status brc_strikers_prescribe(brc_simulation *s);
+/* After the forces on strikers are known: work of driven ones and losses, as brc_force_request.book says. */
+brc_status brc_strikers_book(brc_simulation *s, brc_booking book);
+brc_status brc_strikers_energies(brc_simulation *s, brc_striker_energies *out);
+
+#endif
