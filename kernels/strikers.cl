@@ -1,26 +1,39 @@
-/* Motion of strikers, rigid bodies beside the elements: one work-item does one striker. Arrays: displacement, velocity, momentum (of turning, about the mass centre,
- * in the frame of space), spin, force and torque (of contact) [n][3]; orientation since the start of the scene, quaternions w x y z [n][4]; mass [n];
- * inertia about the mass centre as the scene starts xx yy zz yz xz xy [n][6]. freedom [n]: bits 1 2 4 free to move along x y z, 8 free to turn; 0 for
- * strikers that stand still or are driven. moved [n][6]: how far each moved and turned since the last booking. */
+/* Motion of strikers, rigid bodies beside the elements: one work-item does one striker. What contact reads and writes: pose [n][12], the place of the mass centre [m]
+ * and the rotation matrix by rows; motion [n][6], velocity of the centre and angular velocity; load [n][6], force of the elements on it and their torque about
+ * the centre; all in the frame of space. Besides: displacement [n][3] of the centre, centre [n][3] as the scene starts; orientation since then, quaternions w x y z
+ * [n][4]; momentum of turning about the centre [n][3]; mass [n]; inertia about the centre as the scene starts, xx yy zz yz xz xy [n][6]. freedom [n]: bits 1 2 4
+ * free to move along x y z, 8 free to turn; 0 for strikers that stand still or are driven. moved [n][6]: how far each moved and turned since the last
+ * booking. */
 
-LAW rigid_vec striker_vec(GLOBAL const state *restrict p, int i) { return (rigid_vec){p[3 * i], p[3 * i + 1], p[3 * i + 2]}; }
-LAW rigid_sym striker_inertia(GLOBAL const state *restrict p, int i)
+LAW svec3 striker_vec(GLOBAL const state *restrict p, int at) { return (svec3){p[at], p[at + 1], p[at + 2]}; }
+LAW ssym3 striker_inertia(GLOBAL const state *restrict p, int i)
 {
-    return (rigid_sym){p[6 * i], p[6 * i + 1], p[6 * i + 2], p[6 * i + 3], p[6 * i + 4], p[6 * i + 5]};
+    return (ssym3){p[6 * i], p[6 * i + 1], p[6 * i + 2], p[6 * i + 3], p[6 * i + 4], p[6 * i + 5]};
 }
-LAW rigid_quat striker_quat(GLOBAL const state *restrict p, int i) { return (rigid_quat){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]}; }
-LAW void striker_put(GLOBAL state *restrict p, int i, rigid_vec a)
+LAW squat striker_quat(GLOBAL const state *restrict p, int i) { return (squat){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]}; }
+LAW void striker_put(GLOBAL state *restrict p, int at, svec3 a)
 {
-    p[3 * i] = a.x;
-    p[3 * i + 1] = a.y;
-    p[3 * i + 2] = a.z;
+    p[at] = a.x;
+    p[at + 1] = a.y;
+    p[at + 2] = a.z;
 }
-LAW void striker_put_quat(GLOBAL state *restrict p, int i, rigid_quat q)
+LAW void striker_add(GLOBAL state *restrict p, int at, svec3 a)
 {
-    p[4 * i] = q.w;
-    p[4 * i + 1] = q.x;
-    p[4 * i + 2] = q.y;
-    p[4 * i + 3] = q.z;
+    p[at] += a.x;
+    p[at + 1] += a.y;
+    p[at + 2] += a.z;
+}
+LAW void striker_put_pose(GLOBAL state *restrict pose, GLOBAL state *restrict orientation, int i, svec3 place, squat q)
+{
+    const smat3 r = squat_matrix(q);
+    orientation[4 * i] = q.w;
+    orientation[4 * i + 1] = q.x;
+    orientation[4 * i + 2] = q.y;
+    orientation[4 * i + 3] = q.z;
+    striker_put(pose, 12 * i, place);
+    striker_put(pose, 12 * i + 3, (svec3){r.xx, r.xy, r.xz});
+    striker_put(pose, 12 * i + 6, (svec3){r.yx, r.yy, r.yz});
+    striker_put(pose, 12 * i + 9, (svec3){r.zx, r.zy, r.zz});
 }
 /* 1 where a bit of freedom is set. */
 LAW state striker_free(int freedom, int bit) { return freedom & bit ? STATE(1) : STATE(0); }
@@ -28,87 +41,78 @@ LAW state striker_free(int freedom, int bit) { return freedom & bit ? STATE(1) :
 /* Free strikers: v += kick f / m, l += kick T; moved by drift with v + extra f / m and l + extra T. As elements: extra is (phi - 1) dt for Tchamwa-Wielgosz,
  * whose own loss begins to be booked here (numerical 1, motion.cl), else 0. g: gravity [m/s^2]. */
 KERNEL void striker_advance(int n, state kick, state drift, state extra, int numerical, state gx, state gy, state gz, GLOBAL const int *restrict freedom,
-                            GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia, GLOBAL const state *restrict force,
-                            GLOBAL const state *restrict torque, GLOBAL state *restrict velocity, GLOBAL state *restrict momentum,
-                            GLOBAL state *restrict spin, GLOBAL state *restrict displacement, GLOBAL state *restrict orientation,
+                            GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia, GLOBAL const state *restrict centre,
+                            GLOBAL const state *restrict load, GLOBAL state *restrict motion, GLOBAL state *restrict momentum,
+                            GLOBAL state *restrict displacement, GLOBAL state *restrict orientation, GLOBAL state *restrict pose,
                             GLOBAL state *restrict moved, GLOBAL state *restrict lost)
 {
     FOR_EACH_ITEM(i, n) {
         const int bits = freedom[i];
-        if (bits & 7) {
-            const rigid_vec f = striker_vec(force, i);
-            const rigid_vec a = {striker_free(bits, 1) * (f.x / mass[i] + gx), striker_free(bits, 2) * (f.y / mass[i] + gy),
+        if (bits) {
+            const svec3 f = striker_vec(load, 6 * i), t = svec3_scale(striker_free(bits, 8), striker_vec(load, 6 * i + 3));
+            const svec3 a = {striker_free(bits, 1) * (f.x / mass[i] + gx), striker_free(bits, 2) * (f.y / mass[i] + gy),
                                  striker_free(bits, 4) * (f.z / mass[i] + gz)};
-            const rigid_vec v = rigid_add(striker_vec(velocity, i), rigid_scale(kick, a)), u = rigid_scale(drift, rigid_add(v, rigid_scale(extra, a)));
-            striker_put(velocity, i, v);
-            striker_put(displacement, i, rigid_add(striker_vec(displacement, i), u));
-            moved[6 * i] += u.x;
-            moved[6 * i + 1] += u.y;
-            moved[6 * i + 2] += u.z;
-            if (numerical) lost[i] += mass[i] * ((extra + STATE(0.5) * drift) * drift * rigid_dot(a, a) - STATE(0.5) * rigid_dot(u, a));
-        }
-        if (bits & 8) {
-            const rigid_sym own = striker_inertia(inertia, i);
-            const rigid_vec t = striker_vec(torque, i), l = rigid_add(striker_vec(momentum, i), rigid_scale(kick, t));
-            const rigid_vec drifting = rigid_add(l, rigid_scale(extra, t));
-            const rigid_quat before = striker_quat(orientation, i), q = rigid_drift(before, own, drifting, drift);
-            striker_put(momentum, i, l);
-            striker_put_quat(orientation, i, q);
-            striker_put(spin, i, rigid_spin(q, own, l));
+            const svec3 v = svec3_add(striker_vec(motion, 6 * i), svec3_scale(kick, a));
+            const svec3 step = svec3_scale(drift, svec3_add(v, svec3_scale(extra, a))), u = svec3_add(striker_vec(displacement, 3 * i), step);
+            const ssym3 own = striker_inertia(inertia, i);
+            const svec3 l = svec3_add(striker_vec(momentum, 3 * i), svec3_scale(kick, t)), drifting = svec3_add(l, svec3_scale(extra, t));
+            const squat before = striker_quat(orientation, i);
+            squat q = before;
+            if (bits & 8) q = rigid_drift(before, own, drifting, drift);
             if (numerical) {
-                const rigid_vec turn = rigid_scale(drift, rigid_spin(before, own, drifting));
-                lost[i] += (extra + STATE(0.5) * drift) * drift * rigid_dot(rigid_spin(before, own, t), t) - STATE(0.5) * rigid_dot(turn, t);
-                moved[6 * i + 3] += turn.x;
-                moved[6 * i + 4] += turn.y;
-                moved[6 * i + 5] += turn.z;
+                const svec3 turn = svec3_scale(drift * striker_free(bits, 8), rigid_spin(before, own, drifting));
+                lost[i] += (extra + STATE(0.5) * drift) * drift * (mass[i] * svec3_dot(a, a) + svec3_dot(rigid_spin(before, own, t), t)) -
+                           STATE(0.5) * (mass[i] * svec3_dot(step, a) + svec3_dot(turn, t));
+                striker_add(moved, 6 * i + 3, turn);
             }
+            striker_add(moved, 6 * i, step);
+            striker_put(displacement, 3 * i, u);
+            striker_put(motion, 6 * i, v);
+            if (bits & 8) striker_put(motion, 6 * i + 3, rigid_spin(q, own, l));
+            striker_put(momentum, 3 * i, l);
+            striker_put_pose(pose, orientation, i, svec3_add(striker_vec(centre, 3 * i), u), q);
         }
     }
 }
 
-/* Put driven striker `which` where it is: displacement u, orientation q, velocity v, spin w; it moved by m and turned by t (a rotation vector) since the last
- * booking. */
+/* Put driven striker `which` where it is: displacement u, orientation q, velocity v, spin w; it moved by m and turned by t (a rotation vector) since it was put
+ * last. */
 KERNEL void striker_place(int n, int which, state ux, state uy, state uz, state qw, state qx, state qy, state qz, state vx, state vy, state vz,
                           state wx, state wy, state wz, state mx, state my, state mz, state tx, state ty, state tz,
-                          GLOBAL state *restrict displacement, GLOBAL state *restrict orientation, GLOBAL state *restrict velocity,
-                          GLOBAL state *restrict spin, GLOBAL state *restrict moved)
+                          GLOBAL const state *restrict centre, GLOBAL state *restrict motion, GLOBAL state *restrict displacement,
+                          GLOBAL state *restrict orientation, GLOBAL state *restrict pose, GLOBAL state *restrict moved)
 {
     FOR_EACH_ITEM(k, n) {
         const int i = which + k;
-        striker_put(displacement, i, (rigid_vec){ux, uy, uz});
-        striker_put_quat(orientation, i, (rigid_quat){qw, qx, qy, qz});
-        striker_put(velocity, i, (rigid_vec){vx, vy, vz});
-        striker_put(spin, i, (rigid_vec){wx, wy, wz});
-        moved[6 * i] += mx;
-        moved[6 * i + 1] += my;
-        moved[6 * i + 2] += mz;
-        moved[6 * i + 3] += tx;
-        moved[6 * i + 4] += ty;
-        moved[6 * i + 5] += tz;
+        const svec3 u = {ux, uy, uz};
+        striker_put(displacement, 3 * i, u);
+        striker_put(motion, 6 * i, (svec3){vx, vy, vz});
+        striker_put(motion, 6 * i + 3, (svec3){wx, wy, wz});
+        striker_put_pose(pose, orientation, i, svec3_add(striker_vec(centre, 3 * i), u), (squat){qw, qx, qy, qz});
+        striker_add(moved, 6 * i, (svec3){mx, my, mz});
+        striker_add(moved, 6 * i + 3, (svec3){tx, ty, tz});
     }
 }
 
-/* After the forces of a step. Strikers that are not free do work on what they touch, - (force . way + torque . turn) by the trapezoidal rule as impose_book
- * (motion.cl); free ones end the booking of the integrator's own loss (numerical 1). g: gravity. book: 0 nothing; 1 add; 2 start here. last [n][6]: force and torque at
+/* After the forces of a step. Strikers that are driven do work on what they touch, - (force . way + torque . turn) by the trapezoidal rule as impose_book
+ * (motion.cl); free ones end the booking of the integrator's own loss (numerical 1). g: gravity. book: 0 nothing; 1 add; 2 start here. last [n][6]: the load at
  * the last booking. */
 KERNEL void striker_book(int n, int book, int numerical, state gx, state gy, state gz, GLOBAL const int *restrict freedom, GLOBAL const state *restrict mass,
-                         GLOBAL const state *restrict force, GLOBAL const state *restrict torque, GLOBAL state *restrict moved,
-                         GLOBAL state *restrict last, GLOBAL state *restrict work, GLOBAL state *restrict lost)
+                         GLOBAL const state *restrict load, GLOBAL state *restrict moved, GLOBAL state *restrict last, GLOBAL state *restrict work,
+                         GLOBAL state *restrict lost)
 {
     FOR_EACH_ITEM(i, n) {
         if (book) {
-            const state g[3] = {mass[i] * gx, mass[i] * gy, mass[i] * gz};
-            state sum = 0, now_sum = 0;
-            for (int c = 0; c < 6; ++c) {
-                const state now = c < 3 ? force[3 * i + c] : torque[3 * i + c - 3];
-                const state pull = now + (c < 3 ? g[c] : STATE(0));
-                sum -= STATE(0.5) * (last[6 * i + c] + now) * moved[6 * i + c];
-                now_sum += (freedom[i] >> (c < 3 ? c : 3) & 1) ? STATE(0.5) * pull * moved[6 * i + c] : STATE(0);
-                last[6 * i + c] = now;
-                moved[6 * i + c] = 0;
-            }
-            if (book == 1 && freedom[i] == 0) work[i] += sum;
-            if (book == 1 && numerical && freedom[i] != 0) lost[i] += now_sum;
+            const int bits = freedom[i];
+            const svec3 way = striker_vec(moved, 6 * i), turn = striker_vec(moved, 6 * i + 3), f = striker_vec(load, 6 * i), t = striker_vec(load, 6 * i + 3);
+            const svec3 weight = {mass[i] * gx, mass[i] * gy, mass[i] * gz}, none = {STATE(0), STATE(0), STATE(0)};
+            if (book == 1 && bits == 0)
+                work[i] -= STATE(0.5) * (svec3_dot(svec3_add(striker_vec(last, 6 * i), f), way) + svec3_dot(svec3_add(striker_vec(last, 6 * i + 3), t), turn));
+            if (book == 1 && numerical && bits) lost[i] += STATE(0.5) * (svec3_dot(svec3_add(f, weight), way) + svec3_dot(t, turn));
+            striker_put(last, 6 * i, f);
+            striker_put(last, 6 * i + 3, t);
+            striker_put(moved, 6 * i, none);
+            striker_put(moved, 6 * i + 3, none);
         }
     }
 }

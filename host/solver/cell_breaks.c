@@ -2,6 +2,7 @@
 #include "consistent.h"
 #include "fracture_internal.h"
 #include "strengths.h"
+#include "strikers_internal.h"
 #include "sym3.h"
 #include <math.h>
 
@@ -270,7 +271,7 @@ static brc_status kick(brc_simulation *s, double by)
     if (by == 0) return BRC_OK;
     BRC_TRY(BRC_LAUNCH(s->kernel.advance, n, BRC_INT(n), BRC_STATE(by), BRC_STATE(0), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(s->velocity),
                        BRC_BUF(s->displacement)));
-    return BRC_OK;
+    return s->strikers ? brc_strikers_advance(s, by, 0, 0, false) : BRC_OK;
 }
 
 /* All that cells hold together with their bonds [J]. */

@@ -2,6 +2,7 @@
 #include "element_loads.h"
 #include "fracture_internal.h"
 #include "stage_end.h"
+#include "strikers_internal.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -15,6 +16,7 @@ static brc_status kick_and_drift(brc_simulation *s, double kick, double drift)
     const int32_t n = s->layout->n_rows;
     BRC_TRY(BRC_LAUNCH(s->kernel.advance, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_BUF(s->mass), BRC_BUF(s->force),
                        BRC_BUF(s->velocity), BRC_BUF(s->displacement)));
+    if (s->strikers) BRC_TRY(brc_strikers_advance(s, kick, drift, 0, false));
     if (!brc_turns(s)) return BRC_OK;
     return BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(0),
                       BRC_BUF(s->inertia), BRC_BUF(s->torque), BRC_BUF(s->spin), BRC_BUF(s->orientation));
@@ -27,6 +29,7 @@ static brc_status close_step(brc_simulation *s, double dt)
     s->total_steps += 1;
     s->time = (double)s->step * dt;
     BRC_TRY(brc_loads_prescribe(s, s->time));
+    if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
     return brc_force_of_state(s, BRC_BOOK_WORK);
 }
 
@@ -53,6 +56,7 @@ static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double
     BRC_TRY(BRC_LAUNCH(s->kernel.advance_tchamwa, n, BRC_INT(n), BRC_STATE(dt), BRC_STATE(stage->phi), BRC_BUF(s->mass),
                        BRC_BUF(s->force), BRC_BUF(s->velocity), BRC_BUF(s->displacement), BRC_BUF(s->moved),
                        BRC_BUF(s->lost_numerical)));
+    if (s->strikers) BRC_TRY(brc_strikers_advance(s, dt, dt, (stage->phi - 1) * dt, true));
     if (brc_turns(s)) /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
         BRC_TRY(BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(dt), BRC_STATE(dt),
                            BRC_STATE((stage->phi - 1) * dt * dt), BRC_BUF(s->inertia), BRC_BUF(s->torque), BRC_BUF(s->spin),

@@ -40,6 +40,7 @@ void brc_effects_list(brc_simulation *s)
                    {"static solver", statics},
                    {"free vibration modes", modes},
                    {"fracture", s->fracture != NULL},
+                   {"walls and strikers", s->strikers != NULL},
                    {"contact", false}};
     int in = 0, out = 0;
     for (size_t i = 0; i < sizeof effects / sizeof *effects; ++i) {

@@ -2,6 +2,7 @@
 #include "cell_breaks.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
+#include "strikers_internal.h"
 
 /* Constants handed to kernels; with several materials the kernels gather them instead. */
 static const brc_elastic *one_material(const brc_simulation *s) { return s->elastic + s->material_of_element[0]; }
@@ -146,6 +147,7 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
                            BRC_BUF(m->last), BRC_BUF(m->last_reaction), BRC_BUF(m->work)));
         if (r->book != BRC_BOOK_NOTHING) m->last_rate = rate;
     }
+    if (s->strikers) BRC_TRY(brc_strikers_book(s, r->book));
     return brc_turns_book(s, r);
 }
 

@@ -1,5 +1,6 @@
 /* The energy ledger (design.md: its terms are named once; closure is relative to the largest energy in play). */
 #include "fracture_internal.h"
+#include "strikers_internal.h"
 #include <math.h>
 #include <string.h>
 
@@ -41,6 +42,14 @@ brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
     out->damping += s->released;
     BRC_TRY(lost(s, s->lost_numerical, &out->numerical));
     BRC_TRY(brc_fracture_lost(s, &out->fracture));
+    if (s->strikers) {
+        brc_striker_energies strikers;
+        BRC_TRY(brc_strikers_energies(s, &strikers));
+        out->kinetic += strikers.kinetic;
+        out->potential += strikers.potential;
+        out->work += strikers.work;
+        out->numerical += strikers.numerical;
+    }
     out->initial = s->initial_energy;
     if (out->elastic > s->peak_elastic) s->peak_elastic = out->elastic;
     if (out->kinetic > s->peak_kinetic) s->peak_kinetic = out->kinetic;

@@ -15,14 +15,10 @@ double brc_load_rate(const brc_load *load, double t)
     return 0;
 }
 
-double brc_load_factor(const brc_load *load, double t, bool is_static)
+double brc_table_integral(const brc_table *table, double t)
 {
-    const brc_table *table = &load->table;
-    const bool velocity = load->kind == BRC_LOAD_FACE_VELOCITY || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
-    if (!velocity && is_static && table->n > 0 && t > 1) return t * brc_table_value(table, 1); /* beyond the whole load: to_failure */
-    if (!velocity) return is_static && table->n == 0 ? t : brc_table_value(table, t);
     if (table->n == 0) return t;
-    /* integral from 0 to t: exact by trapezoids between the table's own points */
+    /* exact by trapezoids between the table's own points */
     double sum = 0, from = 0, value = brc_table_value(table, 0);
     for (int32_t i = 0; i < table->n; ++i) {
         if (table->time[i] <= 0 || table->time[i] >= t) continue;
@@ -31,6 +27,15 @@ double brc_load_factor(const brc_load *load, double t, bool is_static)
         value = table->value[i];
     }
     return sum + 0.5 * (value + brc_table_value(table, t)) * (t - from);
+}
+
+double brc_load_factor(const brc_load *load, double t, bool is_static)
+{
+    const brc_table *table = &load->table;
+    const bool velocity = load->kind == BRC_LOAD_FACE_VELOCITY || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
+    if (!velocity && is_static && table->n > 0 && t > 1) return t * brc_table_value(table, 1); /* beyond the whole load: to_failure */
+    if (!velocity) return is_static && table->n == 0 ? t : brc_table_value(table, t);
+    return brc_table_integral(table, t);
 }
 
 /* value + gradient (x - origin) */

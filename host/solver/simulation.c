@@ -2,6 +2,7 @@
 #include "cell_breaks.h"
 #include "fracture_internal.h"
 #include "split.h"
+#include "strikers_internal.h"
 #include <math.h>
 #include <string.h>
 
@@ -203,8 +204,6 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
                             scene->bodies[b].name);
     if (scene->model.small_rotations && scene->has_fracture)
         return BRC_FAIL(context, BRC_BAD_INPUT, "small_rotations: a linearised law does not break; leave out small_rotations or fracture");
-    if (scene->has_contact)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "interactions: contact: is read, but not in this version: surfaces pass through each other; leave it out");
     BRC_TRY(BRC_ALLOCATE(context, &s, 1, "simulation"));
     s->context = context;
     s->scene = scene;
@@ -226,6 +225,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     BRC_TRY_OR(cleanup, brc_geometry_create(s));
     BRC_TRY_OR(cleanup, create_arrays(s));
     if (scene->has_fracture) BRC_TRY_OR(cleanup, brc_fracture_create(s));
+    BRC_TRY_OR(cleanup, brc_strikers_create(s));
     brc_effects_list(s);
     s->setup_seconds = brc_clock_s() - start;
     *out = s;
@@ -246,6 +246,7 @@ void brc_simulation_free(brc_simulation **simulation)
     }
     brc_loads_free(&s->loads);
     brc_fracture_free(s);
+    brc_strikers_free(s);
     brc_geometry_free(s);
     brc_layout_free(&s->layout);
     brc_memory_free(s->elastic);
@@ -318,6 +319,7 @@ brc_status brc_stage_start(brc_simulation *s)
     brc_ledger after;
     if (s->fracture) BRC_TRY(brc_fracture_begin_stage(s));
     BRC_TRY(brc_loads_prescribe(s, 0));
+    if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(brc_simulation_ledger(s, &after));
     s->initial_energy += after.total - s->total_before_stage; /* initial fields, and what changed supports hold or release */

@@ -93,6 +93,7 @@ typedef struct brc_kernels {
 } brc_kernels;
 
 typedef struct brc_breaking brc_breaking; /* fracture_internal.h */
+typedef struct brc_strikers brc_strikers; /* strikers_internal.h */
 
 /* Why a stage ended early (stage_end.c). */
 typedef struct brc_stage_note {
@@ -130,6 +131,7 @@ struct brc_simulation {
     brc_buffer *partial;                               /* block sums */
 
     brc_breaking *fracture; /* only in scenes with fracture */
+    brc_strikers *strikers; /* only in scenes with strikers */
 
     /* stage */
     int32_t stage;
@@ -208,6 +210,8 @@ const brc_load *brc_imposed_of(const brc_stage *stage, const brc_imposed_load *i
 /* a(t), or its integral from 0 to t for velocity loads; rate: its derivative. */
 double brc_load_factor(const brc_load *load, double t, bool is_static);
 double brc_load_rate(const brc_load *load, double t);
+/* Integral of a table from 0 to t [s]. */
+double brc_table_integral(const brc_table *table, double t);
 /* Zero the imposed components of a vector; of one of rotations or torques. */
 brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector);
 brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector);

@@ -41,33 +41,39 @@ static brc_status upload_start(brc_simulation *s)
     double *room = NULL;
     int32_t *freedom = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &room, 20 * (int64_t)n, "strikers"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &room, 35 * (int64_t)n, "strikers"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &freedom, n, "strikers"));
-    double *upright = room, *velocity = upright + 4 * n, *momentum = velocity + 3 * n, *spin = momentum + 3 * n, *mass = spin + 3 * n, *inertia = mass + n;
+    double *upright = room, *motion = upright + 4 * n, *momentum = motion + 6 * n, *mass = momentum + 3 * n, *inertia = mass + n, *centre = inertia + 6 * n, *pose = centre + 3 * n;
     for (int32_t i = 0; i < n; ++i) {
         const brc_striker *striker = asked(s, i);
         upright[4 * i] = 1;
         freedom[i] = freedom_of(striker);
         mass[i] = is_free(s, i) ? t->body[i].mass : 1; /* others have none, and are never divided by it */
-        memcpy(inertia + 6 * i, t->body[i].inertia, sizeof t->body[i].inertia);
+        for (int c = 0; c < 3; ++c) {
+            inertia[6 * i + c] = is_free(s, i) ? t->body[i].inertia[c] : 1;
+            inertia[6 * i + 3 + c] = is_free(s, i) ? t->body[i].inertia[3 + c] : 0;
+            centre[3 * i + c] = pose[12 * i + c] = t->body[i].centre[c];
+            pose[12 * i + 3 + 4 * c] = 1;
+        }
         if (!is_free(s, i)) continue;
         for (int c = 0; c < 3; ++c) {
-            velocity[3 * i + c] = striker->held[c] ? 0 : striker->velocity[c];
-            spin[3 * i + c] = striker->held_rotation ? 0 : striker->spin[c];
+            motion[6 * i + c] = striker->held[c] ? 0 : striker->velocity[c];
+            motion[6 * i + 3 + c] = striker->held_rotation ? 0 : striker->spin[c];
         }
-        times(t->body[i].inertia, spin + 3 * i, momentum + 3 * i);
+        times(t->body[i].inertia, motion + 6 * i + 3, momentum + 3 * i);
     }
     BRC_TRY_OR(cleanup, brc_new_int(s, &t->freedom, freedom, n, "strikers"));
     BRC_TRY_OR(cleanup, new_uploaded(s, &t->orientation, 4, upright, "orientations of strikers"));
-    BRC_TRY_OR(cleanup, new_uploaded(s, &t->velocity, 3, velocity, "velocities of strikers"));
+    BRC_TRY_OR(cleanup, new_uploaded(s, &t->pose, 12, pose, "poses of strikers"));
+    BRC_TRY_OR(cleanup, new_uploaded(s, &t->centre, 3, centre, "centres of strikers"));
+    BRC_TRY_OR(cleanup, new_uploaded(s, &t->motion, 6, motion, "velocities of strikers"));
     BRC_TRY_OR(cleanup, new_uploaded(s, &t->momentum, 3, momentum, "momenta of strikers"));
-    BRC_TRY_OR(cleanup, new_uploaded(s, &t->spin, 3, spin, "spins of strikers"));
     BRC_TRY_OR(cleanup, new_uploaded(s, &t->mass, 1, mass, "masses of strikers"));
     BRC_TRY_OR(cleanup, new_uploaded(s, &t->inertia, 6, inertia, "inertia of strikers"));
     const struct {
         brc_buffer **buffer;
         int width;
-    } zero[] = {{&t->displacement, 3}, {&t->force, 3}, {&t->torque, 3}, {&t->moved, 6}, {&t->last, 6}, {&t->work, 1}, {&t->lost, 1}};
+    } zero[] = {{&t->displacement, 3}, {&t->load, 6}, {&t->moved, 6}, {&t->last, 6}, {&t->work, 1}, {&t->lost, 1}};
     for (size_t k = 0; k < sizeof zero / sizeof *zero; ++k) BRC_TRY_OR(cleanup, new_uploaded(s, zero[k].buffer, zero[k].width, NULL, "state of strikers"));
 cleanup:
     brc_memory_free(room);
@@ -94,8 +100,8 @@ void brc_strikers_free(brc_simulation *s)
 {
     brc_strikers *t = s->strikers;
     if (!t) return;
-    brc_buffer **buffers[] = {&t->displacement, &t->velocity, &t->momentum, &t->spin, &t->force, &t->torque, &t->orientation,
-                              &t->freedom, &t->mass, &t->inertia, &t->moved, &t->last, &t->work, &t->lost};
+    brc_buffer **buffers[] = {&t->pose, &t->motion, &t->load, &t->displacement, &t->orientation, &t->momentum, &t->centre, &t->freedom, &t->mass, &t->inertia,
+                              &t->moved, &t->last, &t->work, &t->lost};
     for (size_t k = 0; k < sizeof buffers / sizeof *buffers; ++k) brc_buffer_free(buffers[k]);
     brc_memory_free(t->body);
     brc_memory_free(t->placed);
@@ -116,8 +122,8 @@ brc_status brc_strikers_advance(brc_simulation *s, double kick, double drift, do
     const brc_strikers *t = s->strikers;
     const double *g = gravity(s);
     return BRC_LAUNCH(t->advance, t->n, BRC_INT(t->n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(extra), BRC_INT(numerical ? 1 : 0), BRC_STATE(g[0]),
-                      BRC_STATE(g[1]), BRC_STATE(g[2]), BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->inertia), BRC_BUF(t->force), BRC_BUF(t->torque),
-                      BRC_BUF(t->velocity), BRC_BUF(t->momentum), BRC_BUF(t->spin), BRC_BUF(t->displacement), BRC_BUF(t->orientation), BRC_BUF(t->moved),
+                      BRC_STATE(g[1]), BRC_STATE(g[2]), BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->inertia), BRC_BUF(t->centre), BRC_BUF(t->load),
+                      BRC_BUF(t->motion), BRC_BUF(t->momentum), BRC_BUF(t->displacement), BRC_BUF(t->orientation), BRC_BUF(t->pose), BRC_BUF(t->moved),
                       BRC_BUF(t->lost));
 }
 
@@ -143,8 +149,8 @@ brc_status brc_strikers_prescribe(brc_simulation *s)
         BRC_TRY(BRC_LAUNCH(t->place, 1, BRC_INT(1), BRC_INT(i), BRC_STATE(path * v[0]), BRC_STATE(path * v[1]), BRC_STATE(path * v[2]), BRC_STATE(q[0]),
                            BRC_STATE(q[1]), BRC_STATE(q[2]), BRC_STATE(q[3]), BRC_STATE(factor * v[0]), BRC_STATE(factor * v[1]), BRC_STATE(factor * v[2]),
                            BRC_STATE(factor * w[0]), BRC_STATE(factor * w[1]), BRC_STATE(factor * w[2]), BRC_STATE(step * v[0]), BRC_STATE(step * v[1]),
-                           BRC_STATE(step * v[2]), BRC_STATE(step * w[0]), BRC_STATE(step * w[1]), BRC_STATE(step * w[2]), BRC_BUF(t->displacement),
-                           BRC_BUF(t->orientation), BRC_BUF(t->velocity), BRC_BUF(t->spin), BRC_BUF(t->moved)));
+                           BRC_STATE(step * v[2]), BRC_STATE(step * w[0]), BRC_STATE(step * w[1]), BRC_STATE(step * w[2]), BRC_BUF(t->centre),
+                           BRC_BUF(t->motion), BRC_BUF(t->displacement), BRC_BUF(t->orientation), BRC_BUF(t->pose), BRC_BUF(t->moved)));
         t->placed[i] = path;
     }
     return BRC_OK;
@@ -157,7 +163,7 @@ brc_status brc_strikers_book(brc_simulation *s, brc_booking book)
     const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
     const bool numerical = stage && stage->solver == BRC_SOLVER_DYNAMIC && stage->integrator == BRC_TCHAMWA_WIELGOSZ;
     return BRC_LAUNCH(t->book, t->n, BRC_INT(t->n), BRC_INT(book), BRC_INT(numerical ? 1 : 0), BRC_STATE(g[0]), BRC_STATE(g[1]), BRC_STATE(g[2]),
-                      BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->force), BRC_BUF(t->torque), BRC_BUF(t->moved), BRC_BUF(t->last), BRC_BUF(t->work),
+                      BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->load), BRC_BUF(t->moved), BRC_BUF(t->last), BRC_BUF(t->work),
                       BRC_BUF(t->lost));
 }
 
@@ -188,17 +194,19 @@ static void rotation_vector(const double q[4], double out[3])
 brc_status brc_simulation_striker_now(brc_simulation *s, int32_t i, brc_striker_now *out)
 {
     const brc_strikers *t = s->strikers;
-    double momentum[3];
+    double momentum[3], motion[6], load[6];
     BRC_TRY(read_one(s, t->displacement, i, 3, out->displacement));
     BRC_TRY(read_one(s, t->orientation, i, 4, out->orientation));
-    BRC_TRY(read_one(s, t->velocity, i, 3, out->velocity));
     BRC_TRY(read_one(s, t->momentum, i, 3, momentum));
-    BRC_TRY(read_one(s, t->spin, i, 3, out->spin));
-    BRC_TRY(read_one(s, t->force, i, 3, out->force));
-    BRC_TRY(read_one(s, t->torque, i, 3, out->torque));
+    BRC_TRY(read_one(s, t->motion, i, 6, motion));
+    BRC_TRY(read_one(s, t->load, i, 6, load));
     rotation_vector(out->orientation, out->rotation);
     out->kinetic = 0;
     for (int c = 0; c < 3; ++c) {
+        out->velocity[c] = motion[c];
+        out->spin[c] = motion[3 + c];
+        out->force[c] = load[c];
+        out->torque[c] = load[3 + c];
         out->position[c] = t->body[i].centre[c] + out->displacement[c];
         if (is_free(s, i)) out->kinetic += 0.5 * t->body[i].mass * out->velocity[c] * out->velocity[c] + 0.5 * momentum[c] * out->spin[c];
     }

@@ -23,7 +23,7 @@ typedef struct brc_striker_body {
     double centre[3];   /* mass centre as the scene starts; of a plane: its point [m] */
     double mass;        /* of a free one [kg]; else 0 */
     double inertia[6];  /* of a free one, about the centre, as the scene starts, xx yy zz yz xz xy [kg m^2]; else 0 */
-    double volume;      /* of its flat faces [m^3]; of a plane 0 */
+    double volume;      /* [m^3]; of a plane 0 */
 } brc_striker_body;
 
 int32_t brc_simulation_n_strikers(const brc_simulation *simulation);

@@ -5,16 +5,20 @@
 #include "simulation_internal.h"
 #include "strikers.h"
 
-/* Everything that exists only in scenes with strikers. Buffers of numbers are of the state, [n][3] unless said; what they hold is told in kernels/strikers.cl. */
+/* Everything that exists only in scenes with strikers. What the buffers of numbers hold is told in kernels/strikers.cl. */
 struct brc_strikers {
     int32_t n;
     brc_kernel *advance, *place, *book;
     brc_striker_body *body; /* [n] host */
     double *placed;         /* [n] driven: integral of the table up to where they are placed now [s]; host */
-    brc_buffer *displacement, *velocity, *momentum, *spin, *force, *torque;
-    brc_buffer *orientation;                             /* [n][4] */
-    brc_buffer *freedom, *mass, *inertia;                /* [n] int, [n], [n][6] */
-    brc_buffer *moved, *last, *work, *lost;              /* [n][6], [n][6], [n], [n] */
+    /* for contact */
+    brc_buffer *pose;   /* [n][12] place of the mass centre, rotation matrix by rows: now */
+    brc_buffer *motion; /* [n][6] velocity, angular velocity: now */
+    brc_buffer *load;   /* [n][6] force and torque about the mass centre: written by contact with every evaluation of the forces */
+    /* the rest of the state, and what does not change */
+    brc_buffer *displacement, *orientation, *momentum;
+    brc_buffer *freedom, *mass, *inertia, *centre;
+    brc_buffer *moved, *last, *work, *lost;
 };
 
 /* Energies of all strikers [J]. */
@@ -25,6 +29,8 @@ typedef struct brc_striker_energies {
     double numerical; /* lost to the integrator */
 } brc_striker_energies;
 
+/* Mass, centre and inertia of one (striker_body.c). */
+brc_status brc_striker_body_make(brc_simulation *s, int32_t striker, brc_striker_body *out);
 /* Make them, where the scene has some; velocities are those of the start of the run. BRC_BAD_INPUT: a free one without mass ... */
 brc_status brc_strikers_create(brc_simulation *s);
 void brc_strikers_free(brc_simulation *s);

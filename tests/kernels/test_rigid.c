@@ -15,31 +15,31 @@
 #pragma GCC diagnostic ignored "-Wshadow"
 #include "../../kernels/rigid.h"
 
-static const rigid_quat UPRIGHT = {1, 0, 0, 0};
+static const squat UPRIGHT = {1, 0, 0, 0};
 
-static double length(rigid_vec a) { return sqrt(rigid_dot(a, a)); }
-static double apart(rigid_vec a, rigid_vec b) { return length(rigid_add(a, rigid_scale(-1, b))); }
+static double length(svec3 a) { return sqrt(svec3_dot(a, a)); }
+static double apart(svec3 a, svec3 b) { return length(svec3_add(a, svec3_scale(-1, b))); }
 /* Largest difference of what two rotations do to the axes. */
-static double differ(rigid_quat a, rigid_quat b)
+static double differ(squat a, squat b)
 {
-    const rigid_vec axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const svec3 axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     double most = 0;
     for (int k = 0; k < 3; ++k) most = fmax(most, apart(rigid_rotate(a, axis[k]), rigid_rotate(b, axis[k])));
     return most;
 }
-static rigid_quat turn_about(rigid_vec axis, double angle)
+static squat turn_about(svec3 axis, double angle)
 {
     const double s = sin(angle / 2) / length(axis);
-    return (rigid_quat){cos(angle / 2), s * axis.x, s * axis.y, s * axis.z};
+    return (squat){cos(angle / 2), s * axis.x, s * axis.y, s * axis.z};
 }
 
 /* R I R^T by columns. */
-static rigid_sym turned_by(rigid_quat q, const double moment[3])
+static ssym3 turned_by(squat q, const double moment[3])
 {
-    const rigid_vec axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    rigid_sym i = {0, 0, 0, 0, 0, 0};
+    const svec3 axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    ssym3 i = {0, 0, 0, 0, 0, 0};
     for (int k = 0; k < 3; ++k) {
-        const rigid_vec r = rigid_rotate(q, axis[k]);
+        const svec3 r = rigid_rotate(q, axis[k]);
         i.xx += moment[k] * r.x * r.x, i.yy += moment[k] * r.y * r.y, i.zz += moment[k] * r.z * r.z;
         i.yz += moment[k] * r.y * r.z, i.xz += moment[k] * r.x * r.z, i.xy += moment[k] * r.x * r.y;
     }
@@ -51,14 +51,14 @@ static rigid_sym turned_by(rigid_quat q, const double moment[3])
 static void a_top_without_torque_keeps_its_energy_over_1e5_steps(void **state)
 {
     (void)state;
-    const rigid_sym own = turned_by(turn_about((rigid_vec){1, 2, 0.5}, 0.7), (double[3]){1, 2, 2.7});
-    const rigid_vec l = {0.3, 2.1, 0.4};
-    rigid_quat q = UPRIGHT;
-    const double before = 0.5 * rigid_dot(l, rigid_spin(q, own, l));
+    const ssym3 own = turned_by(turn_about((svec3){1, 2, 0.5}, 0.7), (double[3]){1, 2, 2.7});
+    const svec3 l = {0.3, 2.1, 0.4};
+    squat q = UPRIGHT;
+    const double before = 0.5 * svec3_dot(l, rigid_spin(q, own, l));
     double off = 0, turned = 0;
     for (int k = 0; k < 100000; ++k) {
         q = rigid_drift(q, own, l, 0.02);
-        off = fmax(off, fabs(0.5 * rigid_dot(l, rigid_spin(q, own, l)) - before));
+        off = fmax(off, fabs(0.5 * svec3_dot(l, rigid_spin(q, own, l)) - before));
         turned = fmax(turned, differ(q, UPRIGHT));
     }
     assert_true(off < 2e-10 * before);
@@ -67,17 +67,17 @@ static void a_top_without_torque_keeps_its_energy_over_1e5_steps(void **state)
 }
 
 /* I1 = I2: q(t) = exp(l t / 2 I1) exp(e3 (w3 - l3 / I1) t / 2), e3 the axis of the body. */
-static rigid_quat symmetric_top(double i1, double i3, rigid_vec l, double t)
+static squat symmetric_top(double i1, double i3, svec3 l, double t)
 {
-    const rigid_vec axis = {0, 0, 1};
-    return rigid_after(turn_about(l, length(l) / i1 * t), turn_about(axis, (l.z / i3 - l.z / i1) * t));
+    const svec3 axis = {0, 0, 1};
+    return squat_mul(turn_about(l, length(l) / i1 * t), turn_about(axis, (l.z / i3 - l.z / i1) * t));
 }
 
 static double symmetric_error(double h, int steps)
 {
-    const rigid_sym own = {1, 1, 1.8, 0, 0, 0};
-    const rigid_vec l = {0.5, 0.2, 1.1};
-    rigid_quat q = UPRIGHT;
+    const ssym3 own = {1, 1, 1.8, 0, 0, 0};
+    const svec3 l = {0.5, 0.2, 1.1};
+    squat q = UPRIGHT;
     for (int k = 0; k < steps; ++k) q = rigid_drift(q, own, l, h);
     return differ(q, symmetric_top(1, 1.8, l, h * steps));
 }
@@ -114,18 +114,18 @@ static void elliptic(double u, double m, double *sn, double *cn, double *dn)
 static double asymmetric_error(double h, int steps)
 {
     const double i1 = 1, i2 = 2, i3 = 2.7, w1 = 0.4, w3 = 0.9;
-    const rigid_sym own = {i1, i2, i3, 0, 0, 0};
-    const rigid_vec l = {i1 * w1, 0, i3 * w3};
-    const double twice = i1 * w1 * w1 + i3 * w3 * w3, square = rigid_dot(l, l);
+    const ssym3 own = {i1, i2, i3, 0, 0, 0};
+    const svec3 l = {i1 * w1, 0, i3 * w3};
+    const double twice = i1 * w1 * w1 + i3 * w3 * w3, square = svec3_dot(l, l);
     assert_true(square > twice * i2);
     const double rate = sqrt((i3 - i2) * (square - twice * i1) / (i1 * i2 * i3)), m = (i2 - i1) * (twice * i3 - square) / ((i3 - i2) * (square - twice * i1));
     const double second = sqrt((twice * i3 - square) / (i2 * (i3 - i2)));
     double sn, cn, dn;
-    rigid_quat q = UPRIGHT;
+    squat q = UPRIGHT;
     for (int k = 0; k < steps; ++k) q = rigid_drift(q, own, l, h);
     elliptic(rate * h * steps, m, &sn, &cn, &dn);
-    const rigid_vec w = rigid_rotate(rigid_conjugate(q), rigid_spin(q, own, l));
-    return apart(w, (rigid_vec){w1 * cn, second * sn, w3 * dn});
+    const svec3 w = rigid_rotate(rigid_back(q), rigid_spin(q, own, l));
+    return apart(w, (svec3){w1 * cn, second * sn, w3 * dn});
 }
 
 static void an_asymmetric_top_follows_jacobis_functions_to_second_order(void **state)
@@ -140,9 +140,9 @@ static void an_asymmetric_top_follows_jacobis_functions_to_second_order(void **s
 static void a_ball_turns_exactly(void **state)
 {
     (void)state;
-    const rigid_sym own = {0.4, 0.4, 0.4, 0, 0, 0};
-    const rigid_vec l = {0.1, -0.2, 0.3};
-    rigid_quat q = UPRIGHT;
+    const ssym3 own = {0.4, 0.4, 0.4, 0, 0, 0};
+    const svec3 l = {0.1, -0.2, 0.3};
+    squat q = UPRIGHT;
     for (int k = 0; k < 1000; ++k) q = rigid_drift(q, own, l, 0.1);
     assert_true(differ(q, turn_about(l, length(l) / 0.4 * 100)) < 1000 * 4e-16);
 }
@@ -151,10 +151,10 @@ static void a_ball_turns_exactly(void **state)
 static void moments_are_solved_at_any_size(void **state)
 {
     (void)state;
-    const rigid_sym own = {1e-110, 2e-110, 2.7e-110, 0.3e-110, -0.2e-110, 0.4e-110};
-    const rigid_vec w = rigid_solve(own, (rigid_vec){1e-110, -3e-110, 2e-110});
-    const rigid_vec back = {own.xx * w.x + own.xy * w.y + own.xz * w.z, own.xy * w.x + own.yy * w.y + own.yz * w.z, own.xz * w.x + own.yz * w.y + own.zz * w.z};
-    assert_true(apart(back, (rigid_vec){1e-110, -3e-110, 2e-110}) < 1e-124);
+    const ssym3 own = {1e-110, 2e-110, 2.7e-110, 0.3e-110, -0.2e-110, 0.4e-110};
+    const svec3 w = rigid_solve(own, (svec3){1e-110, -3e-110, 2e-110});
+    const svec3 back = {own.xx * w.x + own.xy * w.y + own.xz * w.z, own.xy * w.x + own.yy * w.y + own.yz * w.z, own.xz * w.x + own.yz * w.y + own.zz * w.z};
+    assert_true(apart(back, (svec3){1e-110, -3e-110, 2e-110}) < 1e-124);
 }
 
 int main(void)
