@@ -87,16 +87,21 @@ static brc_status read_rows(const brc_case_reader *r, const brc_node *node, brc_
     return BRC_OK;
 }
 
+static const char *const precisions[] = {"double", "mixed", "single", NULL};
+
 static brc_status read_run(const brc_case_reader *r, const brc_node *node, brc_case_run *run)
 {
-    static const char *const precisions[] = {"double", "mixed", "single", NULL};
-    *run = (brc_case_run){.name = "", .scene = "scene.yaml", .n_seeds = 1};
+    *run = (brc_case_run){.name = "", .scene = "scene.yaml", .about = "", .n_seeds = 1};
     if (node->kind != BRC_NODE_MAP) brc_case_wrong(r, node, "a map");
     for (const brc_node *item = node->first; node->kind == BRC_NODE_MAP && item; item = item->next) {
         if (strcmp(item->key, "name") == 0)
             run->name = brc_case_text_of(r, item);
         else if (strcmp(item->key, "scene") == 0)
             run->scene = brc_case_text_of(r, item);
+        else if (strcmp(item->key, "about") == 0)
+            run->about = brc_case_text_of(r, item);
+        else if (strcmp(item->key, "precisions") == 0)
+            continue; /* read_runs makes one run of each */
         else if (strcmp(item->key, "quick") == 0)
             run->quick = brc_case_flag_of(r, item);
         else if (strcmp(item->key, "keep") == 0)
@@ -130,6 +135,34 @@ static brc_status read_run(const brc_case_reader *r, const brc_node *node, brc_c
             brc_case_unknown_key(r, item, "run");
     }
     if (!run->name[0]) brc_case_wrong(r, node, "a run with a name");
+    return BRC_OK;
+}
+
+/* One run, or with `precisions` one in each of them: called NAME-PRECISION, labelled with it, the sentence at the first. */
+static brc_status read_runs(const brc_case_reader *r, const brc_node *node, brc_case *what)
+{
+    const char *wanted[BRC_CASE_LIST];
+    int n = 0;
+    for (const brc_node *item = node->kind == BRC_NODE_MAP ? node->first : NULL; item; item = item->next)
+        if (strcmp(item->key, "precisions") == 0)
+            for (const brc_node *word = item->kind == BRC_NODE_LIST ? item->first : item; word && n < 3; word = item->kind == BRC_NODE_LIST ? word->next : NULL)
+                wanted[n++] = precisions[brc_case_word_of(r, word, precisions)];
+    if (n == 0) return read_run(r, node, &what->runs[what->n_runs++]);
+    for (int k = 0; k < n; ++k) {
+        brc_case_run *run = &what->runs[what->n_runs++];
+        char *name;
+        BRC_TRY(read_run(r, node, run));
+        run->has_precision = true;
+        for (int p = 0; precisions[p]; ++p)
+            if (wanted[k] == precisions[p]) run->precision = (brc_precision)p;
+        if (k > 0) run->about = "";
+        if (run->n_labels == BRC_CASE_LIST) continue;
+        run->labels[run->n_labels++] = (brc_case_pair){"precision", wanted[k]};
+        const size_t size = strlen(run->name) + strlen(wanted[k]) + 2;
+        BRC_TRY(BRC_ALLOCATE(r->context, &name, (int64_t)size, "name of a run"));
+        snprintf(name, size, "%s-%s", run->name, wanted[k]);
+        run->name = run->own_name = name;
+    }
     return BRC_OK;
 }
 
@@ -187,9 +220,9 @@ static brc_status read_top(const brc_case_reader *r, const brc_node *root, brc_c
         else if (strcmp(item->key, "about") == 0)
             what->about = brc_case_text_of(r, item);
         else if (strcmp(item->key, "runs") == 0 && item->kind == BRC_NODE_LIST) {
-            BRC_TRY(BRC_ALLOCATE(r->context, &what->runs, item->n_children, "runs of a case"));
+            BRC_TRY(BRC_ALLOCATE(r->context, &what->runs, 3 * (int64_t)item->n_children, "runs of a case")); /* in three precisions at most */
             for (const brc_node *run = item->first; run; run = run->next)
-                BRC_TRY(read_run(r, run, &what->runs[what->n_runs++]));
+                BRC_TRY(read_runs(r, run, what));
         } else if (strcmp(item->key, "derived") == 0 && item->kind == BRC_NODE_LIST) {
             BRC_TRY(BRC_ALLOCATE(r->context, &what->derived, item->n_children, "derived rows of a case"));
             for (const brc_node *derived = item->first; derived; derived = derived->next)
@@ -251,8 +284,10 @@ cleanup:
 void brc_case_free(brc_case **what)
 {
     if (!what || !*what) return;
-    for (int k = 0; k < (*what)->n_runs; ++k)
+    for (int k = 0; k < (*what)->n_runs; ++k) {
         brc_memory_free((*what)->runs[k].rows);
+        brc_memory_free((*what)->runs[k].own_name);
+    }
     brc_memory_free((*what)->runs);
     brc_memory_free((*what)->derived);
     brc_tree_free(&(*what)->tree);

@@ -47,6 +47,8 @@ typedef enum brc_case_operator {
 
 typedef struct brc_case_run {
     const char *name, *scene;
+    char *own_name;    /* where the name was put together: owned */
+    const char *about; /* a sentence printed above its rows; "" */
     bool quick;        /* part of --quick */
     bool keep;         /* its displacement at the end is kept for derived rows */
     bool may_stop;     /* a stop of the physics is a result, not a failure */

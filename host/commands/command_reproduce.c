@@ -153,6 +153,7 @@ static brc_status carry_out(brc_campaign *campaign)
             outcome->skipped = true;
             continue;
         }
+        if (outcome->run->about[0]) printf("-- %s\n", outcome->run->about);
         BRC_TRY(brc_outcome_obtain(campaign, outcome));
         put_rows_of_run(campaign, outcome);
         BRC_TRY(brc_rows_write(&campaign->rows, campaign->folder)); /* a long campaign that is stopped keeps its rows */

@@ -67,7 +67,8 @@ typedef struct brc_drift brc_drift;
 brc_status brc_drift_create(brc_context *context, brc_drift **out);
 void brc_drift_free(brc_drift **drift);
 brc_observer brc_drift_observer(brc_drift *drift);
-/* energy_drift, momentum_drift, angular_momentum_drift, closure_worst, closure_rms, energy_spread. */
+/* energy_drift, momentum_drift, angular_momentum_drift, closure_worst, closure_rms, energy_spread; energy_growth: the largest energy
+ * over what initial fields and loads had put in by then. */
 void brc_drift_values(const brc_drift *drift, brc_outcome *outcome);
 
 /* The isotropy operator: build run->n_seeds samples of the scene (a text, its name a path) and add fabric_anisotropy, cubic,

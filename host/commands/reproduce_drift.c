@@ -9,6 +9,7 @@ struct brc_drift {
     int64_t n_samples, capacity;
     double *total;   /* [n_samples] total energy [J] */
     double closure_worst, closure_squares;
+    double growth;   /* largest energy over what initial fields and loads had put in by then [-] */
     double *mass, *displacement, *velocity; /* [n_elements], [n_elements][3] twice */
     double *inertia, *orientation, *spin;   /* elements with rotations: [n_elements], [n_elements][4], [n_elements][3]; else NULL */
     double lean;                            /* least cosine between a beam and a section's normal at its ends */
@@ -115,6 +116,8 @@ static brc_status sample(void *self, brc_simulation *simulation)
 {
     brc_drift *d = self;
     const brc_domain *domain = brc_simulation_domain(simulation);
+    const brc_stage *stage = brc_simulation_scene(simulation)->stages + brc_simulation_stage(simulation);
+    if (stage->solver != BRC_SOLVER_DYNAMIC) return BRC_OK; /* static stages put energy in; what may not drift is the motion after */
     if (!d->mass) BRC_TRY(prepare(d, simulation));
     if (d->n_samples == d->capacity) {
         d->capacity = d->capacity ? 2 * d->capacity : 1024;
@@ -124,6 +127,8 @@ static brc_status sample(void *self, brc_simulation *simulation)
     BRC_TRY(brc_simulation_ledger(simulation, &ledger));
     d->total[d->n_samples] = ledger.total;
     d->closure_worst = fmax(d->closure_worst, fabs(ledger.closure));
+    const double put_in = fabs(ledger.initial) + fabs(ledger.work);
+    if (put_in > 0) d->growth = fmax(d->growth, ledger.total / put_in);
     d->closure_squares += ledger.closure * ledger.closure;
     BRC_TRY(brc_simulation_displacement(simulation, d->displacement));
     BRC_TRY(brc_simulation_velocity(simulation, d->velocity));
@@ -169,6 +174,7 @@ static double relative(double deviation, const double initial[3], double parts)
 
 void brc_drift_values(const brc_drift *d, brc_outcome *outcome)
 {
+    brc_outcome_add(outcome, "energy_growth", "-", d->growth, NAN);
     if (d->n_samples < 20) return; /* no tenth to speak of */
     const int64_t tenth = d->n_samples / 10;
     const double first = mean(d->total, 0, tenth), last = mean(d->total, d->n_samples - tenth, d->n_samples);

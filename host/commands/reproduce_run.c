@@ -83,6 +83,7 @@ static void take(brc_outcome *outcome, const brc_run_results *results, bool stop
         if (isnan(measure->value) && !stopped && !outcome->note[0])
             snprintf(outcome->note, sizeof outcome->note, "%s: %s", measure->name, measure->why_not);
     }
+    brc_outcome_add(outcome, "stopped", "-", stopped, NAN);
     brc_outcome_add(outcome, "seconds", "s", results->total_s, NAN);
     brc_outcome_add(outcome, "build_seconds", "s", results->build_s, NAN);
     brc_outcome_add(outcome, "step_seconds", "s", results->steps_s, NAN);

@@ -9,6 +9,9 @@
  * squares. Far below what a boundary cell of an unrelaxed grid shows (0.07/0.57, design-dlsm.md section 3), far above
  * rounding: only flat or lone elements meet it. */
 static const double span_threshold = 1e-6;
+/* The same where coefficients are single: rounding of the gradient in the weakest direction is amplified by the ratio of the spans, and what it leaves
+ * of a turned element's strain heats the body. An element of ratio 5e-4 doubled its energy in 1e5 steps (docs/stability.md). */
+static const double single_span_threshold = 1e-2;
 
 static void branch_of(const brc_domain *d, int64_t h, int32_t i, double branch[3])
 {
@@ -107,6 +110,7 @@ static brc_status upload_inverse_shapes(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
     const int slice = layout->slice;
+    const double least_span = brc_device_get_precision(s->device) == BRC_DOUBLE ? span_threshold : single_span_threshold;
     double *blocks = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &blocks, (int64_t)layout->n_rows * 6, "least-squares matrices"));
     int64_t flat = 0;
@@ -116,7 +120,7 @@ static brc_status upload_inverse_shapes(brc_simulation *s)
         if (e < 0) continue;
         double a[6], inverse[6];
         shape_matrix(s, e, a);
-        const int spanned = brc_sym3_pseudo_inverse(a, span_threshold, inverse);
+        const int spanned = brc_sym3_pseudo_inverse(a, least_span, inverse);
         flat += spanned < 3;
         if (spanned == 3 && !brc_is_published(s)) brc_consistent_inverse(s, e, inverse);
         for (int c = 0; c < 6; ++c) blocks[((int64_t)(r / slice) * 6 + c) * slice + r % slice] = inverse[c];

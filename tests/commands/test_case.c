@@ -63,6 +63,26 @@ static void a_case_is_read_with_units_and_rules(void **state)
     brc_context_free(&context);
 }
 
+static void precisions_make_a_run_of_each(void **state)
+{
+    (void)state;
+    brc_context *context = brc_context_create();
+    brc_case *what;
+    assert_int_equal(read_text(context, "title: A\nruns:\n  - {name: one, about: said once, precisions: [double, single], label: {nu: 0.3}, rows: {E: {}}}\n  - {name: two}\n"
+                               "derived:\n  - {quantity: apart, formula: range, of: E, runs: [one-double, one-single]}\n", &what), BRC_OK);
+    assert_int_equal(what->n_runs, 3);
+    assert_string_equal(what->runs[0].name, "one-double");
+    assert_string_equal(what->runs[1].name, "one-single");
+    assert_true(what->runs[1].has_precision && what->runs[1].precision == BRC_SINGLE);
+    assert_string_equal(what->runs[0].about, "said once");
+    assert_string_equal(what->runs[1].about, "");
+    assert_string_equal(what->runs[1].labels[1].value, "single");
+    assert_int_equal(what->runs[1].n_rows, 1);
+    assert_false(what->runs[2].has_precision);
+    brc_case_free(&what);
+    brc_context_free(&context);
+}
+
 static void mistakes_are_told_with_their_place(void **state)
 {
     (void)state;
@@ -157,6 +177,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_case_is_read_with_units_and_rules),
+        cmocka_unit_test(precisions_make_a_run_of_each),
         cmocka_unit_test(mistakes_are_told_with_their_place),
         cmocka_unit_test(every_case_in_the_program_reads_and_has_its_scenes),
         cmocka_unit_test(an_unknown_case_is_answered_with_the_nearest),
