@@ -14,6 +14,7 @@
 #include "failure.h"
 #include "failure_bound.h"
 #include "cell_normal.h"
+#include "convex_overlap.h"
 #include "vector.cl"
 #include "motion.cl"
 #include "rotation.cl"

@@ -8,7 +8,7 @@
  *   BRC_TARGET          defined for the OpenMP target reading of the C build
  *   BRC_EXACT           defined where a product and a sum must not be contracted into one rounding (OpenCL; C by flag)
  *
- * Vocabulary (docs/portable.md): KERNEL, GLOBAL, LAW, FOR_EACH_ITEM, coeff, state, lane, lane_state, lane_int, REAL. */
+ * Vocabulary (docs/portable.md): KERNEL, GLOBAL, LAW, ROUTINE, FOR_EACH_ITEM, coeff, state, lane, lane_state, lane_int, REAL. */
 #ifndef BRC_KERNELS_PORTABLE_H
 #define BRC_KERNELS_PORTABLE_H
 
@@ -54,6 +54,7 @@ typedef float coeff;
 #define KERNEL __kernel
 #define GLOBAL __global
 #define LAW static inline
+#define ROUTINE static inline
 typedef ulong brc_size;
 #define FOR_EACH_ITEM(i, n) const int i = (int)get_global_id(0); if (i < (n))
 #if W == 1
@@ -87,6 +88,7 @@ typedef BRC_JOIN(int, BRC_LANES) lane_int;
 #define KERNEL static
 #define GLOBAL
 #define LAW static inline __attribute__((always_inline))
+#define ROUTINE static inline
 typedef size_t brc_size;
 #define STORE_SAME(place, value) __atomic_store_n((place), (value), __ATOMIC_RELAXED)
 #define BRC_PRAGMA(x) _Pragma(#x)

@@ -1,0 +1,396 @@
+/* The overlap of two convex polyhedra: volume, area vector and first moments, which are its exact gradient; no cases for vertex, edge or face.
+ *
+ * A polyhedron is given by corners and faces relative to its origin, in its own frame, and stands in the world by x = origin + map X; planes
+ * stay planes and convex stays convex under any map with det > 0: I + H of a bonded cell, the rotation of a rigid piece.
+ * The surface of A n B is made of the faces of A clipped by the planes of B and the faces of B clipped by those of A (Sutherland and Hodgman,
+ * one polygon at a time). By the divergence theorem, with n outward of the face's own polyhedron, heights from any point c,
+ *     V = 1/3 sum height area,     dV/d origin_B = area = integral of n dS over the surface of B inside A = -dV/d origin_A,
+ *     dV/d map_A = moment_A map_A^-T,     moment_A = integral of n (x) (x - origin_A) dS over the surface of A inside B, likewise B.
+ *
+ * Ties. Face i of A and face j of B may lie in one plane, to rounding or exactly (cells that shared a face, blocks side by side). Which part of
+ * the plane belongs to i and which to j must be the same answer in both clippings, or a whole face counts twice or never. On plane i, the height
+ * over plane j is also that height minus (normals alike) or plus (normals opposed) the height over plane i, which is zero there. Cut by this
+ * difference or sum, both faces are cut by one and the same plane, whatever the rounding, and share what they cover (alike) or keep the same
+ * part (opposed). On the cut itself face i counts and face j does not (alike), or neither (opposed: touching is no overlap). */
+#ifndef BRC_KERNELS_CONVEX_OVERLAP_H
+#define BRC_KERNELS_CONVEX_OVERLAP_H
+
+#include "portable.h"
+
+/* Corners of one face and cuts through it: a face of c corners meets a polyhedron of f faces safely while c + f is at most this. */
+#define CONVEX_POLYGON 128
+/* Planes that are kept at hand; further ones (large strikers) are mapped again for every face they may cut. */
+#define CONVEX_PLANES 32
+
+typedef struct { state x, y, z; } convex_vec;
+typedef struct { state xx, xy, xz, yx, yy, yz, zx, zy, zz; } convex_map;
+/* normal . x = height, normal outward [-], height [m] */
+typedef struct { convex_vec normal; state height; } convex_plane;
+
+/* One polyhedron of the arrays of all (preprocess/convex.h makes them). */
+typedef struct {
+    GLOBAL const state *corner;   /* [n_corners][3] from the origin [m] */
+    GLOBAL const state *plane;    /* [n_faces][4] outward unit normal [-], height over the origin [m] */
+    GLOBAL const int *loop_start; /* [n_faces + 1] into loop */
+    GLOBAL const int *loop;       /* corners of the faces, counter-clockwise from outside, counted within the polyhedron */
+    int n_corners, n_faces;
+    state radius;                 /* of the sphere about the origin that holds all corners [m] */
+} convex_shape;
+
+/* Origins of a pair are relative to any place near it: in single precision a far one costs digits. */
+typedef struct { convex_vec origin; convex_map map; } convex_pose;
+
+typedef struct {
+    state volume;                  /* [m^3]; 0: apart, or touching */
+    convex_vec area;               /* [m^2]; A is pushed along it, B against it */
+    convex_map moment_a, moment_b; /* [m^3] rows: normal, columns: place */
+    convex_vec point;              /* the centroid of the overlap's surface: where friction acts, in the frame of the origins [m] */
+    int failed;                    /* 1: a map turns a polyhedron inside out; 2: a polygon outgrew CONVEX_POLYGON */
+} convex_overlap;
+
+LAW convex_vec convex_add(convex_vec a, convex_vec b) { return (convex_vec){a.x + b.x, a.y + b.y, a.z + b.z}; }
+LAW convex_vec convex_sub(convex_vec a, convex_vec b) { return (convex_vec){a.x - b.x, a.y - b.y, a.z - b.z}; }
+LAW convex_vec convex_scale(state k, convex_vec a) { return (convex_vec){k * a.x, k * a.y, k * a.z}; }
+LAW state convex_dot(convex_vec a, convex_vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+LAW convex_vec convex_cross(convex_vec a, convex_vec b)
+{
+    return (convex_vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+LAW state convex_length(convex_vec a) { return SQRT_STATE(convex_dot(a, a)); }
+LAW convex_vec convex_turn(convex_map m, convex_vec a)
+{
+    return (convex_vec){m.xx * a.x + m.xy * a.y + m.xz * a.z, m.yx * a.x + m.yy * a.y + m.yz * a.z, m.zx * a.x + m.zy * a.y + m.zz * a.z};
+}
+LAW convex_map convex_transpose(convex_map m) { return (convex_map){m.xx, m.yx, m.zx, m.xy, m.yy, m.zy, m.xz, m.yz, m.zz}; }
+/* m + a (x) b */
+LAW convex_map convex_add_outer(convex_map m, convex_vec a, convex_vec b)
+{
+    return (convex_map){m.xx + a.x * b.x, m.xy + a.x * b.y, m.xz + a.x * b.z, m.yx + a.y * b.x, m.yy + a.y * b.y,
+                        m.yz + a.y * b.z, m.zx + a.z * b.x, m.zy + a.z * b.y, m.zz + a.z * b.z};
+}
+LAW state convex_determinant(convex_map m)
+{
+    return m.xx * (m.yy * m.zz - m.yz * m.zy) + m.xy * (m.yz * m.zx - m.yx * m.zz) + m.xz * (m.yx * m.zy - m.yy * m.zx);
+}
+/* The inverse; the determinant is not 0. */
+LAW convex_map convex_inverse(convex_map m)
+{
+    const state k = STATE(1) / convex_determinant(m);
+    return (convex_map){k * (m.yy * m.zz - m.yz * m.zy), k * (m.xz * m.zy - m.xy * m.zz), k * (m.xy * m.yz - m.xz * m.yy),
+                        k * (m.yz * m.zx - m.yx * m.zz), k * (m.xx * m.zz - m.xz * m.zx), k * (m.xz * m.yx - m.xx * m.yz),
+                        k * (m.yx * m.zy - m.yy * m.zx), k * (m.xy * m.zx - m.xx * m.zy), k * (m.xx * m.yy - m.xy * m.yx)};
+}
+/* a b */
+LAW convex_map convex_product(convex_map a, convex_map b)
+{
+    return (convex_map){a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy, a.xx * b.xz + a.xy * b.yz + a.xz * b.zz,
+                        a.yx * b.xx + a.yy * b.yx + a.yz * b.zx, a.yx * b.xy + a.yy * b.yy + a.yz * b.zy, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
+                        a.zx * b.xx + a.zy * b.yx + a.zz * b.zx, a.zx * b.xy + a.zy * b.yy + a.zz * b.zy, a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
+}
+
+/* dV/d map [m^3] from the moment about the origin: what a first moment does to the deformation of its own polyhedron. */
+LAW convex_map convex_reference_moment(convex_map moment, convex_map map)
+{
+    return convex_product(moment, convex_transpose(convex_inverse(map)));
+}
+/* Torque of forces -p n dS with the moment's n and place, at p = 1: -integral of (x - origin) x n dS [m^3]. */
+LAW convex_vec convex_torque(convex_map moment)
+{
+    return (convex_vec){moment.yz - moment.zy, moment.zx - moment.xz, moment.xy - moment.yx};
+}
+
+/* At least the largest factor by which m stretches a length; exact for rotations: |m|^2 <= 1 + |m^T m - 1|. */
+LAW state convex_stretch(convex_map m)
+{
+    const convex_map c = convex_product(convex_transpose(m), m);
+    const state xx = c.xx - STATE(1), yy = c.yy - STATE(1), zz = c.zz - STATE(1);
+    return SQRT_STATE(STATE(1) + SQRT_STATE(xx * xx + yy * yy + zz * zz + STATE(2) * (c.xy * c.xy + c.yz * c.yz + c.xz * c.xz)));
+}
+
+/* Rounding of a number [-]. */
+LAW state convex_rounding(void) { return sizeof(state) == 8 ? STATE(2.3e-16) : STATE(1.2e-7); }
+
+/* Shape s of the arrays of all shapes. */
+LAW convex_shape convex_shape_of(GLOBAL const state *restrict corner, GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start,
+                                 GLOBAL const int *restrict loop, GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start,
+                                 GLOBAL const int *restrict face_start, int s)
+{
+    const int c = corner_start[s], f = face_start[s];
+    return (convex_shape){corner + (brc_size)c * 3, plane + (brc_size)f * 4, loop_start + f, loop, corner_start[s + 1] - c, face_start[s + 1] - f,
+                          radius[s]};
+}
+
+LAW convex_vec convex_corner(convex_shape s, int k)
+{
+    GLOBAL const state *q = s.corner + (brc_size)k * 3;
+    return (convex_vec){q[0], q[1], q[2]};
+}
+LAW convex_plane convex_own_plane(convex_shape s, int f)
+{
+    GLOBAL const state *q = s.plane + (brc_size)f * 4;
+    return (convex_plane){(convex_vec){q[0], q[1], q[2]}, q[3]};
+}
+
+/* A shape where it stands, with what its map's inverse is needed for. */
+typedef struct {
+    convex_shape shape;
+    convex_pose pose;
+    convex_map inverse;
+    state radius, inverse_stretch; /* of the mapped bounding sphere [m]; of the inverse [-] */
+} convex_body;
+
+LAW convex_body convex_body_of(convex_shape shape, convex_pose pose, convex_vec centre)
+{
+    const convex_map inverse = convex_inverse(pose.map);
+    return (convex_body){shape, (convex_pose){convex_sub(pose.origin, centre), pose.map}, inverse, shape.radius * convex_stretch(pose.map),
+                         convex_stretch(inverse)};
+}
+LAW convex_vec convex_place(convex_body b, int k) { return convex_add(b.pose.origin, convex_turn(b.pose.map, convex_corner(b.shape, k))); }
+LAW convex_plane convex_placed(convex_body b, convex_plane own)
+{
+    const convex_vec n = convex_turn(convex_transpose(b.inverse), own.normal);
+    const state k = STATE(1) / convex_length(n);
+    const convex_vec normal = convex_scale(k, n);
+    return (convex_plane){normal, k * own.height + convex_dot(normal, b.pose.origin)};
+}
+/* The plane as the body sees it in its own frame; heights stay what they are. */
+LAW convex_plane convex_seen(convex_body b, convex_plane p)
+{
+    return (convex_plane){convex_turn(convex_transpose(b.pose.map), p.normal), p.height - convex_dot(p.normal, b.pose.origin)};
+}
+
+/* Planes of one body that may cut the other; those of faces from `rest` on are not kept. apart: one of them separates the two. */
+typedef struct {
+    convex_plane plane[CONVEX_PLANES];
+    int n, rest, apart;
+} convex_cutters;
+
+/* The planes of `tool` that some corner of `work` is outside of, or nearer than `margin` [m] to: those, and only those, cut its faces. The plane that
+ * work is the least deep behind comes first: most faces lie outside of it. */
+ROUTINE void convex_find_cutters(convex_body tool, convex_body work, state margin, convex_cutters *c)
+{
+    const convex_vec centre = convex_turn(tool.inverse, convex_sub(work.pose.origin, tool.pose.origin)); /* in the tool's frame */
+    const state reach = work.radius * tool.inverse_stretch * STATE(1.0001) + margin;
+    state first = 0;
+    c->n = 0;
+    c->rest = tool.shape.n_faces;
+    c->apart = 0;
+    for (int f = 0; f < tool.shape.n_faces; ++f) {
+        const convex_plane own = convex_own_plane(tool.shape, f);
+        const state near = convex_dot(own.normal, centre) - own.height;
+        if (near > reach) {
+            c->apart = 1;
+            return;
+        }
+        if (near < -reach) continue;
+        const convex_plane placed = convex_placed(tool, own), seen = convex_seen(work, placed);
+        state low = 0, high = 0;
+        for (int k = 0; k < work.shape.n_corners; ++k) {
+            const state h = convex_dot(seen.normal, convex_corner(work.shape, k)) - seen.height;
+            low = k == 0 || h < low ? h : low;
+            high = k == 0 || h > high ? h : high;
+        }
+        if (low >= 0) {
+            c->apart = 1;
+            return;
+        }
+        if (high <= -margin) continue;
+        if (c->n == CONVEX_PLANES) {
+            c->rest = c->rest < f ? c->rest : f;
+            continue;
+        }
+        c->plane[c->n] = placed;
+        if (c->n == 0 || low > first) {
+            first = low;
+            c->plane[c->n] = c->plane[0];
+            c->plane[0] = placed;
+        }
+        ++c->n;
+    }
+}
+
+/* The plane that cuts a face in plane `own` as plane `other` does (the head of this file says why not `other` itself); alike: normals alike. */
+LAW convex_plane convex_cut(convex_plane own, convex_plane other, int alike)
+{
+    return alike ? (convex_plane){convex_sub(other.normal, own.normal), other.height - own.height}
+                 : (convex_plane){convex_add(other.normal, own.normal), other.height + own.height};
+}
+
+/* A polygon between two buffers: corners from [at], n of them. */
+typedef struct {
+    convex_vec corner[2 * CONVEX_POLYGON];
+    int at, n, failed;
+} convex_polygon;
+
+/* Keep the part with height < 0, closed: <= 0. Removes a corner or more and adds two: the kept ones are taken as one chain around the
+ * lowest, so that rounding on a line of corners cannot add more. */
+ROUTINE void convex_clip(convex_polygon *p, convex_plane cut, int closed)
+{
+    const convex_vec *from = p->corner + p->at;
+    const int n = p->n;
+    state low = 0, high = 0;
+    int start = 0;
+    for (int k = 0; k < n; ++k) {
+        const state h = convex_dot(cut.normal, from[k]) - cut.height;
+        if (k == 0 || h < low) {
+            low = h;
+            start = k;
+        }
+        if (k == 0 || h > high) high = h;
+    }
+    if (high < 0 || (closed && high <= 0)) return;
+    if (low > 0 || (!closed && low >= 0)) {
+        p->n = 0;
+        return;
+    }
+    if (n >= CONVEX_POLYGON) {
+        p->failed = 2;
+        return;
+    }
+    p->at = CONVEX_POLYGON - p->at;
+    convex_vec *to = p->corner + p->at;
+    int m = 0, last = start, first = start;
+    state inside = low, outside = 0;
+    to[m++] = from[start];
+    for (;;) { /* forward, until outside */
+        const int next = last + 1 < n ? last + 1 : 0;
+        outside = convex_dot(cut.normal, from[next]) - cut.height;
+        if (outside > 0 || (!closed && outside >= 0)) {
+            to[m++] = convex_add(from[last], convex_scale(inside / (inside - outside), convex_sub(from[next], from[last])));
+            break;
+        }
+        to[m++] = from[next];
+        inside = outside;
+        last = next;
+    }
+    inside = low;
+    for (;;) { /* backward */
+        const int next = first > 0 ? first - 1 : n - 1;
+        outside = convex_dot(cut.normal, from[next]) - cut.height;
+        if (outside > 0 || (!closed && outside >= 0)) {
+            to[m++] = convex_add(from[first], convex_scale(inside / (inside - outside), convex_sub(from[next], from[first])));
+            break;
+        }
+        inside = outside;
+        first = next;
+    }
+    for (; first != start; first = first + 1 < n ? first + 1 : 0) to[m++] = from[first];
+    p->n = m;
+}
+
+/* Sums over clipped faces; places are relative to `centre`, a corner of the first of them: the overlap may be thin and far from both origins. */
+typedef struct {
+    state volume;          /* 3 V */
+    convex_vec area;       /* of the side that is being summed */
+    convex_map moment;
+    convex_vec centre;
+    state surface;         /* of both sides [m^2] */
+    convex_vec place;      /* its first moment [m^3] */
+    int begun;
+} convex_sums;
+
+ROUTINE void convex_sum_face(const convex_polygon *p, convex_plane own, convex_sums *s)
+{
+    const convex_vec *corner = p->corner + p->at;
+    const convex_vec base = corner[0];
+    state area = 0;
+    convex_vec first = {0, 0, 0}, side = convex_sub(corner[1], base);
+    for (int k = 2; k < p->n; ++k) {
+        const convex_vec next = convex_sub(corner[k], base);
+        const state part = STATE(0.5) * convex_dot(own.normal, convex_cross(side, next));
+        area += part;
+        first = convex_add(first, convex_scale(part, convex_add(side, next)));
+        side = next;
+    }
+    if (!s->begun) {
+        s->begun = 1;
+        s->centre = base;
+    }
+    const convex_vec place = convex_add(convex_scale(area, convex_sub(base, s->centre)), convex_scale(STATE(1) / STATE(3), first));
+    s->volume += area * (own.height - convex_dot(own.normal, s->centre));
+    s->area = convex_add(s->area, convex_scale(area, own.normal));
+    s->moment = convex_add_outer(s->moment, own.normal, place);
+    s->surface += area;
+    s->place = convex_add(s->place, place);
+}
+
+/* The polygon of face f, where it stands. */
+LAW void convex_load_face(convex_body b, int f, convex_polygon *p)
+{
+    const int begin = b.shape.loop_start[f];
+    p->at = 0;
+    p->n = b.shape.loop_start[f + 1] - begin;
+    for (int k = 0; k < p->n; ++k) p->corner[k] = convex_place(b, b.shape.loop[begin + k]);
+}
+/* Is face f wholly outside a plane, as its body sees it, by more than `margin`? */
+LAW int convex_face_outside(convex_shape s, int f, convex_plane seen, state margin)
+{
+    for (int k = s.loop_start[f]; k < s.loop_start[f + 1]; ++k)
+        if (convex_dot(seen.normal, convex_corner(s, s.loop[k])) - seen.height <= margin) return 0;
+    return 1;
+}
+LAW void convex_clip_by(convex_polygon *p, convex_plane own, convex_plane other, int first)
+{
+    const int alike = convex_dot(own.normal, other.normal) >= 0;
+    convex_clip(p, convex_cut(own, other, alike), first && alike);
+}
+
+/* Clip the faces of `work` by the planes of `tool` and add what is left. first: work is A, to which ties of like planes go. */
+ROUTINE int convex_clip_faces(convex_body work, convex_body tool, const convex_cutters *c, state margin, int first, convex_sums *s)
+{
+    convex_polygon p;
+    p.failed = 0;
+    for (int f = 0; f < work.shape.n_faces; ++f) {
+        if (c->n > 0 && convex_face_outside(work.shape, f, convex_seen(work, c->plane[0]), margin)) continue;
+        const convex_plane own = convex_placed(work, convex_own_plane(work.shape, f));
+        convex_load_face(work, f, &p);
+        for (int k = 0; k < c->n && p.n > 0; ++k) convex_clip_by(&p, own, c->plane[k], first);
+        for (int k = c->rest; k < tool.shape.n_faces && p.n > 0; ++k)
+            convex_clip_by(&p, own, convex_placed(tool, convex_own_plane(tool.shape, k)), first);
+        if (p.n > 2) convex_sum_face(&p, own, s);
+    }
+    return p.failed;
+}
+
+LAW convex_overlap convex_no_overlap(int failed)
+{
+    const convex_vec none = {0, 0, 0};
+    const convex_map zero = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+    return (convex_overlap){0, none, zero, zero, none, failed};
+}
+
+/* Both in the frame of the given origins. */
+ROUTINE convex_overlap convex_overlap_of(convex_shape shape_a, convex_pose pose_a, convex_shape shape_b, convex_pose pose_b)
+{
+    const convex_vec branch = convex_sub(pose_b.origin, pose_a.origin);
+    const state radius_a = shape_a.radius * convex_stretch(pose_a.map), radius_b = shape_b.radius * convex_stretch(pose_b.map);
+    if (convex_length(branch) > radius_a + radius_b) return convex_no_overlap(0);
+    if (!(convex_determinant(pose_a.map) > 0) || !(convex_determinant(pose_b.map) > 0)) return convex_no_overlap(1);
+    /* between the bounding spheres: near the place of contact also where one body is much larger */
+    const convex_vec centre = convex_add(pose_a.origin, convex_scale(radius_a / (radius_a + radius_b), branch));
+    const convex_body a = convex_body_of(shape_a, pose_a, centre), b = convex_body_of(shape_b, pose_b, centre);
+    const state margin = STATE(64) * convex_rounding() * (radius_a + radius_b); /* skipped cuts are far from a tie */
+    convex_cutters by_b, by_a;
+    convex_find_cutters(b, a, margin, &by_b);
+    if (by_b.apart) return convex_no_overlap(0);
+    convex_find_cutters(a, b, margin, &by_a);
+    if (by_a.apart) return convex_no_overlap(0);
+    const convex_vec none = {0, 0, 0};
+    const convex_map zero = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+    convex_sums s = {0, none, zero, none, 0, none, 0};
+    const int failed_a = convex_clip_faces(a, b, &by_b, margin, 1, &s);
+    const convex_vec area_a = s.area;
+    const convex_map moment_a = s.moment;
+    s.area = none;
+    s.moment = zero;
+    const int failed_b = convex_clip_faces(b, a, &by_a, margin, 0, &s);
+    if (failed_a || failed_b) return convex_no_overlap(failed_a ? failed_a : failed_b);
+    if (!(s.volume > 0) || !(s.surface > 0)) return convex_no_overlap(0);
+    const convex_vec area = convex_scale(STATE(0.5), convex_sub(s.area, area_a));
+    const convex_vec arm_a = convex_sub(s.centre, a.pose.origin), arm_b = convex_sub(s.centre, b.pose.origin);
+    const convex_vec point = convex_add(centre, convex_add(s.centre, convex_scale(STATE(1) / s.surface, s.place)));
+    return (convex_overlap){s.volume / STATE(3), area, convex_add_outer(moment_a, convex_scale(-STATE(1), area), arm_a),
+                            convex_add_outer(s.moment, area, arm_b), point, 0};
+}
+
+#endif
