@@ -4,6 +4,8 @@
 #include "crack_sensors.h"
 #include "sphere_box.h"
 #include "../base/memory.h"
+#include "../solver/fragments.h"
+#include "../solver/strikers.h"
 #include <math.h>
 #include <string.h>
 
@@ -174,6 +176,12 @@ static brc_status prepare_round(brc_sensors *sensors, const brc_sensor *sensor, 
     return BRC_OK;
 }
 
+static brc_status of_elements(brc_sensors *sensors, const brc_sensor *sensor, int32_t set, const char *why)
+{
+    if (set < 0 || sensors->domain->sets[set].kind == BRC_SET_ELEMENTS) return BRC_OK;
+    return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: the set \"%s\" holds faces; %s", sensor->name, sensor->set, why);
+}
+
 static brc_status prepare(brc_sensors *sensors, int32_t s)
 {
     const brc_sensor *sensor = &sensors->scene->sensors[s];
@@ -189,11 +197,7 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
     case BRC_SENSOR_STRESS:
     case BRC_SENSOR_STRAIN:
         BRC_TRY(find_set(sensors, sensor, sensor->set, &sensors->first[s]));
-        if (sensors->first[s] >= 0 && sensors->domain->sets[sensors->first[s]].kind != BRC_SET_ELEMENTS)
-            return BRC_FAIL(sensors->context, BRC_BAD_INPUT,
-                            "sensor %s: the set \"%s\" holds faces; stress and strain are averaged over elements",
-                            sensor->name, sensor->set);
-        return BRC_OK;
+        return of_elements(sensors, sensor, sensors->first[s], "stress and strain are averaged over elements");
     case BRC_SENSOR_FACE_MEAN:
     case BRC_SENSOR_FACE_STRAIN:
     case BRC_SENSOR_FACE_TWIST:
@@ -227,9 +231,15 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
         return BRC_OK;
     case BRC_SENSOR_MODE: return BRC_OK;
     case BRC_SENSOR_SPIN:
+        BRC_TRY(find_set(sensors, sensor, sensor->set, &sensors->first[s]));
+        return of_elements(sensors, sensor, sensors->first[s], "a spin is one of elements");
     case BRC_SENSOR_STRIKER:
+        for (int32_t k = 0; k < sensors->scene->n_strikers; ++k)
+            if (strcmp(sensors->scene->strikers[k].name, sensor->set) == 0) sensors->first[s] = k;
+        if (sensors->first[s] >= 0) return BRC_OK;
+        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: there is no striker \"%s\"", sensor->name, sensor->set);
     case BRC_SENSOR_CONTACT:
-        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: sensors of contact, strikers and spin are not in this version", sensor->name);
+        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: sensors of contact are not in this version", sensor->name);
     }
     return BRC_FAIL(sensors->context, BRC_INTERNAL, "sensor %s: unknown kind %d", sensor->name, (int)sensor->kind);
 }
@@ -381,6 +391,30 @@ static double mode_frequency(const brc_simulation *simulation, int32_t index)
     return omega && index >= 0 && index < n ? omega[index] / (2 * M_PI) : NAN;
 }
 
+static brc_status read_spin(brc_simulation *simulation, int32_t set, int32_t component, double *value)
+{
+    brc_fragment whole;
+    BRC_TRY(brc_simulation_set_motion(simulation, set, &whole));
+    *value = whole.spin[component];
+    return BRC_OK;
+}
+
+/* A quantity of a striker by its name in brc_sensor.term. */
+static brc_status read_striker(brc_simulation *simulation, int32_t striker, const brc_sensor *sensor, double *value)
+{
+    brc_striker_now now;
+    BRC_TRY(brc_simulation_striker_now(simulation, striker, &now));
+    const struct {
+        const char *term;
+        const double *vector;
+    } terms[] = {{"position", now.position}, {"displacement", now.displacement}, {"velocity", now.velocity}, {"rotation", now.rotation},
+                 {"spin", now.spin},         {"force", now.force},               {"torque", now.torque}};
+    *value = now.kinetic; /* "energy" */
+    for (size_t k = 0; k < sizeof terms / sizeof *terms; ++k)
+        if (strcmp(sensor->term, terms[k].term) == 0) *value = terms[k].vector[sensor->component];
+    return BRC_OK;
+}
+
 brc_status brc_sensors_evaluate(brc_sensors *sensors, brc_simulation *simulation, double *value)
 {
     brc_ledger ledger = {0};
@@ -423,8 +457,8 @@ brc_status brc_sensors_evaluate(brc_sensors *sensors, brc_simulation *simulation
         case BRC_SENSOR_FRACTURE:
         case BRC_SENSOR_CRACK_TIP: BRC_TRY(brc_crack_sensors_read(sensors->cracks, simulation, sensor, &value[s])); break;
         case BRC_SENSOR_MODE: value[s] = mode_frequency(simulation, sensor->index); break;
-        case BRC_SENSOR_SPIN:
-        case BRC_SENSOR_STRIKER:
+        case BRC_SENSOR_SPIN: BRC_TRY(read_spin(simulation, first, c, &value[s])); break;
+        case BRC_SENSOR_STRIKER: BRC_TRY(read_striker(simulation, first, sensor, &value[s])); break;
         case BRC_SENSOR_CONTACT: break;
         }
     }

@@ -11,7 +11,7 @@ typedef struct elements {
     double *mass, *inertia;     /* [n]; inertia NULL: points */
     double *place, *velocity;   /* [n][3] */
     double *orientation, *spin; /* [n][4], [n][3] or NULL */
-    int32_t *fragment;
+    int32_t *fragment; /* -1: of none */
 } elements;
 
 static brc_status read_elements(brc_simulation *s, elements *e)
@@ -47,6 +47,7 @@ static void free_elements(elements *e)
 static void sum_momenta(const elements *e, int64_t n_elements, int64_t n, brc_fragment *list)
 {
     for (int64_t k = 0; k < n_elements; ++k) {
+        if (e->fragment[k] < 0) continue;
         brc_fragment *f = &list[e->fragment[k]];
         if (f->n_elements++ == 0) f->first_element = (int32_t)k;
         f->mass += e->mass[k];
@@ -69,6 +70,7 @@ static void sum_momenta(const elements *e, int64_t n_elements, int64_t n, brc_fr
 static void sum_moments(const elements *e, int64_t n_elements, brc_fragment *list)
 {
     for (int64_t k = 0; k < n_elements; ++k) {
+        if (e->fragment[k] < 0) continue;
         brc_fragment *f = &list[e->fragment[k]];
         const double m = e->mass[k];
         double r[3], v[3];
@@ -105,6 +107,29 @@ static void turn(brc_fragment *f)
     f->internal -= f->rotation;
 }
 
+static void sum_up(const elements *e, int64_t n_elements, int64_t n, brc_fragment *list)
+{
+    sum_momenta(e, n_elements, n, list);
+    sum_moments(e, n_elements, list);
+    for (int64_t i = 0; i < n; ++i) turn(&list[i]);
+}
+
+brc_status brc_simulation_set_motion(brc_simulation *s, int32_t set, brc_fragment *out)
+{
+    const int64_t n_elements = s->domain->n_elements;
+    elements e = {0};
+    brc_status status = BRC_OK;
+    *out = (brc_fragment){0};
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &e.fragment, n_elements, "motion of a set"));
+    for (int64_t k = 0; k < n_elements; ++k) e.fragment[k] = set < 0 ? 0 : -1;
+    for (int64_t k = 0; set >= 0 && k < s->domain->sets[set].n_members; ++k) e.fragment[s->domain->sets[set].members[k]] = 0;
+    BRC_TRY_OR(cleanup, read_elements(s, &e));
+    sum_up(&e, n_elements, 1, out);
+cleanup:
+    free_elements(&e);
+    return status;
+}
+
 brc_status brc_simulation_fragment_list(brc_simulation *s, int64_t *n, brc_fragment **out)
 {
     const int64_t n_elements = s->domain->n_elements;
@@ -116,9 +141,7 @@ brc_status brc_simulation_fragment_list(brc_simulation *s, int64_t *n, brc_fragm
     BRC_TRY_OR(cleanup, brc_simulation_fragments(s, e.fragment, n));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &list, *n, "fragments"));
     BRC_TRY_OR(cleanup, read_elements(s, &e));
-    sum_momenta(&e, n_elements, *n, list);
-    sum_moments(&e, n_elements, list);
-    for (int64_t i = 0; i < *n; ++i) turn(&list[i]);
+    sum_up(&e, n_elements, *n, list);
 cleanup:
     free_elements(&e);
     if (status != BRC_OK) {

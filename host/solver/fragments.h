@@ -1,4 +1,4 @@
-/* Fragments as bodies: what mass each has, where it is, how it moves and turns. Of scenes with `fracture`. */
+/* Fragments as bodies: what mass each has, where it is, how it moves and turns. Of scenes with `fracture`; sets of elements of any scene. */
 #ifndef BRC_SOLVER_FRAGMENTS_H
 #define BRC_SOLVER_FRAGMENTS_H
 
@@ -21,6 +21,9 @@ typedef struct brc_fragment {
 
 /* All fragments, numbered as by brc_simulation_fragments: *out [*n] is the caller's (brc_memory_free). */
 brc_status brc_simulation_fragment_list(brc_simulation *simulation, int64_t *n, brc_fragment **out);
+
+/* The same of a set of elements of the domain (index; -1: all), as if they hung together. */
+brc_status brc_simulation_set_motion(brc_simulation *simulation, int32_t set, brc_fragment *out);
 
 /* Their sizes. */
 typedef struct brc_fragment_sizes {

@@ -7,6 +7,7 @@
 #include "../../host/solver/fragments.h"
 #include "../../host/solver/regime.h"
 #include "../../host/solver/stage_end.h"
+#include "../../host/solver/strikers.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -31,6 +32,9 @@ struct brc_simulation {
     int32_t n_modes;
     const brc_break *breaks; /* [n_breaks]; NULL: nothing can break */
     int64_t n_breaks;
+    const brc_striker_now *strikers; /* [n_strikers] now */
+    const brc_striker_body *striker_body; /* [n_strikers] */
+    int32_t n_strikers;
     int displacement_reads, ledger_reads; /* counted */
     brc_status end;                       /* what the run returns after its last increment */
     bool ended;                           /* an observer ended the stage */
@@ -251,6 +255,21 @@ brc_status brc_simulation_fragment_list(brc_simulation *s, int64_t *n, brc_fragm
     BRC_TRY(BRC_ALLOCATE(none, out, 2, "fragments"));
     (*out)[0] = (brc_fragment){.n_elements = s->domain->n_elements - 1, .mass = 99, .inertia = {1, 2, 3, 4, 5, 6}, .translation = 7};
     (*out)[1] = (brc_fragment){.first_element = (int32_t)s->domain->n_elements - 1, .n_elements = 1, .mass = 1, .velocity = {1, 0, 0}};
+    return BRC_OK;
+}
+
+/* Set i spins with (i, 2 i, 3 i). */
+brc_status brc_simulation_set_motion(brc_simulation *s, int32_t set, brc_fragment *out)
+{
+    *out = (brc_fragment){.n_elements = s->domain->n_elements, .spin = {set, 2 * set, 3 * set}};
+    return BRC_OK;
+}
+
+int32_t brc_simulation_n_strikers(const brc_simulation *s) { return s->n_strikers; }
+const brc_striker_body *brc_simulation_striker_body(const brc_simulation *s, int32_t striker) { return s->striker_body + striker; }
+brc_status brc_simulation_striker_now(brc_simulation *s, int32_t striker, brc_striker_now *out)
+{
+    *out = s->strikers[striker];
     return BRC_OK;
 }
 

@@ -209,6 +209,33 @@ static void only_what_some_sensor_reads_is_fetched_and_that_once(void **state)
     assert_int_equal(s.ledger_reads, 1);
 }
 
+static void strikers_and_spins_are_passed_on(void **state)
+{
+    (void)state;
+    static const brc_striker_now now[2] = {{.kinetic = 1},
+                                           {.position = {1, 2, 3}, .displacement = {4, 5, 6}, .velocity = {7, 8, 9}, .rotation = {10, 11, 12},
+                                            .spin = {13, 14, 15}, .force = {16, 17, 18}, .torque = {19, 20, 21}, .kinetic = 22}};
+    static const char *const term[8] = {"position", "displacement", "velocity", "rotation", "spin", "force", "torque", "energy"};
+    brc_striker strikers[2] = {{.name = "wall"}, {.name = "ball"}};
+    brc_simulation s = {.domain = domain, .strikers = now, .n_strikers = 2};
+    brc_sensor list[11] = {{.kind = BRC_SENSOR_STRIKER, .name = "w", .set = "wall", .term = "energy"},
+                           {.kind = BRC_SENSOR_SPIN, .name = "x", .set = "half", .component = 1},
+                           {.kind = BRC_SENSOR_SPIN, .name = "y", .component = 2}};
+    for (int k = 0; k < 8; ++k) {
+        list[3 + k] = (brc_sensor){.kind = BRC_SENSOR_STRIKER, .name = "z", .set = "ball", .component = k % 3};
+        strcpy(list[3 + k].term, term[k]);
+    }
+    const brc_scene scene = {.n_sensors = 11, .sensors = list, .n_strikers = 2, .strikers = strikers};
+    brc_sensors *sensors;
+    double value[11];
+    assert_int_equal(brc_sensors_create(test_context, &scene, domain, &sensors), BRC_OK);
+    assert_int_equal(brc_sensors_evaluate(sensors, &s, value), BRC_OK);
+    brc_sensors_free(&sensors);
+    assert_true(value[0] == 1 && value[1] == 2 * brc_domain_find_set(domain, "half") && value[2] == -3);
+    for (int k = 0; k < 7; ++k) assert_true(value[3 + k] == 1 + 3 * k + k % 3);
+    assert_true(value[10] == 22);
+}
+
 static void every_wrong_sensor_is_named_in_one_pass(void **state)
 {
     (void)state;
@@ -218,14 +245,18 @@ static void every_wrong_sensor_is_named_in_one_pass(void **state)
                          {.kind = BRC_SENSOR_FACE_TWIST, .name = "s_four", .set = "x+"},
                          {.kind = BRC_SENSOR_REACTION, .name = "s_five"},
                          {.kind = BRC_SENSOR_ENERGY, .name = "s_six", .term = "heat"},
+                         {.kind = BRC_SENSOR_SPIN, .name = "s_seven", .set = "x+"},
+                         {.kind = BRC_SENSOR_STRIKER, .name = "s_eight", .set = "x+"},
                          {.kind = BRC_SENSOR_POINT, .name = "s_fine"}};
     static const char *const part[] = {"s_one: there is no set \"nowhere\"",
                                        "s_two: the set \"x+\" holds faces",
                                        "s_three: the sets \"y+\" and \"y-\" lie at the same x",
                                        "s_four: a twist needs",
                                        "s_five: a reaction needs",
-                                       "s_six: the ledger has no term \"heat\""};
-    const brc_scene scene = {.n_sensors = 7, .sensors = list};
+                                       "s_six: the ledger has no term \"heat\"",
+                                       "s_seven: the set \"x+\" holds faces",
+                                       "s_eight: there is no striker \"x+\""};
+    const brc_scene scene = {.n_sensors = 9, .sensors = list};
     brc_sensors *sensors;
     assert_int_equal(brc_sensors_create(test_context, &scene, domain, &sensors), BRC_BAD_INPUT);
     assert_null(sensors);
@@ -247,6 +278,7 @@ int main(void)
         cmocka_unit_test(a_point_between_two_elements_belongs_to_the_smaller_id),
         cmocka_unit_test(spheres_are_read_by_their_centres_and_a_mean_diameter),
         cmocka_unit_test(only_what_some_sensor_reads_is_fetched_and_that_once),
+        cmocka_unit_test(strikers_and_spins_are_passed_on),
         cmocka_unit_test(every_wrong_sensor_is_named_in_one_pass),
     };
     return cmocka_run_group_tests(tests, begin, end);

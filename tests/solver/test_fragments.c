@@ -125,6 +125,23 @@ static void sizes_are_shares_of_the_mass(void **state)
     brc_context_free(&context);
 }
 
+/* Cells that turn rigidly, all and half of them: I^-1 of the moment of their velocities is the angular velocity, to the rounding of sums over 216 cells. */
+static void the_spin_of_a_set_is_that_of_its_rigid_turning(void **state)
+{
+    (void)state;
+    bench_case c;
+    brc_fragment whole, part;
+    open_case(&c, (case_options){.sets = "sets:\n  half: {elements: {box: {from: [0, 0, 0], to: [0.5 m, 1 m, 1 m]}}}\n",
+                                 .stages = "  - name: turn\n    solver: {dynamic: {steps: 1}}\n    initial:\n      - spin: {angular_velocity: [1 mrad/s, -2 mrad/s, 0.5 mrad/s], origin: [3 m, 0, 0]}\n"});
+    assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
+    assert_done(&c, brc_simulation_set_motion(c.simulation, -1, &whole));
+    assert_done(&c, brc_simulation_set_motion(c.simulation, brc_domain_find_set(c.domain, "half"), &part));
+    static const double w[3] = {1e-3, -2e-3, 5e-4};
+    assert_true(whole.n_elements == c.domain->n_elements && part.n_elements < whole.n_elements && part.n_elements > 0);
+    for (int k = 0; k < 3; ++k) assert_true(fabs(whole.spin[k] - w[k]) < 1e-15 && fabs(part.spin[k] - w[k]) < 1e-15);
+    close_case(&c);
+}
+
 static void scenes_without_fracture_have_no_fragments(void **state)
 {
     (void)state;
@@ -143,6 +160,7 @@ int main(void)
         cmocka_unit_test(a_rigid_motion_is_read_back),
         cmocka_unit_test(fragments_share_out_mass_momentum_and_energy),
         cmocka_unit_test(sizes_are_shares_of_the_mass),
+        cmocka_unit_test(the_spin_of_a_set_is_that_of_its_rigid_turning),
         cmocka_unit_test(scenes_without_fracture_have_no_fragments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
