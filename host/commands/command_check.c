@@ -6,6 +6,7 @@
 #include "../base/memory.h"
 #include "../scene/scene_reader.h"
 #include "../solver/lockstep.h"
+#include "../solver/strikers.h"
 #include <math.h>
 
 static const brc_option options[] = {
@@ -167,6 +168,22 @@ static void print_counts(const brc_setup *setup, double build_s)
            (long long)brc_setup_n_bonds(setup), (long long)n_free, build_s);
 }
 
+/* A line for each wall and striker. */
+static void print_strikers(const brc_assembly *a)
+{
+    static const char *const motion[] = {[BRC_STRIKER_FIXED] = "fixed", [BRC_STRIKER_DRIVEN] = "driven", [BRC_STRIKER_FREE] = "free"};
+    for (int32_t k = 0; k < brc_simulation_n_strikers(a->part[0]); ++k) {
+        const brc_striker *striker = &a->scene->strikers[k];
+        const brc_striker_body *body = brc_simulation_striker_body(a->part[0], k);
+        printf("striker %s: %s, %s %.6g %.6g %.6g m", striker->name, motion[striker->motion], striker->is_plane ? "plane through" : "mass centre at", body->centre[0],
+               body->centre[1], body->centre[2]);
+        if (!striker->is_plane) printf(", %d flat faces", (int)body->surface.n_faces);
+        if (striker->motion == BRC_STRIKER_FREE)
+            printf(", mass %.6g kg, moments of inertia %.4g %.4g %.4g kg m^2", body->mass, body->inertia[0], body->inertia[1], body->inertia[2]);
+        printf("\n");
+    }
+}
+
 /* Device, effects and memory. */
 static void print_setup(const brc_setup *setup, brc_precision precision)
 {
@@ -179,6 +196,7 @@ static void print_setup(const brc_setup *setup, brc_precision precision)
         print_effects("effects in", model, brc_simulation_effects_in(a->part[k]));
         print_effects("effects out", model, brc_simulation_effects_out(a->part[k]));
     }
+    print_strikers(a);
     printf("memory: %.4g MB on the device (%.0f bytes an element), %.4g MB on the host\n", bytes / 1e6,
            bytes / (double)brc_setup_n_elements(setup), (double)brc_memory_peak() / 1e6);
 }

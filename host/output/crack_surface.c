@@ -210,27 +210,19 @@ cleanup:
     return status;
 }
 
-static brc_status read_memory(const brc_vtu_array *a, int64_t first, int64_t n, void *block)
-{
-    static const int BYTES[] = {[BRC_VTU_FLOAT32] = 4, [BRC_VTU_FLOAT64] = 8, [BRC_VTU_INT64] = 8, [BRC_VTU_UINT8] = 1};
-    const size_t row = (size_t)a->columns * (size_t)BYTES[a->number];
-    memcpy(block, (const char *)a->source + (size_t)first * row, (size_t)n * row);
-    return BRC_OK;
-}
-
 static brc_status write_surface(const surface *s, double time, const char *path)
 {
     const int64_t n = s->n_polygons;
     brc_vtu_array list[24];
     int m = 0;
-    list[m++] = (brc_vtu_array){BRC_VTU_FIELD_DATA, "TimeValue", BRC_VTU_FLOAT64, 1, 1, read_memory, &time, 0};
-    list[m++] = (brc_vtu_array){BRC_VTU_POINTS, "Points", BRC_VTU_FLOAT32, 3, s->n_points, read_memory, s->point, 0};
-    list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "connectivity", BRC_VTU_INT64, 1, s->n_points, read_memory, s->id, 0};
-    list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "offsets", BRC_VTU_INT64, 1, n, read_memory, s->end, 0};
-    list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "types", BRC_VTU_UINT8, 1, n, read_memory, s->type, 0};
-    list[m++] = (brc_vtu_array){BRC_VTU_POINT_DATA, "displacement", BRC_VTU_FLOAT32, 3, s->n_points, read_memory, s->moved, 0};
-    for (int k = 0; k < 6; ++k) list[m++] = (brc_vtu_array){BRC_VTU_CELL_DATA, COUNT_NAME[k], BRC_VTU_INT64, 1, n, read_memory, s->count[k], 0};
-    for (int k = 0; k < 5; ++k) list[m++] = (brc_vtu_array){BRC_VTU_CELL_DATA, NUMBER_NAME[k], BRC_VTU_FLOAT64, 1, n, read_memory, s->number[k], 0};
+    list[m++] = (brc_vtu_array){BRC_VTU_FIELD_DATA, "TimeValue", BRC_VTU_FLOAT64, 1, 1, brc_vtu_from_memory, &time, 0};
+    list[m++] = (brc_vtu_array){BRC_VTU_POINTS, "Points", BRC_VTU_FLOAT32, 3, s->n_points, brc_vtu_from_memory, s->point, 0};
+    list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "connectivity", BRC_VTU_INT64, 1, s->n_points, brc_vtu_from_memory, s->id, 0};
+    list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "offsets", BRC_VTU_INT64, 1, n, brc_vtu_from_memory, s->end, 0};
+    list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "types", BRC_VTU_UINT8, 1, n, brc_vtu_from_memory, s->type, 0};
+    list[m++] = (brc_vtu_array){BRC_VTU_POINT_DATA, "displacement", BRC_VTU_FLOAT32, 3, s->n_points, brc_vtu_from_memory, s->moved, 0};
+    for (int k = 0; k < 6; ++k) list[m++] = (brc_vtu_array){BRC_VTU_CELL_DATA, COUNT_NAME[k], BRC_VTU_INT64, 1, n, brc_vtu_from_memory, s->count[k], 0};
+    for (int k = 0; k < 5; ++k) list[m++] = (brc_vtu_array){BRC_VTU_CELL_DATA, NUMBER_NAME[k], BRC_VTU_FLOAT64, 1, n, brc_vtu_from_memory, s->number[k], 0};
     return brc_vtu_write(s->context, path, s->n_points, n, m, list);
 }
 

@@ -5,6 +5,7 @@
 #include "deform.h"
 #include "label.h"
 #include "paint.h"
+#include "striker_file.h"
 #include "../base/memory.h"
 #include <math.h>
 #include <stdio.h>
@@ -21,9 +22,9 @@ typedef struct canvas {
     double centre[2]; /* of the sample, along right and up [m] */
     double zoom;      /* [px/m] */
     double scale;
-    /* what every part has, part after part, begins here; [n_parts + 1] */
+    /* what every part has, part after part, and then every striker, begins here; [n_parts + n_strikers + 1] */
     int64_t *first_point; /* corners in the order of domain.free_polygon, or centres of spheres */
-    int64_t *first_face;  /* free faces, or spheres */
+    int64_t *first_face;  /* free faces, or spheres, or faces of strikers */
     double *point;         /* [points of all][3] [m] */
     brc_paint_face *faces; /* [faces of all]: room, n_faces visible; id: among all */
     int64_t n_faces;
@@ -49,6 +50,17 @@ static int64_t n_points_of(const brc_picture_part *p)
 static int64_t n_faces_of(const brc_picture_part *p)
 {
     return is_sphere(p) ? p->domain->n_elements : p->domain->n_free_faces;
+}
+
+/* The striker of what is painted, and its face there; NULL: an element's. */
+static const brc_picture_striker *striker_of(const canvas *c, int64_t face, int64_t *own, int32_t *index)
+{
+    int32_t k = c->picture->n;
+    if (face < c->first_face[k]) return NULL;
+    while (face >= c->first_face[k + 1]) ++k;
+    *own = face - c->first_face[k];
+    *index = k;
+    return &c->picture->striker[k - c->picture->n];
 }
 
 /* The part of what is painted, and its number there. */
@@ -136,6 +148,18 @@ static void fit_view(canvas *c)
             }
         }
     }
+    const double spare[2] = {0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])};
+    const double least[2] = {low[0] - spare[0], low[1] - spare[1]}, most[2] = {high[0] + spare[0], high[1] + spare[1]};
+    for (int32_t k = 0; k < c->picture->n_strikers; ++k) { /* strikers have what room they need, up to half of the sample's around it */
+        const int32_t at = c->picture->n + k;
+        for (int64_t p = c->first_point[at]; !c->picture->striker[k].is_plane && p < c->first_point[at + 1]; ++p) {
+            const double place[2] = {dot(c->point + 3 * p, c->view.right), dot(c->point + 3 * p, c->view.up)};
+            for (int i = 0; i < 2 && isfinite(place[0]) && isfinite(place[1]); ++i) {
+                low[i] = fmin(low[i], fmax(place[i], least[i]));
+                high[i] = fmax(high[i], fmin(place[i], most[i]));
+            }
+        }
+    }
     for (int i = 0; i < 2; ++i)
         c->centre[i] = (low[i] + high[i]) / 2;
     c->zoom = fmin((AREA[2] - AREA[0]) / (high[0] - low[0]), (AREA[3] - AREA[1]) / (high[1] - low[1]));
@@ -175,10 +199,49 @@ static void add_visible(canvas *c, int32_t part)
     }
 }
 
+/* Corner k of a face of a striker. */
+static const double *striker_corner(const canvas *c, const brc_picture_striker *striker, int32_t index, int64_t face, int32_t k)
+{
+    const brc_striker_surface *s = &striker->body->surface;
+    return c->point + 3 * (c->first_point[index] + s->loop[s->loop_start[face] + k]);
+}
+
+static void move_striker(canvas *c, const brc_picture_striker *striker, double *point)
+{
+    const brc_striker_surface *s = &striker->body->surface;
+    for (int32_t k = 0; k < s->n_corners; ++k) {
+        double u[3];
+        brc_striker_corner_moved(s, &striker->now, k, u);
+        for (int i = 0; i < 3; ++i) point[3 * k + i] = striker->body->centre[i] + s->corner[3 * k + i] + c->scale * u[i];
+    }
+}
+
+static void add_visible_striker(canvas *c, int32_t index)
+{
+    const brc_picture_striker *striker = &c->picture->striker[index - c->picture->n];
+    const brc_striker_surface *s = &striker->body->surface;
+    for (int64_t f = 0; f < s->n_faces; ++f) {
+        const int32_t n = s->loop_start[f + 1] - s->loop_start[f];
+        double normal[3] = {0}, middle[3] = {0};
+        for (int32_t k = 0; k < n; ++k) {
+            const double *o = striker_corner(c, striker, index, f, 0), *a = striker_corner(c, striker, index, f, k), *b = striker_corner(c, striker, index, f, (k + 1) % n);
+            for (int i = 0; i < 3; ++i) {
+                const int j = (i + 1) % 3, l = (i + 2) % 3;
+                normal[i] += (a[j] - o[j]) * (b[l] - o[l]) - (a[l] - o[l]) * (b[j] - o[j]);
+                middle[i] += a[i] / n;
+            }
+        }
+        if (!isfinite(dot(normal, normal)) || !isfinite(dot(middle, middle)) || !(dot(normal, c->view.toward) > 0)) continue;
+        c->faces[c->n_faces++] = (brc_paint_face){.depth = striker->is_plane ? -INFINITY : dot(middle, c->view.toward),
+                                                  .id = (int32_t)(c->first_face[index] + f), .shade = brc_paint_shade(normal)};
+    }
+}
+
 /* Visible faces, the farthest first. */
 static void sort_faces(canvas *c)
 {
     for (int32_t k = 0; k < c->picture->n; ++k) add_visible(c, k);
+    for (int32_t k = 0; k < c->picture->n_strikers; ++k) add_visible_striker(c, c->picture->n + k);
     brc_paint_sort(c->n_faces, c->faces);
 }
 
@@ -187,6 +250,7 @@ static void find_range(canvas *c)
     c->low = INFINITY;
     c->high = -INFINITY;
     for (int64_t k = 0; k < c->n_faces; ++k) {
+        if (c->faces[k].id >= c->first_face[c->picture->n]) continue; /* a striker's */
         const double value = value_of(c, c->faces[k].id);
         if (!isfinite(value)) continue;
         c->low = fmin(c->low, value);
@@ -248,12 +312,28 @@ static double line_of(const canvas *c, const brc_domain *d)
     return cell > 7 ? fmin(0.22, 0.02 * (cell - 7)) : 0;
 }
 
+static void paint_striker(const canvas *c, brc_paint *paint, const brc_picture_striker *striker, int32_t index, int64_t face, double shade)
+{
+    static const double grey[3] = {0.74, 0.76, 0.79}, ground[3] = {0.93, 0.94, 0.95};
+    const int32_t *start = striker->body->surface.loop_start;
+    for (int32_t i = 0; i < start[face + 1] - start[face]; ++i) {
+        const double *x = striker_corner(c, striker, index, face, i);
+        brc_paint_corner(paint, across(c, x), down(c, x));
+    }
+    brc_paint_fill(paint, striker->is_plane ? ground : grey, shade, 0);
+}
+
 static void paint_faces(const canvas *c, brc_paint *paint)
 {
     for (int64_t k = 0; k < c->n_faces; ++k) {
         int64_t own;
         int32_t part;
         double rgb[3];
+        const brc_picture_striker *striker = striker_of(c, c->faces[k].id, &own, &part);
+        if (striker) {
+            paint_striker(c, paint, striker, part, own, c->faces[k].shade);
+            continue;
+        }
         const brc_picture_part *p = part_of(c, c->faces[k].id, &own, &part);
         const double *point = c->point + 3 * c->first_point[part];
         colour_of(c, value_of(c, c->faces[k].id), rgb);
@@ -370,14 +450,21 @@ brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, co
     canvas c = {.context = context, .picture = picture, .scale = picture->scale, .view = brc_paint_corner_view()};
     brc_status status = BRC_OK;
     if (!(c.scale > 0)) c.scale = brc_picture_automatic_scale(picture->n, picture->part);
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_point, picture->n + 1, "parts of the picture"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_face, picture->n + 1, "parts of the picture"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_point, picture->n + picture->n_strikers + 1, "parts of the picture"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_face, picture->n + picture->n_strikers + 1, "parts of the picture"));
     for (int32_t k = 0; k < picture->n; ++k) {
         c.first_point[k + 1] = c.first_point[k] + n_points_of(&picture->part[k]);
         c.first_face[k + 1] = c.first_face[k] + n_faces_of(&picture->part[k]);
     }
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.point, 3 * c.first_point[picture->n], "corners of the picture"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.faces, c.first_face[picture->n], "faces of the picture"));
+    const int32_t all = picture->n + picture->n_strikers;
+    for (int32_t k = picture->n; k < all; ++k) {
+        const brc_striker_surface *surface = &picture->striker[k - picture->n].body->surface;
+        c.first_point[k + 1] = c.first_point[k] + surface->n_corners;
+        c.first_face[k + 1] = c.first_face[k] + surface->n_faces;
+    }
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.point, 3 * c.first_point[all], "corners of the picture"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.faces, c.first_face[all], "faces of the picture"));
+    for (int32_t k = picture->n; k < all; ++k) move_striker(&c, &picture->striker[k - picture->n], c.point + 3 * c.first_point[k]);
     for (int32_t k = 0; k < picture->n; ++k) move_points(&c, &picture->part[k], c.point + 3 * c.first_point[k]);
     fit_view(&c);
     sort_faces(&c);

@@ -3,6 +3,7 @@
 #define BRC_OUTPUT_PICTURE_H
 
 #include "../solver/assembly.h"
+#include "../solver/strikers.h"
 
 /* Elements of one kind, all cells or all spheres. */
 typedef struct brc_picture_part {
@@ -12,10 +13,19 @@ typedef struct brc_picture_part {
     const double *value;        /* [n_elements] what is coloured, in `unit` */
 } brc_picture_part;
 
+/* A wall or striker, drawn in grey. */
+typedef struct brc_picture_striker {
+    const brc_striker_body *body;
+    brc_striker_now now;
+    bool is_plane; /* drawn behind everything, seen from its front only, and no part of what the picture has room for */
+} brc_picture_striker;
+
 /* What is drawn; all borrowed for the call. */
 typedef struct brc_picture {
     int32_t n;
     const brc_picture_part *part; /* [n] */
+    int32_t n_strikers;
+    const brc_picture_striker *striker; /* [n_strikers] */
     const char *name;           /* of the field, beside the colour bar: "von Mises stress" */
     const char *unit;
     const char *title; /* "" : none */

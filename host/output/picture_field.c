@@ -107,6 +107,7 @@ brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly,
     const char *word = scene->output.picture_colour[0] ? scene->output.picture_colour : "von_mises";
     shown *own = NULL;
     brc_picture_part *part = NULL;
+    brc_picture_striker *striker = NULL;
     brc_status status = BRC_OK;
     field f;
     if (!parse(word, &f))
@@ -121,9 +122,17 @@ brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly,
         BRC_TRY_OR(cleanup, read_part(context, assembly->part[k], &f, &own[k]));
         part[k] = (brc_picture_part){.domain = brc_simulation_domain(assembly->part[k]), .whole = own[k].whole, .displacement = own[k].displacement, .value = own[k].value};
     }
+    const int32_t n_strikers = brc_simulation_n_strikers(assembly->part[0]);
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &striker, n_strikers, "strikers of the picture"));
+    for (int32_t k = 0; k < n_strikers; ++k) {
+        striker[k] = (brc_picture_striker){.body = brc_simulation_striker_body(assembly->part[0], k), .is_plane = scene->strikers[k].is_plane};
+        BRC_TRY_OR(cleanup, brc_simulation_striker_now(assembly->part[0], k, &striker[k].now));
+    }
     const brc_picture picture = {
         .n = assembly->n,
         .part = part,
+        .n_strikers = n_strikers,
+        .striker = striker,
         .name = f.name,
         .unit = unit_of(f.source),
         .title = scene->title,
@@ -138,5 +147,6 @@ cleanup:
     }
     brc_memory_free(own);
     brc_memory_free(part);
+    brc_memory_free(striker);
     return status;
 }

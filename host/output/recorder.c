@@ -9,6 +9,7 @@
 #include "picture.h"
 #include "result_file.h"
 #include "stop.h"
+#include "striker_file.h"
 #include "summary.h"
 #include "../base/file.h"
 #include "../base/log.h"
@@ -22,10 +23,10 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SUMMARY, RESULT, HISTORIES, CRACKS, FRAGMENTS, PICTURE, CURVE, SERIES, CRACK_SERIES, FRAMES, N_FILES };
+enum { SUMMARY, RESULT, HISTORIES, CRACKS, FRAGMENTS, PICTURE, CURVE, SERIES, CRACK_SERIES, STRIKER_SERIES, FRAMES, N_FILES };
 static const char *const FILE_NAME[N_FILES] = {
     "summary.json", "result.h5", "histories.csv", "cracks.csv", "fragments.csv", "picture.png", "curve.png", "frames.vtkhdf.series",
-    "cracks.vtu.series", "frames"};
+    "cracks.vtu.series", "strikers.vtu.series", "frames"};
 
 struct brc_recorder {
     brc_context *context;
@@ -48,10 +49,10 @@ struct brc_recorder {
 
 /* ---- the folder ---- */
 
-/* "NNNNNN.vtkhdf", "NNNNNN.cracks.vtu", or what a killed run left of one. */
+/* "NNNNNN.vtkhdf", "NNNNNN.cracks.vtu", "NNNNNN.strikers.vtu", or what a killed run left of one. */
 static bool is_frame(const char *name)
 {
-    static const char *const suffix[] = {".vtkhdf", ".vtkhdf.part", ".cracks.vtu", ".cracks.vtu.part"};
+    static const char *const suffix[] = {".vtkhdf", ".vtkhdf.part", ".cracks.vtu", ".cracks.vtu.part", ".strikers.vtu", ".strikers.vtu.part"};
     const size_t digits = strspn(name, "0123456789");
     for (size_t k = 0; digits >= 6 && k < sizeof suffix / sizeof suffix[0]; ++k)
         if (strcmp(name + digits, suffix[k]) == 0) return true;
@@ -236,6 +237,18 @@ static brc_status write_cracks(brc_recorder *r)
     return surface ? brc_frame_write_series(r->context, r->n_frames, r->frame_time, ".cracks.vtu", r->path[CRACK_SERIES]) : BRC_OK;
 }
 
+static brc_status write_strikers(brc_recorder *r)
+{
+    char name[32];
+    char *path = NULL;
+    snprintf(name, sizeof name, "%06lld.strikers.vtu", (long long)r->n_frames - 1);
+    BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
+    const brc_status status = brc_striker_file_write(r->context, r->assembly, path);
+    brc_memory_free(path);
+    BRC_TRY(status);
+    return brc_frame_write_series(r->context, r->n_frames, r->frame_time, ".strikers.vtu", r->path[STRIKER_SERIES]);
+}
+
 static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
 {
     char name[32];
@@ -252,6 +265,7 @@ static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
     ++r->n_frames;
     BRC_TRY(brc_frame_write_series(r->context, r->n_frames, r->frame_time, ".vtkhdf", r->path[SERIES]));
     if (r->cracks) BRC_TRY(write_cracks(r));
+    if (brc_simulation_n_strikers(r->assembly->part[0]) > 0) BRC_TRY(write_strikers(r));
     return write_index(r, r->context, NULL);
 }
 

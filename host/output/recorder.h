@@ -5,6 +5,7 @@
  *     DIR/histories.csv          the sensors, one column each; rows are added while the run goes on
  *     DIR/cracks.csv             with fracture: a row for each broken bond; fragments.csv: the fragments at every frame; both grow with the frames
  *     DIR/frames/NNNNNN.cracks.vtu  with fracture: broken faces as polygons; index DIR/cracks.vtu.series
+ *     DIR/frames/NNNNNN.strikers.vtu  with walls and strikers: their faces as polygons; index DIR/strikers.vtu.series
  *     DIR/result.h5              the index: histories, sensors, measures, ledger, resolved scene, provenance
  *     DIR/picture.png, curve.png where the scene asks for them
  *     DIR/summary.json           what scripts read (design.md "Commands"); written by every run, also a failed one

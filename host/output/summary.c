@@ -4,6 +4,7 @@
 #include "../base/memory.h"
 #include "../base/version.h"
 #include "../solver/stage_end.h"
+#include "../solver/strikers.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -260,6 +261,37 @@ static void add_sensors(brc_json *json, const brc_summary *s)
     brc_json_end(json);
 }
 
+static void add_vector(brc_json *json, const char *key, const double v[3])
+{
+    brc_json_begin_array(json, key);
+    for (int c = 0; c < 3; ++c) brc_json_number(json, NULL, v[c]);
+    brc_json_end(json);
+}
+
+/* Where walls and strikers are at the end; left out where the ledger is: the device cannot be asked any more. */
+static void add_strikers(brc_json *json, const brc_summary *s)
+{
+    const int32_t n = s->assembly && s->ledger ? brc_simulation_n_strikers(s->assembly->part[0]) : 0;
+    if (n == 0) return;
+    brc_json_begin_object(json, "strikers");
+    for (int32_t k = 0; k < n; ++k) {
+        brc_striker_now now;
+        if (brc_simulation_striker_now(s->assembly->part[0], k, &now) != BRC_OK) continue;
+        brc_json_begin_object(json, s->scene->strikers[k].name);
+        brc_json_number(json, "mass_kg", brc_simulation_striker_body(s->assembly->part[0], k)->mass);
+        add_vector(json, "position_m", now.position);
+        add_vector(json, "displacement_m", now.displacement);
+        add_vector(json, "rotation_rad", now.rotation);
+        add_vector(json, "velocity_m_per_s", now.velocity);
+        add_vector(json, "spin_rad_per_s", now.spin);
+        add_vector(json, "force_N", now.force);
+        add_vector(json, "torque_N_m", now.torque);
+        brc_json_number(json, "kinetic_J", now.kinetic);
+        brc_json_end(json);
+    }
+    brc_json_end(json);
+}
+
 /* Of the last stage, where it was solved rather than stepped; of several parts the sums and the largest residual. */
 static void add_static(brc_json *json, const brc_summary *s)
 {
@@ -305,6 +337,7 @@ brc_status brc_summary_write(brc_context *context, const brc_summary *summary, c
     add_effects(&json, summary->assembly);
     add_measures(&json, summary);
     add_sensors(&json, summary);
+    add_strikers(&json, summary);
     add_static(&json, summary);
     add_stages(&json, summary);
     add_parts(&json, summary);

@@ -81,6 +81,13 @@ cleanup:
     return status;
 }
 
+brc_status brc_vtu_from_memory(const brc_vtu_array *a, int64_t first, int64_t n, void *block)
+{
+    const size_t row = (size_t)a->columns * (size_t)NUMBER_BYTES[a->number];
+    memcpy(block, (const char *)a->source + (size_t)first * row, (size_t)n * row);
+    return BRC_OK;
+}
+
 brc_status brc_vtu_write(brc_context *context, const char *path, int64_t n_points, int64_t n_cells, int n_arrays,
                          const brc_vtu_array *arrays)
 {

@@ -22,6 +22,9 @@ typedef struct brc_vtu_array {
     int skip;           /* for `read`: leading rows of the source left out */
 } brc_vtu_array;
 
+/* The `read` of rows that lie in memory, at `source`. */
+brc_status brc_vtu_from_memory(const brc_vtu_array *array, int64_t first, int64_t n, void *block);
+
 /* Arrays by ascending place. Written aside, fsynced, renamed. The first failure of a read, or BRC_FILE_FAILED. */
 brc_status brc_vtu_write(brc_context *context, const char *path, int64_t n_points, int64_t n_cells, int n_arrays,
                          const brc_vtu_array *arrays);

@@ -18,12 +18,21 @@ typedef struct brc_striker_now {
     double kinetic;         /* energy of a free one; else 0 [J] */
 } brc_striker_now;
 
+/* Flat faces of a striker, for pictures and files: curved shapes have `facets` around a turn, of an endless plane it is a square as large as the bodies. */
+typedef struct brc_striker_surface {
+    int32_t n_corners, n_faces;
+    double *corner;      /* [n_corners][3] from the mass centre, as the scene starts [m] */
+    int32_t *loop_start; /* [n_faces + 1] */
+    int32_t *loop;       /* corners of the faces, counter-clockwise from outside */
+} brc_striker_surface;
+
 /* What does not change. */
 typedef struct brc_striker_body {
     double centre[3];   /* mass centre as the scene starts; of a plane: its point [m] */
     double mass;        /* of a free one [kg]; else 0 */
     double inertia[6];  /* of a free one, about the centre, as the scene starts, xx yy zz yz xz xy [kg m^2]; else 0 */
     double volume;      /* [m^3]; of a plane 0 */
+    brc_striker_surface surface;
 } brc_striker_body;
 
 int32_t brc_simulation_n_strikers(const brc_simulation *simulation);
