@@ -239,7 +239,7 @@ static brc_status write_cracks(brc_recorder *r)
 
 static brc_status write_strikers(brc_recorder *r)
 {
-    char name[32];
+    char name[40];
     char *path = NULL;
     snprintf(name, sizeof name, "%06lld.strikers.vtu", (long long)r->n_frames - 1);
     BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
