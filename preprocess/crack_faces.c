@@ -1,24 +1,10 @@
-/* A domain keeps polygons of free faces only. That of a shared face is found again from the corners of its cell: a convex cell has all
- * of its corners on the inner side of the face's plane, and those on the plane are the corners of the face. */
+/* A domain keeps polygons of free faces only; those of the opened ones are found again (outline.h). */
 #include "crack_faces.h"
 
 #include "../host/base/memory.h"
+#include "outline.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-/* Corners are on a plane to rounding, which is larger for cells far from the origin: the smallest of these tolerances [of the cell's
- * size] whose corners enclose the face's area is taken. */
-#define FIRST_TOLERANCE 1e-14
-#define LAST_TOLERANCE 1e-7
-/* How well a polygon's area must match the face's [of the cell's size squared]. */
-#define AREA_TOLERANCE 1e-9
-
-typedef struct corner {
-    double angle, height, at[2]; /* in the plane, about the face's centroid; height over the plane [m] */
-    int32_t vertex;
-} corner;
 
 /* The faces that become free, by element, wall and neighbour. */
 typedef struct opened {
@@ -26,85 +12,8 @@ typedef struct opened {
     int32_t *half_edge;     /* [n] */
     int64_t *polygon_start; /* [n + 1] */
     int32_t *polygon;       /* indices into the domain's vertex */
-    corner *corners;        /* room for the corners of any cell */
+    brc_outline_corner *room; /* for the corners of any cell */
 } opened;
-
-static int compare_angles(const void *a, const void *b)
-{
-    const corner *p = a, *q = b;
-    if (p->angle != q->angle) return p->angle < q->angle ? -1 : 1;
-    return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
-}
-
-static int compare_heights(const void *a, const void *b)
-{
-    const corner *p = a, *q = b;
-    if (p->height != q->height) return p->height < q->height ? -1 : 1;
-    return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
-}
-
-static double polygon_area(const corner *c, int64_t n)
-{
-    double twice = 0.0;
-    for (int64_t k = 0; k < n; ++k) {
-        const double *a = c[k].at, *b = c[(k + 1) % n].at;
-        twice += a[0] * b[1] - a[1] * b[0];
-    }
-    return 0.5 * twice;
-}
-
-/* Two unit vectors that make a right-handed system with the unit vector n. */
-static void plane_axes(const double n[3], double u[3], double v[3])
-{
-    int least = 0;
-    for (int k = 1; k < 3; ++k)
-        if (fabs(n[k]) < fabs(n[least])) least = k;
-    double length = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        u[k] = (k == least) - n[least] * n[k];
-        length += u[k] * u[k];
-    }
-    for (int k = 0; k < 3; ++k) u[k] /= sqrt(length);
-    for (int k = 0; k < 3; ++k) v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
-}
-
-/* Corners of the face of half-edge h of element e, counter-clockwise from outside, into out; their number, 0: not found. */
-static int64_t outline(const brc_domain *d, int64_t e, int64_t h, corner *c, int32_t *out)
-{
-    const double *s = d->area_vector + 3 * h, *centre = d->face_centroid + 3 * h;
-    const double area = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
-    const double normal[3] = {s[0] / area, s[1] / area, s[2] / area};
-    double u[3], v[3], size = 0.0;
-    plane_axes(normal, u, v);
-    const int64_t first = d->vertex_start[e], n = d->vertex_start[e + 1] - first;
-    for (int64_t k = 0; k < n; ++k) {
-        const double *x = d->vertex + 3 * (first + k);
-        const double r[3] = {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
-        c[k] = (corner){.vertex = (int32_t)(first + k)};
-        for (int m = 0; m < 3; ++m) {
-            c[k].height += r[m] * normal[m];
-            c[k].at[0] += r[m] * u[m];
-            c[k].at[1] += r[m] * v[m];
-        }
-        c[k].height = fabs(c[k].height);
-        c[k].angle = atan2(c[k].at[1], c[k].at[0]);
-        size = fmax(size, r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-    }
-    size = sqrt(size);
-    qsort(c, (size_t)n, sizeof *c, compare_heights);
-    int64_t before = 0;
-    for (double tolerance = FIRST_TOLERANCE; tolerance < 2.0 * LAST_TOLERANCE; tolerance *= 10.0) {
-        int64_t on = before;
-        while (on < n && c[on].height <= tolerance * size) ++on;
-        if (on < 3 || on == before) continue;
-        before = on;
-        qsort(c, (size_t)on, sizeof *c, compare_angles);
-        if (fabs(polygon_area(c, on) - area) > AREA_TOLERANCE * size * size) continue;
-        for (int64_t k = 0; k < on; ++k) out[k] = c[k].vertex;
-        return on;
-    }
-    return 0;
-}
 
 /* Place of half-edge h among the opened ones of its element: by wall, then neighbour (which half-edges already follow). */
 static void insert(opened *o, int64_t first, int32_t h, const int32_t *wall, const brc_domain *d)
@@ -129,13 +38,13 @@ static brc_status find_opened(brc_context *context, const int32_t *wall, const b
     BRC_TRY(BRC_ALLOCATE(context, &o->half_edge, n, "opened faces"));
     BRC_TRY(BRC_ALLOCATE(context, &o->polygon_start, n + 1, "polygons of opened faces"));
     BRC_TRY(BRC_ALLOCATE(context, &o->polygon, n_corners, "corners of opened faces"));
-    BRC_TRY(BRC_ALLOCATE(context, &o->corners, most, "corners of a cell"));
+    BRC_TRY(BRC_ALLOCATE(context, &o->room, 2 * most, "corners of a cell"));
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int64_t first = o->n;
         for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h)
             if (wall[d->bond[h]] >= 0) insert(o, first, (int32_t)h, wall, d);
         for (int64_t k = first; k < o->n; ++k) {
-            const int64_t count = outline(d, e, o->half_edge[k], o->corners, o->polygon + o->polygon_start[k]);
+            const int64_t count = brc_outline(d, e, o->half_edge[k], o->room, o->polygon + o->polygon_start[k]);
             if (count == 0)
                 return BRC_FAIL(context, BRC_INTERNAL, "the corners of element %lld do not outline its face with element %d", (long long)e,
                                 d->neighbour[o->half_edge[k]]);
@@ -265,7 +174,7 @@ cleanup:
     brc_memory_free(o.half_edge);
     brc_memory_free(o.polygon_start);
     brc_memory_free(o.polygon);
-    brc_memory_free(o.corners);
+    brc_memory_free(o.room);
     free_arrays(&faces);
     return status;
 }
