@@ -3,6 +3,7 @@
 #include "reproduce_hondros.h"
 #include "reproduce_pressing.h"
 #include "reproduce_virial.h"
+#include "reproduce_wave.h"
 #include "scene_domain.h"
 #include "../../preprocess/domain_file.h"
 #include "../base/file.h"
@@ -110,6 +111,7 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
     hooks h = {context, outcome, campaign->priced ? &device : NULL, brc_processor_s(), 0};
     brc_drift *drift = NULL;
     brc_pressing *pressing = NULL;
+    brc_wave *wave = NULL;
     brc_observer observer;
     brc_run_request request = {.path = scene,
                                .text = text,
@@ -135,6 +137,11 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
         observer = brc_pressing_observer(pressing);
         request.observer = &observer;
     }
+    if (run->operator == BRC_CASE_WAVE) {
+        BRC_TRY(brc_wave_create(context, &wave));
+        observer = brc_wave_observer(wave);
+        request.observer = &observer;
+    }
     brc_run_results results;
     brc_status status = brc_run_scene(context, &request, &results);
     take(outcome, &results, status == BRC_PHYSICS_STOPPED);
@@ -142,6 +149,8 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
     brc_drift_free(&drift);
     if (pressing && status == BRC_OK) status = brc_pressing_values(campaign, pressing, outcome);
     brc_pressing_free(&pressing);
+    if (wave && status == BRC_OK) status = brc_wave_values(wave, outcome);
+    brc_wave_free(&wave);
     brc_run_results_free(&results);
     return status;
 }

@@ -1,4 +1,4 @@
-/* Modes of a free box of cells against Rayleigh-Ritz. */
+/* Modes of a free solid of cells against Rayleigh-Ritz. */
 #include "reference_vibration.h"
 #include "reproduce.h"
 #include <math.h>
@@ -6,6 +6,24 @@
 
 #define MODES_MOST 24
 #define DEGREE 14 /* four digits at any nu (design: section 5 of the law) */
+#define ROUND_DEGREE 12
+
+static bool solid_of(const brc_body *body, const brc_material *material, brc_reference_solid *out)
+{
+    const brc_shape *shape = &body->shape;
+    const double d = 2 * shape->radius;
+    *out = (brc_reference_solid){.young = material->young, .poisson = material->poisson, .density = material->density};
+    if (shape->kind == BRC_SHAPE_BOX) {
+        memcpy(out->size, shape->size, sizeof out->size);
+    } else if (shape->kind == BRC_SHAPE_CYLINDER) {
+        out->shape = BRC_REFERENCE_CYLINDER;
+        memcpy(out->size, (double[3]){shape->length, d, d}, sizeof out->size);
+    } else {
+        out->shape = BRC_REFERENCE_SPHERE;
+        memcpy(out->size, (double[3]){d, d, d}, sizeof out->size);
+    }
+    return shape->kind == BRC_SHAPE_BOX || shape->kind == BRC_SHAPE_CYLINDER || shape->kind == BRC_SHAPE_SPHERE;
+}
 
 brc_status brc_vibration_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
 {
@@ -13,14 +31,12 @@ brc_status brc_vibration_values(brc_context *context, brc_simulation *simulation
     const double *omega = brc_simulation_modes(simulation, &n);
     const brc_scene *scene = brc_simulation_scene(simulation);
     const brc_body *body = &scene->bodies[0];
-    if (n < 1 || body->shape.kind != BRC_SHAPE_BOX)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: vibration needs a box and a modes stage at the end", outcome->run->name);
+    brc_reference_solid solid;
+    if (!solid_of(body, &scene->materials[body->material], &solid) || n < 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: vibration needs a box, a cylinder or a sphere, and a modes stage at the end", outcome->run->name);
     if (n > MODES_MOST) n = MODES_MOST;
-    const brc_material *material = &scene->materials[body->material];
-    brc_reference_box box = {.young = material->young, .poisson = material->poisson, .density = material->density};
-    memcpy(box.size, body->shape.size, sizeof box.size);
     double exact[MODES_MOST], squares = 0;
-    BRC_TRY(brc_reference_vibration(context, &box, DEGREE, n, exact));
+    BRC_TRY(brc_reference_vibration(context, &solid, solid.shape == BRC_REFERENCE_BOX ? DEGREE : ROUND_DEGREE, n, exact));
     for (int32_t k = 0; k < n; ++k) {
         char name[BRC_NAME];
         snprintf(name, sizeof name, "mode_%d", (int)k + 1);
