@@ -48,15 +48,25 @@ static void add_variant(const brc_case_run *run, char *out, size_t size)
     }
 }
 
+/* The quantity of a run; a $ in it stands for its neighbour level. */
+static void name_quantity(const brc_sweep *sweep, const brc_case_run *run, char *out, size_t size)
+{
+    const char *mark = strchr(sweep->quantity, '$');
+    if (mark)
+        snprintf(out, size, "%.*s%s%s", (int)(mark - sweep->quantity), sweep->quantity, text_of(run, "level", ""), mark + 1);
+    else
+        snprintf(out, size, "%s", sweep->quantity);
+}
+
 static void fill_point(const brc_sweep *sweep, int k, const brc_outcome *outcome, const brc_device_request *device, brc_accuracy_point *p)
 {
     const brc_case_run *run = &sweep->what.runs[k];
-    const brc_case_value *value = brc_outcome_find(outcome, sweep->quantity);
     *p = brc_accuracy_point_empty();
+    name_quantity(sweep, run, p->quantity, sizeof p->quantity);
+    const brc_case_value *value = brc_outcome_find(outcome, p->quantity);
     snprintf(p->problem, sizeof p->problem, "%s", sweep->problem);
     snprintf(p->run, sizeof p->run, "%s", run->name);
     snprintf(p->sweep, sizeof p->sweep, "%s", sweep->sweep_of[k]);
-    snprintf(p->quantity, sizeof p->quantity, "%s", sweep->quantity);
     snprintf(p->model, sizeof p->model, "%s", text_of(run, "model", "dlsm"));
     snprintf(p->preparation, sizeof p->preparation, "%s", text_of(run, "preparation", ""));
     snprintf(p->precision, sizeof p->precision, "%s", brc_precision_name(outcome->precision));
@@ -94,7 +104,7 @@ static void fill_point(const brc_sweep *sweep, int k, const brc_outcome *outcome
         p->seconds = p->build_s + p->run_s;
     }
     if (!outcome->done || !value || isnan(value->value)) {
-        if (!p->note[0]) snprintf(p->note, sizeof p->note, "the run gives no %s", sweep->quantity);
+        if (!p->note[0]) snprintf(p->note, sizeof p->note, "the run gives no %s", p->quantity);
         return;
     }
     p->reference = !isnan(sweep->reference) ? sweep->reference : value->reference;

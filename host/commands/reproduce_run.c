@@ -1,5 +1,6 @@
 /* Carrying out one run of a case. */
 #include "pace.h"
+#include "reproduce_field.h"
 #include "reproduce_hondros.h"
 #include "reproduce_pressing.h"
 #include "reproduce_virial.h"
@@ -65,6 +66,7 @@ static brc_status finished(void *self, brc_simulation *simulation)
     brc_outcome_add(h->outcome, "iterations", "-", (double)report.iterations, NAN);
     brc_outcome_add(h->outcome, "residual", "-", report.residual, NAN);
     if (h->outcome->run->operator == BRC_CASE_HONDROS) return brc_hondros_values(h->context, simulation, h->outcome);
+    if (h->outcome->run->operator == BRC_CASE_FIELD) return brc_field_values(h->context, simulation, h->outcome);
     if (h->outcome->run->operator == BRC_CASE_VIRIAL) return brc_virial_values(h->context, simulation, h->outcome);
     if (h->outcome->run->operator == BRC_CASE_VIBRATION) return brc_vibration_values(h->context, simulation, h->outcome);
     return BRC_OK;
