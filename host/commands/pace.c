@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define SAMPLE_S 0.2
+#define SAMPLE_S 0.1
 
 static bool uses_one_thread(const brc_device_request *device)
 {
