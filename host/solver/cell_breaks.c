@@ -301,6 +301,26 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
                       BRC_BUF(f->break_step), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy), BRC_BUF(f->lost));
 }
 
+brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)
+{
+    const brc_cell_breaks *c = s->fracture->cells;
+    brc_chosen elements = {0};
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, brc_fracture_owners(s, bonds, &elements));
+    const brc_state_entry entries[] = {
+        {"cells.area", s->area, BRC_ENTRIES, BRC_OF_COEFF, 3, bonds},
+        {"cells.ratio", s->ratio, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
+        {"cells.limit", c->limit, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
+        {"cells.alive", c->alive, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
+        {"cells.least", c->least, BRC_ROWS, BRC_OF_COEFF, 1, &elements},
+        {"cells.inverse_shape", s->inv_shape, BRC_BLOCKS, BRC_OF_COEFF, 6, &elements},
+    };
+    status = brc_store_entries(s, store, sizeof entries / sizeof *entries, entries);
+cleanup:
+    brc_memory_free(elements.id);
+    return status;
+}
+
 brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out)
 {
     brc_cell_breaks *c = s->fracture->cells;

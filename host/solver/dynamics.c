@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { SAMPLES = 500 };
+enum { SAMPLES = 500, BATCH = 256 };
 /* Energy may exceed what was put in by this factor before the run is stopped as running away. Verlet's own oscillation is
  * some percent near the limit (design.md), so 100 is reached only by growth. */
 static const double runaway = 100;
@@ -170,12 +170,38 @@ static void tell_regime(const brc_simulation *s, const brc_regime *before)
             brc_regime_name(r), 100 * r->at_first_break, 100 * fmax(r->until_peak, r->at_peak));
 }
 
-brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part)
+/* Steps until the next sample, frame or the end, at most a batch: short batches keep the progress line and signals alive. Where they end depends on the
+ * step alone, since every end costs the velocities a rounding: a run that goes on from one of them later is the same run. */
+static int64_t next_batch(int64_t step, int64_t every, int64_t frame_every, int64_t total)
+{
+    int64_t until = next_multiple(step, every);
+    if (frame_every && next_multiple(step, frame_every) < until) until = next_multiple(step, frame_every);
+    if (until > total) until = total;
+    return until - step < BATCH ? until - step : BATCH;
+}
+
+/* Samples and frames of this step, if it is one of theirs. */
+static brc_status observe(int32_t n, brc_simulation *const *part, double n_bonds, int64_t every, int64_t frame_every, int64_t total)
+{
+    brc_simulation *s = part[0];
+    if (s->step % every == 0 || s->step == total) {
+        moment now;
+        BRC_TRY(guard_all(n, part, &now));
+        const bool calm = now.kinetic <= brc_current_stage(s)->stop_kinetic * now.elastic;
+        s->progress.calm_steps = calm ? s->progress.calm_steps + (s->step - s->progress.judged_step) : 0;
+        s->progress.judged_step = s->step;
+        judge(s, &now, n_bonds, s->progress.calm_steps);
+        BRC_TRY(brc_notify_sample(s));
+    }
+    return frame_every && s->step % frame_every == 0 && s->step < total && !s->note[s->stage].ended ? brc_notify_frame(s) : BRC_OK;
+}
+
+brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed)
 {
     brc_simulation *s = part[0];
     const brc_stage *stage = brc_current_stage(s);
     const brc_output *output = &s->scene->output;
-    const int64_t total = brc_simulation_planned_steps(s, s->stage, s->time_step.value);
+    const int64_t total = brc_simulation_planned_steps(s, s->stage, s->time_step.value), first = s->step;
     const double dt = s->time_step.value;
     int64_t every = output->history_every > 0 ? output->history_every : (total + SAMPLES - 1) / SAMPLES;
     if (every < 1) every = 1;
@@ -184,36 +210,26 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part)
     if (frame_every < 1 && (output->n_frames > 0 || output->frame_interval > 0)) frame_every = 1;
     brc_progress *progress = NULL;
     brc_status status = BRC_OK;
-    int64_t calm_steps = 0;
     double n_bonds = 0;
     for (int32_t k = 0; k < n; ++k) n_bonds += (double)part[k]->domain->n_bonds;
-    BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total, "steps", n_bonds, "bond updates/s"));
-    moment now;
+    BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total - first, "steps", n_bonds, "bond updates/s"));
     const brc_regime before = s->regime;
-    if (s->fracture) BRC_TRY_OR(cleanup, guard_all(n, part, &now));
-    BRC_TRY_OR(cleanup, brc_notify_sample(s));
+    if (!resumed) {
+        moment now;
+        if (s->fracture) BRC_TRY_OR(cleanup, guard_all(n, part, &now));
+        BRC_TRY_OR(cleanup, brc_notify_sample(s));
+    }
     while (s->step < total && !s->note[s->stage].ended) {
-        int64_t until = next_multiple(s->step, every);
-        if (frame_every && next_multiple(s->step, frame_every) < until) until = next_multiple(s->step, frame_every);
-        if (until > total) until = total;
-        const int64_t begin = s->step;
-        while (s->step < until) { /* short batches keep the progress line and signals alive */
-            const int64_t left = until - s->step, batch = left < 256 ? left : 256;
-            BRC_TRY_OR(cleanup, advance_all(n, part, batch));
-            brc_progress_update(progress, s->step);
-            if (s->interrupted) {
-                status = BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at step %lld of %lld", stage->name,
-                                  (long long)s->step, (long long)total);
-                goto cleanup;
-            }
+        BRC_TRY_OR(cleanup, advance_all(n, part, next_batch(s->step, every, frame_every, total)));
+        brc_progress_update(progress, s->step - first);
+        BRC_TRY_OR(cleanup, observe(n, part, n_bonds, every, frame_every, total));
+        BRC_TRY_OR(cleanup, brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED : s->note[s->stage].ended ? BRC_PAUSE_ENDED
+                                                : s->step < total ? BRC_PAUSE_GOING : BRC_PAUSE_DONE));
+        if (s->interrupted) {
+            status = BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at step %lld of %lld", stage->name, (long long)s->step,
+                              (long long)total);
+            goto cleanup;
         }
-        if (s->step % every == 0 || s->step == total) {
-            BRC_TRY_OR(cleanup, guard_all(n, part, &now));
-            calm_steps = now.kinetic <= stage->stop_kinetic * now.elastic ? calm_steps + (s->step - begin) : 0;
-            judge(s, &now, n_bonds, calm_steps);
-            BRC_TRY_OR(cleanup, brc_notify_sample(s));
-        }
-        if (frame_every && s->step % frame_every == 0 && s->step < total && !s->note[s->stage].ended) BRC_TRY_OR(cleanup, brc_notify_frame(s));
     }
     tell_regime(s, &before);
 cleanup:

@@ -27,28 +27,38 @@ brc_status brc_lockstep_begin_stage(int32_t n, brc_simulation *const *part, int3
     return BRC_OK;
 }
 
-static brc_status run_stage(int32_t n, brc_simulation *const *part)
+/* resumed: NULL where the stage begins. */
+static brc_status run_stage(int32_t n, brc_simulation *const *part, brc_state_store *resumed)
 {
     switch (brc_current_stage(part[0])->solver) {
-    case BRC_SOLVER_STATIC: return brc_statics_run(n, part);
-    case BRC_SOLVER_DYNAMIC: return brc_dynamics_run(n, part);
+    case BRC_SOLVER_STATIC: return brc_statics_run(n, part, resumed);
+    case BRC_SOLVER_DYNAMIC: return brc_dynamics_run(n, part, resumed != NULL);
     case BRC_SOLVER_MODES: break;
     }
     for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_modes_run(part[k]));
     return brc_notify_sample(part[0]);
 }
 
-static brc_status run_stages(int32_t n, brc_simulation *const *part)
+static brc_status enter(int32_t n, brc_simulation *const *part, int32_t stage, bool frames)
+{
+    brc_simulation *first = part[0];
+    BRC_TRY(brc_lockstep_begin_stage(n, part, stage));
+    for (int k = 0; k < first->n_observers; ++k)
+        if (first->observers[k].stage_begin) BRC_TRY(first->observers[k].stage_begin(first->observers[k].self, first, stage));
+    return stage == 0 && frames ? brc_notify_frame(first) : BRC_OK;
+}
+
+/* All stages, or what is left of them. */
+static brc_status run_stages(int32_t n, brc_simulation *const *part, brc_state_store *resumed)
 {
     brc_simulation *first = part[0];
     const bool frames = first->scene->output.n_frames >= 0;
-    for (int32_t i = 0; i < first->scene->n_stages; ++i) {
-        BRC_TRY(brc_lockstep_begin_stage(n, part, i));
-        for (int k = 0; k < first->n_observers; ++k)
-            if (first->observers[k].stage_begin) BRC_TRY(first->observers[k].stage_begin(first->observers[k].self, first, i));
-        if (i == 0 && frames) BRC_TRY(brc_notify_frame(first));
+    const int32_t begin = resumed ? first->stage : 0;
+    for (int32_t i = begin; i < first->scene->n_stages; ++i) {
+        brc_state_store *own = i == begin ? resumed : NULL;
+        if (!own) BRC_TRY(enter(n, part, i, frames));
         const double start = brc_clock_s();
-        const brc_status status = run_stage(n, part);
+        const brc_status status = run_stage(n, part, own);
         first->step_seconds += brc_clock_s() - start;
         BRC_TRY(status);
         if (frames) BRC_TRY(brc_notify_frame(first));
@@ -58,13 +68,38 @@ static brc_status run_stages(int32_t n, brc_simulation *const *part)
     return BRC_OK;
 }
 
-brc_status brc_lockstep_run(int32_t n, brc_simulation *const *part)
+static brc_status run(int32_t n, brc_simulation *const *part, brc_state_store *resumed)
 {
     part[0]->others = part + 1;
     part[0]->n_others = n - 1;
-    const brc_status status = run_stages(n, part);
+    const brc_status status = run_stages(n, part, resumed);
     part[0]->n_others = 0;
     return status;
 }
+
+brc_status brc_lockstep_run(int32_t n, brc_simulation *const *part) { return run(n, part, NULL); }
+
+brc_status brc_lockstep_save(int32_t n, brc_simulation *const *part, brc_state_store *store)
+{
+    for (int32_t k = 0; k < n; ++k) {
+        store->part = k;
+        BRC_TRY(brc_simulation_save_state(part[k], store));
+    }
+    return BRC_OK;
+}
+
+brc_status brc_lockstep_load(int32_t n, brc_simulation *const *part, brc_state_store *store)
+{
+    for (int32_t k = 0; k < n; ++k) {
+        store->part = k;
+        BRC_TRY(brc_simulation_load_state(part[k], store));
+        if (part[k]->stage != part[0]->stage || part[k]->step != part[0]->step)
+            return BRC_FAIL(part[0]->context, BRC_BAD_INPUT, "states of different moments: stage %d, step %lld and stage %d, step %lld", (int)part[0]->stage,
+                            (long long)part[0]->step, (int)part[k]->stage, (long long)part[k]->step);
+    }
+    return BRC_OK;
+}
+
+brc_status brc_lockstep_continue(int32_t n, brc_simulation *const *part, brc_state_store *store) { return run(n, part, store); }
 
 brc_status brc_simulation_run(brc_simulation *s) { return brc_lockstep_run(1, &s); }

@@ -280,6 +280,13 @@ brc_status brc_notify_frame(brc_simulation *s)
     return BRC_OK;
 }
 
+brc_status brc_notify_pause(brc_simulation *s, brc_pause why)
+{
+    for (int i = 0; i < s->n_observers; ++i)
+        if (s->observers[i].pause) BRC_TRY(s->observers[i].pause(s->observers[i].self, s, why));
+    return BRC_OK;
+}
+
 /* Bank what the loads of the stage that ends did; its lists go. */
 static brc_status leave_stage(brc_simulation *s)
 {
@@ -308,6 +315,7 @@ brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
     s->stage = stage;
     s->step = 0;
     s->time = s->load_factor = 0;
+    s->progress = (brc_stage_progress){0};
     if (next->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(brc_time_step_find(s, next, &s->time_step));
     s->setup_seconds += brc_clock_s() - start;
     return BRC_OK;

@@ -25,6 +25,14 @@ int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *
 
 /* ---- running ---- */
 
+/* Why observers are told that a run could go on from here later. */
+typedef enum brc_pause {
+    BRC_PAUSE_GOING,      /* between batches of steps, increments or events; the stage goes on */
+    BRC_PAUSE_DONE,       /* the stage ends here, as planned */
+    BRC_PAUSE_ENDED,      /* it ends here before its plan (stage_end.h) */
+    BRC_PAUSE_INTERRUPTED /* the run stops here */
+} brc_pause;
+
 /* What an observer may do; any member may be NULL. A status other than BRC_OK stops the run and is returned by it. */
 typedef struct brc_observer {
     void *self;
@@ -34,6 +42,8 @@ typedef struct brc_observer {
     /* Frame: as scene.output says, always at the start of the first stage and the end of each stage. */
     brc_status (*frame)(void *self, brc_simulation *simulation);
     brc_status (*stage_end)(void *self, brc_simulation *simulation, int32_t stage);
+    /* The state may be kept here (state_store.h): the samples and frames of this moment are taken, but for the frame that ends a stage. */
+    brc_status (*pause)(void *self, brc_simulation *simulation, brc_pause why);
 } brc_observer;
 /* The observer struct is copied, *self is borrowed. */
 brc_status brc_simulation_observe(brc_simulation *simulation, const brc_observer *observer);

@@ -7,6 +7,7 @@
 #include "layout.h"
 #include "regime.h"
 #include "simulation.h"
+#include "state_store.h"
 #include <signal.h>
 
 enum { BRC_MOST_OBSERVERS = 8, BRC_MOST_EFFECTS = 24 };
@@ -101,6 +102,13 @@ typedef struct brc_stage_note {
     char reason[192];
 } brc_stage_note;
 
+/* How far the current stage has come, beside its step (dynamics.c, static_events.c). */
+typedef struct brc_stage_progress {
+    int64_t calm_steps;  /* for which the kinetic energy has been small */
+    int64_t judged_step; /* of the last sample */
+    double margin, largest_load; /* of the events of a static stage; margin 0: none yet */
+} brc_stage_progress;
+
 struct brc_simulation {
     brc_context *context;
     const brc_scene *scene;
@@ -138,6 +146,9 @@ struct brc_simulation {
     int64_t step, total_steps;
     double time, total_time_before, load_factor;
     brc_time_step time_step;
+    char governed_by[64]; /* of the time step, where it came from a store */
+    brc_stage_progress progress;
+    struct brc_static_run *static_run; /* of a static stage that runs; else NULL */
     brc_loads loads;
     double work_before, damping_before, numerical_before; /* of earlier stages */
     double initial_energy, peak_elastic, peak_kinetic;
@@ -245,14 +256,18 @@ brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps);
 brc_status brc_stage_enter(brc_simulation *s, int32_t stage);
 brc_status brc_stage_start(brc_simulation *s);
 /* The current stage of the n simulations of one scene (lockstep.c), one for each of its models: all take the same steps or increments, and observers
- * of the first hear of each when all have arrived. */
-brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part);
-brc_status brc_statics_run(int32_t n, brc_simulation *const *part);
+ * of the first hear of each when all have arrived. resumed: the stage goes on from the state that the parts were given (state_store.h). */
+brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed);
+brc_status brc_statics_run(int32_t n, brc_simulation *const *part, brc_state_store *resumed);
 /* Modes of one; tells nobody. */
 brc_status brc_modes_run(brc_simulation *s);
 void brc_effects_list(brc_simulation *s);
 brc_status brc_notify_sample(brc_simulation *s);
 brc_status brc_notify_frame(brc_simulation *s);
+/* The run could go on from here later; why: BRC_PAUSE_INTERRUPTED where it was asked to stop, and stops. */
+brc_status brc_notify_pause(brc_simulation *s, brc_pause why);
+/* What a static stage that runs keeps from increment to increment. */
+brc_status brc_statics_store_run(brc_simulation *s, struct brc_static_run *run, brc_state_store *store);
 
 static inline const brc_stage *brc_current_stage(const brc_simulation *s) { return &s->scene->stages[s->stage]; }
 static inline bool brc_is_beams(const brc_simulation *s) { return s->scene->model.kind == BRC_MODEL_CBM; }

@@ -186,6 +186,17 @@ static void judge(events *v, double load)
     if (reason[0]) brc_simulation_end_stage(s, reason);
 }
 
+/* The run may be left and taken up again after any event. */
+static brc_status tell_pause(const events *v)
+{
+    brc_simulation *s = v->part[0];
+    s->progress.margin = v->margin;
+    s->progress.largest_load = v->largest_load;
+    BRC_TRY(brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED : BRC_PAUSE_GOING));
+    if (!s->interrupted) return BRC_OK;
+    return BRC_FAIL(v->context, BRC_INTERRUPTED, "stage '%s' was interrupted after event %lld of %d", v->stage->name, (long long)s->step, (int)v->stage->most_events);
+}
+
 brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
 {
     brc_simulation *s = part[0];
@@ -196,16 +207,18 @@ brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_sta
     brc_ledger *before = NULL;
     brc_status status = BRC_OK;
     bool carries;
-    v.margin = is_double ? 1e-9 : 2e-6;
+    const int32_t first = (int32_t)s->step; /* events that a resumed stage has behind it */
+    v.margin = first > 0 ? s->progress.margin : is_double ? 1e-9 : 2e-6;
+    v.largest_load = s->progress.largest_load;
     v.nothing = fmax(1e-3, 100 * brc_statics_tolerance(s));
     for (int32_t k = 0; k < n; ++k)
         for (int32_t l = 0; l < brc_current_stage(part[k])->n_loads; ++l) v.moves |= is_motion(&brc_current_stage(part[k])->loads[l]);
     if (s->scene->has_gravity)
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': events scale the load, which gravity does not follow; leave out gravity", stage->name);
     BRC_TRY(BRC_ALLOCATE(s->context, &before, n, "events"));
-    for (int32_t k = 0; k < n; ++k) part[k]->load_factor = 1;
-    BRC_TRY_OR(cleanup, solve_all(&v));
-    for (int32_t event = 0; !s->note[s->stage].ended; ++event) {
+    for (int32_t k = 0; first == 0 && k < n; ++k) part[k]->load_factor = 1;
+    if (first == 0) BRC_TRY_OR(cleanup, solve_all(&v));
+    for (int32_t event = first; !s->note[s->stage].ended; ++event) {
         double load;
         status = go_to_next(&v, &carries);
         if (status == BRC_PHYSICS_STOPPED && event > 0) { /* too far from the last state to follow it */
@@ -230,12 +243,9 @@ brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_sta
         judge(&v, load);
         BRC_TRY_OR(cleanup, brc_notify_sample(s));
         if (event == stage->most_events || s->note[s->stage].ended) break;
-        if (s->interrupted) {
-            status = BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at event %d of %d", stage->name, (int)event, (int)stage->most_events);
-            goto cleanup;
-        }
         BRC_TRY_OR(cleanup, do_event(&v, before));
         if (frame_every > 0 && (event + 1) % frame_every == 0 && event + 1 < stage->most_events) BRC_TRY_OR(cleanup, brc_notify_frame(s));
+        BRC_TRY_OR(cleanup, tell_pause(&v));
     }
 cleanup:
     brc_memory_free(before);

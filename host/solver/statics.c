@@ -458,42 +458,80 @@ static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_stat
     return brc_notify_sample(part[0]);
 }
 
-brc_status brc_statics_run(int32_t n, brc_simulation *const *part)
+/* What a resumed stage needs beside the state: the displacements before the last increment, for the guess of the next. */
+brc_status brc_statics_store_run(brc_simulation *s, brc_static_run *run, brc_state_store *store)
+{
+    const brc_state_entry before = {"static.before", run->vectors.before, BRC_ROWS, BRC_OF_STATE, 3, NULL};
+    BRC_TRY(brc_store_entry(s, store, &before));
+    return brc_store_double(store, "static.reference", &run->reference);
+}
+
+/* Vectors of the solver for every part; a stage that begins is at rest. */
+static brc_status begin_runs(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_state_store *resumed)
+{
+    for (int32_t k = 0; k < n; ++k) {
+        brc_simulation *s = part[k];
+        if (!resumed) {
+            s->static_report = (brc_static_report){0};
+            BRC_TRY(brc_buffer_fill_zero(s->velocity));
+        }
+        BRC_TRY(create_vectors(s, &run[k].vectors));
+        s->static_run = &run[k];
+        if (!resumed) continue;
+        resumed->part = k;
+        BRC_TRY(brc_statics_store_run(s, &run[k], resumed));
+    }
+    return BRC_OK;
+}
+
+/* The run may be left and taken up again after any increment; the one that scales the load to failure counts as one more. */
+static brc_status tell_pause(brc_simulation *s, int32_t increments)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    const bool done = s->step >= increments + (stage->to_failure > 0);
+    BRC_TRY(brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED : done ? BRC_PAUSE_DONE : BRC_PAUSE_GOING));
+    if (!s->interrupted) return BRC_OK;
+    return BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted after increment %lld of %d", stage->name, (long long)s->step, (int)increments);
+}
+
+static brc_status run_increments(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
+{
+    const brc_stage *stage = brc_current_stage(part[0]);
+    const int32_t increments = stage->increments > 0 ? stage->increments : 1;
+    for (int32_t i = (int32_t)part[0]->step + 1; i <= increments; ++i) {
+        for (int32_t k = 0; k < n; ++k) { /* one after the other: they share the device's memory and threads */
+            part[k]->load_factor = (double)i / increments;
+            BRC_TRY(predict(part[k], &run[k].vectors, i));
+            BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
+            part[k]->step = i;
+        }
+        BRC_TRY(brc_notify_sample(part[0]));
+        BRC_TRY(tell_pause(part[0], increments));
+    }
+    if (!(stage->to_failure > 0) || part[0]->step > increments) return BRC_OK;
+    BRC_TRY(go_to_failure(n, part, run, progress));
+    return tell_pause(part[0], increments);
+}
+
+brc_status brc_statics_run(int32_t n, brc_simulation *const *part, brc_state_store *resumed)
 {
     brc_context *context = part[0]->context;
     const brc_stage *stage = brc_current_stage(part[0]);
-    const int32_t increments = stage->increments > 0 ? stage->increments : 1;
     brc_static_run *run = NULL;
     brc_progress *progress = NULL;
     brc_status status = BRC_OK;
     double n_bonds = 0;
     if (stage->most_events > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "events"));
     if (stage->to_failure > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "to_failure"));
-    for (int32_t k = 0; k < n; ++k) {
-        part[k]->static_report = (brc_static_report){0};
-        BRC_TRY(brc_buffer_fill_zero(part[k]->velocity));
-        n_bonds += (double)part[k]->domain->n_bonds;
-    }
+    for (int32_t k = 0; k < n; ++k) n_bonds += (double)part[k]->domain->n_bonds;
     BRC_TRY_OR(cleanup, brc_progress_create(context, &progress, stage->name, 0, "iterations", n_bonds / n, "bond updates/s"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &run, n, "static stage"));
-    for (int32_t k = 0; k < n; ++k) BRC_TRY_OR(cleanup, create_vectors(part[k], &run[k].vectors));
-    BRC_TRY_OR(cleanup, brc_notify_sample(part[0]));
-    if (stage->most_events > 0) {
-        BRC_TRY_OR(cleanup, brc_static_events_run(n, part, run, progress));
-        goto cleanup;
-    }
-    for (int32_t i = 1; i <= increments; ++i) {
-        for (int32_t k = 0; k < n; ++k) { /* one after the other: they share the device's memory and threads */
-            part[k]->load_factor = (double)i / increments;
-            BRC_TRY_OR(cleanup, predict(part[k], &run[k].vectors, i));
-            BRC_TRY_OR(cleanup, brc_statics_solve_at(part[k], &run[k], progress));
-            part[k]->step = i;
-        }
-        BRC_TRY_OR(cleanup, brc_notify_sample(part[0]));
-    }
-    if (stage->to_failure > 0) BRC_TRY_OR(cleanup, go_to_failure(n, part, run, progress));
+    BRC_TRY_OR(cleanup, begin_runs(n, part, run, resumed));
+    if (!resumed) BRC_TRY_OR(cleanup, brc_notify_sample(part[0]));
+    status = stage->most_events > 0 ? brc_static_events_run(n, part, run, progress) : run_increments(n, part, run, progress);
 cleanup:
     brc_progress_finish(&progress);
+    for (int32_t k = 0; k < n; ++k) part[k]->static_run = NULL;
     for (int32_t k = 0; run && k < n; ++k) free_vectors(&run[k].vectors);
     brc_memory_free(run);
     return status;

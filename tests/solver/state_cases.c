@@ -1,0 +1,181 @@
+#include "state_cases.h"
+#include "../skip.h"
+#include <stdlib.h>
+#include <string.h>
+
+memory_item *memory_store_find(memory_store *m, int32_t part, const char *name)
+{
+    for (int i = 0; i < m->n; ++i)
+        if (m->item[i].part == part && strcmp(m->item[i].name, name) == 0) return &m->item[i];
+    return NULL;
+}
+
+static brc_status numbers(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows, int32_t columns, void *data)
+{
+    memory_store *m = store->self;
+    memory_item *item = memory_store_find(m, store->part, name);
+    const size_t bytes = (size_t)rows * (size_t)columns * (size_t)brc_stored_type_bytes(type);
+    if (store->loading) {
+        if (!item || item->rows != rows || item->columns != columns || item->type != type) return BRC_FAIL(m->context, BRC_BAD_INPUT, "no %s", name);
+        if (bytes) memcpy(data, item->data, bytes);
+        return BRC_OK;
+    }
+    assert_null(item); /* every name once */
+    assert_true(m->n < (int)(sizeof m->item / sizeof *m->item) && strlen(name) < sizeof m->item->name);
+    item = &m->item[m->n++];
+    *item = (memory_item){.part = store->part, .columns = columns, .type = type, .rows = rows, .data = calloc(1, bytes + 1)};
+    strcpy(item->name, name);
+    if (bytes) memcpy(item->data, data, bytes);
+    return BRC_OK;
+}
+
+static brc_status count(brc_state_store *store, const char *name, int64_t *rows)
+{
+    memory_store *m = store->self;
+    const memory_item *item = memory_store_find(m, store->part, name);
+    if (!item) return BRC_FAIL(m->context, BRC_BAD_INPUT, "no %s", name);
+    *rows = item->rows;
+    return BRC_OK;
+}
+
+void memory_store_begin(memory_store *m, brc_context *context)
+{
+    memset(m, 0, sizeof *m);
+    m->context = context;
+    m->store = (brc_state_store){.self = m, .numbers = numbers, .count = count};
+}
+
+void memory_store_free(memory_store *m)
+{
+    for (int i = 0; i < m->n; ++i) free(m->item[i].data);
+    m->n = 0;
+}
+
+void assert_same_store(const memory_store *a, const memory_store *b)
+{
+    assert_int_equal(a->n, b->n);
+    for (int i = 0; i < a->n; ++i) {
+        const memory_item *x = &a->item[i], *y = &b->item[i];
+        const size_t bytes = (size_t)x->rows * (size_t)x->columns * (size_t)brc_stored_type_bytes(x->type);
+        if (strcmp(x->name, y->name) != 0 || x->rows != y->rows || memcmp(x->data, y->data, bytes) != 0) fail_msg("%s differs", x->name);
+    }
+}
+
+/* An observer that keeps the state of every pause in turn, and one of them for good. */
+typedef struct watcher {
+    memory_store last, chosen;
+    int n, choose;
+} watcher;
+
+static brc_status keep(memory_store *m, brc_simulation *simulation)
+{
+    memory_store_free(m);
+    return brc_lockstep_save(1, &simulation, &m->store);
+}
+
+static brc_status pause_here(void *self, brc_simulation *simulation, brc_pause why)
+{
+    watcher *w = self;
+    (void)why;
+    if (++w->n == w->choose) BRC_TRY(keep(&w->chosen, simulation));
+    return keep(&w->last, simulation);
+}
+
+static void open_state(bench_case *c, const state_case *of)
+{
+    if (of->cells) open_case(c, *of->cells);
+    else open_fracture(c, *of->beams);
+}
+
+int state_resumes(state_case of, const int *pauses)
+{
+    int n = 0;
+    for (; *pauses > 0; ++pauses) {
+        bench_case whole, again;
+        static watcher w, v; /* some 100 kB each */
+        open_state(&whole, &of);
+        w.n = 0;
+        w.choose = *pauses;
+        memory_store_begin(&w.last, whole.context);
+        memory_store_begin(&w.chosen, whole.context);
+        assert_done(&whole, brc_simulation_observe(whole.simulation, &(brc_observer){.self = &w, .pause = pause_here}));
+        assert_done(&whole, brc_simulation_run(whole.simulation));
+        assert_true(w.n > *pauses);
+        n = w.n;
+        open_state(&again, &of);
+        v.n = 0;
+        v.choose = 0;
+        memory_store_begin(&v.last, again.context);
+        memory_store_begin(&v.chosen, again.context);
+        w.chosen.context = again.context;
+        w.chosen.store.loading = true;
+        assert_done(&again, brc_lockstep_load(1, &again.simulation, &w.chosen.store));
+        assert_done(&again, brc_simulation_observe(again.simulation, &(brc_observer){.self = &v, .pause = pause_here}));
+        assert_done(&again, brc_lockstep_continue(1, &again.simulation, &w.chosen.store));
+        assert_int_equal(v.n, w.n - *pauses);
+        assert_same_store(&w.last, &v.last);
+        memory_store_free(&w.last), memory_store_free(&w.chosen), memory_store_free(&v.last), memory_store_free(&v.chosen);
+        close_case(&whole);
+        close_case(&again);
+    }
+    return n;
+}
+
+/* All kinds of loads of cells, and both integrators: a static stage of three increments, then two dynamic ones. */
+static const char *const cells_stages =
+    "  - name: load\n    solver: {static: {increments: 3, tolerance: 1e-4}}\n    loads:\n      - face_displacement: {set: x-, x: 0, y: 0, z: 0}\n"
+    "      - traction: {set: x+, x: 1e-4 Pa}\n"
+    "  - name: swing\n    solver: {dynamic: {steps: 40, mass_damping: 0.1 1/s}}\n    initial:\n      - random: {amplitude: [1e-3 m/s, 1e-3 m/s, 0], seed: 3}\n"
+    "    loads:\n      - face_velocity: {set: x-, x: 1e-3 m/s}\n      - traction: {set: y+, z: 1e-4 Pa, table: [[0 s, 0], [1 s, 1]]}\n"
+    "  - name: hold\n    solver: {dynamic: {steps: 30, integrator: tchamwa-wielgosz}}\n    loads:\n      - element_velocity: {set: left, x: 1e-3 m/s}\n"
+    "      - element_force: {set: right, z: 1e-5 N}\n";
+
+void state_resumes_on(const char *device, brc_precision precision)
+{
+    case_options cells = {.stages = cells_stages, .gravity = "gravity: [0, 0, -1e-4 m/s^2]\n", .sets = "sets:\n  left:\n    elements: {wall: x-}\n  right:\n    elements: {wall: x+}\n",
+                          .fill = "cells: [4, 4, 4], spread: 50 %, seed: 1",
+                          .device = device, .precision = precision, .n_threads = 1};
+    state_resumes((state_case){.cells = &cells}, precision == BRC_DOUBLE ? (int[]){2, 20, 43, 60, 0} : (int[]){43, 0});
+    case_options published = {.model = "dlsm-published", .stages = "  - name: move\n    solver: {dynamic: {steps: 30}}\n    initial:\n      - spin: {angular_velocity: [0, 0, 1e-2 rad/s]}\n",
+                              .fill = "cells: [4, 4, 4], spread: 50 %, seed: 1", .device = device, .precision = precision, .n_threads = 1};
+    state_resumes((state_case){.cells = &published}, (int[]){10, 0});
+    case_options shatter = {.stages = CELLS_BURST(80), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE, .device = device, .precision = precision, .n_threads = 1};
+    state_resumes((state_case){.cells = &shatter}, (int[]){50, 0});
+    fracture_options beams = {.fracture = "{criterion: virial-principal}", .strength = "strength: {tension: 2e-4 Pa}", .stages = FRACTURE_BURST(120),
+                              .device = device, .precision = precision, .n_threads = 1};
+    state_resumes((state_case){.beams = &beams}, (int[]){60, 0});
+}
+
+static const char *tested_device;
+
+static void it_goes_on_in_double(void **state)
+{
+    (void)state;
+    state_resumes_on(tested_device, BRC_DOUBLE);
+}
+static void it_goes_on_in_mixed(void **state)
+{
+    (void)state;
+    state_resumes_on(tested_device, BRC_MIXED);
+}
+static void it_goes_on_in_single(void **state)
+{
+    (void)state;
+    state_resumes_on(tested_device, BRC_SINGLE);
+}
+
+int state_cases_run(const char *device)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(it_goes_on_in_double), cmocka_unit_test(it_goes_on_in_mixed), cmocka_unit_test(it_goes_on_in_single)};
+    brc_context *context = brc_context_create();
+    brc_device_list *list = NULL;
+    bool there = false;
+    if (!context || brc_device_list_create(context, &list) != BRC_OK) return 1;
+    for (int k = 0; k < list->n; ++k)
+        there |= list->items[k].usable && list->items[k].has_double && strcmp(list->items[k].selector, device) == 0;
+    brc_device_list_free(&list);
+    brc_context_free(&context);
+    if (!there) return test_skip("the device is not there, or has no double precision");
+    tested_device = device;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

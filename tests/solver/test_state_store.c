@@ -1,0 +1,93 @@
+/* What is kept of a simulation is all that its future needs. */
+#include "state_cases.h"
+#include <stdlib.h>
+#include <string.h>
+
+static void a_run_goes_on_in_double_mixed_and_single(void **state)
+{
+    (void)state;
+    state_resumes_on("cpu", BRC_DOUBLE);
+    state_resumes_on("cpu", BRC_MIXED);
+    state_resumes_on("cpu", BRC_SINGLE);
+}
+
+/* Static events: what is left of a body is solved again and again. */
+static void a_body_goes_on_breaking_event_by_event(void **state)
+{
+    (void)state;
+    const fracture_options beams = {.n_threads = 1, .fracture = "{criterion: virial-principal}", .strength = "strength: {tension: 2e-4 Pa}", .elements = 300,
+                                    .stages = "stages:\n  - name: crack\n    solver: {static: {events: {most: 6}, finite_strain: false, tolerance: 1e-4}}\n    loads:\n"
+                                              "      - element_displacement: {set: x-, x: -1e-4 m}\n      - element_displacement: {set: x+, x: 1e-4 m}\n"};
+    assert_true(state_resumes((state_case){.beams = &beams}, (int[]){1, 4, 0}) >= 6);
+    const case_options cells = {.n_threads = 1, .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE, .fill = "cells: [5, 5, 5], spread: 50 %, seed: 1",
+                                .stages = "  - name: crack\n    solver: {static: {events: {most: 6}, finite_strain: false, tolerance: 1e-4}}\n    loads:\n"
+                                          "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: x+, x: 1e-4 m}\n"};
+    assert_true(state_resumes((state_case){.cells = &cells}, (int[]){1, 4, 0}) >= 6);
+}
+
+static void turned_elements_and_a_stage_to_failure_go_on(void **state)
+{
+    (void)state;
+    const fracture_options beams = {.n_threads = 1, .fracture = "{criterion: virial-principal}", .strength = "strength: {tension: 2e-4 Pa}", .elements = 300,
+                                    .stages = "stages:\n  - name: load\n    solver: {static: {increments: 2, to_failure: 80 %, finite_strain: false, tolerance: 1e-4}}\n    loads:\n"
+                                              "      - element_displacement: {set: x-, x: 0, y: 0, z: 0}\n      - element_displacement: {set: x+, x: 1e-4 m}\n"
+                                              "  - name: twist\n    solver: {dynamic: {steps: 30}}\n    loads:\n      - element_displacement: {set: x-, x: 0, y: 0, z: 0}\n"
+                                              "      - element_rotation: {set: x+, x: 1e-2 rad, table: [[0 s, 0], [10 s, 1]]}\n"};
+    state_resumes((state_case){.beams = &beams}, (int[]){1, 2, 3, 20, 0});
+}
+
+static void a_store_without_a_number_is_refused(void **state)
+{
+    (void)state;
+    static memory_store store;
+    const case_options options = {.n_threads = 1, .stages = CELLS_BURST(4), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE};
+    static const char *const needed[] = {"velocity", "fracture.half_edges", "cells.area", "modes"};
+    for (size_t k = 0; k < sizeof needed / sizeof *needed; ++k) {
+        bench_case a, b;
+        open_case(&a, options);
+        assert_done(&a, brc_simulation_begin_stage(a.simulation, 0));
+        memory_store_begin(&store, a.context);
+        assert_done(&a, brc_lockstep_save(1, &a.simulation, &store.store));
+        strcpy(memory_store_find(&store, 0, needed[k])->name, "other");
+        open_case(&b, options);
+        store.context = b.context;
+        store.store.loading = true;
+        assert_int_equal(brc_lockstep_load(1, &b.simulation, &store.store), BRC_BAD_INPUT);
+        assert_non_null(strstr(brc_context_message(b.context), needed[k]));
+        memory_store_free(&store);
+        close_case(&a), close_case(&b);
+    }
+}
+
+static void broken_bonds_that_the_domain_does_not_have_are_refused(void **state)
+{
+    (void)state;
+    static memory_store store;
+    const case_options options = {.n_threads = 1, .stages = CELLS_BURST(60), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE};
+    bench_case a, b;
+    open_case(&a, options);
+    assert_done(&a, brc_simulation_begin_stage(a.simulation, 0));
+    assert_done(&a, brc_simulation_advance(a.simulation, 60));
+    memory_store_begin(&store, a.context);
+    assert_done(&a, brc_lockstep_save(1, &a.simulation, &store.store));
+    memory_item *broken = memory_store_find(&store, 0, "fracture.half_edges");
+    ((int32_t *)broken->data)[broken->rows - 1] = (int32_t)a.domain->n_half_edges;
+    open_case(&b, options);
+    store.context = b.context;
+    store.store.loading = true;
+    assert_int_equal(brc_lockstep_load(1, &b.simulation, &store.store), BRC_BAD_INPUT);
+    memory_store_free(&store);
+    close_case(&a), close_case(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_run_goes_on_in_double_mixed_and_single),
+        cmocka_unit_test(a_body_goes_on_breaking_event_by_event),
+        cmocka_unit_test(turned_elements_and_a_stage_to_failure_go_on),
+        cmocka_unit_test(a_store_without_a_number_is_refused),
+        cmocka_unit_test(broken_bonds_that_the_domain_does_not_have_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
