@@ -89,7 +89,7 @@ brc_status brc_strikers_create(brc_simulation *s)
     t->n = s->scene->n_strikers;
     BRC_TRY(BRC_ALLOCATE(s->context, &t->body, t->n, "strikers"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->placed, t->n, "strikers"));
-    for (int32_t i = 0; i < t->n; ++i) BRC_TRY(brc_striker_body_make(s, i, &t->body[i]));
+    for (int32_t i = 0; i < t->n; ++i) BRC_TRY(brc_striker_body_make(s, i));
     BRC_TRY(brc_kernel_find(s->device, "striker_advance", &t->advance));
     BRC_TRY(brc_kernel_find(s->device, "striker_place", &t->place));
     BRC_TRY(brc_kernel_find(s->device, "striker_book", &t->book));
@@ -103,6 +103,11 @@ void brc_strikers_free(brc_simulation *s)
     brc_buffer **buffers[] = {&t->pose, &t->motion, &t->load, &t->displacement, &t->orientation, &t->momentum, &t->centre, &t->freedom, &t->mass, &t->inertia,
                               &t->moved, &t->last, &t->work, &t->lost};
     for (size_t k = 0; k < sizeof buffers / sizeof *buffers; ++k) brc_buffer_free(buffers[k]);
+    for (int32_t i = 0; t->body && i < t->n; ++i) brc_striker_body_free(&t->body[i]);
+    brc_convex_free(&t->convex);
+    brc_memory_free(t->piece_striker);
+    brc_memory_free(t->piece_kind);
+    brc_memory_free(t->piece_radius);
     brc_memory_free(t->body);
     brc_memory_free(t->placed);
     brc_memory_free(t);

@@ -2,14 +2,26 @@
 #ifndef BRC_SOLVER_STRIKERS_INTERNAL_H
 #define BRC_SOLVER_STRIKERS_INTERNAL_H
 
+#include "../../preprocess/convex.h"
 #include "simulation_internal.h"
 #include "strikers.h"
+
+/* What a piece of a striker is for contact. */
+typedef enum brc_piece_kind {
+    BRC_PIECE_CONVEX, /* a polyhedron */
+    BRC_PIECE_SPHERE, /* a sphere about the mass centre; what meets cells is its polyhedron, of equal volume */
+    BRC_PIECE_PLANE   /* endless: one face, whose plane goes through the origin, without corners */
+} brc_piece_kind;
 
 /* Everything that exists only in scenes with strikers. What the buffers of numbers hold is told in kernels/strikers.cl. */
 struct brc_strikers {
     int32_t n;
     brc_kernel *advance, *place, *book;
     brc_striker_body *body; /* [n] host */
+    brc_convex convex;      /* pieces of all strikers, in the strikers' frames: origins at the mass centres, axes of space as the scene starts; host */
+    int32_t *piece_striker; /* [convex.n] whose each is; host */
+    brc_piece_kind *piece_kind; /* [convex.n] host */
+    double *piece_radius;       /* [convex.n] of spheres, else 0 [m]; host */
     double *placed;         /* [n] driven: integral of the table up to where they are placed now [s]; host */
     /* for contact */
     brc_buffer *pose;   /* [n][12] place of the mass centre, rotation matrix by rows: now */
@@ -29,8 +41,9 @@ typedef struct brc_striker_energies {
     double numerical; /* lost to the integrator */
 } brc_striker_energies;
 
-/* Mass, centre and inertia of one (striker_body.c). */
-brc_status brc_striker_body_make(brc_simulation *s, int32_t striker, brc_striker_body *out);
+/* Mass properties, pieces and faces of one (striker_body.c), added to s->strikers, in the scene's order. */
+brc_status brc_striker_body_make(brc_simulation *s, int32_t striker);
+void brc_striker_body_free(brc_striker_body *body);
 /* Make them, where the scene has some; velocities are those of the start of the run. BRC_BAD_INPUT: a free one without mass ... */
 brc_status brc_strikers_create(brc_simulation *s);
 void brc_strikers_free(brc_simulation *s);
