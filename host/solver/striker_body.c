@@ -169,7 +169,9 @@ static brc_status make_solid(brc_simulation *s, int32_t i)
     brc_pose_matrix(striker->rotation, m);
     const double(*turned)[3] = (const double(*)[3])m;
     const brc_status made = brc_convex_of_shape(s->context, &striker->shape, striker->facets, PIECES_PER_FACET * striker->facets, 0, &pieces, &rigid);
-    if (made != BRC_OK) return BRC_FAIL(s->context, made, "striker '%s': its shape cannot be made", striker->name);
+    if (made != BRC_OK)
+        return BRC_FAIL(s->context, made, "striker '%s': its shape cannot be made (one that is not convex is filled with %d cells; more facets: more cells)", striker->name,
+                        PIECES_PER_FACET * (int)striker->facets);
     brc_status status = BRC_OK;
     put_in_place(striker, &rigid, turned, body);
     BRC_TRY_OR(cleanup, set_mass(s, striker, body));

@@ -199,7 +199,7 @@ static void pieces_of_all_strikers_stand_in_one_list(void **state)
     open_strikers(&c, STRIKERS("  wall: {plane: {point: [0, 0, -2 m], normal: [0, 3, 4]}, material: steel}\n"
                                "  brick: {shape: {box: {size: [1 m, 2 m, 3 m], origin: [10 m, 0, 0]}}, material: steel, pose: {rotation: [0, 0, 90 deg]}}\n"
                                "  ball: {shape: {sphere: {radius: 1 m, centre: [30 m, 0, 0]}}, facets: 20, material: steel, motion: {free: {}}}\n"
-                               "  ring: {shape: {torus: {radius: 2 m, tube: 0.5 m, centre: [50 m, 0, 0]}}, facets: 12, material: steel}\n"),
+                               "  ring: {shape: {torus: {radius: 2 m, tube: 0.5 m, centre: [50 m, 0, 0]}}, material: steel}\n"),
                   STAGE("1"), BRC_DOUBLE);
     const brc_strikers *t = c.simulation->strikers;
     const brc_convex *p = &t->convex;
@@ -219,6 +219,19 @@ static void pieces_of_all_strikers_stand_in_one_list(void **state)
         const double *x = body[0].surface.corner + 3 * k;
         assert_true(fabs(0.6 * x[1] + 0.8 * x[2]) < 1e-14 && length(x) > 1);
     }
+    close_case(&c);
+}
+
+/* What a builder of cells says of a shape stands beside the striker's name and what to change. */
+static void a_shape_that_cannot_be_made_is_named(void **state)
+{
+    (void)state;
+    bench_case c;
+    const brc_status status = try_case(&c, (case_options){.materials = STEEL, .fill = FILL, .stages = STAGE("1"), .gravity =
+                                       STRIKERS("  ring: {shape: {torus: {radius: 2 m, tube: 0.5 m, centre: [50 m, 0, 0]}}, facets: 12, material: steel}\n")});
+    assert_int_equal(status, BRC_BAD_INPUT);
+    assert_non_null(strstr(brc_context_message(c.context), "striker 'ring'"));
+    assert_non_null(strstr(brc_context_message(c.context), "more facets"));
     close_case(&c);
 }
 
@@ -244,6 +257,7 @@ int main(void)
         cmocka_unit_test(tchamwa_moves_strikers_as_elements),
         cmocka_unit_test(mass_and_inertia_are_those_of_the_shape),
         cmocka_unit_test(pieces_of_all_strikers_stand_in_one_list),
+        cmocka_unit_test(a_shape_that_cannot_be_made_is_named),
         cmocka_unit_test(single_precision_keeps_small_steps_far_from_the_origin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
