@@ -52,6 +52,26 @@
     X(cells_break)                                                                                                     \
     X(cells_rebuild)                                                                                                   \
     X(cells_share)                                                                                                     \
+    X(scan_sums)                                                                                                       \
+    X(scan_tops)                                                                                                       \
+    X(scan_fill)                                                                                                       \
+    X(sort_count)                                                                                                      \
+    X(sort_move)                                                                                                       \
+    X(contact_extent)                                                                                                  \
+    X(contact_largest)                                                                                                 \
+    X(contact_moved)                                                                                                   \
+    X(contact_expose)                                                                                                  \
+    X(contact_list)                                                                                                    \
+    X(contact_keys)                                                                                                    \
+    X(contact_buckets)                                                                                                 \
+    X(contact_count)                                                                                                   \
+    X(contact_fill)                                                                                                    \
+    X(contact_own_pairs)                                                                                               \
+    X(contact_other_pairs)                                                                                             \
+    X(contact_carry)                                                                                                   \
+    X(contact_spheres)                                                                                                 \
+    X(contact_gather_turning)                                                                                          \
+    X(contact_marked)                                                                                                  \
     X(fracture_force)                                                                                                  \
     X(fracture_stress)                                                                                                 \
     X(fracture_stress_second)                                                                                          \

@@ -56,6 +56,10 @@ static brc_status refuse_isolated(brc_simulation *s)
         if (n++ < 8) snprintf(ids + at, sizeof ids - at, "%s%lld", n > 1 ? ", " : "", (long long)e);
     }
     if (n == 0) return BRC_OK;
+    if (s->scene->has_contact && !s->scene->model.keep_isolated) {
+        brc_log(s->context, BRC_LOG_INFO, "%lld elements have no bond: they are loose, and meet the others by contact alone", (long long)n);
+        return BRC_OK;
+    }
     if (!s->scene->model.keep_isolated)
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
                         "model cbm: %lld elements have no bond (%s%s); raise the coordination number under `beams`, or set "

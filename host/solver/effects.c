@@ -41,7 +41,7 @@ void brc_effects_list(brc_simulation *s)
                    {"free vibration modes", modes},
                    {"fracture", s->fracture != NULL},
                    {"walls and strikers", s->strikers != NULL},
-                   {"contact", false}};
+                   {"contact", s->contact != NULL}};
     int in = 0, out = 0;
     for (size_t i = 0; i < sizeof effects / sizeof *effects; ++i) {
         if (effects[i].in) s->effects_in[in++] = effects[i].name;

@@ -1,5 +1,6 @@
 /* One evaluation of the forces of a model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2, design-cbm.md). */
 #include "cell_breaks.h"
+#include "contact.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
 #include "strikers_internal.h"
@@ -131,6 +132,7 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
         BRC_TRY(brc_loads_zero_imposed(s, r->force));
         return brc_loads_zero_turned(s, r->torque);
     }
+    if (brc_contact_acts(s, r)) BRC_TRY(brc_contact_forces(s, r));
     if (s->scene->has_gravity) {
         const double *g = s->scene->gravity;
         BRC_TRY(BRC_LAUNCH(s->kernel.gravity, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_STATE(g[0]), BRC_STATE(g[1]),

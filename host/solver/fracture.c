@@ -1,6 +1,7 @@
 /* Bonds that break: limits of the elements, the order of the passes, and what broke (kernels/fracture.cl). */
 #include "beam_law.h"
 #include "cell_breaks.h"
+#include "contact.h"
 #include "fracture_internal.h"
 #include "strength_law.h"
 #include <math.h>
@@ -285,7 +286,8 @@ brc_status brc_fracture_step(brc_simulation *s, double half_kick)
                       BRC_BUF(s->beam_of), BRC_BUF(s->mass), BRC_BUF(s->inertia), BRC_BUF(s->force), BRC_BUF(s->torque),
                       BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
                       BRC_BUF(f->break_energy), BRC_BUF(f->lost), BRC_BUF(f->broken)));
-    return brc_loads_zero_turned(s, s->torque); /* prescribed rotations balance theirs */
+    BRC_TRY(brc_loads_zero_turned(s, s->torque)); /* prescribed rotations balance theirs */
+    return brc_contact_broken(s, half_kick);
 }
 
 brc_status brc_fracture_lost(brc_simulation *s, double *out)

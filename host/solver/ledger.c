@@ -1,4 +1,5 @@
 /* The energy ledger (design.md: its terms are named once; closure is relative to the largest energy in play). */
+#include "contact.h"
 #include "fracture_internal.h"
 #include "strikers_internal.h"
 #include <math.h>
@@ -50,6 +51,7 @@ brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
         out->work += strikers.work;
         out->numerical += strikers.numerical;
     }
+    BRC_TRY(brc_contact_ledger(s, out));
     out->initial = s->initial_energy;
     if (out->elastic > s->peak_elastic) s->peak_elastic = out->elastic;
     if (out->kinetic > s->peak_kinetic) s->peak_kinetic = out->kinetic;

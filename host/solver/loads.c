@@ -398,7 +398,7 @@ static brc_status create_still(brc_simulation *s, const int32_t *taken, brc_impo
     double *base = NULL, *now = NULL;
     brc_status status = BRC_OK;
     *any = false;
-    if (!brc_is_beams(s)) return BRC_OK;
+    if (!brc_is_beams(s) || (s->scene->has_contact && !s->scene->model.keep_isolated)) return BRC_OK; /* loose ones are for contact */
     for (int64_t e = 0; e < d->n_elements; ++e) n += d->row_start[e + 1] == d->row_start[e];
     if (n == 0) return BRC_OK;
     *any = true;

@@ -1,5 +1,6 @@
 /* Making and freeing a simulation, entering stages, running them, and the observers. */
 #include "cell_breaks.h"
+#include "contact.h"
 #include "fracture_internal.h"
 #include "split.h"
 #include "strikers_internal.h"
@@ -174,10 +175,10 @@ int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *
     const bool tchamwa = any_stage(scene, has_tchamwa), damped = any_stage(scene, has_damping);
     int64_t boundary = 0;
     if (scene->model.kind == BRC_MODEL_CBM)
-        return (scene->has_fracture ? brc_fracture_bytes(n, entries, state, coeff) : 0) + entries * (4 + 4 * coeff) + n / slice * 8 + n * ((3 + 3 + 3 + 1 + 2 + 4 + 3 + 3 + 1 + (tchamwa ? 4 : 0) + (damped ? 1 : 0)) * state + (many ? 3 : 0) * coeff);
+        return brc_contact_bytes(scene, n, entries, state) + (scene->has_fracture ? brc_fracture_bytes(n, entries, state, coeff) : 0) + entries * (4 + 4 * coeff) + n / slice * 8 + n * ((3 + 3 + 3 + 1 + 2 + 4 + 3 + 3 + 1 + (tchamwa ? 4 : 0) + (damped ? 1 : 0)) * state + (many ? 3 : 0) * coeff);
     for (int64_t e = 0; domain->free_start && e < domain->n_elements; ++e) boundary += domain->free_start[e + 1] > domain->free_start[e];
     boundary = boundary + boundary / 8 < n ? boundary + boundary / 8 : n; /* blocks are whole slices */
-    int64_t bytes = (scene->has_fracture ? brc_cell_breaks_bytes(n, entries, state, coeff) : 0) + entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
+    int64_t bytes = brc_contact_bytes(scene, n, entries, state) + (scene->has_fracture ? brc_cell_breaks_bytes(n, entries, state, coeff) : 0) + entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
     if (tchamwa) bytes += n * 4 * state;
     if (damped) bytes += n * state;
     if (scene->model.kind == BRC_MODEL_DLSM_PUBLISHED)
@@ -226,6 +227,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     BRC_TRY_OR(cleanup, create_arrays(s));
     if (scene->has_fracture) BRC_TRY_OR(cleanup, brc_fracture_create(s));
     BRC_TRY_OR(cleanup, brc_strikers_create(s));
+    BRC_TRY_OR(cleanup, brc_contact_create(s));
     brc_effects_list(s);
     s->setup_seconds = brc_clock_s() - start;
     *out = s;
@@ -245,6 +247,7 @@ void brc_simulation_free(brc_simulation **simulation)
         for (int i = 0; i < n; ++i) brc_buffer_free(needs[i].buffer);
     }
     brc_loads_free(&s->loads);
+    brc_contact_free(s);
     brc_fracture_free(s);
     brc_strikers_free(s);
     brc_geometry_free(s);
@@ -328,6 +331,7 @@ brc_status brc_stage_start(brc_simulation *s)
     if (s->fracture) BRC_TRY(brc_fracture_begin_stage(s));
     BRC_TRY(brc_loads_prescribe(s, 0));
     if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
+    BRC_TRY(brc_contact_restart(s));
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(brc_simulation_ledger(s, &after));
     s->initial_energy += after.total - s->total_before_stage; /* initial fields, and what changed supports hold or release */

@@ -95,6 +95,7 @@ typedef struct brc_kernels {
 
 typedef struct brc_breaking brc_breaking; /* fracture_internal.h */
 typedef struct brc_strikers brc_strikers; /* strikers_internal.h */
+struct brc_contact_state;                 /* contact.h */
 
 /* Why a stage ended early (stage_end.c). */
 typedef struct brc_stage_note {
@@ -140,6 +141,7 @@ struct brc_simulation {
 
     brc_breaking *fracture; /* only in scenes with fracture */
     brc_strikers *strikers; /* only in scenes with strikers */
+    struct brc_contact_state *contact; /* only in scenes with contact */
 
     /* stage */
     int32_t stage;

@@ -1,6 +1,7 @@
 /* The time step: 2 / omega_max by power iteration of M^-1 K with the scene's own force kernels (design-dlsm.md section 4),
  * or as given, or the papers' rule. */
 #include "../base/random.h"
+#include "contact.h"
 #include "simulation_internal.h"
 #include <math.h>
 
@@ -158,6 +159,12 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
         out->governed_by = "auto: node bound";
     } else {
         BRC_TRY(critical_step(s, &out->critical));
+    }
+    double touching;
+    BRC_TRY(brc_contact_critical_step(s, &touching));
+    if (touching < out->critical) {
+        out->critical = touching;
+        if (stage->time_step_rule == BRC_TIME_STEP_AUTO) out->governed_by = "auto: contact";
     }
     /* Tchamwa-Wielgosz is stable for w dt <= 2 / sqrt(2 phi - 1) */
     if (stage->integrator == BRC_TCHAMWA_WIELGOSZ && stage->phi > 0.5) out->critical /= sqrt(2 * stage->phi - 1);

@@ -1,0 +1,42 @@
+/* Touching: of free surfaces, fragments and strikers (docs/contact.md). Nothing of it exists in scenes without `interactions: {contact: ...}`.
+ *
+ * A step asks in this order: brc_contact_follow when the elements have moved, brc_contact_moments and brc_contact_forces while the forces are
+ * evaluated, brc_contact_broken when bonds broke. */
+#ifndef BRC_SOLVER_CONTACT_H
+#define BRC_SOLVER_CONTACT_H
+
+#include "simulation_internal.h"
+
+typedef struct brc_contact_state brc_contact_state;
+
+/* s->contact, after fracture and strikers are there. BRC_BAD_INPUT: static stages, models or shapes that cannot touch. */
+brc_status brc_contact_create(brc_simulation *s);
+void brc_contact_free(brc_simulation *s);
+/* Device bytes it takes before anything is near anything (n rows, entries of the layout). */
+int64_t brc_contact_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes);
+
+/* Elements were moved by hand or a stage begins: look for pairs again. */
+brc_status brc_contact_restart(brc_simulation *s);
+/* Elements moved by a step: look again where they moved far enough. */
+brc_status brc_contact_follow(brc_simulation *s);
+/* dlsm: poses of what is detached go into the gradients, pairs are evaluated, and held_moment gains their moments. It is zeroed before. */
+brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r);
+/* Forces (and, in models that turn, the evaluation and torques) of touching pairs, added. */
+brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r);
+/* Some pair may touch: whether contact has anything to do with this evaluation. */
+bool brc_contact_acts(const brc_simulation *s, const brc_force_request *r);
+
+/* Bonds broke at the end of this step. dlsm: elements without bonds become rigid bodies, what is exposed now is looked for; the forces are evaluated
+ * afterwards. Models that turn: the same, and forces and velocities are put right (half_kick as brc_fracture_step). */
+brc_status brc_contact_broken(brc_simulation *s, double half_kick);
+/* Rigid cells: momentum of turning gains kick times torque, then they turn for a time of drift [s]; extra as the kernel advance_rotation. */
+brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double extra);
+
+/* What surfaces hold now, as last evaluated [J]. */
+brc_status brc_contact_stored(brc_simulation *s, double *out);
+/* Terms contact, friction, impact of the ledger, and what is kinetic or numerical or fracture of contact's own. */
+brc_status brc_contact_ledger(brc_simulation *s, brc_ledger *ledger);
+/* Largest stable time step of the pairs that may touch [s]. */
+brc_status brc_contact_critical_step(brc_simulation *s, double *out);
+
+#endif

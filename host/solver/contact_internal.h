@@ -1,0 +1,60 @@
+/* Contact inside its own files. */
+#ifndef BRC_SOLVER_CONTACT_INTERNAL_H
+#define BRC_SOLVER_CONTACT_INTERNAL_H
+
+#include "contact.h"
+
+enum { BRC_CONTACT_HISTORY = 16, BRC_CONTACT_RESULT = 9, BRC_CONTACT_LAW = 6 }; /* as in kernels/contact_search.cl, contact.cl */
+
+/* Which pairs there are (kernels/contact_search.cl); kept twice, so that pairs find what they remember. */
+typedef struct brc_contact_list {
+    int32_t n_listed, n_pairs;
+    int64_t entry_room, pair_room;
+    brc_buffer *list, *slot_of, *start, *used, *entry, *pair, *ends, *history;
+} brc_contact_list;
+
+struct brc_contact_state {
+    struct {
+        brc_kernel *extent, *largest, *moved, *expose, *list, *keys, *buckets, *count, *fill, *own_pairs, *other_pairs, *carry;
+        brc_kernel *scan_sums, *scan_tops, *scan_fill, *sort_count, *sort_move;
+        brc_kernel *spheres, *gather_turning, *marked;
+    } kernel;
+    bool affine;     /* dlsm: elements follow I + H; else they turn with quaternions of their own */
+    int32_t width;   /* numbers of a moment: 9, else 3 */
+    double skin;     /* [m] */
+    double size;     /* mean size of an element [m] */
+    double middle[3]; /* of the domain: places are relative to it [m] */
+    /* of rows */
+    brc_buffer *place, *reach, *id, *body, *material, *original, *exposed, *built;
+    brc_buffer *stored, *lost_friction, *lost_impact;
+    brc_buffer *law; /* [n_materials][n_materials][BRC_CONTACT_LAW] */
+    double *law_of;  /* the same on the host */
+    /* search */
+    brc_buffer *moved, *sums, *key[2], *row[2], *digits, *first, *last, *count, *owned, *pair_start;
+    int64_t key_room, bucket_room;
+    brc_contact_list now, before;
+    int64_t quiet;   /* steps for which nothing can have moved far enough */
+    int64_t searches;
+    /* pairs */
+    brc_buffer *result;
+    int64_t result_room;
+    double born;     /* energy that surfaces held when their bond broke [J] */
+};
+
+/* ---- contact_setup.c ---- */
+/* Arrays of rows, laws of materials, who is exposed at the start. */
+brc_status brc_contact_setup(brc_simulation *s);
+/* Law of two materials (BRC_CONTACT_LAW numbers, kernels/contact_law.h). */
+const double *brc_contact_law_of(const brc_simulation *s, int32_t i, int32_t j);
+
+/* ---- contact_search.c ---- */
+brc_status brc_contact_search_create(brc_simulation *s);
+void brc_contact_search_free(brc_simulation *s);
+/* Make the list anew; what pairs remember is kept. */
+brc_status brc_contact_search(brc_simulation *s);
+/* Steps until the next look, from how far and how fast things moved since the list was made; *due: the list is too old. */
+brc_status brc_contact_look(brc_simulation *s, bool *due);
+/* Evaluate all pairs into c->result; dt: of the step that ended, 0: again. */
+brc_status brc_contact_pairs(brc_simulation *s, double dt);
+
+#endif

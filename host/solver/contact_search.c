@@ -1,0 +1,252 @@
+/* The list of pairs that may touch: a grid of hashed cells, sorted on the device (kernels/contact_search.cl, scan.cl). */
+#include "contact_internal.h"
+#include <math.h>
+
+enum { SCAN_BLOCK = 1024, SORT_BINS = 256, MOVED_BLOCK = 256, MOST_QUIET = 64, FEWEST_QUIET = 8 };
+
+static brc_status new_ints(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
+{
+    brc_buffer_free(out);
+    return brc_buffer_create(s->device, out, 4 * count, what);
+}
+
+static int32_t blocks_of(int64_t n, int32_t block) { return (int32_t)((n + block - 1) / block); }
+
+/* start [n + 1]: running sums of x [n]; *total: that of all. */
+static brc_status scan(brc_simulation *s, brc_buffer *x, int64_t n, brc_buffer *start, int64_t *total)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n_blocks = blocks_of(n, SCAN_BLOCK);
+    int32_t sum = 0;
+    BRC_TRY(BRC_LAUNCH(c->kernel.scan_sums, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(x), BRC_BUF(c->sums)));
+    BRC_TRY(BRC_LAUNCH(c->kernel.scan_tops, 1, BRC_INT(1), BRC_INT(n_blocks), BRC_BUF(c->sums)));
+    BRC_TRY(BRC_LAUNCH(c->kernel.scan_fill, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(x), BRC_BUF(c->sums), BRC_BUF(start)));
+    if (total) {
+        BRC_TRY(brc_buffer_read(start, 4 * n, &sum, 4));
+        *total = sum;
+    }
+    return BRC_OK;
+}
+
+brc_status brc_contact_search_create(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int64_t n = s->layout->n_rows, largest_scan = n > SORT_BINS * (int64_t)(blocks_of(n, SCAN_BLOCK)) ? n : SORT_BINS * (int64_t)(blocks_of(n, SCAN_BLOCK));
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+    } wanted[] = {{&c->kernel.extent, "contact_extent"}, {&c->kernel.largest, "contact_largest"}, {&c->kernel.moved, "contact_moved"},
+                  {&c->kernel.expose, "contact_expose"}, {&c->kernel.list, "contact_list"}, {&c->kernel.keys, "contact_keys"},
+                  {&c->kernel.buckets, "contact_buckets"}, {&c->kernel.count, "contact_count"}, {&c->kernel.fill, "contact_fill"},
+                  {&c->kernel.own_pairs, "contact_own_pairs"}, {&c->kernel.other_pairs, "contact_other_pairs"}, {&c->kernel.carry, "contact_carry"},
+                  {&c->kernel.scan_sums, "scan_sums"}, {&c->kernel.scan_tops, "scan_tops"}, {&c->kernel.scan_fill, "scan_fill"},
+                  {&c->kernel.sort_count, "sort_count"}, {&c->kernel.sort_move, "sort_move"}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    BRC_TRY(brc_new_state(s, &c->built, 4 * n, "places of the last search"));
+    BRC_TRY(brc_new_state(s, &c->moved, 3 * (int64_t)blocks_of(n, MOVED_BLOCK), "moves since the last search"));
+    BRC_TRY(new_ints(s, &c->sums, blocks_of(largest_scan, SCAN_BLOCK) + 1, "running sums"));
+    brc_contact_list *both[] = {&c->now, &c->before};
+    for (int k = 0; k < 2; ++k) BRC_TRY(new_ints(s, &both[k]->slot_of, n + 1, "exposed elements"));
+    return BRC_OK;
+}
+
+static void free_list(brc_contact_list *l)
+{
+    brc_buffer **all[] = {&l->list, &l->slot_of, &l->start, &l->used, &l->entry, &l->pair, &l->ends, &l->history};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+}
+
+void brc_contact_search_free(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    brc_buffer **all[] = {&c->built, &c->moved, &c->sums, &c->key[0], &c->key[1], &c->row[0], &c->row[1], &c->digits, &c->first, &c->last, &c->count, &c->owned, &c->pair_start};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    free_list(&c->now);
+    free_list(&c->before);
+}
+
+/* Largest of each column of [n_blocks][3] numbers of the state. */
+static brc_status largest_of(brc_simulation *s, double out[3])
+{
+    const int32_t n = blocks_of(s->layout->n_rows, MOVED_BLOCK);
+    double *value = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &value, 3 * (int64_t)n, "moves since the last search"));
+    const brc_status status = brc_download(s, s->contact->moved, brc_precision_state_bytes(brc_device_get_precision(s->device)), value, 3 * (int64_t)n);
+    for (int k = 0; k < 3; ++k) out[k] = 0;
+    for (int32_t b = 0; b < n; ++b)
+        for (int k = 0; k < 3; ++k) out[k] = fmax(out[k], value[3 * (int64_t)b + k]);
+    brc_memory_free(value);
+    return status;
+}
+
+brc_status brc_contact_look(brc_simulation *s, bool *due)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows, n_blocks = blocks_of(n, MOVED_BLOCK);
+    const double dt = s->time_step.value;
+    double most[3];
+    BRC_TRY(BRC_LAUNCH(c->kernel.moved, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_BUF(c->exposed), BRC_BUF(c->place),
+                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(c->reach), BRC_BUF(c->built), BRC_BUF(s->velocity), BRC_BUF(s->force),
+                       BRC_BUF(s->mass), BRC_BUF(c->moved)));
+    BRC_TRY(largest_of(s, most));
+    /* Twice the present speed and acceleration must not use up what is left of half the skin before the next look. */
+    const double left = 0.5 * c->skin - most[0], v = 2 * sqrt(most[1]) * dt, a = 2 * sqrt(most[2]) * dt * dt;
+    int64_t steps = 0;
+    while (steps < MOST_QUIET && (double)(steps + 1) * (v + (double)(steps + 1) * a) < left) ++steps;
+    *due = !(left > 0) || (steps < FEWEST_QUIET && left < 0.25 * c->skin);
+    c->quiet = steps;
+    return BRC_OK;
+}
+
+/* Sort the exposed elements by the key of their cell. *sorted: which of the two arrays has them in the end. */
+static brc_status sort_by_cell(brc_simulation *s, double per_edge, int32_t mask, int *sorted)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t m = c->now.n_listed, n_blocks = blocks_of(m, SCAN_BLOCK);
+    int at = 0;
+    BRC_TRY(BRC_LAUNCH(c->kernel.keys, m, BRC_INT(m), BRC_STATE(per_edge), BRC_INT(mask), BRC_BUF(c->now.list), BRC_BUF(c->built), BRC_BUF(c->key[0]),
+                       BRC_BUF(c->row[0])));
+    for (int shift = 0; mask >> shift; shift += 8, at = 1 - at) {
+        BRC_TRY(BRC_LAUNCH(c->kernel.sort_count, n_blocks, BRC_INT(n_blocks), BRC_INT(m), BRC_INT(shift), BRC_BUF(c->key[at]), BRC_BUF(c->count)));
+        BRC_TRY(scan(s, c->count, SORT_BINS * (int64_t)n_blocks, c->digits, NULL));
+        BRC_TRY(BRC_LAUNCH(c->kernel.sort_move, n_blocks, BRC_INT(n_blocks), BRC_INT(m), BRC_INT(shift), BRC_BUF(c->key[at]), BRC_BUF(c->row[at]),
+                           BRC_BUF(c->digits), BRC_BUF(c->key[1 - at]), BRC_BUF(c->row[1 - at])));
+    }
+    *sorted = at;
+    BRC_TRY(brc_buffer_fill_zero(c->first));
+    BRC_TRY(brc_buffer_fill_zero(c->last));
+    return BRC_LAUNCH(c->kernel.buckets, m, BRC_INT(m), BRC_BUF(c->key[at]), BRC_BUF(c->first), BRC_BUF(c->last));
+}
+
+/* Room for m exposed elements; a little more than asked for, since cracks grow. */
+static brc_status make_room(brc_simulation *s, int64_t m, int64_t buckets)
+{
+    brc_contact_state *c = s->contact;
+    if (buckets > c->bucket_room) {
+        BRC_TRY(new_ints(s, &c->first, buckets, "grid of contact"));
+        BRC_TRY(new_ints(s, &c->last, buckets, "grid of contact"));
+        c->bucket_room = buckets;
+    }
+    if (m <= c->key_room) return BRC_OK;
+    const int64_t room = m + m / 4 < s->layout->n_rows ? m + m / 4 : s->layout->n_rows;
+    const int64_t digits = SORT_BINS * (int64_t)blocks_of(room, SCAN_BLOCK);
+    for (int k = 0; k < 2; ++k) {
+        BRC_TRY(new_ints(s, &c->key[k], room, "grid of contact"));
+        BRC_TRY(new_ints(s, &c->row[k], room, "grid of contact"));
+    }
+    BRC_TRY(new_ints(s, &c->count, room > digits ? room : digits, "grid of contact"));
+    BRC_TRY(new_ints(s, &c->digits, digits + 1, "grid of contact"));
+    BRC_TRY(new_ints(s, &c->owned, room, "pairs of elements"));
+    BRC_TRY(new_ints(s, &c->pair_start, room + 1, "pairs of elements"));
+    c->key_room = room;
+    return BRC_OK;
+}
+
+/* Arrays of the list to be made; the larger of what is asked for and what it has. */
+static brc_status room_for_listed(brc_simulation *s, brc_contact_list *l, int64_t m)
+{
+    if (l->list && brc_buffer_bytes(l->list) >= 4 * m) return BRC_OK;
+    const int64_t room = s->contact->key_room;
+    BRC_TRY(new_ints(s, &l->list, room, "exposed elements"));
+    BRC_TRY(new_ints(s, &l->start, room + 1, "pairs of elements"));
+    return new_ints(s, &l->used, room, "pairs of elements");
+}
+static brc_status room_for_entries(brc_simulation *s, brc_contact_list *l, int64_t n)
+{
+    if (l->entry && n <= l->entry_room) return BRC_OK;
+    l->entry_room = n + n / 4;
+    BRC_TRY(new_ints(s, &l->entry, l->entry_room, "pairs of elements"));
+    return new_ints(s, &l->pair, l->entry_room, "pairs of elements");
+}
+static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t n)
+{
+    brc_contact_state *c = s->contact;
+    if (!l->ends || n > l->pair_room) {
+        l->pair_room = n + n / 4;
+        BRC_TRY(new_ints(s, &l->ends, 2 * l->pair_room, "pairs"));
+        brc_buffer_free(&l->history);
+        BRC_TRY(brc_new_state(s, &l->history, BRC_CONTACT_HISTORY * l->pair_room, "history of pairs"));
+    }
+    if (c->result && n <= c->result_room) return BRC_OK;
+    c->result_room = l->pair_room;
+    brc_buffer_free(&c->result);
+    return brc_new_state(s, &c->result, (BRC_CONTACT_RESULT + 2 * c->width) * c->result_room, "forces of pairs");
+}
+
+/* Exposed elements in the list to be made. */
+static brc_status list_exposed(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows;
+    int64_t m;
+    BRC_TRY(scan(s, c->exposed, n, c->now.slot_of, &m));
+    c->now.n_listed = (int32_t)m;
+    int64_t buckets = SORT_BINS;
+    while (buckets < 2 * m) buckets *= 2;
+    BRC_TRY(make_room(s, m, buckets));
+    BRC_TRY(room_for_listed(s, &c->now, m));
+    return BRC_LAUNCH(c->kernel.list, n, BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->now.slot_of), BRC_BUF(c->now.list));
+}
+
+/* Who is near whom. */
+static brc_status find_entries(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    brc_contact_list *l = &c->now;
+    const int32_t n = s->layout->n_rows, m = l->n_listed, n_blocks = blocks_of(n, MOVED_BLOCK);
+    double most[3];
+    int64_t near;
+    int sorted, mask = SORT_BINS;
+    while (mask < 2 * (int64_t)m) mask *= 2;
+    mask -= 1;
+    BRC_TRY(BRC_LAUNCH(c->kernel.largest, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->built), BRC_BUF(c->moved)));
+    BRC_TRY(largest_of(s, most));
+    const double per_edge = 1 / (1.000001 * (2 * most[0] + c->skin));
+    BRC_TRY(sort_by_cell(s, per_edge, mask, &sorted));
+    BRC_TRY(BRC_LAUNCH(c->kernel.count, m, BRC_INT(m), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_BUF(l->list), BRC_BUF(c->built),
+                       BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->count)));
+    BRC_TRY(scan(s, c->count, m, l->start, &near));
+    BRC_TRY(room_for_entries(s, l, near));
+    return BRC_LAUNCH(c->kernel.fill, m, BRC_INT(m), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_INT(s->scene->contact.within ? 1 : 0),
+                      BRC_BUF(l->list), BRC_BUF(c->built), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->id), BRC_BUF(c->body),
+                      BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->original), BRC_BUF(l->start), BRC_BUF(l->entry), BRC_BUF(l->used),
+                      BRC_BUF(c->owned));
+}
+
+static brc_status number_pairs(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    brc_contact_list *l = &c->now;
+    const int32_t m = l->n_listed;
+    int64_t n_pairs;
+    BRC_TRY(scan(s, c->owned, m, c->pair_start, &n_pairs));
+    BRC_TRY(room_for_pairs(s, l, n_pairs));
+    l->n_pairs = (int32_t)n_pairs;
+    BRC_TRY(BRC_LAUNCH(c->kernel.own_pairs, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used), BRC_BUF(l->entry), BRC_BUF(c->id),
+                       BRC_BUF(c->pair_start), BRC_BUF(l->pair), BRC_BUF(l->ends)));
+    BRC_TRY(BRC_LAUNCH(c->kernel.other_pairs, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(l->slot_of), BRC_BUF(l->start), BRC_BUF(l->used), BRC_BUF(l->entry),
+                       BRC_BUF(c->id), BRC_BUF(l->pair)));
+    if (n_pairs == 0) return BRC_OK;
+    const brc_contact_list *old = &c->before;
+    return BRC_LAUNCH(c->kernel.carry, n_pairs, BRC_INT(n_pairs), BRC_INT(old->n_pairs > 0 ? 1 : 0), BRC_BUF(l->ends), BRC_BUF(old->slot_of),
+                      BRC_BUF(old->start), BRC_BUF(old->used), BRC_BUF(old->entry), BRC_BUF(old->pair), BRC_BUF(old->history), BRC_BUF(l->history));
+}
+
+brc_status brc_contact_search(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows;
+    const brc_contact_list last = c->now;
+    c->now = c->before;
+    c->before = last;
+    c->now.n_listed = c->now.n_pairs = 0;
+    c->quiet = 0;
+    c->searches += 1;
+    BRC_TRY(BRC_LAUNCH(c->kernel.extent, n, BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_BUF(c->place), BRC_BUF(s->displacement), BRC_BUF(s->gradient),
+                       BRC_BUF(c->reach), BRC_BUF(c->built)));
+    BRC_TRY(brc_buffer_fill_zero(c->stored));
+    BRC_TRY(list_exposed(s));
+    if (c->now.n_listed == 0) return BRC_OK;
+    BRC_TRY(find_entries(s));
+    return number_pairs(s);
+}

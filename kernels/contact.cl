@@ -1,0 +1,142 @@
+/* Forces of touching pairs: each pair once, one work-item; results are gathered by element in the order of its entries (contact_search.cl).
+ * history [n_pairs][CONTACT_HISTORY]: 0 stretch of the tangential spring; 3, 6 the point of contact of the last step in either body's own frame
+ * [m]; 9 overlap (spheres: depth [m], below 0 apart; cells: volume [m^3]) and 10 its rate; 11 force of the dashpot; 12 touching, 13 sliding, 14
+ * looked at before.
+ * result [n_pairs][CONTACT_RESULT + 2 width]: 0 force on i [N]; 3 energy held, 4 lost to friction, 5 to the dashpot in this step [J]; 6 touching; 7
+ * normal force [N]; 8 depth [m]; then width numbers for i and for j: torque (width 3), or dW/dH in the frame of the reference (width 9).
+ * law [n_materials][n_materials][6]: contact_law. */
+
+#define CONTACT_RESULT 9
+
+LAW contact_law contact_law_of(GLOBAL const state *restrict law, int n_materials, int i, int j)
+{
+    GLOBAL const state *restrict p = law + ((brc_size)i * (brc_size)n_materials + (brc_size)j) * 6;
+    return (contact_law){p[0], p[1], p[2], p[3], p[4], p[5]};
+}
+LAW svec3 svec3_load(GLOBAL const state *restrict p, brc_size at) { return (svec3){p[at], p[at + 1], p[at + 2]}; }
+LAW void svec3_store(GLOBAL state *restrict p, brc_size at, svec3 a)
+{
+    p[at] = a.x;
+    p[at + 1] = a.y;
+    p[at + 2] = a.z;
+}
+LAW squat squat_load(GLOBAL const state *restrict p, int e)
+{
+    GLOBAL const state *restrict q = p + (brc_size)e * 4;
+    return (squat){q[0], q[1], q[2], q[3]};
+}
+/* x_j - x_i now [m]: places and displacements apart, so that small motions of far places keep their digits. */
+LAW svec3 contact_branch(GLOBAL const state *restrict place, GLOBAL const state *restrict displacement, int i, int j)
+{
+    const svec3 far = svec3_sub(svec3_load(place, (brc_size)j * 3), svec3_load(place, (brc_size)i * 3));
+    return svec3_add(far, svec3_sub(svec3_load(displacement, (brc_size)j * 3), svec3_load(displacement, (brc_size)i * 3)));
+}
+
+/* What a pair that does not touch leaves behind: nothing but its overlap, from which the next step takes the rate. */
+LAW void contact_apart(GLOBAL state *restrict history, GLOBAL state *restrict result, int width, state overlap)
+{
+    for (int c = 0; c < CONTACT_HISTORY; ++c) history[c] = 0;
+    history[9] = overlap;
+    history[14] = 1;
+    for (int c = 0; c < CONTACT_RESULT + 2 * width; ++c) result[c] = 0;
+}
+
+/* Spheres. dt: the step that ended, whose friction and damping are booked; 0: the same state again, nothing is remembered. */
+KERNEL void contact_spheres(int n_pairs, state dt, int is_linear, int n_materials, GLOBAL const int *restrict ends, GLOBAL const state *restrict place,
+                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, GLOBAL const state *restrict radius,
+                            GLOBAL const state *restrict mass, GLOBAL const int *restrict material, GLOBAL const int *restrict body,
+                            GLOBAL const state *restrict law, GLOBAL state *restrict history, GLOBAL state *restrict result)
+{
+    FOR_EACH_ITEM(p, n_pairs) {
+        const int i = ends[2 * (brc_size)p], j = ends[2 * (brc_size)p + 1];
+        GLOBAL state *restrict past = history + (brc_size)p * CONTACT_HISTORY;
+        GLOBAL state *restrict out = result + (brc_size)p * (CONTACT_RESULT + 6);
+        const state ri = radius[i], rj = radius[j];
+        const svec3 branch = contact_branch(place, displacement, i, j);
+        const state distance = svec3_length(branch);
+        /* spheres of one body that overlap in the reference do not push there */
+        const svec3 far = svec3_sub(svec3_load(place, (brc_size)j * 3), svec3_load(place, (brc_size)i * 3));
+        const state reference = body[i] == body[j] ? svec3_length(far) : ri + rj;
+        const state depth = (reference < ri + rj ? reference : ri + rj) - distance;
+        const int looked = past[14] > 0, touching = depth > 0 && distance > 0;
+        if (!touching && dt > 0) contact_apart(past, out, 3, depth);
+        if (!touching && !(dt > 0))
+            for (int c = 0; c < CONTACT_RESULT + 6; ++c) out[c] = 0;
+        if (touching) {
+            const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
+            const contact_normal normal = contact_sphere_force(how, is_linear, depth, ri * rj / (ri + rj), mass[i] * mass[j] / (mass[i] + mass[j]));
+            const svec3 n = svec3_scale(STATE(1) / distance, branch);
+            const state share = ri / (ri + rj);
+            const svec3 arm_i = svec3_scale(share, branch), arm_j = svec3_scale(share - STATE(1), branch);
+            const smat3 turn_i = squat_matrix(squat_load(orientation, i)), turn_j = squat_matrix(squat_load(orientation, j));
+            const state rate = dt > 0 ? (looked ? (depth - past[9]) / dt : STATE(0)) : past[10];
+            const state viscous = contact_dashpot(normal.force, normal.dashpot, how.damping, rate);
+            svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
+            if (past[12] > 0) {
+                slip = svec3_sub(svec3_sub(smat3_mul_vec(turn_i, svec3_load(past, 3)), smat3_mul_vec(turn_j, svec3_load(past, 6))), branch);
+                stretch = svec3_load(past, 0);
+            }
+            const contact_stick stick = contact_friction(stretch, slip, n, normal.sticking, how.friction * (normal.force + viscous));
+            const svec3 force = svec3_add_scaled(svec3_scale(-normal.sticking, stick.stretch), -(normal.force + viscous), n);
+            svec3_store(out, 0, force);
+            out[3] = normal.energy + STATE(0.5) * normal.sticking * svec3_dot(stick.stretch, stick.stretch);
+            out[4] = dt > 0 ? stick.lost : STATE(0);
+            out[5] = dt > 0 && looked ? STATE(0.5) * (past[11] + viscous) * (depth - past[9]) : STATE(0);
+            out[6] = 1;
+            out[7] = normal.force + viscous;
+            out[8] = depth;
+            svec3_store(out, 9, svec3_cross(arm_i, force));
+            svec3_store(out, 12, svec3_scale(STATE(-1), svec3_cross(arm_j, force)));
+            if (dt > 0) {
+                svec3_store(past, 0, stick.stretch);
+                svec3_store(past, 3, smat3_tmul_vec(turn_i, arm_i));
+                svec3_store(past, 6, smat3_tmul_vec(turn_j, arm_j));
+                past[9] = depth;
+                past[10] = rate;
+                past[11] = viscous;
+                past[12] = 1;
+                past[13] = (state)stick.sliding;
+                past[14] = 1;
+            }
+        }
+    }
+}
+
+/* Elements that turn: force += sign times those of contact, torque likewise; kick: velocities lose kick f / m, spins likewise (a pair that is new in the middle of a
+ * step must not act on the step that ended). book 1: what was lost in the step is added up. stored [n] [J]. */
+KERNEL void contact_gather_turning(int m, state sign, state kick, int book, GLOBAL const int *restrict list, GLOBAL const int *restrict start,
+                                   GLOBAL const int *restrict used, GLOBAL const int *restrict pair, GLOBAL const state *restrict result,
+                                   GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia, GLOBAL state *restrict force,
+                                   GLOBAL state *restrict torque, GLOBAL state *restrict velocity, GLOBAL state *restrict spin,
+                                   GLOBAL state *restrict stored, GLOBAL state *restrict lost_friction, GLOBAL state *restrict lost_impact)
+{
+    FOR_EACH_ITEM(k, m) {
+        const int e = list[k];
+        svec3 push = {0, 0, 0}, turn = {0, 0, 0};
+        state held = 0, rubbed = 0, damped = 0;
+        for (int at = start[k]; at < start[k] + used[k]; ++at) {
+            const int owner = pair[at] >= 0;
+            GLOBAL const state *restrict one = result + (brc_size)(owner ? pair[at] : -1 - pair[at]) * (CONTACT_RESULT + 6);
+            if (!(one[6] > 0)) continue;
+            push = svec3_add_scaled(push, owner ? STATE(1) : STATE(-1), svec3_load(one, 0));
+            turn = svec3_add(turn, svec3_load(one, owner ? 9 : 12));
+            if (owner) {
+                held += one[3];
+                rubbed += one[4];
+                damped += one[5];
+            }
+        }
+        const brc_size at = (brc_size)e * 3;
+        svec3_store(force, at, svec3_add_scaled(svec3_load(force, at), sign, push));
+        svec3_store(torque, at, svec3_add_scaled(svec3_load(torque, at), sign, turn));
+        if (kick != 0) {
+            svec3_store(velocity, at, svec3_add_scaled(svec3_load(velocity, at), -sign * kick / mass[e], push));
+            svec3_store(spin, at, svec3_add_scaled(svec3_load(spin, at), -sign * kick / inertia[e], turn));
+        }
+        stored[e] = held;
+        if (book) {
+            lost_friction[e] += rubbed;
+            lost_impact[e] += damped;
+        }
+    }
+}

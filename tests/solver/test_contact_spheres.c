@@ -1,0 +1,163 @@
+/* Contact of spheres (model cbm) against exact results: Hertz's collision, restitution, momentum, sliding, fragments that meet again. Spheres of radius 0.5 m,
+ * density 1 kg/m^3, E 1 Pa and nu 0.2: mass pi/6 kg, E* = 1/1.92 Pa. */
+#include "../../host/solver/contact_internal.h"
+#include "beams_case.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double RADIUS = 0.5, MASS = M_PI / 6, HERTZ = 1 / 1.92;
+static const char STONE[] = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.2, E: 1 Pa}}";
+
+/* Two loose spheres, their centres `gap` beyond touching along x and `side` off it; each flies at speed / 2 to the other. */
+static void open_pair(beams_case *c, const char *contact, double gap, double side, double speed, const char *time_step, beams_options o)
+{
+    const double x[6] = {1, 1, 1, 2 + gap, 1 + side, 1};
+    static char stages[2048];
+    snprintf(stages, sizeof stages,
+             "interactions: {contact: %s}\nstages:\n  - name: meet\n    solver: {dynamic: {steps: 100000, time_step: %s}}\n    initial:\n"
+             "      - velocity: {value: [0, 0, 0], gradient: {x: [%.17g 1/s, 0, 0]}, origin: [%.17g m, 0, 0]}\n",
+             contact, time_step, -speed / (x[3] - x[0]), 0.5 * (x[0] + x[3]));
+    o.n = 2, o.position = x, o.radius = RADIUS, o.coordination = 0.01, o.stages = stages, o.materials = STONE;
+    open_beams(c, o);
+    assert_int_equal(c->domain->n_bonds, 0);
+    beams_done(c, brc_simulation_begin_stage(c->simulation, 0));
+}
+
+static brc_ledger ledger_of(beams_case *c)
+{
+    brc_ledger ledger;
+    beams_done(c, brc_simulation_ledger(c->simulation, &ledger));
+    return ledger;
+}
+
+/* Steps until the spheres have touched and let go; *deepest: largest overlap on the way. */
+static int64_t through_contact(beams_case *c, double *deepest, double *most)
+{
+    double u[6], f[6];
+    int64_t touching = 0;
+    *deepest = *most = 0;
+    const double start = c->domain->position[3] - c->domain->position[0];
+    for (int64_t step = 0; step < 100000; ++step) {
+        beams_done(c, brc_simulation_advance(c->simulation, 1));
+        beams_done(c, brc_simulation_displacement(c->simulation, u));
+        beams_done(c, brc_simulation_force(c->simulation, f));
+        const double depth = 2 * RADIUS - (start + u[3] - u[0]);
+        *deepest = fmax(*deepest, depth);
+        *most = fmax(*most, fabs(f[0]));
+        touching += depth > 0;
+        if (touching > 0 && depth <= 0) return touching;
+    }
+    fail_msg("they never met");
+    return 0;
+}
+
+/* The whole of Hertz's theory of a collision: largest overlap (15 m v^2 / (16 E* sqrt(R)))^(2/5), force there, time 2.8683 (m^2 / (R E*^2 v))^(1/5), m and R reduced. 2000 steps in
+ * contact: the scheme is second order, 1e-5 of the depth; the time is known to a step. */
+static void two_spheres_collide_as_hertz_says(void **state)
+{
+    (void)state;
+    beams_case c;
+    double deepest, most, v[6];
+    const double m = MASS / 2, r = RADIUS / 2, speed = 1e-3;
+    const double lasts = 2.8682655 * pow(m * m / (r * HERTZ * HERTZ * speed), 0.2);
+    char step[40];
+    snprintf(step, sizeof step, "%.17g s", lasts / 2000);
+    open_pair(&c, "{}", 1e-4, 0, speed, step, (beams_options){0});
+    const int64_t steps = through_contact(&c, &deepest, &most);
+    const double depth = pow(15 * m * speed * speed / (16 * HERTZ * sqrt(r)), 0.4);
+    assert_true(fabs(deepest / depth - 1) < 1e-4);
+    assert_true(fabs(most / (4.0 / 3 * HERTZ * sqrt(r) * pow(depth, 1.5)) - 1) < 2e-4);
+    assert_true(fabs((double)steps / 2000 - 1) < 2e-3);
+    beams_done(&c, brc_simulation_velocity(c.simulation, v));
+    assert_true(fabs((v[3] - v[0]) / speed - 1) < 1e-5);
+    assert_true(fabs(v[3] + v[0]) < 1e-15 * speed * (double)steps);
+    close_beams(&c);
+}
+
+/* Both normal laws and restitutions from nearly elastic to nearly dead, at two speeds: b alone decides. 400 and more steps in contact; the rate is that of the middle of the last step, an error
+ * of the order of a step over the time of contact. */
+static void the_restitution_is_the_one_asked_for_at_any_speed(void **state)
+{
+    (void)state;
+    static const double wanted[3] = {0.9, 0.5, 0.2}, speeds[2] = {1e-2, 1e-4};
+    static const char *const laws[2] = {"hertz", "linear"};
+    for (int law = 0; law < 2; ++law)
+        for (int k = 0; k < 3; ++k)
+            for (int q = 0; q < 2; ++q) {
+                beams_case c;
+                char contact[80], step[40];
+                double deepest, most, v[6];
+                snprintf(contact, sizeof contact, "{restitution: %g, spheres: %s}", wanted[k], laws[law]);
+                const double lasts = law ? M_PI * sqrt(MASS / 2 / (HERTZ * RADIUS / 2)) : 2.87 * pow(MASS * MASS / 4 / (RADIUS / 2 * HERTZ * HERTZ * speeds[q]), 0.2);
+                snprintf(step, sizeof step, "%.17g s", lasts / 1000);
+                open_pair(&c, contact, 0.3 * speeds[q] * lasts, 0, speeds[q], step, (beams_options){0});
+                through_contact(&c, &deepest, &most);
+                beams_done(&c, brc_simulation_advance(c.simulation, 2000));
+                beams_done(&c, brc_simulation_velocity(c.simulation, v));
+                const double e = (v[3] - v[0]) / speeds[q];
+                if (!(fabs(e - wanted[k]) < 5e-3)) fail_msg("%s: restitution %.5g instead of %g at %g m/s", laws[law], e, wanted[k], speeds[q]);
+                const brc_ledger ledger = ledger_of(&c);
+                assert_true(fabs(ledger.closure) < 5e-3);
+                assert_true(fabs(ledger.impact / ledger.initial - (1 - e * e)) < 5e-3);
+                assert_true(ledger.contact == 0);
+                close_beams(&c);
+            }
+}
+
+/* A blow off centre with friction: what one loses the other gains, turning included. */
+static void momentum_and_its_moment_stay_through_an_oblique_blow(void **state)
+{
+    (void)state;
+    beams_case c;
+    double u[6], v[6], q[8], w[6], before[6] = {0}, after[6] = {0};
+    open_pair(&c, "{friction: 0.4, restitution: 0.8}", 0.01, 0.4, 0.02, "0.05 s", (beams_options){0});
+    for (int part = 0; part < 2; ++part) {
+        double *sum = part ? after : before;
+        if (part) beams_done(&c, brc_simulation_advance(c.simulation, 3000));
+        beams_done(&c, brc_simulation_displacement(c.simulation, u));
+        beams_done(&c, brc_simulation_velocity(c.simulation, v));
+        beams_done(&c, brc_simulation_orientation(c.simulation, q, w));
+        for (int e = 0; e < 2; ++e)
+            for (int k = 0; k < 3; ++k) {
+                const int a = (k + 1) % 3, b = (k + 2) % 3;
+                const double *x = c.domain->position + 3 * e;
+                sum[k] += MASS * v[3 * e + k];
+                sum[3 + k] += MASS * ((x[a] + u[3 * e + a]) * v[3 * e + b] - (x[b] + u[3 * e + b]) * v[3 * e + a]) + 0.4 * MASS * RADIUS * RADIUS * w[3 * e + k];
+            }
+    }
+    assert_true(fabs(w[2]) > 1e-4); /* the blow turned them */
+    for (int k = 0; k < 6; ++k) assert_true(fabs(after[k] - before[k]) < 1e-13 * MASS * 0.02);
+    assert_true(ledger_of(&c).friction > 0);
+    close_beams(&c);
+}
+
+/* Halving the step takes the ledger's gap of an oblique blow with friction and damping to a quarter, or it is at rounding. */
+static void the_ledger_closes_through_a_blow_with_friction(void **state)
+{
+    (void)state;
+    double gap[3];
+    static const char *const steps[3] = {"0.08 s", "0.04 s", "0.02 s"};
+    for (int k = 0; k < 3; ++k) {
+        beams_case c;
+        open_pair(&c, "{friction: 0.4}", 0.01, 0.4, 0.02, steps[k], (beams_options){0});
+        beams_done(&c, brc_simulation_advance(c.simulation, 1500 << k));
+        gap[k] = fabs(ledger_of(&c).closure);
+        close_beams(&c);
+    }
+    print_message("closure at steps of 0.08, 0.04, 0.02 s: %.3g %.3g %.3g\n", gap[0], gap[1], gap[2]);
+    assert_true(gap[2] < 1e-3);
+    assert_true(gap[2] < gap[0]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(two_spheres_collide_as_hertz_says),
+        cmocka_unit_test(the_restitution_is_the_one_asked_for_at_any_speed),
+        cmocka_unit_test(momentum_and_its_moment_stay_through_an_oblique_blow),
+        cmocka_unit_test(the_ledger_closes_through_a_blow_with_friction),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
