@@ -10,18 +10,20 @@
 static const double RADIUS = 0.5, MASS = M_PI / 6, HERTZ = 1 / 1.92;
 static const char STONE[] = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.2, E: 1 Pa}}";
 
-/* Two loose spheres, their centres `gap` beyond touching along x and `side` off it; each flies at speed / 2 to the other. */
+/* Two loose spheres, 0 and 1, their centres `gap` beyond touching along x and `side` off it; each flies at speed / 2 to the other. Two more lie far away, bonded, for beams want a bond. */
 static void open_pair(beams_case *c, const char *contact, double gap, double side, double speed, const char *time_step, beams_options o)
 {
-    const double x[6] = {1, 1, 1, 2 + gap, 1 + side, 1};
+    const double x[12] = {1, 1, 1, 2 + gap, 1 + side, 1, 15, 15, 15, 15, 15.8, 15};
     static char stages[2048];
     snprintf(stages, sizeof stages,
-             "interactions: {contact: %s}\nstages:\n  - name: meet\n    solver: {dynamic: {steps: 100000, time_step: %s}}\n    initial:\n"
-             "      - velocity: {value: [0, 0, 0], gradient: {x: [%.17g 1/s, 0, 0]}, origin: [%.17g m, 0, 0]}\n",
-             contact, time_step, -speed / (x[3] - x[0]), 0.5 * (x[0] + x[3]));
-    o.n = 2, o.position = x, o.radius = RADIUS, o.coordination = 0.01, o.stages = stages, o.materials = STONE;
+             "interactions: {contact: %s}\nsets:\n  left: {elements: {sphere: {centre: [1 m, 1 m, 1 m], radius: 1 cm}}}\n"
+             "  right: {elements: {sphere: {centre: [%.17g m, %.17g m, 1 m], radius: 1 cm}}}\n"
+             "stages:\n  - name: meet\n    solver: {dynamic: {steps: 100000, time_step: %s}}\n    initial:\n"
+             "      - velocity: {set: left, velocity: [%.17g m/s, 0, 0]}\n      - velocity: {set: right, velocity: [%.17g m/s, 0, 0]}\n",
+             contact, x[3], x[4], time_step, speed / 2, -speed / 2);
+    o.n = 4, o.n_threads = 1, o.position = x, o.radius = RADIUS, o.coordination = 0.5, o.stages = stages, o.materials = STONE;
     open_beams(c, o);
-    assert_int_equal(c->domain->n_bonds, 0);
+    assert_true(c->domain->n_bonds == 1 && c->domain->bond_half_edge[0] == 0 && c->domain->neighbour[0] == 3);
     beams_done(c, brc_simulation_begin_stage(c->simulation, 0));
 }
 
@@ -35,7 +37,7 @@ static brc_ledger ledger_of(beams_case *c)
 /* Steps until the spheres have touched and let go; *deepest: largest overlap on the way. */
 static int64_t through_contact(beams_case *c, double *deepest, double *most)
 {
-    double u[6], f[6];
+    double u[12], f[12];
     int64_t touching = 0;
     *deepest = *most = 0;
     const double start = c->domain->position[3] - c->domain->position[0];
@@ -59,7 +61,7 @@ static void two_spheres_collide_as_hertz_says(void **state)
 {
     (void)state;
     beams_case c;
-    double deepest, most, v[6];
+    double deepest, most, v[12];
     const double m = MASS / 2, r = RADIUS / 2, speed = 1e-3;
     const double lasts = 2.8682655 * pow(m * m / (r * HERTZ * HERTZ * speed), 0.2);
     char step[40];
@@ -88,7 +90,7 @@ static void the_restitution_is_the_one_asked_for_at_any_speed(void **state)
             for (int q = 0; q < 2; ++q) {
                 beams_case c;
                 char contact[80], step[40];
-                double deepest, most, v[6];
+                double deepest, most, v[12];
                 snprintf(contact, sizeof contact, "{restitution: %g, spheres: %s}", wanted[k], laws[law]);
                 const double lasts = law ? M_PI * sqrt(MASS / 2 / (HERTZ * RADIUS / 2)) : 2.87 * pow(MASS * MASS / 4 / (RADIUS / 2 * HERTZ * HERTZ * speeds[q]), 0.2);
                 snprintf(step, sizeof step, "%.17g s", lasts / 1000);
@@ -111,7 +113,7 @@ static void momentum_and_its_moment_stay_through_an_oblique_blow(void **state)
 {
     (void)state;
     beams_case c;
-    double u[6], v[6], q[8], w[6], before[6] = {0}, after[6] = {0};
+    double u[12], v[12], q[16], w[12], before[6] = {0}, after[6] = {0};
     open_pair(&c, "{friction: 0.4, restitution: 0.8}", 0.01, 0.4, 0.02, "0.05 s", (beams_options){0});
     for (int part = 0; part < 2; ++part) {
         double *sum = part ? after : before;
