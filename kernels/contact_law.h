@@ -23,7 +23,7 @@ typedef struct {
 
 /* Overlap at which the tangential spring of Hertz's law has its ratio to the normal stiffness, and up to which the time step bears that law; of the
  * reduced radius [-]. */
-#define CONTACT_DEPTH 0.1
+#define CONTACT_DEPTH STATE(0.1)
 
 /* Spheres that overlap by depth > 0 [m]; radius 1/R = 1/R_i + 1/R_j, a wall has 1/R = 0; mass: m_i m_j / (m_i + m_j). Hertz: F = 4/3 E* sqrt(R) d^(3/2);
  * in y = d^(5/4) and the time dt d^(1/4) a dashpot 2 b sqrt(5/6) sqrt(m dF/dd) is that of a linear oscillator, so that b alone decides the restitution, at every speed.
@@ -36,7 +36,7 @@ LAW contact_normal contact_sphere_force(contact_law law, int is_linear, state de
     }
     const state root = SQRT_STATE(radius * depth), slope = STATE(2) * law.hertz * root;
     return (contact_normal){STATE(2.0 / 3) * slope * depth, STATE(4.0 / 15) * slope * depth * depth, STATE(1.8257418583505538) * SQRT_STATE(slope * mass),
-                            law.tangential * STATE(2) * law.hertz * radius * SQRT_STATE(STATE(CONTACT_DEPTH))};
+                            law.tangential * STATE(2) * law.hertz * radius * SQRT_STATE(CONTACT_DEPTH)};
 }
 
 /* Force of the dashpot [N] at closing speed rate [m/s]; surfaces push only, so that it never outdoes the force itself. */
