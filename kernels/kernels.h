@@ -16,6 +16,8 @@
 #include "cell_normal.h"
 #include "convex_overlap.h"
 #include "contact_law.h"
+#include "convex_wall.h"
+#include "convex_sphere.h"
 #include "vector.cl"
 #include "motion.cl"
 #include "rotation.cl"

@@ -10,7 +10,8 @@
 #define BRC_MANY_MATERIALS 0
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
-#include "../../kernels/convex_overlap.h"
+#include "../../kernels/convex_sphere.h"
+#include "../../kernels/convex_wall.h"
 #include <stdint.h>
 
 enum { CONVEX_CASE_CORNERS = 256, CONVEX_CASE_FACES = 256, CONVEX_CASE_LOOPS = 2048 };

@@ -203,6 +203,91 @@ static void reordered_bodies_give_the_same_overlap(void **state)
     }
 }
 
+/* A wall is a very large box of B, whose other faces are far away. */
+static void wall_cuts_as_a_large_box_does(void **state)
+{
+    (void)state;
+    uint64_t random = 6;
+    int touching = 0;
+    convex_case wall;
+    convex_case_box(&wall, 256, 256, 256);
+    for (int trial = 0; trial < 1000; ++trial) {
+        convex_case a;
+        convex_case_random(&a, trial % CONVEX_KINDS, 6 + trial % 12, &random);
+        const convex_map turn = convex_case_rotation(&random);
+        const convex_vec normal = convex_turn(turn, (convex_vec){0, 0, 1}), foot = {0.5, -0.25, 0.125};
+        const convex_plane plane = {normal, convex_dot(normal, foot)};
+        const convex_pose pose_b = {convex_sub(foot, convex_scale(128, normal)), turn};
+        const convex_pose pose_a = {convex_add(foot, convex_scale(convex_case_number(&random), normal)), convex_case_map(0.15, &random)};
+        const convex_overlap o = convex_wall_overlap(convex_case_shape(&a), pose_a, plane, pose_b.origin);
+        const convex_overlap p = convex_overlap_of(convex_case_shape(&a), pose_a, convex_case_shape(&wall), pose_b);
+        assert_int_equal(o.failed, 0);
+        touching += o.volume > 0;
+        /* corners of size 200 to rounding, areas up to 100, moments of them over arms up to 200 */
+        assert_true(fabs(o.volume - p.volume) < 1e-10);
+        assert_true(convex_length(convex_sub(o.area, p.area)) < 1e-10);
+        assert_true(norm(added(o.moment_a, -1, p.moment_a)) < 1e-10 && norm(added(o.moment_b, -1, p.moment_b)) < 1e-8);
+        if (o.volume > 1e-6) assert_true(convex_length(convex_sub(o.point, p.point)) < 1e-8);
+    }
+    assert_true(touching > 500);
+}
+
+static void box_on_a_wall_is_cut_where_it_sinks_in(void **state)
+{
+    (void)state;
+    convex_case a;
+    convex_case_box(&a, 1, 2, 0.5);
+    const convex_plane wall = {{0, 0, 1}, 3};
+    const convex_overlap o = convex_wall_overlap(convex_case_shape(&a), at(7, 8, 3.1875), wall, (convex_vec){0, 0, 0});
+    assert_true(fabs(o.volume - 0.0625 * 2) < 1e-15 && fabs(o.area.z - 2) < 1e-15 && o.area.x == 0 && o.area.y == 0);
+    assert_true(fabs(o.point.x - 7) < 1e-14 && fabs(o.point.y - 8) < 1e-14 && fabs(o.point.z - 2.96875) < 1e-14);
+    assert_true(convex_wall_overlap(convex_case_shape(&a), at(7, 8, 3.25), wall, (convex_vec){0, 0, 0}).volume == 0); /* it just touches */
+    assert_true(convex_wall_overlap(convex_case_shape(&a), at(7, 8, 4), wall, (convex_vec){0, 0, 0}).volume == 0);
+}
+
+/* The nearest point of a convex body is the one that lies in it with the whole body behind the plane across the way to it. */
+static void foot_of_a_sphere_is_the_nearest_point(void **state)
+{
+    (void)state;
+    uint64_t random = 7;
+    int on[3] = {0, 0, 0};
+    convex_case a;
+    for (int trial = 0; trial < 20000; ++trial) {
+        if (trial % 20 == 0) convex_case_random(&a, trial / 20 % CONVEX_KINDS, 6 + trial % 13, &random);
+        const convex_shape s = convex_case_shape(&a);
+        const convex_pose pose = {{1, 2, 3}, convex_case_rotation(&random)};
+        const convex_vec x = {1 + 2 * convex_case_number(&random), 2 + 2 * convex_case_number(&random), 3 + 2 * convex_case_number(&random)};
+        const convex_foot foot = convex_foot_on_polyhedron(s, pose, x, 100);
+        const convex_vec place = convex_turn(convex_transpose(pose.map), convex_sub(foot.point, pose.origin));
+        const convex_vec normal = convex_turn(convex_transpose(pose.map), foot.normal);
+        double outside = -HUGE_VAL, above = -HUGE_VAL;
+        int planes = 0;
+        for (int f = 0; f < s.n_faces; ++f) {
+            const convex_plane p = convex_own_plane(s, f);
+            const double h = convex_dot(p.normal, place) - p.height;
+            outside = fmax(outside, h);
+            planes += fabs(h) < 1e-9;
+        }
+        for (int k = 0; k < s.n_corners; ++k) above = fmax(above, convex_dot(normal, convex_sub(convex_corner(s, k), place)));
+        assert_true(outside < 1e-13); /* corners up to 10 to rounding */
+        assert_true(fabs(convex_length(foot.normal) - 1) < 1e-14);
+        assert_true(convex_length(convex_sub(convex_sub(x, foot.point), convex_scale(foot.distance, foot.normal))) < 1e-13);
+        if (foot.distance > 0) assert_true(above < 1e-12 / fmin(1, foot.distance)); /* the way's direction, to rounding of places up to 40 */
+        if (foot.distance > 0 && planes > 0 && planes < 4) ++on[planes - 1];
+    }
+    assert_true(on[0] > 100 && on[1] > 100 && on[2] > 100); /* faces, edges and corners */
+}
+
+static void foot_within_a_box_is_on_its_nearest_face(void **state)
+{
+    (void)state;
+    convex_case a;
+    convex_case_box(&a, 1, 2, 4);
+    const convex_foot foot = convex_foot_on_polyhedron(convex_case_shape(&a), at(0, 0, 0), (convex_vec){0.375, 0.5, 1.5}, 0);
+    assert_true(foot.distance == -0.125 && foot.normal.x == 1 && foot.point.x == 0.5 && foot.point.y == 0.5 && foot.point.z == 1.5);
+    assert_true(convex_foot_on_polyhedron(convex_case_shape(&a), at(0, 0, 0), (convex_vec){0, 0, 3}, 0.5).distance > 0.5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -213,6 +298,10 @@ int main(void)
         cmocka_unit_test(force_is_the_slope_of_the_energy),
         cmocka_unit_test(action_is_reaction_and_moments_balance),
         cmocka_unit_test(reordered_bodies_give_the_same_overlap),
+        cmocka_unit_test(wall_cuts_as_a_large_box_does),
+        cmocka_unit_test(box_on_a_wall_is_cut_where_it_sinks_in),
+        cmocka_unit_test(foot_of_a_sphere_is_the_nearest_point),
+        cmocka_unit_test(foot_within_a_box_is_on_its_nearest_face),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
