@@ -3,6 +3,7 @@
 #include "element_loads.h"
 #include "fracture_internal.h"
 #include "state_store.h"
+#include "strikers_internal.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -181,6 +182,7 @@ static brc_status walk(brc_simulation *s, brc_state_store *store)
     BRC_TRY(walk_elements(s, store));
     BRC_TRY(walk_loads(s, store));
     if (s->fracture) BRC_TRY(brc_fracture_store_state(s, store));
+    if (s->strikers) BRC_TRY(brc_strikers_store_state(s, store));
     return BRC_OK;
 }
 

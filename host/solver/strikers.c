@@ -93,6 +93,7 @@ brc_status brc_strikers_create(brc_simulation *s)
     BRC_TRY(brc_kernel_find(s->device, "striker_advance", &t->advance));
     BRC_TRY(brc_kernel_find(s->device, "striker_place", &t->place));
     BRC_TRY(brc_kernel_find(s->device, "striker_book", &t->book));
+    BRC_TRY(brc_strikers_check(s));
     return upload_start(s);
 }
 
@@ -170,6 +171,21 @@ brc_status brc_strikers_book(brc_simulation *s, brc_booking book)
     return BRC_LAUNCH(t->book, t->n, BRC_INT(t->n), BRC_INT(book), BRC_INT(numerical ? 1 : 0), BRC_STATE(g[0]), BRC_STATE(g[1]), BRC_STATE(g[2]),
                       BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->load), BRC_BUF(t->moved), BRC_BUF(t->last), BRC_BUF(t->work),
                       BRC_BUF(t->lost));
+}
+
+brc_status brc_strikers_store_state(brc_simulation *s, brc_state_store *store)
+{
+    const brc_strikers *t = s->strikers;
+    const struct {
+        const char *name;
+        brc_buffer *buffer;
+        int32_t width;
+    } lists[] = {{"strikers.pose", t->pose, 12},   {"strikers.motion", t->motion, 6}, {"strikers.load", t->load, 6}, {"strikers.displacement", t->displacement, 3},
+                 {"strikers.orientation", t->orientation, 4}, {"strikers.momentum", t->momentum, 3}, {"strikers.moved", t->moved, 6}, {"strikers.last", t->last, 6},
+                 {"strikers.work", t->work, 1},    {"strikers.lost", t->lost, 1}};
+    for (size_t k = 0; k < sizeof lists / sizeof *lists; ++k)
+        BRC_TRY(brc_store_list(s, store, lists[k].name, lists[k].buffer, BRC_OF_STATE, t->n, lists[k].width, NULL));
+    return store->numbers(store, "strikers.placed", BRC_STORED_DOUBLE, t->n, 1, t->placed);
 }
 
 /* ---- asking ---- */

@@ -4,6 +4,7 @@
 
 #include "../../preprocess/convex.h"
 #include "simulation_internal.h"
+#include "state_store.h"
 #include "strikers.h"
 
 /* What a piece of a striker is for contact. */
@@ -47,12 +48,16 @@ void brc_striker_body_free(brc_striker_body *body);
 /* Make them, where the scene has some; velocities are those of the start of the run. BRC_BAD_INPUT: a free one without mass ... */
 brc_status brc_strikers_create(brc_simulation *s);
 void brc_strikers_free(brc_simulation *s);
+/* Refuses strikers that stand in a body; warns of such as stand in one a little, meet bodies faster than sound, or cannot come near any (striker_check.c). */
+brc_status brc_strikers_check(brc_simulation *s);
 /* Free ones: kick and drift [s] of velocity and spin; extra: (phi - 1) dt of Tchamwa-Wielgosz, else 0. numerical: book the loss of that scheme. */
 brc_status brc_strikers_advance(brc_simulation *s, double kick, double drift, double extra, bool numerical);
 /* Driven ones are put where they are at the present time of the run. */
 brc_status brc_strikers_prescribe(brc_simulation *s);
 /* After the forces on strikers are known: work of driven ones and losses, as brc_force_request.book says. */
 brc_status brc_strikers_book(brc_simulation *s, brc_booking book);
+/* Keep or take up their state (state_store.h). */
+brc_status brc_strikers_store_state(brc_simulation *s, brc_state_store *store);
 brc_status brc_strikers_energies(brc_simulation *s, brc_striker_energies *out);
 
 #endif

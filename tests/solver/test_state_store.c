@@ -36,6 +36,18 @@ static void turned_elements_and_a_stage_to_failure_go_on(void **state)
     state_resumes((state_case){.beams = &beams}, (int[]){1, 2, 3, 20, 0});
 }
 
+/* Driven and tumbling ones, in two stages. */
+static void strikers_go_on(void **state)
+{
+    (void)state;
+    const case_options cells = {.n_threads = 1, .fill = "cells: [3, 3, 3], spread: 50 %, seed: 1",
+                                .gravity = "gravity: [0, 0, -1e-4 m/s^2]\ninteractions: {contact: {}}\nstrikers:\n"
+                                           "  brick: {shape: {box: {size: [1 m, 2 m, 3 m], origin: [10 m, 0, 0]}}, material: stone, motion: {free: {spin: [3 rad/s, 1 rad/s, 2 rad/s]}}}\n"
+                                           "  press: {plane: {point: [0, 0, -9 m], normal: [0, 0, 1]}, material: stone, motion: {driven: {velocity: [0, 0, 1e-3 m/s], table: [[0, 0], [1 s, 1]]}}}\n",
+                                .stages = "  - name: fall\n    solver: {dynamic: {steps: 40}}\n  - name: further\n    solver: {dynamic: {steps: 40, integrator: tchamwa-wielgosz}}\n"};
+    state_resumes((state_case){.cells = &cells}, (int[]){20, 60, 0});
+}
+
 static void a_store_without_a_number_is_refused(void **state)
 {
     (void)state;
@@ -86,6 +98,7 @@ int main(void)
         cmocka_unit_test(a_run_goes_on_in_double_mixed_and_single),
         cmocka_unit_test(a_body_goes_on_breaking_event_by_event),
         cmocka_unit_test(turned_elements_and_a_stage_to_failure_go_on),
+        cmocka_unit_test(strikers_go_on),
         cmocka_unit_test(a_store_without_a_number_is_refused),
         cmocka_unit_test(broken_bonds_that_the_domain_does_not_have_are_refused),
     };

@@ -1,0 +1,279 @@
+/* What is wrong, or looks wrong, with strikers before a run begins: they stand in a body, are quicker than sound, or come near nothing. */
+#include "strikers_internal.h"
+#include <math.h>
+#include <string.h>
+
+/* Shares of the mean spacing: a striker this deep in a body is refused, since it would start with the energy of an explosion; one that is less deep by this much is told
+ * of, and below that is the rounding of places. Spheres of a packing stand out of its walls by about a hundredth of their radius. */
+static const double refused_depth = 0.05, told_depth = 1e-6, told_depth_of_spheres = 0.02;
+
+/* The deepest place found so far. */
+typedef struct overlap {
+    double depth; /* [m] */
+    int64_t element;
+    double place[3];
+} overlap;
+
+static void deepen(overlap *deepest, double depth, int64_t element, const double x[3])
+{
+    if (!(depth > deepest->depth)) return;
+    deepest->depth = depth;
+    deepest->element = element;
+    memcpy(deepest->place, x, sizeof deepest->place);
+}
+
+/* How deep x is in a piece of a striker: the least distance to its planes; below 0 outside. */
+static double depth_in_piece(const brc_strikers *t, int32_t piece, const double x[3])
+{
+    const double *centre = t->body[t->piece_striker[piece]].centre, r[3] = {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
+    const double reach = t->convex.radius[piece];
+    double depth = HUGE_VAL;
+    if (r[0] * r[0] + r[1] * r[1] + r[2] * r[2] > reach * reach) return -HUGE_VAL;
+    for (int32_t f = t->convex.face_start[piece]; f < t->convex.face_start[piece + 1] && depth > 0; ++f) {
+        const double *p = t->convex.plane + 4 * (int64_t)f;
+        depth = fmin(depth, p[3] - p[0] * r[0] - p[1] * r[1] - p[2] * r[2]);
+    }
+    return depth;
+}
+
+/* Distance of r from the segment a b. */
+static double from_segment(const double a[3], const double b[3], const double r[3])
+{
+    double along = 0, square = 0, rest = 0;
+    for (int c = 0; c < 3; ++c) {
+        along += (b[c] - a[c]) * (r[c] - a[c]);
+        square += (b[c] - a[c]) * (b[c] - a[c]);
+    }
+    const double share = square > 0 ? fmin(fmax(along / square, 0), 1) : 0;
+    for (int c = 0; c < 3; ++c) rest += pow(a[c] + share * (b[c] - a[c]) - r[c], 2);
+    return sqrt(rest);
+}
+
+/* Distance of x, which is outside, from a piece: the least to its faces. */
+static double away_from_piece(const brc_strikers *t, int32_t piece, const double x[3])
+{
+    const double *centre = t->body[t->piece_striker[piece]].centre, r[3] = {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
+    const double *corner = t->convex.corner + 3 * (int64_t)t->convex.corner_start[piece];
+    double least = HUGE_VAL;
+    for (int32_t f = t->convex.face_start[piece]; f < t->convex.face_start[piece + 1]; ++f) {
+        const double *p = t->convex.plane + 4 * (int64_t)f, height = p[0] * r[0] + p[1] * r[1] + p[2] * r[2] - p[3];
+        const int32_t first = t->convex.loop_start[f], n = t->convex.loop_start[f + 1] - first;
+        bool over = height >= 0; /* above the polygon itself, not beyond one of its sides; without corners: a whole plane */
+        for (int32_t k = 0; k < n; ++k) {
+            const double *a = corner + 3 * (int64_t)t->convex.loop[first + k], *b = corner + 3 * (int64_t)t->convex.loop[first + (k + 1) % n];
+            double side = 0;
+            for (int c = 0; c < 3; ++c) {
+                const int i = (c + 1) % 3, j = (c + 2) % 3;
+                side += p[c] * ((b[i] - a[i]) * (r[j] - a[j]) - (b[j] - a[j]) * (r[i] - a[i]));
+            }
+            over = over && side >= 0;
+            least = fmin(least, from_segment(a, b, r));
+        }
+        if (over) least = fmin(least, height);
+    }
+    return least;
+}
+
+/* How deep x is in a cell: likewise, over shared and free faces. */
+static double depth_in_cell(const brc_domain *d, int64_t e, const double x[3])
+{
+    double depth = HUGE_VAL;
+    for (int k = 0; k < 2; ++k) {
+        const int64_t *start = k == 0 ? d->row_start : d->free_start;
+        const double *area = k == 0 ? d->area_vector : d->free_area_vector, *centroid = k == 0 ? d->face_centroid : d->free_centroid;
+        for (int64_t f = start[e]; f < start[e + 1]; ++f) {
+            double height = 0, square = 0;
+            for (int c = 0; c < 3; ++c) {
+                height += area[3 * f + c] * (centroid[3 * f + c] - x[c]);
+                square += area[3 * f + c] * area[3 * f + c];
+            }
+            depth = fmin(depth, height / sqrt(square));
+        }
+    }
+    return depth;
+}
+
+/* Elements in a piece: their corners, or spheres by their middles, which may stand outside by the radius. */
+static void find_elements(const brc_domain *d, const brc_strikers *t, int32_t piece, overlap *deepest)
+{
+    const bool spheres = d->element_kind == BRC_ELEMENT_SPHERE, round = t->piece_kind[piece] == BRC_PIECE_SPHERE;
+    const double *centre = t->body[t->piece_striker[piece]].centre, reach = t->convex.radius[piece];
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        const double *x = d->position + 3 * e, out = spheres ? d->radius[e] : 0;
+        const double away = hypot(hypot(x[0] - centre[0], x[1] - centre[1]), x[2] - centre[2]);
+        if (spheres) {
+            if (away - out > reach) continue;
+            const double inside = round ? 0 : depth_in_piece(t, piece, x);
+            deepen(deepest, out + (round ? t->piece_radius[piece] - away : inside > 0 ? inside : -away_from_piece(t, piece, x)), e, x);
+            continue;
+        }
+        for (int64_t v = d->vertex_start[e]; v < d->vertex_start[e + 1]; ++v) deepen(deepest, depth_in_piece(t, piece, d->vertex + 3 * v), e, d->vertex + 3 * v);
+    }
+}
+
+/* Corners of a piece in cells: x lies in the cell of the nearest position, if in any. */
+static void find_corners(const brc_domain *d, const brc_strikers *t, int32_t piece, overlap *deepest)
+{
+    const double *centre = t->body[t->piece_striker[piece]].centre;
+    for (int32_t k = t->convex.corner_start[piece]; k <= t->convex.corner_start[piece + 1]; ++k) {
+        const bool last = k == t->convex.corner_start[piece + 1]; /* its middle */
+        if (last && t->piece_kind[piece] == BRC_PIECE_PLANE) return;
+        double x[3], least = HUGE_VAL;
+        int64_t nearest = -1;
+        bool near = true;
+        for (int c = 0; c < 3; ++c) {
+            x[c] = centre[c] + (last ? 0 : t->convex.corner[3 * (int64_t)k + c]);
+            near = near && x[c] > d->bounds[0][c] && x[c] < d->bounds[1][c];
+        }
+        for (int64_t e = 0; near && e < d->n_elements; ++e) {
+            double square = 0;
+            for (int c = 0; c < 3; ++c) square += (d->position[3 * e + c] - x[c]) * (d->position[3 * e + c] - x[c]);
+            if (square >= least) continue;
+            least = square;
+            nearest = e;
+        }
+        if (nearest >= 0) deepen(deepest, depth_in_cell(d, nearest, x), nearest, x);
+    }
+}
+
+static brc_status check_overlap(brc_simulation *s, int32_t i)
+{
+    const brc_strikers *t = s->strikers;
+    const brc_domain *d = s->domain;
+    const bool spheres = d->element_kind == BRC_ELEMENT_SPHERE;
+    const double spacing = d->quality.mean_spacing;
+    overlap deepest = {0};
+    for (int32_t p = 0; p < t->convex.n; ++p) {
+        if (t->piece_striker[p] != i) continue;
+        find_elements(d, t, p, &deepest);
+        if (!spheres) find_corners(d, t, p, &deepest);
+    }
+    if (!(deepest.depth > (spheres ? told_depth_of_spheres : told_depth) * spacing)) return BRC_OK;
+    const int32_t body = d->body[deepest.element] < s->scene->n_bodies ? d->body[deepest.element] : 0;
+    const double *x = deepest.place;
+    if (deepest.depth > refused_depth * spacing)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "striker '%s' stands %.4g m deep in body '%s' as the scene starts, deepest at (%.6g, %.6g, %.6g) m (spacing %.4g m): move one of them away%s",
+                        s->scene->strikers[i].name, deepest.depth, s->scene->bodies[body].name, x[0], x[1], x[2], spacing,
+                        s->scene->strikers[i].is_plane ? ", or turn the normal, which points out of the wall" : "");
+    brc_log(s->context, BRC_LOG_WARNING, "striker '%s' stands %.4g m deep in body '%s' as the scene starts, at (%.6g, %.6g, %.6g) m: they begin pressed together",
+            s->scene->strikers[i].name, deepest.depth, s->scene->bodies[body].name, x[0], x[1], x[2]);
+    return BRC_OK;
+}
+
+/* ---- speeds and ways ---- */
+
+static double length(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/* The largest speed that the scene gives a striker's centre and surface [m/s]. */
+static double speed_of(const brc_simulation *s, int32_t i)
+{
+    const brc_striker *striker = s->scene->strikers + i;
+    double factor = striker->table.n > 0 ? 0 : 1, reach = 0;
+    if (striker->motion == BRC_STRIKER_FIXED) return 0;
+    for (int32_t k = 0; k < striker->table.n; ++k) factor = fmax(factor, fabs(striker->table.value[k]));
+    for (int32_t p = 0; p < s->strikers->convex.n; ++p)
+        if (s->strikers->piece_striker[p] == i && !striker->is_plane) reach = fmax(reach, s->strikers->convex.radius[p]);
+    return factor * (length(striker->velocity) + reach * length(striker->spin));
+}
+
+/* The largest speed that initial fields and loads give elements [m/s]; gradients count over the bodies' diagonal. */
+static double speed_of_bodies(const brc_simulation *s)
+{
+    const double(*b)[3] = s->domain->bounds, diagonal = hypot(hypot(b[1][0] - b[0][0], b[1][1] - b[0][1]), b[1][2] - b[0][2]);
+    double most = 0;
+    for (int32_t k = 0; k < s->scene->n_stages; ++k) {
+        const brc_stage *stage = s->scene->stages + k;
+        for (int32_t f = 0; f < stage->n_initials; ++f) {
+            const brc_initial *field = stage->initials + f;
+            double slope = 0;
+            for (int c = 0; c < 9; ++c) slope += fabs(field->gradient[c / 3][c % 3]);
+            if (field->kind == BRC_INITIAL_VELOCITY || field->kind == BRC_INITIAL_RANDOM) most = fmax(most, length(field->value) + slope * diagonal);
+            if (field->kind == BRC_INITIAL_SPIN) most = fmax(most, length(field->value) * diagonal);
+        }
+        for (int32_t l = 0; l < stage->n_loads; ++l)
+            if (stage->loads[l].kind == BRC_LOAD_FACE_VELOCITY || stage->loads[l].kind == BRC_LOAD_ELEMENT_VELOCITY) most = fmax(most, length(stage->loads[l].value));
+    }
+    return most;
+}
+
+/* The slowest pressure wave of the bodies' materials [m/s]. */
+static double slowest_wave(const brc_simulation *s, const char **name)
+{
+    double slowest = HUGE_VAL;
+    for (int64_t e = 0; e < s->domain->n_elements; ++e) {
+        const int32_t m = s->material_of_element[e];
+        const double speed = sqrt((s->elastic[m].lambda + 2 * s->elastic[m].mu) / s->elastic[m].density);
+        if (!(speed < slowest)) continue;
+        slowest = speed;
+        *name = s->scene->materials[m].name;
+    }
+    return slowest;
+}
+
+static void check_speed(const brc_simulation *s, int32_t i, double bodies)
+{
+    const char *material = "";
+    const double wave = slowest_wave(s, &material), speed = speed_of(s, i);
+    if (speed + bodies > wave)
+        brc_log(s->context, BRC_LOG_WARNING, "striker '%s' and the bodies meet with up to %.4g m/s, faster than the pressure wave of '%s', %.4g m/s: what is hit cannot give way; elastic laws "
+                "do not hold for shock waves", s->scene->strikers[i].name, speed + bodies, material, wave);
+}
+
+/* How far the box around a striker, or a plane, is from the box around all bodies [m]. */
+static double gap_of(const brc_simulation *s, int32_t i)
+{
+    const brc_striker_body *body = &s->strikers->body[i];
+    const double(*b)[3] = s->domain->bounds;
+    double low[3], high[3], square = 0;
+    if (s->scene->strikers[i].is_plane) {
+        const double *n = s->scene->strikers[i].normal;
+        double height = 0;
+        for (int c = 0; c < 3; ++c) height += n[c] * ((n[c] > 0 ? b[0][c] : b[1][c]) - body->centre[c]);
+        return fmax(height, 0);
+    }
+    for (int c = 0; c < 3; ++c) {
+        low[c] = HUGE_VAL;
+        high[c] = -HUGE_VAL;
+        for (int32_t k = 0; k < body->surface.n_corners; ++k) {
+            low[c] = fmin(low[c], body->centre[c] + body->surface.corner[3 * (int64_t)k + c]);
+            high[c] = fmax(high[c], body->centre[c] + body->surface.corner[3 * (int64_t)k + c]);
+        }
+        square += pow(fmax(fmax(b[0][c] - high[c], low[c] - b[1][c]), 0), 2);
+    }
+    return sqrt(square);
+}
+
+/* Seconds of all dynamic stages; HUGE_VAL where some are counted in steps. */
+static double duration_of(const brc_scene *scene)
+{
+    double sum = 0;
+    for (int32_t k = 0; k < scene->n_stages; ++k) {
+        if (scene->stages[k].solver != BRC_SOLVER_DYNAMIC) continue;
+        if (scene->stages[k].steps > 0) return HUGE_VAL;
+        sum += scene->stages[k].duration;
+    }
+    return sum;
+}
+
+/* Only where nothing flies by itself: fragments of a body that bursts go anywhere. */
+static void check_reach(const brc_simulation *s, int32_t i, double bodies)
+{
+    const double time = duration_of(s->scene), gap = gap_of(s, i);
+    const double way = (speed_of(s, i) + bodies) * time + (s->scene->has_gravity ? 0.5 * length(s->scene->gravity) * time * time : 0);
+    if (s->scene->has_fracture || !isfinite(time) || !(gap > 1.5 * way)) return;
+    brc_log(s->context, BRC_LOG_WARNING, "striker '%s' is %.4g m away from all bodies; as far as the scene tells they come %.4g m nearer in its %.4g s and will not meet",
+            s->scene->strikers[i].name, gap, way, time);
+}
+
+brc_status brc_strikers_check(brc_simulation *s)
+{
+    const double bodies = speed_of_bodies(s);
+    brc_status status = BRC_OK;
+    for (int32_t i = 0; i < s->strikers->n; ++i) { /* all in one pass */
+        const brc_status one = check_overlap(s, i);
+        if (one != BRC_OK) status = one;
+        check_speed(s, i, bodies);
+        check_reach(s, i, bodies);
+    }
+    return status;
+}
