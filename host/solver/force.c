@@ -136,7 +136,7 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
     if (s->scene->has_gravity) {
         const double *g = s->scene->gravity;
         BRC_TRY(BRC_LAUNCH(s->kernel.gravity, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_STATE(g[0]), BRC_STATE(g[1]),
-                           BRC_STATE(g[2]), BRC_BUF(s->mass), BRC_BUF(r->force)));
+                           BRC_STATE(g[2]), BRC_BUF(s->weight), BRC_BUF(r->force)));
     }
     const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
     BRC_TRY(brc_pushes_apply(s, r));

@@ -146,6 +146,10 @@ static brc_status upload_masses(brc_simulation *s)
     for (int64_t e = 0; e < d->n_elements; ++e) values[e] = d->volume[e] * s->elastic[s->material_of_element[e]].density;
     BRC_TRY_OR(cleanup, brc_new_state(s, &s->mass, layout->n_rows, "masses"));
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->mass, values, 1, 1));
+    if (s->scene->has_gravity) { /* padding has a mass to be divided by; falling, it would have an energy of its own */
+        BRC_TRY_OR(cleanup, brc_new_state(s, &s->weight, layout->n_rows, "masses in gravity"));
+        BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->weight, values, 1, 0));
+    }
     if (brc_turns(s)) {
         if (brc_is_published(s)) {
             BRC_TRY_OR(cleanup, brc_new_state(s, &s->volume, layout->n_rows, "volumes"));
@@ -242,7 +246,7 @@ void brc_geometry_free(brc_simulation *s)
 {
     brc_buffer **all[] = {&s->row_start, &s->neighbour, &s->boundary, &s->area, &s->offset, &s->ratio, &s->inv_shape,
                           &s->inv_volume, &s->material, &s->modulus, &s->ell_of, &s->lame_of,
-                          &s->mass, &s->volume, &s->inertia, &s->beam_of};
+                          &s->mass, &s->weight, &s->volume, &s->inertia, &s->beam_of};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_buffer_free(all[i]);
 }
 

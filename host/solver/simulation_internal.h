@@ -128,6 +128,7 @@ struct brc_simulation {
     brc_buffer *inv_shape, *inv_volume;
     brc_buffer *material, *modulus, *ell_of, *lame_of;
     brc_buffer *mass, *volume, *inertia;
+    brc_buffer *weight;  /* mass, 0 in padding; only in scenes with gravity */
     brc_buffer *beam_of; /* cbm: branch in offset, 1/length in ratio; stiffness of elements (several materials) */
 
     /* state */

@@ -46,6 +46,7 @@ brc_status try_case(bench_case *c, case_options o)
         or_else(o.regions, ""), or_else(o.sets, ""),
         or_else(o.stages, "  - name: move\n    solver: {dynamic: {steps: 1}}\n"));
     BRC_TRY(brc_scene_read_text(c->context, "test.yaml", text, (size_t)length, 0, NULL, &c->scene));
+    if (o.no_contact) c->scene->has_contact = false;
     BRC_TRY(build_domains(c));
     const brc_device_request request = {.selector = or_else(o.device, "cpu"),
                                         .precision = o.precision,

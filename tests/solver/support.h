@@ -34,6 +34,7 @@ typedef struct case_options {
     brc_precision precision;
     int n_threads, lanes;
     bool exact;
+    bool no_contact; /* read, but left out: strikers are moved by hand */
 } case_options;
 
 /* Open everything; fails the test with the context's sentence. The stage is not entered. */

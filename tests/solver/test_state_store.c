@@ -40,7 +40,7 @@ static void turned_elements_and_a_stage_to_failure_go_on(void **state)
 static void strikers_go_on(void **state)
 {
     (void)state;
-    const case_options cells = {.n_threads = 1, .fill = "cells: [3, 3, 3], spread: 50 %, seed: 1",
+    const case_options cells = {.n_threads = 1, .no_contact = true, .fill = "cells: [3, 3, 3], spread: 50 %, seed: 1",
                                 .gravity = "gravity: [0, 0, -1e-4 m/s^2]\ninteractions: {contact: {}}\nstrikers:\n"
                                            "  brick: {shape: {box: {size: [1 m, 2 m, 3 m], origin: [10 m, 0, 0]}}, material: stone, motion: {free: {spin: [3 rad/s, 1 rad/s, 2 rad/s]}}}\n"
                                            "  press: {plane: {point: [0, 0, -9 m], normal: [0, 0, 1]}, material: stone, motion: {driven: {velocity: [0, 0, 1e-3 m/s], table: [[0, 0], [1 s, 1]]}}}\n",

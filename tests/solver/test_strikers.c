@@ -14,7 +14,7 @@
 
 static void open_strikers(bench_case *c, const char *strikers, const char *stages, brc_precision precision)
 {
-    open_case(c, (case_options){.materials = STEEL, .fill = FILL, .gravity = strikers, .stages = stages, .precision = precision});
+    open_case(c, (case_options){.materials = STEEL, .fill = FILL, .gravity = strikers, .stages = stages, .precision = precision, .n_threads = 1, .no_contact = true});
     assert_done(c, brc_simulation_begin_stage(c->simulation, 0));
 }
 
@@ -227,7 +227,7 @@ static void a_shape_that_cannot_be_made_is_named(void **state)
 {
     (void)state;
     bench_case c;
-    const brc_status status = try_case(&c, (case_options){.materials = STEEL, .fill = FILL, .stages = STAGE("1"), .gravity =
+    const brc_status status = try_case(&c, (case_options){.no_contact = true, .materials = STEEL, .fill = FILL, .stages = STAGE("1"), .gravity =
                                        STRIKERS("  ring: {shape: {torus: {radius: 2 m, tube: 0.5 m, centre: [50 m, 0, 0]}}, facets: 12, material: steel}\n")});
     assert_int_equal(status, BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(c.context), "striker 'ring'"));
