@@ -15,6 +15,23 @@
 /* Component 0 of a row or of a lane of rows; the next are C further on. */
 #define RECORD_OF(row) ((row) / C * (RECORD * C) + (row) % C)
 
+/* A group's sums of x (x) f, and how near to failure they are. */
+LAW void fracture_put_record(int group, lane_sym3 virial, failure_scale scale, GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
+{
+    const brc_size to = (brc_size)SLICE_OF(group) * RECORD * C + (brc_size)FIRST_LANE_OF(group);
+    lane_store(record, to, virial.xx);
+    lane_store(record, to + C, virial.yy);
+    lane_store(record, to + 2 * C, virial.zz);
+    lane_store(record, to + 3 * C, virial.yz);
+    lane_store(record, to + 4 * C, virial.xz);
+    lane_store(record, to + 5 * C, virial.xy);
+    const lane volume = lane_load(record, to + 6 * C), inverse = lane_load(record, to + 7 * C);
+    const lane_sym3 stress = {inverse * virial.xx, inverse * virial.yy, inverse * virial.zz,
+                              inverse * virial.yz, inverse * virial.xz, inverse * virial.xy};
+    const lane bound = volume * failure_bound(stress, scale);
+    lane_store(reach, (brc_size)(group * W), bound);
+}
+
 /* As cbm_force_pass with the full law, and the records. */
 KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
@@ -40,19 +57,8 @@ KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, G
         virial = cbm_virial_of(virial);
         state_store3(force, group * W, sum.force);
         state_store3(torque, group * W, sum.torque);
-        const brc_size to = (brc_size)slice * RECORD * C + (brc_size)lane0;
-        lane_store(record, to, virial.xx);
-        lane_store(record, to + C, virial.yy);
-        lane_store(record, to + 2 * C, virial.zz);
-        lane_store(record, to + 3 * C, virial.yz);
-        lane_store(record, to + 4 * C, virial.xz);
-        lane_store(record, to + 5 * C, virial.xy);
         const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
-        const lane volume = lane_load(record, to + 6 * C), inverse = lane_load(record, to + 7 * C);
-        const lane_sym3 stress = {inverse * virial.xx, inverse * virial.yy, inverse * virial.zz,
-                                  inverse * virial.yz, inverse * virial.xz, inverse * virial.xy};
-        const lane bound = volume * failure_bound(stress, scale);
-        lane_store(reach, (brc_size)(group * W), bound);
+        fracture_put_record(group, virial, scale, record, reach);
     }
 }
 

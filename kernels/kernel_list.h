@@ -72,6 +72,13 @@
     X(contact_spheres)                                                                                                 \
     X(contact_gather_turning)                                                                                          \
     X(contact_marked)                                                                                                  \
+    X(cells_record)                                                                                                    \
+    X(cells_record_published)                                                                                          \
+    X(cells_mark_chosen)                                                                                               \
+    X(cells_weigh)                                                                                                     \
+    X(published_breaking_force)                                                                                        \
+    X(published_check)                                                                                                 \
+    X(published_rebuild)                                                                                               \
     X(fracture_force)                                                                                                  \
     X(fracture_stress)                                                                                                 \
     X(fracture_stress_second)                                                                                          \

@@ -31,3 +31,5 @@
 #include "scan.cl"
 #include "contact_search.cl"
 #include "contact.cl"
+#include "cell_criteria.cl"
+#include "published_breaks.cl"

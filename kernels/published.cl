@@ -46,8 +46,57 @@ LAW published_bond published_one_bond(lane_vec3 r, lane_vec3 jump, lane area, la
     return published_bond_law(r, jump, area, mean, quat_rotation_vector(turn, finite), lambda, mu, young, rotation_factor, finite);
 }
 
-/* Force [N] and torque about its own centre [N m] on every element [n][3]. lame_of [n][3]: lambda, mu, E of each element
- * for the neighbour's side (many materials: a bond takes the mean of its two ends). */
+/* Moduli of a bond: the mean of its two ends. lame_of [n][3]: lambda, mu, E of each element; only read with several materials. */
+typedef struct {
+    lane lambda, mu, young;
+} published_moduli;
+LAW published_moduli published_moduli_of(lane_int own, lane_int j, coeff lambda_one, coeff mu_one, coeff young_one, GLOBAL const coeff *restrict lame_of)
+{
+#if BRC_MANY_MATERIALS
+    const lane_int at = j * 3, at_own = own * 3;
+    return (published_moduli){REAL(0.5) * (gather_component(lame_of, at_own) + gather_component(lame_of, at)),
+                              REAL(0.5) * (gather_component(lame_of + 1, at_own) + gather_component(lame_of + 1, at)),
+                              REAL(0.5) * (gather_component(lame_of + 2, at_own) + gather_component(lame_of + 2, at))};
+#else
+    return (published_moduli){LANE_ZERO + lambda_one, LANE_ZERO + mu_one, LANE_ZERO + young_one};
+#endif
+}
+
+/* What the elements of a group bring to their bonds. */
+typedef struct {
+    lane_int row;
+    state_vec3 displacement;
+    lane_sym3 strain;
+    lane_quat orientation;
+} published_own;
+LAW published_own published_own_of(int group, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                                   GLOBAL const coeff *restrict strain)
+{
+    const lane_int own = lane_own(group * W);
+    return (published_own){own, state_gather3(displacement, own), lane_gather6(strain, own), lane_gather4(orientation, own)};
+}
+
+/* The bonds of a group in one slot of its rows. */
+LAW published_bond published_bond_at(int slot, int lane0, published_own own, GLOBAL const int *restrict neighbour,
+                                     GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
+                                     GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                                     GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
+                                     coeff rotation_factor, GLOBAL const coeff *restrict lame_of, int finite)
+{
+    const lane_int j = int_block(neighbour, slot, lane0);
+    rows_ahead3(branch, slot);
+    rows_ahead1(area, slot);
+    const lane_vec3 r = lane_block3(branch, slot, lane0);
+    const lane s = lane_load(area, (brc_size)slot * C + (brc_size)lane0);
+    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
+    const lane_sym3 e_j = lane_gather6(strain, j);
+    const lane_quat q_j = lane_gather4(orientation, j);
+    const published_moduli m = published_moduli_of(own.row, j, lambda_one, mu_one, young_one, lame_of);
+    return finite ? published_one_bond(r, jump, s, own.strain, e_j, own.orientation, q_j, m.lambda, m.mu, m.young, rotation_factor, 1)
+                  : published_one_bond(r, jump, s, own.strain, e_j, own.orientation, q_j, m.lambda, m.mu, m.young, rotation_factor, 0);
+}
+
+/* Force [N] and torque about its own centre [N m] on every element [n][3]. */
 KERNEL void published_force_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                                  GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
                                  GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
@@ -56,36 +105,17 @@ KERNEL void published_force_pass(int n_groups, GLOBAL const int *restrict row_st
                                  GLOBAL state *restrict force, GLOBAL state *restrict torque)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
-        const lane_int own = lane_own(first);
-        const state_vec3 u = state_gather3(displacement, own);
-        const lane_sym3 e = lane_gather6(strain, own);
-        const lane_quat q = lane_gather4(orientation, own);
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
+        const published_own own = published_own_of(group, displacement, orientation, strain);
         lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
         for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-            const lane_int j = int_block(neighbour, slot, lane0);
-            rows_ahead3(branch, slot);
-            rows_ahead1(area, slot);
-            const lane_vec3 r = lane_block3(branch, slot, lane0);
-            const lane s = lane_load(area, (brc_size)slot * C + (brc_size)lane0);
-            const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
-            const lane_sym3 e_j = lane_gather6(strain, j);
-            const lane_quat q_j = lane_gather4(orientation, j);
-#if BRC_MANY_MATERIALS
-            const lane_int at = j * 3, at_own = own * 3;
-            const lane lambda = REAL(0.5) * (gather_component(lame_of, at_own) + gather_component(lame_of, at));
-            const lane mu = REAL(0.5) * (gather_component(lame_of + 1, at_own) + gather_component(lame_of + 1, at));
-            const lane young = REAL(0.5) * (gather_component(lame_of + 2, at_own) + gather_component(lame_of + 2, at));
-#else
-            const lane lambda = LANE_ZERO + lambda_one, mu = LANE_ZERO + mu_one, young = LANE_ZERO + young_one;
-#endif
-            const published_bond b = finite ? published_one_bond(r, jump, s, e, e_j, q, q_j, lambda, mu, young, rotation_factor, 1)
-                                            : published_one_bond(r, jump, s, e, e_j, q, q_j, lambda, mu, young, rotation_factor, 0);
+            const published_bond b = published_bond_at(slot, lane0, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                                                       mu_one, young_one, rotation_factor, lame_of, finite);
             f = lane_vec3_add(f, b.force);
             t = lane_vec3_add(t, b.torque);
         }
-        state_store3(force, first, f);
-        state_store3(torque, first, t);
+        state_store3(force, group * W, f);
+        state_store3(torque, group * W, t);
     }
 }
 #undef MATERIAL

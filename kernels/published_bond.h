@@ -54,6 +54,7 @@ LAW lane_vec3 quat_rotation_vector(lane_quat q, int finite)
 typedef struct {
     lane_vec3 force;  /* [N] */
     lane_vec3 torque; /* about its own centre [N m] */
+    lane stress;      /* normal to the bond, n . sigma n, with which it may break (AGH19 eq. 35) [Pa] */
 } published_bond;
 
 /* branch, jump: reference branch and u_j - u_i [m]; area: S [m^2]; strain: mean of the two ends, global frame [-];
@@ -70,12 +71,13 @@ LAW published_bond published_bond_law(lane_vec3 branch, lane_vec3 jump, lane are
     const lane stretch = finite ? (REAL(2) * lane_vec3_dot(branch, jump) + lane_vec3_dot(jump, jump)) / (length0 * (length + length0))
                                 : lane_vec3_dot(n, jump) / length0;
     const lane_vec3 en = lane_sym3_mul_vec(strain, n);
-    const lane correction = stretch - lane_vec3_dot(en, n);
+    const lane along = lane_vec3_dot(en, n), correction = stretch - along;
     const lane normal = REAL(2) * mu * correction + lambda * (lane_sym3_trace(strain) + correction);
     const lane_vec3 f = lane_vec3_scale(area, lane_vec3_add(lane_vec3_scale(REAL(2) * mu, en), lane_vec3_scale(normal, n)));
     const lane stiffness = REAL(0.0795774715459476678844) * rotation_factor * young * area * area / length0; /* 1/(4 pi) */
     const lane one_half = LANE_ZERO + REAL(0.5);
-    return (published_bond){f, lane_vec3_add(lane_vec3_cross(lane_vec3_scale(one_half, now), f), lane_vec3_scale(stiffness, turn))};
+    return (published_bond){f, lane_vec3_add(lane_vec3_cross(lane_vec3_scale(one_half, now), f), lane_vec3_scale(stiffness, turn)),
+                            REAL(2) * mu * along + normal};
 }
 
 #endif

@@ -1,6 +1,5 @@
-#include "cell_breaks.h"
+#include "cell_breaks_internal.h"
 #include "consistent.h"
-#include "fracture_internal.h"
 #include "strengths.h"
 #include "strikers_internal.h"
 #include "sym3.h"
@@ -11,23 +10,21 @@
 static const double support_share = 0.2, support_least = 0.05;
 static const double never = 1e30; /* CELLS_NEVER of kernels/cells.cl */
 
-struct brc_cell_breaks {
-    brc_kernel *gradient, *check, *ratio, *break_pass, *rebuild, *share;
-    brc_buffer *limit, *twin, *alive, *mark, *measure;              /* [n_slots][C] */
-    brc_buffer *modulus, *misfit, *least, *support, *stiffest, *changed; /* [n_rows] */
-    brc_buffer *weight, *found;                                     /* [n_rows] */
-};
-
 /* ---- what is made once ---- */
+
+static bool is_bond_normal(const brc_simulation *s) { return brc_criterion_of(&s->scene->fracture, s->scene->model.kind) == BRC_CRITERION_BOND_NORMAL; }
 
 static brc_status find_kernels(brc_simulation *s, brc_cell_breaks *c)
 {
+    const bool by_bond = brc_is_dlsm(s) && !c->by_element;
     const struct {
         brc_kernel **slot;
         const char *name;
-    } wanted[] = {{&c->gradient, "cells_gradient"}, {&c->check, "cells_check"}, {&c->ratio, "cells_ratio"},
-                  {&c->break_pass, "cells_break"}, {&c->rebuild, "cells_rebuild"}, {&c->share, "cells_share"}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+        bool wanted;
+    } wanted[] = {{&c->gradient, "cells_gradient", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
+                  {&c->break_pass, "cells_break", true}, {&c->rebuild, "cells_rebuild", brc_is_dlsm(s)}, {&c->share, "cells_share", true}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
+        if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     return BRC_OK;
 }
 
@@ -161,7 +158,7 @@ static brc_status create_arrays(brc_simulation *s)
     BRC_TRY(brc_buffer_create(s->device, &c->mark, 4 * entries, "marked bonds"));
     BRC_TRY(brc_buffer_create(s->device, &c->changed, 4 * n, "changed elements"));
     BRC_TRY(brc_new_coeff(s, &c->measure, entries, "stresses of marked bonds"));
-    BRC_TRY(brc_new_coeff(s, &c->misfit, n, "misfits"));
+    if (brc_is_dlsm(s) && !c->by_element) BRC_TRY(brc_new_coeff(s, &c->misfit, n, "misfits"));
     BRC_TRY(brc_new_state(s, &c->weight, n, "weights of broken bonds"));
     BRC_TRY(brc_new_state(s, &c->found, n, "marks of elements"));
     BRC_TRY(brc_buffer_create(s->device, &f->break_step, 4 * entries, "steps of breaks"));
@@ -172,18 +169,19 @@ static brc_status create_arrays(brc_simulation *s)
     return brc_new_state(s, &f->broken, n, "broken bonds");
 }
 
-int64_t brc_cell_breaks_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
+int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
 {
-    return n * (5 * coeff_bytes + 4 + 4 * state_bytes) + entries * (16 + 5 * coeff_bytes);
+    const bool dlsm = scene->model.kind == BRC_MODEL_DLSM;
+    const bool by_element = brc_criterion_of(&scene->fracture, scene->model.kind) != BRC_CRITERION_BOND_NORMAL;
+    int64_t bytes = n * ((dlsm ? 4 : 2) * coeff_bytes + 4 + 4 * state_bytes) + entries * (16 + 5 * coeff_bytes);
+    if (by_element) bytes += n * (21 * coeff_bytes + 4) + (dlsm ? 3 * entries * coeff_bytes : 0);
+    else bytes += n * coeff_bytes;
+    return bytes;
 }
 
 static brc_status check_scene(const brc_simulation *s)
 {
-    const brc_criterion_kind kind = brc_criterion_of(&s->scene->fracture, s->scene->model.kind);
-    if (kind != BRC_CRITERION_BOND_NORMAL || !brc_is_dlsm(s))
-        return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                        "fracture: bonds of model %s break by criterion bond-normal of model dlsm only in this version; use `criterion: bond-normal` and "
-                        "model dlsm, or model cbm", brc_model_name(s->scene->model.kind));
+    if (!is_bond_normal(s)) return BRC_OK; /* limits of elements have rules of their own (fracture.c) */
     for (int32_t b = 0; b < s->scene->n_bodies; ++b)
         for (int32_t r = 0; r <= brc_body_n_regions(&s->scene->bodies[b]); ++r) {
             const brc_material *m = &s->scene->materials[brc_body_material(&s->scene->bodies[b], r)];
@@ -202,13 +200,16 @@ brc_status brc_cell_breaks_create(brc_simulation *s)
     BRC_TRY(check_scene(s));
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture, 1, "fracture"));
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells, 1, "fracture"));
+    s->fracture->cells->by_element = !is_bond_normal(s);
     BRC_TRY(find_kernels(s, s->fracture->cells));
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
     if (strengths.softens)
         BRC_TRY_OR(cleanup, BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: bonds of cells do not soften in this version; remove `fracture_energy`"));
     BRC_TRY_OR(cleanup, upload_bonds(s, strengths.tension));
-    BRC_TRY_OR(cleanup, upload_elements(s));
+    if (brc_is_dlsm(s)) BRC_TRY_OR(cleanup, upload_elements(s));
     BRC_TRY_OR(cleanup, create_arrays(s));
+    if (brc_is_published(s)) BRC_TRY_OR(cleanup, brc_published_breaks_create(s));
+    if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
 cleanup:
     brc_strengths_free(&strengths);
     return status;
@@ -218,13 +219,16 @@ void brc_cell_breaks_free(brc_simulation *s)
 {
     brc_cell_breaks *c = s->fracture->cells;
     if (!c) return;
-    brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->misfit, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found};
+    brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->misfit, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found,
+                          &c->branch, &c->reach};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     brc_memory_free(c);
     s->fracture->cells = NULL;
 }
 
 /* ---- the step ---- */
+
+bool brc_cell_breaks_by_bond(const brc_simulation *s) { return s->fracture && s->fracture->cells && !s->fracture->cells->by_element; }
 
 brc_status brc_cell_breaks_gradients(brc_simulation *s, brc_buffer *displacement)
 {
@@ -237,6 +241,8 @@ brc_status brc_cell_breaks_gradients(brc_simulation *s, brc_buffer *displacement
 static brc_status mark_bonds(brc_simulation *s, double share, double *n)
 {
     brc_cell_breaks *c = s->fracture->cells;
+    if (c->by_element) return brc_cell_criteria_mark(s, n);
+    if (brc_is_published(s)) return brc_published_breaks_mark(s, share, n);
     BRC_TRY(BRC_LAUNCH(c->check, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(share), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress),
                        BRC_BUF(c->modulus), BRC_BUF(c->misfit), BRC_BUF(c->least), BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure),
@@ -252,10 +258,12 @@ static brc_status break_marked(brc_simulation *s)
     const int32_t n = s->layout->n_rows;
     double left = 1;
     for (int round = 0; left > 0; ++round) {
-        BRC_TRY(BRC_LAUNCH(c->break_pass, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_INT(round == 0), BRC_INT(3), BRC_BUF(s->row_start),
+        BRC_TRY(BRC_LAUNCH(c->break_pass, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_INT(round == 0), BRC_INT(brc_is_dlsm(s) ? 3 : 1),
+                           BRC_BUF(s->row_start),
                            BRC_BUF(c->twin), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->alive), BRC_BUF(s->neighbour), BRC_BUF(s->area),
                            BRC_BUF(s->ratio), BRC_BUF(c->limit), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
                            BRC_BUF(f->break_energy), BRC_BUF(c->weight), BRC_BUF(c->changed), BRC_BUF(f->broken)));
+        if (brc_is_published(s)) return brc_published_breaks_rebuild(s); /* its elements hang on by any bond */
         BRC_TRY(BRC_LAUNCH(c->rebuild, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(c->alive),
                            BRC_BUF(c->limit), BRC_BUF(s->inv_volume), BRC_BUF(c->support), BRC_BUF(c->stiffest), BRC_BUF(c->changed), BRC_BUF(c->least),
                            BRC_BUF(s->inv_shape), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->found)));
@@ -264,13 +272,16 @@ static brc_status break_marked(brc_simulation *s)
     return BRC_OK;
 }
 
-/* Velocities gain kick times force over mass. */
+/* Velocities gain kick times force over mass, spins likewise. */
 static brc_status kick(brc_simulation *s, double by)
 {
     const int32_t n = s->layout->n_rows;
     if (by == 0) return BRC_OK;
     BRC_TRY(BRC_LAUNCH(s->kernel.advance, n, BRC_INT(n), BRC_STATE(by), BRC_STATE(0), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(s->velocity),
                        BRC_BUF(s->displacement)));
+    if (brc_turns(s))
+        BRC_TRY(BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(by), BRC_STATE(0), BRC_STATE(0), BRC_BUF(s->inertia),
+                           BRC_BUF(s->torque), BRC_BUF(s->spin), BRC_BUF(s->orientation)));
     return s->strikers ? brc_strikers_advance(s, by, 0, 0, false) : BRC_OK;
 }
 
@@ -293,10 +304,12 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(held_energy(s, &before));
     BRC_TRY(kick(s, half_kick)); /* the step closes with the force of the whole bonds ... */
     BRC_TRY(break_marked(s));
+    if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(kick(s, -half_kick)); /* ... and the next one opens with that of those that are left */
     BRC_TRY(held_energy(s, &after));
     BRC_TRY(brc_vector_sum(s, f->cells->weight, n, &weight));
+    if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */
     return BRC_LAUNCH(f->cells->share, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_STATE((before - after) / weight), BRC_BUF(s->row_start),
                       BRC_BUF(f->break_step), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy), BRC_BUF(f->lost));
 }
@@ -328,6 +341,8 @@ brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out)
     double *value = NULL;
     brc_status status = BRC_OK;
     *out = 0;
+    if (c->by_element) return brc_cell_criteria_ratio(s, out);
+    if (brc_is_published(s)) return brc_published_breaks_ratio(s, out);
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, s->layout->n_rows, "failure ratios"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
     BRC_TRY_OR(cleanup, BRC_LAUNCH(c->ratio, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area),

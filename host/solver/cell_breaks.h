@@ -10,8 +10,10 @@ typedef struct brc_cell_breaks brc_cell_breaks;
 brc_status brc_cell_breaks_create(brc_simulation *s);
 /* What brc_fracture_free does not know. */
 void brc_cell_breaks_free(brc_simulation *s);
-/* Device bytes it takes (n elements, entries of the layout). */
-int64_t brc_cell_breaks_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
+/* Device bytes it takes in a scene with fracture (n elements, entries of the layout). */
+int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
+/* Bonds break by a stress of their own, for which the forces of the full law are found by the next function or brc_published_breaks_force. */
+bool brc_cell_breaks_by_bond(const brc_simulation *s);
 /* dlsm: the displacement gradients of the state, with what the check needs. */
 brc_status brc_cell_breaks_gradients(brc_simulation *s, brc_buffer *displacement);
 /* After the forces of a step: bonds above `share` of their limit break (1: those that fail). half_kick: dt/2 where the step's velocities still

@@ -1,5 +1,5 @@
 /* One evaluation of the forces of a model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2, design-cbm.md). */
-#include "cell_breaks.h"
+#include "cell_breaks_internal.h"
 #include "contact.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
@@ -15,7 +15,7 @@ static bool has_face_loads(const brc_simulation *s) { return s->loads.held.n_fac
 static brc_status dlsm_gradients(brc_simulation *s, const brc_force_request *r)
 {
     brc_held_faces *h = &s->loads.held;
-    if (s->fracture && r->finite) BRC_TRY(brc_cell_breaks_gradients(s, r->displacement));
+    if (brc_cell_breaks_by_bond(s) && r->finite) BRC_TRY(brc_cell_breaks_gradients(s, r->displacement));
     else
         BRC_TRY(BRC_LAUNCH(s->kernel.gradient, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                            BRC_BUF(s->area), BRC_BUF(r->displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient)));
@@ -108,6 +108,7 @@ static brc_status published_evaluate(brc_simulation *s, const brc_force_request 
                        BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->area),
                        BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(r->displacement), BRC_BUF(r->orientation),
                        BRC_BUF(s->inv_shape), BRC_INT(finite), BRC_BUF(s->gradient)));
+    if (brc_cell_breaks_by_bond(s) && r->finite) return brc_published_breaks_force(s, r);
     return BRC_LAUNCH(s->kernel.published_force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start),
                       BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->area), BRC_BUF(r->displacement),
                       BRC_BUF(r->orientation), BRC_BUF(s->gradient), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),

@@ -69,6 +69,10 @@ static brc_status limits_of(brc_simulation *s, const brc_material *m, int32_t bo
     if (criterion(s) == BRC_CRITERION_PRINCIPAL && !(m->tension > 0 || m->compression > 0 || m->beam_strength > 0 || m->beam_compression > 0))
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
                         "fracture: material '%s' has no strength; give it `strength: {tension: 50 MPa}`, or one so large that it never breaks", m->name);
+    if (!brc_is_beams(s)) { /* the stress of a cell is that of the solid */
+        limit[0] = m->tension, limit[1] = m->compression, limit[2] = shear;
+        return BRC_OK;
+    }
     const bool by_law = (m->tension > 0 && !(m->beam_strength > 0)) || (m->compression > 0 && !(m->beam_compression > 0)) || shear > 0;
     if (by_law) {
         BRC_TRY(strength_ratio(s, m, body, radius_ratio, &k));
@@ -99,13 +103,13 @@ static brc_status find_limits(brc_simulation *s)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->fracture->limit, 3 * d->n_elements, "limits of elements"));
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0;
-        mean[b] += d->radius[e];
+        if (d->radius) mean[b] += d->radius[e];
         count[b] += 1;
     }
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0, m = s->material_of_element[e], at = b * n_materials + m;
-        if (!known[at])
-            BRC_TRY_OR(cleanup, limits_of(s, &s->scene->materials[m], b, brc_beam_of_element(s, e)->radius * (double)count[b] / mean[b], shear, pair + 3 * at));
+        const double radius_ratio = brc_is_beams(s) && !known[at] ? brc_beam_of_element(s, e)->radius * (double)count[b] / mean[b] : 0;
+        if (!known[at]) BRC_TRY_OR(cleanup, limits_of(s, &s->scene->materials[m], b, radius_ratio, shear, pair + 3 * at));
         known[at] = true;
         memcpy(s->fracture->limit + 3 * e, pair + 3 * at, 3 * sizeof *pair);
     }
@@ -119,6 +123,11 @@ cleanup:
 
 /* ---- arrays ---- */
 
+double brc_fracture_volume(const brc_domain *d, int64_t e)
+{
+    return 2 * d->volume[e] / (d->quality.volume_fraction > 0 ? d->quality.volume_fraction : 1);
+}
+
 /* Limits, and the volumes in the records. */
 static brc_status upload_rows(brc_simulation *s)
 {
@@ -131,7 +140,7 @@ static brc_status upload_rows(brc_simulation *s)
     for (int64_t r = 0; r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
         double *volume = record + (8 * (r / layout->slice) + 6) * layout->slice + r % layout->slice;
-        volume[0] = e < 0 ? 1 : 2 * d->volume[e] / d->quality.volume_fraction;
+        volume[0] = e < 0 ? 1 : brc_fracture_volume(d, e);
         volume[layout->slice] = 1 / volume[0];
         for (int c = 0; e >= 0 && c < 3; ++c) limit[3 * r + c] = s->fracture->limit[3 * (int64_t)e + c];
     }
@@ -148,23 +157,17 @@ static brc_status new_int(brc_simulation *s, brc_buffer **out, int64_t count, co
     return brc_buffer_create(s->device, out, count * 4, what);
 }
 
+/* What beams have beside; cells have arrays of their own (cell_breaks.c). */
 static brc_status create_arrays(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
     const int64_t n = s->layout->n_rows, entries = s->layout->n_slots * s->layout->slice;
-    BRC_TRY(brc_fracture_bound(s));
-    BRC_TRY(brc_new_coeff(s, &f->record, 8 * n, "virial records"));
-    BRC_TRY(brc_new_coeff(s, &f->stress, 6 * n, "virial stresses"));
-    BRC_TRY(brc_new_coeff(s, &f->limits, 3 * n, "limits"));
-    BRC_TRY(new_int(s, &f->choice, n, "chosen bonds"));
-    BRC_TRY(brc_new_coeff(s, &f->measure, n, "stresses at failure"));
     BRC_TRY(new_int(s, &f->break_step, entries, "steps of breaks"));
     BRC_TRY(new_int(s, &f->break_mode, entries, "modes of breaks"));
     BRC_TRY(brc_new_coeff(s, &f->break_stress, entries, "stresses of breaks"));
     BRC_TRY(brc_new_coeff(s, &f->break_energy, entries, "energies of breaks"));
     BRC_TRY(brc_new_state(s, &f->lost, n, "energy of broken bonds"));
-    BRC_TRY(brc_new_state(s, &f->broken, n, "broken bonds"));
-    return upload_rows(s);
+    return brc_new_state(s, &f->broken, n, "broken bonds");
 }
 
 int64_t brc_fracture_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
@@ -178,9 +181,12 @@ static brc_status find_kernels(brc_simulation *s)
     const struct {
         brc_kernel **slot;
         const char *name;
-    } wanted[] = {{&f->force, "fracture_force"}, {&f->stress_pass, "fracture_stress"}, {&f->stress_second, "fracture_stress_second"},
-                  {&f->check, "fracture_check"}, {&f->choose, "fracture_choose"}, {&f->ratio, "fracture_ratio"}, {&f->break_pass, "fracture_break"}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+        bool wanted;
+    } wanted[] = {{&f->force, "fracture_force", brc_is_beams(s)}, {&f->stress_pass, "fracture_stress", true},
+                  {&f->stress_second, "fracture_stress_second", true}, {&f->check, "fracture_check", true}, {&f->choose, "fracture_choose", true},
+                  {&f->ratio, "fracture_ratio", true}, {&f->break_pass, "fracture_break", brc_is_beams(s)}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
+        if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     return BRC_OK;
 }
 
@@ -197,20 +203,35 @@ static int64_t most_members(const brc_domain *d)
     return most;
 }
 
+brc_status brc_fracture_create_elements(brc_simulation *s, brc_buffer *branch)
+{
+    brc_breaking *f = s->fracture;
+    const int64_t n = s->layout->n_rows;
+    if (s->layout->n_rows >= MOST_ROWS)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: %d elements are more than the %d that can break", (int)s->layout->n_rows, MOST_ROWS);
+    if (s->scene->fracture.level == 2 && most_members(s->domain) > MOST_MEMBERS)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "fracture: some element may have %lld others within two shells, level 2 counts up to %d; use level 1%s",
+                        (long long)most_members(s->domain), MOST_MEMBERS, brc_is_beams(s) ? " or a lower coordination number" : "");
+    f->branch = branch;
+    BRC_TRY(find_kernels(s));
+    BRC_TRY(find_limits(s));
+    BRC_TRY(brc_fracture_bound(s));
+    BRC_TRY(brc_new_coeff(s, &f->record, 8 * n, "virial records"));
+    BRC_TRY(brc_new_coeff(s, &f->stress, 6 * n, "virial stresses"));
+    BRC_TRY(brc_new_coeff(s, &f->limits, 3 * n, "limits"));
+    BRC_TRY(new_int(s, &f->choice, n, "chosen bonds"));
+    BRC_TRY(brc_new_coeff(s, &f->measure, n, "stresses at failure"));
+    return upload_rows(s);
+}
+
 brc_status brc_fracture_create(brc_simulation *s)
 {
     if (!brc_is_beams(s)) return brc_cell_breaks_create(s);
     if (criterion(s) == BRC_CRITERION_BOND_NORMAL)
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: the criterion bond-normal is for cells; use virial-principal with model cbm");
-    if (s->layout->n_rows >= MOST_ROWS)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: %d elements are more than the %d that can break", (int)s->layout->n_rows, MOST_ROWS);
-    if (s->scene->fracture.level == 2 && most_members(s->domain) > MOST_MEMBERS)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                        "fracture: some element may have %lld others within two shells, level 2 counts up to %d; use level 1 or a lower coordination number",
-                        (long long)most_members(s->domain), MOST_MEMBERS);
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture, 1, "fracture"));
-    BRC_TRY(find_kernels(s));
-    BRC_TRY(find_limits(s));
+    BRC_TRY(brc_fracture_create_elements(s, s->offset));
     return create_arrays(s);
 }
 
@@ -254,20 +275,19 @@ static brc_status find_stress(brc_simulation *s)
                       BRC_BUF(f->record), BRC_BUF(f->stress));
 }
 
-/* Which bond each element loses. */
-static brc_status choose(brc_simulation *s, int32_t moment)
+brc_status brc_fracture_choose(brc_simulation *s, int32_t moment)
 {
     brc_breaking *f = s->fracture;
     const int32_t n = s->layout->n_rows, level = s->scene->fracture.level;
     if (level < 2)
         return BRC_LAUNCH(f->check, s->n_groups, BRC_INT(s->n_groups), BRC_INT(level), BRC_INT(moment), BRC_INT(is_drucker_prager(s)),
                           BRC_COEFF(f->slope), BRC_COEFF(f->friction), BRC_INT(f->weighted ? 1 : 0), BRC_BUF(s->row_start),
-                          BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->displacement), BRC_BUF(f->limits), BRC_BUF(f->factor),
+                          BRC_BUF(s->neighbour), BRC_BUF(f->branch), BRC_BUF(s->displacement), BRC_BUF(f->limits), BRC_BUF(f->factor),
                           BRC_BUF(f->weakest), BRC_BUF(f->record), BRC_BUF(f->reach), BRC_BUF(f->ease), BRC_BUF(f->weight),
                           BRC_BUF(f->choice), BRC_BUF(f->measure), BRC_BUF(f->mark));
     BRC_TRY(find_stress(s));
     return BRC_LAUNCH(f->choose, n, BRC_INT(n), BRC_INT(moment), BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_COEFF(f->friction),
-                      BRC_INT(f->weighted ? 1 : 0), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
+                      BRC_INT(f->weighted ? 1 : 0), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->branch),
                       BRC_BUF(s->displacement), BRC_BUF(f->limits), BRC_BUF(f->factor), BRC_BUF(f->weakest), BRC_BUF(f->stress),
                       BRC_BUF(f->choice), BRC_BUF(f->measure), BRC_BUF(f->mark));
 }
@@ -278,7 +298,7 @@ brc_status brc_fracture_step(brc_simulation *s, double half_kick)
     const brc_beam *b = brc_beam_of_element(s, 0);
     const int32_t moment = (int32_t)brc_fracture_moment(s);
     if (f->cells) return brc_cell_breaks_step(s, half_kick, 1);
-    BRC_TRY(choose(s, moment));
+    BRC_TRY(brc_fracture_choose(s, moment));
     BRC_TRY(BRC_LAUNCH(f->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(s->scene->fracture.level), BRC_INT(moment),
                       BRC_STATE(half_kick), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->ratio),
                       BRC_BUF(f->mark), BRC_BUF(f->record), BRC_BUF(f->weight), BRC_BUF(f->choice), BRC_BUF(f->measure),
@@ -296,21 +316,19 @@ brc_status brc_fracture_lost(brc_simulation *s, double *out)
     return s->fracture ? brc_vector_sum(s, s->fracture->lost, s->layout->n_rows, out) : BRC_OK;
 }
 
-brc_status brc_simulation_failure_ratio(brc_simulation *s, double *out)
+brc_status brc_fracture_ratio(brc_simulation *s, double *out)
 {
     const int32_t n = s->layout->n_rows;
     brc_buffer *ratio = NULL;
     double *value = NULL;
     brc_status status = BRC_OK;
     *out = 0;
-    if (!s->fracture) return BRC_FAIL(s->context, BRC_BAD_INPUT, "the scene has no `fracture`, so nothing limits its stress");
-    if (s->fracture->cells) return brc_cell_breaks_failure_ratio(s, out);
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, n, "failure ratios"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
     BRC_TRY_OR(cleanup, find_stress(s));
     BRC_TRY_OR(cleanup, BRC_LAUNCH(s->fracture->ratio, n, BRC_INT(n), BRC_INT(is_drucker_prager(s)), BRC_COEFF(s->fracture->slope),
                                    BRC_COEFF(s->fracture->friction), BRC_INT(s->fracture->weighted ? 1 : 0), BRC_BUF(s->row_start),
-                                   BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->displacement), BRC_BUF(s->fracture->limits),
+                                   BRC_BUF(s->neighbour), BRC_BUF(s->fracture->branch), BRC_BUF(s->displacement), BRC_BUF(s->fracture->limits),
                                    BRC_BUF(s->fracture->factor), BRC_BUF(s->fracture->stress), BRC_BUF(ratio)));
     BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
     for (int64_t e = 0; e < s->domain->n_elements; ++e) *out = fmax(*out, value[e]);
@@ -318,6 +336,13 @@ cleanup:
     brc_buffer_free(&ratio);
     brc_memory_free(value);
     return status;
+}
+
+brc_status brc_simulation_failure_ratio(brc_simulation *s, double *out)
+{
+    *out = 0;
+    if (!s->fracture) return BRC_FAIL(s->context, BRC_BAD_INPUT, "the scene has no `fracture`, so nothing limits its stress");
+    return s->fracture->cells ? brc_cell_breaks_failure_ratio(s, out) : brc_fracture_ratio(s, out);
 }
 
 double brc_simulation_element_strength(const brc_simulation *s, int64_t e) { return s->fracture && s->fracture->limit ? s->fracture->limit[3 * e] : 0; }

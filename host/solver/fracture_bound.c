@@ -26,8 +26,6 @@ static double ease_of(const double *limit, const double smallest[3])
     return ease;
 }
 
-static double volume_of(const brc_domain *d, int64_t e) { return 2 * d->volume[e] / d->quality.volume_fraction; }
-
 static brc_status upload_bounds(brc_simulation *s, const double *weakest)
 {
     brc_breaking *f = s->fracture;
@@ -45,8 +43,8 @@ static brc_status upload_bounds(brc_simulation *s, const double *weakest)
         weight[r] = 1;
         if (e < 0) continue;
         ease[r] = MARGIN * (weakest ? weakest[r] : 1) * ease_of(f->limit + 3 * e, smallest);
-        weight[r] = volume_of(d, e);
-        for (int64_t h = d->row_start[e]; s->scene->fracture.level > 0 && h < d->row_start[e + 1]; ++h) weight[r] += volume_of(d, d->neighbour[h]);
+        weight[r] = brc_fracture_volume(d, e);
+        for (int64_t h = d->row_start[e]; s->scene->fracture.level > 0 && h < d->row_start[e + 1]; ++h) weight[r] += brc_fracture_volume(d, d->neighbour[h]);
     }
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->ease, n, "bounds of stress"));
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->weight, n, "bounds of stress"));

@@ -20,6 +20,7 @@ struct brc_breaking {
     brc_buffer *break_step, *break_mode, *break_stress, *break_energy;   /* [n_slots][C] */
     brc_buffer *lost, *broken;                                           /* [n_rows] */
     brc_buffer *reach, *ease, *weight, *mark;                            /* kernels/fracture.cl */
+    brc_buffer *branch;                                                  /* [n_slots][3][C] of its elements' bonds; borrowed */
     brc_buffer *factor, *weakest;                                        /* only if weighted */
     bool weighted;     /* bonds differ in strength */
     double scale[3];   /* 1 / smallest limit of tension, compression, shear; 0: none [1/Pa] */
@@ -37,6 +38,13 @@ struct brc_breaking {
 /* Arrays, limits and kernels; refuses models and materials that cannot break. */
 brc_status brc_fracture_create(brc_simulation *s);
 void brc_fracture_free(brc_simulation *s);
+/* Criteria of elements: limits, records and kernels, for beams and cells. branch: borrowed for as long as the simulation lives. */
+brc_status brc_fracture_create_elements(brc_simulation *s, brc_buffer *branch);
+/* Twice the volume that an element's stress stands for, with its share of the voids [m^3]. */
+double brc_fracture_volume(const brc_domain *domain, int64_t e);
+/* Of records as they stand: the bond each element loses, choice and measure; and the largest ratio of failure. */
+brc_status brc_fracture_choose(brc_simulation *s, int32_t moment);
+brc_status brc_fracture_ratio(brc_simulation *s, double *out);
 /* Strengths of bonds, and bounds of stress (fracture_bound.c); the limits of the elements are there. */
 brc_status brc_fracture_bound(brc_simulation *s);
 void brc_fracture_bound_free(brc_simulation *s);

@@ -178,7 +178,7 @@ int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *
         return brc_contact_bytes(scene, n, entries, state) + (scene->has_fracture ? brc_fracture_bytes(n, entries, state, coeff) : 0) + entries * (4 + 4 * coeff) + n / slice * 8 + n * ((3 + 3 + 3 + 1 + 2 + 4 + 3 + 3 + 1 + (tchamwa ? 4 : 0) + (damped ? 1 : 0) + (scene->has_gravity ? 1 : 0)) * state + (many ? 3 : 0) * coeff);
     for (int64_t e = 0; domain->free_start && e < domain->n_elements; ++e) boundary += domain->free_start[e + 1] > domain->free_start[e];
     boundary = boundary + boundary / 8 < n ? boundary + boundary / 8 : n; /* blocks are whole slices */
-    int64_t bytes = brc_contact_bytes(scene, n, entries, state) + (scene->has_fracture ? brc_cell_breaks_bytes(n, entries, state, coeff) : 0) + entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
+    int64_t bytes = brc_contact_bytes(scene, n, entries, state) + (scene->has_fracture ? brc_cell_breaks_bytes(scene, n, entries, state, coeff) : 0) + entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
     if (tchamwa) bytes += n * 4 * state;
     if (damped) bytes += n * state;
     if (scene->has_gravity) bytes += n * state;

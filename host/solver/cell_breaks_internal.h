@@ -1,0 +1,40 @@
+/* Fracture of cells, shared by its files: bonds by their normal stress in dlsm (cell_breaks.c) and dlsm-published (published_breaks.c), elements by
+ * their own stress in both (cell_criteria.c). */
+#ifndef BRC_SOLVER_CELL_BREAKS_INTERNAL_H
+#define BRC_SOLVER_CELL_BREAKS_INTERNAL_H
+
+#include "cell_breaks.h"
+#include "fracture_internal.h"
+
+struct brc_cell_breaks {
+    brc_kernel *gradient, *check, *ratio, *break_pass, *rebuild, *share;
+    brc_buffer *limit, *twin, *alive, *mark, *measure;              /* [n_slots][C] */
+    brc_buffer *modulus, *misfit, *least, *support, *stiffest, *changed; /* [n_rows] */
+    brc_buffer *weight, *found;                                     /* [n_rows] */
+    bool by_element;                          /* criteria of elements: what follows, and the arrays of kernels/fracture.cl */
+    brc_kernel *record, *mark_chosen, *weigh; /* kernels/cell_criteria.cl */
+    brc_buffer *branch;                       /* dlsm: [n_slots][3][C], owned */
+    brc_kernel *breaking_force;               /* dlsm-published: kernels/published_breaks.cl */
+    brc_buffer *reach;                        /* [n_rows] */
+};
+
+/* ---- published_breaks.c: bonds of dlsm-published by their normal stress ---- */
+brc_status brc_published_breaks_create(brc_simulation *s);
+/* Forces of the full law, with what the next two need. */
+brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request *r);
+/* Bonds above share of their limit are marked; *n: marks. */
+brc_status brc_published_breaks_mark(brc_simulation *s, double share, double *n);
+/* Least squares of elements that lost bonds, by either criterion. */
+brc_status brc_published_breaks_rebuild(brc_simulation *s);
+/* The largest ratio of stress to limit. */
+brc_status brc_published_breaks_ratio(brc_simulation *s, double *out);
+
+/* ---- cell_criteria.c: elements by their stress ---- */
+brc_status brc_cell_criteria_create(brc_simulation *s);
+/* Bonds that failing elements choose are marked; *n: elements that fail. */
+brc_status brc_cell_criteria_mark(brc_simulation *s, double *n);
+/* After bonds broke: who is whose neighbour. */
+brc_status brc_cell_criteria_settle(brc_simulation *s);
+brc_status brc_cell_criteria_ratio(brc_simulation *s, double *out);
+
+#endif

@@ -1,0 +1,76 @@
+/* Cells that fail by criteria of elements (NAH19 section 2.2 and the limits on shear that it proposes), with a cell's own stress in place of the virial of
+ * beams: passes of kernels/cell_criteria.cl before and after those of kernels/fracture.cl. */
+#include "cell_breaks_internal.h"
+
+/* dlsm stores areas and ratios in place of branches. */
+static brc_status upload_branches(brc_simulation *s, brc_buffer **out)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int64_t slice = layout->slice;
+    double *rows = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &rows, 3 * layout->n_slots * slice, "branches"));
+    for (int64_t k = 0; k < layout->n_slots * slice; ++k) {
+        const int32_t h = layout->half_edge[k];
+        for (int c = 0; c < 3; ++c)
+            rows[(k / slice * 3 + c) * slice + k % slice] =
+                h < 0 ? c == 0 : d->position[3 * (int64_t)d->neighbour[h] + c] - d->position[3 * (int64_t)d->neighbour[d->twin[h]] + c];
+    }
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, out, 3 * layout->n_slots * slice, "branches"));
+    status = brc_upload_coeff(s, *out, rows, 3 * layout->n_slots * slice);
+cleanup:
+    brc_memory_free(rows);
+    return status;
+}
+
+brc_status brc_cell_criteria_create(brc_simulation *s)
+{
+    brc_cell_breaks *c = s->fracture->cells;
+    if (brc_is_dlsm(s)) BRC_TRY(upload_branches(s, &c->branch));
+    BRC_TRY(brc_fracture_create_elements(s, brc_is_dlsm(s) ? c->branch : s->offset));
+    BRC_TRY(brc_kernel_find(s->device, brc_is_dlsm(s) ? "cells_record" : "cells_record_published", &c->record));
+    BRC_TRY(brc_kernel_find(s->device, "cells_mark_chosen", &c->mark_chosen));
+    return brc_kernel_find(s->device, "cells_weigh", &c->weigh);
+}
+
+/* Records of the state as the last forces left it. */
+static brc_status record(brc_simulation *s)
+{
+    const brc_breaking *f = s->fracture;
+    const brc_elastic *m = s->elastic + s->material_of_element[0];
+    const int drucker_prager = s->scene->fracture.kind == BRC_CRITERION_DRUCKER_PRAGER;
+    if (brc_is_dlsm(s))
+        return BRC_LAUNCH(f->cells->record, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_COEFF(f->scale[0]),
+                          BRC_COEFF(f->scale[1]), BRC_COEFF(f->scale[2]), BRC_INT(drucker_prager), BRC_COEFF(f->slope), BRC_BUF(f->record),
+                          BRC_BUF(f->reach));
+    return BRC_LAUNCH(f->cells->record, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->gradient), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
+                      BRC_COEFF(m->young), BRC_BUF(s->lame_of), BRC_COEFF(f->scale[0]), BRC_COEFF(f->scale[1]), BRC_COEFF(f->scale[2]),
+                      BRC_INT(drucker_prager), BRC_COEFF(f->slope), BRC_BUF(f->record), BRC_BUF(f->reach));
+}
+
+brc_status brc_cell_criteria_mark(brc_simulation *s, double *n)
+{
+    const brc_breaking *f = s->fracture;
+    const brc_cell_breaks *c = f->cells;
+    const int32_t rows = s->layout->n_rows;
+    BRC_TRY(record(s));
+    BRC_TRY(brc_fracture_choose(s, (int32_t)brc_fracture_moment(s)));
+    BRC_TRY(BRC_LAUNCH(c->mark_chosen, rows, BRC_INT(rows), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->choice), BRC_BUF(f->measure),
+                       BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->found)));
+    return brc_vector_sum(s, c->found, rows, n);
+}
+
+brc_status brc_cell_criteria_settle(brc_simulation *s)
+{
+    const brc_breaking *f = s->fracture;
+    const int32_t n = s->layout->n_rows;
+    if (s->scene->fracture.level != 1) return BRC_OK;
+    return BRC_LAUNCH(f->cells->weigh, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->record), BRC_BUF(f->weight));
+}
+
+brc_status brc_cell_criteria_ratio(brc_simulation *s, double *out)
+{
+    BRC_TRY(record(s));
+    return brc_fracture_ratio(s, out);
+}

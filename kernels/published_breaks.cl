@@ -1,0 +1,97 @@
+/* Fracture of dlsm-published (AGH19 section 5.3): the forces with how far each element's bonds are, the bonds that break, and the least squares
+ * that are left. Arrays of entries as in kernels/cells.cl, whose cells_break removes the bonds. */
+
+/* As published_force_pass with the full law; reach [n]: the largest normal stress over limit of each element's bonds [-]. */
+KERNEL void published_breaking_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                                     GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
+                                     GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                                     GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
+                                     coeff rotation_factor, GLOBAL const coeff *restrict lame_of, GLOBAL const coeff *restrict limit,
+                                     GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL coeff *restrict reach)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
+        const published_own own = published_own_of(group, displacement, orientation, strain);
+        lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
+        lane largest = LANE_ZERO;
+        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+            const published_bond b = published_bond_at(slot, lane0, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                                                       mu_one, young_one, rotation_factor, lame_of, 1);
+            f = lane_vec3_add(f, b.force);
+            t = lane_vec3_add(t, b.torque);
+            largest = lane_max(largest, b.stress / lane_load(limit, (brc_size)slot * C + (brc_size)lane0));
+        }
+        state_store3(force, group * W, f);
+        state_store3(torque, group * W, t);
+        lane_store(reach, (brc_size)(group * W), largest);
+    }
+}
+
+/* Bonds whose normal stress is above share * limit are marked; measure: that stress [Pa]; found [n_groups]: how many. Only groups of elements
+ * where one may be look. */
+KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
+                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                            GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
+                            coeff rotation_factor, GLOBAL const coeff *restrict lame_of, GLOBAL const coeff *restrict limit,
+                            GLOBAL const coeff *restrict reach, GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
+                            GLOBAL state *restrict found)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
+        int look = 0, marked = 0;
+        for (int l = 0; l < W; ++l) look |= !(reach[group * W + l] < REAL(0.99999) * share);
+        if (look) {
+            const published_own own = published_own_of(group, displacement, orientation, strain);
+            for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+                const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
+                const published_bond b = published_bond_at(slot, lane0, own, neighbour, branch, area, displacement, orientation, strain,
+                                                           lambda_one, mu_one, young_one, rotation_factor, lame_of, 1);
+                const lane bound = share * lane_load(limit, entry);
+#define MARK(l)                                                                                                        \
+    if (LANE_ITEM(b.stress, l) > LANE_ITEM(bound, l)) {                                                                \
+        mark[entry + 0x##l] = CELLS_TENSION;                                                                           \
+        measure[entry + 0x##l] = LANE_ITEM(b.stress, l);                                                               \
+        marked += 1;                                                                                                   \
+    }
+                LANE_EACH(MARK)
+#undef MARK
+            }
+        }
+        found[group] = (state)marked;
+    }
+}
+
+/* sum + (x (x) x) / value: one direction of a pseudo-inverse. */
+LAW cells_sym published_add_direction(cells_sym sum, coeff value, failure_axis x)
+{
+    return cells_add_square(sum, STATE(1) / (state)value, (state)x.x, (state)x.y, (state)x.z);
+}
+
+/* Elements that lost a bond: the inverse of their least-squares matrix sum w R (x) R over the bonds that are left, over the directions in which
+ * its eigenvalue is above support [n]; in the others their strain is zero. Marks are cleared. area_weights: w = S/|R| instead of 1. */
+KERNEL void published_rebuild(int n, int area_weights, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict branch,
+                              GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict support,
+                              GLOBAL int *restrict changed, GLOBAL coeff *restrict inv_shape, GLOBAL int *restrict mark)
+{
+    FOR_EACH_ITEM(e, n) {
+        if (changed[e]) {
+            cells_sym a = {0, 0, 0, 0, 0, 0}, inverse = {0, 0, 0, 0, 0, 0};
+            changed[e] = 0;
+            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+                const brc_size entry = (brc_size)slot * C + e % C, at = (brc_size)slot * 3 * C + e % C;
+                mark[entry] = 0;
+                if (!(alive[entry] > 0)) continue;
+                const state x = (state)branch[at], y = (state)branch[at + C], z = (state)branch[at + 2 * C];
+                a = cells_add_square(a, area_weights ? (state)area[entry] / SQRT_STATE(x * x + y * y + z * z) : STATE(1), x, y, z);
+            }
+            const failure_principal spans = failure_principal_of(cells_narrow(a));
+            if (spans.third > support[e]) inverse = cells_inverse(a);
+            else {
+                if (spans.first > support[e]) inverse = published_add_direction(inverse, spans.first, spans.first_axis);
+                if (spans.second > support[e]) inverse = published_add_direction(inverse, spans.second, spans.second_axis);
+            }
+            cells_put(inv_shape, e, inverse);
+        }
+    }
+}
