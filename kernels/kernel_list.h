@@ -76,6 +76,7 @@
     X(cells_record_published)                                                                                          \
     X(cells_mark_chosen)                                                                                               \
     X(cells_weigh)                                                                                                     \
+    X(published_breaking_strain)                                                                                       \
     X(published_breaking_force)                                                                                        \
     X(published_check)                                                                                                 \
     X(published_rebuild)                                                                                               \

@@ -7,6 +7,26 @@
 #define MATERIAL(component, scalar) (LANE_ZERO + (scalar))
 #endif
 
+/* a = sum (u_j - u_i) (x) w R of a group [m^2], times inv_shape. */
+LAW lane_mat3 published_fit(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area, int area_weights,
+                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict inv_shape)
+{
+    const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
+    const state_vec3 u = state_gather3(displacement, lane_own(group * W));
+    lane_mat3 a = lane_mat3_zero();
+    for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+        const lane_int j = int_block(neighbour, slot, lane0);
+        rows_ahead3(branch, slot);
+        lane_vec3 r = lane_block3(branch, slot, lane0);
+        const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
+        if (area_weights)
+            r = lane_vec3_scale(lane_load(area, (brc_size)slot * C + (brc_size)lane0) / LANE_SQRT(lane_vec3_dot(r, r)), r);
+        a = lane_add_outer(a, jump, r);
+    }
+    return lane_mat3_mul_sym(a, lane_block6(inv_shape, slice, lane0));
+}
+
 /* Strain of every element in the global frame [-] [n][6] (xx yy zz yz xz xy). inv_shape: (sum w R (x) R)^-1
  * [slice][6][C]; area_weights: w = S/|R| instead of 1; orientation: unit quaternions (w x y z) [n][4]. */
 KERNEL void published_strain_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
@@ -15,22 +35,9 @@ KERNEL void published_strain_pass(int n_groups, GLOBAL const int *restrict row_s
                                   GLOBAL const coeff *restrict inv_shape, int finite, GLOBAL coeff *restrict strain)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
-        const lane_int own = lane_own(first);
-        const state_vec3 u = state_gather3(displacement, own);
-        lane_mat3 a = lane_mat3_zero();
-        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-            const lane_int j = int_block(neighbour, slot, lane0);
-            rows_ahead3(branch, slot);
-            lane_vec3 r = lane_block3(branch, slot, lane0);
-            const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
-            if (area_weights)
-                r = lane_vec3_scale(lane_load(area, (brc_size)slot * C + (brc_size)lane0) / LANE_SQRT(lane_vec3_dot(r, r)), r);
-            a = lane_add_outer(a, jump, r);
-        }
-        const lane_mat3 fitted = lane_mat3_mul_sym(a, lane_block6(inv_shape, slice, lane0));
-        const lane_quat q = lane_gather4(orientation, own);
-        lane_store6(strain, first, finite ? published_strain(fitted, q, 1) : published_strain(fitted, q, 0));
+        const lane_mat3 fitted = published_fit(group, row_start, neighbour, branch, area, area_weights, displacement, inv_shape);
+        const lane_quat q = lane_gather4(orientation, lane_own(group * W));
+        lane_store6(strain, group * W, finite ? published_strain(fitted, q, 1) : published_strain(fitted, q, 0));
     }
 }
 

@@ -7,18 +7,25 @@
 
 #include "quaternion.h"
 
-/* Strain in the global frame [-] (AGH19 eq. 5-15): least squares of d_j = R_i^T (branch + jump) - branch gives
- * H = R^T a A^-1 + R^T - I with a = sum jump (x) w branch; fitted: a A^-1 [-]. */
-LAW lane_sym3 published_strain(lane_mat3 fitted, lane_quat q, int finite)
+/* Strain in the global frame [-] (AGH19 eq. 5-15): least squares of d_j = R_i^T (branch + jump) - branch over the directions that the branches span,
+ * with the projector P on these, gives H = R^T a A^-1 + (R^T - I) P with a = sum jump (x) w branch. fitted: a A^-1 [-]; turn: R^T - I; seen:
+ * (R^T - I) P. */
+LAW lane_sym3 published_strain_seen(lane_mat3 fitted, lane_mat3 turn, lane_mat3 seen, int finite)
 {
-    const lane_mat3 turn = quat_matrix_minus_identity(quat_conjugate(q), finite);
-    if (!finite) return lane_mat3_sym(lane_mat3_add(fitted, turn));
-    const lane_mat3 turned = lane_mat3_add(lane_mat3_add(fitted, lane_mat3_mul(turn, fitted)), turn);
+    if (!finite) return lane_mat3_sym(lane_mat3_add(fitted, seen));
+    const lane_mat3 turned = lane_mat3_add(lane_mat3_add(fitted, lane_mat3_mul(turn, fitted)), seen);
     const lane_sym3 e = lane_mat3_sym(turned);
-    /* R e R^T, with turn = R^T - I */
+    /* R e R^T */
     const lane_mat3 er = lane_mat3_mul((lane_mat3){e.xx, e.xy, e.xz, e.xy, e.yy, e.yz, e.xz, e.yz, e.zz}, turn);
     const lane_mat3 right = lane_mat3_add((lane_mat3){e.xx, e.xy, e.xz, e.xy, e.yy, e.yz, e.xz, e.yz, e.zz}, er);
     return lane_mat3_sym(lane_mat3_add(right, lane_mat3_tmul(turn, right)));
+}
+
+/* The same of branches that span space. */
+LAW lane_sym3 published_strain(lane_mat3 fitted, lane_quat q, int finite)
+{
+    const lane_mat3 turn = quat_matrix_minus_identity(quat_conjugate(q), finite);
+    return published_strain_seen(fitted, turn, turn, finite);
 }
 
 /* Rotation vector [rad] of a unit quaternion with w > 0: with t = tan(angle/4) = |v|/(1 + w), angle = 4 atan t. Up to 90 degrees

@@ -1,6 +1,22 @@
 /* Fracture of dlsm-published (AGH19 section 5.3): the forces with how far each element's bonds are, the bonds that break, and the least squares
  * that are left. Arrays of entries as in kernels/cells.cl, whose cells_break removes the bonds. */
 
+/* As published_strain_pass where bonds may be missing. spanned: projector on the directions that an element's bonds span [slice][6][C]. */
+KERNEL void published_breaking_strain(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                                      GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area, int area_weights,
+                                      GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                                      GLOBAL const coeff *restrict inv_shape, GLOBAL const coeff *restrict spanned, int finite,
+                                      GLOBAL coeff *restrict strain)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const lane_mat3 fitted = published_fit(group, row_start, neighbour, branch, area, area_weights, displacement, inv_shape);
+        const lane_quat q = quat_conjugate(lane_gather4(orientation, lane_own(group * W)));
+        const lane_mat3 turn = finite ? quat_matrix_minus_identity(q, 1) : quat_matrix_minus_identity(q, 0);
+        const lane_mat3 seen = lane_mat3_mul_sym(turn, lane_block6(spanned, SLICE_OF(group), FIRST_LANE_OF(group)));
+        lane_store6(strain, group * W, finite ? published_strain_seen(fitted, turn, seen, 1) : published_strain_seen(fitted, turn, seen, 0));
+    }
+}
+
 /* As published_force_pass with the full law; reach [n]: the largest normal stress over limit of each element's bonds [-]. */
 KERNEL void published_breaking_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                                      GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
@@ -62,21 +78,17 @@ KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restric
     }
 }
 
-/* sum + (x (x) x) / value: one direction of a pseudo-inverse. */
-LAW cells_sym published_add_direction(cells_sym sum, coeff value, failure_axis x)
-{
-    return cells_add_square(sum, STATE(1) / (state)value, (state)x.x, (state)x.y, (state)x.z);
-}
-
 /* Elements that lost a bond: the inverse of their least-squares matrix sum w R (x) R over the bonds that are left, over the directions in which
- * its eigenvalue is above support [n]; in the others their strain is zero. Marks are cleared. area_weights: w = S/|R| instead of 1. */
+ * its eigenvalue is above support [n], and the projector on these; in the others there is no strain. Marks are cleared. area_weights: w = S/|R|
+ * instead of 1. */
 KERNEL void published_rebuild(int n, int area_weights, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict branch,
                               GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict support,
-                              GLOBAL int *restrict changed, GLOBAL coeff *restrict inv_shape, GLOBAL int *restrict mark)
+                              GLOBAL int *restrict changed, GLOBAL coeff *restrict inv_shape, GLOBAL coeff *restrict spanned,
+                              GLOBAL int *restrict mark)
 {
     FOR_EACH_ITEM(e, n) {
         if (changed[e]) {
-            cells_sym a = {0, 0, 0, 0, 0, 0}, inverse = {0, 0, 0, 0, 0, 0};
+            cells_sym a = {0, 0, 0, 0, 0, 0}, inverse = {0, 0, 0, 0, 0, 0}, projector = {1, 1, 1, 0, 0, 0};
             changed[e] = 0;
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
                 const brc_size entry = (brc_size)slot * C + e % C, at = (brc_size)slot * 3 * C + e % C;
@@ -88,9 +100,14 @@ KERNEL void published_rebuild(int n, int area_weights, GLOBAL const int *restric
             const failure_principal spans = failure_principal_of(cells_narrow(a));
             if (spans.third > support[e]) inverse = cells_inverse(a);
             else {
-                if (spans.first > support[e]) inverse = published_add_direction(inverse, spans.first, spans.first_axis);
-                if (spans.second > support[e]) inverse = published_add_direction(inverse, spans.second, spans.second_axis);
+                const failure_axis x = spans.first_axis, y = spans.second_axis;
+                const state one = spans.first > support[e] ? STATE(1) : STATE(0), two = spans.second > support[e] ? STATE(1) : STATE(0);
+                projector = cells_add_square((cells_sym){0, 0, 0, 0, 0, 0}, one, (state)x.x, (state)x.y, (state)x.z);
+                projector = cells_add_square(projector, two, (state)y.x, (state)y.y, (state)y.z);
+                if (one > 0) inverse = cells_add_square(inverse, STATE(1) / (state)spans.first, (state)x.x, (state)x.y, (state)x.z);
+                if (two > 0) inverse = cells_add_square(inverse, STATE(1) / (state)spans.second, (state)y.x, (state)y.y, (state)y.z);
             }
+            cells_put(spanned, e, projector);
             cells_put(inv_shape, e, inverse);
         }
     }

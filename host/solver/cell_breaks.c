@@ -176,6 +176,7 @@ int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries
     int64_t bytes = n * ((dlsm ? 4 : 2) * coeff_bytes + 4 + 4 * state_bytes) + entries * (16 + 5 * coeff_bytes);
     if (by_element) bytes += n * (21 * coeff_bytes + 4) + (dlsm ? 3 * entries * coeff_bytes : 0);
     else bytes += n * coeff_bytes;
+    if (!dlsm) bytes += 6 * n * coeff_bytes;
     return bytes;
 }
 
@@ -220,7 +221,7 @@ void brc_cell_breaks_free(brc_simulation *s)
     brc_cell_breaks *c = s->fracture->cells;
     if (!c) return;
     brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->misfit, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found,
-                          &c->branch, &c->reach};
+                          &c->branch, &c->spanned, &c->reach};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     brc_memory_free(c);
     s->fracture->cells = NULL;

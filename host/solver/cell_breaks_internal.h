@@ -14,12 +14,14 @@ struct brc_cell_breaks {
     bool by_element;                          /* criteria of elements: what follows, and the arrays of kernels/fracture.cl */
     brc_kernel *record, *mark_chosen, *weigh; /* kernels/cell_criteria.cl */
     brc_buffer *branch;                       /* dlsm: [n_slots][3][C], owned */
-    brc_kernel *breaking_force;               /* dlsm-published: kernels/published_breaks.cl */
-    brc_buffer *reach;                        /* [n_rows] */
+    brc_kernel *breaking_strain, *breaking_force; /* dlsm-published: kernels/published_breaks.cl */
+    brc_buffer *spanned, *reach;                  /* [n_slices][6][C], [n_rows] */
 };
 
 /* ---- published_breaks.c: bonds of dlsm-published by their normal stress ---- */
 brc_status brc_published_breaks_create(brc_simulation *s);
+/* Strains of either law, by least squares over the bonds that are left. */
+brc_status brc_published_breaks_strains(brc_simulation *s, const brc_force_request *r);
 /* Forces of the full law, with what the next two need. */
 brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request *r);
 /* Bonds above share of their limit are marked; *n: marks. */

@@ -104,10 +104,11 @@ static brc_status published_evaluate(brc_simulation *s, const brc_force_request 
 {
     const brc_elastic *m = one_material(s);
     const int finite = r->finite ? 1 : 0;
-    BRC_TRY(BRC_LAUNCH(s->kernel.published_strain, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start),
-                       BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->area),
-                       BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(r->displacement), BRC_BUF(r->orientation),
-                       BRC_BUF(s->inv_shape), BRC_INT(finite), BRC_BUF(s->gradient)));
+    if (s->fracture) BRC_TRY(brc_published_breaks_strains(s, r));
+    else
+        BRC_TRY(BRC_LAUNCH(s->kernel.published_strain, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                           BRC_BUF(s->offset), BRC_BUF(s->area), BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(r->displacement),
+                           BRC_BUF(r->orientation), BRC_BUF(s->inv_shape), BRC_INT(finite), BRC_BUF(s->gradient)));
     if (brc_cell_breaks_by_bond(s) && r->finite) return brc_published_breaks_force(s, r);
     return BRC_LAUNCH(s->kernel.published_force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start),
                       BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->area), BRC_BUF(r->displacement),

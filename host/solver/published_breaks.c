@@ -7,11 +7,12 @@
  * strain any more, as one that is not spanned at all (geometry.c): its strain would answer its neighbours more stiffly than the time step bears. */
 static const double support_share = 0.2, span_least = 1e-6;
 
-/* Least eigenvalue of sum w R (x) R that a direction must keep, of the whole body. */
-static double support_of(const brc_simulation *s, int64_t e)
+/* Of the whole body: the least eigenvalue of A = sum w R (x) R that a direction must keep, and the projector on the directions spanned (geometry.c). */
+static double support_of(const brc_simulation *s, int64_t e, double projector[6])
 {
+    static const int of_component[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
     const brc_domain *d = s->domain;
-    double a[6] = {0}, value[3];
+    double a[6] = {0}, value[3], axis[3][3];
     for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
         const int64_t j = d->neighbour[h];
         double r[3], length = 0, surface = 0;
@@ -24,7 +25,9 @@ static double support_of(const brc_simulation *s, int64_t e)
         const double six[6] = {r[0] * r[0], r[1] * r[1], r[2] * r[2], r[1] * r[2], r[0] * r[2], r[0] * r[1]};
         for (int c = 0; c < 6; ++c) a[c] += w * six[c];
     }
-    brc_sym3_eigen(a, value, NULL);
+    brc_sym3_eigen(a, value, axis);
+    for (int k = 0; k < 3; ++k)
+        for (int c = 0; value[k] > span_least * value[2] && c < 6; ++c) projector[c] += axis[k][of_component[c][0]] * axis[k][of_component[c][1]];
     return fmax(support_share * value[0], span_least * value[2]);
 }
 
@@ -32,13 +35,20 @@ brc_status brc_published_breaks_create(brc_simulation *s)
 {
     brc_cell_breaks *c = s->fracture->cells;
     const brc_layout *layout = s->layout;
-    double *support = NULL;
+    double *support = NULL, *spanned = NULL;
     brc_status status = BRC_OK;
     BRC_TRY(brc_kernel_find(s->device, "published_rebuild", &c->rebuild));
-    BRC_TRY(BRC_ALLOCATE(s->context, &support, layout->n_rows, "supports"));
+    BRC_TRY(brc_kernel_find(s->device, "published_breaking_strain", &c->breaking_strain));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &support, layout->n_rows, "supports"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &spanned, 6 * (int64_t)layout->n_rows, "supports"));
 #pragma omp parallel for schedule(static)
-    for (int32_t r = 0; r < layout->n_rows; ++r)
-        if (layout->element_of_row[r] >= 0) support[r] = support_of(s, layout->element_of_row[r]);
+    for (int32_t r = 0; r < layout->n_rows; ++r) {
+        double projector[6] = {0};
+        if (layout->element_of_row[r] >= 0) support[r] = support_of(s, layout->element_of_row[r], projector);
+        for (int k = 0; k < 6; ++k) spanned[(int64_t)(r / layout->slice * 6 + k) * layout->slice + r % layout->slice] = projector[k];
+    }
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &c->spanned, 6 * (int64_t)layout->n_rows, "supports"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, c->spanned, spanned, 6 * (int64_t)layout->n_rows));
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &c->support, layout->n_rows, "supports"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, c->support, support, layout->n_rows));
     if (c->by_element) goto cleanup;
@@ -47,7 +57,16 @@ brc_status brc_published_breaks_create(brc_simulation *s)
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &c->reach, layout->n_rows, "ratios of bonds"));
 cleanup:
     brc_memory_free(support);
+    brc_memory_free(spanned);
     return status;
+}
+
+brc_status brc_published_breaks_strains(brc_simulation *s, const brc_force_request *r)
+{
+    const brc_cell_breaks *c = s->fracture->cells;
+    return BRC_LAUNCH(c->breaking_strain, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
+                      BRC_BUF(s->area), BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(r->displacement), BRC_BUF(r->orientation),
+                      BRC_BUF(s->inv_shape), BRC_BUF(c->spanned), BRC_INT(r->finite ? 1 : 0), BRC_BUF(s->gradient));
 }
 
 brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request *r)
@@ -76,7 +95,8 @@ brc_status brc_published_breaks_rebuild(brc_simulation *s)
     const brc_cell_breaks *c = s->fracture->cells;
     const int32_t n = s->layout->n_rows;
     return BRC_LAUNCH(c->rebuild, n, BRC_INT(n), BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(s->row_start), BRC_BUF(s->offset),
-                      BRC_BUF(s->area), BRC_BUF(c->alive), BRC_BUF(c->support), BRC_BUF(c->changed), BRC_BUF(s->inv_shape), BRC_BUF(c->mark));
+                      BRC_BUF(s->area), BRC_BUF(c->alive), BRC_BUF(c->support), BRC_BUF(c->changed), BRC_BUF(s->inv_shape),
+                      BRC_BUF(c->spanned), BRC_BUF(c->mark));
 }
 
 brc_status brc_published_breaks_ratio(brc_simulation *s, double *out)
