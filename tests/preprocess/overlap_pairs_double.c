@@ -1,0 +1,3 @@
+#define BRC_PRECISION 0
+#define OVERLAP_PAIRS overlap_pairs_double
+#include "overlap_pairs_body.h"

@@ -1,0 +1,3 @@
+#define BRC_PRECISION 2
+#define OVERLAP_PAIRS overlap_pairs_single
+#include "overlap_pairs_body.h"
