@@ -6,6 +6,7 @@
 static const brc_option options[] = {
     BRC_OPTION_OUTPUT("folder of the results (needed)"), BRC_OPTION_DEVICE, BRC_OPTION_PRECISION, BRC_OPTION_THREADS,
     BRC_OPTION_EXACT,
+    {"resume", 'r', NULL, false, "go on from the last checkpoint in DIR (docs/checkpoint.md)"},
     BRC_OPTION_SET,
 };
 
@@ -30,6 +31,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
                                .folder = brc_arguments_value(arguments, "output"),
                                .device = brc_arguments_value(arguments, "device"),
                                .running = session->running,
+                               .resume = brc_arguments_value(arguments, "resume") != NULL,
                                .exact = brc_arguments_value(arguments, "exact") != NULL};
     if (!request.folder)
         return BRC_FAIL(session->context, BRC_BAD_INPUT, "breccia run: say where the results go with -o DIR");
@@ -63,7 +65,7 @@ const brc_command brc_command_run = {.name = "run",
                                      .most = 1,
                                      .summary = "simulate a scene and write its results into a folder",
                                      .details = "DIR/summary.json is written by every run, also a failed one; an interrupted run "
-                                                "keeps its results so far.",
+                                                "keeps its results so far\nand a checkpoint, from which --resume goes on.",
                                      .options = options,
                                      .n_options = sizeof options / sizeof *options,
                                      .run = run};

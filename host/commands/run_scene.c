@@ -3,6 +3,7 @@
 #include "setup.h"
 #include "../base/log.h"
 #include "../base/memory.h"
+#include "../output/checkpoint.h"
 #include "../output/recorder.h"
 #include "../solver/lockstep.h"
 #include <string.h>
@@ -27,6 +28,7 @@ void brc_run_results_free(brc_run_results *results)
 /* Everything a run holds, so that one place frees it in the right order. */
 typedef struct run {
     brc_recorder *recorder;
+    brc_checkpoints *checkpoints;
     brc_scene *scene;
     brc_setup setup;
 } run;
@@ -81,6 +83,7 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     else
         BRC_TRY(brc_scene_read(context, request->path, request->n_overrides, request->overrides, &now->scene));
     if (now->recorder) brc_recorder_set_scene(now->recorder, now->scene);
+    if (now->recorder) BRC_TRY(brc_checkpoints_create(context, request->folder, now->scene, request->resume, &now->checkpoints));
     const double build_start = brc_clock_s();
     BRC_TRY(brc_setup_domains(context, now->scene, request->domain, request->n_threads, &now->setup));
     out->build_s = brc_clock_s() - build_start;
@@ -93,11 +96,11 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     BRC_TRY(brc_setup_simulations(context, &device, &now->setup));
     brc_assembly *assembly = &now->setup.assembly;
     brc_simulation *first = assembly->part[0]; /* hears, and is told, for all */
-    if (now->recorder) BRC_TRY(brc_recorder_observe(now->recorder, assembly));
+    if (now->recorder) BRC_TRY(brc_checkpoints_observe(now->checkpoints, assembly, now->recorder));
     if (request->observer) BRC_TRY(brc_simulation_observe(first, request->observer));
     if (request->created) BRC_TRY(request->created(request->self, first));
     if (request->running) request->running(first);
-    const brc_status status = brc_lockstep_run(assembly->n, assembly->part);
+    const brc_status status = now->checkpoints ? brc_checkpoints_run(now->checkpoints) : brc_lockstep_run(assembly->n, assembly->part);
     if (request->running) request->running(NULL);
     BRC_TRY(status);
     BRC_TRY(brc_assembly_ledger(assembly, &out->ledger));
@@ -110,11 +113,13 @@ brc_status brc_run_scene(brc_context *context, const brc_run_request *request, b
     run now = {0};
     memset(out, 0, sizeof *out);
     /* First of all, so that also a run that fails at once leaves a summary. */
-    if (request->folder) BRC_TRY(brc_recorder_create(context, request->folder, start, &now.recorder));
+    if (request->folder)
+        BRC_TRY(request->resume ? brc_recorder_reopen(context, request->folder, start, &now.recorder) : brc_recorder_create(context, request->folder, start, &now.recorder));
     brc_status status = simulate(context, request, &now, out);
     if (now.recorder) status = brc_recorder_finish(now.recorder, status);
     const brc_status taken = take_results(context, &now, out);
     if (status == BRC_OK) status = taken;
+    brc_checkpoints_free(&now.checkpoints);
     brc_recorder_free(&now.recorder);
     brc_setup_free(&now.setup);
     brc_scene_free(&now.scene);

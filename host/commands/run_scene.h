@@ -20,6 +20,7 @@ typedef struct brc_run_request {
     brc_precision precision;
     int n_threads;
     bool exact; /* as in brc_device_request */
+    bool resume; /* go on from the last checkpoint in the folder */
     const brc_observer *observer; /* besides the recorder; its self may be filled in `created` */
     /* Called when the simulation exists (of several models: the first), before it runs; may be NULL. */
     brc_status (*created)(void *self, brc_simulation *simulation);

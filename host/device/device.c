@@ -123,6 +123,7 @@ brc_status brc_device_open(brc_context *context, const brc_device_request *reque
     device->context = context;
     device->precision = request->precision;
     device->many_materials = request->many_materials;
+    device->exact = request->exact;
     BRC_TRY_OR(cleanup, select_device(context, request, &device->info));
     if (!device->info.has_double && request->precision != BRC_SINGLE) {
         char text[192];
@@ -180,6 +181,11 @@ brc_precision brc_device_get_precision(const brc_device *device)
 bool brc_device_has_many_materials(const brc_device *device)
 {
     return device->many_materials;
+}
+
+bool brc_device_is_exact(const brc_device *device)
+{
+    return device->exact;
 }
 
 int brc_device_lanes(const brc_device *device)

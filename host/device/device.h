@@ -67,6 +67,8 @@ void brc_device_close(brc_device **device);
 const brc_device_info *brc_device_get_info(const brc_device *device);
 brc_precision brc_device_get_precision(const brc_device *device);
 bool brc_device_has_many_materials(const brc_device *device);
+/* Whether it was asked to be (brc_device_request). */
+bool brc_device_is_exact(const brc_device *device);
 /* W: elements one work-item handles; C: elements a slice holds (a multiple of W). Storage uses C. */
 int brc_device_lanes(const brc_device *device);
 int brc_device_slice(const brc_device *device);

@@ -33,7 +33,7 @@ struct brc_device {
     const brc_backend *backend;
     brc_device_info info;
     brc_precision precision;
-    bool many_materials;
+    bool many_materials, exact;
     int lanes;           /* W */
     int slice;           /* C */
     int64_t bytes;       /* held in buffers */

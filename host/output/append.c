@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 struct brc_append {
@@ -11,16 +12,23 @@ struct brc_append {
     int64_t bytes; /* of whole texts in the file */
 };
 
+/* Nothing is open yet. */
+static brc_status make(brc_context *context, const char *path, brc_append **out)
+{
+    BRC_TRY(BRC_ALLOCATE(context, out, 1, "growing file"));
+    (*out)->file = -1;
+    BRC_TRY(BRC_ALLOCATE(context, &(*out)->path, (int64_t)strlen(path) + 1, "path"));
+    strcpy((*out)->path, path);
+    return BRC_OK;
+}
+
 brc_status brc_append_create(brc_context *context, const char *path, const char *head, brc_append **out)
 {
     brc_append *a = NULL;
     brc_text text = {.context = context};
     brc_status status = BRC_OK;
     *out = NULL;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &a, 1, "growing file"));
-    a->file = -1;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &a->path, (int64_t)strlen(path) + 1, "path"));
-    strcpy(a->path, path);
+    BRC_TRY_OR(cleanup, make(context, path, &a));
     a->file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (a->file < 0) {
         status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot create: %s", path, strerror(errno));
@@ -35,6 +43,31 @@ cleanup:
     brc_append_free(&a);
     return status;
 }
+
+brc_status brc_append_reopen(brc_context *context, const char *path, int64_t bytes, brc_append **out)
+{
+    brc_append *a = NULL;
+    struct stat information = {0};
+    brc_status status = BRC_OK;
+    *out = NULL;
+    BRC_TRY_OR(cleanup, make(context, path, &a));
+    a->file = open(path, O_WRONLY | O_CLOEXEC);
+    a->bytes = bytes;
+    if (a->file < 0 || fstat(a->file, &information) != 0)
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: cannot be opened to go on: %s", path, strerror(errno));
+    else if ((int64_t)information.st_size < bytes)
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: has %lld bytes, the run goes on behind %lld: it was changed", path, (long long)information.st_size, (long long)bytes);
+    else if (ftruncate(a->file, bytes) != 0 || lseek(a->file, bytes, SEEK_SET) != bytes)
+        status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write: %s", path, strerror(errno));
+    if (status != BRC_OK) goto cleanup;
+    *out = a;
+    a = NULL;
+cleanup:
+    brc_append_free(&a);
+    return status;
+}
+
+int64_t brc_append_bytes(const brc_append *a) { return a->bytes; }
 
 brc_status brc_append_add(brc_context *context, brc_append *a, const brc_text *text)
 {

@@ -8,6 +8,10 @@ typedef struct brc_append brc_append;
 
 /* A new file that begins with `head`. Caller frees. BRC_FILE_FAILED, BRC_NO_MEMORY. */
 brc_status brc_append_create(brc_context *context, const char *path, const char *head, brc_append **out);
+/* The first `bytes` bytes of a file that is there; what is behind them goes. BRC_BAD_INPUT where it is missing or shorter. */
+brc_status brc_append_reopen(brc_context *context, const char *path, int64_t bytes, brc_append **out);
+/* Bytes that it has. */
+int64_t brc_append_bytes(const brc_append *file);
 /* The text behind what is there; where it does not fit, the file stays as it was and the same may be tried again. The text's own failure, or
  * BRC_FILE_FAILED. */
 brc_status brc_append_add(brc_context *context, brc_append *file, const brc_text *text);

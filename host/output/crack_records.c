@@ -53,6 +53,41 @@ static brc_status take(brc_context *context, brc_crack_records *r)
     return BRC_OK;
 }
 
+/* Rows of fragments.csv are of moments that are gone; those of cracks.csv can be written again. */
+static brc_status store_position(brc_crack_records *r, brc_state_store *store, int64_t *bytes)
+{
+    BRC_TRY(brc_store_index(store, "fragments.stage", &r->stage));
+    BRC_TRY(brc_store_integer(store, "fragments.step", &r->step));
+    return brc_store_integer(store, "fragments.bytes", bytes);
+}
+
+brc_status brc_crack_records_save(brc_context *context, brc_crack_records *r, brc_state_store *store)
+{
+    int64_t bytes = brc_append_bytes(r->fragments_file);
+    BRC_TRY(brc_append_finish(context, r->fragments_file));
+    return store_position(r, store, &bytes);
+}
+
+brc_status brc_crack_records_resume(brc_context *context, const brc_assembly *assembly, const char *cracks_path, const char *fragments_path, brc_state_store *store,
+                                    brc_crack_records **out)
+{
+    brc_crack_records *r = NULL;
+    brc_status status = BRC_OK;
+    int64_t bytes;
+    *out = NULL;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &r, 1, "files of cracks"));
+    r->assembly = assembly;
+    BRC_TRY_OR(cleanup, store_position(r, store, &bytes));
+    BRC_TRY_OR(cleanup, brc_append_reopen(context, fragments_path, bytes, &r->fragments_file));
+    BRC_TRY_OR(cleanup, brc_append_create(context, cracks_path, brc_cracks_csv_head(), &r->cracks_file));
+    BRC_TRY_OR(cleanup, take(context, r));
+    BRC_TRY_OR(cleanup, brc_cracks_csv_add(context, r->cracks_file, &r->state.cracks, &r->n_written));
+cleanup:
+    if (status != BRC_OK) brc_crack_records_free(&r);
+    *out = r;
+    return status;
+}
+
 static brc_status add_fragments(brc_context *context, brc_crack_records *r, int64_t frame)
 {
     const brc_simulation *first = r->assembly->part[0];

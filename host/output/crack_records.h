@@ -4,6 +4,7 @@
 
 #include "crack_report.h"
 #include "fragments_file.h"
+#include "../solver/state_store.h"
 
 typedef struct brc_crack_records brc_crack_records;
 
@@ -16,6 +17,11 @@ typedef struct brc_crack_state {
 
 /* Of a scene with fracture. assembly is borrowed until free. Begins both files. */
 brc_status brc_crack_records_create(brc_context *context, const brc_assembly *assembly, const char *cracks_path, const char *fragments_path,
+                                    brc_crack_records **out);
+/* Its part of a checkpoint, all that was written being on the disk; `part` of the store is the run (-1). */
+brc_status brc_crack_records_save(brc_context *context, brc_crack_records *records, brc_state_store *store);
+/* As create, going on with the files as they were then: the parts of the assembly have their states again. What broke is read once more. */
+brc_status brc_crack_records_resume(brc_context *context, const brc_assembly *assembly, const char *cracks_path, const char *fragments_path, brc_state_store *store,
                                     brc_crack_records **out);
 /* Accepts NULL and a pointer to NULL. */
 void brc_crack_records_free(brc_crack_records **records);

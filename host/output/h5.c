@@ -1,5 +1,6 @@
 /* Writing HDF5 aside or in memory. */
 #include "h5.h"
+#include "seal.h"
 #include "../base/file.h"
 #include "../base/memory.h"
 #include <errno.h>
@@ -112,15 +113,19 @@ static brc_status write_image(brc_h5 *h5)
     return status;
 }
 
-brc_status brc_h5_commit(brc_h5 *h5)
+static brc_status commit(brc_h5 *h5, bool seal)
 {
     if (h5->status == BRC_OK && !h5->aside) h5->status = write_image(h5);
     close_all(h5);
+    if (h5->status == BRC_OK && seal) h5->status = brc_seal_add(h5->context, h5->aside);
     if (h5->status == BRC_OK && h5->aside) h5->status = brc_file_commit(h5->context, h5->aside, h5->path);
     if (h5->status != BRC_OK) brc_file_discard(h5->aside);
     release(h5);
     return h5->status;
 }
+
+brc_status brc_h5_commit(brc_h5 *h5) { return commit(h5, false); }
+brc_status brc_h5_commit_sealed(brc_h5 *h5) { return commit(h5, h5->aside != NULL); }
 
 void brc_h5_group(brc_h5 *h5, const char *name)
 {

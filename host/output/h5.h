@@ -25,6 +25,8 @@ brc_status brc_h5_create(brc_context *context, const char *path, brc_h5 *out);
 brc_status brc_h5_create_in_memory(brc_context *context, const char *path, brc_h5 *out);
 /* Close; after a failure remove what was written and report it, else fsync and rename to the path. */
 brc_status brc_h5_commit(brc_h5 *h5);
+/* Close and seal (seal.h); the same otherwise. */
+brc_status brc_h5_commit_sealed(brc_h5 *h5);
 /* Close and remove without a word. */
 void brc_h5_discard(brc_h5 *h5);
 

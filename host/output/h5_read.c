@@ -1,5 +1,6 @@
 /* Reading HDF5 files of results. */
 #include "h5_read.h"
+#include "../base/memory.h"
 
 brc_status brc_h5_read_open(brc_context *context, const char *path, brc_h5_read *out)
 {
@@ -63,4 +64,21 @@ brc_status brc_h5_read_rows(const brc_h5_read *h5, const char *name, hid_t type,
     if (ok) return BRC_OK;
     return BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: rows %lld to %lld of %s cannot be read; the file is damaged",
                     h5->path, (long long)first, (long long)(first + n - 1), name);
+}
+
+brc_status brc_h5_read_string(const brc_h5_read *h5, const char *name, char **out)
+{
+    const hid_t dataset = H5Dopen2(h5->file, name, H5P_DEFAULT), type = dataset >= 0 ? H5Dget_type(dataset) : H5I_INVALID_HID;
+    const bool is_text = type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
+    brc_status status = BRC_OK;
+    *out = NULL;
+    if (is_text) status = brc_memory_allocate(h5->context, (void **)out, (int64_t)H5Tget_size(type) + 1, 1, "text");
+    if (status == BRC_OK && (!is_text || H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *out) < 0)) {
+        brc_memory_free(*out);
+        *out = NULL;
+        status = BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %s is %s; the file is damaged or of another kind", h5->path, name, dataset < 0 ? "missing" : "no text");
+    }
+    if (type >= 0) H5Tclose(type);
+    if (dataset >= 0) H5Dclose(dataset);
+    return status;
 }

@@ -59,3 +59,15 @@ void brc_history_range(const brc_history *history, int32_t sensor, double *last,
         *largest = fmax(*largest, *last);
     }
 }
+
+brc_status brc_history_store(brc_context *context, brc_history *h, brc_state_store *store)
+{
+    int64_t n = h->n_samples;
+    BRC_TRY(brc_store_array(context, store, "history.stage", BRC_STORED_INT32, 1, &n, (void **)&h->stage));
+    BRC_TRY(brc_store_array(context, store, "history.step", BRC_STORED_INT64, 1, &n, (void **)&h->step));
+    BRC_TRY(brc_store_array(context, store, "history.stage_time", BRC_STORED_DOUBLE, 1, &n, (void **)&h->stage_time));
+    BRC_TRY(brc_store_array(context, store, "history.time", BRC_STORED_DOUBLE, 1, &n, (void **)&h->time));
+    if (h->n_sensors > 0) BRC_TRY(brc_store_array(context, store, "history.value", BRC_STORED_DOUBLE, h->n_sensors, &n, (void **)&h->value));
+    if (store->loading) h->n_samples = h->capacity = n;
+    return BRC_OK;
+}

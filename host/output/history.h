@@ -3,6 +3,7 @@
 #define BRC_OUTPUT_HISTORY_H
 
 #include "../scene/scene.h"
+#include "../solver/state_store.h"
 
 typedef struct brc_history {
     int32_t n_sensors;
@@ -21,6 +22,8 @@ void brc_history_free(brc_history **history);
 /* Add a sample; value: [n_sensors], copied. BRC_NO_MEMORY refuses it. */
 brc_status brc_history_add(brc_context *context, brc_history *history, int32_t stage, int64_t step, double stage_time,
                            double time, const double *value);
+/* The table, kept or filled (state_store.h). */
+brc_status brc_history_store(brc_context *context, brc_history *history, brc_state_store *store);
 /* Last sample, smallest and largest of a column; NAN where there is none (NAN samples do not count for the latter). */
 void brc_history_range(const brc_history *history, int32_t sensor, double *last, double *smallest, double *largest);
 

@@ -49,13 +49,13 @@ struct brc_recorder {
 
 /* ---- the folder ---- */
 
-/* "NNNNNN.vtkhdf", "NNNNNN.cracks.vtu", "NNNNNN.strikers.vtu", or what a killed run left of one. */
-static bool is_frame(const char *name)
+/* "NNNNNN.vtkhdf", "NNNNNN.cracks.vtu", "NNNNNN.strikers.vtu", or what a killed run left of one; numbers from `first` on. */
+static bool is_frame(const char *name, int64_t first)
 {
     static const char *const suffix[] = {".vtkhdf", ".vtkhdf.part", ".cracks.vtu", ".cracks.vtu.part", ".strikers.vtu", ".strikers.vtu.part"};
     const size_t digits = strspn(name, "0123456789");
     for (size_t k = 0; digits >= 6 && k < sizeof suffix / sizeof suffix[0]; ++k)
-        if (strcmp(name + digits, suffix[k]) == 0) return true;
+        if (strcmp(name + digits, suffix[k]) == 0) return strtoll(name, NULL, 10) >= first;
     return false;
 }
 
@@ -66,13 +66,13 @@ static brc_status remove_file(brc_context *context, const char *path)
                     strerror(errno));
 }
 
-static brc_status remove_frames(brc_context *context, const char *folder)
+static brc_status remove_frames(brc_context *context, const char *folder, int64_t first)
 {
     brc_status status = BRC_OK;
     DIR *directory = opendir(folder);
     if (!directory) return errno == ENOENT ? BRC_OK : remove_file(context, folder);
     for (const struct dirent *entry = readdir(directory); entry && status == BRC_OK; entry = readdir(directory)) {
-        if (!is_frame(entry->d_name)) continue;
+        if (!is_frame(entry->d_name, first)) continue;
         char *path;
         status = brc_file_join(context, folder, entry->d_name, &path);
         if (status == BRC_OK) status = remove_file(context, path);
@@ -87,7 +87,7 @@ static brc_status clean(brc_recorder *recorder)
 {
     for (int k = 0; k < FRAMES; ++k)
         BRC_TRY(remove_file(recorder->context, recorder->path[k]));
-    return remove_frames(recorder->context, recorder->path[FRAMES]);
+    return remove_frames(recorder->context, recorder->path[FRAMES], 0);
 }
 
 static brc_status write_summary(brc_recorder *recorder, brc_context *context, bool running, brc_status end,
@@ -114,7 +114,7 @@ static brc_status write_summary(brc_recorder *recorder, brc_context *context, bo
     return brc_summary_write(context, &summary, recorder->path[SUMMARY]);
 }
 
-brc_status brc_recorder_create(brc_context *context, const char *folder, double start, brc_recorder **out)
+static brc_status create(brc_context *context, const char *folder, double start, bool resumed, brc_recorder **out)
 {
     brc_recorder *recorder = NULL;
     brc_status status = BRC_OK;
@@ -124,13 +124,23 @@ brc_status brc_recorder_create(brc_context *context, const char *folder, double 
     for (int k = 0; k < N_FILES; ++k)
         BRC_TRY_OR(cleanup, brc_file_join(context, folder, FILE_NAME[k], &recorder->path[k]));
     BRC_TRY_OR(cleanup, brc_file_make_folder(context, folder));
-    BRC_TRY_OR(cleanup, clean(recorder));
+    if (!resumed) BRC_TRY_OR(cleanup, clean(recorder));
     /* A run that is killed leaves this one. It also shows at once that the folder can be written. */
     BRC_TRY_OR(cleanup, write_summary(recorder, context, true, BRC_OK, "", NULL));
 cleanup:
     if (status != BRC_OK) brc_recorder_free(&recorder);
     *out = recorder;
     return status;
+}
+
+brc_status brc_recorder_create(brc_context *context, const char *folder, double start, brc_recorder **out)
+{
+    return create(context, folder, start, false, out);
+}
+
+brc_status brc_recorder_reopen(brc_context *context, const char *folder, double start, brc_recorder **out)
+{
+    return create(context, folder, start, true, out);
 }
 
 void brc_recorder_free(brc_recorder **recorder)
@@ -233,8 +243,7 @@ static brc_status write_cracks(brc_recorder *r)
     BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
     const brc_status status = brc_crack_records_frame(r->context, r->cracks, r->n_frames - 1, surface ? path : NULL);
     brc_memory_free(path);
-    BRC_TRY(status);
-    return surface ? brc_frame_write_series(r->context, r->n_frames, r->frame_time, ".cracks.vtu", r->path[CRACK_SERIES]) : BRC_OK;
+    return status;
 }
 
 static brc_status write_strikers(brc_recorder *r)
@@ -245,8 +254,23 @@ static brc_status write_strikers(brc_recorder *r)
     BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
     const brc_status status = brc_striker_file_write(r->context, r->assembly, path);
     brc_memory_free(path);
-    BRC_TRY(status);
-    return brc_frame_write_series(r->context, r->n_frames, r->frame_time, ".strikers.vtu", r->path[STRIKER_SERIES]);
+    return status;
+}
+
+static bool has_strikers(const brc_recorder *r) { return brc_simulation_n_strikers(r->assembly->part[0]) > 0; }
+
+/* Indices of the frames and of what lies beside them. */
+static brc_status write_series(brc_recorder *r)
+{
+    const struct {
+        bool wanted;
+        const char *suffix;
+        int path;
+    } all[] = {{true, ".vtkhdf", SERIES}, {r->cracks && r->scene->output.crack_surface, ".cracks.vtu", CRACK_SERIES},
+               {has_strikers(r), ".strikers.vtu", STRIKER_SERIES}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+        if (all[k].wanted) BRC_TRY(brc_frame_write_series(r->context, r->n_frames, r->frame_time, all[k].suffix, r->path[all[k].path]));
+    return BRC_OK;
 }
 
 static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
@@ -263,9 +287,9 @@ static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
     BRC_TRY(status);
     r->frame_time[r->n_frames] = index_time(r, simulation);
     ++r->n_frames;
-    BRC_TRY(brc_frame_write_series(r->context, r->n_frames, r->frame_time, ".vtkhdf", r->path[SERIES]));
     if (r->cracks) BRC_TRY(write_cracks(r));
-    if (brc_simulation_n_strikers(r->assembly->part[0]) > 0) BRC_TRY(write_strikers(r));
+    if (has_strikers(r)) BRC_TRY(write_strikers(r));
+    BRC_TRY(write_series(r));
     return write_index(r, r->context, NULL);
 }
 
@@ -279,18 +303,82 @@ static brc_status frame(void *self, brc_simulation *simulation)
     return status;
 }
 
-brc_status brc_recorder_observe(brc_recorder *recorder, brc_assembly *assembly)
+/* Sensors and an empty history. */
+static brc_status prepare(brc_recorder *recorder, brc_assembly *assembly)
 {
     recorder->assembly = assembly;
     const int32_t n = recorder->scene->n_sensors;
     BRC_TRY(brc_assembly_sensors_create(recorder->context, assembly, &recorder->sensors));
     BRC_TRY(brc_history_create(recorder->context, n, &recorder->history));
-    BRC_TRY(BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample"));
+    return BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample");
+}
+
+static brc_status observe(brc_recorder *recorder)
+{
+    const brc_observer observer = {.self = recorder, .sample = sample, .frame = frame};
+    return brc_simulation_observe(recorder->assembly->part[0], &observer);
+}
+
+brc_status brc_recorder_observe(brc_recorder *recorder, brc_assembly *assembly)
+{
+    BRC_TRY(prepare(recorder, assembly));
     BRC_TRY(brc_history_csv_create(recorder->context, recorder->scene, recorder->path[HISTORIES], &recorder->csv));
     if (brc_simulation_has_fracture(assembly->part[0]))
         BRC_TRY(brc_crack_records_create(recorder->context, assembly, recorder->path[CRACKS], recorder->path[FRAGMENTS], &recorder->cracks));
-    const brc_observer observer = {.self = recorder, .sample = sample, .frame = frame};
-    return brc_simulation_observe(assembly->part[0], &observer);
+    return observe(recorder);
+}
+
+/* ---- left and taken up again ---- */
+
+/* Samples, frames, and what the assembly remembers. */
+static brc_status store_position(brc_recorder *r, brc_state_store *store)
+{
+    BRC_TRY(brc_history_store(r->context, r->history, store));
+    BRC_TRY(brc_store_array(r->context, store, "frame_time", BRC_STORED_DOUBLE, 1, &r->n_frames, (void **)&r->frame_time));
+    BRC_TRY(brc_store_double(store, "peak_elastic", &r->assembly->peak_elastic));
+    return brc_store_double(store, "peak_kinetic", &r->assembly->peak_kinetic);
+}
+
+brc_status brc_recorder_save(brc_recorder *recorder, brc_state_store *store)
+{
+    BRC_TRY(store_position(recorder, store));
+    return recorder->cracks ? brc_crack_records_save(recorder->context, recorder->cracks, store) : BRC_OK;
+}
+
+/* Frames of the past that are gone are missed by the index, not by the run. */
+static void look_for_frames(const brc_recorder *r)
+{
+    int64_t missing = 0;
+    char name[32], *path = NULL;
+    for (int64_t k = 0; k < r->n_frames; ++k) {
+        snprintf(name, sizeof name, "%06lld.vtkhdf", (long long)k);
+        if (brc_file_join(r->context, r->path[FRAMES], name, &path) == BRC_OK) missing += !brc_file_exists(path);
+        brc_memory_free(path);
+    }
+    if (missing) brc_log(r->context, BRC_LOG_WARNING, "%s: %lld of the %lld frames before the checkpoint are not there", r->path[FRAMES], (long long)missing, (long long)r->n_frames);
+}
+
+/* The folder as it was at the last frame before the checkpoint. */
+static brc_status go_back(brc_recorder *r)
+{
+    look_for_frames(r);
+    BRC_TRY(remove_frames(r->context, r->path[FRAMES], r->n_frames));
+    if (r->n_frames == 0) return BRC_OK;
+    BRC_TRY(write_series(r));
+    return write_index(r, r->context, NULL);
+}
+
+brc_status brc_recorder_resume(brc_recorder *recorder, brc_assembly *assembly, brc_state_store *store)
+{
+    brc_recorder *r = recorder;
+    BRC_TRY(prepare(r, assembly));
+    BRC_TRY(store_position(r, store));
+    if (brc_simulation_has_fracture(assembly->part[0]))
+        BRC_TRY(brc_crack_records_resume(r->context, assembly, r->path[CRACKS], r->path[FRAGMENTS], store, &r->cracks));
+    BRC_TRY(brc_history_csv_create(r->context, r->scene, r->path[HISTORIES], &r->csv));
+    BRC_TRY(brc_history_csv_add(r->context, r->csv, r->history));
+    BRC_TRY(go_back(r));
+    return observe(r);
 }
 
 /* ---- the end ---- */

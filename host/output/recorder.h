@@ -28,6 +28,7 @@
 #include "../../preprocess/domain.h"
 #include "../scene/scene.h"
 #include "../solver/assembly.h"
+#include "../solver/state_store.h"
 #include "measures.h"
 
 typedef struct brc_recorder brc_recorder;
@@ -36,6 +37,8 @@ typedef struct brc_recorder brc_recorder;
  * nothing else. start: brc_clock_s() when the command began, for timing.total_s. context: borrowed until free.
  * BRC_FILE_FAILED where the folder cannot be made or written: then there is no recorder and no summary. */
 brc_status brc_recorder_create(brc_context *context, const char *folder, double start, brc_recorder **out);
+/* The same for a run that goes on with the results in the folder: nothing is removed yet. */
+brc_status brc_recorder_reopen(brc_context *context, const char *folder, double start, brc_recorder **out);
 /* Accepts NULL and a pointer to NULL. A recorder that was not finished leaves what it has written so far. */
 void brc_recorder_free(brc_recorder **recorder);
 
@@ -47,6 +50,11 @@ void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domai
  * against the domain here: unknown or empty sets, faces where elements are needed and the like give BRC_BAD_INPUT with
  * one sentence each. */
 brc_status brc_recorder_observe(brc_recorder *recorder, brc_assembly *assembly);
+
+/* Going on later (checkpoint.h): its part of a checkpoint; and, instead of observe, as it was then, once the parts have their states again: samples and
+ * files go on behind it, what was written after it goes. `part` of the store is the run (-1). */
+brc_status brc_recorder_save(brc_recorder *recorder, brc_state_store *store);
+brc_status brc_recorder_resume(brc_recorder *recorder, brc_assembly *assembly, brc_state_store *store);
 
 /* The end: last histories, result.h5, measures, picture, curve and, last of all, summary.json. end: what the run
  * returned; its reason is brc_context_message(context) at this moment. Returns `end` if that is a failure, else the
