@@ -61,7 +61,7 @@ static void an_unknown_option_is_answered_with_the_nearest(void **state)
 {
     (void)state;
     REFUSED("did you mean '--precision'?", &brc_command_run, "s", "--precison", "mixed");
-    REFUSED("no option '--resume'", &brc_command_run, "s", "--resume");
+    REFUSED("no option '--restart'", &brc_command_run, "s", "--restart");
 }
 
 static void wrong_numbers_of_values_and_operands_are_refused(void **state)
