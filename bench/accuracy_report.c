@@ -11,6 +11,8 @@
 static const char *const models[] = {"dlsm", "dlsm-simple", "dlsm-published", "dlsm-published-weighted", "cbm"};
 static const char *const colours[] = {"#4477aa", "#66ccee", "#cc6677", "#ee8866", "#228833"};
 enum { MODELS = sizeof models / sizeof *models };
+/* Ratios beyond this are no figures any more when they are drawn on. */
+#define MOST_DRAWN_ON 1e4
 
 __attribute__((format(printf, 3, 4))) static void append(char *out, size_t size, const char *format, ...)
 {
@@ -55,7 +57,7 @@ static void add_targets(const brc_accuracy_study *s, brc_text *text)
 {
     static const double targets[] = {1e-2, 1e-3, 1e-4};
     brc_text_add(text, "## For an error of 1 %%, 0.1 %%, 0.01 %% take\n\nThe cheapest measured way; seconds on one thread. \"Of that\": building, and one crossing of a wave "
-                       "in dynamics. ~: not measured, drawn on from the last two means of the best model's front.\n\n"
+                       "in dynamics. ~: not measured; drawn on from the best measured way with the order of its series, at most 2, and time as spacing^-4.\n\n"
                        "| problem | error | take | measured error | seconds of | seconds | building | a crossing |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
     for (int32_t q = 0; q < s->n_questions; ++q)
         for (size_t t = 0; t < sizeof targets / sizeof *targets; ++t) {
@@ -85,7 +87,8 @@ static void add_ratios(const brc_accuracy_study *s, brc_text *text)
 {
     static const double levels[] = {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
     brc_text_add(text, "\n## What other models cost at equal error\n\nSeconds over those of `dlsm`, each along its own front. >: `dlsm` is better than that already with its cheapest "
-                       "measured run; ~: the other model was not measured to that error, its front is drawn on.\n\n| problem | model |");
+                       "measured run; <: so is the other model; ~: one of them was not measured to that error, and is drawn on from its best with the order of its series (at most 2) and time as "
+                       "spacing^-4. Empty: its series does not converge, or says nothing there.\n\n| problem | model |");
     for (size_t l = 0; l < sizeof levels / sizeof *levels; ++l) brc_text_add(text, " %g %% |", 100 * levels[l]);
     brc_text_add(text, " its best |\n| --- | --- |");
     for (size_t l = 0; l <= sizeof levels / sizeof *levels; ++l) brc_text_add(text, " --- |");
@@ -102,13 +105,15 @@ static void add_ratios(const brc_accuracy_study *s, brc_text *text)
             brc_text_add(text, "| %s | %s |", question_name(s->questions[q].point, name, sizeof name), models[k]);
             for (size_t l = 0; l < sizeof levels / sizeof *levels; ++l) {
                 int beyond, other_beyond;
-                const double ours = brc_accuracy_cost(s, q, models[0], levels[l], &beyond);
-                double other = brc_accuracy_cost(s, q, models[k], levels[l], &other_beyond);
+                double ours = brc_accuracy_cost(s, q, models[0], levels[l], &beyond), other = brc_accuracy_cost(s, q, models[k], levels[l], &other_beyond);
+                if (beyond < 0) ours = brc_accuracy_cost_beyond(s, q, models[0], levels[l]);
                 if (other_beyond < 0) other = brc_accuracy_cost_beyond(s, q, models[k], levels[l]);
-                if (beyond < 0 || isnan(other) || other_beyond > 0)
+                if (isnan(other / ours) || (beyond > 0 && other_beyond > 0) || (beyond < 0 && other_beyond < 0))
                     brc_text_add(text, " |");
+                else if ((beyond < 0 || other_beyond < 0) && other / ours > MOST_DRAWN_ON)
+                    brc_text_add(text, " >~1e+04 |");
                 else
-                    brc_text_add(text, " %s%s%.2g |", beyond > 0 ? ">" : "", other_beyond < 0 ? "~" : "", other / ours);
+                    brc_text_add(text, " %s%s%s%.2g |", beyond > 0 ? ">" : "", other_beyond > 0 ? "<" : "", beyond < 0 || other_beyond < 0 ? "~" : "", other / ours);
             }
             brc_text_add(text, " %s |\n", percent(best, error, sizeof error));
         }

@@ -7,8 +7,9 @@
 
 /* Seeds of one resolution differ by a few elements. */
 #define SAME_SPACING 0.01
-/* Means nearer than this factor in error give no slope to go on with. */
-#define APART 1.5
+/* What a series is trusted to go on with: no law here is of more than second order, and a slope below a half is no convergence to speak of. */
+#define HIGHEST_ORDER 2.0
+#define LEAST_ORDER 0.5
 
 static bool same_number(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
 
@@ -174,10 +175,7 @@ double brc_accuracy_cost(const brc_accuracy_study *s, int32_t question, const ch
 double brc_accuracy_cost_beyond(const brc_accuracy_study *s, int32_t question, const char *model, double error)
 {
     const int64_t best = next_worse(s, question, model, 0);
-    int64_t before = -1;
-    for (int64_t m = 0; best >= 0 && m < s->n_means; ++m)
-        if (answers(s, &s->means[m], question, model) && s->means[m].error > APART * s->means[best].error && s->means[m].cost_s < s->means[best].cost_s &&
-            (before < 0 || s->means[m].error < s->means[before].error))
-            before = m;
-    return before < 0 || error >= s->means[best].error ? NAN : on_line(&s->means[before], &s->means[best], error);
+    if (best < 0 || error >= s->means[best].error) return NAN;
+    const double order = fmin(s->series[s->means[best].series].order, HIGHEST_ORDER);
+    return order >= LEAST_ORDER ? s->means[best].cost_s * pow(s->means[best].error / error, 4 / order) : NAN; /* also where there is no order */
 }

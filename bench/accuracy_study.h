@@ -46,7 +46,8 @@ int64_t brc_accuracy_cheapest(const brc_accuracy_study *study, int32_t question,
 /* What an error costs with a model [s]: along the model's own Pareto front, straight in the logarithms between its means. *beyond -1: every measured mean is
  * more wrong (NAN); +1: every one is better (the cheapest one's cost, an upper bound); 0: in between. */
 double brc_accuracy_cost(const brc_accuracy_study *study, int32_t question, const char *model, double error, int *beyond);
-/* What it would cost beyond the best mean of a model, drawn on from the last two means of its front [s]; NAN where these do not fall. */
+/* What an error below that of a model's best mean would cost [s]: time goes with spacing^-4 (elements and steps; elements and iterations), the error with the order of
+ * the best mean's series, at most 2; NAN where that order is below 0.5 or unknown. */
 double brc_accuracy_cost_beyond(const brc_accuracy_study *study, int32_t question, const char *model, double error);
 
 #endif
