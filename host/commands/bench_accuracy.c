@@ -107,7 +107,7 @@ static void fill_point(const brc_sweep *sweep, int k, const brc_outcome *outcome
         if (!p->note[0]) snprintf(p->note, sizeof p->note, "the run gives no %s", p->quantity);
         return;
     }
-    p->reference = !isnan(sweep->reference) ? sweep->reference : value->reference;
+    p->reference = !isnan(sweep->reference_of[k]) ? sweep->reference_of[k] : value->reference;
     p->ours = value->value;
     p->error = p->reference == 0 ? fabs(p->ours) : fabs(p->ours / p->reference - 1);
 }

@@ -37,6 +37,7 @@ static brc_status keep(brc_context *context, brc_sweep *sweep, const char *text,
 typedef struct expansion {
     const char *name, *scene;
     bool quick;
+    double reference;
     brc_case_operator operator;
     int n_axes;
     const brc_node *axis[AXES];
@@ -114,7 +115,9 @@ static brc_status add_run(const brc_case_reader *r, brc_sweep *sweep, const expa
     BRC_TRY(brc_memory_resize(r->context, (void **)&sweep->what.runs, n + 1, sizeof run, "runs of a sweep"));
     BRC_TRY(brc_memory_resize(r->context, (void **)&sweep->sweep_of, n + 1, sizeof *sweep->sweep_of, "runs of a sweep"));
     sweep->what.runs[n] = run;
+    BRC_TRY(brc_memory_resize(r->context, (void **)&sweep->reference_of, n + 1, sizeof *sweep->reference_of, "runs of a sweep"));
     sweep->sweep_of[n] = x->name;
+    sweep->reference_of[n] = x->reference;
     sweep->what.n_runs = (int)(n + 1);
     return BRC_OK;
 }
@@ -156,7 +159,8 @@ static brc_status read_sweep(const brc_case_reader *r, const brc_node *node, con
         return BRC_OK;
     }
     BRC_TRY(BRC_ALLOCATE(r->context, &x, 1, "sweep"));
-    *x = (expansion){.name = "", .scene = scene, .operator = operator};
+    const brc_node *reference = brc_node_find(described, "reference");
+    *x = (expansion){.name = "", .scene = scene, .operator = operator, .reference = reference ? brc_case_number_of(r, reference) : sweep->reference};
     for (const brc_node *axis = axes->first; axis; axis = axis->next) {
         const brc_node *given = brc_node_find(node, axis->key), *otherwise = defaults ? brc_node_find(defaults, axis->key) : NULL;
         const int a = x->n_axes++;
@@ -270,6 +274,7 @@ void brc_sweep_free(brc_sweep **sweep)
     }
     brc_memory_free((*sweep)->what.runs);
     brc_memory_free((*sweep)->sweep_of);
+    brc_memory_free((*sweep)->reference_of);
     brc_tree_free(&(*sweep)->what.tree);
     brc_memory_free(*sweep);
     *sweep = NULL;

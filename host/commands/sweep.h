@@ -14,10 +14,11 @@ typedef enum brc_sweep_cost {
 typedef struct brc_sweep {
     const char *problem;
     const char *quantity, *unit; /* what is held against the exact answer */
-    double reference;            /* NAN: comes with the quantity */
+    double reference;            /* NAN: comes with the quantity; of scenes without one of their own */
     brc_sweep_cost cost;
     brc_case what;               /* named "accuracy/<problem>"; labels of a run: every axis and its value, in order */
     const char **sweep_of;       /* [what.n_runs] name of the first sweep that has the run */
+    double *reference_of;        /* [what.n_runs] NAN: comes with the quantity */
     struct brc_sweep_texts *texts;
     char name[64];
 } brc_sweep;
