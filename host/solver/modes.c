@@ -394,6 +394,9 @@ brc_status brc_modes_run(brc_simulation *s)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->modes, t.m, "modes"));
     for (int k = 0; k < t.m && s->n_modes < wanted; ++k)
         if (values[k] > rigid_part * values[t.m - 1]) s->modes[s->n_modes++] = sqrt(values[k]);
+    if (s->n_modes < wanted) /* the rounding of forces in less than double precision grows in the search space */
+        BRC_TRY_OR(cleanup, BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "stage '%s': %d of %d modes found above the rigid motions; modes want double precision",
+                                     stage->name, s->n_modes, wanted));
     s->step = 1;
     s->load_factor = 1;
     BRC_TRY_OR(cleanup, brc_force_of_state(s, BRC_BOOK_NOTHING));
