@@ -20,6 +20,15 @@ LAW void svec3_store(GLOBAL state *restrict p, brc_size at, svec3 a)
     p[at + 1] = a.y;
     p[at + 2] = a.z;
 }
+LAW smat3 smat3_load(GLOBAL const state *restrict p, brc_size at)
+{
+    return (smat3){p[at], p[at + 1], p[at + 2], p[at + 3], p[at + 4], p[at + 5], p[at + 6], p[at + 7], p[at + 8]};
+}
+LAW void smat3_store(GLOBAL state *restrict p, brc_size at, smat3 a)
+{
+    p[at] = a.xx, p[at + 1] = a.xy, p[at + 2] = a.xz, p[at + 3] = a.yx, p[at + 4] = a.yy, p[at + 5] = a.yz;
+    p[at + 6] = a.zx, p[at + 7] = a.zy, p[at + 8] = a.zz;
+}
 LAW squat squat_load(GLOBAL const state *restrict p, int e)
 {
     GLOBAL const state *restrict q = p + (brc_size)e * 4;
@@ -41,43 +50,92 @@ LAW void contact_apart(GLOBAL state *restrict history, GLOBAL state *restrict re
     for (int c = 0; c < CONTACT_RESULT + 2 * width; ++c) result[c] = 0;
 }
 
-/* Spheres. dt: the step that ended, whose friction and damping are booked; 0: the same state again, nothing is remembered. */
-KERNEL void contact_spheres(int n_pairs, state dt, int is_linear, int n_materials, GLOBAL const int *restrict ends, GLOBAL const state *restrict place,
-                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, GLOBAL const state *restrict radius,
-                            GLOBAL const state *restrict mass, GLOBAL const int *restrict material, GLOBAL const int *restrict body,
-                            GLOBAL const state *restrict law, GLOBAL state *restrict history, GLOBAL state *restrict result)
+/* How a sphere meets another, or a piece of a striker: unit normal out of i, depth, and the arms from both places to the point of contact. */
+typedef struct {
+    svec3 branch, normal, arm_i, arm_j;
+    state depth, radius; /* reduced, for Hertz's law */
+} contact_meeting;
+
+LAW contact_meeting contact_of_spheres(svec3 branch, state ri, state rj, state reference)
+{
+    const state distance = svec3_length(branch), share = ri / (ri + rj);
+    const svec3 normal = distance > 0 ? svec3_scale(STATE(1) / distance, branch) : (svec3){1, 0, 0};
+    return (contact_meeting){branch, normal, svec3_scale(share, branch), svec3_scale(share - STATE(1), branch),
+                             (reference < ri + rj ? reference : ri + rj) - distance, ri * rj / (ri + rj)};
+}
+/* foot: on the piece, in a frame about the sphere's place; branch: to the striker's mass centre. */
+LAW contact_meeting contact_of_foot(convex_foot foot, svec3 branch, state ri, state rj)
+{
+    const svec3 normal = {-foot.normal.x, -foot.normal.y, -foot.normal.z}, arm = {foot.point.x, foot.point.y, foot.point.z};
+    return (contact_meeting){branch, normal, arm, svec3_sub(arm, branch), ri - foot.distance, rj > 0 ? ri * rj / (ri + rj) : ri};
+}
+
+/* Spheres. dt: the step that ended, whose friction and damping are booked; 0: the same state again, nothing is remembered. Others than elements: number n +
+ * piece of a striker, as in contact_cells.cl; piece_radius: of pieces that are spheres [m]. */
+KERNEL void contact_spheres(int n_pairs, state dt, int n, int is_linear, int n_materials, state middle_x, state middle_y, state middle_z,
+                            GLOBAL const int *restrict ends, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
+                            GLOBAL const state *restrict orientation, GLOBAL const state *restrict reach, GLOBAL const state *restrict corner,
+                            GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
+                            GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
+                            GLOBAL const int *restrict id, GLOBAL const state *restrict mass, GLOBAL const int *restrict material,
+                            GLOBAL const int *restrict body, GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind,
+                            GLOBAL const state *restrict piece_radius, GLOBAL const state *restrict striker_pose, GLOBAL const state *restrict law,
+                            GLOBAL state *restrict history, GLOBAL state *restrict result)
 {
     FOR_EACH_ITEM(p, n_pairs) {
         const int i = ends[2 * (brc_size)p], j = ends[2 * (brc_size)p + 1];
         GLOBAL state *restrict past = history + (brc_size)p * CONTACT_HISTORY;
         GLOBAL state *restrict out = result + (brc_size)p * (CONTACT_RESULT + 6);
-        const state ri = radius[i], rj = radius[j];
-        const svec3 branch = contact_branch(place, displacement, i, j);
-        const state distance = svec3_length(branch);
-        /* spheres of one body that overlap in the reference do not push there */
-        const svec3 far = svec3_sub(svec3_load(place, (brc_size)j * 3), svec3_load(place, (brc_size)i * 3));
-        const state reference = body[i] == body[j] ? svec3_length(far) : ri + rj;
-        const state depth = (reference < ri + rj ? reference : ri + rj) - distance;
-        const int looked = past[14] > 0, touching = depth > 0 && distance > 0;
+        const state ri = reach[i];
+        const smat3 turn_i = squat_matrix(squat_load(orientation, i));
+        smat3 turn_j;
+        contact_meeting meet;
+        if (j < n) {
+            /* spheres of one body that overlap in the reference do not push there */
+            const svec3 far = svec3_sub(svec3_load(place, (brc_size)j * 3), svec3_load(place, (brc_size)i * 3));
+            const state rj = reach[j], reference = body[i] == body[j] ? svec3_length(far) : ri + rj;
+            turn_j = squat_matrix(squat_load(orientation, j));
+            meet = contact_of_spheres(contact_branch(place, displacement, i, j), ri, rj, reference);
+        } else {
+            const brc_size at = (brc_size)piece_striker[j - n] * 12;
+            const int kind = piece_kind[j - n];
+            const svec3 own = svec3_add(svec3_load(place, (brc_size)i * 3), (svec3){middle_x, middle_y, middle_z});
+            const svec3 branch = svec3_sub(svec3_sub(svec3_load(striker_pose, at), own), svec3_load(displacement, (brc_size)i * 3));
+            const convex_vec here = {0, 0, 0}, origin = {branch.x, branch.y, branch.z};
+            const convex_shape shape = convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[j]);
+            convex_foot foot;
+            turn_j = smat3_load(striker_pose, at + 3);
+            const convex_map map = {turn_j.xx, turn_j.xy, turn_j.xz, turn_j.yx, turn_j.yy, turn_j.yz, turn_j.zx, turn_j.zy, turn_j.zz};
+            if (kind == 1) foot = convex_foot_on_sphere(here, origin, piece_radius[j - n]);
+            else if (kind == 2) {
+                const convex_plane face = convex_own_plane(shape, 0);
+                const convex_vec normal = convex_turn(map, face.normal);
+                const convex_plane wall = {normal, face.height + convex_dot(normal, origin)};
+                foot = convex_foot_on_plane(here, wall);
+            } else {
+                const convex_pose pose = {origin, map};
+                foot = convex_foot_on_polyhedron(shape, pose, here, ri);
+            }
+            meet = contact_of_foot(foot, branch, ri, piece_radius[j - n]);
+        }
+        const state depth = meet.depth;
+        const int looked = past[14] > 0, touching = depth > 0;
         if (!touching && dt > 0) contact_apart(past, out, 3, depth);
         if (!touching && !(dt > 0))
             for (int c = 0; c < CONTACT_RESULT + 6; ++c) out[c] = 0;
         if (touching) {
             const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
-            const contact_normal normal = contact_sphere_force(how, is_linear, depth, ri * rj / (ri + rj), mass[i] * mass[j] / (mass[i] + mass[j]));
-            const svec3 n = svec3_scale(STATE(1) / distance, branch);
-            const state share = ri / (ri + rj);
-            const svec3 arm_i = svec3_scale(share, branch), arm_j = svec3_scale(share - STATE(1), branch);
-            const smat3 turn_i = squat_matrix(squat_load(orientation, i)), turn_j = squat_matrix(squat_load(orientation, j));
+            const state heavy = mass[j] > 0 ? mass[i] * mass[j] / (mass[i] + mass[j]) : mass[i];
+            const contact_normal normal = contact_sphere_force(how, is_linear, depth, meet.radius, heavy);
             const state rate = dt > 0 ? (looked ? (depth - past[9]) / dt : STATE(0)) : past[10];
             const state viscous = contact_dashpot(normal.force, normal.dashpot, how.damping, rate);
             svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
             if (past[12] > 0) {
-                slip = svec3_sub(svec3_sub(smat3_mul_vec(turn_i, svec3_load(past, 3)), smat3_mul_vec(turn_j, svec3_load(past, 6))), branch);
+                slip = svec3_sub(svec3_sub(smat3_mul_vec(turn_i, svec3_load(past, 3)), smat3_mul_vec(turn_j, svec3_load(past, 6))), meet.branch);
                 stretch = svec3_load(past, 0);
             }
-            const contact_stick stick = contact_friction(stretch, slip, n, normal.sticking, how.friction * (normal.force + viscous));
-            const svec3 force = svec3_add_scaled(svec3_scale(-normal.sticking, stick.stretch), -(normal.force + viscous), n);
+            const contact_stick stick = contact_friction(stretch, slip, meet.normal, normal.sticking, how.friction * (normal.force + viscous));
+            const svec3 force = svec3_add_scaled(svec3_scale(-normal.sticking, stick.stretch), -(normal.force + viscous), meet.normal);
             svec3_store(out, 0, force);
             out[3] = normal.energy + STATE(0.5) * normal.sticking * svec3_dot(stick.stretch, stick.stretch);
             out[4] = dt > 0 ? stick.lost : STATE(0);
@@ -85,12 +143,12 @@ KERNEL void contact_spheres(int n_pairs, state dt, int is_linear, int n_material
             out[6] = 1;
             out[7] = normal.force + viscous;
             out[8] = depth;
-            svec3_store(out, 9, svec3_cross(arm_i, force));
-            svec3_store(out, 12, svec3_scale(STATE(-1), svec3_cross(arm_j, force)));
+            svec3_store(out, CONTACT_RESULT, svec3_cross(meet.arm_i, force));
+            svec3_store(out, CONTACT_RESULT + 3, svec3_scale(STATE(-1), svec3_cross(meet.arm_j, force)));
             if (dt > 0) {
                 svec3_store(past, 0, stick.stretch);
-                svec3_store(past, 3, smat3_tmul_vec(turn_i, arm_i));
-                svec3_store(past, 6, smat3_tmul_vec(turn_j, arm_j));
+                svec3_store(past, 3, smat3_tmul_vec(turn_i, meet.arm_i));
+                svec3_store(past, 6, smat3_tmul_vec(turn_j, meet.arm_j));
                 past[9] = depth;
                 past[10] = rate;
                 past[11] = viscous;

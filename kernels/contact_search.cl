@@ -1,7 +1,7 @@
 /* Which elements may touch: those that are exposed and whose balls, grown by a skin, meet. Rebuilt when something has moved by half the skin; in
  * between the list holds every pair that can touch. Positions are relative to the middle of the domain. Of the lists:
  * list [m]: rows of the exposed elements, ascending; slot_of [n + 1]: place of a row in it (of an exposed row; else that of the next one);
- * start [m + 1], used [m]: entries of each; entry: the other row, by ascending id; pair: number of the pair, seen from its lower id; below 0: -1 - pair, seen
+ * start [m + 1], used [m]: entries of each; entry: the other row, by ascending id, and n + piece of a striker; pair: number of the pair, seen from its lower id; below 0: -1 - pair, seen
  * from the higher one.
  * built [n][4]: where each element was when the list was made, and the radius of the ball about it that held it [m]. */
 
@@ -145,8 +145,65 @@ LAW int contact_near(GLOBAL const state *restrict built, int i, int j, state ski
     return x * x + y * y + z * z < reach * reach;
 }
 
+/* Pieces of strikers: a ball about a centre (x y z, reach), or the half-space behind a plane (unit normal, height; piece_kind 2), in their striker's own frame; where they
+ * are now, relative to the middle of the domain: piece [n_pieces][4]. */
+LAW svec3 contact_striker_place(GLOBAL const state *restrict striker_pose, brc_size at, state middle_x, state middle_y, state middle_z)
+{
+    return (svec3){striker_pose[at] - middle_x, striker_pose[at + 1] - middle_y, striker_pose[at + 2] - middle_z};
+}
+LAW svec3 contact_striker_turn(GLOBAL const state *restrict striker_pose, brc_size at, svec3 a)
+{
+    GLOBAL const state *restrict r = striker_pose + at + 3;
+    return (svec3){r[0] * a.x + r[1] * a.y + r[2] * a.z, r[3] * a.x + r[4] * a.y + r[5] * a.z, r[6] * a.x + r[7] * a.y + r[8] * a.z};
+}
+KERNEL void contact_pieces(int n_pieces, state middle_x, state middle_y, state middle_z, GLOBAL const int *restrict piece_striker,
+                           GLOBAL const int *restrict piece_kind, GLOBAL const state *restrict piece_own, GLOBAL const state *restrict striker_pose,
+                           GLOBAL state *restrict piece)
+{
+    FOR_EACH_ITEM(q, n_pieces) {
+        const brc_size at = (brc_size)piece_striker[q] * 12, to = (brc_size)q * 4;
+        const svec3 own = {piece_own[to], piece_own[to + 1], piece_own[to + 2]}, far = contact_striker_place(striker_pose, at, middle_x, middle_y, middle_z);
+        const svec3 turned = contact_striker_turn(striker_pose, at, own);
+        const int wall = piece_kind[q] == 2;
+        const svec3 now = wall ? turned : svec3_add(far, turned);
+        piece[to] = now.x;
+        piece[to + 1] = now.y;
+        piece[to + 2] = now.z;
+        piece[to + 3] = wall ? piece_own[to + 3] + svec3_dot(turned, far) : piece_own[to + 3];
+    }
+}
+/* How far pieces moved since `piece`, as contact_moved tells it of elements; span: how far from the middle anything may be that meets a plane [m]. */
+KERNEL void contact_pieces_moved(int n_pieces, int first, state middle_x, state middle_y, state middle_z, state span, GLOBAL const int *restrict piece_striker,
+                                 GLOBAL const int *restrict piece_kind, GLOBAL const state *restrict piece_own, GLOBAL const state *restrict striker_pose,
+                                 GLOBAL const state *restrict motion, GLOBAL const state *restrict piece, GLOBAL state *restrict moved)
+{
+    FOR_EACH_ITEM(q, n_pieces) {
+        const brc_size at = (brc_size)piece_striker[q] * 12, to = (brc_size)q * 4, way = (brc_size)(first + q) * 3, on = (brc_size)piece_striker[q] * 6;
+        const svec3 own = {piece_own[to], piece_own[to + 1], piece_own[to + 2]}, far = contact_striker_place(striker_pose, at, middle_x, middle_y, middle_z);
+        const svec3 turned = contact_striker_turn(striker_pose, at, own), was = {piece[to], piece[to + 1], piece[to + 2]};
+        const svec3 v = {motion[on], motion[on + 1], motion[on + 2]}, w = {motion[on + 3], motion[on + 4], motion[on + 5]};
+        const int wall = piece_kind[q] == 2;
+        const state lever = wall ? span : svec3_length(own) + piece_own[to + 3];
+        const state rise = wall ? piece_own[to + 3] + svec3_dot(turned, far) - piece[to + 3] : STATE(0);
+        const svec3 off = svec3_sub(wall ? turned : svec3_add(far, turned), was);
+        const state speed = svec3_length(v) + lever * svec3_length(w);
+        moved[way] = wall ? (rise < 0 ? -rise : rise) + span * svec3_length(off) : svec3_length(off);
+        moved[way + 1] = speed * speed;
+        moved[way + 2] = 0;
+    }
+}
+LAW int contact_near_piece(GLOBAL const state *restrict built, int e, GLOBAL const state *restrict piece, GLOBAL const int *restrict piece_kind, int q, state skin)
+{
+    GLOBAL const state *restrict a = built + (brc_size)e * 4;
+    GLOBAL const state *restrict b = piece + (brc_size)q * 4;
+    if (piece_kind[q] == 2) return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] - b[3] < a[3] + skin;
+    const state x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], reach = a[3] + b[3] + skin;
+    return x * x + y * y + z * z < reach * reach;
+}
+
 /* How many others are near each exposed element, bonds not asked. */
-KERNEL void contact_count(int m, state skin, state per_edge, int mask, GLOBAL const int *restrict list, GLOBAL const state *restrict built,
+KERNEL void contact_count(int m, state skin, state per_edge, int mask, int n_pieces, GLOBAL const state *restrict piece,
+                          GLOBAL const int *restrict piece_kind, GLOBAL const int *restrict list, GLOBAL const state *restrict built,
                           GLOBAL const int *restrict first, GLOBAL const int *restrict last, GLOBAL const int *restrict row, GLOBAL int *restrict count)
 {
     FOR_EACH_ITEM(k, m) {
@@ -162,6 +219,7 @@ KERNEL void contact_count(int m, state skin, state per_edge, int mask, GLOBAL co
                 near += j != e && own.x == cell.x && own.y == cell.y && own.z == cell.z && contact_near(built, e, j, skin);
             }
         }
+        for (int q = 0; q < n_pieces; ++q) near += contact_near_piece(built, e, piece, piece_kind, q, skin);
         count[k] = near;
     }
 }
@@ -186,7 +244,8 @@ LAW int contact_allowed(int i, int j, int within, GLOBAL const int *restrict bod
 }
 
 /* The entries of each exposed element, sorted by id; owned [m]: pairs in which its id is the lower one. */
-KERNEL void contact_fill(int m, state skin, state per_edge, int mask, int within, GLOBAL const int *restrict list, GLOBAL const state *restrict built,
+KERNEL void contact_fill(int m, int rows, state skin, state per_edge, int mask, int within, int n_pieces, GLOBAL const state *restrict piece,
+                         GLOBAL const int *restrict piece_kind, GLOBAL const int *restrict list, GLOBAL const state *restrict built,
                          GLOBAL const int *restrict first, GLOBAL const int *restrict last, GLOBAL const int *restrict row,
                          GLOBAL const int *restrict id, GLOBAL const int *restrict body, GLOBAL const int *restrict row_start,
                          GLOBAL const int *restrict neighbour, GLOBAL const int *restrict original, GLOBAL const int *restrict start,
@@ -214,6 +273,12 @@ KERNEL void contact_fill(int m, state skin, state per_edge, int mask, int within
                 own_pairs += id[j] > id[e];
             }
         }
+        for (int q = 0; q < n_pieces; ++q)
+            if (contact_near_piece(built, e, piece, piece_kind, q, skin)) {
+                entry[begin + n] = rows + q; /* ids of pieces follow those of elements */
+                n += 1;
+                own_pairs += 1;
+            }
         used[k] = n;
         owned[k] = own_pairs;
     }

@@ -80,6 +80,17 @@
     X(published_breaking_force)                                                                                        \
     X(published_check)                                                                                                 \
     X(published_rebuild)                                                                                               \
+    X(contact_pieces)                                                                                                  \
+    X(contact_pieces_moved)                                                                                            \
+    X(contact_cells)                                                                                                   \
+    X(contact_gather_moments)                                                                                          \
+    X(contact_gather_forces)                                                                                           \
+    X(contact_striker_parts)                                                                                           \
+    X(contact_striker_load)                                                                                            \
+    X(contact_detach)                                                                                                  \
+    X(contact_pose)                                                                                                    \
+    X(contact_turn)                                                                                                    \
+    X(contact_spin_energy)                                                                                             \
     X(fracture_force)                                                                                                  \
     X(fracture_stress)                                                                                                 \
     X(fracture_stress_second)                                                                                          \

@@ -33,3 +33,5 @@
 #include "contact.cl"
 #include "cell_criteria.cl"
 #include "published_breaks.cl"
+#include "contact_cells.cl"
+#include "contact_rigid.cl"

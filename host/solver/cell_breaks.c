@@ -1,5 +1,6 @@
 #include "cell_breaks_internal.h"
 #include "consistent.h"
+#include "contact.h"
 #include "strengths.h"
 #include "strikers_internal.h"
 #include "sym3.h"
@@ -283,15 +284,17 @@ static brc_status kick(brc_simulation *s, double by)
     if (brc_turns(s))
         BRC_TRY(BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(by), BRC_STATE(0), BRC_STATE(0), BRC_BUF(s->inertia),
                            BRC_BUF(s->torque), BRC_BUF(s->spin), BRC_BUF(s->orientation)));
+    BRC_TRY(brc_contact_turn(s, by, 0, 0));
     return s->strikers ? brc_strikers_advance(s, by, 0, 0, false) : BRC_OK;
 }
 
-/* All that cells hold together with their bonds [J]. */
+/* All that cells hold together with their bonds and surfaces [J]. */
 static brc_status held_energy(brc_simulation *s, double *out)
 {
-    double elastic, stabilisation;
+    double elastic, stabilisation, touching;
     BRC_TRY(brc_force_energies(s, &elastic, &stabilisation));
-    *out = elastic + stabilisation;
+    BRC_TRY(brc_contact_stored(s, &touching));
+    *out = elastic + stabilisation + touching;
     return BRC_OK;
 }
 
@@ -306,6 +309,7 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(kick(s, half_kick)); /* the step closes with the force of the whole bonds ... */
     BRC_TRY(break_marked(s));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
+    BRC_TRY(brc_contact_broken(s, 0));
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(kick(s, -half_kick)); /* ... and the next one opens with that of those that are left */
     BRC_TRY(held_energy(s, &after));

@@ -1,6 +1,7 @@
 /* Contact in the course of a run: when to look for pairs, what they add to forces, energy and the time step. */
 #include "contact_internal.h"
 #include "fracture_internal.h"
+#include "strikers_internal.h"
 #include <math.h>
 #include <string.h>
 
@@ -19,22 +20,35 @@ static brc_status check_scene(const brc_simulation *s)
 static brc_status find_kernels(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    BRC_TRY(brc_kernel_find(s->device, "contact_spheres", &c->kernel.spheres));
-    BRC_TRY(brc_kernel_find(s->device, "contact_marked", &c->kernel.marked));
-    return brc_kernel_find(s->device, "contact_gather_turning", &c->kernel.gather_turning);
+    const bool spheres = brc_is_beams(s);
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+        bool wanted;
+    } wanted[] = {{&c->kernel.spheres, "contact_spheres", spheres},
+                  {&c->kernel.cells, "contact_cells", !spheres},
+                  {&c->kernel.gather_turning, "contact_gather_turning", !c->affine},
+                  {&c->kernel.gather_moments, "contact_gather_moments", c->affine},
+                  {&c->kernel.gather_forces, "contact_gather_forces", c->affine},
+                  {&c->kernel.marked, "contact_marked", spheres && s->fracture},
+                  {&c->kernel.striker_parts, "contact_striker_parts", c->n_pieces > 0},
+                  {&c->kernel.striker_load, "contact_striker_load", c->n_pieces > 0}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
+        if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    return BRC_OK;
 }
 
 brc_status brc_contact_create(brc_simulation *s)
 {
     if (!s->scene->has_contact) return BRC_OK;
     BRC_TRY(check_scene(s));
-    if (!brc_is_beams(s))
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "interactions: contact: only spheres (model cbm) touch in this version; leave it out");
     BRC_TRY(BRC_ALLOCATE(s->context, &s->contact, 1, "contact"));
     s->contact->affine = brc_is_dlsm(s);
     s->contact->width = s->contact->affine ? 9 : 3;
-    BRC_TRY(find_kernels(s));
     BRC_TRY(brc_contact_setup(s));
+    BRC_TRY(find_kernels(s));
+    BRC_TRY(brc_contact_shapes(s));
+    BRC_TRY(brc_contact_rigid_create(s));
     return brc_contact_search_create(s);
 }
 
@@ -43,7 +57,10 @@ void brc_contact_free(brc_simulation *s)
     brc_contact_state *c = s->contact;
     if (!c) return;
     brc_contact_search_free(s);
-    brc_buffer **all[] = {&c->place, &c->reach, &c->id, &c->body, &c->material, &c->original, &c->exposed, &c->stored, &c->lost_friction, &c->lost_impact, &c->law, &c->result};
+    brc_contact_rigid_free(s);
+    brc_buffer **all[] = {&c->place, &c->reach, &c->id, &c->body, &c->material, &c->mass, &c->size_of, &c->original, &c->exposed, &c->stored,
+                          &c->lost_friction, &c->lost_impact, &c->law, &c->result, &c->part, &c->corner, &c->plane, &c->loop_start, &c->loop, &c->radius,
+                          &c->corner_start, &c->face_start, &c->piece_striker, &c->piece_kind, &c->piece_radius, &c->piece_own, &c->piece};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     brc_memory_free(c->law_of);
     brc_memory_free(c);
@@ -58,7 +75,12 @@ int64_t brc_contact_bytes(const brc_scene *scene, int64_t n, int64_t entries, in
 
 /* ---- when to look ---- */
 
-brc_status brc_contact_restart(brc_simulation *s) { return s->contact ? brc_contact_search(s) : BRC_OK; }
+brc_status brc_contact_restart(brc_simulation *s)
+{
+    if (!s->contact) return BRC_OK;
+    BRC_TRY(brc_contact_detach(s));
+    return brc_contact_search(s);
+}
 
 brc_status brc_contact_follow(brc_simulation *s)
 {
@@ -80,14 +102,28 @@ bool brc_contact_acts(const brc_simulation *s, const brc_force_request *r)
     return s->contact && !r->homogeneous && r->displacement == s->displacement && s->contact->now.n_pairs > 0;
 }
 
+/* No strikers: a buffer that no kernel touches. */
+static brc_buffer *striker_pose(const brc_simulation *s) { return s->strikers ? s->strikers->pose : NULL; }
+
 brc_status brc_contact_pairs(brc_simulation *s, double dt)
 {
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
+    const int32_t n = s->layout->n_rows, n_materials = s->scene->n_materials;
     const int linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
-    return BRC_LAUNCH(c->kernel.spheres, l->n_pairs, BRC_INT(l->n_pairs), BRC_STATE(dt), BRC_INT(linear), BRC_INT(s->scene->n_materials), BRC_BUF(l->ends),
-                      BRC_BUF(c->place), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_BUF(c->reach), BRC_BUF(s->mass), BRC_BUF(c->material),
-                      BRC_BUF(c->body), BRC_BUF(c->law), BRC_BUF(l->history), BRC_BUF(c->result));
+    if (brc_is_beams(s))
+        return BRC_LAUNCH(c->kernel.spheres, l->n_pairs, BRC_INT(l->n_pairs), BRC_STATE(dt), BRC_INT(n), BRC_INT(linear), BRC_INT(n_materials),
+                          BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]), BRC_BUF(l->ends), BRC_BUF(c->place),
+                          BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_BUF(c->reach), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start),
+                          BRC_BUF(c->loop), BRC_BUF(c->radius), BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->id), BRC_BUF(c->mass),
+                          BRC_BUF(c->material), BRC_BUF(c->body), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_radius),
+                          BRC_BUF(striker_pose(s)), BRC_BUF(c->law), BRC_BUF(l->history), BRC_BUF(c->result));
+    return BRC_LAUNCH(c->kernel.cells, l->n_pairs, BRC_INT(l->n_pairs), BRC_STATE(dt), BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_INT(n_materials),
+                      BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]), BRC_BUF(l->ends), BRC_BUF(c->place),
+                      BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->orientation), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start),
+                      BRC_BUF(c->loop), BRC_BUF(c->radius), BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->id), BRC_BUF(c->size_of),
+                      BRC_BUF(c->mass), BRC_BUF(c->material), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(striker_pose(s)), BRC_BUF(c->law),
+                      BRC_BUF(l->history), BRC_BUF(c->result));
 }
 
 static brc_status gather_turning(brc_simulation *s, double sign, double kick, int book, brc_buffer *force, brc_buffer *torque)
@@ -99,11 +135,45 @@ static brc_status gather_turning(brc_simulation *s, double sign, double kick, in
                       BRC_BUF(torque), BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(c->stored), BRC_BUF(c->lost_friction), BRC_BUF(c->lost_impact));
 }
 
+/* Forces and torques of the elements on strikers. */
+static brc_status load_strikers(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const brc_contact_list *l = &c->now;
+    if (c->n_pieces == 0) return BRC_OK;
+    const int32_t n = s->strikers->n, n_blocks = (l->n_pairs + BRC_CONTACT_PAIRS - 1) / BRC_CONTACT_PAIRS;
+    BRC_TRY(BRC_LAUNCH(c->kernel.striker_parts, n * n_blocks, BRC_INT(n * n_blocks), BRC_INT(n_blocks), BRC_INT(l->n_pairs), BRC_INT(s->layout->n_rows),
+                       BRC_INT(BRC_CONTACT_RESULT + 2 * c->width), BRC_INT(BRC_CONTACT_RESULT + c->width), BRC_BUF(l->ends), BRC_BUF(c->piece_striker),
+                       BRC_BUF(c->result), BRC_BUF(c->part)));
+    return BRC_LAUNCH(c->kernel.striker_load, n, BRC_INT(n), BRC_INT(n_blocks), BRC_BUF(c->part), BRC_BUF(s->strikers->load));
+}
+
+/* The step that the evaluation ends; 0: the state is evaluated again. */
+static double step_of(const brc_simulation *s, const brc_force_request *r) { return r->book == BRC_BOOK_WORK ? s->time_step.value : 0; }
+
+brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
+{
+    brc_contact_state *c = s->contact;
+    const brc_contact_list *l = &c->now;
+    const int book = r->book == BRC_BOOK_WORK;
+    BRC_TRY(brc_contact_pairs(s, step_of(s, r)));
+    return BRC_LAUNCH(c->kernel.gather_moments, l->n_listed, BRC_INT(l->n_listed), BRC_INT(book), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
+                      BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(s->boundary), BRC_BUF(c->rigid), BRC_BUF(s->gradient), BRC_BUF(s->held_moment),
+                      BRC_BUF(c->torque), BRC_BUF(c->stored), BRC_BUF(c->lost_friction), BRC_BUF(c->lost_impact));
+}
+
 brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
 {
-    const bool step = r->book == BRC_BOOK_WORK;
-    BRC_TRY(brc_contact_pairs(s, step ? s->time_step.value : 0));
-    return gather_turning(s, 1, 0, step, r->force, r->torque);
+    brc_contact_state *c = s->contact;
+    const brc_contact_list *l = &c->now;
+    if (c->affine)
+        BRC_TRY(BRC_LAUNCH(c->kernel.gather_forces, l->n_listed, BRC_INT(l->n_listed), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
+                           BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(r->force)));
+    else {
+        BRC_TRY(brc_contact_pairs(s, step_of(s, r)));
+        BRC_TRY(gather_turning(s, 1, 0, r->book == BRC_BOOK_WORK, r->force, r->torque));
+    }
+    return load_strikers(s);
 }
 
 /* ---- breaks ---- */
@@ -124,10 +194,15 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick)
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows;
     double before, after;
-    bool any;
+    bool any = true;
     if (!c) return BRC_OK;
-    BRC_TRY(beams_broke(s, &any));
+    if (c->kernel.marked) BRC_TRY(beams_broke(s, &any));
     if (!any) return BRC_OK;
+    if (!c->kernel.marked) { /* cells: the forces are evaluated next */
+        BRC_TRY(brc_contact_detach(s));
+        BRC_TRY(BRC_LAUNCH(c->kernel.expose, n, BRC_INT(n), BRC_BUF(s->fracture->broken), BRC_BUF(c->exposed)));
+        return brc_contact_search(s);
+    }
     BRC_TRY(brc_contact_stored(s, &before));
     if (c->now.n_pairs > 0) BRC_TRY(gather_turning(s, -1, half_kick, 0, s->force, s->torque));
     BRC_TRY(BRC_LAUNCH(c->kernel.expose, n, BRC_INT(n), BRC_BUF(s->fracture->broken), BRC_BUF(c->exposed)));
@@ -153,31 +228,42 @@ brc_status brc_contact_ledger(brc_simulation *s, brc_ledger *ledger)
 {
     const int32_t n = s->layout->n_rows;
     if (!s->contact) return BRC_OK;
+    double spin;
     BRC_TRY(brc_contact_stored(s, &ledger->contact));
+    BRC_TRY(brc_contact_spin_energy(s, &spin));
+    ledger->kinetic += spin;
     BRC_TRY(brc_vector_sum(s, s->contact->lost_friction, n, &ledger->friction));
     BRC_TRY(brc_vector_sum(s, s->contact->lost_impact, n, &ledger->impact));
     ledger->fracture -= s->contact->born; /* what a break leaves in the surfaces it did not take away */
     return BRC_OK;
 }
 
+/* Stiffest springs of element e against material `other`: normal, and tangential with what turning adds to it [N/m]. */
+static double stiffest(const brc_simulation *s, int64_t e, int32_t other)
+{
+    const brc_domain *d = s->domain;
+    const double *law = brc_contact_law_of(s, s->material_of_element[e], other);
+    const bool linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
+    const double rub = law[4] > 0 ? law[3] : 0;
+    if (brc_is_beams(s)) { /* a sphere has R^2 / I = 5 / (2 m) */
+        const double k = law[2] > 0 ? law[2] : linear ? law[0] * d->radius[e] : 2 * law[0] * d->radius[e] * sqrt(sphere_depth);
+        return k * fmax(1, 3.5 * rub);
+    }
+    /* a cube of edge h: contact through a whole face is k_n A^2 / h^3 = k_n h, and (h / 2)^2 / I = 3 / (2 m) */
+    return (law[2] > 0 ? law[2] : law[1] * cbrt(d->volume[e])) * fmax(1, 2.5 * rub);
+}
+
 /* Two bodies of mass m pressed together from either side by springs k: omega^2 = 2 k / m at a wall or between two springs and 4 k / m between two equal
- * bodies; the tangential spring also turns spheres, R^2 / I = 5 / (2 m), 7/2 of its stiffness in all. */
+ * bodies. */
 brc_status brc_contact_critical_step(brc_simulation *s, double *out)
 {
     const brc_domain *d = s->domain;
     double fastest = 0;
     *out = INFINITY;
     if (!s->contact) return BRC_OK;
-    for (int64_t e = 0; e < d->n_elements; ++e) {
-        const int32_t own = s->material_of_element[e];
-        const double mass = d->volume[e] * s->elastic[own].density;
-        for (int32_t other = 0; other < s->scene->n_materials; ++other) {
-            const double *law = brc_contact_law_of(s, own, other);
-            const bool linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR || law[2] > 0;
-            const double k = law[2] > 0 ? law[2] : linear ? law[0] * d->radius[e] : 2 * law[0] * d->radius[e] * sqrt(sphere_depth);
-            fastest = fmax(fastest, 4 * k / mass * fmax(1, law[4] > 0 ? 3.5 * law[3] : 0));
-        }
-    }
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        for (int32_t other = 0; other < s->scene->n_materials; ++other)
+            fastest = fmax(fastest, 4 * stiffest(s, e, other) / (d->volume[e] * s->elastic[s->material_of_element[e]].density));
     *out = 2 / sqrt(fastest);
     return BRC_OK;
 }

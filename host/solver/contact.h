@@ -19,7 +19,9 @@ int64_t brc_contact_bytes(const brc_scene *scene, int64_t n, int64_t entries, in
 brc_status brc_contact_restart(brc_simulation *s);
 /* Elements moved by a step: look again where they moved far enough. */
 brc_status brc_contact_follow(brc_simulation *s);
-/* dlsm: poses of what is detached go into the gradients, pairs are evaluated, and held_moment gains their moments. It is zeroed before. */
+/* dlsm: the rotations of rigid cells go into the gradients. */
+brc_status brc_contact_pose(brc_simulation *s);
+/* dlsm: pairs are evaluated, and held_moment, zeroed before, gains their moments. */
 brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r);
 /* Forces (and, in models that turn, the evaluation and torques) of touching pairs, added. */
 brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r);

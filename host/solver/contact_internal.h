@@ -4,7 +4,7 @@
 
 #include "contact.h"
 
-enum { BRC_CONTACT_HISTORY = 16, BRC_CONTACT_RESULT = 9, BRC_CONTACT_LAW = 6 }; /* as in kernels/contact_search.cl, contact.cl */
+enum { BRC_CONTACT_HISTORY = 16, BRC_CONTACT_RESULT = 9, BRC_CONTACT_LAW = 6, BRC_CONTACT_PAIRS = 256 }; /* as in kernels/contact_search.cl, contact.cl */
 
 /* Which pairs there are (kernels/contact_search.cl); kept twice, so that pairs find what they remember. */
 typedef struct brc_contact_list {
@@ -18,14 +18,27 @@ struct brc_contact_state {
         brc_kernel *extent, *largest, *moved, *expose, *list, *keys, *buckets, *count, *fill, *own_pairs, *other_pairs, *carry;
         brc_kernel *scan_sums, *scan_tops, *scan_fill, *sort_count, *sort_move;
         brc_kernel *spheres, *gather_turning, *marked;
+        brc_kernel *cells, *gather_moments, *gather_forces, *striker_parts, *striker_load, *pieces, *pieces_moved;
+        brc_kernel *detach, *pose, *turn, *spin_energy;
     } kernel;
     bool affine;     /* dlsm: elements follow I + H; else they turn with quaternions of their own */
     int32_t width;   /* numbers of a moment: 9, else 3 */
     double skin;     /* [m] */
     double size;     /* mean size of an element [m] */
     double middle[3]; /* of the domain: places are relative to it [m] */
-    /* of rows */
-    brc_buffer *place, *reach, *id, *body, *material, *original, *exposed, *built;
+    int32_t n_pieces; /* of strikers */
+    double span;      /* how far from the middle elements are expected [m] */
+    /* of rows; id, material, mass and size also of pieces, after them */
+    brc_buffer *place, *reach, *id, *body, *material, *mass, *size_of, *original, *exposed, *built;
+    /* polyhedra (convex_overlap.h) and pieces */
+    brc_buffer *corner, *plane, *loop_start, *loop, *radius, *corner_start, *face_start;
+    brc_buffer *piece_striker, *piece_kind, *piece_radius, *piece_own, *piece;
+    brc_buffer *part; /* forces on strikers by blocks of pairs */
+    int64_t part_room;
+    /* rigid cells of dlsm (contact_rigid.c) */
+    bool detaches;
+    double n_rigid;
+    brc_buffer *rigid, *inertia, *turned, *momentum, *torque;
     brc_buffer *stored, *lost_friction, *lost_impact;
     brc_buffer *law; /* [n_materials][n_materials][BRC_CONTACT_LAW] */
     double *law_of;  /* the same on the host */
@@ -46,6 +59,17 @@ struct brc_contact_state {
 brc_status brc_contact_setup(brc_simulation *s);
 /* Law of two materials (BRC_CONTACT_LAW numbers, kernels/contact_law.h). */
 const double *brc_contact_law_of(const brc_simulation *s, int32_t i, int32_t j);
+
+/* ---- contact_shapes.c ---- */
+brc_status brc_contact_shapes(brc_simulation *s);
+
+/* ---- contact_rigid.c ---- */
+brc_status brc_contact_rigid_create(brc_simulation *s);
+void brc_contact_rigid_free(brc_simulation *s);
+/* Cells without bonds become rigid. */
+brc_status brc_contact_detach(brc_simulation *s);
+/* Kinetic energy of the turning of rigid cells [J]. */
+brc_status brc_contact_spin_energy(brc_simulation *s, double *out);
 
 /* ---- contact_search.c ---- */
 brc_status brc_contact_search_create(brc_simulation *s);

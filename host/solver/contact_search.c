@@ -1,5 +1,6 @@
 /* The list of pairs that may touch: a grid of hashed cells, sorted on the device (kernels/contact_search.cl, scan.cl). */
 #include "contact_internal.h"
+#include "strikers_internal.h"
 #include <math.h>
 
 enum { SCAN_BLOCK = 1024, SORT_BINS = 256, MOVED_BLOCK = 256, MOST_QUIET = 64, FEWEST_QUIET = 8 };
@@ -40,10 +41,10 @@ brc_status brc_contact_search_create(brc_simulation *s)
                   {&c->kernel.buckets, "contact_buckets"}, {&c->kernel.count, "contact_count"}, {&c->kernel.fill, "contact_fill"},
                   {&c->kernel.own_pairs, "contact_own_pairs"}, {&c->kernel.other_pairs, "contact_other_pairs"}, {&c->kernel.carry, "contact_carry"},
                   {&c->kernel.scan_sums, "scan_sums"}, {&c->kernel.scan_tops, "scan_tops"}, {&c->kernel.scan_fill, "scan_fill"},
-                  {&c->kernel.sort_count, "sort_count"}, {&c->kernel.sort_move, "sort_move"}};
+                  {&c->kernel.pieces, "contact_pieces"}, {&c->kernel.pieces_moved, "contact_pieces_moved"}, {&c->kernel.sort_count, "sort_count"}, {&c->kernel.sort_move, "sort_move"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     BRC_TRY(brc_new_state(s, &c->built, 4 * n, "places of the last search"));
-    BRC_TRY(brc_new_state(s, &c->moved, 3 * (int64_t)blocks_of(n, MOVED_BLOCK), "moves since the last search"));
+    BRC_TRY(brc_new_state(s, &c->moved, 3 * (blocks_of(n, MOVED_BLOCK) + (int64_t)c->n_pieces), "moves since the last search"));
     BRC_TRY(new_ints(s, &c->sums, blocks_of(largest_scan, SCAN_BLOCK) + 1, "running sums"));
     brc_contact_list *both[] = {&c->now, &c->before};
     for (int k = 0; k < 2; ++k) BRC_TRY(new_ints(s, &both[k]->slot_of, n + 1, "exposed elements"));
@@ -65,10 +66,9 @@ void brc_contact_search_free(brc_simulation *s)
     free_list(&c->before);
 }
 
-/* Largest of each column of [n_blocks][3] numbers of the state. */
-static brc_status largest_of(brc_simulation *s, double out[3])
+/* Largest of each column of c->moved [n][3]. */
+static brc_status largest_of(brc_simulation *s, int32_t n, double out[3])
 {
-    const int32_t n = blocks_of(s->layout->n_rows, MOVED_BLOCK);
     double *value = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &value, 3 * (int64_t)n, "moves since the last search"));
     const brc_status status = brc_download(s, s->contact->moved, brc_precision_state_bytes(brc_device_get_precision(s->device)), value, 3 * (int64_t)n);
@@ -88,7 +88,11 @@ brc_status brc_contact_look(brc_simulation *s, bool *due)
     BRC_TRY(BRC_LAUNCH(c->kernel.moved, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_BUF(c->exposed), BRC_BUF(c->place),
                        BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(c->reach), BRC_BUF(c->built), BRC_BUF(s->velocity), BRC_BUF(s->force),
                        BRC_BUF(s->mass), BRC_BUF(c->moved)));
-    BRC_TRY(largest_of(s, most));
+    if (c->n_pieces)
+        BRC_TRY(BRC_LAUNCH(c->kernel.pieces_moved, c->n_pieces, BRC_INT(c->n_pieces), BRC_INT(n_blocks), BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]),
+                           BRC_STATE(c->middle[2]), BRC_STATE(c->span), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_own),
+                           BRC_BUF(s->strikers->pose), BRC_BUF(s->strikers->motion), BRC_BUF(c->piece), BRC_BUF(c->moved)));
+    BRC_TRY(largest_of(s, n_blocks + c->n_pieces, most));
     /* Twice the present speed and acceleration must not use up what is left of half the skin before the next look. */
     const double left = 0.5 * c->skin - most[0], v = 2 * sqrt(most[1]) * dt, a = 2 * sqrt(most[2]) * dt * dt;
     int64_t steps = 0;
@@ -167,6 +171,14 @@ static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t
         brc_buffer_free(&l->history);
         BRC_TRY(brc_new_state(s, &l->history, BRC_CONTACT_HISTORY * l->pair_room, "history of pairs"));
     }
+    if (c->n_pieces) {
+        const int64_t parts = 6 * (int64_t)s->strikers->n * blocks_of(l->pair_room, BRC_CONTACT_PAIRS);
+        if (!c->part || parts > c->part_room) {
+            c->part_room = parts;
+            brc_buffer_free(&c->part);
+            BRC_TRY(brc_new_state(s, &c->part, parts, "forces on strikers"));
+        }
+    }
     if (c->result && n <= c->result_room) return BRC_OK;
     c->result_room = l->pair_room;
     brc_buffer_free(&c->result);
@@ -200,15 +212,15 @@ static brc_status find_entries(brc_simulation *s)
     while (mask < 2 * (int64_t)m) mask *= 2;
     mask -= 1;
     BRC_TRY(BRC_LAUNCH(c->kernel.largest, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->built), BRC_BUF(c->moved)));
-    BRC_TRY(largest_of(s, most));
+    BRC_TRY(largest_of(s, n_blocks, most));
     const double per_edge = 1 / (1.000001 * (2 * most[0] + c->skin));
     BRC_TRY(sort_by_cell(s, per_edge, mask, &sorted));
-    BRC_TRY(BRC_LAUNCH(c->kernel.count, m, BRC_INT(m), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_BUF(l->list), BRC_BUF(c->built),
-                       BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->count)));
+    BRC_TRY(BRC_LAUNCH(c->kernel.count, m, BRC_INT(m), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_INT(c->n_pieces), BRC_BUF(c->piece),
+                       BRC_BUF(c->piece_kind), BRC_BUF(l->list), BRC_BUF(c->built), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->count)));
     BRC_TRY(scan(s, c->count, m, l->start, &near));
     BRC_TRY(room_for_entries(s, l, near));
-    return BRC_LAUNCH(c->kernel.fill, m, BRC_INT(m), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_INT(s->scene->contact.within ? 1 : 0),
-                      BRC_BUF(l->list), BRC_BUF(c->built), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->id), BRC_BUF(c->body),
+    return BRC_LAUNCH(c->kernel.fill, m, BRC_INT(m), BRC_INT(n), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_INT(s->scene->contact.within ? 1 : 0),
+                      BRC_INT(c->n_pieces), BRC_BUF(c->piece), BRC_BUF(c->piece_kind), BRC_BUF(l->list), BRC_BUF(c->built), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->id), BRC_BUF(c->body),
                       BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->original), BRC_BUF(l->start), BRC_BUF(l->entry), BRC_BUF(l->used),
                       BRC_BUF(c->owned));
 }
@@ -244,7 +256,12 @@ brc_status brc_contact_search(brc_simulation *s)
     c->searches += 1;
     BRC_TRY(BRC_LAUNCH(c->kernel.extent, n, BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_BUF(c->place), BRC_BUF(s->displacement), BRC_BUF(s->gradient),
                        BRC_BUF(c->reach), BRC_BUF(c->built)));
-    BRC_TRY(brc_buffer_fill_zero(c->stored));
+    if (c->n_pieces)
+        BRC_TRY(BRC_LAUNCH(c->kernel.pieces, c->n_pieces, BRC_INT(c->n_pieces), BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]),
+                           BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_own), BRC_BUF(s->strikers->pose), BRC_BUF(c->piece)));
+    BRC_TRY(brc_buffer_fill_zero(c->stored)); /* of elements that leave the list too */
+    if (c->torque) BRC_TRY(brc_buffer_fill_zero(c->torque));
+    if (c->n_pieces) BRC_TRY(brc_buffer_fill_zero(s->strikers->load));
     BRC_TRY(list_exposed(s));
     if (c->now.n_listed == 0) return BRC_OK;
     BRC_TRY(find_entries(s));

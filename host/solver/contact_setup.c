@@ -1,5 +1,6 @@
 /* What contact knows of the elements from the start: where they are, how far they reach, of what they are, which are exposed; and the laws. */
 #include "contact_internal.h"
+#include "strikers_internal.h"
 #include <math.h>
 #include <string.h>
 
@@ -114,19 +115,34 @@ static brc_status upload_original(brc_simulation *s)
     return status;
 }
 
+/* Of rows, and of the strikers' pieces after them. */
 static brc_status upload_rows(brc_simulation *s, int32_t *number, double *value)
 {
     brc_contact_state *c = s->contact;
     const brc_domain *d = s->domain;
     const brc_layout *layout = s->layout;
-    const int32_t n = layout->n_rows;
+    const brc_strikers *t = s->strikers;
+    const int32_t n = layout->n_rows, np = c->n_pieces;
     BRC_TRY(find_exposed(s, number));
     for (int32_t r = 0; r < n; ++r) number[r] = layout->element_of_row[r];
-    BRC_TRY(brc_new_int(s, &c->id, number, n, "ids of elements"));
+    for (int32_t p = 0; p < np; ++p) number[n + p] = (int32_t)d->n_elements + p;
+    BRC_TRY(brc_new_int(s, &c->id, number, n + np, "ids of elements"));
     for (int32_t r = 0; r < n; ++r) number[r] = layout->element_of_row[r] < 0 ? -1 : d->body[layout->element_of_row[r]];
     BRC_TRY(brc_new_int(s, &c->body, number, n, "bodies of elements"));
     for (int32_t r = 0; r < n; ++r) number[r] = layout->element_of_row[r] < 0 ? 0 : s->material_of_element[layout->element_of_row[r]];
-    BRC_TRY(brc_new_int(s, &c->material, number, n, "materials of elements"));
+    for (int32_t p = 0; p < np; ++p) number[n + p] = s->scene->strikers[t->piece_striker[p]].material;
+    BRC_TRY(brc_new_int(s, &c->material, number, n + np, "materials of elements"));
+    for (int32_t r = 0; r < n; ++r) {
+        const int32_t e = layout->element_of_row[r];
+        value[r] = e < 0 ? 1 : d->volume[e] * s->elastic[s->material_of_element[e]].density;
+    }
+    for (int32_t p = 0; p < np; ++p) value[n + p] = t->body[t->piece_striker[p]].mass; /* 0 of those that are not free */
+    BRC_TRY(brc_new_state(s, &c->mass, n + np, "masses of elements"));
+    BRC_TRY(brc_upload_state(s, c->mass, value, n + np));
+    for (int32_t r = 0; r < n; ++r) value[r] = layout->element_of_row[r] < 0 ? 1 : cbrt(d->volume[layout->element_of_row[r]]);
+    for (int32_t p = 0; p < np; ++p) value[n + p] = 0;
+    BRC_TRY(brc_new_state(s, &c->size_of, n + np, "sizes of elements"));
+    BRC_TRY(brc_upload_state(s, c->size_of, value, n + np));
     for (int32_t r = 0; r < n; ++r) value[r] = layout->element_of_row[r] < 0 ? 0 : reach_of(d, layout->element_of_row[r]);
     BRC_TRY(brc_new_state(s, &c->reach, n, "radii of elements"));
     BRC_TRY(brc_upload_state(s, c->reach, value, n));
@@ -145,13 +161,17 @@ brc_status brc_contact_setup(brc_simulation *s)
     int32_t *number = NULL;
     double *value = NULL, volume = 0;
     brc_status status = BRC_OK;
-    for (int k = 0; k < 3; ++k) c->middle[k] = 0.5 * (d->bounds[0][k] + d->bounds[1][k]);
+    for (int k = 0; k < 3; ++k) {
+        c->middle[k] = 0.5 * (d->bounds[0][k] + d->bounds[1][k]);
+        c->span += 2 * (d->bounds[1][k] - d->bounds[0][k]);
+    }
+    c->n_pieces = s->strikers ? s->strikers->convex.n : 0;
     for (int64_t e = 0; e < d->n_elements; ++e) volume += d->volume[e];
     c->size = cbrt(volume / (double)d->n_elements);
     c->skin = s->scene->contact.skin > 0 ? s->scene->contact.skin : 0.25 * c->size;
     BRC_TRY(set_laws(s));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &number, n, "elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, 3 * n, "elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &number, n + c->n_pieces, "elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, 3 * (n + c->n_pieces), "elements"));
     BRC_TRY_OR(cleanup, upload_rows(s, number, value));
     BRC_TRY_OR(cleanup, upload_original(s));
     BRC_TRY_OR(cleanup, brc_new_state(s, &c->stored, n, "energy of contact"));

@@ -18,6 +18,7 @@ static brc_status kick_and_drift(brc_simulation *s, double kick, double drift)
     BRC_TRY(BRC_LAUNCH(s->kernel.advance, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_BUF(s->mass), BRC_BUF(s->force),
                        BRC_BUF(s->velocity), BRC_BUF(s->displacement)));
     if (s->strikers) BRC_TRY(brc_strikers_advance(s, kick, drift, 0, false));
+    BRC_TRY(brc_contact_turn(s, kick, drift, 0));
     if (!brc_turns(s)) return BRC_OK;
     return BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(0),
                       BRC_BUF(s->inertia), BRC_BUF(s->torque), BRC_BUF(s->spin), BRC_BUF(s->orientation));
@@ -59,6 +60,7 @@ static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double
                        BRC_BUF(s->force), BRC_BUF(s->velocity), BRC_BUF(s->displacement), BRC_BUF(s->moved),
                        BRC_BUF(s->lost_numerical)));
     if (s->strikers) BRC_TRY(brc_strikers_advance(s, dt, dt, (stage->phi - 1) * dt, true));
+    BRC_TRY(brc_contact_turn(s, dt, dt, (stage->phi - 1) * dt * dt));
     if (brc_turns(s)) /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
         BRC_TRY(BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(dt), BRC_STATE(dt),
                            BRC_STATE((stage->phi - 1) * dt * dt), BRC_BUF(s->inertia), BRC_BUF(s->torque), BRC_BUF(s->spin),

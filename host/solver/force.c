@@ -27,12 +27,14 @@ static brc_status dlsm_gradients(brc_simulation *s, const brc_force_request *r)
     return BRC_OK;
 }
 
-/* What held faces and tractions add to Q. */
+/* What held faces, tractions and contact add to Q. */
 static brc_status dlsm_face_moments(brc_simulation *s, const brc_force_request *r)
 {
     brc_held_faces *h = &s->loads.held;
-    if (!has_face_loads(s)) return BRC_OK;
+    const bool touching = brc_contact_acts(s, r);
+    if (!has_face_loads(s) && !touching) return BRC_OK;
     BRC_TRY(brc_buffer_fill_zero(s->held_moment));
+    if (touching) BRC_TRY(brc_contact_moments(s, r));
     if (h->n_faces)
         BRC_TRY(BRC_LAUNCH(s->kernel.held_moment, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
                            BRC_BUF(h->place), BRC_BUF(h->face_start), BRC_BUF(h->area), BRC_BUF(h->arm), BRC_BUF(h->held),
@@ -82,6 +84,7 @@ static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
     const double one_plus_tau = 1 + s->scene->model.tau;
     const int finite = r->finite ? 1 : 0, face_loads = has_face_loads(s) ? 1 : 0;
     BRC_TRY(dlsm_gradients(s, r));
+    if (r->displacement == s->displacement) BRC_TRY(brc_contact_pose(s));
     BRC_TRY(BRC_LAUNCH(s->kernel.stress, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
                        BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
@@ -90,7 +93,7 @@ static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
     BRC_TRY(BRC_LAUNCH(s->kernel.flux, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(r->displacement),
                        BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume),
-                       BRC_BUF(s->boundary), BRC_BUF(s->held_moment), BRC_INT(face_loads), BRC_COEFF(m->k),
+                       BRC_BUF(s->boundary), BRC_BUF(s->held_moment), BRC_INT(face_loads || brc_contact_acts(s, r) ? 1 : 0), BRC_COEFF(m->k),
                        BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau), BRC_BUF(s->material),
                        BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(s->flux), BRC_BUF(s->bond_part)));
     BRC_TRY(BRC_LAUNCH(s->kernel.force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),

@@ -110,6 +110,12 @@ cleanup:
     return status;
 }
 
+void brc_layout_all_boundary(brc_layout *layout)
+{
+    layout->n_boundary = layout->n_slices;
+    for (int32_t s = 0; s < layout->n_slices; ++s) layout->boundary[s] = s;
+}
+
 void brc_layout_free(brc_layout **layout)
 {
     if (!layout || !*layout) return;

@@ -22,6 +22,8 @@ typedef struct brc_layout {
 
 /* BRC_BAD_INPUT when the domain needs more than 2^31 entries (with the size), BRC_NO_MEMORY. */
 brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int32_t slice, brc_layout **out);
+/* Every slice gets a boundary block, in order. */
+void brc_layout_all_boundary(brc_layout *layout);
 void brc_layout_free(brc_layout **layout);
 /* Entries that brc_layout_create would give, to within a few percent, from the degrees alone. */
 int64_t brc_layout_estimate_entries(const brc_domain *domain, int32_t slice);

@@ -132,7 +132,7 @@ static int list_arrays(brc_simulation *s, array_need needs[MOST_ARRAYS])
         {&s->flux, dlsm, false, 9 * n, "fluxes"},
         {&s->bond_part, dlsm && brc_device_has_many_materials(s->device), false, 9 * n, "bond parts"},
         {&s->held_gradient, dlsm && faces, false, 9 * boundary, "held gradients"},
-        {&s->held_moment, dlsm && faces, false, 9 * boundary, "held moments"},
+        {&s->held_moment, dlsm && (faces || s->scene->has_contact), false, 9 * boundary, "held moments"},
         {&s->orientation, turns, true, 4 * n, "orientations"},
         {&s->spin, turns, true, 3 * n, "spins"},
         {&s->torque, turns, true, 3 * n, "torques"},
@@ -219,6 +219,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
         goto cleanup;
     }
     BRC_TRY_OR(cleanup, brc_layout_create(context, domain, brc_device_slice(device), &s->layout));
+    if (scene->has_contact) brc_layout_all_boundary(s->layout); /* any element may come to be pushed */
     s->n_groups = s->layout->n_slices * (brc_device_slice(device) / brc_device_lanes(device));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &s->note, scene->n_stages, "stages"));
     BRC_TRY_OR(cleanup, find_materials(s));

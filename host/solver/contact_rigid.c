@@ -1,0 +1,82 @@
+/* Cells of dlsm that have lost all their bonds, as rigid bodies (kernels/contact_rigid.cl). */
+#include "contact_internal.h"
+
+brc_status brc_contact_rigid_create(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const brc_domain *d = s->domain;
+    const int64_t n = s->layout->n_rows;
+    bool loose = s->scene->has_fracture;
+    double *inertia = NULL, *upright = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY(brc_buffer_create(s->device, &c->rigid, 4 * n, "rigid cells"));
+    for (int64_t e = 0; e < d->n_elements; ++e) loose = loose || d->row_start[e + 1] == d->row_start[e];
+    c->detaches = c->affine && loose;
+    if (!c->detaches) return BRC_OK;
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+    } wanted[] = {{&c->kernel.detach, "contact_detach"}, {&c->kernel.pose, "contact_pose"}, {&c->kernel.turn, "contact_turn"}, {&c->kernel.spin_energy, "contact_spin_energy"}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &inertia, 6 * d->n_elements, "inertia of cells"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &upright, 4 * d->n_elements, "orientations of cells"));
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        for (int k = 0; k < 6; ++k) inertia[6 * e + k] = d->inertia[6 * e + k] * s->elastic[s->material_of_element[e]].density;
+        upright[4 * e] = 1;
+    }
+    BRC_TRY_OR(cleanup, brc_new_state(s, &c->inertia, 6 * n, "inertia of cells"));
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, c->inertia, inertia, 6, 1));
+    BRC_TRY_OR(cleanup, brc_new_state(s, &c->turned, 4 * n, "orientations of cells"));
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, c->turned, upright, 4, 0));
+    BRC_TRY_OR(cleanup, brc_new_state(s, &c->momentum, 3 * n, "momenta of cells"));
+    BRC_TRY_OR(cleanup, brc_new_state(s, &c->torque, 3 * n, "torques on cells"));
+cleanup:
+    brc_memory_free(inertia);
+    brc_memory_free(upright);
+    return status;
+}
+
+void brc_contact_rigid_free(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    brc_buffer **all[] = {&c->rigid, &c->inertia, &c->turned, &c->momentum, &c->torque};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+}
+
+brc_status brc_contact_detach(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows;
+    if (!c->detaches) return BRC_OK;
+    BRC_TRY(BRC_LAUNCH(c->kernel.detach, n, BRC_INT(n), BRC_BUF(c->id), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->gradient),
+                       BRC_BUF(c->rigid), BRC_BUF(c->turned), BRC_BUF(s->kinetic)));
+    BRC_TRY(brc_vector_sum(s, s->kinetic, n, &c->n_rigid));
+    return brc_contact_pose(s);
+}
+
+brc_status brc_contact_pose(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows;
+    if (!c || !(c->n_rigid > 0)) return BRC_OK;
+    return BRC_LAUNCH(c->kernel.pose, n, BRC_INT(n), BRC_BUF(c->rigid), BRC_BUF(c->turned), BRC_BUF(s->gradient));
+}
+
+brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double extra)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows;
+    if (!c || !(c->n_rigid > 0) || !s->scene->contact.rotation) return BRC_OK;
+    return BRC_LAUNCH(c->kernel.turn, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(extra), BRC_BUF(c->rigid), BRC_BUF(c->inertia),
+                      BRC_BUF(c->torque), BRC_BUF(c->momentum), BRC_BUF(c->turned));
+}
+
+brc_status brc_contact_spin_energy(brc_simulation *s, double *out)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows;
+    *out = 0;
+    if (!(c->n_rigid > 0)) return BRC_OK;
+    BRC_TRY(BRC_LAUNCH(c->kernel.spin_energy, n, BRC_INT(n), BRC_BUF(c->rigid), BRC_BUF(c->inertia), BRC_BUF(c->momentum), BRC_BUF(c->turned), BRC_BUF(s->kinetic)));
+    return brc_vector_sum(s, s->kinetic, n, out);
+}

@@ -1,0 +1,205 @@
+/* Forces of pairs of convex cells, and of cells on strikers: history and result as in contact.cl. Energy of a pair W = k_n V^2 / (2 h^3), V the volume of
+ * the overlap in the present poses, so that the pressure p = k_n V / h^3 acts on the area vector of the overlap and every force and moment is
+ * a gradient of W. h: harmonic mean of the cube roots of the two volumes, that of the element alone at a striker. A dashpot p_v = 2 b sqrt(m k_n / h^3) dV/dt / |a| makes V a linear
+ * oscillator whenever V is a power of the depth: b alone decides the restitution.
+ * Others than elements: number n + piece. piece_kind: 0 polyhedron, 1 sphere (whose polyhedron meets cells), 2 plane. Of elements and pieces: id, the number
+ * of their shape too (convex_overlap.h), size: cube root of the volume (0: a piece), mass (0: does not move), material. */
+
+LAW svec3 svec3_of(convex_vec a) { return (svec3){a.x, a.y, a.z}; }
+LAW convex_vec convex_of(svec3 a) { return (convex_vec){a.x, a.y, a.z}; }
+LAW smat3 smat3_of(convex_map a) { return (smat3){a.xx, a.xy, a.xz, a.yx, a.yy, a.yz, a.zx, a.zy, a.zz}; }
+LAW convex_map convex_map_of(smat3 a) { return (convex_map){a.xx, a.xy, a.xz, a.yx, a.yy, a.yz, a.zx, a.zy, a.zz}; }
+
+/* Map of an element from its reference: I + H, or its rotation. */
+LAW smat3 contact_map(int affine, GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict orientation, int e)
+{
+    if (!affine) return squat_matrix(squat_load(orientation, e));
+    GLOBAL const coeff *restrict h = gradient + (brc_size)e * 9;
+    return (smat3){STATE(1) + (state)h[0], (state)h[1], (state)h[2], (state)h[3], STATE(1) + (state)h[4], (state)h[5], (state)h[6], (state)h[7], STATE(1) + (state)h[8]};
+}
+
+/* The moment of pressure (gradient dW/dH), or its torque, and that of a force f at arm (own frame) reach (frame of space). */
+LAW void contact_put_moment(GLOBAL state *restrict out, int at, int affine, state pressure, smat3 moment, smat3 map, svec3 f, svec3 own, svec3 reach)
+{
+    if (affine) {
+        const smat3 whole = smat3_scale(pressure, smat3_mul(moment, smat3_transpose(smat3_inverse(map))));
+        smat3_store(out, (brc_size)at, smat3_add_outer(whole, svec3_scale(STATE(-1), f), own));
+        return;
+    }
+    svec3_store(out, (brc_size)at, svec3_add(svec3_scale(-pressure, smat3_moment(moment)), svec3_cross(reach, f)));
+}
+
+KERNEL void contact_cells(int n_pairs, state dt, int n, int affine, int n_materials, state middle_x, state middle_y, state middle_z,
+                          GLOBAL const int *restrict ends, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
+                          GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict orientation, GLOBAL const state *restrict corner,
+                          GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
+                          GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
+                          GLOBAL const int *restrict id, GLOBAL const state *restrict size, GLOBAL const state *restrict mass, GLOBAL const int *restrict material,
+                          GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind, GLOBAL const state *restrict striker_pose,
+                          GLOBAL const state *restrict law, GLOBAL state *restrict history, GLOBAL state *restrict result)
+{
+    FOR_EACH_ITEM(p, n_pairs) {
+        const int i = ends[2 * (brc_size)p], j = ends[2 * (brc_size)p + 1], width = affine ? 9 : 3;
+        GLOBAL state *restrict past = history + (brc_size)p * CONTACT_HISTORY;
+        GLOBAL state *restrict out = result + (brc_size)p * (brc_size)(CONTACT_RESULT + 2 * width);
+        const smat3 map_i = contact_map(affine, gradient, orientation, i);
+        const convex_shape shape_i = convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[i]);
+        const convex_shape shape_j = convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[j]);
+        const convex_pose pose_i = {{0, 0, 0}, convex_map_of(map_i)};
+        smat3 map_j;
+        svec3 branch;
+        convex_overlap over;
+        int is_wall = 0;
+        if (j < n) {
+            map_j = contact_map(affine, gradient, orientation, j);
+            branch = contact_branch(place, displacement, i, j);
+        } else {
+            const brc_size at = (brc_size)piece_striker[j - n] * 12;
+            const svec3 own = svec3_add(svec3_load(place, (brc_size)i * 3), (svec3){middle_x, middle_y, middle_z});
+            map_j = smat3_load(striker_pose, at + 3);
+            branch = svec3_sub(svec3_sub(svec3_load(striker_pose, at), own), svec3_load(displacement, (brc_size)i * 3));
+            is_wall = piece_kind[j - n] == 2;
+        }
+        if (is_wall) {
+            const convex_plane face = convex_own_plane(shape_j, 0);
+            const svec3 normal = smat3_mul_vec(map_j, svec3_of(face.normal));
+            const convex_plane wall = {convex_of(normal), face.height + svec3_dot(normal, branch)};
+            over = convex_wall_overlap(shape_i, pose_i, wall, convex_of(branch));
+        } else {
+            const convex_pose pose_j = {convex_of(branch), convex_map_of(map_j)};
+            over = convex_overlap_of(shape_i, pose_i, shape_j, pose_j);
+        }
+        const svec3 area = svec3_of(over.area);
+        const state surface = svec3_length(area);
+        const int touching = over.volume > 0 && surface > 0, looked = past[14] > 0;
+        if (!touching && dt > 0) contact_apart(past, out, width, STATE(0));
+        if (!touching && !(dt > 0))
+            for (int c = 0; c < CONTACT_RESULT + 2 * width; ++c) out[c] = 0;
+        if (touching) {
+            const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
+            const state h = size[j] > 0 ? STATE(2) * size[i] * size[j] / (size[i] + size[j]) : size[i], cube = h * h * h;
+            const state heavy = mass[j] > 0 ? mass[i] * mass[j] / (mass[i] + mass[j]) : mass[i];
+            const state modulus = how.stiffness > 0 ? how.stiffness / h : how.modulus, spring = modulus / cube;
+            const state rate = dt > 0 ? (looked ? (over.volume - past[9]) / dt : STATE(0)) : past[10];
+            const state elastic = spring * over.volume;
+            const state viscous = contact_dashpot(elastic, STATE(2) * SQRT_STATE(heavy * spring) / surface, how.damping, rate);
+            const state pressure = elastic + viscous, sticking = how.tangential * modulus * h;
+            const svec3 n_out = svec3_scale(STATE(-1) / surface, area), point = svec3_of(over.point), arm_j = svec3_sub(point, branch);
+            svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
+            if (past[12] > 0) {
+                slip = svec3_sub(svec3_sub(smat3_mul_vec(map_i, svec3_load(past, 3)), smat3_mul_vec(map_j, svec3_load(past, 6))), branch);
+                stretch = svec3_load(past, 0);
+            }
+            const contact_stick stick = contact_friction(stretch, slip, n_out, sticking, how.friction * pressure * surface);
+            const svec3 rub = svec3_scale(-sticking, stick.stretch), back = svec3_scale(STATE(-1), rub);
+            const svec3 own_i = smat3_mul_vec(smat3_inverse(map_i), point), own_j = smat3_mul_vec(smat3_inverse(map_j), arm_j);
+            svec3_store(out, 0, svec3_add_scaled(rub, pressure, area));
+            out[3] = STATE(0.5) * (elastic * over.volume + sticking * svec3_dot(stick.stretch, stick.stretch));
+            out[4] = dt > 0 ? stick.lost : STATE(0);
+            out[5] = dt > 0 && looked ? STATE(0.5) * (past[11] + viscous) * (over.volume - past[9]) : STATE(0);
+            out[6] = 1;
+            out[7] = pressure * surface;
+            out[8] = over.volume / surface;
+            contact_put_moment(out, CONTACT_RESULT, affine, pressure, smat3_of(over.moment_a), map_i, rub, own_i, point);
+            contact_put_moment(out, CONTACT_RESULT + width, affine && j < n, pressure, smat3_of(over.moment_b), map_j, back, own_j, arm_j);
+            if (dt > 0) {
+                svec3_store(past, 0, stick.stretch);
+                svec3_store(past, 3, own_i);
+                svec3_store(past, 6, own_j);
+                past[9] = over.volume;
+                past[10] = rate;
+                past[11] = viscous;
+                past[12] = 1;
+                past[13] = (state)stick.sliding;
+                past[14] = 1;
+            }
+        }
+    }
+}
+
+/* dlsm: moments of touching pairs, added to the element's place in held_moment; of rigid elements the torque instead. As contact_gather_turning. */
+KERNEL void contact_gather_moments(int m, int book, GLOBAL const int *restrict list, GLOBAL const int *restrict start, GLOBAL const int *restrict used,
+                                   GLOBAL const int *restrict pair, GLOBAL const state *restrict result, GLOBAL const int *restrict boundary,
+                                   GLOBAL const int *restrict rigid, GLOBAL const coeff *restrict gradient, GLOBAL coeff *restrict held_moment,
+                                   GLOBAL state *restrict turn, GLOBAL state *restrict stored, GLOBAL state *restrict lost_friction,
+                                   GLOBAL state *restrict lost_impact)
+{
+    FOR_EACH_ITEM(k, m) {
+        const int e = list[k];
+        smat3 sum = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+        state held = 0, rubbed = 0, damped = 0;
+        int any = 0;
+        for (int at = start[k]; at < start[k] + used[k]; ++at) {
+            const int owner = pair[at] >= 0;
+            GLOBAL const state *restrict one = result + (brc_size)(owner ? pair[at] : -1 - pair[at]) * (CONTACT_RESULT + 18);
+            if (!(one[6] > 0)) continue;
+            any = 1;
+            sum = smat3_add(sum, smat3_load(one, owner ? CONTACT_RESULT : CONTACT_RESULT + 9));
+            if (owner) {
+                held += one[3];
+                rubbed += one[4];
+                damped += one[5];
+            }
+        }
+        if (rigid[e]) {
+            const smat3 turned = smat3_mul(sum, smat3_transpose(contact_map(1, gradient, turn, e)));
+            svec3_store(turn, (brc_size)e * 3, svec3_scale(STATE(-1), smat3_moment(turned)));
+        } else if (any) {
+            const mat3 narrow = {(coeff)sum.xx, (coeff)sum.xy, (coeff)sum.xz, (coeff)sum.yx, (coeff)sum.yy, (coeff)sum.yz, (coeff)sum.zx, (coeff)sum.zy, (coeff)sum.zz};
+            mat3_add_to_block(held_moment, boundary[e / C], e % C, narrow);
+        }
+        stored[e] = held;
+        if (book) {
+            lost_friction[e] += rubbed;
+            lost_impact[e] += damped;
+        }
+    }
+}
+
+/* dlsm: forces of touching pairs. */
+KERNEL void contact_gather_forces(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict start, GLOBAL const int *restrict used,
+                                  GLOBAL const int *restrict pair, GLOBAL const state *restrict result, GLOBAL state *restrict force)
+{
+    FOR_EACH_ITEM(k, m) {
+        const brc_size to = (brc_size)list[k] * 3;
+        svec3 push = {0, 0, 0};
+        int any = 0;
+        for (int at = start[k]; at < start[k] + used[k]; ++at) {
+            const int owner = pair[at] >= 0;
+            GLOBAL const state *restrict one = result + (brc_size)(owner ? pair[at] : -1 - pair[at]) * (CONTACT_RESULT + 18);
+            if (!(one[6] > 0)) continue;
+            any = 1;
+            push = svec3_add_scaled(push, owner ? STATE(1) : STATE(-1), svec3_load(one, 0));
+        }
+        if (any) svec3_store(force, to, svec3_add(svec3_load(force, to), push));
+    }
+}
+
+/* Of every block of 256 pairs the force and torque on each striker: part [n_strikers][n_blocks][6]; then their sums: load [n_strikers][6]. */
+#define CONTACT_PAIRS 256
+KERNEL void contact_striker_parts(int n_items, int n_blocks, int n_pairs, int n, int stride, int torque_at, GLOBAL const int *restrict ends,
+                                  GLOBAL const int *restrict piece_striker, GLOBAL const state *restrict result, GLOBAL state *restrict part)
+{
+    FOR_EACH_ITEM(k, n_items) {
+        const int striker = k / n_blocks, begin = k % n_blocks * CONTACT_PAIRS, end = begin + CONTACT_PAIRS < n_pairs ? begin + CONTACT_PAIRS : n_pairs;
+        svec3 push = {0, 0, 0}, turn = {0, 0, 0};
+        for (int p = begin; p < end; ++p) {
+            const int j = ends[2 * (brc_size)p + 1];
+            GLOBAL const state *restrict one = result + (brc_size)p * (brc_size)stride;
+            if (j < n || piece_striker[j - n] != striker || !(one[6] > 0)) continue;
+            push = svec3_sub(push, svec3_load(one, 0));
+            turn = svec3_add(turn, svec3_load(one, (brc_size)torque_at));
+        }
+        svec3_store(part, (brc_size)k * 6, push);
+        svec3_store(part, (brc_size)k * 6 + 3, turn);
+    }
+}
+KERNEL void contact_striker_load(int n_strikers, int n_blocks, GLOBAL const state *restrict part, GLOBAL state *restrict load)
+{
+    FOR_EACH_ITEM(k, n_strikers) {
+        state sum[6] = {0, 0, 0, 0, 0, 0};
+        for (int b = 0; b < n_blocks; ++b)
+            for (int c = 0; c < 6; ++c) sum[c] += part[((brc_size)k * (brc_size)n_blocks + (brc_size)b) * 6 + (brc_size)c];
+        for (int c = 0; c < 6; ++c) load[(brc_size)k * 6 + (brc_size)c] = sum[c];
+    }
+}
