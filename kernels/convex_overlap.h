@@ -17,10 +17,13 @@
 
 #include "portable.h"
 
-/* Corners of one face and cuts through it: a face of c corners meets a polyhedron of f faces safely while c + f is at most this. */
-#define CONVEX_POLYGON 128
+/* Corners of one face and cuts through it: a face of c corners meets a polyhedron of f faces safely while c + f is at most this. A round body of f faces
+ * cuts a face larger than itself 2.5 sqrt(f) times. */
+#define CONVEX_POLYGON 256
 /* Planes that are kept at hand; further ones (large strikers) are mapped again for every face they may cut. */
-#define CONVEX_PLANES 32
+#define CONVEX_PLANES 64
+/* A body with more corners is large against the other: they are not asked one by one where they stand. */
+#define CONVEX_MANY 128
 
 typedef struct { state x, y, z; } convex_vec;
 typedef struct { state xx, xy, xz, yx, yy, yz, zx, zy, zz; } convex_map;
@@ -165,32 +168,39 @@ typedef struct {
     int n, rest, apart;
 } convex_cutters;
 
+/* Where the middle of one body lies in the other's frame, and how far from it anything of that body can be there [m]. */
+typedef struct { convex_vec centre; state reach; } convex_ball;
+LAW convex_ball convex_ball_of(convex_body body, convex_body in, state margin)
+{
+    return (convex_ball){convex_turn(in.inverse, convex_sub(body.pose.origin, in.pose.origin)), body.radius * in.inverse_stretch * STATE(1.0001) + margin};
+}
+
 /* The planes of `tool` that some corner of `work` is outside of, or nearer than `margin` [m] to: those, and only those, cut its faces. The plane that
- * work is the least deep behind comes first: most faces lie outside of it. */
+ * work is the least deep behind comes first: most faces lie outside of it. Of a body of many corners every plane within its ball counts. */
 ROUTINE void convex_find_cutters(convex_body tool, convex_body work, state margin, convex_cutters *c)
 {
-    const convex_vec centre = convex_turn(tool.inverse, convex_sub(work.pose.origin, tool.pose.origin)); /* in the tool's frame */
-    const state reach = work.radius * tool.inverse_stretch * STATE(1.0001) + margin;
+    const convex_ball ball = convex_ball_of(work, tool, margin);
+    const int many = work.shape.n_corners > CONVEX_MANY;
     state first = 0;
     c->n = 0;
     c->rest = tool.shape.n_faces;
     c->apart = 0;
     for (int f = 0; f < tool.shape.n_faces; ++f) {
         const convex_plane own = convex_own_plane(tool.shape, f);
-        const state near = convex_dot(own.normal, centre) - own.height;
-        if (near > reach) {
+        const state near = convex_dot(own.normal, ball.centre) - own.height;
+        if (near > ball.reach) {
             c->apart = 1;
             return;
         }
-        if (near < -reach) continue;
+        if (near < -ball.reach) continue;
         const convex_plane placed = convex_placed(tool, own), seen = convex_seen(work, placed);
-        state low = 0, high = 0;
-        for (int k = 0; k < work.shape.n_corners; ++k) {
+        state low = near, high = 0;
+        for (int k = 0; k < work.shape.n_corners && !many; ++k) {
             const state h = convex_dot(seen.normal, convex_corner(work.shape, k)) - seen.height;
             low = k == 0 || h < low ? h : low;
             high = k == 0 || h > high ? h : high;
         }
-        if (low >= 0) {
+        if (low >= 0 && !many) {
             c->apart = 1;
             return;
         }
@@ -216,22 +226,20 @@ LAW convex_plane convex_cut(convex_plane own, convex_plane other, int alike)
                  : (convex_plane){convex_add(other.normal, own.normal), other.height + own.height};
 }
 
-/* A polygon between two buffers: corners from [at], n of them. */
 typedef struct {
-    convex_vec corner[2 * CONVEX_POLYGON];
-    int at, n, failed;
+    convex_vec corner[CONVEX_POLYGON];
+    int n, failed;
 } convex_polygon;
 
 /* Keep the part with height < 0, closed: <= 0. Removes a corner or more and adds two: the kept ones are taken as one chain around the
  * lowest, so that rounding on a line of corners cannot add more. */
 ROUTINE void convex_clip(convex_polygon *p, convex_plane cut, int closed)
 {
-    const convex_vec *from = p->corner + p->at;
     const int n = p->n;
     state low = 0, high = 0;
     int start = 0;
     for (int k = 0; k < n; ++k) {
-        const state h = convex_dot(cut.normal, from[k]) - cut.height;
+        const state h = convex_dot(cut.normal, p->corner[k]) - cut.height;
         if (k == 0 || h < low) {
             low = h;
             start = k;
@@ -247,35 +255,44 @@ ROUTINE void convex_clip(convex_polygon *p, convex_plane cut, int closed)
         p->failed = 2;
         return;
     }
-    p->at = CONVEX_POLYGON - p->at;
-    convex_vec *to = p->corner + p->at;
-    int m = 0, last = start, first = start;
-    state inside = low, outside = 0;
-    to[m++] = from[start];
+    convex_vec entry = {0, 0, 0}, exit = {0, 0, 0};
+    int last = start, first = start;
+    state inside = low;
     for (;;) { /* forward, until outside */
         const int next = last + 1 < n ? last + 1 : 0;
-        outside = convex_dot(cut.normal, from[next]) - cut.height;
+        const state outside = convex_dot(cut.normal, p->corner[next]) - cut.height;
         if (outside > 0 || (!closed && outside >= 0)) {
-            to[m++] = convex_add(from[last], convex_scale(inside / (inside - outside), convex_sub(from[next], from[last])));
+            exit = convex_add(p->corner[last], convex_scale(inside / (inside - outside), convex_sub(p->corner[next], p->corner[last])));
             break;
         }
-        to[m++] = from[next];
         inside = outside;
         last = next;
     }
     inside = low;
     for (;;) { /* backward */
         const int next = first > 0 ? first - 1 : n - 1;
-        outside = convex_dot(cut.normal, from[next]) - cut.height;
+        const state outside = convex_dot(cut.normal, p->corner[next]) - cut.height;
         if (outside > 0 || (!closed && outside >= 0)) {
-            to[m++] = convex_add(from[first], convex_scale(inside / (inside - outside), convex_sub(from[next], from[first])));
+            entry = convex_add(p->corner[first], convex_scale(inside / (inside - outside), convex_sub(p->corner[next], p->corner[first])));
             break;
         }
         inside = outside;
         first = next;
     }
-    for (; first != start; first = first + 1 < n ? first + 1 : 0) to[m++] = from[first];
-    p->n = m;
+    int kept = last + 1; /* corners before the exit */
+    if (first <= last) {
+        kept -= first;
+        for (int k = 0; k < kept; ++k) p->corner[k] = p->corner[first + k];
+        p->n = kept + 2;
+    } else { /* the chain goes through the end of the array: its second part moves to behind the entry */
+        const int move = last + 3 - first;
+        if (move > 0) p->corner[n] = p->corner[n - 1];
+        for (int k = n - 2; k >= first && move > 0; --k) p->corner[k + 1] = p->corner[k];
+        for (int k = first; k < n && move < 0; ++k) p->corner[k + move] = p->corner[k];
+        p->n = n + move;
+    }
+    p->corner[kept] = exit;
+    p->corner[kept + 1] = entry;
 }
 
 /* Sums over clipped faces; places are relative to `centre`, a corner of the first of them: the overlap may be thin and far from both origins. */
@@ -291,12 +308,11 @@ typedef struct {
 
 ROUTINE void convex_sum_face(const convex_polygon *p, convex_plane own, convex_sums *s)
 {
-    const convex_vec *corner = p->corner + p->at;
-    const convex_vec base = corner[0];
+    const convex_vec base = p->corner[0];
     state area = 0;
-    convex_vec first = {0, 0, 0}, side = convex_sub(corner[1], base);
+    convex_vec first = {0, 0, 0}, side = convex_sub(p->corner[1], base);
     for (int k = 2; k < p->n; ++k) {
-        const convex_vec next = convex_sub(corner[k], base);
+        const convex_vec next = convex_sub(p->corner[k], base);
         const state part = STATE(0.5) * convex_dot(own.normal, convex_cross(side, next));
         area += part;
         first = convex_add(first, convex_scale(part, convex_add(side, next)));
@@ -318,7 +334,6 @@ ROUTINE void convex_sum_face(const convex_polygon *p, convex_plane own, convex_s
 LAW void convex_load_face(convex_body b, int f, convex_polygon *p)
 {
     const int begin = b.shape.loop_start[f];
-    p->at = 0;
     p->n = b.shape.loop_start[f + 1] - begin;
     for (int k = 0; k < p->n; ++k) p->corner[k] = convex_place(b, b.shape.loop[begin + k]);
 }
@@ -338,15 +353,21 @@ LAW void convex_clip_by(convex_polygon *p, convex_plane own, convex_plane other,
 /* Clip the faces of `work` by the planes of `tool` and add what is left. first: work is A, to which ties of like planes go. */
 ROUTINE int convex_clip_faces(convex_body work, convex_body tool, const convex_cutters *c, state margin, int first, convex_sums *s)
 {
+    const convex_ball ball = convex_ball_of(tool, work, margin), back = convex_ball_of(work, tool, margin);
     convex_polygon p;
     p.failed = 0;
     for (int f = 0; f < work.shape.n_faces; ++f) {
+        const convex_plane reference = convex_own_plane(work.shape, f);
+        const state near = convex_dot(reference.normal, ball.centre) - reference.height;
+        if (near > ball.reach || near < -ball.reach) continue; /* its plane is nowhere near */
         if (c->n > 0 && convex_face_outside(work.shape, f, convex_seen(work, c->plane[0]), margin)) continue;
-        const convex_plane own = convex_placed(work, convex_own_plane(work.shape, f));
+        const convex_plane own = convex_placed(work, reference);
         convex_load_face(work, f, &p);
         for (int k = 0; k < c->n && p.n > 0; ++k) convex_clip_by(&p, own, c->plane[k], first);
-        for (int k = c->rest; k < tool.shape.n_faces && p.n > 0; ++k)
-            convex_clip_by(&p, own, convex_placed(tool, convex_own_plane(tool.shape, k)), first);
+        for (int k = c->rest; k < tool.shape.n_faces && p.n > 0; ++k) {
+            const convex_plane other = convex_own_plane(tool.shape, k);
+            if (convex_dot(other.normal, back.centre) - other.height >= -back.reach) convex_clip_by(&p, own, convex_placed(tool, other), first);
+        }
         if (p.n > 2) convex_sum_face(&p, own, s);
     }
     return p.failed;
