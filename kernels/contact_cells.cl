@@ -71,7 +71,8 @@ KERNEL void contact_cells(int n_pairs, state dt, int n, int affine, int n_materi
         }
         const svec3 area = svec3_of(over.area);
         const state surface = svec3_length(area);
-        const int touching = over.volume > 0 && surface > 0, looked = past[14] > 0;
+        /* an overlap that could not be taken (failed 2) divides by no area: what is not finite stops the run, in place of a force that is missing */
+        const int touching = (over.volume > 0 && surface > 0) || over.failed == 2, looked = past[14] > 0;
         if (!touching && dt > 0) contact_apart(past, out, width, STATE(0));
         if (!touching && !(dt > 0))
             for (int c = 0; c < CONTACT_RESULT + 2 * width; ++c) out[c] = 0;
