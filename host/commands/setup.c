@@ -32,8 +32,9 @@ brc_status brc_setup_polish(brc_context *context, int n_threads, brc_setup *setu
 
 brc_status brc_setup_simulations(brc_context *context, const brc_device_request *request, brc_setup *setup)
 {
-    if (setup->split->scene->has_contact)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "interactions: contact: is read, but not in this version: surfaces pass through each other; leave it out");
+    if (setup->split->scene->has_contact && setup->n > 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "contact: bodies of %d models are in the scene, whose surfaces and strikers do not meet across models; give all bodies one model, or leave contact out",
+                        (int)setup->n);
     for (int32_t k = 0; k < setup->n; ++k) {
         const brc_scene *scene = setup->split->part[k].scene;
         brc_device_request own = *request;

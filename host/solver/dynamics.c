@@ -101,7 +101,7 @@ static brc_status guard(brc_simulation *s, bool several, brc_ledger *ledger)
 {
     BRC_TRY(brc_simulation_ledger(s, ledger));
     const brc_stage *stage = brc_current_stage(s);
-    const double put_in = fabs(ledger->initial) + fabs(ledger->work);
+    const double put_in = fabs(ledger->initial) + fabs(ledger->work) + fabs(ledger->potential);
     const bool finite = isfinite(ledger->total);
     if (finite && !(ledger->total > runaway * put_in && put_in > 0)) return BRC_OK;
     return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,

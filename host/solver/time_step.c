@@ -162,9 +162,10 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
     }
     double touching;
     BRC_TRY(brc_contact_critical_step(s, &touching));
-    if (touching < out->critical) {
-        out->critical = touching;
-        if (stage->time_step_rule == BRC_TIME_STEP_AUTO) out->governed_by = "auto: contact";
+    if (isfinite(touching)) { /* squares of frequencies of two springs on one mass add at most */
+        if (stage->time_step_rule == BRC_TIME_STEP_AUTO)
+            out->governed_by = touching < out->critical ? "auto: contact" : brc_is_beams(s) ? "auto: node bound and contact" : "auto: power iteration and contact";
+        out->critical = 1 / sqrt(1 / (out->critical * out->critical) + 1 / (touching * touching));
     }
     /* Tchamwa-Wielgosz is stable for w dt <= 2 / sqrt(2 phi - 1) */
     if (stage->integrator == BRC_TCHAMWA_WIELGOSZ && stage->phi > 0.5) out->critical /= sqrt(2 * stage->phi - 1);
