@@ -297,6 +297,9 @@ static void what_no_model_can_do_is_refused(void **state)
     /* sets nobody has */
     snprintf(text, sizeof text, "%s%s", BOTH "sets:\n  far:\n    elements:\n      sphere: {centre: [1 km, 0, 0], radius: 1 m}\n", REST);
     refused(text, "set 'far' is empty");
+    /* surfaces meet within a model */
+    snprintf(text, sizeof text, "%s%s", BOTH "interactions:\n  contact: {}\n", REST);
+    refused(text, "contact: bodies of 2 models are in the scene");
     /* faces of spheres: the cells' alone count */
     s = ready(BOTH "sets:\n  ends:\n    faces: {wall: x+}\nstages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n    loads:\n"
                    "      - traction: {set: ends, x: 1 Pa}\n");
