@@ -116,6 +116,10 @@ brc_status brc_run_scene(brc_context *context, const brc_run_request *request, b
     if (request->folder)
         BRC_TRY(request->resume ? brc_recorder_reopen(context, request->folder, start, &now.recorder) : brc_recorder_create(context, request->folder, start, &now.recorder));
     brc_status status = simulate(context, request, &now, out);
+    if (now.checkpoints) {
+        const brc_checkpoint_report report = brc_checkpoints_report(now.checkpoints);
+        brc_recorder_set_checkpoints(now.recorder, &report);
+    }
     if (now.recorder) status = brc_recorder_finish(now.recorder, status);
     const brc_status taken = take_results(context, &now, out);
     if (status == BRC_OK) status = taken;

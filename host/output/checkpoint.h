@@ -29,15 +29,7 @@ brc_status brc_checkpoints_observe(brc_checkpoints *checkpoints, brc_assembly *a
 /* brc_lockstep_run or brc_lockstep_continue. What ends the run early names the last checkpoint too. */
 brc_status brc_checkpoints_run(brc_checkpoints *checkpoints);
 
-/* What was done, for summary.json. Strings are borrowed until free. */
-typedef struct brc_checkpoint_report {
-    int64_t n_written;
-    double seconds;    /* of writing all of them */
-    int64_t bytes;     /* of the last one */
-    const char *last;  /* path; "": none is there */
-    const char *from;  /* path of the one that the run goes on from; "": it began */
-    int64_t from_step; /* total steps then */
-} brc_checkpoint_report;
+/* Strings are borrowed until free. */
 brc_checkpoint_report brc_checkpoints_report(const brc_checkpoints *checkpoints);
 
 #endif

@@ -44,6 +44,7 @@ struct brc_recorder {
     brc_measured *measures;
     int32_t n_measures;
     brc_crack_records *cracks; /* NULL: nothing can break */
+    brc_checkpoint_report checkpoints;
     double start, build_s, output_s; /* start: brc_clock_s() then; the others: wall seconds */
 };
 
@@ -104,6 +105,7 @@ static brc_status write_summary(brc_recorder *recorder, brc_context *context, bo
         .n_measures = recorder->n_measures,
         .measures = recorder->measures,
         .n_frames = recorder->n_frames,
+        .checkpoints = recorder->checkpoints,
         .total_s = brc_clock_s() - recorder->start,
         .build_s = recorder->build_s,
         .output_s = recorder->output_s,
@@ -170,6 +172,11 @@ void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domai
     recorder->n_domains = n;
     recorder->domains = domains;
     recorder->build_s = build_seconds;
+}
+
+void brc_recorder_set_checkpoints(brc_recorder *recorder, const brc_checkpoint_report *report)
+{
+    recorder->checkpoints = *report;
 }
 
 /* ---- while the simulation runs ---- */

@@ -30,6 +30,7 @@
 #include "../solver/assembly.h"
 #include "../solver/state_store.h"
 #include "measures.h"
+#include "summary.h"
 
 typedef struct brc_recorder brc_recorder;
 
@@ -55,6 +56,9 @@ brc_status brc_recorder_observe(brc_recorder *recorder, brc_assembly *assembly);
  * files go on behind it, what was written after it goes. `part` of the store is the run (-1). */
 brc_status brc_recorder_save(brc_recorder *recorder, brc_state_store *store);
 brc_status brc_recorder_resume(brc_recorder *recorder, brc_assembly *assembly, brc_state_store *store);
+
+/* For summary.json; its strings are borrowed until brc_recorder_finish has returned. */
+void brc_recorder_set_checkpoints(brc_recorder *recorder, const brc_checkpoint_report *report);
 
 /* The end: last histories, result.h5, measures, picture, curve and, last of all, summary.json. end: what the run
  * returned; its reason is brc_context_message(context) at this moment. Returns `end` if that is a failure, else the

@@ -325,6 +325,20 @@ static void add_stages(brc_json *json, const brc_summary *s)
     brc_json_end(json);
 }
 
+static void add_checkpoints(brc_json *json, const brc_checkpoint_report *c)
+{
+    const bool resumed = c->from && c->from[0];
+    brc_json_begin_object(json, "checkpoints");
+    brc_json_integer(json, "written", c->n_written);
+    brc_json_number(json, "seconds", c->seconds);
+    brc_json_integer(json, "bytes", c->bytes);
+    brc_json_string(json, "last", c->last && c->last[0] ? c->last : NULL);
+    brc_json_string(json, "from", resumed ? c->from : NULL);
+    if (resumed) brc_json_integer(json, "from_step", c->from_step);
+    else brc_json_null(json, "from_step");
+    brc_json_end(json);
+}
+
 brc_status brc_summary_write(brc_context *context, const brc_summary *summary, const char *path)
 {
     brc_json json = {.text = {.context = context}};
@@ -341,6 +355,7 @@ brc_status brc_summary_write(brc_context *context, const brc_summary *summary, c
     add_static(&json, summary);
     add_stages(&json, summary);
     add_parts(&json, summary);
+    add_checkpoints(&json, &summary->checkpoints);
     brc_json_begin_object(&json, "end");
     brc_json_string(&json, "status", end_name(summary));
     brc_json_string(&json, "reason", summary->reason ? summary->reason : "");

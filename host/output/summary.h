@@ -7,6 +7,16 @@
 #include "history.h"
 #include "measures.h"
 
+/* What was done about checkpoints (checkpoint.h). */
+typedef struct brc_checkpoint_report {
+    int64_t n_written;
+    double seconds;    /* wall seconds of writing all of them */
+    int64_t bytes;     /* of the last one */
+    const char *last;  /* path of the last good one; "": none is there */
+    const char *from;  /* path of the one that the run goes on from; "": it began */
+    int64_t from_step; /* total steps then */
+} brc_checkpoint_report;
+
 /* All pointers are borrowed for the call; what is NULL is null in the file. */
 typedef struct brc_summary {
     const brc_scene *scene;
@@ -19,6 +29,7 @@ typedef struct brc_summary {
     int32_t n_measures;
     const brc_measured *measures;
     int64_t n_frames;
+    brc_checkpoint_report checkpoints; /* last and from may be NULL */
     double total_s, build_s, output_s; /* wall seconds; setup_s and steps_s are the assembly's */
     bool running;                      /* true: end.status is "running" */
     brc_status end;                    /* how the run ended */

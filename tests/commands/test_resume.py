@@ -7,6 +7,7 @@
 import argparse
 import filecmp
 import glob
+import itertools
 import json
 import os
 import random
@@ -241,19 +242,16 @@ def devices():
     return [re.match(r"[* ] (\S+)", part).group(1) for part in listed if re.match(r"[* ] \S+:?\d* ", part) and "not usable" not in part]
 
 
-def all_examples(names):
+def all_examples(names, device=None):
+    names = names or sorted(name for name in os.listdir(f"{SOURCE}/examples") if os.path.exists(f"{SOURCE}/examples/{name}/scene.yaml"))
     failures = 0
-    for name in names or sorted(os.listdir(f"{SOURCE}/examples")):
-        if not os.path.exists(f"{SOURCE}/examples/{name}/scene.yaml"):
-            continue
-        for device in devices():
-            for precision in ("double", "mixed", "single"):
-                with tempfile.TemporaryDirectory(prefix="resume-", dir=".") as folder:
-                    try:
-                        print(goes_on(name, folder, device, precision), flush=True)
-                    except AssertionError as error:
-                        failures += 1
-                        print(f"FAILED {error}", flush=True)
+    for where, precision, name in itertools.product([device] if device else devices(), ("double", "mixed", "single"), names):
+        with tempfile.TemporaryDirectory(prefix="resume-", dir=".") as folder:
+            try:
+                print(goes_on(name, folder, where, precision), flush=True)
+            except (AssertionError, subprocess.TimeoutExpired) as error:
+                failures += 1
+                print(f"FAILED {error}", flush=True)
     print(f"{failures} failures")
     return failures
 
@@ -273,10 +271,11 @@ def few():
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--all", nargs="*", metavar="NAME", help="every example, or these")
+    parser.add_argument("--device", help="this device only")
     parser.add_argument("--kills", type=int, help="so many kills")
     options = parser.parse_args()
     if options.all is not None:
-        sys.exit(1 if all_examples(options.all) else 0)
+        sys.exit(1 if all_examples(options.all, options.device) else 0)
     elif options.kills:
         with tempfile.TemporaryDirectory(prefix="resume-", dir=".") as scratch:
             print(killed_again_and_again(scratch, options.kills))
