@@ -149,17 +149,17 @@ def readable(folder):
 def killed_again_and_again(folder, n, name="beams-fracture"):
     """Killed n times at random moments, taken up after each: the frames can be read, and the end is that of a run that was left alone."""
     draw = random.Random(1)
-    # every pause writes; more steps than the example, so that there is something to kill
     sets = overrides(name) + ["output.frames=40", "output.history_every=1"]
-    begin = time.monotonic()
     last = whole(name, f"{folder}/whole", sets)
-    seconds = time.monotonic() - begin
     line = command(name, f"{folder}/left", sets + [ALWAYS])
     kills = resumed = 0
     for k in range(n):
         there = checkpoints(f"{folder}/left") != []
         child = subprocess.Popen(line + (["--resume"] if there else []), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(0.05 + draw.random() * max(0.3, 2 * seconds / n))
+        goal, end = newest(f"{folder}/left") + draw.randrange(0, max(2, 2 * last // n)), time.monotonic() + 600
+        while child.poll() is None and newest(f"{folder}/left") < goal and time.monotonic() < end:
+            time.sleep(0.001)
+        time.sleep(0.1 * draw.random())
         if child.poll() is not None:
             assert child.returncode == 0, f"kill {k}: the run ended by itself with {child.returncode}"
             shutil.rmtree(f"{folder}/left")  # it came to its end: begin anew
