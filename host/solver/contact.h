@@ -41,4 +41,7 @@ brc_status brc_contact_ledger(brc_simulation *s, brc_ledger *ledger);
 /* Largest stable time step of the pairs that may touch [s]. */
 brc_status brc_contact_critical_step(brc_simulation *s, double *out);
 
+/* What surfaces remember (state_store.h): who is exposed and rigid, the pairs with their friction, what was lost. */
+brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store);
+
 #endif

@@ -76,6 +76,8 @@ brc_status brc_contact_search_create(brc_simulation *s);
 void brc_contact_search_free(brc_simulation *s);
 /* Make the list anew; what pairs remember is kept. */
 brc_status brc_contact_search(brc_simulation *s);
+/* The list for places and pieces as they were taken last: the second half of a search. */
+brc_status brc_contact_list_again(brc_simulation *s);
 /* Steps until the next look, from how far and how fast things moved since the list was made; *due: the list is too old. */
 brc_status brc_contact_look(brc_simulation *s, bool *due);
 /* Evaluate all pairs into c->result; dt: of the step that ended, 0: again. */

@@ -244,14 +244,23 @@ static brc_status number_pairs(brc_simulation *s)
                       BRC_BUF(old->start), BRC_BUF(old->used), BRC_BUF(old->entry), BRC_BUF(old->pair), BRC_BUF(old->history), BRC_BUF(l->history));
 }
 
-brc_status brc_contact_search(brc_simulation *s)
+brc_status brc_contact_list_again(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    const int32_t n = s->layout->n_rows;
     const brc_contact_list last = c->now;
     c->now = c->before;
     c->before = last;
     c->now.n_listed = c->now.n_pairs = 0;
+    BRC_TRY(list_exposed(s));
+    if (c->now.n_listed == 0) return BRC_OK;
+    BRC_TRY(find_entries(s));
+    return number_pairs(s);
+}
+
+brc_status brc_contact_search(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows;
     c->quiet = 0;
     c->searches += 1;
     BRC_TRY(BRC_LAUNCH(c->kernel.extent, n, BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_BUF(c->place), BRC_BUF(s->displacement), BRC_BUF(s->gradient),
@@ -262,8 +271,5 @@ brc_status brc_contact_search(brc_simulation *s)
     BRC_TRY(brc_buffer_fill_zero(c->stored)); /* of elements that leave the list too */
     if (c->torque) BRC_TRY(brc_buffer_fill_zero(c->torque));
     if (c->n_pieces) BRC_TRY(brc_buffer_fill_zero(s->strikers->load));
-    BRC_TRY(list_exposed(s));
-    if (c->now.n_listed == 0) return BRC_OK;
-    BRC_TRY(find_entries(s));
-    return number_pairs(s);
+    return brc_contact_list_again(s);
 }

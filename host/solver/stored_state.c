@@ -1,5 +1,6 @@
 /* The state of a simulation, number by number, for a store (state_store.h): the clock, the arrays of the elements, what the loads of the stage remember.
  * Modules with a state of their own are called from `walk`. */
+#include "contact.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
 #include "state_store.h"
@@ -183,6 +184,7 @@ static brc_status walk(brc_simulation *s, brc_state_store *store)
     BRC_TRY(walk_loads(s, store));
     if (s->fracture) BRC_TRY(brc_fracture_store_state(s, store));
     if (s->strikers) BRC_TRY(brc_strikers_store_state(s, store));
+    if (s->contact) BRC_TRY(brc_contact_store_state(s, store));
     return BRC_OK;
 }
 

@@ -48,6 +48,28 @@ static void strikers_go_on(void **state)
     state_resumes((state_case){.cells = &cells}, (int[]){20, 60, 0});
 }
 
+/* A body crushed on a floor: pairs of cells and of cells and the floor, with friction, some cells rigid. */
+static void touching_surfaces_go_on_with_their_friction(void **state)
+{
+    (void)state;
+    const case_options cells = {.n_threads = 1, .materials = CELLS_STRENGTH("2e-4 Pa"), .fill = "cells: [4, 4, 4], spread: 50 %, seed: 1",
+                                .stages = "  - name: crush\n    solver: {dynamic: {steps: 300}}\n    initial:\n      - velocity: {gradient: {x: [-4e-2 1/s, 5e-3 1/s, 0], y: [0, 3e-2 1/s, 0]}}\n",
+                                .sets = CELLS_FRACTURE "interactions: {contact: {friction: 0.3, restitution: 0.7}}\nstrikers:\n"
+                                        "  floor: {plane: {point: [-1e-3 m, 0, 0], normal: [1, 0, 0]}, material: stone}\n"};
+    state_resumes((state_case){.cells = &cells}, (int[]){20, 100, 0});
+    static memory_store kept; /* and there was something to keep */
+    bench_case c;
+    open_case(&c, cells);
+    assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
+    assert_done(&c, brc_simulation_advance(c.simulation, 300));
+    memory_store_begin(&kept, c.context);
+    assert_done(&c, brc_lockstep_save(1, &c.simulation, &kept.store));
+    assert_true(memory_store_find(&kept, 0, "contact.pairs")->rows > 20);
+    assert_true(*(double *)memory_store_find(&kept, 0, "contact.n_rigid")->data > 0);
+    memory_store_free(&kept);
+    close_case(&c);
+}
+
 static void a_store_without_a_number_is_refused(void **state)
 {
     (void)state;
@@ -99,6 +121,7 @@ int main(void)
         cmocka_unit_test(a_body_goes_on_breaking_event_by_event),
         cmocka_unit_test(turned_elements_and_a_stage_to_failure_go_on),
         cmocka_unit_test(strikers_go_on),
+        cmocka_unit_test(touching_surfaces_go_on_with_their_friction),
         cmocka_unit_test(a_store_without_a_number_is_refused),
         cmocka_unit_test(broken_bonds_that_the_domain_does_not_have_are_refused),
     };
