@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOVES = 7, TURNS = 8 }; /* bits of `freedom`, kernels/strikers.cl */
+enum { TURNS = 8 }; /* bit of `freedom` behind those of x y z, kernels/strikers.cl */
 
 static const brc_striker *asked(const brc_simulation *s, int32_t i) { return s->scene->strikers + i; }
 static bool is_driven(const brc_simulation *s, int32_t i) { return asked(s, i)->motion == BRC_STRIKER_DRIVEN; }
