@@ -56,7 +56,7 @@ static const char *percent(double error, char *out, size_t size)
 static void add_targets(const brc_accuracy_study *s, brc_text *text)
 {
     static const double targets[] = {1e-2, 1e-3, 1e-4};
-    brc_text_add(text, "## For an error of 1 %%, 0.1 %%, 0.01 %% take\n\nThe cheapest measured way; seconds on one thread. \"Of that\": building, and one crossing of a wave "
+    brc_text_add(text, "## For an error of 1 %%, 0.1 %%, 0.01 %% take\n\nThe cheapest measured way that is within it, as are all finer ones of its series (where errors change sign, one size may be right by chance); seconds on one thread. \"Of that\": building, and one crossing of a wave "
                        "in dynamics. ~: not measured; drawn on from the best measured way with the order of its series, at most 2, and time as spacing^-4.\n\n"
                        "| problem | error | take | measured error | seconds of | seconds | building | a crossing |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
     for (int32_t q = 0; q < s->n_questions; ++q)
@@ -138,7 +138,7 @@ static void add_orders(const brc_accuracy_study *s, brc_text *text)
 
 static void add_fronts(const brc_accuracy_study *s, brc_text *text)
 {
-    brc_text_add(text, "\n## Pareto fronts\n\nWays that nothing measured beats in both error and seconds.\n\n| problem | way | error | seconds |\n| --- | --- | --- | --- |\n");
+    brc_text_add(text, "\n## Pareto fronts\n\nWays that nothing measured beats in both error (the largest of this and the finer ones of the series) and seconds.\n\n| problem | way | error | seconds |\n| --- | --- | --- | --- |\n");
     for (int32_t q = 0; q < s->n_questions; ++q)
         for (int64_t m = 0; m < s->n_means; ++m) {
             char name[64], what[256], error[32];
@@ -186,9 +186,9 @@ static brc_status draw(brc_context *context, const brc_accuracy_study *s, int32_
             if (s->means[m].series == r && s->means[m].error > 0) brc_text_add(&script, "%.6g %.6g\n", s->means[m].cost_s, 100 * s->means[m].error);
         brc_text_add(&script, "END\n");
     }
-    brc_text_add(&script, "set logscale xy\nset format x '10^{%%L}'\nset format y '%%g'\nset title '%s: %s'\nset xlabel 'seconds of one thread (%s)'\nset ylabel 'error [%%]'\n",
+    brc_text_add(&script, "set logscale xy\nset format x '10^{%%L}'\nset format y '%%g'\nset title '%s: %s' noenhanced\nset xlabel 'seconds of one thread (%s)' offset 0,0.6\nset ylabel 'error [%%]'\n",
                  question_name(question, name, sizeof name), question->quantity, question->cost_of);
-    brc_text_add(&script, "set key outside bottom center maxcols 2 font ',12'\nplot $front using 1:2 with steps linewidth 5 linecolor rgb '#dddddd' title 'Pareto front'");
+    brc_text_add(&script, "set key outside bottom center maxcols 3 width -2 font ',11' noenhanced\nplot $front using 1:2 with steps linewidth 5 linecolor rgb '#dddddd' title 'Pareto front'");
     for (int32_t r = 0; r < s->n_series; ++r) {
         if (s->series[r].question != q) continue;
         char what[256];

@@ -73,7 +73,7 @@ static void find_order(const brc_accuracy_study *s, int32_t series, double *orde
 
 static bool beaten(const brc_accuracy_mean *mean, const brc_accuracy_mean *other)
 {
-    return other->cost_s <= mean->cost_s && other->error <= mean->error && (other->cost_s < mean->cost_s || other->error < mean->error);
+    return other->cost_s <= mean->cost_s && other->sure <= mean->sure && (other->cost_s < mean->cost_s || other->sure < mean->sure);
 }
 
 brc_status brc_accuracy_study_create(brc_context *context, const brc_accuracy_points *points, brc_accuracy_study **out)
@@ -96,6 +96,10 @@ brc_status brc_accuracy_study_create(brc_context *context, const brc_accuracy_po
         mean->crossing_s /= mean->n;
     }
     if (s->n_means > 0) qsort(s->means, (size_t)s->n_means, sizeof *s->means, by_place);
+    for (int64_t m = s->n_means - 1; m >= 0; --m) { /* finer ones of a series come after it */
+        const bool finer = m + 1 < s->n_means && s->means[m + 1].series == s->means[m].series;
+        s->means[m].sure = finer ? fmax(s->means[m].error, s->means[m + 1].sure) : s->means[m].error;
+    }
     for (int32_t r = 0; r < s->n_series; ++r) find_order(s, r, &s->series[r].order);
     for (int64_t m = 0; m < s->n_means; ++m) {
         s->means[m].front = true;
@@ -129,7 +133,7 @@ int64_t brc_accuracy_cheapest(const brc_accuracy_study *s, int32_t question, con
 {
     int64_t best = -1;
     for (int64_t m = 0; m < s->n_means; ++m)
-        if (answers(s, &s->means[m], question, model) && s->means[m].error <= error && (best < 0 || s->means[m].cost_s < s->means[best].cost_s)) best = m;
+        if (answers(s, &s->means[m], question, model) && s->means[m].sure <= error && (best < 0 || s->means[m].cost_s < s->means[best].cost_s)) best = m;
     return best;
 }
 
@@ -138,8 +142,8 @@ static int64_t next_worse(const brc_accuracy_study *s, int32_t question, const c
 {
     int64_t best = -1;
     for (int64_t m = 0; m < s->n_means; ++m)
-        if (answers(s, &s->means[m], question, model) && s->means[m].error > error &&
-            (best < 0 || s->means[m].error < s->means[best].error || (s->means[m].error == s->means[best].error && s->means[m].cost_s < s->means[best].cost_s)))
+        if (answers(s, &s->means[m], question, model) && s->means[m].sure > error &&
+            (best < 0 || s->means[m].sure < s->means[best].sure || (s->means[m].sure == s->means[best].sure && s->means[m].cost_s < s->means[best].cost_s)))
             best = m;
     return best;
 }
@@ -147,8 +151,8 @@ static int64_t next_worse(const brc_accuracy_study *s, int32_t question, const c
 /* Cost at `error` on the straight line in logarithms through two means. */
 static double on_line(const brc_accuracy_mean *a, const brc_accuracy_mean *b, double error)
 {
-    const double slope = log(b->cost_s / a->cost_s) / log(b->error / a->error);
-    return a->cost_s * pow(error / a->error, slope);
+    const double slope = log(b->cost_s / a->cost_s) / log(b->sure / a->sure);
+    return a->cost_s * pow(error / a->sure, slope);
 }
 
 double brc_accuracy_cost(const brc_accuracy_study *s, int32_t question, const char *model, double error, int *beyond)
@@ -162,20 +166,20 @@ double brc_accuracy_cost(const brc_accuracy_study *s, int32_t question, const ch
     /* Worse means that are cheaper; the best of them begins the stretch that ends at `good`. */
     int64_t worse = -1;
     for (int64_t m = 0; m < s->n_means; ++m)
-        if (answers(s, &s->means[m], question, model) && s->means[m].error > error && s->means[m].cost_s < s->means[good].cost_s &&
-            (worse < 0 || s->means[m].error < s->means[worse].error))
+        if (answers(s, &s->means[m], question, model) && s->means[m].sure > error && s->means[m].cost_s < s->means[good].cost_s &&
+            (worse < 0 || s->means[m].sure < s->means[worse].sure))
             worse = m;
     if (worse < 0) {
         *beyond = next_worse(s, question, model, error) < 0 ? 1 : 0;
         return s->means[good].cost_s;
     }
-    return s->means[good].error > 0 ? on_line(&s->means[worse], &s->means[good], error) : s->means[good].cost_s;
+    return s->means[good].sure > 0 ? on_line(&s->means[worse], &s->means[good], error) : s->means[good].cost_s;
 }
 
 double brc_accuracy_cost_beyond(const brc_accuracy_study *s, int32_t question, const char *model, double error)
 {
     const int64_t best = next_worse(s, question, model, 0);
-    if (best < 0 || error >= s->means[best].error) return NAN;
+    if (best < 0 || error >= s->means[best].sure) return NAN;
     const double order = fmin(s->series[s->means[best].series].order, HIGHEST_ORDER);
-    return order >= LEAST_ORDER ? s->means[best].cost_s * pow(s->means[best].error / error, 4 / order) : NAN; /* also where there is no order */
+    return order >= LEAST_ORDER ? s->means[best].cost_s * pow(s->means[best].sure / error, 4 / order) : NAN; /* also where there is no order */
 }

@@ -12,10 +12,11 @@ typedef struct brc_accuracy_mean {
     int n;                           /* points */
     int32_t series;
     double error;                    /* root of the mean square [-] */
+    double sure;                     /* the largest error of this and all finer means of the series: what errors that change sign hide is not counted [-] */
     double cost_s, build_s, run_s;   /* means [s] */
     double crossing_s;               /* of one crossing in dynamics [s] */
     double spacing;                  /* spacing_over_length [-] */
-    bool front; /* no mean of its question is cheaper and at most as wrong */
+    bool front; /* no mean of its question is cheaper and at most as wrong, by `sure` */
 } brc_accuracy_mean;
 
 typedef struct brc_accuracy_series {
@@ -41,7 +42,7 @@ typedef struct brc_accuracy_study {
 brc_status brc_accuracy_study_create(brc_context *context, const brc_accuracy_points *points, brc_accuracy_study **out);
 void brc_accuracy_study_free(brc_accuracy_study **study);
 
-/* The cheapest mean of a question whose error is at most `error`; model NULL: of any model. -1: none was measured. */
+/* The cheapest mean of a question that is surely within `error`; model NULL: of any model. -1: none was measured. */
 int64_t brc_accuracy_cheapest(const brc_accuracy_study *study, int32_t question, const char *model, double error);
 /* What an error costs with a model [s]: along the model's own Pareto front, straight in the logarithms between its means. *beyond -1: every measured mean is
  * more wrong (NAN); +1: every one is better (the cheapest one's cost, an upper bound); 0: in between. */

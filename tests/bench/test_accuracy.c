@@ -176,6 +176,25 @@ static void seeds_of_one_resolution_are_one_mean(void **state)
     brc_context_free(&context);
 }
 
+/* A size between coarser and finer ones that is right because its error changes sign: it counts as what the finer ones show. */
+static void an_error_that_changes_sign_is_no_bargain(void **state)
+{
+    (void)state;
+    brc_context *context = brc_context_create();
+    brc_accuracy_points points = {.context = context};
+    add(&points, "dlsm", 125, 0.2, 0.001, 1);
+    add(&points, "dlsm", 1000, 0.1, 0.015, 16);
+    add(&points, "dlsm", 8000, 0.05, 0.005, 256);
+    brc_accuracy_study *study;
+    assert_int_equal(brc_accuracy_study_create(context, &points, &study), BRC_OK);
+    const int64_t best = brc_accuracy_cheapest(study, 0, "dlsm", 0.01);
+    assert_true(best >= 0 && study->means[best].cost_s == 256);
+    assert_true(study->means[0].error == 0.001 && study->means[0].sure == 0.015 && study->means[2].sure == 0.005);
+    brc_accuracy_study_free(&study);
+    brc_accuracy_points_free(&points);
+    brc_context_free(&context);
+}
+
 /* Equal error 2 %: 4 s against 128 s, a ratio of 32; to 1 % the published law's front is drawn on (2048 s against 16). */
 static void the_report_says_what_other_models_cost(void **state)
 {
@@ -211,6 +230,7 @@ int main(void)
         cmocka_unit_test(the_front_is_what_nothing_beats),
         cmocka_unit_test(cost_at_an_error_lies_on_the_front),
         cmocka_unit_test(seeds_of_one_resolution_are_one_mean),
+        cmocka_unit_test(an_error_that_changes_sign_is_no_bargain),
         cmocka_unit_test(the_report_says_what_other_models_cost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
