@@ -62,8 +62,10 @@ static void fill_point(const brc_sweep *sweep, int k, const brc_outcome *outcome
 {
     const brc_case_run *run = &sweep->what.runs[k];
     *p = brc_accuracy_point_empty();
-    name_quantity(sweep, run, p->quantity, sizeof p->quantity);
-    const brc_case_value *value = brc_outcome_find(outcome, p->quantity);
+    char quantity[BRC_NAME];
+    name_quantity(sweep, run, quantity, sizeof quantity);
+    const brc_case_value *value = brc_outcome_find(outcome, quantity);
+    snprintf(p->quantity, sizeof p->quantity, "%s", sweep->quantity); /* levels answer one question */
     snprintf(p->problem, sizeof p->problem, "%s", sweep->problem);
     snprintf(p->run, sizeof p->run, "%s", run->name);
     snprintf(p->sweep, sizeof p->sweep, "%s", sweep->sweep_of[k]);
@@ -104,7 +106,7 @@ static void fill_point(const brc_sweep *sweep, int k, const brc_outcome *outcome
         p->seconds = p->build_s + p->run_s;
     }
     if (!outcome->done || !value || isnan(value->value)) {
-        if (!p->note[0]) snprintf(p->note, sizeof p->note, "the run gives no %s", p->quantity);
+        if (!p->note[0]) snprintf(p->note, sizeof p->note, "the run gives no %s", quantity);
         return;
     }
     p->reference = !isnan(sweep->reference_of[k]) ? sweep->reference_of[k] : value->reference;
