@@ -91,6 +91,17 @@
     X(contact_pose)                                                                                                    \
     X(contact_turn)                                                                                                    \
     X(contact_spin_energy)                                                                                             \
+    X(soft_gradient)                                                                                                   \
+    X(soft_flux)                                                                                                       \
+    X(soft_take_force)                                                                                                 \
+    X(soft_move)                                                                                                       \
+    X(soft_measure)                                                                                                    \
+    X(soft_book)                                                                                                       \
+    X(soft_check)                                                                                                      \
+    X(soft_begin)                                                                                                      \
+    X(soft_count)                                                                                                      \
+    X(soft_energy)                                                                                                     \
+    X(soft_settle)                                                                                                     \
     X(fracture_force)                                                                                                  \
     X(fracture_stress)                                                                                                 \
     X(fracture_stress_second)                                                                                          \

@@ -18,6 +18,7 @@
 #include "contact_law.h"
 #include "convex_wall.h"
 #include "convex_sphere.h"
+#include "softening.h"
 #include "vector.cl"
 #include "motion.cl"
 #include "rotation.cl"
@@ -35,3 +36,4 @@
 #include "published_breaks.cl"
 #include "contact_cells.cl"
 #include "contact_rigid.cl"
+#include "softening.cl"

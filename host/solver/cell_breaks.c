@@ -1,4 +1,5 @@
 #include "cell_breaks_internal.h"
+#include "cell_softening.h"
 #include "consistent.h"
 #include "contact.h"
 #include "strengths.h"
@@ -205,13 +206,12 @@ brc_status brc_cell_breaks_create(brc_simulation *s)
     s->fracture->cells->by_element = !is_bond_normal(s);
     BRC_TRY(find_kernels(s, s->fracture->cells));
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
-    if (strengths.softens)
-        BRC_TRY_OR(cleanup, BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: bonds of cells do not soften in this version; remove `fracture_energy`"));
     BRC_TRY_OR(cleanup, upload_bonds(s, strengths.tension));
     if (brc_is_dlsm(s)) BRC_TRY_OR(cleanup, upload_elements(s));
     BRC_TRY_OR(cleanup, create_arrays(s));
     if (brc_is_published(s)) BRC_TRY_OR(cleanup, brc_published_breaks_create(s));
     if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
+    BRC_TRY_OR(cleanup, brc_softening_create(s, &strengths));
 cleanup:
     brc_strengths_free(&strengths);
     return status;
@@ -221,6 +221,7 @@ void brc_cell_breaks_free(brc_simulation *s)
 {
     brc_cell_breaks *c = s->fracture->cells;
     if (!c) return;
+    brc_softening_free(s);
     brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->misfit, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found,
                           &c->branch, &c->spanned, &c->reach};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
@@ -303,20 +304,24 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     brc_breaking *f = s->fracture;
     const int32_t n = s->layout->n_rows;
     double marked, before, after, weight;
-    BRC_TRY(mark_bonds(s, share, &marked));
+    if (brc_softening_is_on(s)) BRC_TRY(brc_softening_step(s, share, &marked));
+    else BRC_TRY(mark_bonds(s, share, &marked));
     if (!(marked > 0)) return BRC_OK;
     BRC_TRY(held_energy(s, &before));
     BRC_TRY(kick(s, half_kick)); /* the step closes with the force of the whole bonds ... */
     BRC_TRY(break_marked(s));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
     BRC_TRY(brc_contact_broken(s, 0));
+    BRC_TRY(brc_softening_recount(s));
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(kick(s, -half_kick)); /* ... and the next one opens with that of those that are left */
     BRC_TRY(held_energy(s, &after));
     BRC_TRY(brc_vector_sum(s, f->cells->weight, n, &weight));
     if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */
-    return BRC_LAUNCH(f->cells->share, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_STATE((before - after) / weight), BRC_BUF(s->row_start),
-                      BRC_BUF(f->break_step), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy), BRC_BUF(f->lost));
+    BRC_TRY(brc_softening_refresh(s));
+    BRC_TRY(BRC_LAUNCH(f->cells->share, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_STATE((before - after) / weight), BRC_BUF(s->row_start),
+                      BRC_BUF(f->break_step), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy), BRC_BUF(f->lost)));
+    return brc_softening_settle(s);
 }
 
 brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)

@@ -11,6 +11,7 @@ struct brc_cell_breaks {
     brc_buffer *limit, *twin, *alive, *mark, *measure;              /* [n_slots][C] */
     brc_buffer *modulus, *misfit, *least, *support, *stiffest, *changed; /* [n_rows] */
     brc_buffer *weight, *found;                                     /* [n_rows] */
+    struct brc_softening_faces *softening;    /* faces that open against cohesion (cell_softening.c); NULL: none does */
     bool by_element;                          /* criteria of elements: what follows, and the arrays of kernels/fracture.cl */
     brc_kernel *record, *mark_chosen, *weigh; /* kernels/cell_criteria.cl */
     brc_buffer *branch;                       /* dlsm: [n_slots][3][C], owned */

@@ -1,4 +1,5 @@
 /* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
+#include "cell_softening.h"
 #include "contact.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
@@ -33,6 +34,7 @@ static brc_status close_step(brc_simulation *s, double dt)
     BRC_TRY(brc_loads_prescribe(s, s->time));
     if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
     BRC_TRY(brc_contact_follow(s));
+    BRC_TRY(brc_softening_move(s));
     return brc_force_of_state(s, BRC_BOOK_WORK);
 }
 

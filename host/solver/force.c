@@ -1,5 +1,6 @@
 /* One evaluation of the forces of a model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2, design-cbm.md). */
 #include "cell_breaks_internal.h"
+#include "cell_softening.h"
 #include "contact.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
@@ -19,6 +20,7 @@ static brc_status dlsm_gradients(brc_simulation *s, const brc_force_request *r)
     else
         BRC_TRY(BRC_LAUNCH(s->kernel.gradient, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                            BRC_BUF(s->area), BRC_BUF(r->displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient)));
+    if (!r->homogeneous) BRC_TRY(brc_softening_gradient(s));
     if (h->n_faces)
         BRC_TRY(BRC_LAUNCH(s->kernel.held_gradient, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
                            BRC_BUF(h->place), BRC_BUF(h->face_start), BRC_BUF(h->area), BRC_BUF(h->arm), BRC_BUF(h->held),
@@ -96,10 +98,12 @@ static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
                        BRC_BUF(s->boundary), BRC_BUF(s->held_moment), BRC_INT(face_loads || brc_contact_acts(s, r) ? 1 : 0), BRC_COEFF(m->k),
                        BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau), BRC_BUF(s->material),
                        BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(s->flux), BRC_BUF(s->bond_part)));
+    if (!r->homogeneous) BRC_TRY(brc_softening_flux(s));
     BRC_TRY(BRC_LAUNCH(s->kernel.force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(s->flux),
                        BRC_BUF(s->bond_part), BRC_COEFF(m->k), BRC_COEFF(one_plus_tau), BRC_BUF(s->modulus),
                        BRC_BUF(r->force)));
+    if (!r->homogeneous) BRC_TRY(brc_softening_force(s, r->force));
     return dlsm_face_forces(s, r);
 }
 
@@ -196,6 +200,7 @@ brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabil
                        BRC_COEFF(m->k), BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(1 + s->scene->model.tau),
                        BRC_BUF(s->material), BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(s->scene->model.small_rotations ? 0 : 1),
                        BRC_BUF(s->elastic_energy), BRC_BUF(s->stabilisation_energy)));
+    BRC_TRY(brc_softening_energy(s));
     BRC_TRY(brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic));
     BRC_TRY(brc_vector_sum(s, s->stabilisation_energy, s->layout->n_rows, stabilisation));
     brc_held_faces *h = &s->loads.held;

@@ -161,6 +161,7 @@ static void fill_bond(const brc_scene *scene, const brc_domain *d, int64_t bond,
     out->energy[bond] = at && at->fracture_energy > 0 ? at->fracture_energy : factor * weak->fracture_energy;
     out->uniform = out->uniform && out->factor[bond] == 1;
     out->softens = out->softens || out->energy[bond] > 0;
+    out->exponential[bond] = weak->softening == BRC_SOFTENING_EXPONENTIAL;
 }
 
 static void tell_interfaces(brc_context *context, const brc_scene *scene, const brc_domain *d, const int64_t *count)
@@ -186,6 +187,7 @@ brc_status brc_strengths_create(brc_context *context, const brc_scene *scene, co
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->tension, d->n_bonds, "strengths of bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->energy, d->n_bonds, "fracture energies of bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->factor, d->n_bonds, "factors of bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->exponential, d->n_bonds, "softening of bonds"));
     for (int64_t b = 0; b < d->n_bonds; ++b) {
         const int64_t h = d->bond_half_edge[b];
         const int32_t i = d->neighbour[d->twin[h]], j = d->neighbour[h], m = weaker(scene, material[i], material[j]);
@@ -211,5 +213,6 @@ void brc_strengths_free(brc_strengths *s)
     brc_memory_free(s->tension);
     brc_memory_free(s->energy);
     brc_memory_free(s->factor);
+    brc_memory_free(s->exponential);
     memset(s, 0, sizeof *s);
 }

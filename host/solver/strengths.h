@@ -18,6 +18,7 @@ typedef struct brc_strengths {
     double *factor;  /* [n_bonds] what scatter and interface make of the strength of the weaker side [-]; for criteria of elements */
     bool uniform;    /* every factor is 1: the scene has neither scatter nor interfaces that matter */
     bool softens;    /* some energy is above 0 */
+    uint8_t *exponential; /* [n_bonds] with an energy: 1: the softening is exponential, 0: linear */
 } brc_strengths;
 
 /* material: [n_elements] index into scene->materials. Refuses (BRC_BAD_INPUT) files that cannot be read or name no bond of the domain, with line

@@ -1,0 +1,291 @@
+#include "cell_softening.h"
+#include "cell_breaks_internal.h"
+#include <math.h>
+
+/* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open (docs/fracture.md). */
+static const double steepest = 0.5;
+/* Faces look at their own traction where the stress of a cell is above this share of the limit (kernels/softening.cl, soft_check): the two agree within a
+ * few percent where nothing is open. */
+static const double screen = 0.7;
+/* Sweeps over the open faces a step, each with the forces at its openings; and the part of the stiffness, estimated from above, that they take: less than a
+ * half would let them overshoot. What they leave of the balance costs energy in quick cracks (docs/fracture.md). */
+enum { N_SWEEPS = 2 };
+static const double stiffen = 0.7;
+/* E G_c / sigma_f^2 below this many cells: the crack is not resolved. */
+static const double least_cells = 4;
+
+/* Components of `crack` (kernels/softening.cl). */
+enum { START = 9, ENERGY = 10, SPENT = 13, COSINE = 16, EXPONENTIAL = 17, TILT = 18, WIDTH = 19 };
+
+struct brc_softening_faces {
+    brc_kernel *gradient, *flux, *take_force, *move, *measure, *book, *check, *begin, *count, *energy, *settle;
+    brc_buffer *crack, *open, *lead;     /* [n_slots][WIDTH][C], [n_slots][C] */
+    brc_buffer *n_open, *reach, *shear;  /* [n_rows] */
+    bool any;                            /* some face has opened */
+};
+typedef struct brc_softening_faces softening_faces;
+
+static softening_faces *faces_of(const brc_simulation *s) { return s->fracture && s->fracture->cells ? s->fracture->cells->softening : NULL; }
+bool brc_softening_is_on(const brc_simulation *s) { return faces_of(s) != NULL; }
+
+static brc_status find_kernels(brc_simulation *s, softening_faces *f)
+{
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+    } wanted[] = {{&f->gradient, "soft_gradient"}, {&f->flux, "soft_flux"}, {&f->take_force, "soft_take_force"}, {&f->move, "soft_move"},
+                  {&f->measure, "soft_measure"}, {&f->book, "soft_book"}, {&f->check, "soft_check"}, {&f->begin, "soft_begin"},
+                  {&f->count, "soft_count"}, {&f->energy, "soft_energy"}, {&f->settle, "soft_settle"}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    return BRC_OK;
+}
+
+static double norm3(const double *x) { return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
+
+/* Warns where E G_c / sigma_f^2 is too few cells, and of bonds whose cells give way less than the cohesion falls: those snap open. */
+static void warn_of_size(brc_simulation *s, const brc_strengths *strengths)
+{
+    const brc_domain *d = s->domain;
+    int64_t n_short = 0, n_soft = 0, n_snap = 0;
+    double least = INFINITY;
+    for (int64_t b = 0; b < d->n_bonds; ++b) {
+        if (!(strengths->energy[b] > 0) || !(strengths->tension[b] > 0)) continue;
+        const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
+        const double young = fmin(s->elastic[s->material_of_element[i]].young, s->elastic[s->material_of_element[j]].young);
+        const double size = 0.5 * (cbrt(d->volume[i]) + cbrt(d->volume[j]));
+        const double length = young * strengths->energy[b] / (strengths->tension[b] * strengths->tension[b]) / size;
+        ++n_soft;
+        n_short += length < least_cells;
+        n_snap += length < 1;
+        least = fmin(least, length);
+    }
+    if (n_short * 100 > n_soft)
+        brc_log(s->context, BRC_LOG_WARNING,
+                "fracture_energy: E G_c / sigma_f^2 is less than %g cells at %lld of %lld bonds (%.2g at least), below 1 at %lld, which open at once: a crack "
+                "costs about G_c per area only above; use smaller cells or a lower strength", least_cells, (long long)n_short, (long long)n_soft, least, (long long)n_snap);
+}
+
+static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_strengths *strengths)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int64_t n_entries = layout->n_slots * layout->slice;
+    double *crack = NULL, *shear = NULL;
+    int32_t *lead = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of faces"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &lead, n_entries, "cohesion of faces"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &shear, layout->n_rows, "shear moduli"));
+    for (int64_t k = 0; k < n_entries; ++k) {
+        const int32_t h = layout->half_edge[k];
+        if (h < 0) continue;
+        double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
+        own[ENERGY * layout->slice] = strengths->energy[d->bond[h]] * norm3(d->area_vector + 3 * (int64_t)h);
+        own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
+        lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
+    }
+    for (int32_t r = 0; r < layout->n_rows; ++r)
+        if (layout->element_of_row[r] >= 0) shear[r] = s->elastic[s->material_of_element[layout->element_of_row[r]]].mu;
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->crack, WIDTH * n_entries, "cohesion of faces"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
+    BRC_TRY_OR(cleanup, brc_new_int(s, &f->lead, lead, n_entries, "cohesion of faces"));
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->shear, layout->n_rows, "shear moduli"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear, shear, layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->reach, layout->n_rows, "reach of open faces"));
+    BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->n_open, 4 * (int64_t)layout->n_rows, "open faces"));
+    BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->open, 4 * n_entries, "open faces"));
+cleanup:
+    brc_memory_free(crack);
+    brc_memory_free(lead);
+    brc_memory_free(shear);
+    return status;
+}
+
+brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths)
+{
+    if (!strengths->softens) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->softening, 1, "cohesion of faces"));
+    BRC_TRY(find_kernels(s, s->fracture->cells->softening));
+    warn_of_size(s, strengths);
+    return upload_faces(s, s->fracture->cells->softening, strengths);
+}
+
+void brc_softening_free(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    if (!f) return;
+    brc_buffer **all[] = {&f->crack, &f->open, &f->lead, &f->n_open, &f->reach, &f->shear};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_memory_free(f);
+    s->fracture->cells->softening = NULL;
+}
+
+/* ---- an evaluation ---- */
+
+static double one_modulus(const brc_simulation *s) { return s->elastic[s->material_of_element[0]].k; }
+static double one_plus_tau(const brc_simulation *s) { return 1 + s->scene->model.tau; }
+static double beta(const brc_simulation *s) { return s->scene->model.compaction ? s->scene->model.beta : 0; }
+
+brc_status brc_softening_gradient(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    if (!f || !f->any) return BRC_OK;
+    return BRC_LAUNCH(f->gradient, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open),
+                      BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient));
+}
+
+brc_status brc_softening_flux(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    if (!f || !f->any || !brc_device_has_many_materials(s->device)) return BRC_OK;
+    return BRC_LAUNCH(f->flux, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
+                      BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient), BRC_BUF(s->modulus),
+                      BRC_BUF(s->ell_of), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->flux));
+}
+
+brc_status brc_softening_force(brc_simulation *s, brc_buffer *force)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    if (!f || !f->any) return BRC_OK;
+    return BRC_LAUNCH(f->take_force, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
+                      BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
+                      BRC_BUF(force));
+}
+
+brc_status brc_softening_energy(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    if (!f || !f->any) return BRC_OK;
+    return BRC_LAUNCH(f->energy, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
+                      BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient),
+                      BRC_COEFF(one_modulus(s)), BRC_COEFF(s->elastic[s->material_of_element[0]].ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)),
+                      BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_BUF(s->stabilisation_energy));
+}
+
+/* ---- a step ---- */
+
+static brc_status sweep(brc_simulation *s, bool is_first)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    return BRC_LAUNCH(f->move, n, BRC_INT(n), BRC_INT(is_first), BRC_COEFF(stiffen), BRC_COEFF(steepest), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                      BRC_BUF(s->fracture->cells->twin), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area),
+                      BRC_BUF(s->ratio), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume), BRC_BUF(s->fracture->cells->modulus), BRC_BUF(f->shear),
+                      BRC_BUF(f->reach), BRC_COEFF(one_modulus(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
+                      BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->flux), BRC_BUF(s->bond_part));
+}
+
+brc_status brc_softening_move(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    if (!f || !f->any) return BRC_OK;
+    for (int k = 0; k < N_SWEEPS; ++k) {
+        BRC_TRY(brc_force_of_state(s, BRC_BOOK_NOTHING));
+        BRC_TRY(sweep(s, k == 0));
+    }
+    return BRC_OK;
+}
+
+static brc_status measure(brc_simulation *s, int book)
+{
+    softening_faces *f = faces_of(s);
+    brc_cell_breaks *c = s->fracture->cells;
+    const int32_t n = s->layout->n_rows;
+    return BRC_LAUNCH(f->measure, n, BRC_INT(n), BRC_INT(book), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(c->alive),
+                      BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->ratio),
+                      BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement), BRC_BUF(s->flux),
+                      BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->found));
+}
+
+brc_status brc_softening_recount(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    brc_cell_breaks *c = s->fracture->cells;
+    const int32_t n = s->layout->n_rows;
+    if (!f) return BRC_OK;
+    return BRC_LAUNCH(f->count, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(c->alive), BRC_BUF(f->open), BRC_BUF(c->limit), BRC_BUF(s->area),
+                      BRC_BUF(s->inv_shape), BRC_BUF(f->n_open), BRC_BUF(f->reach), BRC_BUF(c->least));
+}
+
+brc_status brc_softening_refresh(brc_simulation *s) { return brc_softening_is_on(s) ? measure(s, 0) : BRC_OK; }
+
+brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
+{
+    softening_faces *f = faces_of(s);
+    brc_cell_breaks *c = s->fracture->cells;
+    const int32_t n = s->layout->n_rows;
+    double wished, brittle = 0;
+    *n_ended = 0;
+    if (f->any) { /* what opened before this step */
+        BRC_TRY(measure(s, 1));
+        BRC_TRY(brc_vector_sum(s, c->found, n, n_ended));
+        BRC_TRY(BRC_LAUNCH(f->book, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(c->alive), BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->crack),
+                           BRC_BUF(s->fracture->lost)));
+    }
+    BRC_TRY(BRC_LAUNCH(f->check, n, BRC_INT(n), BRC_COEFF(share), BRC_COEFF(steepest), BRC_COEFF(screen), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                       BRC_BUF(f->n_open), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
+                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_BUF(c->least),
+                       BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(f->crack), BRC_BUF(c->found)));
+    BRC_TRY(brc_vector_sum(s, c->found, n, &wished));
+    if (wished > 0) {
+        f->any = true;
+        BRC_TRY(BRC_LAUNCH(f->begin, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(f->lead), BRC_BUF(s->area),
+                           BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement),
+                           BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(f->crack), BRC_BUF(c->limit),
+                           BRC_BUF(f->open), BRC_BUF(c->found)));
+        BRC_TRY(brc_vector_sum(s, c->found, n, &brittle));
+        BRC_TRY(brc_softening_recount(s));
+    }
+    *n_ended += brittle;
+    return BRC_OK;
+}
+
+brc_status brc_softening_settle(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    if (!f) return BRC_OK;
+    return BRC_LAUNCH(f->settle, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_BUF(s->row_start), BRC_BUF(s->fracture->break_step), BRC_BUF(f->open),
+                      BRC_BUF(f->crack), BRC_BUF(s->fracture->break_energy));
+}
+
+/* ---- what came of it ---- */
+
+brc_status brc_softening_describe(brc_simulation *s, brc_softening_report *out)
+{
+    softening_faces *f = faces_of(s);
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int64_t n_entries = layout->n_slots * layout->slice;
+    double *crack = NULL, *alive = NULL;
+    brc_status status = BRC_OK;
+    *out = (brc_softening_report){0};
+    if (!f || !f->any) return BRC_OK;
+    const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of faces"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n_entries, "unbroken bonds"));
+    BRC_TRY_OR(cleanup, brc_download(s, f->crack, bytes, crack, WIDTH * n_entries));
+    BRC_TRY_OR(cleanup, brc_download(s, s->fracture->cells->alive, bytes, alive, n_entries));
+    for (int64_t k = 0; k < n_entries; ++k) {
+        const int32_t h = layout->half_edge[k];
+        const double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
+        if (h < 0 || !(own[START * layout->slice] > 0) || d->neighbour[d->twin[h]] > d->neighbour[h]) continue;
+        const double spent = own[SPENT * layout->slice], tilt = own[TILT * layout->slice];
+        out->n_opened += 1;
+        out->spent += spent;
+        if (alive[k] > 0) {
+            out->unfinished += spent;
+            continue;
+        }
+        out->n_ended += 1;
+        out->area += tilt * own[COSINE * layout->slice] * norm3(d->area_vector + 3 * (int64_t)h);
+    }
+cleanup:
+    brc_memory_free(crack);
+    brc_memory_free(alive);
+    return status;
+}

@@ -1,0 +1,438 @@
+/* Faces of cells that open against cohesion (dlsm; docs/fracture.md "Fracture energy", kernels/softening.h). The displacement jump J = u_j - u_i over
+ * an open face is elastic but for the opening w: every law reads J - w in place of J. So the gradients of the two cells do not see the crack, A and
+ * the time step stay those of the whole body while the face holds, and -dW/dw is the very force of the bond. The elastic passes run over the whole
+ * body as ever; here, cells with open faces take the part of w back out of their sums (all of them are linear in J).
+ *
+ * crack [n_slots][SOFT_WIDTH][C], of an entry (vectors seen from its own element): the opening w [m]; what the last step added to it, SHIFT [m]; PULL:
+ * force of the bond on the own element at the last evaluation [N]; START, ENERGY: soft_face (ENERGY before the onset: G_c S) [N] [J];
+ * ONSET: principal stress at the onset [Pa]; WIDEST: largest |w| [m]; SPENT: energy that its cohesion took so far but for what is HELD, which comes
+ * back [J]; BOOKED: what of SPENT the last step added [J]; COSINE of normal and principal axis at the onset [-]; EXPONENTIAL: 1, else linear; TILT:
+ * what the direction of the opening leaves of ENERGY [-].
+ * Entries: open: 1 from the onset on; lead: 1 on the side with the lower id, which computes for both. Elements [n]: n_open: open faces that hold;
+ * reach: sum of |A^-1 s| over them [1/m]. */
+
+#define SOFT_OPENING 0
+#define SOFT_SHIFT 3
+#define SOFT_PULL 6
+#define SOFT_START 9
+#define SOFT_ENERGY 10
+#define SOFT_ONSET 11
+#define SOFT_WIDEST 12
+#define SOFT_SPENT 13
+#define SOFT_HELD 14
+#define SOFT_BOOKED 15
+#define SOFT_COSINE 16
+#define SOFT_EXPONENTIAL 17
+#define SOFT_TILT 18
+#define SOFT_WIDTH 19
+#define SOFT_WISH 100 /* in mark: the bond is to open */
+
+#define SOFT_ENTRY ((brc_size)slot * C + (brc_size)(e % C))
+#define SOFT_NUMBER(entry, what) crack[(((entry) / C) * SOFT_WIDTH + SOFT_##what) * C + (entry) % C]
+
+LAW soft_vector soft_part(GLOBAL const coeff *restrict crack, brc_size entry, int what)
+{
+    GLOBAL const coeff *p = crack + ((entry / C) * SOFT_WIDTH + (brc_size)what) * C + entry % C;
+    return (soft_vector){p[0], p[C], p[2 * C]};
+}
+LAW void soft_put(GLOBAL coeff *restrict crack, brc_size entry, int what, soft_vector a)
+{
+    GLOBAL coeff *p = crack + ((entry / C) * SOFT_WIDTH + (brc_size)what) * C + entry % C;
+    p[0] = a.x, p[C] = a.y, p[2 * C] = a.z;
+}
+/* Area vector of an entry [m^2]. */
+LAW soft_vector soft_area(GLOBAL const coeff *restrict area, brc_size entry)
+{
+    GLOBAL const coeff *p = area + (entry / C) * 3 * C + entry % C;
+    return (soft_vector){p[0], p[C], p[2 * C]};
+}
+/* [element][9] times a vector. */
+LAW soft_vector soft_times(GLOBAL const coeff *restrict m, int e, soft_vector a)
+{
+    GLOBAL const coeff *p = m + (brc_size)e * 9;
+    return (soft_vector){p[0] * a.x + p[1] * a.y + p[2] * a.z, p[3] * a.x + p[4] * a.y + p[5] * a.z, p[6] * a.x + p[7] * a.y + p[8] * a.z};
+}
+/* A^-1 s of element e [1/m]. */
+LAW soft_vector soft_pull_of(GLOBAL const coeff *restrict inv_shape, int e, soft_vector s)
+{
+    GLOBAL const coeff *p = inv_shape + (brc_size)(e / C) * 6 * C + e % C;
+    const coeff xx = p[0], yy = p[C], zz = p[2 * C], yz = p[3 * C], xz = p[4 * C], xy = p[5 * C];
+    return (soft_vector){xx * s.x + xy * s.y + xz * s.z, xy * s.x + yy * s.y + yz * s.z, xz * s.x + yz * s.y + zz * s.z};
+}
+LAW soft_vector soft_jump(GLOBAL const state *restrict displacement, int i, int j)
+{
+    GLOBAL const state *a = displacement + (brc_size)i * 3, *b = displacement + (brc_size)j * 3;
+    return (soft_vector){(coeff)(b[0] - a[0]), (coeff)(b[1] - a[1]), (coeff)(b[2] - a[2])};
+}
+#if BRC_MANY_MATERIALS
+#define SOFT_BOND_MODULUS(e, j) (modulus[e] < modulus[j] ? modulus[e] : modulus[j])
+#else
+#define SOFT_BOND_MODULUS(e, j) k_one
+#endif
+
+/* Takes the openings out of H. */
+KERNEL void soft_gradient(int n, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict alive,
+                          GLOBAL const int *restrict n_open, GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack,
+                          GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient)
+{
+    FOR_EACH_ITEM(e, n) {
+        for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = SOFT_ENTRY;
+            if (!open[entry] || !(alive[entry] > 0)) continue;
+            const soft_vector w = soft_part(crack, entry, SOFT_OPENING), a = soft_pull_of(inv_shape, e, soft_area(area, entry));
+            GLOBAL coeff *h = gradient + (brc_size)e * 9;
+            h[0] -= w.x * a.x, h[1] -= w.x * a.y, h[2] -= w.x * a.z;
+            h[3] -= w.y * a.x, h[4] -= w.y * a.y, h[5] -= w.y * a.z;
+            h[6] -= w.z * a.x, h[7] -= w.z * a.y, h[8] -= w.z * a.z;
+        }
+    }
+}
+
+/* Several materials: takes them out of B, whose sum of r (x) s reads J there (with one material it reads gradients alone). */
+KERNEL void soft_flux(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                      GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open, GLOBAL const int *restrict open,
+                      GLOBAL const coeff *restrict crack, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict inv_shape,
+                      GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict modulus,
+                      GLOBAL const coeff *restrict ell_of, coeff beta, coeff one_plus_tau, GLOBAL coeff *restrict flux)
+{
+    FOR_EACH_ITEM(e, n) {
+        if (n_open[e]) {
+            lane_mat3 rs = lane_mat3_zero(); /* k sum c w (x) s [N m] */
+            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+                const brc_size entry = SOFT_ENTRY;
+                if (!open[entry] || !(alive[entry] > 0)) continue;
+                const int j = neighbour[entry];
+                const coeff k = modulus[e] < modulus[j] ? modulus[e] : modulus[j];
+                const soft_vector w = soft_scale(k, soft_part(crack, entry, SOFT_OPENING)), s = soft_area(area, entry);
+                rs = lane_add_outer(rs, (lane_vec3){LANE_ZERO + w.x, LANE_ZERO + w.y, LANE_ZERO + w.z},
+                                    (lane_vec3){LANE_ZERO + s.x, LANE_ZERO + s.y, LANE_ZERO + s.z});
+            }
+            GLOBAL const coeff *p = inv_shape + (brc_size)(e / C) * 6 * C + e % C, *h = gradient + (brc_size)e * 9;
+            const lane_sym3 inverse = {LANE_ZERO + p[0], LANE_ZERO + p[C], LANE_ZERO + p[2 * C], LANE_ZERO + p[3 * C], LANE_ZERO + p[4 * C], LANE_ZERO + p[5 * C]};
+            const lane_mat3 own = {LANE_ZERO + h[0], LANE_ZERO + h[1], LANE_ZERO + h[2], LANE_ZERO + h[3], LANE_ZERO + h[4],
+                                   LANE_ZERO + h[5], LANE_ZERO + h[6], LANE_ZERO + h[7], LANE_ZERO + h[8]};
+            const lane half_tau = LANE_ZERO + REAL(0.5) * one_plus_tau, half_beta = LANE_ZERO + REAL(0.5) * beta, ell = LANE_ZERO + ell_of[e];
+            const lane_mat3 q = lane_mat3_sub(lane_mat3_scale(half_tau, rs), dlsm_compaction_adjoint(own, lane_mat3_scale(half_beta, rs), ell, 1));
+            const lane_mat3 b = lane_mat3_mul_sym(q, inverse);
+            GLOBAL coeff *to = flux + (brc_size)e * 9;
+            to[0] += LANE_ITEM(b.xx, 0), to[1] += LANE_ITEM(b.xy, 0), to[2] += LANE_ITEM(b.xz, 0);
+            to[3] += LANE_ITEM(b.yx, 0), to[4] += LANE_ITEM(b.yy, 0), to[5] += LANE_ITEM(b.yz, 0);
+            to[6] += LANE_ITEM(b.zx, 0), to[7] += LANE_ITEM(b.zy, 0), to[8] += LANE_ITEM(b.zz, 0);
+        }
+    }
+}
+
+/* Takes them out of the forces. */
+KERNEL void soft_take_force(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                            GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open, GLOBAL const int *restrict open,
+                            GLOBAL const coeff *restrict crack, GLOBAL const coeff *restrict ratio, coeff k_one, coeff one_plus_tau,
+                            GLOBAL const coeff *restrict modulus, GLOBAL state *restrict force)
+{
+    FOR_EACH_ITEM(e, n) {
+        if (n_open[e]) {
+            soft_vector f = {0, 0, 0};
+            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+                const brc_size entry = SOFT_ENTRY;
+                if (!open[entry] || !(alive[entry] > 0)) continue;
+                f = soft_add(f, SOFT_BOND_MODULUS(e, neighbour[entry]) * one_plus_tau / ratio[entry], soft_part(crack, entry, SOFT_OPENING));
+            }
+            GLOBAL state *to = force + (brc_size)e * 3;
+            to[0] -= (state)f.x, to[1] -= (state)f.y, to[2] -= (state)f.z;
+        }
+    }
+}
+
+/* Force of a bond on its own element [N]: dlsm_bond_force. */
+LAW soft_vector soft_bond_force(GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, int e, int j, soft_vector s, coeff spring,
+                                coeff ratio, soft_vector elastic_jump)
+{
+    soft_vector f = soft_add(soft_times(flux, e, s), REAL(1), soft_times(flux, j, s));
+#if BRC_MANY_MATERIALS
+    f = soft_add(f, spring, soft_add(soft_times(bond_part, e, s), REAL(1), soft_times(bond_part, j, s)));
+#endif
+    return soft_add(f, spring / ratio, elastic_jump);
+}
+
+/* The openings of the step whose motion has just been done, by the fluxes at the new place and the old openings: each goes where its cohesion balances
+ * what the bond would pull with, by the stiffness of the two cells, which is estimated from above; so a sweep over all faces at once comes nearer
+ * to the balance of all, and does not overshoot. is_first: of the sweeps of this step. A face that would close further than shut only slides. */
+KERNEL void soft_move(int n, int is_first, coeff stiffen, coeff steepest, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                      GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
+                      GLOBAL const int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
+                      GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const coeff *restrict inv_shape,
+                      GLOBAL const coeff *restrict inv_volume, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict shear,
+                      GLOBAL const coeff *restrict reach, coeff k_one, coeff beta, coeff one_plus_tau,
+                      GLOBAL const coeff *restrict modulus, GLOBAL const state *restrict displacement,
+                      GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part)
+{
+    FOR_EACH_ITEM(e, n) {
+        for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = SOFT_ENTRY, other = (brc_size)twin[entry];
+            if (!open[entry] || !lead[entry] || !(alive[entry] > 0)) continue;
+            const int j = neighbour[entry];
+            const coeff bond_modulus = SOFT_BOND_MODULUS(e, j);
+            const soft_face face = {SOFT_NUMBER(entry, START), SOFT_NUMBER(entry, ENERGY) * SOFT_NUMBER(entry, TILT), SOFT_NUMBER(entry, EXPONENTIAL) > 0};
+            const soft_vector s = soft_area(area, entry), before = soft_part(crack, entry, SOFT_OPENING);
+            const soft_vector own = soft_pull_of(inv_shape, e, s), theirs = soft_pull_of(inv_shape, j, s);
+            soft_vector drive = soft_bond_force(flux, bond_part, e, j, s, bond_modulus * one_plus_tau, ratio[entry],
+                                                soft_add(soft_jump(displacement, e, j), REAL(-1), before));
+            /* the stiffness along the way the face goes */
+            const coeff size = SQRT(soft_dot(drive, drive) + REAL(1e-30)), share = REAL(0.5) * ratio[entry] * soft_dot(s, soft_add(own, REAL(1), theirs));
+            const soft_vector way = soft_scale(REAL(1) / size, drive);
+            const coeff stiffness = stiffen * (soft_cell_stiffness(own, reach[e], way, REAL(1) / inv_volume[e], plane[e], shear[e]) +
+                                    soft_cell_stiffness(theirs, reach[j], way, REAL(1) / inv_volume[j], plane[j], shear[j]) +
+                                    soft_bond_stiffness(bond_modulus, ratio[entry], share, beta, one_plus_tau));
+            drive = soft_add(drive, stiffness, before);
+            const soft_vector normal = soft_add(s, REAL(0.5), soft_add(soft_times(gradient, e, s), REAL(1), soft_times(gradient, j, s)));
+            const coeff across = soft_dot(drive, normal), square = soft_dot(normal, normal);
+            if (across < 0) drive = soft_add(drive, -across / square, normal);
+            const coeff wide = SOFT_NUMBER(entry, WIDEST), force = SQRT(soft_dot(drive, drive)), w = soft_opening(face, wide, force, stiffness);
+            const soft_vector now = soft_scale(force > 0 ? w / force : 0, drive);
+            soft_vector added = soft_add(now, REAL(-1), before);
+            if (!is_first) added = soft_add(added, REAL(1), soft_part(crack, entry, SOFT_SHIFT));
+            soft_put(crack, entry, SOFT_OPENING, now), soft_put(crack, other, SOFT_OPENING, soft_scale(REAL(-1), now));
+            soft_put(crack, entry, SOFT_SHIFT, added), soft_put(crack, other, SOFT_SHIFT, soft_scale(REAL(-1), added));
+            if (w > wide) {
+                const coeff tilt = soft_tilt(SOFT_NUMBER(entry, COSINE), soft_dot(now, normal) / (w * SQRT(square)), steepest);
+                SOFT_NUMBER(entry, WIDEST) = w, SOFT_NUMBER(other, WIDEST) = w;
+                SOFT_NUMBER(entry, TILT) = tilt, SOFT_NUMBER(other, TILT) = tilt;
+            }
+        }
+    }
+}
+
+/* Forces of the open bonds as they are now. book: 1: the work of the last openings (trapezoidal rule, each side half) goes to spent and, but for what
+ * is still held, to lost [n]; bonds at the end of their cohesion are marked. found [n]. */
+KERNEL void soft_measure(int n, int book, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                         GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
+                         GLOBAL const int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
+                         GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, coeff k_one,
+                         coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const state *restrict displacement,
+                         GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark,
+                         GLOBAL coeff *restrict measure, GLOBAL state *restrict found)
+{
+    FOR_EACH_ITEM(e, n) {
+        int count = 0;
+        for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = SOFT_ENTRY, other = (brc_size)twin[entry];
+            if (!open[entry] || !lead[entry] || !(alive[entry] > 0)) continue;
+            const int j = neighbour[entry];
+            const coeff spring = SOFT_BOND_MODULUS(e, j) * one_plus_tau;
+            const soft_face face = {SOFT_NUMBER(entry, START), SOFT_NUMBER(entry, ENERGY) * SOFT_NUMBER(entry, TILT), SOFT_NUMBER(entry, EXPONENTIAL) > 0};
+            const soft_vector w = soft_part(crack, entry, SOFT_OPENING), jump = soft_jump(displacement, e, j);
+            const soft_vector force = soft_bond_force(flux, bond_part, e, j, soft_area(area, entry), spring, ratio[entry], soft_add(jump, REAL(-1), w));
+            coeff given = 0, holds = SOFT_NUMBER(entry, HELD);
+            if (book) {
+                const coeff work = REAL(0.5) * soft_dot(soft_add(force, REAL(1), soft_part(crack, entry, SOFT_PULL)), soft_part(crack, entry, SOFT_SHIFT));
+                holds = soft_held(face, SOFT_NUMBER(entry, WIDEST), SQRT(soft_dot(w, w)));
+                given = work - (holds - SOFT_NUMBER(entry, HELD));
+                SOFT_NUMBER(entry, SPENT) += given, SOFT_NUMBER(other, SPENT) += given;
+                SOFT_NUMBER(entry, HELD) = holds, SOFT_NUMBER(other, HELD) = holds;
+                if (!(SOFT_NUMBER(entry, WIDEST) < soft_end(face))) {
+                    mark[entry] = CELLS_TENSION, mark[other] = CELLS_TENSION;
+                    measure[entry] = SOFT_NUMBER(entry, ONSET), measure[other] = SOFT_NUMBER(entry, ONSET);
+                    count += 1;
+                }
+            }
+            SOFT_NUMBER(entry, BOOKED) = given, SOFT_NUMBER(other, BOOKED) = given;
+            soft_put(crack, entry, SOFT_PULL, force), soft_put(crack, other, SOFT_PULL, soft_scale(REAL(-1), force));
+        }
+        found[e] = (state)count;
+    }
+}
+
+/* Each element's half of what its open bonds booked. */
+KERNEL void soft_book(int n, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict alive,
+                      GLOBAL const int *restrict n_open, GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack,
+                      GLOBAL state *restrict lost)
+{
+    FOR_EACH_ITEM(e, n) {
+        for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = SOFT_ENTRY;
+            if (open[entry] && alive[entry] > 0) lost[e] += STATE(0.5) * (state)SOFT_NUMBER(entry, BOOKED);
+        }
+    }
+}
+
+/* Mean of the two cells' stress in the present frame, sym(P F_H^T) [Pa]. */
+LAW failure_stress soft_mean_stress(GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, int i, int j)
+{
+    failure_stress sum = {0, 0, 0, 0, 0, 0};
+    for (int side = 0; side < 2; ++side) {
+        GLOBAL const coeff *h = gradient + (brc_size)(side ? j : i) * 9, *p = stress + (brc_size)(side ? j : i) * 9;
+        coeff t[9];
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) t[3 * a + b] = p[3 * a + b] + p[3 * a] * h[3 * b] + p[3 * a + 1] * h[3 * b + 1] + p[3 * a + 2] * h[3 * b + 2];
+        sum.xx += REAL(0.5) * t[0], sum.yy += REAL(0.5) * t[4], sum.zz += REAL(0.5) * t[8];
+        sum.yz += REAL(0.25) * (t[5] + t[7]), sum.xz += REAL(0.25) * (t[2] + t[6]), sum.xy += REAL(0.25) * (t[1] + t[3]);
+    }
+    return sum;
+}
+
+/* The stress at a bond [Pa]: the mean of its cells, but with the traction that the bond itself carries: mean + t (x) n + n (x) t - (t.n) n (x) n, t that
+ * traction less that of the mean. So a bond that bridges an open crack, between cells without stress, is seen to be pulled. n: unit normal. */
+LAW failure_stress soft_stress(failure_stress mean, soft_vector traction, soft_vector n)
+{
+    const soft_vector t = {traction.x - (mean.xx * n.x + mean.xy * n.y + mean.xz * n.z), traction.y - (mean.xy * n.x + mean.yy * n.y + mean.yz * n.z),
+                           traction.z - (mean.xz * n.x + mean.yz * n.y + mean.zz * n.z)};
+    const soft_vector m = soft_add(t, REAL(-0.5) * soft_dot(t, n), n);
+    return (failure_stress){mean.xx + REAL(2) * m.x * n.x,         mean.yy + REAL(2) * m.y * n.y,         mean.zz + REAL(2) * m.z * n.z,
+                            mean.yz + m.y * n.z + m.z * n.y, mean.xz + m.x * n.z + m.z * n.x, mean.xy + m.x * n.y + m.y * n.x};
+}
+
+/* Whole bonds whose largest principal stress is above share * limit and that stand across it (the cosine of normal and axis is at least steepest)
+ * are marked SOFT_WISH, measure: that stress. Elements without open faces whose own stress is below screen * limit of their weakest bond do not look:
+ * the largest principal value is not above the Frobenius norm. found [n]. */
+KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, GLOBAL const int *restrict row_start,
+                       GLOBAL const int *restrict neighbour, GLOBAL const int *restrict n_open, GLOBAL const coeff *restrict area,
+                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
+                       GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                       GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
+                       GLOBAL const coeff *restrict least, GLOBAL const coeff *restrict limit, GLOBAL int *restrict mark,
+                       GLOBAL coeff *restrict measure, GLOBAL coeff *restrict crack, GLOBAL state *restrict found)
+{
+    FOR_EACH_ITEM(e, n) {
+        GLOBAL const coeff *p = stress + (brc_size)e * 9, *h = gradient + (brc_size)e * 9;
+        coeff square = 0, strain = 0;
+        int count = 0;
+        for (int c = 0; c < 9; ++c) square += p[c] * p[c], strain += h[c] * h[c];
+        const coeff bound = screen * share * least[e] / (REAL(1) + SQRT(strain));
+        const int look = n_open[e] > 0 || square > bound * bound;
+        for (int slot = row_start[e / C]; look && slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = SOFT_ENTRY;
+            if (!(limit[entry] < CELLS_NEVER)) continue;
+            const int j = neighbour[entry];
+            const soft_vector s = soft_area(area, entry);
+            const soft_vector force = soft_bond_force(flux, bond_part, e, j, s, SOFT_BOND_MODULUS(e, j) * one_plus_tau, ratio[entry], soft_jump(displacement, e, j));
+            const soft_vector turned = soft_add(s, REAL(0.5), soft_add(soft_times(gradient, e, s), REAL(1), soft_times(gradient, j, s)));
+            const soft_vector normal = soft_scale(REAL(1) / SQRT(soft_dot(turned, turned)), turned);
+            const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
+            const failure_principal largest = failure_principal_of(soft_stress(soft_mean_stress(gradient, stress, e, j), traction, normal));
+            if (!(largest.first > share * limit[entry])) continue;
+            const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
+            const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
+            if (size < steepest) continue;
+            mark[entry] = SOFT_WISH;
+            measure[entry] = largest.first;
+            SOFT_NUMBER(entry, COSINE) = size;
+            count += 1;
+        }
+        found[e] = (state)count;
+    }
+}
+
+/* Wishes of either side come true: the bond opens at the force it carries; without a fracture energy it is marked to break. */
+KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                       GLOBAL const int *restrict twin, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict area,
+                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
+                       GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
+                       GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
+                       GLOBAL coeff *restrict crack, GLOBAL coeff *restrict limit, GLOBAL int *restrict open,
+                       GLOBAL state *restrict found)
+{
+    FOR_EACH_ITEM(e, n) {
+        int breaks = 0;
+        for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = SOFT_ENTRY, other = (brc_size)twin[entry];
+            if (!lead[entry] || !(mark[entry] == SOFT_WISH || mark[other] == SOFT_WISH)) continue;
+            const brc_size from = mark[entry] == SOFT_WISH ? entry : other;
+            const int j = neighbour[entry];
+            const coeff stress = measure[from], c = SOFT_NUMBER(from, COSINE);
+            mark[entry] = 0, mark[other] = 0;
+            limit[entry] = CELLS_NEVER, limit[other] = CELLS_NEVER;
+            if (!(SOFT_NUMBER(entry, ENERGY) > 0)) {
+                mark[entry] = CELLS_TENSION, mark[other] = CELLS_TENSION;
+                measure[entry] = stress, measure[other] = stress;
+                breaks += 1;
+                continue;
+            }
+            const soft_vector jump = soft_jump(displacement, e, j);
+            const soft_vector force = soft_bond_force(flux, bond_part, e, j, soft_area(area, entry), SOFT_BOND_MODULUS(e, j) * one_plus_tau, ratio[entry], jump);
+            const coeff size = SQRT(soft_dot(force, force));
+            open[entry] = 1, open[other] = 1;
+            SOFT_NUMBER(entry, START) = size, SOFT_NUMBER(other, START) = size;
+            SOFT_NUMBER(entry, ENERGY) *= c, SOFT_NUMBER(other, ENERGY) *= c;
+            SOFT_NUMBER(entry, COSINE) = c, SOFT_NUMBER(other, COSINE) = c;
+            SOFT_NUMBER(entry, TILT) = 1, SOFT_NUMBER(other, TILT) = 1;
+            SOFT_NUMBER(entry, ONSET) = stress, SOFT_NUMBER(other, ONSET) = stress;
+            soft_put(crack, entry, SOFT_PULL, force), soft_put(crack, other, SOFT_PULL, soft_scale(REAL(-1), force));
+        }
+        found[e] = (state)breaks;
+    }
+}
+
+/* Open faces of every element, and their reach; and the weakest limit of those still whole. */
+KERNEL void soft_count(int n, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict alive,
+                       GLOBAL const int *restrict open, GLOBAL const coeff *restrict limit, GLOBAL const coeff *restrict area,
+                       GLOBAL const coeff *restrict inv_shape, GLOBAL int *restrict n_open, GLOBAL coeff *restrict reach,
+                       GLOBAL coeff *restrict least)
+{
+    FOR_EACH_ITEM(e, n) {
+        int count = 0;
+        coeff sum = 0, weakest = CELLS_NEVER;
+        for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = SOFT_ENTRY;
+            weakest = limit[entry] < weakest ? limit[entry] : weakest;
+            if (!open[entry] || !(alive[entry] > 0)) continue;
+            const soft_vector a = soft_pull_of(inv_shape, e, soft_area(area, entry));
+            sum += SQRT(soft_dot(a, a));
+            count += 1;
+        }
+        n_open[e] = count;
+        reach[e] = sum;
+        least[e] = weakest;
+    }
+}
+
+/* After dlsm_energy: the bonds' energy of J - w in place of that of J, and what the cohesion holds; half to each side [J] [n]. */
+KERNEL void soft_energy(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                        GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open, GLOBAL const int *restrict open,
+                        GLOBAL const coeff *restrict crack, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient, coeff k_one, coeff ell_one,
+                        coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of,
+                        GLOBAL state *restrict stabilisation)
+{
+    FOR_EACH_ITEM(e, n) {
+        for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = SOFT_ENTRY;
+            if (!open[entry] || !(alive[entry] > 0)) continue;
+            const int j = neighbour[entry];
+            GLOBAL const coeff *a = gradient + (brc_size)e * 9, *b = gradient + (brc_size)j * 9;
+            const lane_mat3 h = {LANE_ZERO + a[0], LANE_ZERO + a[1], LANE_ZERO + a[2], LANE_ZERO + a[3], LANE_ZERO + a[4],
+                                 LANE_ZERO + a[5], LANE_ZERO + a[6], LANE_ZERO + a[7], LANE_ZERO + a[8]};
+            const lane_mat3 h_j = {LANE_ZERO + b[0], LANE_ZERO + b[1], LANE_ZERO + b[2], LANE_ZERO + b[3], LANE_ZERO + b[4],
+                                   LANE_ZERO + b[5], LANE_ZERO + b[6], LANE_ZERO + b[7], LANE_ZERO + b[8]};
+#if BRC_MANY_MATERIALS
+            const lane ell = LANE_ZERO + ell_of[e], ell_j = LANE_ZERO + ell_of[j];
+#else
+            const lane ell = LANE_ZERO + ell_one, ell_j = ell;
+#endif
+            const lane k = LANE_ZERO + SOFT_BOND_MODULUS(e, j), half_one = LANE_ZERO + REAL(0.5);
+            const lane_mat3 mean = lane_mat3_scale(half_one, lane_mat3_add(h, h_j));
+            const lane_mat3 compaction = lane_mat3_scale(half_one, lane_mat3_add(dlsm_compaction(h, ell, 1), dlsm_compaction(h_j, ell_j, 1)));
+            const soft_vector s = soft_area(area, entry), jump = soft_jump(displacement, e, j), elastic = soft_add(jump, REAL(-1), soft_part(crack, entry, SOFT_OPENING));
+            const lane_vec3 face = {LANE_ZERO + s.x, LANE_ZERO + s.y, LANE_ZERO + s.z};
+            const lane_vec3 with = {LANE_ZERO + jump.x, LANE_ZERO + jump.y, LANE_ZERO + jump.z};
+            const lane_vec3 without = {LANE_ZERO + elastic.x, LANE_ZERO + elastic.y, LANE_ZERO + elastic.z};
+            const lane q = LANE_ZERO + ratio[entry];
+            const lane more = dlsm_bond_energy(with, mean, compaction, face, q, k, beta, one_plus_tau);
+            const lane less = dlsm_bond_energy(without, mean, compaction, face, q, k, beta, one_plus_tau);
+            stabilisation[e] += STATE(0.5) * (state)(LANE_ITEM(less, 0) - LANE_ITEM(more, 0) + SOFT_NUMBER(entry, HELD));
+        }
+    }
+}
+
+/* Bonds that broke at the end of their cohesion, after cells_share: the energy their openings took is theirs too [J]. */
+KERNEL void soft_settle(int n, int step, GLOBAL const int *restrict row_start, GLOBAL const int *restrict break_step,
+                        GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack, GLOBAL coeff *restrict break_energy)
+{
+    FOR_EACH_ITEM(e, n) {
+        for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = SOFT_ENTRY;
+            if (break_step[entry] == step && open[entry]) break_energy[entry] += SOFT_NUMBER(entry, SPENT);
+        }
+    }
+}
+#undef SOFT_BOND_MODULUS
+#undef SOFT_ENTRY
+#undef SOFT_NUMBER
