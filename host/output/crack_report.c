@@ -18,6 +18,38 @@ static void sum_bodies(const brc_assembly *a, const brc_cracks *cracks, double *
     }
 }
 
+static brc_status find_energy(const brc_assembly *assembly, const brc_cracks *cracks, brc_crack_report *out)
+{
+    for (int64_t k = 0; k < cracks->n_broken; ++k) out->released += cracks->breaks[k].energy;
+    for (int32_t p = 0; p < assembly->n; ++p) {
+        brc_softening_report one;
+        const double implied = brc_simulation_implied_fracture_energy(assembly->part[p]);
+        if (implied > out->implied_energy) out->implied_energy = implied;
+        BRC_TRY(brc_simulation_softening(assembly->part[p], &one));
+        out->softening.n_opened += one.n_opened, out->softening.n_ended += one.n_ended;
+        out->softening.area += one.area, out->softening.spent += one.spent, out->softening.unfinished += one.unfinished;
+    }
+    return BRC_OK;
+}
+
+/* What cracks cost: by strength and cells where bonds break at once, and what was released; with a fracture energy what open faces took. */
+static void add_energy(brc_json *json, const brc_crack_report *report)
+{
+    const brc_softening_report *soft = &report->softening;
+    brc_json_begin_object(json, "energy");
+    brc_json_number(json, "released_J", report->released);
+    brc_json_number(json, "per_area_J_per_m2", report->statistics.total_area > 0 ? report->released / report->statistics.total_area : 0);
+    if (report->implied_energy > 0) brc_json_number(json, "implied_J_per_m2", report->implied_energy);
+    if (soft->n_opened > 0) {
+        brc_json_integer(json, "opened", soft->n_opened);
+        brc_json_integer(json, "ended", soft->n_ended);
+        brc_json_number(json, "projected_area_m2", soft->area);
+        brc_json_number(json, "spent_J", soft->spent);
+        brc_json_number(json, "unfinished_J", soft->unfinished);
+    }
+    brc_json_end(json);
+}
+
 brc_status brc_crack_report_find(brc_context *context, const brc_assembly *assembly, const brc_cracks *cracks, const brc_fragment_sizes *sizes,
                                  brc_crack_report *out)
 {
@@ -30,6 +62,7 @@ brc_status brc_crack_report_find(brc_context *context, const brc_assembly *assem
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->area_of_body, assembly->scene->n_bodies, "areas of cracks"));
     brc_crack_statistics_of(cracks->n_broken, cracks->breaks, fragment, &out->statistics);
     sum_bodies(assembly, cracks, out->area_of_body);
+    BRC_TRY_OR(cleanup, find_energy(assembly, cracks, out));
     out->sizes = *sizes;
     out->regime = brc_simulation_regime(assembly->part[0]);
 cleanup:
@@ -120,6 +153,7 @@ void brc_crack_report_add(brc_json *json, const brc_scene *scene, const brc_crac
     brc_json_begin_object(json, "area_of_body_m2");
     for (int32_t b = 0; report->area_of_body && b < scene->n_bodies; ++b) brc_json_number(json, scene->bodies[b].name, report->area_of_body[b]);
     brc_json_end(json);
+    add_energy(json, report);
     add_orientation(json, s);
     add_regime(json, n > 0, &report->regime);
     brc_json_end(json);

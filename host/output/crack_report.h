@@ -11,6 +11,9 @@ typedef struct brc_crack_report {
     brc_crack_statistics statistics;
     brc_fragment_sizes sizes;
     brc_regime regime;
+    double released;       /* energy of all breaks [J] */
+    double implied_energy; /* brc_simulation_implied_fracture_energy of the part that has most [J/m^2] */
+    brc_softening_report softening; /* of all parts */
     double *area_of_body; /* [scene.n_bodies] [m^2]; owned */
 } brc_crack_report;
 

@@ -1,5 +1,6 @@
 /* What broke, read from the device: events, damage, fragments. */
 #include "bond_area.h"
+#include "cell_softening.h"
 #include "fracture_internal.h"
 #include <math.h>
 #include <stdlib.h>
@@ -55,6 +56,7 @@ brc_status brc_fracture_begin_stage(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
     const bool dynamic = brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC;
+    BRC_TRY(brc_softening_begin_stage(s));
     BRC_TRY(brc_memory_resize(s->context, (void **)&f->spans, f->n_spans + 1, sizeof *f->spans, "stages with fracture"));
     f->spans[f->n_spans++] = (brc_break_span){brc_fracture_moment(s), f->n_loads, s->total_time_before, dynamic ? s->time_step.value : 0, s->stage};
     return BRC_OK;

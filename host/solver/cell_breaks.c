@@ -179,7 +179,7 @@ int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries
     if (by_element) bytes += n * (21 * coeff_bytes + 4) + (dlsm ? 3 * entries * coeff_bytes : 0);
     else bytes += n * coeff_bytes;
     if (!dlsm) bytes += 6 * n * coeff_bytes;
-    return bytes;
+    return bytes + brc_softening_bytes(scene, n, entries, coeff_bytes);
 }
 
 static brc_status check_scene(const brc_simulation *s)
@@ -338,7 +338,8 @@ brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store
         {"cells.least", c->least, BRC_ROWS, BRC_OF_COEFF, 1, &elements},
         {"cells.inverse_shape", s->inv_shape, BRC_BLOCKS, BRC_OF_COEFF, 6, &elements},
     };
-    status = brc_store_entries(s, store, sizeof entries / sizeof *entries, entries);
+    BRC_TRY_OR(cleanup, brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
+    status = brc_softening_store_state(s, store);
 cleanup:
     brc_memory_free(elements.id);
     return status;

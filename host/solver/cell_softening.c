@@ -42,6 +42,28 @@ static brc_status find_kernels(brc_simulation *s, softening_faces *f)
 
 static double norm3(const double *x) { return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
 
+/* Bonds that break at once take what their strength and length hold. */
+static void tell_implied(brc_simulation *s, const brc_strengths *strengths)
+{
+    const brc_domain *d = s->domain;
+    double sum = 0;
+    int64_t n = 0;
+    for (int64_t b = 0; b < d->n_bonds; ++b) {
+        if (strengths->energy[b] > 0 || !(strengths->tension[b] > 0)) continue;
+        const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
+        double branch[3];
+        for (int c = 0; c < 3; ++c) branch[c] = d->position[3 * j + c] - d->position[3 * i + c];
+        sum += strengths->tension[b] * strengths->tension[b] * norm3(branch) /
+               (s->elastic[s->material_of_element[i]].young + s->elastic[s->material_of_element[j]].young);
+        ++n;
+    }
+    if (n == 0) return;
+    s->fracture->implied_energy = sum / (double)n;
+    brc_log(s->context, BRC_LOG_INFO,
+            "fracture: bonds break at once; strength and cells imply a fracture energy of about sigma_f^2 L / (2 E) = %.3g J/m^2, which changes with the cells "
+            "(`fracture_energy` of a strength gives one that does not)", s->fracture->implied_energy);
+}
+
 /* Warns where E G_c / sigma_f^2 is too few cells, and of bonds whose cells give way less than the cohesion falls: those snap open. */
 static void warn_of_size(brc_simulation *s, const brc_strengths *strengths)
 {
@@ -103,7 +125,11 @@ cleanup:
 
 brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths)
 {
+    if (!s->fracture->cells->by_element) tell_implied(s, strengths);
     if (!strengths->softens) return BRC_OK;
+    if (!brc_is_dlsm(s) || s->fracture->cells->by_element)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture_energy: bonds soften with model dlsm and criterion bond-normal; here they break at once: use "
+                        "those, or remove it from the strengths and interfaces");
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->softening, 1, "cohesion of faces"));
     BRC_TRY(find_kernels(s, s->fracture->cells->softening));
     warn_of_size(s, strengths);
@@ -253,9 +279,47 @@ brc_status brc_softening_settle(brc_simulation *s)
                       BRC_BUF(f->crack), BRC_BUF(s->fracture->break_energy));
 }
 
+brc_status brc_softening_begin_stage(brc_simulation *s)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    const softening_faces *f = faces_of(s);
+    if (!f || stage->solver == BRC_SOLVER_DYNAMIC) return BRC_OK;
+    if (stage->most_events > 0)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': events break bonds at once, and those of this scene soften; remove `fracture_energy`, or load "
+                        "slowly in a dynamic stage with mass damping", stage->name);
+    if (f->any)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': faces have opened against their cohesion in an earlier stage, and openings follow in dynamic "
+                        "stages only; use a dynamic stage with mass damping", stage->name);
+    return BRC_OK;
+}
+
+brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
+{
+    softening_faces *f = faces_of(s);
+    if (!f) return BRC_OK;
+    const brc_state_entry entries[] = {
+        {"softening.crack", f->crack, BRC_ENTRIES, BRC_OF_COEFF, WIDTH, NULL},
+        {"softening.open", f->open, BRC_ENTRIES, BRC_OF_INT, 1, NULL},
+        {"softening.limit", s->fracture->cells->limit, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL},
+        {"softening.least", s->fracture->cells->least, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
+        {"softening.n_open", f->n_open, BRC_ROWS, BRC_OF_INT, 1, NULL},
+        {"softening.reach", f->reach, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
+    };
+    BRC_TRY(brc_store_flag(store, "softening.any", &f->any));
+    return brc_store_entries(s, store, sizeof entries / sizeof *entries, entries);
+}
+
+int64_t brc_softening_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t coeff_bytes)
+{
+    bool softens = false;
+    for (int32_t m = 0; m < scene->n_materials; ++m) softens = softens || scene->materials[m].fracture_energy > 0;
+    for (int32_t k = 0; k < scene->n_interfaces; ++k) softens = softens || scene->interfaces[k].fracture_energy > 0;
+    return softens ? entries * (WIDTH * coeff_bytes + 8) + n * (2 * coeff_bytes + 4) : 0;
+}
+
 /* ---- what came of it ---- */
 
-brc_status brc_softening_describe(brc_simulation *s, brc_softening_report *out)
+brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out)
 {
     softening_faces *f = faces_of(s);
     const brc_layout *layout = s->layout;

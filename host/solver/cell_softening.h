@@ -4,6 +4,7 @@
 #define BRC_SOLVER_CELL_SOFTENING_H
 
 #include "simulation_internal.h"
+#include "state_store.h"
 #include "strengths.h"
 
 /* Arrays and kernels, where strengths->softens; warns of bonds that are too long for their fracture energy. s->fracture->cells is there. */
@@ -28,14 +29,11 @@ brc_status brc_softening_refresh(brc_simulation *s);
 /* After the energies of the broken bonds were shared out. */
 brc_status brc_softening_settle(brc_simulation *s);
 
-/* Faces that have opened so far, broken ones among them: their number; area, along the principal direction at their onset, that fracture energy was
- * asked for, weighted by how much of it is spent [m^2]; energy spent [J]. */
-typedef struct brc_softening_report {
-    int64_t n_opened, n_ended;
-    double area;     /* sum of S |N.t| of faces whose cohesion ended [m^2] */
-    double spent;    /* by all faces [J] */
-    double unfinished; /* part of it by faces that still hold [J] */
-} brc_softening_report;
-brc_status brc_softening_describe(brc_simulation *s, brc_softening_report *out);
+/* Static stages: refuses events, and faces that stand open (their openings would not follow). */
+brc_status brc_softening_begin_stage(brc_simulation *s);
+/* What a checkpoint keeps (state_store.h). */
+brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store);
+/* Device bytes it takes (n elements, entries of the layout); 0 for scenes without a fracture energy. */
+int64_t brc_softening_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t coeff_bytes);
 
 #endif

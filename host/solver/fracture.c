@@ -346,3 +346,5 @@ brc_status brc_simulation_failure_ratio(brc_simulation *s, double *out)
 }
 
 double brc_simulation_element_strength(const brc_simulation *s, int64_t e) { return s->fracture && s->fracture->limit ? s->fracture->limit[3 * e] : 0; }
+
+double brc_simulation_implied_fracture_energy(const brc_simulation *s) { return s->fracture ? s->fracture->implied_energy : 0; }

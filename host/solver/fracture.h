@@ -44,6 +44,15 @@ brc_status brc_simulation_whole(brc_simulation *simulation, uint8_t **out);
 double brc_simulation_beam_radius(const brc_simulation *simulation, int64_t e);
 /* The largest ratio of stress to limit over the elements as they stand: 1 is failure; 0 when nothing pulls. */
 brc_status brc_simulation_failure_ratio(brc_simulation *simulation, double *out);
+/* Cells: fracture energy per area that strength and cells imply where bonds break at once, mean of sigma_f^2 L / (2 E) over them; 0: none does [J/m^2]. */
+double brc_simulation_implied_fracture_energy(const brc_simulation *simulation);
+/* Cells with a fracture energy: faces that have opened against their cohesion so far (docs/fracture.md); all 0 without. A pass over all bonds. */
+typedef struct brc_softening_report {
+    int64_t n_opened, n_ended;   /* all, and those whose cohesion ended */
+    double area;                 /* of the latter, projected along their opening [m^2] */
+    double spent, unfinished;    /* energy they took; part of it of those that still hold [J] */
+} brc_softening_report;
+brc_status brc_simulation_softening(brc_simulation *simulation, brc_softening_report *out);
 /* Limit of tension of the virial stress of element e, sigma_m [Pa]; 0: none. */
 double brc_simulation_element_strength(const brc_simulation *simulation, int64_t e);
 

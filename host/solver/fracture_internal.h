@@ -29,6 +29,7 @@ struct brc_breaking {
     struct brc_cell_breaks *cells; /* models of cells (cell_breaks.c), which use the arrays of entries and `lost`, `broken` */
     int n_spans;
     brc_break_span *spans;
+    double implied_energy; /* cells: what a crack costs per area by strength and cells, mean of sigma_f^2 L / (2 E) over bonds that break at once [J/m^2] */
     int64_t n_loads;   /* events of static stages so far */
     double *load;      /* [n_loads] their load factors [-] */
     int64_t n_events;

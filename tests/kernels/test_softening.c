@@ -1,0 +1,95 @@
+/* The cohesive law of one face (kernels/softening.h). One lane, double. */
+// clang-format off
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+// clang-format on
+#include <math.h>
+#define BRC_PRECISION 0
+#define BRC_LANES 1
+#define BRC_SLICE 1
+#define BRC_MANY_MATERIALS 0
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wshadow"
+#include "../../kernels/softening.h"
+
+static const soft_face faces[] = {{3, 0.7, 0}, {3, 0.7, 1}};
+
+/* Simpson's rule is exact for the linear law and good to 1e-10 for the exponential one in 1000 pieces. */
+static void the_area_under_the_law_is_the_fracture_energy(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        const double end = soft_end(faces[k]);
+        double sum = 0;
+        for (int i = 0; i < 1000; ++i)
+            for (int j = 0; j < 3; ++j) {
+                const double w = (i + 0.5 * j) * end / 1000 * (1 - 1e-15);
+                sum += (j == 1 ? 4 : 1) * soft_force(faces[k], w) * end / 6000;
+            }
+        assert_true(fabs(sum - 0.7) < 1e-9);
+        assert_true(fabs(soft_force(faces[k], 0) - 3) < 1e-12 && soft_force(faces[k], end) == 0);
+    }
+}
+
+/* A Taylor sum of ten terms at x / 32 <= 0.16 is good to 1e-14, its 32nd power to 1e-12. */
+static void the_decay_is_the_exponential_function(void **state)
+{
+    (void)state;
+    for (double x = 0; x <= 5; x += 0.01) assert_true(fabs(soft_decay(x) / exp(-x) - 1) < 1e-12);
+}
+
+static void slopes_are_those_of_the_force(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; ++k)
+        for (double w = 0.05; w < 0.4; w += 0.05) {
+            const double h = 1e-5, slope = (soft_force(faces[k], w + h) - soft_force(faces[k], w - h)) / (2 * h);
+            assert_true(fabs(slope - soft_slope(faces[k], w)) < 1e-6 * 30); /* h^2 times a third derivative of some ten */
+        }
+}
+
+/* First opening, unloading to the origin and reloading: cells and cohesion pull alike, to rounding of the load. */
+static void openings_balance(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; ++k)
+        for (double stiffness = 20; stiffness < 1e4; stiffness *= 3)
+            for (double widest = 0; widest < 0.4; widest += 0.1)
+                for (double drive = 0.5; drive < 2 * stiffness; drive *= 1.5) {
+                    const double w = soft_opening(faces[k], widest, drive, stiffness);
+                    const double force = w > widest || widest == 0 ? soft_force(faces[k], w) : soft_force(faces[k], widest) * w / widest;
+                    if (w == 0) assert_true(drive <= 3);
+                    else assert_true(fabs(stiffness * w + force - drive) < 1e-9 * (drive + 3));
+                }
+}
+
+/* Half the product of force and opening comes back, and nothing at the end. */
+static void unloading_gives_back_the_secant_energy(void **state)
+{
+    (void)state;
+    const double end = soft_end(faces[0]), w = 0.25 * end;
+    assert_true(fabs(soft_held(faces[0], w, w) - 0.5 * w * 0.75 * 3) < 1e-12);
+    assert_true(fabs(soft_held(faces[0], w, 0.5 * w) - 0.25 * soft_held(faces[0], w, w)) < 1e-12);
+    assert_true(soft_held(faces[0], end, end) == 0 && soft_held(faces[0], 0, 0) == 0);
+}
+
+static void energy_follows_the_direction_of_the_opening(void **state)
+{
+    (void)state;
+    assert_true(soft_tilt(0.9, 0.95, 0.5) == 1);
+    assert_true(fabs(soft_tilt(0.9, 0.6, 0.5) - 0.6 / 0.9) < 1e-15);
+    assert_true(fabs(soft_tilt(0.9, -0.2, 0.5) - 0.5 / 0.9) < 1e-15);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_area_under_the_law_is_the_fracture_energy), cmocka_unit_test(the_decay_is_the_exponential_function),
+        cmocka_unit_test(slopes_are_those_of_the_force),                 cmocka_unit_test(openings_balance),
+        cmocka_unit_test(unloading_gives_back_the_secant_energy),        cmocka_unit_test(energy_follows_the_direction_of_the_opening),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
