@@ -9,7 +9,7 @@ static const double steepest = 0.5;
 static const double screen = 0.7;
 /* Sweeps over the open faces a step, each with the forces at its openings; and the part of the stiffness, estimated from above, that they take: less than a
  * half would let them overshoot. What they leave of the balance costs energy in quick cracks (docs/fracture.md). */
-enum { N_SWEEPS = 2 };
+enum { N_SWEEPS = 3 };
 static const double stiffen = 0.7;
 /* E G_c / sigma_f^2 below this many cells: the crack is not resolved. */
 static const double least_cells = 4;
@@ -81,7 +81,7 @@ static void warn_of_size(brc_simulation *s, const brc_strengths *strengths)
         n_snap += length < 1;
         least = fmin(least, length);
     }
-    if (n_short * 100 > n_soft)
+    if (2 * n_short > n_soft || 100 * n_snap > n_soft) /* strengths scatter: half of the bonds lie on either side */
         brc_log(s->context, BRC_LOG_WARNING,
                 "fracture_energy: E G_c / sigma_f^2 is less than %g cells at %lld of %lld bonds (%.2g at least), below 1 at %lld, which open at once: a crack "
                 "costs about G_c per area only above; use smaller cells or a lower strength", least_cells, (long long)n_short, (long long)n_soft, least, (long long)n_snap);
@@ -210,7 +210,7 @@ brc_status brc_softening_move(brc_simulation *s)
     softening_faces *f = faces_of(s);
     if (!f || !f->any) return BRC_OK;
     for (int k = 0; k < N_SWEEPS; ++k) {
-        BRC_TRY(brc_force_of_state(s, BRC_BOOK_NOTHING));
+        BRC_TRY(brc_force_fluxes_of_state(s));
         BRC_TRY(sweep(s, k == 0));
     }
     return BRC_OK;

@@ -1,5 +1,5 @@
 /* Which effects a run contains and leaves out, and the least bytes a step must move. */
-#include "simulation_internal.h"
+#include "cell_softening.h"
 
 void brc_effects_list(brc_simulation *s)
 {
@@ -40,6 +40,7 @@ void brc_effects_list(brc_simulation *s)
                    {"static solver", statics},
                    {"free vibration modes", modes},
                    {"fracture", s->fracture != NULL},
+                   {"fracture energy", brc_softening_is_on(s)},
                    {"walls and strikers", s->strikers != NULL},
                    {"contact", s->contact != NULL}};
     int in = 0, out = 0;

@@ -80,7 +80,8 @@ static brc_status dlsm_face_forces(brc_simulation *s, const brc_force_request *r
     return BRC_OK;
 }
 
-static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
+/* H, P and B. */
+static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r)
 {
     const brc_elastic *m = one_material(s);
     const double one_plus_tau = 1 + s->scene->model.tau;
@@ -98,7 +99,14 @@ static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
                        BRC_BUF(s->boundary), BRC_BUF(s->held_moment), BRC_INT(face_loads || brc_contact_acts(s, r) ? 1 : 0), BRC_COEFF(m->k),
                        BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau), BRC_BUF(s->material),
                        BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(s->flux), BRC_BUF(s->bond_part)));
-    if (!r->homogeneous) BRC_TRY(brc_softening_flux(s));
+    return r->homogeneous ? BRC_OK : brc_softening_flux(s);
+}
+
+static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
+{
+    const brc_elastic *m = one_material(s);
+    const double one_plus_tau = 1 + s->scene->model.tau;
+    BRC_TRY(dlsm_fluxes(s, r));
     BRC_TRY(BRC_LAUNCH(s->kernel.force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(s->flux),
                        BRC_BUF(s->bond_part), BRC_COEFF(m->k), BRC_COEFF(one_plus_tau), BRC_BUF(s->modulus),
@@ -162,17 +170,28 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
     return brc_turns_book(s, r);
 }
 
+static brc_force_request request_of_state(brc_simulation *s, brc_booking book)
+{
+    const bool is_static = s->stage >= 0 && brc_current_stage(s)->solver == BRC_SOLVER_STATIC;
+    return (brc_force_request){.displacement = s->displacement,
+                               .force = s->force,
+                               .orientation = s->orientation,
+                               .torque = s->torque,
+                               .finite = !s->scene->model.small_rotations,
+                               .book = book,
+                               .t = is_static ? s->load_factor : s->time};
+}
+
 brc_status brc_force_of_state(brc_simulation *s, brc_booking book)
 {
-    return brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
-                                                      .force = s->force,
-                                                      .orientation = s->orientation,
-                                                      .torque = s->torque,
-                                                      .finite = !s->scene->model.small_rotations,
-                                                      .book = book,
-                                                      .t = s->stage >= 0 && brc_current_stage(s)->solver == BRC_SOLVER_STATIC
-                                                               ? s->load_factor
-                                                               : s->time});
+    const brc_force_request request = request_of_state(s, book);
+    return brc_force_evaluate(s, &request);
+}
+
+brc_status brc_force_fluxes_of_state(brc_simulation *s)
+{
+    const brc_force_request request = request_of_state(s, BRC_BOOK_NOTHING);
+    return dlsm_fluxes(s, &request);
 }
 
 brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation)

@@ -247,6 +247,8 @@ typedef struct brc_force_request {
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *request);
 /* The simulation's own state, with the full law, at its time. */
 brc_status brc_force_of_state(brc_simulation *s, brc_booking book);
+/* dlsm: of the same only H, P and B, with which the forces of single bonds can be formed; books nothing. */
+brc_status brc_force_fluxes_of_state(brc_simulation *s);
 /* Only H and G's held part, for outputs after the state moved. */
 brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation);
 
