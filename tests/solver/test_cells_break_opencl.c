@@ -13,9 +13,19 @@ static void the_same_cells_break_on_an_opencl_device(void **state)
     cells_compare(cpu, other);
 }
 
+static void the_same_cells_soften_on_an_opencl_device(void **state)
+{
+    (void)state;
+    const case_options cpu = {.stages = CELLS_BURST(60), .materials = CELLS_STRENGTH("2e-4 Pa, fracture_energy: 2e-8 J/m^2, softening: exponential"),
+                              .sets = CELLS_FRACTURE, .exact = true};
+    case_options other = cpu;
+    other.device = "opencl:0";
+    cells_compare(cpu, other);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_cells_break_on_an_opencl_device)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_cells_break_on_an_opencl_device), cmocka_unit_test(the_same_cells_soften_on_an_opencl_device)};
     brc_context *context = brc_context_create();
     brc_device_list *list = NULL;
     bool there = false;
