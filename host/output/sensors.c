@@ -6,6 +6,7 @@
 #include "../base/memory.h"
 #include "../solver/fragments.h"
 #include "../solver/strikers.h"
+#include "../solver/touching.h"
 #include <math.h>
 #include <string.h>
 
@@ -239,7 +240,8 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
         if (sensors->first[s] >= 0) return BRC_OK;
         return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: there is no striker \"%s\"", sensor->name, sensor->set);
     case BRC_SENSOR_CONTACT:
-        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: sensors of contact are not in this version", sensor->name);
+        if (sensors->scene->has_contact) return BRC_OK;
+        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: nothing touches in a scene without `interactions: {contact: {}}`", sensor->name);
     }
     return BRC_FAIL(sensors->context, BRC_INTERNAL, "sensor %s: unknown kind %d", sensor->name, (int)sensor->kind);
 }
@@ -415,6 +417,16 @@ static brc_status read_striker(brc_simulation *simulation, int32_t striker, cons
     return BRC_OK;
 }
 
+static brc_status read_contact(brc_simulation *simulation, const brc_sensor *sensor, double *out)
+{
+    brc_touching now;
+    BRC_TRY(brc_simulation_touching(simulation, &now));
+    *out = strcmp(sensor->term, "sliding") == 0 ? now.sliding : strcmp(sensor->term, "penetration") == 0 ? now.penetration
+           : strcmp(sensor->term, "force") == 0 ? now.force
+                                                : now.pairs;
+    return BRC_OK;
+}
+
 brc_status brc_sensors_evaluate(brc_sensors *sensors, brc_simulation *simulation, double *value)
 {
     brc_ledger ledger = {0};
@@ -459,7 +471,7 @@ brc_status brc_sensors_evaluate(brc_sensors *sensors, brc_simulation *simulation
         case BRC_SENSOR_MODE: value[s] = mode_frequency(simulation, sensor->index); break;
         case BRC_SENSOR_SPIN: BRC_TRY(read_spin(simulation, first, c, &value[s])); break;
         case BRC_SENSOR_STRIKER: BRC_TRY(read_striker(simulation, first, sensor, &value[s])); break;
-        case BRC_SENSOR_CONTACT: break;
+        case BRC_SENSOR_CONTACT: BRC_TRY(read_contact(simulation, sensor, &value[s])); break;
         }
     }
     return BRC_OK;

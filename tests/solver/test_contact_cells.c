@@ -1,8 +1,6 @@
 /* Contact of cells (model dlsm): a block on a wall against the exact oscillator, fragments that meet, momentum, energy, sliding, rest. Material of E 1 Pa and
  * density 1 kg/m^3; cells of one box have no bond when there is one: rigid bodies. */
-#include "../../host/solver/contact_internal.h"
-#include "../../host/solver/strikers.h"
-#include "cells_case.h"
+#include "contact_case.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -77,7 +75,6 @@ static void sliding_starts_where_the_slope_is_the_friction(void **state)
         advance(&c, 12000);
         assert_done(&c, brc_simulation_velocity(c.simulation, v));
         for (int e = 0; e < 8; ++e) speed += v[3 * e] / 8;
-        print_message("slope %.3f: %.3g m/s\n", slope, speed);
         const double excess = g * cosine * (slope - 0.4) / 0.5;
         if (k) assert_true(fabs(speed / excess - 1) < 0.05);
         else assert_true(fabs(speed) < 1e-3 * g * cosine * 0.004 / 0.5);
@@ -104,18 +101,13 @@ static void momenta(bench_case *c, double out[6])
     free(u);
 }
 
-/* Pressed together along x and y while it bursts, so that what broke off meets again. */
-#define CRUSH \
-    "  - name: burst\n    solver: {dynamic: {steps: 2000, time_step: {auto: {safety: 0.4}}}}\n    initial:\n      - velocity: {gradient: {x: [-4e-3 1/s, 1e-3 1/s, 0], y: [-2e-3 1/s, 3e-3 1/s, 1e-3 1/s], z: [0, 0, 5e-3 1/s]}}\n"
-
 /* Momentum m v of 1 kg at some 1e-3 m/s, summed over 216 cells in 1200 steps: rounding of 1e-16 each, 1e-12 in all with room for the moments' arms. */
 static void fragments_that_meet_keep_momentum_and_energy(void **state)
 {
     (void)state;
     bench_case c;
     double before[6], after[6];
-    open_case(&c, (case_options){.stages = CRUSH, .materials = CELLS_STRENGTH("2e-4 Pa"),
-                                 .sets = "fracture: {criterion: bond-normal}\ninteractions: {contact: {friction: 0.3, restitution: 0.7}}\n", .n_threads = 1});
+    open_case(&c, (case_options){.stages = CONTACT_CRUSH, .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CONTACT_KEYS, .n_threads = 1});
     begin(&c);
     momenta(&c, before);
     advance(&c, 1500);
@@ -162,12 +154,60 @@ static void forces_are_the_gradient_of_the_energy_with_touching_fragments(void *
     close_case(&c);
 }
 
+static void threads_change_nothing(void **state)
+{
+    (void)state;
+    contact_compare((case_options){.n_threads = 1}, (case_options){.n_threads = 2});
+}
+
+static void static_stages_are_refused(void **state)
+{
+    (void)state;
+    bench_case c;
+    assert_int_equal(try_case(&c, (case_options){.sets = "interactions: {contact: {}}\n",
+                                                 .stages = "  - name: press\n    solver: {static: {}}\n    loads:\n      - face_displacement: {set: x-, x: 0}\n"}),
+                     BRC_BAD_INPUT);
+    assert_non_null(strstr(brc_context_message(c.context), "contact is for dynamic stages"));
+    close_case(&c);
+}
+
+static bool lists(const char *const *names, const char *name)
+{
+    for (; *names; ++names)
+        if (strcmp(*names, name) == 0) return true;
+    return false;
+}
+
+/* Arrays only where they are asked for, and where nothing is near the same motion to the last bit, with equal steps. */
+static void what_is_not_asked_for_is_not_there(void **state)
+{
+    (void)state;
+    bench_case plain, with;
+    static const char burst[] = "  - name: burst\n    solver: {dynamic: {steps: 50, time_step: 10 ms}}\n    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n";
+    open_case(&plain, (case_options){.stages = burst});
+    open_case(&with, (case_options){.stages = burst, .sets = "interactions: {contact: {}}\n"});
+    assert_true(lists(brc_simulation_effects_out(plain.simulation), "contact") && lists(brc_simulation_effects_in(with.simulation), "contact"));
+    assert_true(brc_device_bytes(plain.device) < brc_device_bytes(with.device) && !plain.simulation->contact);
+    const int64_t n = 3 * plain.domain->n_elements;
+    double *u = calloc((size_t)(2 * n), sizeof *u);
+    begin(&plain), begin(&with);
+    advance(&plain, 50), advance(&with, 50);
+    assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
+    assert_done(&with, brc_simulation_displacement(with.simulation, u + n));
+    assert_memory_equal(u, u + n, (size_t)n * sizeof *u);
+    free(u);
+    close_case(&plain), close_case(&with);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_block_bounces_off_a_wall_as_off_a_spring),
         cmocka_unit_test(sliding_starts_where_the_slope_is_the_friction),
         cmocka_unit_test(fragments_that_meet_keep_momentum_and_energy),
+        cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(static_stages_are_refused),
+        cmocka_unit_test(what_is_not_asked_for_is_not_there),
         cmocka_unit_test(forces_are_the_gradient_of_the_energy_with_touching_fragments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

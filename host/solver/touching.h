@@ -1,0 +1,16 @@
+/* What touches now, in scenes with contact. */
+#ifndef BRC_SOLVER_TOUCHING_H
+#define BRC_SOLVER_TOUCHING_H
+
+#include "simulation.h"
+
+typedef struct brc_touching {
+    double pairs;       /* that touch [-] */
+    double sliding;     /* of them [-] */
+    double penetration; /* deepest: of spheres the overlap, of cells its volume over its area [m] */
+    double force;       /* sum of the magnitudes of their normal forces [N] */
+} brc_touching;
+/* As of the last evaluation of the forces; read from the device. BRC_BAD_INPUT: no contact. */
+brc_status brc_simulation_touching(brc_simulation *simulation, brc_touching *out);
+
+#endif
