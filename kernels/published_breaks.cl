@@ -78,9 +78,9 @@ KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restric
     }
 }
 
-/* Elements that lost a bond: the inverse of their least-squares matrix sum w R (x) R over the bonds that are left, over the directions in which
- * its eigenvalue is above support [n], and the projector on these; in the others there is no strain. Marks are cleared. area_weights: w = S/|R|
- * instead of 1. */
+/* Elements that lost a bond: the inverse of their least-squares matrix sum w R (x) R over the bonds that are left. Where its smallest eigenvalue
+ * is not above support [n] the element has no strain any more (AGH19 section 2.2: fewer than three contacts); keeping the directions that are
+ * spanned makes what is left run away. Marks are cleared. area_weights: w = S/|R| instead of 1. */
 KERNEL void published_rebuild(int n, int area_weights, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict branch,
                               GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict support,
                               GLOBAL int *restrict changed, GLOBAL coeff *restrict inv_shape, GLOBAL coeff *restrict spanned,
@@ -99,14 +99,7 @@ KERNEL void published_rebuild(int n, int area_weights, GLOBAL const int *restric
             }
             const failure_principal spans = failure_principal_of(cells_narrow(a));
             if (spans.third > support[e]) inverse = cells_inverse(a);
-            else {
-                const failure_axis x = spans.first_axis, y = spans.second_axis;
-                const state one = spans.first > support[e] ? STATE(1) : STATE(0), two = spans.second > support[e] ? STATE(1) : STATE(0);
-                projector = cells_add_square((cells_sym){0, 0, 0, 0, 0, 0}, one, (state)x.x, (state)x.y, (state)x.z);
-                projector = cells_add_square(projector, two, (state)y.x, (state)y.y, (state)y.z);
-                if (one > 0) inverse = cells_add_square(inverse, STATE(1) / (state)spans.first, (state)x.x, (state)x.y, (state)x.z);
-                if (two > 0) inverse = cells_add_square(inverse, STATE(1) / (state)spans.second, (state)y.x, (state)y.y, (state)y.z);
-            }
+            else projector = inverse;
             cells_put(spanned, e, projector);
             cells_put(inv_shape, e, inverse);
         }

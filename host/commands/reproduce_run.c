@@ -1,6 +1,7 @@
 /* Carrying out one run of a case. */
 #include "pace.h"
 #include "reproduce_field.h"
+#include "reproduce_fracture.h"
 #include "reproduce_hondros.h"
 #include "reproduce_pressing.h"
 #include "reproduce_virial.h"
@@ -65,6 +66,7 @@ static brc_status finished(void *self, brc_simulation *simulation)
     const brc_static_report report = brc_simulation_static_report(simulation);
     brc_outcome_add(h->outcome, "iterations", "-", (double)report.iterations, NAN);
     brc_outcome_add(h->outcome, "residual", "-", report.residual, NAN);
+    if (brc_simulation_has_fracture(simulation)) BRC_TRY(brc_fracture_values(h->context, simulation, h->outcome));
     if (h->outcome->run->operator == BRC_CASE_HONDROS) return brc_hondros_values(h->context, simulation, h->outcome);
     if (h->outcome->run->operator == BRC_CASE_FIELD) return brc_field_values(h->context, simulation, h->outcome);
     if (h->outcome->run->operator == BRC_CASE_VIRIAL) return brc_virial_values(h->context, simulation, h->outcome);
@@ -172,15 +174,16 @@ static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome,
     if (run.keep || run.may_stop || run.n_overrides == BRC_CASE_LIST || run.operator == BRC_CASE_DRIFT || run.operator == BRC_CASE_VIBRATION)
         return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no seeds together with keep, may_stop, drift, vibration or %d overrides", run.name, BRC_CASE_LIST);
     BRC_TRY(brc_scene_read_text(context, scene, text, bytes, run.n_overrides, run.overrides, &read));
-    const uint64_t seed = read->bodies[0].fill.seed;
-    const bool packed = read->n_bodies == 1 && read->bodies[0].fill.kind == BRC_FILL_PACKING;
+    const bool packed = read->n_bodies == 1 && read->bodies[0].fill.kind == BRC_FILL_PACKING, drawn = read->has_fracture && !packed;
+    const uint64_t seed = packed ? read->bodies[0].fill.seed : (uint64_t)read->fracture.seed;
     brc_scene_free(&read);
-    if (!packed) return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: seeds expect one packed body", run.name);
+    if (!packed && !drawn)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: seeds expect one packed body, or cells with `fracture`, whose strengths are drawn anew", run.name);
     const int n = run.n_seeds;
     for (int k = 0; k < n; ++k) {
         char override[64], name[32], *one_folder;
         brc_outcome one = {.run = &run, .precision = outcome->precision};
-        snprintf(override, sizeof override, "bodies.0.fill.packing.seed=%llu", (unsigned long long)seed + k);
+        snprintf(override, sizeof override, "%s=%llu", packed ? "bodies.0.fill.packing.seed" : "fracture.seed", (unsigned long long)seed + k);
         snprintf(name, sizeof name, "seed-%llu", (unsigned long long)seed + k);
         run.n_overrides = outcome->run->n_overrides + 1;
         run.overrides[run.n_overrides - 1] = override;

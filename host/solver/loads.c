@@ -202,14 +202,7 @@ static brc_status create_held(brc_simulation *s, const brc_stage *stage, brc_hel
     BRC_TRY_OR(cleanup, new_uploaded_coeff(s, &held->arm, arm, 3 * (int64_t)n, "held face arms"));
     BRC_TRY_OR(cleanup, new_uploaded_coeff(s, &held->spring, spring, n, "held face springs"));
     BRC_TRY_OR(cleanup, upload_components(s, &held->held, held->component_of_face, n));
-    brc_buffer **states[] = {&held->value, &held->zero_value, &held->reaction, &held->last,
-                             &held->last_reaction, &held->scratch};
-    for (size_t i = 0; i < sizeof states / sizeof *states; ++i)
-        BRC_TRY_OR(cleanup, brc_new_state(s, states[i], 3 * (int64_t)n, "held face state"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &held->work, n, "work of held faces"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &held->energy, n, "energy of held faces"));
-
-    /* one entry list per load; velocity loads start from where the face is now */
+    /* one entry list per load; velocity loads start from where the face is now, which holds only while this stage has no values yet */
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &held->loads, stage->n_loads, "held loads"));
     for (int32_t l = 0; l < stage->n_loads; ++l) {
         const brc_load *load = stage->loads + l;
@@ -249,6 +242,12 @@ static brc_status create_held(brc_simulation *s, const brc_stage *stage, brc_hel
         brc_memory_free(direction);
         if (status != BRC_OK) goto cleanup;
     }
+    brc_buffer **states[] = {&held->value, &held->zero_value, &held->reaction, &held->last,
+                             &held->last_reaction, &held->scratch};
+    for (size_t i = 0; i < sizeof states / sizeof *states; ++i)
+        BRC_TRY_OR(cleanup, brc_new_state(s, states[i], 3 * (int64_t)n, "held face state"));
+    BRC_TRY_OR(cleanup, brc_new_state(s, &held->work, n, "work of held faces"));
+    BRC_TRY_OR(cleanup, brc_new_state(s, &held->energy, n, "energy of held faces"));
 cleanup:
     brc_memory_free(bits);
     brc_memory_free(items);

@@ -3,11 +3,11 @@
 #include "sym3.h"
 #include <math.h>
 
-/* A direction in which the bonds left to an element span less than this share of what they spanned in its weakest one in the whole body carries no
- * strain any more, as one that is not spanned at all (geometry.c): its strain would answer its neighbours more stiffly than the time step bears. */
+/* An element whose bonds span less than this share of what they spanned in its weakest direction in the whole body has no strain any more, as one of
+ * fewer than three contacts (AGH19 section 2.2): its strain would answer its neighbours more stiffly than the time step bears. */
 static const double support_share = 0.2, span_least = 1e-6;
 
-/* Of the whole body: the least eigenvalue of A = sum w R (x) R that a direction must keep, and the projector on the directions spanned (geometry.c). */
+/* Of the whole body: the least eigenvalue that A = sum w R (x) R must keep, and the projector on the directions spanned (geometry.c). */
 static double support_of(const brc_simulation *s, int64_t e, double projector[6])
 {
     static const int of_component[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};

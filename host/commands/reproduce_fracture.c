@@ -1,0 +1,69 @@
+#include "reproduce_fracture.h"
+#include "../base/memory.h"
+#include "../output/crack_statistics.h"
+#include <math.h>
+
+/* Middle of the domain's volume. */
+static void centre_of(const brc_domain *d, double out[3])
+{
+    double volume = 0;
+    out[0] = out[1] = out[2] = 0;
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        volume += d->volume[e];
+        for (int c = 0; c < 3; ++c) out[c] += d->volume[e] * d->position[3 * e + c];
+    }
+    for (int c = 0; c < 3; ++c) out[c] /= volume;
+}
+
+/* The first step or event with breaks: the events come in their order. */
+static void add_first(const brc_scene *scene, const brc_domain *domain, int64_t n, const brc_break *breaks, brc_outcome *outcome)
+{
+    const brc_shape *shape = &scene->bodies[0].shape;
+    const bool is_disc = scene->n_bodies == 1 && shape->kind == BRC_SHAPE_CYLINDER;
+    double centre[3], place[3] = {0, 0, 0}, area = 0, square = 0, stress = 0;
+    centre_of(domain, centre);
+    for (int64_t k = 0; k < n && breaks[k].step == breaks[0].step; ++k) {
+        area += breaks[k].area;
+        stress = fmax(stress, breaks[k].stress);
+        for (int c = 0; c < 3; ++c) place[c] += breaks[k].area * (breaks[k].position[c] - centre[c]);
+    }
+    for (int c = 0; c < 3; ++c)
+        if (!(is_disc && c == shape->axis)) square += place[c] * place[c] / (area * area);
+    brc_outcome_add(outcome, "first_break_stress", "Pa", stress, NAN);
+    brc_outcome_add(outcome, "first_break_from_centre", "m", sqrt(square), NAN);
+    if (is_disc) brc_outcome_add(outcome, "first_break_from_rim", "m", shape->radius - sqrt(square), NAN);
+}
+
+brc_status brc_fracture_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
+{
+    const brc_domain *domain = brc_simulation_domain(simulation);
+    static const char *const names[3] = {"plane_x", "plane_y", "plane_z"};
+    const brc_break *breaks;
+    brc_crack_statistics cracks;
+    int32_t *fragment = NULL;
+    double *volume = NULL, all = 0, largest = 0;
+    int64_t n, n_fragments;
+    brc_status status = BRC_OK;
+    BRC_TRY(brc_simulation_breaks(simulation, &n, &breaks));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &fragment, domain->n_elements, "fragments"));
+    BRC_TRY_OR(cleanup, brc_simulation_fragments(simulation, fragment, &n_fragments));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &volume, n_fragments, "fragments"));
+    brc_crack_statistics_of(n, breaks, fragment, &cracks);
+    for (int64_t e = 0; e < domain->n_elements; ++e) {
+        volume[fragment[e]] += domain->volume[e];
+        all += domain->volume[e];
+        largest = fmax(largest, volume[fragment[e]]);
+    }
+    brc_outcome_add(outcome, "broken", "-", (double)n, NAN);
+    brc_outcome_add(outcome, "crack_area", "m^2", cracks.total_area, NAN);
+    brc_outcome_add(outcome, "fragments", "-", (double)n_fragments, NAN);
+    brc_outcome_add(outcome, "largest_fragment", "-", largest / all, NAN);
+    if (n == 0) goto cleanup;
+    add_first(brc_simulation_scene(simulation), domain, n, breaks, outcome);
+    for (int c = 0; c < 3; ++c) brc_outcome_add(outcome, names[c], "deg", brc_crack_angle(cracks.all.normal, c), NAN);
+    brc_outcome_add(outcome, "plane_rough", "m", cracks.all.rough, NAN);
+cleanup:
+    brc_memory_free(fragment);
+    brc_memory_free(volume);
+    return status;
+}
