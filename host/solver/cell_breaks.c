@@ -331,12 +331,14 @@ brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, brc_fracture_owners(s, bonds, &elements));
     const brc_state_entry entries[] = {
-        {"cells.area", s->area, BRC_ENTRIES, BRC_OF_COEFF, 3, bonds},
+        {"cells.area", s->area, BRC_ENTRIES, BRC_OF_COEFF, brc_is_dlsm(s) ? 3 : 1, bonds},
         {"cells.ratio", s->ratio, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
         {"cells.limit", c->limit, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
         {"cells.alive", c->alive, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
         {"cells.least", c->least, BRC_ROWS, BRC_OF_COEFF, 1, &elements},
         {"cells.inverse_shape", s->inv_shape, BRC_BLOCKS, BRC_OF_COEFF, 6, &elements},
+        {"cells.spanned", c->spanned, BRC_BLOCKS, BRC_OF_COEFF, 6, &elements},
+        {"cells.weight", c->by_element ? s->fracture->weight : NULL, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
     };
     BRC_TRY_OR(cleanup, brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
     status = brc_softening_store_state(s, store);
