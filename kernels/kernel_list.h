@@ -14,6 +14,7 @@
     X(damp_mass)                                                                                                       \
     X(gravity)                                                                                                         \
     X(kinetic_energy)                                                                                                  \
+    X(guard_look)                                                                                                      \
     X(impose_motion)                                                                                                   \
     X(impose_book)                                                                                                     \
     X(impose_zero)                                                                                                     \

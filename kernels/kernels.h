@@ -21,6 +21,7 @@
 #include "softening.h"
 #include "vector.cl"
 #include "motion.cl"
+#include "guard.cl"
 #include "rotation.cl"
 #include "strikers.cl"
 #include "dlsm.cl"

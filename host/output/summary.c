@@ -3,6 +3,7 @@
 #include "text.h"
 #include "../base/memory.h"
 #include "../base/version.h"
+#include "../solver/guard.h"
 #include "../solver/stage_end.h"
 #include "../solver/strikers.h"
 #include <math.h>
@@ -131,6 +132,23 @@ static void add_cost(brc_json *json, const brc_summary *s)
     brc_json_number(json, "bond_updates_per_s", rate);
     brc_json_end(json);
     add_memory(json, s->assembly ? brc_assembly_device_bytes(s->assembly) : -1);
+}
+
+/* How often the guard looked; null before the first dynamic stage. */
+static void add_guard(brc_json *json, const brc_assembly *a)
+{
+    const brc_guard_report report = a ? brc_simulation_guard_report(a->part[0]) : (brc_guard_report){0};
+    brc_json_begin_object(json, "guard");
+    if (report.every > 0) {
+        brc_json_integer(json, "every", report.every);
+        brc_json_integer(json, "ledger_every", report.ledger_every);
+    } else {
+        brc_json_null(json, "every");
+        brc_json_null(json, "ledger_every");
+    }
+    brc_json_integer(json, "looks", report.looks);
+    brc_json_integer(json, "ledgers", report.ledgers);
+    brc_json_end(json);
 }
 
 static void add_ledger(brc_json *json, const brc_ledger *ledger)
@@ -346,6 +364,7 @@ brc_status brc_summary_write(brc_context *context, const brc_summary *summary, c
     add_identity(&json, summary);
     add_size(&json, summary);
     add_cost(&json, summary);
+    add_guard(&json, summary->assembly);
     add_ledger(&json, summary->ledger);
     if (summary->cracks) brc_crack_report_add(&json, summary->scene, &summary->cracks->cracks, &summary->cracks->report);
     add_effects(&json, summary->assembly);

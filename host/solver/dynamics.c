@@ -3,15 +3,15 @@
 #include "contact.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
+#include "guard.h"
 #include "stage_end.h"
 #include "strikers_internal.h"
 #include <math.h>
 #include <stdio.h>
 
 enum { SAMPLES = 500, BATCH = 256 };
-/* Energy may exceed what was put in by this factor before the run is stopped as running away. Verlet's own oscillation is
- * some percent near the limit (design.md), so 100 is reached only by growth. */
-static const double runaway = 100;
+/* Samples this far apart or further have a ledger each, a hundredth of the steps between them; nearer ones only where something is judged by it. */
+enum { LEDGER_APART = 128 };
 
 static brc_status kick_and_drift(brc_simulation *s, double kick, double drift)
 {
@@ -35,6 +35,7 @@ static brc_status close_step(brc_simulation *s, double dt)
     if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
     BRC_TRY(brc_contact_follow(s));
     BRC_TRY(brc_softening_move(s));
+    BRC_TRY(brc_guard_step(s));
     return brc_force_of_state(s, BRC_BOOK_WORK);
 }
 
@@ -98,26 +99,6 @@ int64_t brc_simulation_planned_steps(const brc_simulation *s, int32_t stage, dou
     return time_step > 0 ? (int64_t)ceil(plan->duration / time_step - 1e-9) : 0;
 }
 
-/* Stop on what is not finite or runs away; the sentence names the likely cause, and the model where there are several. */
-static brc_status guard(brc_simulation *s, bool several, brc_ledger *ledger)
-{
-    BRC_TRY(brc_simulation_ledger(s, ledger));
-    const brc_stage *stage = brc_current_stage(s);
-    const double put_in = fabs(ledger->initial) + fabs(ledger->work) + fabs(ledger->potential);
-    const bool finite = isfinite(ledger->total);
-    if (finite && !(ledger->total > runaway * put_in && put_in > 0)) return BRC_OK;
-    return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
-                    "stage '%s' stopped at step %lld, t = %.6g s: %s%s%s (energy %.4g J, put in %.4g J). %s", stage->name,
-                    (long long)s->step, s->time, finite ? "the energy runs away" : "a value is not finite",
-                    several ? " in the bodies of model " : "", several ? brc_model_name(s->scene->model.kind) : "", ledger->total, put_in,
-                    s->time_step.safety > 1 ? "The time step is above the critical one: use time_step: auto"
-                    : brc_is_published(s)
-                        ? "The published law has no energy and diverges after thousands of steps (docs/theory.md): use model dlsm, "
-                          "or tchamwa-wielgosz with a larger phi"
-                    : brc_is_beams(s) ? "Look for beams that were stretched or bent far beyond their law (sections turned by more than a right angle)"
-                        : "Look for elements with few or flat neighbours (breccia build prints the quality) or strains beyond 40 %");
-}
-
 static int64_t next_multiple(int64_t step, int64_t every) { return (step / every + 1) * every; }
 
 /* The same steps for every part; devices that queue work at the same time. */
@@ -140,13 +121,20 @@ static brc_status guard_all(int32_t n, brc_simulation *const *part, moment *now)
     for (int32_t k = 0; k < n; ++k) {
         brc_ledger ledger;
         int64_t broken;
-        BRC_TRY(guard(part[k], n > 1, &ledger));
+        BRC_TRY(brc_guard_read(part[k], n > 1, &ledger));
         BRC_TRY(brc_simulation_broken(part[k], &broken));
         now->kinetic += ledger.kinetic;
         now->elastic += ledger.elastic;
         now->broken += broken;
     }
     if (part[0]->fracture) brc_regime_follow(&part[0]->regime, now->kinetic, now->elastic, now->broken > 0);
+    return BRC_OK;
+}
+
+/* What the looks at the elements found, and what is due of the ledger. */
+static brc_status read_guards(int32_t n, brc_simulation *const *part)
+{
+    for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_guard_read(part[k], n > 1, NULL));
     return BRC_OK;
 }
 
@@ -176,29 +164,35 @@ static void tell_regime(const brc_simulation *s, const brc_regime *before)
             brc_regime_name(r), 100 * r->at_first_break, 100 * fmax(r->until_peak, r->at_peak));
 }
 
-/* Steps until the next sample, frame or the end, at most a batch: short batches keep the progress line and signals alive. Where they end depends on the
+/* Steps until the next sample, frame, look of the guard or the end, at most a batch: short batches keep the progress line and signals alive. Where they end depends on the
  * step alone, since every end costs the velocities a rounding: a run that goes on from one of them later is the same run. */
-static int64_t next_batch(int64_t step, int64_t every, int64_t frame_every, int64_t total)
+static int64_t next_batch(const brc_simulation *s, int64_t every, int64_t frame_every, int64_t total)
 {
+    const int64_t step = s->step, look = brc_guard_next(s, step);
     int64_t until = next_multiple(step, every);
     if (frame_every && next_multiple(step, frame_every) < until) until = next_multiple(step, frame_every);
+    if (look < until) until = look;
     if (until > total) until = total;
     return until - step < BATCH ? until - step : BATCH;
 }
 
-/* Samples and frames of this step, if it is one of theirs. */
+/* Looks of the guard, samples and frames of this step, if it is one of theirs. */
 static brc_status observe(int32_t n, brc_simulation *const *part, double n_bonds, int64_t every, int64_t frame_every, int64_t total)
 {
     brc_simulation *s = part[0];
-    if (s->step % every == 0 || s->step == total) {
+    const brc_stage *stage = brc_current_stage(s);
+    const bool sampled = s->step % every == 0 || s->step == total, judged = s->fracture || stage->stop_kinetic > 0 || stage->stop_broken > 0;
+    if (sampled && (judged || every >= LEDGER_APART || s->step == total)) {
         moment now;
         BRC_TRY(guard_all(n, part, &now));
-        const bool calm = now.kinetic <= brc_current_stage(s)->stop_kinetic * now.elastic;
+        const bool calm = now.kinetic <= stage->stop_kinetic * now.elastic;
         s->progress.calm_steps = calm ? s->progress.calm_steps + (s->step - s->progress.judged_step) : 0;
         s->progress.judged_step = s->step;
         judge(s, &now, n_bonds, s->progress.calm_steps);
-        BRC_TRY(brc_notify_sample(s));
+    } else if (sampled || brc_guard_next(s, s->step - 1) == s->step) {
+        BRC_TRY(read_guards(n, part));
     }
+    if (sampled) BRC_TRY(brc_notify_sample(s));
     return frame_every && s->step % frame_every == 0 && s->step < total && !s->note[s->stage].ended ? brc_notify_frame(s) : BRC_OK;
 }
 
@@ -220,13 +214,14 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed
     for (int32_t k = 0; k < n; ++k) n_bonds += (double)part[k]->domain->n_bonds;
     BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total - first, "steps", n_bonds, "bond updates/s"));
     const brc_regime before = s->regime;
+    for (int32_t k = 0; k < n; ++k) BRC_TRY_OR(cleanup, brc_guard_begin_stage(part[k]));
     if (!resumed) {
         moment now;
         if (s->fracture) BRC_TRY_OR(cleanup, guard_all(n, part, &now));
         BRC_TRY_OR(cleanup, brc_notify_sample(s));
     }
     while (s->step < total && !s->note[s->stage].ended) {
-        BRC_TRY_OR(cleanup, advance_all(n, part, next_batch(s->step, every, frame_every, total)));
+        BRC_TRY_OR(cleanup, advance_all(n, part, next_batch(s, every, frame_every, total)));
         brc_progress_update(progress, s->step - first);
         BRC_TRY_OR(cleanup, observe(n, part, n_bonds, every, frame_every, total));
         BRC_TRY_OR(cleanup, brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED : s->note[s->stage].ended ? BRC_PAUSE_ENDED

@@ -3,6 +3,7 @@
 #include "contact.h"
 #include "fracture_internal.h"
 #include "split.h"
+#include "guard.h"
 #include "strikers_internal.h"
 #include <math.h>
 #include <string.h>
@@ -49,6 +50,7 @@ static brc_status find_kernels(brc_simulation *s)
         {&k->damp_mass, "damp_mass", true},
         {&k->gravity, "gravity", true},
         {&k->kinetic_energy, "kinetic_energy", true},
+        {&k->guard_look, "guard_look", true},
         {&k->impose_motion, "impose_motion", true},
         {&k->impose_book, "impose_book", true},
         {&k->impose_zero, "impose_zero", true},
@@ -252,6 +254,7 @@ void brc_simulation_free(brc_simulation **simulation)
     brc_contact_free(s);
     brc_fracture_free(s);
     brc_strikers_free(s);
+    brc_guard_free(s);
     brc_geometry_free(s);
     brc_layout_free(&s->layout);
     brc_memory_free(s->elastic);

@@ -88,7 +88,7 @@ typedef struct brc_kernels {
     brc_kernel *face_displacement;
     brc_kernel *cbm_force, *cbm_energy, *cbm_virial, *turn_orientation, *precondition6;
     brc_kernel *published_strain, *published_force, *published_energy, *advance_rotation, *add_spin_energy, *small_rotation;
-    brc_kernel *advance, *advance_tchamwa, *numerical_close, *damp_mass, *gravity, *kinetic_energy;
+    brc_kernel *advance, *advance_tchamwa, *numerical_close, *damp_mass, *gravity, *kinetic_energy, *guard_look;
     brc_kernel *impose_motion, *impose_book, *impose_zero, *push_elements, *impose_turn, *turn_book;
     brc_kernel *axpy, *copy, *xpay, *dot, *sum, *precondition, *divide_by_mass;
 } brc_kernels;
@@ -96,6 +96,7 @@ typedef struct brc_kernels {
 typedef struct brc_breaking brc_breaking; /* fracture_internal.h */
 typedef struct brc_strikers brc_strikers; /* strikers_internal.h */
 struct brc_contact_state;                 /* contact.h */
+struct brc_guard_state; /* guard.c */
 
 /* Why a stage ended early (stage_end.c). */
 typedef struct brc_stage_note {
@@ -143,6 +144,7 @@ struct brc_simulation {
     brc_breaking *fracture; /* only in scenes with fracture */
     brc_strikers *strikers; /* only in scenes with strikers */
     struct brc_contact_state *contact; /* only in scenes with contact */
+    struct brc_guard_state *guard; /* from the first dynamic stage that is run (not stepped by hand) on */
 
     /* stage */
     int32_t stage;

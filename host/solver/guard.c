@@ -1,0 +1,176 @@
+#include "guard.h"
+#include "guard_cause.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { BLOCK = 1024 }; /* rows of a work-item of guard_look */
+/* A look reads six numbers an element, 2 % of what a step moves: every 16 steps it costs a thousandth. Waiting for the device and reading a number a
+ * block is worth some microseconds, a ledger about a step: every 256 and every 1024 steps both stay below a hundredth (docs/stability.md). */
+static const int64_t look_every = 16, read_every = 256, ledger_every = 1024;
+/* An element faster than this many times the wave speed and the fastest element at the start of the stage is no physics any more. */
+static const double most_speeds = 30;
+/* Beyond any length [m] and spin [rad/s], within what single precision can square. */
+static const double endless = 1e18;
+/* Energy may exceed what was put in by this factor before the run is stopped as running away. Verlet's own oscillation is
+ * some percent near the limit (design.md), so 100 is reached only by growth. */
+static const double runaway = 100;
+
+struct brc_guard_state {
+    brc_buffer *first, *when; /* [n_blocks] */
+    int32_t n_blocks;
+    int32_t *found; /* [2][n_blocks] host */
+    double most_v;
+    int64_t look_every;
+    brc_guard_report report;
+};
+
+brc_guard_report brc_simulation_guard_report(const brc_simulation *s)
+{
+    return s->guard ? s->guard->report : (brc_guard_report){0};
+}
+
+void brc_guard_free(brc_simulation *s)
+{
+    if (!s->guard) return;
+    brc_buffer_free(&s->guard->first);
+    brc_buffer_free(&s->guard->when);
+    brc_memory_free(s->guard->found);
+    brc_memory_free(s->guard);
+    s->guard = NULL;
+}
+
+/* Wave speed of the stiffest material, and the fastest element now [m/s]. */
+static brc_status speeds(brc_simulation *s, double *wave, double *fastest)
+{
+    const int64_t n = s->domain->n_elements;
+    double *v = NULL;
+    *wave = *fastest = 0;
+    for (int32_t m = 0; m < s->scene->n_materials; ++m)
+        *wave = fmax(*wave, sqrt((s->elastic[m].lambda + 2 * s->elastic[m].mu) / s->elastic[m].density));
+    BRC_TRY(BRC_ALLOCATE(s->context, &v, 3 * n, "velocities"));
+    const brc_status status = brc_state_from_rows(s, s->velocity, v, 3);
+    for (int64_t e = 0; e < n; ++e) *fastest = fmax(*fastest, sqrt(v[3 * e] * v[3 * e] + v[3 * e + 1] * v[3 * e + 1] + v[3 * e + 2] * v[3 * e + 2]));
+    brc_memory_free(v);
+    return status;
+}
+
+brc_status brc_guard_begin_stage(brc_simulation *s)
+{
+    double wave, fastest;
+    if (!s->guard) {
+        BRC_TRY(BRC_ALLOCATE(s->context, &s->guard, 1, "guard"));
+        struct brc_guard_state *g = s->guard;
+        g->n_blocks = (s->layout->n_rows + BLOCK - 1) / BLOCK;
+        BRC_TRY(BRC_ALLOCATE(s->context, &g->found, 2 * (int64_t)g->n_blocks, "guard"));
+        memset(g->found, -1, 2 * (size_t)g->n_blocks * sizeof *g->found);
+        BRC_TRY(brc_new_int(s, &g->first, g->found, g->n_blocks, "guard"));
+        BRC_TRY(brc_new_int(s, &g->when, g->found, g->n_blocks, "guard"));
+        const int64_t asked = s->scene->guard.every;
+        g->report.every = asked > 0 ? asked : read_every;
+        g->report.ledger_every = asked > 0 ? asked : ledger_every;
+        g->look_every = g->report.every < look_every ? g->report.every : look_every;
+    }
+    BRC_TRY(speeds(s, &wave, &fastest));
+    s->guard->most_v = fmin(most_speeds * (wave + fastest), endless);
+    return BRC_OK;
+}
+
+brc_status brc_guard_step(brc_simulation *s)
+{
+    struct brc_guard_state *g = s->guard;
+    if (!g || s->step % g->look_every) return BRC_OK;
+    const int64_t look = s->step / g->look_every;
+    return BRC_LAUNCH(s->kernel.guard_look, g->n_blocks, BRC_INT(g->n_blocks), BRC_INT(s->layout->n_rows), BRC_INT(look < INT32_MAX ? look : INT32_MAX),
+                      BRC_STATE(endless), BRC_STATE(g->most_v), BRC_INT(brc_turns(s) ? 1 : 0), BRC_BUF(s->displacement), BRC_BUF(s->velocity),
+                      BRC_BUF(s->spin), BRC_BUF(g->first), BRC_BUF(g->when));
+}
+
+int64_t brc_guard_next(const brc_simulation *s, int64_t step)
+{
+    const int64_t every = s->guard->report.every;
+    return (step / every + 1) * every;
+}
+
+/* The element found first, of equals the lowest; -1: none. *look: when. */
+static brc_status find_element(brc_simulation *s, int64_t *element, int64_t *look)
+{
+    struct brc_guard_state *g = s->guard;
+    const int32_t *when = g->found + g->n_blocks;
+    *element = -1;
+    *look = 0;
+    BRC_TRY(brc_buffer_read(g->first, 0, g->found, g->n_blocks * (int64_t)sizeof *g->found));
+    int any = 0;
+    for (int32_t b = 0; b < g->n_blocks; ++b) any |= g->found[b] >= 0;
+    if (!any) return BRC_OK;
+    BRC_TRY(brc_buffer_read(g->when, 0, g->found + g->n_blocks, g->n_blocks * (int64_t)sizeof *g->found));
+    for (int32_t b = 0; b < g->n_blocks; ++b) {
+        if (g->found[b] < 0) continue;
+        const int64_t e = s->layout->element_of_row[g->found[b]];
+        if (*element >= 0 && (when[b] > *look || (when[b] == *look && e > *element))) continue;
+        *element = e;
+        *look = when[b];
+    }
+    return BRC_OK;
+}
+
+/* Where the ledger alone tells: the fastest element. */
+static brc_status fastest_element(brc_simulation *s, int64_t *element)
+{
+    const int64_t n = s->domain->n_elements;
+    double *v = NULL, most = -1;
+    BRC_TRY(BRC_ALLOCATE(s->context, &v, 3 * n, "velocities"));
+    const brc_status status = brc_state_from_rows(s, s->velocity, v, 3);
+    for (int64_t e = 0; e < n; ++e) {
+        const double square = v[3 * e] * v[3 * e] + v[3 * e + 1] * v[3 * e + 1] + v[3 * e + 2] * v[3 * e + 2];
+        if (!(square > most)) continue;
+        most = square;
+        *element = e;
+    }
+    brc_memory_free(v);
+    return status;
+}
+
+/* look: when the device saw it, -1 where the ledger tells; off: the ledger's closure where that is what is wrong, else 0. */
+static brc_status stop(brc_simulation *s, bool several, const char *what, int64_t element, int64_t look, double off)
+{
+    char where[900] = "", cause[700] = "", seen[120] = "";
+    if (element >= 0) brc_guard_tell_element(s, element, where, sizeof where);
+    if (look < 0) snprintf(seen, sizeof seen, " The fastest:");
+    else
+        snprintf(seen, sizeof seen, " First seen between steps %lld and %lld:", (long long)(look > 0 ? (look - 1) * s->guard->look_every : 0), (long long)(look * s->guard->look_every));
+    brc_guard_tell_cause(s, element, off, cause, sizeof cause);
+    return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "stage '%s' stopped at step %lld, t = %.6g s: %s%s%s.%s%s%s Likely cause: %s", brc_current_stage(s)->name,
+                    (long long)s->step, s->time, what, several ? " in the bodies of model " : "", several ? brc_model_name(s->scene->model.kind) : "", element >= 0 ? seen : "",
+                    element >= 0 ? " " : "", where, cause);
+}
+
+brc_status brc_guard_read(brc_simulation *s, bool several, brc_ledger *ledger)
+{
+    struct brc_guard_state *g = s->guard;
+    int64_t element, look;
+    char what[200];
+    brc_ledger own;
+    g->report.looks += 1;
+    BRC_TRY(find_element(s, &element, &look));
+    if (element >= 0) {
+        snprintf(what, sizeof what, "element %lld is faster than %.3g m/s (%.0f times the wave speed and the fastest element at the start of the stage) or not finite", (long long)element,
+                 g->most_v, most_speeds);
+        return stop(s, several, what, element, look, 0);
+    }
+    if (!ledger && s->step % g->report.ledger_every) return BRC_OK;
+    g->report.ledgers += 1;
+    if (!ledger) ledger = &own;
+    BRC_TRY(brc_simulation_ledger(s, ledger));
+    const double put_in = fabs(ledger->initial) + fabs(ledger->work) + fabs(ledger->potential), most = s->scene->guard.closure;
+    if (!isfinite(ledger->total)) snprintf(what, sizeof what, "a value is not finite (energy %.4g J, put in %.4g J)", ledger->total, put_in);
+    else if (ledger->total > runaway * put_in && put_in > 0)
+        snprintf(what, sizeof what, "the energy runs away (energy %.4g J, put in %.4g J)", ledger->total, put_in);
+    else if (most > 0 && fabs(ledger->closure) > most)
+        snprintf(what, sizeof what, "the energy ledger is off by %.3g %%, guard.closure is %.3g %% (energy %.4g J, put in %.4g J)", 100 * ledger->closure, 100 * most,
+                 ledger->total, put_in);
+    else
+        return BRC_OK;
+    BRC_TRY(fastest_element(s, &element));
+    return stop(s, several, what, element, -1, isfinite(ledger->total) && ledger->total <= runaway * put_in ? ledger->closure : 0);
+}
