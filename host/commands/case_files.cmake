@@ -1,5 +1,5 @@
 # cmake -DFOLDER=tests/validation -DALONE=tests/stability -DSWEEPS=bench -DOUTPUT=file.c -P case_files.cmake: every *.yaml, *.csv and (ASCII)
-# *.stl one folder below FOLDER, in the folder ALONE (one case) and in SWEEPS/accuracy/*/, as a C string, one literal a line.
+# *.stl one folder below FOLDER, in the folder ALONE (one case) in SWEEPS/accuracy/*/ and the curves measured with them, as a C string, one literal a line.
 get_filename_component(above ${ALONE} DIRECTORY)
 file(GLOB many RELATIVE ${FOLDER} ${FOLDER}/*/*.yaml ${FOLDER}/*/*.stl ${FOLDER}/*/*.csv)
 file(GLOB one RELATIVE ${above} ${ALONE}/*.yaml ${ALONE}/*.csv)
@@ -21,6 +21,6 @@ list(SORT many)
 list(SORT sweeps)
 add_files(${FOLDER} ${many})
 add_files(${above} ${one})
-add_files(${SWEEPS} ${sweeps})
+add_files(${SWEEPS} ${sweeps} results/accuracy-curves.csv)
 string(APPEND text "};\nconst int brc_case_file_count = ${count};\n")
 file(WRITE "${OUTPUT}" "${text}")

@@ -1,5 +1,6 @@
 /* breccia check: what a scene asks for and what it will cost, before it runs. */
 #include "command.h"
+#include "price.h"
 #include "scene_domain.h"
 #include "setup.h"
 #include "../base/log.h"
@@ -234,6 +235,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     for (int32_t k = 0; k < scene->n_stages; ++k)
         BRC_TRY_OR(cleanup, print_stage(context, &setup, k, &plans[k], &total));
     printf("predicted: %.3g s with building, without output\n", total);
+    BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, &setup, precision, total));
 cleanup:
     brc_memory_free(plans);
     brc_setup_free(&setup);

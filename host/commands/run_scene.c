@@ -1,5 +1,6 @@
 /* One whole run. */
 #include "run_scene.h"
+#include "price.h"
 #include "setup.h"
 #include "../base/log.h"
 #include "../base/memory.h"
@@ -31,6 +32,7 @@ typedef struct run {
     brc_checkpoints *checkpoints;
     brc_scene *scene;
     brc_setup setup;
+    brc_price price;
 } run;
 
 static brc_status take_results(brc_context *context, const run *now, brc_run_results *out)
@@ -96,7 +98,11 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     BRC_TRY(brc_setup_simulations(context, &device, &now->setup));
     brc_assembly *assembly = &now->setup.assembly;
     brc_simulation *first = assembly->part[0]; /* hears, and is told, for all */
-    if (now->recorder) BRC_TRY(brc_checkpoints_observe(now->checkpoints, assembly, now->recorder));
+    if (now->recorder) {
+        BRC_TRY(brc_checkpoints_observe(now->checkpoints, assembly, now->recorder));
+        BRC_TRY(brc_price_watch(context, &now->setup, &now->price));
+        brc_recorder_set_prediction(now->recorder, &now->price.prediction);
+    }
     if (request->observer) BRC_TRY(brc_simulation_observe(first, request->observer));
     if (request->created) BRC_TRY(request->created(request->self, first));
     if (request->running) request->running(first);

@@ -32,6 +32,7 @@ struct brc_recorder {
     brc_context *context;
     char *path[N_FILES]; /* owned */
     const brc_scene *scene;
+    const brc_prediction *prediction;
     int32_t n_domains;
     const brc_domain *const *domains; /* [n_domains] */
     brc_assembly *assembly;
@@ -102,6 +103,7 @@ static brc_status write_summary(brc_recorder *recorder, brc_context *context, bo
         .ledger = ledger,
         .cracks = brc_crack_records_state(recorder->cracks),
         .history = recorder->history,
+        .prediction = recorder->prediction,
         .n_measures = recorder->n_measures,
         .measures = recorder->measures,
         .n_frames = recorder->n_frames,
@@ -160,6 +162,11 @@ void brc_recorder_free(brc_recorder **recorder)
     brc_memory_free(r->measures);
     brc_memory_free(r);
     *recorder = NULL;
+}
+
+void brc_recorder_set_prediction(brc_recorder *recorder, const brc_prediction *prediction)
+{
+    recorder->prediction = prediction;
 }
 
 void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene)

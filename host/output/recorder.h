@@ -31,6 +31,7 @@
 #include "../solver/state_store.h"
 #include "measures.h"
 #include "summary.h"
+#include "prediction.h"
 
 typedef struct brc_recorder brc_recorder;
 
@@ -45,6 +46,8 @@ void brc_recorder_free(brc_recorder **recorder);
 
 /* All borrowed until brc_recorder_finish has returned; each in turn, the later ones may be missing. */
 void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene);
+/* Read whenever a summary is written. */
+void brc_recorder_set_prediction(brc_recorder *recorder, const brc_prediction *prediction);
 /* domains [n]: of the parts. build_seconds: wall time of making or reading them. */
 void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domain *const *domains, double build_seconds);
 /* Register as an observer of the assembly's first part, which hears of all of them. Sensors are checked

@@ -134,6 +134,21 @@ static void add_cost(brc_json *json, const brc_summary *s)
     add_memory(json, s->assembly ? brc_assembly_device_bytes(s->assembly) : -1);
 }
 
+/* What the run was expected to cost, and what it did. */
+static void add_prediction(brc_json *json, const brc_summary *s)
+{
+    const brc_prediction none = {.seconds = NAN, .took_seconds = NAN}, *p = s->prediction ? s->prediction : &none;
+    brc_json_begin_object(json, "prediction");
+    brc_json_integer(json, "after_steps", p->after_steps);
+    brc_json_number(json, "seconds", p->seconds);
+    brc_json_number(json, "actual_seconds", p->took_seconds);
+    brc_json_number(json, "host_bytes", s->prediction ? (double)p->host_bytes : NAN);
+    brc_json_number(json, "actual_host_bytes", s->prediction ? (double)brc_memory_peak() : NAN);
+    brc_json_number(json, "device_bytes", s->prediction ? (double)p->device_bytes : NAN);
+    brc_json_number(json, "actual_device_bytes", s->prediction && s->assembly ? (double)brc_assembly_device_bytes(s->assembly) : NAN);
+    brc_json_end(json);
+}
+
 /* How often the guard looked; null before the first dynamic stage. */
 static void add_guard(brc_json *json, const brc_assembly *a)
 {
@@ -364,6 +379,7 @@ brc_status brc_summary_write(brc_context *context, const brc_summary *summary, c
     add_identity(&json, summary);
     add_size(&json, summary);
     add_cost(&json, summary);
+    add_prediction(&json, summary);
     add_guard(&json, summary->assembly);
     add_ledger(&json, summary->ledger);
     if (summary->cracks) brc_crack_report_add(&json, summary->scene, &summary->cracks->cracks, &summary->cracks->report);

@@ -6,6 +6,7 @@
 #include "crack_records.h"
 #include "history.h"
 #include "measures.h"
+#include "prediction.h"
 
 /* What was done about checkpoints (checkpoint.h). */
 typedef struct brc_checkpoint_report {
@@ -26,6 +27,7 @@ typedef struct brc_summary {
     const brc_ledger *ledger;
     const brc_crack_state *cracks; /* NULL: nothing can break */
     const brc_history *history;
+    const brc_prediction *prediction;
     int32_t n_measures;
     const brc_measured *measures;
     int64_t n_frames;

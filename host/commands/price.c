@@ -1,0 +1,119 @@
+#include "price.h"
+#include "case.h"
+#include "price_curves.h"
+#include "../base/log.h"
+#include "../base/memory.h"
+#include <math.h>
+#include <stdio.h>
+
+/* A stage is predicted after this many seconds, or this part of its steps where it is shorter. */
+static const double watched_s = 0.5, watched_part = 0.02;
+
+static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t stage)
+{
+    brc_price *p = self;
+    (void)simulation, (void)stage;
+    p->begin = brc_clock_s();
+    p->first_step = 0;
+    p->expected = 0;
+    return BRC_OK;
+}
+
+static brc_status pause(void *self, brc_simulation *simulation, brc_pause why)
+{
+    brc_price *p = self;
+    const brc_scene *scene = brc_simulation_scene(simulation);
+    const int32_t stage = brc_simulation_stage(simulation);
+    const int64_t step = brc_simulation_step(simulation);
+    if (why != BRC_PAUSE_GOING || p->expected > 0 || scene->stages[stage].solver != BRC_SOLVER_DYNAMIC) return BRC_OK;
+    const double now = brc_clock_s();
+    if (p->first_step == 0) { /* its batch touched every page for the first time */
+        p->first_step = step;
+        p->first_s = now;
+        return BRC_OK;
+    }
+    const int64_t total = brc_simulation_planned_steps(simulation, stage, brc_simulation_time_step(simulation).value);
+    if (now - p->begin < watched_s && (double)step < watched_part * (double)total) return BRC_OK;
+    p->expected = now - p->begin + (now - p->first_s) / (double)(step - p->first_step) * (double)(total - step);
+    p->prediction.after_steps = step;
+    if (p->expected > 60) brc_log(p->context, BRC_LOG_INFO, "stage '%s' will take about %.3g s at this pace", scene->stages[stage].name, p->expected);
+    return BRC_OK;
+}
+
+static brc_status stage_end(void *self, brc_simulation *simulation, int32_t stage)
+{
+    brc_price *p = self;
+    (void)simulation, (void)stage;
+    if (!(p->expected > 0)) return BRC_OK;
+    p->prediction.seconds = (isnan(p->prediction.seconds) ? 0 : p->prediction.seconds) + p->expected;
+    p->prediction.took_seconds = (isnan(p->prediction.took_seconds) ? 0 : p->prediction.took_seconds) + brc_clock_s() - p->begin;
+    return BRC_OK;
+}
+
+brc_status brc_price_watch(brc_context *context, const brc_setup *setup, brc_price *price)
+{
+    *price = (brc_price){.context = context, .prediction = {.seconds = NAN, .took_seconds = NAN, .host_bytes = brc_memory_peak()}};
+    for (int32_t k = 0; k < setup->n; ++k)
+        price->prediction.device_bytes += brc_simulation_estimate_bytes(brc_simulation_scene(setup->simulation[k]), setup->domain[k],
+                                                                        brc_device_get_precision(setup->device[k]), brc_device_slice(setup->device[k]));
+    return brc_simulation_observe(setup->simulation[0],
+                                  &(brc_observer){.self = price, .stage_begin = stage_begin, .pause = pause, .stage_end = stage_end});
+}
+
+/* 1, 3 or 10 of a power of ten, the nearest. */
+static double error_class(double error)
+{
+    return pow(10, round(2 * log10(error)) / 2);
+}
+
+static void tell_choice(const brc_price_curve *curve, double elements, double now, double seconds)
+{
+    printf("%.3g elements: error %.2g %%, about %.2g s%s\n", elements, 100 * brc_price_curve_error(curve, elements), brc_price_seconds_at(seconds, now, elements),
+           elements < curve->least || elements > curve->most ? " (beyond the measured sizes)" : "");
+}
+
+brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, double seconds)
+{
+    const char *model = brc_model_name(setup->split->part[0].scene->model.kind);
+    const double now = (double)brc_setup_n_elements(setup);
+    brc_price_curve curve[BRC_CURVES_MOST];
+    char *text;
+    size_t bytes;
+    int n, worst = 0;
+    BRC_TRY(brc_case_text(context, NULL, "results", "accuracy-curves.csv", &text, &bytes));
+    brc_price_curves_read(text, model, brc_precision_name(precision), &n, curve);
+    const char *taken = brc_precision_name(precision);
+    if (n == 0) { /* resolution costs more than rounding at any size that was measured */
+        taken = brc_precision_name(BRC_DOUBLE);
+        brc_price_curves_read(text, model, taken, &n, curve);
+    }
+    brc_memory_free(text);
+    if (n == 0) {
+        printf("error class: not known, no curve of model %s was measured (docs/accuracy.md)\n", model);
+        return BRC_OK;
+    }
+    for (int k = 0; k < n; ++k) {
+        const double error = brc_price_curve_error(&curve[k], now);
+        printf("error as of '%s' at %.0f elements: %.2g %% (%d points of %s from %.0f to %.0f elements, falls as spacing^%.2g)\n", curve[k].problem, now, 100 * error,
+               curve[k].n, taken, curve[k].least, curve[k].most, curve[k].order);
+        if (error > brc_price_curve_error(&curve[worst], now)) worst = k;
+    }
+    printf("error class: %.1g %% (by '%s'; strains that vary over lengths much shorter than the body cost more)\n",
+           100 * error_class(brc_price_curve_error(&curve[worst], now)), curve[worst].problem);
+    if (scene->accuracy > 0) {
+        printf("accuracy %.3g %% asks for ", 100 * scene->accuracy);
+        tell_choice(&curve[worst], brc_price_curve_elements(&curve[worst], scene->accuracy), now, seconds);
+        printf("a tenth of the error would ask for ");
+        tell_choice(&curve[worst], brc_price_curve_elements(&curve[worst], 0.1 * scene->accuracy), now, seconds);
+    }
+    if (scene->budget > 0) {
+        printf("budget %.3g s buys ", scene->budget);
+        tell_choice(&curve[worst], brc_price_elements_for(seconds, now, scene->budget), now, seconds);
+        printf("ten times the budget would buy ");
+        tell_choice(&curve[worst], brc_price_elements_for(seconds, now, 10 * scene->budget), now, seconds);
+    }
+    if (scene->accuracy > 0 || scene->budget > 0)
+        printf("precision: double where turned bodies have small strains, else mixed or single (docs/stability.md); time step: auto at 0.8, its error is far below that of "
+               "the resolution\n");
+    return BRC_OK;
+}

@@ -1,0 +1,24 @@
+/* What a run will cost, told while it runs: the pace of its first half second carried on to the end of each dynamic stage, and the memory that was
+ * known before the first step. Nothing is run for it, and nothing of the run changes. */
+#ifndef BRC_COMMANDS_PRICE_H
+#define BRC_COMMANDS_PRICE_H
+
+#include "../output/prediction.h"
+#include "setup.h"
+
+typedef struct brc_price {
+    brc_context *context;
+    brc_prediction prediction;
+    double begin, first_s; /* of the stage: clock at its start, and at its first pause */
+    int64_t first_step;    /* steps at the first pause; 0: there was none */
+    double expected;       /* seconds of the stage; 0: not predicted yet */
+} brc_price;
+
+/* Watch the parts of a setup whose simulations exist; *price is borrowed until the run has ended. */
+brc_status brc_price_watch(brc_context *context, const brc_setup *setup, brc_price *price);
+
+/* For `breccia check`: error class of the scene by the measured curves of its model (price_curves.h), and where the scene asks for an accuracy or has a
+ * budget, the resolution for it and its cost. seconds: predicted of the run as it stands. */
+brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, double seconds);
+
+#endif

@@ -1,0 +1,14 @@
+/* What a run was expected to cost, for summary.json beside what it did. */
+#ifndef BRC_OUTPUT_PREDICTION_H
+#define BRC_OUTPUT_PREDICTION_H
+
+#include <stdint.h>
+
+/* NAN and 0 where nothing was predicted. Seconds are those of dynamic stages, sampling and frames in between included. */
+typedef struct brc_prediction {
+    int64_t after_steps;          /* steps that had been made when the (last) stage was predicted */
+    double seconds, took_seconds; /* [s] */
+    int64_t host_bytes, device_bytes; /* before the first step */
+} brc_prediction;
+
+#endif
