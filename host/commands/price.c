@@ -30,6 +30,7 @@ static brc_status pause(void *self, brc_simulation *simulation, brc_pause why)
     if (p->first_step == 0) { /* its batch touched every page for the first time */
         p->first_step = step;
         p->first_s = now;
+        p->prediction.host_bytes = brc_memory_peak(); /* with what the first frame and the samples took */
         return BRC_OK;
     }
     const int64_t total = brc_simulation_planned_steps(simulation, stage, brc_simulation_time_step(simulation).value);

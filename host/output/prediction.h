@@ -8,7 +8,8 @@
 typedef struct brc_prediction {
     int64_t after_steps;          /* steps that had been made when the (last) stage was predicted */
     double seconds, took_seconds; /* [s] */
-    int64_t host_bytes, device_bytes; /* before the first step */
+    int64_t host_bytes;   /* most so far at the first pause of the (last) dynamic stage; where there is none, before the first step */
+    int64_t device_bytes; /* from counts alone */
 } brc_prediction;
 
 #endif
