@@ -3,6 +3,7 @@
 #ifndef BRC_TEST_OUTPUT_FAKE_SIMULATION_H
 #define BRC_TEST_OUTPUT_FAKE_SIMULATION_H
 
+#include "../../host/solver/guard.h"
 #include "../../host/base/memory.h"
 #include "../../host/solver/fragments.h"
 #include "../../host/solver/regime.h"
@@ -265,6 +266,22 @@ brc_status brc_simulation_set_motion(brc_simulation *s, int32_t set, brc_fragmen
     return BRC_OK;
 }
 
+double brc_simulation_implied_fracture_energy(const brc_simulation *s)
+{
+    (void)s;
+    return 0;
+}
+brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out)
+{
+    (void)s;
+    *out = (brc_softening_report){0};
+    return BRC_OK;
+}
+brc_guard_report brc_simulation_guard_report(const brc_simulation *s)
+{
+    (void)s;
+    return (brc_guard_report){0};
+}
 int32_t brc_simulation_n_strikers(const brc_simulation *s) { return s->n_strikers; }
 const brc_striker_body *brc_simulation_striker_body(const brc_simulation *s, int32_t striker) { return s->striker_body + striker; }
 brc_status brc_simulation_striker_now(brc_simulation *s, int32_t striker, brc_striker_now *out)
