@@ -29,8 +29,8 @@
 #include "../scene/scene.h"
 #include "../solver/assembly.h"
 #include "../solver/state_store.h"
+#include "checkpoint_report.h"
 #include "measures.h"
-#include "summary.h"
 #include "prediction.h"
 
 typedef struct brc_recorder brc_recorder;

@@ -3,20 +3,11 @@
 #define BRC_OUTPUT_SUMMARY_H
 
 #include "../solver/assembly.h"
+#include "checkpoint_report.h"
 #include "crack_records.h"
 #include "history.h"
 #include "measures.h"
 #include "prediction.h"
-
-/* What was done about checkpoints (checkpoint.h). */
-typedef struct brc_checkpoint_report {
-    int64_t n_written;
-    double seconds;    /* wall seconds of writing all of them */
-    int64_t bytes;     /* of the last one */
-    const char *last;  /* path of the last good one; "": none is there */
-    const char *from;  /* path of the one that the run goes on from; "": it began */
-    int64_t from_step; /* total steps then */
-} brc_checkpoint_report;
 
 /* All pointers are borrowed for the call; what is NULL is null in the file. */
 typedef struct brc_summary {
