@@ -26,7 +26,7 @@ void brc_command_print_list(FILE *file)
     fprintf(file, "breccia %s: brittle solids of Voronoi cells or spheres joined by beams, on the CPU and through OpenCL\n\nusage: breccia COMMAND ...\n\n",
             brc_version());
     for (int k = 0; k < N_COMMANDS; ++k)
-        fprintf(file, "  %-10s %-18s %s\n", commands[k]->name, commands[k]->operands, commands[k]->summary);
+        fprintf(file, "  %-10s %-20s %s\n", commands[k]->name, commands[k]->operands, commands[k]->summary);
     fprintf(file, "\nbreccia COMMAND --help tells its options; breccia --version the version.\n"
                   "Exit codes: 0 done, 1 the physics was stopped or a bound missed, 2 wrong input, 3 device or file trouble.\n");
 }
