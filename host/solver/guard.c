@@ -40,14 +40,16 @@ void brc_guard_free(brc_simulation *s)
     s->guard = NULL;
 }
 
-/* Wave speed of the stiffest material, and the fastest element now [m/s]. */
+/* Wave speed of the stiffest material that elements are made of (strikers may have others), and the fastest element now [m/s]. */
 static brc_status speeds(brc_simulation *s, double *wave, double *fastest)
 {
     const int64_t n = s->domain->n_elements;
     double *v = NULL;
     *wave = *fastest = 0;
-    for (int32_t m = 0; m < s->scene->n_materials; ++m)
-        *wave = fmax(*wave, sqrt((s->elastic[m].lambda + 2 * s->elastic[m].mu) / s->elastic[m].density));
+    for (int64_t e = 0; e < s->domain->n_elements; ++e) {
+        const brc_elastic *m = s->elastic + s->material_of_element[e];
+        *wave = fmax(*wave, sqrt((m->lambda + 2 * m->mu) / m->density));
+    }
     BRC_TRY(BRC_ALLOCATE(s->context, &v, 3 * n, "velocities"));
     const brc_status status = brc_state_from_rows(s, s->velocity, v, 3);
     for (int64_t e = 0; e < n; ++e) *fastest = fmax(*fastest, sqrt(v[3 * e] * v[3 * e] + v[3 * e + 1] * v[3 * e + 1] + v[3 * e + 2] * v[3 * e + 2]));

@@ -1,7 +1,6 @@
 #include "fracture_case.h"
 #include "../../host/base/log.h"
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 brc_status try_fracture(bench_case *c, fracture_options o)
@@ -31,31 +30,12 @@ brc_status try_fracture(bench_case *c, fracture_options o)
 
 void open_fracture(bench_case *c, fracture_options options) { assert_done(c, try_fracture(c, options)); }
 
-typedef struct outcome {
-    int64_t n;
-    brc_break *events;
-} outcome;
-
-static outcome outcome_of(fracture_options o)
-{
-    bench_case c;
-    const brc_break *events;
-    outcome out;
-    open_fracture(&c, o);
-    assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
-    assert_done(&c, brc_simulation_advance(c.simulation, 120));
-    assert_done(&c, brc_simulation_breaks(c.simulation, &out.n, &events));
-    out.events = calloc((size_t)out.n, sizeof *events);
-    memcpy(out.events, events, (size_t)out.n * sizeof *events);
-    close_case(&c);
-    return out;
-}
-
 void fracture_compare(fracture_options a, fracture_options b)
 {
-    outcome x = outcome_of(a), y = outcome_of(b);
-    assert_true(x.n > 20);
-    assert_int_equal(x.n, y.n);
-    assert_memory_equal(x.events, y.events, (size_t)x.n * sizeof *x.events);
-    free(x.events), free(y.events);
+    bench_case x, y;
+    open_fracture(&x, a);
+    open_fracture(&y, b);
+    assert_same_breaks(&x, &y, 120);
+    close_case(&x);
+    close_case(&y);
 }

@@ -1,4 +1,5 @@
 #include "support.h"
+#include "../../host/solver/fracture.h"
 #include "../../host/base/log.h"
 #include "../../host/base/random.h"
 #include <stdio.h>
@@ -67,4 +68,19 @@ void close_case(bench_case *c)
     brc_domain_free(&c->domain);
     brc_scene_free(&c->scene);
     brc_context_free(&c->context);
+}
+
+void assert_same_breaks(bench_case *a, bench_case *b, int64_t n_steps)
+{
+    bench_case *const both[2] = {a, b};
+    const brc_break *events[2];
+    int64_t n[2];
+    for (int k = 0; k < 2; ++k) {
+        assert_done(both[k], brc_simulation_begin_stage(both[k]->simulation, 0));
+        assert_done(both[k], brc_simulation_advance(both[k]->simulation, n_steps));
+        assert_done(both[k], brc_simulation_breaks(both[k]->simulation, &n[k], &events[k]));
+    }
+    assert_true(n[0] > 20);
+    assert_int_equal(n[0], n[1]);
+    assert_memory_equal(events[0], events[1], (size_t)n[0] * sizeof *events[0]);
 }

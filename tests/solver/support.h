@@ -44,6 +44,8 @@ brc_status try_case(bench_case *c, case_options options);
 void close_case(bench_case *c);
 /* Assert a status is BRC_OK, showing the sentence. */
 void assert_done(bench_case *c, brc_status status);
+/* After n_steps of their first stage both cases, which are opened and stay the test's, have broken the same bonds, and more than 20: every event to its last bit. */
+void assert_same_breaks(bench_case *a, bench_case *b, int64_t n_steps);
 /* Uniform in (-1, 1), a fixed sequence by index. */
 double random_at(uint64_t index);
 
