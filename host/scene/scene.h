@@ -335,6 +335,9 @@ typedef struct brc_output {
     bool picture;            /* render picture.png at the end, default true */
     char picture_colour[BRC_NAME];  /* "stress_xx", "von_mises", "displacement", ... default "von_mises" */
     double picture_scale;    /* factor on the displacement; 0: automatic */
+    bool picture_frames;     /* draw every frame too, pictures/NNNNNN.png */
+    bool has_picture_cut;    /* elements in front of the plane are not drawn */
+    double picture_cut_point[3], picture_cut_normal[3]; /* [m] of the undeformed solid; unit vector */
     bool crack_surface;      /* with fracture: broken faces as polygons beside every frame, default true */
     bool has_checkpoint;       /* checkpoints by interval; on a signal and before a stop there is one in any case */
     double checkpoint_every;   /* simulated time between them [s]; 0: off */

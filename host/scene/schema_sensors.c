@@ -277,8 +277,18 @@ const brc_section brc_schema_measure = {.title = "measure",
                                         .kind_offset = offsetof(brc_measure, kind),
                                         .sample_name = "result"};
 
+static const brc_entry PICTURE_CUT[] = {
+    {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_output, picture_cut_point), .length = 3, .required = true, .sample = "[0, 0, 0]",
+     .meaning = "a point of the plane"},
+    {"normal", BRC_TYPE_DIRECTION, "", FIELD(brc_output, picture_cut_normal), .length = 3, .required = true, .sample = "[1, 0, 0]",
+     .meaning = "towards what is left out"},
+};
+static const brc_section PICTURE_CUT_SECTION = {
+    .title = "cut", .meaning = "Elements placed in front of a plane in the undeformed solid are not drawn, so that one sees inside.", ENTRIES(PICTURE_CUT)};
 static const brc_entry PICTURE[] = {
     {"draw", BRC_TYPE_BOOL, FIELD(brc_output, picture), .given = "true", .meaning = "draw picture.png at the end"},
+    {"frames", BRC_TYPE_BOOL, FIELD(brc_output, picture_frames), .given = "false", .meaning = "draw every frame too, pictures/NNNNNN.png"},
+    {"cut", BRC_TYPE_STRUCT, .section = &PICTURE_CUT_SECTION, FLAG(brc_output, has_picture_cut), .meaning = "left out: the whole solid is drawn"},
     {"colour", BRC_TYPE_WORD, FIELD(brc_output, picture_colour),
      CHOICES("von_mises", "damage", "displacement", "displacement_x", "displacement_y", "displacement_z", "velocity",
              "velocity_x", "velocity_y", "velocity_z", "stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz",
