@@ -4,7 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#define MANY_SECTIONS 128
+#define MANY_SECTIONS 512
 
 static const char INTRODUCTION[] =
     "# Scene files\n"
@@ -162,6 +162,8 @@ brc_status brc_scene_write_reference(brc_context *context, FILE *file)
     int n = 0;
     fputs(INTRODUCTION, file);
     write_section(file, brc_schema(), written, &n);
+    if (n == MANY_SECTIONS)
+        return BRC_FAIL(context, BRC_INTERNAL, "the schema has more sections than the scene reference has room for; raise MANY_SECTIONS");
     if (fflush(file) != 0 || ferror(file))
         return BRC_FAIL(context, BRC_FILE_FAILED, "the scene reference cannot be written");
     return BRC_OK;

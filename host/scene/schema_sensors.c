@@ -284,7 +284,7 @@ static const brc_entry PICTURE_CUT[] = {
      .meaning = "towards what is left out"},
 };
 static const brc_section PICTURE_CUT_SECTION = {
-    .title = "cut", .meaning = "Elements placed in front of a plane in the undeformed solid are not drawn, so that one sees inside.", ENTRIES(PICTURE_CUT)};
+    .title = "cut of pictures", .meaning = "Elements placed in front of a plane in the undeformed solid are not drawn, so that one sees inside.", ENTRIES(PICTURE_CUT)};
 static const brc_entry PICTURE[] = {
     {"draw", BRC_TYPE_BOOL, FIELD(brc_output, picture), .given = "true", .meaning = "draw picture.png at the end"},
     {"frames", BRC_TYPE_BOOL, FIELD(brc_output, picture_frames), .given = "false", .meaning = "draw every frame too, pictures/NNNNNN.png"},
