@@ -25,6 +25,22 @@ static void print_measures(const brc_run_results *results)
     }
 }
 
+/* Where the steps spent their time, phases of a thousandth or more. */
+static void print_phases(const brc_run_results *results)
+{
+    double all = 0;
+    const char *comma = "";
+    for (int phase = 0; phase < BRC_N_PHASES; ++phase) all += results->phase_s[phase];
+    if (results->steps == 0 || !(all > 0)) return;
+    printf("of the steps:");
+    for (int phase = 0; phase < BRC_N_PHASES; ++phase)
+        if (results->phase_s[phase] >= 1e-3 * all) {
+            printf("%s %s %.1f %%", comma, brc_phase_name((brc_step_phase)phase), 100 * results->phase_s[phase] / all);
+            comma = ",";
+        }
+    printf("; %.4g s for 1000 steps\n", 1000 * all / (double)results->steps);
+}
+
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
 {
     brc_run_request request = {.path = arguments->positional[0],
@@ -51,6 +67,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
             printf("; %lld steps, %.3g bond updates/s", (long long)results.steps,
                    (double)results.steps * (double)results.n_bonds / results.steps_s);
         printf("\n");
+        print_phases(&results);
         print_measures(&results);
     }
     for (int k = 0; k < BRC_RUN_FILES; ++k)

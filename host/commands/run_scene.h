@@ -5,7 +5,7 @@
 
 #include "../output/measures.h"
 #include "../scene/scene_reader.h"
-#include "../solver/simulation.h"
+#include "../solver/phases.h"
 
 /* All borrowed during the call; zero or NULL is the default of each member but the scene's text or path. */
 typedef struct brc_run_request {
@@ -48,6 +48,7 @@ typedef struct brc_run_results {
     char device[32], device_name[128];
     int64_t n_elements, n_bonds, steps, device_bytes;
     double build_s, setup_s, steps_s, output_s, total_s;
+    double phase_s[BRC_N_PHASES]; /* of the steps (phases.h) */
     brc_time_step time_step; /* of the last dynamic stage */
     brc_ledger ledger;
 } brc_run_results;

@@ -130,6 +130,13 @@ static void add_cost(brc_json *json, const brc_summary *s)
     brc_json_number(json, "steps_s", steps);
     brc_json_number(json, "output_s", s->output_s);
     brc_json_number(json, "bond_updates_per_s", rate);
+    brc_json_begin_object(json, "phases");
+    for (int phase = BRC_PHASE_NONE + 1; phase < BRC_N_PHASES; ++phase) {
+        char key[32];
+        snprintf(key, sizeof key, "%s_s", brc_phase_name((brc_step_phase)phase));
+        brc_json_number(json, key, s->assembly ? brc_assembly_phase_seconds(s->assembly, (brc_step_phase)phase) : NAN);
+    }
+    brc_json_end(json);
     brc_json_end(json);
     add_memory(json, s->assembly ? brc_assembly_device_bytes(s->assembly) : -1);
 }

@@ -107,6 +107,13 @@ double brc_assembly_mode(const brc_assembly *a, int32_t index)
     return NAN;
 }
 
+double brc_assembly_phase_seconds(const brc_assembly *a, brc_step_phase phase)
+{
+    double sum = 0;
+    for (int32_t k = 0; k < a->n; ++k) sum += brc_simulation_phase_seconds(a->part[k], phase);
+    return sum;
+}
+
 double brc_assembly_setup_seconds(const brc_assembly *a)
 {
     double sum = 0;

@@ -4,7 +4,7 @@
 #ifndef BRC_SOLVER_ASSEMBLY_H
 #define BRC_SOLVER_ASSEMBLY_H
 
-#include "simulation.h"
+#include "phases.h"
 #include "split.h"
 
 typedef struct brc_assembly {
@@ -32,6 +32,8 @@ brc_status brc_assembly_ledger(brc_assembly *assembly, brc_ledger *out);
 brc_time_step brc_assembly_time_step(const brc_assembly *assembly);
 /* Mode `index` of the last modes stage, bodies of all parts counted together, ascending [rad/s]; NAN: not computed. */
 double brc_assembly_mode(const brc_assembly *assembly, int32_t index);
+/* Wall seconds in a phase of the steps, of all parts. */
+double brc_assembly_phase_seconds(const brc_assembly *assembly, brc_step_phase phase);
 /* Wall seconds of setting up all parts. */
 double brc_assembly_setup_seconds(const brc_assembly *assembly);
 /* Device bytes of all parts. */

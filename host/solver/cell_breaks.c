@@ -311,7 +311,9 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(kick(s, half_kick)); /* the step closes with the force of the whole bonds ... */
     BRC_TRY(break_marked(s));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
+    const brc_step_phase phase = brc_phase_within(s, BRC_PHASE_SEARCH);
     BRC_TRY(brc_contact_broken(s, 0));
+    brc_phase_within(s, phase);
     BRC_TRY(brc_softening_recount(s));
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(kick(s, -half_kick)); /* ... and the next one opens with that of those that are left */

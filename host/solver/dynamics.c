@@ -33,10 +33,25 @@ static brc_status close_step(brc_simulation *s, double dt)
     s->time = (double)s->step * dt;
     BRC_TRY(brc_loads_prescribe(s, s->time));
     if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
+    if (s->contact) brc_phase_within(s, BRC_PHASE_SEARCH);
     BRC_TRY(brc_contact_follow(s));
+    if (s->fracture) brc_phase_within(s, BRC_PHASE_FRACTURE);
     BRC_TRY(brc_softening_move(s));
+    brc_phase_within(s, BRC_PHASE_MOTION);
     BRC_TRY(brc_guard_step(s));
-    return brc_force_of_state(s, BRC_BOOK_WORK);
+    const brc_step_phase before = brc_phase_within(s, BRC_PHASE_FORCES);
+    BRC_TRY(brc_force_of_state(s, BRC_BOOK_WORK));
+    brc_phase_within(s, before);
+    return BRC_OK;
+}
+
+static brc_status break_bonds(brc_simulation *s, double half_kick)
+{
+    if (!s->fracture) return BRC_OK;
+    const brc_step_phase before = brc_phase_within(s, BRC_PHASE_FRACTURE);
+    BRC_TRY(brc_fracture_step(s, half_kick));
+    brc_phase_within(s, before);
+    return BRC_OK;
 }
 
 static brc_status verlet_step(brc_simulation *s, const brc_stage *stage, double dt, double kick)
@@ -52,7 +67,7 @@ static brc_status verlet_step(brc_simulation *s, const brc_stage *stage, double 
         BRC_TRY(kick_and_drift(s, kick, dt));
     }
     BRC_TRY(close_step(s, dt));
-    return s->fracture ? brc_fracture_step(s, 0.5 * dt) : BRC_OK;
+    return break_bonds(s, 0.5 * dt);
 }
 
 static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double dt)
@@ -73,7 +88,7 @@ static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double
                            BRC_BUF(s->velocity), BRC_BUF(s->lost_damping)));
     BRC_TRY(close_step(s, dt));
     BRC_TRY(BRC_LAUNCH(s->kernel.numerical_close, n, BRC_INT(n), BRC_BUF(s->force), BRC_BUF(s->moved), BRC_BUF(s->lost_numerical)));
-    return s->fracture ? brc_fracture_step(s, 0) : BRC_OK; /* velocities are at whole steps already */
+    return break_bonds(s, 0); /* velocities are at whole steps already */
 }
 
 brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps)
@@ -81,13 +96,16 @@ brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps)
     const brc_stage *stage = brc_current_stage(s);
     const double dt = s->time_step.value;
     if (n_steps <= 0) return BRC_OK;
+    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_MOTION);
     if (stage->integrator == BRC_TCHAMWA_WIELGOSZ) {
         for (int64_t i = 0; i < n_steps; ++i) BRC_TRY(tchamwa_step(s, stage, dt));
-        return BRC_OK;
+    } else {
+        for (int64_t i = 0; i < n_steps; ++i) BRC_TRY(verlet_step(s, stage, dt, i == 0 ? 0.5 * dt : dt));
+        BRC_TRY(kick_and_drift(s, 0.5 * dt, 0));
+        BRC_TRY(brc_loads_impose_velocity(s, s->time));
     }
-    for (int64_t i = 0; i < n_steps; ++i) BRC_TRY(verlet_step(s, stage, dt, i == 0 ? 0.5 * dt : dt));
-    BRC_TRY(kick_and_drift(s, 0.5 * dt, 0));
-    return brc_loads_impose_velocity(s, s->time);
+    brc_phase_enter(s, before);
+    return BRC_OK;
 }
 
 int64_t brc_simulation_planned_steps(const brc_simulation *s, int32_t stage, double time_step)
@@ -105,7 +123,11 @@ static int64_t next_multiple(int64_t step, int64_t every) { return (step / every
 static brc_status advance_all(int32_t n, brc_simulation *const *part, int64_t n_steps)
 {
     for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_dynamics_advance(part[k], n_steps));
-    for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_device_wait(part[k]->device));
+    for (int32_t k = 0; k < n; ++k) {
+        brc_phase_enter(part[k], BRC_PHASE_MOTION);
+        BRC_TRY(brc_device_wait(part[k]->device));
+        brc_phase_enter(part[k], BRC_PHASE_NONE);
+    }
     return BRC_OK;
 }
 
@@ -121,11 +143,13 @@ static brc_status guard_all(int32_t n, brc_simulation *const *part, moment *now)
     for (int32_t k = 0; k < n; ++k) {
         brc_ledger ledger;
         int64_t broken;
+        brc_phase_enter(part[k], BRC_PHASE_LEDGER);
         BRC_TRY(brc_guard_read(part[k], n > 1, &ledger));
         BRC_TRY(brc_simulation_broken(part[k], &broken));
         now->kinetic += ledger.kinetic;
         now->elastic += ledger.elastic;
         now->broken += broken;
+        brc_phase_enter(part[k], BRC_PHASE_NONE);
     }
     if (part[0]->fracture) brc_regime_follow(&part[0]->regime, now->kinetic, now->elastic, now->broken > 0);
     return BRC_OK;
@@ -134,7 +158,11 @@ static brc_status guard_all(int32_t n, brc_simulation *const *part, moment *now)
 /* What the looks at the elements found, and what is due of the ledger. */
 static brc_status read_guards(int32_t n, brc_simulation *const *part)
 {
-    for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_guard_read(part[k], n > 1, NULL));
+    for (int32_t k = 0; k < n; ++k) {
+        brc_phase_enter(part[k], BRC_PHASE_LEDGER);
+        BRC_TRY(brc_guard_read(part[k], n > 1, NULL));
+        brc_phase_enter(part[k], BRC_PHASE_NONE);
+    }
     return BRC_OK;
 }
 

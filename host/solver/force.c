@@ -36,7 +36,11 @@ static brc_status dlsm_face_moments(brc_simulation *s, const brc_force_request *
     const bool touching = brc_contact_acts(s, r);
     if (!has_face_loads(s) && !touching) return BRC_OK;
     BRC_TRY(brc_buffer_fill_zero(s->held_moment));
-    if (touching) BRC_TRY(brc_contact_moments(s, r));
+    if (touching) {
+        const brc_step_phase before = brc_phase_within(s, BRC_PHASE_PAIRS);
+        BRC_TRY(brc_contact_moments(s, r));
+        brc_phase_within(s, before);
+    }
     if (h->n_faces)
         BRC_TRY(BRC_LAUNCH(s->kernel.held_moment, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
                            BRC_BUF(h->place), BRC_BUF(h->face_start), BRC_BUF(h->area), BRC_BUF(h->arm), BRC_BUF(h->held),
@@ -149,7 +153,11 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
         BRC_TRY(brc_loads_zero_imposed(s, r->force));
         return brc_loads_zero_turned(s, r->torque);
     }
-    if (brc_contact_acts(s, r)) BRC_TRY(brc_contact_forces(s, r));
+    if (brc_contact_acts(s, r)) {
+        const brc_step_phase before = brc_phase_within(s, BRC_PHASE_PAIRS);
+        BRC_TRY(brc_contact_forces(s, r));
+        brc_phase_within(s, before);
+    }
     if (s->scene->has_gravity) {
         const double *g = s->scene->gravity;
         BRC_TRY(BRC_LAUNCH(s->kernel.gravity, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_STATE(g[0]), BRC_STATE(g[1]),

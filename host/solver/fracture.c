@@ -307,7 +307,10 @@ brc_status brc_fracture_step(brc_simulation *s, double half_kick)
                       BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
                       BRC_BUF(f->break_energy), BRC_BUF(f->lost), BRC_BUF(f->broken)));
     BRC_TRY(brc_loads_zero_turned(s, s->torque)); /* prescribed rotations balance theirs */
-    return brc_contact_broken(s, half_kick);
+    const brc_step_phase before = brc_phase_within(s, BRC_PHASE_SEARCH);
+    BRC_TRY(brc_contact_broken(s, half_kick));
+    brc_phase_within(s, before);
+    return BRC_OK;
 }
 
 brc_status brc_fracture_lost(brc_simulation *s, double *out)

@@ -276,22 +276,28 @@ brc_status brc_simulation_observe(brc_simulation *s, const brc_observer *observe
 
 brc_status brc_notify_sample(brc_simulation *s)
 {
+    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
     for (int i = 0; i < s->n_observers; ++i)
         if (s->observers[i].sample) BRC_TRY(s->observers[i].sample(s->observers[i].self, s));
+    brc_phase_enter(s, before);
     return BRC_OK;
 }
 
 brc_status brc_notify_frame(brc_simulation *s)
 {
+    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
     for (int i = 0; i < s->n_observers; ++i)
         if (s->observers[i].frame) BRC_TRY(s->observers[i].frame(s->observers[i].self, s));
+    brc_phase_enter(s, before);
     return BRC_OK;
 }
 
 brc_status brc_notify_pause(brc_simulation *s, brc_pause why)
 {
+    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
     for (int i = 0; i < s->n_observers; ++i)
         if (s->observers[i].pause) BRC_TRY(s->observers[i].pause(s->observers[i].self, s, why));
+    brc_phase_enter(s, before);
     return BRC_OK;
 }
 

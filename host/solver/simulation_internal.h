@@ -5,6 +5,7 @@
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "layout.h"
+#include "phases.h"
 #include "regime.h"
 #include "simulation.h"
 #include "state_store.h"
@@ -172,6 +173,10 @@ struct brc_simulation {
     volatile int32_t n_others;
     const char *effects_in[BRC_MOST_EFFECTS], *effects_out[BRC_MOST_EFFECTS];
     double setup_seconds, step_seconds;
+    struct {
+        brc_step_phase phase;
+        double since, seconds[BRC_N_PHASES];
+    } watch; /* phases.c */
 };
 
 /* ---- arrays.c: host doubles by id <-> device rows ---- */
@@ -253,6 +258,12 @@ brc_status brc_force_of_state(brc_simulation *s, brc_booking book);
 brc_status brc_force_fluxes_of_state(brc_simulation *s);
 /* Only H and G's held part, for outputs after the state moved. */
 brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation);
+
+/* ---- phases.c ---- */
+/* The watch goes on in `phase`; returns the one before, to go back to. A failure need not: the run ends. */
+brc_step_phase brc_phase_enter(brc_simulation *s, brc_step_phase phase);
+/* The same for work that is also done outside steps: not counted there, BRC_PHASE_NONE stays. */
+brc_step_phase brc_phase_within(brc_simulation *s, brc_step_phase phase);
 
 /* ---- stages ---- */
 brc_status brc_initial_apply(brc_simulation *s, const brc_stage *stage);

@@ -12,6 +12,7 @@ int64_t brc_simulation_step(const brc_simulation *s) { return s->step; }
 int64_t brc_simulation_total_steps(const brc_simulation *s) { return s->total_steps; }
 double brc_simulation_setup_seconds(const brc_simulation *s) { return s->setup_seconds; }
 double brc_simulation_step_seconds(const brc_simulation *s) { return s->step_seconds; }
+double brc_simulation_phase_seconds(const brc_simulation *s, brc_step_phase phase) { return phase == BRC_PHASE_NONE ? 0 : s->watch.seconds[phase]; }
 brc_time_step brc_simulation_time_step(const brc_simulation *s) { return s->time_step; }
 brc_static_report brc_simulation_static_report(const brc_simulation *s) { return s->static_report; }
 const char *const *brc_simulation_effects_in(const brc_simulation *s) { return s->effects_in; }

@@ -6,6 +6,7 @@
 #include "../../host/solver/guard.h"
 #include "../../host/base/memory.h"
 #include "../../host/solver/fragments.h"
+#include "../../host/solver/phases.h"
 #include "../../host/solver/regime.h"
 #include "../../host/solver/stage_end.h"
 #include "../../host/solver/strikers.h"
@@ -342,6 +343,12 @@ double brc_simulation_step_seconds(const brc_simulation *s)
 {
     (void)s;
     return 2;
+}
+
+double brc_simulation_phase_seconds(const brc_simulation *s, brc_step_phase phase)
+{
+    (void)s;
+    return phase == BRC_PHASE_SEARCH ? 0.25 : 0;
 }
 
 /* Four increments with a sample each, frames at the start and at the end. */

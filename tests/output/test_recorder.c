@@ -181,7 +181,7 @@ static void the_summary_has_the_stable_keys_with_the_values_of_the_run(void **st
                                        "\"setup_s\": 0.25",
                                        "\"steps_s\": 2",
                                        "\"output_s\": ",
-                                       "\"bond_updates_per_s\": ",
+                                       "\"bond_updates_per_s\": ", "\"phases\": {", "\"search_s\": 0.25",
                                        "\"host_bytes\": ",
                                        "\"device_bytes\": 0",
                                        "\"kinetic_J\": null",
