@@ -1,4 +1,4 @@
-/* picture.png by the painter's algorithm: free faces that look towards the viewer, or spheres as discs with a highlight, the farthest
+/* Pictures by the painter's algorithm: faces that look towards the viewer, or spheres as discs with a highlight, the farthest
  * first. Words and the colour bar are drawn on top. */
 #include "picture.h"
 #include "colour.h"
@@ -22,9 +22,10 @@ typedef struct canvas {
     double centre[2]; /* of the sample, along right and up [m] */
     double zoom;      /* [px/m] */
     double scale;
+    brc_picture_faces *surface; /* [n_parts] of parts of cells */
     /* what every part has, part after part, and then every striker, begins here; [n_parts + n_strikers + 1] */
-    int64_t *first_point; /* corners in the order of domain.free_polygon, or centres of spheres */
-    int64_t *first_face;  /* free faces, or spheres, or faces of strikers */
+    int64_t *first_point; /* corners in the order of surface.corner, or centres of spheres */
+    int64_t *first_face;  /* faces of the surface, or spheres, or faces of strikers */
     double *point;         /* [points of all][3] [m] */
     brc_paint_face *faces; /* [faces of all]: room, n_faces visible; id: among all */
     int64_t n_faces;
@@ -42,14 +43,16 @@ static bool is_sphere(const brc_picture_part *p)
     return p->domain->element_kind == BRC_ELEMENT_SPHERE;
 }
 
-static int64_t n_points_of(const brc_picture_part *p)
+static int64_t n_points_of(const canvas *c, int32_t part)
 {
-    return is_sphere(p) ? p->domain->n_elements : p->domain->free_polygon_start[p->domain->n_free_faces];
+    const brc_picture_part *p = &c->picture->part[part];
+    return is_sphere(p) ? p->domain->n_elements : c->surface[part].start[c->surface[part].n];
 }
 
-static int64_t n_faces_of(const brc_picture_part *p)
+static int64_t n_faces_of(const canvas *c, int32_t part)
 {
-    return is_sphere(p) ? p->domain->n_elements : p->domain->n_free_faces;
+    const brc_picture_part *p = &c->picture->part[part];
+    return is_sphere(p) ? p->domain->n_elements : c->surface[part].n;
 }
 
 /* The striker of what is painted, and its face there; NULL: an element's. */
@@ -78,7 +81,7 @@ static double value_of(const canvas *c, int64_t face)
     int64_t own;
     int32_t k;
     const brc_picture_part *p = part_of(c, face, &own, &k);
-    return p->value[is_sphere(p) ? own : p->domain->free_element[own]];
+    return p->value[is_sphere(p) ? own : c->surface[k].element[own]];
 }
 
 double brc_picture_automatic_scale(int32_t n, const brc_picture_part *part)
@@ -112,22 +115,25 @@ double brc_picture_automatic_scale(int32_t n, const brc_picture_part *part)
     return decade * (wanted / decade < 2 ? 1 : wanted / decade < 5 ? 2 : 5);
 }
 
-static void move_points(canvas *c, const brc_picture_part *p, double *point)
+/* Corners or centres with the displacement times `scale`; at 0 those of the undeformed solid. */
+static void move_points(canvas *c, int32_t part, double scale)
 {
+    const brc_picture_part *p = &c->picture->part[part];
     const brc_domain *d = p->domain;
-    double gradient[3][3] = {{0}};
+    const brc_picture_faces *s = &c->surface[part];
+    double gradient[3][3] = {{0}}, *point = c->point + 3 * c->first_point[part];
     for (int64_t k = 0; is_sphere(p) && k < 3 * d->n_elements; ++k)
-        point[k] = d->position[k] + c->scale * p->displacement[k];
-    for (int64_t f = 0, before = -1; f < d->n_free_faces; ++f) {
-        const int64_t e = d->free_element[f];
-        if (e != before) brc_deform_gradient(d, p->whole, p->displacement, e, gradient);
+        point[k] = d->position[k] + scale * p->displacement[k];
+    for (int64_t f = 0, before = -1; f < s->n; ++f) {
+        const int64_t e = s->element[f];
+        if (e != before && scale != 0) brc_deform_gradient(d, p->whole, p->displacement, e, gradient);
         before = e;
-        for (int64_t k = d->free_polygon_start[f]; k < d->free_polygon_start[f + 1]; ++k) {
-            const double *x = d->vertex + 3 * (int64_t)d->free_polygon[k];
+        for (int64_t k = s->start[f]; k < s->start[f + 1]; ++k) {
+            const double *x = d->vertex + 3 * (int64_t)s->corner[k];
             double u[3];
             brc_deform_point(d, p->displacement, e, (const double(*)[3])gradient, x, u);
             for (int i = 0; i < 3; ++i)
-                point[3 * k + i] = x[i] + c->scale * u[i];
+                point[3 * k + i] = scale != 0 ? x[i] + scale * u[i] : x[i];
         }
     }
 }
@@ -139,6 +145,7 @@ static void fit_view(canvas *c)
     for (int32_t part = 0; part < c->picture->n; ++part) {
         const brc_picture_part *p = &c->picture->part[part];
         for (int64_t k = c->first_point[part]; k < c->first_point[part + 1]; ++k) {
+            if (is_sphere(p) && brc_picture_hides(c->picture->cut, p->domain->position + 3 * (k - c->first_point[part]))) continue;
             const double radius = is_sphere(p) ? p->domain->radius[k - c->first_point[part]] : 0;
             const double at[2] = {dot(c->point + 3 * k, c->view.right), dot(c->point + 3 * k, c->view.up)};
             if (!isfinite(at[0]) || !isfinite(at[1])) continue;
@@ -168,8 +175,8 @@ static void fit_view(canvas *c)
 /* Area vector (twice the area) and middle of a deformed polygon; false where it is not finite. */
 static bool measure_face(const canvas *c, int32_t part, int64_t f, double normal[3], double middle[3])
 {
-    const brc_domain *d = c->picture->part[part].domain;
-    const int64_t first = c->first_point[part] + d->free_polygon_start[f], end = c->first_point[part] + d->free_polygon_start[f + 1];
+    const brc_picture_faces *s = &c->surface[part];
+    const int64_t first = c->first_point[part] + s->start[f], end = c->first_point[part] + s->start[f + 1];
     memset(normal, 0, 3 * sizeof *normal);
     memset(middle, 0, 3 * sizeof *middle);
     for (int64_t k = first; k < end; ++k) {
@@ -188,10 +195,11 @@ static void add_visible(canvas *c, int32_t part)
 {
     const brc_picture_part *p = &c->picture->part[part];
     for (int64_t e = 0; is_sphere(p) && e < p->domain->n_elements; ++e) {
+        if (brc_picture_hides(c->picture->cut, p->domain->position + 3 * e)) continue;
         const double depth = dot(c->point + 3 * (c->first_point[part] + e), c->view.toward);
         if (isfinite(depth)) c->faces[c->n_faces++] = (brc_paint_face){.depth = depth, .id = (int32_t)(c->first_face[part] + e), .shade = 1};
     }
-    for (int64_t f = 0; f < p->domain->n_free_faces; ++f) {
+    for (int64_t f = 0; f < c->surface[part].n; ++f) {
         double normal[3], middle[3];
         if (!measure_face(c, part, f, normal, middle) || dot(normal, c->view.toward) <= 0) continue;
         c->faces[c->n_faces++] = (brc_paint_face){
@@ -206,13 +214,15 @@ static const double *striker_corner(const canvas *c, const brc_picture_striker *
     return c->point + 3 * (c->first_point[index] + s->loop[s->loop_start[face] + k]);
 }
 
-static void move_striker(canvas *c, const brc_picture_striker *striker, double *point)
+static void move_striker(canvas *c, int32_t index, double scale)
 {
+    const brc_picture_striker *striker = &c->picture->striker[index - c->picture->n];
     const brc_striker_surface *s = &striker->body->surface;
+    double *point = c->point + 3 * c->first_point[index];
     for (int32_t k = 0; k < s->n_corners; ++k) {
         double u[3];
         brc_striker_corner_moved(s, &striker->now, k, u);
-        for (int i = 0; i < 3; ++i) point[3 * k + i] = striker->body->centre[i] + s->corner[3 * k + i] + c->scale * u[i];
+        for (int i = 0; i < 3; ++i) point[3 * k + i] = striker->body->centre[i] + s->corner[3 * k + i] + scale * u[i];
     }
 }
 
@@ -247,6 +257,11 @@ static void sort_faces(canvas *c)
 
 static void find_range(canvas *c)
 {
+    if (c->picture->range[0] < c->picture->range[1]) {
+        c->low = c->picture->range[0];
+        c->high = c->picture->range[1];
+        return;
+    }
     c->low = INFINITY;
     c->high = -INFINITY;
     for (int64_t k = 0; k < c->n_faces; ++k) {
@@ -341,7 +356,7 @@ static void paint_faces(const canvas *c, brc_paint *paint)
             paint_sphere(c, paint, point + 3 * own, p->domain->radius[own], rgb);
             continue;
         }
-        for (int64_t i = p->domain->free_polygon_start[own]; i < p->domain->free_polygon_start[own + 1]; ++i)
+        for (int64_t i = c->surface[part].start[own]; i < c->surface[part].start[own + 1]; ++i)
             brc_paint_corner(paint, across(c, point + 3 * i), down(c, point + 3 * i));
         brc_paint_fill(paint, rgb, c->faces[k].shade, line_of(c, p->domain));
     }
@@ -445,16 +460,26 @@ static brc_status render(const canvas *c, const char *path)
     return brc_paint_end(&paint, path);
 }
 
+static void move_all(canvas *c, double scale)
+{
+    for (int32_t k = 0; k < c->picture->n; ++k) move_points(c, k, scale);
+    for (int32_t k = 0; k < c->picture->n_strikers; ++k) move_striker(c, c->picture->n + k, scale);
+}
+
 brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, const char *path)
 {
     canvas c = {.context = context, .picture = picture, .scale = picture->scale, .view = brc_paint_corner_view()};
     brc_status status = BRC_OK;
-    if (!(c.scale > 0)) c.scale = brc_picture_automatic_scale(picture->n, picture->part);
+    if (!(c.scale > 0)) c.scale = picture->steady ? 1 : brc_picture_automatic_scale(picture->n, picture->part);
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.surface, picture->n, "parts of the picture"));
+    for (int32_t k = 0; k < picture->n; ++k)
+        if (!is_sphere(&picture->part[k]))
+            BRC_TRY_OR(cleanup, brc_picture_faces_make(context, picture->part[k].domain, picture->part[k].whole, picture->cut, &c.surface[k]));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_point, picture->n + picture->n_strikers + 1, "parts of the picture"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_face, picture->n + picture->n_strikers + 1, "parts of the picture"));
     for (int32_t k = 0; k < picture->n; ++k) {
-        c.first_point[k + 1] = c.first_point[k] + n_points_of(&picture->part[k]);
-        c.first_face[k + 1] = c.first_face[k] + n_faces_of(&picture->part[k]);
+        c.first_point[k + 1] = c.first_point[k] + n_points_of(&c, k);
+        c.first_face[k + 1] = c.first_face[k] + n_faces_of(&c, k);
     }
     const int32_t all = picture->n + picture->n_strikers;
     for (int32_t k = picture->n; k < all; ++k) {
@@ -464,13 +489,15 @@ brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, co
     }
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.point, 3 * c.first_point[all], "corners of the picture"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.faces, c.first_face[all], "faces of the picture"));
-    for (int32_t k = picture->n; k < all; ++k) move_striker(&c, &picture->striker[k - picture->n], c.point + 3 * c.first_point[k]);
-    for (int32_t k = 0; k < picture->n; ++k) move_points(&c, &picture->part[k], c.point + 3 * c.first_point[k]);
+    move_all(&c, picture->steady ? 0 : c.scale);
     fit_view(&c);
+    if (picture->steady) move_all(&c, c.scale);
     sort_faces(&c);
     find_range(&c);
     status = render(&c, path);
 cleanup:
+    for (int32_t k = 0; c.surface && k < picture->n; ++k) brc_picture_faces_free(&c.surface[k]);
+    brc_memory_free(c.surface);
     brc_memory_free(c.first_point);
     brc_memory_free(c.first_face);
     brc_memory_free(c.point);

@@ -1,9 +1,10 @@
-/* picture.png: the deformed sample, its free faces, or spheres, coloured by a field. */
+/* Pictures of the deformed sample, coloured by a field: cells by their outer faces, what is open on broken bonds, and what a cut shows; or spheres. */
 #ifndef BRC_OUTPUT_PICTURE_H
 #define BRC_OUTPUT_PICTURE_H
 
 #include "../solver/assembly.h"
 #include "../solver/strikers.h"
+#include "picture_faces.h"
 
 /* Elements of one kind, all cells or all spheres. */
 typedef struct brc_picture_part {
@@ -30,11 +31,14 @@ typedef struct brc_picture {
     const char *unit;
     const char *title; /* "" : none */
     double scale;      /* factor on the displacement; 0: automatic */
+    bool steady;       /* one of a sequence: the view is that of the undeformed sample with strikers where they began, the automatic scale is 1 */
+    double range[2];   /* of the colours; equal: that of what is seen */
+    const brc_picture_cut *cut; /* NULL: the whole sample */
 } brc_picture;
 
 /* 1200 x 900, seen from above one corner without perspective. BRC_FILE_FAILED: cannot be written. */
 brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, const char *path);
-/* The whole as it is now, as scene.output asks: picture_colour is "von_mises", "displacement[_x|_y|_z]",
+/* The whole as it is now, as scene.output asks (with picture_frames all pictures of a run have one view, and damage one scale of colours): picture_colour is "von_mises", "displacement[_x|_y|_z]",
  * "velocity[_x|_y|_z]", "stress_xx" ... "stress_xy" (Cauchy) or "strain_xx" ... "strain_xy" (Green). BRC_BAD_INPUT for
  * another word, with the list. */
 brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly, const char *path);

@@ -128,6 +128,10 @@ brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly,
         striker[k] = (brc_picture_striker){.body = brc_simulation_striker_body(assembly->part[0], k), .is_plane = scene->strikers[k].is_plane};
         BRC_TRY_OR(cleanup, brc_simulation_striker_now(assembly->part[0], k, &striker[k].now));
     }
+    const brc_output *output = &scene->output;
+    brc_picture_cut cut;
+    memcpy(cut.point, output->picture_cut_point, sizeof cut.point);
+    memcpy(cut.normal, output->picture_cut_normal, sizeof cut.normal);
     const brc_picture picture = {
         .n = assembly->n,
         .part = part,
@@ -136,7 +140,10 @@ brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly,
         .name = f.name,
         .unit = unit_of(f.source),
         .title = scene->title,
-        .scale = scene->output.picture_scale,
+        .scale = output->picture_scale,
+        .steady = output->picture_frames,
+        .range = {0, output->picture_frames && f.source == DAMAGE ? 1 : 0},
+        .cut = output->has_picture_cut ? &cut : NULL,
     };
     status = brc_picture_draw(context, &picture, path);
 cleanup:

@@ -23,10 +23,10 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SUMMARY, RESULT, HISTORIES, CRACKS, FRAGMENTS, PICTURE, CURVE, SERIES, CRACK_SERIES, STRIKER_SERIES, FRAMES, N_FILES };
+enum { SUMMARY, RESULT, HISTORIES, CRACKS, FRAGMENTS, PICTURE, CURVE, SERIES, CRACK_SERIES, STRIKER_SERIES, FRAMES, PICTURES, N_FILES };
 static const char *const FILE_NAME[N_FILES] = {
     "summary.json", "result.h5", "histories.csv", "cracks.csv", "fragments.csv", "picture.png", "curve.png", "frames.vtkhdf.series",
-    "cracks.vtu.series", "strikers.vtu.series", "frames"};
+    "cracks.vtu.series", "strikers.vtu.series", "frames", "pictures"};
 
 struct brc_recorder {
     brc_context *context;
@@ -51,10 +51,10 @@ struct brc_recorder {
 
 /* ---- the folder ---- */
 
-/* "NNNNNN.vtkhdf", "NNNNNN.cracks.vtu", "NNNNNN.strikers.vtu", or what a killed run left of one; numbers from `first` on. */
+/* "NNNNNN.vtkhdf", "NNNNNN.cracks.vtu", "NNNNNN.strikers.vtu", "NNNNNN.png", or what a killed run left of one; numbers from `first` on. */
 static bool is_frame(const char *name, int64_t first)
 {
-    static const char *const suffix[] = {".vtkhdf", ".vtkhdf.part", ".cracks.vtu", ".cracks.vtu.part", ".strikers.vtu", ".strikers.vtu.part"};
+    static const char *const suffix[] = {".vtkhdf", ".vtkhdf.part", ".cracks.vtu", ".cracks.vtu.part", ".strikers.vtu", ".strikers.vtu.part", ".png", ".png.part"};
     const size_t digits = strspn(name, "0123456789");
     for (size_t k = 0; digits >= 6 && k < sizeof suffix / sizeof suffix[0]; ++k)
         if (strcmp(name + digits, suffix[k]) == 0) return strtoll(name, NULL, 10) >= first;
@@ -68,7 +68,7 @@ static brc_status remove_file(brc_context *context, const char *path)
                     strerror(errno));
 }
 
-static brc_status remove_frames(brc_context *context, const char *folder, int64_t first)
+static brc_status remove_numbered(brc_context *context, const char *folder, int64_t first)
 {
     brc_status status = BRC_OK;
     DIR *directory = opendir(folder);
@@ -84,12 +84,19 @@ static brc_status remove_frames(brc_context *context, const char *folder, int64_
     return status;
 }
 
+/* Frames and pictures from number `first` on. */
+static brc_status remove_frames(const brc_recorder *recorder, int64_t first)
+{
+    BRC_TRY(remove_numbered(recorder->context, recorder->path[FRAMES], first));
+    return remove_numbered(recorder->context, recorder->path[PICTURES], first);
+}
+
 /* An older run's results beside this one's would mislead. */
 static brc_status clean(brc_recorder *recorder)
 {
     for (int k = 0; k < FRAMES; ++k)
         BRC_TRY(remove_file(recorder->context, recorder->path[k]));
-    return remove_frames(recorder->context, recorder->path[FRAMES], 0);
+    return remove_frames(recorder, 0);
 }
 
 static brc_status write_summary(brc_recorder *recorder, brc_context *context, bool running, brc_status end,
@@ -271,6 +278,19 @@ static brc_status write_strikers(brc_recorder *r)
     return status;
 }
 
+/* Beside the frame just written. */
+static brc_status draw_frame(brc_recorder *r)
+{
+    char name[32];
+    char *path = NULL;
+    snprintf(name, sizeof name, "%06lld.png", (long long)r->n_frames - 1);
+    BRC_TRY(brc_file_make_folder(r->context, r->path[PICTURES]));
+    BRC_TRY(brc_file_join(r->context, r->path[PICTURES], name, &path));
+    const brc_status status = brc_picture_write(r->context, r->assembly, path);
+    brc_memory_free(path);
+    return status;
+}
+
 static bool has_strikers(const brc_recorder *r) { return brc_simulation_n_strikers(r->assembly->part[0]) > 0; }
 
 /* Indices of the frames and of what lies beside them. */
@@ -303,6 +323,7 @@ static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
     ++r->n_frames;
     if (r->cracks) BRC_TRY(write_cracks(r));
     if (has_strikers(r)) BRC_TRY(write_strikers(r));
+    if (r->scene->output.picture_frames) BRC_TRY(draw_frame(r));
     BRC_TRY(write_series(r));
     return write_index(r, r->context, NULL);
 }
@@ -376,7 +397,7 @@ static void look_for_frames(const brc_recorder *r)
 static brc_status go_back(brc_recorder *r)
 {
     look_for_frames(r);
-    BRC_TRY(remove_frames(r->context, r->path[FRAMES], r->n_frames));
+    BRC_TRY(remove_frames(r, r->n_frames));
     if (r->n_frames == 0) return BRC_OK;
     BRC_TRY(write_series(r));
     return write_index(r, r->context, NULL);

@@ -7,7 +7,7 @@
  *     DIR/frames/NNNNNN.cracks.vtu  with fracture: broken faces as polygons; index DIR/cracks.vtu.series
  *     DIR/frames/NNNNNN.strikers.vtu  with walls and strikers: their faces as polygons; index DIR/strikers.vtu.series
  *     DIR/result.h5              the index: histories, sensors, measures, ledger, resolved scene, provenance
- *     DIR/picture.png, curve.png where the scene asks for them
+ *     DIR/picture.png, curve.png where the scene asks for them; DIR/pictures/NNNNNN.png of every frame
  *     DIR/summary.json           what scripts read (design.md "Commands"); written by every run, also a failed one
  *
  * How a command uses it:

@@ -160,6 +160,43 @@ static void the_automatic_scale_is_round_and_makes_motion_visible(void **state)
     brc_memory_free(u);
 }
 
+/* First and last coloured column along the middle row of a picture of the sample, moved by `shift` along x [m]. */
+static void seen(bool steady, double shift, int *first, int *last, int *light)
+{
+    double *u, *value;
+    const int64_t n = domain->n_elements;
+    assert_int_equal(BRC_ALLOCATE(test_context, &u, 3 * n, "test"), BRC_OK);
+    assert_int_equal(BRC_ALLOCATE(test_context, &value, n, "test"), BRC_OK);
+    for (int64_t e = 0; e < n; ++e) {
+        u[3 * e] = shift;
+        value[e] = 0.5;
+    }
+    const brc_picture_part cells = {.domain = domain, .displacement = u, .value = value};
+    const brc_picture picture = {.n = 1, .part = &cells, .name = "field", .unit = "-", .title = "", .scale = 1, .steady = steady, .range = {0, steady ? shift + 1 : 0}};
+    assert_int_equal(brc_picture_draw(test_context, &picture, test_path(folder, "s.png")), BRC_OK);
+    brc_memory_free(u);
+    brc_memory_free(value);
+    cairo_surface_t *image = cairo_image_surface_create_from_png(test_path(folder, "s.png"));
+    for (*first = 61; is_white(pixel(image, *first, 450));) ++*first;
+    for (*last = 959; is_white(pixel(image, *last, 450));) --*last;
+    const unsigned char *p = pixel(image, (*first + *last) / 2, 450);
+    *light = p[0] + 2 * p[1] + p[2];
+    cairo_surface_destroy(image);
+}
+
+/* The 2 m long sample is some 600 px wide there: 0.3 m are tens of pixels. */
+static void pictures_of_a_sequence_have_one_view_and_one_range(void **state)
+{
+    (void)state;
+    int first[4], last[4], light[4];
+    seen(true, 0, &first[0], &last[0], &light[0]);
+    seen(true, 0.3, &first[1], &last[1], &light[1]);
+    seen(false, 0, &first[2], &last[2], &light[2]);
+    seen(false, 0.3, &first[3], &last[3], &light[3]);
+    assert_true(first[1] - first[0] > 20 && abs(first[3] - first[2]) <= 1 && abs(last[3] - last[2]) <= 1);
+    assert_true(light[1] < light[0]); /* 0.5 of 0 to 1.3 is darker than of 0 to 1 */
+}
+
 /* Lightness of OKLab from sRGB, by the published matrices: what "equally far apart" means. */
 static double lightness(const double rgb[3])
 {
@@ -222,6 +259,7 @@ int main(void)
         cmocka_unit_test(an_unknown_colour_word_is_refused_with_the_list),
         cmocka_unit_test(a_picture_that_cannot_be_written_is_file_trouble),
         cmocka_unit_test(the_automatic_scale_is_round_and_makes_motion_visible),
+        cmocka_unit_test(pictures_of_a_sequence_have_one_view_and_one_range),
         cmocka_unit_test(lightness_rises_evenly_along_the_sequential_map),
         cmocka_unit_test(labels_are_round_and_carry_prefixes),
     };

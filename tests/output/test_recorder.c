@@ -100,6 +100,20 @@ static void a_run_leaves_every_file_the_header_lists(void **state)
     end_run(&r);
 }
 
+static void every_frame_has_a_picture_where_the_scene_asks_for_it(void **state)
+{
+    (void)state;
+    run r;
+    begin_run(&r);
+    r.scene->output.picture_frames = true;
+    assert_int_equal(record(&r), BRC_OK);
+    assert_true(brc_file_exists(test_path(r.folder, "pictures/000000.png")) && brc_file_exists(test_path(r.folder, "pictures/000001.png")));
+    brc_recorder_free(&r.recorder);
+    assert_int_equal(brc_recorder_create(test_context, r.folder, brc_clock_s(), &r.recorder), BRC_OK); /* a new run clears them away */
+    assert_false(brc_file_exists(test_path(r.folder, "pictures/000000.png")));
+    end_run(&r);
+}
+
 /* Two broken bonds: the stream in result.h5 and cracks.csv, counts in the summary, damage and fragments in the frames. */
 static void what_broke_is_in_every_file(void **state)
 {
@@ -355,6 +369,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_leaves_every_file_the_header_lists),
+        cmocka_unit_test(every_frame_has_a_picture_where_the_scene_asks_for_it),
         cmocka_unit_test(what_broke_is_in_every_file),
         cmocka_unit_test(the_summary_has_the_stable_keys_with_the_values_of_the_run),
         cmocka_unit_test(a_scene_that_cannot_be_read_still_leaves_a_summary),
