@@ -3,6 +3,7 @@
 #include "scene_domain.h"
 #include "../base/memory.h"
 #include "../solver/beam_polish.h"
+#include <math.h>
 #include <string.h>
 
 brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads, brc_setup *setup)
@@ -79,4 +80,12 @@ int64_t brc_setup_n_bonds(const brc_setup *setup)
     int64_t n = 0;
     for (int32_t k = 0; k < setup->n; ++k) n += setup->domain[k] ? setup->domain[k]->n_bonds : 0;
     return n;
+}
+
+double brc_setup_across(const brc_setup *setup)
+{
+    double most = 0;
+    for (int32_t k = 0; k < setup->n; ++k)
+        for (int d = 0; d < 3; ++d) most = fmax(most, (setup->domain[k]->bounds[1][d] - setup->domain[k]->bounds[0][d]) / setup->domain[k]->quality.mean_spacing);
+    return most;
 }

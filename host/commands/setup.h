@@ -28,5 +28,7 @@ void brc_setup_free(brc_setup *setup);
 /* Elements and bonds of all parts. */
 int64_t brc_setup_n_elements(const brc_setup *setup);
 int64_t brc_setup_n_bonds(const brc_setup *setup);
+/* Elements along the longest edge of the domains' boxes, of the part that has most [-]. */
+double brc_setup_across(const brc_setup *setup);
 
 #endif

@@ -201,7 +201,8 @@ static int64_t next_batch(const brc_simulation *s, int64_t every, int64_t frame_
     if (frame_every && next_multiple(step, frame_every) < until) until = next_multiple(step, frame_every);
     if (look < until) until = look;
     if (until > total) until = total;
-    return until - step < BATCH ? until - step : BATCH;
+    const int64_t most = s->patience ? s->patience->batch : BATCH;
+    return until - step < most ? until - step : most;
 }
 
 /* Looks of the guard, samples and frames of this step, if it is one of theirs. */

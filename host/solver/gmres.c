@@ -56,12 +56,12 @@ brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int
     BRC_TRY_OR(cleanup, brc_download(s, v->blocks, bytes, blocks, 6 * rows));
     BRC_TRY_OR(cleanup, brc_download(s, v->r.move, bytes, r, n));
     double norm = sqrt(dot(r, r, n));
-    for (int32_t done = 0; done < most && norm > target;) {
+    for (int32_t done = 0; done < most && norm > target && !s->left_off;) {
         for (int64_t i = 0; i < n; ++i) basis[i] = r[i] / norm;
         memset(g, 0, sizeof g);
         g[0] = norm;
         int k = 0;
-        for (; k < RESTART && done < most && fabs(g[k]) > target; ++k, ++done) {
+        for (; k < RESTART && done < most && fabs(g[k]) > target && !brc_leaves_off(s); ++k, ++done) {
             double *next = basis + (int64_t)(k + 1) * n;
             precondition(blocks, basis + (int64_t)k * n, z, rows);
             BRC_TRY_OR(cleanup, multiply(s, v, z, next, n));

@@ -348,8 +348,10 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
         }
         const double worst = residuals(t, values, wanted);
         brc_progress_update(progress, round + 1);
+        s->static_report.iterations = round + 1;
         if (worst < settled) goto cleanup;
         if ((round + 1) % WATCH == 0 && change_since(values, before, m - GUARD_VECTORS) < steady[brc_is_published(s)]) goto cleanup;
+        if (brc_leaves_off(s)) goto cleanup;
         if (s->interrupted) {
             status = BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the modes solver");
             goto cleanup;
@@ -387,6 +389,7 @@ brc_status brc_modes_run(brc_simulation *s)
                                             (double)s->domain->n_bonds * t.m, "bond updates/s"));
     BRC_TRY_OR(cleanup, allocate(&t));
     BRC_TRY_OR(cleanup, first_block(&t));
+    s->static_report = (brc_static_report){0};
     BRC_TRY_OR(cleanup, iterate(&t, values, wanted, progress));
     brc_memory_free(s->modes);
     s->modes = NULL;
@@ -394,7 +397,7 @@ brc_status brc_modes_run(brc_simulation *s)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->modes, t.m, "modes"));
     for (int k = 0; k < t.m && s->n_modes < wanted; ++k)
         if (values[k] > rigid_part * values[t.m - 1]) s->modes[s->n_modes++] = sqrt(values[k]);
-    if (s->n_modes < wanted) /* the rounding of forces in less than double precision grows in the search space */
+    if (s->n_modes < wanted && !s->left_off) /* the rounding of forces in less than double precision grows in the search space */
         BRC_TRY_OR(cleanup, BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "stage '%s': %d of %d modes found above the rigid motions; modes want double precision",
                                      stage->name, s->n_modes, wanted));
     s->step = 1;

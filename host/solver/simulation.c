@@ -323,6 +323,7 @@ brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
     if (s->stage >= 0) BRC_TRY(brc_simulation_ledger(s, &before));
     s->total_before_stage = before.total;
     BRC_TRY(leave_stage(s));
+    s->left_off = false;
     s->stage = -1; /* lists of the next stage are not there yet */
     BRC_TRY(brc_initial_apply(s, next));
     BRC_TRY(brc_loads_create(s, next, &s->loads));
@@ -360,6 +361,16 @@ void brc_simulation_interrupt(brc_simulation *s)
 {
     s->interrupted = 1;
     for (int32_t k = 0; k < s->n_others; ++k) s->others[k]->interrupted = 1;
+}
+
+void brc_simulation_set_patience(brc_simulation *s, const brc_patience *patience) { s->patience = patience; }
+
+bool brc_simulation_left_off(const brc_simulation *s) { return s->left_off; }
+
+bool brc_leaves_off(brc_simulation *s)
+{
+    s->left_off |= s->patience && s->patience->over(s->patience->self);
+    return s->left_off;
 }
 
 brc_status brc_simulation_advance(brc_simulation *s, int64_t n_steps)

@@ -141,7 +141,7 @@ int64_t brc_simulation_planned_steps(const brc_simulation *simulation, int32_t s
 const double *brc_simulation_modes(const brc_simulation *simulation, int32_t *n);
 /* What the static solver did in the last stage. */
 typedef struct brc_static_report {
-    int64_t iterations;  /* linear iterations in all */
+    int64_t iterations;  /* linear iterations in all; of a modes stage: rounds */
     int64_t corrections; /* nonlinear (modified Newton) corrections in all */
     double residual;     /* last, relative to the load [-] */
 } brc_static_report;

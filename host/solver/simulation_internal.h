@@ -6,6 +6,7 @@
 #include "../base/memory.h"
 #include "layout.h"
 #include "phases.h"
+#include "patience.h"
 #include "regime.h"
 #include "simulation.h"
 #include "state_store.h"
@@ -169,6 +170,8 @@ struct brc_simulation {
     int n_observers;
     brc_observer observers[BRC_MOST_OBSERVERS];
     volatile sig_atomic_t interrupted;
+    const brc_patience *patience; /* of a trial; else NULL */
+    bool left_off;                /* in this stage */
     brc_simulation *const *volatile others; /* [n_others] while they run in step with this one: an interrupt reaches them too */
     volatile int32_t n_others;
     const char *effects_in[BRC_MOST_EFFECTS], *effects_out[BRC_MOST_EFFECTS];
@@ -178,6 +181,9 @@ struct brc_simulation {
         double since, seconds[BRC_N_PHASES];
     } watch; /* phases.c */
 };
+
+/* Is it time to leave off? Asked once an iteration. */
+bool brc_leaves_off(brc_simulation *s);
 
 /* ---- arrays.c: host doubles by id <-> device rows ---- */
 brc_status brc_upload_coeff(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count);

@@ -258,6 +258,7 @@ static brc_status conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, b
         s->static_report.iterations += 1;
         brc_progress_update(progress, s->static_report.iterations);
         if (s->interrupted) return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
+        if (brc_leaves_off(s)) break;
         if (rr < 0.99 * best) best = rr, since_best = 0;
         else if (++since_best > 2000) break; /* rounding floor: no more to gain */
     }
@@ -365,6 +366,7 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
         BRC_TRY(correct(s, v, finite));
         BRC_TRY(brc_statics_residual(s, v, finite, &norm));
         s->static_report.corrections += 1;
+        if (s->left_off) break;
     }
     s->static_report.residual = *reference > 0 ? norm / *reference : 0;
     return published ? settle_rotations(s, v, progress) : BRC_OK;

@@ -1,0 +1,150 @@
+/* From what parts of a run cost to what all of it will. */
+#include "price_trial.h"
+#include "pace.h"
+#include "../base/memory.h"
+#include <math.h>
+#include <stdio.h>
+
+/* Solves that could not be counted on a coarser body: iterations in units of elements across, a rule of thumb; examples took 0.5 to 2.4 times as many. */
+static const double iterations_across = 5, solves_per_finite_increment = 3, thumb_least = 0.5, thumb_most = 2.5;
+/* A solve of this long is counted on a coarser body. */
+static const double countable_s = 1.5;
+/* How much longer a step gets at most where bonds break, softening faces are open or surfaces touch that are apart in the trial (docs/fracture.md, docs/contact.md);
+ * and an event at most, as the body falls apart. */
+static const double cells_break = 4.5, beams_break = 1.6, faces_soften = 6, surfaces_touch = 3, events_grow = 2;
+/* The least of a range where nothing can end a stage early: what a pace is uncertain by. */
+static const double uncertain = 0.8;
+
+typedef struct sums {
+    double seconds, least, most;
+    bool ranged;
+} sums;
+
+static void add(sums *to, double seconds, double least, double most)
+{
+    to->seconds += seconds;
+    to->least += least;
+    to->most += most;
+    to->ranged |= least < seconds || most > seconds;
+}
+
+/* Samples and frames of the whole stage beyond those of the trial. */
+static double output_of(const brc_trial_stage *stage)
+{
+    return (double)stage->samples_planned * stage->sample_s + (double)stage->frames_planned * stage->frame_s;
+}
+
+static bool may_end_early(const brc_stage *stage)
+{
+    return stage->stop_kinetic > 0 || stage->stop_broken > 0 || stage->stop_sensor[0];
+}
+
+static double worst_growth(const brc_scene *scene)
+{
+    double factor = 1;
+    if (scene->has_fracture) factor += (scene->model.kind == BRC_MODEL_CBM ? beams_break : cells_break) - 1;
+    for (int32_t k = 0; scene->has_fracture && k < scene->n_materials; ++k)
+        if (scene->materials[k].fracture_energy > 0) factor = fmax(factor, faces_soften);
+    if (scene->has_contact) factor += surfaces_touch - 1;
+    return factor;
+}
+
+static void tell_dynamic(const brc_scene *scene, const brc_setup *setup, const brc_stage *stage, const brc_trial_stage *t, sums *total)
+{
+    const double growth = worst_growth(scene), fixed = t->enter_s + t->warm_s, steps = t->pace_s * (double)t->planned, output = output_of(t);
+    const double seconds = t->cut ? fixed + steps + output : t->enter_s + t->whole_s;
+    printf("stage %s: time step %.6g s (%s", stage->name, t->time_step.value, t->time_step.governed_by);
+    if (t->time_step.critical > 0) printf(", %.3g of the critical %.6g s", t->time_step.value / t->time_step.critical, t->time_step.critical);
+    printf("; the paper's rule would give %.6g s)\n", t->time_step.published);
+    printf("stage %s: %lld steps of %.3g s each, %.3g bond updates/s, %lld samples of %.3g s, %lld frames of %.3g s: %.3g s%s\n", stage->name, (long long)t->planned, t->pace_s,
+           (double)brc_setup_n_bonds(setup) / t->pace_s, (long long)t->samples_planned, t->sample_s, (long long)t->frames_planned, t->frame_s, seconds,
+           t->cut ? "" : " (run to its end)");
+    if (!t->cut) add(total, seconds, seconds, seconds);
+    else if (growth == 1 && !may_end_early(stage)) add(total, seconds, seconds, seconds);
+    else {
+        const double least = may_end_early(stage) ? t->enter_s + t->whole_s : uncertain * seconds, most = fixed + growth * steps + 2 * output;
+        printf("stage %s: from %.3g to %.3g s, as %s\n", stage->name, least, most,
+               may_end_early(stage) ? "it may end early, bonds break or surfaces meet" : "bonds break or surfaces meet");
+        add(total, seconds, least, most);
+    }
+}
+
+static void tell_events(const brc_stage *stage, const brc_trial_stage *t, sums *total)
+{
+    const double fixed = t->enter_s + t->warm_s, events = t->pace_s * (double)(t->planned - 1), whole = t->enter_s + t->whole_s;
+    const double seconds = t->cut ? fixed + events + output_of(t) : whole, most = t->cut ? fixed + events_grow * events + output_of(t) : whole;
+    printf("stage %s: %lld events of %.3g s each: %.3g s%s\n", stage->name, (long long)t->planned, t->pace_s, seconds, t->cut ? "" : " (run to its end)");
+    if (t->cut) printf("stage %s: from %.3g to %.3g s, as the body comes apart early or late\n", stage->name, whole, most);
+    add(total, seconds, whole, most);
+}
+
+/* counted: iterations on a coarser body, made those of this one; 0: there were none to count. */
+static void tell_solve(const brc_stage *stage, const brc_trial_stage *t, double counted, double across, sums *total)
+{
+    const char *what = stage->solver == BRC_SOLVER_MODES ? "rounds" : "iterations";
+    const double solves = stage->solver == BRC_SOLVER_MODES ? stage->n_modes : stage->finite_strain ? solves_per_finite_increment : 1;
+    const double guess = iterations_across * across * solves, iterations = counted > 0 ? counted : guess, fixed = t->enter_s + t->warm_s;
+    if (!t->cut) {
+        printf("stage %s: %lld %s of %.3g s each: %.3g s (run to its end)\n", stage->name, (long long)t->iterations, what, t->pace_s, t->enter_s + t->whole_s);
+        add(total, t->enter_s + t->whole_s, t->enter_s + t->whole_s, t->enter_s + t->whole_s);
+        return;
+    }
+    const double seconds = t->pace_s * iterations;
+    printf("stage %s: about %.2g %s of %.3g s each: %.3g s (%s)\n", stage->name, iterations, what, t->pace_s, fixed + seconds,
+           counted > 0 ? "counted on a coarser body" : "a rule of thumb");
+    if (counted > 0) add(total, fixed + seconds, fixed + seconds, fixed + seconds);
+    else add(total, fixed + seconds, fixed + thumb_least * seconds, fixed + thumb_most * seconds);
+}
+
+static bool is_solve(const brc_stage *stage) { return stage->solver != BRC_SOLVER_DYNAMIC && stage->most_events == 0; }
+
+/* Elements of the coarser body over those of this one: so many that the longest of the cut solves takes countable_s, as elements^(4/3). 0: no solve was cut. */
+static double coarse_share(const brc_scene *scene, const brc_trial *trial, double across)
+{
+    double longest = 0;
+    for (int32_t k = 0; k < trial->n_stages; ++k) {
+        const brc_stage *stage = &scene->stages[k];
+        const double solves = stage->solver == BRC_SOLVER_MODES ? stage->n_modes : stage->finite_strain ? solves_per_finite_increment : 1;
+        if (is_solve(stage) && trial->stages[k].cut) longest = fmax(longest, iterations_across * across * solves * trial->stages[k].pace_s);
+    }
+    return longest > 0 ? fmin(0.25, pow(countable_s / longest, 0.75)) : 0;
+}
+
+static void tell_total(const brc_device_request *request, const brc_trial *trial, const sums *total, int64_t device_bytes)
+{
+    printf("predicted: %.3g s of %s time with building and output", total->seconds, brc_pace_clock_name(request));
+    if (total->ranged) printf(", from %.3g to %.3g s", total->least, total->most);
+    printf("; %.4g MB on the host, %.4g MB on the device, %.4g MB resident; %.4g MB on disk\n", (double)trial->host_bytes / 1e6, (double)device_bytes / 1e6,
+           (double)trial->resident_bytes / 1e6, (double)trial->disk_bytes / 1e6);
+}
+
+brc_status brc_price_tell_trial(brc_context *context, brc_scene *scene, const brc_setup *setup, const brc_device_request *request, const brc_trial *trial, double before_s,
+                                int64_t device_bytes, double *seconds)
+{
+    const double across = brc_setup_across(setup), share = coarse_share(scene, trial, across);
+    sums total = {0};
+    int64_t *iterations = NULL;
+    double coarse_across = 0;
+    brc_status status = BRC_OK;
+    *seconds = NAN;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &iterations, scene->n_stages, "iterations"));
+    if (share > 0) BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, share, iterations, &coarse_across));
+    add(&total, before_s + trial->end_s, before_s + trial->end_s, before_s + trial->end_s);
+    for (int32_t k = 0; k < trial->n_stages; ++k) {
+        const brc_stage *stage = &scene->stages[k];
+        const brc_trial_stage *t = &trial->stages[k];
+        if (!t->ran) continue;
+        if (is_solve(stage)) tell_solve(stage, t, coarse_across > 0 ? (double)iterations[k] * across / coarse_across : 0, across, &total);
+        else if (stage->most_events > 0) tell_events(stage, t, &total);
+        else tell_dynamic(scene, setup, stage, t, &total);
+    }
+    if (trial->stopped) {
+        printf("predicted: nothing, the trial was stopped: %s\n", trial->reason);
+        goto cleanup;
+    }
+    tell_total(request, trial, &total, device_bytes);
+    *seconds = total.seconds;
+cleanup:
+    brc_memory_free(iterations);
+    return status;
+}

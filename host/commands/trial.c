@@ -1,0 +1,284 @@
+/* The run itself, cut short. Two observers stand around the recorder, so that what it does is timed apart from the steps. */
+#include "trial.h"
+#include "pace.h"
+#include "../base/file.h"
+#include "../base/log.h"
+#include "../base/memory.h"
+#include "../output/recorder.h"
+#include "../solver/lockstep.h"
+#include "../solver/patience.h"
+#include "../solver/stage_end.h"
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* A dynamic stage or one of events is cut after this long, but not before so many pauses; the solves of a static stage after this long. Events have their own end:
+ * their solves are cut only where one alone would take far too long. */
+static const double watched_s = 1, solve_s = 2, event_s = 40;
+enum { LEAST_PAUSES = 4, FIRST_BATCH = 4, LARGEST_BATCH = 256, SAMPLES = 500 };
+static const double short_batch_s = 0.05;
+
+typedef struct watch {
+    const brc_device_request *request;
+    const brc_setup *setup;
+    brc_patience patience;
+    brc_trial_stage *stages;
+    brc_trial_stage *now;
+    double mark;              /* end of the last stage */
+    double begin;             /* of this one */
+    double output_begin, output_s;
+    double first, first_output_s; /* at the first pause */
+    double last;              /* pause */
+    int64_t first_step;
+    int pauses;
+    double asked_first, asked_last; /* by solves */
+    int64_t asked;
+    double patience_s;
+} watch;
+
+static double clock_of(const watch *w) { return brc_pace_clock_s(w->request); }
+
+static int64_t dynamic_samples(const brc_output *output, int64_t steps)
+{
+    const int64_t every = output->history_every > 0 ? output->history_every : (steps + SAMPLES - 1) / SAMPLES;
+    return every > 0 ? 1 + (steps + every - 1) / every : 1;
+}
+
+/* Frames within a stage and at its end. */
+static int64_t frames_of(const brc_output *output, const brc_stage *stage, int64_t planned, double dt)
+{
+    if (output->n_frames < 0) return 0;
+    if (planned < 1 || (stage->solver != BRC_SOLVER_DYNAMIC && stage->most_events == 0)) return 1;
+    if (stage->most_events > 0) {
+        const int64_t every = output->n_frames > 0 ? (stage->most_events + output->n_frames - 1) / output->n_frames : 0;
+        return every > 0 ? 1 + (stage->most_events - 1) / every : 1;
+    }
+    int64_t every = output->n_frames > 0 ? planned / output->n_frames : output->frame_interval > 0 ? (int64_t)llround(output->frame_interval / dt) : 0;
+    if (every < 1 && (output->n_frames > 0 || output->frame_interval > 0)) every = 1;
+    return every > 0 ? 1 + (planned - 1) / every : 1;
+}
+
+static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t index)
+{
+    watch *w = self;
+    const brc_scene *scene = brc_simulation_scene(simulation);
+    const brc_stage *stage = &scene->stages[index];
+    brc_trial_stage *now = w->now = &w->stages[index];
+    w->begin = clock_of(w);
+    now->ran = true;
+    now->enter_s = w->begin - w->mark;
+    now->time_step = brc_assembly_time_step(&w->setup->assembly);
+    now->planned = stage->most_events > 0 ? stage->most_events : brc_simulation_planned_steps(simulation, index, now->time_step.value);
+    now->samples_planned = stage->most_events > 0 ? stage->most_events + 2
+                           : stage->solver == BRC_SOLVER_DYNAMIC ? dynamic_samples(&scene->output, now->planned)
+                                                                 : now->planned + 1 + (stage->to_failure > 0);
+    now->frames_planned = frames_of(&scene->output, stage, now->planned, now->time_step.value) + (index == 0 && scene->output.n_frames >= 0);
+    w->output_s = 0;
+    w->pauses = 0;
+    w->asked = 0;
+    w->patience_s = stage->most_events > 0 ? event_s : solve_s;
+    w->patience.batch = FIRST_BATCH;
+    return BRC_OK;
+}
+
+static brc_status before_output(void *self, brc_simulation *simulation)
+{
+    watch *w = self;
+    (void)simulation;
+    w->output_begin = clock_of(w);
+    return BRC_OK;
+}
+
+static brc_status after_sample(void *self, brc_simulation *simulation)
+{
+    watch *w = self;
+    const double took = clock_of(w) - w->output_begin;
+    (void)simulation;
+    w->output_s += took;
+    w->now->samples += 1;
+    w->now->sample_s += (took - w->now->sample_s) / (double)w->now->samples;
+    return BRC_OK;
+}
+
+static brc_status after_frame(void *self, brc_simulation *simulation)
+{
+    watch *w = self;
+    const double took = clock_of(w) - w->output_begin;
+    (void)simulation;
+    w->output_s += took;
+    w->now->frames += 1;
+    w->now->frame_s += (took - w->now->frame_s) / (double)w->now->frames;
+    return BRC_OK;
+}
+
+static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
+{
+    watch *w = self;
+    const double now = clock_of(w);
+    const int64_t step = brc_simulation_step(simulation);
+    const brc_stage *stage = &brc_simulation_scene(simulation)->stages[brc_simulation_stage(simulation)];
+    w->now->done = step;
+    if (stage->solver == BRC_SOLVER_STATIC && stage->most_events == 0) return BRC_OK;
+    if (w->pauses++ == 0) {
+        w->first = now;
+        w->first_step = step;
+        w->first_output_s = w->output_s;
+        w->now->warm_s = now - w->begin - w->output_s;
+    } else {
+        w->now->pace_s = (now - w->first - (w->output_s - w->first_output_s)) / (double)(step - w->first_step);
+        if (now - w->last < short_batch_s && w->patience.batch < LARGEST_BATCH) w->patience.batch *= 2;
+    }
+    w->last = now;
+    if (why == BRC_PAUSE_GOING && w->pauses >= LEAST_PAUSES && now - w->begin > watched_s) {
+        w->now->cut = true;
+        brc_simulation_end_stage(simulation, "trial");
+    }
+    return BRC_OK;
+}
+
+static bool solve_is_over(void *self)
+{
+    watch *w = self;
+    const double now = clock_of(w);
+    if (w->asked++ == 0) w->asked_first = now;
+    w->asked_last = now;
+    return now - w->begin > w->patience_s;
+}
+
+static brc_status stage_end(void *self, brc_simulation *simulation, int32_t index)
+{
+    watch *w = self;
+    const brc_stage *stage = &brc_simulation_scene(simulation)->stages[index];
+    const brc_assembly *all = &w->setup->assembly;
+    w->mark = clock_of(w);
+    w->now->whole_s = w->mark - w->begin;
+    if (stage->solver == BRC_SOLVER_MODES) w->now->done = 1;
+    if (stage->solver == BRC_SOLVER_DYNAMIC || stage->most_events > 0) return BRC_OK;
+    for (int32_t k = 0; k < all->n; ++k) {
+        w->now->iterations += brc_simulation_static_report(all->part[k]).iterations;
+        w->now->cut |= brc_simulation_left_off(all->part[k]);
+    }
+    w->now->pace_s = w->asked > 1 ? (w->asked_last - w->asked_first) / (double)(w->asked - 1) : 0;
+    w->now->warm_s = w->now->whole_s - w->now->pace_s * (double)w->now->iterations;
+    return BRC_OK;
+}
+
+/* Bytes of the files in a folder and the folders in it; removed where asked. */
+static int64_t folder_bytes(brc_context *context, const char *folder, bool remove_it)
+{
+    int64_t bytes = 0;
+    DIR *directory = opendir(folder);
+    for (const struct dirent *entry = directory ? readdir(directory) : NULL; entry; entry = readdir(directory)) {
+        char *path;
+        struct stat info;
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+        if (brc_file_join(context, folder, entry->d_name, &path) != BRC_OK) break;
+        if (lstat(path, &info) == 0) {
+            bytes += S_ISDIR(info.st_mode) ? folder_bytes(context, path, remove_it) : info.st_size;
+            if (remove_it && !S_ISDIR(info.st_mode)) unlink(path);
+        }
+        brc_memory_free(path);
+    }
+    if (directory) closedir(directory);
+    if (remove_it) rmdir(folder);
+    return bytes;
+}
+
+static int64_t file_bytes(brc_context *context, const char *folder, const char *name)
+{
+    char *path;
+    struct stat info;
+    if (brc_file_join(context, folder, name, &path) != BRC_OK) return 0;
+    const int64_t bytes = stat(path, &info) == 0 ? info.st_size : 0;
+    brc_memory_free(path);
+    return bytes;
+}
+
+/* The folder of the whole run: frames and samples as many as planned. */
+static int64_t whole_disk(brc_context *context, const char *folder, const brc_scene *scene, const brc_trial *trial)
+{
+    int64_t frames = 0, frames_planned = 0, samples = 0, samples_planned = 0;
+    char *path;
+    for (int32_t k = 0; k < trial->n_stages; ++k) {
+        const brc_trial_stage *stage = &trial->stages[k];
+        frames += stage->frames;
+        samples += stage->samples;
+        frames_planned += stage->cut ? stage->frames_planned : stage->frames;
+        samples_planned += stage->cut ? stage->samples_planned : stage->samples;
+    }
+    if (brc_file_join(context, folder, "frames", &path) != BRC_OK) return 0;
+    const int64_t in_frames = folder_bytes(context, path, false), table = file_bytes(context, folder, "histories.csv");
+    const double more_samples = samples > 0 ? (double)samples_planned / (double)samples - 1 : 0, more_frames = frames > 0 ? (double)frames_planned / (double)frames - 1 : 0;
+    brc_memory_free(path);
+    return folder_bytes(context, folder, false) + (int64_t)(more_frames * (double)in_frames + more_samples * (double)table) +
+           (samples_planned - samples) * (scene->n_sensors + 4) * (int64_t)sizeof(double); /* result.h5 */
+}
+
+static brc_status run_in(brc_context *context, const char *folder, watch *w, brc_trial *out)
+{
+    const brc_setup *setup = w->setup;
+    const brc_scene *scene = setup->split->scene;
+    brc_assembly assembly = setup->assembly;
+    brc_recorder *recorder = NULL;
+    brc_status status = BRC_OK;
+    w->mark = clock_of(w);
+    BRC_TRY_OR(cleanup, brc_recorder_create(context, folder, brc_clock_s(), &recorder));
+    brc_recorder_set_scene(recorder, scene);
+    brc_recorder_set_domains(recorder, setup->n, setup->domain, 0);
+    BRC_TRY_OR(cleanup, brc_simulation_observe(assembly.part[0], &(brc_observer){.self = w, .sample = before_output, .frame = before_output}));
+    BRC_TRY_OR(cleanup, brc_recorder_observe(recorder, &assembly));
+    BRC_TRY_OR(cleanup, brc_simulation_observe(assembly.part[0], &(brc_observer){.self = w, .stage_begin = stage_begin, .sample = after_sample, .frame = after_frame,
+                                                                                 .stage_end = stage_end, .pause = paused}));
+    for (int32_t k = 0; k < assembly.n; ++k) brc_simulation_set_patience(assembly.part[k], &w->patience);
+    status = brc_lockstep_run(assembly.n, assembly.part);
+    const double begin = clock_of(w);
+    if (status == BRC_PHYSICS_STOPPED) {
+        out->stopped = true;
+        snprintf(out->reason, sizeof out->reason, "%s", brc_context_message(context));
+    }
+    status = brc_recorder_finish(recorder, status);
+    if (out->stopped) { /* told by the price; no failure of the check */
+        brc_context_clear(context);
+        status = BRC_OK;
+    }
+    out->end_s = clock_of(w) - begin;
+    out->disk_bytes = whole_disk(context, folder, scene, out);
+cleanup:
+    brc_recorder_free(&recorder);
+    return status;
+}
+
+brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc_device_request *request, brc_trial *out)
+{
+    const brc_scene *scene = setup->split->scene;
+    const brc_log_level level = brc_log_get_level(context);
+    const char *place = getenv("TMPDIR");
+    char folder[512];
+    struct rusage usage = {0};
+    *out = (brc_trial){.n_stages = scene->n_stages};
+    BRC_TRY(BRC_ALLOCATE(context, &out->stages, scene->n_stages, "trial"));
+    watch w = {.request = request, .setup = setup, .stages = out->stages};
+    w.patience = (brc_patience){.self = &w, .over = solve_is_over, .batch = FIRST_BATCH};
+    snprintf(folder, sizeof folder, "%s/breccia-check-XXXXXX", place && place[0] ? place : "/tmp");
+    if (!mkdtemp(folder)) return BRC_FAIL(context, BRC_FILE_FAILED, "%s: no folder can be made for the trial; set TMPDIR to one that can be written", folder);
+    brc_log_set_level(context, BRC_LOG_ERROR);
+    const brc_status status = run_in(context, folder, &w, out);
+    brc_log_set_level(context, level);
+    folder_bytes(context, folder, true);
+    out->host_bytes = brc_memory_peak();
+    for (int32_t k = 0; k < out->n_stages; ++k) /* samples to come */
+        if (out->stages[k].cut) out->host_bytes += (out->stages[k].samples_planned - out->stages[k].samples) * (scene->n_sensors + 4) * (int64_t)sizeof(double);
+    if (getrusage(RUSAGE_SELF, &usage) == 0) out->resident_bytes = (int64_t)usage.ru_maxrss * 1024;
+    return status;
+}
+
+void brc_trial_free(brc_trial *trial)
+{
+    brc_memory_free(trial->stages);
+    *trial = (brc_trial){0};
+}
