@@ -2,7 +2,7 @@
 """Predicted against actual cost of examples, as a table in Markdown: price_table.py [--run-only] PROGRAM OUT [EXAMPLE ...]
 
 Runs each example (default: all) with one thread of the cpu device and keeps what it took in OUT/<example>/cost.json: processor seconds (other programs on
-the machine do not lengthen them), the most memory that was resident, and the bytes of the folder. Then asks `breccia check` what it would have said, with
+the machine do not lengthen them), the most memory that it counted and that was resident, and the bytes of the folder. Then asks `breccia check` what it would have said, with
 the same device, and prints both. A cost.json that is there already is taken as it is, so that a long table can be made in parts."""
 import json
 import os
@@ -34,7 +34,7 @@ def measure(name):
     _, status, usage = os.wait4(child.pid, 0)
     summary = json.loads((folder / "summary.json").read_text())
     cost = {"exit": os.waitstatus_to_exitcode(status), "processor_s": usage.ru_utime + usage.ru_stime, "wall_s": summary["timing"]["total_s"],
-            "resident_bytes": usage.ru_maxrss * 1024, "host_bytes": summary["memory"]["host_bytes"], "device_bytes": summary["memory"]["device_bytes"],
+            "resident_bytes": summary["memory"]["resident_bytes"], "host_bytes": summary["memory"]["host_bytes"], "device_bytes": summary["memory"]["device_bytes"],
             "disk_bytes": folder_bytes(folder), "version": summary["commit"]}
     kept.write_text(json.dumps(cost))
     return cost
@@ -49,6 +49,8 @@ def predict(name):
     found = re.search(r"^predicted: %s s(?:.*? from %s to %s s)?.*; %s MB on the host, %s MB on the device, %s MB resident; %s MB on disk" % ((number,) * 7), check.stdout, re.M)
     keys = ("processor_s", "least_s", "most_s", "host_bytes", "device_bytes", "resident_bytes", "disk_bytes")
     p = {k: v and float(v) * (1e6 if k.endswith("bytes") else 1) for k, v in zip(keys, found.groups())} if found else {}
+    more = re.search(r"up to %s MB on the host and %s MB on disk if all break" % (number, number), check.stdout)
+    p.update({} if not more else {"most_host_bytes": float(more.group(1)) * 1e6, "most_disk_bytes": float(more.group(2)) * 1e6})
     p["took_s"] = after.children_user + after.children_system - before.children_user - before.children_system
     return p
 
@@ -58,7 +60,9 @@ def off(predicted, actual):
 
 
 def megabytes(predicted, actual, key):
-    return "%.3g, %s" % (actual[key] / 1e6, off(predicted.get(key), actual[key]))
+    ranged = predicted.get("most_" + key)
+    limits = "" if not ranged else " (%.3g to %.3g)" % (predicted[key] / 1e6, ranged / 1e6)
+    return "%.3g, %s%s" % (actual[key] / 1e6, off(predicted.get(key), actual[key]), limits)
 
 
 if not run_only:

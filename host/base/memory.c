@@ -4,6 +4,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #define ALIGNMENT ((size_t)64)
 
@@ -84,4 +85,10 @@ int64_t brc_memory_held(void)
 int64_t brc_memory_peak(void)
 {
     return atomic_load(&peak_bytes);
+}
+
+int64_t brc_memory_resident(void)
+{
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (int64_t)usage.ru_maxrss * 1024 : 0;
 }

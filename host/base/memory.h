@@ -18,5 +18,7 @@ void brc_memory_free(void *block);
 /* Bytes now held and the most ever held through this interface in the process [byte]. */
 int64_t brc_memory_held(void);
 int64_t brc_memory_peak(void);
+/* Most memory of the process that was resident so far, libraries and all [byte]; 0: not known. */
+int64_t brc_memory_resident(void);
 
 #endif

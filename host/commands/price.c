@@ -1,5 +1,6 @@
 #include "price.h"
 #include "case.h"
+#include "planned_output.h"
 #include "price_curves.h"
 #include "../base/log.h"
 #include "../base/memory.h"
@@ -16,7 +17,36 @@ static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t st
     p->begin = brc_clock_s();
     p->first_step = 0;
     p->expected = 0;
+    p->stage_frames_s = 0;
+    p->stage_frames = 0;
     return BRC_OK;
+}
+
+static brc_status frame_begin(void *self, brc_simulation *simulation)
+{
+    brc_price *p = self;
+    (void)simulation;
+    p->frame_begin = brc_clock_s();
+    return BRC_OK;
+}
+
+static brc_status frame_end(void *self, brc_simulation *simulation)
+{
+    brc_price *p = self;
+    const double took = brc_clock_s() - p->frame_begin;
+    (void)simulation;
+    p->n_frames += 1;
+    p->frame_s += (took - p->frame_s) / (double)p->n_frames;
+    p->stage_frames += 1;
+    p->stage_frames_s += took;
+    return BRC_OK;
+}
+
+/* Frames of the stage that are still to come, that at its end too. */
+static double frames_left_s(const brc_price *p, const brc_scene *scene, int32_t stage, int64_t total, double time_step)
+{
+    const int64_t left = brc_planned_frames(scene, stage, total, time_step) + (stage == 0 && scene->output.n_frames >= 0) - p->stage_frames;
+    return left > 0 ? (double)left * p->frame_s : 0;
 }
 
 static brc_status pause(void *self, brc_simulation *simulation, brc_pause why)
@@ -30,12 +60,14 @@ static brc_status pause(void *self, brc_simulation *simulation, brc_pause why)
     if (p->first_step == 0) { /* its batch touched every page for the first time */
         p->first_step = step;
         p->first_s = now;
+        p->first_frames_s = p->stage_frames_s;
         p->prediction.host_bytes = brc_memory_peak(); /* with what the first frame and the samples took */
         return BRC_OK;
     }
     const int64_t total = brc_simulation_planned_steps(simulation, stage, brc_simulation_time_step(simulation).value);
     if (now - p->begin < watched_s && (double)step < watched_part * (double)total) return BRC_OK;
-    p->expected = now - p->begin + (now - p->first_s) / (double)(step - p->first_step) * (double)(total - step);
+    const double pace = (now - p->first_s - (p->stage_frames_s - p->first_frames_s)) / (double)(step - p->first_step);
+    p->expected = now - p->begin + pace * (double)(total - step) + frames_left_s(p, scene, stage, total, brc_simulation_time_step(simulation).value);
     p->prediction.after_steps = step;
     if (p->expected > 60) brc_log(p->context, BRC_LOG_INFO, "stage '%s' will take about %.3g s at this pace", scene->stages[stage].name, p->expected);
     return BRC_OK;
@@ -51,14 +83,19 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t stag
     return BRC_OK;
 }
 
-brc_status brc_price_watch(brc_context *context, const brc_setup *setup, brc_price *price)
+brc_status brc_price_watch_output(brc_context *context, const brc_setup *setup, brc_price *price)
 {
     *price = (brc_price){.context = context, .prediction = {.seconds = NAN, .took_seconds = NAN, .host_bytes = brc_memory_peak()}};
     for (int32_t k = 0; k < setup->n; ++k)
         price->prediction.device_bytes += brc_simulation_estimate_bytes(brc_simulation_scene(setup->simulation[k]), setup->domain[k],
                                                                         brc_device_get_precision(setup->device[k]), brc_device_slice(setup->device[k]));
+    return brc_simulation_observe(setup->simulation[0], &(brc_observer){.self = price, .frame = frame_begin});
+}
+
+brc_status brc_price_watch(const brc_setup *setup, brc_price *price)
+{
     return brc_simulation_observe(setup->simulation[0],
-                                  &(brc_observer){.self = price, .stage_begin = stage_begin, .pause = pause, .stage_end = stage_end});
+                                  &(brc_observer){.self = price, .stage_begin = stage_begin, .frame = frame_end, .pause = pause, .stage_end = stage_end});
 }
 
 /* 1, 3 or 10 of a power of ten, the nearest. */

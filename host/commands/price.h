@@ -12,10 +12,15 @@ typedef struct brc_price {
     double begin, first_s; /* of the stage: clock at its start, and at its first pause */
     int64_t first_step;    /* steps at the first pause; 0: there was none */
     double expected;       /* seconds of the stage; 0: not predicted yet */
+    double frame_begin, frame_s; /* mean of the frames so far */
+    double stage_frames_s, first_frames_s; /* of the stage's frames so far, and at its first pause */
+    int64_t n_frames, stage_frames;
 } brc_price;
 
-/* Watch the parts of a setup whose simulations exist; *price is borrowed until the run has ended. */
-brc_status brc_price_watch(brc_context *context, const brc_setup *setup, brc_price *price);
+/* Watch the parts of a setup whose simulations exist; *price is borrowed until the run has ended. The first before those that write frames observe, the second after
+ * them, so that frames are timed apart. */
+brc_status brc_price_watch_output(brc_context *context, const brc_setup *setup, brc_price *price);
+brc_status brc_price_watch(const brc_setup *setup, brc_price *price);
 
 /* For `breccia check`: error class of the scene by the measured curves of its model (price_curves.h), and where the scene asks for an accuracy or has a
  * budget, the resolution for it and its cost. seconds: predicted of the run as it stands. */

@@ -100,8 +100,9 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     brc_assembly *assembly = &now->setup.assembly;
     brc_simulation *first = assembly->part[0]; /* hears, and is told, for all */
     if (now->recorder) {
+        BRC_TRY(brc_price_watch_output(context, &now->setup, &now->price));
         BRC_TRY(brc_checkpoints_observe(now->checkpoints, assembly, now->recorder));
-        BRC_TRY(brc_price_watch(context, &now->setup, &now->price));
+        BRC_TRY(brc_price_watch(&now->setup, &now->price));
         brc_recorder_set_prediction(now->recorder, &now->price.prediction);
     }
     if (request->observer) BRC_TRY(brc_simulation_observe(first, request->observer));

@@ -1,6 +1,7 @@
 /* The run itself, cut short. Two observers stand around the recorder, so that what it does is timed apart from the steps. */
 #include "trial.h"
 #include "pace.h"
+#include "planned_output.h"
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
@@ -13,14 +14,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 /* A dynamic stage or one of events is cut after this long, but not before so many pauses; the solves of a static stage after this long. Events have their own end:
  * their solves are cut only where one alone would take far too long. */
 static const double watched_s = 1, solve_s = 2, event_s = 40;
-enum { LEAST_PAUSES = 4, FIRST_BATCH = 4, LARGEST_BATCH = 256, SAMPLES = 500 };
+enum { LEAST_PAUSES = 4, FIRST_BATCH = 4, LARGEST_BATCH = 256 };
 static const double short_batch_s = 0.05;
 
 typedef struct watch {
@@ -43,26 +43,6 @@ typedef struct watch {
 
 static double clock_of(const watch *w) { return brc_pace_clock_s(w->request); }
 
-static int64_t dynamic_samples(const brc_output *output, int64_t steps)
-{
-    const int64_t every = output->history_every > 0 ? output->history_every : (steps + SAMPLES - 1) / SAMPLES;
-    return every > 0 ? 1 + (steps + every - 1) / every : 1;
-}
-
-/* Frames within a stage and at its end. */
-static int64_t frames_of(const brc_output *output, const brc_stage *stage, int64_t planned, double dt)
-{
-    if (output->n_frames < 0) return 0;
-    if (planned < 1 || (stage->solver != BRC_SOLVER_DYNAMIC && stage->most_events == 0)) return 1;
-    if (stage->most_events > 0) {
-        const int64_t every = output->n_frames > 0 ? (stage->most_events + output->n_frames - 1) / output->n_frames : 0;
-        return every > 0 ? 1 + (stage->most_events - 1) / every : 1;
-    }
-    int64_t every = output->n_frames > 0 ? planned / output->n_frames : output->frame_interval > 0 ? (int64_t)llround(output->frame_interval / dt) : 0;
-    if (every < 1 && (output->n_frames > 0 || output->frame_interval > 0)) every = 1;
-    return every > 0 ? 1 + (planned - 1) / every : 1;
-}
-
 static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t index)
 {
     watch *w = self;
@@ -74,10 +54,8 @@ static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t in
     now->enter_s = w->begin - w->mark;
     now->time_step = brc_assembly_time_step(&w->setup->assembly);
     now->planned = stage->most_events > 0 ? stage->most_events : brc_simulation_planned_steps(simulation, index, now->time_step.value);
-    now->samples_planned = stage->most_events > 0 ? stage->most_events + 2
-                           : stage->solver == BRC_SOLVER_DYNAMIC ? dynamic_samples(&scene->output, now->planned)
-                                                                 : now->planned + 1 + (stage->to_failure > 0);
-    now->frames_planned = frames_of(&scene->output, stage, now->planned, now->time_step.value) + (index == 0 && scene->output.n_frames >= 0);
+    now->samples_planned = brc_planned_samples(scene, index, now->planned);
+    now->frames_planned = brc_planned_frames(scene, index, now->planned, now->time_step.value) + (index == 0 && scene->output.n_frames >= 0);
     w->output_s = 0;
     w->pauses = 0;
     w->asked = 0;
@@ -259,7 +237,6 @@ brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc
     const brc_log_level level = brc_log_get_level(context);
     const char *place = getenv("TMPDIR");
     char folder[512];
-    struct rusage usage = {0};
     *out = (brc_trial){.n_stages = scene->n_stages};
     BRC_TRY(BRC_ALLOCATE(context, &out->stages, scene->n_stages, "trial"));
     watch w = {.request = request, .setup = setup, .stages = out->stages};
@@ -273,7 +250,7 @@ brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc
     out->host_bytes = brc_memory_peak();
     for (int32_t k = 0; k < out->n_stages; ++k) /* samples to come */
         if (out->stages[k].cut) out->host_bytes += (out->stages[k].samples_planned - out->stages[k].samples) * (scene->n_sensors + 4) * (int64_t)sizeof(double);
-    if (getrusage(RUSAGE_SELF, &usage) == 0) out->resident_bytes = (int64_t)usage.ru_maxrss * 1024;
+    out->resident_bytes = brc_memory_resident();
     return status;
 }
 

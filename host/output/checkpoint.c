@@ -5,6 +5,7 @@
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
+#include "../solver/guard.h"
 #include "../solver/lockstep.h"
 #include <dirent.h>
 #include <errno.h>
@@ -27,6 +28,8 @@ struct brc_checkpoints {
     int64_t seen;  /* intervals of simulated time passed at the last pause */
     double written_at; /* brc_clock_s() of the last one, or of the beginning */
     char *last, *from; /* paths; owned */
+    int32_t last_stage;
+    int64_t last_step;
     int64_t from_step, n_written, bytes;
     double seconds;
     bool resumed;
@@ -189,6 +192,8 @@ static brc_status write_file(brc_checkpoints *c)
     BRC_TRY_OR(cleanup, keep_only(c, c->previous, c->next));
     brc_memory_free(c->last);
     c->last = path;
+    c->last_stage = brc_simulation_stage(s);
+    c->last_step = brc_simulation_step(s);
     path = NULL;
     c->previous = c->next++;
     ++c->n_written;
@@ -219,6 +224,7 @@ static brc_status pause_here(void *self, brc_simulation *simulation, brc_pause w
     c->seen = now;
     if (why == BRC_PAUSE_GOING && !asked) return BRC_OK;
     if (why == BRC_PAUSE_DONE && !output->has_checkpoint) return BRC_OK;
+    for (int32_t k = 0; k < c->assembly->n; ++k) BRC_TRY(brc_guard_vouch(c->assembly->part[k], c->assembly->n > 1));
     return write_file(c);
 }
 
@@ -253,11 +259,23 @@ brc_status brc_checkpoints_observe(brc_checkpoints *c, brc_assembly *assembly, b
 /* The checkpoint that is there when a run ends early. */
 static const char *last_path(const brc_checkpoints *c) { return c->last ? c->last : c->resumed ? c->from : NULL; }
 
+/* What there is to go back to, after the sentence of what went wrong. */
+static void tell_last(brc_checkpoints *c, brc_status status)
+{
+    const int32_t stage = brc_simulation_stage(c->assembly->part[0]);
+    if (c->last)
+        BRC_FAIL(c->context, status, "the last good checkpoint, of stage '%s' at step %lld, is %s; --resume goes on from there", c->scene->stages[c->last_stage].name,
+                 (long long)c->last_step, c->last);
+    else if (last_path(c)) BRC_FAIL(c->context, status, "the last good checkpoint is %s; --resume goes on from there", last_path(c));
+    else if (status == BRC_PHYSICS_STOPPED && stage >= 0 && c->scene->stages[stage].solver == BRC_SOLVER_DYNAMIC)
+        BRC_FAIL(c->context, status, "there is no checkpoint to go back to, none was written before; `output: {checkpoint: {every: ...}}` keeps good states");
+}
+
 brc_status brc_checkpoints_run(brc_checkpoints *c)
 {
     const brc_assembly *a = c->assembly;
     const brc_status status = c->resumed ? brc_lockstep_continue(a->n, a->part, &c->store) : brc_lockstep_run(a->n, a->part);
-    if (status != BRC_OK && last_path(c)) BRC_FAIL(c->context, status, "the last good checkpoint is %s; --resume goes on from there", last_path(c));
+    if (status != BRC_OK) tell_last(c, status);
     return status;
 }
 

@@ -1,6 +1,7 @@
 /* summary.json. Keys appear in every file, with null where a run did not come that far, so that scripts need no guards. */
 #include "summary.h"
 #include "text.h"
+#include "../base/log.h"
 #include "../base/memory.h"
 #include "../base/version.h"
 #include "../solver/guard.h"
@@ -106,6 +107,7 @@ static void add_memory(brc_json *json, int64_t device_bytes)
 {
     brc_json_begin_object(json, "memory");
     brc_json_integer(json, "host_bytes", brc_memory_peak());
+    brc_json_integer(json, "resident_bytes", brc_memory_resident());
     if (device_bytes >= 0)
         brc_json_integer(json, "device_bytes", device_bytes);
     else
@@ -125,6 +127,7 @@ static void add_cost(brc_json *json, const brc_summary *s)
     }
     brc_json_begin_object(json, "timing");
     brc_json_number(json, "total_s", s->total_s);
+    brc_json_number(json, "processor_s", brc_processor_s());
     brc_json_number(json, "build_s", s->build_s);
     brc_json_number(json, "setup_s", setup);
     brc_json_number(json, "steps_s", steps);

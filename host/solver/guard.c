@@ -78,14 +78,19 @@ brc_status brc_guard_begin_stage(brc_simulation *s)
     return BRC_OK;
 }
 
-brc_status brc_guard_step(brc_simulation *s)
+/* Look number n is that at step n look_every, or after the one before it. */
+static brc_status look_at_elements(brc_simulation *s)
 {
     struct brc_guard_state *g = s->guard;
-    if (!g || s->step % g->look_every) return BRC_OK;
-    const int64_t look = s->step / g->look_every;
+    const int64_t look = (s->step + g->look_every - 1) / g->look_every;
     return BRC_LAUNCH(s->kernel.guard_look, g->n_blocks, BRC_INT(g->n_blocks), BRC_INT(s->layout->n_rows), BRC_INT(look < INT32_MAX ? look : INT32_MAX),
                       BRC_STATE(endless), BRC_STATE(g->most_v), BRC_INT(brc_turns(s) ? 1 : 0), BRC_BUF(s->displacement), BRC_BUF(s->velocity),
                       BRC_BUF(s->spin), BRC_BUF(g->first), BRC_BUF(g->when));
+}
+
+brc_status brc_guard_step(brc_simulation *s)
+{
+    return s->guard && s->step % s->guard->look_every == 0 ? look_at_elements(s) : BRC_OK;
 }
 
 int64_t brc_guard_next(const brc_simulation *s, int64_t step)
@@ -147,19 +152,32 @@ static brc_status stop(brc_simulation *s, bool several, const char *what, int64_
                     element >= 0 ? " " : "", where, cause);
 }
 
+static brc_status read_looks(brc_simulation *s, bool several)
+{
+    int64_t element, look;
+    char what[200];
+    BRC_TRY(find_element(s, &element, &look));
+    if (element < 0) return BRC_OK;
+    snprintf(what, sizeof what, "element %lld is faster than %.3g m/s (%.0f times the wave speed and the fastest element at the start of the stage) or not finite", (long long)element,
+             s->guard->most_v, most_speeds);
+    return stop(s, several, what, element, look, 0);
+}
+
+brc_status brc_guard_vouch(brc_simulation *s, bool several)
+{
+    if (!s->guard || brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC) return BRC_OK;
+    BRC_TRY(look_at_elements(s));
+    return read_looks(s, several);
+}
+
 brc_status brc_guard_read(brc_simulation *s, bool several, brc_ledger *ledger)
 {
     struct brc_guard_state *g = s->guard;
-    int64_t element, look;
+    int64_t element = -1;
     char what[200];
     brc_ledger own;
     g->report.looks += 1;
-    BRC_TRY(find_element(s, &element, &look));
-    if (element >= 0) {
-        snprintf(what, sizeof what, "element %lld is faster than %.3g m/s (%.0f times the wave speed and the fastest element at the start of the stage) or not finite", (long long)element,
-                 g->most_v, most_speeds);
-        return stop(s, several, what, element, look, 0);
-    }
+    BRC_TRY(read_looks(s, several));
     if (!ledger && s->step % g->report.ledger_every) return BRC_OK;
     g->report.ledgers += 1;
     if (!ledger) ledger = &own;

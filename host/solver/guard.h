@@ -11,6 +11,9 @@ typedef struct brc_guard_report {
     int64_t looks, ledgers; /* times it read the one and the other */
 } brc_guard_report;
 brc_guard_report brc_simulation_guard_report(const brc_simulation *simulation);
+/* Look at every element now and read what was found: before a state is kept as a good one. Nothing of the run changes. BRC_PHYSICS_STOPPED as brc_guard_read; fine in
+ * stages that are not dynamic. */
+brc_status brc_guard_vouch(brc_simulation *simulation, bool several);
 
 /* ---- for host/solver/dynamics.c ---- */
 
