@@ -12,6 +12,7 @@
     X(advance_tchamwa)                                                                                                 \
     X(numerical_close)                                                                                                 \
     X(damp_mass)                                                                                                       \
+    X(damp_noise)                                                                                                      \
     X(gravity)                                                                                                         \
     X(kinetic_energy)                                                                                                  \
     X(guard_look)                                                                                                      \

@@ -62,6 +62,23 @@ KERNEL void damp_mass(int n, state factor, GLOBAL const state *restrict mass, GL
     }
 }
 
+/* v += factor f / m with f the drag on noise of velocities v [N/s of stiffness times velocity]; lost gains the energy [J]. */
+KERNEL void damp_noise(int n, state factor, GLOBAL const state *restrict mass, GLOBAL const state *restrict drag,
+                       GLOBAL state *restrict velocity, GLOBAL state *restrict lost)
+{
+    FOR_EACH_ITEM(e, n) {
+        const state per_mass = factor / mass[e];
+        state gone = 0;
+        for (int c = 0; c < 3; ++c) {
+            const brc_size at = (brc_size)e * 3 + c;
+            const state v = velocity[at], change = per_mass * drag[at];
+            gone -= change * (STATE(2) * v + change);
+            velocity[at] = v + change;
+        }
+        lost[e] += STATE(0.5) * mass[e] * gone;
+    }
+}
+
 /* f += m g. */
 KERNEL void gravity(int n, state gx, state gy, state gz, GLOBAL const state *restrict mass, GLOBAL state *restrict force)
 {

@@ -252,6 +252,7 @@ typedef struct brc_stage {
     double duration;  /* [s]; 0: by steps */
     int64_t steps;    /* 0: by duration */
     double mass_damping; /* force -c m v, c [1/s] >= 0: drag of a surrounding fluid on every element; 0: none */
+    double noise_damping; /* share in [0, 0.1] of the critical damping of the fastest oscillation, on motion not linear over the neighbours; 0: none */
     double stop_kinetic; /* stop when kinetic <= this fraction of elastic energy for 100 steps; 0: off */
     double stop_broken;  /* stop when more than this fraction of the bonds is broken; 0: off */
     char stop_sensor[BRC_NAME]; /* stop when this sensor fell below stop_share of its largest magnitude in the stage; "" : off */

@@ -4,6 +4,7 @@
 #include "element_loads.h"
 #include "fracture_internal.h"
 #include "guard.h"
+#include "noise_damping.h"
 #include "stage_end.h"
 #include "strikers_internal.h"
 #include <math.h>
@@ -98,11 +99,19 @@ brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps)
     if (n_steps <= 0) return BRC_OK;
     const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_MOTION);
     if (stage->integrator == BRC_TCHAMWA_WIELGOSZ) {
-        for (int64_t i = 0; i < n_steps; ++i) BRC_TRY(tchamwa_step(s, stage, dt));
+        for (int64_t i = 0; i < n_steps; ++i) {
+            BRC_TRY(tchamwa_step(s, stage, dt));
+            if (brc_noise_is_due(s)) BRC_TRY(brc_noise_damp(s));
+        }
     } else {
-        for (int64_t i = 0; i < n_steps; ++i) BRC_TRY(verlet_step(s, stage, dt, i == 0 ? 0.5 * dt : dt));
-        BRC_TRY(kick_and_drift(s, 0.5 * dt, 0));
-        BRC_TRY(brc_loads_impose_velocity(s, s->time));
+        bool whole = true; /* are velocities those of a whole step? Otherwise half a kick is missing */
+        for (int64_t i = 0; i < n_steps; ++i) {
+            BRC_TRY(verlet_step(s, stage, dt, whole ? 0.5 * dt : dt));
+            whole = i + 1 == n_steps || brc_noise_is_due(s);
+            if (whole) BRC_TRY(kick_and_drift(s, 0.5 * dt, 0));
+            if (whole) BRC_TRY(brc_loads_impose_velocity(s, s->time));
+            if (brc_noise_is_due(s)) BRC_TRY(brc_noise_damp(s));
+        }
     }
     brc_phase_enter(s, before);
     return BRC_OK;

@@ -1,5 +1,6 @@
 /* Which effects a run contains and leaves out, and the least bytes a step must move. */
 #include "cell_softening.h"
+#include "noise_damping.h"
 
 void brc_effects_list(brc_simulation *s)
 {
@@ -36,6 +37,7 @@ void brc_effects_list(brc_simulation *s)
                    {"prescribed rotations", turned},
                    {"gravity", scene->has_gravity},
                    {"mass damping", damped},
+                   {"noise damping", brc_has_noise_damping(scene)},
                    {"numerical damping (Tchamwa-Wielgosz)", tchamwa},
                    {"static solver", statics},
                    {"free vibration modes", modes},

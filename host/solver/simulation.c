@@ -4,6 +4,7 @@
 #include "fracture_internal.h"
 #include "split.h"
 #include "guard.h"
+#include "noise_damping.h"
 #include "strikers_internal.h"
 #include <math.h>
 #include <string.h>
@@ -101,7 +102,10 @@ static bool has_tchamwa(const brc_stage *stage)
 {
     return stage->solver == BRC_SOLVER_DYNAMIC && stage->integrator == BRC_TCHAMWA_WIELGOSZ;
 }
-static bool has_damping(const brc_stage *stage) { return stage->solver == BRC_SOLVER_DYNAMIC && stage->mass_damping > 0; }
+static bool has_damping(const brc_stage *stage)
+{
+    return stage->solver == BRC_SOLVER_DYNAMIC && (stage->mass_damping > 0 || stage->noise_damping > 0);
+}
 static bool has_face_load(const brc_stage *stage)
 {
     for (int32_t i = 0; i < stage->n_loads; ++i) {
@@ -183,6 +187,7 @@ int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *
     int64_t bytes = brc_contact_bytes(scene, n, entries, state) + (scene->has_fracture ? brc_cell_breaks_bytes(scene, n, entries, state, coeff) : 0) + entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
     if (tchamwa) bytes += n * 4 * state;
     if (damped) bytes += n * state;
+    bytes += brc_noise_bytes(scene, n, state, coeff);
     if (scene->has_gravity) bytes += n * state;
     if (scene->model.kind == BRC_MODEL_DLSM_PUBLISHED)
         return bytes + entries * 4 * coeff + n * ((6 + 6 + (many ? 3 : 0)) * coeff + (4 + 3 + 3 + 2) * state);
@@ -232,6 +237,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     if (scene->has_fracture) BRC_TRY_OR(cleanup, brc_fracture_create(s));
     BRC_TRY_OR(cleanup, brc_strikers_create(s));
     BRC_TRY_OR(cleanup, brc_contact_create(s));
+    BRC_TRY_OR(cleanup, brc_noise_create(s));
     brc_effects_list(s);
     s->setup_seconds = brc_clock_s() - start;
     *out = s;
@@ -255,6 +261,7 @@ void brc_simulation_free(brc_simulation **simulation)
     brc_fracture_free(s);
     brc_strikers_free(s);
     brc_guard_free(s);
+    brc_noise_free(s);
     brc_geometry_free(s);
     brc_layout_free(&s->layout);
     brc_memory_free(s->elastic);
@@ -332,6 +339,7 @@ brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
     s->time = s->load_factor = 0;
     s->progress = (brc_stage_progress){0};
     if (next->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(brc_time_step_find(s, next, &s->time_step));
+    brc_noise_begin_stage(s);
     s->setup_seconds += brc_clock_s() - start;
     return BRC_OK;
 }
