@@ -3,6 +3,7 @@
 
 #include "../host/base/log.h"
 #include "../host/base/memory.h"
+#include "bond_balance.h"
 #include "bond_search.h"
 #include "sets.h"
 
@@ -111,8 +112,8 @@ static brc_status make_spheres(brc_context *context, const double *position, con
     return BRC_OK;
 }
 
-brc_status brc_beams_bond(brc_context *context, double *position, double *radius, int64_t n, double coordination, int n_threads,
-                          brc_domain *domain)
+/* balance: the harmonics of walls (bond_balance.h); NULL: the nearest pairs. */
+static brc_status bond(brc_context *context, double *position, double *radius, int64_t n, double coordination, const double *balance, int n_threads, brc_domain *domain)
 {
     int32_t(*pair)[2] = NULL;
     const double start = brc_clock_s();
@@ -122,7 +123,10 @@ brc_status brc_beams_bond(brc_context *context, double *position, double *radius
     domain->n_elements = n;
     domain->n_bonds = (int64_t)floor(0.5 * coordination * (double)n + 0.5);
     domain->n_half_edges = 2 * domain->n_bonds;
-    BRC_TRY_OR(cleanup, brc_bond_search(context, position, radius, n, domain->n_bonds, n_threads, &pair, &domain->quality.growth));
+    if (balance)
+        BRC_TRY_OR(cleanup, brc_bond_balance(context, position, radius, n, domain->n_bonds, balance, n_threads, &pair, &domain->quality.growth));
+    else
+        BRC_TRY_OR(cleanup, brc_bond_search(context, position, radius, n, domain->n_bonds, n_threads, &pair, &domain->quality.growth));
     BRC_TRY_OR(cleanup, make_rows(context, pair, n_threads, domain));
     brc_memory_free(pair);
     pair = NULL;
@@ -139,6 +143,12 @@ brc_status brc_beams_bond(brc_context *context, double *position, double *radius
 cleanup:
     brc_memory_free(pair);
     return status;
+}
+
+brc_status brc_beams_bond(brc_context *context, double *position, double *radius, int64_t n, double coordination, int n_threads,
+                          brc_domain *domain)
+{
+    return bond(context, position, radius, n, coordination, NULL, n_threads, domain);
 }
 
 /* Spheres near enough to the surface for a foot within their layer. */
@@ -206,9 +216,11 @@ cleanup:
 }
 
 brc_status brc_beams_build(brc_context *context, const brc_solid *solid, double *position, double *radius, int64_t n,
-                           double coordination, int n_threads, brc_domain *domain)
+                           double coordination, bool balanced, int n_threads, brc_domain *domain)
 {
-    BRC_TRY(brc_beams_bond(context, position, radius, n, coordination, n_threads, domain));
+    double walls[BRC_BALANCE_PARTS];
+    if (balanced) brc_balance_of_walls(solid, position, radius, n, n_threads, walls);
+    BRC_TRY(bond(context, position, radius, n, coordination, balanced ? walls : NULL, n_threads, domain));
     const brc_status status = brc_beams_walls(context, solid, n_threads, domain);
     if (status != BRC_OK) domain->position = domain->radius = NULL; /* they stay the caller's */
     return status;

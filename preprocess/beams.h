@@ -7,9 +7,9 @@
 
 /* Choose bonds and fill every array of `domain` that spheres have (domain.h), but for regions, bodies, grains and provenance: the two
  * functions below in turn. position [n][3], radius [n] are taken over by the domain on success, else they stay with the caller.
- * Temporary memory: about 110 + 16 coordination bytes a sphere. */
+ * balanced: bonds are those of brc_bond_balance, with what the walls of the solid do. Temporary memory: about 110 + 16 coordination bytes a sphere. */
 brc_status brc_beams_build(brc_context *context, const brc_solid *solid, double *position, double *radius, int64_t n,
-                           double coordination, int n_threads, brc_domain *domain);
+                           double coordination, bool balanced, int n_threads, brc_domain *domain);
 
 /* The round(coordination n / 2) pairs with the smallest d / (R_i + R_j) are bonded (ties by the smaller indices); quality.growth is the last
  * one's ratio. Fills all but walls and sets. BRC_BAD_INPUT: fewer than 2 elements, positions or radii that are not finite, spheres in one

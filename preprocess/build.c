@@ -257,7 +257,7 @@ static brc_status build_beams(brc_context *context, work *w, brc_domain *domain)
 {
     if (!w->radius)
         return BRC_FAIL(context, BRC_BAD_INPUT, "beams join spheres, and the points of %s have no radii: add a column radius or diameter, or build cells", w->request->fill.file);
-    BRC_TRY(brc_beams_build(context, w->solid, w->position, w->radius, w->n, w->request->beams, w->n_threads, domain));
+    BRC_TRY(brc_beams_build(context, w->solid, w->position, w->radius, w->n, w->request->beams, w->request->balanced, w->n_threads, domain));
     w->position = w->radius = NULL; /* the domain's now */
     return BRC_OK;
 }

@@ -145,6 +145,7 @@ typedef struct brc_build_request {
     brc_shape shape;
     brc_fill fill;
     double beams;          /* spheres joined by beams in place of cells: mean coordination number of the bonds; 0: cells */
+    bool balanced;         /* beams: bonds alike in all directions (bond_balance.h) */
     double translation[3]; /* [m] applied after the rotation */
     double rotation[3];    /* rotation vector (axis times angle) about the shape's origin [rad] */
     int32_t n_cracks;

@@ -92,10 +92,10 @@ static brc_status try_sample(const work *w, brc_context *context, brc_device *de
     brc_domain *domain = NULL, *fresh = NULL;
     brc_beam_body bonds;
     brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, brc_beam_sample_bond(context, w->store->sample[k], coordination, 1, &domain));
+    BRC_TRY_OR(cleanup, brc_beam_sample_bond(context, w->store->sample[k], coordination, scene->model.polish, 1, &domain));
     out->n_bonds = domain->n_bonds;
     if (scene->model.polish) {
-        BRC_TRY_OR(cleanup, brc_beam_sample_bond(context, w->store->sample[w->store->n / 2 + k], coordination, 1, &fresh));
+        BRC_TRY_OR(cleanup, brc_beam_sample_bond(context, w->store->sample[w->store->n / 2 + k], coordination, true, 1, &fresh));
         BRC_TRY_OR(cleanup, try_polish(w, context, device, domain, fresh, out));
         goto cleanup;
     }

@@ -114,7 +114,7 @@ static brc_status test_all(void *self, brc_context *context, brc_device *device,
     brc_domain *domain = NULL;
     brc_status status = BRC_OK;
     if (count_missing(w, sample, coordination) == 0) return BRC_OK;
-    BRC_TRY(brc_beam_sample_bond(context, w->sample[sample], coordination, 1, &domain));
+    BRC_TRY(brc_beam_sample_bond(context, w->sample[sample], coordination, false, 1, &domain));
     for (int k = 0; k < w->kind->count(w->plan); ++k) {
         row now;
         key_of(w, sample, coordination, k, &now);

@@ -65,7 +65,7 @@ brc_status brc_scene_request_make(brc_context *context, const brc_scene *scene, 
     for (int32_t p = 0; p < body->n_phases; ++p)
         out->fractions[p] = body->phases[p].fraction;
     brc_build_request *build = &out->build;
-    *build = (brc_build_request){.shape = body->shape, .fill = body->fill, .beams = body->beams,
+    *build = (brc_build_request){.shape = body->shape, .fill = body->fill, .beams = body->beams, .balanced = scene->model.polish,
                                  .n_cracks = body->n_cracks, .cracks = body->cracks, .grains = body->grains,
                                  .n_limits = scene->n_limits, .limits = scene->limits, .n_regions = body->n_regions,
                                  .regions = out->regions, .tiny_face_threshold = body->tiny_face_threshold,

@@ -139,7 +139,7 @@ static brc_status make_references(brc_context *context, const brc_body *body, in
     for (int k = 0; k < REFERENCES; ++k, ++fill.seed) {
         brc_beam_sample *sample;
         BRC_TRY(brc_beam_sample_pack(context, &cube, &fill, n_threads, &sample));
-        const brc_status status = brc_beam_sample_bond(context, sample, body->beams, n_threads, &out[k]);
+        const brc_status status = brc_beam_sample_bond(context, sample, body->beams, true, n_threads, &out[k]);
         brc_beam_sample_free(&sample);
         BRC_TRY(status);
     }

@@ -41,7 +41,7 @@ void brc_beam_sample_free(brc_beam_sample **sample)
     *sample = NULL;
 }
 
-brc_status brc_beam_sample_bond(brc_context *context, const brc_beam_sample *sample, double coordination, int n_threads, brc_domain **out)
+brc_status brc_beam_sample_bond(brc_context *context, const brc_beam_sample *sample, double coordination, bool balanced, int n_threads, brc_domain **out)
 {
     const int64_t n = sample->packing.n;
     double *position = NULL, *radius = NULL;
@@ -53,7 +53,7 @@ brc_status brc_beam_sample_bond(brc_context *context, const brc_beam_sample *sam
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &radius, n, "spheres of a sample"));
     memcpy(position, sample->packing.position, (size_t)(3 * n) * sizeof *position);
     memcpy(radius, sample->packing.radius, (size_t)n * sizeof *radius);
-    BRC_TRY_OR(cleanup, brc_beams_build(context, sample->solid, position, radius, n, coordination, n_threads, domain));
+    BRC_TRY_OR(cleanup, brc_beams_build(context, sample->solid, position, radius, n, coordination, balanced, n_threads, domain));
     position = radius = NULL; /* the domain's now */
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->region, n, "material regions"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->body, n, "bodies"));

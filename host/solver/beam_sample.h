@@ -12,8 +12,8 @@ typedef struct brc_beam_sample brc_beam_sample;
 /* Pack `fill` (kind packing) into `shape`, both copied but for the table of radii, which is borrowed. BRC_BAD_INPUT as brc_packing_make. */
 brc_status brc_beam_sample_pack(brc_context *context, const brc_shape *shape, const brc_fill *fill, int n_threads, brc_beam_sample **out);
 void brc_beam_sample_free(brc_beam_sample **sample);
-/* A domain of one body and one material; the sample keeps its spheres. The sample is only read: threads may share it, each with a context. */
-brc_status brc_beam_sample_bond(brc_context *context, const brc_beam_sample *sample, double coordination, int n_threads, brc_domain **out);
+/* A domain of one body and one material; the sample keeps its spheres. balanced: brc_beams_build. The sample is only read: threads may share it, each with a context. */
+brc_status brc_beam_sample_bond(brc_context *context, const brc_beam_sample *sample, double coordination, bool balanced, int n_threads, brc_domain **out);
 
 typedef struct brc_beam_pull {
     int axis;            /* 0 x 1 y 2 z: the walls "<axis>-" and "<axis>+" are moved apart, all other walls are free */

@@ -36,7 +36,7 @@ brc_domain *test_spheres(brc_context *context, const int count[3], double coordi
         }
     }
     require(context, brc_solid_create(context, &box, n_threads, &solid));
-    require(context, brc_beams_build(context, solid, x, r, n, coordination, n_threads, d));
+    require(context, brc_beams_build(context, solid, x, r, n, coordination, false, n_threads, d));
     d->quality.volume_shape = brc_solid_volume(solid, NULL);
     brc_solid_free(&solid);
     require(context, BRC_ALLOCATE(context, &d->region, n, "regions"));

@@ -191,7 +191,7 @@ static void a_layer_reaches_two_radii_deep(void **state)
         x[3 * e + 2] = 5.0;
     }
     assert_int_equal(brc_solid_create(*state, &box, 1, &solid), BRC_OK);
-    assert_int_equal(brc_beams_build(*state, solid, x, r, 4, 1.5, 1, d), BRC_OK);
+    assert_int_equal(brc_beams_build(*state, solid, x, r, 4, 1.5, false, 1, d), BRC_OK);
     const brc_set *touch = &d->sets[brc_domain_find_set(d, "x-")], *layer = &d->sets[brc_domain_find_set(d, "x-_layer")];
     assert_int_equal(touch->n_members, 1);
     assert_int_equal(layer->n_members, 3);

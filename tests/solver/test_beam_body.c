@@ -37,7 +37,7 @@ static brc_domain *box(int l, int m, int n)
         for (int c = 0; c < 3; ++c) position[3 * e + c] = bounds[0][c] + 0.5 + (double)at[c];
         radius[e] = 0.5;
     }
-    done(brc_beams_build(context, solid, position, radius, count, 6 - 2.0 / l - 2.0 / m - 2.0 / n, 1, domain));
+    done(brc_beams_build(context, solid, position, radius, count, 6 - 2.0 / l - 2.0 / m - 2.0 / n, false, 1, domain));
     done(BRC_ALLOCATE(context, &domain->body, count, "bodies"));
     brc_solid_free(&solid);
     return domain;

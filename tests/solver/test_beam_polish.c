@@ -30,7 +30,7 @@ static int begin(void **state)
     brc_log_set_level(context, BRC_LOG_ERROR);
     done(brc_device_open(context, &(brc_device_request){.selector = "cpu", .n_threads = 1}, &device));
     done(brc_beam_sample_pack(context, &shape, &fill, 1, &sample));
-    done(brc_beam_sample_bond(context, sample, 8, 1, &domain));
+    done(brc_beam_sample_bond(context, sample, 8, false, 1, &domain));
     brc_beam_sample_free(&sample);
     return 0;
 }

@@ -59,7 +59,7 @@ static void make_lattice(bench *b)
         radius[e] = a / 2;
     }
     const double bonds = 3.0 * EDGE * EDGE * (EDGE - 1);
-    done(b, brc_beams_build(b->context, solid, position, radius, SPHERES, 2 * bonds / SPHERES, 1, b->domain));
+    done(b, brc_beams_build(b->context, solid, position, radius, SPHERES, 2 * bonds / SPHERES, false, 1, b->domain));
     done(b, BRC_ALLOCATE(b->context, &b->domain->region, SPHERES, "regions"));
     done(b, BRC_ALLOCATE(b->context, &b->domain->body, SPHERES, "bodies"));
     brc_solid_free(&solid);
@@ -76,7 +76,7 @@ static void pack(bench *b, int64_t n, double coordination)
     const brc_fill fill = packing_of(n, 1);
     brc_beam_sample *sample;
     done(b, brc_beam_sample_pack(b->context, &shape, &fill, 1, &sample));
-    done(b, brc_beam_sample_bond(b->context, sample, coordination, 1, &b->domain));
+    done(b, brc_beam_sample_bond(b->context, sample, coordination, false, 1, &b->domain));
     brc_beam_sample_free(&sample);
 }
 
