@@ -42,7 +42,8 @@ typedef enum brc_case_operator {
     BRC_CASE_VIRIAL,    /* virial stresses of a pulled box of spheres against force over section */
     BRC_CASE_PRESSING,  /* load over strain of the measure K along the run */
     BRC_CASE_WAVE,      /* displacement of a bar's free end against d'Alembert's solution */
-    BRC_CASE_FIELD      /* stresses in a set against those of a pressed disc or a pulled plate with a hole */
+    BRC_CASE_FIELD,     /* stresses in a set against those of a pressed disc or a pulled plate with a hole */
+    BRC_CASE_TOLD       /* the error class that `check` tells before the run, against the run's error */
 } brc_case_operator;
 
 typedef struct brc_case_run {

@@ -112,6 +112,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     brc_scene *scene = NULL;
     brc_setup setup = {0};
     brc_trial trial = {0};
+    brc_price_error own = {.worst = -1};
     double total;
     int64_t n_threads;
     brc_precision precision;
@@ -138,8 +139,10 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     const int64_t device_bytes = brc_assembly_device_bytes(&setup.assembly);
     brc_setup_free_simulations(&setup); /* a coarser body may need the room */
     BRC_TRY_OR(cleanup, brc_price_tell_trial(context, scene, &setup, &request, &trial, before_s, device_bytes, &total));
-    BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, &setup, precision, total));
+    BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &setup, &request, &trial, total, &own));
+    BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, &setup, precision, total, &own));
 cleanup:
+    brc_price_error_free(&own);
     brc_trial_free(&trial);
     brc_setup_free(&setup);
     brc_scene_free(&scene);

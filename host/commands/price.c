@@ -1,11 +1,11 @@
 #include "price.h"
 #include "case.h"
 #include "planned_output.h"
-#include "price_curves.h"
 #include "../base/log.h"
 #include "../base/memory.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* A stage is predicted after this many seconds, or this part of its steps where it is shorter. */
 static const double watched_s = 0.5, watched_part = 0.02;
@@ -98,10 +98,12 @@ brc_status brc_price_watch(const brc_setup *setup, brc_price *price)
                                   &(brc_observer){.self = price, .stage_begin = stage_begin, .frame = frame_end, .pause = pause, .stage_end = stage_end});
 }
 
-/* 1, 3 or 10 of a power of ten, the nearest. */
-static double error_class(double error)
+/* Errors below this are not told apart: solvers' tolerances, strains squared, rounding [-]. */
+static const double finest_class = 1e-4;
+
+double brc_price_class(double error)
 {
-    return pow(10, round(2 * log10(error)) / 2);
+    return error < finest_class ? finest_class : pow(10, round(2 * log10(error)) / 2);
 }
 
 static void tell_choice(const brc_price_curve *curve, double elements, double now, double seconds)
@@ -110,48 +112,93 @@ static void tell_choice(const brc_price_curve *curve, double elements, double no
            elements < curve->least || elements > curve->most ? " (beyond the measured sizes)" : "");
 }
 
-brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, double seconds)
+/* Curves of the scene's model, of the precision in `taken` or, where there are none, of double: resolution costs more than rounding at any size that was measured. */
+static brc_status read_curves(brc_context *context, const char *model, const char **taken, int *n, brc_price_curve curve[BRC_CURVES_MOST])
 {
-    const char *model = brc_model_name(setup->split->part[0].scene->model.kind);
-    const double now = (double)brc_setup_n_elements(setup);
-    brc_price_curve curve[BRC_CURVES_MOST];
     char *text;
     size_t bytes;
-    int n, worst = 0;
     BRC_TRY(brc_case_text(context, NULL, "results", "accuracy-curves.csv", &text, &bytes));
-    brc_price_curves_read(text, model, brc_precision_name(precision), &n, curve);
-    const char *taken = brc_precision_name(precision);
-    if (n == 0) { /* resolution costs more than rounding at any size that was measured */
-        taken = brc_precision_name(BRC_DOUBLE);
-        brc_price_curves_read(text, model, taken, &n, curve);
-    }
+    brc_price_curves_read(text, model, *taken, n, curve);
+    if (*n == 0) brc_price_curves_read(text, model, *taken = brc_precision_name(BRC_DOUBLE), n, curve);
     brc_memory_free(text);
-    if (n == 0) {
-        printf("error class: not known, no curve of model %s was measured (docs/accuracy.md)\n", model);
-        return BRC_OK;
-    }
-    for (int k = 0; k < n; ++k) {
-        const double error = brc_price_curve_error(&curve[k], now);
-        printf("error as of '%s' at %.0f elements: %.2g %% (%d points of %s from %.0f to %.0f elements, falls as spacing^%.2g)\n", curve[k].problem, now, 100 * error,
-               curve[k].n, taken, curve[k].least, curve[k].most, curve[k].order);
-        if (error > brc_price_curve_error(&curve[worst], now)) worst = k;
-    }
-    printf("error class: %.1g %% (by '%s'; strains that vary over lengths much shorter than the body cost more)\n",
-           100 * error_class(brc_price_curve_error(&curve[worst], now)), curve[worst].problem);
+    return BRC_OK;
+}
+
+/* The curve of the scene's own worst measure, through its error at `now` elements. */
+static brc_price_curve own_curve(const brc_scene *scene, const brc_price_error *own, double error, double now)
+{
+    brc_price_curve curve = {.n = 1, .order = own->order, .scale = error * pow(now, own->order / 3), .least = (double)own->least_elements, .most = now};
+    snprintf(curve.problem, sizeof curve.problem, "%.31s", scene->measures[own->worst].name);
+    return curve;
+}
+
+static void tell_class(const brc_price_curve *by, double now, const char *whose)
+{
+    const double error = brc_price_curve_error(by, now);
+    if (error < finest_class) printf("error class: 0.01 %% or better (by %s '%s')\n", whose, by->problem);
+    else printf("error class: %.1g %% (by %s '%s')\n", 100 * brc_price_class(error), whose, by->problem);
+}
+
+static void tell_choices(const brc_scene *scene, const brc_price_curve *curve, double now, double seconds)
+{
     if (scene->accuracy > 0) {
         printf("accuracy %.3g %% asks for ", 100 * scene->accuracy);
-        tell_choice(&curve[worst], brc_price_curve_elements(&curve[worst], scene->accuracy), now, seconds);
+        tell_choice(curve, brc_price_curve_elements(curve, scene->accuracy), now, seconds);
         printf("a tenth of the error would ask for ");
-        tell_choice(&curve[worst], brc_price_curve_elements(&curve[worst], 0.1 * scene->accuracy), now, seconds);
+        tell_choice(curve, brc_price_curve_elements(curve, 0.1 * scene->accuracy), now, seconds);
     }
     if (scene->budget > 0) {
         printf("budget %.3g s buys ", scene->budget);
-        tell_choice(&curve[worst], brc_price_elements_for(seconds, now, scene->budget), now, seconds);
+        tell_choice(curve, brc_price_elements_for(seconds, now, scene->budget), now, seconds);
         printf("ten times the budget would buy ");
-        tell_choice(&curve[worst], brc_price_elements_for(seconds, now, 10 * scene->budget), now, seconds);
+        tell_choice(curve, brc_price_elements_for(seconds, now, 10 * scene->budget), now, seconds);
     }
     if (scene->accuracy > 0 || scene->budget > 0)
         printf("precision: double where turned bodies have small strains, else mixed or single (docs/stability.md); time step: auto at 0.8, its error is far below that of "
                "the resolution\n");
+}
+
+/* What the model itself is off by, however many elements: beams by their calibration and their sample, as a pulled cube of them. */
+static double model_error(brc_model_kind model, int n, const brc_price_curve *curve, double now)
+{
+    for (int k = 0; k < n && model == BRC_MODEL_CBM; ++k)
+        if (strcmp(curve[k].problem, "tension") == 0) return brc_price_curve_error(&curve[k], now);
+    return 0;
+}
+
+brc_status brc_price_judge(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, const brc_price_error *own, brc_price_judgement *out)
+{
+    const brc_model_kind kind = setup->split->part[0].scene->model.kind;
+    const double now = (double)brc_setup_n_elements(setup);
+    const char *taken = brc_precision_name(precision);
+    int worst = 0;
+    BRC_TRY(read_curves(context, brc_model_name(kind), &taken, &out->n, out->curve));
+    out->taken = taken;
+    out->is_own = own->worst >= 0;
+    out->known = out->is_own || out->n > 0;
+    for (int k = 1; k < out->n; ++k)
+        if (brc_price_curve_error(&out->curve[k], now) > brc_price_curve_error(&out->curve[worst], now)) worst = k;
+    if (out->is_own) out->by = own_curve(scene, own, fmax(own->error[own->worst], model_error(kind, out->n, out->curve, now)), now);
+    else if (out->known) out->by = out->curve[worst];
+    return BRC_OK;
+}
+
+brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, double seconds, const brc_price_error *own)
+{
+    const double now = (double)brc_setup_n_elements(setup);
+    brc_price_judgement j;
+    BRC_TRY(brc_price_judge(context, scene, setup, precision, own, &j));
+    for (int k = 0; k < j.n; ++k)
+        printf("error as of '%s' at %.0f elements: %.2g %% (%d points of %s from %.0f to %.0f elements, falls as spacing^%.2g)\n", j.curve[k].problem, now,
+               100 * brc_price_curve_error(&j.curve[k], now), j.curve[k].n, j.taken, j.curve[k].least, j.curve[k].most, j.curve[k].order);
+    for (int32_t k = 0; own->worst >= 0 && k < scene->n_measures; ++k)
+        if (!isnan(own->error[k]))
+            printf("error of measure '%s': about %.2g %% (from the same scene with about %lld elements)\n", scene->measures[k].name, 100 * own->error[k], (long long)own->least_elements);
+    if (!j.known) {
+        printf("error class: not known, no curve of model %s was measured (docs/accuracy.md)\n", brc_model_name(setup->split->part[0].scene->model.kind));
+        return BRC_OK;
+    }
+    tell_class(&j.by, now, j.is_own ? "measure" : "the worst of these problems,");
+    tell_choices(scene, &j.by, now, seconds);
     return BRC_OK;
 }

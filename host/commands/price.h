@@ -4,6 +4,8 @@
 #define BRC_COMMANDS_PRICE_H
 
 #include "../output/prediction.h"
+#include "price_curves.h"
+#include "price_error.h"
 #include "setup.h"
 
 typedef struct brc_price {
@@ -22,8 +24,20 @@ typedef struct brc_price {
 brc_status brc_price_watch_output(brc_context *context, const brc_setup *setup, brc_price *price);
 brc_status brc_price_watch(const brc_setup *setup, brc_price *price);
 
-/* For `breccia check`: error class of the scene by the measured curves of its model (price_curves.h), and where the scene asks for an accuracy or has a
- * budget, the resolution for it and its cost. seconds: predicted of the run as it stands. */
-brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, double seconds);
+/* The error class of a scene: 1, 3 or 10 of a power of ten, the nearest to an error [-]; at least 1e-4. */
+double brc_price_class(double error);
+/* What the class rests on: the scene's own worst measure (own: price_error.h) or, where nothing was found of them, the worst of the measured curves of its model. */
+typedef struct brc_price_judgement {
+    bool known, is_own;
+    brc_price_curve by; /* of own measures: a curve of order own->order through the error at the scene's elements */
+    const char *taken;  /* precision of the curves */
+    int n;
+    brc_price_curve curve[BRC_CURVES_MOST];
+} brc_price_judgement;
+brc_status brc_price_judge(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, const brc_price_error *own, brc_price_judgement *out);
+
+/* For `breccia check`: tell that, and where the scene asks for an accuracy or has a budget, the resolution for it and its cost. seconds: predicted of the run as it
+ * stands. */
+brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, double seconds, const brc_price_error *own);
 
 #endif

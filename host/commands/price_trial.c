@@ -1,7 +1,6 @@
 /* From what parts of a run cost to what all of it will. */
 #include "price_trial.h"
 #include "pace.h"
-#include "../base/memory.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -135,29 +134,25 @@ brc_status brc_price_tell_trial(brc_context *context, brc_scene *scene, const br
 {
     const double across = brc_setup_across(setup), share = coarse_share(scene, trial, across);
     sums total = {0};
-    int64_t *iterations = NULL;
-    double coarse_across = 0;
-    brc_status status = BRC_OK;
+    brc_coarse coarse = {0};
     *seconds = NAN;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &iterations, scene->n_stages, "iterations"));
-    if (share > 0) BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, share, iterations, &coarse_across));
+    if (share > 0) BRC_TRY(brc_trial_coarse(context, scene, request, share, 0, false, &coarse));
     add(&total, before_s + trial->end_s, before_s + trial->end_s, before_s + trial->end_s);
     for (int32_t k = 0; k < trial->n_stages; ++k) {
         const brc_stage *stage = &scene->stages[k];
         const brc_trial_stage *t = &trial->stages[k];
         if (!t->ran) continue;
-        if (is_solve(stage)) tell_solve(stage, t, coarse_across > 0 ? (double)iterations[k] * across / coarse_across : 0, across, &total);
+        if (is_solve(stage)) tell_solve(stage, t, coarse.across > 0 ? (double)coarse.iterations[k] * across / coarse.across : 0, across, &total);
         else if (stage->most_events > 0) tell_events(stage, t, &total);
         else tell_dynamic(scene, setup, stage, t, &total);
     }
+    brc_coarse_free(&coarse);
     if (trial->stopped) {
         printf("predicted: nothing, the trial was stopped: %s\n", trial->reason);
-        goto cleanup;
+        return BRC_OK;
     }
     tell_total(request, trial, &total, device_bytes);
     tell_broken(scene, setup, trial);
     *seconds = total.seconds;
-cleanup:
-    brc_memory_free(iterations);
-    return status;
+    return BRC_OK;
 }

@@ -4,6 +4,7 @@
 #include "reproduce_fracture.h"
 #include "reproduce_hondros.h"
 #include "reproduce_pressing.h"
+#include "reproduce_told.h"
 #include "reproduce_virial.h"
 #include "reproduce_wave.h"
 #include "scene_domain.h"
@@ -246,6 +247,16 @@ cleanup:
     return status;
 }
 
+/* What `check` says of the scene, then the run. */
+static brc_status simulate_told(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text, size_t bytes, const char *folder)
+{
+    double error_class;
+    BRC_TRY(brc_told_class(campaign, outcome, scene, text, bytes, &error_class));
+    BRC_TRY(simulate(campaign, outcome, scene, text, bytes, folder));
+    brc_told_values(error_class, outcome);
+    return BRC_OK;
+}
+
 /* Is a device of this name here and usable? */
 static bool has_device(brc_context *context, const char *selector)
 {
@@ -299,6 +310,7 @@ brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome)
         status = run->operator == BRC_CASE_BUILD      ? build(campaign, outcome, path, text, bytes, folder)
                  : run->operator == BRC_CASE_ISOTROPY ? brc_isotropy_values(campaign, outcome, path, text, bytes)
                  : run->operator == BRC_CASE_BEAMS    ? brc_beams_values(campaign, outcome, path, text, bytes)
+                 : run->operator == BRC_CASE_TOLD     ? simulate_told(campaign, outcome, path, text, bytes, folder)
                  : run->n_seeds > 1                   ? simulate_samples(campaign, outcome, path, text, bytes, folder)
                                                       : simulate(campaign, outcome, path, text, bytes, folder);
     outcome->done = status == BRC_OK || (status == BRC_PHYSICS_STOPPED && run->may_stop);

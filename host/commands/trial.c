@@ -2,6 +2,7 @@
 #include "trial.h"
 #include "pace.h"
 #include "planned_output.h"
+#include "scratch.h"
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
@@ -9,13 +10,8 @@
 #include "../solver/lockstep.h"
 #include "../solver/patience.h"
 #include "../solver/stage_end.h"
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* A dynamic stage or one of events is cut after this long, but not before so many pauses; the solves of a static stage after this long. Events have their own end:
  * their solves are cut only where one alone would take far too long. */
@@ -146,37 +142,6 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t inde
     return BRC_OK;
 }
 
-/* Bytes of the files in a folder and the folders in it; removed where asked. */
-static int64_t folder_bytes(brc_context *context, const char *folder, bool remove_it)
-{
-    int64_t bytes = 0;
-    DIR *directory = opendir(folder);
-    for (const struct dirent *entry = directory ? readdir(directory) : NULL; entry; entry = readdir(directory)) {
-        char *path;
-        struct stat info;
-        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
-        if (brc_file_join(context, folder, entry->d_name, &path) != BRC_OK) break;
-        if (lstat(path, &info) == 0) {
-            bytes += S_ISDIR(info.st_mode) ? folder_bytes(context, path, remove_it) : info.st_size;
-            if (remove_it && !S_ISDIR(info.st_mode)) unlink(path);
-        }
-        brc_memory_free(path);
-    }
-    if (directory) closedir(directory);
-    if (remove_it) rmdir(folder);
-    return bytes;
-}
-
-static int64_t file_bytes(brc_context *context, const char *folder, const char *name)
-{
-    char *path;
-    struct stat info;
-    if (brc_file_join(context, folder, name, &path) != BRC_OK) return 0;
-    const int64_t bytes = stat(path, &info) == 0 ? info.st_size : 0;
-    brc_memory_free(path);
-    return bytes;
-}
-
 /* The folder of the whole run: frames and samples as many as planned. */
 static int64_t whole_disk(brc_context *context, const char *folder, const brc_scene *scene, const brc_trial *trial)
 {
@@ -190,11 +155,19 @@ static int64_t whole_disk(brc_context *context, const char *folder, const brc_sc
         samples_planned += stage->cut ? stage->samples_planned : stage->samples;
     }
     if (brc_file_join(context, folder, "frames", &path) != BRC_OK) return 0;
-    const int64_t in_frames = folder_bytes(context, path, false), table = file_bytes(context, folder, "histories.csv");
+    const int64_t in_frames = brc_scratch_bytes(context, path, NULL), table = brc_scratch_bytes(context, folder, "histories.csv");
     const double more_samples = samples > 0 ? (double)samples_planned / (double)samples - 1 : 0, more_frames = frames > 0 ? (double)frames_planned / (double)frames - 1 : 0;
     brc_memory_free(path);
-    return folder_bytes(context, folder, false) + (int64_t)(more_frames * (double)in_frames + more_samples * (double)table) +
+    return brc_scratch_bytes(context, folder, NULL) + (int64_t)(more_frames * (double)in_frames + more_samples * (double)table) +
            (samples_planned - samples) * (scene->n_sensors + 4) * (int64_t)sizeof(double); /* result.h5 */
+}
+
+/* Did every stage come to its end? */
+static bool is_whole(const brc_trial *trial)
+{
+    for (int32_t k = 0; k < trial->n_stages; ++k)
+        if (!trial->stages[k].ran || trial->stages[k].cut) return false;
+    return !trial->stopped;
 }
 
 static brc_status run_in(brc_context *context, const char *folder, watch *w, brc_trial *out)
@@ -226,6 +199,8 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
     }
     out->end_s = clock_of(w) - begin;
     out->disk_bytes = whole_disk(context, folder, scene, out);
+    out->n_measures = brc_recorder_measure_count(recorder);
+    for (int32_t k = 0; k < out->n_measures; ++k) out->measures[k] = is_whole(out) ? brc_recorder_measures(recorder)[k].value : NAN;
 cleanup:
     brc_recorder_free(&recorder);
     return status;
@@ -235,18 +210,17 @@ brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc
 {
     const brc_scene *scene = setup->split->scene;
     const brc_log_level level = brc_log_get_level(context);
-    const char *place = getenv("TMPDIR");
-    char folder[512];
+    char folder[BRC_SCRATCH];
     *out = (brc_trial){.n_stages = scene->n_stages};
     BRC_TRY(BRC_ALLOCATE(context, &out->stages, scene->n_stages, "trial"));
+    BRC_TRY(BRC_ALLOCATE(context, &out->measures, scene->n_measures, "trial"));
     watch w = {.request = request, .setup = setup, .stages = out->stages};
     w.patience = (brc_patience){.self = &w, .over = solve_is_over, .batch = FIRST_BATCH};
-    snprintf(folder, sizeof folder, "%s/breccia-check-XXXXXX", place && place[0] ? place : "/tmp");
-    if (!mkdtemp(folder)) return BRC_FAIL(context, BRC_FILE_FAILED, "%s: no folder can be made for the trial; set TMPDIR to one that can be written", folder);
+    BRC_TRY(brc_scratch_create(context, folder));
     brc_log_set_level(context, BRC_LOG_ERROR);
     const brc_status status = run_in(context, folder, &w, out);
     brc_log_set_level(context, level);
-    folder_bytes(context, folder, true);
+    brc_scratch_remove(context, folder);
     out->host_bytes = brc_memory_peak();
     for (int32_t k = 0; k < out->n_stages; ++k) /* samples to come */
         if (out->stages[k].cut) out->host_bytes += (out->stages[k].samples_planned - out->stages[k].samples) * (scene->n_sensors + 4) * (int64_t)sizeof(double);
@@ -257,5 +231,16 @@ brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc
 void brc_trial_free(brc_trial *trial)
 {
     brc_memory_free(trial->stages);
+    brc_memory_free(trial->measures);
     *trial = (brc_trial){0};
+}
+
+double brc_trial_seconds(const brc_trial *trial)
+{
+    double sum = trial->end_s;
+    for (int32_t k = 0; k < trial->n_stages; ++k) {
+        const brc_trial_stage *stage = &trial->stages[k];
+        sum += stage->enter_s + (stage->cut && stage->done > 0 ? stage->warm_s + stage->pace_s * (double)stage->planned : stage->whole_s);
+    }
+    return sum;
 }
