@@ -168,7 +168,7 @@ static brc_status read_runs(const brc_case_reader *r, const brc_node *node, brc_
 
 static void read_derived(const brc_case_reader *r, const brc_node *node, brc_case_derived *derived)
 {
-    static const char *const formulas[] = {"mean", "worst", "order", "range", "ratio", "difference", NULL};
+    static const char *const formulas[] = {"mean", "worst", "order", "range", "ratio", "difference", "crossing", NULL};
     *derived = (brc_case_derived){.row = empty_row(""), .of = "", .against = "spacing"};
     if (node->kind != BRC_NODE_MAP) brc_case_wrong(r, node, "a map");
     for (const brc_node *item = node->first; node->kind == BRC_NODE_MAP && item; item = item->next) {

@@ -43,7 +43,8 @@ typedef enum brc_case_operator {
     BRC_CASE_PRESSING,  /* load over strain of the measure K along the run */
     BRC_CASE_WAVE,      /* displacement of a bar's free end against d'Alembert's solution */
     BRC_CASE_FIELD,     /* stresses in a set against those of a pressed disc or a pulled plate with a hole */
-    BRC_CASE_TOLD       /* the error class that `check` tells before the run, against the run's error */
+    BRC_CASE_TOLD,      /* the error class that `check` tells before the run, against the run's error */
+    BRC_CASE_FRAGMENTS  /* sizes of what a body broke into */
 } brc_case_operator;
 
 typedef struct brc_case_run {
@@ -78,7 +79,8 @@ typedef enum brc_case_formula {
     BRC_CASE_ORDER,     /* slope of log |quantity - reference| against log `against`, sign so that convergence is positive */
     BRC_CASE_RANGE,     /* largest minus smallest of a quantity, over its mean */
     BRC_CASE_RATIO,     /* magnitude of a quantity of the first run over that of the second; exactly two runs */
-    BRC_CASE_DIFFERENCE /* largest difference of kept displacements, over the largest displacement; exactly two runs */
+    BRC_CASE_DIFFERENCE, /* largest difference of kept displacements, over the largest displacement; exactly two runs */
+    BRC_CASE_CROSSING    /* where a quantity first passes `origin`, along `against`, linear between runs */
 } brc_case_formula;
 
 typedef struct brc_case_derived {
@@ -86,7 +88,7 @@ typedef struct brc_case_derived {
     brc_case_formula formula;
     bool quick;
     const char *of;      /* quantity */
-    const char *against; /* "spacing" (elements^-1/3, the default) or a quantity such as "time_step" */
+    const char *against; /* "spacing" (elements^-1/3, the default), a quantity such as "time_step", or a label that is a number */
     double origin;       /* what `of` converges to; 0 for errors */
     int n_runs;
     const char *runs[BRC_CASE_LIST];

@@ -39,6 +39,9 @@ void brc_outcome_add(brc_outcome *outcome, const char *name, const char *unit, d
 /* NULL when the run gave no such value. */
 const brc_case_value *brc_outcome_find(const brc_outcome *outcome, const char *name);
 
+/* The number that a label of the run begins with ("12 m/s": 12); NAN: no such label, or no number. */
+double brc_outcome_label(const brc_outcome *outcome, const char *key);
+
 /* What a command line chose for a whole campaign. */
 typedef struct brc_campaign {
     const brc_session *session;

@@ -25,6 +25,14 @@ static double slope(int n, const double *x, const double *y)
     return above / below;
 }
 
+/* Where y first passes zero along x, linear between neighbours in the order given. */
+static double crossing(int n, const double *x, const double *y)
+{
+    for (int k = 0; k + 1 < n; ++k)
+        if ((y[k] > 0) != (y[k + 1] > 0)) return x[k] + (x[k + 1] - x[k]) * y[k] / (y[k] - y[k + 1]);
+    return NAN;
+}
+
 static double difference(const brc_outcome *a, const brc_outcome *b)
 {
     if (!a->displacement || !b->displacement || a->n_elements != b->n_elements) return NAN;
@@ -38,7 +46,7 @@ static double difference(const brc_outcome *a, const brc_outcome *b)
 
 double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *derived, char *note, size_t size)
 {
-    double x[BRC_CASE_LIST], y[BRC_CASE_LIST], sum = 0, worst = 0, low = INFINITY, high = -INFINITY;
+    double x[BRC_CASE_LIST], y[BRC_CASE_LIST], above[BRC_CASE_LIST], sum = 0, worst = 0, low = INFINITY, high = -INFINITY;
     const brc_outcome *outcomes[BRC_CASE_LIST];
     note[0] = '\0';
     for (int k = 0; k < derived->n_runs; ++k) {
@@ -54,8 +62,10 @@ double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *d
             snprintf(note, size, "run %s has no %s", derived->runs[k], derived->of);
             return NAN;
         }
-        y[k] = fabs(value->value - derived->origin);
-        x[k] = against ? against->value : 1 / cbrt((double)outcome->n_elements);
+        const double label = brc_outcome_label(outcome, derived->against);
+        above[k] = value->value - derived->origin;
+        y[k] = fabs(above[k]);
+        x[k] = against ? against->value : !isnan(label) ? label : 1 / cbrt((double)outcome->n_elements);
         sum += value->value / derived->n_runs;
         worst = fmax(worst, fabs(value->value));
         low = fmin(low, value->value);
@@ -67,6 +77,7 @@ double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *d
     case BRC_CASE_ORDER: return slope(derived->n_runs, x, y);
     case BRC_CASE_RANGE: return (high - low) / fabs(sum);
     case BRC_CASE_RATIO: return derived->n_runs == 2 && y[1] > 0 ? y[0] / y[1] : NAN;
+    case BRC_CASE_CROSSING: return crossing(derived->n_runs, x, above);
     case BRC_CASE_DIFFERENCE: return derived->n_runs == 2 ? difference(outcomes[0], outcomes[1]) : NAN;
     }
     return NAN;

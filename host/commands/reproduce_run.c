@@ -2,6 +2,7 @@
 #include "pace.h"
 #include "reproduce_field.h"
 #include "reproduce_fracture.h"
+#include "reproduce_fragments.h"
 #include "reproduce_hondros.h"
 #include "reproduce_pressing.h"
 #include "reproduce_told.h"
@@ -13,6 +14,7 @@
 #include "../base/log.h"
 #include "../base/memory.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -32,6 +34,16 @@ const brc_case_value *brc_outcome_find(const brc_outcome *outcome, const char *n
     for (int k = 0; k < outcome->n_values; ++k)
         if (strcmp(outcome->values[k].name, name) == 0) return &outcome->values[k];
     return NULL;
+}
+
+double brc_outcome_label(const brc_outcome *outcome, const char *key)
+{
+    for (int k = 0; k < outcome->run->n_labels; ++k) {
+        char *end;
+        const double value = strcmp(outcome->run->labels[k].key, key) == 0 ? strtod(outcome->run->labels[k].value, &end) : NAN;
+        if (!isnan(value) && end != outcome->run->labels[k].value) return value;
+    }
+    return NAN;
 }
 
 /* What the hooks of a run are handed. */
@@ -68,6 +80,7 @@ static brc_status finished(void *self, brc_simulation *simulation)
     brc_outcome_add(h->outcome, "iterations", "-", (double)report.iterations, NAN);
     brc_outcome_add(h->outcome, "residual", "-", report.residual, NAN);
     if (brc_simulation_has_fracture(simulation)) BRC_TRY(brc_fracture_values(h->context, simulation, h->outcome));
+    if (h->outcome->run->operator == BRC_CASE_FRAGMENTS) return brc_fragments_values(h->context, simulation, h->outcome);
     if (h->outcome->run->operator == BRC_CASE_HONDROS) return brc_hondros_values(h->context, simulation, h->outcome);
     if (h->outcome->run->operator == BRC_CASE_FIELD) return brc_field_values(h->context, simulation, h->outcome);
     if (h->outcome->run->operator == BRC_CASE_VIRIAL) return brc_virial_values(h->context, simulation, h->outcome);
