@@ -67,10 +67,15 @@ void brc_contact_free(brc_simulation *s)
     s->contact = NULL;
 }
 
-int64_t brc_contact_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes)
+int64_t brc_contact_bytes(const brc_scene *scene, const brc_domain *d, int64_t n, int64_t entries, int64_t exposed, int64_t state_bytes)
 {
     if (!scene->has_contact) return 0;
-    return entries * 4 + n * (4 * 4 + 2 * 4 + (3 + 1 + 4 + 3) * state_bytes);
+    const int64_t rows = n * (5 * 4 + 2 * 4 + (3 + 1 + 1 + 1 + 4 + 3) * state_bytes), lists = exposed * 20 * 4;
+    if (d->element_kind == BRC_ELEMENT_SPHERE) return entries * 4 + rows + lists;
+    /* A face is a plane with its place in the list of loops; by Euler's formula the loops of V corners and F faces have 2 (V + F - 2) numbers. */
+    const int64_t corners = d->vertex_start[d->n_elements], faces = d->n_half_edges + d->n_free_faces, loops = 2 * (corners + faces - 2 * d->n_elements);
+    const bool rigid = scene->has_fracture && scene->model.kind == BRC_MODEL_DLSM;
+    return entries * 4 + rows + lists + corners * 3 * state_bytes + faces * (4 * state_bytes + 4) + loops * 4 + n * (2 * 4 + state_bytes + (rigid ? 16 * state_bytes : 0));
 }
 
 /* ---- when to look ---- */

@@ -12,8 +12,8 @@ typedef struct brc_contact_state brc_contact_state;
 /* s->contact, after fracture and strikers are there. BRC_BAD_INPUT: static stages, models or shapes that cannot touch. */
 brc_status brc_contact_create(brc_simulation *s);
 void brc_contact_free(brc_simulation *s);
-/* Device bytes it takes before anything is near anything (n rows, entries of the layout). */
-int64_t brc_contact_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes);
+/* Device bytes it takes before anything is near anything (n rows, entries of the layout, elements that are exposed). */
+int64_t brc_contact_bytes(const brc_scene *scene, const brc_domain *domain, int64_t n, int64_t entries, int64_t exposed, int64_t state_bytes);
 
 /* Elements were moved by hand or a stage begins: look for pairs again. */
 brc_status brc_contact_restart(brc_simulation *s);
