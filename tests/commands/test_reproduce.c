@@ -1,5 +1,5 @@
 #include "support.h"
-#include "../../host/commands/reproduce.h"
+#include "../../host/commands/reproduce_fragments.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -46,6 +46,52 @@ static void order_is_the_slope_against_spacing_or_another_quantity(void **state)
     const made *m = make();
     assert_near(derive(m, BRC_CASE_ORDER, "spacing", 5, 3, note), 2, 1e-12);
     assert_near(derive(m, BRC_CASE_ORDER, "time_step", 5, 3, note), 1, 1e-12);
+}
+
+/* 5.75, 5.1875, 5.046875 at the labels 10, 20, 40 pass 5.1 where the second part has 0.0875 of its fall of 0.140625. */
+static void crossing_is_where_a_quantity_passes_a_value_along_a_label(void **state)
+{
+    (void)state;
+    char note[200];
+    made *m = make();
+    static const char *const speeds[] = {"10 m/s", "20 m/s", "40 m/s"};
+    for (int k = 0; k < 3; ++k) {
+        m->runs[k].labels[0] = (brc_case_pair){"speed", speeds[k]};
+        m->runs[k].n_labels = 1;
+    }
+    assert_near(derive(m, BRC_CASE_CROSSING, "speed", 5.1, 3, note), 20 + 20 * 0.0875 / 0.140625, 1e-12);
+    assert_true(isnan(derive(m, BRC_CASE_CROSSING, "speed", 4, 3, note)));
+    assert_true(isnan(brc_outcome_label(&m->outcomes[0], "cells")));
+}
+
+/* Masses at the middles of equal parts of m^-tau between 1 and 100 have its exponent, but for what quantiles are off the mean: a share 1 / (24 n^2) of the curvature of ln m over them. */
+static void the_exponent_of_masses_is_that_they_were_drawn_with(void **state)
+{
+    (void)state;
+    enum { N = 4000 };
+    static double mass[N + 2];
+    static const double taus[] = {0.5, 1, 1.7, 2.3, 4};
+    for (size_t t = 0; t < sizeof taus / sizeof *taus; ++t) {
+        const double a = 1 - taus[t];
+        int64_t n;
+        double error;
+        for (int k = 0; k < N; ++k) {
+            const double p = (k + 0.5) / N;
+            mass[k] = a == 0 ? pow(100, p) : pow(1 + p * (pow(100, a) - 1), 1 / a);
+        }
+        mass[N] = 0.5, mass[N + 1] = 200; /* outside */
+        assert_near(brc_fragments_exponent(N + 2, mass, 1, 100, &n, &error), taus[t], 1e-3);
+        assert_int_equal(n, N);
+        assert_true(error > 0.2 / sqrt(N) && error < 5 / sqrt(N)); /* ln m scatters by 0.3 (tau 4) to 1.3 */
+        double half;
+        for (int k = 0; k < N / 4; ++k) mass[k] = mass[4 * k + 2];
+        brc_fragments_exponent(N / 4, mass, 1, 100, &n, &half);
+        assert_near(half / error, 2, 0.05); /* a quarter of them is twice as uncertain */
+    }
+    int64_t n;
+    double error;
+    const double same[] = {2, 2, 2};
+    assert_true(isnan(brc_fragments_exponent(3, same, 1, 100, &n, &error)));
 }
 
 static void mean_and_worst_are_over_the_runs_named(void **state)
@@ -134,6 +180,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(order_is_the_slope_against_spacing_or_another_quantity),
+        cmocka_unit_test(crossing_is_where_a_quantity_passes_a_value_along_a_label),
+        cmocka_unit_test(the_exponent_of_masses_is_that_they_were_drawn_with),
         cmocka_unit_test(mean_and_worst_are_over_the_runs_named),
         cmocka_unit_test(ratio_is_of_magnitudes_of_two_runs),
         cmocka_unit_test(difference_is_largest_over_largest),
