@@ -5,6 +5,7 @@
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
+#include "../base/version.h"
 #include <errno.h>
 #include <math.h>
 #include <omp.h>
@@ -200,6 +201,14 @@ cleanup:
     return status;
 }
 
+/* Laws say which commit made them; a program that does not know should be seen before hours of tests, not after. */
+static void warn_of_unknown_commit(brc_context *context)
+{
+    const char *commit = brc_version_commit();
+    if (strcmp(commit, "unknown") == 0 || strchr(commit, '-'))
+        brc_log(context, BRC_LOG_WARNING, "calibrate: laws.json will name the commit '%s' as what made the laws; for laws that are kept, build from a clone of the repository without changes", commit);
+}
+
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
 {
     brc_context *context = session->context;
@@ -213,6 +222,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
         return BRC_FAIL(context, BRC_BAD_INPUT, "breccia calibrate: --what is '%s', expected elastic, fracture or all", what);
     BRC_TRY(make_plan(context, arguments, &plan));
     BRC_TRY(make_strength_plan(context, arguments, &plan, &strength));
+    warn_of_unknown_commit(context);
     if (elastic) BRC_TRY(run_elastic(context, &plan, folder, resume));
     return fracture ? run_fracture(context, &strength, folder, resume) : BRC_OK;
 }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# breccia calibrate end to end on small samples: 25 solves and 12 tests to failure, every file, and nothing left to do the second time.
+# breccia calibrate end to end on small samples: 25 solves and 12 tests to failure, every file, the commit in the laws, and nothing left to do the second time.
 program=${BRC_PROGRAM:-breccia}
 command -v "$program" >/dev/null || { echo "$program is not built; skipped"; exit 77; }
 folder=calibrate-$$
@@ -14,6 +14,10 @@ for file in tests.csv laws.json laws.csv errors.csv law.h rows.json rows.csv; do
     [ -s "$folder/strength/$file" ] || { echo "$folder/strength/$file is missing"; exit 1; }
 done
 [ "$(wc -l <"$folder/strength/tests.csv")" = 13 ] || { echo "expected 12 tests"; exit 1; }
+commit=$("$program" --version | sed 's/.*(commit \([^,]*\),.*/\1/')
+for laws in laws.json strength/laws.json; do
+    grep -q "\"commit\": \"$commit\"" "$folder/$laws" || { echo "$folder/$laws does not name the commit $commit of the program"; exit 1; }
+done
 "$program" calibrate -o "$folder" --what elastic --samples 1 --elements 1200 --coordination 6,7.5,9,10.5,12 --resume || exit 1
 cmp "$folder/laws.csv" "$folder/before.csv" || exit 1
 "$program" calibrate -o "$folder" 2>"$folder/message" && { echo "a second campaign in one folder was not refused"; exit 1; }
