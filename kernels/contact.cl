@@ -1,8 +1,8 @@
 /* Forces of touching pairs: each pair once, one work-item; results are gathered by element in the order of its entries (contact_search.cl).
  * history [n_pairs][CONTACT_HISTORY]: 0 stretch of the tangential spring; 3, 6 the point of contact of the last step in either body's own frame
  * [m]; 9 overlap (spheres: depth [m], below 0 apart; cells: volume [m^3]) and 10 its rate; 11 force of the dashpot; 12 touching, 13 sliding, 14
- * looked at before.
- * result [n_pairs][CONTACT_RESULT + 2 width]: 0 force on i [N]; 3 energy held, 4 lost to friction, 5 to the dashpot in this step [J]; 6 touching; 7
+ * looked at before; 15 cells apart: 1 + the face of i that last stood between them, or minus that of j; 16 what rounding makes of the slip of those points where nothing moves [m].
+ * result [n_pairs][CONTACT_RESULT + 2 width]: 6 touching, and then only: 0 force on i [N]; 3 energy held, 4 lost to friction, 5 to the dashpot in this step [J]; 7
  * normal force [N]; 8 depth [m]; then width numbers for i and for j: torque (width 3), or dW/dH in the frame of the reference (width 9).
  * law [n_materials][n_materials][6]: contact_law. */
 
@@ -13,41 +13,20 @@ LAW contact_law contact_law_of(GLOBAL const state *restrict law, int n_materials
     GLOBAL const state *restrict p = law + ((brc_size)i * (brc_size)n_materials + (brc_size)j) * 6;
     return (contact_law){p[0], p[1], p[2], p[3], p[4], p[5]};
 }
-LAW svec3 svec3_load(GLOBAL const state *restrict p, brc_size at) { return (svec3){p[at], p[at + 1], p[at + 2]}; }
-LAW void svec3_store(GLOBAL state *restrict p, brc_size at, svec3 a)
-{
-    p[at] = a.x;
-    p[at + 1] = a.y;
-    p[at + 2] = a.z;
-}
-LAW smat3 smat3_load(GLOBAL const state *restrict p, brc_size at)
-{
-    return (smat3){p[at], p[at + 1], p[at + 2], p[at + 3], p[at + 4], p[at + 5], p[at + 6], p[at + 7], p[at + 8]};
-}
-LAW void smat3_store(GLOBAL state *restrict p, brc_size at, smat3 a)
-{
-    p[at] = a.xx, p[at + 1] = a.xy, p[at + 2] = a.xz, p[at + 3] = a.yx, p[at + 4] = a.yy, p[at + 5] = a.yz;
-    p[at + 6] = a.zx, p[at + 7] = a.zy, p[at + 8] = a.zz;
-}
-LAW squat squat_load(GLOBAL const state *restrict p, int e)
-{
-    GLOBAL const state *restrict q = p + (brc_size)e * 4;
-    return (squat){q[0], q[1], q[2], q[3]};
-}
-/* x_j - x_i now [m]: places and displacements apart, so that small motions of far places keep their digits. */
-LAW svec3 contact_branch(GLOBAL const state *restrict place, GLOBAL const state *restrict displacement, int i, int j)
-{
-    const svec3 far = svec3_sub(svec3_load(place, (brc_size)j * 3), svec3_load(place, (brc_size)i * 3));
-    return svec3_add(far, svec3_sub(svec3_load(displacement, (brc_size)j * 3), svec3_load(displacement, (brc_size)i * 3)));
-}
-
 /* What a pair that does not touch leaves behind: nothing but its overlap, from which the next step takes the rate. */
-LAW void contact_apart(GLOBAL state *restrict history, GLOBAL state *restrict result, int width, state overlap)
+LAW void contact_apart(GLOBAL state *restrict history, state overlap, int face)
 {
-    for (int c = 0; c < CONTACT_HISTORY; ++c) history[c] = 0;
+    if (!(history[14] > 0) || history[12] > 0)
+        for (int c = 0; c < CONTACT_HISTORY; ++c) history[c] = 0;
     history[9] = overlap;
     history[14] = 1;
-    for (int c = 0; c < CONTACT_RESULT + 2 * width; ++c) result[c] = 0;
+    history[15] = (state)face;
+}
+
+/* By how much the points own_i, own_j that met lie apart [m]. Less the same of the step before, which is nothing but rounding: a pair at rest slips by nothing at all, however long. */
+LAW svec3 contact_slip(smat3 map_i, svec3 own_i, smat3 map_j, svec3 own_j, svec3 branch)
+{
+    return svec3_sub(svec3_sub(smat3_mul_vec(map_i, own_i), smat3_mul_vec(map_j, own_j)), branch);
 }
 
 /* How a sphere meets another, or a piece of a striker: unit normal out of i, depth, and the arms from both places to the point of contact. */
@@ -120,9 +99,8 @@ KERNEL void contact_spheres(int n_pairs, state dt, int n, int is_linear, int n_m
         }
         const state depth = meet.depth;
         const int looked = past[14] > 0, touching = depth > 0;
-        if (!touching && dt > 0) contact_apart(past, out, 3, depth);
-        if (!touching && !(dt > 0))
-            for (int c = 0; c < CONTACT_RESULT + 6; ++c) out[c] = 0;
+        if (!touching && dt > 0) contact_apart(past, depth, 0);
+        out[6] = 0;
         if (touching) {
             const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
             const state heavy = mass[j] > 0 ? mass[i] * mass[j] / (mass[i] + mass[j]) : mass[i];
@@ -131,7 +109,7 @@ KERNEL void contact_spheres(int n_pairs, state dt, int n, int is_linear, int n_m
             const state viscous = contact_dashpot(normal.force, normal.dashpot, how.damping, rate);
             svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
             if (past[12] > 0) {
-                slip = svec3_sub(svec3_sub(smat3_mul_vec(turn_i, svec3_load(past, 3)), smat3_mul_vec(turn_j, svec3_load(past, 6))), meet.branch);
+                slip = svec3_sub(contact_slip(turn_i, svec3_load(past, 3), turn_j, svec3_load(past, 6), meet.branch), svec3_load(past, 16));
                 stretch = svec3_load(past, 0);
             }
             const contact_stick stick = contact_friction(stretch, slip, meet.normal, normal.sticking, how.friction * (normal.force + viscous));
@@ -147,8 +125,10 @@ KERNEL void contact_spheres(int n_pairs, state dt, int n, int is_linear, int n_m
             svec3_store(out, CONTACT_RESULT + 3, svec3_scale(STATE(-1), svec3_cross(meet.arm_j, force)));
             if (dt > 0) {
                 svec3_store(past, 0, stick.stretch);
-                svec3_store(past, 3, smat3_tmul_vec(turn_i, meet.arm_i));
-                svec3_store(past, 6, smat3_tmul_vec(turn_j, meet.arm_j));
+                const svec3 own_i = smat3_tmul_vec(turn_i, meet.arm_i), own_j = smat3_tmul_vec(turn_j, meet.arm_j);
+                svec3_store(past, 3, own_i);
+                svec3_store(past, 6, own_j);
+                svec3_store(past, 16, contact_slip(turn_i, own_i, turn_j, own_j, meet.branch));
                 past[9] = depth;
                 past[10] = rate;
                 past[11] = viscous;
@@ -162,14 +142,14 @@ KERNEL void contact_spheres(int n_pairs, state dt, int n, int is_linear, int n_m
 
 /* Elements that turn: force += sign times those of contact, torque likewise; kick: velocities lose kick f / m, spins likewise (a pair that is new in the middle of a
  * step must not act on the step that ended). book 1: what was lost in the step is added up. stored [n] [J]. */
-KERNEL void contact_gather_turning(int m, state sign, state kick, int book, GLOBAL const int *restrict list, GLOBAL const int *restrict start,
+KERNEL void contact_gather_turning(int n_busy, state sign, state kick, int book, GLOBAL const int *restrict busy, GLOBAL const int *restrict list, GLOBAL const int *restrict start,
                                    GLOBAL const int *restrict used, GLOBAL const int *restrict pair, GLOBAL const state *restrict result,
                                    GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia, GLOBAL state *restrict force,
                                    GLOBAL state *restrict torque, GLOBAL state *restrict velocity, GLOBAL state *restrict spin,
                                    GLOBAL state *restrict stored, GLOBAL state *restrict lost_friction, GLOBAL state *restrict lost_impact)
 {
-    FOR_EACH_ITEM(k, m) {
-        const int e = list[k];
+    FOR_EACH_ITEM(item, n_busy) {
+        const int k = busy[item], e = list[k];
         svec3 push = {0, 0, 0}, turn = {0, 0, 0};
         state held = 0, rubbed = 0, damped = 0;
         for (int at = start[k]; at < start[k] + used[k]; ++at) {

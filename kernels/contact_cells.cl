@@ -5,19 +5,6 @@
  * Others than elements: number n + piece. piece_kind: 0 polyhedron, 1 sphere (whose polyhedron meets cells), 2 plane. Of elements and pieces: id, the number
  * of their shape too (convex_overlap.h), size: cube root of the volume (0: a piece), mass (0: does not move), material. */
 
-LAW svec3 svec3_of(convex_vec a) { return (svec3){a.x, a.y, a.z}; }
-LAW convex_vec convex_of(svec3 a) { return (convex_vec){a.x, a.y, a.z}; }
-LAW smat3 smat3_of(convex_map a) { return (smat3){a.xx, a.xy, a.xz, a.yx, a.yy, a.yz, a.zx, a.zy, a.zz}; }
-LAW convex_map convex_map_of(smat3 a) { return (convex_map){a.xx, a.xy, a.xz, a.yx, a.yy, a.yz, a.zx, a.zy, a.zz}; }
-
-/* Map of an element from its reference: I + H, or its rotation. */
-LAW smat3 contact_map(int affine, GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict orientation, int e)
-{
-    if (!affine) return squat_matrix(squat_load(orientation, e));
-    GLOBAL const coeff *restrict h = gradient + (brc_size)e * 9;
-    return (smat3){STATE(1) + (state)h[0], (state)h[1], (state)h[2], (state)h[3], STATE(1) + (state)h[4], (state)h[5], (state)h[6], (state)h[7], STATE(1) + (state)h[8]};
-}
-
 /* The moment of pressure (gradient dW/dH), or its torque, and that of a force f at arm (own frame) reach (frame of space). */
 LAW void contact_put_moment(GLOBAL state *restrict out, int at, int affine, state pressure, smat3 moment, smat3 map, svec3 f, svec3 own, svec3 reach)
 {
@@ -67,15 +54,14 @@ KERNEL void contact_cells(int n_pairs, state dt, int n, int affine, int n_materi
             over = convex_wall_overlap(shape_i, pose_i, wall, convex_of(branch));
         } else {
             const convex_pose pose_j = {convex_of(branch), convex_map_of(map_j)};
-            over = convex_overlap_of(shape_i, pose_i, shape_j, pose_j);
+            over = convex_overlap_after(shape_i, pose_i, shape_j, pose_j, (int)past[15]);
         }
         const svec3 area = svec3_of(over.area);
         const state surface = svec3_length(area);
         /* an overlap that could not be taken (failed 2) divides by no area: what is not finite stops the run, in place of a force that is missing */
         const int touching = (over.volume > 0 && surface > 0) || over.failed == 2, looked = past[14] > 0;
-        if (!touching && dt > 0) contact_apart(past, out, width, STATE(0));
-        if (!touching && !(dt > 0))
-            for (int c = 0; c < CONTACT_RESULT + 2 * width; ++c) out[c] = 0;
+        if (!touching && dt > 0) contact_apart(past, STATE(0), over.apart);
+        out[6] = 0;
         if (touching) {
             const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
             const state h = size[j] > 0 ? STATE(2) * size[i] * size[j] / (size[i] + size[j]) : size[i], cube = h * h * h;
@@ -88,7 +74,7 @@ KERNEL void contact_cells(int n_pairs, state dt, int n, int affine, int n_materi
             const svec3 n_out = svec3_scale(STATE(-1) / surface, area), point = svec3_of(over.point), arm_j = svec3_sub(point, branch);
             svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
             if (past[12] > 0) {
-                slip = svec3_sub(svec3_sub(smat3_mul_vec(map_i, svec3_load(past, 3)), smat3_mul_vec(map_j, svec3_load(past, 6))), branch);
+                slip = svec3_sub(contact_slip(map_i, svec3_load(past, 3), map_j, svec3_load(past, 6), branch), svec3_load(past, 16));
                 stretch = svec3_load(past, 0);
             }
             const contact_stick stick = contact_friction(stretch, slip, n_out, sticking, how.friction * pressure * surface);
@@ -107,26 +93,28 @@ KERNEL void contact_cells(int n_pairs, state dt, int n, int affine, int n_materi
                 svec3_store(past, 0, stick.stretch);
                 svec3_store(past, 3, own_i);
                 svec3_store(past, 6, own_j);
+                svec3_store(past, 16, contact_slip(map_i, own_i, map_j, own_j, branch));
                 past[9] = over.volume;
                 past[10] = rate;
                 past[11] = viscous;
                 past[12] = 1;
                 past[13] = (state)stick.sliding;
                 past[14] = 1;
+                past[15] = 0;
             }
         }
     }
 }
 
 /* dlsm: moments of touching pairs, added to the element's place in held_moment; of rigid elements the torque instead. As contact_gather_turning. */
-KERNEL void contact_gather_moments(int m, int book, GLOBAL const int *restrict list, GLOBAL const int *restrict start, GLOBAL const int *restrict used,
+KERNEL void contact_gather_moments(int n_busy, int book, GLOBAL const int *restrict busy, GLOBAL const int *restrict list, GLOBAL const int *restrict start, GLOBAL const int *restrict used,
                                    GLOBAL const int *restrict pair, GLOBAL const state *restrict result, GLOBAL const int *restrict boundary,
                                    GLOBAL const int *restrict rigid, GLOBAL const coeff *restrict gradient, GLOBAL coeff *restrict held_moment,
                                    GLOBAL state *restrict turn, GLOBAL state *restrict stored, GLOBAL state *restrict lost_friction,
                                    GLOBAL state *restrict lost_impact)
 {
-    FOR_EACH_ITEM(k, m) {
-        const int e = list[k];
+    FOR_EACH_ITEM(item, n_busy) {
+        const int k = busy[item], e = list[k];
         smat3 sum = {0, 0, 0, 0, 0, 0, 0, 0, 0};
         state held = 0, rubbed = 0, damped = 0;
         int any = 0;
@@ -158,10 +146,11 @@ KERNEL void contact_gather_moments(int m, int book, GLOBAL const int *restrict l
 }
 
 /* dlsm: forces of touching pairs. */
-KERNEL void contact_gather_forces(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict start, GLOBAL const int *restrict used,
+KERNEL void contact_gather_forces(int n_busy, GLOBAL const int *restrict busy, GLOBAL const int *restrict list, GLOBAL const int *restrict start, GLOBAL const int *restrict used,
                                   GLOBAL const int *restrict pair, GLOBAL const state *restrict result, GLOBAL state *restrict force)
 {
-    FOR_EACH_ITEM(k, m) {
+    FOR_EACH_ITEM(item, n_busy) {
+        const int k = busy[item];
         const brc_size to = (brc_size)list[k] * 3;
         svec3 push = {0, 0, 0};
         int any = 0;

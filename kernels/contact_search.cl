@@ -1,78 +1,10 @@
-/* Which elements may touch: those that are exposed and whose balls, grown by a skin, meet. Rebuilt when something has moved by half the skin; in
- * between the list holds every pair that can touch. Positions are relative to the middle of the domain. Of the lists:
+/* Which elements may touch: those that are exposed, whose balls, grown by a skin, meet, and between which no plane stands (contact_sift.h). Rebuilt when something has moved by half the
+ * skin (contact_motion.cl); in between the list holds every pair that can touch. Positions are relative to the middle of the domain. Of the lists:
  * list [m]: rows of the exposed elements, ascending; slot_of [n + 1]: place of a row in it (of an exposed row; else that of the next one);
  * start [m + 1], used [m]: entries of each; entry: the other row, by ascending id, and n + piece of a striker; pair: number of the pair, seen from its lower id; below 0: -1 - pair, seen
- * from the higher one.
- * built [n][4]: where each element was when the list was made, and the radius of the ball about it that held it [m]. */
+ * from the higher one; busy: those slots of list that have entries at all. */
 
-#define CONTACT_HISTORY 16
-
-/* Bound of how much a map I + H lengthens anything: the root of the largest row sum of F^T F, 1 for rotations. */
-LAW state contact_stretch(GLOBAL const coeff *restrict gradient, int e)
-{
-    GLOBAL const coeff *restrict h = gradient + (brc_size)e * 9;
-    const smat3 f = {STATE(1) + h[0], h[1], h[2], h[3], STATE(1) + h[4], h[5], h[6], h[7], STATE(1) + h[8]};
-    const smat3 c = smat3_mul(smat3_transpose(f), f);
-    const state yz = c.yz < 0 ? -c.yz : c.yz, xz = c.xz < 0 ? -c.xz : c.xz, xy = c.xy < 0 ? -c.xy : c.xy;
-    const state x = c.xx + xy + xz, y = c.yy + xy + yz, z = c.zz + xz + yz;
-    const state xy_most = x > y ? x : y;
-    return SQRT_STATE(xy_most > z ? xy_most : z);
-}
-
-/* Present positions and radii of all elements. reach [n]: radius about the element's place in the reference [m]; affine: elements follow I + H. */
-KERNEL void contact_extent(int n, int affine, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
-                           GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict reach, GLOBAL state *restrict built)
-{
-    FOR_EACH_ITEM(e, n) {
-        for (int c = 0; c < 3; ++c) built[(brc_size)e * 4 + c] = place[(brc_size)e * 3 + c] + displacement[(brc_size)e * 3 + c];
-        built[(brc_size)e * 4 + 3] = affine ? reach[e] * contact_stretch(gradient, e) : reach[e];
-    }
-}
-
-#define CONTACT_BLOCK 256
-/* Of each block of elements: how far an exposed one has moved and swollen since `built` [m], its largest speed and acceleration squared. moved [n_blocks][3]. */
-KERNEL void contact_moved(int n_blocks, int n, int affine, GLOBAL const int *restrict exposed, GLOBAL const state *restrict place,
-                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict reach,
-                          GLOBAL const state *restrict built, GLOBAL const state *restrict velocity, GLOBAL const state *restrict force,
-                          GLOBAL const state *restrict mass, GLOBAL state *restrict moved)
-{
-    FOR_EACH_ITEM(b, n_blocks) {
-        const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
-        state far = 0, fast = 0, pushed = 0;
-        for (int e = begin; e < end; ++e)
-            if (exposed[e]) {
-                state square = 0, speed = 0, push = 0;
-                for (int c = 0; c < 3; ++c) {
-                    const brc_size at = (brc_size)e * 3 + c;
-                    const state way = place[at] + displacement[at] - built[(brc_size)e * 4 + c], a = force[at] / mass[e];
-                    square += way * way;
-                    speed += velocity[at] * velocity[at];
-                    push += a * a;
-                }
-                const state grown = affine ? reach[e] * contact_stretch(gradient, e) - built[(brc_size)e * 4 + 3] : STATE(0);
-                const state way = SQRT_STATE(square) + (grown > 0 ? grown : STATE(0));
-                far = way > far ? way : far;
-                fast = speed > fast ? speed : fast;
-                pushed = push > pushed ? push : pushed;
-            }
-        moved[(brc_size)b * 3] = far;
-        moved[(brc_size)b * 3 + 1] = fast;
-        moved[(brc_size)b * 3 + 2] = pushed;
-    }
-}
-
-/* Of each block the largest radius of an exposed element, as contact_moved gives its moves. */
-KERNEL void contact_largest(int n_blocks, int n, GLOBAL const int *restrict exposed, GLOBAL const state *restrict built, GLOBAL state *restrict moved)
-{
-    FOR_EACH_ITEM(b, n_blocks) {
-        const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
-        state most = 0;
-        for (int e = begin; e < end; ++e)
-            if (exposed[e] && built[(brc_size)e * 4 + 3] > most) most = built[(brc_size)e * 4 + 3];
-        moved[(brc_size)b * 3] = most;
-        moved[(brc_size)b * 3 + 1] = moved[(brc_size)b * 3 + 2] = 0;
-    }
-}
+#define CONTACT_HISTORY 20
 
 /* Elements that lost a bond are exposed from then on. */
 KERNEL void contact_expose(int n, GLOBAL const state *restrict broken, GLOBAL int *restrict exposed)
@@ -145,60 +77,14 @@ LAW int contact_near(GLOBAL const state *restrict built, int i, int j, state ski
     return x * x + y * y + z * z < reach * reach;
 }
 
-/* Pieces of strikers: a ball about a centre (x y z, reach), or the half-space behind a plane (unit normal, height; piece_kind 2), in their striker's own frame; where they
- * are now, relative to the middle of the domain: piece [n_pieces][4]. */
-LAW svec3 contact_striker_place(GLOBAL const state *restrict striker_pose, brc_size at, state middle_x, state middle_y, state middle_z)
-{
-    return (svec3){striker_pose[at] - middle_x, striker_pose[at + 1] - middle_y, striker_pose[at + 2] - middle_z};
-}
-LAW svec3 contact_striker_turn(GLOBAL const state *restrict striker_pose, brc_size at, svec3 a)
-{
-    GLOBAL const state *restrict r = striker_pose + at + 3;
-    return (svec3){r[0] * a.x + r[1] * a.y + r[2] * a.z, r[3] * a.x + r[4] * a.y + r[5] * a.z, r[6] * a.x + r[7] * a.y + r[8] * a.z};
-}
-KERNEL void contact_pieces(int n_pieces, state middle_x, state middle_y, state middle_z, GLOBAL const int *restrict piece_striker,
-                           GLOBAL const int *restrict piece_kind, GLOBAL const state *restrict piece_own, GLOBAL const state *restrict striker_pose,
-                           GLOBAL state *restrict piece)
-{
-    FOR_EACH_ITEM(q, n_pieces) {
-        const brc_size at = (brc_size)piece_striker[q] * 12, to = (brc_size)q * 4;
-        const svec3 own = {piece_own[to], piece_own[to + 1], piece_own[to + 2]}, far = contact_striker_place(striker_pose, at, middle_x, middle_y, middle_z);
-        const svec3 turned = contact_striker_turn(striker_pose, at, own);
-        const int wall = piece_kind[q] == 2;
-        const svec3 now = wall ? turned : svec3_add(far, turned);
-        piece[to] = now.x;
-        piece[to + 1] = now.y;
-        piece[to + 2] = now.z;
-        piece[to + 3] = wall ? piece_own[to + 3] + svec3_dot(turned, far) : piece_own[to + 3];
-    }
-}
-/* How far pieces moved since `piece`, as contact_moved tells it of elements; span: how far from the middle anything may be that meets a plane [m]. */
-KERNEL void contact_pieces_moved(int n_pieces, int first, state middle_x, state middle_y, state middle_z, state span, GLOBAL const int *restrict piece_striker,
-                                 GLOBAL const int *restrict piece_kind, GLOBAL const state *restrict piece_own, GLOBAL const state *restrict striker_pose,
-                                 GLOBAL const state *restrict motion, GLOBAL const state *restrict piece, GLOBAL state *restrict moved)
-{
-    FOR_EACH_ITEM(q, n_pieces) {
-        const brc_size at = (brc_size)piece_striker[q] * 12, to = (brc_size)q * 4, way = (brc_size)(first + q) * 3, on = (brc_size)piece_striker[q] * 6;
-        const svec3 own = {piece_own[to], piece_own[to + 1], piece_own[to + 2]}, far = contact_striker_place(striker_pose, at, middle_x, middle_y, middle_z);
-        const svec3 turned = contact_striker_turn(striker_pose, at, own), was = {piece[to], piece[to + 1], piece[to + 2]};
-        const svec3 v = {motion[on], motion[on + 1], motion[on + 2]}, w = {motion[on + 3], motion[on + 4], motion[on + 5]};
-        const int wall = piece_kind[q] == 2;
-        const state lever = wall ? span : svec3_length(own) + piece_own[to + 3];
-        const state rise = wall ? piece_own[to + 3] + svec3_dot(turned, far) - piece[to + 3] : STATE(0);
-        const svec3 off = svec3_sub(wall ? turned : svec3_add(far, turned), was);
-        const state speed = svec3_length(v) + lever * svec3_length(w);
-        moved[way] = wall ? (rise < 0 ? -rise : rise) + span * svec3_length(off) : svec3_length(off);
-        moved[way + 1] = speed * speed;
-        moved[way + 2] = 0;
-    }
-}
-LAW int contact_near_piece(GLOBAL const state *restrict built, int e, GLOBAL const state *restrict piece, GLOBAL const int *restrict piece_kind, int q, state skin)
+/* Distance of the ball about an element from that of a piece, or from its half-space [m]. */
+LAW state contact_piece_gap(GLOBAL const state *restrict built, int e, GLOBAL const state *restrict piece, GLOBAL const int *restrict piece_kind, int q)
 {
     GLOBAL const state *restrict a = built + (brc_size)e * 4;
     GLOBAL const state *restrict b = piece + (brc_size)q * 4;
-    if (piece_kind[q] == 2) return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] - b[3] < a[3] + skin;
-    const state x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], reach = a[3] + b[3] + skin;
-    return x * x + y * y + z * z < reach * reach;
+    if (piece_kind[q] == 2) return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] - b[3] - a[3];
+    const state x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return SQRT_STATE(x * x + y * y + z * z) - a[3] - b[3];
 }
 
 /* How many others are near each exposed element, bonds not asked. */
@@ -219,7 +105,7 @@ KERNEL void contact_count(int m, state skin, state per_edge, int mask, int n_pie
                 near += j != e && own.x == cell.x && own.y == cell.y && own.z == cell.z && contact_near(built, e, j, skin);
             }
         }
-        for (int q = 0; q < n_pieces; ++q) near += contact_near_piece(built, e, piece, piece_kind, q, skin);
+        for (int q = 0; q < n_pieces; ++q) near += contact_piece_gap(built, e, piece, piece_kind, q) < skin;
         count[k] = near;
     }
 }
@@ -243,18 +129,33 @@ LAW int contact_allowed(int i, int j, int within, GLOBAL const int *restrict bod
     return !bonded && (was || !third);
 }
 
-/* The entries of each exposed element, sorted by id; owned [m]: pairs in which its id is the lower one. */
-KERNEL void contact_fill(int m, int rows, state skin, state per_edge, int mask, int within, int n_pieces, GLOBAL const state *restrict piece,
+/* Polyhedra and maps of elements, and which are rigid. */
+LAW contact_body contact_body_of(GLOBAL const state *restrict corner, GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start,
+                                 GLOBAL const int *restrict loop, GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start,
+                                 GLOBAL const int *restrict face_start, GLOBAL const int *restrict id, GLOBAL const int *restrict rigid,
+                                 GLOBAL const state *restrict built, GLOBAL const state *restrict posed, int e)
+{
+    return (contact_body){convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[e]), convex_map_of(smat3_load(posed, (brc_size)e * 9)),
+                          built[(brc_size)e * 4 + 3], rigid[e]};
+}
+
+/* The entries of each exposed element, sorted by id; owned [m]: pairs in which its id is the lower one; any [m]: whether there are entries. Both sides of a pair ask
+ * contact_parted alike, from the lower id. clear [n]: contact_motion.cl. */
+KERNEL void contact_fill(int m, int rows, int pose, state skin, state per_edge, int mask, int within, int n_pieces, GLOBAL const state *restrict piece,
                          GLOBAL const int *restrict piece_kind, GLOBAL const int *restrict list, GLOBAL const state *restrict built,
+                         GLOBAL const state *restrict posed, GLOBAL const int *restrict rigid, GLOBAL const state *restrict corner,
+                         GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
+                         GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
                          GLOBAL const int *restrict first, GLOBAL const int *restrict last, GLOBAL const int *restrict row,
                          GLOBAL const int *restrict id, GLOBAL const int *restrict body, GLOBAL const int *restrict row_start,
                          GLOBAL const int *restrict neighbour, GLOBAL const int *restrict original, GLOBAL const int *restrict start,
-                         GLOBAL int *restrict entry, GLOBAL int *restrict used, GLOBAL int *restrict owned)
+                         GLOBAL int *restrict entry, GLOBAL int *restrict used, GLOBAL int *restrict owned, GLOBAL int *restrict any, GLOBAL state *restrict clear)
 {
     FOR_EACH_ITEM(k, m) {
         const int e = list[k], begin = start[k];
         const contact_cell home = contact_cell_of(built, e, per_edge);
         int n = 0, own_pairs = 0;
+        state free_way = STATE(1e30);
         for (int step = 0; step < 27; ++step) {
             const contact_cell cell = {home.x + step % 3 - 1, home.y + step / 3 % 3 - 1, home.z + step / 9 - 1};
             const int key = contact_key(cell, mask);
@@ -263,6 +164,14 @@ KERNEL void contact_fill(int m, int rows, state skin, state per_edge, int mask, 
                 const contact_cell own = contact_cell_of(built, j, per_edge);
                 if (j == e || own.x != cell.x || own.y != cell.y || own.z != cell.z || !contact_near(built, e, j, skin)) continue;
                 if (!contact_allowed(e, j, within, body, row_start, neighbour, original)) continue;
+                if (pose != 0) {
+                    const int low = id[e] < id[j] ? e : j, high = id[e] < id[j] ? j : e;
+                    const contact_body a = contact_body_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id, rigid, built, posed, low);
+                    const contact_body b = contact_body_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id, rigid, built, posed, high);
+                    const svec3 branch = svec3_sub(svec3_load(built, (brc_size)high * 4), svec3_load(built, (brc_size)low * 4));
+                    const convex_vec toward = convex_of(branch);
+                    if (contact_parted(a, b, toward, skin)) continue;
+                }
                 int to = n;
                 while (to > 0 && id[entry[begin + to - 1]] > id[j]) {
                     entry[begin + to] = entry[begin + to - 1];
@@ -273,14 +182,26 @@ KERNEL void contact_fill(int m, int rows, state skin, state per_edge, int mask, 
                 own_pairs += id[j] > id[e];
             }
         }
-        for (int q = 0; q < n_pieces; ++q)
-            if (contact_near_piece(built, e, piece, piece_kind, q, skin)) {
+        for (int q = 0; q < n_pieces; ++q) {
+            const state gap = contact_piece_gap(built, e, piece, piece_kind, q);
+            if (gap < skin) {
                 entry[begin + n] = rows + q; /* ids of pieces follow those of elements */
                 n += 1;
                 own_pairs += 1;
-            }
+            } else if (gap < free_way) free_way = gap;
+        }
         used[k] = n;
         owned[k] = own_pairs;
+        any[k] = n > 0;
+        clear[e] = free_way;
+    }
+}
+
+/* Slots with entries; at [m + 1]: running sums of any. */
+KERNEL void contact_busy(int m, GLOBAL const int *restrict any, GLOBAL const int *restrict at, GLOBAL int *restrict busy)
+{
+    FOR_EACH_ITEM(k, m) {
+        if (any[k]) busy[at[k]] = k;
     }
 }
 

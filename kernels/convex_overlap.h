@@ -49,6 +49,7 @@ typedef struct {
     convex_map moment_a, moment_b; /* [m^3] rows: normal, columns: place */
     convex_vec point;              /* the centroid of the overlap's surface: where friction acts, in the frame of the origins [m] */
     int failed;                    /* 1: a map turns a polyhedron inside out; 2: a polygon outgrew CONVEX_POLYGON */
+    int apart;                     /* 1 + a face of A that stands between the two, or minus that of B; 0: none was found */
 } convex_overlap;
 
 LAW convex_vec convex_add(convex_vec a, convex_vec b) { return (convex_vec){a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -162,7 +163,7 @@ LAW convex_plane convex_seen(convex_body b, convex_plane p)
     return (convex_plane){convex_turn(convex_transpose(b.pose.map), p.normal), p.height - convex_dot(p.normal, b.pose.origin)};
 }
 
-/* Planes of one body that may cut the other; those of faces from `rest` on are not kept. apart: one of them separates the two. */
+/* Planes of one body that may cut the other; those of faces from `rest` on are not kept. apart: 1 + the face that separates the two, or 0. */
 typedef struct {
     convex_plane plane[CONVEX_PLANES];
     int n, rest, apart;
@@ -189,7 +190,7 @@ ROUTINE void convex_find_cutters(convex_body tool, convex_body work, state margi
         const convex_plane own = convex_own_plane(tool.shape, f);
         const state near = convex_dot(own.normal, ball.centre) - own.height;
         if (near > ball.reach) {
-            c->apart = 1;
+            c->apart = f + 1;
             return;
         }
         if (near < -ball.reach) continue;
@@ -201,7 +202,7 @@ ROUTINE void convex_find_cutters(convex_body tool, convex_body work, state margi
             high = k == 0 || h > high ? h : high;
         }
         if (low >= 0 && !many) {
-            c->apart = 1;
+            c->apart = f + 1;
             return;
         }
         if (high <= -margin) continue;
@@ -373,29 +374,40 @@ ROUTINE int convex_clip_faces(convex_body work, convex_body tool, const convex_c
     return p.failed;
 }
 
-LAW convex_overlap convex_no_overlap(int failed)
+LAW convex_overlap convex_no_overlap(int failed, int apart)
 {
     const convex_vec none = {0, 0, 0};
     const convex_map zero = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-    return (convex_overlap){0, none, zero, zero, none, failed};
+    return (convex_overlap){0, none, zero, zero, none, failed, apart};
 }
 
-/* Both in the frame of the given origins. */
-ROUTINE convex_overlap convex_overlap_of(convex_shape shape_a, convex_pose pose_a, convex_shape shape_b, convex_pose pose_b)
+/* Does face f of `tool` still stand between the two? As convex_find_cutters asks it. */
+ROUTINE int convex_stands_between(convex_body tool, int f, convex_body work)
+{
+    const convex_plane seen = convex_seen(work, convex_placed(tool, convex_own_plane(tool.shape, f)));
+    for (int k = 0; k < work.shape.n_corners; ++k)
+        if (convex_dot(seen.normal, convex_corner(work.shape, k)) - seen.height < 0) return 0;
+    return 1;
+}
+
+/* Both in the frame of the given origins. apart: what the last call found, which is looked at first; it changes nothing of the result. */
+ROUTINE convex_overlap convex_overlap_after(convex_shape shape_a, convex_pose pose_a, convex_shape shape_b, convex_pose pose_b, int apart)
 {
     const convex_vec branch = convex_sub(pose_b.origin, pose_a.origin);
     const state radius_a = shape_a.radius * convex_stretch(pose_a.map), radius_b = shape_b.radius * convex_stretch(pose_b.map);
-    if (convex_length(branch) > radius_a + radius_b) return convex_no_overlap(0);
-    if (!(convex_determinant(pose_a.map) > 0) || !(convex_determinant(pose_b.map) > 0)) return convex_no_overlap(1);
+    if (convex_length(branch) > radius_a + radius_b) return convex_no_overlap(0, 0);
+    if (!(convex_determinant(pose_a.map) > 0) || !(convex_determinant(pose_b.map) > 0)) return convex_no_overlap(1, 0);
     /* between the bounding spheres: near the place of contact also where one body is much larger */
     const convex_vec centre = convex_add(pose_a.origin, convex_scale(radius_a / (radius_a + radius_b), branch));
     const convex_body a = convex_body_of(shape_a, pose_a, centre), b = convex_body_of(shape_b, pose_b, centre);
+    if (apart > 0 && convex_stands_between(a, apart - 1, b)) return convex_no_overlap(0, apart);
+    if (apart < 0 && convex_stands_between(b, -apart - 1, a)) return convex_no_overlap(0, apart);
     const state margin = STATE(64) * convex_rounding() * (radius_a + radius_b); /* skipped cuts are far from a tie */
     convex_cutters by_b, by_a;
     convex_find_cutters(b, a, margin, &by_b);
-    if (by_b.apart) return convex_no_overlap(0);
+    if (by_b.apart) return convex_no_overlap(0, -by_b.apart);
     convex_find_cutters(a, b, margin, &by_a);
-    if (by_a.apart) return convex_no_overlap(0);
+    if (by_a.apart) return convex_no_overlap(0, by_a.apart);
     const convex_vec none = {0, 0, 0};
     const convex_map zero = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     convex_sums s = {0, none, zero, none, 0, none, 0};
@@ -405,13 +417,18 @@ ROUTINE convex_overlap convex_overlap_of(convex_shape shape_a, convex_pose pose_
     s.area = none;
     s.moment = zero;
     const int failed_b = convex_clip_faces(b, a, &by_a, margin, 0, &s);
-    if (failed_a || failed_b) return convex_no_overlap(failed_a ? failed_a : failed_b);
-    if (!(s.volume > 0) || !(s.surface > 0)) return convex_no_overlap(0);
+    if (failed_a || failed_b) return convex_no_overlap(failed_a ? failed_a : failed_b, 0);
+    if (!(s.volume > 0) || !(s.surface > 0)) return convex_no_overlap(0, 0);
     const convex_vec area = convex_scale(STATE(0.5), convex_sub(s.area, area_a));
     const convex_vec arm_a = convex_sub(s.centre, a.pose.origin), arm_b = convex_sub(s.centre, b.pose.origin);
     const convex_vec point = convex_add(centre, convex_add(s.centre, convex_scale(STATE(1) / s.surface, s.place)));
     return (convex_overlap){s.volume / STATE(3), area, convex_add_outer(moment_a, convex_scale(-STATE(1), area), arm_a),
-                            convex_add_outer(s.moment, area, arm_b), point, 0};
+                            convex_add_outer(s.moment, area, arm_b), point, 0, 0};
+}
+
+ROUTINE convex_overlap convex_overlap_of(convex_shape shape_a, convex_pose pose_a, convex_shape shape_b, convex_pose pose_b)
+{
+    return convex_overlap_after(shape_a, pose_a, shape_b, pose_b, 0);
 }
 
 #endif

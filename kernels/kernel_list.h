@@ -61,6 +61,8 @@
     X(sort_move)                                                                                                       \
     X(contact_extent)                                                                                                  \
     X(contact_largest)                                                                                                 \
+    X(contact_drift)                                                                                                   \
+    X(contact_drift_mean)                                                                                              \
     X(contact_moved)                                                                                                   \
     X(contact_expose)                                                                                                  \
     X(contact_list)                                                                                                    \
@@ -68,6 +70,7 @@
     X(contact_buckets)                                                                                                 \
     X(contact_count)                                                                                                   \
     X(contact_fill)                                                                                                    \
+    X(contact_busy)                                                                                                    \
     X(contact_own_pairs)                                                                                               \
     X(contact_other_pairs)                                                                                             \
     X(contact_carry)                                                                                                   \

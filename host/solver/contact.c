@@ -45,6 +45,7 @@ brc_status brc_contact_create(brc_simulation *s)
     BRC_TRY(BRC_ALLOCATE(s->context, &s->contact, 1, "contact"));
     s->contact->affine = brc_is_dlsm(s);
     s->contact->width = s->contact->affine ? 9 : 3;
+    s->contact->pose = s->contact->affine ? 1 : brc_is_beams(s) ? 0 : 2;
     BRC_TRY(brc_contact_setup(s));
     BRC_TRY(find_kernels(s));
     BRC_TRY(brc_contact_shapes(s));
@@ -70,21 +71,37 @@ void brc_contact_free(brc_simulation *s)
 int64_t brc_contact_bytes(const brc_scene *scene, const brc_domain *d, int64_t n, int64_t entries, int64_t exposed, int64_t state_bytes)
 {
     if (!scene->has_contact) return 0;
-    const int64_t rows = n * (5 * 4 + 2 * 4 + (3 + 1 + 1 + 1 + 4 + 3) * state_bytes), lists = exposed * 20 * 4;
+    const int64_t rows = n * (5 * 4 + 2 * 4 + (3 + 1 + 1 + 1 + 4 + 1 + 3) * state_bytes), lists = exposed * 22 * 4;
     if (d->element_kind == BRC_ELEMENT_SPHERE) return entries * 4 + rows + lists;
     /* A face is a plane with its place in the list of loops; by Euler's formula the loops of V corners and F faces have 2 (V + F - 2) numbers. */
     const int64_t corners = d->vertex_start[d->n_elements], faces = d->n_half_edges + d->n_free_faces, loops = 2 * (corners + faces - 2 * d->n_elements);
     const bool rigid = scene->has_fracture && scene->model.kind == BRC_MODEL_DLSM;
-    return entries * 4 + rows + lists + corners * 3 * state_bytes + faces * (4 * state_bytes + 4) + loops * 4 + n * (2 * 4 + state_bytes + (rigid ? 16 * state_bytes : 0));
+    return entries * 4 + rows + lists + corners * 3 * state_bytes + faces * (4 * state_bytes + 4) + loops * 4 + n * (2 * 4 + 10 * state_bytes + (rigid ? 16 * state_bytes : 0));
 }
 
 /* ---- when to look ---- */
+
+/* Cells that follow I + H are looked for when the next evaluation has found H. */
+static brc_status search_soon(brc_simulation *s)
+{
+    s->contact->due = s->contact->affine;
+    return s->contact->due ? BRC_OK : brc_contact_search(s);
+}
+
+brc_status brc_contact_gradients(brc_simulation *s)
+{
+    if (!s->contact) return BRC_OK;
+    BRC_TRY(brc_contact_pose(s));
+    if (!s->contact->due) return BRC_OK;
+    s->contact->due = false;
+    return brc_contact_search(s);
+}
 
 brc_status brc_contact_restart(brc_simulation *s)
 {
     if (!s->contact) return BRC_OK;
     BRC_TRY(brc_contact_detach(s));
-    return brc_contact_search(s);
+    return search_soon(s);
 }
 
 brc_status brc_contact_follow(brc_simulation *s)
@@ -97,7 +114,7 @@ brc_status brc_contact_follow(brc_simulation *s)
         return BRC_OK;
     }
     BRC_TRY(brc_contact_look(s, &due));
-    return due ? brc_contact_search(s) : BRC_OK;
+    return due ? search_soon(s) : BRC_OK;
 }
 
 /* ---- forces ---- */
@@ -135,7 +152,7 @@ static brc_status gather_turning(brc_simulation *s, double sign, double kick, in
 {
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
-    return BRC_LAUNCH(c->kernel.gather_turning, l->n_listed, BRC_INT(l->n_listed), BRC_STATE(sign), BRC_STATE(kick), BRC_INT(book), BRC_BUF(l->list),
+    return BRC_LAUNCH(c->kernel.gather_turning, l->n_busy, BRC_INT(l->n_busy), BRC_STATE(sign), BRC_STATE(kick), BRC_INT(book), BRC_BUF(l->busy), BRC_BUF(l->list),
                       BRC_BUF(l->start), BRC_BUF(l->used), BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(s->mass), BRC_BUF(s->inertia), BRC_BUF(force),
                       BRC_BUF(torque), BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(c->stored), BRC_BUF(c->lost_friction), BRC_BUF(c->lost_impact));
 }
@@ -162,7 +179,7 @@ brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
     const brc_contact_list *l = &c->now;
     const int book = r->book == BRC_BOOK_WORK;
     BRC_TRY(brc_contact_pairs(s, step_of(s, r)));
-    return BRC_LAUNCH(c->kernel.gather_moments, l->n_listed, BRC_INT(l->n_listed), BRC_INT(book), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
+    return BRC_LAUNCH(c->kernel.gather_moments, l->n_busy, BRC_INT(l->n_busy), BRC_INT(book), BRC_BUF(l->busy), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
                       BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(s->boundary), BRC_BUF(c->rigid), BRC_BUF(s->gradient), BRC_BUF(s->held_moment),
                       BRC_BUF(c->torque), BRC_BUF(c->stored), BRC_BUF(c->lost_friction), BRC_BUF(c->lost_impact));
 }
@@ -172,7 +189,7 @@ brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
     if (c->affine)
-        BRC_TRY(BRC_LAUNCH(c->kernel.gather_forces, l->n_listed, BRC_INT(l->n_listed), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
+        BRC_TRY(BRC_LAUNCH(c->kernel.gather_forces, l->n_busy, BRC_INT(l->n_busy), BRC_BUF(l->busy), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
                            BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(r->force)));
     else {
         BRC_TRY(brc_contact_pairs(s, step_of(s, r)));
@@ -206,7 +223,7 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick)
     if (!c->kernel.marked) { /* cells: the forces are evaluated next */
         BRC_TRY(brc_contact_detach(s));
         BRC_TRY(BRC_LAUNCH(c->kernel.expose, n, BRC_INT(n), BRC_BUF(s->fracture->broken), BRC_BUF(c->exposed)));
-        return brc_contact_search(s);
+        return search_soon(s);
     }
     BRC_TRY(brc_contact_stored(s, &before));
     if (c->now.n_pairs > 0) BRC_TRY(gather_turning(s, -1, half_kick, 0, s->force, s->torque));

@@ -1,6 +1,6 @@
 /* Touching: of free surfaces, fragments and strikers (docs/contact.md). Nothing of it exists in scenes without `interactions: {contact: ...}`.
  *
- * A step asks in this order: brc_contact_follow when the elements have moved, brc_contact_moments and brc_contact_forces while the forces are
+ * A step asks in this order: brc_contact_follow when the elements have moved, brc_contact_gradients, brc_contact_moments and brc_contact_forces while the forces are
  * evaluated, brc_contact_broken when bonds broke. */
 #ifndef BRC_SOLVER_CONTACT_H
 #define BRC_SOLVER_CONTACT_H
@@ -21,6 +21,8 @@ brc_status brc_contact_restart(brc_simulation *s);
 brc_status brc_contact_follow(brc_simulation *s);
 /* dlsm: the rotations of rigid cells go into the gradients. */
 brc_status brc_contact_pose(brc_simulation *s);
+/* dlsm: the gradients of this evaluation are there: the same, and the search that follow, restart or broken asked for, which wants to know how cells stand now. */
+brc_status brc_contact_gradients(brc_simulation *s);
 /* dlsm: pairs are evaluated, and held_moment, zeroed before, gains their moments. */
 brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r);
 /* Forces (and, in models that turn, the evaluation and torques) of touching pairs, added. */

@@ -4,18 +4,19 @@
 
 #include "contact.h"
 
-enum { BRC_CONTACT_HISTORY = 16, BRC_CONTACT_RESULT = 9, BRC_CONTACT_LAW = 6, BRC_CONTACT_PAIRS = 256 }; /* as in kernels/contact_search.cl, contact.cl */
+enum { BRC_CONTACT_HISTORY = 20, BRC_CONTACT_RESULT = 9, BRC_CONTACT_LAW = 6, BRC_CONTACT_PAIRS = 256 }; /* as in kernels/contact_search.cl, contact.cl */
+enum { BRC_CONTACT_BLOCK = 256, BRC_CONTACT_PART = 16, BRC_CONTACT_DRIFT = 14, BRC_CONTACT_MOVED = 6 };                     /* as in kernels/contact_motion.cl */
 
 /* Which pairs there are (kernels/contact_search.cl); kept twice, so that pairs find what they remember. */
 typedef struct brc_contact_list {
-    int32_t n_listed, n_pairs;
+    int32_t n_listed, n_pairs, n_busy; /* n_busy: listed elements that have pairs */
     int64_t entry_room, pair_room;
-    brc_buffer *list, *slot_of, *start, *used, *entry, *pair, *ends, *history;
+    brc_buffer *list, *slot_of, *start, *used, *entry, *pair, *busy, *ends, *history;
 } brc_contact_list;
 
 struct brc_contact_state {
     struct {
-        brc_kernel *extent, *largest, *moved, *expose, *list, *keys, *buckets, *count, *fill, *own_pairs, *other_pairs, *carry;
+        brc_kernel *extent, *largest, *drift, *drift_mean, *moved, *expose, *list, *keys, *buckets, *count, *fill, *busy, *own_pairs, *other_pairs, *carry;
         brc_kernel *scan_sums, *scan_tops, *scan_fill, *sort_count, *sort_move;
         brc_kernel *spheres, *gather_turning, *marked;
         brc_kernel *cells, *gather_moments, *gather_forces, *striker_parts, *striker_load, *pieces, *pieces_moved;
@@ -23,13 +24,14 @@ struct brc_contact_state {
     } kernel;
     bool affine;     /* dlsm: elements follow I + H; else they turn with quaternions of their own */
     int32_t width;   /* numbers of a moment: 9, else 3 */
-    double skin;     /* [m] */
+    int pose;        /* how elements stand: 0 spheres, 1 by I + H, 2 by their rotation (kernels/contact_motion.cl) */
+    double skin;     /* of the list there is [m] */
     double size;     /* mean size of an element [m] */
     double middle[3]; /* of the domain: places are relative to it [m] */
     int32_t n_pieces; /* of strikers */
     double span;      /* how far from the middle elements are expected [m] */
     /* of rows; id, material, mass and size also of pieces, after them */
-    brc_buffer *place, *reach, *id, *body, *material, *mass, *size_of, *original, *exposed, *built;
+    brc_buffer *place, *reach, *id, *body, *material, *mass, *size_of, *original, *exposed, *built, *posed, *clear;
     /* polyhedra (convex_overlap.h) and pieces */
     brc_buffer *corner, *plane, *loop_start, *loop, *radius, *corner_start, *face_start;
     brc_buffer *piece_striker, *piece_kind, *piece_radius, *piece_own, *piece;
@@ -43,11 +45,12 @@ struct brc_contact_state {
     brc_buffer *law; /* [n_materials][n_materials][BRC_CONTACT_LAW] */
     double *law_of;  /* the same on the host */
     /* search */
-    brc_buffer *moved, *sums, *key[2], *row[2], *digits, *first, *last, *count, *owned, *pair_start;
+    brc_buffer *moved, *drift_part, *drift, *sums, *key[2], *row[2], *digits, *first, *last, *count, *owned, *pair_start;
     int64_t key_room, bucket_room;
     brc_contact_list now, before;
     int64_t quiet;   /* steps for which nothing can have moved far enough */
     int64_t searches;
+    bool due;        /* dlsm: look for pairs as soon as the gradients of this evaluation are there */
     /* pairs */
     brc_buffer *result;
     int64_t result_room;
@@ -74,7 +77,7 @@ brc_status brc_contact_spin_energy(brc_simulation *s, double *out);
 /* ---- contact_search.c ---- */
 brc_status brc_contact_search_create(brc_simulation *s);
 void brc_contact_search_free(brc_simulation *s);
-/* Make the list anew; what pairs remember is kept. */
+/* Make the list anew, from where elements are and how they stand now; what pairs remember is kept. */
 brc_status brc_contact_search(brc_simulation *s);
 /* The list for places and pieces as they were taken last: the second half of a search. */
 brc_status brc_contact_list_again(brc_simulation *s);

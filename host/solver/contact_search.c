@@ -3,7 +3,7 @@
 #include "strikers_internal.h"
 #include <math.h>
 
-enum { SCAN_BLOCK = 1024, SORT_BINS = 256, MOVED_BLOCK = 256, MOST_QUIET = 64, FEWEST_QUIET = 8 };
+enum { SCAN_BLOCK = 1024, SORT_BINS = 256, MOST_QUIET = 64, FEWEST_QUIET = 8 };
 
 static brc_status new_ints(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
 {
@@ -37,6 +37,7 @@ brc_status brc_contact_search_create(brc_simulation *s)
         brc_kernel **slot;
         const char *name;
     } wanted[] = {{&c->kernel.extent, "contact_extent"}, {&c->kernel.largest, "contact_largest"}, {&c->kernel.moved, "contact_moved"},
+                  {&c->kernel.drift, "contact_drift"}, {&c->kernel.drift_mean, "contact_drift_mean"}, {&c->kernel.busy, "contact_busy"},
                   {&c->kernel.expose, "contact_expose"}, {&c->kernel.list, "contact_list"}, {&c->kernel.keys, "contact_keys"},
                   {&c->kernel.buckets, "contact_buckets"}, {&c->kernel.count, "contact_count"}, {&c->kernel.fill, "contact_fill"},
                   {&c->kernel.own_pairs, "contact_own_pairs"}, {&c->kernel.other_pairs, "contact_other_pairs"}, {&c->kernel.carry, "contact_carry"},
@@ -44,7 +45,12 @@ brc_status brc_contact_search_create(brc_simulation *s)
                   {&c->kernel.pieces, "contact_pieces"}, {&c->kernel.pieces_moved, "contact_pieces_moved"}, {&c->kernel.sort_count, "sort_count"}, {&c->kernel.sort_move, "sort_move"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     BRC_TRY(brc_new_state(s, &c->built, 4 * n, "places of the last search"));
-    BRC_TRY(brc_new_state(s, &c->moved, 3 * (blocks_of(n, MOVED_BLOCK) + (int64_t)c->n_pieces), "moves since the last search"));
+    const char *what = "moves since the last search";
+    if (c->pose != 0) BRC_TRY(brc_new_state(s, &c->posed, 9 * n, "places of the last search"));
+    BRC_TRY(brc_new_state(s, &c->clear, n, what));
+    BRC_TRY(brc_new_state(s, &c->moved, BRC_CONTACT_MOVED * (blocks_of(n, BRC_CONTACT_BLOCK) + (int64_t)c->n_pieces), what));
+    BRC_TRY(brc_new_state(s, &c->drift_part, BRC_CONTACT_PART * (int64_t)blocks_of(n, BRC_CONTACT_BLOCK), what));
+    BRC_TRY(brc_new_state(s, &c->drift, BRC_CONTACT_DRIFT, what));
     BRC_TRY(new_ints(s, &c->sums, blocks_of(largest_scan, SCAN_BLOCK) + 1, "running sums"));
     brc_contact_list *both[] = {&c->now, &c->before};
     for (int k = 0; k < 2; ++k) BRC_TRY(new_ints(s, &both[k]->slot_of, n + 1, "exposed elements"));
@@ -53,52 +59,87 @@ brc_status brc_contact_search_create(brc_simulation *s)
 
 static void free_list(brc_contact_list *l)
 {
-    brc_buffer **all[] = {&l->list, &l->slot_of, &l->start, &l->used, &l->entry, &l->pair, &l->ends, &l->history};
+    brc_buffer **all[] = {&l->list, &l->slot_of, &l->start, &l->used, &l->entry, &l->pair, &l->busy, &l->ends, &l->history};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
 }
 
 void brc_contact_search_free(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    brc_buffer **all[] = {&c->built, &c->moved, &c->sums, &c->key[0], &c->key[1], &c->row[0], &c->row[1], &c->digits, &c->first, &c->last, &c->count, &c->owned, &c->pair_start};
+    brc_buffer **all[] = {&c->built, &c->posed, &c->clear, &c->moved, &c->drift_part, &c->drift, &c->sums, &c->key[0], &c->key[1], &c->row[0], &c->row[1], &c->digits, &c->first, &c->last, &c->count, &c->owned, &c->pair_start};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     free_list(&c->now);
     free_list(&c->before);
 }
 
-/* Largest of each column of c->moved [n][3]. */
-static brc_status largest_of(brc_simulation *s, int32_t n, double out[3])
+/* Largest of each column of n rows of c->moved from the first on; as they are where there are none. */
+static brc_status largest_of(brc_simulation *s, int32_t first, int32_t n, double out[BRC_CONTACT_MOVED])
 {
+    const int64_t rows = first + n;
     double *value = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &value, 3 * (int64_t)n, "moves since the last search"));
-    const brc_status status = brc_download(s, s->contact->moved, brc_precision_state_bytes(brc_device_get_precision(s->device)), value, 3 * (int64_t)n);
-    for (int k = 0; k < 3; ++k) out[k] = 0;
-    for (int32_t b = 0; b < n; ++b)
-        for (int k = 0; k < 3; ++k) out[k] = fmax(out[k], value[3 * (int64_t)b + k]);
+    BRC_TRY(BRC_ALLOCATE(s->context, &value, BRC_CONTACT_MOVED * rows, "moves since the last search"));
+    const brc_status status = brc_download(s, s->contact->moved, brc_precision_state_bytes(brc_device_get_precision(s->device)), value, BRC_CONTACT_MOVED * rows);
+    for (int64_t b = first; b < rows; ++b)
+        for (int k = 0; k < BRC_CONTACT_MOVED; ++k)
+            out[k] = b == first ? value[BRC_CONTACT_MOVED * b + k] : fmax(out[k], value[BRC_CONTACT_MOVED * b + k]);
     brc_memory_free(value);
     return status;
+}
+
+/* How far and how fast elements and pieces of strikers moved since the list was made: columns of contact_moved and contact_pieces_moved. */
+typedef struct survey {
+    double element[BRC_CONTACT_MOVED], piece[BRC_CONTACT_MOVED];
+} survey;
+
+static brc_status take_survey(brc_simulation *s, survey *out)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows, n_blocks = blocks_of(n, BRC_CONTACT_BLOCK);
+    *out = (survey){.element = {0}};
+    BRC_TRY(BRC_LAUNCH(c->kernel.drift, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->place), BRC_BUF(s->displacement),
+                       BRC_BUF(c->built), BRC_BUF(s->velocity), BRC_BUF(s->force), BRC_BUF(s->mass), BRC_BUF(c->drift_part)));
+    BRC_TRY(BRC_LAUNCH(c->kernel.drift_mean, 1, BRC_INT(1), BRC_INT(n_blocks), BRC_BUF(c->drift_part), BRC_BUF(c->drift)));
+    BRC_TRY(BRC_LAUNCH(c->kernel.moved, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(c->pose), BRC_BUF(c->exposed), BRC_BUF(c->rigid), BRC_BUF(c->place),
+                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->orientation), BRC_BUF(c->reach), BRC_BUF(c->built), BRC_BUF(c->posed),
+                       BRC_BUF(c->clear), BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(s->force), BRC_BUF(s->mass), BRC_BUF(c->drift), BRC_BUF(c->moved)));
+    if (c->n_pieces)
+        BRC_TRY(BRC_LAUNCH(c->kernel.pieces_moved, c->n_pieces, BRC_INT(c->n_pieces), BRC_INT(n_blocks), BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]),
+                           BRC_STATE(c->middle[2]), BRC_STATE(c->span), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_own),
+                           BRC_BUF(s->strikers->pose), BRC_BUF(s->strikers->motion), BRC_BUF(c->piece), BRC_BUF(c->moved)));
+    BRC_TRY(largest_of(s, 0, n_blocks, out->element));
+    return c->n_pieces ? largest_of(s, n_blocks, c->n_pieces, out->piece) : BRC_OK;
 }
 
 brc_status brc_contact_look(brc_simulation *s, bool *due)
 {
     brc_contact_state *c = s->contact;
-    const int32_t n = s->layout->n_rows, n_blocks = blocks_of(n, MOVED_BLOCK);
     const double dt = s->time_step.value;
-    double most[3];
-    BRC_TRY(BRC_LAUNCH(c->kernel.moved, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_BUF(c->exposed), BRC_BUF(c->place),
-                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(c->reach), BRC_BUF(c->built), BRC_BUF(s->velocity), BRC_BUF(s->force),
-                       BRC_BUF(s->mass), BRC_BUF(c->moved)));
-    if (c->n_pieces)
-        BRC_TRY(BRC_LAUNCH(c->kernel.pieces_moved, c->n_pieces, BRC_INT(c->n_pieces), BRC_INT(n_blocks), BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]),
-                           BRC_STATE(c->middle[2]), BRC_STATE(c->span), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_own),
-                           BRC_BUF(s->strikers->pose), BRC_BUF(s->strikers->motion), BRC_BUF(c->piece), BRC_BUF(c->moved)));
-    BRC_TRY(largest_of(s, n_blocks + c->n_pieces, most));
-    /* Twice the present speed and acceleration must not use up what is left of half the skin before the next look. */
-    const double left = 0.5 * c->skin - most[0], v = 2 * sqrt(most[1]) * dt, a = 2 * sqrt(most[2]) * dt * dt;
+    survey now;
+    BRC_TRY(take_survey(s, &now));
+    /* Twice the present speed and acceleration must not use up what is left before the next look: of half the skin, and of the way to the next piece of a striker. */
+    const double left = 0.5 * c->skin - now.element[0], v = 2 * now.element[1] * dt, a = 2 * sqrt(now.element[2]) * dt * dt;
+    const double clear = -now.element[3] - now.piece[0], v_piece = 2 * (now.element[4] + sqrt(now.piece[1])) * dt, a_piece = 2 * sqrt(now.element[5]) * dt * dt;
     int64_t steps = 0;
-    while (steps < MOST_QUIET && (double)(steps + 1) * (v + (double)(steps + 1) * a) < left) ++steps;
-    *due = !(left > 0) || (steps < FEWEST_QUIET && left < 0.25 * c->skin);
+    while (steps < MOST_QUIET) {
+        const double t = (double)(steps + 1);
+        if (!(t * (v + t * a) < left) || !(t * (v_piece + t * a_piece) < clear)) break;
+        ++steps;
+    }
+    *due = !(left > 0) || !(clear > 0) || (steps < FEWEST_QUIET && (left < 0.25 * c->skin || clear < 0.5 * c->skin));
     c->quiet = steps;
+    return BRC_OK;
+}
+
+/* Where the scene leaves the skin open: such that a list lasts some MOST_QUIET steps at four times the present speeds (a thin skin sifts better, a thick one lasts longer). */
+static brc_status choose_skin(brc_simulation *s)
+{
+    static const double thinnest = 0.05, thickest = 0.5; /* of the mean size of an element */
+    brc_contact_state *c = s->contact;
+    survey now;
+    c->skin = s->scene->contact.skin;
+    if (c->skin > 0) return BRC_OK;
+    BRC_TRY(take_survey(s, &now));
+    c->skin = fmin(fmax(8 * MOST_QUIET * now.element[1] * s->time_step.value, thinnest * c->size), thickest * c->size);
     return BRC_OK;
 }
 
@@ -152,6 +193,7 @@ static brc_status room_for_listed(brc_simulation *s, brc_contact_list *l, int64_
     if (l->list && brc_buffer_bytes(l->list) >= 4 * m) return BRC_OK;
     const int64_t room = s->contact->key_room;
     BRC_TRY(new_ints(s, &l->list, room, "exposed elements"));
+    BRC_TRY(new_ints(s, &l->busy, room, "exposed elements"));
     BRC_TRY(new_ints(s, &l->start, room + 1, "pairs of elements"));
     return new_ints(s, &l->used, room, "pairs of elements");
 }
@@ -205,24 +247,26 @@ static brc_status find_entries(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     brc_contact_list *l = &c->now;
-    const int32_t n = s->layout->n_rows, m = l->n_listed, n_blocks = blocks_of(n, MOVED_BLOCK);
-    double most[3];
+    const int32_t n = s->layout->n_rows, m = l->n_listed, n_blocks = blocks_of(n, BRC_CONTACT_BLOCK);
+    double most[BRC_CONTACT_MOVED];
     int64_t near;
     int sorted, mask = SORT_BINS;
     while (mask < 2 * (int64_t)m) mask *= 2;
     mask -= 1;
     BRC_TRY(BRC_LAUNCH(c->kernel.largest, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->built), BRC_BUF(c->moved)));
-    BRC_TRY(largest_of(s, n_blocks, most));
+    BRC_TRY(largest_of(s, 0, n_blocks, most));
     const double per_edge = 1 / (1.000001 * (2 * most[0] + c->skin));
     BRC_TRY(sort_by_cell(s, per_edge, mask, &sorted));
     BRC_TRY(BRC_LAUNCH(c->kernel.count, m, BRC_INT(m), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_INT(c->n_pieces), BRC_BUF(c->piece),
                        BRC_BUF(c->piece_kind), BRC_BUF(l->list), BRC_BUF(c->built), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->count)));
     BRC_TRY(scan(s, c->count, m, l->start, &near));
     BRC_TRY(room_for_entries(s, l, near));
-    return BRC_LAUNCH(c->kernel.fill, m, BRC_INT(m), BRC_INT(n), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_INT(s->scene->contact.within ? 1 : 0),
-                      BRC_INT(c->n_pieces), BRC_BUF(c->piece), BRC_BUF(c->piece_kind), BRC_BUF(l->list), BRC_BUF(c->built), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->id), BRC_BUF(c->body),
+    return BRC_LAUNCH(c->kernel.fill, m, BRC_INT(m), BRC_INT(n), BRC_INT(c->pose), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask),
+                      BRC_INT(s->scene->contact.within ? 1 : 0), BRC_INT(c->n_pieces), BRC_BUF(c->piece), BRC_BUF(c->piece_kind), BRC_BUF(l->list), BRC_BUF(c->built),
+                      BRC_BUF(c->posed), BRC_BUF(c->rigid), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start), BRC_BUF(c->loop), BRC_BUF(c->radius),
+                      BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->id), BRC_BUF(c->body),
                       BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->original), BRC_BUF(l->start), BRC_BUF(l->entry), BRC_BUF(l->used),
-                      BRC_BUF(c->owned));
+                      BRC_BUF(c->owned), BRC_BUF(c->count), BRC_BUF(c->clear));
 }
 
 static brc_status number_pairs(brc_simulation *s)
@@ -239,6 +283,10 @@ static brc_status number_pairs(brc_simulation *s)
     BRC_TRY(BRC_LAUNCH(c->kernel.other_pairs, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(l->slot_of), BRC_BUF(l->start), BRC_BUF(l->used), BRC_BUF(l->entry),
                        BRC_BUF(c->id), BRC_BUF(l->pair)));
     if (n_pairs == 0) return BRC_OK;
+    int64_t n_busy;
+    BRC_TRY(scan(s, c->count, m, c->pair_start, &n_busy));
+    BRC_TRY(BRC_LAUNCH(c->kernel.busy, m, BRC_INT(m), BRC_BUF(c->count), BRC_BUF(c->pair_start), BRC_BUF(l->busy)));
+    l->n_busy = (int32_t)n_busy;
     const brc_contact_list *old = &c->before;
     return BRC_LAUNCH(c->kernel.carry, n_pairs, BRC_INT(n_pairs), BRC_INT(old->n_pairs > 0 ? 1 : 0), BRC_BUF(l->ends), BRC_BUF(old->slot_of),
                       BRC_BUF(old->start), BRC_BUF(old->used), BRC_BUF(old->entry), BRC_BUF(old->pair), BRC_BUF(old->history), BRC_BUF(l->history));
@@ -250,7 +298,7 @@ brc_status brc_contact_list_again(brc_simulation *s)
     const brc_contact_list last = c->now;
     c->now = c->before;
     c->before = last;
-    c->now.n_listed = c->now.n_pairs = 0;
+    c->now.n_listed = c->now.n_pairs = c->now.n_busy = 0;
     BRC_TRY(list_exposed(s));
     if (c->now.n_listed == 0) return BRC_OK;
     BRC_TRY(find_entries(s));
@@ -263,11 +311,12 @@ brc_status brc_contact_search(brc_simulation *s)
     const int32_t n = s->layout->n_rows;
     c->quiet = 0;
     c->searches += 1;
-    BRC_TRY(BRC_LAUNCH(c->kernel.extent, n, BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_BUF(c->place), BRC_BUF(s->displacement), BRC_BUF(s->gradient),
-                       BRC_BUF(c->reach), BRC_BUF(c->built)));
+    BRC_TRY(BRC_LAUNCH(c->kernel.extent, n, BRC_INT(n), BRC_INT(c->pose), BRC_BUF(c->place), BRC_BUF(s->displacement), BRC_BUF(s->gradient),
+                       BRC_BUF(s->orientation), BRC_BUF(c->reach), BRC_BUF(c->built), BRC_BUF(c->posed)));
     if (c->n_pieces)
         BRC_TRY(BRC_LAUNCH(c->kernel.pieces, c->n_pieces, BRC_INT(c->n_pieces), BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]),
                            BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_own), BRC_BUF(s->strikers->pose), BRC_BUF(c->piece)));
+    BRC_TRY(choose_skin(s));
     BRC_TRY(brc_buffer_fill_zero(c->stored)); /* of elements that leave the list too */
     if (c->torque) BRC_TRY(brc_buffer_fill_zero(c->torque));
     if (c->n_pieces) BRC_TRY(brc_buffer_fill_zero(s->strikers->load));

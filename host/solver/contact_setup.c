@@ -168,7 +168,6 @@ brc_status brc_contact_setup(brc_simulation *s)
     c->n_pieces = s->strikers ? s->strikers->convex.n : 0;
     for (int64_t e = 0; e < d->n_elements; ++e) volume += d->volume[e];
     c->size = cbrt(volume / (double)d->n_elements);
-    c->skin = s->scene->contact.skin > 0 ? s->scene->contact.skin : 0.25 * c->size;
     BRC_TRY(set_laws(s));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &number, n + c->n_pieces, "elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, 3 * (n + c->n_pieces), "elements"));

@@ -91,7 +91,7 @@ static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r)
     const double one_plus_tau = 1 + s->scene->model.tau;
     const int finite = r->finite ? 1 : 0, face_loads = has_face_loads(s) ? 1 : 0;
     BRC_TRY(dlsm_gradients(s, r));
-    if (r->displacement == s->displacement) BRC_TRY(brc_contact_pose(s));
+    if (r->displacement == s->displacement && !r->homogeneous) BRC_TRY(brc_contact_gradients(s));
     BRC_TRY(BRC_LAUNCH(s->kernel.stress, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
                        BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),

@@ -83,6 +83,7 @@ brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store)
     const brc_state_entry entries[] = {
         {"contact.exposed", c->exposed, BRC_ROWS, BRC_OF_INT, 1, NULL},
         {"contact.built", c->built, BRC_ROWS, BRC_OF_STATE, 4, NULL},
+        {"contact.posed", c->posed, BRC_ROWS, BRC_OF_STATE, 9, NULL},
         {"contact.rigid", c->rigid, BRC_ROWS, BRC_OF_INT, 1, NULL},
         {"contact.turned", c->turned, BRC_ROWS, BRC_OF_STATE, 4, NULL},
         {"contact.momentum", c->momentum, BRC_ROWS, BRC_OF_STATE, 3, NULL},
@@ -97,6 +98,7 @@ brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store)
     };
     BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
     BRC_TRY(brc_store_list(s, store, "contact.pieces", c->piece, BRC_OF_STATE, c->n_pieces, 4, NULL));
+    BRC_TRY(brc_store_double(store, "contact.skin", &c->skin));
     if (store->loading) BRC_TRY(brc_contact_list_again(s));
     BRC_TRY(walk_pairs(s, store));
     BRC_TRY(brc_store_entries(s, store, sizeof made_by_forces / sizeof *made_by_forces, made_by_forces));
