@@ -1,5 +1,6 @@
 /* breccia bench: measurements of speed, and of what accuracy costs. */
 #include "bench_accuracy.h"
+#include "../../bench/contact_cost.h"
 #include "../../bench/throughput.h"
 #include "../base/memory.h"
 #include <errno.h>
@@ -125,13 +126,66 @@ static brc_status run_accuracy(const brc_session *session, const brc_arguments *
     return brc_bench_accuracy(session, &request);
 }
 
+static brc_status print_contact(void *self, const brc_rows *rows)
+{
+    const brc_row *row = &rows->rows[rows->n_rows - 1];
+    printf("%-6s %9.0f %-13s %8.3f %-3s", text_of(row, "model"), number_of(row, "elements"), text_of(row, "quantity"), number_of(row, "ours"), text_of(row, "unit"));
+    if (isnan(number_of(row, "bound"))) printf(" %9s", "");
+    else printf(" (<= %4.2f)", number_of(row, "bound"));
+    printf("  step %9.4g s, intact %9.4g s, ratios %.3f to %.3f", number_of(row, "seconds"), number_of(row, "seconds_without"), number_of(row, "least"), number_of(row, "most"));
+    if (!isnan(number_of(row, "touching"))) printf(", %.0f pairs touch", number_of(row, "touching"));
+    printf("\n");
+    fflush(stdout);
+    return brc_rows_write(rows, self);
+}
+
+static brc_status run_contact(const brc_session *session, const brc_arguments *arguments)
+{
+    static const char *const others[] = {"precisions", "exact", "copy", "problems", "quick", "folder", "resume"};
+    brc_context *context = session->context;
+    char copy[4][256], folder[512];
+    const char *device[BRC_THROUGHPUT_LIST], *size[BRC_THROUGHPUT_LIST], *model[BRC_THROUGHPUT_LIST], *count[BRC_THROUGHPUT_LIST];
+    int n_devices, n_sizes, n_models, n_counts;
+    double number;
+    BRC_TRY(refuse_options(context, arguments, "contact", sizeof others / sizeof *others, others));
+    const char *given = brc_arguments_value(arguments, "output");
+    snprintf(folder, sizeof folder, "%s", given ? given : "results/contact");
+    brc_contact_cost_request request = {.sample_s = 0.5, .row = print_contact, .self = folder};
+    BRC_TRY(take_list(context, arguments, "devices", "cpu", copy[0], sizeof copy[0], device, &n_devices));
+    BRC_TRY(take_list(context, arguments, "sizes", "3e4", copy[1], sizeof copy[1], size, &n_sizes));
+    BRC_TRY(take_list(context, arguments, "models", "dlsm,cbm", copy[2], sizeof copy[2], model, &n_models));
+    BRC_TRY(take_list(context, arguments, "threads", "1", copy[3], sizeof copy[3], count, &n_counts));
+    BRC_TRY(take_number(context, "threads", count[0], 1, 4096, &number));
+    if (n_devices > 1 || n_counts > 1) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench contact: one device and one number of threads, found several");
+    request.device = device[0];
+    request.n_threads = (int)number;
+    for (int k = 0; k < n_models; ++k) {
+        const bool cells = strcmp(model[k], "dlsm") == 0, spheres = strcmp(model[k], "cbm") == 0;
+        if (!cells && !spheres) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench contact: no model '%s', expected dlsm or cbm", model[k]);
+        request.cells |= cells;
+        request.spheres |= spheres;
+    }
+    if (brc_arguments_value(arguments, "sample")) BRC_TRY(take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600, &request.sample_s));
+    brc_rows rows = {.context = context};
+    brc_status status = BRC_OK;
+    for (int k = 0; k < n_sizes && status == BRC_OK; ++k) {
+        status = take_number(context, "sizes", size[k], 64, 1e9, &number);
+        request.elements = (int64_t)number;
+        if (status == BRC_OK) status = brc_contact_cost_measure(context, &request, &rows);
+    }
+    if (status == BRC_OK) printf("%s/rows.json\n", folder);
+    brc_rows_free(&rows);
+    return status;
+}
+
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
 {
     static const char *const others[] = {"problems", "quick", "folder", "resume"};
     brc_context *context = session->context;
     if (strcmp(arguments->positional[0], "accuracy") == 0) return run_accuracy(session, arguments);
+    if (strcmp(arguments->positional[0], "contact") == 0) return run_contact(session, arguments);
     if (strcmp(arguments->positional[0], "throughput") != 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy", arguments->positional[0]);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact", arguments->positional[0]);
     BRC_TRY(refuse_options(context, arguments, "throughput", sizeof others / sizeof *others, others));
     const char *given_folder = brc_arguments_value(arguments, "output");
     char folder[512], here[256], copy[4][256], devices[256];
@@ -182,12 +236,13 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
 }
 
 const brc_command brc_command_bench = {.name = "bench",
-                                       .operands = "throughput|accuracy",
+                                       .operands = "throughput|accuracy|contact",
                                        .least = 1,
                                        .most = 1,
-                                       .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy costs",
+                                       .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy or contact costs",
                                        .details = "Noisy-grid cubes; packings with ten beams an element for cbm. Lists are separated by commas; every combination is measured. "
-                                                  "accuracy: problems with exact answers, error against seconds (one device, one number of threads).",
+                                                  "accuracy: problems with exact answers, error against seconds (one device, one number of threads). "
+                                                  "contact: the step with nothing near, of a ball gone to dust, and of dust pressed together, over the step without contact (default 3e4 elements).",
                                        .options = options,
                                        .n_options = sizeof options / sizeof *options,
                                        .run = run};
