@@ -145,7 +145,7 @@ static brc_status run_contact(const brc_session *session, const brc_arguments *a
     brc_context *context = session->context;
     char copy[4][256], folder[512];
     const char *device[BRC_THROUGHPUT_LIST], *size[BRC_THROUGHPUT_LIST], *model[BRC_THROUGHPUT_LIST], *count[BRC_THROUGHPUT_LIST];
-    int n_devices, n_sizes, n_models, n_counts;
+    int n_devices = 0, n_sizes = 0, n_models = 0, n_counts = 0;
     double number;
     BRC_TRY(refuse_options(context, arguments, "contact", sizeof others / sizeof *others, others));
     const char *given = brc_arguments_value(arguments, "output");

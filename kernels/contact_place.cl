@@ -1,10 +1,4 @@
 /* Where elements are and how they stand: what the kernels of contact read of them. */
-#ifndef BRC_KERNELS_CONTACT_PLACE_H
-#define BRC_KERNELS_CONTACT_PLACE_H
-
-#include "convex_overlap.h"
-#include "quaternion.h"
-#include "svec.h"
 
 LAW svec3 svec3_load(GLOBAL const state *restrict p, brc_size at) { return (svec3){p[at], p[at + 1], p[at + 2]}; }
 LAW void svec3_store(GLOBAL state *restrict p, brc_size at, svec3 a)
@@ -34,7 +28,6 @@ LAW svec3 contact_branch(GLOBAL const state *restrict place, GLOBAL const state 
     return svec3_add(far, svec3_sub(svec3_load(displacement, (brc_size)j * 3), svec3_load(displacement, (brc_size)i * 3)));
 }
 
-
 LAW svec3 svec3_of(convex_vec a) { return (svec3){a.x, a.y, a.z}; }
 LAW convex_vec convex_of(svec3 a) { return (convex_vec){a.x, a.y, a.z}; }
 LAW smat3 smat3_of(convex_map a) { return (smat3){a.xx, a.xy, a.xz, a.yx, a.yy, a.yz, a.zx, a.zy, a.zz}; }
@@ -47,5 +40,3 @@ LAW smat3 contact_map(int affine, GLOBAL const coeff *restrict gradient, GLOBAL 
     GLOBAL const coeff *restrict h = gradient + (brc_size)e * 9;
     return (smat3){STATE(1) + (state)h[0], (state)h[1], (state)h[2], (state)h[3], STATE(1) + (state)h[4], (state)h[5], (state)h[6], (state)h[7], STATE(1) + (state)h[8]};
 }
-
-#endif
