@@ -225,14 +225,19 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick)
         BRC_TRY(BRC_LAUNCH(c->kernel.expose, n, BRC_INT(n), BRC_BUF(s->fracture->broken), BRC_BUF(c->exposed)));
         return search_soon(s);
     }
+    const bool strikers = c->n_pieces > 0;
     BRC_TRY(brc_contact_stored(s, &before));
+    if (strikers && half_kick > 0) BRC_TRY(brc_strikers_advance(s, half_kick, 0, 0, false)); /* the step closes with the load of before ... */
     if (c->now.n_pairs > 0) BRC_TRY(gather_turning(s, -1, half_kick, 0, s->force, s->torque));
     BRC_TRY(BRC_LAUNCH(c->kernel.expose, n, BRC_INT(n), BRC_BUF(s->fracture->broken), BRC_BUF(c->exposed)));
     BRC_TRY(brc_contact_search(s));
     if (c->now.n_pairs > 0) {
         BRC_TRY(brc_contact_pairs(s, 0));
         BRC_TRY(gather_turning(s, 1, half_kick, 0, s->force, s->torque));
+        BRC_TRY(load_strikers(s));
     }
+    if (strikers) BRC_TRY(brc_strikers_book(s, BRC_BOOK_START));
+    if (strikers && half_kick > 0) BRC_TRY(brc_strikers_advance(s, -half_kick, 0, 0, false)); /* ... and the next one opens with what is there now */
     BRC_TRY(brc_contact_stored(s, &after));
     c->born += after - before;
     return BRC_OK;
