@@ -1,0 +1,95 @@
+/* Which pairs are listed, and when they are looked for again. Cells of E 1 Pa and density 1 kg/m^3 (contact_case.h). */
+#include "contact_case.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Displacements and velocities of a cube of 4 x 4 x 4 cells that bursts and is crushed, after 400 steps, and pairs that touch. */
+static double *crushed(const char *model, const char *contact, int64_t *n, int64_t *listed)
+{
+    bench_case c;
+    char keys[200];
+    snprintf(keys, sizeof keys, "fracture: {criterion: bond-normal}\ninteractions: {contact: {friction: 0.3, restitution: 0.7%s}}\n", contact);
+    open_case(&c, (case_options){.model = model, .fill = "cells: [4, 4, 4], spread: 90 %, seed: 1", .stages = CONTACT_CRUSH, .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = keys,
+                                 .n_threads = 1});
+    assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
+    assert_done(&c, brc_simulation_advance(c.simulation, 400));
+    *n = 6 * c.domain->n_elements;
+    *listed = c.simulation->contact->now.n_pairs;
+    double *out = calloc((size_t)*n, sizeof *out);
+    assert_done(&c, brc_simulation_displacement(c.simulation, out));
+    assert_done(&c, brc_simulation_velocity(c.simulation, out + *n / 2));
+    close_case(&c);
+    return out;
+}
+
+/* The thicker the skin the more pairs are listed and the fewer are sifted out; at 0.3 m, more than a cell, nearly all of the cube. A pair that touched and was not listed would show in the motion. */
+static void the_skin_changes_no_bit_of_the_motion(void **state)
+{
+    (void)state;
+    static const char *const models[2] = {"dlsm", "dlsm-published"};
+    for (int m = 0; m < 2; ++m) {
+        int64_t n[3], listed[3];
+        double *thick = crushed(models[m], ", skin: 0.3 m", &n[0], &listed[0]), *chosen = crushed(models[m], "", &n[1], &listed[1]);
+        double *thin = crushed(models[m], ", skin: 2 mm", &n[2], &listed[2]);
+        print_message("%s: %lld, %lld and %lld pairs listed\n", models[m], (long long)listed[0], (long long)listed[1], (long long)listed[2]);
+        assert_true(listed[0] > listed[1] && listed[1] > listed[2] && listed[2] > 0);
+        assert_memory_equal(thick, chosen, (size_t)n[0] * sizeof *thick);
+        assert_memory_equal(thick, thin, (size_t)n[0] * sizeof *thick);
+        free(thick), free(chosen), free(thin);
+    }
+}
+
+/* How often pairs are looked for in 400 steps of 0.05 s of a cube of 27 cells with these keys and this initial velocity, after 40 steps, in which a strength of nothing parts all cells. */
+static int64_t searches(const char *materials, const char *keys, const char *initial)
+{
+    bench_case c;
+    char stage[400];
+    snprintf(stage, sizeof stage, "  - name: fly\n    solver: {dynamic: {steps: 100000, time_step: 0.05 s}}\n    initial:\n      - velocity: {%s}\n", initial);
+    open_case(&c, (case_options){.fill = "cells: [3, 3, 3], spread: 50 %, seed: 1", .materials = materials, .sets = keys, .stages = stage, .n_threads = 1});
+    assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
+    assert_done(&c, brc_simulation_advance(c.simulation, 40));
+    if (materials) assert_true(c.simulation->contact->n_rigid == 27);
+    const int64_t before = c.simulation->contact->searches;
+    assert_done(&c, brc_simulation_advance(c.simulation, 400));
+    const int64_t after = c.simulation->contact->searches;
+    close_case(&c);
+    return after - before;
+}
+
+/* Flight over 60 cells, and dust that grows by 0.4 of its size, 0.6 of a cell at the edge, bring no two together: what is left of the motion is rounding. Against a wall the whole way counts: 22 m of
+ * flight along one that is 1 m below, 0.7 m or more from the balls about the cells, 33 times at most. */
+static void what_flies_or_grows_as_a_whole_is_not_looked_for_again(void **state)
+{
+    (void)state;
+    static const char wall[] = "interactions: {contact: {}}\nstrikers:\n  far: {plane: {point: [0, 0, -1 m], normal: [0, 0, 1]}, material: stone}\n";
+    const char *const touch = "interactions: {contact: {}}\n", *const flight = "velocity: [1 m/s, 0.5 m/s, 0]";
+    assert_int_equal(searches(NULL, touch, flight), 0);
+    const int64_t along = searches(NULL, wall, flight);
+    assert_true(along > 0 && along <= 33);
+    assert_int_equal(searches(CELLS_STRENGTH("1e-12 Pa"), CONTACT_KEYS, "gradient: {x: [0.02 1/s, 0, 0], y: [0, 0.02 1/s, 0], z: [0, 0, 0.02 1/s]}"), 0);
+    assert_true(searches(CELLS_STRENGTH("1e-12 Pa"), CONTACT_KEYS, "gradient: {x: [0.02 1/s, 0, 0], y: [0, 0.02 1/s, 0], z: [0, 0, 0.06 1/s]}") > 0);
+}
+
+/* A cube of cells in which nothing is cracked: the pairs two cells apart on its surface, whose balls meet, all have a plane between them. */
+static void nothing_is_listed_in_a_whole_body_at_rest(void **state)
+{
+    (void)state;
+    bench_case c;
+    open_case(&c, (case_options){.fill = "cells: [6, 6, 6], spread: 90 %, lloyd: 3", .sets = "interactions: {contact: {}}\n", .n_threads = 1});
+    assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
+    assert_int_equal(c.simulation->contact->now.n_pairs, 0);
+    assert_true(c.simulation->contact->now.n_listed > 100);
+    close_case(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_skin_changes_no_bit_of_the_motion),
+        cmocka_unit_test(what_flies_or_grows_as_a_whole_is_not_looked_for_again),
+        cmocka_unit_test(nothing_is_listed_in_a_whole_body_at_rest),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
