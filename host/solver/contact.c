@@ -94,7 +94,10 @@ brc_status brc_contact_gradients(brc_simulation *s)
     BRC_TRY(brc_contact_pose(s));
     if (!s->contact->due) return BRC_OK;
     s->contact->due = false;
-    return brc_contact_search(s);
+    const brc_step_phase before = brc_phase_within(s, BRC_PHASE_SEARCH);
+    BRC_TRY(brc_contact_search(s));
+    brc_phase_within(s, before);
+    return BRC_OK;
 }
 
 brc_status brc_contact_restart(brc_simulation *s)
