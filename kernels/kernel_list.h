@@ -107,6 +107,13 @@
     X(soft_count)                                                                                                      \
     X(soft_energy)                                                                                                     \
     X(soft_settle)                                                                                                     \
+    X(beam_soft_force)                                                                                                 \
+    X(beam_soft_energy)                                                                                                \
+    X(beam_soft_virial)                                                                                                \
+    X(beam_soft_move)                                                                                                  \
+    X(beam_soft_begin)                                                                                                 \
+    X(beam_soft_keep)                                                                                                  \
+    X(beam_soft_end)                                                                                                   \
     X(fracture_force)                                                                                                  \
     X(fracture_stress)                                                                                                 \
     X(fracture_stress_second)                                                                                          \

@@ -41,3 +41,4 @@
 #include "contact_cells.cl"
 #include "contact_rigid.cl"
 #include "softening.cl"
+#include "beam_softening.cl"

@@ -38,22 +38,19 @@ static brc_status upload_bonds(brc_simulation *s, const double *strength)
     const int64_t n_entries = layout->n_slots * layout->slice;
     brc_cell_breaks *cells = s->fracture->cells;
     double *limit = NULL, *whole = NULL, *least = NULL;
-    int32_t *entry_of = NULL, *twin = NULL;
+    int32_t *twin = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, n_entries, "limits of bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &whole, n_entries, "unbroken bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &least, layout->n_rows, "smallest limits"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &entry_of, d->n_half_edges, "twins"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &twin, n_entries, "twins"));
     for (int32_t r = 0; r < layout->n_rows; ++r) least[r] = never;
-    for (int64_t k = 0; k < n_entries; ++k)
-        if (layout->half_edge[k] >= 0) entry_of[layout->half_edge[k]] = (int32_t)k;
+    BRC_TRY_OR(cleanup, brc_layout_twins(s->context, layout, d, twin));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         const double value = h >= 0 ? strength[d->bond[h]] : 0;
         limit[k] = value > 0 ? value : never;
         whole[k] = h >= 0;
-        twin[k] = h >= 0 ? entry_of[d->twin[h]] : 0;
         if (h < 0) continue;
         double *own = &least[layout->row_of_element[d->neighbour[d->twin[h]]]];
         *own = fmin(*own, limit[k]);
@@ -69,7 +66,6 @@ cleanup:
     brc_memory_free(limit);
     brc_memory_free(whole);
     brc_memory_free(least);
-    brc_memory_free(entry_of);
     brc_memory_free(twin);
     return status;
 }

@@ -1,4 +1,5 @@
 #include "cell_softening.h"
+#include "beam_softening.h"
 #include "cell_breaks_internal.h"
 #include <math.h>
 
@@ -282,13 +283,14 @@ brc_status brc_softening_settle(brc_simulation *s)
 brc_status brc_softening_begin_stage(brc_simulation *s)
 {
     const brc_stage *stage = brc_current_stage(s);
-    const softening_faces *f = faces_of(s);
-    if (!f || stage->solver == BRC_SOLVER_DYNAMIC) return BRC_OK;
+    brc_softening_report report = {0};
+    if ((!faces_of(s) && !brc_beam_softening_is_on(s)) || stage->solver == BRC_SOLVER_DYNAMIC) return BRC_OK;
+    BRC_TRY(brc_simulation_softening(s, &report));
     if (stage->most_events > 0)
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': events break bonds at once, and those of this scene soften; remove `fracture_energy`, or load "
                         "slowly in a dynamic stage with mass damping", stage->name);
-    if (f->any)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': faces have opened against their cohesion in an earlier stage, and openings follow in dynamic "
+    if (report.n_opened > 0)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': bonds have opened against their cohesion in an earlier stage, and openings follow in dynamic "
                         "stages only; use a dynamic stage with mass damping", stage->name);
     return BRC_OK;
 }
@@ -327,6 +329,7 @@ brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out
     const int64_t n_entries = layout->n_slots * layout->slice;
     double *crack = NULL, *alive = NULL;
     brc_status status = BRC_OK;
+    if (brc_beam_softening_is_on(s)) return brc_beam_softening_report(s, out);
     *out = (brc_softening_report){0};
     if (!f || !f->any) return BRC_OK;
     const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));

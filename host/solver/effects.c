@@ -1,4 +1,5 @@
 /* Which effects a run contains and leaves out, and the least bytes a step must move. */
+#include "beam_softening.h"
 #include "cell_softening.h"
 #include "noise_damping.h"
 
@@ -42,7 +43,7 @@ void brc_effects_list(brc_simulation *s)
                    {"static solver", statics},
                    {"free vibration modes", modes},
                    {"fracture", s->fracture != NULL},
-                   {"fracture energy", brc_softening_is_on(s)},
+                   {"fracture energy", brc_softening_is_on(s) || brc_beam_softening_is_on(s)},
                    {"walls and strikers", s->strikers != NULL},
                    {"contact", s->contact != NULL}};
     int in = 0, out = 0;

@@ -1,4 +1,5 @@
 /* One evaluation of the forces of a model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2, design-cbm.md). */
+#include "beam_softening.h"
 #include "cell_breaks_internal.h"
 #include "cell_softening.h"
 #include "contact.h"
@@ -212,6 +213,7 @@ brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabil
                            BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement),
                            BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend), BRC_COEFF(b->twist), BRC_BUF(s->beam_of),
                            BRC_BUF(s->elastic_energy)));
+        BRC_TRY(brc_beam_softening_energy(s));
         return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);
     }
     if (brc_is_published(s)) {

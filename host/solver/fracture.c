@@ -1,5 +1,6 @@
 /* Bonds that break: limits of the elements, the order of the passes, and what broke (kernels/fracture.cl). */
 #include "beam_law.h"
+#include "beam_softening.h"
 #include "cell_breaks.h"
 #include "contact.h"
 #include "fracture_internal.h"
@@ -170,9 +171,9 @@ static brc_status create_arrays(brc_simulation *s)
     return brc_new_state(s, &f->broken, n, "broken bonds");
 }
 
-int64_t brc_fracture_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
+int64_t brc_fracture_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
 {
-    return n * (21 * coeff_bytes + 4 + 2 * state_bytes) + entries * (8 + 2 * coeff_bytes);
+    return n * (21 * coeff_bytes + 4 + 2 * state_bytes) + entries * (8 + 2 * coeff_bytes) + brc_beam_softening_bytes(scene, entries, coeff_bytes);
 }
 
 static brc_status find_kernels(brc_simulation *s)
@@ -240,6 +241,7 @@ void brc_fracture_free(brc_simulation *s)
     brc_breaking *f = s->fracture;
     if (!f) return;
     brc_cell_breaks_free(s);
+    brc_beam_softening_free(s);
     brc_fracture_bound_free(s);
     brc_buffer **all[] = {&f->record, &f->stress, &f->limits, &f->choice, &f->measure, &f->break_step, &f->break_mode,
                           &f->break_stress, &f->break_energy, &f->lost, &f->broken};
@@ -258,11 +260,12 @@ brc_status brc_fracture_force(brc_simulation *s, const brc_force_request *r)
 {
     const brc_beam *b = brc_beam_of_element(s, 0);
     const brc_breaking *f = s->fracture;
-    return BRC_LAUNCH(f->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
+    BRC_TRY(BRC_LAUNCH(f->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
                       BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend),
                       BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_COEFF(f->scale[0]), BRC_COEFF(f->scale[1]), BRC_COEFF(f->scale[2]),
                       BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(f->record),
-                      BRC_BUF(f->reach));
+                      BRC_BUF(f->reach)));
+    return brc_beam_softening_force(s, r, is_drucker_prager(s));
 }
 
 static brc_status find_stress(brc_simulation *s)
@@ -299,6 +302,7 @@ brc_status brc_fracture_step(brc_simulation *s, double half_kick)
     const int32_t moment = (int32_t)brc_fracture_moment(s);
     if (f->cells) return brc_cell_breaks_step(s, half_kick, 1);
     BRC_TRY(brc_fracture_choose(s, moment));
+    BRC_TRY(brc_beam_softening_begin(s, moment));
     BRC_TRY(BRC_LAUNCH(f->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(s->scene->fracture.level), BRC_INT(moment),
                       BRC_STATE(half_kick), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->ratio),
                       BRC_BUF(f->mark), BRC_BUF(f->record), BRC_BUF(f->weight), BRC_BUF(f->choice), BRC_BUF(f->measure),
@@ -306,6 +310,7 @@ brc_status brc_fracture_step(brc_simulation *s, double half_kick)
                       BRC_BUF(s->beam_of), BRC_BUF(s->mass), BRC_BUF(s->inertia), BRC_BUF(s->force), BRC_BUF(s->torque),
                       BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
                       BRC_BUF(f->break_energy), BRC_BUF(f->lost), BRC_BUF(f->broken)));
+    BRC_TRY(brc_beam_softening_end(s, moment));
     BRC_TRY(brc_loads_zero_turned(s, s->torque)); /* prescribed rotations balance theirs */
     const brc_step_phase before = brc_phase_within(s, BRC_PHASE_SEARCH);
     BRC_TRY(brc_contact_broken(s, half_kick));

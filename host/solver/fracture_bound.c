@@ -1,6 +1,6 @@
 /* What lets fracture_check pass by elements far from failure (kernels/fracture.cl): limits in common, volumes and marks; and the factors of bonds
  * that scatter or lie in an interface. */
-#include "fracture_internal.h"
+#include "beam_softening.h"
 #include "strengths.h"
 #include <math.h>
 
@@ -90,13 +90,10 @@ brc_status brc_fracture_bound(brc_simulation *s)
     double *weakest = NULL;
     brc_status status = BRC_OK;
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
-    f->weighted = !strengths.uniform;
-    if (strengths.softens) {
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture_energy: bonds break at once in this version, none softens; remove it from the "
-                          "strengths and interfaces");
-        goto cleanup;
-    }
+    const bool softens = strengths.softens && brc_is_beams(s); /* cells: cell_softening.c */
+    f->weighted = !strengths.uniform || softens; /* beams that opened are not chosen again, by their factors */
     if (f->weighted) BRC_TRY_OR(cleanup, upload_factors(s, strengths.factor, &weakest));
+    if (softens) BRC_TRY_OR(cleanup, brc_beam_softening_create(s, &strengths));
     BRC_TRY_OR(cleanup, upload_bounds(s, weakest));
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->reach, s->layout->n_rows, "bounds of stress"));
     status = brc_buffer_create(s->device, &f->mark, 4 * (int64_t)s->n_groups, "groups that lose bonds");

@@ -26,6 +26,7 @@ struct brc_breaking {
     double scale[3];   /* 1 / smallest limit of tension, compression, shear; 0: none [1/Pa] */
     double *limit;     /* [n_elements][3] host */
     double slope, friction;
+    struct brc_beam_softening *beam_softening; /* beams that open against cohesion (beam_softening.c); NULL: none does */
     struct brc_cell_breaks *cells; /* models of cells (cell_breaks.c), which use the arrays of entries and `lost`, `broken` */
     int n_spans;
     brc_break_span *spans;
@@ -49,8 +50,8 @@ brc_status brc_fracture_ratio(brc_simulation *s, double *out);
 /* Strengths of bonds, and bounds of stress (fracture_bound.c); the limits of the elements are there. */
 brc_status brc_fracture_bound(brc_simulation *s);
 void brc_fracture_bound_free(brc_simulation *s);
-/* Device bytes it takes (n elements, entries of the layout). */
-int64_t brc_fracture_bytes(int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
+/* Device bytes it takes with beams (n elements, entries of the layout). */
+int64_t brc_fracture_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
 /* A stage begins. */
 brc_status brc_fracture_begin_stage(brc_simulation *s);
 /* Steps and static events so far: what orders breaks. */

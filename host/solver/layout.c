@@ -116,6 +116,18 @@ void brc_layout_all_boundary(brc_layout *layout)
     for (int32_t s = 0; s < layout->n_slices; ++s) layout->boundary[s] = s;
 }
 
+brc_status brc_layout_twins(brc_context *context, const brc_layout *layout, const brc_domain *domain, int32_t *twin)
+{
+    const int64_t n = layout->n_slots * layout->slice;
+    int32_t *entry_of = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &entry_of, domain->n_half_edges, "twins"));
+    for (int64_t k = 0; k < n; ++k)
+        if (layout->half_edge[k] >= 0) entry_of[layout->half_edge[k]] = (int32_t)k;
+    for (int64_t k = 0; k < n; ++k) twin[k] = layout->half_edge[k] >= 0 ? entry_of[domain->twin[layout->half_edge[k]]] : 0;
+    brc_memory_free(entry_of);
+    return BRC_OK;
+}
+
 void brc_layout_free(brc_layout **layout)
 {
     if (!layout || !*layout) return;

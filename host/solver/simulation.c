@@ -181,7 +181,7 @@ int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *
     const bool tchamwa = any_stage(scene, has_tchamwa), damped = any_stage(scene, has_damping);
     int64_t boundary = 0;
     if (scene->model.kind == BRC_MODEL_CBM)
-        return brc_contact_bytes(scene, domain, n, entries, n, state) + (scene->has_fracture ? brc_fracture_bytes(n, entries, state, coeff) : 0) + entries * (4 + 4 * coeff) + n / slice * 8 + n * ((3 + 3 + 3 + 1 + 2 + 4 + 3 + 3 + 1 + (tchamwa ? 4 : 0) + (damped ? 1 : 0) + (scene->has_gravity ? 1 : 0)) * state + (many ? 3 : 0) * coeff);
+        return brc_contact_bytes(scene, domain, n, entries, n, state) + (scene->has_fracture ? brc_fracture_bytes(scene, n, entries, state, coeff) : 0) + entries * (4 + 4 * coeff) + n / slice * 8 + n * ((3 + 3 + 3 + 1 + 2 + 4 + 3 + 3 + 1 + (tchamwa ? 4 : 0) + (damped ? 1 : 0) + (scene->has_gravity ? 1 : 0)) * state + (many ? 3 : 0) * coeff);
     for (int64_t e = 0; domain->free_start && e < domain->n_elements; ++e) boundary += domain->free_start[e + 1] > domain->free_start[e];
     boundary = boundary + boundary / 8 < n ? boundary + boundary / 8 : n; /* blocks are whole slices */
     int64_t bytes = brc_contact_bytes(scene, domain, n, entries, boundary, state) + (scene->has_fracture ? brc_cell_breaks_bytes(scene, n, entries, state, coeff) : 0) + entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);

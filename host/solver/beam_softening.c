@@ -1,0 +1,266 @@
+#include "beam_softening.h"
+#include "bond_area.h"
+#include <math.h>
+
+/* A crack costs its area along its opening: what a beam costs by its |cos| to that, which is not taken below this, so that one that only slides keeps a cost. */
+static const double steepest = 0.5;
+/* E G_c / sigma_f^2 below this many diameters: the crack is not resolved. */
+static const double least_diameters = 4;
+
+/* Components of `crack` and states of `open` (kernels/beam_softening.cl). */
+enum { ENERGY = 2, EXPONENTIAL = 3, SPENT = 6, TILT = 10, CAPACITY = 11, PER_AREA = 12, WIDTH = 13 };
+enum { WHOLE = 0, BROKEN = 3 };
+
+struct brc_beam_softening {
+    brc_kernel *force, *energy, *virial, *move, *begin, *keep, *end;
+    brc_buffer *crack;              /* [n_slots][WIDTH][C] */
+    brc_buffer *open, *lead, *twin; /* [n_slots][C] */
+    brc_buffer *active, *touched;   /* [n_groups], [n_rows] */
+};
+typedef struct brc_beam_softening beam_softening;
+
+static beam_softening *softening_of(const brc_simulation *s) { return s->fracture ? s->fracture->beam_softening : NULL; }
+bool brc_beam_softening_is_on(const brc_simulation *s) { return softening_of(s) != NULL; }
+
+static brc_status find_kernels(brc_simulation *s, beam_softening *f)
+{
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+    } wanted[] = {{&f->force, "beam_soft_force"}, {&f->energy, "beam_soft_energy"}, {&f->virial, "beam_soft_virial"}, {&f->move, "beam_soft_move"},
+                  {&f->begin, "beam_soft_begin"}, {&f->keep, "beam_soft_keep"}, {&f->end, "beam_soft_end"}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    return BRC_OK;
+}
+
+static void warn_of_size(brc_simulation *s, const brc_strengths *strengths)
+{
+    const brc_domain *d = s->domain;
+    int64_t n_short = 0, n_soft = 0;
+    double least = INFINITY;
+    for (int64_t b = 0; b < d->n_bonds; ++b) {
+        if (!(strengths->energy[b] > 0) || !(strengths->tension[b] > 0)) continue;
+        const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
+        const double young = fmin(s->elastic[s->material_of_element[i]].young, s->elastic[s->material_of_element[j]].young);
+        const double length = young * strengths->energy[b] / (strengths->tension[b] * strengths->tension[b]) / (d->radius[i] + d->radius[j]);
+        ++n_soft;
+        n_short += length < least_diameters;
+        least = fmin(least, length);
+    }
+    if (2 * n_short > n_soft) /* strengths scatter: half of the bonds lie on either side */
+        brc_log(s->context, BRC_LOG_WARNING,
+                "fracture_energy: E G_c / sigma_f^2 is less than %g diameters at %lld of %lld bonds (%.2g at least): a crack costs about G_c per area only above; "
+                "use smaller spheres or a lower strength", least_diameters, (long long)n_short, (long long)n_soft, least);
+}
+
+/* Where only that of the virial stress is given: the limit of the weaker of its elements [Pa]. */
+static double beam_strength(const brc_simulation *s, int64_t h)
+{
+    const double i = brc_simulation_element_strength(s, s->domain->neighbour[s->domain->twin[h]]), j = brc_simulation_element_strength(s, s->domain->neighbour[h]);
+    return i > 0 && j > 0 ? fmin(i, j) : fmax(i, j);
+}
+
+static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_strengths *strengths)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int64_t n_entries = layout->n_slots * layout->slice;
+    double *crack = NULL, *area = NULL;
+    int32_t *lead = NULL, *twin = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of beams"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &lead, n_entries, "cohesion of beams"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &twin, n_entries, "cohesion of beams"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &area, d->n_bonds, "areas of beams"));
+    BRC_TRY_OR(cleanup, brc_bond_areas_closed(s->context, d, area));
+    BRC_TRY_OR(cleanup, brc_layout_twins(s->context, layout, d, twin));
+    for (int64_t k = 0; k < n_entries; ++k) {
+        const int32_t h = layout->half_edge[k];
+        if (h < 0) continue;
+        double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
+        const double strength = strengths->tension[d->bond[h]] > 0 ? strengths->tension[d->bond[h]] : beam_strength(s, h) * strengths->factor[d->bond[h]];
+        own[ENERGY * layout->slice] = strengths->energy[d->bond[h]] * area[d->bond[h]];
+        own[CAPACITY * layout->slice] = strength * area[d->bond[h]];
+        own[PER_AREA * layout->slice] = 1 / area[d->bond[h]];
+        own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
+        lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
+    }
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->crack, WIDTH * n_entries, "cohesion of beams"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
+    BRC_TRY_OR(cleanup, brc_new_int(s, &f->lead, lead, n_entries, "cohesion of beams"));
+    BRC_TRY_OR(cleanup, brc_new_int(s, &f->twin, twin, n_entries, "cohesion of beams"));
+    BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->open, 4 * n_entries, "open beams"));
+    BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->touched, 4 * (int64_t)layout->n_rows, "open beams"));
+    status = brc_buffer_create(s->device, &f->active, 4 * (int64_t)s->n_groups, "open beams");
+cleanup:
+    brc_memory_free(crack);
+    brc_memory_free(area);
+    brc_memory_free(lead);
+    brc_memory_free(twin);
+    return status;
+}
+
+brc_status brc_beam_softening_create(brc_simulation *s, const brc_strengths *strengths)
+{
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->beam_softening, 1, "cohesion of beams"));
+    BRC_TRY(find_kernels(s, s->fracture->beam_softening));
+    warn_of_size(s, strengths);
+    return upload_bonds(s, s->fracture->beam_softening, strengths);
+}
+
+void brc_beam_softening_free(brc_simulation *s)
+{
+    beam_softening *f = softening_of(s);
+    if (!f) return;
+    brc_buffer **all[] = {&f->crack, &f->open, &f->lead, &f->twin, &f->active, &f->touched};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_memory_free(f);
+    s->fracture->beam_softening = NULL;
+}
+
+/* ---- an evaluation ---- */
+
+brc_status brc_beam_softening_force(brc_simulation *s, const brc_force_request *r, bool drucker_prager)
+{
+    const beam_softening *f = softening_of(s);
+    const brc_breaking *b = s->fracture;
+    const brc_beam *beam = brc_beam_of_element(s, 0);
+    if (!f) return BRC_OK;
+    return BRC_LAUNCH(f->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->ratio),
+                      BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist),
+                      BRC_BUF(s->beam_of), BRC_COEFF(b->scale[0]), BRC_COEFF(b->scale[1]), BRC_COEFF(b->scale[2]), BRC_INT(drucker_prager ? 1 : 0),
+                      BRC_COEFF(b->slope), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(r->force), BRC_BUF(r->torque),
+                      BRC_BUF(b->record), BRC_BUF(b->reach));
+}
+
+/* Passes of one result more, of the state. */
+static brc_status of_state(brc_simulation *s, brc_kernel *kernel, brc_buffer *to)
+{
+    const beam_softening *f = softening_of(s);
+    const brc_beam *beam = brc_beam_of_element(s, 0);
+    return BRC_LAUNCH(kernel, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->ratio),
+                      BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist),
+                      BRC_BUF(s->beam_of), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(to));
+}
+
+brc_status brc_beam_softening_energy(brc_simulation *s)
+{
+    return brc_beam_softening_is_on(s) ? of_state(s, softening_of(s)->energy, s->elastic_energy) : BRC_OK;
+}
+
+brc_status brc_beam_softening_virial(brc_simulation *s, brc_buffer *virial)
+{
+    return brc_beam_softening_is_on(s) ? of_state(s, softening_of(s)->virial, virial) : BRC_OK;
+}
+
+/* ---- a step ---- */
+
+brc_status brc_beam_softening_move(brc_simulation *s)
+{
+    const beam_softening *f = softening_of(s);
+    if (!f) return BRC_OK;
+    const brc_beam *beam = brc_beam_of_element(s, 0);
+    return BRC_LAUNCH(f->move, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(steepest), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->twin),
+                      BRC_BUF(f->lead), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(beam->axial),
+                      BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack));
+}
+
+brc_status brc_beam_softening_begin(brc_simulation *s, int32_t moment)
+{
+    const beam_softening *f = softening_of(s);
+    const brc_breaking *b = s->fracture;
+    if (!f) return BRC_OK;
+    const brc_beam *beam = brc_beam_of_element(s, 0);
+    BRC_TRY(BRC_LAUNCH(f->begin, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_COEFF(steepest), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                       BRC_BUF(f->twin), BRC_BUF(f->lead), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation),
+                       BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_BUF(b->mark), BRC_BUF(b->choice),
+                       BRC_BUF(b->measure), BRC_BUF(f->touched), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(b->factor)));
+    return BRC_LAUNCH(f->keep, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(b->mark),
+                      BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(b->choice), BRC_BUF(f->touched));
+}
+
+brc_status brc_beam_softening_end(brc_simulation *s, int32_t moment)
+{
+    const beam_softening *f = softening_of(s);
+    const brc_breaking *b = s->fracture;
+    if (!f) return BRC_OK;
+    return BRC_LAUNCH(f->end, s->n_groups, BRC_INT(s->n_groups), BRC_INT(s->scene->fracture.level), BRC_INT(moment), BRC_BUF(s->row_start),
+                      BRC_BUF(s->neighbour), BRC_BUF(s->ratio), BRC_BUF(b->mark), BRC_BUF(b->record), BRC_BUF(b->weight), BRC_BUF(f->active),
+                      BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(b->break_step), BRC_BUF(b->break_mode), BRC_BUF(b->break_stress),
+                      BRC_BUF(b->break_energy), BRC_BUF(b->lost), BRC_BUF(b->broken));
+}
+
+/* ---- what stays ---- */
+
+/* Groups with open beams follow from the entries; factors of those that opened are no longer the scene's. */
+static brc_status find_active(brc_simulation *s, const beam_softening *f)
+{
+    const int64_t slice = s->layout->slice, n_entries = s->layout->n_slots * slice, width = s->layout->n_rows / s->n_groups;
+    int32_t *open = NULL, *active = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "open beams"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &active, s->n_groups, "open beams"));
+    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
+    for (int32_t block = 0; block < s->layout->n_slices; ++block)
+        for (int64_t k = (int64_t)s->layout->slot_start[block] * slice; k < (int64_t)s->layout->slot_start[block + 1] * slice; ++k)
+            if (open[k] != WHOLE) active[(block * slice + k % slice) / width] = 1;
+    status = brc_buffer_write(f->active, 0, active, 4 * (int64_t)s->n_groups);
+cleanup:
+    brc_memory_free(open);
+    brc_memory_free(active);
+    return status;
+}
+
+brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *store)
+{
+    const beam_softening *f = softening_of(s);
+    if (!f) return BRC_OK;
+    const brc_state_entry entries[] = {
+        {"softening.crack", f->crack, BRC_ENTRIES, BRC_OF_COEFF, WIDTH, NULL},
+        {"softening.open", f->open, BRC_ENTRIES, BRC_OF_INT, 1, NULL},
+        {"softening.factor", s->fracture->factor, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL},
+    };
+    BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
+    return store->loading ? find_active(s, f) : BRC_OK;
+}
+
+int64_t brc_beam_softening_bytes(const brc_scene *scene, int64_t entries, int64_t coeff_bytes)
+{
+    bool softens = false;
+    for (int32_t m = 0; m < scene->n_materials; ++m) softens = softens || scene->materials[m].fracture_energy > 0;
+    for (int32_t k = 0; k < scene->n_interfaces; ++k) softens = softens || scene->interfaces[k].fracture_energy > 0;
+    return softens ? entries * ((WIDTH + 1) * coeff_bytes + 12) : 0; /* with the factors */
+}
+
+brc_status brc_beam_softening_report(brc_simulation *s, brc_softening_report *out)
+{
+    const beam_softening *f = softening_of(s);
+    const brc_layout *layout = s->layout;
+    const int64_t n_entries = layout->n_slots * layout->slice;
+    double *crack = NULL;
+    int32_t *open = NULL;
+    brc_status status = BRC_OK;
+    *out = (brc_softening_report){0};
+    if (!f) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of beams"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "cohesion of beams"));
+    BRC_TRY_OR(cleanup, brc_download(s, f->crack, brc_precision_coeff_bytes(brc_device_get_precision(s->device)), crack, WIDTH * n_entries));
+    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
+    for (int64_t k = 0; k < n_entries; ++k) {
+        const int32_t h = layout->half_edge[k];
+        const double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
+        if (h < 0 || open[k] == WHOLE || s->domain->bond_half_edge[s->domain->bond[h]] != h) continue; /* each bond once */
+        out->n_opened += 1;
+        out->spent += own[SPENT * layout->slice];
+        if (open[k] != BROKEN) {
+            out->unfinished += own[SPENT * layout->slice];
+            continue;
+        }
+        out->n_ended += 1;
+        out->area += own[TILT * layout->slice] / own[PER_AREA * layout->slice];
+    }
+cleanup:
+    brc_memory_free(crack);
+    brc_memory_free(open);
+    return status;
+}

@@ -1,0 +1,342 @@
+/* Beams that open against cohesion (cbm; docs/fracture.md "Fracture energy of beams", kernels/softening.h). A beam that its element would lose
+ * (fracture.cl) keeps (1 - D) of its energy instead, and so of its force and moments: D of them are taken back here after the elastic passes, which run
+ * over whole beams as ever. At fixed D the force is the gradient of the energy, and both ends feel the same.
+ *
+ * D follows from the one law of all softening bonds: the energy Y of the whole beam is that of a spring of stiffness k = E S / l0, stretched by
+ * sqrt(2 Y / k); in series with it the beam opens, and the cohesion balances the spring (soft_opening). D is the secant to where it stood at its widest.
+ * A push along the axis is no part of Y: a beam that is shut bears it whole.
+ *
+ * crack [n_slots][BEAM_WIDTH][C], of an entry: DAMAGE D [-]; START, ENERGY: soft_face (ENERGY: G_c area, of a crack across the beam) [N] [J];
+ * EXPONENTIAL: 1, else linear; WIDEST: largest opening [m]; HELD: Y as of the last step [J]; SPENT: energy that the opening took so far, BOOKED: by the
+ * last step [J]; ONSET: stress of the element that failed [Pa], MODE of it; TILT: |cos| of the beam and its opening, not less than the steepest [-]; CAPACITY: strength
+ * times area [N]; PER_AREA: one over the area [1/m^2].
+ * Entries: open: 0 whole, 1 opens, 2 its cohesion ended in this step, 3 broken; lead: 1 on the side with the lower id, which computes for both; twin: the
+ * other entry. active [n / W], touched [n]: 1 from the first opening of the group and of the element on. */
+
+#define BEAM_DAMAGE 0
+#define BEAM_START 1
+#define BEAM_ENERGY 2
+#define BEAM_EXPONENTIAL 3
+#define BEAM_WIDEST 4
+#define BEAM_HELD 5
+#define BEAM_SPENT 6
+#define BEAM_BOOKED 7
+#define BEAM_ONSET 8
+#define BEAM_MODE 9
+#define BEAM_TILT 10
+#define BEAM_CAPACITY 11
+#define BEAM_PER_AREA 12
+#define BEAM_WIDTH 13
+#define BEAM_WHOLE 0
+#define BEAM_OPENS 1
+#define BEAM_ENDED 2
+#define BEAM_BROKEN 3
+#define BEAM_NEVER REAL(1e30) /* factor of a bond that is not chosen again */
+
+#define BEAM_NUMBER(entry, what) crack[(((entry) / C) * BEAM_WIDTH + BEAM_##what) * C + (entry) % C]
+
+/* What D takes a share of: all of a beam but a push along its axis. */
+typedef struct {
+    cbm_end end;
+    lane energy; /* Y [J] */
+} beam_part;
+LAW beam_part beam_part_of(cbm_bond bond)
+{
+    const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
+    const lane shut = lane_min(bond.shape.elongation, LANE_ZERO), push = bond.stiffness.axial * bond.inv_length0 * shut;
+    return (beam_part){{lane_vec3_sub(end.force, lane_vec3_scale(push, bond.shape.axis)), end.torque},
+                       cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness) - REAL(0.5) * push * shut};
+}
+
+/* |cos| between the axis and the opening l n - l0 (X1 + X2) / 2, which no rotation of the body changes. */
+LAW lane beam_cosine(cbm_bond bond)
+{
+    const lane length0 = REAL(1) / bond.shape.inv_length - bond.shape.elongation;
+    const lane_vec3 opening = lane_vec3_add(lane_vec3_scale(bond.shape.elongation, bond.shape.axis),
+                                            lane_vec3_scale(REAL(0.5) * length0, lane_vec3_add(bond.shape.bent1, bond.shape.bent2)));
+    const lane along = lane_vec3_dot(opening, bond.shape.axis);
+    return LANE_SQRT(along * along / (lane_vec3_dot(opening, opening) + REAL(1e-30) * length0 * length0));
+}
+
+/* Any lane of a slot: open has one of the two states. */
+LAW int beam_any(GLOBAL const int *restrict open, brc_size entry, int one, int other)
+{
+    int any = 0;
+    for (int l = 0; l < W; ++l) any |= open[entry + (brc_size)l] == one || open[entry + (brc_size)l] == other;
+    return any;
+}
+
+/* Sums over the beams of a group of what D takes. */
+typedef struct {
+    lane_vec3 force, torque;
+    lane_sym3 virial; /* its parts off the diagonal twice, cbm_virial_of */
+    lane energy;
+} beam_loss;
+LAW beam_loss beam_group_loss(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                              GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
+                              GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
+                              coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict open,
+                              GLOBAL const coeff *restrict crack)
+{
+    const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
+    const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
+    const lane zero = LANE_ZERO;
+    beam_loss sum = {{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero, zero, zero, zero}, zero};
+    for (int slot = row_start[slice]; slot < last; ++slot) {
+        if (!beam_any(open, (brc_size)slot * C + (brc_size)lane0, BEAM_OPENS, BEAM_ENDED)) continue;
+        const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation, axial, bend, twist,
+                                          beam_of, 1);
+        const beam_part part = beam_part_of(bond);
+        const lane damage = lane_block(crack, slot, BEAM_WIDTH, BEAM_DAMAGE, lane0);
+        const lane_vec3 f = lane_vec3_scale(damage, part.end.force);
+        sum.force = lane_vec3_add(sum.force, f);
+        sum.torque = lane_vec3_add(sum.torque, lane_vec3_scale(damage, part.end.torque));
+        sum.virial = cbm_add_virial(sum.virial, bond.branch, f);
+        sum.energy += damage * part.energy;
+    }
+    return sum;
+}
+
+LAW void beam_take(GLOBAL state *restrict to, int e, coeff x, coeff y, coeff z)
+{
+    to[(brc_size)e * 3] -= (state)x, to[(brc_size)e * 3 + 1] -= (state)y, to[(brc_size)e * 3 + 2] -= (state)z;
+}
+
+/* After fracture_force: forces, torques and records of what the beams still carry. */
+KERNEL void beam_soft_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
+                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
+                            coeff twist, GLOBAL const coeff *restrict beam_of, coeff inv_tension, coeff inv_compression, coeff inv_shear,
+                            int drucker_prager, coeff slope, GLOBAL const int *restrict active, GLOBAL const int *restrict open,
+                            GLOBAL const coeff *restrict crack, GLOBAL state *restrict force, GLOBAL state *restrict torque,
+                            GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        if (active[group]) {
+            const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
+            const beam_loss loss = beam_group_loss(group, row_start, neighbour, branch, inv_length, displacement, orientation, axial, bend, twist,
+                                                   beam_of, open, crack);
+            const lane_vec3 f = loss.force, t = loss.torque;
+#define TAKE(l)                                                                                              \
+    beam_take(force, first + 0x##l, LANE_ITEM(f.x, l), LANE_ITEM(f.y, l), LANE_ITEM(f.z, l));                \
+    beam_take(torque, first + 0x##l, LANE_ITEM(t.x, l), LANE_ITEM(t.y, l), LANE_ITEM(t.z, l));
+            LANE_EACH(TAKE)
+#undef TAKE
+            const lane_sym3 v = cbm_virial_of(loss.virial);
+            const lane_sym3 left = {lane_block(record, slice, RECORD, 0, lane0) - v.xx, lane_block(record, slice, RECORD, 1, lane0) - v.yy,
+                                    lane_block(record, slice, RECORD, 2, lane0) - v.zz, lane_block(record, slice, RECORD, 3, lane0) - v.yz,
+                                    lane_block(record, slice, RECORD, 4, lane0) - v.xz, lane_block(record, slice, RECORD, 5, lane0) - v.xy};
+            const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
+            fracture_put_record(group, left, scale, record, reach);
+        }
+    }
+}
+
+/* After cbm_energy [J] [n], half to each side. */
+KERNEL void beam_soft_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
+                             GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
+                             coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict active,
+                             GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack, GLOBAL state *restrict elastic)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        if (active[group]) {
+            const beam_loss loss = beam_group_loss(group, row_start, neighbour, branch, inv_length, displacement, orientation, axial, bend, twist,
+                                                   beam_of, open, crack);
+            const lane energy = REAL(0.5) * loss.energy;
+#define TAKE(l) elastic[group * W + 0x##l] -= (state)LANE_ITEM(energy, l);
+            LANE_EACH(TAKE)
+#undef TAKE
+        }
+    }
+}
+
+/* After cbm_virial [J] [n][6]. */
+KERNEL void beam_soft_virial(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
+                             GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
+                             coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict active,
+                             GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack, GLOBAL coeff *restrict virial)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        if (active[group]) {
+            const beam_loss loss = beam_group_loss(group, row_start, neighbour, branch, inv_length, displacement, orientation, axial, bend, twist,
+                                                   beam_of, open, crack);
+            const lane_sym3 v = cbm_virial_of(loss.virial), whole = lane_gather6(virial, lane_own(group * W));
+            lane_store6(virial, group * W, (lane_sym3){whole.xx - v.xx, whole.yy - v.yy, whole.zz - v.zz, whole.yz - v.yz, whole.xz - v.xz, whole.xy - v.xy});
+        }
+    }
+}
+
+/* One beam after the motion of a step: y: Y [J], k [N/m], cosine of its opening. The work of the opening is the mean of Y times what D grew by, as velocity
+ * Verlet's own work is the mean of the forces at both ends of the step. */
+ROUTINE void beam_follow(GLOBAL coeff *restrict crack, GLOBAL int *restrict open, brc_size entry, brc_size other, coeff y, coeff k, coeff cosine, coeff steepest)
+{
+    const soft_face face = {BEAM_NUMBER(entry, START), BEAM_NUMBER(entry, ENERGY) * BEAM_NUMBER(entry, TILT), BEAM_NUMBER(entry, EXPONENTIAL) > 0};
+    const coeff wide = BEAM_NUMBER(entry, WIDEST), before = BEAM_NUMBER(entry, DAMAGE), y_now = y > 0 ? y : 0;
+    const coeff w = soft_opening(face, wide, SQRT(REAL(2) * k * y_now), k);
+    coeff damage = before;
+    if (w > wide) {
+        const coeff left = soft_force(face, w), now = k * w / (left + k * w);
+        damage = now > before ? now : before;
+        if (!(left > 0)) damage = REAL(1), open[entry] = BEAM_ENDED, open[other] = BEAM_ENDED;
+        BEAM_NUMBER(entry, WIDEST) = w, BEAM_NUMBER(other, WIDEST) = w;
+        BEAM_NUMBER(entry, TILT) = cosine > steepest ? cosine : steepest, BEAM_NUMBER(other, TILT) = BEAM_NUMBER(entry, TILT);
+    }
+    const coeff booked = REAL(0.5) * (damage - before) * (y_now + BEAM_NUMBER(entry, HELD));
+    BEAM_NUMBER(entry, DAMAGE) = damage, BEAM_NUMBER(other, DAMAGE) = damage;
+    BEAM_NUMBER(entry, HELD) = y_now, BEAM_NUMBER(other, HELD) = y_now;
+    BEAM_NUMBER(entry, BOOKED) = booked, BEAM_NUMBER(other, BOOKED) = booked;
+    BEAM_NUMBER(entry, SPENT) += booked, BEAM_NUMBER(other, SPENT) += booked;
+}
+
+/* Between the motion of a step and its forces. */
+KERNEL void beam_soft_move(int n_groups, coeff steepest, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                           GLOBAL const int *restrict twin, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict branch,
+                           GLOBAL const coeff *restrict inv_length, GLOBAL const state *restrict displacement,
+                           GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
+                           GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict active, GLOBAL int *restrict open,
+                           GLOBAL coeff *restrict crack)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
+        if (active[group]) {
+            const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
+            for (int slot = row_start[slice]; slot < last; ++slot) {
+                const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
+                int any = 0;
+                for (int l = 0; l < W; ++l) any |= lead[entry + (brc_size)l] && open[entry + (brc_size)l] == BEAM_OPENS;
+                if (!any) continue;
+                const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation, axial, bend,
+                                                  twist, beam_of, 1);
+                const beam_part part = beam_part_of(bond);
+                const lane y = part.energy, k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond);
+#define FOLLOW(l)                                                                                                                  \
+    if (lead[entry + 0x##l] && open[entry + 0x##l] == BEAM_OPENS)                                                                  \
+        beam_follow(crack, open, entry + 0x##l, (brc_size)twin[entry + 0x##l], LANE_ITEM(y, l), LANE_ITEM(k, l), LANE_ITEM(cosine, l), steepest);
+                LANE_EACH(FOLLOW)
+#undef FOLLOW
+            }
+        }
+    }
+}
+
+/* A beam opens at its capacity, or at what it carries where that is more. One that its element chose (mode; 0: none) is left to break at once where it
+ * holds as much as its opening would take, and where the element fails by compression. */
+ROUTINE int beam_opens(GLOBAL coeff *restrict crack, brc_size entry, coeff y, coeff k, coeff cosine, coeff steepest, int mode)
+{
+    const coeff tilt = cosine > steepest ? cosine : steepest, energy = BEAM_NUMBER(entry, ENERGY) * tilt, capacity = BEAM_NUMBER(entry, CAPACITY);
+    const coeff carried = SQRT(REAL(2) * k * (y > 0 ? y : 0)), start = carried > capacity ? carried : capacity;
+    if (!(energy > 0) || !(start > 0)) return 0;
+    if (mode ? mode == FAILURE_COMPRESSION || !(REAL(2) * k * energy > start * start) : !(carried > capacity && capacity > 0)) return 0;
+    BEAM_NUMBER(entry, START) = start;
+    BEAM_NUMBER(entry, TILT) = tilt;
+    BEAM_NUMBER(entry, HELD) = y > 0 ? y : 0;
+    return 1;
+}
+
+/* Which side of a whole bond looks at it: that with the lower id where its element chose it or has open beams, else the other where that has. */
+LAW int beam_looks(GLOBAL const int *restrict neighbour, GLOBAL const int *restrict lead, GLOBAL const int *restrict open,
+                   GLOBAL const int *restrict touched, int e, brc_size entry, int dies)
+{
+    if (open[entry] != BEAM_WHOLE || neighbour[entry] == e) return 0;
+    return lead[entry] ? dies || touched[e] : !dies && touched[e] && !touched[neighbour[entry]];
+}
+
+/* After the elements chose: chosen beams open, as far as they can; and whole beams of elements with open ones, at their
+ * capacity: what bridges a crack stands between elements whose mean stress no longer sees it. */
+KERNEL void beam_soft_begin(int n_groups, int step, coeff steepest, GLOBAL const int *restrict row_start,
+                            GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const int *restrict lead,
+                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
+                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
+                            coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict mark,
+                            GLOBAL const int *restrict choice, GLOBAL const coeff *restrict measure, GLOBAL const int *restrict touched,
+                            GLOBAL int *restrict active, GLOBAL int *restrict open, GLOBAL coeff *restrict crack, GLOBAL coeff *restrict factor)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
+        if (mark[group] == step || active[group]) {
+            const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
+            for (int slot = row_start[slice]; slot < last; ++slot) {
+                const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
+                int any = 0;
+                for (int l = 0; l < W; ++l)
+                    any |= beam_looks(neighbour, lead, open, touched, first + l, entry + (brc_size)l, fracture_dies(neighbour, choice, first + l, entry + (brc_size)l));
+                if (!any) continue;
+                const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation, axial, bend,
+                                                  twist, beam_of, 1);
+                const beam_part part = beam_part_of(bond);
+                const lane y = part.energy, k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond);
+#define BEGIN(l)                                                                                                                             \
+    {                                                                                                                                         \
+        const brc_size at = entry + 0x##l, to = (brc_size)twin[at];                                                                           \
+        const int e = first + 0x##l, j = neighbour[at], dies = fracture_dies(neighbour, choice, e, at);                                       \
+        if (beam_looks(neighbour, lead, open, touched, e, at, dies)) {                                                                        \
+            const int by = choice[e] >= 0 && choice[e] / 4 == j ? e : j, mode = dies ? choice[by] % 4 : 0;                                    \
+            if (beam_opens(crack, at, LANE_ITEM(y, l), LANE_ITEM(k, l), LANE_ITEM(cosine, l), steepest, mode)) {                              \
+                open[at] = BEAM_OPENS, open[to] = BEAM_OPENS;                                                                                 \
+                factor[at] = BEAM_NEVER, factor[to] = BEAM_NEVER;                                                                             \
+                BEAM_NUMBER(at, ONSET) = dies ? measure[by] : BEAM_NUMBER(at, START) * BEAM_NUMBER(at, PER_AREA);                             \
+                BEAM_NUMBER(at, MODE) = (coeff)(dies ? mode : FAILURE_TENSION);                                                               \
+                for (int what = BEAM_START; what < BEAM_WIDTH; ++what)                                                                        \
+                    crack[((to / C) * BEAM_WIDTH + (brc_size)what) * C + to % C] = crack[((at / C) * BEAM_WIDTH + (brc_size)what) * C + at % C]; \
+                STORE_SAME(active + group, 1);                                                                                                \
+                STORE_SAME(active + j / W, 1);                                                                                                \
+            }                                                                                                                                 \
+        }                                                                                                                                     \
+    }
+                LANE_EACH(BEGIN)
+#undef BEGIN
+            }
+        }
+    }
+}
+
+/* Elements with beams that opened are touched; choices of beams that opened are no longer choices. */
+KERNEL void beam_soft_keep(int n_groups, int step, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                           GLOBAL const int *restrict mark, GLOBAL const int *restrict active, GLOBAL const int *restrict open,
+                           GLOBAL int *restrict choice, GLOBAL int *restrict touched)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        for (int e = group * W; (mark[group] == step || active[group]) && e < (group + 1) * W; ++e) {
+            const int chosen = choice[e];
+            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+                const brc_size entry = (brc_size)slot * C + (brc_size)(e % C);
+                if (open[entry] != BEAM_WHOLE) touched[e] = 1;
+                if (open[entry] == BEAM_OPENS && chosen >= 0 && neighbour[entry] == chosen / 4) choice[e] = -1;
+            }
+        }
+    }
+}
+
+/* Books the step's openings, half to each side, and takes off beams at the end of their cohesion, which carry nothing any more: as fracture_break. */
+KERNEL void beam_soft_end(int n_groups, int level, int step, GLOBAL const int *restrict row_start, GLOBAL int *restrict neighbour,
+                          GLOBAL coeff *restrict inv_length, GLOBAL int *restrict mark, GLOBAL const coeff *restrict record,
+                          GLOBAL coeff *restrict weight, GLOBAL const int *restrict active, GLOBAL int *restrict open,
+                          GLOBAL coeff *restrict crack, GLOBAL int *restrict break_step, GLOBAL int *restrict break_mode,
+                          GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost,
+                          GLOBAL state *restrict broken)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group);
+        for (int e = group * W; active[group] && e < (group + 1) * W; ++e) {
+            for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+                const brc_size entry = (brc_size)slot * C + (brc_size)(e % C);
+                if (open[entry] != BEAM_OPENS && open[entry] != BEAM_ENDED) continue;
+                lost[e] += STATE(0.5) * (state)BEAM_NUMBER(entry, BOOKED);
+                if (open[entry] != BEAM_ENDED) continue;
+                open[entry] = BEAM_BROKEN;
+                neighbour[entry] = e;
+                inv_length[entry] = 0;
+                if (level == 1) weight[e] = fracture_weight(e, row_start, neighbour, record);
+                mark[group] = step;
+                break_step[entry] = step;
+                break_mode[entry] = (int)BEAM_NUMBER(entry, MODE);
+                break_stress[entry] = BEAM_NUMBER(entry, ONSET);
+                break_energy[entry] = BEAM_NUMBER(entry, SPENT);
+                broken[e] += 1;
+            }
+        }
+    }
+}
+#undef BEAM_NUMBER
