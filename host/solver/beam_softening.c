@@ -192,22 +192,25 @@ brc_status brc_beam_softening_end(brc_simulation *s, int32_t moment)
 
 /* ---- what stays ---- */
 
-/* Groups with open beams follow from the entries; factors of those that opened are no longer the scene's. */
-static brc_status find_active(brc_simulation *s, const beam_softening *f)
+/* Groups and elements with beams that opened follow from the entries. */
+static brc_status find_touched(brc_simulation *s, const beam_softening *f)
 {
-    const int64_t slice = s->layout->slice, n_entries = s->layout->n_slots * slice, width = s->layout->n_rows / s->n_groups;
-    int32_t *open = NULL, *active = NULL;
+    const int64_t slice = s->layout->slice, n_rows = s->layout->n_rows, n_entries = s->layout->n_slots * slice, width = n_rows / s->n_groups;
+    int32_t *open = NULL, *active = NULL, *touched = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "open beams"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &active, s->n_groups, "open beams"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &touched, n_rows, "open beams"));
     BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
     for (int32_t block = 0; block < s->layout->n_slices; ++block)
         for (int64_t k = (int64_t)s->layout->slot_start[block] * slice; k < (int64_t)s->layout->slot_start[block + 1] * slice; ++k)
-            if (open[k] != WHOLE) active[(block * slice + k % slice) / width] = 1;
+            if (open[k] != WHOLE) touched[block * slice + k % slice] = active[(block * slice + k % slice) / width] = 1;
+    BRC_TRY_OR(cleanup, brc_buffer_write(f->touched, 0, touched, 4 * n_rows));
     status = brc_buffer_write(f->active, 0, active, 4 * (int64_t)s->n_groups);
 cleanup:
     brc_memory_free(open);
     brc_memory_free(active);
+    brc_memory_free(touched);
     return status;
 }
 
@@ -221,7 +224,7 @@ brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *st
         {"softening.factor", s->fracture->factor, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL},
     };
     BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
-    return store->loading ? find_active(s, f) : BRC_OK;
+    return store->loading ? find_touched(s, f) : BRC_OK;
 }
 
 int64_t brc_beam_softening_bytes(const brc_scene *scene, int64_t entries, int64_t coeff_bytes)

@@ -25,24 +25,38 @@ ALWAYS = "output.checkpoint.wall=1 us"  # a checkpoint wherever there can be one
 
 # Overrides that make an example small; others are made small by their fills alone.
 SHORT = {
+    "ball-breaks": ["bodies.0.fill.noisy_grid.elements=300", "stages.0.solver.dynamic.duration=60 us"],
     "bar-release-tension": ["bodies.0.fill.noisy_grid.elements=500", "stages.0.solver.dynamic.duration=2 ms"],
     "bar-release-torsion": ["bodies.0.fill.noisy_grid.elements=500", "stages.0.solver.dynamic.duration=2 ms"],
     "beams-events": ["bodies.0.fill.packing.elements=400", "stages.0.solver.static.events.most=12"],
     "beams-fracture": ["bodies.0.fill.packing.elements=1000"],
     "beams-tension": ["bodies.0.fill.packing.elements=1000", "stages.0.solver.static.increments=4"],
+    "ceramic-plate": ["bodies.0.fill.noisy_grid.cells=[10, 10, 2]"],
     "cells-events": ["bodies.0.fill.noisy_grid.elements=200", "stages.0.solver.static.events.most=12"],
     "intergranular": ["bodies.0.fill.packing.elements=1000", "bodies.0.grains.number=10"],
+    "rolling-ball": ["bodies.0.fill.noisy_grid.elements=300", "stages.0.solver.dynamic.duration=0.2 s"],
+    "sliding-blocks": ["bodies.0.fill.noisy_grid.cells=[3, 2, 2]", "bodies.1.fill.noisy_grid.cells=[3, 2, 2]", "stages.0.solver.dynamic.duration=50 ms"],
+    "sphere-on-wall": ["bodies.0.fill.noisy_grid.elements=300"],
     "tension": ["bodies.0.fill.noisy_grid.elements=500", "stages.0.solver.static.increments=4"],
     "tension-dynamic": ["bodies.0.fill.noisy_grid.elements=300", "stages.0.solver.dynamic.duration=8 ms", "output.frames=5"],
     "two-models": ["bodies.0.fill.noisy_grid.cells=[16, 4, 4]", "bodies.1.fill.packing.elements=300", "stages.0.solver.dynamic.duration=200 us"],
 }
+# Examples with something more: NAME+WHAT.
+MORE = {
+    "ball-breaks+softening": ["materials.plaster.strength.fracture_energy=20 J/m^2"],
+    "beams-fracture+softening": ["materials.glass.strength.fracture_energy=10 J/m^2"],
+}
 SINGLE = {"tension": ["stages.0.solver.static.tolerance=1e-4"]}  # what a lower precision cannot reach otherwise
+
+
+def scene_of(name):
+    return f"{SOURCE}/examples/{name.split('+')[0]}/scene.yaml"
 
 
 def shrink(name):
     """Overrides for an example that the table does not know: a tenth of its elements, by its text."""
     found, body, kind, inside = [], -1, "", False
-    for line in open(f"{SOURCE}/examples/{name}/scene.yaml", encoding="utf-8"):
+    for line in open(scene_of(name), encoding="utf-8"):
         if re.match(r"\w", line):
             inside = line.startswith("bodies:")
         if not inside:
@@ -56,11 +70,11 @@ def shrink(name):
 
 
 def overrides(name, precision="double"):
-    return SHORT.get(name) or shrink(name)
+    return (SHORT.get(name.split("+")[0]) or shrink(name)) + MORE.get(name, [])
 
 
 def command(name, folder, sets, device="cpu", precision="double", more=()):
-    line = [PROGRAM, "run", f"{SOURCE}/examples/{name}/scene.yaml", "-o", folder, "--device", device, "--precision", precision, "--threads", "1", *more]
+    line = [PROGRAM, "run", scene_of(name), "-o", folder, "--device", device, "--precision", precision, "--threads", "1", *more]
     for one in sets:
         line += ["--set", one]
     return line
@@ -246,7 +260,7 @@ def devices():
 
 
 def all_examples(names, device=None):
-    names = names or sorted(name for name in os.listdir(f"{SOURCE}/examples") if os.path.exists(f"{SOURCE}/examples/{name}/scene.yaml"))
+    names = names or sorted(name for name in os.listdir(f"{SOURCE}/examples") if os.path.exists(f"{SOURCE}/examples/{name}/scene.yaml")) + sorted(MORE)
     failures = 0
     for where, precision, name in itertools.product([device] if device else devices(), ("double", "mixed", "single"), names):
         with tempfile.TemporaryDirectory(prefix="resume-", dir=".") as folder:

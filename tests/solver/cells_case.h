@@ -15,5 +15,8 @@
 
 /* After 60 steps both have broken the same bonds, and some: every event to its last bit. */
 void cells_compare(case_options a, case_options b);
+/* cells_compare of the cpu and another device, exactly rounded: cells that break, that soften with one material and with two, of dlsm-published and by the stress of
+ * elements; returns the exit code of the test, a skip where there is no such device. */
+int cells_device_run(const char *device);
 
 #endif

@@ -45,15 +45,7 @@ static void fragments_meet_as_on_the_cpu(void **state)
 int contact_device_run(const char *device)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(fragments_meet_as_on_the_cpu)};
-    brc_context *context = brc_context_create();
-    brc_device_list *list = NULL;
-    bool there = false;
     other_device = device;
-    if (!context || brc_device_list_create(context, &list) != BRC_OK) return 1;
-    for (int k = 0; k < list->n; ++k)
-        there |= list->items[k].usable && list->items[k].has_double && strcmp(list->items[k].selector, device) == 0;
-    brc_device_list_free(&list);
-    brc_context_free(&context);
-    if (!there) return test_skip("there is no such device with double precision");
+    if (!device_is_there(device)) return test_skip("there is no such device with double precision");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,8 @@
 #include "fracture_case.h"
 #include "../../host/base/log.h"
+#include "../skip.h"
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 brc_status try_fracture(bench_case *c, fracture_options o)
@@ -38,4 +40,56 @@ void fracture_compare(fracture_options a, fracture_options b)
     assert_same_breaks(&x, &y, 120);
     close_case(&x);
     close_case(&y);
+}
+
+void fracture_momenta(bench_case *c, double p[6])
+{
+    const brc_domain *d = c->domain;
+    const int64_t n = d->n_elements;
+    double *u = calloc((size_t)(13 * n), sizeof *u), *v = u + 3 * n, *w = u + 6 * n, *q = u + 9 * n;
+    assert_done(c, brc_simulation_displacement(c->simulation, u));
+    assert_done(c, brc_simulation_velocity(c->simulation, v));
+    assert_done(c, brc_simulation_orientation(c->simulation, q, w));
+    for (int k = 0; k < 6; ++k) p[k] = 0;
+    for (int64_t e = 0; e < n; ++e) {
+        const double inertia = (d->inertia[6 * e] + d->inertia[6 * e + 1] + d->inertia[6 * e + 2]) / 3;
+        double x[3];
+        for (int k = 0; k < 3; ++k) x[k] = d->position[3 * e + k] + u[3 * e + k];
+        for (int k = 0; k < 3; ++k) {
+            const int a = (k + 1) % 3, b = (k + 2) % 3;
+            p[k] += d->volume[e] * v[3 * e + k];
+            p[3 + k] += d->volume[e] * (x[a] * v[3 * e + b] - x[b] * v[3 * e + a]) + inertia * w[3 * e + k];
+        }
+    }
+    free(u);
+}
+
+static const char *other_device;
+
+static void compare_devices(const char *strength)
+{
+    const fracture_options cpu = {.stages = FRACTURE_BURST(400), .strength = strength, .fracture = "{criterion: {virial-principal: {level: 1}}}", .exact = true};
+    fracture_options other = cpu;
+    other.device = other_device;
+    fracture_compare(cpu, other);
+}
+
+static void beams_break_as_on_the_cpu(void **state)
+{
+    (void)state;
+    compare_devices("strength: {tension: 2e-4 Pa}");
+}
+
+static void beams_soften_as_on_the_cpu(void **state)
+{
+    (void)state;
+    compare_devices("strength: {tension: 2e-4 Pa, fracture_energy: 1e-8 J/m^2, softening: exponential}");
+}
+
+int fracture_device_run(const char *device)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(beams_break_as_on_the_cpu), cmocka_unit_test(beams_soften_as_on_the_cpu)};
+    other_device = device;
+    if (!device_is_there(device)) return test_skip("there is no such device with double precision");
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

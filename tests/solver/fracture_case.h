@@ -26,5 +26,10 @@ void open_fracture(bench_case *c, fracture_options options);
     "stages:\n  - name: burst\n    solver: {dynamic: {steps: " #steps "}}\n    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n"
 /* After 120 steps both have broken the same bonds, and some: every event to its last bit. */
 void fracture_compare(fracture_options a, fracture_options b);
+/* fracture_compare of the cpu and another device, exactly rounded, brittle and softening; returns the exit code of the test, a skip where there is no such
+ * device. */
+int fracture_device_run(const char *device);
+/* Momentum and angular momentum about the origin of a free body of density 1 [kg m/s], [kg m^2/s]. */
+void fracture_momenta(bench_case *c, double p[6]);
 
 #endif

@@ -146,6 +146,34 @@ void state_resumes_on(const char *device, brc_precision precision)
     state_resumes((state_case){.beams = &beams}, (int[]){60, 0});
 }
 
+void softening_resumes_on(const char *device, brc_precision precision)
+{
+    case_options cells = {.stages = CELLS_BURST(80), .materials = CELLS_STRENGTH("2e-4 Pa, fracture_energy: 2e-8 J/m^2"), .sets = CELLS_FRACTURE, .device = device,
+                          .precision = precision, .n_threads = 1};
+    state_resumes((state_case){.cells = &cells}, (int[]){30, 60, 0});
+    cells.model = "dlsm-published";
+    cells.materials = CELLS_STRENGTH("2e-4 Pa");
+    state_resumes((state_case){.cells = &cells}, (int[]){50, 0});
+    fracture_options beams = {.fracture = "{criterion: virial-principal}", .strength = "strength: {tension: 2e-4 Pa, fracture_energy: 1e-8 J/m^2}", .stages = FRACTURE_BURST(120),
+                              .device = device, .precision = precision, .n_threads = 1};
+    state_resumes((state_case){.beams = &beams}, (int[]){40, 80, 0});
+}
+
+void contact_resumes_on(const char *device, brc_precision precision)
+{
+    /* fragments of cells that meet, rub and turn; and of spheres by Hertz */
+    case_options cells = {.stages = "  - name: burst\n    solver: {dynamic: {steps: 300, time_step: {auto: {safety: 0.4}}}}\n    initial:\n"
+                                    "      - velocity: {gradient: {x: [-4e-3 1/s, 1e-3 1/s, 0], y: [-2e-3 1/s, 3e-3 1/s, 1e-3 1/s], z: [0, 0, 5e-3 1/s]}}\n",
+                          .sets = "fracture: {criterion: bond-normal}\ninteractions: {contact: {friction: 0.3, restitution: 0.7}}\n", .materials = CELLS_STRENGTH("2e-4 Pa"),
+                          .fill = "cells: [4, 4, 4], spread: 90 %, seed: 1", .device = device, .precision = precision, .n_threads = 1};
+    state_resumes((state_case){.cells = &cells}, (int[]){200, 0});
+    fracture_options beams = {.fracture = "{criterion: virial-principal}", .strength = "strength: {tension: 2e-4 Pa}", .device = device, .precision = precision, .n_threads = 1,
+                              .elements = 300,
+                              .stages = "interactions: {contact: {friction: 0.3, restitution: 0.7}}\nstages:\n  - name: burst\n    solver: {dynamic: {steps: 200}}\n    initial:\n"
+                                        "      - velocity: {gradient: {x: [-4e-3 1/s, 1e-3 1/s, 0], y: [-2e-3 1/s, 3e-3 1/s, 1e-3 1/s], z: [0, 0, 5e-3 1/s]}}\n"};
+    state_resumes((state_case){.beams = &beams}, (int[]){120, 0});
+}
+
 static const char *tested_device;
 
 static void it_goes_on_in_double(void **state)
@@ -164,18 +192,22 @@ static void it_goes_on_in_single(void **state)
     state_resumes_on(tested_device, BRC_SINGLE);
 }
 
+static void softening_goes_on_in_all_precisions(void **state)
+{
+    (void)state;
+    for (int p = BRC_DOUBLE; p <= BRC_SINGLE; ++p) softening_resumes_on(tested_device, (brc_precision)p);
+}
+static void contact_goes_on_in_all_precisions(void **state)
+{
+    (void)state;
+    for (int p = BRC_DOUBLE; p <= BRC_SINGLE; ++p) contact_resumes_on(tested_device, (brc_precision)p);
+}
+
 int state_cases_run(const char *device)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(it_goes_on_in_double), cmocka_unit_test(it_goes_on_in_mixed), cmocka_unit_test(it_goes_on_in_single)};
-    brc_context *context = brc_context_create();
-    brc_device_list *list = NULL;
-    bool there = false;
-    if (!context || brc_device_list_create(context, &list) != BRC_OK) return 1;
-    for (int k = 0; k < list->n; ++k)
-        there |= list->items[k].usable && list->items[k].has_double && strcmp(list->items[k].selector, device) == 0;
-    brc_device_list_free(&list);
-    brc_context_free(&context);
-    if (!there) return test_skip("the device is not there, or has no double precision");
+    const struct CMUnitTest tests[] = {cmocka_unit_test(it_goes_on_in_double), cmocka_unit_test(it_goes_on_in_mixed), cmocka_unit_test(it_goes_on_in_single),
+                                       cmocka_unit_test(softening_goes_on_in_all_precisions), cmocka_unit_test(contact_goes_on_in_all_precisions)};
+    if (!device_is_there(device)) return test_skip("the device is not there, or has no double precision");
     tested_device = device;
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,6 +37,9 @@ typedef struct state_case {
 int state_resumes(state_case c, const int *pauses);
 /* Cells and beams, whole and breaking, dynamic and static, on a device ("cpu", "opencl:0") in a precision. */
 void state_resumes_on(const char *device, brc_precision precision);
+/* The same for cells and beams that soften and for dlsm-published; and for fragments that meet. */
+void softening_resumes_on(const char *device, brc_precision precision);
+void contact_resumes_on(const char *device, brc_precision precision);
 /* All of it on one device in double, mixed and single; returns the exit code of the test, a skip where it is not usable. */
 int state_cases_run(const char *device);
 

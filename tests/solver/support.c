@@ -84,3 +84,16 @@ void assert_same_breaks(bench_case *a, bench_case *b, int64_t n_steps)
     assert_int_equal(n[0], n[1]);
     assert_memory_equal(events[0], events[1], (size_t)n[0] * sizeof *events[0]);
 }
+
+bool device_is_there(const char *selector)
+{
+    brc_context *context = brc_context_create();
+    brc_device_list *list = NULL;
+    bool there = false;
+    assert_non_null(context);
+    assert_int_equal(brc_device_list_create(context, &list), BRC_OK);
+    for (int k = 0; k < list->n; ++k) there |= list->items[k].usable && list->items[k].has_double && strcmp(list->items[k].selector, selector) == 0;
+    brc_device_list_free(&list);
+    brc_context_free(&context);
+    return there;
+}

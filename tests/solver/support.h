@@ -46,6 +46,8 @@ void close_case(bench_case *c);
 void assert_done(bench_case *c, brc_status status);
 /* After n_steps of their first stage both cases, which are opened and stay the test's, have broken the same bonds, and more than 20: every event to its last bit. */
 void assert_same_breaks(bench_case *a, bench_case *b, int64_t n_steps);
+/* The named device can run here in double precision. */
+bool device_is_there(const char *selector);
 /* Uniform in (-1, 1), a fixed sequence by index. */
 double random_at(uint64_t index);
 

@@ -3,6 +3,7 @@
 #include "../../host/solver/bond_area.h"
 #include "../../host/solver/strengths.h"
 #include <math.h>
+#include <stdlib.h>
 
 /* Sum over all bonds of area L n (x) n over the volume: the unit tensor where bonds look everywhere alike. */
 static void packing_tensor(const brc_domain *d, double volume, double tensor[3][3])
@@ -52,9 +53,38 @@ static void the_area_of_a_cells_bond_is_that_of_its_face(void **state)
     close_case(&c);
 }
 
+/* The bonds across planes of a cube of 1000 spheres, projected on them: mean of 21 planes within the inner half. One plane cuts some 300 bonds whose areas
+ * scatter by about a half, 3 % each; the planes lie closer than bonds are long, so their mean scatters by some 1.5 %: three of that and the one percent that what an
+ * element cannot close leaves, 5 %. Equal shares of the volumes are twice as far off. */
+static void closed_areas_of_beams_make_up_a_section(void **state)
+{
+    (void)state;
+    bench_case c;
+    open_fracture(&c, (fracture_options){.elements = 1000});
+    const brc_domain *d = c.domain;
+    double *area = calloc((size_t)d->n_bonds, sizeof *area), section[2] = {0};
+    assert_done(&c, brc_bond_areas_closed(c.context, d, area));
+    for (int k = 0; k < 21; ++k)
+        for (int64_t b = 0; b < d->n_bonds; ++b) {
+            const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
+            double x[3], plane = 0.25 + 0.5 * k / 20;
+            for (int p = 0; p < 3; ++p) x[p] = d->position[3 * j + p] - d->position[3 * i + p];
+            if ((d->position[3 * i] - plane) * (d->position[3 * j] - plane) >= 0) continue;
+            const double cosine = fabs(x[0]) / sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+            section[0] += brc_bond_area(d, b) * cosine / 21;
+            section[1] += area[b] * cosine / 21;
+        }
+    print_message("equal shares %.4f, closed %.4f of the section\n", section[0], section[1]);
+    assert_true(fabs(section[1] - 1) < 0.05);
+    assert_true(fabs(section[1] - 1) < 0.5 * fabs(section[0] - 1));
+    free(area);
+    close_case(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(closed_areas_of_beams_make_up_a_section),
         cmocka_unit_test(areas_of_beams_make_up_the_solid),
         cmocka_unit_test(the_area_of_a_cells_bond_is_that_of_its_face),
     };

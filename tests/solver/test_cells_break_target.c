@@ -1,29 +1,4 @@
-/* The same bonds break on the OpenMP target device as on the cpu. */
-#include "../skip.h"
+/* The same cells break and soften on the OpenMP target device as on the cpu. */
 #include "cells_case.h"
-#include <stdio.h>
-#include <string.h>
 
-static void the_same_cells_break_on_a_target_device(void **state)
-{
-    (void)state;
-    const case_options cpu = {.stages = CELLS_BURST(60), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE, .exact = true};
-    case_options other = cpu;
-    other.device = "target:0";
-    cells_compare(cpu, other);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_cells_break_on_a_target_device)};
-    brc_context *context = brc_context_create();
-    brc_device_list *list = NULL;
-    bool there = false;
-    if (!context || brc_device_list_create(context, &list) != BRC_OK) return 1;
-    for (int k = 0; k < list->n; ++k)
-        there |= list->items[k].usable && list->items[k].has_double && strcmp(list->items[k].selector, "target:0") == 0;
-    brc_device_list_free(&list);
-    brc_context_free(&context);
-    if (!there) return test_skip("there is no device target:0 with double precision");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return cells_device_run("target:0"); }

@@ -1,32 +1,4 @@
-/* The same bonds break on the first OpenCL device (PoCL in CI) as on the cpu. */
-#include "../skip.h"
+/* The same beams break and soften on the first OpenCL device (PoCL in CI) as on the cpu. */
 #include "fracture_case.h"
-#include <stdio.h>
-#include <string.h>
 
-static void the_same_bonds_break_on_an_opencl_device(void **state)
-{
-    (void)state;
-    const fracture_options cpu = {.stages = FRACTURE_BURST(400),
-                                  .strength = "strength: {tension: 2e-4 Pa}",
-                                  .fracture = "{criterion: {virial-principal: {level: 1}}}",
-                                  .exact = true};
-    fracture_options other = cpu;
-    other.device = "opencl:0";
-    fracture_compare(cpu, other);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_same_bonds_break_on_an_opencl_device)};
-    brc_context *context = brc_context_create();
-    brc_device_list *list = NULL;
-    bool there = false;
-    if (!context || brc_device_list_create(context, &list) != BRC_OK) return 1;
-    for (int k = 0; k < list->n; ++k)
-        there |= list->items[k].usable && list->items[k].has_double && strcmp(list->items[k].selector, "opencl:0") == 0;
-    brc_device_list_free(&list);
-    brc_context_free(&context);
-    if (!there) return test_skip("there is no device opencl:0 with double precision");
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return fracture_device_run("opencl:0"); }

@@ -11,6 +11,18 @@ static void a_run_goes_on_in_double_mixed_and_single(void **state)
     state_resumes_on("cpu", BRC_SINGLE);
 }
 
+static void what_softens_goes_on_in_double_mixed_and_single(void **state)
+{
+    (void)state;
+    for (int p = BRC_DOUBLE; p <= BRC_SINGLE; ++p) softening_resumes_on("cpu", (brc_precision)p);
+}
+
+static void fragments_that_meet_go_on_in_double_mixed_and_single(void **state)
+{
+    (void)state;
+    for (int p = BRC_DOUBLE; p <= BRC_SINGLE; ++p) contact_resumes_on("cpu", (brc_precision)p);
+}
+
 /* Static events: what is left of a body is solved again and again. */
 static void a_body_goes_on_breaking_event_by_event(void **state)
 {
@@ -118,6 +130,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_goes_on_in_double_mixed_and_single),
+        cmocka_unit_test(what_softens_goes_on_in_double_mixed_and_single),
+        cmocka_unit_test(fragments_that_meet_go_on_in_double_mixed_and_single),
         cmocka_unit_test(a_body_goes_on_breaking_event_by_event),
         cmocka_unit_test(turned_elements_and_a_stage_to_failure_go_on),
         cmocka_unit_test(strikers_go_on),
