@@ -148,15 +148,16 @@ static void a_beam_costs_by_its_projection_along_the_opening(void **state)
 
 /* ---- the law in a body ---- */
 
-/* At fixed damage; five-point differences as in test_cell_softening.c, fourth order: 1e-9 for their rounding. */
-static void check_gradient(bench_case *c)
+/* At fixed damage; five-point differences as in test_cell_softening.c, fourth order: 1e-9 for their rounding. A beam that shuts has a kink in its stiffness, so
+ * all are stretched, or pushed, by a fifth, which is more than they opened by. */
+static void check_gradient(bench_case *c, double stretch)
 {
     const brc_domain *d = c->domain;
     const int64_t n = 3 * d->n_elements;
     double *u = calloc((size_t)n, sizeof *u), *f = calloc((size_t)n, sizeof *f), worst = 0, largest = 0;
     const double h = 2e-3 * cbrt(d->volume[0]);
     assert_done(c, brc_simulation_displacement(c->simulation, u));
-    for (int64_t k = 0; k < n; ++k) u[k] += 0.02 * random_at((uint64_t)k) * cbrt(d->volume[0]) + 0.05 * d->position[k - k % 3 + (k + 1) % 3];
+    for (int64_t k = 0; k < n; ++k) u[k] += 0.02 * random_at((uint64_t)k) * cbrt(d->volume[0]) + stretch * d->position[k] + 0.05 * d->position[k - k % 3 + (k + 1) % 3];
     assert_done(c, brc_simulation_set_state(c->simulation, u, NULL));
     assert_done(c, brc_simulation_force(c->simulation, f));
     for (int64_t k = 0; k < n; ++k) largest = fmax(largest, fabs(f[k]));
@@ -186,11 +187,12 @@ static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
     const brc_softening_report report = report_of(&c);
     print_message("%lld beams opened, %lld of them ended\n", (long long)report.n_opened, (long long)report.n_ended);
     assert_true(report.n_opened > 100 && report.unfinished > 0);
-    check_gradient(&c);
+    check_gradient(&c, 0.2);
+    check_gradient(&c, -0.4);
     close_case(&c);
     open_lattice(&c, 4, (beams_options){.coordination = 6,
-                                        .materials = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.2, E: 1 Pa, strength: 1e-6 Pa}, strength: {fracture_energy: 1e-6 J/m^2}}\n"
-                                                     "  steel: {E: 4 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.4, E: 4 Pa, strength: 4e-6 Pa}, strength: {fracture_energy: 2e-6 J/m^2}}",
+                                        .materials = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.2, E: 1 Pa, strength: 1e-6 Pa}, strength: {tension: 1e-6 Pa, fracture_energy: 1e-6 J/m^2}}\n"
+                                                     "  steel: {E: 4 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.4, E: 4 Pa, strength: 4e-6 Pa}, strength: {tension: 4e-6 Pa, fracture_energy: 2e-6 J/m^2}}",
                                         .regions = "    regions:\n      - {material: steel, where: {half_space: {point: [2 m, 0, 0], normal: [1, 0, 0]}}}\n",
                                         .stages = "fracture: " ELEMENT "\n" FRACTURE_BURST(4000)});
     begin(&c);
@@ -198,7 +200,8 @@ static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
     const brc_softening_report two = report_of(&c);
     print_message("two materials: %lld beams opened, %lld of them ended\n", (long long)two.n_opened, (long long)two.n_ended);
     assert_true(two.n_opened > 10 && two.n_opened > two.n_ended);
-    check_gradient(&c);
+    check_gradient(&c, 0.2);
+    check_gradient(&c, -0.4);
     close_case(&c);
 }
 
@@ -260,7 +263,7 @@ static void the_same_beams_open_for_any_number_of_threads_and_lanes(void **state
                                       .strength = "strength: {tension: 2e-4 Pa, fracture_energy: 1e-8 J/m^2, softening: exponential, scatter: {weibull: {modulus: 10}}}"};
         fracture_options other = one;
         other.n_threads = 2;
-        other.lanes = k ? 8 : 4;
+        other.lanes = 8;
         fracture_compare(one, other);
     }
 }
