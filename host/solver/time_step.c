@@ -127,6 +127,7 @@ static brc_status critical_step(brc_simulation *s, double *out)
     for (int i = 1; i <= MOST_ITERATIONS; ++i) {
         BRC_TRY_OR(cleanup, apply(s, &w, &rayleigh));
         if (fabs(rayleigh) > seen) seen = fabs(rayleigh);
+        if (!(seen > 0)) break; /* no bond holds anything: contact alone limits the step */
         if (i % WATCH) continue;
         if (fabs(seen - before) < settled * seen) break;
         before = seen;

@@ -72,6 +72,28 @@ static void what_flies_or_grows_as_a_whole_is_not_looked_for_again(void **state)
     assert_true(searches(CELLS_STRENGTH("1e-12 Pa"), CONTACT_KEYS, "gradient: {x: [0.02 1/s, 0, 0], y: [0, 0.02 1/s, 0], z: [0, 0, 0.06 1/s]}") > 0);
 }
 
+/* Once all bonds are broken there is no stiffness but that of contact: omega^2 = 4 k / m of the lightest cell, with friction times 2.5 tangential / normal, 2 (1 - nu) / (2 - nu), nu = 0.2; the bound is
+ * that of cells of 1/27 m^3 at most, k = E h, m = rho h^3: 2 h / sqrt(4 * 2.5 * 0.889) = 0.67 h, and more than half of it, as no cell is eight times smaller in a grid of 50 % noise. */
+static void a_stage_of_nothing_but_dust_takes_its_step_from_contact(void **state)
+{
+    (void)state;
+    bench_case c;
+    open_case(&c, (case_options){.fill = "cells: [3, 3, 3], spread: 50 %, seed: 1", .materials = CELLS_STRENGTH("1e-12 Pa"), .sets = CONTACT_KEYS, .n_threads = 1,
+                                 .stages = "  - name: burst\n    solver: {dynamic: {steps: 40, time_step: 0.05 s}}\n    initial:\n"
+                                           "      - velocity: {gradient: {x: [0.02 1/s, 0, 0], y: [0, 0.02 1/s, 0], z: [0, 0, 0.02 1/s]}}\n"
+                                           "  - name: fly\n    solver: {dynamic: {steps: 40}}\n"});
+    brc_time_step step;
+    assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
+    assert_done(&c, brc_simulation_advance(c.simulation, 40));
+    assert_true(c.simulation->contact->n_rigid == 27);
+    assert_done(&c, brc_simulation_find_time_step(c.simulation, 1, &step));
+    print_message("%s: %.4g s\n", step.governed_by, step.critical);
+    assert_string_equal(step.governed_by, "auto: contact");
+    assert_true(step.critical <= 0.67 / 3 && step.critical > 0.5 * 0.67 / 3);
+    assert_done(&c, brc_simulation_advance(c.simulation, 40));
+    close_case(&c);
+}
+
 /* A cube of cells in which nothing is cracked: the pairs two cells apart on its surface, whose balls meet, all have a plane between them. */
 static void nothing_is_listed_in_a_whole_body_at_rest(void **state)
 {
@@ -89,6 +111,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_skin_changes_no_bit_of_the_motion),
         cmocka_unit_test(what_flies_or_grows_as_a_whole_is_not_looked_for_again),
+        cmocka_unit_test(a_stage_of_nothing_but_dust_takes_its_step_from_contact),
         cmocka_unit_test(nothing_is_listed_in_a_whole_body_at_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
