@@ -94,6 +94,13 @@ cleanup:
 
 static bool is_shown(const brc_outcome *outcome) { return outcome->done && outcome->run->operator == BRC_CASE_FRAGMENTS; }
 
+/* A body that is whole has no distribution. */
+static bool is_broken(const brc_outcome *outcome)
+{
+    const brc_case_value *largest = brc_outcome_find(outcome, "largest_fragment");
+    return is_shown(outcome) && largest && largest->value < 0.9;
+}
+
 static double value_of(const brc_outcome *outcome, const char *name)
 {
     const brc_case_value *value = brc_outcome_find(outcome, name);
@@ -108,14 +115,19 @@ static double scatter_of(const brc_outcome *outcome, const char *name)
 /* $speeds: speed, damage, its scatter, largest fragment, its scatter; $sizeN: share of the whole, fragments at least as heavy. */
 static void add_data(const brc_campaign *campaign, brc_text *text)
 {
+    double before = -INFINITY;
     brc_text_add(text, "$speeds << END\n");
-    for (int r = 0; r < campaign->what->n_runs; ++r)
-        if (is_shown(&campaign->outcomes[r]))
-            brc_text_add(text, "%.8g %.8g %.8g %.8g %.8g\n", brc_outcome_label(&campaign->outcomes[r], "speed"), value_of(&campaign->outcomes[r], "damage"),
-                         scatter_of(&campaign->outcomes[r], "damage"), value_of(&campaign->outcomes[r], "largest_fragment"), scatter_of(&campaign->outcomes[r], "largest_fragment"));
+    for (int r = 0; r < campaign->what->n_runs; ++r) {
+        const brc_outcome *outcome = &campaign->outcomes[r];
+        const double speed = brc_outcome_label(outcome, "speed");
+        if (!is_shown(outcome)) continue;
+        brc_text_add(text, "%s%.8g %.8g %.8g %.8g %.8g\n", speed < before ? "\n" : "" /* another series */, speed, value_of(outcome, "damage"), scatter_of(outcome, "damage"),
+                     value_of(outcome, "largest_fragment"), scatter_of(outcome, "largest_fragment"));
+        before = speed;
+    }
     brc_text_add(text, "END\n");
     for (int r = 0; r < campaign->what->n_runs; ++r) {
-        if (!is_shown(&campaign->outcomes[r])) continue;
+        if (!is_broken(&campaign->outcomes[r])) continue;
         brc_text_add(text, "$size%d << END\n", r);
         for (int k = 0; k < SIZES; ++k) {
             char name[BRC_NAME];
@@ -131,12 +143,12 @@ static void draw(const void *self, brc_text *text)
     const brc_campaign *campaign = self;
     const char *comma = "";
     add_data(campaign, text);
-    brc_text_add(text, "set multiplot layout 1,2\nset xlabel 'speed [m/s]'\nset yrange [0:1]\nset key top right\n"
+    brc_text_add(text, "set multiplot layout 1,2\nset xlabel 'speed [m/s]'\nset logscale x 2\nset yrange [0:1]\nset key top right\n"
                        "plot $speeds using 1:2:3 with yerrorlines pointtype 7 linecolor rgb '#cc6677' title 'broken bonds', "
                        "$speeds using 1:4:5 with yerrorlines pointtype 5 linecolor rgb '#4477aa' title 'largest fragment'\n"
-                       "set xlabel 'mass / mass of the whole'\nset ylabel 'fragments at least as heavy'\nset logscale xy\nset yrange [0.3:*]\nset key bottom left\nplot ");
+                       "set xlabel 'mass / mass of the whole'\nset ylabel 'fragments at least as heavy'\nunset logscale x\nset logscale xy 10\nset xrange [*:1]\nset yrange [0.3:*]\nset key bottom left\nplot ");
     for (int r = 0; r < campaign->what->n_runs; ++r) {
-        if (!is_shown(&campaign->outcomes[r])) continue;
+        if (!is_broken(&campaign->outcomes[r])) continue;
         brc_text_add(text, "%s$size%d using 1:2 with linespoints pointtype 7 pointsize 0.6 title '%s'", comma, r, campaign->outcomes[r].run->name);
         comma = ", ";
     }

@@ -176,6 +176,7 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
 /* Sums of a value over samples. */
 typedef struct sums {
     double sum, square;
+    int n;
 } sums;
 
 /* The run once for each of its seeds, each in a folder of its own; values are means with their scatter, seconds and steps those of all together. */
@@ -211,14 +212,18 @@ static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome,
         outcome->n_bonds = one.n_bonds;
         memcpy(outcome->device, one.device, sizeof one.device);
         if (!outcome->note[0]) memcpy(outcome->note, one.note, sizeof one.note);
-        for (int v = 0; v < one.n_values; ++v) {
-            if (k == 0) brc_outcome_add(outcome, one.values[v].name, one.values[v].unit, 0, one.values[v].reference);
-            all[v].sum += one.values[v].value;
-            all[v].square += one.values[v].value * one.values[v].value;
+        for (int v = 0; v < one.n_values; ++v) { /* by name: a sample in which nothing broke has fewer */
+            int to = 0;
+            while (to < outcome->n_values && strcmp(outcome->values[to].name, one.values[v].name) != 0) ++to;
+            if (to == outcome->n_values) brc_outcome_add(outcome, one.values[v].name, one.values[v].unit, 0, one.values[v].reference);
+            if (to == outcome->n_values) continue; /* no room */
+            all[to].sum += one.values[v].value;
+            all[to].square += one.values[v].value * one.values[v].value;
+            all[to].n += 1;
         }
     }
     for (int v = 0; v < outcome->n_values; ++v) {
-        const double mean = all[v].sum / n;
+        const double mean = all[v].n == n ? all[v].sum / n : NAN; /* what not all of them have is no mean of them */
         outcome->values[v].value = mean;
         outcome->values[v].scatter = sqrt(fmax(all[v].square - n * mean * mean, 0) / (n - 1));
     }
