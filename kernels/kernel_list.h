@@ -37,6 +37,7 @@
     X(published_strain_pass)                                                                                           \
     X(published_force_pass)                                                                                            \
     X(published_energy)                                                                                                \
+    X(traction_turned_pass)                                                                                            \
     X(advance_rotation)                                                                                                \
     X(add_spin_energy)                                                                                                 \
     X(small_rotation)                                                                                                  \

@@ -143,3 +143,43 @@ KERNEL void published_energy(int n, GLOBAL const coeff *restrict strain, GLOBAL 
         elastic[e] = volume[e] * (state)(REAL(0.5) * lambda * trace * trace + mu * square);
     }
 }
+
+/* R - I of an orientation (finite), or of the rotation vector it stands for: twice its vector part. out [9] by rows. */
+LAW void published_turn(GLOBAL const state *restrict orientation, int e, int finite, state out[9])
+{
+    const state w = finite ? orientation[(brc_size)e * 4] : STATE(1), x = orientation[(brc_size)e * 4 + 1], y = orientation[(brc_size)e * 4 + 2],
+                z = orientation[(brc_size)e * 4 + 3], square = finite ? STATE(2) : STATE(0);
+    out[0] = -square * (y * y + z * z), out[1] = square * x * y - STATE(2) * w * z, out[2] = square * x * z + STATE(2) * w * y;
+    out[3] = square * x * y + STATE(2) * w * z, out[4] = -square * (x * x + z * z), out[5] = square * y * z - STATE(2) * w * x;
+    out[6] = square * x * z - STATE(2) * w * y, out[7] = square * y * z + STATE(2) * w * x, out[8] = -square * (x * x + y * y);
+}
+
+/* Dead tractions of one load on cells that turn: total [N] = sum t S, moment [N m] = sum t S (x) (C - X), at unit factor. f_i += factor total, torque_i += what it
+ * turns the cell by, at the arms R (C - X) (small rotations: C - X). total.u + moment:(R - I) is what the traction works on [J]. book, reach: as in traction_force_pass. */
+KERNEL void traction_turned_pass(int n, state factor, GLOBAL const int *restrict element, GLOBAL const coeff *restrict total,
+                                 GLOBAL const coeff *restrict moment, GLOBAL const state *restrict displacement,
+                                 GLOBAL const state *restrict orientation, int finite, int book, state last_factor,
+                                 GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL state *restrict reach, GLOBAL state *restrict work)
+{
+    FOR_EACH_ITEM(i, n) {
+        const int e = element[i];
+        state turn[9], arm[9], sum = 0; /* arm[3 k + j]: sum of the k-th component of t S times the j-th of the arm */
+        published_turn(orientation, e, finite, turn);
+        for (int k = 0; k < 3; ++k) {
+            const state t = (state)total[(brc_size)i * 3 + k];
+            force[(brc_size)e * 3 + k] += factor * t;
+            sum += t * displacement[(brc_size)e * 3 + k];
+            for (int j = 0; j < 3; ++j) {
+                state turned = 0;
+                for (int l = 0; l < 3; ++l) turned += turn[3 * j + l] * (state)moment[(brc_size)i * 9 + 3 * k + l];
+                arm[3 * k + j] = (state)moment[(brc_size)i * 9 + 3 * k + j] + (finite ? turned : STATE(0));
+                if (j == k) sum += turned;
+            }
+        }
+        torque[(brc_size)e * 3] += factor * (arm[7] - arm[5]);
+        torque[(brc_size)e * 3 + 1] += factor * (arm[2] - arm[6]);
+        torque[(brc_size)e * 3 + 2] += factor * (arm[3] - arm[1]);
+        if (book == 1) work[i] += STATE(0.5) * (factor + last_factor) * (sum - reach[i]);
+        if (book) reach[i] = sum;
+    }
+}

@@ -137,6 +137,20 @@ static brc_status published_evaluate(brc_simulation *s, const brc_force_request 
                       BRC_INT(finite), BRC_BUF(r->force), BRC_BUF(r->torque));
 }
 
+brc_status brc_force_turned_tractions(brc_simulation *s, const brc_force_request *r)
+{
+    const brc_stage *stage = brc_is_published(s) && s->loads.n_tractions > 0 ? brc_current_stage(s) : NULL;
+    for (int32_t i = 0; stage && i < s->loads.n_tractions; ++i) {
+        brc_traction_load *t = s->loads.tractions + i;
+        const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
+        BRC_TRY(BRC_LAUNCH(s->kernel.traction_turned, t->n, BRC_INT(t->n), BRC_STATE(factor), BRC_BUF(t->element), BRC_BUF(t->total), BRC_BUF(t->moment),
+                           BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_INT(r->finite ? 1 : 0), BRC_INT(r->book), BRC_STATE(t->last_factor),
+                           BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(t->reach), BRC_BUF(t->work)));
+        if (r->book != BRC_BOOK_NOTHING) t->last_factor = factor;
+    }
+    return BRC_OK;
+}
+
 static brc_status beams_evaluate(brc_simulation *s, const brc_force_request *r)
 {
     const brc_beam *b = brc_beam_of_element(s, 0);
@@ -166,6 +180,7 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
     }
     const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
     BRC_TRY(brc_pushes_apply(s, r));
+    BRC_TRY(brc_force_turned_tractions(s, r));
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
         const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(brc_imposed_of(stage, m), r->t);

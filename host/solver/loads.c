@@ -452,9 +452,8 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
         } else if (load->kind == BRC_LOAD_ELEMENT_ROTATION) {
             status = brc_turn_create(s, stage, l, turned, out->turns + out->n_turns++);
         } else if (!is_face_motion(load)) {
-            if (brc_turns(s))
-                status = BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': %s takes no tractions; use model dlsm, element_force, or prescribe elements",
-                                  stage->name, brc_is_beams(s) ? "cbm" : "dlsm-published");
+            if (brc_is_beams(s))
+                status = BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': cbm takes no tractions; use model dlsm, element_force, or prescribe elements", stage->name);
             else if (first == BRC_OK)
                 status = create_traction(s, stage, l, &out->held, out->tractions + out->n_tractions++);
         }

@@ -35,6 +35,7 @@ static brc_status find_kernels(brc_simulation *s)
         {&k->published_strain, "published_strain_pass", published},
         {&k->published_force, "published_force_pass", published},
         {&k->published_energy, "published_energy", published},
+        {&k->traction_turned, "traction_turned_pass", published},
         {&k->cbm_force, "cbm_force_pass", beams},
         {&k->cbm_energy, "cbm_energy", beams},
         {&k->cbm_virial, "cbm_virial", beams},

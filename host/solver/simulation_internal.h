@@ -86,7 +86,7 @@ typedef struct brc_loads {
 /* Kernels are looked up once; a name that a model does not use stays NULL. */
 typedef struct brc_kernels {
     brc_kernel *gradient, *stress, *flux, *force, *energy, *deformation;
-    brc_kernel *held_prescribe, *held_gradient, *held_moment, *held_force, *held_energy, *traction_moment, *traction_force;
+    brc_kernel *held_prescribe, *held_gradient, *held_moment, *held_force, *held_energy, *traction_moment, *traction_force, *traction_turned;
     brc_kernel *face_displacement;
     brc_kernel *cbm_force, *cbm_energy, *cbm_virial, *turn_orientation, *precondition6;
     brc_kernel *published_strain, *published_force, *published_energy, *advance_rotation, *add_spin_energy, *small_rotation;
@@ -259,6 +259,8 @@ typedef struct brc_force_request {
     double t;         /* time of the stage, for tractions */
 } brc_force_request;
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *request);
+/* dlsm-published: force and torque of tractions, added to those of the request; part of brc_force_evaluate but for homogeneous requests. */
+brc_status brc_force_turned_tractions(brc_simulation *s, const brc_force_request *r);
 /* The simulation's own state, with the full law, at its time. */
 brc_status brc_force_of_state(brc_simulation *s, brc_booking book);
 /* dlsm: of the same only H, P and B, with which the forces of single bonds can be formed; books nothing. */
