@@ -166,6 +166,15 @@ static double model_error(brc_model_kind model, int n, const brc_price_curve *cu
     return 0;
 }
 
+/* Of a scene without contact, the problem of two bodies that touch says nothing. */
+static void leave_out_contact(const brc_scene *scene, int *n, brc_price_curve *curve)
+{
+    int kept = 0;
+    for (int k = 0; k < *n; ++k)
+        if (scene->has_contact || strcmp(curve[k].problem, "hertz") != 0) curve[kept++] = curve[k];
+    *n = kept;
+}
+
 brc_status brc_price_judge(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, const brc_price_error *own, brc_price_judgement *out)
 {
     const brc_model_kind kind = setup->split->part[0].scene->model.kind;
@@ -173,6 +182,7 @@ brc_status brc_price_judge(brc_context *context, const brc_scene *scene, const b
     const char *taken = brc_precision_name(precision);
     int worst = 0;
     BRC_TRY(read_curves(context, brc_model_name(kind), &taken, &out->n, out->curve));
+    leave_out_contact(scene, &out->n, out->curve);
     out->taken = taken;
     out->is_own = own->worst >= 0;
     out->known = out->is_own || out->n > 0;
