@@ -19,27 +19,50 @@ typedef struct disc {
     double nominal; /* 2 P / (pi t D) [Pa] */
 } disc;
 
+/* Force of a jaw on the disc [N]: of imposed motion what it takes, of a pressure what it gives. */
+static brc_status jaw_force(brc_simulation *simulation, const brc_load *load, double out[3])
+{
+    const brc_domain *domain = brc_simulation_domain(simulation);
+    const int32_t set = brc_domain_find_set(domain, load->set);
+    if (load->kind != BRC_LOAD_PRESSURE) return brc_simulation_reaction(simulation, set, out);
+    for (int c = 0; c < 3; ++c) {
+        out[c] = 0;
+        for (int64_t k = 0; k < domain->sets[set].n_members; ++k) out[c] -= load->value[0] * domain->free_area_vector[3 * domain->sets[set].members[k] + c];
+    }
+    return BRC_OK;
+}
+
+/* Which way a jaw presses; -1: unclear. */
+static int jaw_direction(const brc_load *load, const double force[3])
+{
+    int along = -1;
+    for (int c = 0; c < 3; ++c)
+        if (load->kind == BRC_LOAD_PRESSURE ? along < 0 || fabs(force[c]) > fabs(force[along]) : load->component[c]) along = c;
+    return along;
+}
+
 static brc_status find_disc(brc_context *context, brc_simulation *simulation, const brc_case_run *run, disc *out)
 {
     const brc_scene *scene = brc_simulation_scene(simulation);
     const brc_domain *domain = brc_simulation_domain(simulation);
     const brc_shape *shape = &scene->bodies[0].shape;
     const brc_stage *stage = &scene->stages[scene->n_stages - 1];
+    double load = 0;
     *out = (disc){.radius = shape->radius, .thickness = shape->length, .half_angle = run->half_angle, .axis = shape->axis, .along = -1};
-    for (int c = 0; c < 3 && stage->n_loads == 2; ++c)
-        if (stage->loads[0].component[c] && stage->loads[1].component[c]) out->along = c;
+    for (int k = 0; k < 2 && stage->n_loads >= 2; ++k) {
+        double force[3];
+        BRC_TRY(jaw_force(simulation, &stage->loads[k], force));
+        const int along = jaw_direction(&stage->loads[k], force);
+        out->along = k == 0 || along == out->along ? along : -1;
+        if (out->along >= 0) load += 0.5 * fabs(force[out->along]);
+    }
     if (scene->n_bodies != 1 || shape->kind != BRC_SHAPE_CYLINDER || out->along < 0 || out->along == shape->axis || !(run->half_angle > 0))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: `with: hondros` expects one cylinder, two loads across its axis in the last stage, and `half_angle`", run->name);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: `with: hondros` expects one cylinder, two jaws across its axis as the first loads of the last stage (imposed motion or pressure), and `half_angle`",
+                        run->name);
     out->across = 3 - out->axis - out->along;
     for (int c = 0; c < 3; ++c) out->centre[c] = shape->origin[c];
     for (int64_t e = 0; e < domain->n_elements; ++e) /* a mean diameter; cells: of a sphere of equal volume */
         out->half_width += 2 * (domain->radius ? domain->radius[e] : cbrt(0.75 / M_PI * domain->volume[e])) / (double)domain->n_elements;
-    double load = 0;
-    for (int k = 0; k < 2; ++k) {
-        double force[3];
-        BRC_TRY(brc_simulation_reaction(simulation, brc_domain_find_set(domain, stage->loads[k].set), force));
-        load += 0.5 * fabs(force[out->along]);
-    }
     out->nominal = load / (M_PI * out->thickness * out->radius);
     return BRC_OK;
 }
