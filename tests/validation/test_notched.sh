@@ -1,5 +1,5 @@
 #!/bin/sh
-# The references are those that cohesive.py computes; a small notched plate, and brittle plates with notches of two lengths and cells of two sizes.
+# The references are those that cohesive.py computes; a small notched plate.
 here=$(dirname "$0")
 . "$here/quick.sh"
 if command -v python3 >/dev/null; then
