@@ -51,7 +51,7 @@ KERNEL void cells_record_published(int n_groups, GLOBAL const coeff *restrict st
 /* The bonds that elements chose are marked; stress [n]: of the element that chose [Pa]; found [n]: 1 where one did. */
 KERNEL void cells_mark_chosen(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                               GLOBAL const int *restrict choice, GLOBAL const coeff *restrict stress, GLOBAL int *restrict mark,
-                              GLOBAL coeff *restrict measure, GLOBAL state *restrict found)
+                              GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(e, n) {
         const int chosen = choice[e];
@@ -61,6 +61,8 @@ KERNEL void cells_mark_chosen(int n, GLOBAL const int *restrict row_start, GLOBA
             if (neighbour[entry] != chosen / 4) continue;
             mark[entry] = chosen % 4;
             measure[entry] = stress[e];
+            STORE_SAME(touched + e, 1);
+            STORE_SAME(touched + chosen / 4, 1);
         }
     }
 }

@@ -4,40 +4,53 @@
  *
  * Of the entries [n_slots][C]: limit: normal stress at which the bond breaks, CELLS_NEVER where there is none [Pa]; twin: the entry of the same
  * bond seen from the other element; alive: 1 while it holds, else 0; mark: 0, or how it breaks at the end of this step; measure: its stress
- * then [Pa]. found: of an element or group of elements, how many bonds it marked. */
+ * then [Pa]. found: of an element or group of elements, how many bonds it marked. touched [n]: 1 for the two elements of every marked
+ * bond, ring 0 of rings.cl. */
 
 #define CELLS_NEVER REAL(1e30)
 #define CELLS_TENSION 1
 #define CELLS_DETACHED 4
 
 /* As dlsm_gradient, and the largest |e - N.E N| of the element's bonds, misfit [n] [-] (cell_normal.h). */
-KERNEL void cells_gradient(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                           GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+LAW void cells_gradient_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                           GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                           GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient, GLOBAL coeff *restrict misfit)
+{
+    const state_vec3 u = state_gather3(displacement, who.own);
+    lane_mat3 a = lane_mat3_zero();
+    for (int slot = who.begin; slot < who.end; ++slot) {
+        const lane_int j = members_neighbour(who, neighbour, slot);
+        members_ahead3(who, area, slot);
+        members_ahead1(who, ratio, slot);
+        a = dlsm_add_jump(a, state_vec3_difference(state_gather3(displacement, j), u), members_face3(who, area, slot));
+    }
+    const lane_mat3 h = lane_mat3_mul_sym(a, members_block6(who, inv_shape));
+    lane largest = LANE_ZERO;
+    for (int slot = who.begin; slot < who.end; ++slot) {
+        const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, members_neighbour(who, neighbour, slot)), u);
+        const lane_vec3 r = lane_vec3_scale(members_row1(who, ratio, slot), members_face3(who, area, slot));
+        const lane inverse = cell_inverse_square(r);
+        const lane one = cell_misfit(h, r, cell_bond_strain(r, jump, inverse), inverse);
+        largest = cell_larger(largest, cell_larger(one, -one));
+    }
+    members_store9(who, gradient, h);
+    members_put1(who, misfit, largest);
+}
+KERNEL void cells_gradient(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                           GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
                            GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient, GLOBAL coeff *restrict misfit)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
-        const state_vec3 u = state_gather3(displacement, lane_own(first));
-        lane_mat3 a = lane_mat3_zero();
-        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-            const lane_int j = int_block(neighbour, slot, lane0);
-            rows_ahead3(area, slot);
-            rows_ahead1(ratio, slot);
-            a = dlsm_add_jump(a, state_vec3_difference(state_gather3(displacement, j), u), lane_block3(area, slot, lane0));
-        }
-        const lane_mat3 h = lane_mat3_mul_sym(a, lane_block6(inv_shape, slice, lane0));
-        lane largest = LANE_ZERO;
-        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-            const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, int_block(neighbour, slot, lane0)), u);
-            const lane_vec3 r = lane_vec3_scale(lane_load(ratio, (brc_size)slot * C + (brc_size)lane0), lane_block3(area, slot, lane0));
-            const lane inverse = cell_inverse_square(r);
-            const lane one = cell_misfit(h, r, cell_bond_strain(r, jump, inverse), inverse);
-            largest = cell_larger(largest, cell_larger(one, -one));
-        }
-        lane_store9(gradient, first, h);
-#define PUT(l) misfit[(brc_size)first + 0x##l] = LANE_ITEM(largest, l);
-        LANE_EACH(PUT)
-#undef PUT
+        cells_gradient_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, inv_shape, gradient, misfit);
+    }
+}
+KERNEL void cells_gradient_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
+                           GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                           GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                           GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient, GLOBAL coeff *restrict misfit)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        cells_gradient_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, inv_shape, gradient, misfit);
     }
 }
 
@@ -47,7 +60,7 @@ KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict ro
                         GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict modulus,
                         GLOBAL const coeff *restrict misfit, GLOBAL const coeff *restrict least, GLOBAL const coeff *restrict limit,
-                        GLOBAL int *restrict mark, GLOBAL coeff *restrict measure, GLOBAL state *restrict found)
+                        GLOBAL int *restrict mark, GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
@@ -81,6 +94,8 @@ KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict ro
     if (LANE_ITEM(sigma, l) > LANE_ITEM(bound, l)) {                                                                   \
         mark[entry + 0x##l] = CELLS_TENSION;                                                                           \
         measure[entry + 0x##l] = LANE_ITEM(sigma, l);                                                                  \
+        STORE_SAME(touched + first + 0x##l, 1);                                                                        \
+        STORE_SAME(touched + LANE_ITEM(j, l), 1);                                                                      \
         marked += 1;                                                                                                   \
     }
                     LANE_EACH(MARK)
@@ -121,12 +136,12 @@ KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOB
     }
 }
 
-/* Bonds marked on either side become missing ones. width: numbers a face's area has, 3 for a vector. weight [n]: sum over the element's bonds
+/* Bonds of touched elements that are marked on either side become missing ones. width: numbers a face's area has, 3 for a vector. weight [n]: sum over the element's bonds
  * that broke in this step, in its first round and later ones, of stress^2 times volume (S L; without a ratio S^(3/2)): shares of the energy
  * that they release, kept in break_energy until cells_share. changed [n]: 1 where a bond went. broken [n]: bonds lost so far. */
 KERNEL void cells_break(int n, int step, int is_first, int width, GLOBAL const int *restrict row_start, GLOBAL const int *restrict twin,
-                        GLOBAL const int *restrict mark, GLOBAL const coeff *restrict measure, GLOBAL coeff *restrict alive,
-                        GLOBAL int *restrict neighbour, GLOBAL coeff *restrict area, GLOBAL coeff *restrict ratio,
+                        GLOBAL const int *restrict touched, GLOBAL const int *restrict mark, GLOBAL const coeff *restrict measure,
+                        GLOBAL coeff *restrict alive, GLOBAL int *restrict neighbour, GLOBAL coeff *restrict area, GLOBAL coeff *restrict ratio,
                         GLOBAL coeff *restrict limit, GLOBAL int *restrict break_step,
                         GLOBAL int *restrict break_mode, GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
                         GLOBAL state *restrict weight, GLOBAL int *restrict changed, GLOBAL state *restrict broken)
@@ -134,7 +149,7 @@ KERNEL void cells_break(int n, int step, int is_first, int width, GLOBAL const i
     FOR_EACH_ITEM(e, n) {
         state sum = 0;
         int count = 0;
-        for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+        for (int slot = row_start[e / C]; touched[e] && slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = (brc_size)slot * C + e % C;
             if (!(alive[entry] > 0)) continue;
             const int other = twin[entry], mode = mark[entry] ? mark[entry] : mark[other];
@@ -203,11 +218,11 @@ LAW coeff cells_stiffness(cells_sym inverse, cells_sym squares, state x, state y
 /* Elements that lost a bond: the inverse of A = sum q s (x) s, smallest limit, marks cleared. An element that its neighbours no longer hold marks
  * the bonds it has left: the smallest eigenvalue of A / (2 V) is below support [n], or it has become stiffer than stiffest [n] [1/m^2], which
  * the time step does not bear. found [n]. */
-KERNEL void cells_rebuild(int n, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+KERNEL void cells_rebuild(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
                           GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict limit, GLOBAL const coeff *restrict inv_volume,
                           GLOBAL const coeff *restrict support, GLOBAL const coeff *restrict stiffest, GLOBAL int *restrict changed,
                           GLOBAL coeff *restrict least, GLOBAL coeff *restrict inv_shape, GLOBAL int *restrict mark,
-                          GLOBAL coeff *restrict measure, GLOBAL state *restrict found)
+                          GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(e, n) {
         int count = 0;
@@ -238,6 +253,7 @@ KERNEL void cells_rebuild(int n, GLOBAL const int *restrict row_start, GLOBAL co
                 if (!(alive[entry] > 0)) continue;
                 mark[entry] = CELLS_DETACHED;
                 measure[entry] = 0;
+                STORE_SAME(touched + neighbour[entry], 1);
                 count += 1;
             }
             least[e] = weakest;
@@ -246,11 +262,13 @@ KERNEL void cells_rebuild(int n, GLOBAL const int *restrict row_start, GLOBAL co
     }
 }
 
-/* The energy that the bonds of this step release, by their weights: per_weight [J/weight] is that of one side. lost [n] [J]. */
-KERNEL void cells_share(int n, int step, state per_weight, GLOBAL const int *restrict row_start, GLOBAL const int *restrict break_step,
+/* The energy that the bonds of this step release, by their weights: per_weight [J/weight] is that of one side; list [n]: the elements
+ * that lost some. lost [J]: of every element. */
+KERNEL void cells_share(int n, int step, state per_weight, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict break_step,
                         GLOBAL const state *restrict weight, GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(k, n) {
+        const int e = list[k];
         if (weight[e] > 0) {
             lost[e] += per_weight * weight[e];
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {

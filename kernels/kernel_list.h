@@ -26,6 +26,11 @@
     X(dlsm_force)                                                                                                      \
     X(dlsm_energy)                                                                                                     \
     X(dlsm_deformation)                                                                                                \
+    X(dlsm_gradient_listed)                                                                                            \
+    X(dlsm_stress_listed)                                                                                              \
+    X(dlsm_flux_listed)                                                                                                \
+    X(dlsm_force_listed)                                                                                               \
+    X(dlsm_energy_listed)                                                                                              \
     X(held_prescribe)                                                                                                  \
     X(held_gradient_pass)                                                                                              \
     X(held_moment_pass)                                                                                                \
@@ -38,6 +43,8 @@
     X(published_force_pass)                                                                                            \
     X(published_energy)                                                                                                \
     X(traction_turned_pass)                                                                                            \
+    X(published_force_listed)                                                                                          \
+    X(published_energy_listed)                                                                                         \
     X(advance_rotation)                                                                                                \
     X(add_spin_energy)                                                                                                 \
     X(small_rotation)                                                                                                  \
@@ -55,6 +62,12 @@
     X(cells_break)                                                                                                     \
     X(cells_rebuild)                                                                                                   \
     X(cells_share)                                                                                                     \
+    X(cells_gradient_listed)                                                                                           \
+    X(ring_spread)                                                                                                     \
+    X(ring_seed)                                                                                                       \
+    X(ring_count)                                                                                                      \
+    X(ring_list)                                                                                                       \
+    X(ring_replace)                                                                                                    \
     X(scan_sums)                                                                                                       \
     X(scan_tops)                                                                                                       \
     X(scan_fill)                                                                                                       \
@@ -86,6 +99,8 @@
     X(published_breaking_force)                                                                                        \
     X(published_check)                                                                                                 \
     X(published_rebuild)                                                                                               \
+    X(published_breaking_strain_listed)                                                                                \
+    X(published_breaking_force_listed)                                                                                 \
     X(contact_pieces)                                                                                                  \
     X(contact_pieces_moved)                                                                                            \
     X(contact_cells)                                                                                                   \

@@ -7,24 +7,23 @@
 #define MATERIAL(component, scalar) (LANE_ZERO + (scalar))
 #endif
 
-/* a = sum (u_j - u_i) (x) w R of a group [m^2], times inv_shape. */
-LAW lane_mat3 published_fit(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area, int area_weights,
-                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict inv_shape)
+/* a = sum (u_j - u_i) (x) w R [m^2], times inv_shape. */
+LAW lane_mat3 published_fit(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                            GLOBAL const coeff *restrict area, int area_weights, GLOBAL const state *restrict displacement,
+                            GLOBAL const coeff *restrict inv_shape)
 {
-    const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
-    const state_vec3 u = state_gather3(displacement, lane_own(group * W));
+    const state_vec3 u = state_gather3(displacement, who.own);
     lane_mat3 a = lane_mat3_zero();
-    for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-        const lane_int j = int_block(neighbour, slot, lane0);
-        rows_ahead3(branch, slot);
-        lane_vec3 r = lane_block3(branch, slot, lane0);
+    for (int slot = who.begin; slot < who.end; ++slot) {
+        const lane_int j = members_neighbour(who, neighbour, slot);
+        members_ahead3(who, branch, slot);
+        lane_vec3 r = members_row3(who, branch, slot);
         const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
         if (area_weights)
-            r = lane_vec3_scale(lane_load(area, (brc_size)slot * C + (brc_size)lane0) / LANE_SQRT(lane_vec3_dot(r, r)), r);
+            r = lane_vec3_scale(members_face1(who, area, slot) / LANE_SQRT(lane_vec3_dot(r, r)), r);
         a = lane_add_outer(a, jump, r);
     }
-    return lane_mat3_mul_sym(a, lane_block6(inv_shape, slice, lane0));
+    return lane_mat3_mul_sym(a, members_block6(who, inv_shape));
 }
 
 /* Strain of every element in the global frame [-] [n][6] (xx yy zz yz xz xy). inv_shape: (sum w R (x) R)^-1
@@ -35,8 +34,9 @@ KERNEL void published_strain_pass(int n_groups, GLOBAL const int *restrict row_s
                                   GLOBAL const coeff *restrict inv_shape, int finite, GLOBAL coeff *restrict strain)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const lane_mat3 fitted = published_fit(group, row_start, neighbour, branch, area, area_weights, displacement, inv_shape);
-        const lane_quat q = lane_gather4(orientation, lane_own(group * W));
+        const members who = members_of_group(group, row_start);
+        const lane_mat3 fitted = published_fit(who, neighbour, branch, area, area_weights, displacement, inv_shape);
+        const lane_quat q = lane_gather4(orientation, who.own);
         lane_store6(strain, group * W, finite ? published_strain(fitted, q, 1) : published_strain(fitted, q, 0));
     }
 }
@@ -69,32 +69,31 @@ LAW published_moduli published_moduli_of(lane_int own, lane_int j, coeff lambda_
 #endif
 }
 
-/* What the elements of a group bring to their bonds. */
+/* What elements bring to their bonds. */
 typedef struct {
     lane_int row;
     state_vec3 displacement;
     lane_sym3 strain;
     lane_quat orientation;
 } published_own;
-LAW published_own published_own_of(int group, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+LAW published_own published_own_of(lane_int own, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
                                    GLOBAL const coeff *restrict strain)
 {
-    const lane_int own = lane_own(group * W);
     return (published_own){own, state_gather3(displacement, own), lane_gather6(strain, own), lane_gather4(orientation, own)};
 }
 
-/* The bonds of a group in one slot of its rows. */
-LAW published_bond published_bond_at(int slot, int lane0, published_own own, GLOBAL const int *restrict neighbour,
+/* The bonds in one slot of the rows. */
+LAW published_bond published_bond_at(members who, int slot, published_own own, GLOBAL const int *restrict neighbour,
                                      GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
                                      GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
                                      GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
                                      coeff rotation_factor, GLOBAL const coeff *restrict lame_of, int finite)
 {
-    const lane_int j = int_block(neighbour, slot, lane0);
-    rows_ahead3(branch, slot);
-    rows_ahead1(area, slot);
-    const lane_vec3 r = lane_block3(branch, slot, lane0);
-    const lane s = lane_load(area, (brc_size)slot * C + (brc_size)lane0);
+    const lane_int j = members_neighbour(who, neighbour, slot);
+    members_ahead3(who, branch, slot);
+    members_ahead1(who, area, slot);
+    const lane_vec3 r = members_row3(who, branch, slot);
+    const lane s = members_face1(who, area, slot);
     const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
     const lane_sym3 e_j = lane_gather6(strain, j);
     const lane_quat q_j = lane_gather4(orientation, j);
@@ -104,43 +103,74 @@ LAW published_bond published_bond_at(int slot, int lane0, published_own own, GLO
 }
 
 /* Force [N] and torque about its own centre [N m] on every element [n][3]. */
-KERNEL void published_force_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                 GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
-                                 GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                                 GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                                 coeff rotation_factor, GLOBAL const coeff *restrict lame_of, int finite,
+LAW void published_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                 GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
+                                 GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one,
+                                 coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of, int finite,
+                                 GLOBAL state *restrict force, GLOBAL state *restrict torque)
+{
+    const published_own own = published_own_of(who.own, displacement, orientation, strain);
+    lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
+    for (int slot = who.begin; slot < who.end; ++slot) {
+        const published_bond b = published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                                                   mu_one, young_one, rotation_factor, lame_of, finite);
+        f = lane_vec3_add(f, b.force);
+        t = lane_vec3_add(t, b.torque);
+    }
+    members_store3(who, force, f);
+    members_store3(who, torque, t);
+}
+KERNEL void published_force_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                 GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
+                                 GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one,
+                                 coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of, int finite,
                                  GLOBAL state *restrict force, GLOBAL state *restrict torque)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
-        const published_own own = published_own_of(group, displacement, orientation, strain);
-        lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
-        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-            const published_bond b = published_bond_at(slot, lane0, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                                                       mu_one, young_one, rotation_factor, lame_of, finite);
-            f = lane_vec3_add(f, b.force);
-            t = lane_vec3_add(t, b.torque);
-        }
-        state_store3(force, group * W, f);
-        state_store3(torque, group * W, t);
+        published_force_of(members_of_group(group, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                           mu_one, young_one, rotation_factor, lame_of, finite, force, torque);
+    }
+}
+KERNEL void published_force_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
+                                 GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                 GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
+                                 GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one,
+                                 coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of, int finite,
+                                 GLOBAL state *restrict force, GLOBAL state *restrict torque)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        published_force_of(members_of_list(item, n, list, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                           mu_one, young_one, rotation_factor, lame_of, finite, force, torque);
     }
 }
 #undef MATERIAL
 
 /* Strain energy V sigma:e / 2 of the least-squares strain [J] [n]. Not the potential of the forces (there is none). */
+LAW state published_energy_of(int e, GLOBAL const coeff *restrict strain, GLOBAL const state *restrict volume, coeff lambda_one, coeff mu_one,
+                              GLOBAL const coeff *restrict lame_of)
+{
+    GLOBAL const coeff *s = strain + (brc_size)e * 6;
+#if BRC_MANY_MATERIALS
+    const coeff lambda = lame_of[(brc_size)e * 3], mu = lame_of[(brc_size)e * 3 + 1];
+#else
+    const coeff lambda = lambda_one, mu = mu_one;
+#endif
+    const coeff trace = s[0] + s[1] + s[2];
+    const coeff square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + REAL(2) * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+    return volume[e] * (state)(REAL(0.5) * lambda * trace * trace + mu * square);
+}
 KERNEL void published_energy(int n, GLOBAL const coeff *restrict strain, GLOBAL const state *restrict volume,
                              coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict lame_of, GLOBAL state *restrict elastic)
 {
-    FOR_EACH_ITEM(e, n) {
-        GLOBAL const coeff *s = strain + (brc_size)e * 6;
-#if BRC_MANY_MATERIALS
-        const coeff lambda = lame_of[(brc_size)e * 3], mu = lame_of[(brc_size)e * 3 + 1];
-#else
-        const coeff lambda = lambda_one, mu = mu_one;
-#endif
-        const coeff trace = s[0] + s[1] + s[2];
-        const coeff square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + REAL(2) * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
-        elastic[e] = volume[e] * (state)(REAL(0.5) * lambda * trace * trace + mu * square);
+    FOR_EACH_ITEM(e, n) { elastic[e] = published_energy_of(e, strain, volume, lambda_one, mu_one, lame_of); }
+}
+KERNEL void published_energy_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const coeff *restrict strain,
+                                    GLOBAL const state *restrict volume, coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict lame_of,
+                                    GLOBAL state *restrict elastic)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        const int end = (item + 1) * W < n ? (item + 1) * W : n;
+        for (int k = item * W; k < end; ++k) elastic[list[k]] = published_energy_of(list[k], strain, volume, lambda_one, mu_one, lame_of);
     }
 }
 

@@ -2,44 +2,85 @@
  * that are left. Arrays of entries as in kernels/cells.cl, whose cells_break removes the bonds. */
 
 /* As published_strain_pass where bonds may be missing. spanned: projector on the directions that an element's bonds span [slice][6][C]. */
-KERNEL void published_breaking_strain(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                      GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area, int area_weights,
-                                      GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                                      GLOBAL const coeff *restrict inv_shape, GLOBAL const coeff *restrict spanned, int finite,
-                                      GLOBAL coeff *restrict strain)
+LAW void published_breaking_strain_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                      GLOBAL const coeff *restrict area, int area_weights, GLOBAL const state *restrict displacement,
+                                      GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict inv_shape,
+                                      GLOBAL const coeff *restrict spanned, int finite, GLOBAL coeff *restrict strain)
+{
+    const lane_mat3 fitted = published_fit(who, neighbour, branch, area, area_weights, displacement, inv_shape);
+    const lane_quat q = quat_conjugate(lane_gather4(orientation, who.own));
+    const lane_mat3 turn = finite ? quat_matrix_minus_identity(q, 1) : quat_matrix_minus_identity(q, 0);
+    const lane_mat3 seen = lane_mat3_mul_sym(turn, members_block6(who, spanned));
+    members_store6(who, strain, finite ? published_strain_seen(fitted, turn, seen, 1) : published_strain_seen(fitted, turn, seen, 0));
+}
+KERNEL void published_breaking_strain(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                      GLOBAL const coeff *restrict area, int area_weights, GLOBAL const state *restrict displacement,
+                                      GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict inv_shape,
+                                      GLOBAL const coeff *restrict spanned, int finite, GLOBAL coeff *restrict strain)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const lane_mat3 fitted = published_fit(group, row_start, neighbour, branch, area, area_weights, displacement, inv_shape);
-        const lane_quat q = quat_conjugate(lane_gather4(orientation, lane_own(group * W)));
-        const lane_mat3 turn = finite ? quat_matrix_minus_identity(q, 1) : quat_matrix_minus_identity(q, 0);
-        const lane_mat3 seen = lane_mat3_mul_sym(turn, lane_block6(spanned, SLICE_OF(group), FIRST_LANE_OF(group)));
-        lane_store6(strain, group * W, finite ? published_strain_seen(fitted, turn, seen, 1) : published_strain_seen(fitted, turn, seen, 0));
+        published_breaking_strain_of(members_of_group(group, row_start), neighbour, branch, area, area_weights, displacement, orientation,
+                                     inv_shape, spanned, finite, strain);
+    }
+}
+KERNEL void published_breaking_strain_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
+                                      GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                      GLOBAL const coeff *restrict area, int area_weights, GLOBAL const state *restrict displacement,
+                                      GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict inv_shape,
+                                      GLOBAL const coeff *restrict spanned, int finite, GLOBAL coeff *restrict strain)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        published_breaking_strain_of(members_of_list(item, n, list, row_start), neighbour, branch, area, area_weights, displacement, orientation,
+                                     inv_shape, spanned, finite, strain);
     }
 }
 
 /* As published_force_pass with the full law; reach [n]: the largest normal stress over limit of each element's bonds [-]. */
-KERNEL void published_breaking_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                     GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
-                                     GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                                     GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                                     coeff rotation_factor, GLOBAL const coeff *restrict lame_of, GLOBAL const coeff *restrict limit,
-                                     GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL coeff *restrict reach)
+LAW void published_breaking_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                     GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
+                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one,
+                                     coeff mu_one, coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of,
+                                     GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL state *restrict torque,
+                                     GLOBAL coeff *restrict reach)
+{
+    const published_own own = published_own_of(who.own, displacement, orientation, strain);
+    lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
+    lane largest = LANE_ZERO;
+    for (int slot = who.begin; slot < who.end; ++slot) {
+        const published_bond b = published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                                                   mu_one, young_one, rotation_factor, lame_of, 1);
+        f = lane_vec3_add(f, b.force);
+        t = lane_vec3_add(t, b.torque);
+        const lane ratio = b.stress / members_row1(who, limit, slot);
+        largest = lane_max(largest, who.listed ? members_there(who, slot) * ratio : ratio);
+    }
+    members_store3(who, force, f);
+    members_store3(who, torque, t);
+    members_put1(who, reach, largest);
+}
+KERNEL void published_breaking_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                     GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
+                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one,
+                                     coeff mu_one, coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of,
+                                     GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL state *restrict torque,
+                                     GLOBAL coeff *restrict reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
-        const published_own own = published_own_of(group, displacement, orientation, strain);
-        lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
-        lane largest = LANE_ZERO;
-        for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-            const published_bond b = published_bond_at(slot, lane0, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                                                       mu_one, young_one, rotation_factor, lame_of, 1);
-            f = lane_vec3_add(f, b.force);
-            t = lane_vec3_add(t, b.torque);
-            largest = lane_max(largest, b.stress / lane_load(limit, (brc_size)slot * C + (brc_size)lane0));
-        }
-        state_store3(force, group * W, f);
-        state_store3(torque, group * W, t);
-        lane_store(reach, (brc_size)(group * W), largest);
+        published_breaking_force_of(members_of_group(group, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                                    mu_one, young_one, rotation_factor, lame_of, limit, force, torque, reach);
+    }
+}
+KERNEL void published_breaking_force_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
+                                     GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                     GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
+                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one,
+                                     coeff mu_one, coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of,
+                                     GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL state *restrict torque,
+                                     GLOBAL coeff *restrict reach)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        published_breaking_force_of(members_of_list(item, n, list, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                                    mu_one, young_one, rotation_factor, lame_of, limit, force, torque, reach);
     }
 }
 
@@ -51,23 +92,26 @@ KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restric
                             GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
                             coeff rotation_factor, GLOBAL const coeff *restrict lame_of, GLOBAL const coeff *restrict limit,
                             GLOBAL const coeff *restrict reach, GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
-                            GLOBAL state *restrict found)
+                            GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
         int look = 0, marked = 0;
         for (int l = 0; l < W; ++l) look |= !(reach[group * W + l] < REAL(0.99999) * share);
         if (look) {
-            const published_own own = published_own_of(group, displacement, orientation, strain);
+            const members who = members_of_group(group, row_start);
+            const published_own own = published_own_of(who.own, displacement, orientation, strain);
             for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
                 const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
-                const published_bond b = published_bond_at(slot, lane0, own, neighbour, branch, area, displacement, orientation, strain,
+                const published_bond b = published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain,
                                                            lambda_one, mu_one, young_one, rotation_factor, lame_of, 1);
                 const lane bound = share * lane_load(limit, entry);
 #define MARK(l)                                                                                                        \
     if (LANE_ITEM(b.stress, l) > LANE_ITEM(bound, l)) {                                                                \
         mark[entry + 0x##l] = CELLS_TENSION;                                                                           \
         measure[entry + 0x##l] = LANE_ITEM(b.stress, l);                                                               \
+        STORE_SAME(touched + group * W + 0x##l, 1);                                                                    \
+        STORE_SAME(touched + neighbour[entry + 0x##l], 1);                                                             \
         marked += 1;                                                                                                   \
     }
                 LANE_EACH(MARK)

@@ -70,12 +70,13 @@ LAW soft_vector soft_jump(GLOBAL const state *restrict displacement, int i, int 
 #define SOFT_BOND_MODULUS(e, j) k_one
 #endif
 
-/* Takes the openings out of H. */
-KERNEL void soft_gradient(int n, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict alive,
+/* Takes the openings out of H. listed: only of the n elements of the list. */
+KERNEL void soft_gradient(int n, int listed, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict alive,
                           GLOBAL const int *restrict n_open, GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack,
                           GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(item, n) {
+        const int e = listed ? list[item] : item;
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = SOFT_ENTRY;
             if (!open[entry] || !(alive[entry] > 0)) continue;
@@ -89,13 +90,14 @@ KERNEL void soft_gradient(int n, GLOBAL const int *restrict row_start, GLOBAL co
 }
 
 /* Several materials: takes them out of B, whose sum of r (x) s reads J there (with one material it reads gradients alone). */
-KERNEL void soft_flux(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+KERNEL void soft_flux(int n, int listed, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                       GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open, GLOBAL const int *restrict open,
                       GLOBAL const coeff *restrict crack, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict inv_shape,
                       GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict modulus,
                       GLOBAL const coeff *restrict ell_of, coeff beta, coeff one_plus_tau, GLOBAL coeff *restrict flux)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(item, n) {
+        const int e = listed ? list[item] : item;
         if (n_open[e]) {
             lane_mat3 rs = lane_mat3_zero(); /* k sum c w (x) s [N m] */
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
@@ -209,7 +211,7 @@ KERNEL void soft_measure(int n, int book, GLOBAL const int *restrict row_start, 
                          GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, coeff k_one,
                          coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const state *restrict displacement,
                          GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark,
-                         GLOBAL coeff *restrict measure, GLOBAL state *restrict found)
+                         GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(e, n) {
         int count = 0;
@@ -231,6 +233,8 @@ KERNEL void soft_measure(int n, int book, GLOBAL const int *restrict row_start, 
                 if (!(SOFT_NUMBER(entry, WIDEST) < soft_end(face))) {
                     mark[entry] = CELLS_TENSION, mark[other] = CELLS_TENSION;
                     measure[entry] = SOFT_NUMBER(entry, ONSET), measure[other] = SOFT_NUMBER(entry, ONSET);
+                    STORE_SAME(touched + e, 1);
+                    STORE_SAME(touched + j, 1);
                     count += 1;
                 }
             }
@@ -328,7 +332,7 @@ KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const
                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
                        GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
                        GLOBAL coeff *restrict crack, GLOBAL coeff *restrict limit, GLOBAL int *restrict open,
-                       GLOBAL state *restrict found)
+                       GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(e, n) {
         int breaks = 0;
@@ -343,6 +347,8 @@ KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const
             if (!(SOFT_NUMBER(entry, ENERGY) > 0)) {
                 mark[entry] = CELLS_TENSION, mark[other] = CELLS_TENSION;
                 measure[entry] = stress, measure[other] = stress;
+                STORE_SAME(touched + e, 1);
+                STORE_SAME(touched + j, 1);
                 breaks += 1;
                 continue;
             }
@@ -422,11 +428,12 @@ KERNEL void soft_energy(int n, GLOBAL const int *restrict row_start, GLOBAL cons
     }
 }
 
-/* Bonds that broke at the end of their cohesion, after cells_share: the energy their openings took is theirs too [J]. */
-KERNEL void soft_settle(int n, int step, GLOBAL const int *restrict row_start, GLOBAL const int *restrict break_step,
+/* Bonds of the listed elements that broke at the end of their cohesion, after cells_share: the energy their openings took is theirs too [J]. */
+KERNEL void soft_settle(int n, int step, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict break_step,
                         GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack, GLOBAL coeff *restrict break_energy)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(k, n) {
+        const int e = list[k];
         for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = SOFT_ENTRY;
             if (break_step[entry] == step && open[entry]) break_energy[entry] += SOFT_NUMBER(entry, SPENT);

@@ -23,7 +23,7 @@ static brc_status find_kernels(brc_simulation *s, brc_cell_breaks *c)
         brc_kernel **slot;
         const char *name;
         bool wanted;
-    } wanted[] = {{&c->gradient, "cells_gradient", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
+    } wanted[] = {{&c->gradient, "cells_gradient", by_bond}, {&c->gradient_listed, "cells_gradient_listed", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
                   {&c->break_pass, "cells_break", true}, {&c->rebuild, "cells_rebuild", brc_is_dlsm(s)}, {&c->share, "cells_share", true}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
         if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
@@ -164,7 +164,8 @@ static brc_status create_arrays(brc_simulation *s)
     BRC_TRY(brc_new_coeff(s, &f->break_stress, entries, "stresses of breaks"));
     BRC_TRY(brc_new_coeff(s, &f->break_energy, entries, "energies of breaks"));
     BRC_TRY(brc_new_state(s, &f->lost, n, "energy of broken bonds"));
-    return brc_new_state(s, &f->broken, n, "broken bonds");
+    BRC_TRY(brc_new_state(s, &f->broken, n, "broken bonds"));
+    return brc_rings_create(s, &c->rings);
 }
 
 int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
@@ -175,7 +176,7 @@ int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries
     if (by_element) bytes += n * (21 * coeff_bytes + 4) + (dlsm ? 3 * entries * coeff_bytes : 0);
     else bytes += n * coeff_bytes;
     if (!dlsm) bytes += 6 * n * coeff_bytes;
-    return bytes + brc_softening_bytes(scene, n, entries, coeff_bytes);
+    return bytes + brc_rings_bytes(scene, n, state_bytes) + brc_softening_bytes(scene, n, entries, coeff_bytes);
 }
 
 static brc_status check_scene(const brc_simulation *s)
@@ -218,6 +219,7 @@ void brc_cell_breaks_free(brc_simulation *s)
     brc_cell_breaks *c = s->fracture->cells;
     if (!c) return;
     brc_softening_free(s);
+    brc_rings_free(&c->rings);
     brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->misfit, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found,
                           &c->branch, &c->spanned, &c->reach};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
@@ -229,11 +231,11 @@ void brc_cell_breaks_free(brc_simulation *s)
 
 bool brc_cell_breaks_by_bond(const brc_simulation *s) { return s->fracture && s->fracture->cells && !s->fracture->cells->by_element; }
 
-brc_status brc_cell_breaks_gradients(brc_simulation *s, brc_buffer *displacement)
+brc_status brc_cell_breaks_gradients(brc_simulation *s, brc_buffer *displacement, const brc_ring_list *list, int ring)
 {
     brc_cell_breaks *c = s->fracture->cells;
-    return BRC_LAUNCH(c->gradient, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area),
-                      BRC_BUF(s->ratio), BRC_BUF(displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient), BRC_BUF(c->misfit));
+    return BRC_PASS(s, c->gradient, c->gradient_listed, list, ring, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area),
+                    BRC_BUF(s->ratio), BRC_BUF(displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient), BRC_BUF(c->misfit));
 }
 
 /* Bonds above a share of their limit are marked; *n: marks. */
@@ -245,27 +247,32 @@ static brc_status mark_bonds(brc_simulation *s, double share, double *n)
     BRC_TRY(BRC_LAUNCH(c->check, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(share), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress),
                        BRC_BUF(c->modulus), BRC_BUF(c->misfit), BRC_BUF(c->least), BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure),
-                       BRC_BUF(c->found)));
+                       BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
     return brc_vector_sum(s, c->found, s->n_groups, n);
 }
 
-/* Marked bonds go, then the bonds of elements that the others no longer hold, until all that are left are held. */
-static brc_status break_marked(brc_simulation *s)
+/* Marked bonds go, then the bonds of elements that the others no longer hold, until all that are left are held. *energy: what the elements whose energy
+ * that changes held before, each looked at before a bond near it goes [J]. */
+static brc_status break_marked(brc_simulation *s, double *energy)
 {
     brc_breaking *f = s->fracture;
     brc_cell_breaks *c = f->cells;
     const int32_t n = s->layout->n_rows;
     double left = 1;
+    *energy = 0;
     for (int round = 0; left > 0; ++round) {
+        double more;
+        BRC_TRY(brc_rings_find(s, c->rings));
+        BRC_TRY(brc_force_energy_around(s, c->rings, 0, &more));
+        *energy += more;
         BRC_TRY(BRC_LAUNCH(c->break_pass, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_INT(round == 0), BRC_INT(brc_is_dlsm(s) ? 3 : 1),
-                           BRC_BUF(s->row_start),
-                           BRC_BUF(c->twin), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->alive), BRC_BUF(s->neighbour), BRC_BUF(s->area),
+                           BRC_BUF(s->row_start), BRC_BUF(c->twin), BRC_BUF(c->rings->touched), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->alive), BRC_BUF(s->neighbour), BRC_BUF(s->area),
                            BRC_BUF(s->ratio), BRC_BUF(c->limit), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
                            BRC_BUF(f->break_energy), BRC_BUF(c->weight), BRC_BUF(c->changed), BRC_BUF(f->broken)));
         if (brc_is_published(s)) return brc_published_breaks_rebuild(s); /* its elements hang on by any bond */
-        BRC_TRY(BRC_LAUNCH(c->rebuild, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(c->alive),
+        BRC_TRY(BRC_LAUNCH(c->rebuild, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(c->alive),
                            BRC_BUF(c->limit), BRC_BUF(s->inv_volume), BRC_BUF(c->support), BRC_BUF(c->stiffest), BRC_BUF(c->changed), BRC_BUF(c->least),
-                           BRC_BUF(s->inv_shape), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->found)));
+                           BRC_BUF(s->inv_shape), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
         BRC_TRY(brc_vector_sum(s, c->found, n, &left));
     }
     return BRC_OK;
@@ -285,41 +292,50 @@ static brc_status kick(brc_simulation *s, double by)
     return s->strikers ? brc_strikers_advance(s, by, 0, 0, false) : BRC_OK;
 }
 
-/* All that cells hold together with their bonds and surfaces [J]. */
-static brc_status held_energy(brc_simulation *s, double *out)
+/* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in elements. */
+static brc_status outside_energy(brc_simulation *s, double *out)
 {
-    double elastic, stabilisation, touching;
-    BRC_TRY(brc_force_energies(s, &elastic, &stabilisation));
+    double touching;
+    BRC_TRY(brc_force_held_energy(s, out));
     BRC_TRY(brc_contact_stored(s, &touching));
-    *out = elastic + stabilisation + touching;
+    *out += touching;
     return BRC_OK;
 }
 
 brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double share)
 {
     brc_breaking *f = s->fracture;
-    const int32_t n = s->layout->n_rows;
-    double marked, before, after, weight;
+    brc_rings *rings = f->cells->rings;
+    const int n_rings = brc_is_published(s) ? 1 : 3;
+    double marked, before, outside_before, after, outside, weight;
     if (brc_softening_is_on(s)) BRC_TRY(brc_softening_step(s, share, &marked));
     else BRC_TRY(mark_bonds(s, share, &marked));
     if (!(marked > 0)) return BRC_OK;
-    BRC_TRY(held_energy(s, &before));
-    BRC_TRY(kick(s, half_kick)); /* the step closes with the force of the whole bonds ... */
-    BRC_TRY(break_marked(s));
+    /* The step closes with the force of the whole bonds, and the next one opens with that of those that are left: velocities gain half a kick of the
+     * one and lose half a kick of the other, in the rings where they differ, or all of them where contact acts on the elements besides. */
+    rings->whole_force = s->contact || s->strikers || rings->always_whole;
+    rings->half_kick = half_kick;
+    BRC_TRY(outside_energy(s, &outside_before));
+    if (rings->whole_force) BRC_TRY(kick(s, half_kick));
+    BRC_TRY(break_marked(s, &before));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
     const brc_step_phase phase = brc_phase_within(s, BRC_PHASE_SEARCH);
     BRC_TRY(brc_contact_broken(s, 0));
     brc_phase_within(s, phase);
     BRC_TRY(brc_softening_recount(s));
-    BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
-    BRC_TRY(kick(s, -half_kick)); /* ... and the next one opens with that of those that are left */
-    BRC_TRY(held_energy(s, &after));
-    BRC_TRY(brc_vector_sum(s, f->cells->weight, n, &weight));
+    BRC_TRY(brc_rings_close(s, rings, n_rings, &rings->around));
+    BRC_TRY(brc_force_around_breaks(s, rings));
+    if (rings->whole_force) BRC_TRY(kick(s, -half_kick));
+    BRC_TRY(brc_force_energy_around(s, rings, 1, &after));
+    BRC_TRY(outside_energy(s, &outside));
+    BRC_TRY(brc_rings_sum(s, rings, &rings->around, rings->around.n[0], f->cells->weight, &weight));
     if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */
     BRC_TRY(brc_softening_refresh(s));
-    BRC_TRY(BRC_LAUNCH(f->cells->share, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_STATE((before - after) / weight), BRC_BUF(s->row_start),
-                      BRC_BUF(f->break_step), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy), BRC_BUF(f->lost)));
-    return brc_softening_settle(s);
+    const int32_t n = rings->around.n[0];
+    BRC_TRY(BRC_LAUNCH(f->cells->share, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_STATE((before + outside_before - after - outside) / weight),
+                       BRC_BUF(rings->around.list), BRC_BUF(s->row_start), BRC_BUF(f->break_step), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy),
+                       BRC_BUF(f->lost)));
+    return brc_softening_settle(s, &rings->around);
 }
 
 brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)

@@ -5,9 +5,11 @@
 
 #include "cell_breaks.h"
 #include "fracture_internal.h"
+#include "rings.h"
 
 struct brc_cell_breaks {
-    brc_kernel *gradient, *check, *ratio, *break_pass, *rebuild, *share;
+    brc_kernel *gradient, *gradient_listed, *check, *ratio, *break_pass, *rebuild, *share;
+    brc_rings *rings;                                               /* around the bonds that break */
     brc_buffer *limit, *twin, *alive, *mark, *measure;              /* [n_slots][C] */
     brc_buffer *modulus, *misfit, *least, *support, *stiffest, *changed; /* [n_rows] */
     brc_buffer *weight, *found;                                     /* [n_rows] */
@@ -15,7 +17,7 @@ struct brc_cell_breaks {
     bool by_element;                          /* criteria of elements: what follows, and the arrays of kernels/fracture.cl */
     brc_kernel *record, *mark_chosen, *weigh; /* kernels/cell_criteria.cl */
     brc_buffer *branch;                       /* dlsm: [n_slots][3][C], owned */
-    brc_kernel *breaking_strain, *breaking_force; /* dlsm-published: kernels/published_breaks.cl */
+    brc_kernel *breaking_strain, *breaking_force, *breaking_strain_listed, *breaking_force_listed; /* dlsm-published: kernels/published_breaks.cl */
     brc_buffer *spanned, *reach;                  /* [n_slices][6][C], [n_rows] */
 };
 

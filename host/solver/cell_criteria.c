@@ -57,7 +57,7 @@ brc_status brc_cell_criteria_mark(brc_simulation *s, double *n)
     BRC_TRY(record(s));
     BRC_TRY(brc_fracture_choose(s, (int32_t)brc_fracture_moment(s)));
     BRC_TRY(BRC_LAUNCH(c->mark_chosen, rows, BRC_INT(rows), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->choice), BRC_BUF(f->measure),
-                       BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->found)));
+                       BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
     return brc_vector_sum(s, c->found, rows, n);
 }
 

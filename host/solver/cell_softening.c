@@ -22,7 +22,9 @@ struct brc_softening_faces {
     brc_kernel *gradient, *flux, *take_force, *move, *measure, *book, *check, *begin, *count, *energy, *settle;
     brc_buffer *crack, *open, *lead;     /* [n_slots][WIDTH][C], [n_slots][C] */
     brc_buffer *n_open, *reach, *shear;  /* [n_rows] */
+    brc_ring_list around;                /* cells with open faces, for the sweeps */
     bool any;                            /* some face has opened */
+    bool is_listed;                      /* around is of the faces that are open now */
 };
 typedef struct brc_softening_faces softening_faces;
 
@@ -117,6 +119,7 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->reach, layout->n_rows, "reach of open faces"));
     BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->n_open, 4 * (int64_t)layout->n_rows, "open faces"));
     BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->open, 4 * n_entries, "open faces"));
+    BRC_TRY_OR(cleanup, brc_ring_list_create(s, &f->around));
 cleanup:
     brc_memory_free(crack);
     brc_memory_free(lead);
@@ -141,7 +144,7 @@ void brc_softening_free(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
     if (!f) return;
-    brc_buffer **all[] = {&f->crack, &f->open, &f->lead, &f->n_open, &f->reach, &f->shear};
+    brc_buffer **all[] = {&f->crack, &f->open, &f->lead, &f->n_open, &f->reach, &f->shear, &f->around.list};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     brc_memory_free(f);
     s->fracture->cells->softening = NULL;
@@ -153,21 +156,23 @@ static double one_modulus(const brc_simulation *s) { return s->elastic[s->materi
 static double one_plus_tau(const brc_simulation *s) { return 1 + s->scene->model.tau; }
 static double beta(const brc_simulation *s) { return s->scene->model.compaction ? s->scene->model.beta : 0; }
 
-brc_status brc_softening_gradient(brc_simulation *s)
+brc_status brc_softening_gradient(brc_simulation *s, const brc_ring_list *list, int ring)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
+    const bool whole = brc_pass_is_whole(s, list, ring);
+    const int32_t n = whole ? s->layout->n_rows : list->n[ring];
     if (!f || !f->any) return BRC_OK;
-    return BRC_LAUNCH(f->gradient, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open),
+    return BRC_LAUNCH(f->gradient, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->list), BRC_BUF(s->row_start), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open),
                       BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient));
 }
 
-brc_status brc_softening_flux(brc_simulation *s)
+brc_status brc_softening_flux(brc_simulation *s, const brc_ring_list *list, int ring)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
+    const bool whole = brc_pass_is_whole(s, list, ring);
+    const int32_t n = whole ? s->layout->n_rows : list->n[ring];
     if (!f || !f->any || !brc_device_has_many_materials(s->device)) return BRC_OK;
-    return BRC_LAUNCH(f->flux, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
+    return BRC_LAUNCH(f->flux, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->list), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
                       BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient), BRC_BUF(s->modulus),
                       BRC_BUF(s->ell_of), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->flux));
 }
@@ -210,8 +215,10 @@ brc_status brc_softening_move(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
     if (!f || !f->any) return BRC_OK;
-    for (int k = 0; k < N_SWEEPS; ++k) {
-        BRC_TRY(brc_force_fluxes_of_state(s));
+    if (!f->is_listed) BRC_TRY(brc_rings_around(s, s->fracture->cells->rings, f->n_open, 2, &f->around));
+    f->is_listed = true;
+    for (int k = 0; k < N_SWEEPS; ++k) { /* between sweeps only the openings change */
+        BRC_TRY(brc_force_fluxes_of_state(s, s->contact ? NULL : &f->around, k == 0));
         BRC_TRY(sweep(s, k == 0));
     }
     return BRC_OK;
@@ -225,7 +232,7 @@ static brc_status measure(brc_simulation *s, int book)
     return BRC_LAUNCH(f->measure, n, BRC_INT(n), BRC_INT(book), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(c->alive),
                       BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->ratio),
                       BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement), BRC_BUF(s->flux),
-                      BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->found));
+                      BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found));
 }
 
 brc_status brc_softening_recount(brc_simulation *s)
@@ -234,6 +241,7 @@ brc_status brc_softening_recount(brc_simulation *s)
     brc_cell_breaks *c = s->fracture->cells;
     const int32_t n = s->layout->n_rows;
     if (!f) return BRC_OK;
+    f->is_listed = false;
     return BRC_LAUNCH(f->count, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(c->alive), BRC_BUF(f->open), BRC_BUF(c->limit), BRC_BUF(s->area),
                       BRC_BUF(s->inv_shape), BRC_BUF(f->n_open), BRC_BUF(f->reach), BRC_BUF(c->least));
 }
@@ -263,7 +271,7 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
         BRC_TRY(BRC_LAUNCH(f->begin, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(f->lead), BRC_BUF(s->area),
                            BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement),
                            BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(f->crack), BRC_BUF(c->limit),
-                           BRC_BUF(f->open), BRC_BUF(c->found)));
+                           BRC_BUF(f->open), BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
         BRC_TRY(brc_vector_sum(s, c->found, n, &brittle));
         BRC_TRY(brc_softening_recount(s));
     }
@@ -271,12 +279,12 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
     return BRC_OK;
 }
 
-brc_status brc_softening_settle(brc_simulation *s)
+brc_status brc_softening_settle(brc_simulation *s, const brc_ring_list *around)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
+    const int32_t n = around->n[0];
     if (!f) return BRC_OK;
-    return BRC_LAUNCH(f->settle, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_BUF(s->row_start), BRC_BUF(s->fracture->break_step), BRC_BUF(f->open),
+    return BRC_LAUNCH(f->settle, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_BUF(around->list), BRC_BUF(s->row_start), BRC_BUF(s->fracture->break_step), BRC_BUF(f->open),
                       BRC_BUF(f->crack), BRC_BUF(s->fracture->break_energy));
 }
 
@@ -299,6 +307,7 @@ brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
 {
     softening_faces *f = faces_of(s);
     if (!f) return BRC_OK;
+    f->is_listed = false;
     const brc_state_entry entries[] = {
         {"softening.crack", f->crack, BRC_ENTRIES, BRC_OF_COEFF, WIDTH, NULL},
         {"softening.open", f->open, BRC_ENTRIES, BRC_OF_INT, 1, NULL},
@@ -316,7 +325,7 @@ int64_t brc_softening_bytes(const brc_scene *scene, int64_t n, int64_t entries, 
     bool softens = false;
     for (int32_t m = 0; m < scene->n_materials; ++m) softens = softens || scene->materials[m].fracture_energy > 0;
     for (int32_t k = 0; k < scene->n_interfaces; ++k) softens = softens || scene->interfaces[k].fracture_energy > 0;
-    return softens ? entries * (WIDTH * coeff_bytes + 8) + n * (2 * coeff_bytes + 4) : 0;
+    return softens ? entries * (WIDTH * coeff_bytes + 8) + n * (2 * coeff_bytes + 8) : 0;
 }
 
 /* ---- what came of it ---- */

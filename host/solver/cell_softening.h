@@ -12,9 +12,10 @@ brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strength
 void brc_softening_free(brc_simulation *s);
 bool brc_softening_is_on(const brc_simulation *s);
 
-/* What the openings change in an evaluation: H after the pass of gradients, B after that of fluxes, the forces; energies after those of the bonds. */
-brc_status brc_softening_gradient(brc_simulation *s);
-brc_status brc_softening_flux(brc_simulation *s);
+/* What the openings change in an evaluation: H after the pass of gradients, B after that of fluxes (of the rings that the pass went over), the forces;
+ * energies after those of the bonds. */
+brc_status brc_softening_gradient(brc_simulation *s, const struct brc_ring_list *list, int ring);
+brc_status brc_softening_flux(brc_simulation *s, const struct brc_ring_list *list, int ring);
 brc_status brc_softening_force(brc_simulation *s, brc_buffer *force);
 brc_status brc_softening_energy(brc_simulation *s);
 
@@ -26,8 +27,8 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended);
 /* After bonds broke: counts of open faces anew, before the forces are evaluated; and after it, their forces. */
 brc_status brc_softening_recount(brc_simulation *s);
 brc_status brc_softening_refresh(brc_simulation *s);
-/* After the energies of the broken bonds were shared out. */
-brc_status brc_softening_settle(brc_simulation *s);
+/* After the energies of the broken bonds, around which the list is, were shared out. */
+brc_status brc_softening_settle(brc_simulation *s, const struct brc_ring_list *around);
 
 /* Static stages: refuses events, and faces that stand open (their openings would not follow). */
 brc_status brc_softening_begin_stage(brc_simulation *s);

@@ -5,6 +5,7 @@
 #include "contact.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
+#include "rings.h"
 #include "strikers_internal.h"
 
 /* Constants handed to kernels; with several materials the kernels gather them instead. */
@@ -13,15 +14,28 @@ static double beta(const brc_simulation *s) { return s->scene->model.compaction 
 
 static bool has_face_loads(const brc_simulation *s) { return s->loads.held.n_faces > 0 || s->loads.n_tractions > 0; }
 
+/* The rings that each pass of dlsm goes over: list NULL, all elements. */
+typedef struct dlsm_extent {
+    const brc_ring_list *list;
+    int gradient, stress, flux, force;
+    bool whole_flux; /* of all elements all the same */
+} dlsm_extent;
+
+static dlsm_extent extent_of(const brc_force_request *r)
+{
+    if (!r->rings) return (dlsm_extent){0};
+    return (dlsm_extent){.list = &r->rings->around, .gradient = 0, .stress = 1, .flux = 2, .force = 3, .whole_flux = r->rings->whole_force};
+}
+
 /* H and, where faces are held, their part of G. */
-static brc_status dlsm_gradients(brc_simulation *s, const brc_force_request *r)
+static brc_status dlsm_gradients(brc_simulation *s, const brc_force_request *r, const dlsm_extent *x)
 {
     brc_held_faces *h = &s->loads.held;
-    if (brc_cell_breaks_by_bond(s) && r->finite) BRC_TRY(brc_cell_breaks_gradients(s, r->displacement));
+    if (brc_cell_breaks_by_bond(s) && r->finite) BRC_TRY(brc_cell_breaks_gradients(s, r->displacement, x->list, x->gradient));
     else
-        BRC_TRY(BRC_LAUNCH(s->kernel.gradient, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                           BRC_BUF(s->area), BRC_BUF(r->displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient)));
-    if (!r->homogeneous) BRC_TRY(brc_softening_gradient(s));
+        BRC_TRY(BRC_PASS(s, s->kernel.gradient, s->kernel.gradient_listed, x->list, x->gradient, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                         BRC_BUF(s->area), BRC_BUF(r->displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient)));
+    if (!r->homogeneous) BRC_TRY(brc_softening_gradient(s, x->list, x->gradient));
     if (h->n_faces)
         BRC_TRY(BRC_LAUNCH(s->kernel.held_gradient, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
                            BRC_BUF(h->place), BRC_BUF(h->face_start), BRC_BUF(h->area), BRC_BUF(h->arm), BRC_BUF(h->held),
@@ -86,36 +100,38 @@ static brc_status dlsm_face_forces(brc_simulation *s, const brc_force_request *r
 }
 
 /* H, P and B. */
-static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r)
+static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r, const dlsm_extent *x)
 {
     const brc_elastic *m = one_material(s);
     const double one_plus_tau = 1 + s->scene->model.tau;
     const int finite = r->finite ? 1 : 0, face_loads = has_face_loads(s) ? 1 : 0;
-    BRC_TRY(dlsm_gradients(s, r));
+    const brc_ring_list *flux_list = x->whole_flux ? NULL : x->list;
+    BRC_TRY(dlsm_gradients(s, r, x));
     if (r->displacement == s->displacement && !r->homogeneous) BRC_TRY(brc_contact_gradients(s));
-    BRC_TRY(BRC_LAUNCH(s->kernel.stress, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
-                       BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
-                       BRC_COEFF(m->mu), BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->stress)));
+    BRC_TRY(BRC_PASS(s, s->kernel.stress, s->kernel.stress_listed, x->list, x->stress, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                     BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
+                     BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
+                     BRC_COEFF(m->mu), BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->stress)));
     BRC_TRY(dlsm_face_moments(s, r));
-    BRC_TRY(BRC_LAUNCH(s->kernel.flux, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(r->displacement),
-                       BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume),
-                       BRC_BUF(s->boundary), BRC_BUF(s->held_moment), BRC_INT(face_loads || brc_contact_acts(s, r) ? 1 : 0), BRC_COEFF(m->k),
-                       BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau), BRC_BUF(s->material),
-                       BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(s->flux), BRC_BUF(s->bond_part)));
-    return r->homogeneous ? BRC_OK : brc_softening_flux(s);
+    BRC_TRY(BRC_PASS(s, s->kernel.flux, s->kernel.flux_listed, flux_list, x->flux, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                     BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(r->displacement),
+                     BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume),
+                     BRC_BUF(s->boundary), BRC_BUF(s->held_moment), BRC_INT(face_loads || brc_contact_acts(s, r) ? 1 : 0), BRC_COEFF(m->k),
+                     BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau), BRC_BUF(s->material),
+                     BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(s->flux), BRC_BUF(s->bond_part)));
+    return r->homogeneous ? BRC_OK : brc_softening_flux(s, flux_list, x->flux);
 }
 
 static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
 {
     const brc_elastic *m = one_material(s);
     const double one_plus_tau = 1 + s->scene->model.tau;
-    BRC_TRY(dlsm_fluxes(s, r));
-    BRC_TRY(BRC_LAUNCH(s->kernel.force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(s->flux),
-                       BRC_BUF(s->bond_part), BRC_COEFF(m->k), BRC_COEFF(one_plus_tau), BRC_BUF(s->modulus),
-                       BRC_BUF(r->force)));
+    const dlsm_extent x = extent_of(r);
+    BRC_TRY(dlsm_fluxes(s, r, &x));
+    BRC_TRY(BRC_PASS(s, s->kernel.force, s->kernel.force_listed, x.whole_flux ? NULL : x.list, x.force, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                     BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(s->flux),
+                     BRC_BUF(s->bond_part), BRC_COEFF(m->k), BRC_COEFF(one_plus_tau), BRC_BUF(s->modulus),
+                     BRC_BUF(r->force)));
     if (!r->homogeneous) BRC_TRY(brc_softening_force(s, r->force));
     return dlsm_face_forces(s, r);
 }
@@ -124,17 +140,18 @@ static brc_status published_evaluate(brc_simulation *s, const brc_force_request 
 {
     const brc_elastic *m = one_material(s);
     const int finite = r->finite ? 1 : 0;
+    const brc_ring_list *list = r->rings && !r->rings->whole_force ? &r->rings->around : NULL;
     if (s->fracture) BRC_TRY(brc_published_breaks_strains(s, r));
     else
         BRC_TRY(BRC_LAUNCH(s->kernel.published_strain, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                            BRC_BUF(s->offset), BRC_BUF(s->area), BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(r->displacement),
                            BRC_BUF(r->orientation), BRC_BUF(s->inv_shape), BRC_INT(finite), BRC_BUF(s->gradient)));
     if (brc_cell_breaks_by_bond(s) && r->finite) return brc_published_breaks_force(s, r);
-    return BRC_LAUNCH(s->kernel.published_force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start),
-                      BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->area), BRC_BUF(r->displacement),
-                      BRC_BUF(r->orientation), BRC_BUF(s->gradient), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
-                      BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_BUF(s->lame_of),
-                      BRC_INT(finite), BRC_BUF(r->force), BRC_BUF(r->torque));
+    return BRC_PASS(s, s->kernel.published_force, s->kernel.published_force_listed, list, 1, BRC_BUF(s->row_start),
+                    BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->area), BRC_BUF(r->displacement),
+                    BRC_BUF(r->orientation), BRC_BUF(s->gradient), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
+                    BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_BUF(s->lame_of),
+                    BRC_INT(finite), BRC_BUF(r->force), BRC_BUF(r->torque));
 }
 
 brc_status brc_force_turned_tractions(brc_simulation *s, const brc_force_request *r)
@@ -181,6 +198,12 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
     const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
     BRC_TRY(brc_pushes_apply(s, r));
     BRC_TRY(brc_force_turned_tractions(s, r));
+    brc_force_request all = *r;
+    if (r->rings && !r->rings->whole_force) { /* from here on forces are those of the whole body */
+        BRC_TRY(brc_rings_replace(s, r->rings, brc_is_published(s) ? 1 : 3));
+        all.force = s->force, all.torque = s->torque;
+        r = &all;
+    }
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
         const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(brc_imposed_of(stage, m), r->t);
@@ -212,15 +235,68 @@ brc_status brc_force_of_state(brc_simulation *s, brc_booking book)
     return brc_force_evaluate(s, &request);
 }
 
-brc_status brc_force_fluxes_of_state(brc_simulation *s)
+brc_status brc_force_around_breaks(brc_simulation *s, const brc_rings *rings)
+{
+    brc_force_request request = request_of_state(s, BRC_BOOK_START);
+    request.rings = rings;
+    if (!rings->whole_force) request.force = rings->force, request.torque = rings->torque;
+    return brc_force_evaluate(s, &request);
+}
+
+brc_status brc_force_fluxes_of_state(brc_simulation *s, const brc_ring_list *list, bool moved)
 {
     const brc_force_request request = request_of_state(s, BRC_BOOK_NOTHING);
-    return dlsm_fluxes(s, &request);
+    const dlsm_extent x = {.list = list, .gradient = moved ? 2 : 0, .stress = 1, .flux = 0};
+    return dlsm_fluxes(s, &request, &x);
+}
+
+/* Energies of the elements of cells, s->elastic_energy and, of dlsm, s->stabilisation_energy; without those of held faces. */
+static brc_status cell_energies(brc_simulation *s, const brc_ring_list *list, int ring)
+{
+    const brc_elastic *m = one_material(s);
+    if (brc_is_published(s)) {
+        if (brc_pass_is_whole(s, list, ring))
+            return BRC_LAUNCH(s->kernel.published_energy, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_BUF(s->gradient), BRC_BUF(s->volume),
+                              BRC_COEFF(m->lambda), BRC_COEFF(m->mu), BRC_BUF(s->lame_of), BRC_BUF(s->elastic_energy));
+        return BRC_PASS(s, s->kernel.published_energy, s->kernel.published_energy_listed, list, ring, BRC_BUF(s->gradient), BRC_BUF(s->volume),
+                        BRC_COEFF(m->lambda), BRC_COEFF(m->mu), BRC_BUF(s->lame_of), BRC_BUF(s->elastic_energy));
+    }
+    BRC_TRY(BRC_PASS(s, s->kernel.energy, s->kernel.energy_listed, list, ring, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                     BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement),
+                     BRC_BUF(s->gradient), BRC_BUF(s->inv_volume), BRC_BUF(s->boundary),
+                     BRC_BUF(s->held_gradient), BRC_INT(has_face_loads(s) ? 1 : 0), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
+                     BRC_COEFF(m->k), BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(1 + s->scene->model.tau),
+                     BRC_BUF(s->material), BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(s->scene->model.small_rotations ? 0 : 1),
+                     BRC_BUF(s->elastic_energy), BRC_BUF(s->stabilisation_energy)));
+    return brc_softening_energy(s);
+}
+
+brc_status brc_force_held_energy(brc_simulation *s, double *out)
+{
+    brc_held_faces *h = &s->loads.held;
+    *out = 0;
+    if (!h->n_faces) return BRC_OK;
+    BRC_TRY(BRC_LAUNCH(s->kernel.held_energy, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
+                       BRC_BUF(h->face_start), BRC_BUF(h->arm), BRC_BUF(h->held), BRC_BUF(h->spring), BRC_BUF(h->value),
+                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(h->energy)));
+    return brc_vector_sum(s, h->energy, h->n_faces, out);
+}
+
+brc_status brc_force_energy_around(brc_simulation *s, const brc_rings *rings, int ring, double *out)
+{
+    const brc_ring_list *list = &rings->around;
+    double more = 0;
+    BRC_TRY(cell_energies(s, list, ring));
+    BRC_TRY(brc_rings_sum(s, rings, list, list->n[ring], s->elastic_energy, out));
+    if (brc_is_dlsm(s)) BRC_TRY(brc_rings_sum(s, rings, list, list->n[ring], s->stabilisation_energy, &more));
+    *out += more;
+    return BRC_OK;
 }
 
 brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation)
 {
-    const brc_elastic *m = one_material(s);
+    const int32_t n = s->layout->n_rows;
+    double held;
     *stabilisation = 0;
     if (brc_is_beams(s)) {
         const brc_beam *b = brc_beam_of_element(s, 0);
@@ -229,32 +305,13 @@ brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabil
                            BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend), BRC_COEFF(b->twist), BRC_BUF(s->beam_of),
                            BRC_BUF(s->elastic_energy)));
         BRC_TRY(brc_beam_softening_energy(s));
-        return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);
+        return brc_vector_sum(s, s->elastic_energy, n, elastic);
     }
-    if (brc_is_published(s)) {
-        BRC_TRY(BRC_LAUNCH(s->kernel.published_energy, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_BUF(s->gradient),
-                           BRC_BUF(s->volume), BRC_COEFF(m->lambda), BRC_COEFF(m->mu), BRC_BUF(s->lame_of),
-                           BRC_BUF(s->elastic_energy)));
-        return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);
-    }
-    BRC_TRY(BRC_LAUNCH(s->kernel.energy, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement),
-                       BRC_BUF(s->gradient), BRC_BUF(s->inv_volume), BRC_BUF(s->boundary),
-                       BRC_BUF(s->held_gradient), BRC_INT(has_face_loads(s) ? 1 : 0), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
-                       BRC_COEFF(m->k), BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(1 + s->scene->model.tau),
-                       BRC_BUF(s->material), BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(s->scene->model.small_rotations ? 0 : 1),
-                       BRC_BUF(s->elastic_energy), BRC_BUF(s->stabilisation_energy)));
-    BRC_TRY(brc_softening_energy(s));
-    BRC_TRY(brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic));
-    BRC_TRY(brc_vector_sum(s, s->stabilisation_energy, s->layout->n_rows, stabilisation));
-    brc_held_faces *h = &s->loads.held;
-    if (h->n_faces) {
-        double part;
-        BRC_TRY(BRC_LAUNCH(s->kernel.held_energy, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
-                           BRC_BUF(h->face_start), BRC_BUF(h->arm), BRC_BUF(h->held), BRC_BUF(h->spring), BRC_BUF(h->value),
-                           BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(h->energy)));
-        BRC_TRY(brc_vector_sum(s, h->energy, h->n_faces, &part));
-        *stabilisation += part;
-    }
+    BRC_TRY(cell_energies(s, NULL, 0));
+    BRC_TRY(brc_vector_sum(s, s->elastic_energy, n, elastic));
+    if (brc_is_published(s)) return BRC_OK;
+    BRC_TRY(brc_vector_sum(s, s->stabilisation_energy, n, stabilisation));
+    BRC_TRY(brc_force_held_energy(s, &held));
+    *stabilisation += held;
     return BRC_OK;
 }

@@ -39,6 +39,7 @@ brc_status brc_published_breaks_create(brc_simulation *s)
     brc_status status = BRC_OK;
     BRC_TRY(brc_kernel_find(s->device, "published_rebuild", &c->rebuild));
     BRC_TRY(brc_kernel_find(s->device, "published_breaking_strain", &c->breaking_strain));
+    BRC_TRY(brc_kernel_find(s->device, "published_breaking_strain_listed", &c->breaking_strain_listed));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &support, layout->n_rows, "supports"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &spanned, 6 * (int64_t)layout->n_rows, "supports"));
 #pragma omp parallel for schedule(static)
@@ -53,6 +54,7 @@ brc_status brc_published_breaks_create(brc_simulation *s)
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, c->support, support, layout->n_rows));
     if (c->by_element) goto cleanup;
     BRC_TRY_OR(cleanup, brc_kernel_find(s->device, "published_breaking_force", &c->breaking_force));
+    BRC_TRY_OR(cleanup, brc_kernel_find(s->device, "published_breaking_force_listed", &c->breaking_force_listed));
     BRC_TRY_OR(cleanup, brc_kernel_find(s->device, "published_check", &c->check));
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &c->reach, layout->n_rows, "ratios of bonds"));
 cleanup:
@@ -64,8 +66,8 @@ cleanup:
 brc_status brc_published_breaks_strains(brc_simulation *s, const brc_force_request *r)
 {
     const brc_cell_breaks *c = s->fracture->cells;
-    return BRC_LAUNCH(c->breaking_strain, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
-                      BRC_BUF(s->area), BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(r->displacement), BRC_BUF(r->orientation),
+    return BRC_PASS(s, c->breaking_strain, c->breaking_strain_listed, r->rings ? &r->rings->around : NULL, 0, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                      BRC_BUF(s->offset), BRC_BUF(s->area), BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(r->displacement), BRC_BUF(r->orientation),
                       BRC_BUF(s->inv_shape), BRC_BUF(c->spanned), BRC_INT(r->finite ? 1 : 0), BRC_BUF(s->gradient));
 }
 
@@ -73,7 +75,8 @@ brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request
 {
     const brc_cell_breaks *c = s->fracture->cells;
     const brc_elastic *m = s->elastic + s->material_of_element[0];
-    return BRC_LAUNCH(c->breaking_force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
+    const brc_ring_list *list = r->rings && !r->rings->whole_force ? &r->rings->around : NULL;
+    return BRC_PASS(s, c->breaking_force, c->breaking_force_listed, list, 1, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
                       BRC_BUF(s->area), BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_BUF(s->gradient), BRC_COEFF(m->lambda),
                       BRC_COEFF(m->mu), BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_BUF(s->lame_of),
                       BRC_BUF(c->limit), BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(c->reach));
@@ -86,7 +89,8 @@ brc_status brc_published_breaks_mark(brc_simulation *s, double share, double *n)
     BRC_TRY(BRC_LAUNCH(c->check, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(share), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->offset), BRC_BUF(s->area), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_BUF(s->gradient),
                        BRC_COEFF(m->lambda), BRC_COEFF(m->mu), BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness),
-                       BRC_BUF(s->lame_of), BRC_BUF(c->limit), BRC_BUF(c->reach), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->found)));
+                       BRC_BUF(s->lame_of), BRC_BUF(c->limit), BRC_BUF(c->reach), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched),
+                       BRC_BUF(c->found)));
     return brc_vector_sum(s, c->found, s->n_groups, n);
 }
 

@@ -12,7 +12,7 @@
 static brc_status find_kernels(brc_simulation *s)
 {
     brc_kernels *k = &s->kernel;
-    const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s), beams = brc_is_beams(s), turns = brc_turns(s);
+    const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s), beams = brc_is_beams(s), turns = brc_turns(s), breaks = s->scene->has_fracture;
     const struct {
         brc_kernel **slot;
         const char *name;
@@ -24,6 +24,11 @@ static brc_status find_kernels(brc_simulation *s)
         {&k->force, "dlsm_force", dlsm},
         {&k->energy, "dlsm_energy", dlsm},
         {&k->deformation, "dlsm_deformation", dlsm},
+        {&k->gradient_listed, "dlsm_gradient_listed", dlsm && breaks},
+        {&k->stress_listed, "dlsm_stress_listed", dlsm && breaks},
+        {&k->flux_listed, "dlsm_flux_listed", dlsm && breaks},
+        {&k->force_listed, "dlsm_force_listed", dlsm && breaks},
+        {&k->energy_listed, "dlsm_energy_listed", dlsm && breaks},
         {&k->held_prescribe, "held_prescribe", dlsm},
         {&k->held_gradient, "held_gradient_pass", dlsm},
         {&k->held_moment, "held_moment_pass", dlsm},
@@ -36,6 +41,8 @@ static brc_status find_kernels(brc_simulation *s)
         {&k->published_force, "published_force_pass", published},
         {&k->published_energy, "published_energy", published},
         {&k->traction_turned, "traction_turned_pass", published},
+        {&k->published_force_listed, "published_force_listed", published && breaks},
+        {&k->published_energy_listed, "published_energy_listed", published && breaks},
         {&k->cbm_force, "cbm_force_pass", beams},
         {&k->cbm_energy, "cbm_energy", beams},
         {&k->cbm_virial, "cbm_virial", beams},

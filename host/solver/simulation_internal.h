@@ -86,6 +86,8 @@ typedef struct brc_loads {
 /* Kernels are looked up once; a name that a model does not use stays NULL. */
 typedef struct brc_kernels {
     brc_kernel *gradient, *stress, *flux, *force, *energy, *deformation;
+    brc_kernel *gradient_listed, *stress_listed, *flux_listed, *force_listed, *energy_listed; /* cells, only with fracture (rings.h) */
+    brc_kernel *published_force_listed, *published_energy_listed;
     brc_kernel *held_prescribe, *held_gradient, *held_moment, *held_force, *held_energy, *traction_moment, *traction_force, *traction_turned;
     brc_kernel *face_displacement;
     brc_kernel *cbm_force, *cbm_energy, *cbm_virial, *turn_orientation, *precondition6;
@@ -250,6 +252,8 @@ brc_status brc_loads_work(brc_simulation *s, double *out);
 
 /* ---- force.c: one evaluation, either model ---- */
 typedef enum brc_booking { BRC_BOOK_NOTHING, BRC_BOOK_WORK, BRC_BOOK_START } brc_booking; /* `book` of the kernels */
+struct brc_rings; /* rings.h */
+struct brc_ring_list;
 typedef struct brc_force_request {
     brc_buffer *displacement, *force; /* [n_rows][3] */
     brc_buffer *orientation, *torque; /* published */
@@ -257,16 +261,23 @@ typedef struct brc_force_request {
     bool homogeneous; /* held faces at zero, no tractions, no gravity: the linear operator */
     brc_booking book; /* work of loads: leave, add, or start from here */
     double t;         /* time of the stage, for tractions */
+    const struct brc_rings *rings; /* cells: only what the bonds that broke in this step change; NULL: everything */
 } brc_force_request;
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *request);
 /* dlsm-published: force and torque of tractions, added to those of the request; part of brc_force_evaluate but for homogeneous requests. */
 brc_status brc_force_turned_tractions(brc_simulation *s, const brc_force_request *r);
 /* The simulation's own state, with the full law, at its time. */
 brc_status brc_force_of_state(brc_simulation *s, brc_booking book);
-/* dlsm: of the same only H, P and B, with which the forces of single bonds can be formed; books nothing. */
-brc_status brc_force_fluxes_of_state(brc_simulation *s);
+/* The same where only what broken bonds change is evaluated. */
+brc_status brc_force_around_breaks(brc_simulation *s, const struct brc_rings *rings);
+/* dlsm: of the same only H, P and B, with which the forces of single bonds can be formed; books nothing. list (NULL: all elements): B is wanted in its
+ * ring 0, so P in ring 1 and H, where the elements moved, in ring 2, else in ring 0. */
+brc_status brc_force_fluxes_of_state(brc_simulation *s, const struct brc_ring_list *list, bool moved);
 /* Only H and G's held part, for outputs after the state moved. */
 brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation);
+/* Cells: energy of the rings 0 to `ring` of rings->around, elastic and of stabilisation; that of held faces is apart [J]. */
+brc_status brc_force_energy_around(brc_simulation *s, const struct brc_rings *rings, int ring, double *out);
+brc_status brc_force_held_energy(brc_simulation *s, double *out);
 
 /* ---- phases.c ---- */
 /* The watch goes on in `phase`; returns the one before, to go back to. A failure need not: the run ends. */

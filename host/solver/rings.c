@@ -1,0 +1,119 @@
+#include "rings.h"
+
+enum { BLOCK = 1024 }; /* SCAN_BLOCK of kernels/scan.cl */
+
+static int32_t blocks_of(const brc_simulation *s) { return (s->layout->n_rows + BLOCK - 1) / BLOCK; }
+
+brc_status brc_rings_create(brc_simulation *s, brc_rings **out)
+{
+    BRC_TRY(BRC_ALLOCATE(s->context, out, 1, "rings around broken bonds"));
+    brc_rings *r = *out;
+    const int64_t n = s->layout->n_rows;
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+    } wanted[] = {{&r->spread, "ring_spread"}, {&r->seed, "ring_seed"}, {&r->count_pass, "ring_count"}, {&r->tops, "scan_tops"},
+                  {&r->list_pass, "ring_list"}, {&r->replace, "ring_replace"}, {&r->gather, "vector_gather"}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    BRC_TRY(brc_buffer_create(s->device, &r->touched, 4 * n, "rings around broken bonds"));
+    BRC_TRY(brc_buffer_create(s->device, &r->level, 4 * n, "rings around broken bonds"));
+    BRC_TRY(brc_buffer_create(s->device, &r->count, 4 * (BRC_RING_KINDS * (int64_t)blocks_of(s) + 1), "rings around broken bonds"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &r->count_read, BRC_RING_KINDS * (int64_t)blocks_of(s) + 1, "rings around broken bonds"));
+    BRC_TRY(brc_new_state(s, &r->force, 3 * n, "forces around broken bonds"));
+    if (brc_turns(s)) BRC_TRY(brc_new_state(s, &r->torque, 3 * n, "torques around broken bonds"));
+    return brc_ring_list_create(s, &r->around);
+}
+
+void brc_rings_free(brc_rings **rings)
+{
+    brc_rings *r = *rings;
+    if (!r) return;
+    brc_buffer **all[] = {&r->touched, &r->level, &r->count, &r->force, &r->torque, &r->around.list};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_memory_free(r->count_read);
+    brc_memory_free(r);
+    *rings = NULL;
+}
+
+int64_t brc_rings_bytes(const brc_scene *scene, int64_t n, int64_t state_bytes)
+{
+    const bool turns = scene->model.kind == BRC_MODEL_DLSM_PUBLISHED;
+    return n * (3 * 4 + (turns ? 6 : 3) * state_bytes) + 4 * BRC_RING_KINDS * (n / BLOCK + 1);
+}
+
+brc_status brc_ring_list_create(brc_simulation *s, brc_ring_list *out)
+{
+    return brc_buffer_create(s->device, &out->list, 4 * (int64_t)s->layout->n_rows, "rings of elements");
+}
+
+/* ---- lists ---- */
+
+static brc_status spread(brc_simulation *s, brc_rings *r, brc_buffer *origin, int from, int to)
+{
+    const int32_t n = s->layout->n_rows;
+    return BRC_LAUNCH(r->spread, n, BRC_INT(n), BRC_INT(from), BRC_INT(to), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(origin), BRC_BUF(r->level));
+}
+
+static brc_status make_list(brc_simulation *s, brc_rings *r, int last, brc_ring_list *out)
+{
+    const int32_t n = s->layout->n_rows, n_blocks = blocks_of(s);
+    BRC_TRY(BRC_LAUNCH(r->count_pass, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(last), BRC_BUF(r->touched), BRC_BUF(r->level), BRC_BUF(r->count)));
+    BRC_TRY(BRC_LAUNCH(r->tops, 1, BRC_INT(1), BRC_INT(BRC_RING_KINDS * n_blocks), BRC_BUF(r->count)));
+    BRC_TRY(brc_buffer_read(r->count, 0, r->count_read, brc_buffer_bytes(r->count)));
+    for (int k = 0; k < BRC_RING_KINDS; ++k) out->n[k] = r->count_read[(k + 1) * n_blocks];
+    return BRC_LAUNCH(r->list_pass, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(last), BRC_BUF(r->touched), BRC_BUF(r->level), BRC_BUF(r->count),
+                      BRC_BUF(out->list));
+}
+
+brc_status brc_rings_find(brc_simulation *s, brc_rings *r)
+{
+    BRC_TRY(spread(s, r, r->touched, 1, 1));
+    return make_list(s, r, 0, &r->around);
+}
+
+brc_status brc_rings_close(brc_simulation *s, brc_rings *r, int n_rings, brc_ring_list *out)
+{
+    BRC_TRY(spread(s, r, r->touched, 1, 2));
+    for (int ring = 2; ring <= n_rings; ++ring) BRC_TRY(spread(s, r, r->level, ring, ring + 1));
+    return make_list(s, r, 1, out);
+}
+
+brc_status brc_rings_around(brc_simulation *s, brc_rings *r, brc_buffer *number, int n_rings, brc_ring_list *out)
+{
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(BRC_LAUNCH(r->seed, n, BRC_INT(n), BRC_BUF(number), BRC_BUF(r->touched)));
+    return brc_rings_close(s, r, n_rings, out);
+}
+
+/* ---- what is done with them ---- */
+
+bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int ring) { return !list || 2 * (int64_t)list->n[ring] > s->layout->n_rows; }
+
+brc_status brc_pass_launch(brc_simulation *s, brc_kernel *whole, brc_kernel *listed, const brc_ring_list *list, int ring, int n_args, brc_arg *args)
+{
+    if (brc_pass_is_whole(s, list, ring)) {
+        args[2] = BRC_INT(s->n_groups);
+        return brc_kernel_launch(whole, s->n_groups, n_args - 2, args + 2);
+    }
+    const int32_t n = list->n[ring], lanes = brc_device_lanes(s->device), n_items = (n + lanes - 1) / lanes;
+    args[0] = BRC_INT(n_items), args[1] = BRC_INT(n), args[2] = BRC_BUF(list->list);
+    return brc_kernel_launch(listed, n_items, n_args, args);
+}
+
+brc_status brc_rings_replace(brc_simulation *s, const brc_rings *r, int k)
+{
+    const int32_t n = r->around.n[k];
+    BRC_TRY(BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.list), BRC_BUF(s->mass), BRC_BUF(r->force), BRC_BUF(s->force),
+                       BRC_BUF(s->velocity)));
+    if (!r->torque) return BRC_OK;
+    return BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.list), BRC_BUF(s->inertia), BRC_BUF(r->torque), BRC_BUF(s->torque),
+                      BRC_BUF(s->spin));
+}
+
+brc_status brc_rings_sum(brc_simulation *s, const brc_rings *r, const brc_ring_list *list, int32_t n, brc_buffer *x, double *out)
+{
+    *out = 0;
+    if (n == 0) return BRC_OK;
+    BRC_TRY(BRC_LAUNCH(r->gather, n, BRC_INT(n), BRC_BUF(list->list), BRC_BUF(x), BRC_BUF(s->kinetic)));
+    return brc_vector_sum(s, s->kinetic, n, out);
+}

@@ -1,0 +1,57 @@
+/* Elements around those whose bonds broke or whose faces are open, in rings by bonds (kernels/rings.cl), and element passes over lists of them
+ * (kernels/members.cl). What a broken bond changes ends in the third ring of dlsm: H of its two elements, ring 0; P of ring 1, B of ring 2, forces of
+ * ring 3. In dlsm-published strains change in ring 0 and forces in ring 1. All of it exists only in scenes of cells with fracture. */
+#ifndef BRC_SOLVER_RINGS_H
+#define BRC_SOLVER_RINGS_H
+
+#include "simulation_internal.h"
+
+enum { BRC_RING_KINDS = 4 };
+
+/* Listed elements, ring after ring: n[k] of them are in the rings 0 to k. */
+typedef struct brc_ring_list {
+    brc_buffer *list;
+    int32_t n[BRC_RING_KINDS];
+} brc_ring_list;
+
+typedef struct brc_rings {
+    brc_kernel *spread, *seed, *count_pass, *tops, *list_pass, *replace, *gather;
+    brc_buffer *touched, *level; /* [n_rows] */
+    brc_buffer *count;           /* [BRC_RING_KINDS][blocks] + 1 */
+    int32_t *count_read;         /* the same on the host */
+    brc_buffer *force, *torque;  /* [n_rows][3] of listed elements; the others hold nothing of meaning */
+    brc_ring_list around;        /* the bonds that broke in this step */
+    double half_kick;            /* brc_fracture_step */
+    bool whole_force;            /* something else acts on the elements too (contact): fluxes and forces of all of them */
+    bool always_whole;           /* for comparison: as if something else did */
+} brc_rings;
+
+brc_status brc_rings_create(brc_simulation *s, brc_rings **out);
+void brc_rings_free(brc_rings **rings);
+/* Device bytes they take (n rows). */
+int64_t brc_rings_bytes(const brc_scene *scene, int64_t n, int64_t state_bytes);
+
+/* A list of its own. */
+brc_status brc_ring_list_create(brc_simulation *s, brc_ring_list *out);
+/* Elements in ring 0 (touched) and ring 1 that were not found since the last list was closed: rings->around, all in n[0]. */
+brc_status brc_rings_find(brc_simulation *s, brc_rings *rings);
+/* All that were touched and n_rings rings around them; nothing is touched afterwards. */
+brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, int n_rings, brc_ring_list *out);
+/* The same around elements whose number is above 0. */
+brc_status brc_rings_around(brc_simulation *s, brc_rings *rings, brc_buffer *number, int n_rings, brc_ring_list *out);
+
+/* A pass over the first n elements of a list, by the kernel `listed`, or, where list is NULL or n so many that this is quicker, over all by `whole`:
+ * args are those of `whole` behind three free places (BRC_PASS). */
+brc_status brc_pass_launch(brc_simulation *s, brc_kernel *whole, brc_kernel *listed, const brc_ring_list *list, int ring, int n_args, brc_arg *args);
+#define BRC_PASS(s, whole, listed, list, ring, ...)                                                                                  \
+    brc_pass_launch((s), (whole), (listed), (list), (ring), (int)(sizeof((brc_arg[]){__VA_ARGS__}) / sizeof(brc_arg)) + 3,             \
+                    (brc_arg[]){BRC_INT(0), BRC_INT(0), BRC_INT(0), __VA_ARGS__})
+/* Whether a pass over the rings 0 to `ring` goes over all elements: list NULL, or half of the elements and more. */
+bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int ring);
+
+/* rings->force (and torque) take the places of the forces of the listed rings 0 to k, and the velocities their difference over half a step. */
+brc_status brc_rings_replace(brc_simulation *s, const brc_rings *rings, int k);
+/* Sum of x [n_rows] over the first n of a list, in the order of the list. */
+brc_status brc_rings_sum(brc_simulation *s, const brc_rings *rings, const brc_ring_list *list, int32_t n, brc_buffer *x, double *out);
+
+#endif

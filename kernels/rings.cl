@@ -1,0 +1,83 @@
+/* Rings of elements around others, by bonds: those that a broken bond or an open face changes, ring 0, their neighbours, ring 1, and so on. Passes over
+ * lists of them (members.cl) do what a pass over the whole body would change.
+ *
+ * touched [n]: 1 for elements of ring 0, set by whoever marks bonds. level [n]: 0, or the ring that an element was found to be in: RING_FOUND in ring 0
+ * or 1 and not listed yet, then 1 + its ring. Both are 0 again when the last list is made. */
+
+#define RING_FOUND 1
+#define RING_KINDS 4
+
+/* Elements whose origin is `from` and their neighbours are given the level `to` where they have none. */
+KERNEL void ring_spread(int n, int from, int to, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                        GLOBAL const int *origin, GLOBAL int *level)
+{
+    FOR_EACH_ITEM(e, n) {
+        if (origin[e] == from) {
+            if (level[e] == 0) STORE_SAME(level + e, to);
+            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+                const int j = neighbour[(brc_size)slot * C + e % C];
+                if (level[j] == 0) STORE_SAME(level + j, to);
+            }
+        }
+    }
+}
+
+/* Ring 0 is where some number is above 0. */
+KERNEL void ring_seed(int n, GLOBAL const int *restrict number, GLOBAL int *restrict touched)
+{
+    FOR_EACH_ITEM(e, n) { touched[e] = number[e] > 0; }
+}
+
+/* The list an element belongs to, -1 none. last 0: those found since, in list 0; 1: all, by ring. */
+LAW int ring_of(int last, int touched, int level)
+{
+    if (!last) return level == RING_FOUND ? 0 : -1;
+    return touched ? 0 : level > RING_FOUND ? level - 1 : -1;
+}
+
+/* count[list][block]: how many, in fixed blocks. */
+KERNEL void ring_count(int n_blocks, int n, int last, GLOBAL const int *restrict touched, GLOBAL const int *restrict level, GLOBAL int *restrict count)
+{
+    FOR_EACH_ITEM(b, n_blocks) {
+        const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
+        int sum[RING_KINDS] = {0, 0, 0, 0};
+        for (int e = begin; e < end; ++e) {
+            const int ring = ring_of(last, touched[e], level[e]);
+            if (ring >= 0) sum[ring] += 1;
+        }
+        for (int k = 0; k < RING_KINDS; ++k) count[k * n_blocks + b] = sum[k];
+    }
+}
+
+/* The list, ring after ring in the order of the rows; next: running sums of count, used up. */
+KERNEL void ring_list(int n_blocks, int n, int last, GLOBAL int *restrict touched, GLOBAL int *restrict level, GLOBAL int *restrict next,
+                      GLOBAL int *restrict list)
+{
+    FOR_EACH_ITEM(b, n_blocks) {
+        const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
+        for (int e = begin; e < end; ++e) {
+            const int ring = ring_of(last, touched[e], level[e]);
+            if (ring >= 0) {
+                const int to = next[ring * n_blocks + b];
+                next[ring * n_blocks + b] = to + 1;
+                list[to] = e;
+                level[e] = RING_FOUND + 1;
+            }
+            if (last) touched[e] = 0, level[e] = 0;
+        }
+    }
+}
+
+/* fresh [n][3] takes the place of the force of the listed elements, and their velocity gains half_kick over mass times what the force loses. */
+KERNEL void ring_replace(int n, state half_kick, GLOBAL const int *restrict list, GLOBAL const state *restrict mass, GLOBAL const state *restrict fresh,
+                         GLOBAL state *restrict force, GLOBAL state *restrict velocity)
+{
+    FOR_EACH_ITEM(k, n) {
+        const brc_size e = (brc_size)list[k];
+        for (int c = 0; c < 3; ++c) {
+            const state now = fresh[e * 3 + c];
+            velocity[e * 3 + c] += half_kick * (force[e * 3 + c] - now) / mass[e];
+            force[e * 3 + c] = now;
+        }
+    }
+}
