@@ -1,5 +1,6 @@
 /* How fast the laws go. */
 #include "throughput.h"
+#include "cube.h"
 #include "../host/base/log.h"
 #include "../host/base/memory.h"
 #include "../host/device/device_bandwidth.h"
@@ -10,46 +11,6 @@
 #include <string.h>
 
 #define SAMPLES 5
-
-/* A cube of glass, slightly strained and shaken so that no number is zero; free faces. */
-typedef struct cube {
-    brc_material material;
-    brc_body body;
-    brc_initial initial[2];
-    brc_stage stage;
-    brc_scene scene;
-} cube;
-
-static void make_cube(cube *c, brc_model_kind model)
-{
-    memset(c, 0, sizeof *c);
-    c->material = (brc_material){.name = "glass", .young = 72e9, .poisson = 0.23, .density = 2500};
-    snprintf(c->body.name, sizeof c->body.name, "cube");
-    c->body.shape = (brc_shape){.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}};
-    c->initial[0] = (brc_initial){.kind = BRC_INITIAL_AFFINE, .gradient = {{1e-6, 2e-7, 0}, {0, -3e-7, 1e-7}, {1e-7, 0, 5e-7}}};
-    c->initial[1] = (brc_initial){.kind = BRC_INITIAL_RANDOM, .value = {1e-4, 1e-4, 1e-4}, .seed = 1};
-    /* The paper's time step is far below the critical one at this nu and needs no power iteration. */
-    c->stage = (brc_stage){.name = "run", .solver = BRC_SOLVER_DYNAMIC, .n_initials = 2, .initials = c->initial,
-                           .integrator = model == BRC_MODEL_DLSM_PUBLISHED ? BRC_TCHAMWA_WIELGOSZ : BRC_VELOCITY_VERLET, .phi = 1.03,
-                           .time_step_rule = model == BRC_MODEL_CBM ? BRC_TIME_STEP_AUTO : BRC_TIME_STEP_PUBLISHED, .safety = 0.8, .steps = INT64_C(1) << 40};
-    c->scene = (brc_scene){.version = 1, .folder = ".", .n_materials = 1, .materials = &c->material, .n_bodies = 1,
-                           .bodies = &c->body, .n_stages = 1, .stages = &c->stage,
-                           .model = {.kind = model, .compaction = true, .beta = 1, .tau = 0.1, .rotation_stiffness = 1, .beam_poisson = 0.3, .keep_isolated = true},
-                           .output = {.n_frames = -1}};
-}
-
-/* Beams: a packing with ten beams an element; its relaxation is no part of what is measured, so it stops early. */
-static brc_status build_cube(brc_context *context, int64_t size, bool spheres, brc_domain **out)
-{
-    const brc_build_request packed = {.shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}},
-                                      .fill = {.kind = BRC_FILL_PACKING, .n_elements = size, .radius_spread = 0.125, .coordination = 6.2,
-                                               .tolerance = 0.1, .seed = 1},
-                                      .beams = 10};
-    if (spheres) return brc_domain_build(context, &packed, out);
-    brc_build_request request = {.shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}},
-                                 .fill = {.kind = BRC_FILL_NOISY_GRID, .n_elements = size, .spread = 0.9, .seed = 1}};
-    return brc_domain_build(context, &request, out);
-}
 
 static int ascending(const void *a, const void *b)
 {
@@ -119,8 +80,8 @@ static brc_status measure(brc_context *context, const brc_throughput_request *re
     brc_status status = BRC_OK;
     brc_device *device = NULL;
     brc_simulation *simulation = NULL;
-    cube c;
-    make_cube(&c, model);
+    brc_cube c;
+    brc_cube_make(&c, model);
     const brc_device_request open = {.selector = selector, .precision = precision, .n_threads = n_threads,
                                      .exact = request->exact};
     double bandwidth, samples[SAMPLES];
@@ -193,7 +154,7 @@ brc_status brc_throughput_measure(brc_context *context, const brc_throughput_req
             for (int m = 0; m < request->n_models; ++m) wanted |= (request->models[m] == BRC_MODEL_CBM) == (spheres == 1);
             if (!wanted) continue;
             brc_domain *domain;
-            BRC_TRY(build_cube(context, request->sizes[s], spheres == 1, &domain));
+            BRC_TRY(brc_cube_build(context, request->sizes[s], spheres == 1, &domain));
             const brc_status status = measure_domain(context, request, domain, spheres == 1, rows);
             brc_domain_free(&domain);
             if (status != BRC_OK) return status;

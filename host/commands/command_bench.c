@@ -1,6 +1,7 @@
 /* breccia bench: measurements of speed, and of what accuracy costs. */
 #include "bench_accuracy.h"
 #include "../../bench/contact_cost.h"
+#include "../../bench/effects.h"
 #include "../../bench/throughput.h"
 #include "../base/memory.h"
 #include <errno.h>
@@ -10,13 +11,13 @@
 
 static const brc_option options[] = {
     BRC_OPTION_OUTPUT("folder of rows.json and rows.csv (default results/throughput)"),
-    {"sizes", 0, "LIST", false, "numbers of elements (default 1e4,1e5,1e6)"},
-    {"models", 0, "LIST", false, "dlsm, dlsm-published, cbm (default the first two)"},
-    {"devices", 0, "LIST", false, "default: cpu and every OpenCL device that is here"},
-    {"precisions", 0, "LIST", false, "default double,mixed,single"},
-    {"threads", 't', "LIST", false, "threads of the cpu device (default 1,2)"},
+    {"sizes", 0, "LIST", false, "numbers of elements (default 1e4,1e5,1e6; effects: 2e4)"},
+    {"models", 0, "LIST", false, "dlsm, dlsm-published, cbm (default the first two; effects: all)"},
+    {"devices", 0, "LIST", false, "default: cpu and every OpenCL device that is here; effects: cpu"},
+    {"precisions", 0, "LIST", false, "default double,mixed,single; effects: double"},
+    {"threads", 't', "LIST", false, "threads of the cpu device (default 1,2; effects: 1)"},
     BRC_OPTION_EXACT,
-    {"sample", 0, "SECONDS", false, "least time of each of the five samples (default 0.5)"},
+    {"sample", 0, "SECONDS", false, "least time of each of the five samples (default 0.5; effects: 0.2)"},
     {"copy", 0, "MB", false, "array of the copy that gives the bandwidth (default 256)"},
     {"problems", 0, "LIST", false, "accuracy: which problems (default all; `--problems list` names them)"},
     {"quick", 'q', NULL, false, "accuracy: only the runs small enough for continuous integration"},
@@ -178,14 +179,77 @@ static brc_status run_contact(const brc_session *session, const brc_arguments *a
     return status;
 }
 
+/* Names of a list of models. */
+static brc_status take_models(brc_context *context, int n, const char *const *names, brc_model_kind *out)
+{
+    for (int k = 0; k < n; ++k) {
+        int kind = BRC_MODEL_DLSM;
+        while (kind <= BRC_MODEL_CBM && strcmp(names[k], brc_model_name((brc_model_kind)kind)) != 0) ++kind;
+        if (kind > BRC_MODEL_CBM)
+            return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no model '%s', expected dlsm, dlsm-published or cbm", names[k]);
+        out[k] = (brc_model_kind)kind;
+    }
+    return BRC_OK;
+}
+
+static brc_status print_effect(void *self, const brc_rows *rows)
+{
+    const brc_row *row = &rows->rows[rows->n_rows - 1];
+    char share[32] = "", bound[32] = "";
+    if (number_of(row, "share_in_100_steps") > 0) snprintf(share, sizeof share, "%.2f", 100 * number_of(row, "share_in_100_steps"));
+    if (!isnan(number_of(row, "bound"))) snprintf(bound, sizeof bound, "%.2f", number_of(row, "bound"));
+    printf("%-15s %-52s %9.3f %8.3f (%.3f-%.3f) %6s %-8s %8s\n", text_of(row, "model"), text_of(row, "quantity"), 1e3 * number_of(row, "seconds"),
+           number_of(row, "ours"), number_of(row, "ours_min"), number_of(row, "ours_max"), bound, text_of(row, "verdict"), share);
+    fflush(stdout);
+    return brc_rows_write(rows, self);
+}
+
+static brc_status run_effects(const brc_session *session, const brc_arguments *arguments)
+{
+    static const char *const others[] = {"problems", "quick", "folder", "resume", "exact", "copy"};
+    brc_context *context = session->context;
+    const char *given_folder = brc_arguments_value(arguments, "output"), *pieces[BRC_THROUGHPUT_LIST];
+    char folder[512], copy[5][256];
+    brc_model_kind models[BRC_THROUGHPUT_LIST];
+    double number;
+    int n_sizes = 0, n_devices = 0, n_precisions = 0, n_threads = 0;
+    BRC_TRY(refuse_options(context, arguments, "effects", sizeof others / sizeof *others, others));
+    snprintf(folder, sizeof folder, "%s", given_folder ? given_folder : "results/effects");
+    brc_effects_request request = {.models = models, .sample_s = 0.2, .row = print_effect, .self = folder};
+    BRC_TRY(take_list(context, arguments, "models", "dlsm,dlsm-published,cbm", copy[0], sizeof copy[0], pieces, &request.n_models));
+    BRC_TRY(take_models(context, request.n_models, pieces, models));
+    BRC_TRY(take_list(context, arguments, "sizes", "2e4", copy[1], sizeof copy[1], pieces, &n_sizes));
+    BRC_TRY(take_number(context, "sizes", pieces[0], 8, 1e9, &number));
+    request.size = (int64_t)number;
+    BRC_TRY(take_list(context, arguments, "precisions", "double", copy[2], sizeof copy[2], pieces, &n_precisions));
+    BRC_TRY(brc_precision_parse(context, pieces[0], &request.precision));
+    BRC_TRY(take_list(context, arguments, "threads", "1", copy[3], sizeof copy[3], pieces, &n_threads));
+    BRC_TRY(take_number(context, "threads", pieces[0], 1, 4096, &number));
+    request.n_threads = (int)number;
+    BRC_TRY(take_list(context, arguments, "devices", "cpu", copy[4], sizeof copy[4], pieces, &n_devices));
+    request.device = pieces[0];
+    if (n_sizes > 1 || n_precisions > 1 || n_threads > 1 || n_devices > 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench effects: one size, device, precision and number of threads, found several");
+    if (brc_arguments_value(arguments, "sample"))
+        BRC_TRY(take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600, &request.sample_s));
+    printf("milliseconds a step and multiple of the elastic step (median of alternating samples, least and most); share of bonds or faces in 100 steps [%%]\n");
+    brc_rows rows = {.context = context};
+    brc_status status = brc_effects_measure(context, &request, &rows);
+    if (status == BRC_OK) status = brc_rows_write(&rows, folder);
+    if (status == BRC_OK) printf("%s/rows.json\n", folder);
+    brc_rows_free(&rows);
+    return status;
+}
+
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
 {
     static const char *const others[] = {"problems", "quick", "folder", "resume"};
     brc_context *context = session->context;
     if (strcmp(arguments->positional[0], "accuracy") == 0) return run_accuracy(session, arguments);
     if (strcmp(arguments->positional[0], "contact") == 0) return run_contact(session, arguments);
+    if (strcmp(arguments->positional[0], "effects") == 0) return run_effects(session, arguments);
     if (strcmp(arguments->positional[0], "throughput") != 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact", arguments->positional[0]);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects", arguments->positional[0]);
     BRC_TRY(refuse_options(context, arguments, "throughput", sizeof others / sizeof *others, others));
     const char *given_folder = brc_arguments_value(arguments, "output");
     char folder[512], here[256], copy[4][256], devices[256];
@@ -210,13 +274,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     for (int k = 0; k < request.n_precisions; ++k)
         BRC_TRY(brc_precision_parse(context, pieces[k], &request.precisions[k]));
     BRC_TRY(take_list(context, arguments, "models", "dlsm,dlsm-published", copy[3], sizeof copy[3], pieces, &request.n_models));
-    for (int k = 0; k < request.n_models; ++k) {
-        int kind = BRC_MODEL_DLSM;
-        while (kind <= BRC_MODEL_CBM && strcmp(pieces[k], brc_model_name((brc_model_kind)kind)) != 0) ++kind;
-        if (kind > BRC_MODEL_CBM)
-            return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no model '%s', expected dlsm, dlsm-published or cbm", pieces[k]);
-        request.models[k] = (brc_model_kind)kind;
-    }
+    BRC_TRY(take_models(context, request.n_models, pieces, request.models));
     if (brc_arguments_value(arguments, "sample"))
         BRC_TRY(take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600, &request.sample_s));
     if (brc_arguments_value(arguments, "copy")) {
@@ -236,13 +294,14 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
 }
 
 const brc_command brc_command_bench = {.name = "bench",
-                                       .operands = "throughput|accuracy|contact",
+                                       .operands = "throughput|accuracy|contact|effects",
                                        .least = 1,
                                        .most = 1,
-                                       .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy or contact costs",
+                                       .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy, contact or other effects cost",
                                        .details = "Noisy-grid cubes; packings with ten beams an element for cbm. Lists are separated by commas; every combination is measured. "
                                                   "accuracy: problems with exact answers, error against seconds (one device, one number of threads). "
-                                                  "contact: the step with nothing near, of a ball gone to dust, and of dust pressed together, over the step without contact (default 3e4 elements).",
+                                                  "contact: the step with nothing near, of a ball gone to dust, and of dust pressed together, over the step without contact (default 3e4 elements). "
+                                                  "effects: fracture and others as multiples of the elastic step of a cube (one size, device, precision, number of threads).",
                                        .options = options,
                                        .n_options = sizeof options / sizeof *options,
                                        .run = run};

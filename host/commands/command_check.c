@@ -16,6 +16,7 @@ static const brc_option options[] = {
     BRC_OPTION_PRECISION,
     BRC_OPTION_THREADS,
     BRC_OPTION_SET,
+    {"effects", 'E', NULL, false, "also name the kernels that the trial launched and the arrays on the device, with launches and bytes"},
     {"estimate", 'e', NULL, false, "build no domain: counts and memory of it only, no time step and no seconds"},
 };
 
@@ -105,6 +106,20 @@ static void print_setup(const brc_setup *setup, brc_precision precision)
            bytes / (double)brc_setup_n_elements(setup), (double)brc_memory_peak() / 1e6);
 }
 
+/* A line for each kernel that was launched, and for each array. */
+static void print_parts(const brc_setup *setup)
+{
+    enum { MOST = 256 };
+    brc_device_item item[MOST];
+    for (int32_t k = 0; k < setup->assembly.n; ++k) {
+        const char *of = setup->assembly.split ? brc_assembly_part_name(&setup->assembly, k) : "";
+        int n = brc_device_launched(setup->device[k], MOST, item);
+        for (int i = 0; i < n && i < MOST; ++i) printf("kernel %s%s%s: %lld launches\n", of, of[0] ? "." : "", item[i].name, (long long)item[i].number);
+        n = brc_device_buffers(setup->device[k], MOST, item);
+        for (int i = 0; i < n && i < MOST; ++i) printf("array %s%s%s: %lld bytes\n", of, of[0] ? "." : "", item[i].name, (long long)item[i].number);
+    }
+}
+
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
 {
     brc_context *context = session->context;
@@ -136,6 +151,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     print_setup(&setup, precision);
     const double before_s = brc_pace_clock_s(&request) - build_start;
     BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, &trial));
+    if (brc_arguments_value(arguments, "effects")) print_parts(&setup);
     const int64_t device_bytes = brc_assembly_device_bytes(&setup.assembly);
     brc_setup_free_simulations(&setup); /* a coarser body may need the room */
     BRC_TRY_OR(cleanup, brc_price_tell_trial(context, scene, &setup, &request, &trial, before_s, device_bytes, &total));

@@ -203,6 +203,36 @@ int64_t brc_device_bytes(const brc_device *device)
     return device->bytes;
 }
 
+/* Into a list ordered by name, whose first n are there; equal names share a place. Returns the new n, which may be above `most`. */
+static int add_item(brc_device_item *items, int n, int most, const char *name, int64_t number)
+{
+    int k = 0;
+    const int kept = n < most ? n : most;
+    while (k < kept && strcmp(items[k].name, name) < 0) ++k;
+    if (k < kept && strcmp(items[k].name, name) == 0) {
+        items[k].number += number;
+        return n;
+    }
+    for (int i = kept < most ? kept : most - 1; i > k; --i) items[i] = items[i - 1];
+    if (k < most) items[k] = (brc_device_item){name, number};
+    return n + 1;
+}
+
+int brc_device_launched(const brc_device *device, int most, brc_device_item *out)
+{
+    int n = 0;
+    for (const brc_kernel *kernel = device->kernels; kernel; kernel = kernel->next)
+        if (kernel->launches > 0) n = add_item(out, n, most, kernel->name, kernel->launches);
+    return n;
+}
+
+int brc_device_buffers(const brc_device *device, int most, brc_device_item *out)
+{
+    int n = 0;
+    for (const brc_buffer *buffer = device->buffers; buffer; buffer = buffer->older) n = add_item(out, n, most, buffer->what, buffer->bytes);
+    return n;
+}
+
 brc_status brc_device_wait(brc_device *device)
 {
     return device->backend->wait(device);
@@ -239,6 +269,9 @@ brc_status brc_buffer_create(brc_device *device, brc_buffer **out, int64_t bytes
         return status;
     }
     buffer->device = device;
+    buffer->older = device->buffers;
+    if (buffer->older) buffer->older->younger = buffer;
+    device->buffers = buffer;
     buffer->memory = memory;
     buffer->bytes = bytes;
     buffer->held = held;
@@ -254,6 +287,9 @@ void brc_buffer_free(brc_buffer **handle)
     if (!buffer) return;
     buffer->device->backend->release(buffer->device, buffer->memory, buffer->held);
     buffer->device->bytes -= buffer->bytes;
+    if (buffer->older) buffer->older->younger = buffer->younger;
+    if (buffer->younger) buffer->younger->older = buffer->older;
+    else buffer->device->buffers = buffer->older;
     brc_memory_free(buffer);
     *handle = NULL;
 }
@@ -385,5 +421,6 @@ brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, co
             return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: argument %d (%s) lives on another device", kernel->name,
                             a, args[a].value.buffer->what);
     if (n_items == 0) return BRC_OK;
+    kernel->launches += 1;
     return kernel->device->backend->launch(kernel, n_items, n_args, args);
 }

@@ -74,6 +74,14 @@ int brc_device_lanes(const brc_device *device);
 int brc_device_slice(const brc_device *device);
 /* Bytes now held in buffers. */
 int64_t brc_device_bytes(const brc_device *device);
+/* What a run is made of, by name: kernels that were launched, with how often; buffers held now, those of one name together, with their bytes. At most
+ * `most` of them go to out; returns how many there are. Names are borrowed until the device closes, or the buffer is freed. */
+typedef struct brc_device_item {
+    const char *name;
+    int64_t number; /* launches, or bytes */
+} brc_device_item;
+int brc_device_launched(const brc_device *device, int most, brc_device_item *out);
+int brc_device_buffers(const brc_device *device, int most, brc_device_item *out);
 
 /* Zeroed buffer of `bytes` bytes (0 is allowed and gives a valid dummy). what: for sentences, copied.
  * BRC_DEVICE_FAILED: "device ... has no room for <what>: N bytes asked, M held, L allowed in one buffer". */

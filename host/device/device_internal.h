@@ -39,6 +39,7 @@ struct brc_device {
     int64_t bytes;       /* held in buffers */
     void *dummy;         /* memory of 64 bytes for arguments that are NULL; not counted */
     brc_kernel *kernels; /* found so far, a list */
+    brc_buffer *buffers; /* held now, a list, the youngest first */
     void *inside;        /* the backend's own */
 };
 
@@ -48,12 +49,14 @@ struct brc_buffer {
     int64_t bytes;      /* as asked for */
     int64_t held;       /* as allocated: at least one line */
     char what[64];
+    brc_buffer *older, *younger; /* of the device's list */
 };
 
 struct brc_kernel {
     brc_device *device; /* borrowed */
     brc_kernel *next;
     char name[64];
+    int64_t launches;
     char kinds[2][BRC_KERNEL_MOST_ARGS + 1]; /* its parameters, one letter each (kernel_signature.h); "": unknown */
     void (*function)(void);                  /* C builds */
     void *inside;                            /* the backend's own */

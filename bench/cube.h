@@ -1,0 +1,20 @@
+/* The cube of 1 m that benches step: glass, free faces, noisy-grid cells or a packing with ten beams an element. */
+#ifndef BRC_BENCH_CUBE_H
+#define BRC_BENCH_CUBE_H
+
+#include "../host/scene/scene.h"
+
+/* A scene with what it points to: not to be copied. One dynamic stage without end, slightly strained and shaken so that no number is zero. */
+typedef struct brc_cube {
+    brc_material material;
+    brc_body body;
+    brc_initial initial[2];
+    brc_stage stage;
+    brc_scene scene;
+} brc_cube;
+
+void brc_cube_make(brc_cube *cube, brc_model_kind model);
+/* About `size` elements. *out is the caller's. */
+brc_status brc_cube_build(brc_context *context, int64_t size, bool spheres, brc_domain **out);
+
+#endif
