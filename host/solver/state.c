@@ -39,7 +39,7 @@ brc_status brc_simulation_set_state(brc_simulation *s, const double *displacemen
 {
     if (displacement) BRC_TRY(brc_state_to_rows(s, s->displacement, displacement, 3, 0));
     if (velocity) BRC_TRY(brc_state_to_rows(s, s->velocity, velocity, 3, 0));
-    if (s->contact && brc_is_dlsm(s)) BRC_TRY(brc_force_fluxes_of_state(s)); /* H of this state, by which cells reach */
+    if (s->contact && brc_is_dlsm(s)) BRC_TRY(brc_force_fluxes_of_state(s, NULL, true)); /* H of this state, by which cells reach */
     BRC_TRY(brc_contact_restart(s));
     return brc_force_of_state(s, BRC_BOOK_START);
 }
