@@ -136,7 +136,10 @@ static void tell_class(const brc_price_curve *by, double now, const char *whose)
 {
     const double error = brc_price_curve_error(by, now);
     if (error < finest_class) printf("error class: 0.01 %% or better (by %s '%s')\n", whose, by->problem);
-    else printf("error class: %.1g %% (by %s '%s')\n", 100 * brc_price_class(error), whose, by->problem);
+    else {
+        const double percent = 100 * brc_price_class(error), unit = pow(10, floor(log10(percent) + 1e-9));
+        printf("error class: %.3g %% (by %s '%s')\n", round(percent / unit) * unit, whose, by->problem); /* one digit: 0.3, 1, 3, 10 */
+    }
 }
 
 static void tell_choices(const brc_scene *scene, const brc_price_curve *curve, double now, double seconds)
