@@ -10,7 +10,7 @@ static const double iterations_across = 5, solves_per_finite_increment = 3, thum
 static const double countable_s = 1.5;
 /* How much longer a step gets at most where bonds break, softening faces are open or surfaces touch that are apart in the trial (docs/fracture.md, docs/contact.md);
  * and an event at most, as the body falls apart. */
-static const double cells_break = 4.5, beams_break = 1.6, faces_soften = 6, surfaces_touch = 3, events_grow = 2;
+static const double cells_break = 4.5, beams_break = 4, faces_soften = 6, surfaces_touch = 3, events_grow = 2;
 /* The least of a range where nothing can end a stage early: what a pace is uncertain by. */
 static const double uncertain = 0.8;
 
