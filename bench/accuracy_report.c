@@ -30,8 +30,9 @@ const char *brc_accuracy_describe(const brc_accuracy_point *p, bool with_element
     if (p->preparation[0]) append(out, size, ", %s", p->preparation);
     if (with_elements) append(out, size, ", %lld elements", (long long)p->elements);
     if (strcmp(p->precision, "double") != 0) append(out, size, ", %s", p->precision);
-    if (p->integrator[0] && strcmp(p->integrator, "verlet") != 0)
-        isnan(p->phi) ? append(out, size, ", %s", p->integrator) : append(out, size, ", phi %g", p->phi);
+    const bool other = p->integrator[0] && strcmp(p->integrator, "verlet") != 0;
+    if (other && isnan(p->phi)) append(out, size, ", %s", p->integrator);
+    else if (other) append(out, size, ", phi %g", p->phi);
     if (fabs(p->dt_fraction - 0.8) > 1e-9) append(out, size, ", step %g", p->dt_fraction);
     if (!isnan(p->level)) append(out, size, ", level %g", p->level);
     if (p->variant[0]) append(out, size, ", %s", p->variant);

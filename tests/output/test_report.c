@@ -1,11 +1,9 @@
 #include "support.h"
-#include "../skip.h"
 #include "../../host/base/file.h"
 #include "../../host/base/memory.h"
 #include "../../host/output/report.h"
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const char SUMMARY[] = "{\n  \"version\": \"1\",\n  \"title\": \"A <b>bar</b> & more\",\n  \"steps\": 12,\n"
                               "  \"ledger\": {\"kinetic_J\": 0.5, \"peak_elastic_J\": 2},\n  \"memory\": {\"host_bytes\": 2500000},\n"
@@ -54,22 +52,6 @@ static void a_page_holds_values_shares_and_pictures_and_needs_nothing_else(void 
     test_remove_folder(folder);
 }
 
-/* Two units: two figures; a static run has no time and is drawn over its load. */
-static void sensors_of_one_unit_share_a_figure(void **state)
-{
-    (void)state;
-    static const char rows[] = "stage,step,stage_time,time_s,a [m],it's [J],c [m]\n0,0,0,0,0,0,1\n0,1,0.5,0,1,2,\n0,2,1,0,3,2,3\n";
-    char *folder = test_new_folder();
-    put(folder, "summary.json", SUMMARY, strlen(SUMMARY));
-    put(folder, "histories.csv", rows, strlen(rows));
-    assert_int_equal(brc_report_write(test_context, folder, test_path(folder, "page.html")), BRC_OK);
-    char *page = test_read(test_path(folder, "page.html"));
-    assert_int_equal(count(page, "data:image/png;base64,iVBOR"), 2); /* the signature of a PNG */
-    assert_false(brc_file_exists(test_path(folder, "report-curve.png")));
-    brc_memory_free(page);
-    test_remove_folder(folder);
-}
-
 static void rows_of_a_case_are_a_table(void **state)
 {
     (void)state;
@@ -99,10 +81,8 @@ static void folders_without_results_and_damaged_files_are_refused(void **state)
 
 int main(void)
 {
-    if (access("/usr/bin/gnuplot", X_OK) != 0) return test_skip("gnuplot is not installed (Debian: gnuplot-nox)");
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_page_holds_values_shares_and_pictures_and_needs_nothing_else),
-        cmocka_unit_test(sensors_of_one_unit_share_a_figure),
         cmocka_unit_test(rows_of_a_case_are_a_table),
         cmocka_unit_test(folders_without_results_and_damaged_files_are_refused),
     };

@@ -1,8 +1,8 @@
 #include "support.h"
-#include "../../host/solver/fracture.h"
 #include "../../host/base/log.h"
 #include "../../host/base/random.h"
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 double random_at(uint64_t index)
@@ -96,4 +96,56 @@ bool device_is_there(const char *selector)
     brc_device_list_free(&list);
     brc_context_free(&context);
     return there;
+}
+
+void begin_first(bench_case *c) { assert_done(c, brc_simulation_begin_stage(c->simulation, 0)); }
+
+void run_steps(bench_case *c, int64_t n_steps)
+{
+    assert_done(c, brc_simulation_advance(c->simulation, n_steps));
+    assert_done(c, brc_simulation_wait(c->simulation));
+}
+
+int64_t count_broken(bench_case *c)
+{
+    int64_t n;
+    assert_done(c, brc_simulation_broken(c->simulation, &n));
+    return n;
+}
+
+brc_ledger ledger_now(bench_case *c)
+{
+    brc_ledger ledger;
+    assert_done(c, brc_simulation_ledger(c->simulation, &ledger));
+    return ledger;
+}
+
+brc_softening_report softening_now(bench_case *c)
+{
+    brc_softening_report report;
+    assert_done(c, brc_simulation_softening(c->simulation, &report));
+    return report;
+}
+
+void cell_momenta(bench_case *c, double p[6])
+{
+    const brc_domain *d = c->domain;
+    double *u = calloc((size_t)(6 * d->n_elements), sizeof *u), *v = u + 3 * d->n_elements;
+    assert_done(c, brc_simulation_displacement(c->simulation, u));
+    assert_done(c, brc_simulation_velocity(c->simulation, v));
+    for (int k = 0; k < 6; ++k) p[k] = 0;
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        for (int k = 0; k < 3; ++k) {
+            const int64_t a = 3 * e + (k + 1) % 3, b = 3 * e + (k + 2) % 3;
+            p[k] += d->volume[e] * v[3 * e + k];
+            p[3 + k] += d->volume[e] * ((d->position[a] + u[a]) * v[b] - (d->position[b] + u[b]) * v[a]);
+        }
+    free(u);
+}
+
+bool is_listed(const char *const *names, const char *name)
+{
+    for (; *names; ++names)
+        if (strcmp(*names, name) == 0) return true;
+    return false;
 }

@@ -3,6 +3,7 @@
 #define BRC_TESTS_SOLVER_SUPPORT_H
 
 #include "../../host/scene/scene_reader.h"
+#include "../../host/solver/fracture.h"
 #include "../../host/solver/simulation.h"
 // clang-format off
 #include <stdarg.h>
@@ -44,6 +45,17 @@ brc_status try_case(bench_case *c, case_options options);
 void close_case(bench_case *c);
 /* Assert a status is BRC_OK, showing the sentence. */
 void assert_done(bench_case *c, brc_status status);
+/* Enter the first stage; take steps and wait for them. */
+void begin_first(bench_case *c);
+void run_steps(bench_case *c, int64_t n_steps);
+/* Broken bonds, energy ledger and softening as they are now. */
+int64_t count_broken(bench_case *c);
+brc_ledger ledger_now(bench_case *c);
+brc_softening_report softening_now(bench_case *c);
+/* Momentum [kg m/s] and angular momentum about the origin [kg m^2/s] of free cells of density 1 kg/m^3, whose masses sit at their positions. */
+void cell_momenta(bench_case *c, double p[6]);
+/* Is the name in a list that ends with NULL? */
+bool is_listed(const char *const *names, const char *name);
 /* After n_steps of their first stage both cases, which are opened and stay the test's, have broken the same bonds, and more than 20: every event to its last bit. */
 void assert_same_breaks(bench_case *a, bench_case *b, int64_t n_steps);
 /* The named device can run here in double precision. */

@@ -10,28 +10,6 @@
 #define ELEMENT "{criterion: {virial-principal: {level: 0}}}"
 #define NEIGHBOURS "{criterion: {virial-principal: {level: 1}}}"
 
-static void run(bench_case *c, int64_t steps)
-{
-    assert_done(c, brc_simulation_advance(c->simulation, steps));
-    assert_done(c, brc_simulation_wait(c->simulation));
-}
-
-static void begin(bench_case *c) { assert_done(c, brc_simulation_begin_stage(c->simulation, 0)); }
-
-static brc_ledger ledger_of(bench_case *c)
-{
-    brc_ledger ledger;
-    assert_done(c, brc_simulation_ledger(c->simulation, &ledger));
-    return ledger;
-}
-
-static brc_softening_report report_of(bench_case *c)
-{
-    brc_softening_report report;
-    assert_done(c, brc_simulation_softening(c->simulation, &report));
-    return report;
-}
-
 /* ---- one beam ---- */
 
 /* Two spheres joined by a beam of E S = 0.01 pi N that fly apart, so that nothing but the beam acts; strength: {...} and beam: {... strength}. The body's
@@ -72,10 +50,10 @@ static void a_beam_costs_its_fracture_energy(void **state)
         int64_t n;
         snprintf(strength, sizeof strength, "tension: %.17g Pa, fracture_energy: %.17g J/m^2, softening: %s", 3e-4 / area, 7.5e-6 / area, k % 2 ? "exponential" : "linear");
         open_pair(&c, strength, "x: [2e-2 1/s, 0, 0]", NULL, k < 2 ? BRC_DOUBLE : BRC_SINGLE);
-        begin(&c);
-        run(&c, 9000);
-        const brc_softening_report report = report_of(&c);
-        const brc_ledger ledger = ledger_of(&c);
+        begin_first(&c);
+        run_steps(&c, 9000);
+        const brc_softening_report report = softening_now(&c);
+        const brc_ledger ledger = ledger_now(&c);
         print_message("spent %.6f, fracture %.6f of G_c A; closure %.1e\n", report.spent / 7.5e-6, ledger.fracture / 7.5e-6, ledger.closure);
         assert_true(report.n_opened == 1 && report.n_ended == 1 && report.unfinished == 0);
         assert_true(fabs(report.area / area - 1) < 1e-6);
@@ -99,9 +77,9 @@ static void a_beam_unloads_to_its_origin_and_bears_a_push_whole(void **state)
     double u[6] = {0}, f[6], still[6] = {0};
     snprintf(strength, sizeof strength, "tension: %.17g Pa, fracture_energy: %.17g J/m^2", 3e-4 / area, 7.5e-6 / area);
     open_pair(&c, strength, "x: [2e-2 1/s, 0, 0]", NULL, BRC_DOUBLE);
-    begin(&c);
-    run(&c, 1000);
-    const brc_softening_report report = report_of(&c);
+    begin_first(&c);
+    run_steps(&c, 1000);
+    const brc_softening_report report = softening_now(&c);
     assert_true(report.n_opened == 1 && report.n_ended == 0 && report.unfinished > 1e-6);
     assert_done(&c, brc_simulation_displacement(c.simulation, u));
     assert_done(&c, brc_simulation_force(c.simulation, f));
@@ -121,7 +99,7 @@ static void a_beam_unloads_to_its_origin_and_bears_a_push_whole(void **state)
     assert_done(&c, brc_simulation_set_state(c.simulation, pushed, still));
     assert_done(&c, brc_simulation_force(c.simulation, f));
     assert_true(fabs(f[0] / (-0.01 * stiffness) - 1) < 1e-12);
-    assert_true(fabs(ledger_of(&c).elastic / (0.5 * stiffness * 1e-4) - 1) < 1e-12);
+    assert_true(fabs(ledger_now(&c).elastic / (0.5 * stiffness * 1e-4) - 1) < 1e-12);
     close_case(&c);
 }
 
@@ -135,10 +113,10 @@ static void a_beam_costs_by_its_projection_along_the_opening(void **state)
     const double area = area_of_pair();
     snprintf(strength, sizeof strength, "tension: %.17g Pa, fracture_energy: %.17g J/m^2", 3e-4 / area, 7.5e-6 / area);
     open_pair(&c, strength, "x: [4e-2 1/s, 0, 0], y: [4e-2 1/s, 0, 0]", NULL, BRC_DOUBLE);
-    begin(&c);
-    run(&c, 3000);
-    const brc_softening_report report = report_of(&c);
-    const brc_ledger ledger = ledger_of(&c);
+    begin_first(&c);
+    run_steps(&c, 3000);
+    const brc_softening_report report = softening_now(&c);
+    const brc_ledger ledger = ledger_now(&c);
     print_message("spent %.4f of G_c A, projected %.4f of A; closure %.1e\n", report.spent / 7.5e-6, report.area / area, ledger.closure);
     assert_int_equal(report.n_ended, 1);
     assert_true(report.area < 0.9 * area && report.area > 0.5 * area);
@@ -168,7 +146,7 @@ static void check_gradient(bench_case *c, double stretch)
         for (int i = 0; i < 4; ++i) {
             u[k] = middle + at[i] * h;
             assert_done(c, brc_simulation_set_state(c->simulation, u, NULL));
-            slope += weight[i] * ledger_of(c).elastic / h;
+            slope += weight[i] * ledger_now(c).elastic / h;
         }
         u[k] = middle;
         worst = fmax(worst, fabs(slope + f[k]) / largest);
@@ -182,9 +160,9 @@ static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
     (void)state;
     bench_case c;
     open_fracture(&c, (fracture_options){.stages = FRACTURE_BURST(400), .strength = "strength: {tension: 2e-4 Pa, fracture_energy: 4e-8 J/m^2}", .fracture = NEIGHBOURS});
-    begin(&c);
-    run(&c, 60);
-    const brc_softening_report report = report_of(&c);
+    begin_first(&c);
+    run_steps(&c, 60);
+    const brc_softening_report report = softening_now(&c);
     print_message("%lld beams opened, %lld of them ended\n", (long long)report.n_opened, (long long)report.n_ended);
     assert_true(report.n_opened > 100 && report.unfinished > 0);
     check_gradient(&c, 0.2);
@@ -195,9 +173,9 @@ static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
                                                      "  steel: {E: 4 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.4, E: 4 Pa, strength: 4e-6 Pa}, strength: {tension: 4e-6 Pa, fracture_energy: 2e-6 J/m^2}}",
                                         .regions = "    regions:\n      - {material: steel, where: {half_space: {point: [2 m, 0, 0], normal: [1, 0, 0]}}}\n",
                                         .stages = "fracture: " ELEMENT "\n" FRACTURE_BURST(4000)});
-    begin(&c);
-    run(&c, 60);
-    const brc_softening_report two = report_of(&c);
+    begin_first(&c);
+    run_steps(&c, 60);
+    const brc_softening_report two = softening_now(&c);
     print_message("two materials: %lld beams opened, %lld of them ended\n", (long long)two.n_opened, (long long)two.n_ended);
     assert_true(two.n_opened > 10 && two.n_opened > two.n_ended);
     check_gradient(&c, 0.2);
@@ -219,16 +197,16 @@ static void the_ledger_closes_through_fracture_with_softening(void **state)
                  "stages:\n  - name: burst\n    solver: {dynamic: {duration: 1 s, time_step: {auto: {safety: %s}}}}\n"
                  "    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n", safety[k]);
         open_fracture(&c, (fracture_options){.stages = stages, .strength = "strength: {tension: 2e-4 Pa, fracture_energy: 1e-8 J/m^2}", .fracture = NEIGHBOURS, .elements = 1000});
-        begin(&c);
+        begin_first(&c);
         const int64_t steps = brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value);
         for (int64_t i = 0; i < steps; i += 4) {
-            run(&c, steps - i < 4 ? steps - i : 4);
-            const brc_ledger l = ledger_of(&c);
+            run_steps(&c, steps - i < 4 ? steps - i : 4);
+            const brc_ledger l = ledger_now(&c);
             if (l.fracture > 0) worst = fmax(worst, fabs((l.total - l.work + l.fracture - l.initial) / l.peak_elastic));
         }
         int64_t broken;
         assert_done(&c, brc_simulation_broken(c.simulation, &broken));
-        const brc_softening_report report = report_of(&c);
+        const brc_softening_report report = softening_now(&c);
         print_message("%s of the critical step: %.2e of the peak elastic energy, %lld beams opened, %lld broken\n", safety[k], worst, (long long)report.n_opened, (long long)broken);
         assert_true(report.n_opened > 300 && broken > 50);
         assert_true(worst < bound[k]);
@@ -243,11 +221,11 @@ static void opening_keeps_momentum_and_angular_momentum(void **state)
     bench_case c;
     double before[6], after[6], size = 0;
     open_fracture(&c, (fracture_options){.stages = FRACTURE_BURST(400), .strength = "strength: {tension: 2e-4 Pa, fracture_energy: 2e-8 J/m^2}", .fracture = NEIGHBOURS});
-    begin(&c);
+    begin_first(&c);
     fracture_momenta(&c, before);
-    run(&c, 200);
+    run_steps(&c, 200);
     fracture_momenta(&c, after);
-    const brc_softening_report report = report_of(&c);
+    const brc_softening_report report = softening_now(&c);
     assert_true(report.n_opened > 300 && report.n_ended > 20);
     for (int k = 0; k < 6; ++k) size = fmax(size, fabs(before[k]));
     for (int k = 0; k < 6; ++k) assert_true(fabs(after[k] - before[k]) < 1e-12 * size);
@@ -277,8 +255,8 @@ static void a_body_that_does_not_open_is_as_without_a_fracture_energy(void **sta
     open_fracture(&with, (fracture_options){.stages = FRACTURE_BURST(100), .strength = "strength: {tension: 1 Pa, fracture_energy: 1 J/m^2}", .fracture = NEIGHBOURS});
     const int64_t n = 3 * plain.domain->n_elements;
     double *u = calloc((size_t)(2 * n), sizeof *u);
-    begin(&plain), begin(&with);
-    run(&plain, 50), run(&with, 50);
+    begin_first(&plain), begin_first(&with);
+    run_steps(&plain, 50), run_steps(&with, 50);
     assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
     assert_done(&with, brc_simulation_displacement(with.simulation, u + n));
     assert_memory_equal(u, u + n, (size_t)n * sizeof *u);
@@ -301,9 +279,9 @@ static void what_cannot_soften_is_refused(void **state)
     close_case(&c);
     open_fracture(&c, (fracture_options){.fracture = NEIGHBOURS, .strength = strength,
                                          .stages = FRACTURE_BURST(100) "  - name: rest\n    solver: static\n    loads:\n      - element_displacement: {set: x-, x: 0 m}\n"});
-    begin(&c);
-    run(&c, 100);
-    assert_true(report_of(&c).n_opened > 0);
+    begin_first(&c);
+    run_steps(&c, 100);
+    assert_true(softening_now(&c).n_opened > 0);
     assert_int_equal(brc_simulation_begin_stage(c.simulation, 1), BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(c.context), "bonds have opened against their cohesion"));
     close_case(&c);

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void run(bench_case *c, int64_t steps) { assert_done(c, brc_simulation_advance(c->simulation, steps)); }
-
 /* ---- the criteria, a second time: eigenvalues by the host's solver, limits by their formulas, means by walking over neighbours ---- */
 
 typedef enum kind { PRINCIPAL, MOHR_COULOMB, DRUCKER_PRAGER } kind;
@@ -139,7 +137,7 @@ static void compare(const char *model, criterion k, const char *strength, double
     assert_done(&with, brc_simulation_begin_stage(with.simulation, 0));
     assert_done(&with, brc_simulation_whole(with.simulation, &whole));
     while (n == 0) {
-        run(&plain, 1), run(&with, 1);
+        run_steps(&plain, 1), run_steps(&with, 1);
         assert_done(&with, brc_simulation_breaks(with.simulation, &n, &events));
         certain = choose(&plain, &k, whole, doubt, chosen, &largest);
         if (n == 0) {
@@ -158,7 +156,7 @@ static void compare(const char *model, criterion k, const char *strength, double
     /* on with fewer bonds: what is past its limit goes every step, so that at most the host's doubt is left in quiet ones */
     for (int step = 0; step < 20; ++step) {
         int64_t after;
-        run(&with, 1);
+        run_steps(&with, 1);
         assert_done(&with, brc_simulation_breaks(with.simulation, &after, &events));
         brc_memory_free(whole);
         assert_done(&with, brc_simulation_whole(with.simulation, &whole));
@@ -233,10 +231,10 @@ static void regular_cells_fail_at_exactly_the_strength(void **state)
         const double e = rate * dt * (double)expected;
         if ((1 + e) * (e + 0.5 * e * e) > strength) break;
     }
-    run(&c, expected - 1);
+    run_steps(&c, expected - 1);
     assert_done(&c, brc_simulation_breaks(c.simulation, &n, &events));
     assert_int_equal(n, 0);
-    run(&c, 1);
+    run_steps(&c, 1);
     assert_done(&c, brc_simulation_breaks(c.simulation, &n, &events));
     assert_true(n >= 4 * 4 * 3); /* one bond an element, two may choose the same */
     for (int64_t k = 0; k < n; ++k) assert_true(events[k].mode == BRC_BREAK_DETACHED || fabs(events[k].normal[0]) > 1 - 1e-12);
@@ -253,7 +251,7 @@ static void what_never_breaks_moves_as_without_fracture(void **state)
     double *u = calloc((size_t)(2 * n), sizeof *u);
     assert_done(&plain, brc_simulation_begin_stage(plain.simulation, 0));
     assert_done(&with, brc_simulation_begin_stage(with.simulation, 0));
-    run(&plain, 50), run(&with, 50);
+    run_steps(&plain, 50), run_steps(&with, 50);
     assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
     assert_done(&with, brc_simulation_displacement(with.simulation, u + n));
     assert_memory_equal(u, u + n, (size_t)n * sizeof *u); /* the same passes */
@@ -275,7 +273,7 @@ static void the_ledger_closes_through_failing_elements(void **state)
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     const int64_t steps = brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value);
     for (int64_t k = 0; k < steps; k += 2) {
-        run(&c, 2);
+        run_steps(&c, 2);
         assert_done(&c, brc_simulation_ledger(c.simulation, &ledger));
         if (ledger.fracture > 0) worst = fmax(worst, fabs(ledger.total - ledger.work + ledger.fracture - ledger.initial) / ledger.peak_elastic);
     }

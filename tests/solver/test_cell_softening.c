@@ -19,28 +19,6 @@
     "    loads:\n      - face_displacement: {set: x-, x: 0 m}\n      - face_velocity: {set: x+, x: 1e-4 m/s}\n"                \
     "    initial:\n      - velocity: {gradient: {x: [1e-4 1/s, 0, 0]}}\n"
 
-static void run(bench_case *c, int64_t steps)
-{
-    assert_done(c, brc_simulation_advance(c->simulation, steps));
-    assert_done(c, brc_simulation_wait(c->simulation));
-}
-
-static void begin(bench_case *c) { assert_done(c, brc_simulation_begin_stage(c->simulation, 0)); }
-
-static brc_ledger ledger_of(bench_case *c)
-{
-    brc_ledger ledger;
-    assert_done(c, brc_simulation_ledger(c->simulation, &ledger));
-    return ledger;
-}
-
-static brc_softening_report report_of(bench_case *c)
-{
-    brc_softening_report report;
-    assert_done(c, brc_simulation_softening(c->simulation, &report));
-    return report;
-}
-
 /* ---- what a crack costs ---- */
 
 /* E G_c / sigma_f^2 is 1 m, six cells. The energy is G_c A with the work of the cohesion taken by the trapezoidal rule over the openings of a step (at the
@@ -58,10 +36,10 @@ static void a_flat_crack_costs_its_fracture_energy(void **state)
                  "  twin: {E: 1 Pa, nu: 0, density: 1 kg/m^3, strength: {tension: 1 Pa, fracture_energy: 1 J/m^2, softening: %s}}", law[k], law[k]);
         open_case(&c, (case_options){.materials = materials, .regions = TWIN_HALF, .sets = WEAK_PLANE("1e-6"), .fill = "cells: [6, 3, 3], spread: 0 %, seed: 1",
                                      .stages = k ? PULL("90", "0.1") : PULL("60", "0.1")});
-        begin(&c);
-        run(&c, brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value));
-        const brc_softening_report report = report_of(&c);
-        const brc_ledger ledger = ledger_of(&c);
+        begin_first(&c);
+        run_steps(&c, brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value));
+        const brc_softening_report report = softening_now(&c);
+        const brc_ledger ledger = ledger_now(&c);
         print_message("%s: fracture %.6f, spent %.6f of G_c A; closure %.1e\n", law[k], ledger.fracture / 1e-6, report.spent / 1e-6, ledger.closure);
         assert_int_equal(report.n_ended, 9);
         assert_true(fabs(report.area - 1) < 1e-9);
@@ -82,16 +60,16 @@ static void a_rough_crack_costs_its_fracture_energy_by_its_projection(void **sta
     bench_case c;
     open_case(&c, (case_options){.materials = TWINS("0.2"), .regions = TWIN_HALF, .sets = WEAK_PLANE("1e-6"), .fill = "cells: [6, 5, 5], spread: 90 %, seed: 2",
                                  .stages = PULL("60", "0.8")});
-    begin(&c);
-    run(&c, brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value));
-    const brc_softening_report report = report_of(&c);
+    begin_first(&c);
+    run_steps(&c, brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value));
+    const brc_softening_report report = softening_now(&c);
     double surface = 0;
     for (int64_t b = 0; b < c.domain->n_bonds; ++b) {
         const int64_t h = c.domain->bond_half_edge[b], i = c.domain->neighbour[c.domain->twin[h]], j = c.domain->neighbour[h];
         const double *s = c.domain->area_vector + 3 * h;
         if ((c.domain->position[3 * i] > 0.5) != (c.domain->position[3 * j] > 0.5)) surface += sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
     }
-    const brc_ledger ledger = ledger_of(&c);
+    const brc_ledger ledger = ledger_now(&c);
     print_message("surface %.3f, projected %.3f of the section; fracture %.3f of G_c A; closure %.1e\n", surface, report.area, ledger.fracture / 1e-6, ledger.closure);
     assert_true(surface > 1.2);
     assert_true(fabs(ledger.fracture / 1e-6 - 1) < 0.1);
@@ -108,11 +86,11 @@ static void faces_open_within_half_a_percent_of_the_strength(void **state)
                                  .stages = "  - name: pull\n    solver: {dynamic: {steps: 10000, time_step: {auto: {safety: 0.5}}}}\n"
                                            "    loads:\n      - face_displacement: {set: x-, x: 0 m}\n      - face_velocity: {set: x+, x: 5e-5 m/s}\n"
                                            "    initial:\n      - velocity: {gradient: {x: [5e-5 1/s, 0, 0]}}\n"});
-    begin(&c);
+    begin_first(&c);
     const int32_t wall = brc_domain_find_set(c.domain, "x+");
-    while (report_of(&c).n_opened == 0) {
+    while (softening_now(&c).n_opened == 0) {
         assert_done(&c, brc_simulation_reaction(c.simulation, wall, force));
-        run(&c, 1);
+        run_steps(&c, 1);
         assert_true(brc_simulation_step(c.simulation) < 2000);
     }
     print_message("force over area %.5f of the strength\n", force[0] / 1e-3);
@@ -138,7 +116,7 @@ static double *wild_state(const brc_domain *d)
 static double energy_at(bench_case *c, const double *u)
 {
     assert_done(c, brc_simulation_set_state(c->simulation, u, NULL));
-    const brc_ledger ledger = ledger_of(c);
+    const brc_ledger ledger = ledger_now(c);
     return ledger.elastic + ledger.stabilisation;
 }
 
@@ -155,9 +133,9 @@ static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
                                      .regions = many ? "    regions:\n      - {where: {box: {from: [-1 m, 0.5 m, -1 m], to: [2 m, 2 m, 2 m]}}, material: other}\n" : NULL,
                                      .fill = "cells: [5, 5, 5], spread: 90 %, seed: 3"});
         const brc_domain *d = c.domain;
-        begin(&c);
-        run(&c, 60);
-        const brc_softening_report report = report_of(&c);
+        begin_first(&c);
+        run_steps(&c, 60);
+        const brc_softening_report report = softening_now(&c);
         print_message("%lld faces opened, %lld of them ended\n", (long long)report.n_opened, (long long)report.n_ended);
         assert_true(report.n_opened > 100 && report.unfinished > 0);
         double *u = wild_state(d), *f = calloc((size_t)(3 * d->n_elements), sizeof *f), worst = 0, largest = 0;
@@ -190,9 +168,9 @@ static void an_open_plane_does_not_disturb_a_uniform_state(void **state)
     open_case(&c, (case_options){.materials = TWINS("0"), .regions = TWIN_HALF, .sets = WEAK_PLANE("1e-6"), .fill = "cells: [8, 3, 3], spread: 0 %, seed: 1",
                                  .stages = PULL("14", "0.5")});
     const brc_domain *d = c.domain;
-    begin(&c);
-    run(&c, brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value));
-    brc_softening_report report = report_of(&c);
+    begin_first(&c);
+    run_steps(&c, brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value));
+    brc_softening_report report = softening_now(&c);
     assert_true(report.n_opened == 9 && report.n_ended == 0 && report.unfinished > 1e-8);
     double *u = calloc((size_t)(3 * d->n_elements), sizeof *u), *f = calloc((size_t)(3 * d->n_elements), sizeof *f);
     const double e = 1e-3;
@@ -247,11 +225,11 @@ static void the_ledger_closes_through_fracture_with_softening(void **state)
                  "    initial:\n      - velocity: {gradient: {x: [1.5e-4 1/s, 0, 0]}}\n", safety[k]);
         open_case(&c, (case_options){.stages = stages, .materials = SOFT("0.2", "tension: 1e-3 Pa, fracture_energy: 3e-7 J/m^2, scatter: {weibull: {modulus: 30}}"),
                                      .sets = CELLS_FRACTURE, .shape = "{box: {size: [2 m, 1 m, 1 m]}}", .fill = "cells: [10, 5, 5], spread: 90 %, seed: 1"});
-        begin(&c);
+        begin_first(&c);
         const int64_t steps = brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value);
         for (int64_t i = 0; i < steps; i += 8) {
-            run(&c, steps - i < 8 ? steps - i : 8);
-            const brc_ledger l = ledger_of(&c);
+            run_steps(&c, steps - i < 8 ? steps - i : 8);
+            const brc_ledger l = ledger_now(&c);
             if (l.fracture > 0) worst = fmax(worst, fabs((l.total - l.work + l.fracture - l.initial) / l.peak_elastic));
         }
         int64_t broken;
@@ -263,22 +241,6 @@ static void the_ledger_closes_through_fracture_with_softening(void **state)
     }
 }
 
-static void momenta(bench_case *c, double p[6])
-{
-    const brc_domain *d = c->domain;
-    double *u = calloc((size_t)(6 * d->n_elements), sizeof *u), *v = u + 3 * d->n_elements;
-    assert_done(c, brc_simulation_displacement(c->simulation, u));
-    assert_done(c, brc_simulation_velocity(c->simulation, v));
-    for (int k = 0; k < 6; ++k) p[k] = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e)
-        for (int k = 0; k < 3; ++k) {
-            const int64_t a = 3 * e + (k + 1) % 3, b = 3 * e + (k + 2) % 3;
-            p[k] += d->volume[e] * v[3 * e + k];
-            p[3 + k] += d->volume[e] * ((d->position[a] + u[a]) * v[b] - (d->position[b] + u[b]) * v[a]);
-        }
-    free(u);
-}
-
 /* Momentum to rounding: what pulls one side pulls the other. */
 static void opening_keeps_momentum(void **state)
 {
@@ -286,11 +248,11 @@ static void opening_keeps_momentum(void **state)
     bench_case c;
     double before[6], after[6], size = 0;
     open_case(&c, (case_options){.stages = CELLS_BURST(200), .materials = SOFT("0.2", "tension: 3e-4 Pa, fracture_energy: 1e-7 J/m^2"), .sets = CELLS_FRACTURE});
-    begin(&c);
-    momenta(&c, before);
-    run(&c, 150);
-    momenta(&c, after);
-    assert_true(report_of(&c).n_opened > 100);
+    begin_first(&c);
+    cell_momenta(&c, before);
+    run_steps(&c, 150);
+    cell_momenta(&c, after);
+    assert_true(softening_now(&c).n_opened > 100);
     for (int k = 0; k < 6; ++k) size = fmax(size, fabs(before[k]));
     for (int k = 0; k < 3; ++k) assert_true(fabs(after[k] - before[k]) < 1e-12 * size);
     print_message("angular momentum moved by %.1e, %.1e, %.1e of it\n", (after[3] - before[3]) / size, (after[4] - before[4]) / size, (after[5] - before[5]) / size);

@@ -5,28 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void run(bench_case *c, int64_t steps)
-{
-    assert_done(c, brc_simulation_advance(c->simulation, steps));
-    assert_done(c, brc_simulation_wait(c->simulation));
-}
-
-static void begin(bench_case *c) { assert_done(c, brc_simulation_begin_stage(c->simulation, 0)); }
-
-static int64_t broken(bench_case *c)
-{
-    int64_t n;
-    assert_done(c, brc_simulation_broken(c->simulation, &n));
-    return n;
-}
-
-static bool lists(const char *const *names, const char *name)
-{
-    for (; *names; ++names)
-        if (strcmp(*names, name) == 0) return true;
-    return false;
-}
-
 /* ---- nothing without it ---- */
 
 static void without_fracture_there_is_neither_array_nor_pass(void **state)
@@ -36,14 +14,14 @@ static void without_fracture_there_is_neither_array_nor_pass(void **state)
     open_case(&plain, (case_options){.stages = CELLS_BURST(50)});
     open_case(&strong, (case_options){.stages = CELLS_BURST(50), .materials = CELLS_STRENGTH("2e-4 Pa")});
     open_case(&with, (case_options){.stages = CELLS_BURST(50), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE});
-    assert_true(lists(brc_simulation_effects_out(strong.simulation), "fracture") && !lists(brc_simulation_effects_in(strong.simulation), "fracture"));
-    assert_true(lists(brc_simulation_effects_in(with.simulation), "fracture"));
+    assert_true(is_listed(brc_simulation_effects_out(strong.simulation), "fracture") && !is_listed(brc_simulation_effects_in(strong.simulation), "fracture"));
+    assert_true(is_listed(brc_simulation_effects_in(with.simulation), "fracture"));
     assert_true(brc_device_bytes(plain.device) == brc_device_bytes(strong.device));
     assert_true(brc_device_bytes(with.device) > brc_device_bytes(strong.device));
     const int64_t n = 3 * plain.domain->n_elements;
     double *u = calloc((size_t)(2 * n), sizeof *u);
-    begin(&plain), begin(&strong);
-    run(&plain, 50), run(&strong, 50);
+    begin_first(&plain), begin_first(&strong);
+    run_steps(&plain, 50), run_steps(&strong, 50);
     assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
     assert_done(&strong, brc_simulation_displacement(strong.simulation, u + n));
     assert_memory_equal(u, u + n, (size_t)n * sizeof *u);
@@ -60,13 +38,13 @@ static void what_never_breaks_moves_as_without_fracture(void **state)
     open_case(&with, (case_options){.stages = CELLS_BURST(50), .materials = CELLS_STRENGTH("1 GPa"), .sets = CELLS_FRACTURE});
     const int64_t n = 3 * plain.domain->n_elements;
     double *u = calloc((size_t)(2 * n), sizeof *u), largest = 0;
-    begin(&plain), begin(&with);
-    run(&plain, 50), run(&with, 50);
+    begin_first(&plain), begin_first(&with);
+    run_steps(&plain, 50), run_steps(&with, 50);
     assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
     assert_done(&with, brc_simulation_displacement(with.simulation, u + n));
     for (int64_t k = 0; k < n; ++k) largest = fmax(largest, fabs(u[k]));
     for (int64_t k = 0; k < n; ++k) assert_true(fabs(u[k] - u[k + n]) < 1e-10 * largest);
-    assert_int_equal(broken(&with), 0);
+    assert_int_equal(count_broken(&with), 0);
     free(u);
     close_case(&plain), close_case(&with);
 }
@@ -87,13 +65,13 @@ static void regular_cells_break_at_exactly_the_strength(void **state)
                                  .stages = "  - name: pull\n    solver: {dynamic: {steps: 1000, time_step: 0.0317 s}}\n"
                                            "    loads:\n      - face_displacement: {set: x-, x: 0 m}\n      - face_velocity: {set: x+, x: 1e-3 m/s}\n"
                                            "    initial:\n      - velocity: {gradient: {x: [1e-3 1/s, 0, 0]}}\n"});
-    begin(&c);
+    begin_first(&c);
     const double dt = brc_simulation_time_step(c.simulation).value;
     int64_t expected = 1;
     while ((1 + rate * dt * (double)expected) * (rate * dt * (double)expected + 0.5 * pow(rate * dt * (double)expected, 2)) <= strength) ++expected;
-    run(&c, expected - 1);
-    assert_int_equal(broken(&c), 0);
-    run(&c, 1);
+    run_steps(&c, expected - 1);
+    assert_int_equal(count_broken(&c), 0);
+    run_steps(&c, 1);
     assert_done(&c, brc_simulation_breaks(c.simulation, &n, &events));
     for (int64_t k = 0; k < n; ++k) {
         assert_int_equal(events[k].step, expected);
@@ -120,11 +98,11 @@ static void random_cells_start_to_break_within_half_a_percent_of_the_strength(vo
                                      .stages = "  - name: pull\n    solver: {dynamic: {steps: 10000, time_step: {auto: {safety: 0.5}}}}\n"
                                                "    loads:\n      - face_displacement: {set: x-, x: 0 m}\n      - face_velocity: {set: x+, x: 5e-5 m/s}\n"
                                                "    initial:\n      - velocity: {gradient: {x: [5e-5 1/s, 0, 0]}}\n"});
-        begin(&c);
+        begin_first(&c);
         const int32_t wall = brc_domain_find_set(c.domain, "x+");
-        while (broken(&c) == 0) {
+        while (count_broken(&c) == 0) {
             assert_done(&c, brc_simulation_reaction(c.simulation, wall, force));
-            run(&c, 1);
+            run_steps(&c, 1);
             assert_true(brc_simulation_step(c.simulation) < 2000);
         }
         print_message("seed %d: force over area at the last step without breaks %.5f of the strength\n", seed, force[0] / 1e-3);
@@ -141,8 +119,8 @@ static void no_bond_breaks_twice_and_damage_counts_them(void **state)
     int64_t n;
     open_case(&c, (case_options){.stages = CELLS_BURST(200), .materials = CELLS_STRENGTH("6e-4 Pa"), .sets = CELLS_FRACTURE});
     const brc_domain *d = c.domain;
-    begin(&c);
-    run(&c, 100);
+    begin_first(&c);
+    run_steps(&c, 100);
     assert_done(&c, brc_simulation_breaks(c.simulation, &n, &events));
     print_message("%lld of %lld bonds broken\n", (long long)n, (long long)d->n_bonds);
     assert_true(n > 100 && n < d->n_bonds);
@@ -198,9 +176,9 @@ static void force_is_the_gradient_of_the_energy_of_a_broken_body(void **state)
     open_case(&c, (case_options){.stages = CELLS_BURST(200), .materials = CELLS_STRENGTH("6e-4 Pa"), .sets = CELLS_FRACTURE,
                                  .fill = "cells: [5, 5, 5], spread: 90 %, seed: 3"});
     const brc_domain *d = c.domain;
-    begin(&c);
-    run(&c, 60);
-    const int64_t n_broken = broken(&c);
+    begin_first(&c);
+    run_steps(&c, 60);
+    const int64_t n_broken = count_broken(&c);
     print_message("%lld of %lld bonds broken\n", (long long)n_broken, (long long)d->n_bonds);
     assert_true(n_broken > 20 && n_broken < d->n_bonds * 3 / 4);
     double *u = wild_state(d), *f = calloc((size_t)(3 * d->n_elements), sizeof *f), worst = 0, largest = 0;
@@ -218,7 +196,7 @@ static void force_is_the_gradient_of_the_energy_of_a_broken_body(void **state)
         u[i] = middle;
         worst = fmax(worst, fabs(slope + f[i]) / largest);
     }
-    assert_int_equal(broken(&c), n_broken);
+    assert_int_equal(count_broken(&c), n_broken);
     if (!(worst < 1e-9)) fail_msg("%g", worst);
     free(u), free(f);
     close_case(&c);
@@ -237,9 +215,9 @@ static void a_linear_field_along_an_open_cut_is_in_equilibrium(void **state)
                                  .fill = "cells: [6, 6, 6], spread: 0 %, seed: 1",
                                  .stages = "  - name: open\n    solver: {dynamic: {steps: 100}}\n    initial:\n      - velocity: {gradient: {y: [0, 1e-3 1/s, 0]}}\n"});
     const brc_domain *d = c.domain;
-    begin(&c);
-    run(&c, 20);
-    assert_int_equal(broken(&c), 36);
+    begin_first(&c);
+    run_steps(&c, 20);
+    assert_int_equal(count_broken(&c), 36);
     const double e = 1e-3, across = -0.2 * e;
     double *u = calloc((size_t)(3 * d->n_elements), sizeof *u), *f = calloc((size_t)(3 * d->n_elements), sizeof *f);
     for (int64_t k = 0; k < d->n_elements; ++k)
@@ -272,11 +250,11 @@ static closure closure_of(const char *stages, const char *strength, const char *
     closure out = {0, 0, 0, 0};
     const brc_break *events;
     open_case(&c, (case_options){.stages = stages, .materials = strength, .sets = CELLS_FRACTURE, .shape = shape, .fill = fill});
-    begin(&c);
+    begin_first(&c);
     const brc_time_step step = brc_simulation_time_step(c.simulation);
     const int64_t steps = brc_simulation_planned_steps(c.simulation, 0, step.value);
     for (int64_t k = 0; k < steps; k += every) {
-        run(&c, steps - k < every ? steps - k : every);
+        run_steps(&c, steps - k < every ? steps - k : every);
         assert_done(&c, brc_simulation_ledger(c.simulation, &ledger));
         out.error = (ledger.total - ledger.work + ledger.fracture - ledger.initial) / ledger.peak_elastic;
         if (ledger.fracture > 0) out.worst = fmax(out.worst, fabs(out.error));
@@ -323,23 +301,6 @@ static void the_error_of_the_ledger_is_of_second_order(void **state)
     assert_true(fabs(out[1].error) < fabs(out[0].error) / 8);
 }
 
-/* Momentum and angular momentum about the origin of a free body; masses sit at the positions. */
-static void momenta(bench_case *c, double p[6])
-{
-    const brc_domain *d = c->domain;
-    double *u = calloc((size_t)(6 * d->n_elements), sizeof *u), *v = u + 3 * d->n_elements;
-    assert_done(c, brc_simulation_displacement(c->simulation, u));
-    assert_done(c, brc_simulation_velocity(c->simulation, v));
-    for (int k = 0; k < 6; ++k) p[k] = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e)
-        for (int k = 0; k < 3; ++k) {
-            const int64_t a = 3 * e + (k + 1) % 3, b = 3 * e + (k + 2) % 3;
-            p[k] += d->volume[e] * v[3 * e + k];
-            p[3 + k] += d->volume[e] * ((d->position[a] + u[a]) * v[b] - (d->position[b] + u[b]) * v[a]);
-        }
-    free(u);
-}
-
 /* Sums of some thousand terms over a hundred steps stay within 1e-12 of their size. */
 static void breaking_keeps_momentum_and_angular_momentum(void **state)
 {
@@ -347,11 +308,11 @@ static void breaking_keeps_momentum_and_angular_momentum(void **state)
     bench_case c;
     double before[6], after[6], size = 0;
     open_case(&c, (case_options){.stages = CELLS_BURST(200), .materials = CELLS_STRENGTH("3e-4 Pa"), .sets = CELLS_FRACTURE});
-    begin(&c);
-    momenta(&c, before);
-    run(&c, 150);
-    momenta(&c, after);
-    assert_true(broken(&c) > 100);
+    begin_first(&c);
+    cell_momenta(&c, before);
+    run_steps(&c, 150);
+    cell_momenta(&c, after);
+    assert_true(count_broken(&c) > 100);
     for (int k = 0; k < 6; ++k) size = fmax(size, fabs(before[k]));
     for (int k = 0; k < 6; ++k) assert_true(fabs(after[k] - before[k]) < 1e-12 * size);
     close_case(&c);

@@ -6,15 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void begin(bench_case *c) { assert_done(c, brc_simulation_begin_stage(c->simulation, 0)); }
-static void advance(bench_case *c, int64_t steps) { assert_done(c, brc_simulation_advance(c->simulation, steps)); }
-static brc_ledger ledger_of(bench_case *c)
-{
-    brc_ledger ledger;
-    assert_done(c, brc_simulation_ledger(c->simulation, &ledger));
-    return ledger;
-}
-
 /* A cube of 1 m and 8 cells, far stiffer than its contact with a fixed wall below: K_s = 0.25 N/m for each of the four cells there, whose face of 0.25 m^2 and h = 0.5 m
  * make it k_n A^2 / h^3 = K_s, together a spring of 1 N/m under 1 kg. */
 static void open_block(bench_case *c, const char *contact, const char *young, const char *gravity, const char *height, const char *stage)
@@ -24,7 +15,7 @@ static void open_block(bench_case *c, const char *contact, const char *young, co
              height);
     snprintf(material, sizeof material, "  stone: {E: %s, nu: 0.2, density: 1 kg/m^3}", young);
     open_case(c, (case_options){.fill = "cells: [2, 2, 2], spread: 0", .materials = material, .sets = keys, .gravity = gravity, .stages = stage, .n_threads = 1});
-    begin(c);
+    begin_first(c);
 }
 
 /* Depth, time in contact and speed after it: half a period of pi s of an oscillator of 1 kg on 1 N/m, v sqrt(m / K) deep. The block's own spring, E A / L = 1e4 N/m, adds some
@@ -41,7 +32,7 @@ static void a_block_bounces_off_a_wall_as_off_a_spring(void **state)
         open_block(&c, laws[k], "10 kPa", "", "-1 mm",
                    "  - name: fall\n    solver: {dynamic: {steps: 10000, time_step: 1.57079632679 ms}}\n    initial:\n      - velocity: {velocity: [0, 0, -0.01 m/s]}\n");
         for (int step = 0; step < 3000; ++step) {
-            advance(&c, 1);
+            run_steps(&c, 1);
             assert_done(&c, brc_simulation_displacement(c.simulation, u));
             double mean = 0;
             for (int e = 0; e < 8; ++e) mean += u[3 * e + 2] / 8;
@@ -50,7 +41,7 @@ static void a_block_bounces_off_a_wall_as_off_a_spring(void **state)
         }
         assert_done(&c, brc_simulation_velocity(c.simulation, v));
         for (int e = 0; e < 8; ++e) speed += v[3 * e + 2] / 8;
-        const brc_ledger ledger = ledger_of(&c);
+        const brc_ledger ledger = ledger_now(&c);
         if (k == 0) assert_true(fabs(deepest / 0.01 - 1) < 1e-3 && llabs(touching - 2000) <= 4);
         assert_true(fabs(speed / 0.01 - wanted[k]) < (k ? 5e-3 : 1e-3));
         assert_true(fabs(ledger.closure) < (k ? 5e-3 : 1e-4));
@@ -72,7 +63,7 @@ static void sliding_starts_where_the_slope_is_the_friction(void **state)
         snprintf(gravity, sizeof gravity, "gravity: [%.17g m/s^2, 0, %.17g m/s^2]\n", g * slope * cosine, -g * cosine);
         open_block(&c, ", friction: 0.4, damping: 50 %", "1 kPa", gravity, "0",
                    "  - name: rest\n    solver: {dynamic: {steps: 20000, time_step: 5 ms, mass_damping: 0.5 1/s}}\n");
-        advance(&c, 12000);
+        run_steps(&c, 12000);
         assert_done(&c, brc_simulation_velocity(c.simulation, v));
         for (int e = 0; e < 8; ++e) speed += v[3 * e] / 8;
         const double excess = g * cosine * (slope - 0.4) / 0.5;
@@ -108,11 +99,11 @@ static void fragments_that_meet_keep_momentum_and_energy(void **state)
     bench_case c;
     double before[6], after[6];
     open_case(&c, (case_options){.stages = CONTACT_CRUSH, .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CONTACT_KEYS, .n_threads = 1});
-    begin(&c);
+    begin_first(&c);
     momenta(&c, before);
-    advance(&c, 1500);
+    run_steps(&c, 1500);
     momenta(&c, after);
-    const brc_ledger ledger = ledger_of(&c);
+    const brc_ledger ledger = ledger_now(&c);
     int64_t broken;
     assert_done(&c, brc_simulation_broken(c.simulation, &broken));
     print_message("%lld broken, %g rigid, friction %.3g, impact %.3g, contact %.3g, fracture %.3g of %.3g J; closure %.3g; momenta %.2g %.2g %.2g %.2g %.2g %.2g\n", (long long)broken,
@@ -131,21 +122,21 @@ static void forces_are_the_gradient_of_the_energy_with_touching_fragments(void *
     bench_case c;
     open_case(&c, (case_options){.stages = CELLS_BURST(1000), .materials = CELLS_STRENGTH("5e-4 Pa"),
                                  .sets = "fracture: {criterion: bond-normal}\ninteractions: {contact: {}}\n", .n_threads = 1});
-    begin(&c);
-    advance(&c, 400);
+    begin_first(&c);
+    run_steps(&c, 400);
     const int64_t n = 3 * c.domain->n_elements;
     double *u = calloc((size_t)(3 * n), sizeof *u), *f = u + n, *moved = f + n, along = 0, energy[2];
     assert_done(&c, brc_simulation_displacement(c.simulation, u));
     for (int64_t k = 0; k < n; ++k) u[k] += 2e-3 * random_at((uint64_t)k); /* press some together */
     assert_done(&c, brc_simulation_set_state(c.simulation, u, NULL));
     assert_done(&c, brc_simulation_force(c.simulation, f));
-    const brc_ledger at = ledger_of(&c);
+    const brc_ledger at = ledger_now(&c);
     assert_true(at.contact > 0 && c.simulation->contact->n_rigid > 0);
     for (int64_t k = 0; k < n; ++k) along += f[k] * random_at((uint64_t)(n + k));
     for (int side = 0; side < 2; ++side) {
         for (int64_t k = 0; k < n; ++k) moved[k] = u[k] + (side ? 1e-7 : -1e-7) * random_at((uint64_t)(n + k));
         assert_done(&c, brc_simulation_set_state(c.simulation, moved, NULL));
-        const brc_ledger now = ledger_of(&c);
+        const brc_ledger now = ledger_now(&c);
         energy[side] = now.elastic + now.stabilisation + now.contact;
     }
     const double slope = (energy[1] - energy[0]) / 2e-7;
@@ -171,13 +162,6 @@ static void static_stages_are_refused(void **state)
     close_case(&c);
 }
 
-static bool lists(const char *const *names, const char *name)
-{
-    for (; *names; ++names)
-        if (strcmp(*names, name) == 0) return true;
-    return false;
-}
-
 /* Arrays only where they are asked for, and where nothing is near the same motion to the last bit, with equal steps. */
 static void what_is_not_asked_for_is_not_there(void **state)
 {
@@ -186,12 +170,12 @@ static void what_is_not_asked_for_is_not_there(void **state)
     static const char burst[] = "  - name: burst\n    solver: {dynamic: {steps: 50, time_step: 10 ms}}\n    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n";
     open_case(&plain, (case_options){.stages = burst});
     open_case(&with, (case_options){.stages = burst, .sets = "interactions: {contact: {}}\n"});
-    assert_true(lists(brc_simulation_effects_out(plain.simulation), "contact") && lists(brc_simulation_effects_in(with.simulation), "contact"));
+    assert_true(is_listed(brc_simulation_effects_out(plain.simulation), "contact") && is_listed(brc_simulation_effects_in(with.simulation), "contact"));
     assert_true(brc_device_bytes(plain.device) < brc_device_bytes(with.device) && !plain.simulation->contact);
     const int64_t n = 3 * plain.domain->n_elements;
     double *u = calloc((size_t)(2 * n), sizeof *u);
-    begin(&plain), begin(&with);
-    advance(&plain, 50), advance(&with, 50);
+    begin_first(&plain), begin_first(&with);
+    run_steps(&plain, 50), run_steps(&with, 50);
     assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
     assert_done(&with, brc_simulation_displacement(with.simulation, u + n));
     assert_memory_equal(u, u + n, (size_t)n * sizeof *u);

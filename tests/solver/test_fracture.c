@@ -13,28 +13,6 @@ static const char *const STRENGTH = "strength: {tension: 2e-4 Pa}";
 static const char *const SCATTERED = "strength: {tension: 3e-4 Pa, scatter: {weibull: 4}}";
 #define BURST(steps) FRACTURE_BURST(steps)
 
-static void run(bench_case *c, int64_t steps)
-{
-    assert_done(c, brc_simulation_advance(c->simulation, steps));
-    assert_done(c, brc_simulation_wait(c->simulation));
-}
-
-static void begin(bench_case *c) { assert_done(c, brc_simulation_begin_stage(c->simulation, 0)); }
-
-static int64_t broken(bench_case *c)
-{
-    int64_t n;
-    assert_done(c, brc_simulation_broken(c->simulation, &n));
-    return n;
-}
-
-static bool lists(const char *const *names, const char *name)
-{
-    for (; *names; ++names)
-        if (strcmp(*names, name) == 0) return true;
-    return false;
-}
-
 /* ---- nothing without it ---- */
 
 static void without_fracture_there_is_neither_array_nor_pass(void **state)
@@ -44,14 +22,14 @@ static void without_fracture_there_is_neither_array_nor_pass(void **state)
     open_fracture(&plain, (fracture_options){.stages = BURST(50)});
     open_fracture(&strong, (fracture_options){.stages = BURST(50), .strength = STRENGTH});
     open_fracture(&with, (fracture_options){.stages = BURST(50), .strength = STRENGTH, .fracture = CRITERION(1)});
-    assert_true(lists(brc_simulation_effects_out(strong.simulation), "fracture") && !lists(brc_simulation_effects_in(strong.simulation), "fracture"));
-    assert_true(lists(brc_simulation_effects_in(with.simulation), "fracture"));
+    assert_true(is_listed(brc_simulation_effects_out(strong.simulation), "fracture") && !is_listed(brc_simulation_effects_in(strong.simulation), "fracture"));
+    assert_true(is_listed(brc_simulation_effects_in(with.simulation), "fracture"));
     assert_true(brc_device_bytes(plain.device) == brc_device_bytes(strong.device));
     assert_true(brc_device_bytes(with.device) > brc_device_bytes(strong.device));
     const int64_t n = 3 * plain.domain->n_elements;
     double *u = calloc((size_t)(2 * n), sizeof *u);
-    begin(&plain), begin(&strong);
-    run(&plain, 50), run(&strong, 50);
+    begin_first(&plain), begin_first(&strong);
+    run_steps(&plain, 50), run_steps(&strong, 50);
     assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
     assert_done(&strong, brc_simulation_displacement(strong.simulation, u + n));
     assert_memory_equal(u, u + n, (size_t)n * sizeof *u);
@@ -69,13 +47,13 @@ static void what_never_breaks_moves_as_without_fracture(void **state)
     open_fracture(&with, (fracture_options){.stages = BURST(50), .strength = "strength: {tension: 1 GPa}", .fracture = CRITERION(1)});
     const int64_t n = 3 * plain.domain->n_elements;
     double *u = calloc((size_t)(2 * n), sizeof *u), largest = 0;
-    begin(&plain), begin(&with);
-    run(&plain, 50), run(&with, 50);
+    begin_first(&plain), begin_first(&with);
+    run_steps(&plain, 50), run_steps(&with, 50);
     assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
     assert_done(&with, brc_simulation_displacement(with.simulation, u + n));
     for (int64_t k = 0; k < n; ++k) largest = fmax(largest, fabs(u[k]));
     for (int64_t k = 0; k < n; ++k) assert_true(fabs(u[k] - u[k + n]) < 1e-10 * largest);
-    assert_int_equal(broken(&with), 0);
+    assert_int_equal(count_broken(&with), 0);
     free(u);
     close_case(&plain), close_case(&with);
 }
@@ -166,13 +144,13 @@ static void elements_at_their_limit_lose_the_bond_nearest_to_the_pull(void **sta
         bool *bond = calloc((size_t)d->n_bonds, sizeof *bond);
         double *expected = calloc((size_t)(6 * d->n_elements), sizeof *expected);
         int64_t total = 0, steps_with_breaks = 0;
-        begin(&c);
+        begin_first(&c);
         for (int step = 0; step < 150; ++step) {
             uint8_t *whole = NULL;
             const brc_break *events;
             int64_t n_events, before = total;
             assert_done(&c, brc_fracture_whole(c.simulation, &whole));
-            run(&c, 1); /* ends with breaks, in the state that it leaves */
+            run_steps(&c, 1); /* ends with breaks, in the state that it leaves */
             double *stress = judged_stress(&c, level, whole);
             total += should_break(&c, stress, whole, strengths.factor, bond);
             assert_done(&c, brc_simulation_breaks(c.simulation, &n_events, &events));
@@ -223,9 +201,9 @@ static void weak_grain_boundaries_break_first(void **state)
     const brc_domain *d = c.domain;
     for (int64_t h = 0; h < d->n_half_edges; ++h) all += d->grain[d->neighbour[h]] != d->grain[d->neighbour[d->twin[h]]];
     assert_true(all > 0 && all < d->n_bonds); /* half-edges: less than half of the bonds */
-    begin(&c);
+    begin_first(&c);
     while (n < d->n_bonds / 20) {
-        run(&c, 1);
+        run_steps(&c, 1);
         assert_done(&c, brc_simulation_breaks(c.simulation, &n, &events));
     }
     for (int64_t k = 0; k < n; ++k) on_boundary += d->grain[events[k].element_i] != d->grain[events[k].element_j];
@@ -247,12 +225,12 @@ static double closure_at(double safety, double duration, int64_t *count)
              "stages:\n  - name: burst\n    solver: {dynamic: {duration: %.17g s, time_step: {auto: {safety: %g}}}}\n"
              "    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n", duration, safety);
     open_fracture(&c, (fracture_options){.stages = stages, .strength = STRENGTH, .fracture = CRITERION(1), .elements = 1000});
-    begin(&c);
+    begin_first(&c);
     const brc_time_step step = brc_simulation_time_step(c.simulation);
-    run(&c, brc_simulation_planned_steps(c.simulation, 0, step.value));
+    run_steps(&c, brc_simulation_planned_steps(c.simulation, 0, step.value));
     assert_done(&c, brc_simulation_ledger(c.simulation, &ledger));
     assert_true(ledger.fracture > 0.02 * ledger.initial); /* what is tested is a part of the whole */
-    *count = broken(&c);
+    *count = count_broken(&c);
     close_case(&c);
     return ledger.closure;
 }
@@ -277,11 +255,11 @@ static void breaking_keeps_momentum_and_angular_momentum(void **state)
     bench_case c;
     double before[6], after[6], size = 0;
     open_fracture(&c, (fracture_options){.stages = BURST(400), .strength = STRENGTH, .fracture = CRITERION(1)});
-    begin(&c);
+    begin_first(&c);
     fracture_momenta(&c, before);
-    run(&c, 200);
+    run_steps(&c, 200);
     fracture_momenta(&c, after);
-    assert_true(broken(&c) > 50);
+    assert_true(count_broken(&c) > 50);
     for (int k = 0; k < 6; ++k) size = fmax(size, fabs(before[k]));
     for (int k = 0; k < 6; ++k) assert_true(fabs(after[k] - before[k]) < 1e-12 * size);
     close_case(&c);
@@ -300,19 +278,19 @@ static void elements_without_bonds_fly_freely(void **state)
     int32_t *fragment = calloc((size_t)n, sizeof *fragment);
     double *v = calloc((size_t)(6 * n), sizeof *v), *damage = calloc((size_t)n, sizeof *damage);
     int64_t n_fragments;
-    begin(&c);
+    begin_first(&c);
     assert_done(&c, brc_simulation_fragments(c.simulation, fragment, &n_fragments));
     const int64_t at_start = n_fragments;
     assert_true(at_start < n / 10);
-    run(&c, 90);
+    run_steps(&c, 90);
     assert_done(&c, brc_simulation_fragments(c.simulation, fragment, &n_fragments));
-    assert_int_equal(broken(&c), c.domain->n_bonds);
+    assert_int_equal(count_broken(&c), c.domain->n_bonds);
     assert_int_equal(n_fragments, n);
     for (int64_t e = 0; e < n; ++e) assert_int_equal(fragment[e], e);
     assert_done(&c, brc_simulation_damage(c.simulation, damage));
     for (int64_t e = 0; e < n; ++e) assert_true(damage[e] == (c.domain->row_start[e + 1] > c.domain->row_start[e] ? 1 : 0));
     assert_done(&c, brc_simulation_velocity(c.simulation, v));
-    run(&c, 10);
+    run_steps(&c, 10);
     assert_done(&c, brc_simulation_velocity(c.simulation, v + 3 * n));
     /* The force keeps the rounding of what was added and taken off again. */
     for (int64_t k = 0; k < 3 * n; ++k) assert_true(fabs(v[k] - v[k + 3 * n]) < 1e-12 * 2e-3);
@@ -399,7 +377,7 @@ static void a_static_stage_goes_to_the_asked_part_of_failure(void **state)
     assert_done(&c, brc_simulation_run(c.simulation));
     assert_done(&c, brc_simulation_failure_ratio(c.simulation, &ratio));
     assert_true(fabs(ratio - 0.8) < 1e-3);
-    assert_int_equal(broken(&c), 0);
+    assert_int_equal(count_broken(&c), 0);
     close_case(&c);
 }
 

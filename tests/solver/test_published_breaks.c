@@ -9,15 +9,6 @@
 
 #define PUBLISHED "dlsm-published"
 
-static int64_t broken(bench_case *c)
-{
-    int64_t n;
-    assert_done(c, brc_simulation_broken(c->simulation, &n));
-    return n;
-}
-
-static void run(bench_case *c, int64_t steps) { assert_done(c, brc_simulation_advance(c->simulation, steps)); }
-
 /* ---- the law, a second time: plain loops, no lanes, no rotations left out ---- */
 
 typedef struct reference {
@@ -170,9 +161,9 @@ static void regular_cells_break_at_exactly_the_strength(void **state)
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     const double dt = brc_simulation_time_step(c.simulation).value;
     while (rate * dt * (double)expected <= strength) ++expected;
-    run(&c, expected - 1);
-    assert_int_equal(broken(&c), 0);
-    run(&c, 1);
+    run_steps(&c, expected - 1);
+    assert_int_equal(count_broken(&c), 0);
+    run_steps(&c, 1);
     assert_done(&c, brc_simulation_breaks(c.simulation, &n, &events));
     assert_int_equal(n, 5 * 4 * 4); /* the planes across x, and nothing comes off with them */
     for (int64_t k = 0; k < n; ++k) {
@@ -210,7 +201,7 @@ static void the_bonds_break_that_the_law_says_and_leave_its_least_squares(void *
         const brc_break *events;
         int64_t n;
         read_bonds(&c, &r);
-        run(&c, 1);
+        run_steps(&c, 1);
         assert_done(&c, brc_simulation_breaks(c.simulation, &n, &events));
         if (n == seen && step % 10) continue;
         read_state(&c, &r);
@@ -250,8 +241,8 @@ static void rubble_that_turns_as_a_whole_feels_nothing(void **state)
     bench_case c;
     open_case(&c, (case_options){.model = PUBLISHED, .materials = CELLS_STRENGTH("8e-4 Pa"), .sets = CELLS_FRACTURE, .stages = CELLS_BURST(200)});
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
-    run(&c, 150);
-    const int64_t n = broken(&c);
+    run_steps(&c, 150);
+    const int64_t n = count_broken(&c);
     print_message("%lld of %lld bonds broken\n", (long long)n, (long long)c.domain->n_bonds);
     assert_true(n > c.domain->n_bonds / 3 && n < c.domain->n_bonds);
     double *zero = calloc((size_t)(3 * c.domain->n_elements), sizeof *zero), *f = calloc((size_t)(3 * c.domain->n_elements), sizeof *f);
@@ -284,9 +275,9 @@ static void breaking_keeps_momentum(void **state)
         p[0] = p[1] = p[2] = 0;
         for (int64_t e = 0; e < c.domain->n_elements; ++e)
             for (int i = 0; i < 3; ++i) p[i] += c.domain->volume[e] * v[3 * e + i];
-        if (k == 0) run(&c, 100);
+        if (k == 0) run_steps(&c, 100);
     }
-    assert_true(broken(&c) > 100);
+    assert_true(count_broken(&c) > 100);
     for (int i = 0; i < 3; ++i) assert_true(fabs(after[i] - before[i]) < 1e-12 * 1e-3); /* sums of some thousand terms over a hundred steps */
     free(v);
     close_case(&c);
@@ -303,7 +294,7 @@ static void the_ledger_books_the_strain_energy_that_breaking_takes(void **state)
     double sum = 0;
     open_case(&c, (case_options){.model = PUBLISHED, .stages = CELLS_BURST(200), .materials = CELLS_STRENGTH("8e-4 Pa"), .sets = CELLS_FRACTURE});
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
-    run(&c, 50);
+    run_steps(&c, 50);
     assert_done(&c, brc_simulation_breaks(c.simulation, &n, &events));
     assert_done(&c, brc_simulation_ledger(c.simulation, &ledger));
     for (int64_t k = 0; k < n; ++k) sum += events[k].energy;
@@ -323,12 +314,12 @@ static void what_never_breaks_moves_as_without_fracture(void **state)
     double *u = calloc((size_t)(2 * n), sizeof *u), largest = 0;
     assert_done(&plain, brc_simulation_begin_stage(plain.simulation, 0));
     assert_done(&with, brc_simulation_begin_stage(with.simulation, 0));
-    run(&plain, 50), run(&with, 50);
+    run_steps(&plain, 50), run_steps(&with, 50);
     assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
     assert_done(&with, brc_simulation_displacement(with.simulation, u + n));
     for (int64_t k = 0; k < n; ++k) largest = fmax(largest, fabs(u[k]));
     for (int64_t k = 0; k < n; ++k) assert_true(fabs(u[k] - u[k + n]) < 1e-10 * largest);
-    assert_int_equal(broken(&with), 0);
+    assert_int_equal(count_broken(&with), 0);
     free(u);
     close_case(&plain), close_case(&with);
 }

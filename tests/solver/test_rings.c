@@ -10,9 +10,6 @@
 #define GRAVITY "gravity: [0 m/s^2, -1e-4 m/s^2, 0 m/s^2]\n"
 
 static brc_rings *rings_of(bench_case *c) { return c->simulation->fracture->cells->rings; }
-static void run(bench_case *c, int64_t steps) { assert_done(c, brc_simulation_advance(c->simulation, steps)); }
-static void begin(bench_case *c) { assert_done(c, brc_simulation_begin_stage(c->simulation, 0)); }
-
 static double *rows(bench_case *c, brc_buffer *buffer)
 {
     double *x = calloc((size_t)(3 * c->domain->n_elements), sizeof *x);
@@ -52,8 +49,8 @@ static void one_break(case_options o, int64_t steps, double share)
     bench_case c;
     const double half_kick = 0.01;
     open_case(&c, o);
-    begin(&c);
-    run(&c, steps);
+    begin_first(&c);
+    run_steps(&c, steps);
     brc_simulation *s = c.simulation;
     const int64_t n = 3 * c.domain->n_elements;
     int64_t before, after;
@@ -121,8 +118,8 @@ static void nothing_piles_up(case_options o)
     bench_case c;
     int64_t broken;
     open_case(&c, o);
-    begin(&c);
-    run(&c, 150);
+    begin_first(&c);
+    run_steps(&c, 150);
     assert_done(&c, brc_simulation_broken(c.simulation, &broken));
     assert_true(broken > 50);
     double *f = rows(&c, c.simulation->force);
@@ -149,9 +146,9 @@ static void the_same_bonds_break_as_with_whole_evaluations(case_options o)
     int64_t n[2];
     for (int k = 0; k < 2; ++k) {
         open_case(&c[k], o);
-        begin(&c[k]);
+        begin_first(&c[k]);
         rings_of(&c[k])->always_whole = k == 1;
-        run(&c[k], 60);
+        run_steps(&c[k], 60);
         assert_done(&c[k], brc_simulation_breaks(c[k].simulation, &n[k], &events[k]));
     }
     assert_true(n[0] > 20 && n[0] == n[1]);
