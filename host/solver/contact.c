@@ -7,15 +7,25 @@
 
 static const double sphere_depth = 0.1; /* CONTACT_DEPTH of kernels/contact_law.h */
 
+/* Bodies may be brought to rest before anything moves; what has met or broken has no linear operator to solve with. */
 static brc_status check_scene(const brc_simulation *s)
 {
-    for (int32_t i = 0; i < s->scene->n_stages; ++i)
-        if (s->scene->stages[i].solver != BRC_SOLVER_DYNAMIC)
+    const char *moving = NULL;
+    for (int32_t i = 0; i < s->scene->n_stages; ++i) {
+        const brc_stage *stage = s->scene->stages + i;
+        if (stage->solver == BRC_SOLVER_DYNAMIC) moving = moving ? moving : stage->name;
+        else if (stage->most_events > 0)
+            return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': events know no contact, and what they break would meet; use a dynamic stage, or leave contact out", stage->name);
+        else if (moving)
             return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                            "stage '%s': contact is for dynamic stages; surfaces that open and close have no linear operator to solve with. Use `solver: {dynamic: ...}` with "
-                            "mass damping to find a rest, or leave contact out", s->scene->stages[i].name);
+                            "stage '%s': static stages and modes know no contact, as surfaces that open and close have no linear operator to solve with; expected before the first dynamic stage, "
+                            "which is '%s'. Use `solver: {dynamic: ...}` with mass damping to find a rest, or leave contact out", stage->name, moving);
+    }
     return BRC_OK;
 }
+
+/* In static stages and modes surfaces know nothing of each other. */
+static bool sleeps(const brc_simulation *s) { return s->stage >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC; }
 
 static brc_status find_kernels(brc_simulation *s)
 {
@@ -100,11 +110,31 @@ brc_status brc_contact_gradients(brc_simulation *s)
     return BRC_OK;
 }
 
+/* No pairs, whatever initial fields brought near before the stage. */
+static brc_status fall_asleep(brc_simulation *s)
+{
+    brc_contact_list *l = &s->contact->now;
+    s->contact->due = false;
+    l->n_listed = l->n_pairs = l->n_busy = 0;
+    return brc_buffer_fill_zero(s->contact->stored);
+}
+
 brc_status brc_contact_restart(brc_simulation *s)
 {
     if (!s->contact) return BRC_OK;
+    if (sleeps(s)) return fall_asleep(s);
     BRC_TRY(brc_contact_detach(s));
     return search_soon(s);
+}
+
+brc_status brc_contact_wakes(const brc_simulation *s, const brc_ledger *ledger)
+{
+    static const double little = 1e-6; /* of the elastic energy: what a thousandth of its strains can press together */
+    const brc_stage *before = s->stage > 0 ? s->scene->stages + s->stage - 1 : NULL;
+    if (!s->contact || sleeps(s) || !before || before->solver == BRC_SOLVER_DYNAMIC || !(ledger->contact > little * ledger->elastic)) return BRC_OK;
+    return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                    "stage '%s': surfaces overlap as it begins and hold %.3g J, beside %.3g J of elastic energy: stage '%s' knows no contact and pressed them into each other. Keep them apart by that "
+                    "much, or come to rest in a dynamic stage with mass damping", brc_current_stage(s)->name, ledger->contact, ledger->elastic, before->name);
 }
 
 brc_status brc_contact_follow(brc_simulation *s)

@@ -9,7 +9,7 @@
 
 typedef struct brc_contact_state brc_contact_state;
 
-/* s->contact, after fracture and strikers are there. BRC_BAD_INPUT: static stages, models or shapes that cannot touch. */
+/* s->contact, after fracture and strikers are there. It sleeps in static stages and modes. BRC_BAD_INPUT: such stages after dynamic ones, events, models or shapes that cannot touch. */
 brc_status brc_contact_create(brc_simulation *s);
 void brc_contact_free(brc_simulation *s);
 /* Device bytes it takes before anything is near anything (n rows, entries of the layout, elements that are exposed). */
@@ -17,6 +17,8 @@ int64_t brc_contact_bytes(const brc_scene *scene, const brc_domain *domain, int6
 
 /* Elements were moved by hand or a stage begins: look for pairs again. */
 brc_status brc_contact_restart(brc_simulation *s);
+/* The forces of the start of a stage are there, with this ledger: BRC_BAD_INPUT if the static stage before it has pressed surfaces into each other. */
+brc_status brc_contact_wakes(const brc_simulation *s, const brc_ledger *ledger);
 /* Elements moved by a step: look again where they moved far enough. */
 brc_status brc_contact_follow(brc_simulation *s);
 /* dlsm: the rotations of rigid cells go into the gradients. */

@@ -390,14 +390,15 @@ const brc_load *brc_imposed_of(const brc_stage *stage, const brc_imposed_load *i
 }
 
 /* Elements that no beam holds stay where they are, in the components that no load of the stage prescribes. */
-static brc_status create_still(brc_simulation *s, const int32_t *taken, brc_imposed_load *out, bool *any)
+static brc_status create_still(brc_simulation *s, const brc_stage *stage, const int32_t *taken, brc_imposed_load *out, bool *any)
 {
     const brc_domain *d = s->domain;
     int32_t *element = NULL, *flag = NULL, n = 0;
     double *base = NULL, *now = NULL;
     brc_status status = BRC_OK;
+    const bool meets = s->scene->has_contact && stage->solver == BRC_SOLVER_DYNAMIC;
     *any = false;
-    if (!brc_is_beams(s) || (s->scene->has_contact && !s->scene->model.keep_isolated)) return BRC_OK; /* loose ones are for contact */
+    if (!brc_is_beams(s) || (meets && !s->scene->model.keep_isolated)) return BRC_OK; /* loose ones are for contact */
     for (int64_t e = 0; e < d->n_elements; ++e) n += d->row_start[e + 1] == d->row_start[e];
     if (n == 0) return BRC_OK;
     *any = true;
@@ -461,7 +462,7 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
     }
     if (first == BRC_OK) {
         bool any;
-        status = create_still(s, taken, out->imposed + out->n_imposed, &any);
+        status = create_still(s, stage, taken, out->imposed + out->n_imposed, &any);
         out->n_imposed += any;
     }
 cleanup:

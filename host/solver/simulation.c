@@ -364,6 +364,7 @@ brc_status brc_stage_start(brc_simulation *s)
     BRC_TRY(brc_contact_restart(s));
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(brc_simulation_ledger(s, &after));
+    BRC_TRY(brc_contact_wakes(s, &after));
     s->initial_energy += after.total - s->total_before_stage; /* initial fields, and what changed supports hold or release */
     s->setup_seconds += brc_clock_s() - start;
     return BRC_OK;

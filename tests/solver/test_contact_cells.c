@@ -151,17 +151,6 @@ static void threads_change_nothing(void **state)
     contact_compare((case_options){.n_threads = 1}, (case_options){.n_threads = 2});
 }
 
-static void static_stages_are_refused(void **state)
-{
-    (void)state;
-    bench_case c;
-    assert_int_equal(try_case(&c, (case_options){.sets = "interactions: {contact: {}}\n",
-                                                 .stages = "  - name: press\n    solver: {static: {}}\n    loads:\n      - face_displacement: {set: x-, x: 0}\n"}),
-                     BRC_BAD_INPUT);
-    assert_non_null(strstr(brc_context_message(c.context), "contact is for dynamic stages"));
-    close_case(&c);
-}
-
 /* Arrays only where they are asked for, and where nothing is near the same motion to the last bit, with equal steps. */
 static void what_is_not_asked_for_is_not_there(void **state)
 {
@@ -190,7 +179,6 @@ int main(void)
         cmocka_unit_test(sliding_starts_where_the_slope_is_the_friction),
         cmocka_unit_test(fragments_that_meet_keep_momentum_and_energy),
         cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(static_stages_are_refused),
         cmocka_unit_test(what_is_not_asked_for_is_not_there),
         cmocka_unit_test(forces_are_the_gradient_of_the_energy_with_touching_fragments),
     };
