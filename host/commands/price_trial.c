@@ -54,7 +54,8 @@ static void tell_dynamic(const brc_scene *scene, const brc_setup *setup, const b
     const double seconds = t->cut ? fixed + steps + output : t->enter_s + t->whole_s;
     printf("stage %s: time step %.6g s (%s", stage->name, t->time_step.value, t->time_step.governed_by);
     if (t->time_step.critical > 0) printf(", %.3g of the critical %.6g s", t->time_step.value / t->time_step.critical, t->time_step.critical);
-    printf("; the paper's rule would give %.6g s)\n", t->time_step.published);
+    if (t->time_step.published > 0) printf("; the paper's rule would give %.6g s", t->time_step.published);
+    printf(")\n");
     printf("stage %s: %lld steps of %.3g s each, %.3g bond updates/s, %lld samples of %.3g s, %lld frames of %.3g s: %.3g s%s\n", stage->name, (long long)t->planned, t->pace_s,
            (double)brc_setup_n_bonds(setup) / t->pace_s, (long long)t->samples_planned, t->sample_s, (long long)t->frames_planned, t->frame_s, seconds,
            t->cut ? "" : " (run to its end)");
