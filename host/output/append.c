@@ -6,6 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+enum { PIECE_BYTES = 1 << 16 };
+
 struct brc_append {
     char *path; /* owned, for sentences */
     int file;
@@ -77,7 +79,7 @@ brc_status brc_append_add(brc_context *context, brc_append *a, const brc_text *t
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) {
             const int reason = errno;
-            if (ftruncate(a->file, a->bytes) == 0) (void)lseek(a->file, a->bytes, SEEK_SET);
+            brc_append_cut(a, a->bytes);
             return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write: %s%s", a->path, strerror(reason),
                             reason == ENOSPC ? "; free some space or name another folder" : "");
         }
@@ -85,6 +87,20 @@ brc_status brc_append_add(brc_context *context, brc_append *a, const brc_text *t
     }
     a->bytes += (int64_t)text->length;
     return BRC_OK;
+}
+
+brc_status brc_append_piece(brc_context *context, brc_append *a, brc_text *text)
+{
+    if (text->status == BRC_OK && text->length < PIECE_BYTES) return BRC_OK;
+    BRC_TRY(brc_append_add(context, a, text));
+    text->length = 0;
+    return BRC_OK;
+}
+
+void brc_append_cut(brc_append *a, int64_t bytes)
+{
+    if (ftruncate(a->file, bytes) == 0) (void)lseek(a->file, bytes, SEEK_SET);
+    a->bytes = bytes;
 }
 
 brc_status brc_append_finish(brc_context *context, brc_append *a)

@@ -15,6 +15,10 @@ int64_t brc_append_bytes(const brc_append *file);
 /* The text behind what is there; where it does not fit, the file stays as it was and the same may be tried again. The text's own failure, or
  * BRC_FILE_FAILED. */
 brc_status brc_append_add(brc_context *context, brc_append *file, const brc_text *text);
+/* The same once the text has grown beyond 64 kB, and empties it: for tables of any length. End with brc_append_add. */
+brc_status brc_append_piece(brc_context *context, brc_append *file, brc_text *text);
+/* Back to its first `bytes` bytes, after pieces of what did not come to its end. */
+void brc_append_cut(brc_append *file, int64_t bytes);
 /* See it to the disk. */
 brc_status brc_append_finish(brc_context *context, brc_append *file);
 /* Accepts NULL and a pointer to NULL. */

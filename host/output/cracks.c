@@ -125,17 +125,21 @@ const char *brc_cracks_csv_head(void)
 brc_status brc_cracks_csv_add(brc_context *context, brc_append *file, const brc_cracks *cracks, int64_t *n_written)
 {
     brc_text text = {.context = context};
-    for (int64_t k = *n_written; k < cracks->n_broken; ++k) {
+    brc_status status = BRC_OK;
+    const int64_t bytes = brc_append_bytes(file);
+    for (int64_t k = *n_written; k < cracks->n_broken && status == BRC_OK; ++k) {
         const brc_break *b = &cracks->breaks[k];
         brc_text_add(&text, "%.17g,%lld,%d,%s,%d,%d,%d", b->time, (long long)b->step, (int)b->stage, brc_break_mode_name(b->mode), (int)b->bond,
                      (int)b->element_i, (int)b->element_j);
         for (int c = 0; c < 3; ++c) brc_text_add(&text, ",%.17g", b->position[c]);
         for (int c = 0; c < 3; ++c) brc_text_add(&text, ",%.17g", b->normal[c]);
         brc_text_add(&text, ",%.17g,%.17g,%.17g,%.17g\n", b->stress, b->energy, b->area, b->load);
+        status = brc_append_piece(context, file, &text);
     }
-    const brc_status status = brc_append_add(context, file, &text);
-    brc_text_free(&text);
+    if (status == BRC_OK) status = brc_append_add(context, file, &text);
     if (status == BRC_OK) *n_written = cracks->n_broken;
+    else brc_append_cut(file, bytes);
+    brc_text_free(&text);
     return status;
 }
 

@@ -59,15 +59,19 @@ const char *brc_fragment_table_csv_head(void)
 brc_status brc_fragment_table_csv_add(brc_context *context, brc_append *file, int64_t frame, const brc_fragment_table *table)
 {
     brc_text text = {.context = context};
-    for (int64_t i = 0; i < table->n && text.status == BRC_OK; ++i) {
+    brc_status status = BRC_OK;
+    const int64_t bytes = brc_append_bytes(file);
+    for (int64_t i = 0; i < table->n && status == BRC_OK; ++i) {
         const brc_fragment *f = &table->row[i];
         brc_text_add(&text, "%lld,%.17g,%d,%lld,%d,%lld", (long long)frame, table->time, (int)table->stage, (long long)i, (int)f->first_element,
                      (long long)f->n_elements);
         for (int k = 0; k < N_COLUMNS; ++k)
             for (int c = 0; c < COLUMNS[k].width; ++c) brc_text_add(&text, ",%.9g", numbers(f, &COLUMNS[k])[c]);
         brc_text_add(&text, ",%.9g\n", table->below[i]);
+        status = brc_append_piece(context, file, &text);
     }
-    const brc_status status = brc_append_add(context, file, &text);
+    if (status == BRC_OK) status = brc_append_add(context, file, &text);
+    if (status != BRC_OK) brc_append_cut(file, bytes); /* all rows of a moment or none */
     brc_text_free(&text);
     return status;
 }

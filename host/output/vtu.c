@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define BLOCK_BYTES ((int64_t)1 << 22)
+#define BLOCK_BYTES ((int64_t)1 << 18)
 
 static const char *const NUMBER_NAME[] = {"Float32", "Float64", "Int64", "UInt8"};
 static const int NUMBER_BYTES[] = {4, 8, 8, 1};

@@ -6,6 +6,7 @@
 #include "../../host/output/crack_sensors.h"
 #include "../../host/output/crack_statistics.h"
 #include "../../host/output/crack_surface.h"
+#include "../../host/output/deform.h"
 #include "../../host/output/stop.h"
 #include <stdlib.h>
 
@@ -27,6 +28,21 @@ static void a_file_grows_text_by_text(void **state)
     assert_int_equal(brc_append_add(test_context, file, &text), BRC_OK);
     read = test_read(path);
     assert_string_equal(read, "head\none\none\n");
+    brc_memory_free(read);
+    /* pieces: short ones wait, long ones go, and what did not come to its end is taken back */
+    text.length = 0;
+    brc_text_add(&text, "two\n");
+    assert_int_equal(brc_append_piece(test_context, file, &text), BRC_OK);
+    assert_true(text.length == 4 && brc_append_bytes(file) == 13);
+    while (text.length < 70000) brc_text_add(&text, "row\n");
+    const int64_t long_one = (int64_t)text.length;
+    assert_int_equal(brc_append_piece(test_context, file, &text), BRC_OK);
+    assert_true(text.length == 0 && brc_append_bytes(file) == 13 + long_one);
+    brc_append_cut(file, 13);
+    brc_text_add(&text, "three\n");
+    assert_int_equal(brc_append_add(test_context, file, &text), BRC_OK);
+    read = test_read(path);
+    assert_string_equal(read, "head\none\none\nthree\n");
     brc_memory_free(read);
     assert_int_equal(brc_append_finish(test_context, file), BRC_OK);
     brc_append_free(&file);
@@ -159,6 +175,68 @@ static void a_surface_has_two_sides_of_every_break(void **state)
     brc_scene_free(&scene);
 }
 
+/* Every bond broken: more points than the file is written in at a time (256 kB), and 72 bytes kept of a polygon of some 5.5 corners at most: 16, and 22 that
+ * grow by half with the old ones beside the new; besides the block and what is of elements. */
+static void a_large_surface_is_written_in_pieces_and_little_of_it_is_kept(void **state)
+{
+    (void)state;
+    brc_scene *scene = test_scene(SCENE);
+    brc_domain *d = test_domain(700);
+    char *folder = test_new_folder(), *data;
+    brc_break *b = calloc((size_t)d->n_bonds, sizeof *b);
+    for (int64_t k = 0; k < d->n_bonds; ++k) {
+        const int64_t h = d->bond_half_edge[k];
+        b[k] = (brc_break){.bond = (int32_t)k, .element_i = d->neighbour[d->twin[h]], .element_j = d->neighbour[h], .area = 1};
+    }
+    brc_simulation fake = {.scene = scene, .domain = d, .factor = 1, .gradient = {{1e-3, 0, 0}, {0, 2e-3, 0}, {0, 1e-3, 0}}, .breaks = b, .n_breaks = d->n_bonds};
+    brc_simulation *alone = &fake;
+    const brc_assembly whole = brc_assembly_make(scene, NULL, 1, &alone);
+    const char *path = test_path(folder, "s.vtu");
+    size_t bytes;
+    void *filler; /* up to the most that was ever held, so that what the call holds shows */
+    assert_int_equal(brc_memory_allocate(test_context, &filler, brc_memory_peak() - brc_memory_held() + 4096, 1, "filler"), BRC_OK);
+    const int64_t before = brc_memory_peak();
+    assert_int_equal(brc_crack_surface_write(test_context, &whole, path), BRC_OK);
+    const int64_t kept = brc_memory_peak() - before;
+    brc_memory_free(filler);
+    if (!(kept < ((int64_t)1 << 18) + 72 * 2 * d->n_bonds + 64 * d->n_elements + 16384)) fail_msg("%lld bytes for %lld bonds", (long long)kept, (long long)d->n_bonds);
+    assert_int_equal(brc_file_read_whole(test_context, path, (size_t)1 << 24, &data, &bytes), BRC_OK);
+    const char *points = strstr(data, "encoding=\"raw\">\n_") + strlen("encoding=\"raw\">\n_") + 16 + 8;
+    uint64_t size;
+    memcpy(&size, points - 8, sizeof size);
+    assert_true(size > (uint64_t)1 << 18);
+    const char *moved = points + size + (8 + size / 12 * 8) + (8 + 16 * (uint64_t)d->n_bonds) + (8 + 2 * (uint64_t)d->n_bonds) + 8; /* behind connectivity, offsets, types */
+    double *displacement = calloc((size_t)d->n_elements * 3, sizeof *displacement);
+    uint8_t *unbroken;
+    assert_int_equal(brc_simulation_displacement(&fake, displacement), BRC_OK);
+    assert_int_equal(brc_simulation_whole(&fake, &unbroken), BRC_OK);
+    int64_t at = 0;
+    for (int64_t k = 0; k < 2 * d->n_bonds; ++k) {
+        const int64_t h = k % 2 == 0 ? d->bond_half_edge[k / 2] : d->twin[d->bond_half_edge[k / 2]], e = d->neighbour[d->twin[h]];
+        int64_t corner[256];
+        double gradient[3][3];
+        const int n = brc_crack_surface_corners(d, h, 256, corner);
+        brc_deform_gradient(d, unbroken, displacement, e, gradient);
+        for (int i = 0; i < n; ++i, ++at) {
+            float x[3], u[3];
+            double expected[3];
+            brc_deform_point(d, displacement, e, (const double(*)[3])gradient, d->vertex + 3 * corner[i], expected);
+            memcpy(x, points + 12 * at, sizeof x);
+            memcpy(u, moved + 12 * at, sizeof u);
+            for (int c = 0; c < 3; ++c)
+                if (x[c] != (float)d->vertex[3 * corner[i] + c] || u[c] != (float)expected[c]) fail_msg("point %lld of polygon %lld", (long long)at, (long long)k);
+        }
+    }
+    assert_int_equal(12 * at, size);
+    brc_memory_free(unbroken);
+    free(displacement);
+    free(b);
+    brc_memory_free(data);
+    test_remove_folder(folder);
+    brc_domain_free(&d);
+    brc_scene_free(&scene);
+}
+
 /* ---- sensors ---- */
 
 static double read_sensor(brc_crack_sensors *sensors, brc_simulation *fake, const char *name)
@@ -223,6 +301,7 @@ int main(void)
         cmocka_unit_test(few_faces_have_no_plane),
         cmocka_unit_test(the_corners_of_a_face_are_its_polygon),
         cmocka_unit_test(a_surface_has_two_sides_of_every_break),
+        cmocka_unit_test(a_large_surface_is_written_in_pieces_and_little_of_it_is_kept),
         cmocka_unit_test(sensors_read_what_broke),
         cmocka_unit_test(a_stage_ends_when_its_sensor_fell),
     };
