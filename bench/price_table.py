@@ -49,7 +49,7 @@ def predict(name):
     found = re.search(r"^predicted: %s s(?:.*? from %s to %s s)?.*; %s MB on the host, %s MB on the device, %s MB resident; %s MB on disk" % ((number,) * 7), check.stdout, re.M)
     keys = ("processor_s", "least_s", "most_s", "host_bytes", "device_bytes", "resident_bytes", "disk_bytes")
     p = {k: v and float(v) * (1e6 if k.endswith("bytes") else 1) for k, v in zip(keys, found.groups())} if found else {}
-    more = re.search(r"up to %s MB on the host and %s MB on disk if all break" % (number, number), check.stdout)
+    more = re.search(r"if all bonds broke: up to %s MB on the host and %s MB on disk" % (number, number), check.stdout)
     p.update({} if not more else {"most_host_bytes": float(more.group(1)) * 1e6, "most_disk_bytes": float(more.group(2)) * 1e6})
     p["took_s"] = after.children_user + after.children_system - before.children_user - before.children_system
     return p

@@ -11,13 +11,20 @@
 /* Statistics of the process, not state that any computation reads. */
 static atomic_int_least64_t held_bytes;
 static atomic_int_least64_t peak_bytes;
+static atomic_int_least64_t marked_bytes; /* most held since brc_memory_mark */
+
+static void raise_to(atomic_int_least64_t *peak_of, int64_t now)
+{
+    int64_t peak = atomic_load(peak_of);
+    while (now > peak && !atomic_compare_exchange_weak(peak_of, &peak, now)) {
+    }
+}
 
 static void count(int64_t change)
 {
     const int64_t now = atomic_fetch_add(&held_bytes, change) + change;
-    int64_t peak = atomic_load(&peak_bytes);
-    while (now > peak && !atomic_compare_exchange_weak(&peak_bytes, &peak, now)) {
-    }
+    raise_to(&peak_bytes, now);
+    raise_to(&marked_bytes, now);
 }
 
 static size_t *size_of(void *block)
@@ -85,6 +92,16 @@ int64_t brc_memory_held(void)
 int64_t brc_memory_peak(void)
 {
     return atomic_load(&peak_bytes);
+}
+
+void brc_memory_mark(void)
+{
+    atomic_store(&marked_bytes, atomic_load(&held_bytes));
+}
+
+int64_t brc_memory_peak_since_mark(void)
+{
+    return atomic_load(&marked_bytes);
 }
 
 int64_t brc_memory_resident(void)

@@ -18,6 +18,9 @@ void brc_memory_free(void *block);
 /* Bytes now held and the most ever held through this interface in the process [byte]. */
 int64_t brc_memory_held(void);
 int64_t brc_memory_peak(void);
+/* The most held since the last mark of the process (without one: since its start) [byte]: of a part of a run. */
+void brc_memory_mark(void);
+int64_t brc_memory_peak_since_mark(void);
 /* Most memory of the process that was resident so far, libraries and all [byte]; 0: not known. */
 int64_t brc_memory_resident(void);
 

@@ -1,10 +1,12 @@
-/* The same scene with fewer elements: how many iterations a solve takes, which grow as the elements across the body, and what becomes of its measures. */
+/* The same scene with fewer elements: how many iterations a solve takes, which grow as the elements across the body, what becomes of its measures, how much breaks and
+ * what that does to a step and to the arrays. */
 #include "trial.h"
 #include "pace.h"
 #include "scratch.h"
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "../output/recorder.h"
+#include "../solver/fracture.h"
 #include "../solver/lockstep.h"
 #include "../solver/patience.h"
 #include "../solver/stage_end.h"
@@ -19,7 +21,13 @@ typedef struct watch {
     brc_patience patience;
     double begin;
     bool whole, cut;
-    int64_t *iterations; /* [n_stages] */
+    const brc_trial *trial; /* NULL: how much slower it gets is not wanted */
+    brc_coarse *out;
+    double first, part;  /* clock at the first pause of the stage, and once as large a part of its steps was done as in the trial; 0: not yet */
+    int64_t first_step, part_step;
+    int64_t device_first, device_most; /* bytes */
+    double broken_sum;   /* of shares of bonds, over pauses */
+    int64_t n_pauses;
 } watch;
 
 static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t stage)
@@ -27,6 +35,7 @@ static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t st
     watch *w = self;
     (void)simulation, (void)stage;
     w->begin = brc_pace_clock_s(w->request);
+    w->first = w->part = 0;
     return BRC_OK;
 }
 
@@ -36,9 +45,46 @@ static bool is_over(void *self)
     return brc_pace_clock_s(w->request) - w->begin > stage_s;
 }
 
+/* Broken bonds over all. */
+static brc_status broken_share(const brc_setup *setup, double *out)
+{
+    int64_t broken = 0;
+    for (int32_t k = 0; k < setup->assembly.n; ++k) {
+        int64_t n = 0;
+        BRC_TRY(brc_simulation_broken(setup->assembly.part[k], &n));
+        broken += n;
+    }
+    *out = (double)broken / (double)brc_setup_n_bonds(setup);
+    return BRC_OK;
+}
+
+/* What grows as the body breaks and surfaces meet. */
+static brc_status look(watch *w, brc_simulation *simulation)
+{
+    const int32_t stage = brc_simulation_stage(simulation);
+    const int64_t step = brc_simulation_step(simulation), bytes = brc_assembly_device_bytes(&w->setup->assembly);
+    const double now = brc_pace_clock_s(w->request);
+    double broken;
+    if (w->device_first == 0) w->device_first = bytes;
+    if (bytes > w->device_most) w->device_most = bytes;
+    if (w->first == 0) {
+        w->first = now;
+        w->first_step = step;
+    } else if (w->part == 0 && (double)step * (double)w->trial->stages[stage].planned >=
+                                   (double)w->trial->stages[stage].done * (double)brc_simulation_planned_steps(simulation, stage, brc_simulation_time_step(simulation).value)) {
+        w->part = now;
+        w->part_step = step;
+    }
+    BRC_TRY(broken_share(w->setup, &broken));
+    w->broken_sum += broken;
+    w->n_pauses += 1;
+    return BRC_OK;
+}
+
 static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
 {
     watch *w = self;
+    if (w->trial && brc_simulation_scene(simulation)->stages[brc_simulation_stage(simulation)].solver == BRC_SOLVER_DYNAMIC) BRC_TRY(look(w, simulation));
     if (why != BRC_PAUSE_GOING || (w->whole && !is_over(w))) return BRC_OK;
     w->cut = true;
     brc_simulation_end_stage(simulation, "trial"); /* increments go on */
@@ -50,13 +96,16 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t stag
     watch *w = self;
     const brc_assembly *all = &w->setup->assembly;
     bool left_off = false;
-    (void)simulation;
-    w->iterations[stage] = 0;
+    const int64_t step = brc_simulation_step(simulation);
+    if (w->part > w->first && step > w->part_step)
+        w->out->slower[stage] = (brc_pace_clock_s(w->request) - w->first) / (double)(step - w->first_step) / ((w->part - w->first) / (double)(w->part_step - w->first_step));
+    w->out->iterations[stage] = 0;
     for (int32_t k = 0; k < all->n; ++k) {
         left_off |= brc_simulation_left_off(all->part[k]);
-        w->iterations[stage] += brc_simulation_static_report(all->part[k]).iterations;
+        w->out->iterations[stage] += brc_simulation_static_report(all->part[k]).iterations;
     }
-    if (left_off) w->iterations[stage] = 0;
+    if (w->first > 0) w->out->done[stage] = (double)step / (double)brc_simulation_planned_steps(simulation, stage, brc_simulation_time_step(simulation).value);
+    if (left_off) w->out->iterations[stage] = 0;
     w->cut |= left_off;
     return BRC_OK;
 }
@@ -94,17 +143,18 @@ cleanup:
     return status;
 }
 
-static brc_status run(brc_context *context, brc_scene *scene, const brc_device_request *request, bool whole, brc_coarse *out)
+static brc_status run(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_trial *trial, bool whole, brc_coarse *out)
 {
     brc_setup setup = {0};
     brc_status status = BRC_OK;
     char folder[BRC_SCRATCH];
-    watch w = {.request = request, .setup = &setup, .whole = whole, .iterations = out->iterations};
+    watch w = {.request = request, .setup = &setup, .trial = trial, .whole = whole, .out = out};
     w.patience = (brc_patience){.self = &w, .over = is_over, .batch = whole ? BATCH : 1};
     BRC_TRY_OR(cleanup, brc_setup_domains(context, scene, NULL, request->n_threads, &setup));
     BRC_TRY_OR(cleanup, brc_setup_polish(context, request->n_threads, &setup));
     BRC_TRY_OR(cleanup, brc_setup_simulations(context, request, &setup));
     const double across = brc_setup_across(&setup);
+    out->n_elements = brc_setup_n_elements(&setup);
     BRC_TRY_OR(cleanup, brc_simulation_observe(setup.simulation[0], &(brc_observer){.self = &w, .stage_begin = stage_begin, .pause = paused, .stage_end = stage_end}));
     for (int32_t k = 0; k < setup.n; ++k) brc_simulation_set_patience(setup.simulation[k], &w.patience);
     if (whole) {
@@ -114,6 +164,11 @@ static brc_status run(brc_context *context, brc_scene *scene, const brc_device_r
     } else {
         status = brc_lockstep_run(setup.n, setup.simulation);
     }
+    if (status == BRC_OK && trial && !w.cut) {
+        BRC_TRY_OR(cleanup, broken_share(&setup, &out->broken));
+        out->broken_mean = w.n_pauses > 0 ? w.broken_sum / (double)w.n_pauses : out->broken;
+        if (w.device_first > 0) out->grown = (double)w.device_most / (double)w.device_first;
+    }
     if (status == BRC_OK) out->across = across;
 cleanup:
     brc_setup_free(&setup);
@@ -121,7 +176,7 @@ cleanup:
 }
 
 /* Every fill of the scene made coarser, unless one cannot be. */
-static brc_status run_coarser(brc_context *context, brc_scene *scene, const brc_device_request *request, double share, uint64_t seed, bool whole, brc_coarse *out)
+static brc_status run_coarser(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_trial *trial, double share, uint64_t seed, bool whole, brc_coarse *out)
 {
     brc_fill *kept = NULL;
     bool can = true;
@@ -131,17 +186,20 @@ static brc_status run_coarser(brc_context *context, brc_scene *scene, const brc_
         can &= !scene->bodies[b].domain_file[0] && coarsen(&scene->bodies[b].fill, share, seed);
     }
     /* What a coarser body cannot do is no failure: then there is nothing to learn from it. */
-    if (can && run(context, scene, request, whole, out) != BRC_OK) brc_context_clear(context);
+    if (can && run(context, scene, request, trial, whole, out) != BRC_OK) brc_context_clear(context);
     for (int32_t b = 0; b < scene->n_bodies; ++b) scene->bodies[b].fill = kept[b];
     brc_memory_free(kept);
     return BRC_OK;
 }
 
-brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_device_request *request, double share, uint64_t seed, bool whole, brc_coarse *out)
+brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_trial *trial, double share, uint64_t seed, bool whole, brc_coarse *out)
 {
     const brc_log_level level = brc_log_get_level(context);
     const brc_output output = scene->output;
-    *out = (brc_coarse){0};
+    *out = (brc_coarse){.broken = NAN, .broken_mean = NAN, .grown = NAN};
+    BRC_TRY(BRC_ALLOCATE(context, &out->slower, scene->n_stages, "pace"));
+    BRC_TRY(BRC_ALLOCATE(context, &out->done, scene->n_stages, "pace"));
+    for (int32_t k = 0; k < scene->n_stages; ++k) out->slower[k] = out->done[k] = NAN;
     BRC_TRY(BRC_ALLOCATE(context, &out->iterations, scene->n_stages, "iterations"));
     BRC_TRY(BRC_ALLOCATE(context, &out->measures, scene->n_measures, "measures"));
     for (int32_t k = 0; k < scene->n_measures; ++k) out->measures[k] = NAN;
@@ -149,7 +207,7 @@ brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_de
     scene->output.picture = false;
     scene->output.curve_x[0] = '\0';
     brc_log_set_level(context, BRC_LOG_ERROR);
-    const brc_status status = run_coarser(context, scene, request, share, seed, whole, out);
+    const brc_status status = run_coarser(context, scene, request, trial, share, seed, whole, out);
     brc_log_set_level(context, level);
     scene->output = output;
     return status;
@@ -159,5 +217,7 @@ void brc_coarse_free(brc_coarse *coarse)
 {
     brc_memory_free(coarse->iterations);
     brc_memory_free(coarse->measures);
+    brc_memory_free(coarse->slower);
+    brc_memory_free(coarse->done);
     *coarse = (brc_coarse){0};
 }

@@ -152,9 +152,8 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     const double before_s = brc_pace_clock_s(&request) - build_start;
     BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, &trial));
     if (brc_arguments_value(arguments, "effects")) print_parts(&setup);
-    const int64_t device_bytes = brc_assembly_device_bytes(&setup.assembly);
     brc_setup_free_simulations(&setup); /* a coarser body may need the room */
-    BRC_TRY_OR(cleanup, brc_price_tell_trial(context, scene, &setup, &request, &trial, before_s, device_bytes, &total));
+    BRC_TRY_OR(cleanup, brc_price_tell_trial(context, scene, &setup, &request, &trial, before_s, &total));
     BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &setup, &request, &trial, total, &own));
     BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, &setup, precision, total, &own));
 cleanup:

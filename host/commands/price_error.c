@@ -17,7 +17,7 @@ static brc_status compare(brc_context *context, brc_scene *scene, const brc_devi
 {
     for (uint64_t seed = 0; seed < SEEDS; ++seed) {
         brc_coarse coarse;
-        const brc_status status = brc_trial_coarse(context, scene, request, share, seed, true, &coarse);
+        const brc_status status = brc_trial_coarse(context, scene, request, NULL, share, seed, true, &coarse);
         for (int32_t k = 0; status == BRC_OK && coarse.across > 0 && k < scene->n_measures; ++k)
             out->error[k] = fmax(out->error[k], error_of(fine[k], coarse.measures[k], fine_across / coarse.across, out->order) / times); /* fmax passes NAN over */
         brc_coarse_free(&coarse);
@@ -50,7 +50,7 @@ brc_status brc_price_error_find(brc_context *context, brc_scene *scene, const br
     } else {
         share = fmin(1.0 / QUARTER, pow(affordable_s / seconds, 0.75));
         if (!(share * n >= LEAST_ELEMENTS)) return BRC_OK;
-        BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, share, 0, true, &middle));
+        BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, NULL, share, 0, true, &middle));
         if (middle.across > 0)
             BRC_TRY_OR(cleanup, compare(context, scene, request, middle.measures, middle.across, share / QUARTER, pow(across / middle.across, out->order), out));
     }

@@ -13,6 +13,11 @@ static const double countable_s = 1.5;
 static const double cells_break = 4.5, beams_break = 4, faces_soften = 6, surfaces_touch = 3, events_grow = 2;
 /* The least of a range where nothing can end a stage early: what a pace is uncertain by. */
 static const double uncertain = 0.8;
+/* What breaks or meets is looked at on a coarser body that takes some so long, of so many elements at least. */
+static const double looked_s = 2.5, least_looked = 200;
+/* Bytes of a broken bond: kept on the host (the event of 136, and, where that is more than what else is held for a while, its two faces as they are written), written once (a line of cracks.csv and a row of result.h5), and in each
+ * frame two polygons of 97 bytes and 32 a corner: octagons of beams, some 5.5 corners of cells. */
+static const double host_of_break = 150, row_of_break = 420, frame_of_beam = 706, frame_of_face = 546;
 
 typedef struct sums {
     double seconds, least, most;
@@ -48,10 +53,12 @@ static double worst_growth(const brc_scene *scene)
     return factor;
 }
 
-static void tell_dynamic(const brc_scene *scene, const brc_setup *setup, const brc_stage *stage, const brc_trial_stage *t, sums *total)
+/* slower, done: of the coarser body, how much longer its steps got than in the trial and what part of its steps it did; NAN: not known. */
+static void tell_dynamic(const brc_scene *scene, const brc_setup *setup, const brc_stage *stage, const brc_trial_stage *t, double slower, double done, sums *total)
 {
-    const double growth = worst_growth(scene), fixed = t->enter_s + t->warm_s, steps = t->pace_s * (double)t->planned, output = output_of(t);
-    const double seconds = t->cut ? fixed + steps + output : t->enter_s + t->whole_s;
+    const double growth = worst_growth(scene), unbroken = t->pace_s * (double)t->planned, fixed = t->enter_s + t->warm_s, output = output_of(t);
+    const double factor = t->cut && slower > 1 ? fmin(slower, growth) : 1, part = t->cut && may_end_early(stage) && done > 0 ? fmin(done, 1) : 1;
+    const double seconds = t->cut ? fixed + part * (factor * unbroken + output) : t->enter_s + t->whole_s;
     printf("stage %s: time step %.6g s (%s", stage->name, t->time_step.value, t->time_step.governed_by);
     if (t->time_step.critical > 0) printf(", %.3g of the critical %.6g s", t->time_step.value / t->time_step.critical, t->time_step.critical);
     if (t->time_step.published > 0) printf("; the paper's rule would give %.6g s", t->time_step.published);
@@ -59,10 +66,12 @@ static void tell_dynamic(const brc_scene *scene, const brc_setup *setup, const b
     printf("stage %s: %lld steps of %.3g s each, %.3g bond updates/s, %lld samples of %.3g s, %lld frames of %.3g s: %.3g s%s\n", stage->name, (long long)t->planned, t->pace_s,
            (double)brc_setup_n_bonds(setup) / t->pace_s, (long long)t->samples_planned, t->sample_s, (long long)t->frames_planned, t->frame_s, seconds,
            t->cut ? "" : " (run to its end)");
+    if (factor > 1) printf("stage %s: its steps get %.2g times as long as bonds break or surfaces meet (seen with fewer elements)\n", stage->name, factor);
+    if (part < 1) printf("stage %s: it ends after %.2g of its steps (seen with fewer elements)\n", stage->name, part);
     if (!t->cut) add(total, seconds, seconds, seconds);
     else if (growth == 1 && !may_end_early(stage)) add(total, seconds, seconds, seconds);
     else {
-        const double least = may_end_early(stage) ? t->enter_s + t->whole_s : uncertain * seconds, most = fixed + growth * steps + 2 * output;
+        const double least = may_end_early(stage) ? t->enter_s + t->whole_s : uncertain * (fixed + unbroken + output), most = fixed + growth * unbroken + 2 * output;
         printf("stage %s: from %.3g to %.3g s, as %s\n", stage->name, least, most,
                may_end_early(stage) ? "it may end early, bonds break or surfaces meet" : "bonds break or surfaces meet");
         add(total, seconds, least, most);
@@ -110,34 +119,68 @@ static double coarse_share(const brc_scene *scene, const brc_trial *trial, doubl
     return longest > 0 ? fmin(0.25, pow(countable_s / longest, 0.75)) : 0;
 }
 
-static void tell_total(const brc_device_request *request, const brc_trial *trial, const sums *total, int64_t device_bytes)
+/* Elements of the coarser body on which what breaks or meets is looked at over those of this one; 0: nothing does, or the trial saw the end of it. */
+static double looked_share(const brc_scene *scene, const brc_setup *setup, const brc_trial *trial)
+{
+    const double n = (double)brc_setup_n_elements(setup);
+    bool cut = false;
+    for (int32_t k = 0; k < trial->n_stages; ++k) cut |= trial->stages[k].ran && trial->stages[k].cut;
+    if (!cut || worst_growth(scene) == 1) return 0;
+    const double share = fmin(0.25, pow(looked_s / (1.5 * brc_trial_seconds(trial)), 0.75));
+    return share * n >= least_looked ? share : 0;
+}
+
+/* Beyond what the trial held. looked: on a coarser body, its shares NAN where nothing is known of it. */
+typedef struct memory {
+    double host, device, resident, disk;
+} memory;
+
+static memory add_up(const brc_scene *scene, const brc_setup *setup, const brc_trial *trial, const brc_coarse *looked)
+{
+    memory m = {(double)trial->host_bytes, (double)trial->device_bytes[1], (double)trial->resident_bytes, (double)brc_trial_disk(trial, isnan(looked->broken) ? NULL : looked->done)};
+    if (!scene->has_fracture || isnan(looked->broken)) return m;
+    const double n_bonds = (double)brc_setup_n_bonds(setup), more = fmax(0, looked->broken * n_bonds - (double)trial->n_broken);
+    const double in_frames = fmax(0, looked->broken_mean * n_bonds - 0.5 * (double)trial->n_broken); /* the trial's frames had some of them */
+    double frames = 0;
+    for (int32_t k = 0; k < trial->n_stages; ++k) frames += (looked->done[k] > 0 ? fmin(looked->done[k], 1) : 1) * (double)trial->stages[k].frames_planned;
+    const double device = looked->grown > 0 ? fmax(0, looked->grown * (double)trial->device_bytes[0] - m.device) : 0, host = more * host_of_break;
+    m.host = fmax(m.host, (double)trial->stepping_bytes + host);
+    m.device += device;
+    m.resident += host + device; /* of the cpu device; a card has its own */
+    m.disk += more * row_of_break;
+    if (scene->output.crack_surface) m.disk += frames * in_frames * (scene->model.kind == BRC_MODEL_CBM ? frame_of_beam : frame_of_face);
+    return m;
+}
+
+static void tell_total(const brc_device_request *request, const memory *m, const sums *total)
 {
     printf("predicted: %.3g s of %s time with building and output", total->seconds, brc_pace_clock_name(request));
     if (total->ranged) printf(", from %.3g to %.3g s", total->least, total->most);
-    printf("; %.4g MB on the host, %.4g MB on the device, %.4g MB resident; %.4g MB on disk\n", (double)trial->host_bytes / 1e6, (double)device_bytes / 1e6,
-           (double)trial->resident_bytes / 1e6, (double)trial->disk_bytes / 1e6);
+    printf("; %.4g MB on the host, %.4g MB on the device, %.4g MB resident; %.4g MB on disk\n", m->host / 1e6, m->device / 1e6, m->resident / 1e6, m->disk / 1e6);
 }
 
-/* What is kept and written of bonds that break, at most: measured on examples at 0.45 to 0.96 kB a broken bond on the host, 0.25 to 0.5 kB each in a frame. */
-static void tell_broken(const brc_scene *scene, const brc_setup *setup, const brc_trial *trial)
+/* What was looked at, and what it would be if everything broke. */
+static void tell_broken(const brc_scene *scene, const brc_setup *setup, const brc_trial *trial, const brc_coarse *looked)
 {
-    static const double host = 1000, frame = 500;
-    const double n_bonds = (double)brc_setup_n_bonds(setup);
+    const double n_bonds = (double)brc_setup_n_bonds(setup), frame = scene->model.kind == BRC_MODEL_CBM ? frame_of_beam : frame_of_face;
     int64_t n_frames = 0;
     for (int32_t k = 0; k < trial->n_stages; ++k) n_frames += trial->stages[k].frames_planned;
-    if (scene->has_fracture)
-        printf("broken bonds add to that: up to %.4g MB on the host and %.4g MB on disk if all break\n", ((double)trial->host_bytes + host * n_bonds) / 1e6,
-               ((double)trial->disk_bytes + frame * n_bonds * (double)n_frames) / 1e6);
+    if (!scene->has_fracture) return;
+    if (!isnan(looked->broken)) printf("broken bonds: about %.2g %% of all at the end, as with %lld elements\n", 100 * looked->broken, (long long)looked->n_elements);
+    printf("if all bonds broke: up to %.4g MB on the host and %.4g MB on disk\n", fmax((double)trial->host_bytes, (double)trial->stepping_bytes + host_of_break * n_bonds) / 1e6,
+           ((double)brc_trial_disk(trial, NULL) + (row_of_break + frame * (double)n_frames) * n_bonds) / 1e6);
 }
 
 brc_status brc_price_tell_trial(brc_context *context, brc_scene *scene, const brc_setup *setup, const brc_device_request *request, const brc_trial *trial, double before_s,
-                                int64_t device_bytes, double *seconds)
+                                double *seconds)
 {
-    const double across = brc_setup_across(setup), share = coarse_share(scene, trial, across);
+    const double across = brc_setup_across(setup), share = coarse_share(scene, trial, across), look = trial->stopped ? 0 : looked_share(scene, setup, trial);
     sums total = {0};
-    brc_coarse coarse = {0};
+    brc_coarse coarse = {0}, looked = {.broken = NAN};
+    brc_status status = BRC_OK;
     *seconds = NAN;
-    if (share > 0) BRC_TRY(brc_trial_coarse(context, scene, request, share, 0, false, &coarse));
+    if (share > 0) BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, NULL, share, 0, false, &coarse));
+    if (look > 0) BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, trial, look, 0, true, &looked));
     add(&total, before_s + trial->end_s, before_s + trial->end_s, before_s + trial->end_s);
     for (int32_t k = 0; k < trial->n_stages; ++k) {
         const brc_stage *stage = &scene->stages[k];
@@ -145,15 +188,18 @@ brc_status brc_price_tell_trial(brc_context *context, brc_scene *scene, const br
         if (!t->ran) continue;
         if (is_solve(stage)) tell_solve(stage, t, coarse.across > 0 ? (double)coarse.iterations[k] * across / coarse.across : 0, across, &total);
         else if (stage->most_events > 0) tell_events(stage, t, &total);
-        else tell_dynamic(scene, setup, stage, t, &total);
+        else tell_dynamic(scene, setup, stage, t, looked.slower ? looked.slower[k] : NAN, looked.done ? looked.done[k] : NAN, &total);
     }
-    brc_coarse_free(&coarse);
     if (trial->stopped) {
         printf("predicted: nothing, the trial was stopped: %s\n", trial->reason);
-        return BRC_OK;
+        goto cleanup;
     }
-    tell_total(request, trial, &total, device_bytes);
-    tell_broken(scene, setup, trial);
+    const memory m = add_up(scene, setup, trial, &looked);
+    tell_total(request, &m, &total);
+    tell_broken(scene, setup, trial, &looked);
     *seconds = total.seconds;
-    return BRC_OK;
+cleanup:
+    brc_coarse_free(&coarse);
+    brc_coarse_free(&looked);
+    return status;
 }

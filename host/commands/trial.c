@@ -7,6 +7,7 @@
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "../output/recorder.h"
+#include "../solver/fracture.h"
 #include "../solver/lockstep.h"
 #include "../solver/patience.h"
 #include "../solver/stage_end.h"
@@ -35,6 +36,7 @@ typedef struct watch {
     double asked_first, asked_last; /* by solves */
     int64_t asked;
     double patience_s;
+    int64_t device_first; /* bytes at the first pause */
 } watch;
 
 static double clock_of(const watch *w) { return brc_pace_clock_s(w->request); }
@@ -97,6 +99,7 @@ static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
     const int64_t step = brc_simulation_step(simulation);
     const brc_stage *stage = &brc_simulation_scene(simulation)->stages[brc_simulation_stage(simulation)];
     w->now->done = step;
+    if (w->device_first == 0 && stage->solver == BRC_SOLVER_DYNAMIC) w->device_first = brc_assembly_device_bytes(&w->setup->assembly);
     if (stage->solver == BRC_SOLVER_STATIC && stage->most_events == 0) return BRC_OK;
     if (w->pauses++ == 0) {
         w->first = now;
@@ -142,24 +145,16 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t inde
     return BRC_OK;
 }
 
-/* The folder of the whole run: frames and samples as many as planned. */
-static int64_t whole_disk(brc_context *context, const char *folder, const brc_scene *scene, const brc_trial *trial)
+/* Bytes on disk, and what of them grows with frames and samples. */
+static void weigh_folder(brc_context *context, const char *folder, const brc_scene *scene, brc_trial *out)
 {
-    int64_t frames = 0, frames_planned = 0, samples = 0, samples_planned = 0;
     char *path;
-    for (int32_t k = 0; k < trial->n_stages; ++k) {
-        const brc_trial_stage *stage = &trial->stages[k];
-        frames += stage->frames;
-        samples += stage->samples;
-        frames_planned += stage->cut ? stage->frames_planned : stage->frames;
-        samples_planned += stage->cut ? stage->samples_planned : stage->samples;
-    }
-    if (brc_file_join(context, folder, "frames", &path) != BRC_OK) return 0;
-    const int64_t in_frames = brc_scratch_bytes(context, path, NULL), table = brc_scratch_bytes(context, folder, "histories.csv");
-    const double more_samples = samples > 0 ? (double)samples_planned / (double)samples - 1 : 0, more_frames = frames > 0 ? (double)frames_planned / (double)frames - 1 : 0;
+    if (brc_file_join(context, folder, "frames", &path) != BRC_OK) return;
+    out->frames_bytes = brc_scratch_bytes(context, path, NULL);
     brc_memory_free(path);
-    return brc_scratch_bytes(context, folder, NULL) + (int64_t)(more_frames * (double)in_frames + more_samples * (double)table) +
-           (samples_planned - samples) * (scene->n_sensors + 4) * (int64_t)sizeof(double); /* result.h5 */
+    out->table_bytes = brc_scratch_bytes(context, folder, "histories.csv");
+    out->disk_bytes = brc_scratch_bytes(context, folder, NULL);
+    out->sample_bytes = (scene->n_sensors + 4) * (int64_t)sizeof(double);
 }
 
 /* Did every stage come to its end? */
@@ -198,7 +193,14 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
         status = BRC_OK;
     }
     out->end_s = clock_of(w) - begin;
-    out->disk_bytes = whole_disk(context, folder, scene, out);
+    for (int32_t k = 0; k < assembly.n; ++k) {
+        int64_t broken;
+        BRC_TRY_OR(cleanup, brc_simulation_broken(assembly.part[k], &broken));
+        out->n_broken += broken;
+    }
+    out->device_bytes[1] = brc_assembly_device_bytes(&assembly);
+    out->device_bytes[0] = w->device_first > 0 ? w->device_first : out->device_bytes[1];
+    weigh_folder(context, folder, scene, out);
     out->n_measures = brc_recorder_measure_count(recorder);
     for (int32_t k = 0; k < out->n_measures; ++k) out->measures[k] = is_whole(out) ? brc_recorder_measures(recorder)[k].value : NAN;
 cleanup:
@@ -218,12 +220,14 @@ brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc
     w.patience = (brc_patience){.self = &w, .over = solve_is_over, .batch = FIRST_BATCH};
     BRC_TRY(brc_scratch_create(context, folder));
     brc_log_set_level(context, BRC_LOG_ERROR);
+    brc_memory_mark();
     const brc_status status = run_in(context, folder, &w, out);
     brc_log_set_level(context, level);
     brc_scratch_remove(context, folder);
-    out->host_bytes = brc_memory_peak();
+    out->stepping_bytes = brc_memory_peak_since_mark();
     for (int32_t k = 0; k < out->n_stages; ++k) /* samples to come */
-        if (out->stages[k].cut) out->host_bytes += (out->stages[k].samples_planned - out->stages[k].samples) * (scene->n_sensors + 4) * (int64_t)sizeof(double);
+        if (out->stages[k].cut) out->stepping_bytes += (out->stages[k].samples_planned - out->stages[k].samples) * (scene->n_sensors + 4) * (int64_t)sizeof(double);
+    out->host_bytes = out->stepping_bytes > brc_memory_peak() ? out->stepping_bytes : brc_memory_peak();
     out->resident_bytes = brc_memory_resident();
     return status;
 }
@@ -233,6 +237,22 @@ void brc_trial_free(brc_trial *trial)
     brc_memory_free(trial->stages);
     brc_memory_free(trial->measures);
     *trial = (brc_trial){0};
+}
+
+int64_t brc_trial_disk(const brc_trial *trial, const double *done)
+{
+    double frames = 0, frames_planned = 0, samples = 0, samples_planned = 0;
+    for (int32_t k = 0; k < trial->n_stages; ++k) {
+        const brc_trial_stage *stage = &trial->stages[k];
+        const double part = done && !isnan(done[k]) ? done[k] : 1;
+        frames += (double)stage->frames;
+        samples += (double)stage->samples;
+        frames_planned += fmax((double)stage->frames, stage->cut ? part * (double)stage->frames_planned : 0);
+        samples_planned += fmax((double)stage->samples, stage->cut ? part * (double)stage->samples_planned : 0);
+    }
+    const double more_frames = frames > 0 ? frames_planned / frames - 1 : 0, more_samples = samples > 0 ? samples_planned / samples - 1 : 0;
+    return trial->disk_bytes + (int64_t)(more_frames * (double)trial->frames_bytes + more_samples * (double)trial->table_bytes +
+                                         (samples_planned - samples) * (double)trial->sample_bytes);
 }
 
 double brc_trial_seconds(const brc_trial *trial)

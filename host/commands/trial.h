@@ -23,7 +23,11 @@ typedef struct brc_trial {
     brc_trial_stage *stages; /* [n_stages] owned */
     double end_s;            /* results, measures and pictures at the end */
     int64_t host_bytes, resident_bytes; /* most so far */
-    int64_t disk_bytes;      /* of the whole run */
+    int64_t stepping_bytes;  /* of host_bytes, the most that was held while it ran, results and pictures at the end included */
+    int64_t disk_bytes, frames_bytes, table_bytes; /* of its folder, of that the frames, and histories.csv */
+    int64_t sample_bytes;    /* of a sample in result.h5 */
+    int64_t device_bytes[2]; /* on the devices at the first pause of dynamics (without: at the end), and at the end */
+    int64_t n_broken;        /* bonds that broke */
     int32_t n_measures;
     double *measures;        /* [n_measures] of the scene; NAN unless every stage came to its end; owned */
     bool stopped;            /* the physics were stopped; reason: why */
@@ -36,17 +40,26 @@ void brc_trial_free(brc_trial *trial);
 /* Of the whole run by counting alone, without samples and frames: where it decides only how coarse a body is looked at. */
 double brc_trial_seconds(const brc_trial *trial);
 
+/* Bytes of the folder of the whole run. done: part of each stage's plan that is expected to be done [n_stages]; NULL, or NAN: all of it. */
+int64_t brc_trial_disk(const brc_trial *trial, const double *done);
+
 /* A run of the same scene with fewer elements. */
 typedef struct brc_coarse {
     double across;       /* its brc_setup_across; 0: there was none */
     int64_t *iterations; /* [n_stages] of static and modes stages; 0: not found; owned */
     double *measures;    /* [n_measures] NAN: not found; owned */
+    /* Of what breaks or meets; NAN: not found, or nothing can. */
+    double *slower;      /* [n_stages] time of a step of the whole dynamic stage over that of its first steps, as many as a trial did; owned */
+    double *done;        /* [n_stages] part of a dynamic stage's steps until it ended; owned */
+    double broken, broken_mean; /* broken bonds over all, at the end and on average over its time */
+    double grown;        /* bytes on the devices at most over those at the first pause */
+    int64_t n_elements;
 } brc_coarse;
 
-/* share: its elements over those of the scene [-]; seed: added to those of the fills; whole: dynamic stages and events are run to their end too, and the measures are
+/* trial: of the whole scene, for `slower`; NULL: not wanted. share: its elements over those of the scene [-]; seed: added to those of the fills; whole: dynamic stages and events are run to their end too, and the measures are
  * wanted. No stage takes more than some seconds. A body that cannot be made coarser (its elements come from a file, parts get too thin, a set is empty): across = 0.
  * The scene is as it was when this returns. coarse.c */
-brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_device_request *request, double share, uint64_t seed, bool whole, brc_coarse *out);
+brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_trial *trial, double share, uint64_t seed, bool whole, brc_coarse *out);
 void brc_coarse_free(brc_coarse *coarse);
 
 #endif

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define BLOCK_POINTS ((int64_t)1 << 17)
+#define BLOCK_POINTS ((int64_t)1 << 14)
 enum { VERTEX = 1, CONVEX_POINT_SET = 41 }; /* VTK's cell types */
 
 static bool is_sphere(const brc_domain *d)

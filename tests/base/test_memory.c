@@ -43,6 +43,11 @@ static void held_bytes_return_to_where_they_were(void **state)
     brc_memory_free(block);
     brc_memory_free(NULL);
     assert_int_equal(brc_memory_held(), before);
+    brc_memory_mark(); /* what was held before counts no more */
+    assert_int_equal(brc_memory_peak_since_mark(), before);
+    assert_int_equal(BRC_ALLOCATE(context, &block, 64, "bytes"), BRC_OK);
+    brc_memory_free(block);
+    assert_int_equal(brc_memory_peak_since_mark(), before + 64);
 }
 
 static void resizing_keeps_the_first_bytes_and_zeroes_the_new(void **state)
