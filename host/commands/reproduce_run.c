@@ -1,5 +1,6 @@
 /* Carrying out one run of a case. */
 #include "pace.h"
+#include "reproduce_bounce.h"
 #include "reproduce_field.h"
 #include "reproduce_fracture.h"
 #include "reproduce_fragments.h"
@@ -130,6 +131,7 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
     brc_drift *drift = NULL;
     brc_pressing *pressing = NULL;
     brc_wave *wave = NULL;
+    brc_bounce *bounce = NULL;
     brc_observer observer;
     brc_run_request request = {.path = scene,
                                .text = text,
@@ -160,6 +162,11 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
         observer = brc_wave_observer(wave);
         request.observer = &observer;
     }
+    if (run->operator == BRC_CASE_BOUNCE) {
+        BRC_TRY(brc_bounce_create(context, &bounce));
+        observer = brc_bounce_observer(bounce);
+        request.observer = &observer;
+    }
     brc_run_results results;
     brc_status status = brc_run_scene(context, &request, &results);
     take(outcome, &results, status == BRC_PHYSICS_STOPPED);
@@ -169,6 +176,8 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
     brc_pressing_free(&pressing);
     if (wave && status == BRC_OK) status = brc_wave_values(wave, outcome);
     brc_wave_free(&wave);
+    if (bounce && status == BRC_OK) status = brc_bounce_values(bounce, outcome);
+    brc_bounce_free(&bounce);
     brc_run_results_free(&results);
     return status;
 }
@@ -179,26 +188,39 @@ typedef struct sums {
     int n;
 } sums;
 
-/* The run once for each of its seeds, each in a folder of its own; values are means with their scatter, seconds and steps those of all together. */
+/* What a run draws anew with each seed, the scene's own in *seed; NULL: nothing. */
+static const char *seed_key(const brc_scene *scene, uint64_t *seed)
+{
+    const brc_fill *fill = &scene->bodies[0].fill;
+    *seed = fill->seed;
+    if (scene->n_bodies == 1 && fill->kind == BRC_FILL_PACKING) return "bodies.0.fill.packing.seed";
+    if (scene->n_bodies == 1 && fill->kind == BRC_FILL_NOISY_GRID && !scene->has_fracture) return "bodies.0.fill.noisy_grid.seed";
+    *seed = (uint64_t)scene->fracture.seed;
+    return scene->has_fracture ? "fracture.seed" : NULL;
+}
+
+/* The run once for each of its seeds, each in a folder of its own; values are means with their scatter, seconds and steps those of all together. Samples that were stopped,
+ * where they may be, are in `stopped`, their share, and in no other mean. */
 static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text, size_t bytes, const char *folder)
 {
     brc_context *context = campaign->session->context;
     brc_case_run run = *outcome->run;
     brc_scene *read;
     sums all[BRC_CASE_VALUES] = {{0}};
-    if (run.keep || run.may_stop || run.n_overrides == BRC_CASE_LIST || run.operator == BRC_CASE_DRIFT || run.operator == BRC_CASE_VIBRATION)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no seeds together with keep, may_stop, drift, vibration or %d overrides", run.name, BRC_CASE_LIST);
+    uint64_t seed;
+    int n_whole = 0;
+    if (run.keep || run.n_overrides == BRC_CASE_LIST || run.operator == BRC_CASE_DRIFT || run.operator == BRC_CASE_VIBRATION)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no seeds together with keep, drift, vibration or %d overrides", run.name, BRC_CASE_LIST);
     BRC_TRY(brc_scene_read_text(context, scene, text, bytes, run.n_overrides, run.overrides, &read));
-    const bool packed = read->n_bodies == 1 && read->bodies[0].fill.kind == BRC_FILL_PACKING, drawn = read->has_fracture && !packed;
-    const uint64_t seed = packed ? read->bodies[0].fill.seed : (uint64_t)read->fracture.seed;
+    const char *key = seed_key(read, &seed);
     brc_scene_free(&read);
-    if (!packed && !drawn)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: seeds expect one packed body, or cells with `fracture`, whose strengths are drawn anew", run.name);
+    if (!key)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: seeds expect one body of a packing or a noisy grid, or `fracture`, whose strengths are drawn anew", run.name);
     const int n = run.n_seeds;
     for (int k = 0; k < n; ++k) {
         char override[64], name[32], *one_folder;
         brc_outcome one = {.run = &run, .precision = outcome->precision};
-        snprintf(override, sizeof override, "%s=%llu", packed ? "bodies.0.fill.packing.seed" : "fracture.seed", (unsigned long long)seed + k);
+        snprintf(override, sizeof override, "%s=%llu", key, (unsigned long long)seed + k);
         snprintf(name, sizeof name, "seed-%llu", (unsigned long long)seed + k);
         run.n_overrides = outcome->run->n_overrides + 1;
         run.overrides[run.n_overrides - 1] = override;
@@ -207,10 +229,16 @@ static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome,
         brc_memory_free(one_folder);
         outcome->seconds += one.seconds;
         outcome->steps += one.steps;
-        BRC_TRY(status);
         outcome->n_elements = one.n_elements;
         outcome->n_bonds = one.n_bonds;
         memcpy(outcome->device, one.device, sizeof one.device);
+        if (status == BRC_PHYSICS_STOPPED && run.may_stop) {
+            brc_log(context, BRC_LOG_INFO, "run %s, %s: %s", run.name, override, brc_context_message(context));
+            brc_context_clear(context);
+            continue;
+        }
+        BRC_TRY(status);
+        n_whole += 1;
         if (!outcome->note[0]) memcpy(outcome->note, one.note, sizeof one.note);
         for (int v = 0; v < one.n_values; ++v) { /* by name: a sample in which nothing broke has fewer */
             int to = 0;
@@ -223,10 +251,12 @@ static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome,
         }
     }
     for (int v = 0; v < outcome->n_values; ++v) {
-        const double mean = all[v].n == n ? all[v].sum / n : NAN; /* what not all of them have is no mean of them */
+        const double mean = all[v].n == n_whole ? all[v].sum / n_whole : NAN; /* what not all of them have is no mean of them */
         outcome->values[v].value = mean;
-        outcome->values[v].scatter = sqrt(fmax(all[v].square - n * mean * mean, 0) / (n - 1));
+        outcome->values[v].scatter = sqrt(fmax(all[v].square - n_whole * mean * mean, 0) / (n_whole - 1));
+        if (strcmp(outcome->values[v].name, "stopped") == 0) outcome->values[v].value = (double)(n - n_whole) / n;
     }
+    if (n_whole == 0) brc_outcome_add(outcome, "stopped", "-", 1, NAN);
     return BRC_OK;
 }
 
