@@ -45,7 +45,8 @@ typedef enum brc_case_operator {
     BRC_CASE_FIELD,     /* stresses in a set against those of a pressed disc or a pulled plate with a hole */
     BRC_CASE_TOLD,      /* the error class that `check` tells before the run, against the run's error */
     BRC_CASE_FRAGMENTS, /* sizes of what a body broke into */
-    BRC_CASE_BOUNCE     /* touches, rebound and spin of a body thrown on the ground */
+    BRC_CASE_BOUNCE,    /* touches, rebound and spin of a body thrown on the ground */
+    BRC_CASE_SIDES      /* mean load of two sides along the run */
 } brc_case_operator;
 
 typedef struct brc_case_run {

@@ -6,6 +6,7 @@
 #include "reproduce_fragments.h"
 #include "reproduce_hondros.h"
 #include "reproduce_pressing.h"
+#include "reproduce_sides.h"
 #include "reproduce_told.h"
 #include "reproduce_virial.h"
 #include "reproduce_wave.h"
@@ -132,6 +133,7 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
     brc_pressing *pressing = NULL;
     brc_wave *wave = NULL;
     brc_bounce *bounce = NULL;
+    brc_sides *sides = NULL;
     brc_observer observer;
     brc_run_request request = {.path = scene,
                                .text = text,
@@ -167,6 +169,11 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
         observer = brc_bounce_observer(bounce);
         request.observer = &observer;
     }
+    if (run->operator == BRC_CASE_SIDES) {
+        BRC_TRY(brc_sides_create(context, &sides));
+        observer = brc_sides_observer(sides);
+        request.observer = &observer;
+    }
     brc_run_results results;
     brc_status status = brc_run_scene(context, &request, &results);
     take(outcome, &results, status == BRC_PHYSICS_STOPPED);
@@ -178,6 +185,8 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
     brc_wave_free(&wave);
     if (bounce && status == BRC_OK) status = brc_bounce_values(bounce, outcome);
     brc_bounce_free(&bounce);
+    if (sides && status == BRC_OK) brc_sides_values(sides, outcome);
+    brc_sides_free(&sides);
     brc_run_results_free(&results);
     return status;
 }

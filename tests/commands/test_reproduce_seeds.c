@@ -1,4 +1,4 @@
-/* Runs of a case over several seeds, and the hondros operator's demands. */
+/* Runs of a case over several seeds, and the demands of the operators hondros and sides. */
 #include "support.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -81,7 +81,7 @@ static void a_bounce_is_timed_and_its_rebound_found(void **state)
     assert_int_equal(system("test -f made-seeds/out/runs/hop/seed-2/summary.json && rm -r made-seeds"), 0);
 }
 
-static void seeds_and_hondros_say_what_they_cannot_do(void **state)
+static void seeds_hondros_and_sides_say_what_they_cannot_do(void **state)
 {
     (void)state;
     assert_int_equal(reproduce("  - {name: a, seeds: 2, keep: true, rows: {pull: {}}}"), 1);
@@ -90,6 +90,10 @@ static void seeds_and_hondros_say_what_they_cannot_do(void **state)
     assert_non_null(strstr(test_program_stderr(), "run a: `with: bounce` expects gravity along -z and sensors named push, height and spin"));
     assert_int_equal(reproduce("  - {name: a, with: hondros, half_angle: 12 deg, rows: {pull: {}}}"), 1);
     assert_non_null(strstr(test_program_stderr(), "run a: `with: hondros` expects one cylinder"));
+    assert_int_equal(reproduce("  - {name: a, with: sides, rows: {pull: {}}}"), 1);
+    assert_non_null(strstr(test_program_stderr(), "`with: sides` expects a scene with two measures of kind peak, one for each side; there are 1"));
+    assert_int_equal(reproduce("  - {name: a, with: sides, set: [\"measure.pull.peak.area=x+\"], rows: {pull: {}}}"), 1);
+    assert_non_null(strstr(test_program_stderr(), "measure pull has an area, a stage or a window"));
     assert_int_equal(system("rm -r made-seeds"), 0);
 }
 
@@ -98,7 +102,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(several_seeds_give_the_mean_of_single_runs_and_their_scatter),
         cmocka_unit_test(a_bounce_is_timed_and_its_rebound_found),
-        cmocka_unit_test(seeds_and_hondros_say_what_they_cannot_do),
+        cmocka_unit_test(seeds_hondros_and_sides_say_what_they_cannot_do),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
