@@ -51,8 +51,8 @@ LAW contact_meeting contact_of_foot(convex_foot foot, svec3 branch, state ri, st
 
 /* Spheres. dt: the step that ended, whose friction and damping are booked; 0: the same state again, nothing is remembered. Others than elements: number n +
  * piece of a striker, as in contact_cells.cl; piece_radius: of pieces that are spheres [m]. */
-KERNEL void contact_spheres(int n_pairs, state dt, int n, int is_linear, int n_materials, state middle_x, state middle_y, state middle_z,
-                            GLOBAL const int *restrict ends, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
+KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_linear, int n_materials, state middle_x, state middle_y, state middle_z,
+                            GLOBAL const int *restrict todo, GLOBAL const int *restrict ends, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
                             GLOBAL const state *restrict orientation, GLOBAL const state *restrict reach, GLOBAL const state *restrict corner,
                             GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
                             GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
@@ -61,7 +61,8 @@ KERNEL void contact_spheres(int n_pairs, state dt, int n, int is_linear, int n_m
                             GLOBAL const state *restrict piece_radius, GLOBAL const state *restrict striker_pose, GLOBAL const state *restrict law,
                             GLOBAL state *restrict history, GLOBAL state *restrict result)
 {
-    FOR_EACH_ITEM(p, n_pairs) {
+    FOR_EACH_ITEM(item, n_items) {
+        const int p = whole ? item : todo[item];
         const int i = ends[2 * (brc_size)p], j = ends[2 * (brc_size)p + 1];
         GLOBAL state *restrict past = history + (brc_size)p * CONTACT_HISTORY;
         GLOBAL state *restrict out = result + (brc_size)p * (CONTACT_RESULT + 6);

@@ -16,8 +16,8 @@ LAW void contact_put_moment(GLOBAL state *restrict out, int at, int affine, stat
     svec3_store(out, (brc_size)at, svec3_add(svec3_scale(-pressure, smat3_moment(moment)), svec3_cross(reach, f)));
 }
 
-KERNEL void contact_cells(int n_pairs, state dt, int n, int affine, int n_materials, state middle_x, state middle_y, state middle_z,
-                          GLOBAL const int *restrict ends, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
+KERNEL void contact_cells(int n_items, int whole, state dt, int n, int affine, int n_materials, state middle_x, state middle_y, state middle_z,
+                          GLOBAL const int *restrict todo, GLOBAL const int *restrict ends, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
                           GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict orientation, GLOBAL const state *restrict corner,
                           GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
                           GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
@@ -25,7 +25,8 @@ KERNEL void contact_cells(int n_pairs, state dt, int n, int affine, int n_materi
                           GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind, GLOBAL const state *restrict striker_pose,
                           GLOBAL const state *restrict law, GLOBAL state *restrict history, GLOBAL state *restrict result)
 {
-    FOR_EACH_ITEM(p, n_pairs) {
+    FOR_EACH_ITEM(item, n_items) {
+        const int p = whole ? item : todo[item];
         const int i = ends[2 * (brc_size)p], j = ends[2 * (brc_size)p + 1], width = affine ? 9 : 3;
         GLOBAL state *restrict past = history + (brc_size)p * CONTACT_HISTORY;
         GLOBAL state *restrict out = result + (brc_size)p * (brc_size)(CONTACT_RESULT + 2 * width);

@@ -7,7 +7,7 @@
  * built [n][4]: place of each element, relative to the middle of the domain, and the radius of the ball about it that held it [m]; posed [n][9]: its map (not of spheres).
  * clear [n]: of each exposed element how far its ball was from the nearest piece of a striker that it is not listed with [m]. */
 
-/* Bound of how much a map I + H lengthens anything: the root of the largest row sum of F^T F, 1 for rotations. */
+/* Bound of how much a map I + H lengthens anything: the root of the largest row sum of F^T F, 1 for rotations; no less than 1, since the cell may come loose. */
 LAW state contact_stretch(GLOBAL const coeff *restrict gradient, int e)
 {
     GLOBAL const coeff *restrict h = gradient + (brc_size)e * 9;
@@ -15,8 +15,8 @@ LAW state contact_stretch(GLOBAL const coeff *restrict gradient, int e)
     const smat3 c = smat3_mul(smat3_transpose(f), f);
     const state yz = c.yz < 0 ? -c.yz : c.yz, xz = c.xz < 0 ? -c.xz : c.xz, xy = c.xy < 0 ? -c.xy : c.xy;
     const state x = c.xx + xy + xz, y = c.yy + xy + yz, z = c.zz + xz + yz;
-    const state xy_most = x > y ? x : y;
-    return SQRT_STATE(xy_most > z ? xy_most : z);
+    const state xy_most = x > y ? x : y, most = xy_most > z ? xy_most : z;
+    return most > STATE(1) ? SQRT_STATE(most) : STATE(1);
 }
 
 /* Present positions, radii and maps of all elements. reach [n]: radius about the element's place in the reference [m]. */

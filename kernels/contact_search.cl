@@ -6,11 +6,14 @@
 
 #define CONTACT_HISTORY 20
 
-/* Elements that lost a bond are exposed from then on. */
-KERNEL void contact_expose(int n, GLOBAL const state *restrict broken, GLOBAL int *restrict exposed)
+/* Elements that lost a bond are exposed from then on. fresh [n]: 1 for those that lost one since this was asked last; seen [n]: what they had lost then. */
+KERNEL void contact_expose(int n, GLOBAL const state *restrict broken, GLOBAL int *restrict seen, GLOBAL int *restrict exposed, GLOBAL int *restrict fresh)
 {
     FOR_EACH_ITEM(e, n) {
-        if (broken[e] > 0) exposed[e] = 1;
+        const int lost = (int)broken[e];
+        fresh[e] = lost != seen[e];
+        seen[e] = lost;
+        if (lost > 0) exposed[e] = 1;
     }
 }
 
@@ -87,13 +90,87 @@ LAW state contact_piece_gap(GLOBAL const state *restrict built, int e, GLOBAL co
     return SQRT_STATE(x * x + y * y + z * z) - a[3] - b[3];
 }
 
-/* How many others are near each exposed element, bonds not asked. */
-KERNEL void contact_count(int m, state skin, state per_edge, int mask, int n_pieces, GLOBAL const state *restrict piece,
-                          GLOBAL const int *restrict piece_kind, GLOBAL const int *restrict list, GLOBAL const state *restrict built,
-                          GLOBAL const int *restrict first, GLOBAL const int *restrict last, GLOBAL const int *restrict row, GLOBAL int *restrict count)
+/* ---- what a break changes of the list ----
+ *
+ * Who is an entry of whom depends on places and maps when the last search was made, on bonds, and on who is exposed and rigid. Of these a break changes only what belongs to the
+ * elements that lost a bond (contact_allowed asks for bonds of either side, and a third one that parts from one of them is a bond less of that one). So all entries of these are looked for
+ * anew, and all of those that are near one; the others keep theirs. The list is that of a search of all from the same places, and holds as long: new elements are listed where
+ * they were at the last search, as old ones are, and their motion counts from there, the common motion taken off (contact_motion.cl). */
+
+/* The slots that are looked for: again [m], 0 before. whole: all of them. */
+KERNEL void contact_again(int m, int whole, state skin, state per_edge, int mask, GLOBAL const int *restrict list, GLOBAL const int *restrict slot_of,
+                          GLOBAL const int *restrict fresh, GLOBAL const state *restrict built, GLOBAL const int *restrict first, GLOBAL const int *restrict last,
+                          GLOBAL const int *restrict row, GLOBAL int *restrict again)
 {
     FOR_EACH_ITEM(k, m) {
         const int e = list[k];
+        if (whole || fresh[e]) STORE_SAME(again + k, 1);
+        if (!whole && fresh[e]) {
+            const contact_cell home = contact_cell_of(built, e, per_edge);
+            for (int step = 0; step < 27; ++step) {
+                const contact_cell cell = {home.x + step % 3 - 1, home.y + step / 3 % 3 - 1, home.z + step / 9 - 1};
+                const int key = contact_key(cell, mask);
+                for (int at = first[key]; at < last[key]; ++at)
+                    if (contact_near(built, e, row[at], skin)) STORE_SAME(again + slot_of[row[at]], 1);
+            }
+        }
+    }
+}
+
+/* Room for the entries that slots keep. */
+KERNEL void contact_kept(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict again, GLOBAL const int *restrict old_slot_of,
+                         GLOBAL const int *restrict old_used, GLOBAL int *restrict count)
+{
+    FOR_EACH_ITEM(k, m) {
+        if (!again[k]) count[k] = old_used[old_slot_of[list[k]]];
+    }
+}
+/* The same entries; owned, any as contact_fill. */
+KERNEL void contact_keep(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict again, GLOBAL const int *restrict id, GLOBAL const int *restrict old_slot_of,
+                         GLOBAL const int *restrict old_start, GLOBAL const int *restrict old_used, GLOBAL const int *restrict old_entry,
+                         GLOBAL const int *restrict start, GLOBAL int *restrict entry, GLOBAL int *restrict used, GLOBAL int *restrict owned, GLOBAL int *restrict any)
+{
+    FOR_EACH_ITEM(k, m) {
+        if (!again[k]) {
+            const int e = list[k], old = old_slot_of[e], from = old_start[old], n = old_used[old];
+            int own_pairs = 0;
+            for (int at = 0; at < n; ++at) {
+                const int j = old_entry[from + at];
+                entry[start[k] + at] = j;
+                own_pairs += id[j] > id[e];
+            }
+            used[k] = n;
+            owned[k] = own_pairs;
+            any[k] = n > 0;
+        }
+    }
+}
+
+/* Pairs that a break may have changed: one of the two lost a bond, or is `touched` by what broke (rings.cl). flag [n_pairs]. */
+KERNEL void contact_changed(int n_pairs, int n, GLOBAL const int *restrict ends, GLOBAL const int *restrict fresh, GLOBAL const int *restrict touched, GLOBAL int *restrict flag)
+{
+    FOR_EACH_ITEM(p, n_pairs) {
+        const int i = ends[2 * (brc_size)p], j = ends[2 * (brc_size)p + 1];
+        flag[p] = fresh[i] || touched[i] || (j < n && (fresh[j] || touched[j]));
+    }
+}
+/* The elements of these pairs are given the level `to` where they have none (rings.cl). */
+KERNEL void contact_spread(int n_items, int n, int to, GLOBAL const int *restrict todo, GLOBAL const int *restrict ends, GLOBAL int *level)
+{
+    FOR_EACH_ITEM(k, n_items) {
+        const int i = ends[2 * (brc_size)todo[k]], j = ends[2 * (brc_size)todo[k] + 1];
+        if (level[i] == 0) STORE_SAME(level + i, to);
+        if (j < n && level[j] == 0) STORE_SAME(level + j, to);
+    }
+}
+
+/* How many others are near the elements in the slots redo [n_redo], bonds not asked. */
+KERNEL void contact_count(int n_redo, state skin, state per_edge, int mask, int n_pieces, GLOBAL const state *restrict piece,
+                          GLOBAL const int *restrict piece_kind, GLOBAL const int *restrict redo, GLOBAL const int *restrict list, GLOBAL const state *restrict built,
+                          GLOBAL const int *restrict first, GLOBAL const int *restrict last, GLOBAL const int *restrict row, GLOBAL int *restrict count)
+{
+    FOR_EACH_ITEM(item, n_redo) {
+        const int k = redo[item], e = list[k];
         const contact_cell home = contact_cell_of(built, e, per_edge);
         int near = 0;
         for (int step = 0; step < 27; ++step) {
@@ -139,10 +216,10 @@ LAW contact_body contact_body_of(GLOBAL const state *restrict corner, GLOBAL con
                           built[(brc_size)e * 4 + 3], rigid[e]};
 }
 
-/* The entries of each exposed element, sorted by id; owned [m]: pairs in which its id is the lower one; any [m]: whether there are entries. Both sides of a pair ask
+/* The entries of the elements in the slots redo, sorted by id; owned [m]: pairs in which its id is the lower one; any [m]: whether there are entries. Both sides of a pair ask
  * contact_parted alike, from the lower id. clear [n]: contact_motion.cl. */
-KERNEL void contact_fill(int m, int rows, int pose, state skin, state per_edge, int mask, int within, int n_pieces, GLOBAL const state *restrict piece,
-                         GLOBAL const int *restrict piece_kind, GLOBAL const int *restrict list, GLOBAL const state *restrict built,
+KERNEL void contact_fill(int n_redo, int rows, int pose, state skin, state per_edge, int mask, int within, int n_pieces, GLOBAL const state *restrict piece,
+                         GLOBAL const int *restrict piece_kind, GLOBAL const int *restrict redo, GLOBAL const int *restrict list, GLOBAL const state *restrict built,
                          GLOBAL const state *restrict posed, GLOBAL const int *restrict rigid, GLOBAL const state *restrict corner,
                          GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
                          GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
@@ -151,8 +228,8 @@ KERNEL void contact_fill(int m, int rows, int pose, state skin, state per_edge, 
                          GLOBAL const int *restrict neighbour, GLOBAL const int *restrict original, GLOBAL const int *restrict start,
                          GLOBAL int *restrict entry, GLOBAL int *restrict used, GLOBAL int *restrict owned, GLOBAL int *restrict any, GLOBAL state *restrict clear)
 {
-    FOR_EACH_ITEM(k, m) {
-        const int e = list[k], begin = start[k];
+    FOR_EACH_ITEM(item, n_redo) {
+        const int k = redo[item], e = list[k], begin = start[k];
         const contact_cell home = contact_cell_of(built, e, per_edge);
         int n = 0, own_pairs = 0;
         state free_way = STATE(1e30);
@@ -254,14 +331,23 @@ KERNEL void contact_other_pairs(int m, GLOBAL const int *restrict list, GLOBAL c
     }
 }
 
-/* What pairs remember goes over from the lists before; new pairs have touched nothing. history [n_pairs][CONTACT_HISTORY]. */
-KERNEL void contact_carry(int n_pairs, int had, GLOBAL const int *restrict ends, GLOBAL const int *restrict old_slot_of,
+/* What pairs remember goes over from the lists before, and with a stride above 0 the result of the last evaluation too (contact.cl; 6: touching, or nothing else counts); new pairs have
+ * touched nothing. history [n_pairs][CONTACT_HISTORY], result [n_pairs][stride]. */
+KERNEL void contact_carry(int n_pairs, int had, int stride, GLOBAL const int *restrict ends, GLOBAL const int *restrict old_slot_of,
                           GLOBAL const int *restrict old_start, GLOBAL const int *restrict old_used, GLOBAL const int *restrict old_entry,
-                          GLOBAL const int *restrict old_pair, GLOBAL const state *restrict old_history, GLOBAL state *restrict history)
+                          GLOBAL const int *restrict old_pair, GLOBAL const state *restrict old_history, GLOBAL const state *restrict old_result,
+                          GLOBAL state *restrict history, GLOBAL state *restrict result)
 {
     FOR_EACH_ITEM(p, n_pairs) {
         const int before = had ? contact_pair_of(ends[2 * (brc_size)p], ends[2 * (brc_size)p + 1], old_slot_of, old_start, old_used, old_entry, old_pair) : -1;
         for (int c = 0; c < CONTACT_HISTORY; ++c)
             history[(brc_size)p * CONTACT_HISTORY + c] = before >= 0 ? old_history[(brc_size)before * CONTACT_HISTORY + c] : STATE(0);
+        if (stride > 0) {
+            GLOBAL const state *restrict from = old_result + (brc_size)(before >= 0 ? before : 0) * (brc_size)stride;
+            GLOBAL state *restrict to = result + (brc_size)p * (brc_size)stride;
+            const int touching = before >= 0 && from[6] > 0;
+            to[6] = 0;
+            for (int c = 0; touching && c < stride; ++c) to[c] = from[c];
+        }
     }
 }

@@ -82,6 +82,11 @@
     X(contact_list)                                                                                                    \
     X(contact_keys)                                                                                                    \
     X(contact_buckets)                                                                                                 \
+    X(contact_spread)                                                                                                  \
+    X(contact_changed)                                                                                                 \
+    X(contact_keep)                                                                                                    \
+    X(contact_kept)                                                                                                    \
+    X(contact_again)                                                                                                   \
     X(contact_count)                                                                                                   \
     X(contact_fill)                                                                                                    \
     X(contact_busy)                                                                                                    \

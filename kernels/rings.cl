@@ -28,21 +28,22 @@ KERNEL void ring_seed(int n, GLOBAL const int *restrict number, GLOBAL int *rest
     FOR_EACH_ITEM(e, n) { touched[e] = number[e] > 0; }
 }
 
-/* The list an element belongs to, -1 none. last 0: those found since, in list 0; 1: all, by ring. */
-LAW int ring_of(int last, int touched, int level)
+/* The list an element belongs to, -1 none. which 0: those found since, in list 0; 1: all, by ring, for the last time; 2: those touched, in list 0. */
+LAW int ring_of(int which, int touched, int level)
 {
-    if (!last) return level == RING_FOUND ? 0 : -1;
+    if (which == 0) return level == RING_FOUND ? 0 : -1;
+    if (which == 2) return touched ? 0 : -1;
     return touched ? 0 : level > RING_FOUND ? level - 1 : -1;
 }
 
 /* count[list][block]: how many, in fixed blocks. */
-KERNEL void ring_count(int n_blocks, int n, int last, GLOBAL const int *restrict touched, GLOBAL const int *restrict level, GLOBAL int *restrict count)
+KERNEL void ring_count(int n_blocks, int n, int which, GLOBAL const int *restrict touched, GLOBAL const int *restrict level, GLOBAL int *restrict count)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
         int sum[RING_KINDS] = {0, 0, 0, 0};
         for (int e = begin; e < end; ++e) {
-            const int ring = ring_of(last, touched[e], level[e]);
+            const int ring = ring_of(which, touched[e], level[e]);
             if (ring >= 0) sum[ring] += 1;
         }
         for (int k = 0; k < RING_KINDS; ++k) count[k * n_blocks + b] = sum[k];
@@ -50,20 +51,20 @@ KERNEL void ring_count(int n_blocks, int n, int last, GLOBAL const int *restrict
 }
 
 /* The list, ring after ring in the order of the rows; next: running sums of count, used up. */
-KERNEL void ring_list(int n_blocks, int n, int last, GLOBAL int *restrict touched, GLOBAL int *restrict level, GLOBAL int *restrict next,
+KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touched, GLOBAL int *restrict level, GLOBAL int *restrict next,
                       GLOBAL int *restrict list)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
         for (int e = begin; e < end; ++e) {
-            const int ring = ring_of(last, touched[e], level[e]);
+            const int ring = ring_of(which, touched[e], level[e]);
             if (ring >= 0) {
                 const int to = next[ring * n_blocks + b];
                 next[ring * n_blocks + b] = to + 1;
                 list[to] = e;
-                level[e] = RING_FOUND + 1;
+                if (which == 0) level[e] = RING_FOUND + 1;
             }
-            if (last) touched[e] = 0, level[e] = 0;
+            if (which == 1) touched[e] = 0, level[e] = 0;
         }
     }
 }

@@ -278,7 +278,7 @@ static brc_status break_marked(brc_simulation *s, double *energy)
     return BRC_OK;
 }
 
-/* Velocities gain kick times force over mass, spins likewise. */
+/* Velocities gain kick times force over mass, spins of elements whose bonds turn with them likewise ... */
 static brc_status kick(brc_simulation *s, double by)
 {
     const int32_t n = s->layout->n_rows;
@@ -288,8 +288,33 @@ static brc_status kick(brc_simulation *s, double by)
     if (brc_turns(s))
         BRC_TRY(BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(by), BRC_STATE(0), BRC_STATE(0), BRC_BUF(s->inertia),
                            BRC_BUF(s->torque), BRC_BUF(s->spin), BRC_BUF(s->orientation)));
+    return BRC_OK;
+}
+/* ... and those of rigid cells and of strikers, which are in no ring. */
+static brc_status kick_others(brc_simulation *s, double by)
+{
+    if (by == 0) return BRC_OK;
     BRC_TRY(brc_contact_turn(s, by, 0, 0));
     return s->strikers ? brc_strikers_advance(s, by, 0, 0, false) : BRC_OK;
+}
+
+/* The rings around the bonds that broke; pairs of surfaces that the breaks changed act on the elements whose fluxes change last. */
+static brc_status find_rings(brc_simulation *s)
+{
+    brc_rings *rings = s->fracture->cells->rings;
+    const int last = brc_is_published(s) ? 1 : 3, pushed = last > 1 ? last - 1 : 1;
+    if (s->contact) {
+        const brc_step_phase phase = brc_phase_within(s, BRC_PHASE_SEARCH);
+        BRC_TRY(brc_contact_broken(s, 0));
+        BRC_TRY(brc_rings_touched(s, rings, &rings->around));
+        BRC_TRY(brc_force_gradients_around(s, rings));
+        BRC_TRY(brc_contact_settle(s));
+        brc_phase_within(s, phase);
+    }
+    BRC_TRY(brc_rings_spread(s, rings, 1, pushed));
+    BRC_TRY(brc_contact_spread(s, rings->level, 1 + pushed));
+    BRC_TRY(brc_rings_spread(s, rings, pushed + 1, last));
+    return brc_rings_close(s, rings, &rings->around);
 }
 
 /* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in elements. */
@@ -306,26 +331,23 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
 {
     brc_breaking *f = s->fracture;
     brc_rings *rings = f->cells->rings;
-    const int n_rings = brc_is_published(s) ? 1 : 3;
     double marked, before, outside_before, after, outside, weight;
     if (brc_softening_is_on(s)) BRC_TRY(brc_softening_step(s, share, &marked));
     else BRC_TRY(mark_bonds(s, share, &marked));
     if (!(marked > 0)) return BRC_OK;
     /* The step closes with the force of the whole bonds, and the next one opens with that of those that are left: velocities gain half a kick of the
-     * one and lose half a kick of the other, in the rings where they differ, or all of them where contact acts on the elements besides. */
-    rings->whole_force = s->contact || s->strikers || rings->always_whole;
+     * one and lose half a kick of the other, in the rings where they differ. */
     rings->half_kick = half_kick;
     BRC_TRY(outside_energy(s, &outside_before));
+    BRC_TRY(kick_others(s, half_kick));
     if (rings->whole_force) BRC_TRY(kick(s, half_kick));
     BRC_TRY(break_marked(s, &before));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
-    const brc_step_phase phase = brc_phase_within(s, BRC_PHASE_SEARCH);
-    BRC_TRY(brc_contact_broken(s, 0));
-    brc_phase_within(s, phase);
     BRC_TRY(brc_softening_recount(s));
-    BRC_TRY(brc_rings_close(s, rings, n_rings, &rings->around));
+    BRC_TRY(find_rings(s));
     BRC_TRY(brc_force_around_breaks(s, rings));
     if (rings->whole_force) BRC_TRY(kick(s, -half_kick));
+    BRC_TRY(kick_others(s, -half_kick));
     BRC_TRY(brc_force_energy_around(s, rings, 1, &after));
     BRC_TRY(outside_energy(s, &outside));
     BRC_TRY(brc_rings_sum(s, rings, &rings->around, rings->around.n[0], f->cells->weight, &weight));

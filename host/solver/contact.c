@@ -1,6 +1,6 @@
 /* Contact in the course of a run: when to look for pairs, what they add to forces, energy and the time step. */
 #include "contact_internal.h"
-#include "fracture_internal.h"
+#include "cell_breaks_internal.h"
 #include "strikers_internal.h"
 #include <math.h>
 #include <string.h>
@@ -70,7 +70,7 @@ void brc_contact_free(brc_simulation *s)
     brc_contact_search_free(s);
     brc_contact_rigid_free(s);
     brc_buffer **all[] = {&c->place, &c->reach, &c->id, &c->body, &c->material, &c->mass, &c->size_of, &c->original, &c->exposed, &c->stored,
-                          &c->lost_friction, &c->lost_impact, &c->law, &c->result, &c->part, &c->corner, &c->plane, &c->loop_start, &c->loop, &c->radius,
+                          &c->lost_friction, &c->lost_impact, &c->law, &c->part, &c->corner, &c->plane, &c->loop_start, &c->loop, &c->radius,
                           &c->corner_start, &c->face_start, &c->piece_striker, &c->piece_kind, &c->piece_radius, &c->piece_own, &c->piece};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     brc_memory_free(c->law_of);
@@ -81,7 +81,7 @@ void brc_contact_free(brc_simulation *s)
 int64_t brc_contact_bytes(const brc_scene *scene, const brc_domain *d, int64_t n, int64_t entries, int64_t exposed, int64_t state_bytes)
 {
     if (!scene->has_contact) return 0;
-    const int64_t rows = n * (5 * 4 + 2 * 4 + (3 + 1 + 1 + 1 + 4 + 1 + 3) * state_bytes), lists = exposed * 22 * 4;
+    const int64_t rows = n * (7 * 4 + 2 * 4 + (3 + 1 + 1 + 1 + 4 + 1 + 3) * state_bytes), lists = exposed * 24 * 4;
     if (d->element_kind == BRC_ELEMENT_SPHERE) return entries * 4 + rows + lists;
     /* A face is a plane with its place in the list of loops; by Euler's formula the loops of V corners and F faces have 2 (V + F - 2) numbers. */
     const int64_t corners = d->vertex_start[d->n_elements], faces = d->n_half_edges + d->n_free_faces, loops = 2 * (corners + faces - 2 * d->n_elements);
@@ -140,13 +140,13 @@ brc_status brc_contact_wakes(const brc_simulation *s, const brc_ledger *ledger)
 brc_status brc_contact_follow(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    bool due;
+    bool due, past;
     if (!c) return BRC_OK;
     if (c->quiet > 0) {
         c->quiet -= 1;
         return BRC_OK;
     }
-    BRC_TRY(brc_contact_look(s, &due));
+    BRC_TRY(brc_contact_look(s, &due, &past));
     return due ? search_soon(s) : BRC_OK;
 }
 
@@ -160,21 +160,23 @@ bool brc_contact_acts(const brc_simulation *s, const brc_force_request *r)
 /* No strikers: a buffer that no kernel touches. */
 static brc_buffer *striker_pose(const brc_simulation *s) { return s->strikers ? s->strikers->pose : NULL; }
 
-brc_status brc_contact_pairs(brc_simulation *s, double dt)
+brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole)
 {
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
     const int32_t n = s->layout->n_rows, n_materials = s->scene->n_materials;
     const int linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
+    const int32_t n_items = whole ? l->n_pairs : c->n_todo;
+    if (n_items == 0) return BRC_OK;
     if (brc_is_beams(s))
-        return BRC_LAUNCH(c->kernel.spheres, l->n_pairs, BRC_INT(l->n_pairs), BRC_STATE(dt), BRC_INT(n), BRC_INT(linear), BRC_INT(n_materials),
-                          BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]), BRC_BUF(l->ends), BRC_BUF(c->place),
+        return BRC_LAUNCH(c->kernel.spheres, n_items, BRC_INT(n_items), BRC_INT(whole ? 1 : 0), BRC_STATE(dt), BRC_INT(n), BRC_INT(linear), BRC_INT(n_materials),
+                          BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]), BRC_BUF(c->todo), BRC_BUF(l->ends), BRC_BUF(c->place),
                           BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_BUF(c->reach), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start),
                           BRC_BUF(c->loop), BRC_BUF(c->radius), BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->id), BRC_BUF(c->mass),
                           BRC_BUF(c->material), BRC_BUF(c->body), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_radius),
                           BRC_BUF(striker_pose(s)), BRC_BUF(c->law), BRC_BUF(l->history), BRC_BUF(c->result));
-    return BRC_LAUNCH(c->kernel.cells, l->n_pairs, BRC_INT(l->n_pairs), BRC_STATE(dt), BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_INT(n_materials),
-                      BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]), BRC_BUF(l->ends), BRC_BUF(c->place),
+    return BRC_LAUNCH(c->kernel.cells, n_items, BRC_INT(n_items), BRC_INT(whole ? 1 : 0), BRC_STATE(dt), BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_INT(n_materials),
+                      BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]), BRC_BUF(c->todo), BRC_BUF(l->ends), BRC_BUF(c->place),
                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->orientation), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start),
                       BRC_BUF(c->loop), BRC_BUF(c->radius), BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->id), BRC_BUF(c->size_of),
                       BRC_BUF(c->mass), BRC_BUF(c->material), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(striker_pose(s)), BRC_BUF(c->law),
@@ -203,6 +205,9 @@ static brc_status load_strikers(brc_simulation *s)
     return BRC_LAUNCH(c->kernel.striker_load, n, BRC_INT(n), BRC_INT(n_blocks), BRC_BUF(c->part), BRC_BUF(s->strikers->load));
 }
 
+/* Around breaks the pairs that these may have changed, else all. */
+static bool all_pairs(const brc_force_request *r) { return !r->rings || r->rings->whole_force; }
+
 /* The step that the evaluation ends; 0: the state is evaluated again. */
 static double step_of(const brc_simulation *s, const brc_force_request *r) { return r->book == BRC_BOOK_WORK ? s->time_step.value : 0; }
 
@@ -211,7 +216,7 @@ brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
     const int book = r->book == BRC_BOOK_WORK;
-    BRC_TRY(brc_contact_pairs(s, step_of(s, r)));
+    BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r)));
     return BRC_LAUNCH(c->kernel.gather_moments, l->n_busy, BRC_INT(l->n_busy), BRC_INT(book), BRC_BUF(l->busy), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
                       BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(s->boundary), BRC_BUF(c->rigid), BRC_BUF(s->gradient), BRC_BUF(s->held_moment),
                       BRC_BUF(c->torque), BRC_BUF(c->stored), BRC_BUF(c->lost_friction), BRC_BUF(c->lost_impact));
@@ -225,7 +230,7 @@ brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
         BRC_TRY(BRC_LAUNCH(c->kernel.gather_forces, l->n_busy, BRC_INT(l->n_busy), BRC_BUF(l->busy), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
                            BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(r->force)));
     else {
-        BRC_TRY(brc_contact_pairs(s, step_of(s, r)));
+        BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r)));
         BRC_TRY(gather_turning(s, 1, 0, r->book == BRC_BOOK_WORK, r->force, r->torque));
     }
     return load_strikers(s);
@@ -244,28 +249,52 @@ static brc_status beams_broke(brc_simulation *s, bool *out)
     return BRC_OK;
 }
 
-brc_status brc_contact_broken(brc_simulation *s, double half_kick)
+/* Who is touched by the breaks of this step (rings.h); beams: who lost one. */
+static brc_buffer *touched(const brc_simulation *s) { return s->fracture->cells ? s->fracture->cells->rings->touched : s->contact->fresh; }
+
+brc_status brc_contact_expose(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows;
+    if (!s->fracture) return BRC_OK;
+    return BRC_LAUNCH(c->kernel.expose, n, BRC_INT(n), BRC_BUF(s->fracture->broken), BRC_BUF(c->seen), BRC_BUF(c->exposed), BRC_BUF(c->fresh));
+}
+
+/* What the breaks of this step change of the list. */
+static brc_status list_breaks(brc_simulation *s)
+{
+    BRC_TRY(brc_contact_expose(s));
+    BRC_TRY(brc_contact_detach(s));
+    return brc_contact_list_more(s, touched(s));
+}
+
+brc_status brc_contact_settle(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    bool due, past;
+    if (!c) return BRC_OK;
+    BRC_TRY(brc_contact_pose(s));
+    BRC_TRY(brc_contact_look(s, &due, &past));
+    return past || c->always_whole ? brc_contact_search_more(s, touched(s)) : BRC_OK;
+}
+
+brc_status brc_contact_broken(brc_simulation *s, double half_kick)
+{
+    brc_contact_state *c = s->contact;
     double before, after;
     bool any = true;
     if (!c) return BRC_OK;
     if (c->kernel.marked) BRC_TRY(beams_broke(s, &any));
     if (!any) return BRC_OK;
-    if (!c->kernel.marked) { /* cells: the forces are evaluated next */
-        BRC_TRY(brc_contact_detach(s));
-        BRC_TRY(BRC_LAUNCH(c->kernel.expose, n, BRC_INT(n), BRC_BUF(s->fracture->broken), BRC_BUF(c->exposed)));
-        return search_soon(s);
-    }
+    if (!c->kernel.marked) return list_breaks(s); /* cells: the forces are evaluated next */
     const bool strikers = c->n_pieces > 0;
     BRC_TRY(brc_contact_stored(s, &before));
     if (strikers && half_kick > 0) BRC_TRY(brc_strikers_advance(s, half_kick, 0, 0, false)); /* the step closes with the load of before ... */
     if (c->now.n_pairs > 0) BRC_TRY(gather_turning(s, -1, half_kick, 0, s->force, s->torque));
-    BRC_TRY(BRC_LAUNCH(c->kernel.expose, n, BRC_INT(n), BRC_BUF(s->fracture->broken), BRC_BUF(c->exposed)));
-    BRC_TRY(brc_contact_search(s));
+    BRC_TRY(list_breaks(s));
+    BRC_TRY(brc_contact_settle(s));
     if (c->now.n_pairs > 0) {
-        BRC_TRY(brc_contact_pairs(s, 0));
+        BRC_TRY(brc_contact_pairs(s, 0, false));
         BRC_TRY(gather_turning(s, 1, half_kick, 0, s->force, s->torque));
         BRC_TRY(load_strikers(s));
     }

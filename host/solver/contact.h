@@ -32,9 +32,13 @@ brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r);
 /* Some pair may touch: whether contact has anything to do with this evaluation. */
 bool brc_contact_acts(const brc_simulation *s, const brc_force_request *r);
 
-/* Bonds broke at the end of this step. dlsm: elements without bonds become rigid bodies, what is exposed now is looked for; the forces are evaluated
- * afterwards. Models that turn: the same, and forces and velocities are put right (half_kick as brc_fracture_step). */
+/* Bonds broke at the end of this step. Cells: those of dlsm without bonds become rigid bodies, and what is exposed now is listed; the forces are evaluated
+ * afterwards. Beams: the same, and forces and velocities are put right (half_kick as brc_fracture_step). */
 brc_status brc_contact_broken(brc_simulation *s, double half_kick);
+/* Cells, after that, with the gradients that the breaks left: where something moved so far by them all pairs are looked for again. */
+brc_status brc_contact_settle(brc_simulation *s);
+/* Cells, after that: elements of pairs that the breaks may have changed are given the level `to` where they have none (rings.h). */
+brc_status brc_contact_spread(brc_simulation *s, brc_buffer *level, int32_t to);
 /* Rigid cells: momentum of turning gains kick times torque, then they turn for a time of drift [s]; extra as the kernel advance_rotation. */
 brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double extra);
 

@@ -16,7 +16,7 @@ typedef struct brc_contact_list {
 
 struct brc_contact_state {
     struct {
-        brc_kernel *extent, *largest, *drift, *drift_mean, *moved, *expose, *list, *keys, *buckets, *count, *fill, *busy, *own_pairs, *other_pairs, *carry;
+        brc_kernel *extent, *largest, *drift, *drift_mean, *moved, *expose, *list, *keys, *buckets, *again, *kept, *keep, *changed, *spread, *count, *fill, *busy, *own_pairs, *other_pairs, *carry;
         brc_kernel *scan_sums, *scan_tops, *scan_fill, *sort_count, *sort_move;
         brc_kernel *spheres, *gather_turning, *marked;
         brc_kernel *cells, *gather_moments, *gather_forces, *striker_parts, *striker_load, *pieces, *pieces_moved;
@@ -47,13 +47,19 @@ struct brc_contact_state {
     /* search */
     brc_buffer *moved, *drift_part, *drift, *sums, *key[2], *row[2], *digits, *first, *last, *count, *owned, *pair_start;
     int64_t key_room, bucket_room;
+    brc_buffer *seen, *fresh;  /* [n_rows]: bonds that elements had lost when they were last listed, and who has lost one since */
+    brc_buffer *again, *redo;  /* of listed elements */
     brc_contact_list now, before;
     int64_t quiet;   /* steps for which nothing can have moved far enough */
     int64_t searches;
     bool due;        /* dlsm: look for pairs as soon as the gradients of this evaluation are there */
     /* pairs */
-    brc_buffer *result;
-    int64_t result_room;
+    brc_buffer *result, *result_before; /* of the pairs of now and, in bodies that break, of before */
+    int64_t result_room, result_before_room;
+    brc_buffer *flag, *flag_start, *todo; /* of pairs; todo: those that the last breaks may have changed */
+    int64_t todo_room;
+    int32_t n_todo;
+    bool always_whole; /* for comparison: look for all pairs after breaks */
     double born;     /* energy that surfaces held when their bond broke [J] */
 };
 
@@ -74,6 +80,10 @@ brc_status brc_contact_detach(brc_simulation *s);
 /* Kinetic energy of the turning of rigid cells [J]. */
 brc_status brc_contact_spin_energy(brc_simulation *s, double *out);
 
+/* ---- contact.c ---- */
+/* Elements that lost bonds are exposed; who lost one since the last time is c->fresh. */
+brc_status brc_contact_expose(brc_simulation *s);
+
 /* ---- contact_search.c ---- */
 brc_status brc_contact_search_create(brc_simulation *s);
 void brc_contact_search_free(brc_simulation *s);
@@ -81,9 +91,14 @@ void brc_contact_search_free(brc_simulation *s);
 brc_status brc_contact_search(brc_simulation *s);
 /* The list for places and pieces as they were taken last: the second half of a search. */
 brc_status brc_contact_list_again(brc_simulation *s);
-/* Steps until the next look, from how far and how fast things moved since the list was made; *due: the list is too old. */
-brc_status brc_contact_look(brc_simulation *s, bool *due);
-/* Evaluate all pairs into c->result; dt: of the step that ended, 0: again. */
-brc_status brc_contact_pairs(brc_simulation *s, double dt);
+/* The list after breaks, for the same places: what belongs to elements that lost bonds (c->fresh) and to who is near them is looked for again, the rest goes over, results of pairs
+ * too. c->todo: pairs of those elements and of `touched` [n_rows] ones (rings.h). */
+brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched);
+/* The same by a search of all. */
+brc_status brc_contact_search_more(brc_simulation *s, brc_buffer *touched);
+/* Steps until the next look, from how far and how fast things moved since the list was made; *due: the list is too old, or soon; *past: it no longer holds. */
+brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past);
+/* Evaluate pairs into c->result, all or those of c->todo; dt: of the step that ended, 0: again. */
+brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole);
 
 #endif

@@ -48,7 +48,7 @@ brc_status brc_contact_detach(brc_simulation *s)
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows;
     if (!c->detaches) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(c->kernel.detach, n, BRC_INT(n), BRC_BUF(c->id), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->gradient),
+    BRC_TRY(BRC_LAUNCH(c->kernel.detach, n, BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->id), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->gradient),
                        BRC_BUF(c->rigid), BRC_BUF(c->turned), BRC_BUF(s->kinetic)));
     BRC_TRY(brc_vector_sum(s, s->kinetic, n, &c->n_rigid));
     return brc_contact_pose(s);

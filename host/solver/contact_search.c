@@ -29,17 +29,25 @@ static brc_status scan(brc_simulation *s, brc_buffer *x, int64_t n, brc_buffer *
     return BRC_OK;
 }
 
+/* Blocks of the largest scan there is: of rows, of the digits of all rows, or of so many pairs. */
+static int32_t most_blocks(const brc_simulation *s, int64_t n_pairs)
+{
+    const int64_t n = s->layout->n_rows, digits = SORT_BINS * (int64_t)blocks_of(n, SCAN_BLOCK), rows = n > digits ? n : digits;
+    return blocks_of(n_pairs > rows ? n_pairs : rows, SCAN_BLOCK);
+}
+
 brc_status brc_contact_search_create(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    const int64_t n = s->layout->n_rows, largest_scan = n > SORT_BINS * (int64_t)(blocks_of(n, SCAN_BLOCK)) ? n : SORT_BINS * (int64_t)(blocks_of(n, SCAN_BLOCK));
+    const int64_t n = s->layout->n_rows;
     const struct {
         brc_kernel **slot;
         const char *name;
     } wanted[] = {{&c->kernel.extent, "contact_extent"}, {&c->kernel.largest, "contact_largest"}, {&c->kernel.moved, "contact_moved"},
                   {&c->kernel.drift, "contact_drift"}, {&c->kernel.drift_mean, "contact_drift_mean"}, {&c->kernel.busy, "contact_busy"},
                   {&c->kernel.expose, "contact_expose"}, {&c->kernel.list, "contact_list"}, {&c->kernel.keys, "contact_keys"},
-                  {&c->kernel.buckets, "contact_buckets"}, {&c->kernel.count, "contact_count"}, {&c->kernel.fill, "contact_fill"},
+                  {&c->kernel.buckets, "contact_buckets"}, {&c->kernel.again, "contact_again"}, {&c->kernel.kept, "contact_kept"}, {&c->kernel.keep, "contact_keep"},
+                  {&c->kernel.changed, "contact_changed"}, {&c->kernel.spread, "contact_spread"}, {&c->kernel.count, "contact_count"}, {&c->kernel.fill, "contact_fill"},
                   {&c->kernel.own_pairs, "contact_own_pairs"}, {&c->kernel.other_pairs, "contact_other_pairs"}, {&c->kernel.carry, "contact_carry"},
                   {&c->kernel.scan_sums, "scan_sums"}, {&c->kernel.scan_tops, "scan_tops"}, {&c->kernel.scan_fill, "scan_fill"},
                   {&c->kernel.pieces, "contact_pieces"}, {&c->kernel.pieces_moved, "contact_pieces_moved"}, {&c->kernel.sort_count, "sort_count"}, {&c->kernel.sort_move, "sort_move"}};
@@ -51,7 +59,9 @@ brc_status brc_contact_search_create(brc_simulation *s)
     BRC_TRY(brc_new_state(s, &c->moved, BRC_CONTACT_MOVED * (blocks_of(n, BRC_CONTACT_BLOCK) + (int64_t)c->n_pieces), what));
     BRC_TRY(brc_new_state(s, &c->drift_part, BRC_CONTACT_PART * (int64_t)blocks_of(n, BRC_CONTACT_BLOCK), what));
     BRC_TRY(brc_new_state(s, &c->drift, BRC_CONTACT_DRIFT, what));
-    BRC_TRY(new_ints(s, &c->sums, blocks_of(largest_scan, SCAN_BLOCK) + 1, "running sums"));
+    BRC_TRY(new_ints(s, &c->sums, most_blocks(s, 0) + 1, "running sums"));
+    BRC_TRY(new_ints(s, &c->seen, n, "exposed elements"));
+    BRC_TRY(new_ints(s, &c->fresh, n, "exposed elements"));
     brc_contact_list *both[] = {&c->now, &c->before};
     for (int k = 0; k < 2; ++k) BRC_TRY(new_ints(s, &both[k]->slot_of, n + 1, "exposed elements"));
     return BRC_OK;
@@ -66,7 +76,8 @@ static void free_list(brc_contact_list *l)
 void brc_contact_search_free(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    brc_buffer **all[] = {&c->built, &c->posed, &c->clear, &c->moved, &c->drift_part, &c->drift, &c->sums, &c->key[0], &c->key[1], &c->row[0], &c->row[1], &c->digits, &c->first, &c->last, &c->count, &c->owned, &c->pair_start};
+    brc_buffer **all[] = {&c->built, &c->posed, &c->clear, &c->moved, &c->drift_part, &c->drift, &c->sums, &c->key[0], &c->key[1], &c->row[0], &c->row[1], &c->digits, &c->first, &c->last, &c->count, &c->owned, &c->pair_start,
+                          &c->seen, &c->fresh, &c->again, &c->redo, &c->flag, &c->flag_start, &c->todo, &c->result, &c->result_before};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     free_list(&c->now);
     free_list(&c->before);
@@ -110,7 +121,7 @@ static brc_status take_survey(brc_simulation *s, survey *out)
     return c->n_pieces ? largest_of(s, n_blocks, c->n_pieces, out->piece) : BRC_OK;
 }
 
-brc_status brc_contact_look(brc_simulation *s, bool *due)
+brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
 {
     brc_contact_state *c = s->contact;
     const double dt = s->time_step.value;
@@ -125,7 +136,8 @@ brc_status brc_contact_look(brc_simulation *s, bool *due)
         if (!(t * (v + t * a) < left) || !(t * (v_piece + t * a_piece) < clear)) break;
         ++steps;
     }
-    *due = !(left > 0) || !(clear > 0) || (steps < FEWEST_QUIET && (left < 0.25 * c->skin || clear < 0.5 * c->skin));
+    *past = !(left > 0) || !(clear > 0);
+    *due = *past || (steps < FEWEST_QUIET && (left < 0.25 * c->skin || clear < 0.5 * c->skin));
     c->quiet = steps;
     return BRC_OK;
 }
@@ -183,6 +195,8 @@ static brc_status make_room(brc_simulation *s, int64_t m, int64_t buckets)
     BRC_TRY(new_ints(s, &c->digits, digits + 1, "grid of contact"));
     BRC_TRY(new_ints(s, &c->owned, room, "pairs of elements"));
     BRC_TRY(new_ints(s, &c->pair_start, room + 1, "pairs of elements"));
+    BRC_TRY(new_ints(s, &c->again, room, "pairs of elements"));
+    BRC_TRY(new_ints(s, &c->redo, room, "pairs of elements"));
     c->key_room = room;
     return BRC_OK;
 }
@@ -204,7 +218,16 @@ static brc_status room_for_entries(brc_simulation *s, brc_contact_list *l, int64
     BRC_TRY(new_ints(s, &l->entry, l->entry_room, "pairs of elements"));
     return new_ints(s, &l->pair, l->entry_room, "pairs of elements");
 }
-static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t n)
+static brc_status room_for_results(brc_simulation *s, brc_buffer **result, int64_t *has, int64_t n)
+{
+    const brc_contact_state *c = s->contact;
+    if (*result && n <= *has) return BRC_OK;
+    *has = n + n / 4;
+    brc_buffer_free(result);
+    return brc_new_state(s, result, (BRC_CONTACT_RESULT + 2 * c->width) * *has, "forces of pairs");
+}
+/* carried: results go over from the list before. */
+static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t n, bool carried)
 {
     brc_contact_state *c = s->contact;
     if (!l->ends || n > l->pair_room) {
@@ -221,10 +244,13 @@ static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t
             BRC_TRY(brc_new_state(s, &c->part, parts, "forces on strikers"));
         }
     }
-    if (c->result && n <= c->result_room) return BRC_OK;
-    c->result_room = l->pair_room;
-    brc_buffer_free(&c->result);
-    return brc_new_state(s, &c->result, (BRC_CONTACT_RESULT + 2 * c->width) * c->result_room, "forces of pairs");
+    if (carried) {
+        brc_buffer *const result = c->result;
+        const int64_t room = c->result_room;
+        c->result = c->result_before, c->result_room = c->result_before_room;
+        c->result_before = result, c->result_before_room = room;
+    }
+    return room_for_results(s, &c->result, &c->result_room, n);
 }
 
 /* Exposed elements in the list to be made. */
@@ -242,14 +268,29 @@ static brc_status list_exposed(brc_simulation *s)
     return BRC_LAUNCH(c->kernel.list, n, BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->now.slot_of), BRC_BUF(c->now.list));
 }
 
-/* Who is near whom. */
-static brc_status find_entries(brc_simulation *s)
+/* The slots of c->redo: all, or those whose entries a break may have changed; the others keep the number of theirs. */
+static brc_status find_redo(brc_simulation *s, bool whole, double per_edge, int32_t mask, int sorted, int64_t *n_redo)
 {
     brc_contact_state *c = s->contact;
     brc_contact_list *l = &c->now;
+    const int32_t m = l->n_listed;
+    BRC_TRY(brc_buffer_fill_zero(c->again));
+    BRC_TRY(BRC_LAUNCH(c->kernel.again, m, BRC_INT(m), BRC_INT(whole ? 1 : 0), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_BUF(l->list), BRC_BUF(l->slot_of),
+                       BRC_BUF(c->fresh), BRC_BUF(c->built), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->again)));
+    BRC_TRY(scan(s, c->again, m, c->pair_start, n_redo));
+    BRC_TRY(BRC_LAUNCH(c->kernel.busy, m, BRC_INT(m), BRC_BUF(c->again), BRC_BUF(c->pair_start), BRC_BUF(c->redo)));
+    return BRC_LAUNCH(c->kernel.kept, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(c->again), BRC_BUF(c->before.slot_of), BRC_BUF(c->before.used), BRC_BUF(c->count));
+}
+
+/* Who is near whom. */
+static brc_status find_entries(brc_simulation *s, bool whole)
+{
+    brc_contact_state *c = s->contact;
+    brc_contact_list *l = &c->now;
+    const brc_contact_list *old = &c->before;
     const int32_t n = s->layout->n_rows, m = l->n_listed, n_blocks = blocks_of(n, BRC_CONTACT_BLOCK);
     double most[BRC_CONTACT_MOVED];
-    int64_t near;
+    int64_t near, n_redo;
     int sorted, mask = SORT_BINS;
     while (mask < 2 * (int64_t)m) mask *= 2;
     mask -= 1;
@@ -257,26 +298,32 @@ static brc_status find_entries(brc_simulation *s)
     BRC_TRY(largest_of(s, 0, n_blocks, most));
     const double per_edge = 1 / (1.000001 * (2 * most[0] + c->skin));
     BRC_TRY(sort_by_cell(s, per_edge, mask, &sorted));
-    BRC_TRY(BRC_LAUNCH(c->kernel.count, m, BRC_INT(m), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_INT(c->n_pieces), BRC_BUF(c->piece),
-                       BRC_BUF(c->piece_kind), BRC_BUF(l->list), BRC_BUF(c->built), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->count)));
+    BRC_TRY(find_redo(s, whole, per_edge, mask, sorted, &n_redo));
+    if (n_redo > 0)
+        BRC_TRY(BRC_LAUNCH(c->kernel.count, n_redo, BRC_INT(n_redo), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_INT(c->n_pieces), BRC_BUF(c->piece),
+                           BRC_BUF(c->piece_kind), BRC_BUF(c->redo), BRC_BUF(l->list), BRC_BUF(c->built), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]),
+                           BRC_BUF(c->count)));
     BRC_TRY(scan(s, c->count, m, l->start, &near));
     BRC_TRY(room_for_entries(s, l, near));
-    return BRC_LAUNCH(c->kernel.fill, m, BRC_INT(m), BRC_INT(n), BRC_INT(c->pose), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask),
-                      BRC_INT(s->scene->contact.within ? 1 : 0), BRC_INT(c->n_pieces), BRC_BUF(c->piece), BRC_BUF(c->piece_kind), BRC_BUF(l->list), BRC_BUF(c->built),
-                      BRC_BUF(c->posed), BRC_BUF(c->rigid), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start), BRC_BUF(c->loop), BRC_BUF(c->radius),
+    BRC_TRY(BRC_LAUNCH(c->kernel.keep, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(c->again), BRC_BUF(c->id), BRC_BUF(old->slot_of), BRC_BUF(old->start), BRC_BUF(old->used),
+                       BRC_BUF(old->entry), BRC_BUF(l->start), BRC_BUF(l->entry), BRC_BUF(l->used), BRC_BUF(c->owned), BRC_BUF(c->count)));
+    if (n_redo == 0) return BRC_OK;
+    return BRC_LAUNCH(c->kernel.fill, n_redo, BRC_INT(n_redo), BRC_INT(n), BRC_INT(c->pose), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask),
+                      BRC_INT(s->scene->contact.within ? 1 : 0), BRC_INT(c->n_pieces), BRC_BUF(c->piece), BRC_BUF(c->piece_kind), BRC_BUF(c->redo), BRC_BUF(l->list),
+                      BRC_BUF(c->built), BRC_BUF(c->posed), BRC_BUF(c->rigid), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start), BRC_BUF(c->loop), BRC_BUF(c->radius),
                       BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->id), BRC_BUF(c->body),
                       BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->original), BRC_BUF(l->start), BRC_BUF(l->entry), BRC_BUF(l->used),
                       BRC_BUF(c->owned), BRC_BUF(c->count), BRC_BUF(c->clear));
 }
 
-static brc_status number_pairs(brc_simulation *s)
+static brc_status number_pairs(brc_simulation *s, bool carried)
 {
     brc_contact_state *c = s->contact;
     brc_contact_list *l = &c->now;
     const int32_t m = l->n_listed;
     int64_t n_pairs;
     BRC_TRY(scan(s, c->owned, m, c->pair_start, &n_pairs));
-    BRC_TRY(room_for_pairs(s, l, n_pairs));
+    BRC_TRY(room_for_pairs(s, l, n_pairs, carried));
     l->n_pairs = (int32_t)n_pairs;
     BRC_TRY(BRC_LAUNCH(c->kernel.own_pairs, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used), BRC_BUF(l->entry), BRC_BUF(c->id),
                        BRC_BUF(c->pair_start), BRC_BUF(l->pair), BRC_BUF(l->ends)));
@@ -288,24 +335,65 @@ static brc_status number_pairs(brc_simulation *s)
     BRC_TRY(BRC_LAUNCH(c->kernel.busy, m, BRC_INT(m), BRC_BUF(c->count), BRC_BUF(c->pair_start), BRC_BUF(l->busy)));
     l->n_busy = (int32_t)n_busy;
     const brc_contact_list *old = &c->before;
-    return BRC_LAUNCH(c->kernel.carry, n_pairs, BRC_INT(n_pairs), BRC_INT(old->n_pairs > 0 ? 1 : 0), BRC_BUF(l->ends), BRC_BUF(old->slot_of),
-                      BRC_BUF(old->start), BRC_BUF(old->used), BRC_BUF(old->entry), BRC_BUF(old->pair), BRC_BUF(old->history), BRC_BUF(l->history));
+    const bool had = old->n_pairs > 0;
+    return BRC_LAUNCH(c->kernel.carry, n_pairs, BRC_INT(n_pairs), BRC_INT(had ? 1 : 0), BRC_INT(carried ? BRC_CONTACT_RESULT + 2 * c->width : 0), BRC_BUF(l->ends),
+                      BRC_BUF(old->slot_of), BRC_BUF(old->start), BRC_BUF(old->used), BRC_BUF(old->entry), BRC_BUF(old->pair), BRC_BUF(old->history),
+                      BRC_BUF(carried ? c->result_before : NULL), BRC_BUF(l->history), BRC_BUF(c->result));
 }
 
-brc_status brc_contact_list_again(brc_simulation *s)
+/* whole: all is looked for; carried: results of pairs go over. */
+static brc_status make_list(brc_simulation *s, bool whole, bool carried)
 {
     brc_contact_state *c = s->contact;
     const brc_contact_list last = c->now;
     c->now = c->before;
     c->before = last;
     c->now.n_listed = c->now.n_pairs = c->now.n_busy = 0;
+    c->n_todo = 0;
     BRC_TRY(list_exposed(s));
     if (c->now.n_listed == 0) return BRC_OK;
-    BRC_TRY(find_entries(s));
-    return number_pairs(s);
+    BRC_TRY(find_entries(s, whole));
+    return number_pairs(s, carried);
 }
 
-brc_status brc_contact_search(brc_simulation *s)
+brc_status brc_contact_list_again(brc_simulation *s) { return make_list(s, true, false); }
+
+/* The pairs that breaks may have changed. */
+static brc_status find_changed(brc_simulation *s, brc_buffer *touched)
+{
+    brc_contact_state *c = s->contact;
+    int64_t n_todo;
+    const int64_t n_pairs = c->now.n_pairs;
+    if (n_pairs == 0) return BRC_OK;
+    if (n_pairs > c->todo_room) {
+        c->todo_room = n_pairs + n_pairs / 4;
+        BRC_TRY(new_ints(s, &c->flag, c->todo_room, "changed pairs"));
+        BRC_TRY(new_ints(s, &c->flag_start, c->todo_room + 1, "changed pairs"));
+        BRC_TRY(new_ints(s, &c->todo, c->todo_room, "changed pairs"));
+        brc_buffer_free(&c->sums);
+        BRC_TRY(new_ints(s, &c->sums, most_blocks(s, c->todo_room) + 1, "running sums"));
+    }
+    BRC_TRY(BRC_LAUNCH(c->kernel.changed, n_pairs, BRC_INT(n_pairs), BRC_INT(s->layout->n_rows), BRC_BUF(c->now.ends), BRC_BUF(c->fresh), BRC_BUF(touched), BRC_BUF(c->flag)));
+    BRC_TRY(scan(s, c->flag, n_pairs, c->flag_start, &n_todo));
+    BRC_TRY(BRC_LAUNCH(c->kernel.busy, n_pairs, BRC_INT(n_pairs), BRC_BUF(c->flag), BRC_BUF(c->flag_start), BRC_BUF(c->todo)));
+    c->n_todo = (int32_t)n_todo;
+    return BRC_OK;
+}
+
+brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched)
+{
+    BRC_TRY(make_list(s, false, true));
+    return find_changed(s, touched);
+}
+
+brc_status brc_contact_spread(brc_simulation *s, brc_buffer *level, int32_t to)
+{
+    brc_contact_state *c = s->contact;
+    if (!c || c->n_todo == 0) return BRC_OK;
+    return BRC_LAUNCH(c->kernel.spread, c->n_todo, BRC_INT(c->n_todo), BRC_INT(s->layout->n_rows), BRC_INT(to), BRC_BUF(c->todo), BRC_BUF(c->now.ends), BRC_BUF(level));
+}
+
+static brc_status search(brc_simulation *s, bool carried)
 {
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows;
@@ -320,5 +408,13 @@ brc_status brc_contact_search(brc_simulation *s)
     BRC_TRY(brc_buffer_fill_zero(c->stored)); /* of elements that leave the list too */
     if (c->torque) BRC_TRY(brc_buffer_fill_zero(c->torque));
     if (c->n_pieces) BRC_TRY(brc_buffer_fill_zero(s->strikers->load));
-    return brc_contact_list_again(s);
+    return make_list(s, true, carried);
+}
+
+brc_status brc_contact_search(brc_simulation *s) { return search(s, false); }
+
+brc_status brc_contact_search_more(brc_simulation *s, brc_buffer *touched)
+{
+    BRC_TRY(search(s, true));
+    return find_changed(s, touched);
 }

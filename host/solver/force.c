@@ -235,6 +235,14 @@ brc_status brc_force_of_state(brc_simulation *s, brc_booking book)
     return brc_force_evaluate(s, &request);
 }
 
+brc_status brc_force_gradients_around(brc_simulation *s, const brc_rings *rings)
+{
+    brc_force_request request = request_of_state(s, BRC_BOOK_NOTHING);
+    request.rings = rings;
+    const dlsm_extent x = extent_of(&request);
+    return brc_is_dlsm(s) ? dlsm_gradients(s, &request, &x) : BRC_OK;
+}
+
 brc_status brc_force_around_breaks(brc_simulation *s, const brc_rings *rings)
 {
     brc_force_request request = request_of_state(s, BRC_BOOK_START);

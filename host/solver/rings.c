@@ -54,35 +54,41 @@ static brc_status spread(brc_simulation *s, brc_rings *r, brc_buffer *origin, in
     return BRC_LAUNCH(r->spread, n, BRC_INT(n), BRC_INT(from), BRC_INT(to), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(origin), BRC_BUF(r->level));
 }
 
-static brc_status make_list(brc_simulation *s, brc_rings *r, int last, brc_ring_list *out)
+enum { FOUND, ALL, TOUCHED }; /* as in kernels/rings.cl */
+
+static brc_status make_list(brc_simulation *s, brc_rings *r, int which, brc_ring_list *out)
 {
     const int32_t n = s->layout->n_rows, n_blocks = blocks_of(s);
-    BRC_TRY(BRC_LAUNCH(r->count_pass, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(last), BRC_BUF(r->touched), BRC_BUF(r->level), BRC_BUF(r->count)));
+    BRC_TRY(BRC_LAUNCH(r->count_pass, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(which), BRC_BUF(r->touched), BRC_BUF(r->level), BRC_BUF(r->count)));
     BRC_TRY(BRC_LAUNCH(r->tops, 1, BRC_INT(1), BRC_INT(BRC_RING_KINDS * n_blocks), BRC_BUF(r->count)));
     BRC_TRY(brc_buffer_read(r->count, 0, r->count_read, brc_buffer_bytes(r->count)));
     for (int k = 0; k < BRC_RING_KINDS; ++k) out->n[k] = r->count_read[(k + 1) * n_blocks];
-    return BRC_LAUNCH(r->list_pass, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(last), BRC_BUF(r->touched), BRC_BUF(r->level), BRC_BUF(r->count),
+    return BRC_LAUNCH(r->list_pass, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(which), BRC_BUF(r->touched), BRC_BUF(r->level), BRC_BUF(r->count),
                       BRC_BUF(out->list));
 }
 
 brc_status brc_rings_find(brc_simulation *s, brc_rings *r)
 {
     BRC_TRY(spread(s, r, r->touched, 1, 1));
-    return make_list(s, r, 0, &r->around);
+    return make_list(s, r, FOUND, &r->around);
 }
 
-brc_status brc_rings_close(brc_simulation *s, brc_rings *r, int n_rings, brc_ring_list *out)
+brc_status brc_rings_spread(brc_simulation *s, brc_rings *r, int first, int last)
 {
-    BRC_TRY(spread(s, r, r->touched, 1, 2));
-    for (int ring = 2; ring <= n_rings; ++ring) BRC_TRY(spread(s, r, r->level, ring, ring + 1));
-    return make_list(s, r, 1, out);
+    for (int ring = first; ring <= last; ++ring) BRC_TRY(spread(s, r, ring == 1 ? r->touched : r->level, ring, ring + 1));
+    return BRC_OK;
 }
+
+brc_status brc_rings_close(brc_simulation *s, brc_rings *r, brc_ring_list *out) { return make_list(s, r, ALL, out); }
+
+brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out) { return make_list(s, r, TOUCHED, out); }
 
 brc_status brc_rings_around(brc_simulation *s, brc_rings *r, brc_buffer *number, int n_rings, brc_ring_list *out)
 {
     const int32_t n = s->layout->n_rows;
     BRC_TRY(BRC_LAUNCH(r->seed, n, BRC_INT(n), BRC_BUF(number), BRC_BUF(r->touched)));
-    return brc_rings_close(s, r, n_rings, out);
+    BRC_TRY(brc_rings_spread(s, r, 1, n_rings));
+    return brc_rings_close(s, r, out);
 }
 
 /* ---- what is done with them ---- */

@@ -22,8 +22,7 @@ typedef struct brc_rings {
     brc_buffer *force, *torque;  /* [n_rows][3] of listed elements; the others hold nothing of meaning */
     brc_ring_list around;        /* the bonds that broke in this step */
     double half_kick;            /* brc_fracture_step */
-    bool whole_force;            /* something else acts on the elements too (contact): fluxes and forces of all of them */
-    bool always_whole;           /* for comparison: as if something else did */
+    bool whole_force;            /* for comparison: fluxes and forces of all elements */
 } brc_rings;
 
 brc_status brc_rings_create(brc_simulation *s, brc_rings **out);
@@ -35,8 +34,12 @@ int64_t brc_rings_bytes(const brc_scene *scene, int64_t n, int64_t state_bytes);
 brc_status brc_ring_list_create(brc_simulation *s, brc_ring_list *out);
 /* Elements in ring 0 (touched) and ring 1 that were not found since the last list was closed: rings->around, all in n[0]. */
 brc_status brc_rings_find(brc_simulation *s, brc_rings *rings);
-/* All that were touched and n_rings rings around them; nothing is touched afterwards. */
-brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, int n_rings, brc_ring_list *out);
+/* Those that were touched by now, in n[0]. */
+brc_status brc_rings_touched(brc_simulation *s, brc_rings *rings, brc_ring_list *out);
+/* Rings first to last around all that were touched, into rings->level: 1 + the ring. */
+brc_status brc_rings_spread(brc_simulation *s, brc_rings *rings, int first, int last);
+/* All that were touched and the rings that were spread around them; nothing is touched afterwards. */
+brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, brc_ring_list *out);
 /* The same around elements whose number is above 0. */
 brc_status brc_rings_around(brc_simulation *s, brc_rings *rings, brc_buffer *number, int n_rings, brc_ring_list *out);
 

@@ -270,6 +270,8 @@ brc_status brc_force_turned_tractions(brc_simulation *s, const brc_force_request
 brc_status brc_force_of_state(brc_simulation *s, brc_booking book);
 /* The same where only what broken bonds change is evaluated. */
 brc_status brc_force_around_breaks(brc_simulation *s, const struct brc_rings *rings);
+/* dlsm: the gradients of ring 0 alone. */
+brc_status brc_force_gradients_around(brc_simulation *s, const struct brc_rings *rings);
 /* dlsm: of the same only H, P and B, with which the forces of single bonds can be formed; books nothing. list (NULL: all elements): B is wanted in its
  * ring 0, so P in ring 1 and H, where the elements moved, in ring 2, else in ring 0. */
 brc_status brc_force_fluxes_of_state(brc_simulation *s, const struct brc_ring_list *list, bool moved);

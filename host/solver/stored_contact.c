@@ -99,7 +99,10 @@ brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store)
     BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
     BRC_TRY(brc_store_list(s, store, "contact.pieces", c->piece, BRC_OF_STATE, c->n_pieces, 4, NULL));
     BRC_TRY(brc_store_double(store, "contact.skin", &c->skin));
-    if (store->loading) BRC_TRY(brc_contact_list_again(s));
+    if (store->loading) {
+        BRC_TRY(brc_contact_expose(s)); /* what is broken is old */
+        BRC_TRY(brc_contact_list_again(s));
+    }
     BRC_TRY(walk_pairs(s, store));
     BRC_TRY(brc_store_entries(s, store, sizeof made_by_forces / sizeof *made_by_forces, made_by_forces));
     BRC_TRY(brc_store_integer(store, "contact.quiet", &c->quiet));

@@ -147,7 +147,7 @@ static void the_same_bonds_break_as_with_whole_evaluations(case_options o)
     for (int k = 0; k < 2; ++k) {
         open_case(&c[k], o);
         begin_first(&c[k]);
-        rings_of(&c[k])->always_whole = k == 1;
+        rings_of(&c[k])->whole_force = k == 1;
         run_steps(&c[k], 60);
         assert_done(&c[k], brc_simulation_breaks(c[k].simulation, &n[k], &events[k]));
     }
