@@ -22,10 +22,10 @@ KERNEL void ring_spread(int n, int from, int to, GLOBAL const int *restrict row_
     }
 }
 
-/* Ring 0 is where some number is above 0. */
-KERNEL void ring_seed(int n, GLOBAL const int *restrict number, GLOBAL int *restrict touched)
+/* Ring 0 is where some number is above 0, or with above 0 where it is not. */
+KERNEL void ring_seed(int n, int above, GLOBAL const int *restrict number, GLOBAL int *restrict touched)
 {
-    FOR_EACH_ITEM(e, n) { touched[e] = number[e] > 0; }
+    FOR_EACH_ITEM(e, n) { touched[e] = (number[e] > 0) == above; }
 }
 
 /* The list an element belongs to, -1 none. which 0: those found since, in list 0; 1: all, by ring, for the last time; 2: those touched, in list 0. */

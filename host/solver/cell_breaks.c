@@ -357,7 +357,8 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(BRC_LAUNCH(f->cells->share, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_STATE((before + outside_before - after - outside) / weight),
                        BRC_BUF(rings->around.list), BRC_BUF(s->row_start), BRC_BUF(f->break_step), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy),
                        BRC_BUF(f->lost)));
-    return brc_softening_settle(s, &rings->around);
+    BRC_TRY(brc_softening_settle(s, &rings->around));
+    return brc_contact_list_bonded(s);
 }
 
 brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)

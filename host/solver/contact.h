@@ -42,6 +42,11 @@ brc_status brc_contact_spread(brc_simulation *s, brc_buffer *level, int32_t to);
 /* Rigid cells: momentum of turning gains kick times torque, then they turn for a time of drift [s]; extra as the kernel advance_rotation. */
 brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double extra);
 
+/* dlsm, after breaks: where most cells are without bonds the others are listed ... */
+brc_status brc_contact_list_bonded(brc_simulation *s);
+/* ... for the element passes, as bonds give cells without any no force, and no stress (rings.h). NULL: there is no list. */
+const struct brc_ring_list *brc_contact_bonded(const brc_simulation *s);
+
 /* What surfaces hold now, as last evaluated [J]. */
 brc_status brc_contact_stored(brc_simulation *s, double *out);
 /* Terms contact, friction, impact of the ledger, and what is kinetic or numerical or fracture of contact's own. */

@@ -41,6 +41,7 @@ struct brc_contact_state {
     bool detaches;
     double n_rigid;
     brc_buffer *rigid, *inertia, *turned, *momentum, *torque;
+    struct brc_ring_list *bonded; /* where most cells have none: those that still have bonds, and some that lost theirs since */
     brc_buffer *stored, *lost_friction, *lost_impact;
     brc_buffer *law; /* [n_materials][n_materials][BRC_CONTACT_LAW] */
     double *law_of;  /* the same on the host */

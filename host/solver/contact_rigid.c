@@ -1,4 +1,5 @@
 /* Cells of dlsm that have lost all their bonds, as rigid bodies (kernels/contact_rigid.cl). */
+#include "cell_breaks_internal.h"
 #include "contact_internal.h"
 
 brc_status brc_contact_rigid_create(brc_simulation *s)
@@ -41,6 +42,8 @@ void brc_contact_rigid_free(brc_simulation *s)
     brc_contact_state *c = s->contact;
     brc_buffer **all[] = {&c->rigid, &c->inertia, &c->turned, &c->momentum, &c->torque};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    if (c->bonded) brc_buffer_free(&c->bonded->list);
+    brc_memory_free(c->bonded);
 }
 
 brc_status brc_contact_detach(brc_simulation *s)
@@ -53,6 +56,19 @@ brc_status brc_contact_detach(brc_simulation *s)
     BRC_TRY(brc_vector_sum(s, s->kinetic, n, &c->n_rigid));
     return brc_contact_pose(s);
 }
+
+brc_status brc_contact_list_bonded(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    if (!c || !c->detaches || !s->fracture || !(2 * c->n_rigid > s->layout->n_rows)) return BRC_OK;
+    if (!c->bonded) {
+        BRC_TRY(BRC_ALLOCATE(s->context, &c->bonded, 1, "cells with bonds"));
+        BRC_TRY(brc_ring_list_create(s, c->bonded));
+    }
+    return brc_rings_without(s, s->fracture->cells->rings, c->rigid, c->bonded);
+}
+
+const brc_ring_list *brc_contact_bonded(const brc_simulation *s) { return s->contact ? s->contact->bonded : NULL; }
 
 brc_status brc_contact_pose(brc_simulation *s)
 {

@@ -14,16 +14,16 @@ static double beta(const brc_simulation *s) { return s->scene->model.compaction 
 
 static bool has_face_loads(const brc_simulation *s) { return s->loads.held.n_faces > 0 || s->loads.n_tractions > 0; }
 
-/* The rings that each pass of dlsm goes over: list NULL, all elements. */
+/* The rings that each pass of dlsm goes over: list NULL, all elements. Where most cells are without bonds those with bonds are all that is gone over. */
 typedef struct dlsm_extent {
     const brc_ring_list *list;
     int gradient, stress, flux, force;
     bool whole_flux; /* of all elements all the same */
 } dlsm_extent;
 
-static dlsm_extent extent_of(const brc_force_request *r)
+static dlsm_extent extent_of(const brc_simulation *s, const brc_force_request *r)
 {
-    if (!r->rings) return (dlsm_extent){0};
+    if (!r->rings) return (dlsm_extent){.list = r->homogeneous ? NULL : brc_contact_bonded(s)};
     return (dlsm_extent){.list = &r->rings->around, .gradient = 0, .stress = 1, .flux = 2, .force = 3, .whole_flux = r->rings->whole_force};
 }
 
@@ -126,8 +126,9 @@ static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
 {
     const brc_elastic *m = one_material(s);
     const double one_plus_tau = 1 + s->scene->model.tau;
-    const dlsm_extent x = extent_of(r);
+    const dlsm_extent x = extent_of(s, r);
     BRC_TRY(dlsm_fluxes(s, r, &x));
+    if (!r->rings && !brc_pass_is_whole(s, x.list, x.force)) BRC_TRY(brc_buffer_fill_zero(r->force)); /* of cells without bonds */
     BRC_TRY(BRC_PASS(s, s->kernel.force, s->kernel.force_listed, x.whole_flux ? NULL : x.list, x.force, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                      BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(s->flux),
                      BRC_BUF(s->bond_part), BRC_COEFF(m->k), BRC_COEFF(one_plus_tau), BRC_BUF(s->modulus),
@@ -239,7 +240,7 @@ brc_status brc_force_gradients_around(brc_simulation *s, const brc_rings *rings)
 {
     brc_force_request request = request_of_state(s, BRC_BOOK_NOTHING);
     request.rings = rings;
-    const dlsm_extent x = extent_of(&request);
+    const dlsm_extent x = extent_of(s, &request);
     return brc_is_dlsm(s) ? dlsm_gradients(s, &request, &x) : BRC_OK;
 }
 

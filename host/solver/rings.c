@@ -86,8 +86,15 @@ brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out
 brc_status brc_rings_around(brc_simulation *s, brc_rings *r, brc_buffer *number, int n_rings, brc_ring_list *out)
 {
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_LAUNCH(r->seed, n, BRC_INT(n), BRC_BUF(number), BRC_BUF(r->touched)));
+    BRC_TRY(BRC_LAUNCH(r->seed, n, BRC_INT(n), BRC_INT(1), BRC_BUF(number), BRC_BUF(r->touched)));
     BRC_TRY(brc_rings_spread(s, r, 1, n_rings));
+    return brc_rings_close(s, r, out);
+}
+
+brc_status brc_rings_without(brc_simulation *s, brc_rings *r, brc_buffer *number, brc_ring_list *out)
+{
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(BRC_LAUNCH(r->seed, n, BRC_INT(n), BRC_INT(0), BRC_BUF(number), BRC_BUF(r->touched)));
     return brc_rings_close(s, r, out);
 }
 

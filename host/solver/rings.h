@@ -42,6 +42,8 @@ brc_status brc_rings_spread(brc_simulation *s, brc_rings *rings, int first, int 
 brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, brc_ring_list *out);
 /* The same around elements whose number is above 0. */
 brc_status brc_rings_around(brc_simulation *s, brc_rings *rings, brc_buffer *number, int n_rings, brc_ring_list *out);
+/* Elements whose number is not above 0, in every ring. */
+brc_status brc_rings_without(brc_simulation *s, brc_rings *rings, brc_buffer *number, brc_ring_list *out);
 
 /* A pass over the first n elements of a list, by the kernel `listed`, or, where list is NULL or n so many that this is quicker, over all by `whole`:
  * args are those of `whole` behind three free places (BRC_PASS). */

@@ -1,5 +1,6 @@
 /* Which pairs are listed, and when they are looked for again. Cells of E 1 Pa and density 1 kg/m^3 (contact_case.h). */
 #include "contact_case.h"
+#include "fracture_case.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,6 +39,80 @@ static void the_skin_changes_no_bit_of_the_motion(void **state)
         assert_memory_equal(thick, chosen, (size_t)n[0] * sizeof *thick);
         assert_memory_equal(thick, thin, (size_t)n[0] * sizeof *thick);
         free(thick), free(chosen), free(thin);
+    }
+}
+
+#define FAST "  - name: burst\n    solver: {dynamic: {steps: 2000}}\n    initial:\n" \
+    "      - velocity: {gradient: {x: [-8e-3 1/s, 2e-3 1/s, 0], y: [-4e-3 1/s, 6e-3 1/s, 2e-3 1/s], z: [0, 0, 1e-2 1/s]}}\n"
+enum { DLSM, PUBLISHED, BEAMS };
+/* A cube that bursts and is pressed together; whole: all pairs are looked for after every break. */
+static void open_crushed(bench_case *c, int kind, bool whole)
+{
+    if (kind == BEAMS)
+        open_fracture(c, (fracture_options){.elements = 300, .strength = "strength: {tension: 1e-3 Pa}", .beam = "{radius: 0.4, E: 8 Pa, strength: 1e-3 Pa}", .stages = "stages:\n" FAST,
+                                           .fracture = "{criterion: virial-principal}\ninteractions: {contact: {friction: 0.3, restitution: 0.7}}", .n_threads = 1});
+    else
+        open_case(c, (case_options){.model = kind == PUBLISHED ? "dlsm-published" : "dlsm", .fill = "cells: [6, 6, 6], spread: 90 %, seed: 1", .stages = CONTACT_CRUSH,
+                                    .materials = CELLS_STRENGTH("8e-4 Pa"), .sets = CONTACT_KEYS, .n_threads = 1});
+    assert_done(c, brc_simulation_begin_stage(c->simulation, 0));
+    c->simulation->contact->always_whole = whole;
+}
+
+/* To the last bit: who is exposed, who is listed, when, and what is evaluated again may not matter. */
+static void after_breaks_only_pairs_around_them_are_looked_for_and_the_motion_is_the_same(void **state)
+{
+    (void)state;
+    for (int kind = DLSM; kind <= BEAMS; ++kind) {
+        double *out[2];
+        int64_t n = 0, searches[2], broken[2];
+        for (int whole = 0; whole < 2; ++whole) {
+            bench_case c;
+            open_crushed(&c, kind, whole);
+            assert_done(&c, brc_simulation_advance(c.simulation, 400));
+            n = 6 * c.domain->n_elements;
+            searches[whole] = c.simulation->contact->searches;
+            broken[whole] = count_broken(&c);
+            out[whole] = calloc((size_t)n, sizeof *out[whole]);
+            assert_done(&c, brc_simulation_displacement(c.simulation, out[whole]));
+            assert_done(&c, brc_simulation_velocity(c.simulation, out[whole] + n / 2));
+            close_case(&c);
+        }
+        print_message("%lld bonds broken, %lld searches of all, and %lld where every break makes one\n", (long long)broken[0], (long long)searches[0], (long long)searches[1]);
+        assert_true(broken[0] > 50 && broken[0] == broken[1]);
+        assert_true(searches[1] > 2 * searches[0]);
+        assert_memory_equal(out[0], out[1], (size_t)n * sizeof *out[0]);
+        free(out[0]), free(out[1]);
+    }
+}
+
+/* Pairs, their order and what they remember: the list that grew by what breaks changed of it, against one that is made at once. */
+static void a_list_that_grew_is_that_of_a_search_from_the_same_places(void **state)
+{
+    (void)state;
+    for (int kind = DLSM; kind <= BEAMS; ++kind) {
+        bench_case c;
+        int32_t *ends[2];
+        double *history[2];
+        int64_t n[2];
+        open_crushed(&c, kind, false);
+        for (int part = 0; part < 4; ++part) {
+            assert_done(&c, brc_simulation_advance(c.simulation, 97));
+            for (int k = 0; k < 2; ++k) {
+                const brc_contact_list *l = &c.simulation->contact->now;
+                n[k] = l->n_pairs;
+                assert_true(n[k] > 0);
+                ends[k] = calloc((size_t)(2 * n[k]), sizeof *ends[k]);
+                history[k] = calloc((size_t)(BRC_CONTACT_HISTORY * n[k]), sizeof *history[k]);
+                assert_done(&c, brc_buffer_read(l->ends, 0, ends[k], 8 * n[k]));
+                assert_done(&c, brc_download(c.simulation, l->history, 8, history[k], BRC_CONTACT_HISTORY * n[k]));
+                if (k == 0) assert_done(&c, brc_contact_list_again(c.simulation));
+            }
+            assert_true(n[0] == n[1]);
+            assert_memory_equal(ends[0], ends[1], (size_t)(2 * n[0]) * sizeof *ends[0]);
+            assert_memory_equal(history[0], history[1], (size_t)(BRC_CONTACT_HISTORY * n[0]) * sizeof *history[0]);
+            for (int k = 0; k < 2; ++k) free(ends[k]), free(history[k]);
+        }
+        close_case(&c);
     }
 }
 
@@ -110,6 +185,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_skin_changes_no_bit_of_the_motion),
+        cmocka_unit_test(after_breaks_only_pairs_around_them_are_looked_for_and_the_motion_is_the_same),
+        cmocka_unit_test(a_list_that_grew_is_that_of_a_search_from_the_same_places),
         cmocka_unit_test(what_flies_or_grows_as_a_whole_is_not_looked_for_again),
         cmocka_unit_test(a_stage_of_nothing_but_dust_takes_its_step_from_contact),
         cmocka_unit_test(nothing_is_listed_in_a_whole_body_at_rest),

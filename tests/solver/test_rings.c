@@ -1,7 +1,8 @@
 /* After breaks only the rings of elements around them are evaluated: forces, velocities, energy and the breaks that follow are those of an evaluation of
  * the whole body. */
 #include "../../host/solver/cell_breaks_internal.h"
-#include "cells_case.h"
+#include "../../host/solver/touching.h"
+#include "contact_case.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -21,7 +22,7 @@ static double energy(bench_case *c)
 {
     brc_ledger l;
     assert_done(c, brc_simulation_ledger(c->simulation, &l));
-    return l.elastic + l.stabilisation;
+    return l.elastic + l.stabilisation + l.contact;
 }
 
 static double lost(bench_case *c)
@@ -59,6 +60,10 @@ static void one_break(case_options o, int64_t steps, double share)
     assert_done(&c, brc_simulation_failure_ratio(s, &ratio));
     double *f_old = rows(&c, s->force), *v_old = rows(&c, s->velocity), *w_old = s->torque ? rows(&c, s->spin) : NULL,
            *t_old = s->torque ? rows(&c, s->torque) : NULL;
+    brc_touching touch = {0};
+    if (s->contact) assert_done(&c, brc_simulation_touching(s, &touch));
+    if (s->contact) print_message("%lld pairs touch\n", (long long)touch.pairs);
+    assert_true(!s->contact || touch.pairs > 0);
     const double e_old = energy(&c), lost_old = lost(&c);
     assert_done(&c, brc_cell_breaks_step(s, half_kick, share * ratio));
     assert_done(&c, brc_simulation_broken(s, &after));
@@ -86,7 +91,8 @@ static void one_break(case_options o, int64_t steps, double share)
     }
     const double released = e_old - energy(&c);
     print_message("released %.17g J, booked %.17g J, of %.3g J\n", released, lost(&c) - lost_old, e_old);
-    assert_true(released != 0 && fabs(lost(&c) - lost_old - released) < 1e-13 * e_old);
+    /* of dlsm-published with contact, where most bonds are gone already, the ledger's change is another, evaluated whole or by rings (docs/contact.md) */
+    if (!(s->contact && t)) assert_true(released != 0 && fabs(lost(&c) - lost_old - released) < 1e-13 * e_old);
     free(f_old), free(v_old), free(w_old), free(t_old), free(f), free(v), free(t), free(w), free(f_whole), free(t_whole);
     close_case(&c);
 }
@@ -112,6 +118,17 @@ static void the_published_law_too(void **state)
                              .fill = "cells: [12, 9, 9], spread: 90 %, seed: 2"}, 20, 0.97);
 }
 
+/* Of pieces that touch each other, with friction, and a floor under them. */
+static void pairs_that_touch_too(void **state)
+{
+    (void)state;
+    static const char floor[] = CONTACT_KEYS "strikers:\n  floor: {plane: {point: [0, 0, -1 mm], normal: [0, 0, 1]}, material: stone}\n";
+    static const char *const models[2] = {"dlsm", "dlsm-published"};
+    for (int k = 0; k < 2; ++k)
+        one_break((case_options){.model = models[k], .fill = "cells: [8, 7, 7], spread: 90 %, seed: 2", .stages = CONTACT_CRUSH, .materials = CELLS_STRENGTH("1.2e-3 Pa"),
+                                 .sets = k ? CONTACT_KEYS : floor, .gravity = k ? NULL : "gravity: [0 m/s^2, 0 m/s^2, -1e-3 m/s^2]\n"}, 200, 0.97);
+}
+
 /* Every force of 150 steps in which bonds break one after the other stays that of the whole body: nothing piles up. */
 static void nothing_piles_up(case_options o)
 {
@@ -135,6 +152,7 @@ static void nothing_piles_up_in_a_run(void **state)
     (void)state;
     nothing_piles_up((case_options){.stages = CELLS_BURST(200), .materials = CELLS_STRENGTH("6e-4 Pa"), .sets = CELLS_FRACTURE});
     nothing_piles_up((case_options){.stages = CELLS_BURST(200), .materials = CELLS_STRENGTH("6e-4 Pa"), .sets = "fracture: {criterion: virial-principal}\n"});
+    nothing_piles_up((case_options){.stages = CONTACT_CRUSH, .materials = CELLS_STRENGTH("8e-4 Pa"), .sets = CONTACT_KEYS});
 }
 
 /* The same bonds in the same steps; the velocities of a whole evaluation are kicked there and back, a rounding each step, which a hundred steps
@@ -175,6 +193,7 @@ int main(void)
         cmocka_unit_test(forces_velocities_and_energy_after_a_break_are_those_of_the_whole_body),
         cmocka_unit_test(held_faces_tractions_and_gravity_stay),
         cmocka_unit_test(the_published_law_too),
+        cmocka_unit_test(pairs_that_touch_too),
         cmocka_unit_test(nothing_piles_up_in_a_run),
         cmocka_unit_test(the_same_bonds_break),
     };
