@@ -13,11 +13,12 @@ static const double countable_s = 1.5;
 static const double cells_break = 4.5, beams_break = 4, faces_soften = 6, surfaces_touch = 3, events_grow = 2;
 /* The least of a range where nothing can end a stage early: what a pace is uncertain by. */
 static const double uncertain = 0.8;
-/* What breaks or meets is looked at on a coarser body that takes some so long, of so many elements at least. */
-static const double looked_s = 2.5, least_looked = 200;
-/* Bytes of a broken bond: kept on the host (the event of 136, and, where that is more than what else is held for a while, its two faces as they are written), written once (a line of cracks.csv and a row of result.h5), and in each
- * frame two polygons of 97 bytes and 32 a corner: octagons of beams, some 5.5 corners of cells. */
-static const double host_of_break = 150, row_of_break = 420, frame_of_beam = 706, frame_of_face = 546;
+/* What breaks or meets is looked at on a coarser body that takes some so long, of so many elements at least and such a share of them at most. */
+static const double looked_s = 2.5, least_looked = 200, most_looked = 0.5;
+/* Bytes of a broken bond: on the host the event of 136, and its two faces while they are written where that is more than what else is held for a while; 440 more while a
+ * picture of cells is drawn, which shows both; on disk once a line of cracks.csv and a row of result.h5, and in each frame two polygons of 97 bytes and 32 a corner: octagons
+ * of beams, some 5.5 corners of cells. */
+static const double host_of_break = 150, drawn_of_face = 440, row_of_break = 420, frame_of_beam = 706, frame_of_face = 546;
 
 typedef struct sums {
     double seconds, least, most;
@@ -126,8 +127,13 @@ static double looked_share(const brc_scene *scene, const brc_setup *setup, const
     bool cut = false;
     for (int32_t k = 0; k < trial->n_stages; ++k) cut |= trial->stages[k].ran && trial->stages[k].cut;
     if (!cut || worst_growth(scene) == 1) return 0;
-    const double share = fmin(0.25, pow(looked_s / (1.5 * brc_trial_seconds(trial)), 0.75));
+    const double share = fmin(most_looked, pow(looked_s / (1.5 * brc_trial_seconds(trial)), 0.75));
     return share * n >= least_looked ? share : 0;
+}
+
+static double host_bytes_of_break(const brc_scene *scene)
+{
+    return host_of_break + (scene->model.kind != BRC_MODEL_CBM && scene->output.picture ? drawn_of_face : 0);
 }
 
 /* Beyond what the trial held. looked: on a coarser body, its shares NAN where nothing is known of it. */
@@ -143,7 +149,7 @@ static memory add_up(const brc_scene *scene, const brc_setup *setup, const brc_t
     const double in_frames = fmax(0, looked->broken_mean * n_bonds - 0.5 * (double)trial->n_broken); /* the trial's frames had some of them */
     double frames = 0;
     for (int32_t k = 0; k < trial->n_stages; ++k) frames += (looked->done[k] > 0 ? fmin(looked->done[k], 1) : 1) * (double)trial->stages[k].frames_planned;
-    const double device = looked->grown > 0 ? fmax(0, looked->grown * (double)trial->device_bytes[0] - m.device) : 0, host = more * host_of_break;
+    const double device = looked->grown > 0 ? fmax(0, looked->grown * (double)trial->device_bytes[0] - m.device) : 0, host = more * host_bytes_of_break(scene);
     m.host = fmax(m.host, (double)trial->stepping_bytes + host);
     m.device += device;
     m.resident += host + device; /* of the cpu device; a card has its own */
@@ -167,7 +173,7 @@ static void tell_broken(const brc_scene *scene, const brc_setup *setup, const br
     for (int32_t k = 0; k < trial->n_stages; ++k) n_frames += trial->stages[k].frames_planned;
     if (!scene->has_fracture) return;
     if (!isnan(looked->broken)) printf("broken bonds: about %.2g %% of all at the end, as with %lld elements\n", 100 * looked->broken, (long long)looked->n_elements);
-    printf("if all bonds broke: up to %.4g MB on the host and %.4g MB on disk\n", fmax((double)trial->host_bytes, (double)trial->stepping_bytes + host_of_break * n_bonds) / 1e6,
+    printf("if all bonds broke: up to %.4g MB on the host and %.4g MB on disk\n", fmax((double)trial->host_bytes, (double)trial->stepping_bytes + host_bytes_of_break(scene) * n_bonds) / 1e6,
            ((double)brc_trial_disk(trial, NULL) + (row_of_break + frame * (double)n_frames) * n_bonds) / 1e6);
 }
 
