@@ -48,8 +48,8 @@ brc_status brc_price_error_find(brc_context *context, brc_scene *scene, const br
     if (!isnan(trial->measures[0])) {
         BRC_TRY_OR(cleanup, compare(context, scene, request, trial->measures, across, 1.0 / QUARTER, 1, out));
     } else {
-        share = fmin(1, pow(affordable_s / seconds, 0.75));
-        if (!(share * n >= LEAST_ELEMENTS)) return BRC_OK;
+        share = fmin(fmax(1.0 / QUARTER, LEAST_ELEMENTS / n), pow(affordable_s / seconds, 0.75));
+        if (!(share * n > LEAST_ELEMENTS - 0.5)) return BRC_OK;
         BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, NULL, share, 0, true, &middle));
         if (middle.across > 0)
             BRC_TRY_OR(cleanup, compare(context, scene, request, middle.measures, middle.across, share / QUARTER, pow(across / middle.across, out->order), out));

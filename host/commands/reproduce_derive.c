@@ -66,16 +66,16 @@ double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *d
         above[k] = value->value - derived->origin;
         y[k] = fabs(above[k]);
         x[k] = against ? against->value : !isnan(label) ? label : 1 / cbrt((double)outcome->n_elements);
-        sum += value->value / derived->n_runs;
+        sum += value->value;
         worst = fmax(worst, fabs(value->value));
         low = fmin(low, value->value);
         high = fmax(high, value->value);
     }
     switch (derived->formula) {
-    case BRC_CASE_MEAN: return sum;
+    case BRC_CASE_MEAN: return sum / derived->n_runs; /* nine of ten are 0.9, not less */
     case BRC_CASE_WORST: return worst;
     case BRC_CASE_ORDER: return slope(derived->n_runs, x, y);
-    case BRC_CASE_RANGE: return (high - low) / fabs(sum);
+    case BRC_CASE_RANGE: return (high - low) / fabs(sum / derived->n_runs);
     case BRC_CASE_RATIO: return derived->n_runs == 2 && y[1] > 0 ? y[0] / y[1] : NAN;
     case BRC_CASE_CROSSING: return crossing(derived->n_runs, x, above);
     case BRC_CASE_DIFFERENCE: return derived->n_runs == 2 ? difference(outcomes[0], outcomes[1]) : NAN;
