@@ -156,9 +156,10 @@ LAW soft_vector soft_bond_force(GLOBAL const coeff *restrict flux, GLOBAL const 
 }
 
 /* The openings of the step whose motion has just been done, by the fluxes at the new place and the old openings: each goes where its cohesion balances
- * what the bond would pull with, by the stiffness of the two cells, which is estimated from above; so a sweep over all faces at once comes nearer
- * to the balance of all, and does not overshoot. is_first: of the sweeps of this step. A face that would close further than shut only slides. */
-KERNEL void soft_move(int n, int is_first, coeff stiffen, coeff steepest, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+ * what the bond would pull with, by the stiffness of the two cells, along their axes and across; so a sweep over all faces at once comes nearer
+ * to the balance of all. is_first, is_last: of the sweeps of this step; only the last one wears the cohesion, what went too far before comes back for
+ * nothing. A face that would close further than shut only slides. */
+KERNEL void soft_move(int n, int is_first, int is_last, coeff stiffen, coeff steepest, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                       GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
                       GLOBAL const int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const coeff *restrict inv_shape,
@@ -176,26 +177,24 @@ KERNEL void soft_move(int n, int is_first, coeff stiffen, coeff steepest, GLOBAL
             const soft_face face = {SOFT_NUMBER(entry, START), SOFT_NUMBER(entry, ENERGY) * SOFT_NUMBER(entry, TILT), SOFT_NUMBER(entry, EXPONENTIAL) > 0};
             const soft_vector s = soft_area(area, entry), before = soft_part(crack, entry, SOFT_OPENING);
             const soft_vector own = soft_pull_of(inv_shape, e, s), theirs = soft_pull_of(inv_shape, j, s);
-            soft_vector drive = soft_bond_force(flux, bond_part, e, j, s, bond_modulus * one_plus_tau, ratio[entry],
-                                                soft_add(soft_jump(displacement, e, j), REAL(-1), before));
-            /* the stiffness along the way the face goes */
-            const coeff size = SQRT(soft_dot(drive, drive) + REAL(1e-30)), share = REAL(0.5) * ratio[entry] * soft_dot(s, soft_add(own, REAL(1), theirs));
-            const soft_vector way = soft_scale(REAL(1) / size, drive);
-            const coeff stiffness = stiffen * (soft_cell_stiffness(own, reach[e], way, REAL(1) / inv_volume[e], plane[e], shear[e]) +
-                                    soft_cell_stiffness(theirs, reach[j], way, REAL(1) / inv_volume[j], plane[j], shear[j]) +
-                                    soft_bond_stiffness(bond_modulus, ratio[entry], share, beta, one_plus_tau));
-            drive = soft_add(drive, stiffness, before);
+            const soft_vector pull = soft_bond_force(flux, bond_part, e, j, s, bond_modulus * one_plus_tau, ratio[entry],
+                                                     soft_add(soft_jump(displacement, e, j), REAL(-1), before));
+            const coeff share = REAL(0.5) * ratio[entry] * soft_dot(s, soft_add(own, REAL(1), theirs));
+            const coeff bond = stiffen * soft_bond_stiffness(bond_modulus, ratio[entry], share, beta, one_plus_tau);
+            soft_tensor stiffness = {bond, bond, bond, 0, 0, 0};
+            stiffness = soft_add_cell(stiffness, own, reach[e], stiffen / inv_volume[e], plane[e], shear[e]);
+            stiffness = soft_add_cell(stiffness, theirs, reach[j], stiffen / inv_volume[j], plane[j], shear[j]);
+            const soft_vector drive = soft_add(pull, REAL(1), soft_tensor_times(stiffness, before));
             const soft_vector normal = soft_add(s, REAL(0.5), soft_add(soft_times(gradient, e, s), REAL(1), soft_times(gradient, j, s)));
-            const coeff across = soft_dot(drive, normal), square = soft_dot(normal, normal);
-            if (across < 0) drive = soft_add(drive, -across / square, normal);
-            const coeff wide = SOFT_NUMBER(entry, WIDEST), force = SQRT(soft_dot(drive, drive)), w = soft_opening(face, wide, force, stiffness);
-            const soft_vector now = soft_scale(force > 0 ? w / force : 0, drive);
+            const coeff wide = SOFT_NUMBER(entry, WIDEST), was = SQRT(soft_dot(before, before)), at = was > wide ? was : wide;
+            const soft_vector now = soft_balance(face, wide, drive, stiffness, at > 0 ? soft_force(face, at) / at : 0, normal);
+            const coeff w = SQRT(soft_dot(now, now));
             soft_vector added = soft_add(now, REAL(-1), before);
             if (!is_first) added = soft_add(added, REAL(1), soft_part(crack, entry, SOFT_SHIFT));
             soft_put(crack, entry, SOFT_OPENING, now), soft_put(crack, other, SOFT_OPENING, soft_scale(REAL(-1), now));
             soft_put(crack, entry, SOFT_SHIFT, added), soft_put(crack, other, SOFT_SHIFT, soft_scale(REAL(-1), added));
-            if (w > wide) {
-                const coeff tilt = soft_tilt(SOFT_NUMBER(entry, COSINE), soft_dot(now, normal) / (w * SQRT(square)), steepest);
+            if (is_last && w > wide) {
+                const coeff tilt = soft_tilt(SOFT_NUMBER(entry, COSINE), soft_dot(now, normal) / (w * SQRT(soft_dot(normal, normal))), steepest);
                 SOFT_NUMBER(entry, WIDEST) = w, SOFT_NUMBER(other, WIDEST) = w;
                 SOFT_NUMBER(entry, TILT) = tilt, SOFT_NUMBER(other, TILT) = tilt;
             }

@@ -84,19 +84,68 @@ LAW coeff soft_opening(soft_face f, coeff widest, coeff drive, coeff stiffness)
     return w;
 }
 
-/* How strongly a cell draws back a face that opens along `direction` (unit) [N/m]: of its V psi, with H = ... - opening (x) pull, pull = A^-1 s [1/m];
- * reach: sum of |pull| over all open faces of the cell, which mostly open together. modulus: lambda + 2 mu, shear: mu [Pa]. */
-LAW coeff soft_cell_stiffness(soft_vector pull, coeff reach, soft_vector direction, coeff volume, coeff modulus, coeff shear)
+/* How strongly a face is drawn back when it opens [N/m], in every direction: symmetric. */
+typedef struct { coeff xx, yy, zz, yz, xz, xy; } soft_tensor;
+LAW soft_vector soft_tensor_times(soft_tensor k, soft_vector a)
 {
-    const coeff size = SQRT(soft_dot(pull, pull)), along = soft_dot(pull, direction);
-    if (!(size > 0)) return 0;
-    return volume * reach * ((modulus - shear) * along * along / size + shear * size);
+    return (soft_vector){k.xx * a.x + k.xy * a.y + k.xz * a.z, k.xy * a.x + k.yy * a.y + k.yz * a.z, k.xz * a.x + k.yz * a.y + k.zz * a.z};
+}
+/* Solves (k + more I) x = a up to a factor above 0: the direction of x. k + more I is positive definite. */
+LAW soft_vector soft_tensor_way(soft_tensor k, coeff more, soft_vector a)
+{
+    const coeff xx = k.xx + more, yy = k.yy + more, zz = k.zz + more;
+    const soft_tensor adjugate = {yy * zz - k.yz * k.yz, xx * zz - k.xz * k.xz, xx * yy - k.xy * k.xy,
+                                  k.xy * k.xz - k.yz * xx, k.xy * k.yz - k.xz * yy, k.yz * k.xz - k.xy * zz};
+    return soft_tensor_times(adjugate, a);
+}
+
+/* Centroids of faces lie beside their branches (by a third of the size of a cell in noisy grids), so an opening along its face strains the cells next to it
+ * too, through the gradients that place their faces: this share of lambda counts in every direction. Without it the sweeps run away at nu 0.45, where lambda
+ * is nine times mu (docs/fracture.md). */
+#define SOFT_BESIDE REAL(0.3)
+
+/* Adds what a cell draws back with: of its V psi, with H = ... - opening (x) pull, pull = A^-1 s [1/m]; reach: sum of |pull| over all open faces of the
+ * cell: that sum over faces is not below the cell's own energy whatever the openings (Cauchy and Schwarz). modulus: lambda + 2 mu, shear: mu [Pa]. */
+LAW soft_tensor soft_add_cell(soft_tensor k, soft_vector pull, coeff reach, coeff volume, coeff modulus, coeff shear)
+{
+    const coeff size = SQRT(soft_dot(pull, pull));
+    if (!(size > 0)) return k;
+    const coeff lambda = modulus - REAL(2) * shear, beside = lambda > 0 ? SOFT_BESIDE * lambda : 0;
+    const coeff both = volume * reach * (shear + beside) * size, along = volume * reach * (modulus - shear) / size;
+    return (soft_tensor){k.xx + both + along * pull.x * pull.x, k.yy + both + along * pull.y * pull.y, k.zz + both + along * pull.z * pull.z,
+                         k.yz + along * pull.y * pull.z,        k.xz + along * pull.x * pull.z,        k.xy + along * pull.x * pull.y};
 }
 /* And of the bond's own term; share: ((A_i^-1 + A_j^-1) s).s q / 2, how much of the opening the two gradients take up [-]; ratio q [1/m]. */
 LAW coeff soft_bond_stiffness(coeff k, coeff ratio, coeff share, coeff beta, coeff one_plus_tau)
 {
     const coeff rest = REAL(1) - share;
     return k / ratio * (one_plus_tau * (rest * rest + REAL(0.5) * share) + REAL(2) * beta * rest * share);
+}
+
+/* The opening [m] at which the cohesion, along the opening, balances cells that pull with drive - k opening: (k + F / |w|) w = drive, by turns of |w|
+ * along a direction and of the direction, begun with `pulled` = F / |w| of the opening so far [N/m] (0 of a face that is shut: it goes along drive).
+ * A face does not close further than shut: across its normal it then only slides. */
+LAW soft_vector soft_balance(soft_face f, coeff widest, soft_vector drive, soft_tensor k, coeff pulled, soft_vector normal)
+{
+    const soft_vector none = {0, 0, 0};
+    soft_vector way = pulled > 0 ? soft_tensor_way(k, pulled, drive) : drive;
+    coeff w = 0;
+    for (int turn = 0; turn < 3; ++turn) {
+        const coeff across = soft_dot(way, normal);
+        if (across < 0) way = soft_add(way, -across / soft_dot(normal, normal), normal);
+        const coeff size = SQRT(soft_dot(way, way));
+        if (!(size > 0)) return none;
+        way = soft_scale(REAL(1) / size, way);
+        const coeff along = soft_dot(way, drive);
+        if (!(along > 0)) return none;
+        w = soft_opening(f, widest, along, soft_dot(way, soft_tensor_times(k, way)));
+        if (!(w > 0)) return none;
+        if (turn < 2) {
+            const coeff at = w > widest ? w : widest;
+            way = soft_tensor_way(k, soft_force(f, at) / at, drive);
+        }
+    }
+    return soft_scale(w, way);
 }
 
 #endif

@@ -11,7 +11,7 @@ static const double screen = 0.7;
 /* Sweeps over the open faces a step, each with the forces at its openings; and the part of the stiffness, estimated from above, that they take: less than a
  * half would let them overshoot. What they leave of the balance costs energy in quick cracks (docs/fracture.md). */
 enum { N_SWEEPS = 3 };
-static const double stiffen = 0.7;
+static const double stiffen = 0.6;
 /* E G_c / sigma_f^2 below this many cells: the crack is not resolved. */
 static const double least_cells = 4;
 
@@ -200,11 +200,11 @@ brc_status brc_softening_energy(brc_simulation *s)
 
 /* ---- a step ---- */
 
-static brc_status sweep(brc_simulation *s, bool is_first)
+static brc_status sweep(brc_simulation *s, int k)
 {
     softening_faces *f = faces_of(s);
     const int32_t n = s->layout->n_rows;
-    return BRC_LAUNCH(f->move, n, BRC_INT(n), BRC_INT(is_first), BRC_COEFF(stiffen), BRC_COEFF(steepest), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+    return BRC_LAUNCH(f->move, n, BRC_INT(n), BRC_INT(k == 0), BRC_INT(k == N_SWEEPS - 1), BRC_COEFF(stiffen), BRC_COEFF(steepest), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                       BRC_BUF(s->fracture->cells->twin), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area),
                       BRC_BUF(s->ratio), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume), BRC_BUF(s->fracture->cells->modulus), BRC_BUF(f->shear),
                       BRC_BUF(f->reach), BRC_COEFF(one_modulus(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
@@ -219,7 +219,7 @@ brc_status brc_softening_move(brc_simulation *s)
     f->is_listed = true;
     for (int k = 0; k < N_SWEEPS; ++k) { /* between sweeps only the openings change */
         BRC_TRY(brc_force_fluxes_of_state(s, s->contact ? NULL : &f->around, k == 0));
-        BRC_TRY(sweep(s, k == 0));
+        BRC_TRY(sweep(s, k));
     }
     return BRC_OK;
 }
