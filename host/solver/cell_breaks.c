@@ -298,11 +298,11 @@ static brc_status kick_others(brc_simulation *s, double by)
     return s->strikers ? brc_strikers_advance(s, by, 0, 0, false) : BRC_OK;
 }
 
-/* The rings around the bonds that broke; pairs of surfaces that the breaks changed act on the elements whose fluxes change last. */
+/* The rings around the bonds that broke. Pairs of surfaces that the breaks changed act on elements of ring 2 or make them so: their fluxes change as those of ring 2 do, their energy does not. */
 static brc_status find_rings(brc_simulation *s)
 {
     brc_rings *rings = s->fracture->cells->rings;
-    const int last = brc_is_published(s) ? 1 : 3, pushed = last > 1 ? last - 1 : 1;
+    const bool wide = !brc_is_published(s);
     if (s->contact) {
         const brc_step_phase phase = brc_phase_within(s, BRC_PHASE_SEARCH);
         BRC_TRY(brc_contact_broken(s, 0));
@@ -311,9 +311,9 @@ static brc_status find_rings(brc_simulation *s)
         BRC_TRY(brc_contact_settle(s));
         brc_phase_within(s, phase);
     }
-    BRC_TRY(brc_rings_spread(s, rings, 1, pushed));
-    BRC_TRY(brc_contact_spread(s, rings->level, 1 + pushed));
-    BRC_TRY(brc_rings_spread(s, rings, pushed + 1, last));
+    BRC_TRY(brc_rings_spread(s, rings, 1, wide ? 2 : 1));
+    BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
+    if (wide) BRC_TRY(brc_rings_spread(s, rings, 3, 3));
     return brc_rings_close(s, rings, &rings->around);
 }
 

@@ -148,7 +148,7 @@ static brc_status published_evaluate(brc_simulation *s, const brc_force_request 
                            BRC_BUF(s->offset), BRC_BUF(s->area), BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(r->displacement),
                            BRC_BUF(r->orientation), BRC_BUF(s->inv_shape), BRC_INT(finite), BRC_BUF(s->gradient)));
     if (brc_cell_breaks_by_bond(s) && r->finite) return brc_published_breaks_force(s, r);
-    return BRC_PASS(s, s->kernel.published_force, s->kernel.published_force_listed, list, 1, BRC_BUF(s->row_start),
+    return BRC_PASS(s, s->kernel.published_force, s->kernel.published_force_listed, list, 2, BRC_BUF(s->row_start),
                     BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->area), BRC_BUF(r->displacement),
                     BRC_BUF(r->orientation), BRC_BUF(s->gradient), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
                     BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_BUF(s->lame_of),
@@ -201,7 +201,7 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
     BRC_TRY(brc_force_turned_tractions(s, r));
     brc_force_request all = *r;
     if (r->rings && !r->rings->whole_force) { /* from here on forces are those of the whole body */
-        BRC_TRY(brc_rings_replace(s, r->rings, brc_is_published(s) ? 1 : 3));
+        BRC_TRY(brc_rings_replace(s, r->rings, brc_is_published(s) ? 2 : 3));
         all.force = s->force, all.torque = s->torque;
         r = &all;
     }

@@ -76,7 +76,7 @@ brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request
     const brc_cell_breaks *c = s->fracture->cells;
     const brc_elastic *m = s->elastic + s->material_of_element[0];
     const brc_ring_list *list = r->rings && !r->rings->whole_force ? &r->rings->around : NULL;
-    return BRC_PASS(s, c->breaking_force, c->breaking_force_listed, list, 1, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
+    return BRC_PASS(s, c->breaking_force, c->breaking_force_listed, list, 2, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
                       BRC_BUF(s->area), BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_BUF(s->gradient), BRC_COEFF(m->lambda),
                       BRC_COEFF(m->mu), BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_BUF(s->lame_of),
                       BRC_BUF(c->limit), BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(c->reach));

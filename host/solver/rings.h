@@ -1,6 +1,6 @@
 /* Elements around those whose bonds broke or whose faces are open, in rings by bonds (kernels/rings.cl), and element passes over lists of them
  * (kernels/members.cl). What a broken bond changes ends in the third ring of dlsm: H of its two elements, ring 0; P of ring 1, B of ring 2, forces of
- * ring 3. In dlsm-published strains change in ring 0 and forces in ring 1. All of it exists only in scenes of cells with fracture. */
+ * ring 3. In dlsm-published strains change in ring 0 and forces in ring 1, and of what touches in ring 2. All of it exists only in scenes of cells with fracture. */
 #ifndef BRC_SOLVER_RINGS_H
 #define BRC_SOLVER_RINGS_H
 
