@@ -120,12 +120,13 @@ static double coarse_share(const brc_scene *scene, const brc_trial *trial, doubl
     return longest > 0 ? fmin(0.25, pow(countable_s / longest, 0.75)) : 0;
 }
 
-/* Elements of the coarser body on which what breaks or meets is looked at over those of this one; 0: nothing does, or the trial saw the end of it. */
+/* Elements of the coarser body on which what breaks or meets is looked at over those of this one; 0: nothing does, or the trial saw the end of it. Events are as many in
+ * fewer elements, so that nothing follows from those. */
 static double looked_share(const brc_scene *scene, const brc_setup *setup, const brc_trial *trial)
 {
     const double n = (double)brc_setup_n_elements(setup);
     bool cut = false;
-    for (int32_t k = 0; k < trial->n_stages; ++k) cut |= trial->stages[k].ran && trial->stages[k].cut;
+    for (int32_t k = 0; k < trial->n_stages; ++k) cut |= trial->stages[k].ran && trial->stages[k].cut && scene->stages[k].solver == BRC_SOLVER_DYNAMIC;
     if (!cut || worst_growth(scene) == 1) return 0;
     const double share = fmin(most_looked, pow(looked_s / (1.5 * brc_trial_seconds(trial)), 0.75));
     return share * n >= least_looked ? share : 0;
