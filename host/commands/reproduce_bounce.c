@@ -15,6 +15,7 @@ struct brc_bounce {
     int32_t sensor[N_NAMES];
     double g;                       /* [m/s^2] */
     double first, release, last;    /* [s] first push, last one of its touch, last one; NAN: none yet */
+    bool away; /* the ground felt nothing at the last sample */
     int bounces;
     double n, t, y, tt, ty, spin;   /* sums over the first flight; t since its first sample [s], y = height + g t^2 / 2 [m] */
     double origin;                  /* of t [s] */
@@ -72,14 +73,16 @@ static brc_status sample(void *self, brc_simulation *simulation)
     BRC_TRY(brc_sensors_evaluate(b->sensors, simulation, b->value));
     if (b->value[b->sensor[PUSH]] != 0) {
         if (isnan(b->first)) b->first = time;
-        if (b->bounces == 0 || time - b->last > b->first) b->bounces += 1;
+        if (b->bounces == 0 || (b->away && time - b->last > b->first)) b->bounces += 1;
         b->last = time;
+        b->away = false;
         if (b->bounces == 1) {
             b->release = time;
             leave_flight(b); /* it had not left the ground yet */
         }
-    } else if (b->bounces == 1) {
-        add_to_flight(b, time);
+    } else {
+        b->away = true;
+        if (b->bounces == 1) add_to_flight(b, time);
     }
     return BRC_OK;
 }
