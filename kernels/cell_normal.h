@@ -19,35 +19,40 @@ LAW lane cell_bond_strain(lane_vec3 branch, lane_vec3 jump, lane inverse_square)
     return inverse_square * (lane_vec3_dot(branch, jump) + REAL(0.5) * lane_vec3_dot(jump, jump));
 }
 
-/* e - N.E N [-]: what the gradient of one side does not explain. */
-LAW lane cell_misfit(lane_mat3 gradient, lane_vec3 branch, lane strain, lane inverse_square)
+/* N.E N [-], E the Green strain of the gradient. */
+LAW lane cell_strain_along(lane_mat3 gradient, lane_vec3 branch, lane inverse_square)
 {
     const lane_vec3 along = lane_mat3_mul_vec(gradient, branch);
-    return strain - inverse_square * (lane_vec3_dot(branch, along) + REAL(0.5) * lane_vec3_dot(along, along));
+    return inverse_square * (lane_vec3_dot(branch, along) + REAL(0.5) * lane_vec3_dot(along, along));
 }
 
 /* tau [Pa] of one side; modulus: lambda + 2 mu [Pa]. */
 LAW lane cell_half_stress(lane_mat3 gradient, lane_mat3 stress, lane modulus, lane_vec3 branch, lane strain, lane inverse_square)
 {
-    const lane misfit = cell_misfit(gradient, branch, strain, inverse_square);
+    const lane own = cell_strain_along(gradient, branch, inverse_square);
     const lane_vec3 now = lane_vec3_add(branch, lane_mat3_mul_vec(gradient, branch));
-    const lane stretch = LANE_SQRT(REAL(1) + REAL(2) * (strain - misfit)); /* |F_H N| */
-    return inverse_square * lane_vec3_dot(now, lane_mat3_mul_vec(stress, branch)) / stretch + modulus * misfit;
+    const lane stretch = LANE_SQRT(REAL(1) + REAL(2) * own); /* |F_H N| */
+    return inverse_square * lane_vec3_dot(now, lane_mat3_mul_vec(stress, branch)) / stretch + modulus * (strain - own);
 }
 
-/* > 0: no direction of branch has a tau of `limit` [Pa] or more; misfit: the largest of the element's bonds, in size. n.(P N) is
- * N.(F_H^T P N) over the stretch, which is at least sqrt(1 - 2 |E|). Leaves a little room for its own rounding. */
-LAW lane cell_spare(lane_mat3 gradient, lane_mat3 stress, lane modulus, lane misfit, lane limit)
+/* At most the stretch (1 + 2 N.E N)^(1/2) of any direction [-]. */
+LAW lane cell_least_stretch(lane_mat3 gradient)
 {
-    const lane_sym3 pulled = lane_mat3_sym(lane_mat3_add(stress, lane_mat3_tmul(gradient, stress)));
     const lane_sym3 strain = green_strain(gradient, 1);
     const lane none = LANE_ZERO;
-    const lane square = cell_larger(REAL(1) - REAL(2) * LANE_SQRT(lane_sym3_dot(strain, strain)), none);
-    const lane room = (REAL(0.999) * limit - modulus * misfit) * LANE_SQRT(square);
-    const lane a = room - pulled.xx, b = room - pulled.yy, c = room - pulled.zz;
-    const lane minor = a * b - pulled.xy * pulled.xy;
-    const lane det = c * minor - pulled.yz * (a * pulled.yz + pulled.xy * pulled.xz) - pulled.xz * (pulled.xy * pulled.yz + pulled.xz * b);
-    return lane_min(lane_min(room, a), lane_min(minor, det));
+    return LANE_SQRT(cell_larger(REAL(1) - REAL(2) * LANE_SQRT(lane_sym3_dot(strain, strain)), none));
+}
+
+/* > 0 [N]: the own half of the bond's stress, tau, is below its limit [Pa]; times |R|^2 and the stretch, so that there is neither quotient nor root. A little less, for
+ * the rounding of both. Where the bond's own strain alone passes the limit nothing is left, whatever the sign of the rest. Missing bonds (R = 0) have room. */
+LAW lane cell_room(lane_mat3 gradient, lane_mat3 stress, lane modulus, lane least_stretch, lane_vec3 branch, lane_vec3 jump, lane limit)
+{
+    const lane_vec3 along = lane_mat3_mul_vec(gradient, branch);
+    const lane own = lane_vec3_dot(branch, along) + REAL(0.5) * lane_vec3_dot(along, along);
+    const lane strain = lane_vec3_dot(branch, jump) + REAL(0.5) * lane_vec3_dot(jump, jump);
+    const lane left = REAL(0.999) * limit * (lane_vec3_dot(branch, branch) + REAL(1e-30)) - modulus * (strain - own);
+    const lane pulled = lane_vec3_dot(lane_vec3_add(branch, along), lane_mat3_mul_vec(stress, branch));
+    return lane_min(least_stretch * left - pulled, REAL(1e6) * left);
 }
 
 #endif

@@ -11,68 +11,48 @@
 #define CELLS_TENSION 1
 #define CELLS_DETACHED 4
 
-/* As dlsm_gradient, and the largest |e - N.E N| of the element's bonds, misfit [n] [-] (cell_normal.h). */
-LAW void cells_gradient_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                           GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                           GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient, GLOBAL coeff *restrict misfit)
-{
-    const state_vec3 u = state_gather3(displacement, who.own);
-    lane_mat3 a = lane_mat3_zero();
-    for (int slot = who.begin; slot < who.end; ++slot) {
-        const lane_int j = members_neighbour(who, neighbour, slot);
-        members_ahead3(who, area, slot);
-        members_ahead1(who, ratio, slot);
-        a = dlsm_add_jump(a, state_vec3_difference(state_gather3(displacement, j), u), members_face3(who, area, slot));
-    }
-    const lane_mat3 h = lane_mat3_mul_sym(a, members_block6(who, inv_shape));
-    lane largest = LANE_ZERO;
-    for (int slot = who.begin; slot < who.end; ++slot) {
-        const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, members_neighbour(who, neighbour, slot)), u);
-        const lane_vec3 r = lane_vec3_scale(members_row1(who, ratio, slot), members_face3(who, area, slot));
-        const lane inverse = cell_inverse_square(r);
-        const lane one = cell_misfit(h, r, cell_bond_strain(r, jump, inverse), inverse);
-        largest = cell_larger(largest, cell_larger(one, -one));
-    }
-    members_store9(who, gradient, h);
-    members_put1(who, misfit, largest);
-}
-KERNEL void cells_gradient(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                           GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                           GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient, GLOBAL coeff *restrict misfit)
+/* As dlsm_force, which has what it takes at hand: and the smallest room of the element's bonds, spare [n] (cell_normal.h). */
+KERNEL void cells_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                        GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
+                        GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
+                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
+                        GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL coeff *restrict spare)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        cells_gradient_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, inv_shape, gradient, misfit);
-    }
-}
-KERNEL void cells_gradient_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                           GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                           GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                           GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient, GLOBAL coeff *restrict misfit)
-{
-    FOR_EACH_ITEM(item, n_items) {
-        cells_gradient_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, inv_shape, gradient, misfit);
+        const members who = members_of_group(group, row_start);
+        const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
+        const lane_mat3 h = lane_gather9(gradient, who.own), p = lane_gather9(stress, who.own);
+        const lane k = members_number(who, plane), stretch = cell_least_stretch(h);
+        lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
+        lane least = LANE_ZERO + CELLS_NEVER;
+        for (int slot = who.begin; slot < who.end; ++slot) {
+            const dlsm_pull b = dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part, one_plus_tau, modulus);
+            members_ahead1(who, limit, slot);
+            f = lane_vec3_add(f, b.force);
+            least = lane_min(least, cell_room(h, p, k, stretch, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
+        }
+        members_store3(who, force, f);
+        members_put1(who, spare, least);
     }
 }
 
-/* Bonds whose normal stress is above share * limit are marked. modulus [n]: lambda + 2 mu [Pa]; least [n]: smallest limit of the element's
- * bonds [Pa]; found [n_groups]. Elements whose stress cannot reach their weakest bond's limit do not look at their bonds. */
+/* Bonds whose normal stress is above share * limit are marked. modulus [n]: lambda + 2 mu [Pa]; found [n_groups]. With share 1 groups in which all
+ * elements have room do not look at their bonds. */
 KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                         GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict modulus,
-                        GLOBAL const coeff *restrict misfit, GLOBAL const coeff *restrict least, GLOBAL const coeff *restrict limit,
+                        GLOBAL const coeff *restrict spare, GLOBAL const coeff *restrict limit,
                         GLOBAL int *restrict mark, GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
-        const lane_int own = lane_own(first);
-        const lane_mat3 h = lane_gather9(gradient, own), p = lane_gather9(stress, own);
-        const lane k = lane_load(modulus, (brc_size)first);
-        const lane spare = cell_spare(h, p, k, lane_load(misfit, (brc_size)first), share * lane_load(least, (brc_size)first));
-        int look = 0, marked = 0;
-#define LOOK(l) look |= !(LANE_ITEM(spare, l) > REAL(0));
-        LANE_EACH(LOOK)
-#undef LOOK
+        const int first = group * W;
+        int look = share < REAL(1) || share > REAL(1), marked = 0;
+        for (int l = 0; l < W; ++l) look |= !(spare[first + l] > REAL(0));
         if (look) {
+            const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
+            const lane_int own = lane_own(first);
+            const lane_mat3 h = lane_gather9(gradient, own), p = lane_gather9(stress, own);
+            const lane k = lane_load(modulus, (brc_size)first);
             const state_vec3 u = state_gather3(displacement, own);
             for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
                 const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
@@ -136,46 +116,51 @@ KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOB
     }
 }
 
-/* Bonds of touched elements that are marked on either side become missing ones. width: numbers a face's area has, 3 for a vector. weight [n]: sum over the element's bonds
- * that broke in this step, in its first round and later ones, of stress^2 times volume (S L; without a ratio S^(3/2)): shares of the energy
- * that they release, kept in break_energy until cells_share. changed [n]: 1 where a bond went. broken [n]: bonds lost so far. */
-KERNEL void cells_break(int n, int step, int is_first, int width, GLOBAL const int *restrict row_start, GLOBAL const int *restrict twin,
+/* Bonds of touched elements that are marked on either side become missing ones. width: numbers a face's area has, 3 for a vector. weight [n]: gains the sum over the element's bonds
+ * that break of stress^2 times volume (S L; without a ratio S^(3/2)): shares of the energy that they release, kept in break_energy until
+ * cells_share, which leaves it 0. changed [n]: 1 where a bond went. broken [n]: bonds lost so far. */
+KERNEL void cells_break(int n_groups, int step, int width, GLOBAL const int *restrict row_start, GLOBAL const int *restrict twin,
                         GLOBAL const int *restrict touched, GLOBAL const int *restrict mark, GLOBAL const coeff *restrict measure,
                         GLOBAL coeff *restrict alive, GLOBAL int *restrict neighbour, GLOBAL coeff *restrict area, GLOBAL coeff *restrict ratio,
                         GLOBAL coeff *restrict limit, GLOBAL int *restrict break_step,
                         GLOBAL int *restrict break_mode, GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
                         GLOBAL state *restrict weight, GLOBAL int *restrict changed, GLOBAL state *restrict broken)
 {
-    FOR_EACH_ITEM(e, n) {
-        state sum = 0;
-        int count = 0;
-        for (int slot = row_start[e / C]; touched[e] && slot < row_start[e / C + 1]; ++slot) {
-            const brc_size entry = (brc_size)slot * C + e % C;
-            if (!(alive[entry] > 0)) continue;
-            const int other = twin[entry], mode = mark[entry] ? mark[entry] : mark[other];
-            if (!mode) continue;
-            const coeff stress = mark[entry] ? measure[entry] : measure[other];
-            coeff square = 0; /* S^2 */
-            for (int c = 0; c < width; ++c) {
-                const brc_size at = ((brc_size)slot * width + c) * C + e % C;
-                square += area[at] * area[at];
-                area[at] = 0;
+    FOR_EACH_ITEM(group, n_groups) {
+        int any = 0;
+        for (int l = 0; l < W; ++l) any |= touched[group * W + l];
+        for (int e = group * W; any && e < group * W + W; ++e) {
+            state sum = 0;
+            int count = 0;
+            for (int slot = row_start[e / C]; touched[e] && slot < row_start[e / C + 1]; ++slot) {
+                const brc_size entry = (brc_size)slot * C + e % C;
+                if (!(alive[entry] > 0)) continue;
+                const int other = twin[entry], mode = mark[entry] ? mark[entry] : mark[other];
+                if (!mode) continue;
+                const coeff stress = mark[entry] ? measure[entry] : measure[other];
+                coeff square = 0; /* S^2 */
+                for (int c = 0; c < width; ++c) {
+                    const brc_size at = ((brc_size)slot * width + c) * C + e % C;
+                    square += area[at] * area[at];
+                    area[at] = 0;
+                }
+                const coeff part = stress * stress * (width == 3 ? square * ratio[entry] : square / SQRT(SQRT(square)));
+                alive[entry] = 0;
+                neighbour[entry] = e;
+                if (width == 3) ratio[entry] = 1;
+                limit[entry] = CELLS_NEVER;
+                break_step[entry] = step;
+                break_mode[entry] = mode;
+                break_stress[entry] = stress;
+                break_energy[entry] = part;
+                sum += (state)part;
+                count += 1;
             }
-            const coeff part = stress * stress * (width == 3 ? square * ratio[entry] : square / SQRT(SQRT(square)));
-            alive[entry] = 0;
-            neighbour[entry] = e;
-            if (width == 3) ratio[entry] = 1;
-            limit[entry] = CELLS_NEVER;
-            break_step[entry] = step;
-            break_mode[entry] = mode;
-            break_stress[entry] = stress;
-            break_energy[entry] = part;
-            sum += (state)part;
-            count += 1;
+            if (!count) continue;
+            weight[e] += sum;
+            changed[e] = 1;
+            broken[e] += (state)count;
         }
-        weight[e] = is_first ? sum : weight[e] + sum;
-        changed[e] = count > 0;
-        if (count) broken[e] += (state)count;
     }
 }
 
@@ -217,16 +202,18 @@ LAW coeff cells_stiffness(cells_sym inverse, cells_sym squares, state x, state y
 
 /* Elements that lost a bond: the inverse of A = sum q s (x) s, smallest limit, marks cleared. An element that its neighbours no longer hold marks
  * the bonds it has left: the smallest eigenvalue of A / (2 V) is below support [n], or it has become stiffer than stiffest [n] [1/m^2], which
- * the time step does not bear. found [n]. */
-KERNEL void cells_rebuild(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+ * the time step does not bear. found [n_groups]. */
+KERNEL void cells_rebuild(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
                           GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict limit, GLOBAL const coeff *restrict inv_volume,
                           GLOBAL const coeff *restrict support, GLOBAL const coeff *restrict stiffest, GLOBAL int *restrict changed,
                           GLOBAL coeff *restrict least, GLOBAL coeff *restrict inv_shape, GLOBAL int *restrict mark,
                           GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
-    FOR_EACH_ITEM(e, n) {
-        int count = 0;
-        if (changed[e]) {
+    FOR_EACH_ITEM(group, n_groups) {
+        int any = 0, count = 0;
+        for (int l = 0; l < W; ++l) any |= changed[group * W + l];
+        for (int e = group * W; any && e < group * W + W; ++e) {
+            if (!changed[e]) continue;
             cells_sym a = {0, 0, 0, 0, 0, 0}, squares = {0, 0, 0, 0, 0, 0}, inverse = {0, 0, 0, 0, 0, 0};
             state tx = 0, ty = 0, tz = 0;
             coeff weakest = CELLS_NEVER;
@@ -258,14 +245,14 @@ KERNEL void cells_rebuild(int n, GLOBAL const int *restrict row_start, GLOBAL co
             }
             least[e] = weakest;
         }
-        found[e] = (state)count;
+        found[group] = (state)count;
     }
 }
 
 /* The energy that the bonds of this step release, by their weights: per_weight [J/weight] is that of one side; list [n]: the elements
- * that lost some. lost [J]: of every element. */
+ * that lost some, whose weights are 0 afterwards. lost [J]: of every element. */
 KERNEL void cells_share(int n, int step, state per_weight, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict break_step,
-                        GLOBAL const state *restrict weight, GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost)
+                        GLOBAL state *restrict weight, GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost)
 {
     FOR_EACH_ITEM(k, n) {
         const int e = list[k];
@@ -275,6 +262,7 @@ KERNEL void cells_share(int n, int step, state per_weight, GLOBAL const int *res
                 const brc_size entry = (brc_size)slot * C + e % C;
                 if (break_step[entry] == step) break_energy[entry] *= (coeff)(STATE(2) * per_weight);
             }
+            weight[e] = 0;
         }
     }
 }

@@ -4,13 +4,6 @@
  * boundary[slice]: the slice's block of the face-load arrays, -1 when none of its elements has a free face; only read in
  * scenes with face loads. */
 
-/* Material constants: scalars, or gathered from [slice][4][C] (lambda, mu, k, ell). */
-#if BRC_MANY_MATERIALS
-#define MATERIAL(component, scalar) members_block(who, material, 4, component)
-#else
-#define MATERIAL(component, scalar) (LANE_ZERO + (scalar))
-#endif
-
 /* Pass 1: least-squares displacement gradient H [-] [n][9]. area [slot][3][C], inv_shape A^-1 [slice][6][C]. */
 LAW void dlsm_gradient_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient)
@@ -69,7 +62,7 @@ LAW void dlsm_stress_of(members who, GLOBAL const int *restrict neighbour, GLOBA
                         coeff mu_one, GLOBAL const coeff *restrict material, int finite, GLOBAL coeff *restrict stress)
 {
     const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
-    const lane lambda = MATERIAL(0, lambda_one), mu = MATERIAL(1, mu_one);
+    const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
     members_store9(who, stress, finite ? dlsm_first_piola(g, lambda, mu, 1) : dlsm_first_piola(g, lambda, mu, 0));
 }
 KERNEL void dlsm_stress(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
@@ -146,7 +139,7 @@ LAW void dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GLOBAL 
                            GLOBAL coeff *restrict bond_part)
 {
     const lane_mat3 h = lane_gather9(gradient, who.own), p = lane_gather9(stress, who.own);
-    const lane k = MATERIAL(2, k_one), ell = MATERIAL(3, ell_one);
+    const lane k = MEMBERS_MATERIAL(2, k_one), ell = MEMBERS_MATERIAL(3, ell_one);
     const lane volume = REAL(1) / members_number(who, inv_volume);
     lane_mat3 m, moment;
     dlsm_flux_sums sums;
@@ -203,34 +196,60 @@ KERNEL void dlsm_flux_listed(int n_items, int n, GLOBAL const int *restrict list
     }
 }
 
+/* What pass 4 knows of its own elements, and of one bond. */
+typedef struct {
+    state_vec3 u;
+    lane_mat3 b, part; /* part, k: with many materials */
+    lane k, spring;
+} dlsm_end;
+typedef struct {
+    lane_vec3 force, jump, area; /* [N], u_j - u_i [m], s [m^2] */
+    lane ratio;
+} dlsm_pull;
+
+LAW dlsm_end dlsm_end_of(members who, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
+                         GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus)
+{
+    const state_vec3 u = state_gather3(displacement, who.own);
+    const lane_mat3 b = lane_gather9(flux, who.own);
+#if BRC_MANY_MATERIALS
+    const lane_mat3 part = lane_gather9(bond_part, who.own);
+    return (dlsm_end){u, b, part, members_number(who, modulus), LANE_ZERO};
+#else
+    return (dlsm_end){u, b, b, LANE_ZERO, LANE_ZERO + k_one * one_plus_tau};
+#endif
+}
+LAW dlsm_pull dlsm_pull_at(members who, int slot, dlsm_end own, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                           GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
+                           GLOBAL const coeff *restrict bond_part, coeff one_plus_tau, GLOBAL const coeff *restrict modulus)
+{
+    const lane_int j = members_neighbour(who, neighbour, slot);
+    members_ahead3(who, area, slot);
+    members_ahead1(who, ratio, slot);
+    members_gathers_ahead9(who, flux, neighbour, slot);
+    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.u), s = members_face3(who, area, slot);
+    const lane q = members_row1(who, ratio, slot);
+    lane_mat3 sum = lane_mat3_add(own.b, lane_gather9(flux, j));
+#if BRC_MANY_MATERIALS
+    const lane spring = lane_min(gather_component(modulus, j), own.k) * one_plus_tau;
+    sum = lane_mat3_add(sum, lane_mat3_scale(spring, lane_mat3_add(own.part, lane_gather9(bond_part, j))));
+#else
+    const lane spring = own.spring;
+#endif
+    return (dlsm_pull){dlsm_bond_force(sum, s, spring, q, jump), jump, s, q};
+}
+
 /* Pass 4: force f [N] [n][3] on every element. */
 LAW void dlsm_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
                        GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
                        GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
                        GLOBAL state *restrict force)
 {
-    const state_vec3 u = state_gather3(displacement, who.own);
-    const lane_mat3 b = lane_gather9(flux, who.own);
-#if BRC_MANY_MATERIALS
-    const lane_mat3 part = lane_gather9(bond_part, who.own);
-    const lane k = members_number(who, modulus);
-#else
-    const lane spring = LANE_ZERO + k_one * one_plus_tau;
-#endif
+    const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
     lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
     for (int slot = who.begin; slot < who.end; ++slot) {
-        const lane_int j = members_neighbour(who, neighbour, slot);
-        members_ahead3(who, area, slot);
-        members_ahead1(who, ratio, slot);
-        members_gathers_ahead9(who, flux, neighbour, slot);
-        const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
-        lane_mat3 sum = lane_mat3_add(b, lane_gather9(flux, j));
-#if BRC_MANY_MATERIALS
-        const lane k_bond = lane_min(gather_component(modulus, j), k);
-        const lane spring = k_bond * one_plus_tau;
-        sum = lane_mat3_add(sum, lane_mat3_scale(spring, lane_mat3_add(part, lane_gather9(bond_part, j))));
-#endif
-        f = lane_vec3_add(f, dlsm_bond_force(sum, members_face3(who, area, slot), spring, members_row1(who, ratio, slot), jump));
+        const dlsm_pull b = dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part, one_plus_tau, modulus);
+        f = lane_vec3_add(f, b.force);
     }
     members_store3(who, force, f);
 }
@@ -266,8 +285,8 @@ LAW void dlsm_energy_of(members who, GLOBAL const int *restrict neighbour, GLOBA
                         GLOBAL state *restrict elastic, GLOBAL state *restrict stabilisation)
 {
     const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
-    const lane lambda = MATERIAL(0, lambda_one), mu = MATERIAL(1, mu_one);
-    const lane k = MATERIAL(2, k_one), ell = MATERIAL(3, ell_one);
+    const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
+    const lane k = MEMBERS_MATERIAL(2, k_one), ell = MEMBERS_MATERIAL(3, ell_one);
     const lane_mat3 h = lane_gather9(gradient, who.own), m = dlsm_compaction(h, ell, finite);
     const state_vec3 u = state_gather3(displacement, who.own);
     lane energy = LANE_ZERO;
@@ -279,11 +298,12 @@ LAW void dlsm_energy_of(members who, GLOBAL const int *restrict neighbour, GLOBA
 #else
         const lane k_bond = k, ell_j = ell;
 #endif
-        const lane_mat3 m_j = dlsm_compaction(h_j, ell_j, finite);
-        const lane one_half = LANE_ZERO + REAL(0.5);
-        energy += REAL(0.5) * dlsm_bond_energy(state_vec3_difference(state_gather3(displacement, j), u),
-                                               lane_mat3_scale(one_half, lane_mat3_add(h, h_j)), lane_mat3_scale(one_half, lane_mat3_add(m, m_j)),
-                                               members_face3(who, area, slot), members_row1(who, ratio, slot), k_bond, beta, one_plus_tau);
+        const lane q = members_row1(who, ratio, slot);
+        const lane_vec3 x = lane_vec3_scale(REAL(0.5) * q, members_face3(who, area, slot)); /* R / 2 [m] */
+        const lane_vec3 h_j_x = lane_mat3_mul_vec(h_j, x), jump = state_vec3_difference(state_gather3(displacement, j), u);
+        const lane_vec3 residual = lane_vec3_sub(jump, lane_vec3_add(lane_mat3_mul_vec(h, x), h_j_x));
+        const lane_vec3 compact = lane_vec3_add(lane_mat3_mul_vec(m, x), dlsm_compaction_along(h_j, h_j_x, x, ell_j, finite));
+        energy += REAL(0.5) * dlsm_residual_energy(residual, compact, q, k_bond, beta, one_plus_tau);
     }
     members_store1(who, elastic, svk_energy(green_strain(g, finite), lambda, mu) / members_number(who, inv_volume));
     members_store1(who, stabilisation, energy);
@@ -329,4 +349,3 @@ KERNEL void dlsm_deformation(int n_groups, GLOBAL const int *restrict row_start,
         members_store9(who, deformation, dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads));
     }
 }
-#undef MATERIAL

@@ -185,7 +185,21 @@ LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear she
     STORE_SAME(mark + pick.other / W, step);
 }
 
-/* Levels 0 and 1: what each element loses. Only groups in which the bound lets one fail look at stresses. */
+/* fracture_mean of one element, to the last bit. */
+LAW failure_stress fracture_mean_of(int e, int level, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                                    GLOBAL const coeff *restrict record)
+{
+    coeff sum[7];
+    for (int c = 0; c < 7; ++c) sum[c] = record[RECORD_OF(e) + c * C];
+    for (int slot = row_start[e / C]; level > 0 && slot < row_start[e / C + 1]; ++slot) {
+        const int j = neighbour[(brc_size)slot * C + e % C];
+        for (int c = 0; j != e && c < 7; ++c) sum[c] += record[RECORD_OF(j) + c * C];
+    }
+    const coeff inverse = REAL(1) / sum[6];
+    return (failure_stress){inverse * sum[0], inverse * sum[1], inverse * sum[2], inverse * sum[3], inverse * sum[4], inverse * sum[5]};
+}
+
+/* Levels 0 and 1: what each element loses. Only elements which the bound lets fail look at stresses: few of a group do. */
 KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager, coeff slope, coeff friction, int weighted,
                            GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict limits,
@@ -196,24 +210,19 @@ KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
         lane sum = lane_load(reach, (brc_size)first);
-        for (int slot = row_start[slice]; level > 0 && slot < last; ++slot) { /* what points home adds the element's own: it is no less a bound */
-            GLOBAL const int *at = neighbour + (brc_size)slot * C + (brc_size)lane0;
-#define REACH(l) reach[at[0x##l]]
-            sum += LANE_MAKE(lane, REACH);
-#undef REACH
-        }
+        for (int slot = row_start[slice]; level > 0 && slot < last; ++slot) /* what points home adds the element's own: it is no less a bound */
+            sum += gather_component(reach, int_block(neighbour, slot, lane0));
         const lane room = lane_load(ease, (brc_size)first) * lane_load(weight, (brc_size)first) - sum;
-        int near = 0;
-#define NEAR(l)                                                                                                            choice[first + 0x##l] = -1;                                                                                            near |= !(LANE_ITEM(room, l) > 0);
-        LANE_EACH(NEAR)
-#undef NEAR
-        if (near) {
-            const failure_shear shear = {drucker_prager, slope, friction};
-            const lane_sym3 mean = fracture_mean(group, level, row_start, neighbour, record);
-#define CHOOSE(l)                                                                                                          {                                                                                                                          const failure_stress s = {LANE_ITEM(mean.xx, l), LANE_ITEM(mean.yy, l), LANE_ITEM(mean.zz, l),                                                   LANE_ITEM(mean.yz, l), LANE_ITEM(mean.xz, l), LANE_ITEM(mean.xy, l)};                        fracture_choose_of(first + 0x##l, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits, factor, weakest,                            choice, measure, mark);                                                                         }
-            LANE_EACH(CHOOSE)
+        const failure_shear shear = {drucker_prager, slope, friction};
+#define CHOOSE(l)                                                                                                      \
+    choice[first + 0x##l] = -1;                                                                                        \
+    if (!(LANE_ITEM(room, l) > 0)) {                                                                                   \
+        const failure_stress s = fracture_mean_of(first + 0x##l, level, row_start, neighbour, record);                 \
+        fracture_choose_of(first + 0x##l, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits, factor, weakest, \
+                           choice, measure, mark);                                                                     \
+    }
+        LANE_EACH(CHOOSE)
 #undef CHOOSE
-        }
     }
 }
 

@@ -56,13 +56,12 @@
     X(striker_place)                                                                                                   \
     X(striker_book)                                                                                                    \
     X(cbm_force_pass)                                                                                                  \
-    X(cells_gradient)                                                                                                  \
+    X(cells_force)                                                                                                     \
     X(cells_check)                                                                                                     \
     X(cells_ratio)                                                                                                     \
     X(cells_break)                                                                                                     \
     X(cells_rebuild)                                                                                                   \
     X(cells_share)                                                                                                     \
-    X(cells_gradient_listed)                                                                                           \
     X(ring_spread)                                                                                                     \
     X(ring_seed)                                                                                                       \
     X(ring_count)                                                                                                      \

@@ -8,13 +8,14 @@ typedef struct {
     int begin, end;          /* slots to go through */
     lane_int own;            /* rows of the elements */
     lane_int start, slots;   /* listed: first slot and number of slots of each */
+    lane_int lanes;          /* listed: place in the slice */
 } members;
 
 LAW members members_of_group(int group, GLOBAL const int *restrict row_start)
 {
     const int slice = SLICE_OF(group), first = group * W;
     const lane_int own = lane_own(first);
-    return (members){0, first, slice, FIRST_LANE_OF(group), row_start[slice], row_start[slice + 1], own, own, own};
+    return (members){0, first, slice, FIRST_LANE_OF(group), row_start[slice], row_start[slice + 1], own, own, own, own};
 }
 
 /* Elements W item, ... of the list of n; behind its end the last one over and over. */
@@ -29,35 +30,37 @@ LAW members members_of_list(int item, int n, GLOBAL const int *restrict list, GL
 #define START(l) (LANE_ITEM(slots, l) > 0 ? row_start[LANE_ITEM(own, l) / C] : 0)
     const lane_int start = LANE_MAKE(lane_int, START);
 #undef START
+#define PLACE(l) (LANE_ITEM(own, l) % C)
+    const lane_int lanes = LANE_MAKE(lane_int, PLACE);
+#undef PLACE
     int most = 0;
 #define MOST(l) most = LANE_ITEM(slots, l) > most ? LANE_ITEM(slots, l) : most;
     LANE_EACH(MOST)
 #undef MOST
-    return (members){1, 0, 0, 0, 0, most, own, start, slots};
+    return (members){1, 0, 0, 0, 0, most, own, start, slots, lanes};
 }
 
-/* Listed: where component 0 of [slot][n][C] is for each. */
-LAW lane_int members_entry(members m, int slot, int n)
-{
-#define ENTRY(l) ((LANE_ITEM(m.start, l) + (slot < LANE_ITEM(m.slots, l) ? slot : 0)) * n * C + LANE_ITEM(m.own, l) % C)
-    return LANE_MAKE(lane_int, ENTRY);
-#undef ENTRY
-}
+/* Listed: all bits where an element has this slot, none behind the end of its row. */
+LAW lane_int members_has(members m, int slot) { return LANE_ABOVE(m.slots, slot); }
+/* Listed: where component 0 of [slot][n][C] is for each; behind the end of its row its first slot. */
+LAW lane_int members_entry(members m, int slot, int n) { return (m.start + (members_has(m, slot) & slot)) * (n * C) + m.lanes; }
 /* Listed: where component 0 of [slice][n][C] is for each. */
-LAW lane_int members_record(members m, int n)
-{
-#define RECORD_AT(l) (LANE_ITEM(m.own, l) / C * n * C + LANE_ITEM(m.own, l) % C)
-    return LANE_MAKE(lane_int, RECORD_AT);
-#undef RECORD_AT
-}
+LAW lane_int members_record(members m, int n) { return (m.own - m.lanes) * n + m.lanes; }
+
+/* Material constants: scalars, or gathered from [slice][4][C] (lambda, mu, k, ell). */
+#if BRC_MANY_MATERIALS
+#define MEMBERS_MATERIAL(component, scalar) members_block(who, material, 4, component)
+#else
+#define MEMBERS_MATERIAL(component, scalar) (LANE_ZERO + (scalar))
+#endif
 
 /* ---- rows: of the bonds in one slot ---- */
 LAW lane_int members_neighbour(members m, GLOBAL const int *restrict neighbour, int slot)
 {
     if (!m.listed) return int_block(neighbour, slot, m.lane0);
-    const lane_int at = members_entry(m, slot, 1);
-#define NEXT(l) (slot < LANE_ITEM(m.slots, l) ? neighbour[LANE_ITEM(at, l)] : LANE_ITEM(m.own, l))
-    return LANE_MAKE(lane_int, NEXT);
+    const lane_int at = members_entry(m, slot, 1), has = members_has(m, slot);
+#define NEXT(l) neighbour[LANE_ITEM(at, l)]
+    return (has & LANE_MAKE(lane_int, NEXT)) | (~has & m.own);
 #undef NEXT
 }
 LAW lane members_row1(members m, GLOBAL const coeff *restrict p, int slot)
@@ -73,9 +76,8 @@ LAW lane_vec3 members_row3(members m, GLOBAL const coeff *restrict p, int slot)
 /* 1, and 0 behind the end of an element's row. */
 LAW lane members_there(members m, int slot)
 {
-#define THERE(l) (slot < LANE_ITEM(m.slots, l) ? REAL(1) : REAL(0))
-    return LANE_MAKE(lane, THERE);
-#undef THERE
+    const lane_int has = members_has(m, slot);
+    return LANE_DIFFERENT(has, 0);
 }
 /* Areas, as numbers and as vectors. */
 LAW lane members_face1(members m, GLOBAL const coeff *restrict area, int slot)

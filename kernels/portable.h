@@ -64,6 +64,7 @@ typedef int lane_int;
 #define LANE_FROM_STATE(x) ((coeff)(x))
 #define STATE_FROM_LANE(x) ((state)(x))
 #define LANE_DIFFERENT(a, b) ((coeff)((a) != (b)))
+#define LANE_ABOVE(a, b) (-((a) > (b)))
 #else
 typedef BRC_JOIN(COEFF_NAME, BRC_LANES) lane;
 typedef BRC_JOIN(STATE_NAME, BRC_LANES) lane_state;
@@ -71,10 +72,12 @@ typedef BRC_JOIN(int, BRC_LANES) lane_int;
 #define LANE_FROM_STATE(x) BRC_JOIN(BRC_JOIN(convert_, COEFF_NAME), BRC_LANES)(x)
 #define STATE_FROM_LANE(x) BRC_JOIN(BRC_JOIN(convert_, STATE_NAME), BRC_LANES)(x)
 #define LANE_DIFFERENT(a, b) (-BRC_JOIN(BRC_JOIN(convert_, COEFF_NAME), BRC_LANES)((a) != (b)))
+#define LANE_ABOVE(a, b) ((a) > (b))
 #define BRC_VLOAD BRC_JOIN(vload, BRC_LANES)
 #define BRC_VSTORE BRC_JOIN(vstore, BRC_LANES)
 #endif
 #define STORE_SAME(place, value) (*(place) = (value))
+#define LANE_LESSER(a, b) ((a) < (b) ? (a) : (b))
 #define LANE_SQRT(x) sqrt(x)
 #define SQRT(x) sqrt(x)
 #define SQRT_STATE(x) sqrt(x)
@@ -132,7 +135,9 @@ typedef int lane_int;
 #define LANE_FROM_STATE(x) ((coeff)(x))
 #define STATE_FROM_LANE(x) ((state)(x))
 #define LANE_SQRT(x) SQRT(x)
+#define LANE_LESSER(a, b) ((a) < (b) ? (a) : (b))
 #define LANE_DIFFERENT(a, b) ((coeff)((a) != (b)))
+#define LANE_ABOVE(a, b) (-((a) > (b)))
 #else
 typedef coeff lane __attribute__((vector_size(W * sizeof(coeff))));
 typedef state lane_state __attribute__((vector_size(W * sizeof(state))));
@@ -146,7 +151,14 @@ LAW lane brc_lane_sqrt(lane x)
     return root;
 }
 #define LANE_SQRT(x) brc_lane_sqrt(x)
+LAW lane brc_lane_lesser(lane a, lane b) /* a choice of bits: gcc has no ?: of vectors in C */
+{
+    const __typeof__(a < b) less = a < b;
+    return (lane)((less & (__typeof__(a < b))a) | (~less & (__typeof__(a < b))b));
+}
+#define LANE_LESSER(a, b) brc_lane_lesser(a, b)
 #define LANE_DIFFERENT(a, b) (-__builtin_convertvector((a) != (b), lane))
+#define LANE_ABOVE(a, b) ((a) > (b))
 #endif
 #define LANE_MAKE_(type, ...) ((type){__VA_ARGS__})
 #define LANE_ZERO ((lane){0})
@@ -193,6 +205,15 @@ LAW lane brc_lane_sqrt(lane x)
 #define LANE_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #endif
 #define LANE_SPARE 8
+/* Numbers from anywhere: one instruction in place of a load, a shuffle and the arithmetic of a place for each lane. */
+#if W == 8 && defined(__AVX512F__)
+#include <immintrin.h>
+#if BRC_PRECISION == 0
+#define LANE_GATHER(p, at) ((lane)_mm512_i32gather_pd((__m256i)(at), (p), 8))
+#else
+#define LANE_GATHER(p, at) ((lane)_mm256_i32gather_ps((p), (__m256i)(at), 4))
+#endif
+#endif
 
 /* Storage (design.md, SELL-C): element arrays of n components that are only read by their own element are blocked,
  * [slice][component][C]; those that neighbours gather are [element][components]. Rows are [slot][component][C]. */

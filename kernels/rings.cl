@@ -8,11 +8,14 @@
 #define RING_KINDS 4
 
 /* Elements whose origin is `from` and their neighbours are given the level `to` where they have none. */
-KERNEL void ring_spread(int n, int from, int to, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+KERNEL void ring_spread(int n_groups, int from, int to, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                         GLOBAL const int *origin, GLOBAL int *level)
 {
-    FOR_EACH_ITEM(e, n) {
-        if (origin[e] == from) {
+    FOR_EACH_ITEM(group, n_groups) {
+        int any = 0;
+        for (int l = 0; l < W; ++l) any |= origin[group * W + l] == from;
+        for (int e = group * W; any && e < group * W + W; ++e) {
+            if (origin[e] != from) continue;
             if (level[e] == 0) STORE_SAME(level + e, to);
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
                 const int j = neighbour[(brc_size)slot * C + e % C];

@@ -154,9 +154,13 @@ LAW lane_int lane_own(int first)
  * performance.md). A record shorter than its vector reads into the next one: arrays end with spare room (LANE_SPARE). */
 LAW lane gather_component(GLOBAL const coeff *restrict p, lane_int at)
 {
+#ifdef LANE_GATHER
+    return LANE_GATHER(p, at);
+#else
 #define ITEM(l) p[LANE_ITEM(at, l)]
     return LANE_MAKE(lane, ITEM);
 #undef ITEM
+#endif
 }
 LAW lane_state gather_state_component(GLOBAL const state *restrict p, lane_int at)
 {
@@ -319,12 +323,7 @@ LAW lane_int int_block(GLOBAL const int *restrict p, int block, int first_lane)
 }
 
 /* Smaller of two, component by component. */
-LAW lane lane_min(lane a, lane b)
-{
-#define ITEM(l) (LANE_ITEM(a, l) < LANE_ITEM(b, l) ? LANE_ITEM(a, l) : LANE_ITEM(b, l))
-    return LANE_MAKE(lane, ITEM);
-#undef ITEM
-}
+LAW lane lane_min(lane a, lane b) { return LANE_LESSER(a, b); }
 
 LAW lane lane_max(lane a, lane b) { return -lane_min(-a, -b); }
 

@@ -23,7 +23,7 @@ static brc_status find_kernels(brc_simulation *s, brc_cell_breaks *c)
         brc_kernel **slot;
         const char *name;
         bool wanted;
-    } wanted[] = {{&c->gradient, "cells_gradient", by_bond}, {&c->gradient_listed, "cells_gradient_listed", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
+    } wanted[] = {{&c->force, "cells_force", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
                   {&c->break_pass, "cells_break", true}, {&c->rebuild, "cells_rebuild", brc_is_dlsm(s)}, {&c->share, "cells_share", true}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
         if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
@@ -156,7 +156,7 @@ static brc_status create_arrays(brc_simulation *s)
     BRC_TRY(brc_buffer_create(s->device, &c->mark, 4 * entries, "marked bonds"));
     BRC_TRY(brc_buffer_create(s->device, &c->changed, 4 * n, "changed elements"));
     BRC_TRY(brc_new_coeff(s, &c->measure, entries, "stresses of marked bonds"));
-    if (brc_is_dlsm(s) && !c->by_element) BRC_TRY(brc_new_coeff(s, &c->misfit, n, "misfits"));
+    if (brc_is_dlsm(s) && !c->by_element) BRC_TRY(brc_new_coeff(s, &c->spare, n, "rooms of bonds"));
     BRC_TRY(brc_new_state(s, &c->weight, n, "weights of broken bonds"));
     BRC_TRY(brc_new_state(s, &c->found, n, "marks of elements"));
     BRC_TRY(brc_buffer_create(s->device, &f->break_step, 4 * entries, "steps of breaks"));
@@ -220,7 +220,7 @@ void brc_cell_breaks_free(brc_simulation *s)
     if (!c) return;
     brc_softening_free(s);
     brc_rings_free(&c->rings);
-    brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->misfit, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found,
+    brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->spare, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found,
                           &c->branch, &c->spanned, &c->reach};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     brc_memory_free(c);
@@ -231,11 +231,15 @@ void brc_cell_breaks_free(brc_simulation *s)
 
 bool brc_cell_breaks_by_bond(const brc_simulation *s) { return s->fracture && s->fracture->cells && !s->fracture->cells->by_element; }
 
-brc_status brc_cell_breaks_gradients(brc_simulation *s, brc_buffer *displacement, const brc_ring_list *list, int ring)
+bool brc_cell_breaks_screens(const brc_simulation *s) { return brc_cell_breaks_by_bond(s) && brc_is_dlsm(s) && !brc_softening_is_on(s); }
+
+brc_status brc_cell_breaks_forces(brc_simulation *s, const brc_force_request *r)
 {
-    brc_cell_breaks *c = s->fracture->cells;
-    return BRC_PASS(s, c->gradient, c->gradient_listed, list, ring, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area),
-                    BRC_BUF(s->ratio), BRC_BUF(displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient), BRC_BUF(c->misfit));
+    const brc_cell_breaks *c = s->fracture->cells;
+    return BRC_LAUNCH(c->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio),
+                      BRC_BUF(r->displacement), BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_COEFF(s->elastic[s->material_of_element[0]].k),
+                      BRC_COEFF(1 + s->scene->model.tau), BRC_BUF(s->modulus), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(c->modulus),
+                      BRC_BUF(c->limit), BRC_BUF(r->force), BRC_BUF(c->spare));
 }
 
 /* Bonds above a share of their limit are marked; *n: marks. */
@@ -246,7 +250,7 @@ static brc_status mark_bonds(brc_simulation *s, double share, double *n)
     if (brc_is_published(s)) return brc_published_breaks_mark(s, share, n);
     BRC_TRY(BRC_LAUNCH(c->check, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(share), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress),
-                       BRC_BUF(c->modulus), BRC_BUF(c->misfit), BRC_BUF(c->least), BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure),
+                       BRC_BUF(c->modulus), BRC_BUF(c->spare), BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure),
                        BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
     return brc_vector_sum(s, c->found, s->n_groups, n);
 }
@@ -257,23 +261,22 @@ static brc_status break_marked(brc_simulation *s, double *energy)
 {
     brc_breaking *f = s->fracture;
     brc_cell_breaks *c = f->cells;
-    const int32_t n = s->layout->n_rows;
     double left = 1;
     *energy = 0;
-    for (int round = 0; left > 0; ++round) {
+    while (left > 0) {
         double more;
         BRC_TRY(brc_rings_find(s, c->rings));
         BRC_TRY(brc_force_energy_around(s, c->rings, 0, &more));
         *energy += more;
-        BRC_TRY(BRC_LAUNCH(c->break_pass, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_INT(round == 0), BRC_INT(brc_is_dlsm(s) ? 3 : 1),
+        BRC_TRY(BRC_LAUNCH(c->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(brc_fracture_moment(s)), BRC_INT(brc_is_dlsm(s) ? 3 : 1),
                            BRC_BUF(s->row_start), BRC_BUF(c->twin), BRC_BUF(c->rings->touched), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->alive), BRC_BUF(s->neighbour), BRC_BUF(s->area),
                            BRC_BUF(s->ratio), BRC_BUF(c->limit), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
                            BRC_BUF(f->break_energy), BRC_BUF(c->weight), BRC_BUF(c->changed), BRC_BUF(f->broken)));
         if (brc_is_published(s)) return brc_published_breaks_rebuild(s); /* its elements hang on by any bond */
-        BRC_TRY(BRC_LAUNCH(c->rebuild, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(c->alive),
+        BRC_TRY(BRC_LAUNCH(c->rebuild, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(c->alive),
                            BRC_BUF(c->limit), BRC_BUF(s->inv_volume), BRC_BUF(c->support), BRC_BUF(c->stiffest), BRC_BUF(c->changed), BRC_BUF(c->least),
                            BRC_BUF(s->inv_shape), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
-        BRC_TRY(brc_vector_sum(s, c->found, n, &left));
+        BRC_TRY(brc_vector_sum(s, c->found, s->n_groups, &left));
     }
     return BRC_OK;
 }

@@ -8,10 +8,10 @@
 #include "rings.h"
 
 struct brc_cell_breaks {
-    brc_kernel *gradient, *gradient_listed, *check, *ratio, *break_pass, *rebuild, *share;
+    brc_kernel *force, *check, *ratio, *break_pass, *rebuild, *share;
     brc_rings *rings;                                               /* around the bonds that break */
     brc_buffer *limit, *twin, *alive, *mark, *measure;              /* [n_slots][C] */
-    brc_buffer *modulus, *misfit, *least, *support, *stiffest, *changed; /* [n_rows] */
+    brc_buffer *modulus, *spare, *least, *support, *stiffest, *changed; /* [n_rows] */
     brc_buffer *weight, *found;                                     /* [n_rows] */
     struct brc_softening_faces *softening;    /* faces that open against cohesion (cell_softening.c); NULL: none does */
     bool by_element;                          /* criteria of elements: what follows, and the arrays of kernels/fracture.cl */

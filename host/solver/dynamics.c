@@ -57,14 +57,21 @@ static brc_status break_bonds(brc_simulation *s, double half_kick)
     return BRC_OK;
 }
 
+/* Of what is free to move: prescribed velocities are set anew at the end of the step, and what drags on them is no part of the work of their load. */
+static brc_status drag(brc_simulation *s, const brc_stage *stage, double dt)
+{
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(brc_loads_zero_imposed(s, s->velocity));
+    return BRC_LAUNCH(s->kernel.damp_mass, n, BRC_INT(n), BRC_STATE(exp(-stage->mass_damping * dt)), BRC_BUF(s->mass), BRC_BUF(s->velocity),
+                      BRC_BUF(s->lost_damping));
+}
+
 static brc_status verlet_step(brc_simulation *s, const brc_stage *stage, double dt, double kick)
 {
     BRC_TRY(brc_turns_begin_step(s, s->time, (double)(s->step + 1) * dt));
     if (stage->mass_damping > 0) { /* the drag acts in the middle of the drift: second order */
-        const int32_t n = s->layout->n_rows;
         BRC_TRY(kick_and_drift(s, kick, 0.5 * dt));
-        BRC_TRY(BRC_LAUNCH(s->kernel.damp_mass, n, BRC_INT(n), BRC_STATE(exp(-stage->mass_damping * dt)), BRC_BUF(s->mass),
-                           BRC_BUF(s->velocity), BRC_BUF(s->lost_damping)));
+        BRC_TRY(drag(s, stage, dt));
         BRC_TRY(kick_and_drift(s, 0, 0.5 * dt));
     } else {
         BRC_TRY(kick_and_drift(s, kick, dt));
@@ -86,9 +93,7 @@ static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double
         BRC_TRY(BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(dt), BRC_STATE(dt),
                            BRC_STATE((stage->phi - 1) * dt * dt), BRC_BUF(s->inertia), BRC_BUF(s->torque), BRC_BUF(s->spin),
                            BRC_BUF(s->orientation)));
-    if (stage->mass_damping > 0)
-        BRC_TRY(BRC_LAUNCH(s->kernel.damp_mass, n, BRC_INT(n), BRC_STATE(exp(-stage->mass_damping * dt)), BRC_BUF(s->mass),
-                           BRC_BUF(s->velocity), BRC_BUF(s->lost_damping)));
+    if (stage->mass_damping > 0) BRC_TRY(drag(s, stage, dt));
     BRC_TRY(close_step(s, dt));
     BRC_TRY(BRC_LAUNCH(s->kernel.numerical_close, n, BRC_INT(n), BRC_BUF(s->force), BRC_BUF(s->moved), BRC_BUF(s->lost_numerical)));
     return break_bonds(s, 0); /* velocities are at whole steps already */

@@ -31,10 +31,8 @@ static dlsm_extent extent_of(const brc_simulation *s, const brc_force_request *r
 static brc_status dlsm_gradients(brc_simulation *s, const brc_force_request *r, const dlsm_extent *x)
 {
     brc_held_faces *h = &s->loads.held;
-    if (brc_cell_breaks_by_bond(s) && r->finite) BRC_TRY(brc_cell_breaks_gradients(s, r->displacement, x->list, x->gradient));
-    else
-        BRC_TRY(BRC_PASS(s, s->kernel.gradient, s->kernel.gradient_listed, x->list, x->gradient, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                         BRC_BUF(s->area), BRC_BUF(r->displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient)));
+    BRC_TRY(BRC_PASS(s, s->kernel.gradient, s->kernel.gradient_listed, x->list, x->gradient, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                     BRC_BUF(s->area), BRC_BUF(r->displacement), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient)));
     if (!r->homogeneous) BRC_TRY(brc_softening_gradient(s, x->list, x->gradient));
     if (h->n_faces)
         BRC_TRY(BRC_LAUNCH(s->kernel.held_gradient, h->n_elements, BRC_INT(h->n_elements), BRC_BUF(h->element),
@@ -128,11 +126,14 @@ static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
     const double one_plus_tau = 1 + s->scene->model.tau;
     const dlsm_extent x = extent_of(s, r);
     BRC_TRY(dlsm_fluxes(s, r, &x));
-    if (!r->rings && !brc_pass_is_whole(s, x.list, x.force)) BRC_TRY(brc_buffer_fill_zero(r->force)); /* of cells without bonds */
-    BRC_TRY(BRC_PASS(s, s->kernel.force, s->kernel.force_listed, x.whole_flux ? NULL : x.list, x.force, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                     BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(s->flux),
-                     BRC_BUF(s->bond_part), BRC_COEFF(m->k), BRC_COEFF(one_plus_tau), BRC_BUF(s->modulus),
-                     BRC_BUF(r->force)));
+    const brc_ring_list *list = x.whole_flux ? NULL : x.list;
+    if (!r->rings && !brc_pass_is_whole(s, list, x.force)) BRC_TRY(brc_buffer_fill_zero(r->force)); /* of cells without bonds */
+    if (r->finite && !r->homogeneous && !r->rings && brc_cell_breaks_screens(s)) BRC_TRY(brc_cell_breaks_forces(s, r, list, x.force));
+    else
+        BRC_TRY(BRC_PASS(s, s->kernel.force, s->kernel.force_listed, list, x.force, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                         BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(s->flux),
+                         BRC_BUF(s->bond_part), BRC_COEFF(m->k), BRC_COEFF(one_plus_tau), BRC_BUF(s->modulus),
+                         BRC_BUF(r->force)));
     if (!r->homogeneous) BRC_TRY(brc_softening_force(s, r->force));
     return dlsm_face_forces(s, r);
 }

@@ -50,8 +50,7 @@ brc_status brc_ring_list_create(brc_simulation *s, brc_ring_list *out)
 
 static brc_status spread(brc_simulation *s, brc_rings *r, brc_buffer *origin, int from, int to)
 {
-    const int32_t n = s->layout->n_rows;
-    return BRC_LAUNCH(r->spread, n, BRC_INT(n), BRC_INT(from), BRC_INT(to), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(origin), BRC_BUF(r->level));
+    return BRC_LAUNCH(r->spread, s->n_groups, BRC_INT(s->n_groups), BRC_INT(from), BRC_INT(to), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(origin), BRC_BUF(r->level));
 }
 
 enum { FOUND, ALL, TOUCHED }; /* as in kernels/rings.cl */

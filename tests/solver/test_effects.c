@@ -97,13 +97,13 @@ static void a_strength_alone_adds_nothing(void **state)
     compare((case_options){.materials = CELLS_STRENGTH("1e-9 Pa")}, (const char *const[]){NULL}, (const char *const[]){NULL});
 }
 
-/* Nothing breaks: the gradients of the full law are found with how far bonds are; what happens after breaks is not launched. */
+/* Nothing breaks: the forces of the full law are found with how far bonds are; what happens after breaks is not launched. */
 static void fracture_adds_its_check_and_its_arrays(void **state)
 {
     (void)state;
-    compare((case_options){.materials = CELLS_STRENGTH("1 GPa"), .sets = CELLS_FRACTURE}, (const char *const[]){"cells_check", "cells_gradient", NULL},
+    compare((case_options){.materials = CELLS_STRENGTH("1 GPa"), .sets = CELLS_FRACTURE}, (const char *const[]){"cells_check", "cells_force", NULL},
             (const char *const[]){"limits of bonds", "unbroken bonds", "smallest limits", "twins", "moduli", "supports", "marked bonds", "changed elements",
-                                  "stresses of marked bonds", "misfits", "weights of broken bonds", "marks of elements", "steps of breaks", "modes of breaks",
+                                  "stresses of marked bonds", "rooms of bonds", "weights of broken bonds", "marks of elements", "steps of breaks", "modes of breaks",
                                   "stresses of breaks", "energies of breaks", "energy of broken bonds", "broken bonds", "rings around broken bonds",
                                   "forces around broken bonds", "rings of elements", NULL});
 }
