@@ -1,15 +1,18 @@
 #include "effects.h"
+#include "crack_factors.h"
 #include "cube.h"
+#include "../host/base/file.h"
 #include "../host/base/log.h"
 #include "../host/base/memory.h"
 #include "../host/solver/fracture.h"
 #include "../host/solver/guard.h"
 #include "../host/solver/simulation.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 9, MOST_VARIANTS = 8, TRIAL_STEPS = 10, WARM_STEPS = 3, GUARD_LOOKS = 50 };
+enum { ROUNDS = 9, MOST_VARIANTS = 9, TRIAL_STEPS = 10, N_TRIALS = 2, WARM_STEPS = 3, GUARD_LOOKS = 50 };
 /* Strength of a bond whose factor is 1, where bonds are to break [Pa]. */
 static const double strength = 1e8;
 /* Share of the bonds that break in a trial step. */
@@ -21,14 +24,16 @@ typedef struct effect {
     bool fracture, contact, softens;
     double rate, bound;
     int64_t most_steps; /* of a sample: the rate holds for some dozens of steps */
+    bool cracks;        /* bonds break along three planes (crack_factors.h), else anywhere */
 } effect;
-static const effect effects[] = {{"elastic, again", false, false, false, 0, 0, INT64_MAX},
-                                 {"fracture, nothing breaks", true, false, false, 0, 1.15, INT64_MAX},
-                                 {"fracture, 1 % of the bonds break in 100 steps", true, false, false, 1e-4, 1.3, 10},
-                                 {"fracture, 1 % of the bonds break in every step", true, false, false, 1e-2, 0, 2},
-                                 {"fracture energy, no face open", true, false, true, 0, 0, INT64_MAX},
-                                 {"fracture energy, 1 % of the faces open in 100 steps", true, false, true, 1e-4, 0, 10},
-                                 {"contact, nothing near", false, true, false, 0, 1.05, INT64_MAX}};
+static const effect effects[] = {{"elastic, again", false, false, false, 0, 0, INT64_MAX, false},
+                                 {"fracture, nothing breaks", true, false, false, 0, 1.15, INT64_MAX, false},
+                                 {"fracture, 1 % of the bonds break in 100 steps", true, false, false, 1e-4, 1.3, 10, false},
+                                 {"the same along three cracks that run", true, false, false, 1e-4, 1.3, 10, true},
+                                 {"fracture, 1 % of the bonds break in every step", true, false, false, 1e-2, 0, 2, false},
+                                 {"fracture energy, no face open", true, false, true, 0, 0, INT64_MAX, false},
+                                 {"fracture energy, 1 % of the faces open in 100 steps", true, false, true, 1e-4, 0, 10, false},
+                                 {"contact, nothing near", false, true, false, 0, 1.05, INT64_MAX, false}};
 enum { N_EFFECTS = sizeof effects / sizeof effects[0] };
 
 /* A simulation of the cube that is stepped. */
@@ -101,7 +106,12 @@ static brc_status make_variant(brc_context *context, const brc_effects_request *
         v->cube.scene.has_fracture = true;
         v->cube.scene.fracture.level = 1;
         m->tension = rate > 0 ? strength : 1e6 * strength;
-        if (rate > 0) m->scatter = (brc_scatter){.kind = BRC_SCATTER_WEIBULL, .modulus = 1};
+        if (rate > 0) m->scatter = (brc_scatter){.kind = e->cracks ? BRC_SCATTER_FILE : BRC_SCATTER_WEIBULL, .modulus = 1};
+        if (e->cracks) {
+            BRC_TRY_OR(cleanup, brc_file_make_folder(context, r->folder));
+            snprintf(m->scatter.file, sizeof m->scatter.file, "%s/crack_factors.csv", r->folder);
+            BRC_TRY_OR(cleanup, brc_crack_factors_write(context, domain, m->scatter.file));
+        }
         /* twenty cells of E G_c / strength^2: faces that open stay open */
         if (e->softens) m->fracture_energy = 20 * m->tension * m->tension / m->young * cbrt(1.0 / (double)domain->n_elements);
     }
@@ -118,23 +128,29 @@ static brc_status make_variant(brc_context *context, const brc_effects_request *
     for (int64_t k = 0; k < 3 * domain->n_elements; ++k) velocity[k] = gradient * (domain->position[k] - 0.5);
     status = brc_simulation_set_state(v->simulation, NULL, velocity);
 cleanup:
+    if (m->scatter.file[0]) remove(m->scatter.file);
     brc_memory_free(velocity);
     return status;
 }
 
-/* What to multiply the speed with, so that the rate is the one that is wanted: a trial says what share of the bonds breaks. */
+/* What to multiply the speed with, so that the rate is the one that is wanted: a short trial says what share of the bonds breaks, two of the length of the
+ * measurement correct it. */
 static brc_status find_scale(brc_context *context, const brc_effects_request *r, const brc_domain *domain, brc_model_kind model, const effect *e, double *scale)
 {
-    variant v = {0};
-    int64_t n = 0;
     *scale = 1;
-    if (!(e->rate > 0)) return BRC_OK;
-    brc_status status = make_variant(context, r, domain, model, e, trial_rate, 1, &v);
-    if (status == BRC_OK) status = brc_simulation_advance(v.simulation, TRIAL_STEPS);
-    if (status == BRC_OK) status = count_events(v.simulation, e, &n);
-    free_variant(&v);
-    if (n > 0) *scale = trial_rate * TRIAL_STEPS * (double)domain->n_bonds / (double)n;
-    return status;
+    for (int trial = 0; e->rate > 0 && trial <= N_TRIALS; ++trial) {
+        variant v = {0};
+        int64_t n = 0;
+        const double rate = trial == 0 ? trial_rate : e->rate;
+        const int64_t steps = trial == 0 ? TRIAL_STEPS : WARM_STEPS + e->most_steps * ROUNDS;
+        brc_status status = make_variant(context, r, domain, model, e, rate, *scale, &v);
+        if (status == BRC_OK) status = brc_simulation_advance(v.simulation, steps);
+        if (status == BRC_OK) status = count_events(v.simulation, e, &n);
+        free_variant(&v);
+        BRC_TRY(status);
+        if (n > 0) *scale *= fmin(trial ? 4 : 100, fmax(trial ? 0.25 : 0.01, rate * (double)steps * (double)domain->n_bonds / (double)n));
+    }
+    return BRC_OK;
 }
 
 /* Cost of the guard over a step of this many seconds: its looks, readings and ledgers apart, each over the steps between two of them. */
@@ -226,7 +242,7 @@ static brc_status alternate(const brc_effects_request *r, const effect *const *w
 static brc_status measure_model(brc_context *context, const brc_effects_request *r, brc_model_kind model, brc_rows *rows)
 {
     brc_status status = BRC_OK;
-    static const effect elastic = {"elastic", false, false, false, 0, 0, INT64_MAX};
+    static const effect elastic = {"elastic", false, false, false, 0, 0, INT64_MAX, false};
     brc_domain *domain = NULL;
     variant base = {0}, *v = NULL;
     const effect *which[MOST_VARIANTS];

@@ -15,6 +15,7 @@ typedef struct brc_effects_request {
     brc_precision precision;
     int n_threads;           /* of the cpu; 0: as many as there are */
     double sample_s;         /* time of one sample of the elastic step, about [s] */
+    const char *folder;      /* for a file of strengths, which is removed again; made where it is missing */
     /* Called after each row was added (the last one of `rows`); a status other than BRC_OK stops. */
     brc_status (*row)(void *self, const brc_rows *rows);
     void *self;

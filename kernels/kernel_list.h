@@ -67,6 +67,8 @@
     X(ring_count)                                                                                                      \
     X(ring_list)                                                                                                       \
     X(ring_replace)                                                                                                    \
+    X(ring_gain)                                                                                                       \
+    X(ring_book)                                                                                                       \
     X(scan_sums)                                                                                                       \
     X(scan_tops)                                                                                                       \
     X(scan_fill)                                                                                                       \

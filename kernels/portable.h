@@ -206,7 +206,7 @@ LAW lane brc_lane_lesser(lane a, lane b) /* a choice of bits: gcc has no ?: of v
 #endif
 #define LANE_SPARE 8
 /* Numbers from anywhere: one instruction in place of a load, a shuffle and the arithmetic of a place for each lane. */
-#if W == 8 && defined(__AVX512F__)
+#if !defined(__OPENCL_VERSION__) && !defined(BRC_TARGET) && W == 8 && defined(__AVX512F__)
 #include <immintrin.h>
 #if BRC_PRECISION == 0
 #define LANE_GATHER(p, at) ((lane)_mm512_i32gather_pd((__m256i)(at), (p), 8))

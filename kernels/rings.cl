@@ -72,16 +72,40 @@ KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touch
     }
 }
 
-/* fresh [n][3] takes the place of the force of the listed elements, and their velocity gains half_kick over mass times what the force loses. */
-KERNEL void ring_replace(int n, state half_kick, GLOBAL const int *restrict list, GLOBAL const state *restrict mass, GLOBAL const state *restrict fresh,
+/* fresh [n][3] takes the place of the force of the listed elements, and their velocity gains half_kick over mass times what the force loses. Afterwards
+ * fresh holds what force^2 / mass gained, by components. */
+KERNEL void ring_replace(int n, state half_kick, GLOBAL const int *restrict list, GLOBAL const state *restrict mass, GLOBAL state *restrict fresh,
                          GLOBAL state *restrict force, GLOBAL state *restrict velocity)
 {
     FOR_EACH_ITEM(k, n) {
         const brc_size e = (brc_size)list[k];
         for (int c = 0; c < 3; ++c) {
-            const state now = fresh[e * 3 + c];
-            velocity[e * 3 + c] += half_kick * (force[e * 3 + c] - now) / mass[e];
+            const state now = fresh[e * 3 + c], was = force[e * 3 + c];
+            velocity[e * 3 + c] += half_kick * (was - now) / mass[e];
             force[e * 3 + c] = now;
+            fresh[e * 3 + c] = (now * now - was * was) / mass[e];
         }
+    }
+}
+
+/* The same gain of all elements, whose forces were evaluated in their place: was [n][3] holds the forces from before, then the gain. */
+KERNEL void ring_gain(int n, GLOBAL const state *restrict mass, GLOBAL const state *restrict force, GLOBAL state *restrict was)
+{
+    FOR_EACH_ITEM(e, n) {
+        for (int c = 0; c < 3; ++c) {
+            const brc_size at = (brc_size)e * 3 + c;
+            was[at] = (force[at] * force[at] - was[at] * was[at]) / mass[e];
+        }
+    }
+}
+
+/* What velocity Verlet loses where forces jump. Of a linear system it keeps K + W - dt^2/8 f.M^-1 f, so K + W swings about a mean that lies
+ * dt^2/16 (v.K v - f.M^-1 f) above it; where f jumps at rest, that mean falls by dt^2/16 times the gain of f.M^-1 f. per: dt^2/16;
+ * gain [n][3] [N^2/kg]; lost [n] [J]. listed: of the n elements of the list, else of all. */
+KERNEL void ring_book(int n, int listed, state per, GLOBAL const int *restrict list, GLOBAL const state *restrict gain, GLOBAL state *restrict lost)
+{
+    FOR_EACH_ITEM(k, n) {
+        const brc_size e = (brc_size)(listed ? list[k] : k);
+        lost[e] += per * (gain[e * 3] + gain[e * 3 + 1] + gain[e * 3 + 2]);
     }
 }

@@ -215,7 +215,7 @@ static brc_status run_effects(const brc_session *session, const brc_arguments *a
     int n_sizes = 0, n_devices = 0, n_precisions = 0, n_threads = 0;
     BRC_TRY(refuse_options(context, arguments, "effects", sizeof others / sizeof *others, others));
     snprintf(folder, sizeof folder, "%s", given_folder ? given_folder : "results/effects");
-    brc_effects_request request = {.models = models, .sample_s = 0.2, .row = print_effect, .self = folder};
+    brc_effects_request request = {.models = models, .sample_s = 0.2, .folder = folder, .row = print_effect, .self = folder};
     BRC_TRY(take_list(context, arguments, "models", "dlsm,dlsm-published,cbm", copy[0], sizeof copy[0], pieces, &request.n_models));
     BRC_TRY(take_models(context, request.n_models, pieces, models));
     BRC_TRY(take_list(context, arguments, "sizes", "2e4", copy[1], sizeof copy[1], pieces, &n_sizes));

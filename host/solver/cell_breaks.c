@@ -344,11 +344,13 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(outside_energy(s, &outside_before));
     BRC_TRY(kick_others(s, half_kick));
     if (rings->whole_force) BRC_TRY(kick(s, half_kick));
+    if (rings->whole_force) BRC_TRY(brc_rings_keep_force(s, rings));
     BRC_TRY(break_marked(s, &before));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
     BRC_TRY(brc_softening_recount(s));
     BRC_TRY(find_rings(s));
     BRC_TRY(brc_force_around_breaks(s, rings));
+    if (rings->whole_force) BRC_TRY(brc_rings_book_whole(s, rings));
     if (rings->whole_force) BRC_TRY(kick(s, -half_kick));
     BRC_TRY(kick_others(s, -half_kick));
     BRC_TRY(brc_force_energy_around(s, rings, 1, &after));

@@ -13,7 +13,7 @@ brc_status brc_rings_create(brc_simulation *s, brc_rings **out)
         brc_kernel **slot;
         const char *name;
     } wanted[] = {{&r->spread, "ring_spread"}, {&r->seed, "ring_seed"}, {&r->count_pass, "ring_count"}, {&r->tops, "scan_tops"},
-                  {&r->list_pass, "ring_list"}, {&r->replace, "ring_replace"}, {&r->gather, "vector_gather"}};
+                  {&r->list_pass, "ring_list"}, {&r->replace, "ring_replace"}, {&r->gain, "ring_gain"}, {&r->book, "ring_book"}, {&r->gather, "vector_gather"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     BRC_TRY(brc_buffer_create(s->device, &r->touched, 4 * n, "rings around broken bonds"));
     BRC_TRY(brc_buffer_create(s->device, &r->level, 4 * n, "rings around broken bonds"));
@@ -112,14 +112,39 @@ brc_status brc_pass_launch(brc_simulation *s, brc_kernel *whole, brc_kernel *lis
     return brc_kernel_launch(listed, n_items, n_args, args);
 }
 
+/* Of dlsm, whose law has an energy, and steps of velocity Verlet. */
+static bool books_jumps(const brc_simulation *s, const brc_rings *r) { return brc_is_dlsm(s) && s->lost_numerical && r->half_kick > 0; }
+
+/* r->force holds the gain: prescribed elements swing about nothing. */
+static brc_status book_jumps(brc_simulation *s, const brc_rings *r, int32_t n, int listed)
+{
+    BRC_TRY(brc_loads_zero_imposed(s, r->force));
+    return BRC_LAUNCH(r->book, n, BRC_INT(n), BRC_INT(listed), BRC_STATE(0.25 * r->half_kick * r->half_kick), BRC_BUF(r->around.list), BRC_BUF(r->force),
+                      BRC_BUF(s->lost_numerical));
+}
+
 brc_status brc_rings_replace(brc_simulation *s, const brc_rings *r, int k)
 {
     const int32_t n = r->around.n[k];
     BRC_TRY(BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.list), BRC_BUF(s->mass), BRC_BUF(r->force), BRC_BUF(s->force),
                        BRC_BUF(s->velocity)));
+    if (books_jumps(s, r)) BRC_TRY(book_jumps(s, r, n, 1));
     if (!r->torque) return BRC_OK;
     return BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.list), BRC_BUF(s->inertia), BRC_BUF(r->torque), BRC_BUF(s->torque),
                       BRC_BUF(s->spin));
+}
+
+brc_status brc_rings_keep_force(brc_simulation *s, const brc_rings *r)
+{
+    return books_jumps(s, r) ? brc_buffer_copy(r->force, s->force, brc_buffer_bytes(s->force)) : BRC_OK;
+}
+
+brc_status brc_rings_book_whole(brc_simulation *s, const brc_rings *r)
+{
+    const int32_t n = s->layout->n_rows;
+    if (!books_jumps(s, r)) return BRC_OK;
+    BRC_TRY(BRC_LAUNCH(r->gain, n, BRC_INT(n), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(r->force)));
+    return book_jumps(s, r, n, 0);
 }
 
 brc_status brc_rings_sum(brc_simulation *s, const brc_rings *r, const brc_ring_list *list, int32_t n, brc_buffer *x, double *out)

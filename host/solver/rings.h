@@ -15,7 +15,7 @@ typedef struct brc_ring_list {
 } brc_ring_list;
 
 typedef struct brc_rings {
-    brc_kernel *spread, *seed, *count_pass, *tops, *list_pass, *replace, *gather;
+    brc_kernel *spread, *seed, *count_pass, *tops, *list_pass, *replace, *gain, *book, *gather;
     brc_buffer *touched, *level; /* [n_rows] */
     brc_buffer *count;           /* [BRC_RING_KINDS][blocks] + 1 */
     int32_t *count_read;         /* the same on the host */
@@ -56,6 +56,10 @@ bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int r
 
 /* rings->force (and torque) take the places of the forces of the listed rings 0 to k, and the velocities their difference over half a step. */
 brc_status brc_rings_replace(brc_simulation *s, const brc_rings *rings, int k);
+/* Around an evaluation of the whole body in place (whole_force): forces from before are kept, and what velocity Verlet loses by their jump is booked, as
+ * brc_rings_replace does of its rings. */
+brc_status brc_rings_keep_force(brc_simulation *s, const brc_rings *rings);
+brc_status brc_rings_book_whole(brc_simulation *s, const brc_rings *rings);
 /* Sum of x [n_rows] over the first n of a list, in the order of the list. */
 brc_status brc_rings_sum(brc_simulation *s, const brc_rings *rings, const brc_ring_list *list, int32_t n, brc_buffer *x, double *out);
 

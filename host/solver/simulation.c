@@ -151,7 +151,7 @@ static int list_arrays(brc_simulation *s, array_need needs[MOST_ARRAYS])
         {&s->spin, turns, true, 3 * n, "spins"},
         {&s->torque, turns, true, 3 * n, "torques"},
         {&s->moved, tchamwa, true, 3 * n, "moves of a step"},
-        {&s->lost_numerical, tchamwa, true, n, "numerical dissipation"},
+        {&s->lost_numerical, tchamwa || (dlsm && s->scene->has_fracture), true, n, "numerical dissipation"},
         {&s->lost_damping, any_stage(s->scene, has_damping), true, n, "damping dissipation"},
         {&s->elastic_energy, true, true, n, "elastic energies"},
         {&s->stabilisation_energy, dlsm, true, n, "stabilisation energies"},
@@ -194,6 +194,7 @@ int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *
     boundary = boundary + boundary / 8 < n ? boundary + boundary / 8 : n; /* blocks are whole slices */
     int64_t bytes = brc_contact_bytes(scene, domain, n, entries, boundary, state) + (scene->has_fracture ? brc_cell_breaks_bytes(scene, n, entries, state, coeff) : 0) + entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
     if (tchamwa) bytes += n * 4 * state;
+    else if (scene->has_fracture && scene->model.kind == BRC_MODEL_DLSM) bytes += n * state; /* what breaks cost velocity Verlet */
     if (damped) bytes += n * state;
     bytes += brc_noise_bytes(scene, n, state, coeff);
     if (scene->has_gravity) bytes += n * state;

@@ -107,7 +107,7 @@ typedef struct brc_ledger {
     double potential; /* of gravity */
     double work;      /* of prescribed motion and tractions, since the start */
     double damping;   /* lost to mass damping, and to what events of static stages set free */
-    double numerical; /* lost to the integrator (Tchamwa-Wielgosz), by its exact expression on a linear system */
+    double numerical; /* lost to the integrator, by exact expressions on a linear system: Tchamwa-Wielgosz; dlsm with velocity Verlet: where bonds break (docs/fracture.md) */
     double initial;   /* total brought in by initial fields */
     double total;     /* kinetic + elastic + stabilisation + potential + contact */
     double closure;

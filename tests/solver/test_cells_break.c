@@ -1,5 +1,6 @@
 /* Bonds of cells that break (dlsm): when, which, what happens to force, energy and momentum; and nothing at all without `fracture`. */
 #include "cells_case.h"
+#include "../../host/solver/cell_breaks.h"
 #include "../../host/base/memory.h"
 #include <math.h>
 #include <stdlib.h>
@@ -109,6 +110,44 @@ static void random_cells_start_to_break_within_half_a_percent_of_the_strength(vo
         assert_true(fabs(force[0] / 1e-3 - 1) < 0.005);
         close_case(&c);
     }
+}
+
+/* The force pass says who looks (cell_normal.h); a share of the limits other than 1 lets all look. Wild states of six sizes, from a bond here and there to most of them;
+ * a bond within 1e-7 of its limit would be the other answer's, of 1200 whose stresses spread over the size of the strength. */
+static void elements_that_do_not_look_overlook_nothing(void **state)
+{
+    (void)state;
+    int64_t broken[6];
+    for (int k = 0; k < 12; ++k) {
+        bench_case c[2];
+        int64_t n[2];
+        const brc_break *events[2];
+        const double size = 2e-4 * pow(1.7, k / 2);
+        for (int side = 0; side < 2; ++side) {
+            open_case(&c[side], (case_options){.materials = CELLS_STRENGTH("1e-3 Pa, scatter: {weibull: {modulus: 2}}"), .sets = CELLS_FRACTURE,
+                                               .precision = k % 2 ? BRC_MIXED : BRC_DOUBLE});
+            const int64_t n_elements = c[side].domain->n_elements;
+            double *u = calloc((size_t)(3 * n_elements), sizeof *u);
+            for (int64_t e = 0; e < n_elements; ++e) {
+                const double *x = c[side].domain->position + 3 * e;
+                u[3 * e] = size * (x[0] + 0.3 * x[1] * x[1]), u[3 * e + 1] = -0.4 * size * x[1] * x[2], u[3 * e + 2] = 0.2 * size * sin(9 * x[0]);
+                for (int j = 0; j < 3; ++j) u[3 * e + j] += 0.02 * size * random_at((uint64_t)(3 * e + j));
+            }
+            begin_first(&c[side]);
+            run_steps(&c[side], 1); /* breaks are known by their step, from 1 on */
+            assert_done(&c[side], brc_simulation_set_state(c[side].simulation, u, NULL));
+            assert_done(&c[side], brc_cell_breaks_step(c[side].simulation, 0, side ? 1 - 1e-7 : 1));
+            assert_done(&c[side], brc_simulation_breaks(c[side].simulation, &n[side], &events[side]));
+            free(u);
+        }
+        assert_int_equal(n[0], n[1]);
+        if (k > 5) assert_true(n[0] > 20);
+        broken[k / 2] = n[0];
+        for (int64_t b = 0; b < n[0]; ++b) assert_int_equal(events[0][b].bond, events[1][b].bond);
+        close_case(&c[0]), close_case(&c[1]);
+    }
+    print_message("broken bonds: %lld, %lld, %lld, %lld, %lld, %lld\n", (long long)broken[0], (long long)broken[1], (long long)broken[2], (long long)broken[3],
+                  (long long)broken[4], (long long)broken[5]);
 }
 
 static void no_bond_breaks_twice_and_damage_counts_them(void **state)
@@ -240,6 +279,7 @@ static void a_linear_field_along_an_open_cut_is_in_equilibrium(void **state)
 
 typedef struct closure {
     double error, worst; /* at the end, largest on the way, over the peak of the elastic energy [-] */
+    double counted;      /* the largest where what breaks cost the integrator counts, `numerical` [-] */
     int64_t broken, detached;
 } closure;
 
@@ -247,7 +287,7 @@ static closure closure_of(const char *stages, const char *strength, const char *
 {
     bench_case c;
     brc_ledger ledger;
-    closure out = {0, 0, 0, 0};
+    closure out = {0};
     const brc_break *events;
     open_case(&c, (case_options){.stages = stages, .materials = strength, .sets = CELLS_FRACTURE, .shape = shape, .fill = fill});
     begin_first(&c);
@@ -258,29 +298,49 @@ static closure closure_of(const char *stages, const char *strength, const char *
         assert_done(&c, brc_simulation_ledger(c.simulation, &ledger));
         out.error = (ledger.total - ledger.work + ledger.fracture - ledger.initial) / ledger.peak_elastic;
         if (ledger.fracture > 0) out.worst = fmax(out.worst, fabs(out.error));
+        if (ledger.fracture > 0) out.counted = fmax(out.counted, fabs(out.error + ledger.numerical / ledger.peak_elastic));
     }
     assert_done(&c, brc_simulation_breaks(c.simulation, &out.broken, &events));
     for (int64_t k = 0; k < out.broken; ++k) out.detached += events[k].mode == BRC_BREAK_DETACHED;
-    print_message("%.2f of the critical step: closure %.2e at the end, %.2e at worst, of the peak elastic energy %.3e J; %lld of %lld bonds broken, %lld of them detached\n",
-                  step.safety, out.error, out.worst, ledger.peak_elastic, (long long)out.broken, (long long)c.domain->n_bonds, (long long)out.detached);
+    print_message("%.2f of the critical step: closure %.2e at the end, %.2e at worst, %.2e with numerical, of the peak elastic energy %.3e J; %lld of %lld bonds broken, %lld of them detached\n",
+                  step.safety, out.error, out.worst, out.counted, ledger.peak_elastic, (long long)out.broken, (long long)c.domain->n_bonds, (long long)out.detached);
     close_case(&c);
     return out;
 }
+
+static closure closure_of_bar(double safety, const char *relaxed)
+{
+    char stages[512], fill[128];
+    snprintf(stages, sizeof stages,
+             "  - name: pull\n    solver: {dynamic: {duration: 14 s, time_step: {auto: {safety: %g}}}}\n"
+             "    loads:\n      - face_displacement: {set: x-, x: 0 m}\n      - face_velocity: {set: x+, x: 2e-4 m/s}\n"
+             "    initial:\n      - velocity: {gradient: {x: [1e-4 1/s, 0, 0]}}\n", safety);
+    snprintf(fill, sizeof fill, "cells: [10, 5, 5], spread: 90 %%, seed: 1%s", relaxed);
+    return closure_of(stages, CELLS_STRENGTH("1e-3 Pa"), "{box: {size: [2 m, 1 m, 1 m]}}", fill, 4);
+}
+
+static const double bar_safety[] = {0.8, 0.35}, bar_bound[] = {0.05, 0.01}; /* the issue's */
 
 /* The bar of the design, pulled apart: a third of its bonds go. */
 static void the_ledger_of_a_bar_closes_through_its_fracture(void **state)
 {
     (void)state;
-    const double safety[] = {0.8, 0.35}, bound[] = {0.05, 0.01}; /* the issue's */
     for (int k = 0; k < 2; ++k) {
-        char stages[512];
-        snprintf(stages, sizeof stages,
-                 "  - name: pull\n    solver: {dynamic: {duration: 14 s, time_step: {auto: {safety: %g}}}}\n"
-                 "    loads:\n      - face_displacement: {set: x-, x: 0 m}\n      - face_velocity: {set: x+, x: 2e-4 m/s}\n"
-                 "    initial:\n      - velocity: {gradient: {x: [1e-4 1/s, 0, 0]}}\n", safety[k]);
-        const closure out = closure_of(stages, CELLS_STRENGTH("1e-3 Pa"), "{box: {size: [2 m, 1 m, 1 m]}}", "cells: [10, 5, 5], spread: 90 %, seed: 1", 4);
+        const closure out = closure_of_bar(bar_safety[k], "");
         assert_true(out.broken > 300);
-        assert_true(out.worst < bound[k]);
+        assert_true(out.worst < bar_bound[k]);
+    }
+}
+
+/* Relaxed cells: the step is half as long again, and over half of the bonds go. What the ledger then lacks is Verlet's: with the part of it that is booked, that of the forces
+ * (kernels/rings.cl), it closes within the bounds, and what is left, the part of the velocities, is less than that. */
+static void what_breaks_cost_the_integrator_is_booked(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        const closure out = closure_of_bar(bar_safety[k], ", lloyd: 5");
+        assert_true(out.broken > 500);
+        assert_true(out.counted < bar_bound[k] && out.counted < 0.5 * out.worst);
     }
 }
 
@@ -350,10 +410,12 @@ int main(void)
         cmocka_unit_test(what_never_breaks_moves_as_without_fracture),
         cmocka_unit_test(regular_cells_break_at_exactly_the_strength),
         cmocka_unit_test(random_cells_start_to_break_within_half_a_percent_of_the_strength),
+        cmocka_unit_test(elements_that_do_not_look_overlook_nothing),
         cmocka_unit_test(no_bond_breaks_twice_and_damage_counts_them),
         cmocka_unit_test(force_is_the_gradient_of_the_energy_of_a_broken_body),
         cmocka_unit_test(a_linear_field_along_an_open_cut_is_in_equilibrium),
         cmocka_unit_test(the_ledger_of_a_bar_closes_through_its_fracture),
+        cmocka_unit_test(what_breaks_cost_the_integrator_is_booked),
         cmocka_unit_test(the_error_of_the_ledger_is_of_second_order),
         cmocka_unit_test(breaking_keeps_momentum_and_angular_momentum),
         cmocka_unit_test(the_same_bonds_break_for_any_number_of_threads),

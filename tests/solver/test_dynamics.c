@@ -200,6 +200,24 @@ static void work_of_loads_closes_the_ledger(void **state)
     }
 }
 
+/* Prescribed elements are pulled through the fluid by nobody: work of their load and what damping takes are those of the rest. Smooth motion as above, and
+ * the same bound. */
+static void drag_and_prescribed_elements_share_no_energy(void **state)
+{
+    (void)state;
+    bench_case c;
+    open_case(&c, (case_options){.stages = "  - name: impose\n    solver: {dynamic: {duration: 4 s, mass_damping: 0.5 1/s, time_step: {auto: {safety: 0.4}}}}\n    loads:\n"
+                                           "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n"
+                                           "      - element_velocity: {set: right, x: 1 mm/s, table: [[0 s, 0], [2 s, 1], [4 s, 0]]}\n",
+                                 .sets = "sets:\n  left: {elements: {wall: x-}}\n  right: {elements: {wall: x+}}\n"});
+    begin_first(&c);
+    run_steps(&c, brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value));
+    const brc_ledger ledger = ledger_now(&c);
+    assert_true(ledger.damping > 0.05 * ledger.work); /* there is something to share */
+    if (!(fabs(ledger.closure) < 2e-3)) fail_msg("closure %g of work %g", ledger.closure, ledger.work);
+    close_case(&c);
+}
+
 static void critical_step_is_where_verlet_turns_unstable(void **state)
 {
     (void)state;
@@ -289,6 +307,7 @@ int main(void)
         cmocka_unit_test(gravity_is_free_fall),
         cmocka_unit_test(a_body_that_falls_keeps_its_energy),
         cmocka_unit_test(work_of_loads_closes_the_ledger),
+        cmocka_unit_test(drag_and_prescribed_elements_share_no_energy),
         cmocka_unit_test(critical_step_is_where_verlet_turns_unstable),
         cmocka_unit_test(same_bytes_for_one_and_two_threads),
         cmocka_unit_test(mixed_and_single_follow_double),
