@@ -12,27 +12,47 @@
 #define CELLS_DETACHED 4
 
 /* As dlsm_force, which has what it takes at hand: and the smallest room of the element's bonds, spare [n] (cell_normal.h). */
-KERNEL void cells_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                        GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
-                        GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL coeff *restrict spare)
+LAW void cells_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                         GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
+                         coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
+                         GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict limit,
+                         GLOBAL state *restrict force, GLOBAL coeff *restrict spare)
+{
+    const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
+    const lane_mat3 h = lane_gather9(gradient, who.own), p = lane_gather9(stress, who.own);
+    const lane k = members_number(who, plane), stretch = cell_least_stretch(h);
+    lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
+    lane least = LANE_ZERO + CELLS_NEVER;
+    for (int slot = who.begin; slot < who.end; ++slot) {
+        const dlsm_pull b = dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part, one_plus_tau, modulus);
+        members_ahead1(who, limit, slot);
+        f = lane_vec3_add(f, b.force);
+        least = lane_min(least, cell_room(h, p, k, stretch, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
+    }
+    members_store3(who, force, f);
+    members_put1(who, spare, least);
+}
+KERNEL void cells_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                         GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
+                         coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
+                         GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict limit,
+                         GLOBAL state *restrict force, GLOBAL coeff *restrict spare)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const members who = members_of_group(group, row_start);
-        const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
-        const lane_mat3 h = lane_gather9(gradient, who.own), p = lane_gather9(stress, who.own);
-        const lane k = members_number(who, plane), stretch = cell_least_stretch(h);
-        lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
-        lane least = LANE_ZERO + CELLS_NEVER;
-        for (int slot = who.begin; slot < who.end; ++slot) {
-            const dlsm_pull b = dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part, one_plus_tau, modulus);
-            members_ahead1(who, limit, slot);
-            f = lane_vec3_add(f, b.force);
-            least = lane_min(least, cell_room(h, p, k, stretch, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
-        }
-        members_store3(who, force, f);
-        members_put1(who, spare, least);
+        cells_force_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau, modulus, gradient, stress,
+                       plane, limit, force, spare);
+    }
+}
+KERNEL void cells_force_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
+                         GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                         GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
+                         coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
+                         GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict limit,
+                         GLOBAL state *restrict force, GLOBAL coeff *restrict spare)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        cells_force_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau, modulus, gradient, stress,
+                       plane, limit, force, spare);
     }
 }
 

@@ -57,6 +57,7 @@
     X(striker_book)                                                                                                    \
     X(cbm_force_pass)                                                                                                  \
     X(cells_force)                                                                                                     \
+    X(cells_force_listed)                                                                                              \
     X(cells_check)                                                                                                     \
     X(cells_ratio)                                                                                                     \
     X(cells_break)                                                                                                     \

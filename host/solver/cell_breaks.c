@@ -23,7 +23,7 @@ static brc_status find_kernels(brc_simulation *s, brc_cell_breaks *c)
         brc_kernel **slot;
         const char *name;
         bool wanted;
-    } wanted[] = {{&c->force, "cells_force", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
+    } wanted[] = {{&c->force, "cells_force", by_bond}, {&c->force_listed, "cells_force_listed", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
                   {&c->break_pass, "cells_break", true}, {&c->rebuild, "cells_rebuild", brc_is_dlsm(s)}, {&c->share, "cells_share", true}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
         if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
@@ -233,13 +233,13 @@ bool brc_cell_breaks_by_bond(const brc_simulation *s) { return s->fracture && s-
 
 bool brc_cell_breaks_screens(const brc_simulation *s) { return brc_cell_breaks_by_bond(s) && brc_is_dlsm(s) && !brc_softening_is_on(s); }
 
-brc_status brc_cell_breaks_forces(brc_simulation *s, const brc_force_request *r)
+brc_status brc_cell_breaks_forces(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
 {
     const brc_cell_breaks *c = s->fracture->cells;
-    return BRC_LAUNCH(c->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio),
-                      BRC_BUF(r->displacement), BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_COEFF(s->elastic[s->material_of_element[0]].k),
-                      BRC_COEFF(1 + s->scene->model.tau), BRC_BUF(s->modulus), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(c->modulus),
-                      BRC_BUF(c->limit), BRC_BUF(r->force), BRC_BUF(c->spare));
+    return BRC_PASS(s, c->force, c->force_listed, list, ring, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio),
+                    BRC_BUF(r->displacement), BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_COEFF(s->elastic[s->material_of_element[0]].k),
+                    BRC_COEFF(1 + s->scene->model.tau), BRC_BUF(s->modulus), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(c->modulus),
+                    BRC_BUF(c->limit), BRC_BUF(r->force), BRC_BUF(c->spare));
 }
 
 /* Bonds above a share of their limit are marked; *n: marks. */
