@@ -441,23 +441,30 @@ brc_status brc_statics_refuse_unscalable(int32_t n, brc_simulation *const *part,
     return BRC_OK;
 }
 
-/* Scale the load so that the worst element of all parts is at the asked fraction of its limit. */
+/* Scale the load so that the worst element of all parts is at the asked fraction of its limit: in proportion, and again from where that led, since limits see strains of second
+ * order, which do not grow as the load. */
 static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
 {
+    enum { MOST_SCALINGS = 12 };
+    static const double near = 1e-6; /* of the fraction asked for: below what any strength is known to */
     brc_context *context = part[0]->context;
     const brc_stage *stage = brc_current_stage(part[0]);
     double ratio;
     BRC_TRY(brc_statics_failure(n, part, &ratio));
     if (!(ratio > 0))
         return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': under its load no element comes nearer to failure, so to_failure cannot scale it", stage->name);
-    const double factor = stage->to_failure / ratio;
-    brc_log(context, BRC_LOG_INFO, "stage '%s': first failure at %.6g times the load, which is scaled to %.6g", stage->name, 1 / ratio, factor);
-    for (int32_t k = 0; k < n; ++k) {
-        BRC_TRY(brc_statics_scale(part[k], &run[k].vectors, factor));
-        part[k]->load_factor = factor;
-        BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
-        part[k]->step += 1;
+    for (int i = 0; i < MOST_SCALINGS && !(fabs(ratio / stage->to_failure - 1) <= near); ++i) {
+        const double by = stage->to_failure / ratio;
+        for (int32_t k = 0; k < n; ++k) {
+            BRC_TRY(brc_statics_scale(part[k], &run[k].vectors, by));
+            part[k]->load_factor *= by;
+            BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
+        }
+        BRC_TRY(brc_statics_failure(n, part, &ratio));
+        if (!(ratio > 0)) return BRC_FAIL(context, BRC_PHYSICS_STOPPED, "stage '%s': the failure ratio is %g at %g times the load", stage->name, ratio, part[0]->load_factor);
     }
+    for (int32_t k = 0; k < n; ++k) part[k]->step += 1;
+    brc_log(context, BRC_LOG_INFO, "stage '%s': the load is scaled to %.6g, where the worst element is at %.6g of its limit", stage->name, part[0]->load_factor, ratio);
     return brc_notify_sample(part[0]);
 }
 
