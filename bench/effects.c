@@ -148,7 +148,8 @@ static brc_status find_scale(brc_context *context, const brc_effects_request *r,
         if (status == BRC_OK) status = count_events(v.simulation, e, &n);
         free_variant(&v);
         BRC_TRY(status);
-        if (n > 0) *scale *= fmin(trial ? 4 : 100, fmax(trial ? 0.25 : 0.01, rate * (double)steps * (double)domain->n_bonds / (double)n));
+        if (n == 0) *scale *= 10; /* too slow to reach the weakest */
+        else *scale *= fmin(trial ? 4 : 100, fmax(trial ? 0.25 : 0.01, rate * (double)steps * (double)domain->n_bonds / (double)n));
     }
     return BRC_OK;
 }
