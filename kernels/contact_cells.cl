@@ -16,7 +16,9 @@ LAW void contact_put_moment(GLOBAL state *restrict out, int at, int affine, stat
     svec3_store(out, (brc_size)at, svec3_add(svec3_scale(-pressure, smat3_moment(moment)), svec3_cross(reach, f)));
 }
 
-KERNEL void contact_cells(int n_items, int whole, state dt, int n, int affine, int n_materials, state middle_x, state middle_y, state middle_z,
+/* whole: all pairs, else those of todo. broke: bonds did, so that the gradients of cells, and their surfaces with them, have jumped where nothing moved: pairs go on from how they meet
+ * now, and what surfaces gained or lost by it is the break's. */
+KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, int affine, int n_materials, state middle_x, state middle_y, state middle_z,
                           GLOBAL const int *restrict todo, GLOBAL const int *restrict ends, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
                           GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict orientation, GLOBAL const state *restrict corner,
                           GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
@@ -60,8 +62,8 @@ KERNEL void contact_cells(int n_items, int whole, state dt, int n, int affine, i
         const svec3 area = svec3_of(over.area);
         const state surface = svec3_length(area);
         /* an overlap that could not be taken (failed 2) divides by no area: what is not finite stops the run, in place of a force that is missing */
-        const int touching = (over.volume > 0 && surface > 0) || over.failed == 2, looked = past[14] > 0;
-        if (!touching && dt > 0) contact_apart(past, STATE(0), over.apart);
+        const int touching = (over.volume > 0 && surface > 0) || over.failed == 2, looked = past[14] > 0, keeps = dt > 0 || broke;
+        if (!touching && keeps) contact_apart(past, STATE(0), over.apart);
         out[6] = 0;
         if (touching) {
             const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
@@ -75,7 +77,7 @@ KERNEL void contact_cells(int n_items, int whole, state dt, int n, int affine, i
             const svec3 n_out = svec3_scale(STATE(-1) / surface, area), point = svec3_of(over.point), arm_j = svec3_sub(point, branch);
             svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
             if (past[12] > 0) {
-                slip = svec3_sub(contact_slip(map_i, svec3_load(past, 3), map_j, svec3_load(past, 6), branch), svec3_load(past, 16));
+                if (!broke) slip = svec3_sub(contact_slip(map_i, svec3_load(past, 3), map_j, svec3_load(past, 6), branch), svec3_load(past, 16));
                 stretch = svec3_load(past, 0);
             }
             const contact_stick stick = contact_friction(stretch, slip, n_out, sticking, how.friction * pressure * surface);
@@ -90,7 +92,7 @@ KERNEL void contact_cells(int n_items, int whole, state dt, int n, int affine, i
             out[8] = over.volume / surface;
             contact_put_moment(out, CONTACT_RESULT, affine, pressure, smat3_of(over.moment_a), map_i, rub, own_i, point);
             contact_put_moment(out, CONTACT_RESULT + width, affine && j < n, pressure, smat3_of(over.moment_b), map_j, back, own_j, arm_j);
-            if (dt > 0) {
+            if (keeps) {
                 svec3_store(past, 0, stick.stretch);
                 svec3_store(past, 3, own_i);
                 svec3_store(past, 6, own_j);

@@ -160,7 +160,7 @@ bool brc_contact_acts(const brc_simulation *s, const brc_force_request *r)
 /* No strikers: a buffer that no kernel touches. */
 static brc_buffer *striker_pose(const brc_simulation *s) { return s->strikers ? s->strikers->pose : NULL; }
 
-brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole)
+brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool broke)
 {
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
@@ -175,7 +175,7 @@ brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole)
                           BRC_BUF(c->loop), BRC_BUF(c->radius), BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->id), BRC_BUF(c->mass),
                           BRC_BUF(c->material), BRC_BUF(c->body), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_radius),
                           BRC_BUF(striker_pose(s)), BRC_BUF(c->law), BRC_BUF(l->history), BRC_BUF(c->result));
-    return BRC_LAUNCH(c->kernel.cells, n_items, BRC_INT(n_items), BRC_INT(whole ? 1 : 0), BRC_STATE(dt), BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_INT(n_materials),
+    return BRC_LAUNCH(c->kernel.cells, n_items, BRC_INT(n_items), BRC_INT(whole ? 1 : 0), BRC_INT(broke ? 1 : 0), BRC_STATE(dt), BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_INT(n_materials),
                       BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]), BRC_BUF(c->todo), BRC_BUF(l->ends), BRC_BUF(c->place),
                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->orientation), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start),
                       BRC_BUF(c->loop), BRC_BUF(c->radius), BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->id), BRC_BUF(c->size_of),
@@ -216,7 +216,7 @@ brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
     const int book = r->book == BRC_BOOK_WORK;
-    BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r)));
+    BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
     return BRC_LAUNCH(c->kernel.gather_moments, l->n_busy, BRC_INT(l->n_busy), BRC_INT(book), BRC_BUF(l->busy), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
                       BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(s->boundary), BRC_BUF(c->rigid), BRC_BUF(s->gradient), BRC_BUF(s->held_moment),
                       BRC_BUF(c->torque), BRC_BUF(c->stored), BRC_BUF(c->lost_friction), BRC_BUF(c->lost_impact));
@@ -230,7 +230,7 @@ brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
         BRC_TRY(BRC_LAUNCH(c->kernel.gather_forces, l->n_busy, BRC_INT(l->n_busy), BRC_BUF(l->busy), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
                            BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(r->force)));
     else {
-        BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r)));
+        BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
         BRC_TRY(gather_turning(s, 1, 0, r->book == BRC_BOOK_WORK, r->force, r->torque));
     }
     return load_strikers(s);
@@ -294,7 +294,7 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick)
     BRC_TRY(list_breaks(s));
     BRC_TRY(brc_contact_settle(s));
     if (c->now.n_pairs > 0) {
-        BRC_TRY(brc_contact_pairs(s, 0, false));
+        BRC_TRY(brc_contact_pairs(s, 0, false, true));
         BRC_TRY(gather_turning(s, 1, half_kick, 0, s->force, s->torque));
         BRC_TRY(load_strikers(s));
     }

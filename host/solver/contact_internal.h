@@ -99,7 +99,7 @@ brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched);
 brc_status brc_contact_search_more(brc_simulation *s, brc_buffer *touched);
 /* Steps until the next look, from how far and how fast things moved since the list was made; *due: the list is too old, or soon; *past: it no longer holds. */
 brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past);
-/* Evaluate pairs into c->result, all or those of c->todo; dt: of the step that ended, 0: again. */
-brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole);
+/* Evaluate pairs into c->result, all or those of c->todo; dt: of the step that ended, 0: again. broke: for the breaks of this step. */
+brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool broke);
 
 #endif
