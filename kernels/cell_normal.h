@@ -44,7 +44,8 @@ LAW lane cell_least_stretch(lane_mat3 gradient)
 }
 
 /* > 0 [N]: the own half of the bond's stress, tau, is below its limit [Pa]; times |R|^2 and the stretch, so that there is neither quotient nor root. A little less, for
- * the rounding of both. Where the bond's own strain alone passes the limit nothing is left, whatever the sign of the rest. Missing bonds (R = 0) have room. */
+ * the rounding of both. Where the bond's own strain alone passes the limit nothing is left, whatever the sign of the rest: the second term, large enough not to count
+ * where something is left. Missing bonds (R = 0) have room: 1e-30 m^2, nothing beside any |R|^2, of a limit that is never reached. */
 LAW lane cell_room(lane_mat3 gradient, lane_mat3 stress, lane modulus, lane least_stretch, lane_vec3 branch, lane_vec3 jump, lane limit)
 {
     const lane_vec3 along = lane_mat3_mul_vec(gradient, branch);

@@ -6,14 +6,14 @@
  * of their shape too (convex_overlap.h), size: cube root of the volume (0: a piece), mass (0: does not move), material. */
 
 /* The moment of pressure (gradient dW/dH), or its torque, and that of a force f at arm (own frame) reach (frame of space). */
-LAW void contact_put_moment(GLOBAL state *restrict out, int at, int affine, state pressure, smat3 moment, smat3 map, svec3 f, svec3 own, svec3 reach)
+LAW void contact_put_moment(GLOBAL state *restrict out, int at, int affine, state pressure, convex_map moment, smat3 map, svec3 f, svec3 own, svec3 reach)
 {
     if (affine) {
-        const smat3 whole = smat3_scale(pressure, smat3_mul(moment, smat3_transpose(smat3_inverse(map))));
+        const smat3 whole = smat3_scale(pressure, smat3_of(convex_reference_moment(moment, convex_map_of(map))));
         smat3_store(out, (brc_size)at, smat3_add_outer(whole, svec3_scale(STATE(-1), f), own));
         return;
     }
-    svec3_store(out, (brc_size)at, svec3_add(svec3_scale(-pressure, smat3_moment(moment)), svec3_cross(reach, f)));
+    svec3_store(out, (brc_size)at, svec3_add(svec3_scale(pressure, svec3_of(convex_torque(moment))), svec3_cross(reach, f)));
 }
 
 /* whole: all pairs, else those of todo. broke: bonds did, so that the gradients of cells, and their surfaces with them, have jumped where nothing moved: pairs go on from how they meet
@@ -90,8 +90,8 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
             out[6] = 1;
             out[7] = pressure * surface;
             out[8] = over.volume / surface;
-            contact_put_moment(out, CONTACT_RESULT, affine, pressure, smat3_of(over.moment_a), map_i, rub, own_i, point);
-            contact_put_moment(out, CONTACT_RESULT + width, affine && j < n, pressure, smat3_of(over.moment_b), map_j, back, own_j, arm_j);
+            contact_put_moment(out, CONTACT_RESULT, affine, pressure, over.moment_a, map_i, rub, own_i, point);
+            contact_put_moment(out, CONTACT_RESULT + width, affine && j < n, pressure, over.moment_b, map_j, back, own_j, arm_j);
             if (keeps) {
                 svec3_store(past, 0, stick.stretch);
                 svec3_store(past, 3, own_i);

@@ -3,12 +3,6 @@
  * element[h] its row, place[2h] its boundary block, place[2h + 1] its lane in the slice, face_start[h] its faces; of a face:
  * area s_f [m^2], arm d_f = C - X_i [m], held 1 or 0 per component, spring kappa_f [N/m], value u_f [m]. */
 
-LAW vec3 held_displacement(GLOBAL const state *restrict displacement, int e)
-{
-    return (vec3){(coeff)displacement[(brc_size)e * 3], (coeff)displacement[(brc_size)e * 3 + 1],
-                  (coeff)displacement[(brc_size)e * 3 + 2]};
-}
-
 /* u_f - u_i, the difference taken in state. */
 LAW vec3 held_jump(GLOBAL const state *restrict value, int face, GLOBAL const state *restrict displacement, int e)
 {

@@ -93,9 +93,5 @@ LAW squat squat_of_half_turn(svec3 h)
     const state s = STATE(1) - hh * (STATE(1.0 / 6) - hh * (STATE(1.0 / 120) - hh * STATE(1.0 / 5040)));
     return (squat){c, s * h.x, s * h.y, s * h.z};
 }
-LAW svec3 ssym3_mul_vec(ssym3 a, svec3 b)
-{
-    return (svec3){a.xx * b.x + a.xy * b.y + a.xz * b.z, a.xy * b.x + a.yy * b.y + a.yz * b.z, a.xz * b.x + a.yz * b.y + a.zz * b.z};
-}
 
 #endif

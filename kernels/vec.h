@@ -66,10 +66,6 @@ LAW lane_vec3 lane_mat3_mul_vec(lane_mat3 a, lane_vec3 b)
     return (lane_vec3){a.xx * b.x + a.xy * b.y + a.xz * b.z, a.yx * b.x + a.yy * b.y + a.yz * b.z,
                        a.zx * b.x + a.zy * b.y + a.zz * b.z};
 }
-LAW lane_mat3 lane_outer(lane_vec3 a, lane_vec3 b)
-{
-    return (lane_mat3){a.x * b.x, a.x * b.y, a.x * b.z, a.y * b.x, a.y * b.y, a.y * b.z, a.z * b.x, a.z * b.y, a.z * b.z};
-}
 /* sum + a (x) b */
 LAW lane_mat3 lane_add_outer(lane_mat3 sum, lane_vec3 a, lane_vec3 b)
 {

@@ -1,17 +1,15 @@
 /* Sums over the first flight, sample by sample. */
 #include "reproduce_bounce.h"
+#include "reproduce_watched.h"
 #include "../base/memory.h"
-#include "../output/sensors.h"
 #include <math.h>
-#include <string.h>
 
 enum { PUSH, HEIGHT, SPIN, N_NAMES, LEAST_SAMPLES = 16 };
 static const char *const NAMES[N_NAMES] = {"push", "height", "spin"};
 
 struct brc_bounce {
     brc_context *context;
-    brc_sensors *sensors;
-    double *value; /* [n_sensors] */
+    brc_watched watched;
     int32_t sensor[N_NAMES];
     double g;                       /* [m/s^2] */
     double first, release, last;    /* [s] first push, last one of its touch, last one; NAN: none yet */
@@ -31,8 +29,7 @@ brc_status brc_bounce_create(brc_context *context, brc_bounce **out)
 void brc_bounce_free(brc_bounce **bounce)
 {
     if (!bounce || !*bounce) return;
-    brc_sensors_free(&(*bounce)->sensors);
-    brc_memory_free((*bounce)->value);
+    brc_watched_close(&(*bounce)->watched);
     brc_memory_free(*bounce);
     *bounce = NULL;
 }
@@ -42,25 +39,24 @@ static brc_status prepare(brc_bounce *b, brc_simulation *simulation)
     const brc_scene *scene = brc_simulation_scene(simulation);
     bool found = scene->has_gravity && scene->gravity[2] < 0;
     for (int k = 0; k < N_NAMES; ++k) {
-        while (b->sensor[k] < scene->n_sensors && strcmp(scene->sensors[b->sensor[k]].name, NAMES[k]) != 0) ++b->sensor[k];
+        b->sensor[k] = brc_watched_find(scene, NAMES[k]);
         found = found && b->sensor[k] < scene->n_sensors;
     }
     if (!found) return BRC_FAIL(b->context, BRC_BAD_INPUT, "`with: bounce` expects gravity along -z and sensors named push, height and spin");
     b->g = -scene->gravity[2];
-    BRC_TRY(BRC_ALLOCATE(b->context, &b->value, scene->n_sensors, "sensors of bounces"));
-    return brc_sensors_create(b->context, scene, brc_simulation_domain(simulation), &b->sensors);
+    return brc_watched_open(b->context, &b->watched, simulation);
 }
 
 static void add_to_flight(brc_bounce *b, double time)
 {
     if (b->n == 0) b->origin = time;
-    const double t = time - b->origin, y = b->value[b->sensor[HEIGHT]] + 0.5 * b->g * t * t;
+    const double t = time - b->origin, y = b->watched.value[b->sensor[HEIGHT]] + 0.5 * b->g * t * t;
     b->n += 1;
     b->t += t;
     b->y += y;
     b->tt += t * t;
     b->ty += t * y;
-    b->spin += b->value[b->sensor[SPIN]];
+    b->spin += b->watched.value[b->sensor[SPIN]];
 }
 
 static void leave_flight(brc_bounce *b) { b->n = b->t = b->y = b->tt = b->ty = b->spin = 0; }
@@ -69,9 +65,9 @@ static brc_status sample(void *self, brc_simulation *simulation)
 {
     brc_bounce *b = self;
     const double time = brc_simulation_total_time(simulation);
-    if (!b->sensors) BRC_TRY(prepare(b, simulation));
-    BRC_TRY(brc_sensors_evaluate(b->sensors, simulation, b->value));
-    if (b->value[b->sensor[PUSH]] != 0) {
+    if (!b->watched.sensors) BRC_TRY(prepare(b, simulation));
+    BRC_TRY(brc_watched_read(&b->watched, simulation));
+    if (b->watched.value[b->sensor[PUSH]] != 0) {
         if (isnan(b->first)) b->first = time;
         if (b->bounces == 0 || (b->away && time - b->last > b->first)) b->bounces += 1;
         b->last = time;

@@ -1,18 +1,16 @@
 /* Load over strain at every sample of a run, as values and as a curve beside theory. */
 #include "reproduce_pressing.h"
+#include "reproduce_watched.h"
 #include "../base/file.h"
 #include "../base/memory.h"
 #include "../output/gnuplot.h"
-#include "../output/sensors.h"
 #include <math.h>
-#include <string.h>
 
 #define SETTLED 0.02
 
 struct brc_pressing {
     brc_context *context;
-    brc_sensors *sensors;
-    double *value; /* [n_sensors] */
+    brc_watched watched;
     int32_t load, strain;
     int64_t n, capacity;
     double *time, *modulus; /* [n] [s], [Pa] */
@@ -29,19 +27,11 @@ brc_status brc_pressing_create(brc_context *context, brc_pressing **out)
 void brc_pressing_free(brc_pressing **pressing)
 {
     if (!pressing || !*pressing) return;
-    brc_sensors_free(&(*pressing)->sensors);
-    brc_memory_free((*pressing)->value);
+    brc_watched_close(&(*pressing)->watched);
     brc_memory_free((*pressing)->time);
     brc_memory_free((*pressing)->modulus);
     brc_memory_free(*pressing);
     *pressing = NULL;
-}
-
-static int32_t find_sensor(const brc_scene *scene, const char *name)
-{
-    int32_t k = 0;
-    while (k < scene->n_sensors && strcmp(scene->sensors[k].name, name) != 0) ++k;
-    return k;
 }
 
 static brc_status prepare(brc_pressing *p, brc_simulation *simulation)
@@ -51,27 +41,26 @@ static brc_status prepare(brc_pressing *p, brc_simulation *simulation)
     for (int32_t k = 0; k < scene->n_measures && !measure; ++k)
         if (scene->measures[k].kind == BRC_MEASURE_K) measure = &scene->measures[k];
     if (!measure) return BRC_FAIL(p->context, BRC_BAD_INPUT, "`with: pressing` expects a scene with a measure K");
-    p->load = find_sensor(scene, measure->y);
-    p->strain = find_sensor(scene, measure->x);
+    p->load = brc_watched_find(scene, measure->y);
+    p->strain = brc_watched_find(scene, measure->x);
     const brc_material *material = &scene->materials[0];
     p->theory = scene->n_materials == 1 ? material->young / (3 * (1 - 2 * material->poisson)) : NAN;
-    BRC_TRY(BRC_ALLOCATE(p->context, &p->value, scene->n_sensors, "sensors of a curve"));
-    return brc_sensors_create(p->context, scene, brc_simulation_domain(simulation), &p->sensors);
+    return brc_watched_open(p->context, &p->watched, simulation);
 }
 
 static brc_status sample(void *self, brc_simulation *simulation)
 {
     brc_pressing *p = self;
-    if (!p->sensors) BRC_TRY(prepare(p, simulation));
-    BRC_TRY(brc_sensors_evaluate(p->sensors, simulation, p->value));
-    if (p->value[p->strain] == 0) return BRC_OK; /* the start */
+    if (!p->watched.sensors) BRC_TRY(prepare(p, simulation));
+    BRC_TRY(brc_watched_read(&p->watched, simulation));
+    if (p->watched.value[p->strain] == 0) return BRC_OK; /* the start */
     if (p->n == p->capacity) {
         p->capacity = p->capacity ? 2 * p->capacity : 1024;
         BRC_TRY(brc_memory_resize(p->context, (void **)&p->time, p->capacity, sizeof *p->time, "curve of a run"));
         BRC_TRY(brc_memory_resize(p->context, (void **)&p->modulus, p->capacity, sizeof *p->modulus, "curve of a run"));
     }
     p->time[p->n] = brc_simulation_time(simulation);
-    p->modulus[p->n++] = p->value[p->load] / p->value[p->strain];
+    p->modulus[p->n++] = p->watched.value[p->load] / p->watched.value[p->strain];
     return BRC_OK;
 }
 

@@ -1,14 +1,12 @@
 /* The free end of a bar, sample by sample. */
 #include "reproduce_wave.h"
+#include "reproduce_watched.h"
 #include "../base/memory.h"
-#include "../output/sensors.h"
 #include <math.h>
-#include <string.h>
 
 struct brc_wave {
     brc_context *context;
-    brc_sensors *sensors;
-    double *value; /* [n_sensors] */
+    brc_watched watched;
     int32_t end;   /* sensor */
     const brc_load *load;
     double amplitude, travel; /* [m], T [s] */
@@ -27,8 +25,7 @@ brc_status brc_wave_create(brc_context *context, brc_wave **out)
 void brc_wave_free(brc_wave **wave)
 {
     if (!wave || !*wave) return;
-    brc_sensors_free(&(*wave)->sensors);
-    brc_memory_free((*wave)->value);
+    brc_watched_close(&(*wave)->watched);
     brc_memory_free(*wave);
     *wave = NULL;
 }
@@ -37,7 +34,7 @@ static brc_status prepare(brc_wave *w, brc_simulation *simulation)
 {
     const brc_scene *scene = brc_simulation_scene(simulation);
     const brc_stage *stage = &scene->stages[0];
-    while (w->end < scene->n_sensors && strcmp(scene->sensors[w->end].name, "end") != 0) ++w->end;
+    w->end = brc_watched_find(scene, "end");
     if (w->end == scene->n_sensors || scene->bodies[0].shape.kind != BRC_SHAPE_BOX || stage->n_loads < 1 || stage->loads[0].table.n < 2)
         return BRC_FAIL(w->context, BRC_BAD_INPUT, "`with: wave` expects a box, a sensor named end, and a first load with a table");
     w->load = &stage->loads[0];
@@ -47,8 +44,7 @@ static brc_status prepare(brc_wave *w, brc_simulation *simulation)
     const double modulus = along == 0 ? 2 * shear * (1 - m->poisson) / (1 - 2 * m->poisson) : shear;
     w->amplitude = w->load->value[along];
     w->travel = scene->bodies[0].shape.size[0] / sqrt(modulus / m->density);
-    BRC_TRY(BRC_ALLOCATE(w->context, &w->value, scene->n_sensors, "sensors of a wave"));
-    return brc_sensors_create(w->context, scene, brc_simulation_domain(simulation), &w->sensors);
+    return brc_watched_open(w->context, &w->watched, simulation);
 }
 
 /* a(t), at rest before the stage. */
@@ -57,9 +53,9 @@ static double driven(const brc_wave *w, double t) { return t > 0 ? w->amplitude 
 static brc_status sample(void *self, brc_simulation *simulation)
 {
     brc_wave *w = self;
-    if (!w->sensors) BRC_TRY(prepare(w, simulation));
-    BRC_TRY(brc_sensors_evaluate(w->sensors, simulation, w->value));
-    const double t = brc_simulation_time(simulation), u = w->value[w->end];
+    if (!w->watched.sensors) BRC_TRY(prepare(w, simulation));
+    BRC_TRY(brc_watched_read(&w->watched, simulation));
+    const double t = brc_simulation_time(simulation), u = w->watched.value[w->end];
     double exact = 0, sign = 2;
     for (double late = w->travel; late < t; late += 2 * w->travel, sign = -sign) exact += sign * driven(w, t - late);
     w->squares_off += (u - exact) * (u - exact);

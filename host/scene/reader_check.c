@@ -408,6 +408,23 @@ static void check_fracture(brc_reader *reader)
             COMPLAIN(reader, NULL, &scene->measures[i], "at_first_break: this measure %s", CURE);
 }
 
+/* Bodies may be brought to rest before anything moves; what has met or broken has no linear operator to solve with. */
+static void check_rest_with_contact(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    const brc_stage *moving = NULL;
+    for (int k = 0; k < scene->n_stages; ++k) {
+        const brc_stage *stage = &scene->stages[k];
+        if (stage->solver == BRC_SOLVER_DYNAMIC) moving = moving ? moving : stage;
+        else if (stage->most_events > 0)
+            COMPLAIN(reader, &stage->most_events, stage, "events: they know no contact, and what they break would meet; use a dynamic stage, or leave contact out");
+        else if (moving)
+            COMPLAIN(reader, &stage->solver, stage,
+                     "solver: static stages and modes know no contact, as surfaces that open and close have no linear operator to solve with; expected before the first dynamic stage, "
+                     "which is '%s'. Use `dynamic` with mass damping to find a rest, or leave contact out", moving->name);
+    }
+}
+
 /* Walls, strikers and what watches contact. */
 static void check_contact(brc_reader *reader)
 {
@@ -421,6 +438,7 @@ static void check_contact(brc_reader *reader)
             COMPLAIN(reader, &striker->motion, striker, "motion: an endless plane has no mass; expected fixed or driven");
         if (!striker->is_plane) check_shape(reader, &striker->shape);
     }
+    if (scene->has_contact) check_rest_with_contact(reader);
     for (int i = 0; i < scene->n_sensors && !known; ++i)
         if (scene->sensors[i].kind == BRC_SENSOR_CONTACT) COMPLAIN(reader, scene->sensors[i].term, &scene->sensors[i], "contact: this sensor %s", CURE);
 }

@@ -7,23 +7,6 @@
 
 static const double sphere_depth = 0.1; /* CONTACT_DEPTH of kernels/contact_law.h */
 
-/* Bodies may be brought to rest before anything moves; what has met or broken has no linear operator to solve with. */
-static brc_status check_scene(const brc_simulation *s)
-{
-    const char *moving = NULL;
-    for (int32_t i = 0; i < s->scene->n_stages; ++i) {
-        const brc_stage *stage = s->scene->stages + i;
-        if (stage->solver == BRC_SOLVER_DYNAMIC) moving = moving ? moving : stage->name;
-        else if (stage->most_events > 0)
-            return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': events know no contact, and what they break would meet; use a dynamic stage, or leave contact out", stage->name);
-        else if (moving)
-            return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                            "stage '%s': static stages and modes know no contact, as surfaces that open and close have no linear operator to solve with; expected before the first dynamic stage, "
-                            "which is '%s'. Use `solver: {dynamic: ...}` with mass damping to find a rest, or leave contact out", stage->name, moving);
-    }
-    return BRC_OK;
-}
-
 /* In static stages and modes surfaces know nothing of each other. */
 static bool sleeps(const brc_simulation *s) { return s->stage >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC; }
 
@@ -51,7 +34,6 @@ static brc_status find_kernels(brc_simulation *s)
 brc_status brc_contact_create(brc_simulation *s)
 {
     if (!s->scene->has_contact) return BRC_OK;
-    BRC_TRY(check_scene(s));
     BRC_TRY(BRC_ALLOCATE(s->context, &s->contact, 1, "contact"));
     s->contact->affine = brc_is_dlsm(s);
     s->contact->width = s->contact->affine ? 9 : 3;

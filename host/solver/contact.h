@@ -9,7 +9,7 @@
 
 typedef struct brc_contact_state brc_contact_state;
 
-/* s->contact, after fracture and strikers are there. It sleeps in static stages and modes. BRC_BAD_INPUT: such stages after dynamic ones, events, models or shapes that cannot touch. */
+/* s->contact, after fracture and strikers are there. It sleeps in static stages and modes, which come before dynamic ones (the reader sees to it). BRC_BAD_INPUT: models or shapes that cannot touch. */
 brc_status brc_contact_create(brc_simulation *s);
 void brc_contact_free(brc_simulation *s);
 /* Device bytes it takes before anything is near anything (n rows, entries of the layout, elements that are exposed). */

@@ -54,6 +54,12 @@ def guards(files):
     return findings
 
 
+def loose_skips(files):
+    """A script that skips (exit 77) fails where nothing may be skipped (tests/skip.h)."""
+    return [f"{path}: leaves with 77 and does not ask BRC_NO_SKIPS" for path, text in files.items()
+            if re.search(r"\b(exit|return)\b[ (]*77\b", text) and "BRC_NO_SKIPS" not in text]
+
+
 def quiet_skips(files):
     """ctest does not show a test that skips inside a passing program (tests/skip.h)."""
     return [f"{path}:{number}: a quiet skip; make it a program of its own that returns test_skip()"
@@ -75,4 +81,6 @@ repository.finish([
                       {"none": {"a.h": "int a;\n"}, "twice": {"a.h": "#ifndef A\n#define A\n", "b.h": "#ifndef A\n#define A\n"}}),
     repository.report("quiet skips", quiet_skips, repository.read(r"^tests/.*" + code),
                       {"a skip": {"tests/base/test_a.c": "    if (!there) skip();\n"}}),
+    repository.report("loose skips", loose_skips, repository.read(r"^tests/.*\.(sh|py)$"),
+                      {"a shell": {"tests/base/test_a.sh": "exit 77\n"}, "a script": {"tests/base/test_a.py": "sys.exit(77)\n"}}),
 ])

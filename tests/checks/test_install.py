@@ -10,8 +10,7 @@ import tempfile
 BUILD = os.environ["BRC_BUILD_DIR"]
 PROGRAM = os.environ["BRC_PROGRAM"]
 if not os.path.exists(PROGRAM):
-    print("install: the program is not built; skipped")
-    sys.exit(77)
+    sys.exit("install: the program is not built")
 
 USER_OF_THE_LIBRARY = r"""
 #include <breccia.h>

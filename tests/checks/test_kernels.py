@@ -1,4 +1,5 @@
 """The style of kernels: laws take and give values, precision is one switch."""
+import collections
 import re
 import repository
 
@@ -65,6 +66,14 @@ def literals(files):
     return findings
 
 
+def idle(files):
+    """Laws that nothing in the kernels asks for."""
+    code = {path: repository.code_of(text) for path, text in files.items()}
+    words = collections.Counter(word for text in code.values() for word in re.findall(r"\w+", text))
+    return [f"{path}: nobody uses the law {name}" for path, text in code.items()
+            for name in re.findall(r"^LAW \w+ (\w+)\(", text, re.M) if words[name] < 2]
+
+
 law_examples = {
     "pointer": {"kernels/a.h": "LAW void f(lane_mat3 *a)\n"}, "arrow": {"kernels/a.h": "a->x = b;\n"},
     "address": {"kernels/a.h": "f(&a);\n"}, "index": {"kernels/a.h": "x[3]\n"},
@@ -81,4 +90,5 @@ for sound in ("x = a & 1 && b;\n", "LAW lane f(lane a, lane b) { return a * b; }
     assert not laws({"kernels/a.h": sound}), sound
 kernels = repository.read(r"^kernels/[^/]*\.(h|cl)$")
 repository.finish([repository.report("laws", laws, kernels, law_examples),
-                   repository.report("literals", literals, kernels, literal_examples)])
+                   repository.report("literals", literals, kernels, literal_examples),
+                   repository.report("idle laws", idle, kernels, {"one": {"kernels/a.h": "LAW lane f(lane a)\n{\n    return a;\n}\n"}})])

@@ -33,8 +33,7 @@ for path in sorted(glob.glob(os.path.join(BUILD, "libbr*.a"))):
     listing[os.path.basename(path)] = subprocess.run(["nm", "-A", "-g", path], capture_output=True, text=True,
                                                      check=True).stdout
 if not listing:
-    print("symbols: no library is built; skipped")
-    sys.exit(77)
+    sys.exit("symbols: no library is built")
 bad = {"foreign name": {"a": "liba.a:b.o:0000000000000010 T solve\n"}, "foreign data": {"a": "liba.a:b.o:00 B table\n"},
        "end": {"a": "liba.a:b.o:                 U exit\n"}}
 repository.finish([repository.report("symbols", exported, listing, bad)])

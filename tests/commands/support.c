@@ -6,7 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static char out_text[1 << 16], error_text[1 << 16];
+static char out_text[1 << 16], error_text[1 << 16], folder[64];
 
 static void take(const char *path, char *text, size_t size)
 {
@@ -38,4 +38,23 @@ const char *test_program_stdout(void)
 const char *test_program_stderr(void)
 {
     return error_text;
+}
+
+const char *test_scene_folder(const char *text)
+{
+    char path[128];
+    snprintf(folder, sizeof folder, "scene-test-XXXXXX");
+    if (!mkdtemp(folder)) return NULL;
+    snprintf(path, sizeof path, "%s/scene.yaml", folder);
+    FILE *file = fopen(path, "w");
+    if (!file) return NULL;
+    const int written = fputs(text, file);
+    return fclose(file) == 0 && written >= 0 ? folder : NULL;
+}
+
+int test_remove_folder(void)
+{
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
 }

@@ -17,4 +17,9 @@ int test_program(const char *arguments);
 const char *test_program_stdout(void);
 const char *test_program_stderr(void);
 
+/* A new folder below this one with a scene.yaml of this text: its name, in static storage; NULL: it could not be made. One at a time. */
+const char *test_scene_folder(const char *text);
+/* Removed with all that is in it; 0 as of cmocka's teardowns. */
+int test_remove_folder(void);
+
 #endif

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static char folder[64];
+static const char *folder;
 
 static const char *const scene =
     "version: 1\nmaterials:\n  plaster: {E: 5 GPa, nu: 0.2, density: 1200 kg/m^3, strength: {tension: 4 MPa}}\n  wall: {E: 50 GPa, nu: 0.2, density: 2500 kg/m^3}\n"
@@ -15,23 +15,15 @@ static const char *const scene =
 
 static int begin(void **state)
 {
-    char path[128];
     (void)state;
-    snprintf(folder, sizeof folder, "price-test-XXXXXX");
-    if (!mkdtemp(folder)) return -1;
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    FILE *file = fopen(path, "w");
-    if (!file) return -1;
-    fputs(scene, file);
-    return fclose(file);
+    folder = test_scene_folder(scene);
+    return folder ? 0 : -1;
 }
 
 static int end(void **state)
 {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
+    return test_remove_folder();
 }
 
 /* The number behind the first `mark` in a text. */

@@ -6,7 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static char folder[64], scene[128];
+static const char *folder;
+static char scene[128];
 
 static const char *const small_scene =
     "version: 1\nmaterials: {m: {E: 20 GPa, nu: 0.3, density: 1000 kg/m^3}}\n"
@@ -17,21 +18,15 @@ static const char *const small_scene =
 static int begin(void **state)
 {
     (void)state;
-    snprintf(folder, sizeof folder, "program-test-XXXXXX");
-    if (!mkdtemp(folder)) return -1;
-    snprintf(scene, sizeof scene, "%s/scene.yaml", folder);
-    FILE *file = fopen(scene, "w");
-    if (!file) return -1;
-    fputs(small_scene, file);
-    return fclose(file);
+    folder = test_scene_folder(small_scene);
+    if (folder) snprintf(scene, sizeof scene, "%s/scene.yaml", folder);
+    return folder ? 0 : -1;
 }
 
 static int end(void **state)
 {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
+    return test_remove_folder();
 }
 
 /* Run with the arguments `before`, and last a file `after` of the test's folder. */

@@ -81,6 +81,28 @@ static void walls_and_strikers_need_contact_and_a_free_one_a_shape(void **state)
               "11:34", "there is no striker 'flor'; did you mean 'floor'?");
 }
 
+static void with_contact_a_rest_comes_before_what_moves(void **state)
+{
+    (void)state;
+    static const char contact[] = "interactions: {contact: {}}\n", rest[] = "  - {name: rest, solver: static}\n";
+    static const char modes[] = "  - {name: hum, solver: {modes: {count: 8}}}\n", move[] = "  - {name: go, solver: {dynamic: {steps: 3}}}\n";
+    char text[1200];
+    snprintf(text, sizeof text, "%s%sstages:\n%s%s%s", HEAD, contact, rest, modes, move);
+    assert_int_equal(count_errors(text), 0);
+    snprintf(text, sizeof text, "%s%sstages:\n%s%s%s", HEAD, contact, move, rest, modes);
+    bad_scene(text, "12:5", "expected before the first dynamic stage, which is 'go'");
+    assert_int_equal(count_errors(text), 2);
+    snprintf(text, sizeof text, "%sstages:\n%s%s", HEAD, move, rest); /* without contact in any order */
+    assert_int_equal(count_errors(text), 0);
+    static const char tear[] = "stages:\n  - {name: tear, solver: {static: {events: 5}}}\n";
+    snprintf(text, sizeof text, "%sfracture: {}\n%s%s", HEAD, contact, tear);
+    bad_scene(text, "12:44", "events: they know no contact");
+    snprintf(text, sizeof text,
+             "version: 1\nmaterials: {glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3, strength: {tension: 50 MPa}}}\n"
+             "bodies: [{shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {elements: 100}}}]\nfracture: {}\n%s", tear);
+    assert_int_equal(count_errors(text), 0);
+}
+
 static void all_errors_are_told_in_one_pass_in_the_order_of_the_text(void **state)
 {
     (void)state;
@@ -268,6 +290,7 @@ int main(void)
         cmocka_unit_test(extreme_poisson_ratios_are_refused_with_the_reason),
         cmocka_unit_test(misspelt_keys_are_guessed),
         cmocka_unit_test(walls_and_strikers_need_contact_and_a_free_one_a_shape),
+        cmocka_unit_test(with_contact_a_rest_comes_before_what_moves),
         cmocka_unit_test(all_errors_are_told_in_one_pass_in_the_order_of_the_text),
         cmocka_unit_test(several_of_one_and_none_of_several_are_refused),
         cmocka_unit_test(a_shape_needs_a_fill_and_a_file_none),

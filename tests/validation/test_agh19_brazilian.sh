@@ -2,12 +2,10 @@
 # The references are those that disc.py computes; a disc of 1500 cells pressed to failure over arcs of 20 degrees, and Hondros; the full table is in docs/papers.md.
 here=$(dirname "$0")
 . "$here/quick.sh"
-if command -v python3 >/dev/null; then
-    wanted=$(mktemp)
-    python3 "$here/agh19-brazilian/disc.py" >"$wanted" || exit 1
-    while read -r line; do
-        grep -qF "$line" "$here/agh19-brazilian/case.yaml" || { echo "case.yaml has no '$line'"; exit 1; }
-    done <"$wanted"
-    rm -f "$wanted"
-fi
+wanted=$(mktemp)
+python3 -B "$here/agh19-brazilian/disc.py" >"$wanted" && [ -s "$wanted" ] || exit 1
+while read -r line; do
+    grep -qF "$line" "$here/agh19-brazilian/case.yaml" || { echo "case.yaml has no '$line'"; exit 1; }
+done <"$wanted"
+rm -f "$wanted"
 quick agh19-brazilian --threads 1

@@ -2,7 +2,6 @@
 # A short rod of 1500 spheres twisted to failure; the full campaign is in docs/beams-tests.md. both_sides is also taken from histories.csv by awk; the file has all digits, so that
 # only the rounding of one sum is left between them.
 program=${BRC_PROGRAM:-breccia}
-command -v "$program" >/dev/null || { echo "$program is not built; skipped"; exit 77; }
 folder=validation-nah19-torsion-$$
 OMP_WAIT_POLICY=passive "$program" reproduce nah19-torsion --threads 1 --quick -o "$folder" || exit 1
 mean=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) { if ($k ~ /^moment/) m = k; if ($k ~ /^other_moment/) o = k } next }

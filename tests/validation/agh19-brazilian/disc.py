@@ -9,26 +9,16 @@ With the displacement along the force, -F (2 ln r + (1 + nu) sin^2 theta) / (pi 
 and q sqrt(a^2 - phi^2) is a short sum of even Chebyshev polynomials, of which int T_n(s) ln|s - s_0| / sqrt(1 - s^2) ds = -pi T_n(s_0) / n (n = 0: -pi ln 2).
 Stresses are over 2 P / (pi D t), tension positive. Prints what test_agh19_brazilian.sh looks for in case.yaml: loads of a line,
 an even arc, jaws over the arc, over 10 degrees and over 10 mm, and the means over the stretches of the diameter for the jaws over the arc."""
+import os
+import sys
 from math import acos, asin, atan2, cos, log, pi, radians, sin
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from gauss import solve  # noqa: E402 (beside the cases)
 
 NU, RADIUS, THICKNESS, STRENGTH = 0.2, 0.1, 0.02, 10e6
 TERMS, POINTS = 8, 64
 STRETCHES, INSIDE = 25, 0.7  # of the rows of `with: hondros`
-
-
-def solve(rows):
-    """Gauss with pivots; rows: [coefficients ..., right side]."""
-    n = len(rows)
-    for c in range(n):
-        p = max(range(c, n), key=lambda r: abs(rows[r][c]))
-        rows[c], rows[p] = rows[p], rows[c]
-        for r in range(c + 1, n):
-            f = rows[r][c] / rows[c][c]
-            rows[r] = [x - f * y for x, y in zip(rows[r], rows[c])]
-    x = [0.0] * n
-    for r in reversed(range(n)):
-        x[r] = (rows[r][n] - sum(rows[r][k] * x[k] for k in range(r + 1, n))) / rows[r][r]
-    return x
 
 
 def smooth_part(p, p0):

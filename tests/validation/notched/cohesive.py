@@ -8,7 +8,12 @@ m(x, a) = 2 / sqrt(2 pi (a - x)) (1 + M1 y^1/2 + M2 y + M3 y^3/2), y = 1 - x / a
 Eng. Fract. Mech. 40 (1991) 1135. Plane stress. For a crack of length a (with its cohesive end, from a_0 on), nominal stress P and cohesion s(x):
     0 = P k(a) - int s m(x, a) dx,    opening(x) = 2/E int_x^a [P k(b) - int s m(x', b) dx'] m(x, b) db = (2 G / f) (1 - s(x) / f)
 which is linear in P and s at nodes; the peak is the largest P over a."""
+import os
+import sys
 from math import cos, pi, sin, sqrt, tan
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from gauss import solve  # noqa: E402 (beside the cases)
 
 NODES = 20
 
@@ -80,22 +85,6 @@ def hats(nodes, a, m):
             out[i] += k * (1 - share)
             out[i + 1] += k * share
     return out
-
-
-def solve(rows):
-    """Gauss with pivots; rows: [coefficients ..., right side]."""
-    n = len(rows)
-    rows = [[v / max(abs(x) for x in r[:-1]) for v in r] for r in rows]
-    for c in range(n):
-        p = max(range(c, n), key=lambda r: abs(rows[r][c]))
-        rows[c], rows[p] = rows[p], rows[c]
-        for r in range(c + 1, n):
-            f = rows[r][c] / rows[c][c]
-            rows[r] = [x - f * y for x, y in zip(rows[r], rows[c])]
-    x = [0.0] * n
-    for r in reversed(range(n)):
-        x[r] = (rows[r][n] - sum(rows[r][k] * x[k] for k in range(r + 1, n))) / rows[r][r]
-    return x
 
 
 def load_of(factor, start, width, zone, young, strength, energy):
