@@ -126,6 +126,22 @@ static double integral(const brc_measure_series *series)
     return sum;
 }
 
+/* Share of an interval in which y, going straight from a to b, lies above a level >= 0. */
+static double share_above(double a, double b, double level)
+{
+    const double least = fmin(a, b), most = fmax(a, b);
+    return least > level ? 1 : most > level ? (most - level) / (most - least) : 0;
+}
+
+static double duration(const brc_measure_series *series, double level)
+{
+    double sum = 0;
+    for (int64_t k = 1; k < series->n; ++k)
+        sum += (series->time[k] - series->time[k - 1]) *
+               (share_above(series->y[k - 1], series->y[k], level) + share_above(-series->y[k - 1], -series->y[k], level));
+    return sum;
+}
+
 static double time_mean(const brc_measure_series *series)
 {
     const double duration = series->time[series->n - 1] - series->time[0];
@@ -240,6 +256,7 @@ brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, co
         case BRC_MEASURE_PEAK: out->value = peak(&series); break;
         case BRC_MEASURE_MEAN: out->value = time_mean(&series); break;
         case BRC_MEASURE_INTEGRAL: out->value = integral(&series); break;
+        case BRC_MEASURE_DURATION: out->value = measure->scale * duration(&series, measure->above * fabs(peak(&series))); break;
         case BRC_MEASURE_RATE: rate(&series, out); break;
         case BRC_MEASURE_AT_FIRST_BREAK: at_time(&series, first_break(scene, history, cracks, measure), out); break;
         default:

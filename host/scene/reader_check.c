@@ -578,20 +578,23 @@ static void check_measure(brc_reader *reader, const brc_measure *measure)
     case BRC_MEASURE_SLOPE:
     case BRC_MEASURE_RATE:
     case BRC_MEASURE_INTEGRAL:
+    case BRC_MEASURE_DURATION:
     case BRC_MEASURE_AT_FIRST_BREAK:
     case BRC_MEASURE_MEAN: break;
     }
     if (measure->window[1] <= measure->window[0] && (measure->window[0] != 0 || measure->window[1] != 0))
         COMPLAIN(reader, measure->window, measure, "window: ends before it begins; expected [from, to]");
-    const bool in_time =
-        measure->kind == BRC_MEASURE_FREQUENCY || measure->kind == BRC_MEASURE_RATE || measure->kind == BRC_MEASURE_INTEGRAL;
+    const char *const in_time = measure->kind == BRC_MEASURE_FREQUENCY  ? "frequency"
+                                : measure->kind == BRC_MEASURE_RATE     ? "rate"
+                                : measure->kind == BRC_MEASURE_INTEGRAL ? "integral"
+                                : measure->kind == BRC_MEASURE_DURATION ? "duration"
+                                                                        : NULL;
     if (!in_time || scene->n_stages == 0 || is_broken(reader, "stages")) return;
     const brc_stage *stage = &scene->stages[scene->n_stages - 1];
     for (int k = 0; k < scene->n_stages; ++k)
         if (measure->stage[0] && strcmp(scene->stages[k].name, measure->stage) == 0) stage = &scene->stages[k];
     if (stage->solver != BRC_SOLVER_DYNAMIC)
-        COMPLAIN(reader, measure->stage, measure, "%s: the stage '%s' is not dynamic and has no history in time",
-                 measure->kind == BRC_MEASURE_RATE ? "rate" : measure->kind == BRC_MEASURE_INTEGRAL ? "integral" : "frequency", stage->name);
+        COMPLAIN(reader, measure->stage, measure, "%s: the stage '%s' is not dynamic and has no history in time", in_time, stage->name);
 }
 
 brc_status brc_reader_check(brc_reader *reader)

@@ -163,6 +163,7 @@ const char *brc_measure_unit(const brc_scene *scene, const brc_measure *measure)
     case BRC_MEASURE_G: return "Pa";
     case BRC_MEASURE_NU: return "-";
     case BRC_MEASURE_FREQUENCY: return "Hz";
+    case BRC_MEASURE_DURATION: return "s";
     case BRC_MEASURE_PEAK:
     case BRC_MEASURE_AT_FIRST_BREAK:
         if (measure->area_set[0]) return "Pa";

@@ -314,6 +314,7 @@ typedef enum brc_measure_kind {
     BRC_MEASURE_MEAN,      /* time mean over the window */
     BRC_MEASURE_RATE,      /* slope of a sensor against time, straight line through the window [sensor's unit/s] */
     BRC_MEASURE_INTEGRAL, /* of a sensor over time, by trapezoids [sensor's unit s] */
+    BRC_MEASURE_DURATION, /* time during which a sensor's magnitude is above a share of its largest, straight lines between samples [s] */
     BRC_MEASURE_AT_FIRST_BREAK /* value of a sensor when the first bond of the window breaks, between samples by a straight line */
 } brc_measure_kind;
 
@@ -326,6 +327,7 @@ typedef struct brc_measure {
     double window[2];              /* [s] of the stage; 0 0: all of it */
     bool has_target;
     double target; /* in the unit of the result */
+    double above;  /* duration: share of the largest magnitude, in [0, 1) */
     double scale;  /* result = scale * operator, default 1 (e.g. -1 for a reaction on the other side) */
 } brc_measure;
 

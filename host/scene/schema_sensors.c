@@ -246,6 +246,16 @@ static const brc_section RATE_SECTION = {
 static const brc_entry OF_INTEGRAL[] = {SENSOR_ENTRY("of", y, "force", "sensor"), COMMON_ENTRIES("1 N s")};
 static const brc_section INTEGRAL_SECTION = {
     .title = "integral", .meaning = "Of a sensor over time, by trapezoids between samples.", ENTRIES(OF_INTEGRAL)};
+static const brc_entry OF_DURATION[] = {
+    SENSOR_ENTRY("of", y, "force", "sensor"),
+    {"above", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_measure, above), .given = "0.1 %", .sample = "0.1 %",
+     .meaning = "share of its largest magnitude in the window"},
+    COMMON_ENTRIES("1 ms"),
+};
+static const brc_section DURATION_SECTION = {
+    .title = "duration",
+    .meaning = "How long the magnitude of a sensor is above a share of its largest, all times together, between samples by a straight line: of a force, the time of contact.",
+    ENTRIES(OF_DURATION)};
 static const brc_section AT_FIRST_BREAK_SECTION = {
     .title = "at_first_break",
     .meaning = "The value when the first bond breaks, between samples by a straight line; of a load over an area, the stress at failure.",
@@ -265,6 +275,7 @@ static const brc_entry MEASURE[] = {
     {"mean", BRC_TYPE_STRUCT, .section = &MEAN_SECTION, .value = BRC_MEASURE_MEAN, .meaning = "mean of a sensor"},
     {"rate", BRC_TYPE_STRUCT, .section = &RATE_SECTION, .value = BRC_MEASURE_RATE, .meaning = "change of a sensor per time"},
     {"integral", BRC_TYPE_STRUCT, .section = &INTEGRAL_SECTION, .value = BRC_MEASURE_INTEGRAL, .meaning = "a sensor summed over time"},
+    {"duration", BRC_TYPE_STRUCT, .section = &DURATION_SECTION, .value = BRC_MEASURE_DURATION, .meaning = "how long a sensor is up"},
     {"at_first_break", BRC_TYPE_STRUCT, .section = &AT_FIRST_BREAK_SECTION, .value = BRC_MEASURE_AT_FIRST_BREAK,
      .meaning = "a sensor when the first bond breaks"},
 };

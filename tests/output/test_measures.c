@@ -151,6 +151,23 @@ static void a_rate_is_a_line_through_the_window(void **state)
     brc_history_free(&h);
 }
 
+/* Level 2 on a peak of -8: half of the rise, two whole intervals, three quarters of the passage through zero (6 of 16 on each side) and of the way back. */
+static void a_duration_counts_what_lies_above_its_share_of_the_peak(void **state)
+{
+    (void)state;
+    brc_history *h;
+    assert_int_equal(brc_history_create(test_context, 4, &h), BRC_OK);
+    for (int k = 0; k < 7; ++k)
+        brc_history_add(test_context, h, 1, k, 2 * k, 2 * k, (double[]){(double[]){0, -4, -8, -8, 8, 0, 0}[k], 0, 0, NAN});
+    brc_measure measure = {.name = "d", .kind = BRC_MEASURE_DURATION, .y = "force", .stage = "ring", .scale = 3, .above = 0.25};
+    const brc_measured m = evaluate(&measure, NULL, h);
+    assert_true(fabs(m.value - 3 * 2 * (0.5 + 1 + 1 + 0.75 + 0.75)) < 1e-14);
+    assert_string_equal(m.unit, "s");
+    snprintf(measure.y, sizeof measure.y, "lateral"); /* which stays 0 */
+    assert_true(evaluate(&measure, NULL, h).value == 0);
+    brc_history_free(&h);
+}
+
 static void the_first_break_is_met_between_samples(void **state)
 {
     (void)state;
@@ -184,6 +201,7 @@ static void the_first_break_is_met_between_samples(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_rate_is_a_line_through_the_window), cmocka_unit_test(the_first_break_is_met_between_samples),
+                                      cmocka_unit_test(a_duration_counts_what_lies_above_its_share_of_the_peak),
                                       cmocka_unit_test(the_modulus_is_force_over_the_flat_area_of_the_set),
         cmocka_unit_test(poissons_ratio_is_minus_the_slope_and_its_error_absolute),
         cmocka_unit_test(a_frequency_leaves_out_the_early_last_sample),

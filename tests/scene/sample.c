@@ -53,7 +53,7 @@ static const brc_entry *usual_variant(const maker *m, const brc_section *section
     const char *wanted = NULL;
     if (strcmp(section->title, "solver") == 0) {
         if (path_has(m->path, "face_velocity") || path_has(m->path, "element_velocity") ||
-            path_has(m->path, "frequency") || path_has(m->path, "rate") || path_has(m->path, "integral"))
+            path_has(m->path, "frequency") || path_has(m->path, "rate") || path_has(m->path, "integral") || path_has(m->path, "duration"))
             wanted = "dynamic";
         if (path_has(m->path, "mode")) wanted = "modes";
     }
@@ -104,7 +104,7 @@ static const char *sample_value(const maker *m, const brc_entry *entry)
         return path_has(m->path, "face_velocity") || path_has(m->path, "element_velocity") || path_has(m->path, "driven") ? "[[0 s, 0], [1 ms, 1]]"
                                                                                            : "[[0, 0], [1, 1]]";
     if (strcmp(entry->key, "load") == 0 && path_has(m->path, "area")) return "force"; /* the area divides a reaction */
-    if (strcmp(entry->key, "window") == 0 && (path_has(m->path, "frequency") || path_has(m->path, "rate") || path_has(m->path, "integral"))) return "[0, 1 ms]";
+    if (strcmp(entry->key, "window") == 0 && (path_has(m->path, "frequency") || path_has(m->path, "rate") || path_has(m->path, "integral") || path_has(m->path, "duration"))) return "[0, 1 ms]";
     if (entry->sample && (strcmp(entry->sample, "x+") == 0 || strcmp(entry->sample, "x-") == 0))
         return wall(m, entry->sample);
     return entry->sample ? entry->sample : entry->given ? entry->given : entry->choices ? entry->choices[0] : "true";

@@ -25,8 +25,9 @@ static const char *leaf_unit(const sample_path *path)
             if (strcmp(key, "E") == 0 || strcmp(key, "K") == 0 || strcmp(key, "G") == 0) return "Pa";
             if (strcmp(key, "frequency") == 0) return "Hz";
             if (strcmp(key, "rate") == 0) return "N/s";
+            if (strcmp(key, "duration") == 0) return "s";
             if (strcmp(key, "peak") == 0 || strcmp(key, "at_first_break") == 0 || strcmp(key, "mean") == 0) return "N";
-        } else if (strcmp(key, "frequency") == 0 || strcmp(key, "rate") == 0) {
+        } else if (strcmp(key, "frequency") == 0 || strcmp(key, "rate") == 0 || strcmp(key, "duration") == 0) {
             return "s";
         }
     }
