@@ -1,4 +1,5 @@
 #include "price.h"
+#include "price_choices.h"
 #include "case.h"
 #include "planned_output.h"
 #include "../base/log.h"
@@ -106,10 +107,13 @@ double brc_price_class(double error)
     return error < finest_class ? finest_class : pow(10, round(2 * log10(error)) / 2);
 }
 
+/* What so many elements give and cost. Below the fewest that were measured nothing is known but that fewer would do. */
 static void tell_choice(const brc_price_curve *curve, double elements, double now, double seconds)
 {
-    printf("%.3g elements: error %.2g %%, about %.2g s%s\n", elements, 100 * brc_price_curve_error(curve, elements), brc_price_seconds_at(seconds, now, elements),
-           elements < curve->least || elements > curve->most ? " (beyond the measured sizes)" : "");
+    const bool below = elements < curve->least;
+    const double n = below ? curve->least : ceil(elements);
+    printf("%s%.0f elements: error %.2g %%, about %.2g s%s\n", below ? "no more than " : "", n, 100 * brc_price_curve_error(curve, n), brc_price_seconds_at(seconds, now, n),
+           below ? " (the fewest that were measured)" : n > curve->most ? " (beyond the measured sizes)" : "");
 }
 
 /* Curves of the scene's model, of the precision in `taken` or, where there are none, of double: resolution costs more than rounding at any size that was measured. */
@@ -156,9 +160,44 @@ static void tell_choices(const brc_scene *scene, const brc_price_curve *curve, d
         printf("ten times the budget would buy ");
         tell_choice(curve, brc_price_elements_for(seconds, now, 10 * scene->budget), now, seconds);
     }
-    if (scene->accuracy > 0 || scene->budget > 0)
-        printf("precision: double where turned bodies have small strains, else mixed or single (docs/stability.md); time step: auto at 0.8, its error is far below that of "
-               "the resolution\n");
+}
+
+/* The proposal for a precision or a time step, from pairs of measured runs, and what the others would cost. `error`: how much more is nothing beside the resolution's. */
+static void tell_other_choices(const char *text, const char *model, const char *what, const char *column, const char *usual, double error)
+{
+    int n;
+    brc_price_choice choice[BRC_CHOICES_MOST];
+    brc_price_choices_read(text, model, column, usual, &n, choice);
+    if (n == 0) {
+        printf("%s: take %s; others were not measured with model %s\n", what, usual, model);
+        return;
+    }
+    const int best = brc_price_choice_best(n, choice, error);
+    printf("%s: take %s;", what, best < 0 ? usual : choice[best].value);
+    for (int c = 0; c < n; ++c)
+        printf("%s %s takes %.2f of the time of %s and errs by at most %.1g %% more (%d pairs of runs)", c ? "," : "", choice[c].value, choice[c].time, usual,
+               100 * choice[c].more_error, choice[c].pairs);
+    printf("\n");
+}
+
+static brc_status tell_precision_and_step(brc_context *context, const brc_scene *scene, const char *model, const brc_price_curve *curve, double now, double seconds)
+{
+    if (!(scene->accuracy > 0) && !(scene->budget > 0)) return BRC_OK;
+    /* a tenth of the error that the resolution leaves */
+    const double error = 0.1 * (scene->accuracy > 0 ? scene->accuracy : brc_price_curve_error(curve, brc_price_elements_for(seconds, now, scene->budget)));
+    bool moves = false, rings = false;
+    for (int k = 0; k < scene->n_stages; ++k) {
+        moves = moves || scene->stages[k].solver == BRC_SOLVER_DYNAMIC;
+        rings = rings || scene->stages[k].solver == BRC_SOLVER_MODES;
+    }
+    char *text;
+    size_t bytes;
+    BRC_TRY(brc_case_text(context, NULL, "results", "accuracy-curves.csv", &text, &bytes));
+    if (rings) printf("precision: take double: modes are not found in less\n");
+    else tell_other_choices(text, model, "precision (double where bodies turn at small strains: docs/stability.md)", "precision", brc_precision_name(BRC_DOUBLE), error);
+    if (moves) tell_other_choices(text, model, "time step over its bound", "dt_fraction", "0.8", error);
+    brc_memory_free(text);
+    return BRC_OK;
 }
 
 /* What the model itself is off by, however many elements: beams by their calibration and their sample, as a pulled cube of them. */
@@ -213,5 +252,5 @@ brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene,
     }
     tell_class(&j.by, now, j.is_own ? "measure" : "the worst of these problems,");
     tell_choices(scene, &j.by, now, seconds);
-    return BRC_OK;
+    return tell_precision_and_step(context, scene, brc_model_name(setup->split->part[0].scene->model.kind), &j.by, now, seconds);
 }

@@ -1,22 +1,9 @@
 #include "price_curves.h"
+#include "price_rows.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { COLUMNS_MOST = 64, LINE_MOST = 2048 };
-
-/* Split a line in place; a field may be empty. */
-static int split(char *line, const char **field)
-{
-    int n = 0;
-    for (char *at = line; at && n < COLUMNS_MOST;) {
-        field[n++] = at;
-        at = strchr(at, ',');
-        if (at) *at++ = '\0';
-    }
-    return n;
-}
 
 /* Sums of a problem's points, and what all of them share. */
 typedef struct fit {
@@ -38,27 +25,14 @@ void brc_price_curves_read(const char *text, const char *model, const char *prec
 {
     static const char *const names[] = {"problem", "model", "precision", "elements", "error", "preparation", "dt_fraction", "integrator", "nu", "coordination"};
     enum { PROBLEM, MODEL, PRECISION, ELEMENTS, ERROR, SHARED, NAMES = sizeof names / sizeof *names };
-    int column[NAMES], n_fits = 0;
+    int n_fits = 0;
     fit fits[BRC_CURVES_MOST];
+    brc_price_rows rows;
+    const char *value[NAMES];
     memset(fits, 0, sizeof fits);
     *n = 0;
-    for (int k = 0; k < NAMES; ++k) column[k] = -1;
-    bool header = true;
-    for (const char *at = text; at && *at;) {
-        char line[LINE_MOST];
-        const char *end = strchr(at, '\n'), *field[COLUMNS_MOST];
-        snprintf(line, sizeof line, "%.*s", (int)(end ? end - at : (long)strlen(at)), at);
-        at = end ? end + 1 : NULL;
-        const int n_fields = split(line, field);
-        if (header) {
-            for (int c = 0; c < n_fields; ++c)
-                for (int k = 0; k < NAMES; ++k)
-                    if (strcmp(field[c], names[k]) == 0) column[k] = c;
-            header = false;
-            continue;
-        }
-        const char *value[NAMES];
-        for (int k = 0; k < NAMES; ++k) value[k] = column[k] >= 0 && column[k] < n_fields ? field[column[k]] : "";
+    brc_price_rows_begin(&rows, text, NAMES, names);
+    while (brc_price_rows_next(&rows, value)) {
         const double elements = atof(value[ELEMENTS]), error = fabs(atof(value[ERROR]));
         if (strcmp(value[MODEL], model) != 0 || strcmp(value[PRECISION], precision) != 0 || !(elements > 0) || !(error > 0)) continue;
         char shared[160] = "";

@@ -28,8 +28,8 @@ void brc_effects_list(brc_simulation *s)
         bool in;
     } effects[] = {{"conservative elasticity (dlsm)", dlsm},
                    {"compaction", dlsm && scene->model.compaction && scene->model.beta != 0},
-                   {"published elasticity (dlsm-published), element rotations", published},
-                   {"beams (cbm), element rotations", brc_is_beams(s)},
+                   {"published elasticity and element rotations (dlsm-published)", published},
+                   {"beams and element rotations (cbm)", brc_is_beams(s)},
                    {"several materials", brc_device_has_many_materials(s->device)},
                    {"prescribed faces", held},
                    {"tractions", traction},

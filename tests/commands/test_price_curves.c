@@ -2,6 +2,7 @@
 #include "support.h"
 #include "../../host/base/memory.h"
 #include "../../host/commands/case.h"
+#include "../../host/commands/price_choices.h"
 #include "../../host/commands/price_curves.h"
 #include <string.h>
 
@@ -63,10 +64,40 @@ static void the_program_has_curves_of_its_default_model(void **state)
     brc_context_free(&context);
 }
 
+/* Two pairs of single and one of mixed by hand: seconds add up (3 + 1 over 4 + 4), the worst error counts, a partner must share all else, and what errs less has 0. */
+static void choices_are_pairs_of_runs_that_differ_in_nothing_else(void **state)
+{
+    (void)state;
+    static const char csv[] = "problem,model,elements,precision,dt_fraction,error,run_s\n"
+                              "cube,dlsm,100,double,0.8,0.01,4\ncube,dlsm,100,single,0.8,0.012,3\ncube,dlsm,800,single,0.8,0.0025,1\ncube,dlsm,800,double,0.8,-0.002,4\n"
+                              "cube,dlsm,800,mixed,0.8,-0.001,3\ncube,dlsm,900,mixed,0.8,0.5,1\ncube,cbm,100,mixed,0.8,0.5,1\ncube,dlsm,100,double,0.4,0.01,8\ncube,dlsm,100,single,0.8,,1\n";
+    int n;
+    brc_price_choice choice[BRC_CHOICES_MOST];
+    brc_price_choices_read(csv, "dlsm", "precision", "double", &n, choice);
+    assert_int_equal(n, 2);
+    assert_string_equal(choice[0].value, "single");
+    assert_int_equal(choice[0].pairs, 2);
+    assert_near(choice[0].time, 0.5, 1e-15);
+    assert_near(choice[0].more_error, 0.002, 1e-15);
+    assert_string_equal(choice[1].value, "mixed");
+    assert_int_equal(choice[1].pairs, 1);
+    assert_near(choice[1].time, 0.75, 1e-15);
+    assert_true(choice[1].more_error == 0);
+    assert_int_equal(brc_price_choice_best(n, choice, 0.01), 0);
+    assert_int_equal(brc_price_choice_best(n, choice, 0.001), 1);
+    brc_price_choices_read(csv, "dlsm", "dt_fraction", "0.8", &n, choice); /* half the step takes twice the time: no gain */
+    assert_int_equal(n, 1);
+    assert_near(choice[0].time, 2, 1e-15);
+    assert_int_equal(brc_price_choice_best(n, choice, 1), -1);
+    brc_price_choices_read(csv, "dlsm-published", "precision", "double", &n, choice);
+    assert_int_equal(n, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(powers_are_found_again),
+        cmocka_unit_test(choices_are_pairs_of_runs_that_differ_in_nothing_else),
         cmocka_unit_test(eight_times_the_elements_cost_sixteen_times),
         cmocka_unit_test(the_program_has_curves_of_its_default_model),
     };
