@@ -23,7 +23,7 @@ static void add_point(fit *f, double elements, double error)
 
 void brc_price_curves_read(const char *text, const char *model, const char *precision, int *n, brc_price_curve out[BRC_CURVES_MOST])
 {
-    static const char *const names[] = {"problem", "model", "precision", "elements", "error", "preparation", "dt_fraction", "integrator", "nu", "coordination"};
+    static const char *const names[] = {"problem", "model", "precision", "elements", "error", "preparation", "dt_fraction", "integrator", "nu", "coordination", "level", "phi", "variant"};
     enum { PROBLEM, MODEL, PRECISION, ELEMENTS, ERROR, SHARED, NAMES = sizeof names / sizeof *names };
     int n_fits = 0;
     fit fits[BRC_CURVES_MOST];

@@ -1,8 +1,10 @@
 /* Pressed discs and pulled rings. */
 #include "reproduce_field.h"
 #include "reference_plane.h"
+#include "sweep.h"
 #include "../base/memory.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define DISC_PART 0.6
@@ -68,6 +70,13 @@ static double principal(const double s[3])
     return (s[0] + s[1]) / 2 + sqrt((s[0] - s[1]) * (s[0] - s[1]) / 4 + s[2] * s[2]);
 }
 
+/* Of beams: over as many shells of neighbours as the run's label `level` says. */
+static brc_status stresses(brc_simulation *simulation, const brc_case_run *run, double *out)
+{
+    const char *level = brc_sweep_value(run, "level");
+    return level ? brc_simulation_virial_stress(simulation, (int)strtol(level, NULL, 10), out) : brc_simulation_strain_stress(simulation, NULL, out, NULL);
+}
+
 brc_status brc_field_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
 {
     const brc_domain *domain = brc_simulation_domain(simulation);
@@ -76,7 +85,7 @@ brc_status brc_field_values(brc_context *context, brc_simulation *simulation, br
     brc_status status = BRC_OK;
     BRC_TRY(find_plane(context, simulation, outcome, &p));
     BRC_TRY(BRC_ALLOCATE(context, &stress, 6 * domain->n_elements, "stresses of a field"));
-    BRC_TRY_OR(cleanup, brc_simulation_strain_stress(simulation, NULL, stress, NULL));
+    BRC_TRY_OR(cleanup, stresses(simulation, outcome->run, stress));
     const double within = p.ring ? RING_PART * p.inner : DISC_PART * p.outer;
     for (int64_t e = 0; e < domain->n_elements; ++e) {
         const double *at = domain->centroid + 3 * e, *s = stress + 6 * e, radius = sqrt(at[0] * at[0] + at[2] * at[2]);

@@ -5,8 +5,9 @@
 #include "reproduce.h"
 
 /* The wave operator: a box whose end x- moves by the first load of the stage, u(t) = a(t) e, and whose end x+ is free. Its mean displacement, the scene's sensor
- * `end`, is held against 2 [a(t - T) - a(t - 3 T) + a(t - 5 T) - ...], T = length / speed, at every sample. The speed is that of plane waves, so the loads must keep
- * the bar plane: sides that slide for a pressure wave (e along x), sides held in their normal's other directions for a shear wave (e across x). */
+ * `end`, is held against 2 [a(t - T) - a(t - 3 T) + a(t - 5 T) - ...], T = length / speed, at every sample. The speed is that of plane waves in a bar of the body's
+ * own mass, so the loads must keep the bar plane: sides that slide for a pressure wave (e along x), sides held in their normal's other directions for a shear wave
+ * (e across x). */
 typedef struct brc_wave brc_wave;
 brc_status brc_wave_create(brc_context *context, brc_wave **out);
 void brc_wave_free(brc_wave **wave);
