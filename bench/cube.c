@@ -20,15 +20,27 @@ void brc_cube_make(brc_cube *c, brc_model_kind model)
                            .output = {.n_frames = -1}};
 }
 
-/* Beams: a packing with ten beams an element; its relaxation is no part of what is measured, so it stops early. */
+/* Its relaxation is no part of what is measured, so it stops early. */
+static brc_status build_packing(brc_context *context, const double edges[3], int64_t size, brc_domain **out)
+{
+    brc_build_request packed = {.shape = {.kind = BRC_SHAPE_BOX, .size = {edges[0], edges[1], edges[2]}},
+                                .fill = {.kind = BRC_FILL_PACKING, .n_elements = size, .radius_spread = 0.125, .coordination = 6.2,
+                                         .tolerance = 0.1, .seed = 1},
+                                .beams = 10};
+    return brc_domain_build(context, &packed, out);
+}
+
 brc_status brc_cube_build(brc_context *context, int64_t size, bool spheres, brc_domain **out)
 {
-    const brc_build_request packed = {.shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}},
-                                      .fill = {.kind = BRC_FILL_PACKING, .n_elements = size, .radius_spread = 0.125, .coordination = 6.2,
-                                               .tolerance = 0.1, .seed = 1},
-                                      .beams = 10};
-    if (spheres) return brc_domain_build(context, &packed, out);
+    static const double edges[3] = {1, 1, 1};
+    if (spheres) return build_packing(context, edges, size, out);
     brc_build_request request = {.shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}},
                                  .fill = {.kind = BRC_FILL_NOISY_GRID, .n_elements = size, .spread = 0.9, .seed = 1}};
     return brc_domain_build(context, &request, out);
+}
+
+brc_status brc_cube_build_bar(brc_context *context, int64_t size, brc_domain **out)
+{
+    static const double edges[3] = {1, BRC_BAR_WIDTH, BRC_BAR_WIDTH};
+    return build_packing(context, edges, size, out);
 }

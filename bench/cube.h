@@ -16,5 +16,8 @@ typedef struct brc_cube {
 void brc_cube_make(brc_cube *cube, brc_model_kind model);
 /* About `size` elements. *out is the caller's. */
 brc_status brc_cube_build(brc_context *context, int64_t size, bool spheres, brc_domain **out);
+/* A bar of 1 m along x and BRC_BAR_WIDTH square, packed as the cube. */
+#define BRC_BAR_WIDTH 0.2 /* [m] */
+brc_status brc_cube_build_bar(brc_context *context, int64_t size, brc_domain **out);
 
 #endif

@@ -66,6 +66,18 @@ const brc_field *brc_row_find(const brc_row *row, const char *key)
     return NULL;
 }
 
+double brc_row_number(const brc_row *row, const char *key)
+{
+    const brc_field *field = brc_row_find(row, key);
+    return !field || field->kind == BRC_FIELD_TEXT ? NAN : field->kind == BRC_FIELD_INTEGER ? (double)field->integer : field->number;
+}
+
+const char *brc_row_text(const brc_row *row, const char *key)
+{
+    const brc_field *field = brc_row_find(row, key);
+    return field ? field->text : "";
+}
+
 void brc_rows_stamp(brc_rows *rows)
 {
     char date[32];

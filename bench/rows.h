@@ -37,6 +37,9 @@ void brc_rows_integer(brc_rows *rows, const char *key, int64_t value);
 void brc_rows_text(brc_rows *rows, const char *key, const char *value);
 /* The field of a row, NULL when it has none of this key. */
 const brc_field *brc_row_find(const brc_row *row, const char *key);
+/* Number or whole number of a field, NAN where it has none; text of a field, "" where it has none. */
+double brc_row_number(const brc_row *row, const char *key);
+const char *brc_row_text(const brc_row *row, const char *key);
 /* version, commit, compiler and date (UTC) into the last row: what makes a figure repeatable. */
 void brc_rows_stamp(brc_rows *rows);
 /* Make `folder` and write rows.json (an array of objects) and rows.csv (columns: all keys in order of appearance). */

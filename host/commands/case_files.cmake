@@ -1,9 +1,10 @@
 # cmake -DFOLDER=tests/validation -DALONE=tests/stability -DSWEEPS=bench -DOUTPUT=file.c -P case_files.cmake: every *.yaml, *.csv and (ASCII)
-# *.stl one folder below FOLDER, in the folder ALONE (one case) in SWEEPS/accuracy/*/ and the curves measured with them, as a C string, one literal a line.
+# *.stl one folder below FOLDER, in the folder ALONE (one case) in SWEEPS/accuracy/*/, the curves measured with them, and the inputs of other
+# programs in SWEEPS/peers, as a C string, one literal a line.
 get_filename_component(above ${ALONE} DIRECTORY)
 file(GLOB many RELATIVE ${FOLDER} ${FOLDER}/*/*.yaml ${FOLDER}/*/*.stl ${FOLDER}/*/*.csv)
 file(GLOB one RELATIVE ${above} ${ALONE}/*.yaml ${ALONE}/*.csv)
-file(GLOB sweeps RELATIVE ${SWEEPS} ${SWEEPS}/accuracy/*/*.yaml)
+file(GLOB sweeps RELATIVE ${SWEEPS} ${SWEEPS}/accuracy/*/*.yaml ${SWEEPS}/peers/*.py ${SWEEPS}/peers/*.in)
 set(text "#include \"case_files.h\"\nconst brc_case_file brc_case_files[] = {\n")
 set(count 0)
 macro(add_files folder)

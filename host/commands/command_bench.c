@@ -1,5 +1,6 @@
 /* breccia bench: measurements of speed, and of what accuracy costs. */
 #include "bench_accuracy.h"
+#include "bench_peers.h"
 #include "../../bench/contact_cost.h"
 #include "../../bench/effects.h"
 #include "../../bench/throughput.h"
@@ -15,7 +16,7 @@ static const brc_option options[] = {
     {"models", 0, "LIST", false, "dlsm, dlsm-published, cbm (default the first two; effects: all)"},
     {"devices", 0, "LIST", false, "default: cpu and every OpenCL device that is here; effects: cpu"},
     {"precisions", 0, "LIST", false, "default double,mixed,single; effects: double"},
-    {"threads", 't', "LIST", false, "threads of the cpu device (default 1,2; effects: 1)"},
+    {"threads", 't', "LIST", false, "threads of the cpu device (default 1,2; effects, peers: 1)"},
     BRC_OPTION_EXACT,
     {"sample", 0, "SECONDS", false, "least time of each of the five samples (default 0.5; effects: 0.2)"},
     {"copy", 0, "MB", false, "array of the copy that gives the bandwidth (default 256)"},
@@ -23,6 +24,8 @@ static const brc_option options[] = {
     {"quick", 'q', NULL, false, "accuracy: only the runs small enough for continuous integration"},
     {"folder", 'f', "DIR", false, "accuracy: read the problems from DIR/accuracy instead of from the program"},
     {"resume", 'r', NULL, false, "accuracy: go on with the points that the output folder has"},
+    {"elements", 0, "N", false, "peers: spheres of the packing, and cells (default 2e4)"},
+    {"steps", 0, "N", false, "peers: steps of each of the five samples (default 200)"},
 };
 
 /* The list of an option, or its default, split in `copy`. */
@@ -64,31 +67,19 @@ static brc_status default_devices(brc_context *context, char *out, size_t size)
     return BRC_OK;
 }
 
-static double number_of(const brc_row *row, const char *key)
-{
-    const brc_field *field = brc_row_find(row, key);
-    return !field ? NAN : field->kind == BRC_FIELD_INTEGER ? (double)field->integer : field->number;
-}
-
-static const char *text_of(const brc_row *row, const char *key)
-{
-    const brc_field *field = brc_row_find(row, key);
-    return field ? field->text : "";
-}
-
 static brc_status print_row(void *self, const brc_rows *rows)
 {
     const brc_row *row = &rows->rows[rows->n_rows - 1];
-    printf("%-15s %9.0f %-10s %-7s %3.0f", text_of(row, "model"), number_of(row, "elements"), text_of(row, "device"),
-           text_of(row, "precision"), number_of(row, "threads"));
-    if (isnan(number_of(row, "ours")))
-        printf("  %s\n", text_of(row, "note"));
+    printf("%-15s %9.0f %-10s %-7s %3.0f", brc_row_text(row, "model"), brc_row_number(row, "elements"), brc_row_text(row, "device"),
+           brc_row_text(row, "precision"), brc_row_number(row, "threads"));
+    if (isnan(brc_row_number(row, "ours")))
+        printf("  %s\n", brc_row_text(row, "note"));
     else
-        printf(" %8.2f (%.2f-%.2f) %9.2f %10.4g %8.0f %8.2f %8.2f %9.0f\n", number_of(row, "bond_updates_per_s") * 1e-6,
-               number_of(row, "bond_updates_per_s_min") * 1e-6, number_of(row, "bond_updates_per_s_max") * 1e-6,
-               number_of(row, "element_updates_per_s") * 1e-6, number_of(row, "seconds"), number_of(row, "floor_bytes_per_bond"),
-               number_of(row, "copy_bandwidth") * 1e-9, number_of(row, "bandwidth_fraction"),
-               number_of(row, "device_bytes_per_element"));
+        printf(" %8.2f (%.2f-%.2f) %9.2f %10.4g %8.0f %8.2f %8.2f %9.0f\n", brc_row_number(row, "bond_updates_per_s") * 1e-6,
+               brc_row_number(row, "bond_updates_per_s_min") * 1e-6, brc_row_number(row, "bond_updates_per_s_max") * 1e-6,
+               brc_row_number(row, "element_updates_per_s") * 1e-6, brc_row_number(row, "seconds"), brc_row_number(row, "floor_bytes_per_bond"),
+               brc_row_number(row, "copy_bandwidth") * 1e-9, brc_row_number(row, "bandwidth_fraction"),
+               brc_row_number(row, "device_bytes_per_element"));
     fflush(stdout);
     return brc_rows_write(rows, self); /* a long bench that is stopped keeps its rows */
 }
@@ -103,7 +94,7 @@ static brc_status refuse_options(brc_context *context, const brc_arguments *argu
 
 static brc_status run_accuracy(const brc_session *session, const brc_arguments *arguments)
 {
-    static const char *const others[] = {"sizes", "models", "precisions", "exact", "sample", "copy"};
+    static const char *const others[] = {"sizes", "models", "precisions", "exact", "sample", "copy", "elements", "steps"};
     brc_context *context = session->context;
     char problems[256], devices[256], threads[32];
     const char *pieces[BRC_THROUGHPUT_LIST], *device[BRC_THROUGHPUT_LIST], *count[BRC_THROUGHPUT_LIST];
@@ -130,11 +121,11 @@ static brc_status run_accuracy(const brc_session *session, const brc_arguments *
 static brc_status print_contact(void *self, const brc_rows *rows)
 {
     const brc_row *row = &rows->rows[rows->n_rows - 1];
-    printf("%-6s %9.0f %-13s %8.3f %-3s", text_of(row, "model"), number_of(row, "elements"), text_of(row, "quantity"), number_of(row, "ours"), text_of(row, "unit"));
-    if (isnan(number_of(row, "bound"))) printf(" %9s", "");
-    else printf(" (<= %4.2f)", number_of(row, "bound"));
-    printf("  step %9.4g s, intact %9.4g s, ratios %.3f to %.3f", number_of(row, "seconds"), number_of(row, "seconds_without"), number_of(row, "least"), number_of(row, "most"));
-    if (!isnan(number_of(row, "touching"))) printf(", %.0f pairs touch", number_of(row, "touching"));
+    printf("%-6s %9.0f %-13s %8.3f %-3s", brc_row_text(row, "model"), brc_row_number(row, "elements"), brc_row_text(row, "quantity"), brc_row_number(row, "ours"), brc_row_text(row, "unit"));
+    if (isnan(brc_row_number(row, "bound"))) printf(" %9s", "");
+    else printf(" (<= %4.2f)", brc_row_number(row, "bound"));
+    printf("  step %9.4g s, intact %9.4g s, ratios %.3f to %.3f", brc_row_number(row, "seconds"), brc_row_number(row, "seconds_without"), brc_row_number(row, "least"), brc_row_number(row, "most"));
+    if (!isnan(brc_row_number(row, "touching"))) printf(", %.0f pairs touch", brc_row_number(row, "touching"));
     printf("\n");
     fflush(stdout);
     return brc_rows_write(rows, self);
@@ -142,7 +133,7 @@ static brc_status print_contact(void *self, const brc_rows *rows)
 
 static brc_status run_contact(const brc_session *session, const brc_arguments *arguments)
 {
-    static const char *const others[] = {"precisions", "exact", "copy", "problems", "quick", "folder", "resume"};
+    static const char *const others[] = {"precisions", "exact", "copy", "problems", "quick", "folder", "resume", "elements", "steps"};
     brc_context *context = session->context;
     char copy[4][256], folder[512];
     const char *device[BRC_THROUGHPUT_LIST], *size[BRC_THROUGHPUT_LIST], *model[BRC_THROUGHPUT_LIST], *count[BRC_THROUGHPUT_LIST];
@@ -196,17 +187,17 @@ static brc_status print_effect(void *self, const brc_rows *rows)
 {
     const brc_row *row = &rows->rows[rows->n_rows - 1];
     char share[32] = "", bound[32] = "";
-    if (number_of(row, "share_in_100_steps") > 0) snprintf(share, sizeof share, "%.2f", 100 * number_of(row, "share_in_100_steps"));
-    if (!isnan(number_of(row, "bound"))) snprintf(bound, sizeof bound, "%.2f", number_of(row, "bound"));
-    printf("%-15s %-52s %9.3f %8.3f (%.3f-%.3f) %6s %-8s %8s\n", text_of(row, "model"), text_of(row, "quantity"), 1e3 * number_of(row, "seconds"),
-           number_of(row, "ours"), number_of(row, "ours_min"), number_of(row, "ours_max"), bound, text_of(row, "verdict"), share);
+    if (brc_row_number(row, "share_in_100_steps") > 0) snprintf(share, sizeof share, "%.2f", 100 * brc_row_number(row, "share_in_100_steps"));
+    if (!isnan(brc_row_number(row, "bound"))) snprintf(bound, sizeof bound, "%.2f", brc_row_number(row, "bound"));
+    printf("%-15s %-52s %9.3f %8.3f (%.3f-%.3f) %6s %-8s %8s\n", brc_row_text(row, "model"), brc_row_text(row, "quantity"), 1e3 * brc_row_number(row, "seconds"),
+           brc_row_number(row, "ours"), brc_row_number(row, "ours_min"), brc_row_number(row, "ours_max"), bound, brc_row_text(row, "verdict"), share);
     fflush(stdout);
     return brc_rows_write(rows, self);
 }
 
 static brc_status run_effects(const brc_session *session, const brc_arguments *arguments)
 {
-    static const char *const others[] = {"problems", "quick", "folder", "resume", "exact", "copy"};
+    static const char *const others[] = {"problems", "quick", "folder", "resume", "exact", "copy", "elements", "steps"};
     brc_context *context = session->context;
     const char *given_folder = brc_arguments_value(arguments, "output"), *pieces[BRC_THROUGHPUT_LIST];
     char folder[512], copy[5][256];
@@ -241,15 +232,29 @@ static brc_status run_effects(const brc_session *session, const brc_arguments *a
     return status;
 }
 
+static brc_status run_peers(const brc_session *session, const brc_arguments *arguments)
+{
+    static const char *const others[] = {"sizes", "models", "devices", "precisions", "exact", "sample", "copy", "problems", "quick", "folder", "resume"};
+    brc_context *context = session->context;
+    double elements = 2e4, steps = 200, threads = 1;
+    BRC_TRY(refuse_options(context, arguments, "peers", sizeof others / sizeof *others, others));
+    const char *output = brc_arguments_value(arguments, "output");
+    if (brc_arguments_value(arguments, "elements")) BRC_TRY(take_number(context, "elements", brc_arguments_value(arguments, "elements"), 200, 1e8, &elements));
+    if (brc_arguments_value(arguments, "steps")) BRC_TRY(take_number(context, "steps", brc_arguments_value(arguments, "steps"), 1, 1e9, &steps));
+    if (brc_arguments_value(arguments, "threads")) BRC_TRY(take_number(context, "threads", brc_arguments_value(arguments, "threads"), 1, 4096, &threads));
+    return brc_bench_peers(context, output ? output : "results/peers", (int64_t)elements, (int64_t)steps, (int)threads);
+}
+
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
 {
-    static const char *const others[] = {"problems", "quick", "folder", "resume"};
+    static const char *const others[] = {"problems", "quick", "folder", "resume", "elements", "steps"};
     brc_context *context = session->context;
+    if (strcmp(arguments->positional[0], "peers") == 0) return run_peers(session, arguments);
     if (strcmp(arguments->positional[0], "accuracy") == 0) return run_accuracy(session, arguments);
     if (strcmp(arguments->positional[0], "contact") == 0) return run_contact(session, arguments);
     if (strcmp(arguments->positional[0], "effects") == 0) return run_effects(session, arguments);
     if (strcmp(arguments->positional[0], "throughput") != 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects", arguments->positional[0]);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects, peers", arguments->positional[0]);
     BRC_TRY(refuse_options(context, arguments, "throughput", sizeof others / sizeof *others, others));
     const char *given_folder = brc_arguments_value(arguments, "output");
     char folder[512], here[256], copy[4][256], devices[256];
@@ -297,11 +302,12 @@ const brc_command brc_command_bench = {.name = "bench",
                                        .operands = "KIND",
                                        .least = 1,
                                        .most = 1,
-                                       .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy, contact or other effects cost",
-                                       .details = "KIND: throughput, accuracy, contact or effects. Noisy-grid cubes; packings with ten beams an element for cbm. Lists are separated by commas; every combination is measured. "
+                                       .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy, contact or other effects cost, or what other programs take",
+                                       .details = "KIND: throughput, accuracy, contact, effects or peers. Noisy-grid cubes; packings with ten beams an element for cbm. Lists are separated by commas; every combination is measured. "
                                                   "accuracy: problems with exact answers, error against seconds (one device, one number of threads). "
                                                   "contact: the step with nothing near, of a ball gone to dust, and of dust pressed together, over the step without contact (default 3e4 elements). "
-                                                  "effects: fracture and others as multiples of the elastic step of a cube (one size, device, precision, number of threads).",
+                                                  "effects: fracture and others as multiples of the elastic step of a cube (one size, device, precision, number of threads). "
+                                                  "peers: the same packing in breccia and in YADE and LAMMPS, where they are on PATH (one number of threads).",
                                        .options = options,
                                        .n_options = sizeof options / sizeof *options,
                                        .run = run};
