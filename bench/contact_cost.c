@@ -2,6 +2,7 @@
 #include "contact_cost.h"
 #include "../host/base/log.h"
 #include "../host/base/memory.h"
+#include "../host/base/random.h"
 #include "../host/scene/scene_reader.h"
 #include "../host/solver/fracture.h"
 #include "../host/solver/simulation.h"
@@ -24,12 +25,13 @@ enum { ROUNDS = 5 };
     "stages:\n  - name: run\n    solver: {dynamic: {steps: 1000000000}}\n    initial:\n" \
     "      - velocity: {gradient: {x: [1e-2 1/s, 2e-3 1/s, 0], y: [0, -3e-3 1/s, 1e-3 1/s], z: [1e-3 1/s, 0, 5e-3 1/s]}}\n" \
     "      - random: {amplitude: [0.1 mm/s, 0.1 mm/s, 0.1 mm/s], seed: 1}\n"
-/* A tenth of the wave speed at the ball's surface, and a hundredth in all directions. */
+/* A tenth of the wave speed at the ball's surface: every bond is pulled past its strength by the first step. */
 #define BURST \
     "stages:\n  - name: run\n    solver: {dynamic: {steps: 1000000000}}\n    initial:\n" \
-    "      - velocity: {gradient: {x: [550 1/s, 0, 0], y: [0, 550 1/s, 0], z: [0, 0, 550 1/s]}}\n" \
-    "      - random: {amplitude: [55 m/s, 55 m/s, 55 m/s], seed: 1}\n"
+    "      - velocity: {gradient: {x: [550 1/s, 0, 0], y: [0, 550 1/s, 0], z: [0, 0, 550 1/s]}}\n"
 static const double growth_rate = 550; /* [1/s] as above */
+/* A hundredth of the wave speed in all directions [m/s], from when the cells have come off each other: by then the ball has grown to 1 + stirred_at. */
+static const double stirring = 55, stirred_at = 0.25, dispersed_at = 1;
 
 typedef struct side {
     brc_scene *scene;
@@ -180,6 +182,33 @@ static brc_status burst(brc_context *context, side *dust, const brc_domain *doma
     return BRC_OK;
 }
 
+static brc_status fly(side *dust, double growth)
+{
+    while (growth_rate * brc_simulation_time(dust->simulation) < growth) BRC_TRY(brc_simulation_advance(dust->simulation, 16));
+    return BRC_OK;
+}
+
+/* The cells of the burst ball meet each other at random until it has grown to twice its size. */
+static brc_status disperse(brc_context *context, side *dust, const brc_domain *domain)
+{
+    double *velocity = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY(burst(context, dust, domain));
+    BRC_TRY(fly(dust, stirred_at));
+    BRC_TRY(BRC_ALLOCATE(context, &velocity, 3 * domain->n_elements, "velocities"));
+    BRC_TRY_OR(cleanup, brc_simulation_velocity(dust->simulation, velocity));
+    for (int64_t e = 0; e < domain->n_elements; ++e) {
+        double u[4];
+        brc_random_uniform4(1, BRC_RANDOM_INITIAL_FIELD, (uint64_t)e, 0, u);
+        for (int c = 0; c < 3; ++c) velocity[3 * e + c] += stirring * (2 * u[c] - 1);
+    }
+    BRC_TRY_OR(cleanup, brc_simulation_set_state(dust->simulation, NULL, velocity));
+    status = fly(dust, dispersed_at);
+cleanup:
+    brc_memory_free(velocity);
+    return status;
+}
+
 /* Every cell flies back to the middle; half of it on, so that the pressed ball stays pressed for a while. */
 static brc_status press(brc_context *context, side *dust, const brc_domain *domain)
 {
@@ -193,51 +222,78 @@ static brc_status press(brc_context *context, side *dust, const brc_domain *doma
     return status;
 }
 
-static brc_status measure_dust(brc_context *context, const brc_contact_cost_request *r, brc_rows *rows)
+#define WHOLE_BALL HEAD "model: dlsm\n" BALL SHAKEN TAIL
+#define BROKEN_BALL HEAD "model: dlsm\n" BALL TOUCH "fracture: {criterion: bond-normal}\n" BURST TAIL
+
+/* How many pairs touch, before and after what is done between two calls. */
+static brc_status look(side *dust, double *touching)
 {
-    side intact = {0}, dust = {0};
-    brc_domain *domain = NULL;
+    brc_touching now;
+    BRC_TRY(brc_simulation_touching(dust->simulation, &now));
+    *touching += 0.5 * now.pairs;
+    return BRC_OK;
+}
+
+static brc_status measure_dispersed(brc_context *context, const brc_contact_cost_request *r, const brc_domain *domain, side *intact, brc_rows *rows)
+{
+    side dust = {0};
+    double touching = 0;
     turns t;
-    brc_touching first, last;
     brc_status status = BRC_OK;
-    const char *whole = HEAD "model: dlsm\n" BALL SHAKEN TAIL, *broken = HEAD "model: dlsm\n" BALL TOUCH "fracture: {criterion: bond-normal}\n" BURST TAIL;
-    BRC_TRY_OR(cleanup, build(context, whole, r->elements, false, &domain));
-    BRC_TRY_OR(cleanup, open_side(context, r, whole, domain, &intact));
-    BRC_TRY_OR(cleanup, open_side(context, r, broken, domain, &dust));
-    BRC_TRY_OR(cleanup, burst(context, &dust, domain));
-    while (growth_rate * brc_simulation_time(dust.simulation) < 1) BRC_TRY_OR(cleanup, brc_simulation_advance(dust.simulation, 16));
-    BRC_TRY_OR(cleanup, brc_simulation_touching(dust.simulation, &first));
-    BRC_TRY_OR(cleanup, take_turns(r, &intact, &dust, &t));
-    BRC_TRY_OR(cleanup, brc_simulation_touching(dust.simulation, &last));
+    BRC_TRY_OR(cleanup, open_side(context, r, BROKEN_BALL, domain, &dust));
+    BRC_TRY_OR(cleanup, disperse(context, &dust, domain));
+    BRC_TRY_OR(cleanup, look(&dust, &touching));
+    BRC_TRY_OR(cleanup, take_turns(r, intact, &dust, &t));
+    BRC_TRY_OR(cleanup, look(&dust, &touching));
     begin_row(r, "dust", "dlsm", "-", 3, domain, rows);
     brc_rows_number(rows, "ours", t.ratio[ROUNDS / 2]);
-    brc_rows_number(rows, "touching", 0.5 * (first.pairs + last.pairs));
+    brc_rows_number(rows, "touching", touching);
     brc_rows_number(rows, "grown", 1 + growth_rate * brc_simulation_time(dust.simulation));
-    BRC_TRY_OR(cleanup, end_row(r, &t, rows));
+    status = end_row(r, &t, rows);
+cleanup:
     close_side(&dust);
-    BRC_TRY_OR(cleanup, open_side(context, r, broken, domain, &dust));
+    return status;
+}
+
+static brc_status measure_dense(brc_context *context, const brc_contact_cost_request *r, const brc_domain *domain, side *intact, brc_rows *rows)
+{
+    side dust = {0};
+    double touching = 0;
+    turns t;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, open_side(context, r, BROKEN_BALL, domain, &dust));
     BRC_TRY_OR(cleanup, burst(context, &dust, domain));
     BRC_TRY_OR(cleanup, press(context, &dust, domain));
-    BRC_TRY_OR(cleanup, brc_simulation_touching(dust.simulation, &first));
-    BRC_TRY_OR(cleanup, take_turns(r, &intact, &dust, &t));
-    BRC_TRY_OR(cleanup, brc_simulation_touching(dust.simulation, &last));
-    const double touching = 0.5 * (first.pairs + last.pairs);
+    BRC_TRY_OR(cleanup, look(&dust, &touching));
+    BRC_TRY_OR(cleanup, take_turns(r, intact, &dust, &t));
+    BRC_TRY_OR(cleanup, look(&dust, &touching));
     begin_row(r, "dense", "dlsm", "us", NAN, domain, rows);
     brc_rows_number(rows, "ours", 1e6 * (t.b[ROUNDS / 2] - t.a[ROUNDS / 2]) / touching);
     brc_rows_number(rows, "touching", touching);
-    BRC_TRY_OR(cleanup, end_row(r, &t, rows));
+    status = end_row(r, &t, rows);
+cleanup:
+    close_side(&dust);
+    return status;
+}
+
+static brc_status measure_dust(brc_context *context, const brc_contact_cost_request *r, brc_rows *rows)
+{
+    side intact = {0};
+    brc_domain *domain = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, build(context, WHOLE_BALL, r->elements, false, &domain));
+    BRC_TRY_OR(cleanup, open_side(context, r, WHOLE_BALL, domain, &intact));
+    if (r->dust) BRC_TRY_OR(cleanup, measure_dispersed(context, r, domain, &intact, rows));
+    if (r->dense) BRC_TRY_OR(cleanup, measure_dense(context, r, domain, &intact, rows));
 cleanup:
     close_side(&intact);
-    close_side(&dust);
     brc_domain_free(&domain);
     return status;
 }
 
 brc_status brc_contact_cost_measure(brc_context *context, const brc_contact_cost_request *request, brc_rows *rows)
 {
-    if (request->cells) {
-        BRC_TRY(measure_nothing_near(context, request, false, rows));
-        BRC_TRY(measure_dust(context, request, rows));
-    }
-    return request->spheres ? measure_nothing_near(context, request, true, rows) : BRC_OK;
+    if (request->cells && request->nothing_near) BRC_TRY(measure_nothing_near(context, request, false, rows));
+    if (request->cells && (request->dust || request->dense)) BRC_TRY(measure_dust(context, request, rows));
+    return request->spheres && request->nothing_near ? measure_nothing_near(context, request, true, rows) : BRC_OK;
 }

@@ -1,12 +1,13 @@
 /* Forces of touching pairs: each pair once, one work-item; results are gathered by element in the order of its entries (contact_search.cl).
  * history [n_pairs][CONTACT_HISTORY]: 0 stretch of the tangential spring; 3, 6 the point of contact of the last step in either body's own frame
  * [m]; 9 overlap (spheres: depth [m], below 0 apart; cells: volume [m^3]) and 10 its rate; 11 force of the dashpot; 12 touching, 13 sliding, 14
- * looked at before; 15 cells apart: 1 + the face of i that last stood between them, or minus that of j; 16 what rounding makes of the slip of those points where nothing moves [m].
- * result [n_pairs][CONTACT_RESULT + 2 width]: 6 touching, and then only: 0 force on i [N]; 3 energy held, 4 lost to friction, 5 to the dashpot in this step [J]; 7
- * normal force [N]; 8 depth [m]; then width numbers for i and for j: torque (width 3), or dW/dH in the frame of the reference (width 9).
+ * looked at before, 2: and at rest apart (contact_rests); 15 cells apart: 1 + the face of i that last stood between them, or minus that of j; 16 what rounding makes of the slip of those
+ * points where nothing moves [m], or of a pair at rest apart a direction and, 19, how far along it the two reach.
+ * touch [n_pairs]: 1 for pairs that touch; and of these only result [n_pairs][CONTACT_RESULT + 2 width]: 0 force on i [N]; 3 energy held, 4 lost to friction, 5 to the dashpot in this
+ * step [J]; 6 normal force [N]; 7 depth [m]; then width numbers for i and for j: torque (width 3), or dW/dH in the frame of the reference (width 9).
  * law [n_materials][n_materials][6]: contact_law. */
 
-#define CONTACT_RESULT 9
+#define CONTACT_RESULT 8
 
 LAW contact_law contact_law_of(GLOBAL const state *restrict law, int n_materials, int i, int j)
 {
@@ -59,7 +60,7 @@ KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_line
                             GLOBAL const int *restrict id, GLOBAL const state *restrict mass, GLOBAL const int *restrict material,
                             GLOBAL const int *restrict body, GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind,
                             GLOBAL const state *restrict piece_radius, GLOBAL const state *restrict striker_pose, GLOBAL const state *restrict law,
-                            GLOBAL state *restrict history, GLOBAL state *restrict result)
+                            GLOBAL state *restrict history, GLOBAL int *restrict touch, GLOBAL state *restrict result)
 {
     FOR_EACH_ITEM(item, n_items) {
         const int p = whole ? item : todo[item];
@@ -101,7 +102,7 @@ KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_line
         const state depth = meet.depth;
         const int looked = past[14] > 0, touching = depth > 0;
         if (!touching && dt > 0) contact_apart(past, depth, 0);
-        out[6] = 0;
+        touch[p] = touching;
         if (touching) {
             const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
             const state heavy = mass[j] > 0 ? mass[i] * mass[j] / (mass[i] + mass[j]) : mass[i];
@@ -119,9 +120,8 @@ KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_line
             out[3] = normal.energy + STATE(0.5) * normal.sticking * svec3_dot(stick.stretch, stick.stretch);
             out[4] = dt > 0 ? stick.lost : STATE(0);
             out[5] = dt > 0 && looked ? STATE(0.5) * (past[11] + viscous) * (depth - past[9]) : STATE(0);
-            out[6] = 1;
-            out[7] = normal.force + viscous;
-            out[8] = depth;
+            out[6] = normal.force + viscous;
+            out[7] = depth;
             svec3_store(out, CONTACT_RESULT, svec3_cross(meet.arm_i, force));
             svec3_store(out, CONTACT_RESULT + 3, svec3_scale(STATE(-1), svec3_cross(meet.arm_j, force)));
             if (dt > 0) {
@@ -144,7 +144,7 @@ KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_line
 /* Elements that turn: force += sign times those of contact, torque likewise; kick: velocities lose kick f / m, spins likewise (a pair that is new in the middle of a
  * step must not act on the step that ended). book 1: what was lost in the step is added up. stored [n] [J]. */
 KERNEL void contact_gather_turning(int n_busy, state sign, state kick, int book, GLOBAL const int *restrict busy, GLOBAL const int *restrict list, GLOBAL const int *restrict start,
-                                   GLOBAL const int *restrict used, GLOBAL const int *restrict pair, GLOBAL const state *restrict result,
+                                   GLOBAL const int *restrict used, GLOBAL const int *restrict pair, GLOBAL const int *restrict touch, GLOBAL const state *restrict result,
                                    GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia, GLOBAL state *restrict force,
                                    GLOBAL state *restrict torque, GLOBAL state *restrict velocity, GLOBAL state *restrict spin,
                                    GLOBAL state *restrict stored, GLOBAL state *restrict lost_friction, GLOBAL state *restrict lost_impact)
@@ -154,11 +154,11 @@ KERNEL void contact_gather_turning(int n_busy, state sign, state kick, int book,
         svec3 push = {0, 0, 0}, turn = {0, 0, 0};
         state held = 0, rubbed = 0, damped = 0;
         for (int at = start[k]; at < start[k] + used[k]; ++at) {
-            const int owner = pair[at] >= 0;
-            GLOBAL const state *restrict one = result + (brc_size)(owner ? pair[at] : -1 - pair[at]) * (CONTACT_RESULT + 6);
-            if (!(one[6] > 0)) continue;
+            const int owner = pair[at] >= 0, p = owner ? pair[at] : -1 - pair[at];
+            GLOBAL const state *restrict one = result + (brc_size)p * (CONTACT_RESULT + 6);
+            if (!touch[p]) continue;
             push = svec3_add_scaled(push, owner ? STATE(1) : STATE(-1), svec3_load(one, 0));
-            turn = svec3_add(turn, svec3_load(one, owner ? 9 : 12));
+            turn = svec3_add(turn, svec3_load(one, owner ? CONTACT_RESULT : CONTACT_RESULT + 3));
             if (owner) {
                 held += one[3];
                 rubbed += one[4];

@@ -1,5 +1,6 @@
 /* Cells of dlsm that have lost all their bonds: rigid bodies about their places, where their mass is. momentum: of turning [n][3]; turned: quaternions since the reference
- * [n][4]; inertia: of the polyhedron about its mass centre xx yy zz yz xz xy [n][6]; rigid [n]: 1, else 0. */
+ * [n][4]; inertia: of the polyhedron about its mass centre xx yy zz yz xz xy [n][6]; rigid [n]: 1, else 0; way [n]: the sum over the steps of how far turning can have moved any point
+ * of the cell, no less [m] (contact_rests). reach [n]: radius about the place that holds the cell [m]. */
 
 /* The rotation nearest to I + H, by Newton's iteration R <- (R + R^-T) / 2; unity where there is none. */
 LAW smat3 contact_polar(smat3 f)
@@ -56,17 +57,26 @@ LAW ssym3 ssym3_load(GLOBAL const state *restrict p, int e)
     return (ssym3){q[0], q[1], q[2], q[3], q[4], q[5]};
 }
 
+/* How far a turn from one rotation to another moves a point at distance 1, no less than that beside rounding [-]: the chord, 2 sin of half the angle. */
+LAW state contact_chord(squat from, squat to)
+{
+    const squat turn = squat_mul(rigid_back(from), to);
+    return STATE(2.000002) * SQRT_STATE(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z) + STATE(8) * convex_rounding();
+}
+
 /* momentum += kick torque, then free turning for drift with what extra torque adds (advance_rotation, rigid.h). */
 KERNEL void contact_turn(int n, state kick, state drift, state extra, GLOBAL const int *restrict rigid, GLOBAL const state *restrict inertia,
-                         GLOBAL const state *restrict torque, GLOBAL state *restrict momentum, GLOBAL state *restrict turned)
+                         GLOBAL const state *restrict torque, GLOBAL const state *restrict reach, GLOBAL state *restrict momentum, GLOBAL state *restrict turned,
+                         GLOBAL state *restrict way)
 {
     FOR_EACH_ITEM(e, n) {
         if (rigid[e]) {
             const svec3 t = svec3_load(torque, (brc_size)e * 3), l = svec3_add_scaled(svec3_load(momentum, (brc_size)e * 3), kick, t);
             svec3_store(momentum, (brc_size)e * 3, l);
             if (drift != 0) {
-                const squat q = rigid_drift(squat_load(turned, e), ssym3_load(inertia, e), svec3_add_scaled(l, extra / drift, t), drift);
+                const squat was = squat_load(turned, e), q = rigid_drift(was, ssym3_load(inertia, e), svec3_add_scaled(l, extra / drift, t), drift);
                 GLOBAL state *restrict to = turned + (brc_size)e * 4;
+                way[e] += reach[e] * contact_chord(was, q) + STATE(2) * convex_rounding() * way[e]; /* and no less for the rounding of the sum */
                 to[0] = q.w, to[1] = q.x, to[2] = q.y, to[3] = q.z;
             }
         }

@@ -331,23 +331,29 @@ KERNEL void contact_other_pairs(int m, GLOBAL const int *restrict list, GLOBAL c
     }
 }
 
-/* What pairs remember goes over from the lists before, and with a stride above 0 the result of the last evaluation too (contact.cl; 6: touching, or nothing else counts); new pairs have
+/* The results of pairs that touch, one after the other: at [n_pairs + 1] running sums of touch. */
+KERNEL void contact_pack(int n_pairs, int stride, GLOBAL const int *restrict touch, GLOBAL const int *restrict at, GLOBAL const state *restrict result, GLOBAL state *restrict packed)
+{
+    FOR_EACH_ITEM(p, n_pairs) {
+        for (int c = 0; touch[p] && c < stride; ++c) packed[(brc_size)at[p] * (brc_size)stride + (brc_size)c] = result[(brc_size)p * (brc_size)stride + (brc_size)c];
+    }
+}
+
+/* What pairs remember goes over from the lists before, and with a stride above 0 the result of the last evaluation too (contact.cl), as contact_pack left it; new pairs have
  * touched nothing. history [n_pairs][CONTACT_HISTORY], result [n_pairs][stride]. */
 KERNEL void contact_carry(int n_pairs, int had, int stride, GLOBAL const int *restrict ends, GLOBAL const int *restrict old_slot_of,
                           GLOBAL const int *restrict old_start, GLOBAL const int *restrict old_used, GLOBAL const int *restrict old_entry,
-                          GLOBAL const int *restrict old_pair, GLOBAL const state *restrict old_history, GLOBAL const state *restrict old_result,
-                          GLOBAL state *restrict history, GLOBAL state *restrict result)
+                          GLOBAL const int *restrict old_pair, GLOBAL const state *restrict old_history, GLOBAL const int *restrict packed_at,
+                          GLOBAL const state *restrict packed, GLOBAL state *restrict history, GLOBAL int *restrict touch, GLOBAL state *restrict result)
 {
     FOR_EACH_ITEM(p, n_pairs) {
         const int before = had ? contact_pair_of(ends[2 * (brc_size)p], ends[2 * (brc_size)p + 1], old_slot_of, old_start, old_used, old_entry, old_pair) : -1;
         for (int c = 0; c < CONTACT_HISTORY; ++c)
             history[(brc_size)p * CONTACT_HISTORY + c] = before >= 0 ? old_history[(brc_size)before * CONTACT_HISTORY + c] : STATE(0);
-        if (stride > 0) {
-            GLOBAL const state *restrict from = old_result + (brc_size)(before >= 0 ? before : 0) * (brc_size)stride;
-            GLOBAL state *restrict to = result + (brc_size)p * (brc_size)stride;
-            const int touching = before >= 0 && from[6] > 0;
-            to[6] = 0;
-            for (int c = 0; touching && c < stride; ++c) to[c] = from[c];
+        touch[p] = stride > 0 && before >= 0 && packed_at[before + 1] > packed_at[before];
+        if (touch[p]) {
+            GLOBAL const state *restrict from = packed + (brc_size)packed_at[before] * (brc_size)stride;
+            for (int c = 0; c < stride; ++c) result[(brc_size)p * (brc_size)stride + (brc_size)c] = from[c];
         }
     }
 }

@@ -94,6 +94,7 @@
     X(contact_busy)                                                                                                    \
     X(contact_own_pairs)                                                                                               \
     X(contact_other_pairs)                                                                                             \
+    X(contact_pack)                                                                                                    \
     X(contact_carry)                                                                                                   \
     X(contact_spheres)                                                                                                 \
     X(contact_gather_turning)                                                                                          \

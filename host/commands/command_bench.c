@@ -20,7 +20,7 @@ static const brc_option options[] = {
     BRC_OPTION_EXACT,
     {"sample", 0, "SECONDS", false, "least time of each of the five samples (default 0.5; effects: 0.2)"},
     {"copy", 0, "MB", false, "array of the copy that gives the bandwidth (default 256)"},
-    {"problems", 0, "LIST", false, "accuracy: which problems (default all; `--problems list` names them)"},
+    {"problems", 0, "LIST", false, "accuracy: which problems (default all; `--problems list` names them); contact: of nothing-near, dust, dense (default all)"},
     {"quick", 'q', NULL, false, "accuracy: only the runs small enough for continuous integration"},
     {"folder", 'f', "DIR", false, "accuracy: read the problems from DIR/accuracy instead of from the program"},
     {"resume", 'r', NULL, false, "accuracy: go on with the points that the output folder has"},
@@ -133,11 +133,11 @@ static brc_status print_contact(void *self, const brc_rows *rows)
 
 static brc_status run_contact(const brc_session *session, const brc_arguments *arguments)
 {
-    static const char *const others[] = {"precisions", "exact", "copy", "problems", "quick", "folder", "resume", "elements", "steps"};
+    static const char *const others[] = {"precisions", "exact", "copy", "quick", "folder", "resume", "elements", "steps"};
     brc_context *context = session->context;
-    char copy[4][256], folder[512];
-    const char *device[BRC_THROUGHPUT_LIST], *size[BRC_THROUGHPUT_LIST], *model[BRC_THROUGHPUT_LIST], *count[BRC_THROUGHPUT_LIST];
-    int n_devices = 0, n_sizes = 0, n_models = 0, n_counts = 0;
+    char copy[5][256], folder[512];
+    const char *device[BRC_THROUGHPUT_LIST], *size[BRC_THROUGHPUT_LIST], *model[BRC_THROUGHPUT_LIST], *count[BRC_THROUGHPUT_LIST], *row[BRC_THROUGHPUT_LIST];
+    int n_devices = 0, n_sizes = 0, n_models = 0, n_counts = 0, n_rows = 0;
     double number;
     BRC_TRY(refuse_options(context, arguments, "contact", sizeof others / sizeof *others, others));
     const char *given = brc_arguments_value(arguments, "output");
@@ -156,6 +156,13 @@ static brc_status run_contact(const brc_session *session, const brc_arguments *a
         if (!cells && !spheres) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench contact: no model '%s', expected dlsm or cbm", model[k]);
         request.cells |= cells;
         request.spheres |= spheres;
+    }
+    BRC_TRY(take_list(context, arguments, "problems", "nothing-near,dust,dense", copy[4], sizeof copy[4], row, &n_rows));
+    for (int k = 0; k < n_rows; ++k) {
+        bool *const wanted = strcmp(row[k], "nothing-near") == 0 ? &request.nothing_near : strcmp(row[k], "dust") == 0 ? &request.dust
+                             : strcmp(row[k], "dense") == 0 ? &request.dense : NULL;
+        if (!wanted) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench contact: no problem '%s', expected nothing-near, dust or dense", row[k]);
+        *wanted = true;
     }
     if (brc_arguments_value(arguments, "sample")) BRC_TRY(take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600, &request.sample_s));
     brc_rows rows = {.context = context};

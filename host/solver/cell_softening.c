@@ -1,6 +1,7 @@
 #include "cell_softening.h"
 #include "beam_softening.h"
 #include "cell_breaks_internal.h"
+#include "contact.h"
 #include <math.h>
 
 /* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open (docs/fracture.md). */
@@ -24,7 +25,8 @@ struct brc_softening_faces {
     brc_buffer *n_open, *reach, *shear;  /* [n_rows] */
     brc_ring_list around;                /* cells with open faces, for the sweeps */
     bool any;                            /* some face has opened */
-    bool is_listed;                      /* around is of the faces that are open now */
+    bool is_listed;                      /* around is of the faces that are open now, and, with contact, of the pairs there are */
+    int64_t lists;                       /* brc_contact_lists of these */
 };
 typedef struct brc_softening_faces softening_faces;
 
@@ -211,14 +213,30 @@ static brc_status sweep(brc_simulation *s, int k)
                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->flux), BRC_BUF(s->bond_part));
 }
 
+/* Cells with open faces, whose fluxes are wanted, and around them those whose stresses, and those whose gradients go into them; what touches one of them presses on it as its own
+ * gradient says. */
+static brc_status list_around(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    brc_rings *rings = s->fracture->cells->rings;
+    if (f->is_listed && f->lists == brc_contact_lists(s)) return BRC_OK;
+    BRC_TRY(brc_rings_seed(s, rings, f->n_open));
+    BRC_TRY(brc_contact_list_around(s, rings->touched));
+    BRC_TRY(brc_rings_spread(s, rings, 1, 2));
+    BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
+    f->is_listed = true;
+    f->lists = brc_contact_lists(s);
+    return brc_rings_close(s, rings, &f->around);
+}
+
 brc_status brc_softening_move(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
     if (!f || !f->any) return BRC_OK;
-    if (!f->is_listed) BRC_TRY(brc_rings_around(s, s->fracture->cells->rings, f->n_open, 2, &f->around));
-    f->is_listed = true;
+    const bool whole = brc_contact_is_due(s);
+    if (!whole) BRC_TRY(list_around(s));
     for (int k = 0; k < N_SWEEPS; ++k) { /* between sweeps only the openings change */
-        BRC_TRY(brc_force_fluxes_of_state(s, s->contact ? NULL : &f->around, k == 0));
+        BRC_TRY(brc_force_fluxes_of_state(s, whole ? NULL : &f->around, k == 0));
         BRC_TRY(sweep(s, k));
     }
     return BRC_OK;

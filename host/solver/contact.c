@@ -68,7 +68,7 @@ int64_t brc_contact_bytes(const brc_scene *scene, const brc_domain *d, int64_t n
     /* A face is a plane with its place in the list of loops; by Euler's formula the loops of V corners and F faces have 2 (V + F - 2) numbers. */
     const int64_t corners = d->vertex_start[d->n_elements], faces = d->n_half_edges + d->n_free_faces, loops = 2 * (corners + faces - 2 * d->n_elements);
     const bool rigid = scene->has_fracture && scene->model.kind == BRC_MODEL_DLSM;
-    return entries * 4 + rows + lists + corners * 3 * state_bytes + faces * (4 * state_bytes + 4) + loops * 4 + n * (2 * 4 + 10 * state_bytes + (rigid ? 16 * state_bytes : 0));
+    return entries * 4 + rows + lists + corners * 3 * state_bytes + faces * (4 * state_bytes + 4) + loops * 4 + n * (2 * 4 + 10 * state_bytes + (rigid ? 17 * state_bytes : 0));
 }
 
 /* ---- when to look ---- */
@@ -156,13 +156,13 @@ brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool brok
                           BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_BUF(c->reach), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start),
                           BRC_BUF(c->loop), BRC_BUF(c->radius), BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->id), BRC_BUF(c->mass),
                           BRC_BUF(c->material), BRC_BUF(c->body), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_radius),
-                          BRC_BUF(striker_pose(s)), BRC_BUF(c->law), BRC_BUF(l->history), BRC_BUF(c->result));
+                          BRC_BUF(striker_pose(s)), BRC_BUF(c->law), BRC_BUF(l->history), BRC_BUF(c->touch), BRC_BUF(c->result));
     return BRC_LAUNCH(c->kernel.cells, n_items, BRC_INT(n_items), BRC_INT(whole ? 1 : 0), BRC_INT(broke ? 1 : 0), BRC_STATE(dt), BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_INT(n_materials),
                       BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]), BRC_BUF(c->todo), BRC_BUF(l->ends), BRC_BUF(c->place),
                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->orientation), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start),
                       BRC_BUF(c->loop), BRC_BUF(c->radius), BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->id), BRC_BUF(c->size_of),
                       BRC_BUF(c->mass), BRC_BUF(c->material), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(striker_pose(s)), BRC_BUF(c->law),
-                      BRC_BUF(l->history), BRC_BUF(c->result));
+                      BRC_BUF(c->rigid), BRC_BUF(c->way), BRC_BUF(l->history), BRC_BUF(c->touch), BRC_BUF(c->result));
 }
 
 static brc_status gather_turning(brc_simulation *s, double sign, double kick, int book, brc_buffer *force, brc_buffer *torque)
@@ -170,7 +170,7 @@ static brc_status gather_turning(brc_simulation *s, double sign, double kick, in
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
     return BRC_LAUNCH(c->kernel.gather_turning, l->n_busy, BRC_INT(l->n_busy), BRC_STATE(sign), BRC_STATE(kick), BRC_INT(book), BRC_BUF(l->busy), BRC_BUF(l->list),
-                      BRC_BUF(l->start), BRC_BUF(l->used), BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(s->mass), BRC_BUF(s->inertia), BRC_BUF(force),
+                      BRC_BUF(l->start), BRC_BUF(l->used), BRC_BUF(l->pair), BRC_BUF(c->touch), BRC_BUF(c->result), BRC_BUF(s->mass), BRC_BUF(s->inertia), BRC_BUF(force),
                       BRC_BUF(torque), BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(c->stored), BRC_BUF(c->lost_friction), BRC_BUF(c->lost_impact));
 }
 
@@ -183,12 +183,12 @@ static brc_status load_strikers(brc_simulation *s)
     const int32_t n = s->strikers->n, n_blocks = (l->n_pairs + BRC_CONTACT_PAIRS - 1) / BRC_CONTACT_PAIRS;
     BRC_TRY(BRC_LAUNCH(c->kernel.striker_parts, n * n_blocks, BRC_INT(n * n_blocks), BRC_INT(n_blocks), BRC_INT(l->n_pairs), BRC_INT(s->layout->n_rows),
                        BRC_INT(BRC_CONTACT_RESULT + 2 * c->width), BRC_INT(BRC_CONTACT_RESULT + c->width), BRC_BUF(l->ends), BRC_BUF(c->piece_striker),
-                       BRC_BUF(c->result), BRC_BUF(c->part)));
+                       BRC_BUF(c->touch), BRC_BUF(c->result), BRC_BUF(c->part)));
     return BRC_LAUNCH(c->kernel.striker_load, n, BRC_INT(n), BRC_INT(n_blocks), BRC_BUF(c->part), BRC_BUF(s->strikers->load));
 }
 
-/* Around breaks the pairs that these may have changed, else all. */
-static bool all_pairs(const brc_force_request *r) { return !r->rings || r->rings->whole_force; }
+/* Around breaks the pairs that these may have changed, in sweeps of openings those of the cells that open, else all. */
+static bool all_pairs(const brc_force_request *r) { return !r->listed_pairs && (!r->rings || r->rings->whole_force); }
 
 /* The step that the evaluation ends; 0: the state is evaluated again. */
 static double step_of(const brc_simulation *s, const brc_force_request *r) { return r->book == BRC_BOOK_WORK ? s->time_step.value : 0; }
@@ -200,7 +200,7 @@ brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
     const int book = r->book == BRC_BOOK_WORK;
     BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
     return BRC_LAUNCH(c->kernel.gather_moments, l->n_busy, BRC_INT(l->n_busy), BRC_INT(book), BRC_BUF(l->busy), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
-                      BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(s->boundary), BRC_BUF(c->rigid), BRC_BUF(s->gradient), BRC_BUF(s->held_moment),
+                      BRC_BUF(l->pair), BRC_BUF(c->touch), BRC_BUF(c->result), BRC_BUF(s->boundary), BRC_BUF(c->rigid), BRC_BUF(s->gradient), BRC_BUF(s->held_moment),
                       BRC_BUF(c->torque), BRC_BUF(c->stored), BRC_BUF(c->lost_friction), BRC_BUF(c->lost_impact));
 }
 
@@ -210,7 +210,7 @@ brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
     const brc_contact_list *l = &c->now;
     if (c->affine)
         BRC_TRY(BRC_LAUNCH(c->kernel.gather_forces, l->n_busy, BRC_INT(l->n_busy), BRC_BUF(l->busy), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
-                           BRC_BUF(l->pair), BRC_BUF(c->result), BRC_BUF(r->force)));
+                           BRC_BUF(l->pair), BRC_BUF(c->touch), BRC_BUF(c->result), BRC_BUF(r->force)));
     else {
         BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
         BRC_TRY(gather_turning(s, 1, 0, r->book == BRC_BOOK_WORK, r->force, r->torque));

@@ -39,6 +39,11 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick);
 brc_status brc_contact_settle(brc_simulation *s);
 /* Cells, after that: elements of pairs that the breaks may have changed are given the level `to` where they have none (rings.h). */
 brc_status brc_contact_spread(brc_simulation *s, brc_buffer *level, int32_t to);
+/* dlsm, sweeps of openings: a search is due, so that the next evaluation is one of all elements. */
+bool brc_contact_is_due(const brc_simulation *s);
+/* The pairs of touched [n_rows] elements, for requests of listed_pairs, and for brc_contact_spread; they hold until the number of lists that were made is another one. */
+brc_status brc_contact_list_around(brc_simulation *s, brc_buffer *touched);
+int64_t brc_contact_lists(const brc_simulation *s);
 /* Rigid cells: momentum of turning gains kick times torque, then they turn for a time of drift [s]; extra as the kernel advance_rotation. */
 brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double extra);
 

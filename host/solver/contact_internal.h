@@ -4,7 +4,7 @@
 
 #include "contact.h"
 
-enum { BRC_CONTACT_HISTORY = 20, BRC_CONTACT_RESULT = 9, BRC_CONTACT_LAW = 6, BRC_CONTACT_PAIRS = 256 }; /* as in kernels/contact_search.cl, contact.cl */
+enum { BRC_CONTACT_HISTORY = 20, BRC_CONTACT_RESULT = 8, BRC_CONTACT_LAW = 6, BRC_CONTACT_PAIRS = 256 }; /* as in kernels/contact_search.cl, contact.cl */
 enum { BRC_CONTACT_BLOCK = 256, BRC_CONTACT_PART = 16, BRC_CONTACT_DRIFT = 14, BRC_CONTACT_MOVED = 6 };                     /* as in kernels/contact_motion.cl */
 
 /* Which pairs there are (kernels/contact_search.cl); kept twice, so that pairs find what they remember. */
@@ -16,7 +16,7 @@ typedef struct brc_contact_list {
 
 struct brc_contact_state {
     struct {
-        brc_kernel *extent, *largest, *drift, *drift_mean, *moved, *expose, *list, *keys, *buckets, *again, *kept, *keep, *changed, *spread, *count, *fill, *busy, *own_pairs, *other_pairs, *carry;
+        brc_kernel *extent, *largest, *drift, *drift_mean, *moved, *expose, *list, *keys, *buckets, *again, *kept, *keep, *changed, *spread, *count, *fill, *busy, *own_pairs, *other_pairs, *pack, *carry;
         brc_kernel *scan_sums, *scan_tops, *scan_fill, *sort_count, *sort_move;
         brc_kernel *spheres, *gather_turning, *marked;
         brc_kernel *cells, *gather_moments, *gather_forces, *striker_parts, *striker_load, *pieces, *pieces_moved;
@@ -40,7 +40,7 @@ struct brc_contact_state {
     /* rigid cells of dlsm (contact_rigid.c) */
     bool detaches;
     double n_rigid;
-    brc_buffer *rigid, *inertia, *turned, *momentum, *torque;
+    brc_buffer *rigid, *inertia, *turned, *momentum, *torque, *way;
     struct brc_ring_list *bonded; /* where most cells have none: those that still have bonds, and some that lost theirs since */
     brc_buffer *stored, *lost_friction, *lost_impact;
     brc_buffer *law; /* [n_materials][n_materials][BRC_CONTACT_LAW] */
@@ -52,15 +52,17 @@ struct brc_contact_state {
     brc_buffer *again, *redo;  /* of listed elements */
     brc_contact_list now, before;
     int64_t quiet;   /* steps for which nothing can have moved far enough */
-    int64_t searches;
+    int64_t searches, lists; /* searches of all; lists that were made, those of breaks too */
     bool due;        /* dlsm: look for pairs as soon as the gradients of this evaluation are there */
     /* pairs */
-    brc_buffer *result, *result_before; /* of the pairs of now and, in bodies that break, of before */
-    int64_t result_room, result_before_room;
+    brc_buffer *touch, *result; /* of pairs */
+    int64_t result_room;
+    brc_buffer *packed, *packed_at; /* in bodies that break: results of those pairs of the list before that touched, on their way to the one of now */
+    int64_t packed_room, packed_at_room;
     brc_buffer *flag, *flag_start, *todo; /* of pairs; todo: those that the last breaks may have changed */
-    int64_t todo_room;
+    int64_t todo_room, sums_room;
     int32_t n_todo;
-    bool always_whole; /* for comparison: look for all pairs after breaks */
+    bool always_whole; /* for comparison: look for all pairs after breaks, and let openings follow by evaluations of all */
     double born;     /* energy that surfaces held when their bond broke [J] */
 };
 

@@ -31,6 +31,7 @@ brc_status brc_contact_rigid_create(brc_simulation *s)
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, c->turned, upright, 4, 0));
     BRC_TRY_OR(cleanup, brc_new_state(s, &c->momentum, 3 * n, "momenta of cells"));
     BRC_TRY_OR(cleanup, brc_new_state(s, &c->torque, 3 * n, "torques on cells"));
+    BRC_TRY_OR(cleanup, brc_new_state(s, &c->way, n, "turning of cells"));
 cleanup:
     brc_memory_free(inertia);
     brc_memory_free(upright);
@@ -40,7 +41,7 @@ cleanup:
 void brc_contact_rigid_free(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    brc_buffer **all[] = {&c->rigid, &c->inertia, &c->turned, &c->momentum, &c->torque};
+    brc_buffer **all[] = {&c->rigid, &c->inertia, &c->turned, &c->momentum, &c->torque, &c->way};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     if (c->bonded) brc_buffer_free(&c->bonded->list);
     brc_memory_free(c->bonded);
@@ -84,7 +85,7 @@ brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double
     const int32_t n = s->layout->n_rows;
     if (!c || !(c->n_rigid > 0) || !s->scene->contact.rotation) return BRC_OK;
     return BRC_LAUNCH(c->kernel.turn, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(extra), BRC_BUF(c->rigid), BRC_BUF(c->inertia),
-                      BRC_BUF(c->torque), BRC_BUF(c->momentum), BRC_BUF(c->turned));
+                      BRC_BUF(c->torque), BRC_BUF(c->reach), BRC_BUF(c->momentum), BRC_BUF(c->turned), BRC_BUF(c->way));
 }
 
 brc_status brc_contact_spin_energy(brc_simulation *s, double *out)

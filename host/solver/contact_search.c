@@ -48,7 +48,7 @@ brc_status brc_contact_search_create(brc_simulation *s)
                   {&c->kernel.expose, "contact_expose"}, {&c->kernel.list, "contact_list"}, {&c->kernel.keys, "contact_keys"},
                   {&c->kernel.buckets, "contact_buckets"}, {&c->kernel.again, "contact_again"}, {&c->kernel.kept, "contact_kept"}, {&c->kernel.keep, "contact_keep"},
                   {&c->kernel.changed, "contact_changed"}, {&c->kernel.spread, "contact_spread"}, {&c->kernel.count, "contact_count"}, {&c->kernel.fill, "contact_fill"},
-                  {&c->kernel.own_pairs, "contact_own_pairs"}, {&c->kernel.other_pairs, "contact_other_pairs"}, {&c->kernel.carry, "contact_carry"},
+                  {&c->kernel.own_pairs, "contact_own_pairs"}, {&c->kernel.other_pairs, "contact_other_pairs"}, {&c->kernel.pack, "contact_pack"}, {&c->kernel.carry, "contact_carry"},
                   {&c->kernel.scan_sums, "scan_sums"}, {&c->kernel.scan_tops, "scan_tops"}, {&c->kernel.scan_fill, "scan_fill"},
                   {&c->kernel.pieces, "contact_pieces"}, {&c->kernel.pieces_moved, "contact_pieces_moved"}, {&c->kernel.sort_count, "sort_count"}, {&c->kernel.sort_move, "sort_move"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
@@ -77,7 +77,7 @@ void brc_contact_search_free(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     brc_buffer **all[] = {&c->built, &c->posed, &c->clear, &c->moved, &c->drift_part, &c->drift, &c->sums, &c->key[0], &c->key[1], &c->row[0], &c->row[1], &c->digits, &c->first, &c->last, &c->count, &c->owned, &c->pair_start,
-                          &c->seen, &c->fresh, &c->again, &c->redo, &c->flag, &c->flag_start, &c->todo, &c->result, &c->result_before};
+                          &c->seen, &c->fresh, &c->again, &c->redo, &c->flag, &c->flag_start, &c->todo, &c->touch, &c->result, &c->packed, &c->packed_at};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     free_list(&c->now);
     free_list(&c->before);
@@ -218,16 +218,10 @@ static brc_status room_for_entries(brc_simulation *s, brc_contact_list *l, int64
     BRC_TRY(new_ints(s, &l->entry, l->entry_room, "pairs of elements"));
     return new_ints(s, &l->pair, l->entry_room, "pairs of elements");
 }
-static brc_status room_for_results(brc_simulation *s, brc_buffer **result, int64_t *has, int64_t n)
-{
-    const brc_contact_state *c = s->contact;
-    if (*result && n <= *has) return BRC_OK;
-    *has = n + n / 4;
-    brc_buffer_free(result);
-    return brc_new_state(s, result, (BRC_CONTACT_RESULT + 2 * c->width) * *has, "forces of pairs");
-}
-/* carried: results go over from the list before. */
-static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t n, bool carried)
+/* Numbers of a result. */
+static int32_t stride_of(const brc_contact_state *c) { return BRC_CONTACT_RESULT + 2 * c->width; }
+
+static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t n)
 {
     brc_contact_state *c = s->contact;
     if (!l->ends || n > l->pair_room) {
@@ -244,13 +238,42 @@ static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t
             BRC_TRY(brc_new_state(s, &c->part, parts, "forces on strikers"));
         }
     }
-    if (carried) {
-        brc_buffer *const result = c->result;
-        const int64_t room = c->result_room;
-        c->result = c->result_before, c->result_room = c->result_before_room;
-        c->result_before = result, c->result_before_room = room;
+    if (c->result && n <= c->result_room) return BRC_OK;
+    c->result_room = n + n / 4;
+    BRC_TRY(new_ints(s, &c->touch, c->result_room, "pairs that touch"));
+    brc_buffer_free(&c->result);
+    return brc_new_state(s, &c->result, stride_of(c) * c->result_room, "forces of pairs");
+}
+
+/* Running sums over n pairs. */
+static brc_status room_for_sums(brc_simulation *s, int64_t n)
+{
+    brc_contact_state *c = s->contact;
+    if (n <= c->sums_room) return BRC_OK;
+    c->sums_room = n + n / 4;
+    brc_buffer_free(&c->sums);
+    return new_ints(s, &c->sums, most_blocks(s, c->sums_room) + 1, "running sums");
+}
+
+/* Results of the list before are on their way: those of pairs that touched, since the others hold nothing. */
+static brc_status pack_results(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int64_t n = c->before.n_pairs;
+    int64_t n_touching;
+    if (n == 0) return BRC_OK;
+    BRC_TRY(room_for_sums(s, n));
+    if (n > c->packed_at_room) {
+        c->packed_at_room = n + n / 4;
+        BRC_TRY(new_ints(s, &c->packed_at, c->packed_at_room + 1, "pairs that touch"));
     }
-    return room_for_results(s, &c->result, &c->result_room, n);
+    BRC_TRY(scan(s, c->touch, n, c->packed_at, &n_touching));
+    if (!c->packed || n_touching > c->packed_room) {
+        c->packed_room = n_touching + n_touching / 4 + 1;
+        brc_buffer_free(&c->packed);
+        BRC_TRY(brc_new_state(s, &c->packed, stride_of(c) * c->packed_room, "forces of pairs that touch"));
+    }
+    return BRC_LAUNCH(c->kernel.pack, n, BRC_INT(n), BRC_INT(stride_of(c)), BRC_BUF(c->touch), BRC_BUF(c->packed_at), BRC_BUF(c->result), BRC_BUF(c->packed));
 }
 
 /* Exposed elements in the list to be made. */
@@ -323,7 +346,8 @@ static brc_status number_pairs(brc_simulation *s, bool carried)
     const int32_t m = l->n_listed;
     int64_t n_pairs;
     BRC_TRY(scan(s, c->owned, m, c->pair_start, &n_pairs));
-    BRC_TRY(room_for_pairs(s, l, n_pairs, carried));
+    if (carried) BRC_TRY(pack_results(s));
+    BRC_TRY(room_for_pairs(s, l, n_pairs));
     l->n_pairs = (int32_t)n_pairs;
     BRC_TRY(BRC_LAUNCH(c->kernel.own_pairs, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used), BRC_BUF(l->entry), BRC_BUF(c->id),
                        BRC_BUF(c->pair_start), BRC_BUF(l->pair), BRC_BUF(l->ends)));
@@ -336,9 +360,9 @@ static brc_status number_pairs(brc_simulation *s, bool carried)
     l->n_busy = (int32_t)n_busy;
     const brc_contact_list *old = &c->before;
     const bool had = old->n_pairs > 0;
-    return BRC_LAUNCH(c->kernel.carry, n_pairs, BRC_INT(n_pairs), BRC_INT(had ? 1 : 0), BRC_INT(carried ? BRC_CONTACT_RESULT + 2 * c->width : 0), BRC_BUF(l->ends),
-                      BRC_BUF(old->slot_of), BRC_BUF(old->start), BRC_BUF(old->used), BRC_BUF(old->entry), BRC_BUF(old->pair), BRC_BUF(old->history),
-                      BRC_BUF(carried ? c->result_before : NULL), BRC_BUF(l->history), BRC_BUF(c->result));
+    return BRC_LAUNCH(c->kernel.carry, n_pairs, BRC_INT(n_pairs), BRC_INT(had ? 1 : 0), BRC_INT(carried ? stride_of(c) : 0), BRC_BUF(l->ends), BRC_BUF(old->slot_of),
+                      BRC_BUF(old->start), BRC_BUF(old->used), BRC_BUF(old->entry), BRC_BUF(old->pair), BRC_BUF(old->history), BRC_BUF(c->packed_at), BRC_BUF(c->packed),
+                      BRC_BUF(l->history), BRC_BUF(c->touch), BRC_BUF(c->result));
 }
 
 /* whole: all is looked for; carried: results of pairs go over. */
@@ -350,6 +374,7 @@ static brc_status make_list(brc_simulation *s, bool whole, bool carried)
     c->before = last;
     c->now.n_listed = c->now.n_pairs = c->now.n_busy = 0;
     c->n_todo = 0;
+    c->lists += 1;
     BRC_TRY(list_exposed(s));
     if (c->now.n_listed == 0) return BRC_OK;
     BRC_TRY(find_entries(s, whole));
@@ -358,21 +383,21 @@ static brc_status make_list(brc_simulation *s, bool whole, bool carried)
 
 brc_status brc_contact_list_again(brc_simulation *s) { return make_list(s, true, false); }
 
-/* The pairs that breaks may have changed. */
+/* The pairs of elements that lost bonds or are touched. */
 static brc_status find_changed(brc_simulation *s, brc_buffer *touched)
 {
     brc_contact_state *c = s->contact;
     int64_t n_todo;
     const int64_t n_pairs = c->now.n_pairs;
+    c->n_todo = 0;
     if (n_pairs == 0) return BRC_OK;
     if (n_pairs > c->todo_room) {
         c->todo_room = n_pairs + n_pairs / 4;
         BRC_TRY(new_ints(s, &c->flag, c->todo_room, "changed pairs"));
         BRC_TRY(new_ints(s, &c->flag_start, c->todo_room + 1, "changed pairs"));
         BRC_TRY(new_ints(s, &c->todo, c->todo_room, "changed pairs"));
-        brc_buffer_free(&c->sums);
-        BRC_TRY(new_ints(s, &c->sums, most_blocks(s, c->todo_room) + 1, "running sums"));
     }
+    BRC_TRY(room_for_sums(s, n_pairs));
     BRC_TRY(BRC_LAUNCH(c->kernel.changed, n_pairs, BRC_INT(n_pairs), BRC_INT(s->layout->n_rows), BRC_BUF(c->now.ends), BRC_BUF(c->fresh), BRC_BUF(touched), BRC_BUF(c->flag)));
     BRC_TRY(scan(s, c->flag, n_pairs, c->flag_start, &n_todo));
     BRC_TRY(BRC_LAUNCH(c->kernel.busy, n_pairs, BRC_INT(n_pairs), BRC_BUF(c->flag), BRC_BUF(c->flag_start), BRC_BUF(c->todo)));
@@ -385,6 +410,10 @@ brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched)
     BRC_TRY(make_list(s, false, true));
     return find_changed(s, touched);
 }
+
+bool brc_contact_is_due(const brc_simulation *s) { return s->contact && (s->contact->due || s->contact->always_whole); }
+int64_t brc_contact_lists(const brc_simulation *s) { return s->contact ? s->contact->lists : 0; }
+brc_status brc_contact_list_around(brc_simulation *s, brc_buffer *touched) { return s->contact ? find_changed(s, touched) : BRC_OK; }
 
 brc_status brc_contact_spread(brc_simulation *s, brc_buffer *level, int32_t to)
 {

@@ -255,7 +255,8 @@ brc_status brc_force_around_breaks(brc_simulation *s, const brc_rings *rings)
 
 brc_status brc_force_fluxes_of_state(brc_simulation *s, const brc_ring_list *list, bool moved)
 {
-    const brc_force_request request = request_of_state(s, BRC_BOOK_NOTHING);
+    brc_force_request request = request_of_state(s, BRC_BOOK_NOTHING);
+    request.listed_pairs = list != NULL;
     const dlsm_extent x = {.list = list, .gradient = moved ? 2 : 0, .stress = 1, .flux = 0};
     return dlsm_fluxes(s, &request, &x);
 }

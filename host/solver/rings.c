@@ -82,12 +82,10 @@ brc_status brc_rings_close(brc_simulation *s, brc_rings *r, brc_ring_list *out) 
 
 brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out) { return make_list(s, r, TOUCHED, out); }
 
-brc_status brc_rings_around(brc_simulation *s, brc_rings *r, brc_buffer *number, int n_rings, brc_ring_list *out)
+brc_status brc_rings_seed(brc_simulation *s, brc_rings *r, brc_buffer *number)
 {
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_LAUNCH(r->seed, n, BRC_INT(n), BRC_INT(1), BRC_BUF(number), BRC_BUF(r->touched)));
-    BRC_TRY(brc_rings_spread(s, r, 1, n_rings));
-    return brc_rings_close(s, r, out);
+    return BRC_LAUNCH(r->seed, n, BRC_INT(n), BRC_INT(1), BRC_BUF(number), BRC_BUF(r->touched));
 }
 
 brc_status brc_rings_without(brc_simulation *s, brc_rings *r, brc_buffer *number, brc_ring_list *out)

@@ -40,8 +40,8 @@ brc_status brc_rings_touched(brc_simulation *s, brc_rings *rings, brc_ring_list 
 brc_status brc_rings_spread(brc_simulation *s, brc_rings *rings, int first, int last);
 /* All that were touched and the rings that were spread around them; nothing is touched afterwards. */
 brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, brc_ring_list *out);
-/* The same around elements whose number is above 0. */
-brc_status brc_rings_around(brc_simulation *s, brc_rings *rings, brc_buffer *number, int n_rings, brc_ring_list *out);
+/* Elements whose number is above 0 are touched, and no others. */
+brc_status brc_rings_seed(brc_simulation *s, brc_rings *rings, brc_buffer *number);
 /* Elements whose number is not above 0, in every ring. */
 brc_status brc_rings_without(brc_simulation *s, brc_rings *rings, brc_buffer *number, brc_ring_list *out);
 

@@ -262,6 +262,7 @@ typedef struct brc_force_request {
     brc_booking book; /* work of loads: leave, add, or start from here */
     double t;         /* time of the stage, for tractions */
     const struct brc_rings *rings; /* cells: only what the bonds that broke in this step change; NULL: everything */
+    bool listed_pairs; /* dlsm: of the pairs of surfaces those of brc_contact_list_around alone */
 } brc_force_request;
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *request);
 /* dlsm-published: force and torque of tractions, added to those of the request; part of brc_force_evaluate but for homogeneous requests. */

@@ -87,6 +87,7 @@ brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store)
         {"contact.rigid", c->rigid, BRC_ROWS, BRC_OF_INT, 1, NULL},
         {"contact.turned", c->turned, BRC_ROWS, BRC_OF_STATE, 4, NULL},
         {"contact.momentum", c->momentum, BRC_ROWS, BRC_OF_STATE, 3, NULL},
+        {"contact.way", c->way, BRC_ROWS, BRC_OF_STATE, 1, NULL},
         {"contact.friction", c->lost_friction, BRC_ROWS, BRC_OF_STATE, 1, NULL},
         {"contact.impact", c->lost_impact, BRC_ROWS, BRC_OF_STATE, 1, NULL},
         /* of dlsm the look at how far surfaces have moved reads the gradients of the step before */
