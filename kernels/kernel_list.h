@@ -117,6 +117,7 @@
     X(contact_striker_parts)                                                                                           \
     X(contact_striker_load)                                                                                            \
     X(contact_detach)                                                                                                  \
+    X(contact_no_bonds)                                                                                                \
     X(contact_pose)                                                                                                    \
     X(contact_turn)                                                                                                    \
     X(contact_spin_energy)                                                                                             \

@@ -162,13 +162,14 @@ static void another_format_is_refused_and_another_program_goes_on(void **state)
     brc_log_set_level(test_context, BRC_LOG_ERROR);
     assert_int_equal(brc_checkpoint_scene(test_context, scene, &yaml), BRC_OK);
     assert_int_equal(mkdir(test_path(folder, "checkpoints"), 0777), 0);
-    write_identity(test_path(folder, "checkpoints/000003.h5"), 1, yaml);
+    write_identity(test_path(folder, "checkpoints/000003.h5"), BRC_CHECKPOINT_FORMAT_VERSION, yaml);
     assert_int_equal(brc_checkpoints_create(test_context, folder, scene, true, &found), BRC_OK);
     assert_non_null(strstr(brc_checkpoints_report(found).from, "checkpoints/000003.h5"));
     brc_checkpoints_free(&found);
     write_identity(test_path(folder, "checkpoints/000004.h5"), BRC_CHECKPOINT_FORMAT_VERSION + 1, yaml);
     assert_int_equal(brc_checkpoints_create(test_context, folder, scene, true, &found), BRC_BAD_INPUT);
-    says("000004.h5: is a checkpoint of format 2, this program reads 1");
+    snprintf(text, sizeof text, "000004.h5: is a checkpoint of format %d, this program reads %d", BRC_CHECKPOINT_FORMAT_VERSION + 1, BRC_CHECKPOINT_FORMAT_VERSION);
+    says(text);
     assert_null(found);
     brc_memory_free(yaml);
     brc_scene_free(&scene);
@@ -192,7 +193,7 @@ static void a_scene_that_differs_is_refused_with_the_key(void **state)
         brc_scene *scene = test_scene(text);
         assert_int_equal(brc_checkpoint_scene(test_context, other, &yaml), BRC_OK);
         if (k == 0) assert_int_equal(mkdir(test_path(folder, "checkpoints"), 0777), 0);
-        write_identity(test_path(folder, "checkpoints/000000.h5"), 1, yaml);
+        write_identity(test_path(folder, "checkpoints/000000.h5"), BRC_CHECKPOINT_FORMAT_VERSION, yaml);
         assert_int_equal(brc_checkpoints_create(test_context, folder, scene, true, &found), BRC_BAD_INPUT);
         says(changed[k].says);
         brc_memory_free(yaml);
