@@ -176,7 +176,7 @@ static void take_last_line(char *text, char *out, size_t size)
 {
     char *rest = NULL;
     for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest))
-        if (line[strspn(line, " \t^")]) snprintf(out, size, "%.*s", (int)size - 1, line);
+        if (line[strspn(line, " \t^-")]) snprintf(out, size, "%.*s", (int)size - 1, line);
 }
 
 brc_status brc_peer_run(brc_context *context, const brc_peer *peer, const brc_peer_request *request, brc_peer_result *out)
