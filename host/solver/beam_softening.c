@@ -2,8 +2,6 @@
 #include "bond_area.h"
 #include <math.h>
 
-/* A crack costs its area along its opening: what a beam costs by its |cos| to that, which is not taken below this, so that one that only slides keeps a cost. */
-static const double steepest = 0.5;
 /* E G_c / sigma_f^2 below this many diameters: the crack is not resolved. */
 static const double least_diameters = 4;
 
@@ -160,7 +158,7 @@ brc_status brc_beam_softening_move(brc_simulation *s)
     const beam_softening *f = softening_of(s);
     if (!f) return BRC_OK;
     const brc_beam *beam = brc_beam_of_element(s, 0);
-    return BRC_LAUNCH(f->move, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(steepest), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->twin),
+    return BRC_LAUNCH(f->move, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->twin),
                       BRC_BUF(f->lead), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(beam->axial),
                       BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack));
 }
@@ -171,7 +169,7 @@ brc_status brc_beam_softening_begin(brc_simulation *s, int32_t moment)
     const brc_breaking *b = s->fracture;
     if (!f) return BRC_OK;
     const brc_beam *beam = brc_beam_of_element(s, 0);
-    BRC_TRY(BRC_LAUNCH(f->begin, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_COEFF(steepest), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+    BRC_TRY(BRC_LAUNCH(f->begin, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(f->twin), BRC_BUF(f->lead), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation),
                        BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_BUF(b->mark), BRC_BUF(b->choice),
                        BRC_BUF(b->measure), BRC_BUF(f->touched), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(b->factor)));
