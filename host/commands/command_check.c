@@ -10,6 +10,7 @@
 #include "../base/memory.h"
 #include "../scene/scene_reader.h"
 #include "../solver/strikers.h"
+#include "../solver/touching.h"
 
 static const brc_option options[] = {
     BRC_OPTION_DEVICE,
@@ -104,6 +105,10 @@ static void print_setup(const brc_setup *setup, brc_precision precision)
     print_strikers(a);
     printf("memory: %.4g MB on the device (%.0f bytes an element), %.4g MB on the host so far\n", bytes / 1e6,
            bytes / (double)brc_setup_n_elements(setup), (double)brc_memory_peak() / 1e6);
+    for (int32_t k = 0; k < a->n; ++k) {
+        const double each = (double)brc_simulation_pair_bytes(a->part[k]), bonds = (double)setup->domain[k]->n_bonds;
+        if (each > 0) printf("        and at most %.0f bytes for each pair of surfaces near each other: %.4g MB for as many as there are bonds\n", each, each * bonds / 1e6);
+    }
 }
 
 /* A line for each kernel that was launched, and for each array. */

@@ -1,5 +1,6 @@
 /* Rigid cells that are apart rest until they may have met (kernels/contact_cells.cl, contact_rests), and openings follow by the pairs of the cells that open
  * (host/solver/cell_softening.c): neither changes what comes out. Cells of E 1 Pa and density 1 kg/m^3 (contact_case.h). */
+#include "../../host/solver/touching.h"
 #include "contact_case.h"
 #include <math.h>
 #include <stdlib.h>
@@ -143,12 +144,35 @@ static void openings_follow_by_the_pairs_around_them_as_by_all(void **state)
     free(listed), free(whole);
 }
 
+/* Arrays of pairs as they are after breaks; they grow by a quarter at once, from what pairs there were, and results on their way are of those that touch, few here: a third at least. */
+static void pairs_take_no_more_than_is_said(void **state)
+{
+    (void)state;
+    bench_case c;
+    int64_t most = 0, bytes = 0;
+    open_case(&c, options_of(0));
+    begin_first(&c);
+    const brc_contact_state *contact = c.simulation->contact;
+    for (int k = 0; k < 25; ++k) {
+        run_steps(&c, 16);
+        most = contact->now.n_pairs > most ? contact->now.n_pairs : most;
+    }
+    const brc_buffer *all[] = {contact->now.ends, contact->now.history, contact->before.ends, contact->before.history, contact->touch, contact->result, contact->packed,
+                               contact->packed_at, contact->flag, contact->flag_start, contact->todo};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) bytes += all[k] ? brc_buffer_bytes(all[k]) : 0;
+    const int64_t said = brc_simulation_pair_bytes(c.simulation) * most;
+    print_message("%lld pairs at most: %lld bytes of %lld\n", (long long)most, (long long)bytes, (long long)said);
+    assert_true(bytes > 0 && bytes <= said && 3 * bytes > said);
+    close_case(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_at_rest_change_no_bit_of_the_motion),
         cmocka_unit_test(most_pairs_of_dispersed_dust_rest),
         cmocka_unit_test(openings_follow_by_the_pairs_around_them_as_by_all),
+        cmocka_unit_test(pairs_take_no_more_than_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
