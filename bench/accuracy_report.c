@@ -169,7 +169,7 @@ static void add_front_data(const brc_accuracy_study *s, int32_t q, brc_text *tex
 
 static brc_status draw(brc_context *context, const brc_accuracy_study *s, int32_t q, const char *folder)
 {
-    enum { TITLES = 14 };
+    enum { TITLES = 40 }; /* as many as the picture is high */
     const brc_accuracy_point *question = s->questions[q].point;
     brc_text script = {.context = context};
     char *path = NULL, *aside = NULL, name[64], file[96];
@@ -179,7 +179,7 @@ static brc_status draw(brc_context *context, const brc_accuracy_study *s, int32_
     snprintf(file, sizeof file, isnan(question->nu) ? "%s.png" : "%s_%g.png", question->problem, question->nu);
     BRC_TRY_OR(cleanup, brc_file_join(context, folder, file, &path));
     BRC_TRY_OR(cleanup, brc_file_aside(context, path, &aside));
-    brc_gnuplot_begin(&script, 1100, 800, aside);
+    brc_gnuplot_begin(&script, 1300, 760, aside);
     add_front_data(s, q, &script);
     for (int32_t r = 0; r < s->n_series; ++r) {
         if (s->series[r].question != q) continue;
@@ -190,7 +190,7 @@ static brc_status draw(brc_context *context, const brc_accuracy_study *s, int32_
     }
     brc_text_add(&script, "set logscale xy\nset format x '10^{%%L}'\nset format y '%%g'\nset title '%s: %s' noenhanced\nset xlabel 'seconds of one thread (%s)' offset 0,0.6\nset ylabel 'error [%%]'\n",
                  question_name(question, name, sizeof name), question->quantity, question->cost_of);
-    brc_text_add(&script, "set key outside bottom center maxcols 3 width -2 font ',11' noenhanced\nplot $front using 1:2 with steps linewidth 5 linecolor rgb '#dddddd' title 'Pareto front'");
+    brc_text_add(&script, "set key outside right top maxcols 1 samplen 2 spacing 0.9 font ',11' noenhanced\nplot $front using 1:2 with steps linewidth 5 linecolor rgb '#dddddd' title 'Pareto front'");
     for (int32_t r = 0; r < s->n_series; ++r) {
         if (s->series[r].question != q) continue;
         char what[256];
