@@ -12,7 +12,6 @@
 #include "../solver/stage_end.h"
 #include <math.h>
 
-static const double stage_s = 4; /* of a stage at most */
 enum { BATCH = 64 };
 
 typedef struct watch {
@@ -20,8 +19,8 @@ typedef struct watch {
     const brc_setup *setup;
     brc_patience patience;
     double begin;
-    bool whole, cut;
-    const brc_trial *trial; /* NULL: how much slower it gets is not wanted */
+    bool cut;
+    const brc_coarse_request *asked;
     brc_coarse *out;
     double first, part;  /* clock at the first pause of the stage, and once as large a part of its steps was done as in the trial; 0: not yet */
     int64_t first_step, part_step;
@@ -42,7 +41,7 @@ static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t st
 static bool is_over(void *self)
 {
     const watch *w = self;
-    return brc_pace_clock_s(w->request) - w->begin > stage_s;
+    return brc_pace_clock_s(w->request) - w->begin > w->asked->stage_s;
 }
 
 /* Broken bonds over all. */
@@ -70,8 +69,8 @@ static brc_status look(watch *w, brc_simulation *simulation)
     if (w->first == 0) {
         w->first = now;
         w->first_step = step;
-    } else if (w->part == 0 && (double)step * (double)w->trial->stages[stage].planned >=
-                                   (double)w->trial->stages[stage].done * (double)brc_simulation_planned_steps(simulation, stage, brc_simulation_time_step(simulation).value)) {
+    } else if (w->part == 0 && (double)step * (double)w->asked->trial->stages[stage].planned >=
+                                   (double)w->asked->trial->stages[stage].done * (double)brc_simulation_planned_steps(simulation, stage, brc_simulation_time_step(simulation).value)) {
         w->part = now;
         w->part_step = step;
     }
@@ -84,9 +83,10 @@ static brc_status look(watch *w, brc_simulation *simulation)
 static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
 {
     watch *w = self;
-    if (w->trial && brc_simulation_scene(simulation)->stages[brc_simulation_stage(simulation)].solver == BRC_SOLVER_DYNAMIC) BRC_TRY(look(w, simulation));
-    if (why != BRC_PAUSE_GOING || (w->whole && !is_over(w))) return BRC_OK;
+    if (w->asked->trial && brc_simulation_scene(simulation)->stages[brc_simulation_stage(simulation)].solver == BRC_SOLVER_DYNAMIC) BRC_TRY(look(w, simulation));
+    if (why != BRC_PAUSE_GOING || (w->asked->whole && !is_over(w))) return BRC_OK;
     w->cut = true;
+    w->out->out_of_time |= w->asked->whole;
     brc_simulation_end_stage(simulation, "trial"); /* increments go on */
     return BRC_OK;
 }
@@ -107,6 +107,7 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t stag
     if (w->first > 0) w->out->done[stage] = (double)step / (double)brc_simulation_planned_steps(simulation, stage, brc_simulation_time_step(simulation).value);
     if (left_off) w->out->iterations[stage] = 0;
     w->cut |= left_off;
+    w->out->out_of_time |= left_off;
     return BRC_OK;
 }
 
@@ -143,13 +144,13 @@ cleanup:
     return status;
 }
 
-static brc_status run(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_trial *trial, bool whole, brc_coarse *out)
+static brc_status run(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_coarse_request *asked, brc_coarse *out)
 {
     brc_setup setup = {0};
     brc_status status = BRC_OK;
     char folder[BRC_SCRATCH];
-    watch w = {.request = request, .setup = &setup, .trial = trial, .whole = whole, .out = out};
-    w.patience = (brc_patience){.self = &w, .over = is_over, .batch = whole ? BATCH : 1};
+    watch w = {.request = request, .setup = &setup, .asked = asked, .out = out};
+    w.patience = (brc_patience){.self = &w, .over = is_over, .batch = asked->whole ? BATCH : 1};
     BRC_TRY_OR(cleanup, brc_setup_domains(context, scene, NULL, request->n_threads, &setup));
     BRC_TRY_OR(cleanup, brc_setup_polish(context, request->n_threads, &setup));
     BRC_TRY_OR(cleanup, brc_setup_simulations(context, request, &setup));
@@ -157,14 +158,14 @@ static brc_status run(brc_context *context, brc_scene *scene, const brc_device_r
     out->n_elements = brc_setup_n_elements(&setup);
     BRC_TRY_OR(cleanup, brc_simulation_observe(setup.simulation[0], &(brc_observer){.self = &w, .stage_begin = stage_begin, .pause = paused, .stage_end = stage_end}));
     for (int32_t k = 0; k < setup.n; ++k) brc_simulation_set_patience(setup.simulation[k], &w.patience);
-    if (whole) {
+    if (asked->whole) {
         BRC_TRY_OR(cleanup, brc_scratch_create(context, folder));
         status = run_recorded(context, &w, folder, out);
         brc_scratch_remove(context, folder);
     } else {
         status = brc_lockstep_run(setup.n, setup.simulation);
     }
-    if (status == BRC_OK && trial && !w.cut) {
+    if (status == BRC_OK && asked->trial && !w.cut) {
         BRC_TRY_OR(cleanup, broken_share(&setup, &out->broken));
         out->broken_mean = w.n_pauses > 0 ? w.broken_sum / (double)w.n_pauses : out->broken;
         if (w.device_first > 0) out->grown = (double)w.device_most / (double)w.device_first;
@@ -176,23 +177,23 @@ cleanup:
 }
 
 /* Every fill of the scene made coarser, unless one cannot be. */
-static brc_status run_coarser(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_trial *trial, double share, uint64_t seed, bool whole, brc_coarse *out)
+static brc_status run_coarser(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_coarse_request *asked, brc_coarse *out)
 {
     brc_fill *kept = NULL;
     bool can = true;
     BRC_TRY(BRC_ALLOCATE(context, &kept, scene->n_bodies, "fills"));
     for (int32_t b = 0; b < scene->n_bodies; ++b) {
         kept[b] = scene->bodies[b].fill;
-        can &= !scene->bodies[b].domain_file[0] && coarsen(&scene->bodies[b].fill, share, seed);
+        can &= asked->share == 1 || (!scene->bodies[b].domain_file[0] && coarsen(&scene->bodies[b].fill, asked->share, asked->seed));
     }
     /* What a coarser body cannot do is no failure: then there is nothing to learn from it. */
-    if (can && run(context, scene, request, trial, whole, out) != BRC_OK) brc_context_clear(context);
+    if (can && run(context, scene, request, asked, out) != BRC_OK) brc_context_clear(context);
     for (int32_t b = 0; b < scene->n_bodies; ++b) scene->bodies[b].fill = kept[b];
     brc_memory_free(kept);
     return BRC_OK;
 }
 
-brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_trial *trial, double share, uint64_t seed, bool whole, brc_coarse *out)
+brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_coarse_request *asked, brc_coarse *out)
 {
     const brc_log_level level = brc_log_get_level(context);
     const brc_output output = scene->output;
@@ -207,7 +208,7 @@ brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_de
     scene->output.picture = false;
     scene->output.curve_x[0] = '\0';
     brc_log_set_level(context, BRC_LOG_ERROR);
-    const brc_status status = run_coarser(context, scene, request, trial, share, seed, whole, out);
+    const brc_status status = run_coarser(context, scene, request, asked, out);
     brc_log_set_level(context, level);
     scene->output = output;
     return status;

@@ -159,7 +159,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     if (brc_arguments_value(arguments, "effects")) print_parts(&setup);
     brc_setup_free_simulations(&setup); /* a coarser body may need the room */
     BRC_TRY_OR(cleanup, brc_price_tell_trial(context, scene, &setup, &request, &trial, before_s, &total));
-    BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &setup, &request, &trial, total, &own));
+    BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &setup, &request, &trial, &own));
     BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, &setup, precision, total, &own));
 cleanup:
     brc_price_error_free(&own);

@@ -246,6 +246,9 @@ brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene,
     for (int32_t k = 0; own->worst >= 0 && k < scene->n_measures; ++k)
         if (!isnan(own->error[k]))
             printf("error of measure '%s': about %.2g %% (from the same scene with about %lld elements)\n", scene->measures[k].name, 100 * own->error[k], (long long)own->least_elements);
+    if (own->worst >= 0 && own->volumes > finest_class) printf("of that %.2g %%: volumes of the materials, whose boundaries run along cells\n", 100 * own->volumes);
+    if (own->out_of_time)
+        printf("measures were not compared with those of fewer elements: a stage of these was not over after %.0f s (another machine may tell another class)\n", brc_price_error_stage_s);
     if (!j.known) {
         printf("error class: not known, no curve of model %s was measured (docs/accuracy.md)\n", brc_model_name(setup->split->part[0].scene->model.kind));
         return BRC_OK;

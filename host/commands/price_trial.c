@@ -1,11 +1,12 @@
 /* From what parts of a run cost to what all of it will. */
 #include "price_trial.h"
 #include "pace.h"
+#include "price_work.h"
 #include <math.h>
 #include <stdio.h>
 
-/* Solves that could not be counted on a coarser body: iterations in units of elements across, a rule of thumb; examples took 0.5 to 2.4 times as many. */
-static const double iterations_across = 5, solves_per_finite_increment = 3, thumb_least = 0.5, thumb_most = 2.5;
+/* Solves that could not be counted on a coarser body: examples took 0.5 to 2.4 times as many iterations as the rule of thumb. */
+static const double thumb_least = 0.5, thumb_most = 2.5;
 /* A solve of this long is counted on a coarser body. */
 static const double countable_s = 1.5;
 /* How much longer a step gets at most where bonds break, softening faces are open or surfaces touch that are apart in the trial (docs/fracture.md, docs/contact.md);
@@ -15,6 +16,7 @@ static const double cells_break = 4.5, beams_break = 4, faces_soften = 6, surfac
 static const double uncertain = 0.8;
 /* What breaks or meets is looked at on a coarser body that takes some so long, of so many elements at least and such a share of them at most. */
 static const double looked_s = 2.5, least_looked = 200, most_looked = 0.5;
+static const double coarse_stage_s = 4; /* of a stage of a coarser body at most */
 /* Bytes of a broken bond: on the host the event of 136, and its two faces while they are written where that is more than what else is held for a while; 440 more while a
  * picture of cells is drawn, which shows both; on disk once a line of cracks.csv and a row of result.h5, and in each frame two polygons of 97 bytes and 32 a corner: octagons
  * of beams, some 5.5 corners of cells. */
@@ -92,8 +94,7 @@ static void tell_events(const brc_stage *stage, const brc_trial_stage *t, sums *
 static void tell_solve(const brc_stage *stage, const brc_trial_stage *t, double counted, double across, sums *total)
 {
     const char *what = stage->solver == BRC_SOLVER_MODES ? "rounds" : "iterations";
-    const double solves = stage->solver == BRC_SOLVER_MODES ? stage->n_modes : stage->finite_strain ? solves_per_finite_increment : 1;
-    const double guess = iterations_across * across * solves, iterations = counted > 0 ? counted : guess, fixed = t->enter_s + t->warm_s;
+    const double iterations = counted > 0 ? counted : brc_price_iterations(stage, across), fixed = t->enter_s + t->warm_s;
     if (!t->cut) {
         printf("stage %s: %lld %s of %.3g s each: %.3g s (run to its end)\n", stage->name, (long long)t->iterations, what, t->pace_s, t->enter_s + t->whole_s);
         add(total, t->enter_s + t->whole_s, t->enter_s + t->whole_s, t->enter_s + t->whole_s);
@@ -114,8 +115,7 @@ static double coarse_share(const brc_scene *scene, const brc_trial *trial, doubl
     double longest = 0;
     for (int32_t k = 0; k < trial->n_stages; ++k) {
         const brc_stage *stage = &scene->stages[k];
-        const double solves = stage->solver == BRC_SOLVER_MODES ? stage->n_modes : stage->finite_strain ? solves_per_finite_increment : 1;
-        if (is_solve(stage) && trial->stages[k].cut) longest = fmax(longest, iterations_across * across * solves * trial->stages[k].pace_s);
+        if (is_solve(stage) && trial->stages[k].cut) longest = fmax(longest, brc_price_iterations(stage, across) * trial->stages[k].pace_s);
     }
     return longest > 0 ? fmin(0.25, pow(countable_s / longest, 0.75)) : 0;
 }
@@ -186,8 +186,8 @@ brc_status brc_price_tell_trial(brc_context *context, brc_scene *scene, const br
     brc_coarse coarse = {0}, looked = {.broken = NAN};
     brc_status status = BRC_OK;
     *seconds = NAN;
-    if (share > 0) BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, NULL, share, 0, false, &coarse));
-    if (look > 0) BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, trial, look, 0, true, &looked));
+    if (share > 0) BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, &(brc_coarse_request){.share = share, .stage_s = coarse_stage_s}, &coarse));
+    if (look > 0) BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, &(brc_coarse_request){.trial = trial, .share = look, .whole = true, .stage_s = coarse_stage_s}, &looked));
     add(&total, before_s + trial->end_s, before_s + trial->end_s, before_s + trial->end_s);
     for (int32_t k = 0; k < trial->n_stages; ++k) {
         const brc_stage *stage = &scene->stages[k];

@@ -21,7 +21,7 @@ brc_status brc_told_class(brc_campaign *campaign, const brc_outcome *outcome, co
     BRC_TRY_OR(cleanup, brc_setup_simulations(context, &request, &setup));
     BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, &trial));
     brc_setup_free_simulations(&setup);
-    BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &setup, &request, &trial, brc_trial_seconds(&trial), &own));
+    BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &setup, &request, &trial, &own));
     BRC_TRY_OR(cleanup, brc_price_judge(context, scene, &setup, outcome->precision, &own, &judgement));
     if (!judgement.known)
         BRC_TRY_OR(cleanup, BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no error class is known of model %s", run->name, brc_model_name(setup.split->part[0].scene->model.kind)));

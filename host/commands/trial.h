@@ -43,7 +43,15 @@ double brc_trial_seconds(const brc_trial *trial);
 /* Bytes of the folder of the whole run. done: part of each stage's plan that is expected to be done [n_stages]; NULL, or NAN: all of it. */
 int64_t brc_trial_disk(const brc_trial *trial, const double *done);
 
-/* A run of the same scene with fewer elements. */
+/* What is wanted of a run of the same scene with fewer elements. */
+typedef struct brc_coarse_request {
+    const brc_trial *trial; /* of the whole scene, for `slower`; NULL: not wanted; borrowed */
+    double share;   /* its elements over those of the scene [-]; 1: the scene as it is, seed not used */
+    uint64_t seed;  /* added to those of the fills */
+    bool whole;     /* dynamic stages and events are run to their end too, and the measures are wanted */
+    double stage_s; /* no stage takes longer [s] of brc_pace_clock_s */
+} brc_coarse_request;
+
 typedef struct brc_coarse {
     double across;       /* its brc_setup_across; 0: there was none */
     int64_t *iterations; /* [n_stages] of static and modes stages; 0: not found; owned */
@@ -54,12 +62,11 @@ typedef struct brc_coarse {
     double broken, broken_mean; /* broken bonds over all, at the end and on average over its time */
     double grown;        /* bytes on the devices at most over those at the first pause */
     int64_t n_elements;
+    bool out_of_time;    /* a stage was left off after stage_s */
 } brc_coarse;
 
-/* trial: of the whole scene, for `slower`; NULL: not wanted. share: its elements over those of the scene [-]; seed: added to those of the fills; whole: dynamic stages and events are run to their end too, and the measures are
- * wanted. No stage takes more than some seconds. A body that cannot be made coarser (its elements come from a file, parts get too thin, a set is empty): across = 0.
- * The scene is as it was when this returns. coarse.c */
-brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_trial *trial, double share, uint64_t seed, bool whole, brc_coarse *out);
+/* A body that cannot be made coarser (its elements come from a file, parts get too thin, a set is empty): across = 0. The scene is as it was when this returns. coarse.c */
+brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_coarse_request *asked, brc_coarse *out);
 void brc_coarse_free(brc_coarse *coarse);
 
 #endif

@@ -1,0 +1,70 @@
+#include "material_volume.h"
+#include "../../preprocess/sets.h"
+#include <math.h>
+
+enum { STIFF, SOFT, HEAVY, MEANS };
+
+/* Sums over a body of volume times E, 1 / E and density. */
+static void add(double sum[MEANS], const brc_material *material, double volume)
+{
+    sum[STIFF] += volume * material->young;
+    sum[SOFT] += volume / material->young;
+    sum[HEAVY] += volume * material->density;
+}
+
+/* The region at x; the last wins, as where cells are given theirs. */
+static int32_t region_at(const brc_body *body, double mean_spacing, double x[3])
+{
+    const brc_domain point = {.n_elements = 1, .position = x, .quality.mean_spacing = mean_spacing};
+    for (int32_t r = body->n_regions; r > 0; --r)
+        if (brc_predicate_holds(&body->regions[r - 1].where, BRC_SET_ELEMENTS, &point, 0)) return r;
+    return 0;
+}
+
+/* The pyramid from the seed of a cell to a face of it, by the point where its volume has its middle. */
+static void add_pyramid(double sum[MEANS], const brc_scene *scene, const brc_body *body, const brc_domain *d, int64_t e, const double centre[3], const double area[3])
+{
+    double volume = 0, x[3];
+    for (int k = 0; k < 3; ++k) {
+        const double to = centre[k] - d->position[3 * e + k];
+        volume += to * area[k] / 3;
+        x[k] = d->position[3 * e + k] + 0.75 * to;
+    }
+    add(sum, &scene->materials[brc_body_material(body, region_at(body, d->quality.mean_spacing, x))], volume);
+}
+
+static double error_of_body(const brc_scene *scene, const brc_domain *d, int32_t b)
+{
+    const brc_body *body = &scene->bodies[b];
+    double made[MEANS] = {0}, wanted[MEANS] = {0}, worst = 0;
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        if (d->body[e] != b) continue;
+        double whole[MEANS] = {0}, parts[MEANS] = {0};
+        const brc_material *own = &scene->materials[brc_body_material(body, d->region[e])];
+        for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) add_pyramid(parts, scene, body, d, e, &d->face_centroid[3 * h], &d->area_vector[3 * h]);
+        for (int64_t f = d->free_start[e]; f < d->free_start[e + 1]; ++f) add_pyramid(parts, scene, body, d, e, &d->free_centroid[3 * f], &d->free_area_vector[3 * f]);
+        add(whole, own, d->volume[e]);
+        for (int m = 0; m < MEANS; ++m) made[m] += whole[m], wanted[m] += parts[m];
+    }
+    for (int m = 0; m < MEANS; ++m)
+        if (wanted[m] > 0) worst = fmax(worst, fabs(made[m] / wanted[m] - 1));
+    return worst;
+}
+
+static bool is_told_by_place(const brc_body *body)
+{
+    bool by_place = body->n_regions > 0 && body->n_phases == 0;
+    for (int32_t r = 0; r < body->n_regions; ++r) by_place &= !body->regions[r].where.has_wall;
+    return by_place;
+}
+
+double brc_material_volume_error(const brc_setup *setup)
+{
+    double worst = 0;
+    for (int32_t k = 0; k < setup->n; ++k) {
+        const brc_scene *scene = setup->split->part[k].scene;
+        for (int32_t b = 0; b < scene->n_bodies && setup->domain[k]->element_kind == BRC_ELEMENT_CELL; ++b)
+            if (is_told_by_place(&scene->bodies[b])) worst = fmax(worst, error_of_body(scene, setup->domain[k], b));
+    }
+    return worst;
+}
