@@ -24,7 +24,7 @@ typedef struct brc_case_row {
     double bound;
 } brc_case_row;
 
-#define BRC_CASE_LIST 24 /* most overrides, labels, names in one list */
+#define BRC_CASE_LIST 32 /* most overrides, labels, names in one list */
 
 typedef struct brc_case_pair {
     const char *key, *value;

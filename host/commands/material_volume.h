@@ -5,7 +5,7 @@
 #include "setup.h"
 
 /* How far that puts the bodies' means of E (stiff and soft side by side), of 1 / E (one behind the other) and of density off those of the regions as they are in the scene:
- * the largest, relative [-]; 0 without regions. A load sees something between the first two. Regions are measured by points in each cell, one for every face; bodies with
+ * the largest, relative [-]; 0 without regions. A load sees something between the first two. Regions are measured by points in each cell, four for every face; bodies with
  * phases (whose grains are drawn by number), of spheres, or with regions that are given by a wall, are left out. */
 double brc_material_volume_error(const brc_setup *setup);
 

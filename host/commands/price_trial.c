@@ -17,10 +17,10 @@ static const double uncertain = 0.8;
 /* What breaks or meets is looked at on a coarser body that takes some so long, of so many elements at least and such a share of them at most. */
 static const double looked_s = 2.5, least_looked = 200, most_looked = 0.5;
 static const double coarse_stage_s = 4; /* of a stage of a coarser body at most */
-/* Bytes of a broken bond: on the host the event of 136, and its two faces while they are written where that is more than what else is held for a while; 440 more while a
- * picture of cells is drawn, which shows both; on disk once a line of cracks.csv and a row of result.h5, and in each frame two polygons of 97 bytes and 32 a corner: octagons
- * of beams, some 5.5 corners of cells. */
-static const double host_of_break = 150, drawn_of_face = 440, row_of_break = 420, frame_of_beam = 706, frame_of_face = 546;
+/* Bytes of a broken bond: on the host while it runs the event of 136, and its two faces while they are written where that is more than what else is held for a while; at its
+ * end the event, and where a picture of cells is drawn two faces of some 5.1 corners of 28 and 28 more; on disk once a line of cracks.csv and a row of result.h5, and in each
+ * frame two polygons of 97 bytes and 32 a corner: octagons of beams, some 5.5 corners of cells. */
+static const double host_of_break = 150, event_of_break = 136, drawn_of_break = 344, row_of_break = 420, frame_of_beam = 706, frame_of_face = 546;
 
 typedef struct sums {
     double seconds, least, most;
@@ -132,9 +132,12 @@ static double looked_share(const brc_scene *scene, const brc_setup *setup, const
     return share * n >= least_looked ? share : 0;
 }
 
-static double host_bytes_of_break(const brc_scene *scene)
+/* On the host, with so many more broken bonds than in the trial. */
+static double host_with(const brc_scene *scene, const brc_trial *trial, double more)
 {
-    return host_of_break + (scene->model.kind != BRC_MODEL_CBM && scene->output.picture ? drawn_of_face : 0);
+    const bool drawn = scene->model.kind != BRC_MODEL_CBM && scene->output.picture;
+    const double stepping = (double)trial->stepping_bytes + more * host_of_break, ending = (double)trial->ending_bytes + more * (event_of_break + (drawn ? drawn_of_break : 0));
+    return fmax((double)trial->host_bytes, fmax(stepping, ending));
 }
 
 /* Beyond what the trial held. looked: on a coarser body, its shares NAN where nothing is known of it. */
@@ -150,8 +153,8 @@ static memory add_up(const brc_scene *scene, const brc_setup *setup, const brc_t
     const double in_frames = fmax(0, looked->broken_mean * n_bonds - 0.5 * (double)trial->n_broken); /* the trial's frames had some of them */
     double frames = 0;
     for (int32_t k = 0; k < trial->n_stages; ++k) frames += (looked->done[k] > 0 ? fmin(looked->done[k], 1) : 1) * (double)trial->stages[k].frames_planned;
-    const double device = looked->grown > 0 ? fmax(0, looked->grown * (double)trial->device_bytes[0] - m.device) : 0, host = more * host_bytes_of_break(scene);
-    m.host = fmax(m.host, (double)trial->stepping_bytes + host);
+    const double device = looked->grown > 0 ? fmax(0, looked->grown * (double)trial->device_bytes[0] - m.device) : 0, host = host_with(scene, trial, more) - m.host;
+    m.host += host;
     m.device += device;
     m.resident += host + device; /* of the cpu device; a card has its own */
     m.disk += more * row_of_break;
@@ -174,7 +177,7 @@ static void tell_broken(const brc_scene *scene, const brc_setup *setup, const br
     for (int32_t k = 0; k < trial->n_stages; ++k) n_frames += trial->stages[k].frames_planned;
     if (!scene->has_fracture) return;
     if (!isnan(looked->broken)) printf("broken bonds: about %.2g %% of all at the end, as with %lld elements\n", 100 * looked->broken, (long long)looked->n_elements);
-    printf("if all bonds broke: up to %.4g MB on the host and %.4g MB on disk\n", fmax((double)trial->host_bytes, (double)trial->stepping_bytes + host_bytes_of_break(scene) * n_bonds) / 1e6,
+    printf("if all bonds broke: up to %.4g MB on the host and %.4g MB on disk\n", host_with(scene, trial, n_bonds) / 1e6,
            ((double)brc_trial_disk(trial, NULL) + (row_of_break + frame * (double)n_frames) * n_bonds) / 1e6);
 }
 

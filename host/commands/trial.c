@@ -182,6 +182,8 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
                                                                                  .stage_end = stage_end, .pause = paused}));
     for (int32_t k = 0; k < assembly.n; ++k) brc_simulation_set_patience(assembly.part[k], &w->patience);
     status = brc_lockstep_run(assembly.n, assembly.part);
+    out->stepping_bytes = brc_memory_peak_since_mark();
+    brc_memory_mark();
     const double begin = clock_of(w);
     if (status == BRC_PHYSICS_STOPPED) {
         out->stopped = true;
@@ -224,10 +226,15 @@ brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc
     const brc_status status = run_in(context, folder, &w, out);
     brc_log_set_level(context, level);
     brc_scratch_remove(context, folder);
-    out->stepping_bytes = brc_memory_peak_since_mark();
-    for (int32_t k = 0; k < out->n_stages; ++k) /* samples to come */
-        if (out->stages[k].cut) out->stepping_bytes += (out->stages[k].samples_planned - out->stages[k].samples) * (scene->n_sensors + 4) * (int64_t)sizeof(double);
-    out->host_bytes = out->stepping_bytes > brc_memory_peak() ? out->stepping_bytes : brc_memory_peak();
+    out->ending_bytes = brc_memory_peak_since_mark();
+    int64_t to_come = 0; /* samples */
+    for (int32_t k = 0; k < out->n_stages; ++k)
+        if (out->stages[k].cut) to_come += (out->stages[k].samples_planned - out->stages[k].samples) * (scene->n_sensors + 4) * (int64_t)sizeof(double);
+    out->stepping_bytes += to_come;
+    out->ending_bytes += to_come;
+    out->host_bytes = brc_memory_peak();
+    if (out->stepping_bytes > out->host_bytes) out->host_bytes = out->stepping_bytes;
+    if (out->ending_bytes > out->host_bytes) out->host_bytes = out->ending_bytes;
     out->resident_bytes = brc_memory_resident();
     return status;
 }

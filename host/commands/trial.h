@@ -23,7 +23,8 @@ typedef struct brc_trial {
     brc_trial_stage *stages; /* [n_stages] owned */
     double end_s;            /* results, measures and pictures at the end */
     int64_t host_bytes, resident_bytes; /* most so far */
-    int64_t stepping_bytes;  /* of host_bytes, the most that was held while it ran, results and pictures at the end included */
+    int64_t stepping_bytes;  /* of host_bytes, the most that was held while it ran, with the samples to come */
+    int64_t ending_bytes;    /* the same at its end: results, measures, pictures */
     int64_t disk_bytes, frames_bytes, table_bytes; /* of its folder, of that the frames, and histories.csv */
     int64_t sample_bytes;    /* of a sample in result.h5 */
     int64_t device_bytes[2]; /* on the devices at the first pause of dynamics (without: at the end), and at the end */
