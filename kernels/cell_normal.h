@@ -43,17 +43,32 @@ LAW lane cell_least_stretch(lane_mat3 gradient)
     return LANE_SQRT(cell_larger(REAL(1) - REAL(2) * LANE_SQRT(lane_sym3_dot(strain, strain)), none));
 }
 
+/* What an element brings to the room of its bonds: E, and the symmetric part of F_H^T P [Pa], entries off the diagonal twice, so that a bond takes six products of its branch. */
+typedef struct {
+    lane_sym3 strain, pull;
+    lane modulus, least_stretch; /* lambda + 2 mu [Pa], cell_least_stretch */
+} cell_side;
+
+LAW cell_side cell_side_of(lane_mat3 gradient, lane_mat3 stress, lane modulus)
+{
+    const lane_sym3 e = green_strain(gradient, 1), p = lane_mat3_sym(lane_mat3_add(stress, lane_mat3_tmul(gradient, stress)));
+    return (cell_side){{e.xx, e.yy, e.zz, REAL(2) * e.yz, REAL(2) * e.xz, REAL(2) * e.xy},
+                       {p.xx, p.yy, p.zz, REAL(2) * p.yz, REAL(2) * p.xz, REAL(2) * p.xy}, modulus, cell_least_stretch(gradient)};
+}
+
 /* > 0 [N]: the own half of the bond's stress, tau, is below its limit [Pa]; times |R|^2 and the stretch, so that there is neither quotient nor root. A little less, for
  * the rounding of both. Where the bond's own strain alone passes the limit nothing is left, whatever the sign of the rest: the second term, large enough not to count
  * where something is left. Missing bonds (R = 0) have room: 1e-30 m^2, nothing beside any |R|^2, of a limit that is never reached. */
-LAW lane cell_room(lane_mat3 gradient, lane_mat3 stress, lane modulus, lane least_stretch, lane_vec3 branch, lane_vec3 jump, lane limit)
+LAW lane cell_room(cell_side own, lane_vec3 branch, lane_vec3 jump, lane limit)
 {
-    const lane_vec3 along = lane_mat3_mul_vec(gradient, branch);
-    const lane own = lane_vec3_dot(branch, along) + REAL(0.5) * lane_vec3_dot(along, along);
+    const lane xx = branch.x * branch.x, yy = branch.y * branch.y, zz = branch.z * branch.z;
+    const lane yz = branch.y * branch.z, xz = branch.x * branch.z, xy = branch.x * branch.y;
+    const lane_sym3 e = own.strain, p = own.pull;
+    const lane along = xx * e.xx + yy * e.yy + zz * e.zz + yz * e.yz + xz * e.xz + xy * e.xy;
+    const lane pulled = xx * p.xx + yy * p.yy + zz * p.zz + yz * p.yz + xz * p.xz + xy * p.xy;
     const lane strain = lane_vec3_dot(branch, jump) + REAL(0.5) * lane_vec3_dot(jump, jump);
-    const lane left = REAL(0.999) * limit * (lane_vec3_dot(branch, branch) + REAL(1e-30)) - modulus * (strain - own);
-    const lane pulled = lane_vec3_dot(lane_vec3_add(branch, along), lane_mat3_mul_vec(stress, branch));
-    return lane_min(least_stretch * left - pulled, REAL(1e6) * left);
+    const lane left = REAL(0.999) * limit * (xx + yy + zz + REAL(1e-30)) - own.modulus * (strain - along);
+    return lane_min(own.least_stretch * left - pulled, REAL(1e6) * left);
 }
 
 #endif

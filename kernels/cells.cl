@@ -5,7 +5,7 @@
  * Of the entries [n_slots][C]: limit: normal stress at which the bond breaks, CELLS_NEVER where there is none [Pa]; twin: the entry of the same
  * bond seen from the other element; alive: 1 while it holds, else 0; mark: 0, or how it breaks at the end of this step; measure: its stress
  * then [Pa]. found: of an element or group of elements, how many bonds it marked. touched [n]: 1 for the two elements of every marked
- * bond, ring 0 of rings.cl. */
+ * bond, 2 once it broke: ring 0 of rings.cl. */
 
 #define CELLS_NEVER REAL(1e30)
 #define CELLS_TENSION 1
@@ -19,15 +19,14 @@ LAW void cells_force_of(members who, GLOBAL const int *restrict neighbour, GLOBA
                          GLOBAL state *restrict force, GLOBAL coeff *restrict spare)
 {
     const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
-    const lane_mat3 h = lane_gather9(gradient, who.own), p = lane_gather9(stress, who.own);
-    const lane k = members_number(who, plane), stretch = cell_least_stretch(h);
+    const cell_side side = cell_side_of(lane_gather9(gradient, who.own), lane_gather9(stress, who.own), members_number(who, plane));
     lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
     lane least = LANE_ZERO + CELLS_NEVER;
     for (int slot = who.begin; slot < who.end; ++slot) {
         const dlsm_pull b = dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part, one_plus_tau, modulus);
         members_ahead1(who, limit, slot);
         f = lane_vec3_add(f, b.force);
-        least = lane_min(least, cell_room(h, p, k, stretch, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
+        least = lane_min(least, cell_room(side, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
     }
     members_store3(who, force, f);
     members_put1(who, spare, least);
@@ -140,7 +139,7 @@ KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOB
  * that break of stress^2 times volume (S L; without a ratio S^(3/2)): shares of the energy that they release, kept in break_energy until
  * cells_share, which leaves it 0. changed [n]: 1 where a bond went. broken [n]: bonds lost so far. */
 KERNEL void cells_break(int n_groups, int step, int width, GLOBAL const int *restrict row_start, GLOBAL const int *restrict twin,
-                        GLOBAL const int *restrict touched, GLOBAL const int *restrict mark, GLOBAL const coeff *restrict measure,
+                        GLOBAL int *restrict touched, GLOBAL const int *restrict mark, GLOBAL const coeff *restrict measure,
                         GLOBAL coeff *restrict alive, GLOBAL int *restrict neighbour, GLOBAL coeff *restrict area, GLOBAL coeff *restrict ratio,
                         GLOBAL coeff *restrict limit, GLOBAL int *restrict break_step,
                         GLOBAL int *restrict break_mode, GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
@@ -176,6 +175,7 @@ KERNEL void cells_break(int n_groups, int step, int width, GLOBAL const int *res
                 sum += (state)part;
                 count += 1;
             }
+            if (touched[e]) touched[e] = 2;
             if (!count) continue;
             weight[e] += sum;
             changed[e] = 1;
@@ -260,7 +260,7 @@ KERNEL void cells_rebuild(int n_groups, GLOBAL const int *restrict row_start, GL
                 if (!(alive[entry] > 0)) continue;
                 mark[entry] = CELLS_DETACHED;
                 measure[entry] = 0;
-                STORE_SAME(touched + neighbour[entry], 1);
+                if (touched[neighbour[entry]] == 0) STORE_SAME(touched + neighbour[entry], 1);
                 count += 1;
             }
             least[e] = weakest;
@@ -270,12 +270,13 @@ KERNEL void cells_rebuild(int n_groups, GLOBAL const int *restrict row_start, GL
 }
 
 /* The energy that the bonds of this step release, by their weights: per_weight [J/weight] is that of one side; list [n]: the elements
- * that lost some, whose weights are 0 afterwards. lost [J]: of every element. */
+ * that lost some, whose weights are 0 afterwards, and which are touched no longer. lost [J]: of every element. */
 KERNEL void cells_share(int n, int step, state per_weight, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict break_step,
-                        GLOBAL state *restrict weight, GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost)
+                        GLOBAL int *restrict touched, GLOBAL state *restrict weight, GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost)
 {
     FOR_EACH_ITEM(k, n) {
         const int e = list[k];
+        touched[e] = 0;
         if (weight[e] > 0) {
             lost[e] += per_weight * weight[e];
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {

@@ -275,17 +275,23 @@ KERNEL void dlsm_force_listed(int n_items, int n, GLOBAL const int *restrict lis
     }
 }
 
-/* Ledger: elastic energy V psi and half of the stabilisation energy of its bonds, of every element [J] [n]. */
-LAW void dlsm_energy_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                        GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
-                        coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
-                        GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
-                        GLOBAL state *restrict elastic, GLOBAL state *restrict stabilisation)
+/* V psi [J] of the elements. */
+LAW lane dlsm_elastic_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
+                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
+                         GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material, int finite)
 {
     const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
     const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
+    return svk_energy(green_strain(g, finite), lambda, mu) / members_number(who, inv_volume);
+}
+
+/* What of the bonds' stabilisation energies counts with the elements [J]: half. Or, around broken bonds, all of it where the neighbour is not touched, half where it is as the
+ * element, and nothing where it was so before (touched [n], kernels/cells.cl): each bond of those that are touched once. */
+LAW lane dlsm_bonds_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                       GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                       GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
+                       int by_touch, GLOBAL const int *restrict touched)
+{
     const lane k = MEMBERS_MATERIAL(2, k_one), ell = MEMBERS_MATERIAL(3, ell_one);
     const lane_mat3 h = lane_gather9(gradient, who.own), m = dlsm_compaction(h, ell, finite);
     const state_vec3 u = state_gather3(displacement, who.own);
@@ -303,10 +309,32 @@ LAW void dlsm_energy_of(members who, GLOBAL const int *restrict neighbour, GLOBA
         const lane_vec3 h_j_x = lane_mat3_mul_vec(h_j, x), jump = state_vec3_difference(state_gather3(displacement, j), u);
         const lane_vec3 residual = lane_vec3_sub(jump, lane_vec3_add(lane_mat3_mul_vec(h, x), h_j_x));
         const lane_vec3 compact = lane_vec3_add(lane_mat3_mul_vec(m, x), dlsm_compaction_along(h_j, h_j_x, x, ell_j, finite));
-        energy += REAL(0.5) * dlsm_residual_energy(residual, compact, q, k_bond, beta, one_plus_tau);
+        lane counts = LANE_ZERO + REAL(0.5);
+        if (by_touch) {
+#define OWN(l) touched[LANE_ITEM(who.own, l)]
+#define OTHER(l) touched[LANE_ITEM(j, l)]
+            const lane_int own = LANE_MAKE(lane_int, OWN), other = LANE_MAKE(lane_int, OTHER);
+#undef OWN
+#undef OTHER
+            counts = REAL(1) - LANE_DIFFERENT(other, 0) * (REAL(0.5) + REAL(0.5) * LANE_DIFFERENT(other, own));
+        }
+        energy += counts * dlsm_residual_energy(residual, compact, q, k_bond, beta, one_plus_tau);
     }
-    members_store1(who, elastic, svk_energy(green_strain(g, finite), lambda, mu) / members_number(who, inv_volume));
-    members_store1(who, stabilisation, energy);
+    return energy;
+}
+
+/* Ledger: elastic energy V psi and half of the stabilisation energy of its bonds, of every element [J] [n]. */
+LAW void dlsm_energy_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
+                        GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
+                        coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
+                        GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
+                        GLOBAL state *restrict elastic, GLOBAL state *restrict stabilisation)
+{
+    members_store1(who, elastic, dlsm_elastic_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads, lambda_one, mu_one, material, finite));
+    members_store1(who, stabilisation, dlsm_bonds_of(who, neighbour, area, ratio, displacement, gradient, k_one, ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, 0,
+                                                     neighbour));
 }
 KERNEL void dlsm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
                         GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
@@ -335,6 +363,31 @@ KERNEL void dlsm_energy_listed(int n_items, int n, GLOBAL const int *restrict li
         dlsm_energy_of(members_of_list(item, n, list, row_start), neighbour, area, offset, ratio, displacement, gradient, inv_volume, boundary,
                        held_gradient, face_loads, lambda_one, mu_one, k_one, ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, elastic,
                        stabilisation);
+    }
+}
+
+/* Around broken bonds: V psi of the elements of a list alone [J] ... */
+KERNEL void dlsm_elastic_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                                GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
+                                GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads,
+                                coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material, int finite, GLOBAL state *restrict elastic)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        const members who = members_of_list(item, n, list, row_start);
+        members_store1(who, elastic, dlsm_elastic_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads, lambda_one, mu_one, material, finite));
+    }
+}
+/* ... and the bonds of those that are touched, each once. */
+KERNEL void dlsm_bonds_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                              GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                              GLOBAL const coeff *restrict gradient, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
+                              GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite, GLOBAL const int *restrict touched,
+                              GLOBAL state *restrict stabilisation)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        const members who = members_of_list(item, n, list, row_start);
+        members_store1(who, stabilisation, dlsm_bonds_of(who, neighbour, area, ratio, displacement, gradient, k_one, ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, 1,
+                                                         touched));
     }
 }
 

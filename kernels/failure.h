@@ -121,6 +121,54 @@ LAW int failure_possible(failure_stress s, failure_limits limits, failure_shear 
     return 0;
 }
 
+/* The largest principal value from above, and what tells how near a direction is to its axis, without principal values: A = adj(sigma - lambda 1) of sigma over its
+ * size, whose principal values are a1 = (lambda - s2) (lambda - s3) along that axis and, across it, 0 to `slack`, nothing where lambda is s1. So for a unit vector x
+ *     a1 cos^2 <= x.A x <= a1 cos^2 + slack,
+ * and quotients of x.A x of several directions need no a1. known: 0 where the largest two are so close that A says nothing. */
+typedef struct {
+    coeff first; /* lambda >= s1 [Pa] */
+    failure_stress adjugate; /* A [-] */
+    coeff slack; /* [-] */
+    int known;
+} failure_leading;
+
+/* Two steps of Newton from the start of failure_bound.h, all from above: off by 2e-6 of the deviator where the three values are apart. The second invariant of A is 3 mu q, of
+ * which slack a1 is a part, and a1 at least a third of the trace of A, which is the slope of q. Slopes of some size alone: rounding moves mu by itself over the slope. */
+LAW failure_leading failure_leading_of(failure_stress s)
+{
+    const coeff rounding = BRC_PRECISION == 0 ? REAL(1e-12) : REAL(1e-4);
+    failure_leading out = {0, {0, 0, 0, 0, 0, 0}, 0, 0};
+    const coeff size = failure_larger(failure_larger(failure_larger(failure_absolute(s.xx), failure_absolute(s.yy)),
+                                                     failure_larger(failure_absolute(s.zz), failure_absolute(s.yz))),
+                                      failure_larger(failure_absolute(s.xz), failure_absolute(s.xy)));
+    if (!(size > 0)) return out;
+    const coeff unit = REAL(1) / size, mean = REAL(0.33333333333333333) * unit * (s.xx + s.yy + s.zz);
+    const coeff xx = unit * s.xx - mean, yy = unit * s.yy - mean, zz = unit * s.zz - mean, yz = unit * s.yz, xz = unit * s.xz, xy = unit * s.xy;
+    const coeff j2 = REAL(0.5) * (xx * xx + yy * yy + zz * zz) + (yz * yz + xz * xz + xy * xy);
+    const coeff j3 = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+    if (!(j2 > rounding)) return out;
+    coeff mu = REAL(0.88888888888888889) * SQRT(REAL(1.3333333333333333) * j2) + REAL(0.33333333333333333) * j3 / j2;
+    coeff slope = REAL(3) * mu * mu - j2;
+    for (int step = 0; step < 2 && slope > REAL(0.01) * j2; ++step) {
+        mu -= (mu * (mu * mu - j2) - j3) / slope;
+        slope = REAL(3) * mu * mu - j2;
+    }
+    if (!(slope > REAL(0.01) * j2)) return out;
+    const coeff a = xx - mu, b = yy - mu, c = zz - mu;
+    out.first = size * (mean + mu);
+    out.adjugate = (failure_stress){b * c - yz * yz, a * c - xz * xz, a * b - xy * xy, xy * xz - a * yz, xy * yz - b * xz, xz * yz - c * xy};
+    out.slack = REAL(9) * mu * failure_absolute(mu * (mu * mu - j2) - j3) / slope + rounding;
+    out.known = 1;
+    return out;
+}
+
+/* x.A x for x of any length; inv_square: 1 / |x|^2. */
+LAW coeff failure_leading_share(failure_leading f, failure_axis x, coeff inv_square)
+{
+    const failure_stress a = f.adjugate;
+    return inv_square * (x.x * (a.xx * x.x + REAL(2) * (a.xy * x.y + a.xz * x.z)) + x.y * (a.yy * x.y + REAL(2) * a.yz * x.z) + a.zz * x.z * x.z);
+}
+
 LAW failure_state failure_worse(failure_state a, failure_state b) { return b.ratio > a.ratio ? b : a; }
 
 LAW failure_state failure_of(failure_principal p, failure_limits limits, failure_shear shear)

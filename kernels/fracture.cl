@@ -130,6 +130,14 @@ LAW failure_limits fracture_limits_of(GLOBAL const coeff *restrict limits, int e
     return (failure_limits){l[0], l[1], l[2]};
 }
 
+/* x_j - x_i of a bond now [m]. */
+LAW failure_axis fracture_branch_of(int e, int j, int slot, GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement)
+{
+    GLOBAL const coeff *r = branch + (brc_size)slot * 3 * C + e % C;
+    GLOBAL const state *from = displacement + (brc_size)e * 3, *to = displacement + (brc_size)j * 3;
+    return (failure_axis){r[0] + (coeff)(to[0] - from[0]), r[C] + (coeff)(to[1] - from[1]), r[2 * C] + (coeff)(to[2] - from[2])};
+}
+
 /* The bond that an element would lose, and what the ratio of its stress counts there. */
 typedef struct {
     int other;  /* row of the neighbour, -1: none is left */
@@ -149,10 +157,7 @@ LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, GL
         const brc_size entry = (brc_size)slot * C + e % C;
         const int j = neighbour[entry];
         if (j == e) continue;
-        failure_axis x;
-        x.x = branch[(brc_size)slot * 3 * C + e % C] + (coeff)(displacement[(brc_size)j * 3] - displacement[(brc_size)e * 3]);
-        x.y = branch[((brc_size)slot * 3 + 1) * C + e % C] + (coeff)(displacement[(brc_size)j * 3 + 1] - displacement[(brc_size)e * 3 + 1]);
-        x.z = branch[((brc_size)slot * 3 + 2) * C + e % C] + (coeff)(displacement[(brc_size)j * 3 + 2] - displacement[(brc_size)e * 3 + 2]);
+        const failure_axis x = fracture_branch_of(e, j, slot, branch, displacement);
         const coeff aligned = failure_alignment(failed, x, REAL(1) / SQRT(x.x * x.x + x.y * x.y + x.z * x.z));
         const coeff counts = weighted ? aligned / factor[entry] : aligned;
         nearest = failure_larger(nearest, aligned);
@@ -161,6 +166,35 @@ LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, GL
         other = j;
     }
     return (fracture_pick){other, nearest > 0 ? best / nearest : REAL(1)};
+}
+
+/* 1: of an element whose bonds are of different strength and which only tension can fail, none of them can go, shown without principal values; 0: they have to be asked. Ratio
+ * times |cos| over factor must reach the largest |cos| of all (fracture_pick): bonds with a factor above the ratio cannot, and of the others one that lies nearer to the axis
+ * than theirs allow is enough. Most elements that wait with a weak bond across the pull are let off here. Room for rounding as in failure_possible. */
+LAW int fracture_spared(int e, failure_stress s, coeff tension, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                        GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict factor)
+{
+    const failure_leading lead = failure_leading_of(s);
+    const coeff most = REAL(1.001) * lead.first / tension;
+    coeff needed = REAL(-1);
+    if (!lead.known) return 0;
+    for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+        const brc_size entry = (brc_size)slot * C + e % C;
+        const int j = neighbour[entry];
+        if (j == e || factor[entry] > most) continue;
+        const failure_axis x = fracture_branch_of(e, j, slot, branch, displacement);
+        const coeff times = most / factor[entry];
+        const coeff share = times * times * (failure_leading_share(lead, x, REAL(1) / (x.x * x.x + x.y * x.y + x.z * x.z)) + lead.slack);
+        needed = failure_larger(needed, share + lead.slack);
+    }
+    if (needed < 0) return 1;
+    for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+        const int j = neighbour[(brc_size)slot * C + e % C];
+        if (j == e) continue;
+        const failure_axis x = fracture_branch_of(e, j, slot, branch, displacement);
+        if (failure_leading_share(lead, x, REAL(1) / (x.x * x.x + x.y * x.y + x.z * x.z)) > needed) return 1;
+    }
+    return 0;
 }
 
 /* An element at a limit chooses a bond; measure: its stress then [Pa]. */
@@ -174,6 +208,10 @@ LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear she
     const coeff least = weighted ? weakest[e] : REAL(1);
     const failure_limits reachable = {least * limit.tension, least * limit.compression, least * limit.shear};
     if (!failure_possible(s, reachable, shear)) return;
+    if (weighted && limit.tension > 0) {
+        const failure_limits others = {0, reachable.compression, reachable.shear};
+        if (!failure_possible(s, others, shear) && fracture_spared(e, s, limit.tension, row_start, neighbour, branch, displacement, factor)) return;
+    }
     const failure_principal p = failure_principal_of(s);
     const failure_state failed = failure_of(p, limit, shear);
     if (!(failed.ratio >= least)) return;
@@ -214,15 +252,17 @@ KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager
             sum += gather_component(reach, int_block(neighbour, slot, lane0));
         const lane room = lane_load(ease, (brc_size)first) * lane_load(weight, (brc_size)first) - sum;
         const failure_shear shear = {drucker_prager, slope, friction};
-#define CHOOSE(l)                                                                                                      \
-    choice[first + 0x##l] = -1;                                                                                        \
-    if (!(LANE_ITEM(room, l) > 0)) {                                                                                   \
-        const failure_stress s = fracture_mean_of(first + 0x##l, level, row_start, neighbour, record);                 \
-        fracture_choose_of(first + 0x##l, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits, factor, weakest, \
-                           choice, measure, mark);                                                                     \
-    }
-        LANE_EACH(CHOOSE)
-#undef CHOOSE
+        int look[W], any = 0;
+#define LOOK(l) look[0x##l] = !(LANE_ITEM(room, l) > 0), any |= look[0x##l];
+        LANE_EACH(LOOK)
+#undef LOOK
+        for (int l = 0; l < W; ++l) choice[first + l] = -1;
+        for (int l = 0; any && l < W; ++l) {
+            if (!look[l]) continue;
+            const failure_stress s = fracture_mean_of(first + l, level, row_start, neighbour, record);
+            fracture_choose_of(first + l, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits, factor, weakest, choice, measure,
+                               mark);
+        }
     }
 }
 

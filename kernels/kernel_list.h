@@ -31,6 +31,8 @@
     X(dlsm_flux_listed)                                                                                                \
     X(dlsm_force_listed)                                                                                               \
     X(dlsm_energy_listed)                                                                                              \
+    X(dlsm_elastic_listed)                                                                                             \
+    X(dlsm_bonds_listed)                                                                                               \
     X(held_prescribe)                                                                                                  \
     X(held_gradient_pass)                                                                                              \
     X(held_moment_pass)                                                                                                \
@@ -66,6 +68,7 @@
     X(ring_spread)                                                                                                     \
     X(ring_seed)                                                                                                       \
     X(ring_count)                                                                                                      \
+    X(ring_tops)                                                                                                       \
     X(ring_list)                                                                                                       \
     X(ring_replace)                                                                                                    \
     X(ring_gain)                                                                                                       \

@@ -1,8 +1,8 @@
 /* Rings of elements around others, by bonds: those that a broken bond or an open face changes, ring 0, their neighbours, ring 1, and so on. Passes over
  * lists of them (members.cl) do what a pass over the whole body would change.
  *
- * touched [n]: 1 for elements of ring 0, set by whoever marks bonds. level [n]: 0, or the ring that an element was found to be in: RING_FOUND in ring 0
- * or 1 and not listed yet, then 1 + its ring. Both are 0 again when the last list is made. */
+ * touched [n]: 1 for elements of ring 0, set by whoever marks bonds, 2 when these broke. level [n]: 0, or the ring that an element was found to be in: RING_FOUND in ring 0
+ * or 1 and not listed yet, then 1 + its ring. Both are 0 again when the last list is made; touched, where that list is kept, by who uses it up (cells_share). */
 
 #define RING_FOUND 1
 #define RING_KINDS 4
@@ -31,15 +31,16 @@ KERNEL void ring_seed(int n, int above, GLOBAL const int *restrict number, GLOBA
     FOR_EACH_ITEM(e, n) { touched[e] = (number[e] > 0) == above; }
 }
 
-/* The list an element belongs to, -1 none. which 0: those found since, in list 0; 1: all, by ring, for the last time; 2: those touched, in list 0. */
+/* The list an element belongs to, -1 none. which 0: what is new, in list 0 those touched that were found before, in 1 those both touched and found, in 2 those only found;
+ * 1: all, by ring, for the last time; 2: those touched, in list 0; 3: as 1, and touched stays. */
 LAW int ring_of(int which, int touched, int level)
 {
-    if (which == 0) return level == RING_FOUND ? 0 : -1;
+    if (which == 0) return touched == 1 ? level == RING_FOUND : level == RING_FOUND ? 2 : -1;
     if (which == 2) return touched ? 0 : -1;
     return touched ? 0 : level > RING_FOUND ? level - 1 : -1;
 }
 
-/* count[list][block]: how many, in fixed blocks. */
+/* count[list][block]: how many of the lists 0 to `list`, in fixed blocks; one number more a list is room for their sum. */
 KERNEL void ring_count(int n_blocks, int n, int which, GLOBAL const int *restrict touched, GLOBAL const int *restrict level, GLOBAL int *restrict count)
 {
     FOR_EACH_ITEM(b, n_blocks) {
@@ -49,25 +50,45 @@ KERNEL void ring_count(int n_blocks, int n, int which, GLOBAL const int *restric
             const int ring = ring_of(which, touched[e], level[e]);
             if (ring >= 0) sum[ring] += 1;
         }
-        for (int k = 0; k < RING_KINDS; ++k) count[k * n_blocks + b] = sum[k];
+        int upto = 0;
+        for (int k = 0; k < RING_KINDS; ++k) {
+            upto += sum[k];
+            count[k * (n_blocks + 1) + b] = upto;
+        }
     }
 }
 
-/* The list, ring after ring in the order of the rows; next: running sums of count, used up. */
+/* Running sums of the counts of every list, each of the blocks before, at the end of all. n_lists: RING_KINDS. */
+KERNEL void ring_tops(int n_lists, int n_blocks, GLOBAL int *restrict count)
+{
+    FOR_EACH_ITEM(k, n_lists) {
+        int before = 0;
+        for (int b = 0; b < n_blocks; ++b) {
+            const int at = k * (n_blocks + 1) + b, own = count[at];
+            count[at] = before;
+            before += own;
+        }
+        count[k * (n_blocks + 1) + n_blocks] = before;
+    }
+}
+
+/* What each list and those before it hold, in the order of the rows: neighbours in the body, whose numbers share places in memory, are done together whatever their ring.
+ * next: running sums of count, used up. */
 KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touched, GLOBAL int *restrict level, GLOBAL int *restrict next,
-                      GLOBAL int *restrict list)
+                      GLOBAL int *restrict upto_0, GLOBAL int *restrict upto_1, GLOBAL int *restrict upto_2, GLOBAL int *restrict upto_3)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
         for (int e = begin; e < end; ++e) {
             const int ring = ring_of(which, touched[e], level[e]);
-            if (ring >= 0) {
-                const int to = next[ring * n_blocks + b];
-                next[ring * n_blocks + b] = to + 1;
-                list[to] = e;
-                if (which == 0) level[e] = RING_FOUND + 1;
+            for (int k = ring; ring >= 0 && k < RING_KINDS; ++k) {
+                const int to = next[k * (n_blocks + 1) + b];
+                next[k * (n_blocks + 1) + b] = to + 1;
+                (k == 0 ? upto_0 : k == 1 ? upto_1 : k == 2 ? upto_2 : upto_3)[to] = e;
             }
-            if (which == 1) touched[e] = 0, level[e] = 0;
+            if (ring >= 0 && which == 0) level[e] = RING_FOUND + 1;
+            if (which == 1) touched[e] = 0;
+            if (which == 1 || which == 3) level[e] = 0;
         }
     }
 }

@@ -24,7 +24,8 @@ static brc_status find_kernels(brc_simulation *s, brc_cell_breaks *c)
         const char *name;
         bool wanted;
     } wanted[] = {{&c->force, "cells_force", by_bond}, {&c->force_listed, "cells_force_listed", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
-                  {&c->break_pass, "cells_break", true}, {&c->rebuild, "cells_rebuild", brc_is_dlsm(s)}, {&c->share, "cells_share", true}};
+                  {&c->break_pass, "cells_break", true}, {&c->rebuild, "cells_rebuild", brc_is_dlsm(s)}, {&c->share, "cells_share", true},
+                  {&c->elastic, "dlsm_elastic_listed", brc_is_dlsm(s)}, {&c->bonds, "dlsm_bonds_listed", brc_is_dlsm(s)}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
         if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     return BRC_OK;
@@ -266,7 +267,7 @@ static brc_status break_marked(brc_simulation *s, double *energy)
     while (left > 0) {
         double more;
         BRC_TRY(brc_rings_find(s, c->rings));
-        BRC_TRY(brc_force_energy_around(s, c->rings, 0, &more));
+        BRC_TRY(brc_force_energy_around(s, c->rings, true, &more));
         *energy += more;
         BRC_TRY(BRC_LAUNCH(c->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(brc_fracture_moment(s)), BRC_INT(brc_is_dlsm(s) ? 3 : 1),
                            BRC_BUF(s->row_start), BRC_BUF(c->twin), BRC_BUF(c->rings->touched), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->alive), BRC_BUF(s->neighbour), BRC_BUF(s->area),
@@ -314,10 +315,10 @@ static brc_status find_rings(brc_simulation *s)
         BRC_TRY(brc_contact_settle(s));
         brc_phase_within(s, phase);
     }
-    BRC_TRY(brc_rings_spread(s, rings, 1, wide ? 2 : 1));
+    if (wide) BRC_TRY(brc_rings_spread(s, rings, 2, 2)); /* ring 1 is known from before the breaks */
     BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
     if (wide) BRC_TRY(brc_rings_spread(s, rings, 3, 3));
-    return brc_rings_close(s, rings, &rings->around);
+    return brc_rings_close(s, rings, true, &rings->around);
 }
 
 /* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in elements. */
@@ -353,14 +354,14 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     if (rings->whole_force) BRC_TRY(brc_rings_book_whole(s, rings));
     if (rings->whole_force) BRC_TRY(kick(s, -half_kick));
     BRC_TRY(kick_others(s, -half_kick));
-    BRC_TRY(brc_force_energy_around(s, rings, 1, &after));
+    BRC_TRY(brc_force_energy_around(s, rings, false, &after));
     BRC_TRY(outside_energy(s, &outside));
-    BRC_TRY(brc_rings_sum(s, rings, &rings->around, rings->around.n[0], f->cells->weight, &weight));
+    BRC_TRY(brc_rings_sum(s, rings, &rings->around, 0, f->cells->weight, &weight));
     if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */
     BRC_TRY(brc_softening_refresh(s));
     const int32_t n = rings->around.n[0];
     BRC_TRY(BRC_LAUNCH(f->cells->share, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_STATE((before + outside_before - after - outside) / weight),
-                       BRC_BUF(rings->around.list), BRC_BUF(s->row_start), BRC_BUF(f->break_step), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy),
+                       BRC_BUF(rings->around.upto[0]), BRC_BUF(s->row_start), BRC_BUF(f->break_step), BRC_BUF(rings->touched), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy),
                        BRC_BUF(f->lost)));
     BRC_TRY(brc_softening_settle(s, &rings->around));
     return brc_contact_list_bonded(s);

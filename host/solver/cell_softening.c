@@ -146,8 +146,9 @@ void brc_softening_free(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
     if (!f) return;
-    brc_buffer **all[] = {&f->crack, &f->open, &f->lead, &f->n_open, &f->reach, &f->shear, &f->around.list};
+    brc_buffer **all[] = {&f->crack, &f->open, &f->lead, &f->n_open, &f->reach, &f->shear};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_ring_list_free(&f->around);
     brc_memory_free(f);
     s->fracture->cells->softening = NULL;
 }
@@ -164,7 +165,7 @@ brc_status brc_softening_gradient(brc_simulation *s, const brc_ring_list *list, 
     const bool whole = brc_pass_is_whole(s, list, ring);
     const int32_t n = whole ? s->layout->n_rows : list->n[ring];
     if (!f || !f->any) return BRC_OK;
-    return BRC_LAUNCH(f->gradient, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->list), BRC_BUF(s->row_start), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open),
+    return BRC_LAUNCH(f->gradient, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->upto[ring]), BRC_BUF(s->row_start), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open),
                       BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient));
 }
 
@@ -174,7 +175,7 @@ brc_status brc_softening_flux(brc_simulation *s, const brc_ring_list *list, int 
     const bool whole = brc_pass_is_whole(s, list, ring);
     const int32_t n = whole ? s->layout->n_rows : list->n[ring];
     if (!f || !f->any || !brc_device_has_many_materials(s->device)) return BRC_OK;
-    return BRC_LAUNCH(f->flux, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->list), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
+    return BRC_LAUNCH(f->flux, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->upto[ring]), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
                       BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient), BRC_BUF(s->modulus),
                       BRC_BUF(s->ell_of), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->flux));
 }
@@ -226,7 +227,7 @@ static brc_status list_around(brc_simulation *s)
     BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
     f->is_listed = true;
     f->lists = brc_contact_lists(s);
-    return brc_rings_close(s, rings, &f->around);
+    return brc_rings_close(s, rings, false, &f->around);
 }
 
 brc_status brc_softening_move(brc_simulation *s)
@@ -302,7 +303,7 @@ brc_status brc_softening_settle(brc_simulation *s, const brc_ring_list *around)
     softening_faces *f = faces_of(s);
     const int32_t n = around->n[0];
     if (!f) return BRC_OK;
-    return BRC_LAUNCH(f->settle, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_BUF(around->list), BRC_BUF(s->row_start), BRC_BUF(s->fracture->break_step), BRC_BUF(f->open),
+    return BRC_LAUNCH(f->settle, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_BUF(around->upto[0]), BRC_BUF(s->row_start), BRC_BUF(s->fracture->break_step), BRC_BUF(f->open),
                       BRC_BUF(f->crack), BRC_BUF(s->fracture->break_energy));
 }
 

@@ -43,7 +43,7 @@ void brc_contact_rigid_free(brc_simulation *s)
     brc_contact_state *c = s->contact;
     brc_buffer **all[] = {&c->rigid, &c->inertia, &c->turned, &c->momentum, &c->torque, &c->way};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
-    if (c->bonded) brc_buffer_free(&c->bonded->list);
+    if (c->bonded) brc_ring_list_free(c->bonded);
     brc_memory_free(c->bonded);
 }
 

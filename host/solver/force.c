@@ -293,14 +293,33 @@ brc_status brc_force_held_energy(brc_simulation *s, double *out)
     return brc_vector_sum(s, h->energy, h->n_faces, out);
 }
 
-brc_status brc_force_energy_around(brc_simulation *s, const brc_rings *rings, int ring, double *out)
+/* Of dlsm around breaks: rings 0 and 1 have other strains, bonds of ring 0 alone other energies. */
+static brc_status dlsm_energies_around(brc_simulation *s, const brc_ring_list *list, int ring, int ring_of_bonds)
+{
+    const brc_elastic *m = one_material(s);
+    const brc_cell_breaks *c = s->fracture->cells;
+    const int finite = s->scene->model.small_rotations ? 0 : 1;
+    BRC_TRY(BRC_PASS(s, NULL, c->elastic, list, ring, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient),
+                     BRC_BUF(s->inv_volume), BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(has_face_loads(s) ? 1 : 0), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
+                     BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->elastic_energy)));
+    return BRC_PASS(s, NULL, c->bonds, list, ring_of_bonds, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement),
+                    BRC_BUF(s->gradient), BRC_COEFF(m->k), BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(1 + s->scene->model.tau), BRC_BUF(s->material), BRC_BUF(s->modulus),
+                    BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(c->rings->touched), BRC_BUF(s->stabilisation_energy));
+}
+
+brc_status brc_force_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out)
 {
     const brc_ring_list *list = &rings->around;
-    double more = 0;
-    BRC_TRY(cell_energies(s, list, ring));
-    BRC_TRY(brc_rings_sum(s, rings, list, list->n[ring], s->elastic_energy, out));
-    if (brc_is_dlsm(s)) BRC_TRY(brc_rings_sum(s, rings, list, list->n[ring], s->stabilisation_energy, &more));
-    *out += more;
+    const bool apart = brc_is_dlsm(s) && !brc_softening_is_on(s); /* of open faces cells keep half each */
+    const int ring = found ? 2 : 1, ring_of_bonds = found ? 1 : 0;
+    double part[4] = {0};
+    if (apart) BRC_TRY(dlsm_energies_around(s, list, ring, ring_of_bonds));
+    else BRC_TRY(cell_energies(s, list, ring));
+    BRC_TRY(brc_rings_sum(s, rings, list, ring, s->elastic_energy, &part[0]));
+    if (found) BRC_TRY(brc_rings_sum(s, rings, list, 0, s->elastic_energy, &part[1])); /* counted when they were found */
+    if (brc_is_dlsm(s)) BRC_TRY(brc_rings_sum(s, rings, list, apart ? ring_of_bonds : ring, s->stabilisation_energy, &part[2]));
+    if (brc_is_dlsm(s) && found && !apart) BRC_TRY(brc_rings_sum(s, rings, list, 0, s->stabilisation_energy, &part[3]));
+    *out = part[0] - part[1] + part[2] - part[3];
     return BRC_OK;
 }
 

@@ -12,13 +12,13 @@ brc_status brc_rings_create(brc_simulation *s, brc_rings **out)
     const struct {
         brc_kernel **slot;
         const char *name;
-    } wanted[] = {{&r->spread, "ring_spread"}, {&r->seed, "ring_seed"}, {&r->count_pass, "ring_count"}, {&r->tops, "scan_tops"},
+    } wanted[] = {{&r->spread, "ring_spread"}, {&r->seed, "ring_seed"}, {&r->count_pass, "ring_count"}, {&r->tops, "ring_tops"},
                   {&r->list_pass, "ring_list"}, {&r->replace, "ring_replace"}, {&r->gain, "ring_gain"}, {&r->book, "ring_book"}, {&r->gather, "vector_gather"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     BRC_TRY(brc_buffer_create(s->device, &r->touched, 4 * n, "rings around broken bonds"));
     BRC_TRY(brc_buffer_create(s->device, &r->level, 4 * n, "rings around broken bonds"));
-    BRC_TRY(brc_buffer_create(s->device, &r->count, 4 * (BRC_RING_KINDS * (int64_t)blocks_of(s) + 1), "rings around broken bonds"));
-    BRC_TRY(BRC_ALLOCATE(s->context, &r->count_read, BRC_RING_KINDS * (int64_t)blocks_of(s) + 1, "rings around broken bonds"));
+    BRC_TRY(brc_buffer_create(s->device, &r->count, 4 * BRC_RING_KINDS * ((int64_t)blocks_of(s) + 1), "rings around broken bonds"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &r->count_read, BRC_RING_KINDS * ((int64_t)blocks_of(s) + 1), "rings around broken bonds"));
     BRC_TRY(brc_new_state(s, &r->force, 3 * n, "forces around broken bonds"));
     if (brc_turns(s)) BRC_TRY(brc_new_state(s, &r->torque, 3 * n, "torques around broken bonds"));
     return brc_ring_list_create(s, &r->around);
@@ -28,8 +28,9 @@ void brc_rings_free(brc_rings **rings)
 {
     brc_rings *r = *rings;
     if (!r) return;
-    brc_buffer **all[] = {&r->touched, &r->level, &r->count, &r->force, &r->torque, &r->around.list};
+    brc_buffer **all[] = {&r->touched, &r->level, &r->count, &r->force, &r->torque};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_ring_list_free(&r->around);
     brc_memory_free(r->count_read);
     brc_memory_free(r);
     *rings = NULL;
@@ -38,12 +39,18 @@ void brc_rings_free(brc_rings **rings)
 int64_t brc_rings_bytes(const brc_scene *scene, int64_t n, int64_t state_bytes)
 {
     const bool turns = scene->model.kind == BRC_MODEL_DLSM_PUBLISHED;
-    return n * (3 * 4 + (turns ? 6 : 3) * state_bytes) + 4 * BRC_RING_KINDS * (n / BLOCK + 1);
+    return n * ((2 + BRC_RING_KINDS) * 4 + (turns ? 6 : 3) * state_bytes) + 4 * BRC_RING_KINDS * (n / BLOCK + 2);
 }
 
 brc_status brc_ring_list_create(brc_simulation *s, brc_ring_list *out)
 {
-    return brc_buffer_create(s->device, &out->list, 4 * (int64_t)s->layout->n_rows, "rings of elements");
+    for (int k = 0; k < BRC_RING_KINDS; ++k) BRC_TRY(brc_buffer_create(s->device, &out->upto[k], 4 * (int64_t)s->layout->n_rows, "rings of elements"));
+    return BRC_OK;
+}
+
+void brc_ring_list_free(brc_ring_list *list)
+{
+    for (int k = 0; k < BRC_RING_KINDS; ++k) brc_buffer_free(&list->upto[k]);
 }
 
 /* ---- lists ---- */
@@ -53,17 +60,17 @@ static brc_status spread(brc_simulation *s, brc_rings *r, brc_buffer *origin, in
     return BRC_LAUNCH(r->spread, s->n_groups, BRC_INT(s->n_groups), BRC_INT(from), BRC_INT(to), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(origin), BRC_BUF(r->level));
 }
 
-enum { FOUND, ALL, TOUCHED }; /* as in kernels/rings.cl */
+enum { FOUND, ALL, TOUCHED, KEPT }; /* as in kernels/rings.cl */
 
 static brc_status make_list(brc_simulation *s, brc_rings *r, int which, brc_ring_list *out)
 {
     const int32_t n = s->layout->n_rows, n_blocks = blocks_of(s);
     BRC_TRY(BRC_LAUNCH(r->count_pass, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(which), BRC_BUF(r->touched), BRC_BUF(r->level), BRC_BUF(r->count)));
-    BRC_TRY(BRC_LAUNCH(r->tops, 1, BRC_INT(1), BRC_INT(BRC_RING_KINDS * n_blocks), BRC_BUF(r->count)));
+    BRC_TRY(BRC_LAUNCH(r->tops, BRC_RING_KINDS, BRC_INT(BRC_RING_KINDS), BRC_INT(n_blocks), BRC_BUF(r->count)));
     BRC_TRY(brc_buffer_read(r->count, 0, r->count_read, brc_buffer_bytes(r->count)));
-    for (int k = 0; k < BRC_RING_KINDS; ++k) out->n[k] = r->count_read[(k + 1) * n_blocks];
+    for (int k = 0; k < BRC_RING_KINDS; ++k) out->n[k] = r->count_read[k * (n_blocks + 1) + n_blocks];
     return BRC_LAUNCH(r->list_pass, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(which), BRC_BUF(r->touched), BRC_BUF(r->level), BRC_BUF(r->count),
-                      BRC_BUF(out->list));
+                      BRC_BUF(out->upto[0]), BRC_BUF(out->upto[1]), BRC_BUF(out->upto[2]), BRC_BUF(out->upto[3]));
 }
 
 brc_status brc_rings_find(brc_simulation *s, brc_rings *r)
@@ -78,7 +85,7 @@ brc_status brc_rings_spread(brc_simulation *s, brc_rings *r, int first, int last
     return BRC_OK;
 }
 
-brc_status brc_rings_close(brc_simulation *s, brc_rings *r, brc_ring_list *out) { return make_list(s, r, ALL, out); }
+brc_status brc_rings_close(brc_simulation *s, brc_rings *r, bool keep, brc_ring_list *out) { return make_list(s, r, keep ? KEPT : ALL, out); }
 
 brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out) { return make_list(s, r, TOUCHED, out); }
 
@@ -92,7 +99,7 @@ brc_status brc_rings_without(brc_simulation *s, brc_rings *r, brc_buffer *number
 {
     const int32_t n = s->layout->n_rows;
     BRC_TRY(BRC_LAUNCH(r->seed, n, BRC_INT(n), BRC_INT(0), BRC_BUF(number), BRC_BUF(r->touched)));
-    return brc_rings_close(s, r, out);
+    return brc_rings_close(s, r, false, out);
 }
 
 /* ---- what is done with them ---- */
@@ -101,12 +108,12 @@ bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int r
 
 brc_status brc_pass_launch(brc_simulation *s, brc_kernel *whole, brc_kernel *listed, const brc_ring_list *list, int ring, int n_args, brc_arg *args)
 {
-    if (brc_pass_is_whole(s, list, ring)) {
+    if (whole && brc_pass_is_whole(s, list, ring)) {
         args[2] = BRC_INT(s->n_groups);
         return brc_kernel_launch(whole, s->n_groups, n_args - 2, args + 2);
     }
     const int32_t n = list->n[ring], lanes = brc_device_lanes(s->device), n_items = (n + lanes - 1) / lanes;
-    args[0] = BRC_INT(n_items), args[1] = BRC_INT(n), args[2] = BRC_BUF(list->list);
+    args[0] = BRC_INT(n_items), args[1] = BRC_INT(n), args[2] = BRC_BUF(list->upto[ring]);
     return brc_kernel_launch(listed, n_items, n_args, args);
 }
 
@@ -114,21 +121,21 @@ brc_status brc_pass_launch(brc_simulation *s, brc_kernel *whole, brc_kernel *lis
 static bool books_jumps(const brc_simulation *s, const brc_rings *r) { return brc_is_dlsm(s) && s->lost_numerical && r->half_kick > 0; }
 
 /* r->force holds the gain: prescribed elements swing about nothing. */
-static brc_status book_jumps(brc_simulation *s, const brc_rings *r, int32_t n, int listed)
+static brc_status book_jumps(brc_simulation *s, const brc_rings *r, int32_t n, int k, int listed)
 {
     BRC_TRY(brc_loads_zero_imposed(s, r->force));
-    return BRC_LAUNCH(r->book, n, BRC_INT(n), BRC_INT(listed), BRC_STATE(0.25 * r->half_kick * r->half_kick), BRC_BUF(r->around.list), BRC_BUF(r->force),
+    return BRC_LAUNCH(r->book, n, BRC_INT(n), BRC_INT(listed), BRC_STATE(0.25 * r->half_kick * r->half_kick), BRC_BUF(r->around.upto[k]), BRC_BUF(r->force),
                       BRC_BUF(s->lost_numerical));
 }
 
 brc_status brc_rings_replace(brc_simulation *s, const brc_rings *r, int k)
 {
     const int32_t n = r->around.n[k];
-    BRC_TRY(BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.list), BRC_BUF(s->mass), BRC_BUF(r->force), BRC_BUF(s->force),
+    BRC_TRY(BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.upto[k]), BRC_BUF(s->mass), BRC_BUF(r->force), BRC_BUF(s->force),
                        BRC_BUF(s->velocity)));
-    if (books_jumps(s, r)) BRC_TRY(book_jumps(s, r, n, 1));
+    if (books_jumps(s, r)) BRC_TRY(book_jumps(s, r, n, k, 1));
     if (!r->torque) return BRC_OK;
-    return BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.list), BRC_BUF(s->inertia), BRC_BUF(r->torque), BRC_BUF(s->torque),
+    return BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.upto[k]), BRC_BUF(s->inertia), BRC_BUF(r->torque), BRC_BUF(s->torque),
                       BRC_BUF(s->spin));
 }
 
@@ -142,13 +149,14 @@ brc_status brc_rings_book_whole(brc_simulation *s, const brc_rings *r)
     const int32_t n = s->layout->n_rows;
     if (!books_jumps(s, r)) return BRC_OK;
     BRC_TRY(BRC_LAUNCH(r->gain, n, BRC_INT(n), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(r->force)));
-    return book_jumps(s, r, n, 0);
+    return book_jumps(s, r, n, 0, 0);
 }
 
-brc_status brc_rings_sum(brc_simulation *s, const brc_rings *r, const brc_ring_list *list, int32_t n, brc_buffer *x, double *out)
+brc_status brc_rings_sum(brc_simulation *s, const brc_rings *r, const brc_ring_list *list, int k, brc_buffer *x, double *out)
 {
+    const int32_t n = list->n[k];
     *out = 0;
     if (n == 0) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(r->gather, n, BRC_INT(n), BRC_BUF(list->list), BRC_BUF(x), BRC_BUF(s->kinetic)));
+    BRC_TRY(BRC_LAUNCH(r->gather, n, BRC_INT(n), BRC_BUF(list->upto[k]), BRC_BUF(x), BRC_BUF(s->kinetic)));
     return brc_vector_sum(s, s->kinetic, n, out);
 }

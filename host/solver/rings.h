@@ -8,16 +8,16 @@
 
 enum { BRC_RING_KINDS = 4 };
 
-/* Listed elements, ring after ring: n[k] of them are in the rings 0 to k. */
+/* Elements of the rings 0 to k, n[k] of them, in the order of the rows. */
 typedef struct brc_ring_list {
-    brc_buffer *list;
+    brc_buffer *upto[BRC_RING_KINDS];
     int32_t n[BRC_RING_KINDS];
 } brc_ring_list;
 
 typedef struct brc_rings {
     brc_kernel *spread, *seed, *count_pass, *tops, *list_pass, *replace, *gain, *book, *gather;
     brc_buffer *touched, *level; /* [n_rows] */
-    brc_buffer *count;           /* [BRC_RING_KINDS][blocks] + 1 */
+    brc_buffer *count;           /* [BRC_RING_KINDS][blocks + 1] */
     int32_t *count_read;         /* the same on the host */
     brc_buffer *force, *torque;  /* [n_rows][3] of listed elements; the others hold nothing of meaning */
     brc_ring_list around;        /* the bonds that broke in this step */
@@ -32,20 +32,22 @@ int64_t brc_rings_bytes(const brc_scene *scene, int64_t n, int64_t state_bytes);
 
 /* A list of its own. */
 brc_status brc_ring_list_create(brc_simulation *s, brc_ring_list *out);
-/* Elements in ring 0 (touched) and ring 1 that were not found since the last list was closed: rings->around, all in n[0]. */
+void brc_ring_list_free(brc_ring_list *list);
+/* What is new in ring 0 (touched) and ring 1 since the last list was closed: rings->around, up to n[0] touched ones that were found before, up to n[1] touched ones that were
+ * not, up to n[2] those of ring 1 alone. */
 brc_status brc_rings_find(brc_simulation *s, brc_rings *rings);
 /* Those that were touched by now, in n[0]. */
 brc_status brc_rings_touched(brc_simulation *s, brc_rings *rings, brc_ring_list *out);
 /* Rings first to last around all that were touched, into rings->level: 1 + the ring. */
 brc_status brc_rings_spread(brc_simulation *s, brc_rings *rings, int first, int last);
-/* All that were touched and the rings that were spread around them; nothing is touched afterwards. */
-brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, brc_ring_list *out);
+/* All that were touched and the rings that were spread around them; nothing is touched afterwards, or `keep`, until cells_share has gone over ring 0. */
+brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, bool keep, brc_ring_list *out);
 /* Elements whose number is above 0 are touched, and no others. */
 brc_status brc_rings_seed(brc_simulation *s, brc_rings *rings, brc_buffer *number);
 /* Elements whose number is not above 0, in every ring. */
 brc_status brc_rings_without(brc_simulation *s, brc_rings *rings, brc_buffer *number, brc_ring_list *out);
 
-/* A pass over the first n elements of a list, by the kernel `listed`, or, where list is NULL or n so many that this is quicker, over all by `whole`:
+/* A pass over the rings 0 to `ring` of a list, by the kernel `listed`, or, where list is NULL or they are so many that this is quicker, over all by `whole` (NULL: never):
  * args are those of `whole` behind three free places (BRC_PASS). */
 brc_status brc_pass_launch(brc_simulation *s, brc_kernel *whole, brc_kernel *listed, const brc_ring_list *list, int ring, int n_args, brc_arg *args);
 #define BRC_PASS(s, whole, listed, list, ring, ...)                                                                                  \
@@ -60,7 +62,7 @@ brc_status brc_rings_replace(brc_simulation *s, const brc_rings *rings, int k);
  * brc_rings_replace does of its rings. */
 brc_status brc_rings_keep_force(brc_simulation *s, const brc_rings *rings);
 brc_status brc_rings_book_whole(brc_simulation *s, const brc_rings *rings);
-/* Sum of x [n_rows] over the first n of a list, in the order of the list. */
-brc_status brc_rings_sum(brc_simulation *s, const brc_rings *rings, const brc_ring_list *list, int32_t n, brc_buffer *x, double *out);
+/* Sum of x [n_rows] over the rings 0 to k, in the order of the list. */
+brc_status brc_rings_sum(brc_simulation *s, const brc_rings *rings, const brc_ring_list *list, int k, brc_buffer *x, double *out);
 
 #endif

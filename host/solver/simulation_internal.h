@@ -278,8 +278,9 @@ brc_status brc_force_gradients_around(brc_simulation *s, const struct brc_rings 
 brc_status brc_force_fluxes_of_state(brc_simulation *s, const struct brc_ring_list *list, bool moved);
 /* Only H and G's held part, for outputs after the state moved. */
 brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation);
-/* Cells: energy of the rings 0 to `ring` of rings->around, elastic and of stabilisation; that of held faces is apart [J]. */
-brc_status brc_force_energy_around(brc_simulation *s, const struct brc_rings *rings, int ring, double *out);
+/* Cells: energy of rings 0 and 1 of rings->around, elastic and of stabilisation, but for what both sides of a break have in common; found: of what brc_rings_find has found last,
+ * before its bonds break. That of held faces is apart [J]. */
+brc_status brc_force_energy_around(brc_simulation *s, const struct brc_rings *rings, bool found, double *out);
 brc_status brc_force_held_energy(brc_simulation *s, double *out);
 
 /* ---- phases.c ---- */

@@ -110,12 +110,54 @@ static void it_is_exact_in_uniaxial_tension_and_close_in_shear(void **state)
     assert_true(failure_bound((lane_sym3){-1e6, -1e6, -1e6, 0, 0, 0}, scale) == 0);
 }
 
+/* What fracture_spared relies on: lambda is above s1, and x.A x between a1 cos^2 and a1 cos^2 + slack, with a1 of the principal values. Entries of A are of up to 16 sizes, of which sums
+ * of some 20 products keep 1e-13; a1 is a difference of values that are right to 1e-15 of the size, times another of up to 4. Most states have values far enough apart. */
+static void the_share_of_a_direction_lies_between_its_bounds(void **state)
+{
+    (void)state;
+    int known = 0;
+    for (int i = 0; i < STATES; ++i) {
+        const lane_sym3 s = random_stress(i);
+        const failure_stress sigma = {s.xx, s.yy, s.zz, s.yz, s.xz, s.xy};
+        const failure_principal p = failure_principal_of(sigma);
+        const failure_leading lead = failure_leading_of(sigma);
+        const double size = fmax(fmax(fmax(fabs(s.xx), fabs(s.yy)), fmax(fabs(s.zz), fabs(s.yz))), fmax(fabs(s.xz), fabs(s.xy)));
+        if (!lead.known) continue;
+        known += 1;
+        assert_true(lead.first >= p.first - 1e-13 * size && lead.slack >= 0);
+        const double a1 = (lead.first - p.second) * (lead.first - p.third) / (size * size);
+        for (int k = 0; k < 8; ++k) {
+            const failure_axis n = p.first_axis;
+            failure_axis x = {uniform(i, 20 + 3 * k), uniform(i, 21 + 3 * k), uniform(i, 22 + 3 * k)};
+            if (k < 2) x = failure_mix(1, n, k ? 1e-3 : 1e-6, x); /* along the axis, nearly */
+            const double square = x.x * x.x + x.y * x.y + x.z * x.z, product = x.x * n.x + x.y * n.y + x.z * n.z;
+            const double own = a1 * product * product / square, share = failure_leading_share(lead, x, 1 / square);
+            assert_true(share >= own - 1e-12 && share <= own + lead.slack + 1e-12);
+        }
+    }
+    assert_true(known > STATES / 2);
+}
+
+/* Two equal largest values have no axis: the slack is all there is. One value alone at the top leaves none but that for rounding. */
+static void of_equal_largest_values_no_direction_is_told_from_another(void **state)
+{
+    (void)state;
+    assert_false(failure_leading_of((failure_stress){0, 0, 0, 0, 0, 0}).known);
+    assert_false(failure_leading_of((failure_stress){3e6, 3e6, 3e6, 0, 0, 0}).known);
+    const failure_leading two = failure_leading_of((failure_stress){3e6, 3e6, 1e6, 0, 0, 0});
+    assert_true(!two.known || failure_leading_share(two, (failure_axis){1, 0, 0}, 1) <= two.slack);
+    const failure_leading one = failure_leading_of((failure_stress){3e6, 1e6, 1e6, 0, 0, 0});
+    assert_true(one.known && fabs(one.first - 3e6) < 1e-8 && one.slack < 1e-11);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_ratio_is_above_its_bound),
         cmocka_unit_test(the_mean_of_bounds_bounds_the_mean),
         cmocka_unit_test(it_is_exact_in_uniaxial_tension_and_close_in_shear),
+        cmocka_unit_test(the_share_of_a_direction_lies_between_its_bounds),
+        cmocka_unit_test(of_equal_largest_values_no_direction_is_told_from_another),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
