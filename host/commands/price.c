@@ -208,12 +208,14 @@ static double model_error(brc_model_kind model, int n, const brc_price_curve *cu
     return 0;
 }
 
-/* Of a scene without contact, the problem of two bodies that touch says nothing. */
-static void leave_out_contact(const brc_scene *scene, int *n, brc_price_curve *curve)
+/* Of a scene without contact, the problem of two bodies that touch says nothing; of one where nothing moves, those that were stepped through time. */
+static void leave_out_others(const brc_scene *scene, int *n, brc_price_curve *curve)
 {
     int kept = 0;
+    bool moves = false;
+    for (int k = 0; k < scene->n_stages; ++k) moves = moves || scene->stages[k].solver == BRC_SOLVER_DYNAMIC;
     for (int k = 0; k < *n; ++k)
-        if (scene->has_contact || strcmp(curve[k].problem, "hertz") != 0) curve[kept++] = curve[k];
+        if ((scene->has_contact || strcmp(curve[k].problem, "hertz") != 0) && (moves || !curve[k].moves)) curve[kept++] = curve[k];
     *n = kept;
 }
 
@@ -224,7 +226,7 @@ brc_status brc_price_judge(brc_context *context, const brc_scene *scene, const b
     const char *taken = brc_precision_name(precision);
     int worst = 0;
     BRC_TRY(read_curves(context, brc_model_name(kind), &taken, &out->n, out->curve));
-    leave_out_contact(scene, &out->n, out->curve);
+    leave_out_others(scene, &out->n, out->curve);
     out->taken = taken;
     out->is_own = own->worst >= 0;
     out->known = out->is_own || out->n > 0;

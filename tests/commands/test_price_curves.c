@@ -41,6 +41,18 @@ static void powers_are_found_again(void **state)
     assert_int_equal(n, 0);
 }
 
+/* One run of a problem that was stepped through time makes it one of those. */
+static void problems_that_move_are_known_by_their_steps(void **state)
+{
+    (void)state;
+    int n;
+    brc_price_curve curve[BRC_CURVES_MOST];
+    brc_price_curves_read("problem,model,elements,precision,error,steps\nwave,dlsm,100,double,0.04,50\nbeam,dlsm,100,double,0.04,0\nwave,dlsm,800,double,0.02,100\nbeam,dlsm,800,double,0.01,0\n",
+                          "dlsm", "double", &n, curve);
+    assert_int_equal(n, 2);
+    assert_true(curve[0].moves && !curve[1].moves);
+}
+
 static void eight_times_the_elements_cost_sixteen_times(void **state)
 {
     (void)state;
@@ -98,6 +110,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(powers_are_found_again),
         cmocka_unit_test(choices_are_pairs_of_runs_that_differ_in_nothing_else),
+        cmocka_unit_test(problems_that_move_are_known_by_their_steps),
         cmocka_unit_test(eight_times_the_elements_cost_sixteen_times),
         cmocka_unit_test(the_program_has_curves_of_its_default_model),
     };

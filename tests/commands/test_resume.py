@@ -34,7 +34,7 @@ SHORT = {
     "branching": ["bodies.0.fill.noisy_grid.elements=3700", "stages.1.solver.dynamic.duration=10 us"],
     "ceramic-plate": ["bodies.0.fill.noisy_grid.cells=[10, 10, 2]"],
     "cells-events": ["bodies.0.fill.noisy_grid.elements=200", "stages.0.solver.static.events.most=12"],
-    "edge-impact": ["bodies.0.fill.noisy_grid.elements=18000", "stages.0.solver.dynamic.duration=8 us"],
+    "edge-impact": ["bodies.0.fill.noisy_grid.elements=18000", "stages.0.solver.dynamic.duration=3 us"],
     "indenter": ["bodies.0.fill.noisy_grid.elements=600", "stages.0.solver.dynamic.duration=1.5 us"],
     "intergranular": ["bodies.0.fill.packing.elements=1000", "bodies.0.grains.number=10"],
     "plate-impact": ["bodies.0.fill.noisy_grid.elements=600", "stages.0.solver.dynamic.duration=4 us"],
