@@ -21,6 +21,9 @@ static const double settled = 3e-5;
 static const double steady[2] = {1e-6 /* dlsm */, 1e-5 /* dlsm-published */};
 /* Eigenvalues below this part of the smallest elastic one count as rigid motions. */
 static const double rigid_part = 1e-6;
+/* Pairs whose residual falls below this add no directions to the search space any more, nor do rigid motions: what is left of them is rounding, and scaled up to a direction
+ * it has Ritz values that belong to nothing. */
+static const double finished = 1e-9;
 /* Directions of the search space whose norm falls below this part of the largest are dropped. */
 static const double dependent = 1e-13;
 
@@ -260,8 +263,8 @@ static void combine(mode_space *t, int count, int from, double *const *columns, 
     }
 }
 
-/* w = P (K x - l M x) for every column; the largest relative residual of the first `wanted` elastic modes. */
-static double residuals(mode_space *t, const double *values, int wanted)
+/* w = P (K x - l M x) for every column; the largest relative residual of the first `wanted` elastic modes. active [m]: columns that are worth a direction. */
+static double residuals(mode_space *t, const double *values, int wanted, unsigned char *active)
 {
     double worst = 0;
     int counted = 0;
@@ -274,6 +277,7 @@ static double residuals(mode_space *t, const double *values, int wanted)
             square += w[i] * w[i] / t->mass[i];
         }
         const bool rigid = values[k] < rigid_part * largest;
+        active[k] = !rigid && sqrt(square) > finished * values[k];
         if (!rigid && counted++ < wanted && sqrt(square) > worst * values[k]) worst = sqrt(square) / values[k];
         for (int64_t r = 0; r < t->n / 3; ++r) {
             const double *b = t->blocks + 6 * r, a0 = w[3 * r], a1 = w[3 * r + 1], a2 = w[3 * r + 2];
@@ -310,20 +314,22 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
     const int m = t->m, most = 3 * m;
     brc_simulation *s = t->s;
     double **u = NULL, **ku = NULL, *k_small = NULL, *g_small = NULL, *coefficients = NULL, *before = NULL;
+    unsigned char *active = NULL;
     brc_status status = BRC_OK;
-    int count = m;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, most, "modes"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ku, most, "modes"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &k_small, most * most, "modes"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &g_small, most * most, "modes"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &coefficients, m * most, "modes"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &before, m, "modes"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &active, m, "modes"));
     for (int round = 0; round < MOST_ROUNDS; ++round) {
-        for (int k = 0; k < m; ++k) {
-            u[k] = t->x + k * t->n, ku[k] = t->kx + k * t->n;
-            u[m + k] = t->w + k * t->n, ku[m + k] = t->kw + k * t->n;
-            u[2 * m + k] = t->p + k * t->n, ku[2 * m + k] = t->kp + k * t->n;
-        }
+        int count = 0;
+        for (int k = 0; k < m; ++k, ++count) u[count] = t->x + k * t->n, ku[count] = t->kx + k * t->n;
+        for (int k = 0; k < m; ++k)
+            if (active[k]) u[count] = t->w + k * t->n, ku[count++] = t->kw + k * t->n;
+        for (int k = 0; k < m; ++k)
+            if (active[k] && round > 1) u[count] = t->p + k * t->n, ku[count++] = t->kp + k * t->n;
         BRC_TRY_OR(cleanup, gram_matrix(t, count, u, ku, NULL, k_small));
         BRC_TRY_OR(cleanup, gram_matrix(t, count, u, u, t->mass, g_small));
         BRC_TRY_OR(cleanup, rayleigh_ritz(t, count, k_small, g_small, values, coefficients));
@@ -346,7 +352,7 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
             combine(t, count, 0, ku, coefficients, pkx);
             swap(&t->x, &t->p), swap(&t->kx, &t->kp);
         }
-        const double worst = residuals(t, values, wanted);
+        const double worst = residuals(t, values, wanted, active);
         brc_progress_update(progress, round + 1);
         s->static_report.iterations = round + 1;
         if (worst < settled) goto cleanup;
@@ -356,8 +362,9 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
             status = BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the modes solver");
             goto cleanup;
         }
-        for (int k = 0; k < m; ++k) BRC_TRY_OR(cleanup, multiply(t, t->w + k * t->n, t->kw + k * t->n));
-        count = round == 0 ? 2 * m : 3 * m;
+        if (!memchr(active, 1, (size_t)m)) goto cleanup;
+        for (int k = 0; k < m; ++k)
+            if (active[k]) BRC_TRY_OR(cleanup, multiply(t, t->w + k * t->n, t->kw + k * t->n));
     }
     status = BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "the modes did not settle in %d rounds", MOST_ROUNDS);
 cleanup:
@@ -367,6 +374,7 @@ cleanup:
     brc_memory_free(g_small);
     brc_memory_free(coefficients);
     brc_memory_free(before);
+    brc_memory_free(active);
     return status;
 }
 
