@@ -148,13 +148,13 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     }
     const char *selector = brc_arguments_value(arguments, "device");
     const brc_device_request request = {.selector = selector ? selector : "auto", .precision = precision, .n_threads = (int)n_threads};
-    const double build_start = brc_pace_clock_s(&request);
+    const double start = brc_pace_start_s(&request), build_start = brc_pace_clock_s(&request);
     BRC_TRY_OR(cleanup, brc_setup_domains(context, scene, NULL, (int)n_threads, &setup));
     print_counts(&setup, brc_pace_clock_s(&request) - build_start);
     BRC_TRY_OR(cleanup, brc_setup_polish(context, (int)n_threads, &setup));
     BRC_TRY_OR(cleanup, brc_setup_simulations(context, &request, &setup));
     print_setup(&setup, precision);
-    const double before_s = brc_pace_clock_s(&request) - build_start;
+    const double before_s = brc_pace_clock_s(&request) - start;
     BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, &trial));
     if (brc_arguments_value(arguments, "effects")) print_parts(&setup);
     brc_setup_free_simulations(&setup); /* a coarser body may need the room */

@@ -13,6 +13,8 @@ static bool uses_one_thread(const brc_device_request *device)
 
 double brc_pace_clock_s(const brc_device_request *device) { return uses_one_thread(device) ? brc_processor_s() : brc_clock_s(); }
 
+double brc_pace_start_s(const brc_device_request *device) { return uses_one_thread(device) ? 0 : brc_clock_s() - brc_processor_s(); }
+
 const char *brc_pace_clock_name(const brc_device_request *device) { return uses_one_thread(device) ? "processor" : "wall"; }
 
 /* Time of a step, from steps that together take long enough to be timed. */
