@@ -1,5 +1,5 @@
 /* A full disk, a real one of 100 kB, in a child with a mount of its own: a program of its own, which skips visibly (77)
- * where mounting is not allowed, as in many containers. */
+ * where mounting is not allowed, as in many containers; under BRC_NO_SKIPS too, since no package brings that right. */
 #include "support.h"
 
 #include "../../host/base/log.h"
