@@ -17,6 +17,7 @@ static const brc_option options[] = {
     BRC_OPTION_PRECISION,
     BRC_OPTION_THREADS,
     BRC_OPTION_SET,
+    {"brief", 'b', NULL, false, "cut every stage after about a second, also where bonds break or surfaces meet and some seconds more would see its end"},
     {"effects", 'E', NULL, false, "also name the kernels that the trial launched and the arrays on the device, with launches and bytes"},
     {"estimate", 'e', NULL, false, "build no domain: counts and memory of it only, no time step and no seconds"},
 };
@@ -155,7 +156,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     BRC_TRY_OR(cleanup, brc_setup_simulations(context, &request, &setup));
     print_setup(&setup, precision);
     const double before_s = brc_pace_clock_s(&request) - start;
-    BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, &trial));
+    BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, brc_arguments_value(arguments, "brief") != NULL, &trial));
     if (brc_arguments_value(arguments, "effects")) print_parts(&setup);
     brc_setup_free_simulations(&setup); /* a coarser body may need the room */
     BRC_TRY_OR(cleanup, brc_price_tell_trial(context, scene, &setup, &request, &trial, before_s, &total));
@@ -174,7 +175,7 @@ const brc_command brc_command_check = {.name = "check",
                                        .least = 1,
                                        .most = 1,
                                        .summary = "validate a scene and price it: effects, counts, time step, memory, seconds",
-                                       .details = "Prints the scene with all defaults. Seconds, memory and disk come from a trial: the run itself in a folder\nthat is removed (below TMPDIR), each stage cut after about a second.",
+                                       .details = "Prints the scene with all defaults. Seconds, memory and disk come from a trial: the run itself in a folder\nthat is removed (below TMPDIR), each stage cut after about a second (where bonds break, surfaces meet or a condition ends it: only if\nmore than some seconds of it are left).",
                                        .options = options,
                                        .n_options = sizeof options / sizeof *options,
                                        .run = run};

@@ -41,11 +41,6 @@ static double output_of(const brc_trial_stage *stage)
     return (double)stage->samples_planned * stage->sample_s + (double)stage->frames_planned * stage->frame_s;
 }
 
-static bool may_end_early(const brc_stage *stage)
-{
-    return stage->stop_kinetic > 0 || stage->stop_broken > 0 || stage->stop_sensor[0];
-}
-
 static double worst_growth(const brc_scene *scene)
 {
     double factor = 1;
@@ -60,7 +55,7 @@ static double worst_growth(const brc_scene *scene)
 static void tell_dynamic(const brc_scene *scene, const brc_setup *setup, const brc_stage *stage, const brc_trial_stage *t, double slower, double done, sums *total)
 {
     const double growth = worst_growth(scene), unbroken = t->pace_s * (double)t->planned, fixed = t->enter_s + t->warm_s, output = output_of(t);
-    const double factor = t->cut && slower > 1 ? fmin(slower, growth) : 1, part = t->cut && may_end_early(stage) && done > 0 ? fmin(done, 1) : 1;
+    const double factor = t->cut && slower > 1 ? fmin(slower, growth) : 1, part = t->cut && brc_trial_may_end_early(stage) && done > 0 ? fmin(done, 1) : 1;
     const double seconds = t->cut ? fixed + part * (factor * unbroken + output) : t->enter_s + t->whole_s;
     printf("stage %s: time step %.6g s (%s", stage->name, t->time_step.value, t->time_step.governed_by);
     if (t->time_step.critical > 0) printf(", %.3g of the critical %.6g s", t->time_step.value / t->time_step.critical, t->time_step.critical);
@@ -72,11 +67,11 @@ static void tell_dynamic(const brc_scene *scene, const brc_setup *setup, const b
     if (factor > 1) printf("stage %s: its steps get %.2g times as long as bonds break or surfaces meet (seen with fewer elements)\n", stage->name, factor);
     if (part < 1) printf("stage %s: it ends after %.2g of its steps (seen with fewer elements)\n", stage->name, part);
     if (!t->cut) add(total, seconds, seconds, seconds);
-    else if (growth == 1 && !may_end_early(stage)) add(total, seconds, seconds, seconds);
+    else if (growth == 1 && !brc_trial_may_end_early(stage)) add(total, seconds, seconds, seconds);
     else {
-        const double least = may_end_early(stage) ? t->enter_s + t->whole_s : uncertain * (fixed + unbroken + output), most = fixed + growth * unbroken + 2 * output;
+        const double least = brc_trial_may_end_early(stage) ? t->enter_s + t->whole_s : uncertain * (fixed + unbroken + output), most = fixed + growth * unbroken + 2 * output;
         printf("stage %s: from %.3g to %.3g s, as %s\n", stage->name, least, most,
-               may_end_early(stage) ? "it may end early, bonds break or surfaces meet" : "bonds break or surfaces meet");
+               brc_trial_may_end_early(stage) ? "it may end early, bonds break or surfaces meet" : "bonds break or surfaces meet");
         add(total, seconds, least, most);
     }
 }
@@ -145,20 +140,45 @@ typedef struct memory {
     double host, device, resident, disk;
 } memory;
 
+/* Bonds that break beyond those of the trial: by the end, and over all frames those that each of them has. */
+typedef struct breaks {
+    double more, in_frames;
+} breaks;
+
+/* Events: one breaks as many bonds as another. */
+static breaks breaks_of_events(const brc_scene *scene, const brc_trial *trial)
+{
+    breaks b = {0};
+    for (int32_t k = 0; k < trial->n_stages; ++k) {
+        const brc_trial_stage *t = &trial->stages[k];
+        if (!t->cut || scene->stages[k].most_events == 0 || t->done < 1) continue;
+        const double more = (double)t->broken / (double)t->done * (double)(t->planned - t->done);
+        b.more += more;
+        b.in_frames += 0.5 * more * (double)t->frames_planned;
+    }
+    return b;
+}
+
+static breaks breaks_of_look(const brc_setup *setup, const brc_trial *trial, const brc_coarse *looked)
+{
+    const double n_bonds = (double)brc_setup_n_bonds(setup), mean = fmax(0, looked->broken_mean * n_bonds - 0.5 * (double)trial->n_broken); /* the trial's frames had some of them */
+    breaks b = {.more = fmax(0, looked->broken * n_bonds - (double)trial->n_broken)};
+    for (int32_t k = 0; k < trial->n_stages; ++k) b.in_frames += mean * (looked->done[k] > 0 ? fmin(looked->done[k], 1) : 1) * (double)trial->stages[k].frames_planned;
+    return b;
+}
+
 static memory add_up(const brc_scene *scene, const brc_setup *setup, const brc_trial *trial, const brc_coarse *looked)
 {
-    memory m = {(double)trial->host_bytes, (double)trial->device_bytes[1], (double)trial->resident_bytes, (double)brc_trial_disk(trial, isnan(looked->broken) ? NULL : looked->done)};
-    if (!scene->has_fracture || isnan(looked->broken)) return m;
-    const double n_bonds = (double)brc_setup_n_bonds(setup), more = fmax(0, looked->broken * n_bonds - (double)trial->n_broken);
-    const double in_frames = fmax(0, looked->broken_mean * n_bonds - 0.5 * (double)trial->n_broken); /* the trial's frames had some of them */
-    double frames = 0;
-    for (int32_t k = 0; k < trial->n_stages; ++k) frames += (looked->done[k] > 0 ? fmin(looked->done[k], 1) : 1) * (double)trial->stages[k].frames_planned;
-    const double device = looked->grown > 0 ? fmax(0, looked->grown * (double)trial->device_bytes[0] - m.device) : 0, host = host_with(scene, trial, more) - m.host;
+    const bool was_looked = !isnan(looked->broken);
+    memory m = {(double)trial->host_bytes, (double)trial->device_bytes[1], (double)trial->resident_bytes, (double)brc_trial_disk(trial, was_looked ? looked->done : NULL)};
+    if (!scene->has_fracture) return m;
+    const breaks b = was_looked ? breaks_of_look(setup, trial, looked) : breaks_of_events(scene, trial);
+    const double device = was_looked && looked->grown > 0 ? fmax(0, looked->grown * (double)trial->device_bytes[0] - m.device) : 0, host = host_with(scene, trial, b.more) - m.host;
     m.host += host;
     m.device += device;
     m.resident += host + device; /* of the cpu device; a card has its own */
-    m.disk += more * row_of_break;
-    if (scene->output.crack_surface) m.disk += frames * in_frames * (scene->model.kind == BRC_MODEL_CBM ? frame_of_beam : frame_of_face);
+    m.disk += b.more * row_of_break;
+    if (scene->output.crack_surface) m.disk += b.in_frames * (scene->model.kind == BRC_MODEL_CBM ? frame_of_beam : frame_of_face);
     return m;
 }
 
@@ -177,6 +197,7 @@ static void tell_broken(const brc_scene *scene, const brc_setup *setup, const br
     for (int32_t k = 0; k < trial->n_stages; ++k) n_frames += trial->stages[k].frames_planned;
     if (!scene->has_fracture) return;
     if (!isnan(looked->broken)) printf("broken bonds: about %.2g %% of all at the end, as with %lld elements\n", 100 * looked->broken, (long long)looked->n_elements);
+    else if (brc_trial_is_whole(trial)) printf("broken bonds: %.3g %% of all at the end\n", 100 * (double)trial->n_broken / n_bonds);
     printf("if all bonds broke: up to %.4g MB on the host and %.4g MB on disk\n", host_with(scene, trial, n_bonds) / 1e6,
            ((double)brc_trial_disk(trial, NULL) + (row_of_break + frame * (double)n_frames) * n_bonds) / 1e6);
 }

@@ -19,7 +19,7 @@ brc_status brc_told_class(brc_campaign *campaign, const brc_outcome *outcome, co
     BRC_TRY_OR(cleanup, brc_setup_domains(context, scene, NULL, request.n_threads, &setup));
     BRC_TRY_OR(cleanup, brc_setup_polish(context, request.n_threads, &setup));
     BRC_TRY_OR(cleanup, brc_setup_simulations(context, &request, &setup));
-    BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, &trial));
+    BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, false, &trial));
     brc_setup_free_simulations(&setup);
     BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &setup, &request, &trial, &own));
     BRC_TRY_OR(cleanup, brc_price_judge(context, scene, &setup, outcome->precision, &own, &judgement));

@@ -6,7 +6,7 @@
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
-#include "../output/recorder.h"
+#include "../output/checkpoint.h"
 #include "../solver/fracture.h"
 #include "../solver/lockstep.h"
 #include "../solver/patience.h"
@@ -17,12 +17,16 @@
 /* A dynamic stage or one of events is cut after this long, but not before so many pauses; the solves of a static stage after this long. Events have their own end:
  * their solves are cut only where one alone would take far too long. */
 static const double watched_s = 1, solve_s = 2, event_s = 40;
+/* Where bonds break, surfaces meet or a condition ends the stage, a stage that has less than this before it by its pace is run to its end, which says more than any coarser
+ * body; unless it got so much slower that it has taken so long. */
+static const double finish_s = 5, finish_most_s = 15;
 enum { LEAST_PAUSES = 4, FIRST_BATCH = 4, LARGEST_BATCH = 256 };
 static const double short_batch_s = 0.05;
 
 typedef struct watch {
     const brc_device_request *request;
     const brc_setup *setup;
+    bool brief;
     brc_patience patience;
     brc_trial_stage *stages;
     brc_trial_stage *now;
@@ -38,6 +42,17 @@ typedef struct watch {
     double patience_s;
     int64_t device_first; /* bytes at the first pause */
 } watch;
+
+bool brc_trial_may_end_early(const brc_stage *stage) { return stage->stop_kinetic > 0 || stage->stop_broken > 0 || stage->stop_sensor[0]; }
+
+/* Is counting steps not all there is to say of a stage? */
+static bool is_open(const brc_scene *scene, const brc_stage *stage) { return scene->has_fracture || scene->has_contact || brc_trial_may_end_early(stage); }
+
+/* After so long in the stage. */
+static bool is_finishing(const brc_trial_stage *now, double since)
+{
+    return now->pace_s * (double)(now->planned - now->done) < finish_s && since < finish_most_s;
+}
 
 static double clock_of(const watch *w) { return brc_pace_clock_s(w->request); }
 
@@ -111,6 +126,7 @@ static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
         if (now - w->last < short_batch_s && w->patience.batch < LARGEST_BATCH) w->patience.batch *= 2;
     }
     w->last = now;
+    if (!w->brief && is_open(brc_simulation_scene(simulation), stage) && is_finishing(w->now, now - w->begin)) return BRC_OK;
     if (why == BRC_PAUSE_GOING && w->pauses >= LEAST_PAUSES && now - w->begin > watched_s) {
         w->now->cut = true;
         brc_simulation_end_stage(simulation, "trial");
@@ -127,6 +143,17 @@ static bool solve_is_over(void *self)
     return now - w->begin > w->patience_s;
 }
 
+static brc_status count_broken(const brc_assembly *all, int64_t *out)
+{
+    *out = 0;
+    for (int32_t k = 0; k < all->n; ++k) {
+        int64_t broken;
+        BRC_TRY(brc_simulation_broken(all->part[k], &broken));
+        *out += broken;
+    }
+    return BRC_OK;
+}
+
 static brc_status stage_end(void *self, brc_simulation *simulation, int32_t index)
 {
     watch *w = self;
@@ -134,6 +161,8 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t inde
     const brc_assembly *all = &w->setup->assembly;
     w->mark = clock_of(w);
     w->now->whole_s = w->mark - w->begin;
+    BRC_TRY(count_broken(all, &w->now->broken));
+    for (int32_t k = 0; k < index; ++k) w->now->broken -= w->stages[k].broken;
     if (stage->solver == BRC_SOLVER_MODES) w->now->done = 1;
     if (stage->solver == BRC_SOLVER_DYNAMIC || stage->most_events > 0) return BRC_OK;
     for (int32_t k = 0; k < all->n; ++k) {
@@ -157,12 +186,12 @@ static void weigh_folder(brc_context *context, const char *folder, const brc_sce
     out->sample_bytes = (scene->n_sensors + 4) * (int64_t)sizeof(double);
 }
 
-/* Did every stage come to its end? */
-static bool is_whole(const brc_trial *trial)
+/* Does the run write a checkpoint that nobody has to ask for with a signal? */
+static bool keeps_state(const brc_scene *scene)
 {
-    for (int32_t k = 0; k < trial->n_stages; ++k)
-        if (!trial->stages[k].ran || trial->stages[k].cut) return false;
-    return !trial->stopped;
+    bool keeps = scene->output.has_checkpoint;
+    for (int32_t k = 0; k < scene->n_stages; ++k) keeps |= brc_trial_may_end_early(&scene->stages[k]);
+    return keeps;
 }
 
 static brc_status run_in(brc_context *context, const char *folder, watch *w, brc_trial *out)
@@ -171,17 +200,23 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
     const brc_scene *scene = setup->split->scene;
     brc_assembly assembly = setup->assembly;
     brc_recorder *recorder = NULL;
+    brc_checkpoints *checkpoints = NULL;
     brc_status status = BRC_OK;
     w->mark = clock_of(w);
     BRC_TRY_OR(cleanup, brc_recorder_create(context, folder, brc_clock_s(), &recorder));
     brc_recorder_set_scene(recorder, scene);
     brc_recorder_set_domains(recorder, setup->n, setup->domain, 0);
     BRC_TRY_OR(cleanup, brc_simulation_observe(assembly.part[0], &(brc_observer){.self = w, .sample = before_output, .frame = before_output}));
-    BRC_TRY_OR(cleanup, brc_recorder_observe(recorder, &assembly));
+    if (keeps_state(scene)) {
+        BRC_TRY_OR(cleanup, brc_checkpoints_create(context, folder, scene, false, &checkpoints));
+        BRC_TRY_OR(cleanup, brc_checkpoints_observe(checkpoints, &assembly, recorder));
+    } else {
+        BRC_TRY_OR(cleanup, brc_recorder_observe(recorder, &assembly));
+    }
     BRC_TRY_OR(cleanup, brc_simulation_observe(assembly.part[0], &(brc_observer){.self = w, .stage_begin = stage_begin, .sample = after_sample, .frame = after_frame,
                                                                                  .stage_end = stage_end, .pause = paused}));
     for (int32_t k = 0; k < assembly.n; ++k) brc_simulation_set_patience(assembly.part[k], &w->patience);
-    status = brc_lockstep_run(assembly.n, assembly.part);
+    status = checkpoints ? brc_checkpoints_run(checkpoints) : brc_lockstep_run(assembly.n, assembly.part);
     out->stepping_bytes = brc_memory_peak_since_mark();
     brc_memory_mark();
     const double begin = clock_of(w);
@@ -195,30 +230,32 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
         status = BRC_OK;
     }
     out->end_s = clock_of(w) - begin;
-    for (int32_t k = 0; k < assembly.n; ++k) {
-        int64_t broken;
-        BRC_TRY_OR(cleanup, brc_simulation_broken(assembly.part[k], &broken));
-        out->n_broken += broken;
-    }
+    BRC_TRY_OR(cleanup, count_broken(&assembly, &out->n_broken));
     out->device_bytes[1] = brc_assembly_device_bytes(&assembly);
     out->device_bytes[0] = w->device_first > 0 ? w->device_first : out->device_bytes[1];
     weigh_folder(context, folder, scene, out);
+    if (checkpoints) {
+        const brc_checkpoint_report report = brc_checkpoints_report(checkpoints);
+        out->n_checkpoints = report.n_written;
+        out->checkpoint_bytes = report.bytes;
+    }
     out->n_measures = brc_recorder_measure_count(recorder);
-    for (int32_t k = 0; k < out->n_measures; ++k) out->measures[k] = is_whole(out) ? brc_recorder_measures(recorder)[k].value : NAN;
+    for (int32_t k = 0; k < out->n_measures; ++k) out->measures[k] = brc_trial_is_whole(out) ? brc_recorder_measures(recorder)[k].value : NAN;
 cleanup:
+    brc_checkpoints_free(&checkpoints);
     brc_recorder_free(&recorder);
     return status;
 }
 
-brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc_device_request *request, brc_trial *out)
+brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc_device_request *request, bool brief, brc_trial *out)
 {
     const brc_scene *scene = setup->split->scene;
     const brc_log_level level = brc_log_get_level(context);
     char folder[BRC_SCRATCH];
-    *out = (brc_trial){.n_stages = scene->n_stages};
+    *out = (brc_trial){.n_stages = scene->n_stages, .writes_checkpoints = scene->output.has_checkpoint};
     BRC_TRY(BRC_ALLOCATE(context, &out->stages, scene->n_stages, "trial"));
     BRC_TRY(BRC_ALLOCATE(context, &out->measures, scene->n_measures, "trial"));
-    watch w = {.request = request, .setup = setup, .stages = out->stages};
+    watch w = {.request = request, .setup = setup, .brief = brief, .stages = out->stages};
     w.patience = (brc_patience){.self = &w, .over = solve_is_over, .batch = FIRST_BATCH};
     BRC_TRY(brc_scratch_create(context, folder));
     brc_log_set_level(context, BRC_LOG_ERROR);
@@ -246,6 +283,13 @@ void brc_trial_free(brc_trial *trial)
     *trial = (brc_trial){0};
 }
 
+bool brc_trial_is_whole(const brc_trial *trial)
+{
+    for (int32_t k = 0; k < trial->n_stages; ++k)
+        if (!trial->stages[k].ran || trial->stages[k].cut) return false;
+    return !trial->stopped;
+}
+
 int64_t brc_trial_disk(const brc_trial *trial, const double *done)
 {
     double frames = 0, frames_planned = 0, samples = 0, samples_planned = 0;
@@ -258,7 +302,9 @@ int64_t brc_trial_disk(const brc_trial *trial, const double *done)
         samples_planned += fmax((double)stage->samples, stage->cut ? part * (double)stage->samples_planned : 0);
     }
     const double more_frames = frames > 0 ? frames_planned / frames - 1 : 0, more_samples = samples > 0 ? samples_planned / samples - 1 : 0;
-    return trial->disk_bytes + (int64_t)(more_frames * (double)trial->frames_bytes + more_samples * (double)trial->table_bytes +
+    /* two are kept, of runs that write more than one */
+    const int64_t second = trial->n_checkpoints == 1 && trial->writes_checkpoints && !brc_trial_is_whole(trial) ? trial->checkpoint_bytes : 0;
+    return trial->disk_bytes + second + (int64_t)(more_frames * (double)trial->frames_bytes + more_samples * (double)trial->table_bytes +
                                          (samples_planned - samples) * (double)trial->sample_bytes);
 }
 

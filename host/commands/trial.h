@@ -1,5 +1,6 @@
 /* A trial: the run itself in a folder that is removed, each stage cut short after about a second, and what its parts cost. The price of the whole run
- * follows by counting: steps, increments, events, samples and frames that were planned over those that were made. */
+ * follows by counting: steps, increments, events, samples and frames that were planned over those that were made. Where bonds break, surfaces meet or a condition may
+ * end a stage early counting does not say all: such a stage is cut only where it has some seconds and more before it. */
 #ifndef BRC_COMMANDS_TRIAL_H
 #define BRC_COMMANDS_TRIAL_H
 
@@ -11,6 +12,7 @@ typedef struct brc_trial_stage {
     int64_t planned, done;      /* steps, increments or events; modes: 1 */
     int64_t iterations;         /* static and modes: linear iterations, rounds */
     int64_t samples_planned, samples, frames_planned, frames;
+    int64_t broken;             /* bonds that broke in it */
     double enter_s;             /* from the end of the last stage to the first step of this one */
     double warm_s;              /* until the first pause: pages are touched, kernels built; static: all but the iterations */
     double pace_s;              /* of a step or event after that, without output; static and modes: of an iteration */
@@ -26,18 +28,25 @@ typedef struct brc_trial {
     int64_t stepping_bytes;  /* of host_bytes, the most that was held while it ran, with the samples to come */
     int64_t ending_bytes;    /* the same at its end: results, measures, pictures */
     int64_t disk_bytes, frames_bytes, table_bytes; /* of its folder, of that the frames, and histories.csv */
+    bool writes_checkpoints; /* the scene asks for them */
+    int64_t n_checkpoints, checkpoint_bytes; /* written, and of the last one; none where only a signal would ask for one */
     int64_t sample_bytes;    /* of a sample in result.h5 */
     int64_t device_bytes[2]; /* on the devices at the first pause of dynamics (without: at the end), and at the end */
-    int64_t n_broken;        /* bonds that broke */
+    int64_t n_broken;        /* bonds that broke, in all stages */
     int32_t n_measures;
     double *measures;        /* [n_measures] of the scene; NAN unless every stage came to its end; owned */
     bool stopped;            /* the physics were stopped; reason: why */
     char reason[512];
 } brc_trial;
 
-/* Run the setup's simulations, which are used up by it. request: of their devices; seconds are those of brc_pace_clock_s. BRC_BAD_INPUT: what the run would refuse. */
-brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc_device_request *request, brc_trial *out);
+/* Run the setup's simulations, which are used up by it. request: of their devices; seconds are those of brc_pace_clock_s. brief: stages in which bonds break, surfaces meet
+ * or a condition may be met are cut as the others are, also where the end is near. BRC_BAD_INPUT: what the run would refuse. */
+brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc_device_request *request, bool brief, brc_trial *out);
 void brc_trial_free(brc_trial *trial);
+/* Is there a condition that ends it before its plan? */
+bool brc_trial_may_end_early(const brc_stage *stage);
+/* Did every stage come to its end? */
+bool brc_trial_is_whole(const brc_trial *trial);
 /* Of the whole run by counting alone, without samples and frames: where it decides only how coarse a body is looked at. */
 double brc_trial_seconds(const brc_trial *trial);
 

@@ -11,6 +11,9 @@ static brc_status new_ints(brc_simulation *s, brc_buffer **out, int64_t count, c
     return brc_buffer_create(s->device, out, 4 * count, what);
 }
 
+/* For n things, and a little more, since cracks grow: arrays of pairs are made anew where they do not fit. */
+static int64_t room_of(int64_t n) { return n + n / 8; }
+
 static int32_t blocks_of(int64_t n, int32_t block) { return (int32_t)((n + block - 1) / block); }
 
 /* start [n + 1]: running sums of x [n]; *total: that of all. */
@@ -175,7 +178,7 @@ static brc_status sort_by_cell(brc_simulation *s, double per_edge, int32_t mask,
     return BRC_LAUNCH(c->kernel.buckets, m, BRC_INT(m), BRC_BUF(c->key[at]), BRC_BUF(c->first), BRC_BUF(c->last));
 }
 
-/* Room for m exposed elements; a little more than asked for, since cracks grow. */
+/* Room for m exposed elements. */
 static brc_status make_room(brc_simulation *s, int64_t m, int64_t buckets)
 {
     brc_contact_state *c = s->contact;
@@ -185,7 +188,7 @@ static brc_status make_room(brc_simulation *s, int64_t m, int64_t buckets)
         c->bucket_room = buckets;
     }
     if (m <= c->key_room) return BRC_OK;
-    const int64_t room = m + m / 4 < s->layout->n_rows ? m + m / 4 : s->layout->n_rows;
+    const int64_t room = room_of(m) < s->layout->n_rows ? room_of(m) : s->layout->n_rows;
     const int64_t digits = SORT_BINS * (int64_t)blocks_of(room, SCAN_BLOCK);
     for (int k = 0; k < 2; ++k) {
         BRC_TRY(new_ints(s, &c->key[k], room, "grid of contact"));
@@ -214,7 +217,7 @@ static brc_status room_for_listed(brc_simulation *s, brc_contact_list *l, int64_
 static brc_status room_for_entries(brc_simulation *s, brc_contact_list *l, int64_t n)
 {
     if (l->entry && n <= l->entry_room) return BRC_OK;
-    l->entry_room = n + n / 4;
+    l->entry_room = room_of(n);
     BRC_TRY(new_ints(s, &l->entry, l->entry_room, "pairs of elements"));
     return new_ints(s, &l->pair, l->entry_room, "pairs of elements");
 }
@@ -225,7 +228,7 @@ static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t
 {
     brc_contact_state *c = s->contact;
     if (!l->ends || n > l->pair_room) {
-        l->pair_room = n + n / 4;
+        l->pair_room = room_of(n);
         BRC_TRY(new_ints(s, &l->ends, 2 * l->pair_room, "pairs"));
         brc_buffer_free(&l->history);
         BRC_TRY(brc_new_state(s, &l->history, BRC_CONTACT_HISTORY * l->pair_room, "history of pairs"));
@@ -239,7 +242,7 @@ static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t
         }
     }
     if (c->result && n <= c->result_room) return BRC_OK;
-    c->result_room = n + n / 4;
+    c->result_room = room_of(n);
     BRC_TRY(new_ints(s, &c->touch, c->result_room, "pairs that touch"));
     brc_buffer_free(&c->result);
     return brc_new_state(s, &c->result, stride_of(c) * c->result_room, "forces of pairs");
@@ -250,7 +253,7 @@ static brc_status room_for_sums(brc_simulation *s, int64_t n)
 {
     brc_contact_state *c = s->contact;
     if (n <= c->sums_room) return BRC_OK;
-    c->sums_room = n + n / 4;
+    c->sums_room = room_of(n);
     brc_buffer_free(&c->sums);
     return new_ints(s, &c->sums, most_blocks(s, c->sums_room) + 1, "running sums");
 }
@@ -264,12 +267,12 @@ static brc_status pack_results(brc_simulation *s)
     if (n == 0) return BRC_OK;
     BRC_TRY(room_for_sums(s, n));
     if (n > c->packed_at_room) {
-        c->packed_at_room = n + n / 4;
+        c->packed_at_room = room_of(n);
         BRC_TRY(new_ints(s, &c->packed_at, c->packed_at_room + 1, "pairs that touch"));
     }
     BRC_TRY(scan(s, c->touch, n, c->packed_at, &n_touching));
     if (!c->packed || n_touching > c->packed_room) {
-        c->packed_room = n_touching + n_touching / 4 + 1;
+        c->packed_room = room_of(n_touching) + 1;
         brc_buffer_free(&c->packed);
         BRC_TRY(brc_new_state(s, &c->packed, stride_of(c) * c->packed_room, "forces of pairs that touch"));
     }
@@ -392,7 +395,7 @@ static brc_status find_changed(brc_simulation *s, brc_buffer *touched)
     c->n_todo = 0;
     if (n_pairs == 0) return BRC_OK;
     if (n_pairs > c->todo_room) {
-        c->todo_room = n_pairs + n_pairs / 4;
+        c->todo_room = room_of(n_pairs);
         BRC_TRY(new_ints(s, &c->flag, c->todo_room, "changed pairs"));
         BRC_TRY(new_ints(s, &c->flag_start, c->todo_room + 1, "changed pairs"));
         BRC_TRY(new_ints(s, &c->todo, c->todo_room, "changed pairs"));

@@ -132,30 +132,51 @@ static int by_id(const void *left, const void *right)
     return (a->id > b->id) - (a->id < b->id);
 }
 
+/* Row i becomes what row order[i].id was, along the cycles of that change: lists of pairs are long, and held is all there is beside the image. Uses up the ids. */
+static void rearrange(char *image, size_t row, char *held, int64_t n, place_of_id *order)
+{
+    for (int64_t first = 0; first < n; ++first) {
+        if (order[first].id < 0) continue;
+        int64_t i = first;
+        memcpy(held, image + (size_t)first * row, row);
+        while (order[i].id != first) {
+            const int32_t from = order[i].id;
+            memcpy(image + (size_t)i * row, image + (size_t)from * row, row);
+            order[i].id = -1;
+            i = from;
+        }
+        memcpy(image + (size_t)i * row, held, row);
+        order[i].id = -1;
+    }
+}
+
 brc_status brc_store_list(brc_simulation *s, brc_state_store *store, const char *name, brc_buffer *buffer, brc_number_kind kind, int64_t n, int32_t width,
                           const int32_t *id)
 {
     const brc_stored_type type = type_of(s, kind);
     const size_t row = (size_t)width * (size_t)brc_stored_type_bytes(type);
     place_of_id *order = NULL;
-    char *image = NULL, *values = NULL;
+    char *image = NULL;
     brc_status status = BRC_OK;
     if (!buffer || n == 0) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &order, n, name));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &image, n * (int64_t)row, name));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, n * (int64_t)row, name));
-    for (int64_t i = 0; i < n; ++i) order[i] = (place_of_id){id ? id[i] : (int32_t)i, (int32_t)i};
-    if (id) qsort(order, (size_t)n, sizeof *order, by_id);
-    BRC_TRY_OR(cleanup, brc_buffer_read(buffer, 0, image, n * (int64_t)row));
-    for (int64_t i = 0; i < n; ++i) memcpy(values + (size_t)i * row, image + (size_t)order[i].at * row, row);
-    BRC_TRY_OR(cleanup, store->numbers(store, name, type, n, width, values));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &image, (n + 1) * (int64_t)row, name)); /* a row more, held while they change places */
+    if (id) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &order, n, name));
+        for (int64_t i = 0; i < n; ++i) order[i] = (place_of_id){id[i], (int32_t)i};
+        qsort(order, (size_t)n, sizeof *order, by_id);
+        for (int64_t i = 0; i < n; ++i) order[store->loading ? order[i].at : i].id = store->loading ? (int32_t)i : order[i].at;
+    }
+    if (!store->loading) {
+        BRC_TRY_OR(cleanup, brc_buffer_read(buffer, 0, image, n * (int64_t)row));
+        if (id) rearrange(image, row, image + (size_t)n * row, n, order);
+    }
+    BRC_TRY_OR(cleanup, store->numbers(store, name, type, n, width, image));
     if (store->loading) {
-        for (int64_t i = 0; i < n; ++i) memcpy(image + (size_t)order[i].at * row, values + (size_t)i * row, row);
+        if (id) rearrange(image, row, image + (size_t)n * row, n, order);
         BRC_TRY_OR(cleanup, brc_buffer_write(buffer, 0, image, n * (int64_t)row));
     }
 cleanup:
     brc_memory_free(order);
     brc_memory_free(image);
-    brc_memory_free(values);
     return status;
 }

@@ -41,5 +41,5 @@ int64_t brc_simulation_pair_bytes(const brc_simulation *s)
     const int64_t state = brc_precision_state_bytes(brc_device_get_precision(s->device));
     const int64_t result = (BRC_CONTACT_RESULT + 2 * s->contact->width) * state, lists = 2 * (2 * 4 + BRC_CONTACT_HISTORY * state); /* ends and history, now and before */
     const int64_t breaks = s->fracture ? 4 * 4 + result : 0;                                                                       /* packed, its place; flags and list of changed pairs */
-    return (lists + 4 + result + breaks) * 5 / 4;                                                                                 /* arrays grow by a quarter at once */
+    return (lists + 4 + result + breaks) * 9 / 8;                                                                                 /* arrays grow by an eighth at once */
 }

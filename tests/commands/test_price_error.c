@@ -28,7 +28,7 @@ static int begin(void **state)
     t = (tried){.context = brc_context_create()};
     *state = &t;
     if (!t.context || brc_scene_read_text(t.context, "block", block, strlen(block), 0, NULL, &t.scene) != BRC_OK || brc_setup_domains(t.context, t.scene, NULL, 1, &t.setup) != BRC_OK ||
-        brc_setup_simulations(t.context, &device, &t.setup) != BRC_OK || brc_trial_run(t.context, &t.setup, &device, &t.trial) != BRC_OK)
+        brc_setup_simulations(t.context, &device, &t.setup) != BRC_OK || brc_trial_run(t.context, &t.setup, &device, false, &t.trial) != BRC_OK)
         return -1;
     brc_setup_free_simulations(&t.setup);
     return 0;
