@@ -59,6 +59,7 @@ static brc_status pause(void *self, brc_simulation *simulation, brc_pause why)
     if (why != BRC_PAUSE_GOING || p->expected > 0 || scene->stages[stage].solver != BRC_SOLVER_DYNAMIC) return BRC_OK;
     const double now = brc_clock_s();
     if (p->first_step == 0) { /* its batch touched every page for the first time */
+        if (!(p->begin > 0)) p->begin = now; /* taken up in the middle of a stage, which therefore did not begin here */
         p->first_step = step;
         p->first_s = now;
         p->first_frames_s = p->stage_frames_s;

@@ -38,6 +38,7 @@ brc_status brc_contact_create(brc_simulation *s)
     s->contact->affine = brc_is_dlsm(s);
     s->contact->width = s->contact->affine ? 9 : 3;
     s->contact->pose = s->contact->affine ? 1 : brc_is_beams(s) ? 0 : 2;
+    brc_contact_check_speed(s);
     BRC_TRY(brc_contact_setup(s));
     BRC_TRY(find_kernels(s));
     BRC_TRY(brc_contact_shapes(s));

@@ -7,14 +7,7 @@
  * of, and below that is the rounding of places. Spheres of a packing stand out of its walls by about a hundredth of their radius. */
 static const double refused_depth = 0.05, told_depth = 1e-6, told_depth_of_spheres = 0.02;
 
-/* The deepest place found so far. */
-typedef struct overlap {
-    double depth; /* [m] */
-    int64_t element;
-    double place[3];
-} overlap;
-
-static void deepen(overlap *deepest, double depth, int64_t element, const double x[3])
+void brc_deepen(brc_overlap *deepest, double depth, int64_t element, const double x[3])
 {
     if (!(depth > deepest->depth)) return;
     deepest->depth = depth;
@@ -49,28 +42,32 @@ static double from_segment(const double a[3], const double b[3], const double r[
     return sqrt(rest);
 }
 
+double brc_convex_face_distance(const brc_convex *v, int32_t p, int32_t f, const double r[3])
+{
+    const double *corner = v->corner + 3 * (int64_t)v->corner_start[p], *plane = v->plane + 4 * (int64_t)f;
+    const double height = plane[0] * r[0] + plane[1] * r[1] + plane[2] * r[2] - plane[3];
+    const int32_t first = v->loop_start[f], n = v->loop_start[f + 1] - first;
+    double least = HUGE_VAL;
+    bool over = true; /* above or below the polygon itself, not beyond one of its sides; without corners: a whole plane */
+    for (int32_t k = 0; k < n; ++k) {
+        const double *a = corner + 3 * (int64_t)v->loop[first + k], *b = corner + 3 * (int64_t)v->loop[first + (k + 1) % n];
+        double side = 0;
+        for (int c = 0; c < 3; ++c) {
+            const int i = (c + 1) % 3, j = (c + 2) % 3;
+            side += plane[c] * ((b[i] - a[i]) * (r[j] - a[j]) - (b[j] - a[j]) * (r[i] - a[i]));
+        }
+        over = over && side >= 0;
+        least = fmin(least, from_segment(a, b, r));
+    }
+    return over ? fabs(height) : least;
+}
+
 /* Distance of x, which is outside, from a piece: the least to its faces. */
 static double away_from_piece(const brc_strikers *t, int32_t piece, const double x[3])
 {
     const double *centre = t->body[t->piece_striker[piece]].centre, r[3] = {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
-    const double *corner = t->convex.corner + 3 * (int64_t)t->convex.corner_start[piece];
     double least = HUGE_VAL;
-    for (int32_t f = t->convex.face_start[piece]; f < t->convex.face_start[piece + 1]; ++f) {
-        const double *p = t->convex.plane + 4 * (int64_t)f, height = p[0] * r[0] + p[1] * r[1] + p[2] * r[2] - p[3];
-        const int32_t first = t->convex.loop_start[f], n = t->convex.loop_start[f + 1] - first;
-        bool over = height >= 0; /* above the polygon itself, not beyond one of its sides; without corners: a whole plane */
-        for (int32_t k = 0; k < n; ++k) {
-            const double *a = corner + 3 * (int64_t)t->convex.loop[first + k], *b = corner + 3 * (int64_t)t->convex.loop[first + (k + 1) % n];
-            double side = 0;
-            for (int c = 0; c < 3; ++c) {
-                const int i = (c + 1) % 3, j = (c + 2) % 3;
-                side += p[c] * ((b[i] - a[i]) * (r[j] - a[j]) - (b[j] - a[j]) * (r[i] - a[i]));
-            }
-            over = over && side >= 0;
-            least = fmin(least, from_segment(a, b, r));
-        }
-        if (over) least = fmin(least, height);
-    }
+    for (int32_t f = t->convex.face_start[piece]; f < t->convex.face_start[piece + 1]; ++f) least = fmin(least, brc_convex_face_distance(&t->convex, piece, f, r));
     return least;
 }
 
@@ -94,7 +91,7 @@ static double depth_in_cell(const brc_domain *d, int64_t e, const double x[3])
 }
 
 /* Elements in a piece: their corners, or spheres by their middles, which may stand outside by the radius. */
-static void find_elements(const brc_domain *d, const brc_strikers *t, int32_t piece, overlap *deepest)
+static void find_elements(const brc_domain *d, const brc_strikers *t, int32_t piece, brc_overlap *deepest)
 {
     const bool spheres = d->element_kind == BRC_ELEMENT_SPHERE, round = t->piece_kind[piece] == BRC_PIECE_SPHERE;
     const double *centre = t->body[t->piece_striker[piece]].centre, reach = t->convex.radius[piece];
@@ -104,15 +101,15 @@ static void find_elements(const brc_domain *d, const brc_strikers *t, int32_t pi
         if (spheres) {
             if (away - out > reach) continue;
             const double inside = round ? 0 : depth_in_piece(t, piece, x);
-            deepen(deepest, out + (round ? t->piece_radius[piece] - away : inside > 0 ? inside : -away_from_piece(t, piece, x)), e, x);
+            brc_deepen(deepest, out + (round ? t->piece_radius[piece] - away : inside > 0 ? inside : -away_from_piece(t, piece, x)), e, x);
             continue;
         }
-        for (int64_t v = d->vertex_start[e]; v < d->vertex_start[e + 1]; ++v) deepen(deepest, depth_in_piece(t, piece, d->vertex + 3 * v), e, d->vertex + 3 * v);
+        for (int64_t v = d->vertex_start[e]; v < d->vertex_start[e + 1]; ++v) brc_deepen(deepest, depth_in_piece(t, piece, d->vertex + 3 * v), e, d->vertex + 3 * v);
     }
 }
 
 /* Corners of a piece in cells: x lies in the cell of the nearest position, if in any. */
-static void find_corners(const brc_domain *d, const brc_strikers *t, int32_t piece, overlap *deepest)
+static void find_corners(const brc_domain *d, const brc_strikers *t, int32_t piece, brc_overlap *deepest)
 {
     const double *centre = t->body[t->piece_striker[piece]].centre;
     for (int32_t k = t->convex.corner_start[piece]; k <= t->convex.corner_start[piece + 1]; ++k) {
@@ -132,8 +129,32 @@ static void find_corners(const brc_domain *d, const brc_strikers *t, int32_t pie
             least = square;
             nearest = e;
         }
-        if (nearest >= 0) deepen(deepest, depth_in_cell(d, nearest, x), nearest, x);
+        if (nearest >= 0) brc_deepen(deepest, depth_in_cell(d, nearest, x), nearest, x);
     }
+}
+
+double brc_striker_refused_depth(const brc_simulation *s) { return refused_depth * s->domain->quality.mean_spacing; }
+double brc_striker_told_depth(const brc_simulation *s)
+{
+    return (s->domain->element_kind == BRC_ELEMENT_SPHERE ? told_depth_of_spheres : told_depth) * s->domain->quality.mean_spacing;
+}
+
+brc_status brc_striker_stands_in(brc_simulation *s, int32_t i, const brc_overlap *found)
+{
+    const brc_striker *striker = s->scene->strikers + i;
+    const double *x = found->place;
+    if (!(found->depth > brc_striker_told_depth(s))) return BRC_OK;
+    const int32_t owner = s->domain->body[found->element];
+    const char *body = s->scene->bodies[owner < s->scene->n_bodies ? owner : 0].name;
+    if (found->depth > brc_striker_refused_depth(s))
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "striker '%s' stands %s%.4g m deep in body '%s' as the scene starts, %s (%.6g, %.6g, %.6g) m (spacing %.4g m): move one of them away%s",
+                        striker->name, found->first ? "at least " : "", found->depth, body, found->first ? "at" : "deepest at", x[0], x[1], x[2], s->domain->quality.mean_spacing,
+                        striker->is_plane ? ", or turn the normal, which points out of the wall" : "");
+    if (!s->strikers->told[i])
+        brc_log(s->context, BRC_LOG_WARNING, "striker '%s' stands %.4g m deep in body '%s' as the scene starts, at (%.6g, %.6g, %.6g) m: they begin pressed together", striker->name, found->depth, body,
+                x[0], x[1], x[2]);
+    s->strikers->told[i] = true;
+    return BRC_OK;
 }
 
 static brc_status check_overlap(brc_simulation *s, int32_t i)
@@ -141,23 +162,13 @@ static brc_status check_overlap(brc_simulation *s, int32_t i)
     const brc_strikers *t = s->strikers;
     const brc_domain *d = s->domain;
     const bool spheres = d->element_kind == BRC_ELEMENT_SPHERE;
-    const double spacing = d->quality.mean_spacing;
-    overlap deepest = {0};
+    brc_overlap deepest = {0};
     for (int32_t p = 0; p < t->convex.n; ++p) {
         if (t->piece_striker[p] != i) continue;
         find_elements(d, t, p, &deepest);
         if (!spheres) find_corners(d, t, p, &deepest);
     }
-    if (!(deepest.depth > (spheres ? told_depth_of_spheres : told_depth) * spacing)) return BRC_OK;
-    const int32_t body = d->body[deepest.element] < s->scene->n_bodies ? d->body[deepest.element] : 0;
-    const double *x = deepest.place;
-    if (deepest.depth > refused_depth * spacing)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "striker '%s' stands %.4g m deep in body '%s' as the scene starts, deepest at (%.6g, %.6g, %.6g) m (spacing %.4g m): move one of them away%s",
-                        s->scene->strikers[i].name, deepest.depth, s->scene->bodies[body].name, x[0], x[1], x[2], spacing,
-                        s->scene->strikers[i].is_plane ? ", or turn the normal, which points out of the wall" : "");
-    brc_log(s->context, BRC_LOG_WARNING, "striker '%s' stands %.4g m deep in body '%s' as the scene starts, at (%.6g, %.6g, %.6g) m: they begin pressed together",
-            s->scene->strikers[i].name, deepest.depth, s->scene->bodies[body].name, x[0], x[1], x[2]);
-    return BRC_OK;
+    return brc_striker_stands_in(s, i, &deepest);
 }
 
 /* ---- speeds and ways ---- */
@@ -219,6 +230,49 @@ static void check_speed(const brc_simulation *s, int32_t i, double bodies)
                 "do not hold for shock waves", s->scene->strikers[i].name, speed + bodies, material, wave);
 }
 
+/* How fast parts of the bodies are thrown at each other: the largest difference between velocities of sets, of what has none too [m/s]. A field without a set moves all alike. */
+static double speed_between_bodies(const brc_simulation *s)
+{
+    double most = 0;
+    for (int32_t k = 0; k < s->scene->n_stages; ++k) {
+        const brc_stage *stage = s->scene->stages + k;
+        for (int32_t f = 0; f < stage->n_initials; ++f) {
+            const brc_initial *one = stage->initials + f;
+            if (one->kind != BRC_INITIAL_VELOCITY || !one->set[0]) continue;
+            most = fmax(most, length(one->value));
+            for (int32_t g = 0; g < f; ++g) {
+                const brc_initial *other = stage->initials + g;
+                const double apart[3] = {one->value[0] - other->value[0], one->value[1] - other->value[1], one->value[2] - other->value[2]};
+                if (other->kind == BRC_INITIAL_VELOCITY && other->set[0]) most = fmax(most, length(apart));
+            }
+        }
+    }
+    return most;
+}
+
+void brc_contact_check_speed(const brc_simulation *s)
+{
+    const char *material = "";
+    if (s->scene->n_bodies < 2) return;
+    const double wave = slowest_wave(s, &material), speed = speed_between_bodies(s);
+    if (speed > wave)
+        brc_log(s->context, BRC_LOG_WARNING, "bodies meet with up to %.4g m/s, faster than the pressure wave of '%s', %.4g m/s: what is hit cannot give way; elastic laws do not hold for shock waves",
+                speed, material, wave);
+}
+
+/* A velocity that the rail of a free striker does not let it have. */
+static void check_rail(const brc_simulation *s, int32_t i)
+{
+    static const char axis[] = "xyz";
+    const brc_striker *striker = s->scene->strikers + i;
+    if (striker->motion != BRC_STRIKER_FREE) return;
+    for (int c = 0; c < 3; ++c)
+        if (striker->held[c] && striker->velocity[c] != 0)
+            brc_log(s->context, BRC_LOG_WARNING, "striker '%s': its velocity of %.4g m/s along %c is left out, as `hold` lets it not move along %c", striker->name, striker->velocity[c], axis[c], axis[c]);
+    if (striker->held_rotation && length(striker->spin) > 0)
+        brc_log(s->context, BRC_LOG_WARNING, "striker '%s': its spin of %.4g rad/s is left out, as `hold` lets it not turn", striker->name, length(striker->spin));
+}
+
 /* How far the box around a striker, or a plane, is from the box around all bodies [m]. */
 static double gap_of(const brc_simulation *s, int32_t i)
 {
@@ -273,6 +327,7 @@ brc_status brc_strikers_check(brc_simulation *s)
         const brc_status one = check_overlap(s, i);
         if (one != BRC_OK) status = one;
         check_speed(s, i, bodies);
+        check_rail(s, i);
         check_reach(s, i, bodies);
     }
     return status;

@@ -89,6 +89,7 @@ brc_status brc_strikers_create(brc_simulation *s)
     t->n = s->scene->n_strikers;
     BRC_TRY(BRC_ALLOCATE(s->context, &t->body, t->n, "strikers"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->placed, t->n, "strikers"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &t->told, t->n, "strikers"));
     for (int32_t i = 0; i < t->n; ++i) BRC_TRY(brc_striker_body_make(s, i));
     BRC_TRY(brc_kernel_find(s->device, "striker_advance", &t->advance));
     BRC_TRY(brc_kernel_find(s->device, "striker_place", &t->place));
@@ -111,6 +112,7 @@ void brc_strikers_free(brc_simulation *s)
     brc_memory_free(t->piece_radius);
     brc_memory_free(t->body);
     brc_memory_free(t->placed);
+    brc_memory_free(t->told);
     brc_memory_free(t);
     s->strikers = NULL;
 }

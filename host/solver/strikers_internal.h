@@ -23,6 +23,7 @@ struct brc_strikers {
     int32_t *piece_striker; /* [convex.n] whose each is; host */
     brc_piece_kind *piece_kind; /* [convex.n] host */
     double *piece_radius;       /* [convex.n] of spheres, else 0 [m]; host */
+    bool *told;             /* [n] that it stands in a body a little as the scene starts; host */
     double *placed;         /* [n] driven: integral of the table up to where they are placed now [s]; host */
     /* for contact */
     brc_buffer *pose;   /* [n][12] place of the mass centre, rotation matrix by rows: now */
@@ -48,8 +49,27 @@ void brc_striker_body_free(brc_striker_body *body);
 /* Make them, where the scene has some; velocities are those of the start of the run. BRC_BAD_INPUT: a free one without mass ... */
 brc_status brc_strikers_create(brc_simulation *s);
 void brc_strikers_free(brc_simulation *s);
-/* Refuses strikers that stand in a body; warns of such as stand in one a little, meet bodies faster than sound, or cannot come near any (striker_check.c). */
+/* Refuses strikers that stand in a body; warns of such as stand in one a little, meet bodies faster than sound, are held against their velocity, or cannot come near any (striker_check.c). */
 brc_status brc_strikers_check(brc_simulation *s);
+/* Warns of bodies that are thrown at each other faster than sound. */
+void brc_contact_check_speed(const brc_simulation *s);
+/* The deepest place found so far of a striker in a body: depth [m], the element there, the place in space. */
+typedef struct brc_overlap {
+    double depth;
+    int64_t element;
+    double place[3];
+    bool first; /* the search ended here: other places may be deeper */
+} brc_overlap;
+void brc_deepen(brc_overlap *deepest, double depth, int64_t element, const double x[3]);
+/* Depths beyond which an overlap is refused, and told of [m]. */
+double brc_striker_refused_depth(const brc_simulation *s);
+double brc_striker_told_depth(const brc_simulation *s);
+/* Refuses what was found of striker i, or tells of it, once. */
+brc_status brc_striker_stands_in(brc_simulation *s, int32_t i, const brc_overlap *found);
+/* Distance of r, from the origin of polyhedron p, from its face f (of all faces), on either side [m]. */
+double brc_convex_face_distance(const brc_convex *convex, int32_t p, int32_t f, const double r[3]);
+/* The same check where no corner tells: an edge of either goes through the other (striker_through.c). `cells`: those of the domain. Bodies of spheres, which have no edges, and planes need none. */
+brc_status brc_strikers_check_edges(brc_simulation *s, const brc_convex *cells);
 /* Free ones: kick and drift [s] of velocity and spin; extra: (phi - 1) dt of Tchamwa-Wielgosz, else 0. numerical: book the loss of that scheme. */
 brc_status brc_strikers_advance(brc_simulation *s, double kick, double drift, double extra, bool numerical);
 /* Driven ones are put where they are at the present time of the run. */

@@ -213,6 +213,8 @@ def ends_by_a_signal(folder):
     run(line + ["--resume"])
     for path in ["histories.csv", "result.h5"] + [f"frames/{os.path.basename(p)}" for p in glob.glob(f"{folder}/whole/frames/*")]:
         assert filecmp.cmp(f"{folder}/whole/{path}", f"{folder}/left/{path}", shallow=False), path
+    prediction = json.load(open(f"{folder}/left/summary.json", encoding="utf-8"))["prediction"]
+    assert not (prediction["actual_seconds"] or 0) > 600, f"a run taken up in the middle of a stage took {prediction['actual_seconds']} s?"  # counted from when it was taken up
     return "a run that is interrupted goes on to the same bytes"
 
 

@@ -140,6 +140,33 @@ static void surfaces_that_a_break_moves_rub_nothing(void **state)
     }
 }
 
+/* With `rotation: false` cells that came off keep the orientation they came off with: no spin, none of its energy. Without it they turn, and the motion is another one. */
+static void cells_that_came_off_turn_unless_switched_off(void **state)
+{
+    (void)state;
+    double *place[2], energy[2], moved[2] = {0};
+    int64_t n = 0;
+    for (int off = 0; off < 2; ++off) {
+        bench_case c;
+        open_case(&c, (case_options){.stages = CONTACT_CRUSH, .materials = CELLS_STRENGTH("2e-4 Pa"), .fill = "cells: [4, 4, 4], spread: 50 %, seed: 1", .n_threads = 1,
+                                     .sets = off ? "fracture: {criterion: bond-normal}\ninteractions: {contact: {friction: 0.3, restitution: 0.7, rotation: false}}\n" : CONTACT_KEYS});
+        begin_first(&c);
+        run_steps(&c, 400);
+        n = c.domain->n_elements;
+        place[off] = calloc((size_t)(3 * n), sizeof **place);
+        assert_true(c.simulation->contact->n_rigid > 5);
+        assert_done(&c, brc_simulation_displacement(c.simulation, place[off]));
+        assert_done(&c, brc_contact_spin_energy(c.simulation, &energy[off]));
+        for (int64_t k = 0; k < 3 * n; ++k) moved[off] = fmax(moved[off], fabs(place[off][k]));
+        close_case(&c);
+    }
+    double apart = 0;
+    for (int64_t k = 0; k < 3 * n; ++k) apart = fmax(apart, fabs(place[0][k] - place[1][k]));
+    assert_true(energy[0] > 0 && energy[1] == 0);
+    assert_true(apart > 1e-3 * moved[0]); /* far beyond rounding, 1e-12 after these steps */
+    free(place[0]), free(place[1]);
+}
+
 /* Forces are minus the gradient of all energies where fragments overlap, rigid cells among them. */
 static void forces_are_the_gradient_of_the_energy_with_touching_fragments(void **state)
 {
@@ -204,6 +231,7 @@ int main(void)
         cmocka_unit_test(sliding_starts_where_the_slope_is_the_friction),
         cmocka_unit_test(fragments_that_meet_keep_momentum_and_energy),
         cmocka_unit_test(surfaces_that_a_break_moves_rub_nothing),
+        cmocka_unit_test(cells_that_came_off_turn_unless_switched_off),
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(what_is_not_asked_for_is_not_there),
         cmocka_unit_test(forces_are_the_gradient_of_the_energy_with_touching_fragments),

@@ -9,17 +9,15 @@
 #define HEAD "interactions: {contact: {}}\nstrikers:\n"
 #define DURING(time) "  - name: move\n    solver: {dynamic: {duration: " time "}}\n"
 
-/* What the log says while a cube of 1 m of 6^3 cells, E 1 Pa, density 1 kg/m^3, and the striker are made; *status: of that. Caller frees. */
-static char *told(const char *striker, const char *stages, brc_status *status)
+/* What the log says while the case is made; *status: of that. Caller frees. */
+static char *told(case_options options, brc_status *status)
 {
-    char text[600];
     bench_case c;
-    snprintf(text, sizeof text, HEAD "  it: {%s, material: stone}\n", striker);
     fflush(stderr);
     FILE *file = tmpfile();
     const int kept = dup(2);
     dup2(fileno(file), 2);
-    *status = try_case(&c, (case_options){.gravity = text, .stages = stages, .n_threads = 1, .no_contact = true});
+    *status = try_case(&c, options);
     if (*status == BRC_OK) { /* warnings are for the eyes of the default level */
         brc_simulation_free(&c.simulation);
         brc_log_set_level(c.context, BRC_LOG_WARNING);
@@ -38,13 +36,23 @@ static char *told(const char *striker, const char *stages, brc_status *status)
     return out;
 }
 
-static void expect(const char *striker, const char *stages, brc_status expected, const char *words)
+static void expect_of(case_options options, const char *what, brc_status expected, const char *words)
 {
     brc_status status;
-    char *said = told(striker, stages, &status);
-    if (status != expected || (words ? !strstr(said, words) : said[0] != 0)) fail_msg("%s: status %d, said: %s", striker, (int)status, said);
+    char *said = told(options, &status);
+    if (status != expected || (words ? !strstr(said, words) : said[0] != 0)) fail_msg("%s: status %d, said: %s", what, (int)status, said);
     free(said);
 }
+
+/* A cube of 1 m of 6^3 cells, E 1 Pa, density 1 kg/m^3, and a striker. */
+static void expect_where(const char *striker, const char *stages, bool contact, brc_status expected, const char *words)
+{
+    char text[600];
+    snprintf(text, sizeof text, HEAD "  it: {%s, material: stone}\n", striker);
+    expect_of((case_options){.gravity = text, .stages = stages, .n_threads = 1, .no_contact = !contact}, striker, expected, words);
+}
+
+static void expect(const char *striker, const char *stages, brc_status expected, const char *words) { expect_where(striker, stages, false, expected, words); }
 
 static void what_stands_apart_or_touches_is_quiet(void **state)
 {
@@ -68,6 +76,21 @@ static void strikers_inside_a_body_are_refused_with_depth_and_place(void **state
     expect("shape: {box: {size: [2 cm, 2 cm, 2 cm], origin: [0.5 m, 0.5 m, 0.5 m]}}", DURING("10 s"), BRC_BAD_INPUT, "striker 'it' stands");
 }
 
+/* None of these has a corner or its middle in the other, and the plate is thinner than the depth that is refused: edges of cells, or its own, go through. Cells are 1/6 m and noisy; the middle of what an edge of theirs has in
+ * the plate at 0.4 m is at most half a cell from it, so at least 0.05 of 1/6 m from the cube's surface. Faces that lie on each other are no such thing. */
+static void what_goes_through_between_corners_is_refused(void **state)
+{
+    (void)state;
+    expect_where("shape: {box: {size: [3.1 m, 2 m, 0.1 mm], origin: [-2 m, -0.5 m, 0.4 m]}}", DURING("10 s"), true, BRC_BAD_INPUT, "striker 'it' stands at least 0.");
+    expect_where("shape: {cylinder: {length: 4 m, radius: 1 mm, axis: z, origin: [0.4 m, 0.4 m, -1 m]}}, facets: 8", DURING("10 s"), true, BRC_BAD_INPUT, "deep in body 'body' as the scene starts, at (");
+    expect_where("shape: {box: {size: [0.1 mm, 2 m, 0.5 m], origin: [0.5 m, -0.5 m, 0.9 m]}}", DURING("10 s"), true, BRC_BAD_INPUT, "striker 'it' stands");
+    /* an edge across the cube's edge at x = z = 1 m, 1 mm nearer to its middle: 1 mm / sqrt(2) from both of its faces */
+    expect_where("shape: {box: {size: [1 m, 1 m, 1 m]}}, pose: {translation: [0.6457395 m, 0.41 m, 1.3528463 m], rotation: [42.615589 deg, 42.615589 deg, -17.651955 deg]}", DURING("10 s"), true, BRC_OK,
+                 "striker 'it' stands 0.0007071 m deep in body 'body'");
+    expect_where("shape: {box: {size: [3 m, 3 m, 0.1 mm], origin: [-1 m, -1 m, 1 m]}}", DURING("10 s"), true, BRC_OK, NULL);
+    expect_where("shape: {box: {size: [0.1 mm, 0.1 mm, 3 m], origin: [1 m, 0.31 m, -1 m]}}", DURING("10 s"), true, BRC_OK, NULL);
+}
+
 static void a_small_overlap_is_told(void **state)
 {
     (void)state;
@@ -82,6 +105,33 @@ static void speeds_beyond_sound_are_told(void **state)
     expect("shape: {box: {size: [1 m, 1 m, 1 m], origin: [2 m, 0, 0]}}, motion: {free: {velocity: [-1.1 m/s, 0, 0]}}", DURING("10 s"), BRC_OK, "faster than the pressure wave of 'stone', 1.054 m/s");
     expect("plane: {point: [0, 0, -1 m], normal: [0, 0, 1]}, motion: {driven: {velocity: [0, 0, 0.6 m/s], table: [[0, 1], [2 s, -2]]}}", DURING("10 s"), BRC_OK, "up to 1.2 m/s");
     expect("plane: {point: [0, 0, -1 m], normal: [0, 0, 1]}", "  - name: move\n    solver: {dynamic: {duration: 10 s}}\n    initial:\n      - velocity: {velocity: [0, 0, -2 m/s]}\n", BRC_OK, "up to 2 m/s");
+}
+
+/* A rail holds what the velocity asks for: the rest of it is as given. */
+static void a_velocity_against_the_rail_is_told(void **state)
+{
+    (void)state;
+#define ON_RAIL(hold) "shape: {box: {size: [1 m, 1 m, 1 m], origin: [1.5 m, 0, 0]}}, motion: {free: {velocity: [-0.1 m/s, 0, 0.2 m/s], spin: [0, 0.3 rad/s, 0], hold: {" hold "}}}"
+    expect(ON_RAIL("y: true"), DURING("10 s"), BRC_OK, NULL);
+    expect(ON_RAIL("z: true"), DURING("10 s"), BRC_OK, "its velocity of 0.2 m/s along z is left out");
+    expect(ON_RAIL("rotation: true"), DURING("10 s"), BRC_OK, "its spin of 0.3 rad/s is left out");
+}
+
+/* Parts of a scene of two bodies, thrown at each other with 0.6 m/s each: 1.2 m/s between them, and the wave runs at 1.054 m/s; both the same way: 0.9 m/s beside what rests. One body alone meets nobody. */
+static void bodies_that_meet_faster_than_sound_are_told(void **state)
+{
+    (void)state;
+#define THROWN(left, right) "  - name: meet\n    solver: {dynamic: {steps: 1}}\n    initial:\n      - velocity: {set: left, velocity: [" left " m/s, 0, 0]}\n      - velocity: {set: right, velocity: [" right " m/s, 0, 0]}\n"
+    case_options both = {.n_threads = 1, .gravity = "interactions: {contact: {}}\n",
+                         .sets = "sets:\n  left: {elements: {half_space: {point: [0.5 m, 0, 0], normal: [-1, 0, 0]}}}\n  right: {elements: {half_space: {point: [0.5 m, 0, 0], normal: [1, 0, 0]}}}\n",
+                         .shape = "{box: {size: [1 m, 1 m, 1 m]}}\n    fill: {noisy_grid: {cells: [4, 4, 4]}}\n    material: stone\n  - name: other\n    shape: {box: {size: [1 m, 1 m, 1 m], origin: [2 m, 0, 0]}}"};
+    both.stages = THROWN("0.6", "-0.6");
+    expect_of(both, both.stages, BRC_OK, "bodies meet with up to 1.2 m/s, faster than the pressure wave of 'stone', 1.054 m/s");
+    case_options alone = both;
+    alone.shape = NULL;
+    expect_of(alone, alone.stages, BRC_OK, NULL);
+    both.stages = THROWN("-0.9", "-0.6");
+    expect_of(both, both.stages, BRC_OK, NULL);
 }
 
 static void what_comes_near_nothing_is_told(void **state)
@@ -103,8 +153,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_stands_apart_or_touches_is_quiet),
         cmocka_unit_test(strikers_inside_a_body_are_refused_with_depth_and_place),
+        cmocka_unit_test(what_goes_through_between_corners_is_refused),
         cmocka_unit_test(a_small_overlap_is_told),
         cmocka_unit_test(speeds_beyond_sound_are_told),
+        cmocka_unit_test(a_velocity_against_the_rail_is_told),
+        cmocka_unit_test(bodies_that_meet_faster_than_sound_are_told),
         cmocka_unit_test(what_comes_near_nothing_is_told),
         cmocka_unit_test(free_strikers_need_mass),
     };
