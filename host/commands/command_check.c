@@ -2,12 +2,14 @@
 #include "command.h"
 #include "pace.h"
 #include "price.h"
+#include "price_file.h"
 #include "price_trial.h"
 #include "scene_domain.h"
 #include "setup.h"
 #include "trial.h"
 #include "../base/log.h"
 #include "../base/memory.h"
+#include "../output/checkpoint_identity.h"
 #include "../scene/scene_reader.h"
 #include "../solver/strikers.h"
 #include "../solver/touching.h"
@@ -17,6 +19,7 @@ static const brc_option options[] = {
     BRC_OPTION_PRECISION,
     BRC_OPTION_THREADS,
     BRC_OPTION_SET,
+    {"output", 'o', "DIR", false, "also write the price into DIR/price.json, with which `breccia run SCENE -o DIR` compares what it took"},
     {"brief", 'b', NULL, false, "cut every stage after about a second, also where bonds break or surfaces meet and some seconds more would see its end"},
     {"effects", 'E', NULL, false, "also name the kernels that the trial launched and the arrays on the device, with launches and bytes"},
     {"estimate", 'e', NULL, false, "build no domain: counts and memory of it only, no time step and no seconds"},
@@ -131,10 +134,11 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     brc_context *context = session->context;
     brc_status status = BRC_OK;
     brc_scene *scene = NULL;
+    char *yaml = NULL;
     brc_setup setup = {0};
     brc_trial trial = {0};
     brc_price_error own = {.worst = -1};
-    double total;
+    brc_prediction_told told;
     int64_t n_threads;
     brc_precision precision;
     BRC_TRY(brc_arguments_integer(context, arguments, "threads", 0, 4096, 0, &n_threads));
@@ -147,7 +151,8 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
         status = print_estimate(context, scene);
         goto cleanup;
     }
-    const char *selector = brc_arguments_value(arguments, "device");
+    BRC_TRY_OR(cleanup, brc_checkpoint_scene(context, scene, &yaml));
+    const char *selector = brc_arguments_value(arguments, "device"), *folder = brc_arguments_value(arguments, "output");
     const brc_device_request request = {.selector = selector ? selector : "auto", .precision = precision, .n_threads = (int)n_threads};
     const double start = brc_pace_start_s(&request), build_start = brc_pace_clock_s(&request);
     BRC_TRY_OR(cleanup, brc_setup_domains(context, scene, NULL, (int)n_threads, &setup));
@@ -159,14 +164,17 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, brc_arguments_value(arguments, "brief") != NULL, &trial));
     if (brc_arguments_value(arguments, "effects")) print_parts(&setup);
     brc_setup_free_simulations(&setup); /* a coarser body may need the room */
-    BRC_TRY_OR(cleanup, brc_price_tell_trial(context, scene, &setup, &request, &trial, before_s, &total));
+    BRC_TRY_OR(cleanup, brc_price_tell_trial(context, scene, &setup, &request, &trial, before_s, &told));
+    const brc_price_of of = {yaml, brc_device_get_info(setup.device[0])->selector, precision, (int)n_threads};
+    if (folder && told.known) BRC_TRY_OR(cleanup, brc_price_file_write(context, folder, &of, &told));
     BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &setup, &request, &trial, &own));
-    BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, &setup, precision, total, &own));
+    BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, &setup, precision, told.seconds, &own));
 cleanup:
     brc_price_error_free(&own);
     brc_trial_free(&trial);
     brc_setup_free(&setup);
     brc_scene_free(&scene);
+    brc_memory_free(yaml);
     return status;
 }
 

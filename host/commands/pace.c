@@ -6,16 +6,16 @@
 
 #define SAMPLE_S 0.1
 
-static bool uses_one_thread(const brc_device_request *device)
+bool brc_pace_is_processor(const brc_device_request *device)
 {
     return device->n_threads == 1 && strcmp(device->selector, "cpu") == 0;
 }
 
-double brc_pace_clock_s(const brc_device_request *device) { return uses_one_thread(device) ? brc_processor_s() : brc_clock_s(); }
+double brc_pace_clock_s(const brc_device_request *device) { return brc_pace_is_processor(device) ? brc_processor_s() : brc_clock_s(); }
 
-double brc_pace_start_s(const brc_device_request *device) { return uses_one_thread(device) ? 0 : brc_clock_s() - brc_processor_s(); }
+double brc_pace_start_s(const brc_device_request *device) { return brc_pace_is_processor(device) ? 0 : brc_clock_s() - brc_processor_s(); }
 
-const char *brc_pace_clock_name(const brc_device_request *device) { return uses_one_thread(device) ? "processor" : "wall"; }
+const char *brc_pace_clock_name(const brc_device_request *device) { return brc_pace_is_processor(device) ? "processor" : "wall"; }
 
 /* Time of a step, from steps that together take long enough to be timed. */
 static brc_status time_steps(brc_simulation *simulation, const brc_device_request *device, double *seconds)

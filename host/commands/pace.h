@@ -5,6 +5,7 @@
 #include "reproduce.h"
 
 /* Seconds of a device: processor time of a cpu device with one thread, which other programs on the machine do not lengthen; else wall time. */
+bool brc_pace_is_processor(const brc_device_request *device); /* the former */
 double brc_pace_clock_s(const brc_device_request *device);
 /* What that clock showed when the program began, had it never waited since: loading it (its libraries: some 30 ms) is part of what a run takes. */
 double brc_pace_start_s(const brc_device_request *device);

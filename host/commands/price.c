@@ -100,6 +100,14 @@ brc_status brc_price_watch(const brc_setup *setup, brc_price *price)
                                   &(brc_observer){.self = price, .stage_begin = stage_begin, .frame = frame_end, .pause = pause, .stage_end = stage_end});
 }
 
+void brc_price_compare(const brc_price *price)
+{
+    const brc_prediction *p = &price->prediction;
+    if (isnan(p->seconds)) return;
+    brc_log(price->context, BRC_LOG_INFO, "dynamic stages: %.3g s told after %lld steps, %.3g s taken: %+.0f %%", p->seconds, (long long)p->after_steps, p->took_seconds,
+            100 * (p->seconds / p->took_seconds - 1));
+}
+
 /* Errors below this are not told apart: solvers' tolerances, strains squared, rounding [-]. */
 static const double finest_class = 1e-4;
 

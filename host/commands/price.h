@@ -24,6 +24,9 @@ typedef struct brc_price {
 brc_status brc_price_watch_output(brc_context *context, const brc_setup *setup, brc_price *price);
 brc_status brc_price_watch(const brc_setup *setup, brc_price *price);
 
+/* A line of the log when the run is over: what it was told to take and what it took. */
+void brc_price_compare(const brc_price *price);
+
 /* The error class of a scene: 1, 3 or 10 of a power of ten, the nearest to an error [-]; at least 1e-4. */
 double brc_price_class(double error);
 /* What the class rests on: the scene's own worst measure (own: price_error.h) or, where nothing was found of them, the worst of the measured curves of its model. */

@@ -203,13 +203,13 @@ static void tell_broken(const brc_scene *scene, const brc_setup *setup, const br
 }
 
 brc_status brc_price_tell_trial(brc_context *context, brc_scene *scene, const brc_setup *setup, const brc_device_request *request, const brc_trial *trial, double before_s,
-                                double *seconds)
+                                brc_prediction_told *told)
 {
     const double across = brc_setup_across(setup), share = coarse_share(scene, trial, across), look = trial->stopped ? 0 : looked_share(scene, setup, trial);
     sums total = {0};
     brc_coarse coarse = {0}, looked = {.broken = NAN};
     brc_status status = BRC_OK;
-    *seconds = NAN;
+    *told = (brc_prediction_told){.seconds = NAN};
     if (share > 0) BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, &(brc_coarse_request){.share = share, .stage_s = coarse_stage_s}, &coarse));
     if (look > 0) BRC_TRY_OR(cleanup, brc_trial_coarse(context, scene, request, &(brc_coarse_request){.trial = trial, .share = look, .whole = true, .stage_s = coarse_stage_s}, &looked));
     add(&total, before_s + trial->end_s, before_s + trial->end_s, before_s + trial->end_s);
@@ -228,7 +228,8 @@ brc_status brc_price_tell_trial(brc_context *context, brc_scene *scene, const br
     const memory m = add_up(scene, setup, trial, &looked);
     tell_total(request, &m, &total);
     tell_broken(scene, setup, trial, &looked);
-    *seconds = total.seconds;
+    *told = (brc_prediction_told){.known = true, .processor_time = brc_pace_is_processor(request), .seconds = total.seconds, .least_seconds = total.least, .most_seconds = total.most,
+                                  .host_bytes = m.host, .device_bytes = m.device, .resident_bytes = m.resident, .disk_bytes = m.disk};
 cleanup:
     brc_coarse_free(&coarse);
     brc_coarse_free(&looked);

@@ -1,10 +1,12 @@
 /* One whole run. */
 #include "run_scene.h"
 #include "price.h"
+#include "price_file.h"
 #include "setup.h"
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "../output/checkpoint.h"
+#include "../output/checkpoint_identity.h"
 #include "../output/recorder.h"
 #include "../solver/lockstep.h"
 #include <string.h>
@@ -32,6 +34,7 @@ typedef struct run {
     brc_checkpoints *checkpoints;
     brc_scene *scene;
     brc_setup setup;
+    char *yaml; /* the scene as it was read, where there are results */
     brc_price price;
 } run;
 
@@ -87,6 +90,7 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
         BRC_TRY(brc_scene_read(context, request->path, request->n_overrides, request->overrides, &now->scene));
     if (now->recorder) brc_recorder_set_scene(now->recorder, now->scene);
     if (now->recorder) BRC_TRY(brc_checkpoints_create(context, request->folder, now->scene, request->resume, &now->checkpoints));
+    if (now->recorder) BRC_TRY(brc_checkpoint_scene(context, now->scene, &now->yaml));
     const double build_start = brc_clock_s();
     BRC_TRY(brc_setup_domains(context, now->scene, request->domain, request->n_threads, &now->setup));
     out->build_s = brc_clock_s() - build_start;
@@ -100,7 +104,9 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     brc_assembly *assembly = &now->setup.assembly;
     brc_simulation *first = assembly->part[0]; /* hears, and is told, for all */
     if (now->recorder) {
+        const brc_price_of of = {now->yaml, brc_device_get_info(now->setup.device[0])->selector, request->precision, request->n_threads};
         BRC_TRY(brc_price_watch_output(context, &now->setup, &now->price));
+        BRC_TRY(brc_price_file_read(context, request->folder, &of, &now->price.prediction.told));
         BRC_TRY(brc_checkpoints_observe(now->checkpoints, assembly, now->recorder));
         BRC_TRY(brc_price_watch(&now->setup, &now->price));
         brc_recorder_set_prediction(now->recorder, &now->price.prediction);
@@ -131,10 +137,14 @@ brc_status brc_run_scene(brc_context *context, const brc_run_request *request, b
     if (now.recorder) status = brc_recorder_finish(now.recorder, status);
     const brc_status taken = take_results(context, &now, out);
     if (status == BRC_OK) status = taken;
+    if (status == BRC_OK && now.recorder) brc_price_compare(&now.price);
+    if (status == BRC_OK && now.price.prediction.told.known)
+        brc_price_file_compare(context, request->folder, &now.price.prediction.told, brc_clock_s() - start, out->device_bytes);
     brc_checkpoints_free(&now.checkpoints);
     brc_recorder_free(&now.recorder);
     brc_setup_free(&now.setup);
     brc_scene_free(&now.scene);
+    brc_memory_free(now.yaml);
     out->total_s = brc_clock_s() - start;
     return status;
 }

@@ -144,6 +144,25 @@ static void add_cost(brc_json *json, const brc_summary *s)
     add_memory(json, s->assembly ? brc_assembly_device_bytes(s->assembly) : -1);
 }
 
+/* What check told, and what the run took. */
+static void add_told(brc_json *json, const brc_summary *s, const brc_prediction_told *told)
+{
+    brc_json_begin_object(json, "check");
+    brc_json_boolean(json, "processor_time", told->processor_time);
+    brc_json_number(json, "seconds", told->seconds);
+    brc_json_number(json, "least_seconds", told->least_seconds);
+    brc_json_number(json, "most_seconds", told->most_seconds);
+    brc_json_number(json, "actual_seconds", told->processor_time ? brc_processor_s() : s->total_s);
+    brc_json_number(json, "host_bytes", told->host_bytes);
+    brc_json_number(json, "actual_host_bytes", (double)brc_memory_peak());
+    brc_json_number(json, "device_bytes", told->device_bytes);
+    brc_json_number(json, "actual_device_bytes", s->assembly ? (double)brc_assembly_device_bytes(s->assembly) : NAN);
+    brc_json_number(json, "resident_bytes", told->resident_bytes);
+    brc_json_number(json, "actual_resident_bytes", (double)brc_memory_resident());
+    brc_json_number(json, "disk_bytes", told->disk_bytes);
+    brc_json_end(json);
+}
+
 /* What the run was expected to cost, and what it did. */
 static void add_prediction(brc_json *json, const brc_summary *s)
 {
@@ -156,6 +175,7 @@ static void add_prediction(brc_json *json, const brc_summary *s)
     brc_json_number(json, "actual_host_bytes", s->prediction ? (double)brc_memory_peak() : NAN);
     brc_json_number(json, "device_bytes", s->prediction ? (double)p->device_bytes : NAN);
     brc_json_number(json, "actual_device_bytes", s->prediction && s->assembly ? (double)brc_assembly_device_bytes(s->assembly) : NAN);
+    if (p->told.known) add_told(json, s, &p->told);
     brc_json_end(json);
 }
 
