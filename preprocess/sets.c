@@ -7,8 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SLACK 1e-9 /* of the mean spacing: faces on the rim of a region belong to it whatever the rounding */
-
 static double norm(const double a[3])
 {
     return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
@@ -121,7 +119,7 @@ static bool on_wall(const brc_domain *domain, brc_set_kind kind, int64_t index, 
 bool brc_predicate_holds(const brc_predicate *where, brc_set_kind kind, const brc_domain *domain, int64_t index)
 {
     const double *x = (kind == BRC_SET_FACES ? domain->free_centroid : domain->position) + 3 * index;
-    const double slack = SLACK * domain->quality.mean_spacing;
+    const double slack = BRC_SET_SLACK * domain->quality.mean_spacing;
     if (where->has_wall && !on_wall(domain, kind, index, where->wall)) return false;
     if (where->has_box)
         for (int k = 0; k < 3; ++k)

@@ -4,6 +4,8 @@
 
 #include "build.h"
 
+#define BRC_SET_SLACK 1e-9 /* of the mean spacing: faces on the rim of a region belong to it whatever the rounding */
+
 /* Refuse predicates that name an unknown wall, use a zero direction or negative radius, ask elements for a normal, or spheres for faces.
  * `what` names the set or region in the sentence. */
 brc_status brc_predicate_check(brc_context *context, const brc_predicate *where, brc_set_kind kind,

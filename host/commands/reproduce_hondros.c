@@ -5,6 +5,7 @@
 #include "../base/file.h"
 #include "../base/memory.h"
 #include "../output/gnuplot.h"
+#include "../solver/loaded_faces.h"
 #include <math.h>
 #include <string.h>
 
@@ -20,15 +21,19 @@ typedef struct disc {
 } disc;
 
 /* Force of a jaw on the disc [N]: of imposed motion what it takes, of a pressure what it gives. */
-static brc_status jaw_force(brc_simulation *simulation, const brc_load *load, double out[3])
+static brc_status jaw_force(brc_context *context, brc_simulation *simulation, const brc_load *load, double out[3])
 {
     const brc_domain *domain = brc_simulation_domain(simulation);
     const int32_t set = brc_domain_find_set(domain, load->set);
     if (load->kind != BRC_LOAD_PRESSURE) return brc_simulation_reaction(simulation, set, out);
+    brc_loaded_face *loaded = NULL;
+    int64_t n = 0;
+    BRC_TRY(brc_loaded_faces(context, brc_simulation_scene(simulation), domain, &domain->sets[set], &loaded, &n));
     for (int c = 0; c < 3; ++c) {
         out[c] = 0;
-        for (int64_t k = 0; k < domain->sets[set].n_members; ++k) out[c] -= load->value[0] * domain->free_area_vector[3 * domain->sets[set].members[k] + c];
+        for (int64_t k = 0; k < n; ++k) out[c] -= load->value[0] * loaded[k].area[c];
     }
+    brc_memory_free(loaded);
     return BRC_OK;
 }
 
@@ -51,7 +56,7 @@ static brc_status find_disc(brc_context *context, brc_simulation *simulation, co
     *out = (disc){.radius = shape->radius, .thickness = shape->length, .half_angle = run->half_angle, .axis = shape->axis, .along = -1};
     for (int k = 0; k < 2 && stage->n_loads >= 2; ++k) {
         double force[3];
-        BRC_TRY(jaw_force(simulation, &stage->loads[k], force));
+        BRC_TRY(jaw_force(context, simulation, &stage->loads[k], force));
         const int along = jaw_direction(&stage->loads[k], force);
         out->along = k == 0 || along == out->along ? along : -1;
         if (out->along >= 0) load += 0.5 * fabs(force[out->along]);

@@ -1,5 +1,6 @@
 /* The loads of one stage: held faces, tractions, imposed elements. Lists are sorted by storage row, then by id. */
 #include "element_loads.h"
+#include "loaded_faces.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -270,32 +271,35 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
     brc_status status = BRC_OK;
     const brc_set *set = brc_load_find_set(s, stage, load, BRC_SET_FACES, &status);
     if (!set) return status;
-    const int64_t count = set->n_members;
+    int64_t count = 0;
+    brc_loaded_face *loaded = NULL;
     row_item *items = NULL;
     int32_t *element = NULL, *place = NULL, n = 0;
     double *total = NULL, *moment = NULL;
+    BRC_TRY_OR(cleanup, brc_loaded_faces(s->context, s->scene, d, set, &loaded, &count));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &items, count, "traction"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, count, "traction"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 2 * count, "traction"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &total, 3 * count, "traction"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &moment, 9 * count, "traction"));
     for (int64_t m = 0; m < count; ++m)
-        items[m] = (row_item){s->layout->row_of_element[d->free_element[set->members[m]]], set->members[m]};
+        items[m] = (row_item){s->layout->row_of_element[d->free_element[loaded[m].face]], (int32_t)m};
     qsort(items, (size_t)count, sizeof *items, compare_rows);
     for (int64_t m = 0; m < count; ++m) {
-        const int32_t f = items[m].id, row = items[m].row, e = d->free_element[f];
+        const brc_loaded_face *face = &loaded[items[m].id];
+        const int32_t f = face->face, row = items[m].row, e = d->free_element[f];
         if (m == 0 || items[m - 1].row != row) {
             element[n] = row;
             place[2 * n] = s->layout->boundary[row / s->layout->slice];
             place[2 * n + 1] = row % s->layout->slice;
             ++n;
         }
-        const double *area = d->free_area_vector + 3 * (int64_t)f;
+        const double *area = face->area;
         const double surface = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
         const int32_t at = held->index_of_free_face[f];
         const int bits = at < 0 ? 0 : held->component_of_face[at];
         double push[3], varying[3];
-        direction_at(load, d->free_centroid + 3 * (int64_t)f, varying);
+        direction_at(load, face->centroid, varying);
         for (int c = 0; c < 3; ++c) {
             push[c] = load->kind == BRC_LOAD_PRESSURE ? -varying[0] * area[c] : varying[c] * surface;
             if (bits >> c & 1) push[c] = 0;
@@ -304,7 +308,7 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
         for (int c = 0; c < 3; ++c)
             for (int k = 0; k < 3; ++k)
                 moment[9 * (n - 1) + 3 * c + k] +=
-                    push[c] * (d->free_centroid[3 * (int64_t)f + k] - d->position[3 * (int64_t)e + k]);
+                    push[c] * (face->centroid[k] - d->position[3 * (int64_t)e + k]);
     }
     *out = (brc_traction_load){.load = l, .n = n};
     BRC_TRY_OR(cleanup, brc_new_int(s, &out->element, element, n, "traction"));
@@ -314,6 +318,7 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
     BRC_TRY_OR(cleanup, brc_new_state(s, &out->reach, n, "traction"));
     BRC_TRY_OR(cleanup, brc_new_state(s, &out->work, n, "traction"));
 cleanup:
+    brc_memory_free(loaded);
     brc_memory_free(items);
     brc_memory_free(element);
     brc_memory_free(place);
