@@ -15,22 +15,10 @@ import h5py
 import numpy as np
 
 from disc import NU, RADIUS, THICKNESS, jaws
+from sheet import exact
 
 YOUNG = 20e9
 DEPTHS = (3, 6, 9, 12, 16, 20, 25, 30, 40, 60, 100)
-
-
-def exact(loads, x, z):
-    """xx, zz, xz at points (x, z) over the radius."""
-    angle, share = np.array([p[0] for p in loads]), np.array([p[2] for p in loads])
-    out = np.full((len(x), 3), np.sum(share * np.cos(angle)))
-    out[:, 2] = 0
-    for up in (1, -1):
-        dx, dz = x[:, None] - np.sin(angle), z[:, None] - up * np.cos(angle)
-        radial = 2 * up * share * dz / (dx * dx + dz * dz) ** 2
-        for c, shape in enumerate((dx * dx, dz * dz, dx * dz)):
-            out[:, c] += np.sum(radial * shape, axis=1)
-    return out
 
 
 def bonds(folder, domain):

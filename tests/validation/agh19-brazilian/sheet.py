@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""The disc as the solid sheet it is: 3D elastic stresses by finite elements, and the loads at which its largest tensions reach the strength; needs Debian's python3-numpy, no test does.
+"""The disc as the solid sheet it is: 3D elastic stresses by finite elements, beside those of plane stress (disc.py). Needs Debian's python3-numpy; no test does.
 
-    sheet.py [HALF_WIDTH] [--nu NU] [--fine N] [--step MM]      half width of smooth jaws that move as one [mm]; without it an even pressure on arcs of 20 degrees
+    sheet.py [HALF_WIDTH] [--nu NU] [--step MM] [--fine N]     half width of smooth jaws that move as one [mm]; without it an even pressure on arcs of 20 degrees
 
 An eighth of the disc (mirror planes x = 0, z = 0 and the middle of the sheet, y = 0) in bricks of eight nodes along radius, angle and thickness, finest (MM, by default 0.4) where the loaded
-arc ends; N cuts every edge into N. The middle, within a fifth of the radius, is replaced by the tractions of plane stress (disc.py). Conjugate gradients. Stresses are those at the middles of bricks, over
-2 P / (pi D t). Printed: the tension across the sheet (yy) beside the loaded arc at its largest, mean over a box as large as two cells there, and the stress across the loaded diameter
-(xx) against that of plane stress."""
+arc ends; every edge is cut into N. What lies within a fifth of the radius is replaced by tractions of plane stress. Conjugate gradients, residual 1e-7. Stresses are those in the middle of bricks, over 2 P / (pi D t).
+Printed: the tension across the thickness (yy) on the rim beside the loaded arc and its largest value, with the load at which that is the strength; and the stress across the loaded diameter (xx) in the middle and at the faces of the sheet."""
 import argparse
 from math import asin, pi, radians
 
@@ -19,7 +18,7 @@ CORNERS = np.array([(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)])
 
 
 def exact(loads, x, z):
-    """xx, zz, xz of plane stress at points (x, z) over the radius; loads push along z (jaws) or towards the centre."""
+    """xx, zz, xz of plane stress at points (x, z) over the radius under line loads (disc.py)."""
     out = np.zeros((len(x), 3))
     for p, turn, share in loads:
         for up in (1, -1):
@@ -32,7 +31,7 @@ def exact(loads, x, z):
 
 
 def graded(length, first, growth=1.2, largest=np.inf):
-    """Points from 0 to length, the first at about `first`, steps growing."""
+    """Points from 0 to length, the first step about `first`, the others growing."""
     steps = [first]
     while sum(steps) < length:
         steps.append(min(steps[-1] * growth, largest))
@@ -58,6 +57,7 @@ class Sheet:
         n = [s - 1 for s in self.shape]
         self.brick = np.stack([ids[i:i + n[0], j:j + n[1], k:k + n[2]].ravel() for i, j, k in CORNERS], axis=1)
         self.inner, self.rim = ids[0], ids[-1]
+        self.middle = self.at[self.brick].mean(axis=1)
         lam, mu = nu / ((1 + nu) * (1 - 2 * nu)), 1 / (2 * (1 + nu))  # Young's modulus 1: stresses do not ask for it
         self.law = np.diag([2 * mu] * 3 + [mu] * 3)
         self.law[:3, :3] += lam
@@ -93,55 +93,98 @@ class Sheet:
                 parts.append((shape, np.cross(along, up) / 4, np.einsum("a,eax->ex", shape, at)))
         return quad, parts
 
-    def solve(self, loads, edge, pressed):
-        """Stress of every brick under P = 1 in the units of `exact`; pressed: an even pressure, else jaws that move as one."""
+    def forces(self, loads, edge, pressed):
+        """Of the tractions at the inner cut, and of an even pressure; 2 P / (pi D t) is 1."""
         force = np.zeros((len(self.at), 3))
-        scale = pi * R  # nominal stress 2 P / (pi D t) = 1 for P / t = pi R
         quad, parts = self.faces(self.inner)
         for shape, area, middle in parts:
             xx, zz, xz = exact(loads, middle[:, 0] / R, middle[:, 2] / R).T
             pull = -np.stack([xx * area[:, 0] + xz * area[:, 2], 0 * xx, xz * area[:, 0] + zz * area[:, 2]], axis=1)
             for a in range(4):
                 np.add.at(force, quad[:, a], shape[a] * pull)
-        number = np.arange(3 * len(self.at)).reshape(-1, 3)
-        under = self.rim[self.angle[self.rim] < edge * (1 + 1e-9)]
         if pressed:
             quad, parts = self.faces(self.rim)
-            quad_on = self.angle[quad].max(axis=1) < edge * (1 + 1e-9)
+            on = self.angle[quad].max(axis=1) < edge * (1 + 1e-9)
             for shape, area, _ in parts:
                 for a in range(4):
-                    np.add.at(force, quad[quad_on, a], -scale / (2 * R * np.sin(edge)) * shape[a] * area[quad_on])
-        else:
-            force[under[0], 2] -= scale * HALF / 2  # a quarter of P: half of the arc, half of the sheet
+                    np.add.at(force, quad[on, a], -pi / (2 * np.sin(edge)) * shape[a] * area[on])
+        return force
+
+    def solve(self, loads, edge, pressed):
+        """Stress of every brick, xx yy zz yz xz xy; pressed: an even pressure, else smooth jaws that move as one."""
+        force = self.forces(loads, edge, pressed)
+        number = np.arange(force.size).reshape(-1, 3)
+        if not pressed:
+            under = self.rim[self.angle[self.rim] < edge * (1 + 1e-9)]
             number[under, 2] = number[under[0], 2]
-        free = np.zeros(number.size + 1, bool)
+            force[under[0], 2] -= pi * R * HALF / 2  # half of the arc, half of the sheet
+        free = np.zeros(number.size, bool)
         free[number] = True
         for c, held in ((0, self.angle < 1e-9), (1, self.height < 1e-12), (2, self.angle > pi / 2 - 1e-9)):
             free[number[held, c]] = False
-        free = free[:-1]
         dofs = number[self.brick].reshape(-1, 24)
-        flat = dofs.ravel()
-        add = lambda v: np.bincount(flat, v.ravel(), number.size) * free  # noqa: E731
+
+        def add(v):
+            return np.bincount(dofs.ravel(), v.ravel(), number.size) * free
+
         diagonal = add(np.einsum("eii->ei", self.stiffness))
-        inverse = np.where(diagonal > 0, 1 / np.where(diagonal > 0, diagonal, 1), 0)
+        inverse = np.divide(1, diagonal, out=np.zeros_like(diagonal), where=diagonal > 0)
         u, r = np.zeros(number.size), np.bincount(number.ravel(), force.ravel(), number.size) * free
-        z = inverse * r
-        d, rz = z.copy(), r @ z
-        start = rz
-        for self.rounds in range(20000):
-            q = add(np.matmul(self.stiffness, u_of(d, dofs)))
-            step = rz / (d @ q)
-            u += step * d
-            r -= step * q
+        d = z = inverse * r
+        start = rz = r @ z
+        while rz > 1e-14 * start:
+            q = add(np.matmul(self.stiffness, d[dofs][:, :, None]))
+            length = rz / (d @ q)
+            u, r = u + length * d, r - length * q
             z = inverse * r
             rz, before = r @ z, rz
-            if rz < 1e-14 * start:
-                break
             d = z + rz / before * d
         b, self.volume = self.strain(np.zeros(3))
-        self.middle = self.at[self.brick].mean(axis=1)
         return np.einsum("ab,ebi,ei->ea", self.law, b, u[dofs], optimize=True)
 
 
-def u_of(v, dofs):
-    return v[dofs][:, :, None]
+def beside(sheet, stress, edge):
+    """The tension across the thickness beside the loaded arc."""
+    x, y, z = sheet.middle.T
+    depth, past, yy = 1000 * (R - np.hypot(x, z)), 1000 * R * (np.arctan2(x, z) - edge), stress[:, 1]
+    at_rim = (depth < depth.min() + 0.01) & (y < y.min() + 1e-9)
+    print("beyond the arc [mm]  yy on the rim, in the middle of the sheet")
+    for distance in (0.5, 1, 2, 3, 4, 6):
+        print("%19.1f  %6.3f" % (distance, np.interp(distance, past[at_rim], yy[at_rim])))
+    k = np.argmax(yy)
+    print("largest: %.3f, %.2f mm beyond the arc, %.2f mm deep, %.1f mm from the middle of the sheet: the strength at %.1f kN" % (yy[k], past[k], depth[k], 1000 * y[k], disc.load(yy[k])))
+
+
+def diameter(sheet, stress, loads):
+    x, y, z = sheet.middle.T
+    near = np.arctan2(x, z) < np.arctan2(x, z).min() * (1 + 1e-6)
+    depth = 1000 * (R - np.hypot(x, z))
+    print("depth [mm]  xx in the middle  at the face  plane stress  along (zz)")
+    for wanted in (10, 12, 14, 16, 18, 20, 22, 25, 30, 40, 60):
+        found = []
+        for layer in (y.min(), y.max()):
+            line = near & (np.abs(y - layer) < 1e-9)
+            found.append(np.interp(wanted, depth[line][::-1], (stress[line, 0] - exact(loads, x[line] / R, z[line] / R)[:, 0])[::-1]))
+        plane = exact(loads, np.zeros(1), np.array([1 - wanted / (1000 * R)]))[0]
+        print("%10d  %16.3f  %11.3f  %12.3f  %10.2f" % (wanted, plane[0] + found[0], plane[0] + found[1], plane[0], plane[1]))
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("half_width", type=float, nargs="?")
+    parser.add_argument("--nu", type=float, default=disc.NU)
+    parser.add_argument("--step", type=float, default=0.4)
+    parser.add_argument("--fine", type=int, default=1)
+    asked = parser.parse_args()
+    pressed = asked.half_width is None
+    edge = radians(10) if pressed else asin(asked.half_width / 1000 / R)
+    loads = disc.even(edge) if pressed else disc.jaws(edge)
+    sheet = Sheet(edge, asked.nu, asked.step / 1000, asked.fine)
+    stress = sheet.solve(loads, edge, pressed)
+    print("%d bricks" % len(sheet.brick))
+    beside(sheet, stress, edge)
+    diameter(sheet, stress, loads)
+
+
+if __name__ == "__main__":
+    main()
