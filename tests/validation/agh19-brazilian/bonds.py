@@ -4,6 +4,9 @@
     breccia run elastic.yaml --set output.frames=0 -o DIR; breccia build elastic.yaml -o DOMAIN     (with the same --set of the sets and of the cells)
     bonds.py DIR DOMAIN HALF_WIDTH     half width of the jaws [mm]: 17.36, or 5 with the sets' boxes from -5 mm to 5 mm
 
+So for eighth.yaml, with --set sets.top.faces.box.to.0="5 mm" --set stages.0.solver.static="{finite_strain: false, tolerance: 1e-6}" and, as one word,
+    --set stages.0.loads="[{face_displacement: {set: top, z: -90 um}}, {face_displacement: {set: disc_y-, y: 0}}, {face_displacement: {set: cut_x-, x: 0}}, {face_displacement: {set: cut_z-, z: 0}}]"
+
 Stress as kernels/cell_normal.h has it, for small strains: the mean stress of the two cells along the bond, with the bond's own elongation in place of theirs. Bonds within 3 mm of the loaded
 diameter whose direction is within 37 degrees of across; depth: below the nearer jaw. Differences are over the exact compression along the load there, stresses over 2 P / (pi D t)."""
 import json
@@ -22,7 +25,7 @@ DEPTHS = (3, 6, 9, 12, 16, 20, 25, 30, 40, 60, 100)
 
 
 def bonds(folder, domain):
-    """Middles, directions and normal stresses of all bonds."""
+    """Mean width of cells [mm]; middles, directions and normal stresses of all bonds."""
     with h5py.File(os.path.join(folder, "frames", "000001.vtkhdf")) as file:
         data = file["VTKHDF/CellData"]
         order = np.argsort(data["element_id"][()])
@@ -30,6 +33,7 @@ def bonds(folder, domain):
         stress = data["stress"][()][order][:, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
     with h5py.File(domain) as file:
         at, area = file["elements/position"][()], np.linalg.norm(file["bonds/area_vector"][()], axis=1)
+        size = 1000 * np.mean(file["elements/volume"][()]) ** (1 / 3)
         other, start, bond = (file["half_edges/" + name][()] for name in ("neighbour", "row_start", "bond"))
     one = np.repeat(np.arange(len(at)), np.diff(start))
     branch, jump = at[other] - at[one], moved[other] - moved[one]
@@ -48,20 +52,19 @@ def bonds(folder, domain):
     elongation = np.sum(axis * jump, axis=1) / length
     halves = [along(stress[side]) + modulus * (elongation - along(gradient[side])) for side in (one, other)]
     once = one < other
-    return len(at), (at[one] + at[other])[once] / 2, axis[once], (sum(halves) / 2)[once]
+    return size, (at[one] + at[other])[once] / 2, axis[once], (sum(halves) / 2)[once]
 
 
 def main():
     folder, domain, half_width = sys.argv[1], sys.argv[2], float(sys.argv[3]) / 1000
     with open(os.path.join(folder, "summary.json")) as file:
         nominal = json.load(file)["measures"]["force"]["value"] / (pi * RADIUS * THICKNESS)
-    cells, middle, axis, stress = bonds(folder, domain)
+    size, middle, axis, stress = bonds(folder, domain)
     near = (np.abs(middle[:, 0]) < 0.003) & (np.abs(axis[:, 0]) > 0.8)
     middle, axis, stress = middle[near], axis[near], stress[near] / nominal
     there = exact(jaws(asin(half_width / RADIUS)), middle[:, 0] / RADIUS, middle[:, 2] / RADIUS)
     wanted = axis[:, 0] ** 2 * there[:, 0] + axis[:, 2] ** 2 * there[:, 1] + 2 * axis[:, 0] * axis[:, 2] * there[:, 2]
     off, depth = (stress - wanted) / -there[:, 1], 1000 * (RADIUS - np.abs(middle[:, 2]))
-    size = 1000 * (pi * RADIUS**2 * THICKNESS / cells) ** (1 / 3)
     print("depth [mm]  [cells]  bonds  along  difference, its scatter, the largest  largest stress")
     for low, high in zip(DEPTHS, DEPTHS[1:]):
         k = (depth >= low) & (depth < high)
