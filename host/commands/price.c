@@ -116,9 +116,16 @@ double brc_price_class(double error)
     return error < finest_class ? finest_class : pow(10, round(2 * log10(error)) / 2);
 }
 
+/* Elements over the most that were measured beyond which a curve says nothing. */
+static const double farthest = 1000;
+
 /* What so many elements give and cost. Below the fewest that were measured nothing is known but that fewer would do. */
 static void tell_choice(const brc_price_curve *curve, double elements, double now, double seconds)
 {
+    if (elements > farthest * curve->most) {
+        printf("more than %.2g elements, out of reach: '%s' falls as spacing^%.2g\n", farthest * curve->most, curve->problem, curve->order);
+        return;
+    }
     const bool below = elements < curve->least;
     const double n = below ? curve->least : ceil(elements);
     printf("%s%.0f elements: error %.2g %%, about %.2g s%s\n", below ? "no more than " : "", n, 100 * brc_price_curve_error(curve, n), brc_price_seconds_at(seconds, now, n),
@@ -155,13 +162,35 @@ static void tell_class(const brc_price_curve *by, double now, const char *whose)
     }
 }
 
-static void tell_choices(const brc_scene *scene, const brc_price_curve *curve, double now, double seconds)
+/* The same by the measured problems, the easiest and the hardest of those that were named, since the scene's own error is told with care; a scene of modes alone is held
+ * against modes. */
+static void tell_measured(const brc_scene *scene, const brc_price_judgement *j, double now, double seconds)
 {
+    bool rings = scene->n_stages > 0;
+    const brc_price_curve *end[2] = {NULL, NULL};
+    for (int k = 0; k < scene->n_stages; ++k) rings = rings && scene->stages[k].solver == BRC_SOLVER_MODES;
+    for (int k = 0; k < j->n; ++k) {
+        const brc_price_curve *curve = &j->curve[k];
+        const double elements = brc_price_curve_elements(curve, scene->accuracy);
+        if (rings && !curve->rings) continue;
+        if (!end[0] || elements < brc_price_curve_elements(end[0], scene->accuracy)) end[0] = curve;
+        if (!end[1] || elements > brc_price_curve_elements(end[1], scene->accuracy)) end[1] = curve;
+    }
+    for (int k = 0; k < 2 && end[k] && (k == 0 || (j->is_own && end[1] != end[0])); ++k) { /* else the hardest is what the proposal goes by */
+        printf("as the measured problem '%s' (the %s of them) it asks for ", end[k]->problem, k ? "hardest" : "easiest");
+        tell_choice(end[k], brc_price_curve_elements(end[k], scene->accuracy), now, seconds);
+    }
+}
+
+static void tell_choices(const brc_scene *scene, const brc_price_judgement *j, double now, double seconds)
+{
+    const brc_price_curve *curve = &j->by;
     if (scene->accuracy > 0) {
         printf("accuracy %.3g %% asks for ", 100 * scene->accuracy);
         tell_choice(curve, brc_price_curve_elements(curve, scene->accuracy), now, seconds);
         printf("a tenth of the error would ask for ");
         tell_choice(curve, brc_price_curve_elements(curve, 0.1 * scene->accuracy), now, seconds);
+        tell_measured(scene, j, now, seconds);
     }
     if (scene->budget > 0) {
         printf("budget %.3g s buys ", scene->budget);
@@ -265,6 +294,6 @@ brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene,
         return BRC_OK;
     }
     tell_class(&j.by, now, j.is_own ? "measure" : "the worst of these problems,");
-    tell_choices(scene, &j.by, now, seconds);
+    tell_choices(scene, &j, now, seconds);
     return tell_precision_and_step(context, scene, brc_model_name(setup->split->part[0].scene->model.kind), &j.by, now, seconds);
 }

@@ -23,8 +23,8 @@ static void add_point(fit *f, double elements, double error)
 
 void brc_price_curves_read(const char *text, const char *model, const char *precision, int *n, brc_price_curve out[BRC_CURVES_MOST])
 {
-    static const char *const names[] = {"problem", "model", "precision", "elements", "error", "steps", "preparation", "dt_fraction", "integrator", "nu", "coordination", "level", "phi", "variant"};
-    enum { PROBLEM, MODEL, PRECISION, ELEMENTS, ERROR, STEPS, SHARED, NAMES = sizeof names / sizeof *names };
+    static const char *const names[] = {"problem", "model", "precision", "elements", "error", "steps", "cost_of", "preparation", "dt_fraction", "integrator", "nu", "coordination", "level", "phi", "variant"};
+    enum { PROBLEM, MODEL, PRECISION, ELEMENTS, ERROR, STEPS, COST_OF, SHARED, NAMES = sizeof names / sizeof *names };
     int n_fits = 0;
     fit fits[BRC_CURVES_MOST];
     brc_price_rows rows;
@@ -48,6 +48,7 @@ void brc_price_curves_read(const char *text, const char *model, const char *prec
         if (strcmp(fits[f].shared, shared) != 0) continue;
         add_point(&fits[f], elements, error);
         fits[f].curve.moves = fits[f].curve.moves || atof(value[STEPS]) > 0;
+        fits[f].curve.rings = fits[f].curve.rings || strcmp(value[COST_OF], "building and 100 crossings") == 0;
     }
     for (int f = 0; f < n_fits; ++f) {
         fit *one = &fits[f];

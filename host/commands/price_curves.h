@@ -15,6 +15,7 @@ typedef struct brc_price_curve {
     double scale, order;
     double least, most; /* elements of its points */
     bool moves;         /* runs that were stepped through time */
+    bool rings;         /* modes of free vibration */
 } brc_price_curve;
 
 /* Curves of a model ("dlsm", ...) in a precision ("double", ...): problems with points at two resolutions or more, in the order of the text; of

@@ -53,6 +53,17 @@ static void problems_that_move_are_known_by_their_steps(void **state)
     assert_true(curve[0].moves && !curve[1].moves);
 }
 
+static void modes_are_known_by_what_their_seconds_are_of(void **state)
+{
+    (void)state;
+    int n;
+    brc_price_curve curve[BRC_CURVES_MOST];
+    brc_price_curves_read("problem,model,elements,precision,error,cost_of\ncube,dlsm,100,double,0.04,building and 100 crossings\nbeam,dlsm,100,double,0.04,building and running\n"
+                          "cube,dlsm,800,double,0.02,building and 100 crossings\nbeam,dlsm,800,double,0.01,building and running\n", "dlsm", "double", &n, curve);
+    assert_int_equal(n, 2);
+    assert_true(curve[0].rings && !curve[1].rings);
+}
+
 static void eight_times_the_elements_cost_sixteen_times(void **state)
 {
     (void)state;
@@ -111,6 +122,7 @@ int main(void)
         cmocka_unit_test(powers_are_found_again),
         cmocka_unit_test(choices_are_pairs_of_runs_that_differ_in_nothing_else),
         cmocka_unit_test(problems_that_move_are_known_by_their_steps),
+        cmocka_unit_test(modes_are_known_by_what_their_seconds_are_of),
         cmocka_unit_test(eight_times_the_elements_cost_sixteen_times),
         cmocka_unit_test(the_program_has_curves_of_its_default_model),
     };
