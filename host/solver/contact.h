@@ -58,6 +58,8 @@ brc_status brc_contact_stored(brc_simulation *s, double *out);
 brc_status brc_contact_ledger(brc_simulation *s, brc_ledger *ledger);
 /* Largest stable time step of the pairs that may touch [s]. */
 brc_status brc_contact_critical_step(brc_simulation *s, double *out);
+/* Tells where single elements may meet in so few steps that their restitution cannot be what is asked. touching: what brc_contact_critical_step gave. */
+void brc_contact_check_step(const brc_simulation *s, const char *stage, double touching, const brc_time_step *step);
 
 /* What surfaces remember (state_store.h): who is exposed and rigid, the pairs with their friction, what was lost. */
 brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store);

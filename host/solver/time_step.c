@@ -177,6 +177,7 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
         out->value = stage->safety * out->critical;
     }
     out->safety = out->value / out->critical;
+    brc_contact_check_step(s, stage->name, touching, out);
     if (out->safety > 1)
         brc_log(s->context, BRC_LOG_WARNING, "stage '%s': the time step %.4g s is %.3g times the critical one; expect it to diverge",
                 stage->name, out->value, out->safety);

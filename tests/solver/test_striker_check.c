@@ -22,6 +22,8 @@ static char *told(case_options options, brc_status *status)
         brc_simulation_free(&c.simulation);
         brc_log_set_level(c.context, BRC_LOG_WARNING);
         *status = brc_simulation_create(c.context, c.scene, c.domain, c.device, &c.simulation);
+        brc_log_set_level(c.context, BRC_LOG_INFO); /* what a stage begins with is said there */
+        if (*status == BRC_OK) *status = brc_simulation_begin_stage(c.simulation, 0);
     }
     fflush(stderr);
     dup2(kept, 2);
@@ -134,6 +136,24 @@ static void bodies_that_meet_faster_than_sound_are_told(void **state)
     expect_of(both, both.stages, BRC_OK, NULL);
 }
 
+/* Cells that may come off, damped contact, contact as stiff as bonds: at 0.8 of the critical step a blow of two of them lasts pi / sqrt(2) / 0.8 = 2.8 of the steps that contact alone would allow, some more of those
+ * that bonds allow too. Enough steps, no damping or nothing that can come off: nothing is said. */
+static void too_few_steps_of_a_damped_blow_are_told(void **state)
+{
+    (void)state;
+    static const char *const breaks = "fracture: {criterion: bond-normal}\ninteractions: {contact: {restitution: 0.5}}\n", *const told_of = "too few for the restitution that is asked for; 20 steps meet it to two hundredths";
+    case_options o = {.n_threads = 1, .fill = "cells: [4, 4, 4], spread: 50 %, seed: 1", .materials = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: 1 Pa}}", .sets = breaks,
+                      .stages = "  - name: move\n    solver: {dynamic: {steps: 1}}\n"};
+    expect_of(o, "breaks, damped", BRC_OK, told_of);
+    o.sets = "fracture: {criterion: bond-normal}\ninteractions: {contact: {}}\n";
+    expect_of(o, "breaks", BRC_OK, NULL);
+    o.sets = "interactions: {contact: {restitution: 0.5}}\n";
+    expect_of(o, "damped", BRC_OK, NULL);
+    o.sets = breaks;
+    o.stages = "  - name: move\n    solver: {dynamic: {steps: 1, time_step: {auto: {safety: 0.1}}}}\n";
+    expect_of(o, "fine steps", BRC_OK, NULL);
+}
+
 static void what_comes_near_nothing_is_told(void **state)
 {
     (void)state;
@@ -158,6 +178,7 @@ int main(void)
         cmocka_unit_test(speeds_beyond_sound_are_told),
         cmocka_unit_test(a_velocity_against_the_rail_is_told),
         cmocka_unit_test(bodies_that_meet_faster_than_sound_are_told),
+        cmocka_unit_test(too_few_steps_of_a_damped_blow_are_told),
         cmocka_unit_test(what_comes_near_nothing_is_told),
         cmocka_unit_test(free_strikers_need_mass),
     };
