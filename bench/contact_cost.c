@@ -168,6 +168,9 @@ cleanup:
     return status;
 }
 
+/* What is done to the ball before its steps are measured. */
+typedef brc_status prepare_dust(brc_context *context, side *dust, const brc_domain *domain);
+
 /* Until no bond is left. */
 static brc_status burst(brc_context *context, side *dust, const brc_domain *domain)
 {
@@ -209,10 +212,11 @@ cleanup:
     return status;
 }
 
-/* Every cell flies back to the middle; half of it on, so that the pressed ball stays pressed for a while. */
+/* The ball bursts, and every cell flies back to the middle; half of it on, so that the pressed ball stays pressed for a while. */
 static brc_status press(brc_context *context, side *dust, const brc_domain *domain)
 {
     double *velocity = NULL;
+    BRC_TRY(burst(context, dust, domain));
     BRC_TRY(BRC_ALLOCATE(context, &velocity, 3 * domain->n_elements, "velocities"));
     for (int64_t k = 0; k < 3 * domain->n_elements; ++k) velocity[k] = -0.2 * growth_rate * domain->position[k];
     brc_status status = brc_simulation_set_state(dust->simulation, NULL, velocity);
@@ -234,42 +238,23 @@ static brc_status look(side *dust, double *touching)
     return BRC_OK;
 }
 
-static brc_status measure_dispersed(brc_context *context, const brc_contact_cost_request *r, const brc_domain *domain, side *intact, brc_rows *rows)
+/* The ball after what `prepare` does to it, beside the whole one; how many pairs touch is the mean of before and after. */
+static brc_status measure_broken(brc_context *context, const brc_contact_cost_request *r, const brc_domain *domain, prepare_dust *prepare, side *intact, brc_rows *rows)
 {
     side dust = {0};
     double touching = 0;
     turns t;
     brc_status status = BRC_OK;
+    const bool dispersed = prepare == disperse;
     BRC_TRY_OR(cleanup, open_side(context, r, BROKEN_BALL, domain, &dust));
-    BRC_TRY_OR(cleanup, disperse(context, &dust, domain));
+    BRC_TRY_OR(cleanup, prepare(context, &dust, domain));
     BRC_TRY_OR(cleanup, look(&dust, &touching));
     BRC_TRY_OR(cleanup, take_turns(r, intact, &dust, &t));
     BRC_TRY_OR(cleanup, look(&dust, &touching));
-    begin_row(r, "dust", "dlsm", "-", 3, domain, rows);
-    brc_rows_number(rows, "ours", t.ratio[ROUNDS / 2]);
+    begin_row(r, dispersed ? "dust" : "dense", "dlsm", dispersed ? "-" : "us", dispersed ? 3 : NAN, domain, rows);
+    brc_rows_number(rows, "ours", dispersed ? t.ratio[ROUNDS / 2] : 1e6 * (t.b[ROUNDS / 2] - t.a[ROUNDS / 2]) / touching);
     brc_rows_number(rows, "touching", touching);
-    brc_rows_number(rows, "grown", 1 + growth_rate * brc_simulation_time(dust.simulation));
-    status = end_row(r, &t, rows);
-cleanup:
-    close_side(&dust);
-    return status;
-}
-
-static brc_status measure_dense(brc_context *context, const brc_contact_cost_request *r, const brc_domain *domain, side *intact, brc_rows *rows)
-{
-    side dust = {0};
-    double touching = 0;
-    turns t;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, open_side(context, r, BROKEN_BALL, domain, &dust));
-    BRC_TRY_OR(cleanup, burst(context, &dust, domain));
-    BRC_TRY_OR(cleanup, press(context, &dust, domain));
-    BRC_TRY_OR(cleanup, look(&dust, &touching));
-    BRC_TRY_OR(cleanup, take_turns(r, intact, &dust, &t));
-    BRC_TRY_OR(cleanup, look(&dust, &touching));
-    begin_row(r, "dense", "dlsm", "us", NAN, domain, rows);
-    brc_rows_number(rows, "ours", 1e6 * (t.b[ROUNDS / 2] - t.a[ROUNDS / 2]) / touching);
-    brc_rows_number(rows, "touching", touching);
+    if (dispersed) brc_rows_number(rows, "grown", 1 + growth_rate * brc_simulation_time(dust.simulation));
     status = end_row(r, &t, rows);
 cleanup:
     close_side(&dust);
@@ -283,8 +268,8 @@ static brc_status measure_dust(brc_context *context, const brc_contact_cost_requ
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, build(context, WHOLE_BALL, r->elements, false, &domain));
     BRC_TRY_OR(cleanup, open_side(context, r, WHOLE_BALL, domain, &intact));
-    if (r->dust) BRC_TRY_OR(cleanup, measure_dispersed(context, r, domain, &intact, rows));
-    if (r->dense) BRC_TRY_OR(cleanup, measure_dense(context, r, domain, &intact, rows));
+    if (r->dust) BRC_TRY_OR(cleanup, measure_broken(context, r, domain, disperse, &intact, rows));
+    if (r->dense) BRC_TRY_OR(cleanup, measure_broken(context, r, domain, press, &intact, rows));
 cleanup:
     close_side(&intact);
     brc_domain_free(&domain);

@@ -20,7 +20,7 @@ LAW void contact_put_moment(GLOBAL state *restrict out, int at, int affine, stat
  * it or turning. way [n]: how far any point of a rigid cell can have come by turning, in all [m]; turned: that of both. */
 LAW int contact_rests(GLOBAL const state *restrict past, svec3 branch, state turned)
 {
-    return svec3_dot(svec3_load(past, 16), branch) - past[19] - turned > STATE(16) * convex_rounding() * turned;
+    return svec3_dot(svec3_load(past, 16), branch) - past[19] - turned > STATE(16) * STATE_ROUNDING * turned;
 }
 /* The wider of the two gaps along the branch from a to b and across the face that stands between (history 15), where there is any to speak of beside rounding. */
 ROUTINE void contact_lay_to_rest(GLOBAL state *restrict past, contact_body a, contact_body b, convex_vec branch, int face, state turned)
@@ -41,6 +41,8 @@ ROUTINE void contact_lay_to_rest(GLOBAL state *restrict past, contact_body a, co
     }
 }
 
+/* Pairs ahead whose numbers are asked for: most pairs rest, and cost what it takes to read that. */
+#define CONTACT_AHEAD 16
 /* whole: all pairs, else those of todo. broke: bonds did, so that the gradients of cells, and their surfaces with them, have jumped where nothing moved: pairs go on from how they meet
  * now, and what surfaces gained or lost by it is the break's. rigid [n], way [n]: contact_rests. */
 KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, int affine, int n_materials, state middle_x, state middle_y, state middle_z,
@@ -61,6 +63,16 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
         svec3 branch = {0, 0, 0};
         state turned = 0;
         int rests = 0;
+        if (whole && item + CONTACT_AHEAD < n_items) {
+            const int next = ends[2 * (brc_size)(item + CONTACT_AHEAD) + 1];
+            PREFETCH(history, (brc_size)(item + CONTACT_AHEAD) * CONTACT_HISTORY + 14);
+            PREFETCH(history, (brc_size)(item + CONTACT_AHEAD) * CONTACT_HISTORY + 19);
+            if (next < n) {
+                PREFETCH(displacement, (brc_size)next * 3);
+                PREFETCH(place, (brc_size)next * 3);
+                PREFETCH(way, next);
+            }
+        }
         if (j < n) {
             branch = contact_branch(place, displacement, i, j);
             turned = rigid[i] && rigid[j] ? way[i] + way[j] : STATE(0);

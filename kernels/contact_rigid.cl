@@ -65,27 +65,79 @@ LAW ssym3 ssym3_load(GLOBAL const state *restrict p, int e)
     return (ssym3){q[0], q[1], q[2], q[3], q[4], q[5]};
 }
 
+/* Numbers of W bodies side by side. */
+typedef struct { state x[W], y[W], z[W]; } svec_lanes;
+typedef struct { state xx[W], yy[W], zz[W], yz[W], xz[W], xy[W]; } ssym3_lanes;
+LAW svec3 svec_get(const svec_lanes *a, int l) { return (svec3){a->x[l], a->y[l], a->z[l]}; }
+LAW void svec_put(svec_lanes *a, int l, svec3 b) { a->x[l] = b.x, a->y[l] = b.y, a->z[l] = b.z; }
+LAW ssym3 ssym3_get(const ssym3_lanes *a, int l) { return (ssym3){a->xx[l], a->yy[l], a->zz[l], a->yz[l], a->xz[l], a->xy[l]}; }
+LAW void ssym3_put(ssym3_lanes *a, int l, ssym3 b) { a->xx[l] = b.xx, a->yy[l] = b.yy, a->zz[l] = b.zz, a->yz[l] = b.yz, a->xz[l] = b.xz, a->xy[l] = b.xy; }
+
 /* How far a turn from one rotation to another moves a point at distance 1, no less than that beside rounding [-]: the chord, 2 sin of half the angle. */
 LAW state contact_chord(squat from, squat to)
 {
     const squat turn = squat_mul(rigid_back(from), to);
-    return STATE(2.000002) * SQRT_STATE(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z) + STATE(8) * convex_rounding();
+    return STATE(2.000002) * SQRT_STATE(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z) + STATE(8) * STATE_ROUNDING;
 }
 
-/* momentum += kick torque, then free turning for drift with what extra torque adds (advance_rotation, rigid.h). */
-KERNEL void contact_turn(int n, state kick, state drift, state extra, GLOBAL const int *restrict rigid, GLOBAL const state *restrict inertia,
+/* momentum += kick torque, then free turning for drift with what extra torque adds (rigid_drift, for W cells side by side; cells that are not rigid take part and keep what they have). */
+KERNEL void contact_turn(int n_groups, state kick, state drift, state extra, GLOBAL const int *restrict rigid, GLOBAL const state *restrict inertia,
                          GLOBAL const state *restrict torque, GLOBAL const state *restrict reach, GLOBAL state *restrict momentum, GLOBAL state *restrict turned,
                          GLOBAL state *restrict way)
 {
-    FOR_EACH_ITEM(e, n) {
-        if (rigid[e]) {
-            const svec3 t = svec3_load(torque, (brc_size)e * 3), l = svec3_add_scaled(svec3_load(momentum, (brc_size)e * 3), kick, t);
-            svec3_store(momentum, (brc_size)e * 3, l);
-            if (drift != 0) {
-                const squat was = squat_load(turned, e), q = rigid_drift(was, ssym3_load(inertia, e), svec3_add_scaled(l, extra / drift, t), drift);
-                GLOBAL state *restrict to = turned + (brc_size)e * 4;
-                way[e] += reach[e] * contact_chord(was, q) + STATE(2) * convex_rounding() * way[e]; /* and no less for the rounding of the sum */
-                to[0] = q.w, to[1] = q.x, to[2] = q.y, to[3] = q.z;
+    FOR_EACH_ITEM(group, n_groups) {
+        const brc_size begin = (brc_size)group * W;
+        svec_lanes p, w, imaginary;
+        ssym3_lanes inverse;
+        state last[W], real[W], chord[W];
+        int goes[W], any = 0;
+        FOR_LANES_ANY(l, any) any |= rigid[begin + l];
+        if (any && kick != 0) {
+            FOR_LANES(l) {
+                const svec3 was = svec3_load(momentum, (begin + l) * 3), now = svec3_add_scaled(was, kick, svec3_load(torque, (begin + l) * 3));
+                svec3_store(momentum, (begin + l) * 3, svec3_choose(rigid[begin + l], now, was));
+            }
+        }
+        if (any && drift != 0) {
+            any = 0;
+            FOR_LANES_ANY(l, any) {
+                const svec3 spun = svec3_add_scaled(svec3_load(momentum, (begin + l) * 3), extra / drift, svec3_load(torque, (begin + l) * 3));
+                const svec3 own = rigid_rotate(rigid_back(squat_load(turned, (int)(begin + l))), spun);
+                const ssym3 free = rigid_inverse(ssym3_load(inertia, (int)(begin + l)));
+                const svec3 first = rigid_mul(free, own);
+                svec_put(&p, l, own);
+                svec_put(&w, l, first);
+                ssym3_put(&inverse, l, free);
+                last[l] = svec3_dot(first, first);
+                goes[l] = rigid[begin + l];
+                any |= goes[l];
+            }
+            for (int round = 0; round < RIGID_ROUNDS && any; ++round) {
+                any = 0;
+                FOR_LANES_ANY(l, any) {
+                    const svec3 was = svec_get(&w, l), next = rigid_round(ssym3_get(&inverse, l), svec_get(&p, l), was, drift), off = svec3_sub(next, was);
+                    const state change = svec3_dot(off, off);
+                    const int goes_on = goes[l] & rigid_goes_on(change, last[l], next);
+                    svec_put(&w, l, svec3_choose(goes[l], next, was));
+                    goes[l] = goes_on;
+                    last[l] = change;
+                    any |= goes_on;
+                }
+            }
+            FOR_LANES(l) {
+                const brc_size at = (begin + l) * 4;
+                const squat was = {turned[at], turned[at + 1], turned[at + 2], turned[at + 3]}, q = rigid_turned(was, svec_get(&w, l), drift);
+                svec_put(&imaginary, l, (svec3){q.x, q.y, q.z});
+                real[l] = q.w;
+                chord[l] = contact_chord(was, q);
+            }
+            for (int l = 0; l < W; ++l) {
+                const brc_size e = begin + l;
+                GLOBAL state *restrict to = turned + e * 4;
+                if (rigid[e]) {
+                    way[e] += reach[e] * chord[l] + STATE(2) * STATE_ROUNDING * way[e]; /* and no less for the rounding of the sum */
+                    to[0] = real[l], to[1] = imaginary.x[l], to[2] = imaginary.y[l], to[3] = imaginary.z[l];
+                }
             }
         }
     }

@@ -111,9 +111,6 @@ LAW state convex_stretch(convex_map m)
     return SQRT_STATE(STATE(1) + SQRT_STATE(xx * xx + yy * yy + zz * zz + STATE(2) * (c.xy * c.xy + c.yz * c.yz + c.xz * c.xz)));
 }
 
-/* Rounding of a number [-]. */
-LAW state convex_rounding(void) { return sizeof(state) == 8 ? STATE(2.3e-16) : STATE(1.2e-7); }
-
 /* Shape s of the arrays of all shapes. */
 LAW convex_shape convex_shape_of(GLOBAL const state *restrict corner, GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start,
                                  GLOBAL const int *restrict loop, GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start,
@@ -163,11 +160,13 @@ LAW convex_plane convex_seen(convex_body b, convex_plane p)
     return (convex_plane){convex_turn(convex_transpose(b.pose.map), p.normal), p.height - convex_dot(p.normal, b.pose.origin)};
 }
 
-/* Planes of one body that may cut the other; those of faces from `rest` on are not kept. apart: 1 + the face that separates the two, or 0. */
+/* Planes of one body that may cut the other, as many of them as are asked at once in blocks of W; those of faces from `rest` on are not kept. apart: 1 + the face that separates the two, or 0. */
 typedef struct {
-    convex_plane plane[CONVEX_PLANES];
+    state x[CONVEX_PLANES], y[CONVEX_PLANES], z[CONVEX_PLANES], height[CONVEX_PLANES];
     int n, rest, apart;
 } convex_cutters;
+LAW convex_plane convex_cutter(const convex_cutters *c, int k) { return (convex_plane){(convex_vec){c->x[k], c->y[k], c->z[k]}, c->height[k]}; }
+LAW void convex_put_cutter(convex_cutters *c, int k, convex_plane p) { c->x[k] = p.normal.x, c->y[k] = p.normal.y, c->z[k] = p.normal.z, c->height[k] = p.height; }
 
 /* Where the middle of one body lies in the other's frame, and how far from it anything of that body can be there [m]. */
 typedef struct { convex_vec centre; state reach; } convex_ball;
@@ -181,43 +180,56 @@ LAW convex_ball convex_ball_of(convex_body body, convex_body in, state margin)
 ROUTINE void convex_find_cutters(convex_body tool, convex_body work, state margin, convex_cutters *c)
 {
     const convex_ball ball = convex_ball_of(work, tool, margin);
-    const int many = work.shape.n_corners > CONVEX_MANY;
+    const int many = work.shape.n_corners > CONVEX_MANY, n_corners = many ? 0 : work.shape.n_corners;
     state first = 0;
     c->n = 0;
     c->rest = tool.shape.n_faces;
     c->apart = 0;
-    for (int f = 0; f < tool.shape.n_faces; ++f) {
-        const convex_plane own = convex_own_plane(tool.shape, f);
-        const state near = convex_dot(own.normal, ball.centre) - own.height;
-        if (near > ball.reach) {
-            c->apart = f + 1;
-            return;
+    for (int begin = 0; begin < tool.shape.n_faces; begin += W) {
+        convex_cutters own, placed;
+        state near[W], low[W], high[W], x[W], y[W], z[W], height[W]; /* planes as work sees them */
+        int any = 0;
+        for (int l = 0; l < W; ++l) convex_put_cutter(&own, l, convex_own_plane(tool.shape, begin + l < tool.shape.n_faces ? begin + l : tool.shape.n_faces - 1));
+        FOR_LANES_ANY(l, any) {
+            const convex_plane face = convex_cutter(&own, l);
+            near[l] = convex_dot(face.normal, ball.centre) - face.height;
+            any |= near[l] >= -ball.reach;
         }
-        if (near < -ball.reach) continue;
-        const convex_plane placed = convex_placed(tool, own), seen = convex_seen(work, placed);
-        state low = near, high = 0;
-        for (int k = 0; k < work.shape.n_corners && !many; ++k) {
-            const state h = convex_dot(seen.normal, convex_corner(work.shape, k)) - seen.height;
-            low = k == 0 || h < low ? h : low;
-            high = k == 0 || h > high ? h : high;
+        if (!any) continue;
+        FOR_LANES(l) {
+            const convex_plane there = convex_placed(tool, convex_cutter(&own, l)), seen = convex_seen(work, there);
+            convex_put_cutter(&placed, l, there);
+            x[l] = seen.normal.x, y[l] = seen.normal.y, z[l] = seen.normal.z, height[l] = seen.height;
+            low[l] = many ? near[l] : STATE(1e30), high[l] = many ? STATE(0) : STATE(-1e30);
         }
-        if (low >= 0 && !many) {
-            c->apart = f + 1;
-            return;
+        for (int k = 0; k < n_corners; ++k) {
+            const convex_vec corner = convex_corner(work.shape, k);
+            FOR_LANES(l) {
+                const state h = x[l] * corner.x + y[l] * corner.y + z[l] * corner.z - height[l];
+                low[l] = h < low[l] ? h : low[l];
+                high[l] = h > high[l] ? h : high[l];
+            }
         }
-        if (high <= -margin) continue;
-        if (c->n == CONVEX_PLANES) {
-            c->rest = c->rest < f ? c->rest : f;
-            continue;
+        for (int l = 0; l < W && begin + l < tool.shape.n_faces; ++l) {
+            if (near[l] > ball.reach || (near[l] >= -ball.reach && low[l] >= 0 && !many)) {
+                c->apart = begin + l + 1;
+                return;
+            }
+            if (near[l] < -ball.reach || high[l] <= -margin) continue;
+            if (c->n == CONVEX_PLANES) {
+                c->rest = c->rest < begin + l ? c->rest : begin + l;
+                continue;
+            }
+            convex_put_cutter(c, c->n, convex_cutter(&placed, l));
+            if (c->n == 0 || low[l] > first) {
+                first = low[l];
+                convex_put_cutter(c, c->n, convex_cutter(c, 0));
+                convex_put_cutter(c, 0, convex_cutter(&placed, l));
+            }
+            ++c->n;
         }
-        c->plane[c->n] = placed;
-        if (c->n == 0 || low > first) {
-            first = low;
-            c->plane[c->n] = c->plane[0];
-            c->plane[0] = placed;
-        }
-        ++c->n;
     }
+    for (int k = c->n; k % W != 0; ++k) convex_put_cutter(c, k, (convex_plane){(convex_vec){0, 0, 0}, STATE(1e30)}); /* which nothing is outside of */
 }
 
 /* The plane that cuts a face in plane `own` as plane `other` does (the head of this file says why not `other` itself); alike: normals alike. */
@@ -351,20 +363,45 @@ LAW void convex_clip_by(convex_polygon *p, convex_plane own, convex_plane other,
     convex_clip(p, convex_cut(own, other, alike), first && alike);
 }
 
+/* ... by the kept planes but the first. What the first leaves of a face is small where the overlap is: most planes have all of it inside, some all of it outside, and W of them at a time are told
+ * apart from those that cut it. */
+ROUTINE void convex_clip_by_kept(convex_polygon *p, convex_plane own, const convex_cutters *c, state margin, int first)
+{
+    for (int begin = 0; begin < c->n; begin += W) {
+        state low[W], high[W];
+        int out = 0;
+        FOR_LANES(l) low[l] = STATE(1e30), high[l] = STATE(-1e30);
+        for (int k = 0; k < p->n; ++k) {
+            const convex_vec corner = p->corner[k];
+            FOR_LANES(l) {
+                const state h = c->x[begin + l] * corner.x + c->y[begin + l] * corner.y + c->z[begin + l] * corner.z - c->height[begin + l];
+                low[l] = h < low[l] ? h : low[l];
+                high[l] = h > high[l] ? h : high[l];
+            }
+        }
+        FOR_LANES_ANY(l, out) out |= low[l] > margin;
+        if (out) p->n = 0;
+        for (int l = begin == 0; l < W && p->n > 0; ++l)
+            if (high[l] > -margin) convex_clip_by(p, own, convex_cutter(c, begin + l), first);
+    }
+}
+
 /* Clip the faces of `work` by the planes of `tool` and add what is left. first: work is A, to which ties of like planes go. */
 ROUTINE int convex_clip_faces(convex_body work, convex_body tool, const convex_cutters *c, state margin, int first, convex_sums *s)
 {
     const convex_ball ball = convex_ball_of(tool, work, margin), back = convex_ball_of(work, tool, margin);
+    const convex_plane deepest = c->n > 0 ? convex_cutter(c, 0) : (convex_plane){(convex_vec){0, 0, 0}, 0}, seen = convex_seen(work, deepest);
     convex_polygon p;
     p.failed = 0;
     for (int f = 0; f < work.shape.n_faces; ++f) {
         const convex_plane reference = convex_own_plane(work.shape, f);
         const state near = convex_dot(reference.normal, ball.centre) - reference.height;
         if (near > ball.reach || near < -ball.reach) continue; /* its plane is nowhere near */
-        if (c->n > 0 && convex_face_outside(work.shape, f, convex_seen(work, c->plane[0]), margin)) continue;
+        if (c->n > 0 && convex_face_outside(work.shape, f, seen, margin)) continue;
         const convex_plane own = convex_placed(work, reference);
         convex_load_face(work, f, &p);
-        for (int k = 0; k < c->n && p.n > 0; ++k) convex_clip_by(&p, own, c->plane[k], first);
+        if (c->n > 0) convex_clip_by(&p, own, deepest, first);
+        if (p.n > 0) convex_clip_by_kept(&p, own, c, margin, first);
         for (int k = c->rest; k < tool.shape.n_faces && p.n > 0; ++k) {
             const convex_plane other = convex_own_plane(tool.shape, k);
             if (convex_dot(other.normal, back.centre) - other.height >= -back.reach) convex_clip_by(&p, own, convex_placed(tool, other), first);
@@ -402,7 +439,7 @@ ROUTINE convex_overlap convex_overlap_after(convex_shape shape_a, convex_pose po
     const convex_body a = convex_body_of(shape_a, pose_a, centre), b = convex_body_of(shape_b, pose_b, centre);
     if (apart > 0 && convex_stands_between(a, apart - 1, b)) return convex_no_overlap(0, apart);
     if (apart < 0 && convex_stands_between(b, -apart - 1, a)) return convex_no_overlap(0, apart);
-    const state margin = STATE(64) * convex_rounding() * (radius_a + radius_b); /* skipped cuts are far from a tie */
+    const state margin = STATE(64) * STATE_ROUNDING * (radius_a + radius_b); /* skipped cuts are far from a tie */
     convex_cutters by_b, by_a;
     convex_find_cutters(b, a, margin, &by_b);
     if (by_b.apart) return convex_no_overlap(0, -by_b.apart);

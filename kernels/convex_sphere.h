@@ -83,7 +83,7 @@ ROUTINE convex_foot convex_foot_on_polyhedron(convex_shape s, convex_pose pose, 
     }
     const convex_vec off = convex_sub(x, point);
     const state distance = SQRT_STATE(least);
-    if (distance > STATE(16) * convex_rounding() * s.radius) normal = convex_scale(STATE(1) / distance, off); /* nearer, the plane knows it better */
+    if (distance > STATE(16) * STATE_ROUNDING * s.radius) normal = convex_scale(STATE(1) / distance, off); /* nearer, the plane knows it better */
     return (convex_foot){distance, convex_turn(pose.map, normal), convex_add(pose.origin, convex_turn(pose.map, point))};
 }
 

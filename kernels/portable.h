@@ -8,7 +8,7 @@
  *   BRC_TARGET          defined for the OpenMP target reading of the C build
  *   BRC_EXACT           defined where a product and a sum must not be contracted into one rounding (OpenCL; C by flag)
  *
- * Vocabulary (docs/portable.md): KERNEL, GLOBAL, LAW, ROUTINE, FOR_EACH_ITEM, coeff, state, lane, lane_state, lane_int, REAL. */
+ * Vocabulary (docs/portable.md): KERNEL, GLOBAL, LAW, ROUTINE, FOR_EACH_ITEM, FOR_LANES, coeff, state, lane, lane_state, lane_int, REAL. */
 #ifndef BRC_KERNELS_PORTABLE_H
 #define BRC_KERNELS_PORTABLE_H
 
@@ -43,6 +43,12 @@ typedef float coeff;
 /* A literal: REAL(0.5) in coeff, STATE(0.5) in state. */
 #define REAL(x) ((coeff)(x))
 #define STATE(x) ((state)(x))
+/* Rounding of a state [-]. */
+#if BRC_PRECISION == 2
+#define STATE_ROUNDING STATE(1.2e-7)
+#else
+#define STATE_ROUNDING STATE(2.3e-16)
+#endif
 
 #ifdef __OPENCL_VERSION__
 
@@ -57,6 +63,8 @@ typedef float coeff;
 #define ROUTINE static inline
 typedef ulong brc_size;
 #define FOR_EACH_ITEM(i, n) const int i = (int)get_global_id(0); if (i < (n))
+#define FOR_LANES(l) for (int l = 0; l < W; ++l)
+#define FOR_LANES_ANY(l, any) FOR_LANES(l)
 #if W == 1
 typedef coeff lane;
 typedef state lane_state;
@@ -95,6 +103,9 @@ typedef BRC_JOIN(int, BRC_LANES) lane_int;
 typedef size_t brc_size;
 #define STORE_SAME(place, value) __atomic_store_n((place), (value), __ATOMIC_RELAXED)
 #define BRC_PRAGMA(x) _Pragma(#x)
+/* Single numbers of W things in arrays, where laws of single numbers (svec.h) are worth more than lanes of their own. */
+#define FOR_LANES(l) BRC_PRAGMA(omp simd) for (int l = 0; l < W; ++l)
+#define FOR_LANES_ANY(l, any) BRC_PRAGMA(omp simd reduction(| : any)) for (int l = 0; l < W; ++l)
 #ifdef BRC_TARGET
 #define FOR_EACH_ITEM(i, n)                                                                                            \
     BRC_PRAGMA(omp target teams distribute parallel for defaultmap(firstprivate : pointer))                            \

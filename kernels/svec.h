@@ -18,6 +18,7 @@ LAW svec3 svec3_add_scaled(svec3 a, state k, svec3 b) { return (svec3){a.x + k *
 LAW state svec3_dot(svec3 a, svec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 LAW svec3 svec3_cross(svec3 a, svec3 b) { return (svec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 LAW state svec3_length(svec3 a) { return SQRT_STATE(svec3_dot(a, a)); }
+LAW svec3 svec3_choose(int first, svec3 a, svec3 b) { return (svec3){first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z}; }
 /* What of a is across the unit vector n. */
 LAW svec3 svec3_across(svec3 a, svec3 n) { return svec3_add_scaled(a, -svec3_dot(a, n), n); }
 

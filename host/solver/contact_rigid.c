@@ -84,9 +84,8 @@ brc_status brc_contact_pose(brc_simulation *s)
 brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double extra)
 {
     brc_contact_state *c = s->contact;
-    const int32_t n = s->layout->n_rows;
     if (!c || !(c->n_rigid > 0) || !s->scene->contact.rotation) return BRC_OK;
-    return BRC_LAUNCH(c->kernel.turn, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(extra), BRC_BUF(c->rigid), BRC_BUF(c->inertia),
+    return BRC_LAUNCH(c->kernel.turn, s->n_groups, BRC_INT(s->n_groups), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(extra), BRC_BUF(c->rigid), BRC_BUF(c->inertia),
                       BRC_BUF(c->torque), BRC_BUF(c->reach), BRC_BUF(c->momentum), BRC_BUF(c->turned), BRC_BUF(c->way));
 }
 

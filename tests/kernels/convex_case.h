@@ -1,15 +1,16 @@
-/* Polyhedra for the tests of the overlap, and the kernel's functions read as plain C with one lane in double. */
+/* Polyhedra for the tests of the overlap, and the kernel's functions read as plain C in double, eight lanes as the cpu's kernels have. */
 #ifndef BRC_TESTS_CONVEX_CASE_H
 #define BRC_TESTS_CONVEX_CASE_H
 
 #ifndef BRC_PRECISION
 #define BRC_PRECISION 0
 #endif
-#define BRC_LANES 1
-#define BRC_SLICE 1
+#define BRC_LANES 8
+#define BRC_SLICE 8
 #define BRC_MANY_MATERIALS 0
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wpsabi"
 #include "../../kernels/convex_sphere.h"
 #include "../../kernels/convex_wall.h"
 #include <stdint.h>

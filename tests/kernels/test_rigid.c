@@ -1,4 +1,4 @@
-/* Rigid bodies that turn: against exact solutions of Euler's equations. Double, one body. */
+/* Rigid bodies that turn: against exact solutions of Euler's equations. Double, one body; and eight side by side, as cells do. */
 // clang-format off
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,12 +8,16 @@
 // clang-format on
 #include <math.h>
 #define BRC_PRECISION 0
-#define BRC_LANES 1
-#define BRC_SLICE 1
+#define BRC_LANES 8
+#define BRC_SLICE 8
 #define BRC_MANY_MATERIALS 0
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wpsabi"
+#include "../../kernels/convex_overlap.h"
 #include "../../kernels/rigid.h"
+#include "../../kernels/contact_place.cl"
+#include "../../kernels/contact_rigid.cl"
 
 static const squat UPRIGHT = {1, 0, 0, 0};
 
@@ -157,6 +161,39 @@ static void moments_are_solved_at_any_size(void **state)
     assert_true(apart(back, (svec3){1e-110, -3e-110, 2e-110}) < 1e-124);
 }
 
+/* Kicked and turned by the kernel of cells: each as it would be alone, to the last bit, whatever turns beside it; what is not rigid keeps what it has. */
+static void cells_side_by_side_turn_as_each_does_alone(void **state)
+{
+    (void)state;
+    enum { N = 24 };
+    int rigid[N];
+    double inertia[6 * N], torque[3 * N], reach[N], momentum[3 * N], turned[4 * N], way[N], momentum_before[3 * N], turned_before[4 * N];
+    const double kick = 0.01, drift = 0.02, extra = 4e-5;
+    for (int e = 0; e < N; ++e) {
+        const squat q = turn_about((svec3){1, e % 5, -0.5}, 0.3 * e);
+        const ssym3 own = turned_by(q, (double[3]){1, 1 + 0.1 * (e % 7), 2});
+        const double at[4] = {q.w, q.x, q.y, q.z}, moment[6] = {own.xx, own.yy, own.zz, own.yz, own.xz, own.xy};
+        rigid[e] = e < 16 && e % 3 != 1; /* the last eight have none */
+        reach[e] = 0.1;
+        way[e] = 0;
+        for (int k = 0; k < 3; ++k) momentum[3 * e + k] = momentum_before[3 * e + k] = e % 4 == 0 ? 0 : pow(10, -(e % 4)) * (k + 1 - 0.2 * e), torque[3 * e + k] = 0.3 * k - 0.1;
+        for (int k = 0; k < 4; ++k) turned[4 * e + k] = turned_before[4 * e + k] = at[k];
+        for (int k = 0; k < 6; ++k) inertia[6 * e + k] = e == 1 ? 0 : moment[k]; /* a row without an element has none */
+    }
+    contact_turn(N / 8, kick, drift, extra, rigid, inertia, torque, reach, momentum, turned, way);
+    for (int e = 0; e < N; ++e) {
+        const svec3 t = svec3_load(torque, 3 * (size_t)e), l = svec3_add_scaled(svec3_load(momentum_before, 3 * (size_t)e), kick, t);
+        const squat was = squat_load(turned_before, e);
+        const squat q = rigid[e] ? rigid_drift(was, ssym3_load(inertia, e), svec3_add_scaled(l, extra / drift, t), drift) : was;
+        const svec3 kept = rigid[e] ? l : svec3_load(momentum_before, 3 * (size_t)e);
+        assert_memory_equal(momentum + 3 * e, &kept, sizeof kept);
+        assert_memory_equal(turned + 4 * e, &q, sizeof q);
+        /* how far a point of a cell of radius 0.1 can have come: the chord; of three axes one makes at least sqrt(2/3) of the largest, none makes more. 1e-15: roundings */
+        const double seen = 0.1 * differ(q, was);
+        assert_true(rigid[e] ? way[e] > seen - 1e-15 && way[e] < sqrt(1.5) * (1 + 2e-6) * seen + 1e-15 : way[e] == 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -165,6 +202,7 @@ int main(void)
         cmocka_unit_test(an_asymmetric_top_follows_jacobis_functions_to_second_order),
         cmocka_unit_test(a_ball_turns_exactly),
         cmocka_unit_test(moments_are_solved_at_any_size),
+        cmocka_unit_test(cells_side_by_side_turn_as_each_does_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

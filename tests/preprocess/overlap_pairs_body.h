@@ -1,11 +1,11 @@
-/* The body of overlap_pairs_double and overlap_pairs_single: BRC_PRECISION and OVERLAP_PAIRS, the function's name, are defined. */
+/* The body of overlap_pairs_double and its like: BRC_PRECISION, BRC_LANES and OVERLAP_PAIRS, the function's name, are defined. */
 #include "overlap_pairs.h"
 
-#define BRC_LANES 1
-#define BRC_SLICE 1
+#define BRC_SLICE BRC_LANES
 #define BRC_MANY_MATERIALS 0
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wpsabi"
 #include "../../kernels/convex_overlap.h"
 #include <stdlib.h>
 #include <time.h>

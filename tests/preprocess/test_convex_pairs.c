@@ -123,6 +123,16 @@ static void single_precision_is_as_good_as_its_places(void **state)
     assert_true(worst_volume < 2e-6 && worst_area < 2e-4 && worst_moment < 2e-4);
 }
 
+static void assert_other_is_found(void)
+{
+    for (int64_t b = 0; b < n_pairs; ++b) {
+        assert_true(found[b].volume == other[b].volume && found[b].failed == other[b].failed);
+        assert_memory_equal(found[b].area, other[b].area, sizeof found[b].area);
+        assert_memory_equal(found[b].moment, other[b].moment, sizeof found[b].moment);
+        assert_memory_equal(found[b].point, other[b].point, sizeof found[b].point);
+    }
+}
+
 static void threads_do_not_change_a_bit(void **state)
 {
     (void)state;
@@ -131,11 +141,23 @@ static void threads_do_not_change_a_bit(void **state)
     memset(other, 0, (size_t)n_pairs * sizeof *other);
     overlap_pairs_double(&convex, n_pairs, pair, 1, found);
     overlap_pairs_double(&convex, n_pairs, pair, 3, other);
-    for (int64_t b = 0; b < n_pairs; ++b) {
-        assert_true(found[b].volume == other[b].volume && found[b].failed == other[b].failed);
-        assert_memory_equal(found[b].area, other[b].area, sizeof found[b].area);
-        assert_memory_equal(found[b].moment, other[b].moment, sizeof found[b].moment);
-        assert_memory_equal(found[b].point, other[b].point, sizeof found[b].point);
+    assert_other_is_found();
+}
+
+/* Planes that are asked in blocks are those that are asked one by one, in the same order: deep and shallow overlaps, faces in one plane. */
+static void lanes_do_not_change_a_bit(void **state)
+{
+    (void)state;
+    const struct {
+        double depth, strain;
+    } some[] = {{0.1, 0.05}, {0.01, 0.1}, {1e-3, 0}, {0, 0}};
+    for (size_t k = 0; k < sizeof some / sizeof *some; ++k) {
+        make_pairs(some[k].depth, some[k].strain);
+        memset(found, 0, (size_t)n_pairs * sizeof *found);
+        memset(other, 0, (size_t)n_pairs * sizeof *other);
+        overlap_pairs_double(&convex, n_pairs, pair, 1, found);
+        overlap_pairs_one_lane(&convex, n_pairs, pair, 1, other);
+        assert_other_is_found();
     }
 }
 
@@ -146,6 +168,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(pushed_together_they_share_face_times_depth, begin, end),
         cmocka_unit_test_setup_teardown(single_precision_is_as_good_as_its_places, begin, end),
         cmocka_unit_test_setup_teardown(threads_do_not_change_a_bit, begin, end),
+        cmocka_unit_test_setup_teardown(lanes_do_not_change_a_bit, begin, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

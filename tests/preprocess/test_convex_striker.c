@@ -1,14 +1,15 @@
-/* Strikers of hundreds and thousands of faces against cells much smaller and much larger than they are. Double, one lane. */
+/* Strikers of hundreds and thousands of faces against cells much smaller and much larger than they are. Double, eight lanes. */
 #include "support.h"
 
 #include "../../preprocess/convex.h"
 
 #define BRC_PRECISION 0
-#define BRC_LANES 1
-#define BRC_SLICE 1
+#define BRC_LANES 8
+#define BRC_SLICE 8
 #define BRC_MANY_MATERIALS 0
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wpsabi"
 #include "../../kernels/convex_wall.h"
 
 static convex_shape shape_of(const brc_convex *c)
