@@ -9,6 +9,7 @@
 #include "../base/memory.h"
 #include "../output/export_domain.h"
 #include "../output/isotropy_report.h"
+#include "../output/skin_report.h"
 #include "../scene/scene_reader.h"
 #include <string.h>
 
@@ -17,6 +18,7 @@ static const brc_option options[] = {
     {"vtu", 0, "FILE", false, "write the elements for ParaView too"},
     {"csv", 0, "FILE", false, "write positions, radii and volumes too, as a table that `fill: {points: FILE}` reads"},
     {"isotropy", 0, "DIR", false, "histogram of the bonds' directions as table, surface and picture, with its numbers"},
+    {"skin", 0, "FILE", false, "how few beams packed spheres have near the walls, layer by layer, as a table (CSV)"},
     BRC_OPTION_THREADS,
     BRC_OPTION_SET,
 };
@@ -86,6 +88,24 @@ cleanup:
     return status;
 }
 
+/* The shape that a scene's only body stands in; it was not moved or turned. */
+static brc_status only_shape(brc_context *context, const brc_scene *scene, int n_threads, brc_solid **out)
+{
+    if (scene->n_bodies != 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "--skin: the scene has %d bodies; give a scene of one", scene->n_bodies);
+    const brc_body *body = &scene->bodies[0];
+    bool posed = false;
+    for (int c = 0; c < 3; ++c) posed |= body->translation[c] != 0 || body->rotation[c] != 0;
+    if (body->domain_file[0] || posed || !(body->beams > 0))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "--skin: body '%s' %s; expected spheres joined by beams, packed into a shape where it stands", body->name,
+                        body->domain_file[0] ? "comes from a file" : posed ? "is moved or turned" : "is made of cells");
+    brc_scene_request request = {.regions = NULL};
+    brc_status status = brc_scene_request_make(context, scene, 0, n_threads, &request);
+    if (status == BRC_OK) status = brc_solid_create(context, &request.build.shape, n_threads, out);
+    brc_scene_request_free(&request);
+    return status;
+}
+
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
 {
     brc_context *context = session->context;
@@ -93,7 +113,8 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     const targets to = {.path = brc_arguments_value(arguments, "output"), .vtu = brc_arguments_value(arguments, "vtu"),
                         .csv = brc_arguments_value(arguments, "csv"), .isotropy = brc_arguments_value(arguments, "isotropy")};
     if (!to.path) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia build: say where the domain goes with -o FILE");
-    const char *const files[] = {to.path, to.vtu, to.csv};
+    const char *skin_path = brc_arguments_value(arguments, "skin");
+    const char *const files[] = {to.path, to.vtu, to.csv, skin_path};
     for (size_t k = 0; k < sizeof files / sizeof *files; ++k)
         if (files[k]) BRC_TRY(brc_file_check_place(context, files[k]));
     int64_t n_threads;
@@ -104,7 +125,9 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     brc_scene *scene = NULL;
     brc_split *split = NULL;
     brc_domain **domain = NULL;
+    brc_solid *solid = NULL;
     BRC_TRY_OR(cleanup, brc_scene_read(context, arguments->positional[0], n_overrides, overrides, &scene));
+    if (skin_path) BRC_TRY_OR(cleanup, only_shape(context, scene, (int)n_threads, &solid));
     BRC_TRY_OR(cleanup, brc_split_create(context, scene, &split));
     BRC_TRY_OR(cleanup, make_folders(context, split, to.isotropy));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain, split->n, "domains of a scene"));
@@ -112,10 +135,16 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     const double built = brc_clock_s();
     for (int32_t k = 0; k < split->n; ++k)
         BRC_TRY_OR(cleanup, write_domain(context, domain[k], split->n > 1 ? split->part[k].name : NULL, &to));
+    if (solid) {
+        brc_skin skin;
+        BRC_TRY_OR(cleanup, brc_skin_measure(context, solid, domain[0], (int)n_threads, &skin));
+        BRC_TRY_OR(cleanup, brc_skin_report(context, &skin, skin_path));
+    }
     printf("seconds: build %.3g, write %.3g\n", built - start, brc_clock_s() - built);
 cleanup:
     for (int32_t k = 0; domain && k < split->n; ++k) brc_domain_free(&domain[k]);
     brc_memory_free(domain);
+    brc_solid_free(&solid);
     brc_split_free(&split);
     brc_scene_free(&scene);
     return status;

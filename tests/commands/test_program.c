@@ -165,6 +165,36 @@ static void an_interrupted_run_ends_with_three_and_keeps_its_results(void **stat
     assert_int_equal(access(summary, R_OK), 0);
 }
 
+/* Every element of a packing is in a layer, in the core, or near two walls: the rows of the table tell of it, and cells have no such skin. */
+static void build_tells_the_skin_of_a_packing(void **state)
+{
+    (void)state;
+    char arguments[640], path[128], text[4096] = "";
+    snprintf(arguments, sizeof arguments, "build %s -o %s/d.h5 --skin %s/skin.csv", scene, folder, folder);
+    assert_int_equal(test_program(arguments), 2);
+    expect(test_program_stderr(), "--skin: body 'cube' is made of cells");
+    snprintf(path, sizeof path, "%s/packed.yaml", folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("version: 1\nmaterials: {m: {E: 20 GPa, nu: 0.2, density: 1000 kg/m^3}}\nmodel: {cbm: {keep_isolated: true}}\n"
+          "bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {packing: {elements: 1500, seed: 1}}, beams: 10}]\n"
+          "stages: [{name: hold, solver: {dynamic: {steps: 1}}}]\noutput: {frames: none, picture: false}\n", file);
+    fclose(file);
+    snprintf(arguments, sizeof arguments, "build %s -o %s/d.h5 --skin %s/skin.csv", path, folder, folder);
+    assert_int_equal(test_program(arguments), 0);
+    expect(test_program_stdout(), "missing stiffness");
+    snprintf(path, sizeof path, "%s/skin.csv", folder);
+    file = fopen(path, "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    expect(text, "from_diameters,to_diameters,volume_m3,solid_fraction,elements,coordination,stiffness_along,stiffness_shear,stiffness_across\n0,0.25,");
+    expect(text, "\n2.5,,");
+    int rows = 0;
+    for (const char *at = text; (at = strchr(at, '\n')); ++at) ++rows;
+    assert_int_equal(rows, 12);
+}
+
 static void export_needs_a_format_and_a_run(void **state)
 {
     (void)state;
@@ -202,6 +232,7 @@ int main(void)
         cmocka_unit_test(a_run_prints_its_measures_and_writes_its_summary),
         cmocka_unit_test(a_built_domain_runs_like_the_scene_it_came_from),
         cmocka_unit_test(an_interrupted_run_ends_with_three_and_keeps_its_results),
+        cmocka_unit_test(build_tells_the_skin_of_a_packing),
         cmocka_unit_test(export_needs_a_format_and_a_run),
         cmocka_unit_test(a_small_bench_writes_its_rows),
     };
