@@ -319,6 +319,16 @@ static void check_reach(const brc_simulation *s, int32_t i, double bodies)
             s->scene->strikers[i].name, gap, way, time);
 }
 
+/* Strikers never meet each other: a free ball above a wall that is a striker too falls through it. */
+static void tell_of_others(const brc_simulation *s)
+{
+    for (int32_t i = 0; s->strikers->n > 1 && i < s->strikers->n; ++i) {
+        if (s->scene->strikers[i].motion != BRC_STRIKER_FREE) continue;
+        brc_log(s->context, BRC_LOG_INFO, "striker '%s' meets the bodies only and passes through other strikers, such as '%s'", s->scene->strikers[i].name, s->scene->strikers[i == 0].name);
+        return;
+    }
+}
+
 brc_status brc_strikers_check(brc_simulation *s)
 {
     const double bodies = speed_of_bodies(s);
@@ -330,5 +340,6 @@ brc_status brc_strikers_check(brc_simulation *s)
         check_rail(s, i);
         check_reach(s, i, bodies);
     }
+    tell_of_others(s);
     return status;
 }

@@ -2,7 +2,7 @@
 
     test_resume.py                              what ctest runs: a few examples made small, five kills, refusals
     test_resume.py --all [NAME ...]             every example made small, on the cpu, an OpenCL device and a target device, in three precisions
-    test_resume.py --kills 50                   one run killed fifty times at random moments
+    test_resume.py --kills 50 [--of NAME]       one run (beams-fracture, or this example) killed fifty times at random moments
 """
 import argparse
 import filecmp
@@ -52,6 +52,9 @@ MORE = {
     "beams-fracture+softening": ["materials.glass.strength.fracture_energy=10 J/m^2"],
 }
 SINGLE = {"tension": ["stages.0.solver.static.tolerance=1e-4"]}  # what a lower precision cannot reach otherwise
+
+
+KILLED = "beams-fracture"
 
 
 def scene_of(name):
@@ -168,7 +171,7 @@ def readable(folder):
     return len(frames)
 
 
-def killed_again_and_again(folder, n, name="beams-fracture"):
+def killed_again_and_again(folder, n, name=KILLED):
     """Killed n times at random moments, taken up after each: the frames can be read, and the end is that of a run that was left alone."""
     draw = random.Random(1)
     sets = overrides(name) + ["output.frames=40", "output.history_every=1"]
@@ -297,11 +300,12 @@ if __name__ == "__main__":
     parser.add_argument("--all", nargs="*", metavar="NAME", help="every example, or these")
     parser.add_argument("--device", help="this device only")
     parser.add_argument("--kills", type=int, help="so many kills")
+    parser.add_argument("--of", metavar="NAME", default=KILLED, help="of this example")
     options = parser.parse_args()
     if options.all is not None:
         sys.exit(1 if all_examples(options.all, options.device) else 0)
     elif options.kills:
         with tempfile.TemporaryDirectory(prefix="resume-", dir=".") as scratch:
-            print(killed_again_and_again(scratch, options.kills))
+            print(killed_again_and_again(scratch, options.kills, options.of))
     else:
         few()

@@ -132,6 +132,31 @@ static void twenty_steps_of_a_blow_meet_the_restitution(void **state)
         }
 }
 
+/* A block of eight spheres and their beams on a plane at an angle whose tangent is 1 % below the friction comes to rest, one 1 % above keeps going: drag of c = 0.5 /s lets it settle, and the excess of 0.4 % of
+ * g = 1 mm/s^2 then moves it at 0.004 g / c along the slope, as in test_contact_cells. After 80 s drag has left exp(-20), 2e-9, of what began. */
+static void a_block_of_beams_slides_where_the_slope_is_the_friction(void **state)
+{
+    (void)state;
+    for (int above = 0; above < 2; ++above) {
+        beams_case c;
+        double x[24], v[24], speed = 0;
+        static char stages[700];
+        const double slope = 0.4 * (above ? 1.01 : 0.99), g = 1e-3, cosine = 1 / sqrt(1 + slope * slope), excess = g * cosine * (slope - 0.4) / 0.5;
+        for (int k = 0; k < 24; ++k) x[k] = 0.5 + (k / 3 >> k % 3 & 1);
+        snprintf(stages, sizeof stages,
+                 "interactions: {contact: {friction: 0.4, damping: 50 %%}}\nstrikers:\n  slope: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: stone}\ngravity: [%.17g m/s^2, 0, %.17g m/s^2]\n"
+                 "stages:\n  - name: rest\n    solver: {dynamic: {duration: 80 s, mass_damping: 0.5 1/s}}\n", g * slope * cosine, -g * cosine);
+        open_beams(&c, (beams_options){.n = 8, .n_threads = 1, .position = x, .radius = RADIUS, .coordination = 3, .stages = stages,
+                                       .materials = "  stone: {E: 30 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.5, E: 30 Pa}}"});
+        beams_done(&c, brc_simulation_run(c.simulation));
+        beams_done(&c, brc_simulation_velocity(c.simulation, v));
+        for (int e = 0; e < 8; ++e) speed += v[3 * e] / 8;
+        print_message("%s the friction: %.7g m/s, %.7g m/s by hand\n", above ? "above" : "below", speed, fmax(excess, 0));
+        if (!(above ? fabs(speed / excess - 1) < 0.05 : fabs(speed) < 1e-3 * fabs(excess))) fail_msg("%d: %.6g m/s, %.6g m/s by hand", above, speed, excess);
+        close_beams(&c);
+    }
+}
+
 /* A blow off centre with friction: what one loses the other gains, turning included. */
 static void momentum_and_its_moment_stay_through_an_oblique_blow(void **state)
 {
@@ -183,6 +208,7 @@ int main(void)
         cmocka_unit_test(two_spheres_collide_as_hertz_says),
         cmocka_unit_test(the_restitution_is_the_one_asked_for_at_any_speed),
         cmocka_unit_test(twenty_steps_of_a_blow_meet_the_restitution),
+        cmocka_unit_test(a_block_of_beams_slides_where_the_slope_is_the_friction),
         cmocka_unit_test(momentum_and_its_moment_stay_through_an_oblique_blow),
         cmocka_unit_test(the_ledger_closes_through_a_blow_with_friction),
     };
