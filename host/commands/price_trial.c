@@ -159,12 +159,14 @@ static breaks breaks_of_events(const brc_scene *scene, const brc_trial *trial)
     return b;
 }
 
+/* The last frame has all of them, the others some on average, of which the trial's had a few. */
 static breaks breaks_of_look(const brc_setup *setup, const brc_trial *trial, const brc_coarse *looked)
 {
-    const double n_bonds = (double)brc_setup_n_bonds(setup), mean = fmax(0, looked->broken_mean * n_bonds - 0.5 * (double)trial->n_broken); /* the trial's frames had some of them */
-    breaks b = {.more = fmax(0, looked->broken * n_bonds - (double)trial->n_broken)};
-    for (int32_t k = 0; k < trial->n_stages; ++k) b.in_frames += mean * (looked->done[k] > 0 ? fmin(looked->done[k], 1) : 1) * (double)trial->stages[k].frames_planned;
-    return b;
+    const double n_bonds = (double)brc_setup_n_bonds(setup), mean = fmax(0, looked->broken_mean * n_bonds - 0.5 * (double)trial->n_broken);
+    const double more = fmax(0, looked->broken * n_bonds - (double)trial->n_broken);
+    double frames = 0;
+    for (int32_t k = 0; k < trial->n_stages; ++k) frames += (looked->done[k] > 0 ? fmin(looked->done[k], 1) : 1) * (double)trial->stages[k].frames_planned;
+    return (breaks){.more = more, .in_frames = frames > 1 ? mean * (frames - 1) + more : more * frames};
 }
 
 static memory add_up(const brc_scene *scene, const brc_setup *setup, const brc_trial *trial, const brc_coarse *looked)
