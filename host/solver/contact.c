@@ -2,6 +2,7 @@
 #include "contact_internal.h"
 #include "cell_breaks_internal.h"
 #include "strikers_internal.h"
+#include "touching.h"
 #include <math.h>
 #include <string.h>
 
@@ -110,11 +111,27 @@ brc_status brc_contact_restart(brc_simulation *s)
     return search_soon(s);
 }
 
-brc_status brc_contact_wakes(const brc_simulation *s, const brc_ledger *ledger)
+/* Bodies that stand in each other by less than is refused; of strikers it was told when they were made (striker_check.c). */
+static brc_status tell_of_overlap(brc_simulation *s, const brc_ledger *ledger)
+{
+    brc_touching now;
+    bool told = false;
+    for (int32_t i = 0; s->strikers && i < s->strikers->n; ++i) told = told || s->strikers->told[i];
+    if (told || !(ledger->contact > 0)) return BRC_OK;
+    BRC_TRY(brc_simulation_touching(s, &now));
+    if (now.penetration > brc_striker_told_depth(s))
+        brc_log(s->context, BRC_LOG_WARNING, "stage '%s': surfaces overlap as the scene starts, %.0f pairs by up to %.3g m, and hold %.3g J: they begin pressed together", brc_current_stage(s)->name, now.pairs,
+                now.penetration, ledger->contact);
+    return BRC_OK;
+}
+
+brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger)
 {
     static const double little = 1e-6; /* of the elastic energy: what a thousandth of its strains can press together */
-    const brc_stage *before = s->stage > 0 ? s->scene->stages + s->stage - 1 : NULL;
-    if (!s->contact || sleeps(s) || !before || before->solver == BRC_SOLVER_DYNAMIC || !(ledger->contact > little * ledger->elastic)) return BRC_OK;
+    if (!s->contact || s->stage < 0 || sleeps(s)) return BRC_OK;
+    if (s->stage == 0) return tell_of_overlap(s, ledger);
+    const brc_stage *before = s->scene->stages + s->stage - 1;
+    if (before->solver == BRC_SOLVER_DYNAMIC || !(ledger->contact > little * ledger->elastic)) return BRC_OK;
     return BRC_FAIL(s->context, BRC_BAD_INPUT,
                     "stage '%s': surfaces overlap as it begins and hold %.3g J, beside %.3g J of elastic energy: stage '%s' knows no contact and pressed them into each other. Keep them apart by that "
                     "much, or come to rest in a dynamic stage with mass damping", brc_current_stage(s)->name, ledger->contact, ledger->elastic, before->name);

@@ -17,8 +17,8 @@ int64_t brc_contact_bytes(const brc_scene *scene, const brc_domain *domain, int6
 
 /* Elements were moved by hand or a stage begins: look for pairs again. */
 brc_status brc_contact_restart(brc_simulation *s);
-/* The forces of the start of a stage are there, with this ledger: BRC_BAD_INPUT if the static stage before it has pressed surfaces into each other. */
-brc_status brc_contact_wakes(const brc_simulation *s, const brc_ledger *ledger);
+/* The forces of the start of a stage are there, with this ledger: BRC_BAD_INPUT if the static stage before it has pressed surfaces into each other; told if they overlap as the run begins. */
+brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger);
 /* Elements moved by a step: look again where they moved far enough. */
 brc_status brc_contact_follow(brc_simulation *s);
 /* dlsm: the rotations of rigid cells go into the gradients. */

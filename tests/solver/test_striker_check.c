@@ -106,6 +106,17 @@ static void a_small_overlap_is_told(void **state)
     expect("plane: {point: [0, 0, 1 mm], normal: [0, 0, 1]}", DURING("10 s"), BRC_OK, "stands 0.001 m deep");
 }
 
+/* Nothing stands in anything as it is built, but an initial field of 3 mm presses the cube 2 mm into the plane 1 mm below it. */
+static void what_begins_pressed_together_is_told(void **state)
+{
+    (void)state;
+    static const char plane[] = "plane: {point: [0, 0, -1 mm], normal: [0, 0, 1]}";
+#define SUNK(depth) "  - name: move\n    solver: {dynamic: {steps: 1}}\n    initial:\n      - affine: {displacement: [0, 0, -" depth "]}\n"
+    expect_where(plane, SUNK("3 mm"), true, BRC_OK, "surfaces overlap as the scene starts");
+    expect_where(plane, SUNK("3 mm"), true, BRC_OK, "pairs by up to 0.002 m");
+    expect_where(plane, SUNK("0.9 mm"), true, BRC_OK, NULL);
+}
+
 /* Pressure waves run at sqrt(E (1 - nu) / (rho (1 + nu) (1 - 2 nu))) = 1.054 m/s. */
 static void speeds_beyond_sound_are_told(void **state)
 {
@@ -193,6 +204,7 @@ int main(void)
         cmocka_unit_test(strikers_inside_a_body_are_refused_with_depth_and_place),
         cmocka_unit_test(what_goes_through_between_corners_is_refused),
         cmocka_unit_test(a_small_overlap_is_told),
+        cmocka_unit_test(what_begins_pressed_together_is_told),
         cmocka_unit_test(speeds_beyond_sound_are_told),
         cmocka_unit_test(a_velocity_against_the_rail_is_told),
         cmocka_unit_test(bodies_that_meet_faster_than_sound_are_told),
