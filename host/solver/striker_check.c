@@ -273,6 +273,40 @@ static void check_rail(const brc_simulation *s, int32_t i)
         brc_log(s->context, BRC_LOG_WARNING, "striker '%s': its spin of %.4g rad/s is left out, as `hold` lets it not turn", striker->name, length(striker->spin));
 }
 
+/* Extent of striker i along its thinnest face's normal [m]; HUGE_VAL of planes, and of shapes of so many faces that they are round. */
+static double thickness_of(const brc_simulation *s, int32_t i)
+{
+    static const double most = 1e7; /* pairs of a face and a corner: a shape of more has thousands of faces */
+    const brc_convex *v = &s->strikers->convex;
+    int32_t first = v->n, end = 0; /* its pieces */
+    double least = HUGE_VAL;
+    for (int32_t p = 0; p < v->n; ++p)
+        if (s->strikers->piece_striker[p] == i) first = p < first ? p : first, end = p + 1;
+    const int32_t corner = v->corner_start[first], corners = v->corner_start[end], face = v->face_start[first], faces = v->face_start[end];
+    if (s->scene->strikers[i].is_plane || (double)(corners - corner) * (faces - face) > most) return HUGE_VAL;
+    for (int32_t f = face; f < faces; ++f) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (int32_t k = corner; k < corners; ++k) {
+            const double *n = v->plane + 4 * (int64_t)f, *x = v->corner + 3 * (int64_t)k, height = n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
+            low = fmin(low, height);
+            high = fmax(high, height);
+        }
+        least = fmin(least, high - low);
+    }
+    return least;
+}
+
+/* A blow at speed v makes a pressure of density wave v in what is hit, and the penalty of a cell of size h bears it when it is sunk in by h v / wave; a few times that on the way. What is sunk in from both sides of a
+ * striker at once is pushed by neither. */
+static void check_thickness(const brc_simulation *s, int32_t i, double bodies)
+{
+    const char *material = "";
+    const double thick = thickness_of(s, i), sunk = s->domain->quality.mean_spacing * (speed_of(s, i) + bodies) / slowest_wave(s, &material);
+    if (thick < 3 * sunk)
+        brc_log(s->context, BRC_LOG_WARNING, "striker '%s' is %.3g m thick where it is thinnest, and surfaces that meet with up to %.4g m/s sink into each other by some %.3g m: what sinks in through all of it is not held; "
+                "make it thicker than %.3g m, or the cells smaller", s->scene->strikers[i].name, thick, speed_of(s, i) + bodies, sunk, 3 * sunk);
+}
+
 /* How far the box around a striker, or a plane, is from the box around all bodies [m]. */
 static double gap_of(const brc_simulation *s, int32_t i)
 {
@@ -338,6 +372,7 @@ brc_status brc_strikers_check(brc_simulation *s)
         if (one != BRC_OK) status = one;
         check_speed(s, i, bodies);
         check_rail(s, i);
+        check_thickness(s, i, bodies);
         check_reach(s, i, bodies);
     }
     tell_of_others(s);

@@ -128,6 +128,16 @@ static void speeds_beyond_sound_are_told(void **state)
     expect("plane: {point: [0, 0, -1 m], normal: [0, 0, 1]}", "  - name: move\n    solver: {dynamic: {duration: 10 s}}\n    initial:\n      - velocity: {velocity: [0, 0, -2 m/s]}\n", BRC_OK, "up to 2 m/s");
 }
 
+/* Cells of 1/6 m hit at 0.1 m/s, waves at 1.054 m/s: 15.8 mm of sinking, three times that 47.4 mm. A cube that thick each way is far from it, a plate of 40 mm is not; at a tenth of the speed it is. */
+static void strikers_thinner_than_what_sinks_into_them_are_told(void **state)
+{
+    (void)state;
+#define PLATE(thick, speed) "shape: {box: {size: [1 m, 1 m, " thick "], origin: [0, 0, 1.1 m]}}, motion: {driven: {velocity: [0, 0, -" speed " m/s]}}"
+    expect(PLATE("40 mm", "0.1"), DURING("10 s"), BRC_OK, "striker 'it' is 0.04 m thick where it is thinnest, and surfaces that meet with up to 0.1 m/s sink into each other by some 0.0158 m");
+    expect(PLATE("50 mm", "0.1"), DURING("10 s"), BRC_OK, NULL);
+    expect(PLATE("40 mm", "0.01"), DURING("10 s"), BRC_OK, NULL);
+}
+
 /* A rail holds what the velocity asks for: the rest of it is as given. */
 static void a_velocity_against_the_rail_is_told(void **state)
 {
@@ -207,6 +217,7 @@ int main(void)
         cmocka_unit_test(a_small_overlap_is_told),
         cmocka_unit_test(what_begins_pressed_together_is_told),
         cmocka_unit_test(speeds_beyond_sound_are_told),
+        cmocka_unit_test(strikers_thinner_than_what_sinks_into_them_are_told),
         cmocka_unit_test(a_velocity_against_the_rail_is_told),
         cmocka_unit_test(bodies_that_meet_faster_than_sound_are_told),
         cmocka_unit_test(too_few_steps_of_a_damped_blow_are_told),
