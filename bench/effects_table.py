@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What each example is made of: effects_table.py PROGRAM OUTPUT.csv [SCENE ...] runs `breccia check SCENE --effects` for every example (or the scenes
-named), writes a row each for effects, kernels and arrays, and prints the table of docs/performance.md."""
+named), writes a row each for effects in and out, kernels and arrays, and prints the table of docs/performance.md."""
 import csv
 import glob
 import os
@@ -22,12 +22,14 @@ for scene in scenes:
     if done.returncode:
         print(f"{name}: {done.stderr.strip().splitlines()[-1] if done.stderr.strip() else done.returncode}", file=sys.stderr)
         continue
-    effects = []
-    for line in re.findall(r"^effects in.*?: (.*)$", done.stdout, re.M):
-        effects += [e for e in line.split(", ") if e not in effects]
+    effects, absent = [], []
+    for where, names in (("in", effects), ("out", absent)):
+        for line in re.findall(r"^effects %s.*?: (.*)$" % where, done.stdout, re.M):
+            names += [e for e in line.split(", ") if e not in names]
+    absent = [e for e in absent if e not in effects]  # of scenes with several models: out of all of them
     kernels = re.findall(r"^kernel (.*): (\d+) launches$", done.stdout, re.M)
     arrays = re.findall(r"^array (.*): (\d+) bytes$", done.stdout, re.M)
-    rows += [(name, "effect", e, "") for e in effects] + [(name, "kernel", k, n) for k, n in kernels] + [(name, "array", a, n) for a, n in arrays]
+    rows += [(name, "effect", e, "") for e in effects] + [(name, "effect out", e, "") for e in absent] + [(name, "kernel", k, n) for k, n in kernels] + [(name, "array", a, n) for a, n in arrays]
     print(f"| {name} | {', '.join(effects)} | {len(kernels)} | {len(arrays)} | {sum(int(n) for _, n in arrays) / 1e6:.3g} |", flush=True)
 with open(output, "w", newline="") as file:
     writer = csv.writer(file, lineterminator="\n")
