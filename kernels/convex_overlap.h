@@ -189,11 +189,11 @@ ROUTINE void convex_find_cutters(convex_body tool, convex_body work, state margi
         convex_cutters own, placed;
         state near[W], low[W], high[W], x[W], y[W], z[W], height[W]; /* planes as work sees them */
         int any = 0;
-        for (int l = 0; l < W; ++l) convex_put_cutter(&own, l, convex_own_plane(tool.shape, begin + l < tool.shape.n_faces ? begin + l : tool.shape.n_faces - 1));
-        FOR_LANES_ANY(l, any) {
-            const convex_plane face = convex_cutter(&own, l);
+        for (int l = 0; l < W; ++l) {
+            const convex_plane face = convex_own_plane(tool.shape, begin + l < tool.shape.n_faces ? begin + l : tool.shape.n_faces - 1);
             near[l] = convex_dot(face.normal, ball.centre) - face.height;
             any |= near[l] >= -ball.reach;
+            convex_put_cutter(&own, l, face);
         }
         if (!any) continue;
         FOR_LANES(l) {
