@@ -101,7 +101,7 @@ static const brc_section ELEMENT_VELOCITY_SECTION = {.title = "element_velocity"
 
 static const brc_entry TRACTION[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_load, set), .required = true, .refers = BRC_REFERS_FACES, .sample = "x+",
-     .meaning = "faces it acts on"},
+     .meaning = "faces it acts on, as far as they reach into the box or half-space of their set"},
     {"x", BRC_TYPE_QUANTITY, "Pa", FIELD(brc_load, value[0]), .sample = "1 kPa",
      .meaning = "x component, 0 if left out"},
     {"y", BRC_TYPE_QUANTITY, "Pa", FIELD(brc_load, value[1]), .sample = "1 kPa",
@@ -116,7 +116,7 @@ static const brc_section TRACTION_SECTION = {.title = "traction",
                                              .groups = {{BRC_GROUP_AT_LEAST_ONE, {"x", "y", "z"}}}};
 static const brc_entry PRESSURE[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_load, set), .required = true, .refers = BRC_REFERS_FACES, .sample = "x+",
-     .meaning = "faces it acts on"},
+     .meaning = "faces it acts on, as far as they reach into the box or half-space of their set"},
     {"value", BRC_TYPE_QUANTITY, "Pa", FIELD(brc_load, value[0]), .required = true, .sample = "1 MPa",
      .meaning = "positive pushes into the solid"},
     TABLE_ENTRY,
