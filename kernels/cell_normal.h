@@ -35,40 +35,40 @@ LAW lane cell_half_stress(lane_mat3 gradient, lane_mat3 stress, lane modulus, la
     return inverse_square * lane_vec3_dot(now, lane_mat3_mul_vec(stress, branch)) / stretch + modulus * (strain - own);
 }
 
-/* At most the stretch (1 + 2 N.E N)^(1/2) of any direction [-]. */
-LAW lane cell_least_stretch(lane_mat3 gradient)
+/* At most the stretch (1 + 2 N.E N)^(1/2) of any direction [-], E a Green strain. */
+LAW lane cell_least_stretch(lane_sym3 strain)
 {
-    const lane_sym3 strain = green_strain(gradient, 1);
     const lane none = LANE_ZERO;
     return LANE_SQRT(cell_larger(REAL(1) - REAL(2) * LANE_SQRT(lane_sym3_dot(strain, strain)), none));
 }
 
-/* What an element brings to the room of its bonds: E, and the symmetric part of F_H^T P [Pa], entries off the diagonal twice, so that a bond takes six products of its branch. */
+/* What an element brings to the room of its bonds, over the share of a limit that rounding may take: the quadratic form (lambda + 2 mu) E - sym(F_H^T P) - loss 1 of a
+ * branch [Pa], entries off the diagonal twice, so that a bond takes six products of its branch, and lambda + 2 mu [Pa]. */
 typedef struct {
-    lane_sym3 strain, pull;
-    lane modulus, least_stretch; /* lambda + 2 mu [Pa], cell_least_stretch */
+    lane_sym3 form;
+    lane modulus;
 } cell_side;
 
+/* The pull R.sym(F_H^T P) R of a half over the stretch differs from the pull by loss |R|^2 at most, loss = |sym(F_H^T P)| (1/stretch - 1) with the least stretch; elements pressed
+ * to nothing have some stretch left. */
 LAW cell_side cell_side_of(lane_mat3 gradient, lane_mat3 stress, lane modulus)
 {
     const lane_sym3 e = green_strain(gradient, 1), p = lane_mat3_sym(lane_mat3_add(stress, lane_mat3_tmul(gradient, stress)));
-    return (cell_side){{e.xx, e.yy, e.zz, REAL(2) * e.yz, REAL(2) * e.xz, REAL(2) * e.xy},
-                       {p.xx, p.yy, p.zz, REAL(2) * p.yz, REAL(2) * p.xz, REAL(2) * p.xy}, modulus, cell_least_stretch(gradient)};
+    const lane loss = LANE_SQRT(lane_sym3_dot(p, p)) * (REAL(1) / cell_larger(cell_least_stretch(e), LANE_ZERO + REAL(1e-6)) - REAL(1));
+    const lane per = LANE_ZERO + REAL(1 / 0.999), m = per * modulus, off = REAL(2) * per, twice = REAL(2) * m;
+    return (cell_side){{m * e.xx - per * (p.xx + loss), m * e.yy - per * (p.yy + loss), m * e.zz - per * (p.zz + loss), twice * e.yz - off * p.yz, twice * e.xz - off * p.xz,
+                        twice * e.xy - off * p.xy}, m};
 }
 
-/* > 0 [N]: the own half of the bond's stress, tau, is below its limit [Pa]; times |R|^2 and the stretch, so that there is neither quotient nor root. A little less, for
- * the rounding of both. Where the bond's own strain alone passes the limit nothing is left, whatever the sign of the rest: the second term, large enough not to count
- * where something is left. Missing bonds (R = 0) have room: 1e-30 m^2, nothing beside any |R|^2, of a limit that is never reached. */
+/* >= 0 [N]: the own half of the bond's stress, tau, is below its limit [Pa]; times |R|^2, so that there is neither quotient nor root, and a little less, for the rounding of
+ * both. Missing bonds (R = 0) have no room to lose: 0. */
 LAW lane cell_room(cell_side own, lane_vec3 branch, lane_vec3 jump, lane limit)
 {
     const lane xx = branch.x * branch.x, yy = branch.y * branch.y, zz = branch.z * branch.z;
     const lane yz = branch.y * branch.z, xz = branch.x * branch.z, xy = branch.x * branch.y;
-    const lane_sym3 e = own.strain, p = own.pull;
-    const lane along = xx * e.xx + yy * e.yy + zz * e.zz + yz * e.yz + xz * e.xz + xy * e.xy;
-    const lane pulled = xx * p.xx + yy * p.yy + zz * p.zz + yz * p.yz + xz * p.xz + xy * p.xy;
-    const lane strain = lane_vec3_dot(branch, jump) + REAL(0.5) * lane_vec3_dot(jump, jump);
-    const lane left = REAL(0.999) * limit * (xx + yy + zz + REAL(1e-30)) - own.modulus * (strain - along);
-    return lane_min(own.least_stretch * left - pulled, REAL(1e6) * left);
+    const lane_sym3 k = own.form;
+    const lane_vec3 mean = {branch.x + REAL(0.5) * jump.x, branch.y + REAL(0.5) * jump.y, branch.z + REAL(0.5) * jump.z}; /* of the branch before and now */
+    return limit * (xx + yy + zz) + (xx * k.xx + yy * k.yy + zz * k.zz + yz * k.yz + xz * k.xz + xy * k.xy) - own.modulus * lane_vec3_dot(mean, jump);
 }
 
 #endif

@@ -55,6 +55,21 @@ KERNEL void cells_force_listed(int n_items, int n, GLOBAL const int *restrict li
     }
 }
 
+/* As dlsm_stress of the elements of a list, and their V psi [J] from the same strain: what they hold after bonds broke. */
+KERNEL void cells_stress_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                                GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
+                                GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads,
+                                coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material, int finite, GLOBAL coeff *restrict stress, GLOBAL state *restrict elastic)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        const members who = members_of_list(item, n, list, row_start);
+        const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
+        const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
+        members_store9(who, stress, finite ? dlsm_first_piola(g, lambda, mu, 1) : dlsm_first_piola(g, lambda, mu, 0));
+        members_store1(who, elastic, dlsm_elastic_energy(who, g, lambda, mu, finite, inv_volume));
+    }
+}
+
 /* Bonds whose normal stress is above share * limit are marked. modulus [n]: lambda + 2 mu [Pa]; found [n_groups]. With share 1 groups in which all
  * elements have room do not look at their bonds. */
 KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
@@ -65,27 +80,24 @@ KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict ro
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int first = group * W;
-        int look = share < REAL(1) || share > REAL(1), marked = 0;
-        for (int l = 0; l < W; ++l) look |= !(spare[first + l] > REAL(0));
-        if (look) {
+        const lane left = lane_load(spare, (brc_size)first);
+        int marked = 0;
+        if (share < REAL(1) || share > REAL(1) || LANE_ANY_SHORT(left, LANE_ZERO)) {
             const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
             const lane_int own = lane_own(first);
             const lane_mat3 h = lane_gather9(gradient, own), p = lane_gather9(stress, own);
             const lane k = lane_load(modulus, (brc_size)first);
+            const cell_side side = cell_side_of(h, p, k);
             const state_vec3 u = state_gather3(displacement, own);
             for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
                 const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
                 const lane_int j = int_block(neighbour, slot, lane0);
                 const lane_vec3 r = lane_vec3_scale(lane_load(ratio, entry), lane_block3(area, slot, lane0));
                 const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
-                const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse);
-                const lane bound = share * lane_load(limit, entry);
-                const lane tau = cell_half_stress(h, p, k, r, strain, inverse);
-                int above = 0; /* of the two halves of a bond above its limit one is above it too */
-#define ABOVE(l) above |= LANE_ITEM(tau, l) > LANE_ITEM(bound, l);
-                LANE_EACH(ABOVE)
-#undef ABOVE
-                if (above) {
+                const lane bound = share * lane_load(limit, entry), room = cell_room(side, r, jump, bound);
+                if (LANE_ANY_SHORT(room, LANE_ZERO)) { /* of the two halves of a bond above its limit one is above it too */
+                    const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse);
+                    const lane tau = cell_half_stress(h, p, k, r, strain, inverse);
                     const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j), gather_component(modulus, j), r,
                                                         strain, inverse);
                     const lane sigma = REAL(0.5) * (tau + other);
@@ -146,9 +158,8 @@ KERNEL void cells_break(int n_groups, int step, int width, GLOBAL const int *res
                         GLOBAL state *restrict weight, GLOBAL int *restrict changed, GLOBAL state *restrict broken)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        int any = 0;
-        for (int l = 0; l < W; ++l) any |= touched[group * W + l];
-        for (int e = group * W; any && e < group * W + W; ++e) {
+        const lane_int some = int_load(touched, (brc_size)group * W);
+        for (int e = group * W; LANE_ANY(some) && e < group * W + W; ++e) {
             state sum = 0;
             int count = 0;
             for (int slot = row_start[e / C]; touched[e] && slot < row_start[e / C + 1]; ++slot) {
@@ -230,9 +241,9 @@ KERNEL void cells_rebuild(int n_groups, GLOBAL const int *restrict row_start, GL
                           GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        int any = 0, count = 0;
-        for (int l = 0; l < W; ++l) any |= changed[group * W + l];
-        for (int e = group * W; any && e < group * W + W; ++e) {
+        const lane_int some = int_load(changed, (brc_size)group * W);
+        int count = 0;
+        for (int e = group * W; LANE_ANY(some) && e < group * W + W; ++e) {
             if (!changed[e]) continue;
             cells_sym a = {0, 0, 0, 0, 0, 0}, squares = {0, 0, 0, 0, 0, 0}, inverse = {0, 0, 0, 0, 0, 0};
             state tx = 0, ty = 0, tz = 0;

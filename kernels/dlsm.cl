@@ -275,14 +275,19 @@ KERNEL void dlsm_force_listed(int n_items, int n, GLOBAL const int *restrict lis
     }
 }
 
-/* V psi [J] of the elements. */
+/* V psi [J] of the elements: of G, ... */
+LAW lane dlsm_elastic_energy(members who, lane_mat3 g, lane lambda, lane mu, int finite, GLOBAL const coeff *restrict inv_volume)
+{
+    return svk_energy(green_strain(g, finite), lambda, mu) / members_number(who, inv_volume);
+}
+/* ... and of H. */
 LAW lane dlsm_elastic_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
                          GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
                          GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material, int finite)
 {
     const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
     const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
-    return svk_energy(green_strain(g, finite), lambda, mu) / members_number(who, inv_volume);
+    return dlsm_elastic_energy(who, g, lambda, mu, finite, inv_volume);
 }
 
 /* What of the bonds' stabilisation energies counts with the elements [J]: half. Or, around broken bonds, all of it where the neighbour is not touched, half where it is as the

@@ -60,6 +60,7 @@
     X(cbm_force_pass)                                                                                                  \
     X(cells_force)                                                                                                     \
     X(cells_force_listed)                                                                                              \
+    X(cells_stress_listed)                                                                                             \
     X(cells_check)                                                                                                     \
     X(cells_ratio)                                                                                                     \
     X(cells_break)                                                                                                     \

@@ -73,6 +73,8 @@ typedef int lane_int;
 #define STATE_FROM_LANE(x) ((state)(x))
 #define LANE_DIFFERENT(a, b) ((coeff)((a) != (b)))
 #define LANE_ABOVE(a, b) (-((a) > (b)))
+#define LANE_ANY(x) ((x) != 0)
+#define LANE_ANY_SHORT(a, b) (!((a) >= (b)))
 #else
 typedef BRC_JOIN(COEFF_NAME, BRC_LANES) lane;
 typedef BRC_JOIN(STATE_NAME, BRC_LANES) lane_state;
@@ -81,6 +83,8 @@ typedef BRC_JOIN(int, BRC_LANES) lane_int;
 #define STATE_FROM_LANE(x) BRC_JOIN(BRC_JOIN(convert_, STATE_NAME), BRC_LANES)(x)
 #define LANE_DIFFERENT(a, b) (-BRC_JOIN(BRC_JOIN(convert_, COEFF_NAME), BRC_LANES)((a) != (b)))
 #define LANE_ABOVE(a, b) ((a) > (b))
+#define LANE_ANY(x) any((x) != 0)
+#define LANE_ANY_SHORT(a, b) any(!((a) >= (b)))
 #define BRC_VLOAD BRC_JOIN(vload, BRC_LANES)
 #define BRC_VSTORE BRC_JOIN(vstore, BRC_LANES)
 #endif
@@ -149,6 +153,8 @@ typedef int lane_int;
 #define LANE_LESSER(a, b) ((a) < (b) ? (a) : (b))
 #define LANE_DIFFERENT(a, b) ((coeff)((a) != (b)))
 #define LANE_ABOVE(a, b) (-((a) > (b)))
+#define LANE_ANY(x) ((x) != 0)
+#define LANE_ANY_SHORT(a, b) (!((a) >= (b)))
 #else
 typedef coeff lane __attribute__((vector_size(W * sizeof(coeff))));
 typedef state lane_state __attribute__((vector_size(W * sizeof(state))));
@@ -170,6 +176,18 @@ LAW lane brc_lane_lesser(lane a, lane b) /* a choice of bits: gcc has no ?: of v
 #define LANE_LESSER(a, b) brc_lane_lesser(a, b)
 #define LANE_DIFFERENT(a, b) (-__builtin_convertvector((a) != (b), lane))
 #define LANE_ABOVE(a, b) ((a) > (b))
+LAW int brc_lane_any(lane_int x)
+{
+    int some = 0;
+    for (int l = 0; l < W; ++l) some |= x[l];
+    return some != 0;
+}
+LAW int brc_lane_any_short(lane a, lane b)
+{
+    int some = 0;
+    for (int l = 0; l < W; ++l) some |= !(a[l] >= b[l]);
+    return some;
+}
 #endif
 #define LANE_MAKE_(type, ...) ((type){__VA_ARGS__})
 #define LANE_ZERO ((lane){0})
@@ -224,6 +242,18 @@ LAW lane brc_lane_lesser(lane a, lane b) /* a choice of bits: gcc has no ?: of v
 #else
 #define LANE_GATHER(p, at) ((lane)_mm256_i32gather_ps((p), (__m256i)(at), 4))
 #endif
+#endif
+/* Whether any number is not 0, or any of a is not at least that of b: gcc compares the lanes one by one where no instruction is named. */
+#if !defined(LANE_ANY) && defined(LANE_GATHER)
+#define LANE_ANY(x) (!_mm256_testz_si256((__m256i)(x), (__m256i)(x)))
+#if BRC_PRECISION == 0
+#define LANE_ANY_SHORT(a, b) (_mm512_cmp_pd_mask((__m512d)(a), (__m512d)(b), _CMP_NGE_UQ) != 0)
+#else
+#define LANE_ANY_SHORT(a, b) (_mm256_cmp_ps_mask((__m256)(a), (__m256)(b), _CMP_NGE_UQ) != 0)
+#endif
+#elif !defined(LANE_ANY)
+#define LANE_ANY(x) brc_lane_any(x)
+#define LANE_ANY_SHORT(a, b) brc_lane_any_short(a, b)
 #endif
 
 /* Storage (design.md, SELL-C): element arrays of n components that are only read by their own element are blocked,

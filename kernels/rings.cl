@@ -12,14 +12,13 @@ KERNEL void ring_spread(int n_groups, int from, int to, GLOBAL const int *restri
                         GLOBAL const int *origin, GLOBAL int *level)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        int any = 0;
-        for (int l = 0; l < W; ++l) any |= origin[group * W + l] == from;
-        for (int e = group * W; any && e < group * W + W; ++e) {
+        const lane_int is_from = int_load(origin, (brc_size)group * W) == from;
+        for (int e = group * W; LANE_ANY(is_from) && e < group * W + W; ++e) {
             if (origin[e] != from) continue;
             if (level[e] == 0) STORE_SAME(level + e, to);
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
-                const int j = neighbour[(brc_size)slot * C + e % C];
-                if (level[j] == 0) STORE_SAME(level + j, to);
+                const int j = neighbour[(brc_size)slot * C + e % C], was = level[j]; /* kept where there is one, by a store all the same: whether there is is a toss-up */
+                STORE_SAME(level + j, was ? was : to);
             }
         }
     }
@@ -39,21 +38,41 @@ LAW int ring_of(int which, int touched, int level)
     if (which == 2) return touched ? 0 : -1;
     return touched ? 0 : level > RING_FOUND ? level - 1 : -1;
 }
+/* All bits where ring_of is 0 to k. */
+LAW lane_int ring_is_upto(int which, int k, lane_int touched, lane_int level)
+{
+    const lane_int found = LANE_ABOVE(level, 0) & ~LANE_ABOVE(level, RING_FOUND), any = LANE_ABOVE(touched, 0), fresh = any & ~LANE_ABOVE(touched, 1);
+    if (which == 0) return k == 0 ? fresh & ~found : k == 1 ? fresh : fresh | found;
+    return which == 2 ? any : any | (LANE_ABOVE(level, RING_FOUND) & ~LANE_ABOVE(level, k + 1));
+}
 
-/* count[list][block]: how many of the lists 0 to `list`, in fixed blocks; one number more a list is room for their sum. */
+/* Whether some of the W elements are touched or have a level: most are far from any break. */
+LAW int rings_reach(lane_int touched, lane_int level)
+{
+    const lane_int some = touched | level;
+    return LANE_ANY(some);
+}
+
+/* count[list][block]: how many of the lists 0 to `list`, in fixed blocks; one number more a list is room for their sum. n and SCAN_BLOCK are multiples of W. */
 KERNEL void ring_count(int n_blocks, int n, int which, GLOBAL const int *restrict touched, GLOBAL const int *restrict level, GLOBAL int *restrict count)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
-        int sum[RING_KINDS] = {0, 0, 0, 0};
-        for (int e = begin; e < end; ++e) {
-            const int ring = ring_of(which, touched[e], level[e]);
-            if (ring >= 0) sum[ring] += 1;
+#define NONE(l) 0
+        const lane_int none = LANE_MAKE(lane_int, NONE);
+#undef NONE
+        lane_int upto[RING_KINDS] = {none, none, none, none};
+        for (int first = begin; first < end; first += W) {
+            const lane_int t = int_load(touched, (brc_size)first), l = int_load(level, (brc_size)first);
+            if (!rings_reach(t, l)) continue;
+            for (int k = 0; k < RING_KINDS; ++k) upto[k] -= ring_is_upto(which, k, t, l);
         }
-        int upto = 0;
         for (int k = 0; k < RING_KINDS; ++k) {
-            upto += sum[k];
-            count[k * (n_blocks + 1) + b] = upto;
+            int sum = 0;
+#define ADD(l) sum += LANE_ITEM(upto[k], l);
+            LANE_EACH(ADD)
+#undef ADD
+            count[k * (n_blocks + 1) + b] = sum;
         }
     }
 }
@@ -73,22 +92,28 @@ KERNEL void ring_tops(int n_lists, int n_blocks, GLOBAL int *restrict count)
 }
 
 /* What each list and those before it hold, in the order of the rows: neighbours in the body, whose numbers share places in memory, are done together whatever their ring.
- * next: running sums of count, used up. */
-KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touched, GLOBAL int *restrict level, GLOBAL int *restrict next,
+ * next: running sums of count. */
+KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touched, GLOBAL int *restrict level, GLOBAL const int *restrict next,
                       GLOBAL int *restrict upto_0, GLOBAL int *restrict upto_1, GLOBAL int *restrict upto_2, GLOBAL int *restrict upto_3)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
-        for (int e = begin; e < end; ++e) {
-            const int ring = ring_of(which, touched[e], level[e]);
-            for (int k = ring; ring >= 0 && k < RING_KINDS; ++k) {
-                const int to = next[k * (n_blocks + 1) + b];
-                next[k * (n_blocks + 1) + b] = to + 1;
-                (k == 0 ? upto_0 : k == 1 ? upto_1 : k == 2 ? upto_2 : upto_3)[to] = e;
+        const int row = n_blocks + 1;
+        int to_0 = next[b], to_1 = next[row + b], to_2 = next[2 * row + b], to_3 = next[3 * row + b];
+        for (int first = begin; first < end; first += W) {
+            if (!rings_reach(int_load(touched, (brc_size)first), int_load(level, (brc_size)first))) continue;
+            for (int e = first; e < first + W; ++e) {
+                const int ring = ring_of(which, touched[e], level[e]);
+                if (ring >= 0) {
+                    if (ring == 0) upto_0[to_0++] = e;
+                    if (ring <= 1) upto_1[to_1++] = e;
+                    if (ring <= 2) upto_2[to_2++] = e;
+                    upto_3[to_3++] = e;
+                    if (which == 0) level[e] = RING_FOUND + 1;
+                }
+                if (which == 1) touched[e] = 0;
+                if (which == 1 || which == 3) level[e] = 0;
             }
-            if (ring >= 0 && which == 0) level[e] = RING_FOUND + 1;
-            if (which == 1) touched[e] = 0;
-            if (which == 1 || which == 3) level[e] = 0;
         }
     }
 }
@@ -100,11 +125,12 @@ KERNEL void ring_replace(int n, state half_kick, GLOBAL const int *restrict list
 {
     FOR_EACH_ITEM(k, n) {
         const brc_size e = (brc_size)list[k];
+        const state per_mass = STATE(1) / mass[e];
         for (int c = 0; c < 3; ++c) {
             const state now = fresh[e * 3 + c], was = force[e * 3 + c];
-            velocity[e * 3 + c] += half_kick * (was - now) / mass[e];
+            velocity[e * 3 + c] += half_kick * (was - now) * per_mass;
             force[e * 3 + c] = now;
-            fresh[e * 3 + c] = (now * now - was * was) / mass[e];
+            fresh[e * 3 + c] = (now * now - was * was) * per_mass;
         }
     }
 }

@@ -97,6 +97,24 @@ static brc_status dlsm_face_forces(brc_simulation *s, const brc_force_request *r
     return BRC_OK;
 }
 
+/* Around breaks energies are those of elements and of bonds apart; of open faces cells keep half each. */
+static bool energies_apart(const brc_simulation *s) { return brc_is_dlsm(s) && !brc_softening_is_on(s); }
+
+/* P; of rings with what their elements hold. */
+static brc_status dlsm_stresses(brc_simulation *s, const brc_force_request *r, const dlsm_extent *x)
+{
+    const brc_elastic *m = one_material(s);
+    const int finite = r->finite ? 1 : 0, face_loads = has_face_loads(s) ? 1 : 0;
+    if (r->rings && energies_apart(s))
+        return BRC_PASS(s, NULL, s->fracture->cells->stress, x->list, x->stress, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->offset),
+                        BRC_BUF(s->gradient), BRC_BUF(s->inv_volume), BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
+                        BRC_COEFF(m->mu), BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->stress), BRC_BUF(s->elastic_energy));
+    return BRC_PASS(s, s->kernel.stress, s->kernel.stress_listed, x->list, x->stress, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                    BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
+                    BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
+                    BRC_COEFF(m->mu), BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->stress));
+}
+
 /* H, P and B. */
 static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r, const dlsm_extent *x)
 {
@@ -106,10 +124,7 @@ static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r, con
     const brc_ring_list *flux_list = x->whole_flux ? NULL : x->list;
     BRC_TRY(dlsm_gradients(s, r, x));
     if (r->displacement == s->displacement && !r->homogeneous) BRC_TRY(brc_contact_gradients(s));
-    BRC_TRY(BRC_PASS(s, s->kernel.stress, s->kernel.stress_listed, x->list, x->stress, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                     BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
-                     BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
-                     BRC_COEFF(m->mu), BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->stress)));
+    BRC_TRY(dlsm_stresses(s, r, x));
     BRC_TRY(dlsm_face_moments(s, r));
     BRC_TRY(BRC_PASS(s, s->kernel.flux, s->kernel.flux_listed, flux_list, x->flux, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                      BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(r->displacement),
@@ -293,28 +308,34 @@ brc_status brc_force_held_energy(brc_simulation *s, double *out)
     return brc_vector_sum(s, h->energy, h->n_faces, out);
 }
 
-/* Of dlsm around breaks: rings 0 and 1 have other strains, bonds of ring 0 alone other energies. */
-static brc_status dlsm_energies_around(brc_simulation *s, const brc_ring_list *list, int ring, int ring_of_bonds)
+/* V psi of dlsm's elements of a list ... */
+static brc_status dlsm_elastic_around(brc_simulation *s, const brc_ring_list *list, int ring)
+{
+    const brc_elastic *m = one_material(s);
+    return BRC_PASS(s, NULL, s->fracture->cells->elastic, list, ring, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient),
+                    BRC_BUF(s->inv_volume), BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(has_face_loads(s) ? 1 : 0), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
+                    BRC_BUF(s->material), BRC_INT(s->scene->model.small_rotations ? 0 : 1), BRC_BUF(s->elastic_energy));
+}
+/* ... and the energies of their bonds, each once. */
+static brc_status dlsm_bonds_around(brc_simulation *s, const brc_ring_list *list, int ring)
 {
     const brc_elastic *m = one_material(s);
     const brc_cell_breaks *c = s->fracture->cells;
-    const int finite = s->scene->model.small_rotations ? 0 : 1;
-    BRC_TRY(BRC_PASS(s, NULL, c->elastic, list, ring, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient),
-                     BRC_BUF(s->inv_volume), BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(has_face_loads(s) ? 1 : 0), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
-                     BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->elastic_energy)));
-    return BRC_PASS(s, NULL, c->bonds, list, ring_of_bonds, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement),
+    return BRC_PASS(s, NULL, c->bonds, list, ring, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement),
                     BRC_BUF(s->gradient), BRC_COEFF(m->k), BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(1 + s->scene->model.tau), BRC_BUF(s->material), BRC_BUF(s->modulus),
-                    BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(c->rings->touched), BRC_BUF(s->stabilisation_energy));
+                    BRC_BUF(s->ell_of), BRC_INT(s->scene->model.small_rotations ? 0 : 1), BRC_BUF(c->rings->touched), BRC_BUF(s->stabilisation_energy));
 }
 
+/* Rings 0 and 1 have other strains, bonds of ring 0 alone other energies. */
 brc_status brc_force_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out)
 {
     const brc_ring_list *list = &rings->around;
-    const bool apart = brc_is_dlsm(s) && !brc_softening_is_on(s); /* of open faces cells keep half each */
+    const bool apart = energies_apart(s);
     const int ring = found ? 2 : 1, ring_of_bonds = found ? 1 : 0;
     double part[4] = {0};
-    if (apart) BRC_TRY(dlsm_energies_around(s, list, ring, ring_of_bonds));
-    else BRC_TRY(cell_energies(s, list, ring));
+    if (!apart) BRC_TRY(cell_energies(s, list, ring));
+    if (apart && found) BRC_TRY(dlsm_elastic_around(s, list, ring)); /* after breaks: with their stresses */
+    if (apart) BRC_TRY(dlsm_bonds_around(s, list, ring_of_bonds));
     BRC_TRY(brc_rings_sum(s, rings, list, ring, s->elastic_energy, &part[0]));
     if (found) BRC_TRY(brc_rings_sum(s, rings, list, 0, s->elastic_energy, &part[1])); /* counted when they were found */
     if (brc_is_dlsm(s)) BRC_TRY(brc_rings_sum(s, rings, list, apart ? ring_of_bonds : ring, s->stabilisation_energy, &part[2]));
