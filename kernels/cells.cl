@@ -20,6 +20,8 @@ LAW void cells_force_of(members who, GLOBAL const int *restrict neighbour, GLOBA
 {
     const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
     const cell_side side = cell_side_of(lane_gather9(gradient, who.own), lane_gather9(stress, who.own), members_number(who, plane));
+    members_records_ahead9(who, gradient);
+    members_records_ahead9(who, stress);
     lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
     lane least = LANE_ZERO + CELLS_NEVER;
     for (int slot = who.begin; slot < who.end; ++slot) {
@@ -52,21 +54,6 @@ KERNEL void cells_force_listed(int n_items, int n, GLOBAL const int *restrict li
     FOR_EACH_ITEM(item, n_items) {
         cells_force_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau, modulus, gradient, stress,
                        plane, limit, force, spare);
-    }
-}
-
-/* As dlsm_stress of the elements of a list, and their V psi [J] from the same strain: what they hold after bonds broke. */
-KERNEL void cells_stress_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
-                                GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads,
-                                coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material, int finite, GLOBAL coeff *restrict stress, GLOBAL state *restrict elastic)
-{
-    FOR_EACH_ITEM(item, n_items) {
-        const members who = members_of_list(item, n, list, row_start);
-        const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
-        const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
-        members_store9(who, stress, finite ? dlsm_first_piola(g, lambda, mu, 1) : dlsm_first_piola(g, lambda, mu, 0));
-        members_store1(who, elastic, dlsm_elastic_energy(who, g, lambda, mu, finite, inv_volume));
     }
 }
 

@@ -60,7 +60,6 @@
     X(cbm_force_pass)                                                                                                  \
     X(cells_force)                                                                                                     \
     X(cells_force_listed)                                                                                              \
-    X(cells_stress_listed)                                                                                             \
     X(cells_check)                                                                                                     \
     X(cells_ratio)                                                                                                     \
     X(cells_break)                                                                                                     \
@@ -74,6 +73,10 @@
     X(ring_replace)                                                                                                    \
     X(ring_gain)                                                                                                       \
     X(ring_book)                                                                                                       \
+    X(ring_forget)                                                                                                     \
+    X(rim_stress)                                                                                                      \
+    X(rim_flux)                                                                                                        \
+    X(rim_force)                                                                                                       \
     X(scan_sums)                                                                                                       \
     X(scan_tops)                                                                                                       \
     X(scan_fill)                                                                                                       \

@@ -34,6 +34,7 @@
 #include "cells.cl"
 #include "scan.cl"
 #include "rings.cl"
+#include "rims.cl"
 #include "contact_place.cl"
 #include "contact_motion.cl"
 #include "contact_search.cl"

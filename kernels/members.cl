@@ -99,6 +99,10 @@ LAW void members_ahead3(members m, GLOBAL const coeff *restrict p, int slot)
 {
     if (!m.listed) rows_ahead3(p, slot);
 }
+LAW void members_records_ahead9(members m, GLOBAL const coeff *restrict p)
+{
+    if (!m.listed) records_ahead9(p, m.first);
+}
 LAW void members_gathers_ahead9(members m, GLOBAL const coeff *restrict p, GLOBAL const int *restrict neighbour, int slot)
 {
     if (!m.listed) gathers_ahead9(p, neighbour, slot, m.end, m.lane0);

@@ -2,10 +2,14 @@
  * lists of them (members.cl) do what a pass over the whole body would change.
  *
  * touched [n]: 1 for elements of ring 0, set by whoever marks bonds, 2 when these broke. level [n]: 0, or the ring that an element was found to be in: RING_FOUND in ring 0
- * or 1 and not listed yet, then 1 + its ring. Both are 0 again when the last list is made; touched, where that list is kept, by who uses it up (cells_share). */
+ * or 1 and not listed yet, then 1 + its ring. Both are 0 again when the last list is made; touched, where that list is kept, by who uses it up (cells_share). Where places are wanted
+ * level holds, until ring_forget, RING_KNOWN of the elements of the rings 0 to 2: the ring, and the place in the list of those. */
 
 #define RING_FOUND 1
 #define RING_KINDS 4
+#define RING_KNOWN(place, ring) (RING_KINDS * (place) + (ring) + 1)
+#define RING_PLACE(known) (((known) - 1) / RING_KINDS)
+#define RING_OF(known) (((known) - 1) % RING_KINDS)
 
 /* Elements whose origin is `from` and their neighbours are given the level `to` where they have none. */
 KERNEL void ring_spread(int n_groups, int from, int to, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
@@ -31,7 +35,7 @@ KERNEL void ring_seed(int n, int above, GLOBAL const int *restrict number, GLOBA
 }
 
 /* The list an element belongs to, -1 none. which 0: what is new, in list 0 those touched that were found before, in 1 those both touched and found, in 2 those only found;
- * 1: all, by ring, for the last time; 2: those touched, in list 0; 3: as 1, and touched stays. */
+ * 1: all, by ring, for the last time; 2: those touched, in list 0; 3: as 1, and touched stays; 4: as 3, and level holds places. */
 LAW int ring_of(int which, int touched, int level)
 {
     if (which == 0) return touched == 1 ? level == RING_FOUND : level == RING_FOUND ? 2 : -1;
@@ -103,7 +107,7 @@ KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touch
         for (int first = begin; first < end; first += W) {
             if (!rings_reach(int_load(touched, (brc_size)first), int_load(level, (brc_size)first))) continue;
             for (int e = first; e < first + W; ++e) {
-                const int ring = ring_of(which, touched[e], level[e]);
+                const int ring = ring_of(which, touched[e], level[e]), known = which == 4 && ring >= 0 && ring <= 2 ? RING_KNOWN(to_2, ring) : 0;
                 if (ring >= 0) {
                     if (ring == 0) upto_0[to_0++] = e;
                     if (ring <= 1) upto_1[to_1++] = e;
@@ -112,10 +116,15 @@ KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touch
                     if (which == 0) level[e] = RING_FOUND + 1;
                 }
                 if (which == 1) touched[e] = 0;
-                if (which == 1 || which == 3) level[e] = 0;
+                if (which == 1 || which > 2) level[e] = known;
             }
         }
     }
+}
+
+KERNEL void ring_forget(int n, GLOBAL const int *restrict list, GLOBAL int *restrict level)
+{
+    FOR_EACH_ITEM(k, n) { level[list[k]] = 0; }
 }
 
 /* fresh [n][3] takes the place of the force of the listed elements, and their velocity gains half_kick over mass times what the force loses. Afterwards

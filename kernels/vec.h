@@ -344,6 +344,16 @@ LAW void rows_ahead1(GLOBAL const coeff *restrict p, int slot)
 #endif
 }
 
+/* Prefetch of the [element][9] records of the W elements after those from first on. */
+LAW void records_ahead9(GLOBAL const coeff *restrict p, int first)
+{
+#ifdef ROWS_AHEAD
+    for (int k = 0; k < 9; ++k) PREFETCH(p, ((brc_size)(first + W) * 9 + (brc_size)(k * W)));
+#else
+    (void)p, (void)first;
+#endif
+}
+
 /* Prefetch of the [element][9] records that the row entry GATHERS_AHEAD slots further on will gather. */
 LAW void gathers_ahead9(GLOBAL const coeff *restrict p, GLOBAL const int *restrict neighbour, int slot, int last, int first_lane)
 {

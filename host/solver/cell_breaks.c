@@ -2,6 +2,7 @@
 #include "cell_softening.h"
 #include "consistent.h"
 #include "contact.h"
+#include "rims.h"
 #include "strengths.h"
 #include "strikers_internal.h"
 #include "sym3.h"
@@ -25,7 +26,7 @@ static brc_status find_kernels(brc_simulation *s, brc_cell_breaks *c)
         bool wanted;
     } wanted[] = {{&c->force, "cells_force", by_bond}, {&c->force_listed, "cells_force_listed", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
                   {&c->break_pass, "cells_break", true}, {&c->rebuild, "cells_rebuild", brc_is_dlsm(s)}, {&c->share, "cells_share", true},
-                  {&c->stress, "cells_stress_listed", brc_is_dlsm(s)}, {&c->elastic, "dlsm_elastic_listed", brc_is_dlsm(s)}, {&c->bonds, "dlsm_bonds_listed", brc_is_dlsm(s)}};
+                  {&c->rim_stress, "rim_stress", brc_is_dlsm(s)}, {&c->rim_flux, "rim_flux", brc_is_dlsm(s)}, {&c->rim_force, "rim_force", brc_is_dlsm(s)}, {&c->elastic, "dlsm_elastic_listed", brc_is_dlsm(s)}, {&c->bonds, "dlsm_bonds_listed", brc_is_dlsm(s)}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
         if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     return BRC_OK;
@@ -318,7 +319,7 @@ static brc_status find_rings(brc_simulation *s)
     if (wide) BRC_TRY(brc_rings_spread(s, rings, 2, 2)); /* ring 1 is known from before the breaks */
     BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
     if (wide) BRC_TRY(brc_rings_spread(s, rings, 3, 3));
-    return brc_rings_close(s, rings, true, &rings->around);
+    return brc_rings_close(s, rings, brc_rims_may_gain(s, rings) ? BRC_RINGS_PLACE : BRC_RINGS_KEEP, &rings->around);
 }
 
 /* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in elements. */
@@ -363,6 +364,7 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(BRC_LAUNCH(f->cells->share, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_STATE((before + outside_before - after - outside) / weight),
                        BRC_BUF(rings->around.upto[0]), BRC_BUF(s->row_start), BRC_BUF(f->break_step), BRC_BUF(rings->touched), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy),
                        BRC_BUF(f->lost)));
+    BRC_TRY(brc_rings_forget(rings, &rings->around));
     BRC_TRY(brc_softening_settle(s, &rings->around));
     return brc_contact_list_bonded(s);
 }

@@ -227,7 +227,7 @@ static brc_status list_around(brc_simulation *s)
     BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
     f->is_listed = true;
     f->lists = brc_contact_lists(s);
-    return brc_rings_close(s, rings, false, &f->around);
+    return brc_rings_close(s, rings, BRC_RINGS_DROP, &f->around);
 }
 
 brc_status brc_softening_move(brc_simulation *s)

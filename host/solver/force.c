@@ -5,7 +5,7 @@
 #include "contact.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
-#include "rings.h"
+#include "rims.h"
 #include "strikers_internal.h"
 
 /* Constants handed to kernels; with several materials the kernels gather them instead. */
@@ -24,7 +24,8 @@ typedef struct dlsm_extent {
 static dlsm_extent extent_of(const brc_simulation *s, const brc_force_request *r)
 {
     if (!r->rings) return (dlsm_extent){.list = r->homogeneous ? NULL : brc_contact_bonded(s)};
-    return (dlsm_extent){.list = &r->rings->around, .gradient = 0, .stress = 1, .flux = 2, .force = 3, .whole_flux = r->rings->whole_force};
+    const int rim = brc_rims_gain(s, r->rings) ? 1 : 0; /* done otherwise */
+    return (dlsm_extent){.list = &r->rings->around, .gradient = 0, .stress = 1, .flux = 2 - rim, .force = 3 - rim, .whole_flux = r->rings->whole_force};
 }
 
 /* H and, where faces are held, their part of G. */
@@ -97,24 +98,6 @@ static brc_status dlsm_face_forces(brc_simulation *s, const brc_force_request *r
     return BRC_OK;
 }
 
-/* Around breaks energies are those of elements and of bonds apart; of open faces cells keep half each. */
-static bool energies_apart(const brc_simulation *s) { return brc_is_dlsm(s) && !brc_softening_is_on(s); }
-
-/* P; of rings with what their elements hold. */
-static brc_status dlsm_stresses(brc_simulation *s, const brc_force_request *r, const dlsm_extent *x)
-{
-    const brc_elastic *m = one_material(s);
-    const int finite = r->finite ? 1 : 0, face_loads = has_face_loads(s) ? 1 : 0;
-    if (r->rings && energies_apart(s))
-        return BRC_PASS(s, NULL, s->fracture->cells->stress, x->list, x->stress, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->offset),
-                        BRC_BUF(s->gradient), BRC_BUF(s->inv_volume), BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
-                        BRC_COEFF(m->mu), BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->stress), BRC_BUF(s->elastic_energy));
-    return BRC_PASS(s, s->kernel.stress, s->kernel.stress_listed, x->list, x->stress, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                    BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
-                    BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
-                    BRC_COEFF(m->mu), BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->stress));
-}
-
 /* H, P and B. */
 static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r, const dlsm_extent *x)
 {
@@ -124,7 +107,12 @@ static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r, con
     const brc_ring_list *flux_list = x->whole_flux ? NULL : x->list;
     BRC_TRY(dlsm_gradients(s, r, x));
     if (r->displacement == s->displacement && !r->homogeneous) BRC_TRY(brc_contact_gradients(s));
-    BRC_TRY(dlsm_stresses(s, r, x));
+    if (r->rings && brc_rims_energies_apart(s)) BRC_TRY(brc_rims_stress(s, r, has_face_loads(s)));
+    else
+        BRC_TRY(BRC_PASS(s, s->kernel.stress, s->kernel.stress_listed, x->list, x->stress, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                         BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
+                         BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
+                         BRC_COEFF(m->mu), BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->stress)));
     BRC_TRY(dlsm_face_moments(s, r));
     BRC_TRY(BRC_PASS(s, s->kernel.flux, s->kernel.flux_listed, flux_list, x->flux, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                      BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(r->displacement),
@@ -132,6 +120,7 @@ static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r, con
                      BRC_BUF(s->boundary), BRC_BUF(s->held_moment), BRC_INT(face_loads || brc_contact_acts(s, r) ? 1 : 0), BRC_COEFF(m->k),
                      BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau), BRC_BUF(s->material),
                      BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(s->flux), BRC_BUF(s->bond_part)));
+    if (r->rings && brc_rims_gain(s, r->rings)) return brc_rims_flux(s, r->rings);
     return r->homogeneous ? BRC_OK : brc_softening_flux(s, flux_list, x->flux);
 }
 
@@ -216,6 +205,7 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
     BRC_TRY(brc_pushes_apply(s, r));
     BRC_TRY(brc_force_turned_tractions(s, r));
     brc_force_request all = *r;
+    if (r->rings && brc_rims_gain(s, r->rings)) BRC_TRY(brc_rims_force(s, r));
     if (r->rings && !r->rings->whole_force) { /* from here on forces are those of the whole body */
         BRC_TRY(brc_rings_replace(s, r->rings, brc_is_published(s) ? 2 : 3));
         all.force = s->force, all.torque = s->torque;
@@ -330,7 +320,7 @@ static brc_status dlsm_bonds_around(brc_simulation *s, const brc_ring_list *list
 brc_status brc_force_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out)
 {
     const brc_ring_list *list = &rings->around;
-    const bool apart = energies_apart(s);
+    const bool apart = brc_rims_energies_apart(s);
     const int ring = found ? 2 : 1, ring_of_bonds = found ? 1 : 0;
     double part[4] = {0};
     if (!apart) BRC_TRY(cell_energies(s, list, ring));

@@ -13,7 +13,7 @@ brc_status brc_rings_create(brc_simulation *s, brc_rings **out)
         brc_kernel **slot;
         const char *name;
     } wanted[] = {{&r->spread, "ring_spread"}, {&r->seed, "ring_seed"}, {&r->count_pass, "ring_count"}, {&r->tops, "ring_tops"},
-                  {&r->list_pass, "ring_list"}, {&r->replace, "ring_replace"}, {&r->gain, "ring_gain"}, {&r->book, "ring_book"}, {&r->gather, "vector_gather"}};
+                  {&r->list_pass, "ring_list"}, {&r->forget, "ring_forget"}, {&r->replace, "ring_replace"}, {&r->gain, "ring_gain"}, {&r->book, "ring_book"}, {&r->gather, "vector_gather"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     BRC_TRY(brc_buffer_create(s->device, &r->touched, 4 * n, "rings around broken bonds"));
     BRC_TRY(brc_buffer_create(s->device, &r->level, 4 * n, "rings around broken bonds"));
@@ -60,7 +60,7 @@ static brc_status spread(brc_simulation *s, brc_rings *r, brc_buffer *origin, in
     return BRC_LAUNCH(r->spread, s->n_groups, BRC_INT(s->n_groups), BRC_INT(from), BRC_INT(to), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(origin), BRC_BUF(r->level));
 }
 
-enum { FOUND, ALL, TOUCHED, KEPT }; /* as in kernels/rings.cl */
+enum { FOUND, ALL, TOUCHED, KEPT, PLACED }; /* as in kernels/rings.cl */
 
 static brc_status make_list(brc_simulation *s, brc_rings *r, int which, brc_ring_list *out)
 {
@@ -85,7 +85,18 @@ brc_status brc_rings_spread(brc_simulation *s, brc_rings *r, int first, int last
     return BRC_OK;
 }
 
-brc_status brc_rings_close(brc_simulation *s, brc_rings *r, bool keep, brc_ring_list *out) { return make_list(s, r, keep ? KEPT : ALL, out); }
+brc_status brc_rings_close(brc_simulation *s, brc_rings *r, brc_rings_closing how, brc_ring_list *out)
+{
+    r->placed = how == BRC_RINGS_PLACE;
+    return make_list(s, r, r->placed ? PLACED : how == BRC_RINGS_KEEP ? KEPT : ALL, out);
+}
+
+brc_status brc_rings_forget(brc_rings *r, const brc_ring_list *list)
+{
+    if (!r->placed) return BRC_OK;
+    r->placed = false;
+    return BRC_LAUNCH(r->forget, list->n[2], BRC_INT(list->n[2]), BRC_BUF(list->upto[2]), BRC_BUF(r->level));
+}
 
 brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out) { return make_list(s, r, TOUCHED, out); }
 
@@ -99,7 +110,7 @@ brc_status brc_rings_without(brc_simulation *s, brc_rings *r, brc_buffer *number
 {
     const int32_t n = s->layout->n_rows;
     BRC_TRY(BRC_LAUNCH(r->seed, n, BRC_INT(n), BRC_INT(0), BRC_BUF(number), BRC_BUF(r->touched)));
-    return brc_rings_close(s, r, false, out);
+    return brc_rings_close(s, r, BRC_RINGS_DROP, out);
 }
 
 /* ---- what is done with them ---- */

@@ -15,13 +15,14 @@ typedef struct brc_ring_list {
 } brc_ring_list;
 
 typedef struct brc_rings {
-    brc_kernel *spread, *seed, *count_pass, *tops, *list_pass, *replace, *gain, *book, *gather;
+    brc_kernel *spread, *seed, *count_pass, *tops, *list_pass, *forget, *replace, *gain, *book, *gather;
     brc_buffer *touched, *level; /* [n_rows] */
     brc_buffer *count;           /* [BRC_RING_KINDS][blocks + 1] */
     int32_t *count_read;         /* the same on the host */
     brc_buffer *force, *torque;  /* [n_rows][3] of listed elements; the others hold nothing of meaning */
     brc_ring_list around;        /* the bonds that broke in this step */
     double half_kick;            /* brc_fracture_step */
+    bool placed;                 /* level holds places (kernels/rings.cl) */
     bool whole_force;            /* for comparison: fluxes and forces of all elements */
 } brc_rings;
 
@@ -40,8 +41,12 @@ brc_status brc_rings_find(brc_simulation *s, brc_rings *rings);
 brc_status brc_rings_touched(brc_simulation *s, brc_rings *rings, brc_ring_list *out);
 /* Rings first to last around all that were touched, into rings->level: 1 + the ring. */
 brc_status brc_rings_spread(brc_simulation *s, brc_rings *rings, int first, int last);
-/* All that were touched and the rings that were spread around them; nothing is touched afterwards, or `keep`, until cells_share has gone over ring 0. */
-brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, bool keep, brc_ring_list *out);
+/* All that were touched and the rings that were spread around them; nothing is touched afterwards, or, kept, until cells_share has gone over ring 0. Placed: kept, and level knows ring and
+ * place of the rings 0 to 2 until brc_rings_forget. */
+typedef enum brc_rings_closing { BRC_RINGS_DROP, BRC_RINGS_KEEP, BRC_RINGS_PLACE } brc_rings_closing;
+brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, brc_rings_closing how, brc_ring_list *out);
+/* Of the list that was placed. */
+brc_status brc_rings_forget(brc_rings *rings, const brc_ring_list *list);
 /* Elements whose number is above 0 are touched, and no others. */
 brc_status brc_rings_seed(brc_simulation *s, brc_rings *rings, brc_buffer *number);
 /* Elements whose number is not above 0, in every ring. */
