@@ -76,7 +76,6 @@
     X(ring_forget)                                                                                                     \
     X(rim_stress)                                                                                                      \
     X(rim_flux)                                                                                                        \
-    X(rim_force)                                                                                                       \
     X(scan_sums)                                                                                                       \
     X(scan_tops)                                                                                                       \
     X(scan_fill)                                                                                                       \

@@ -3,13 +3,10 @@
  *
  * touched [n]: 1 for elements of ring 0, set by whoever marks bonds, 2 when these broke. level [n]: 0, or the ring that an element was found to be in: RING_FOUND in ring 0
  * or 1 and not listed yet, then 1 + its ring. Both are 0 again when the last list is made; touched, where that list is kept, by who uses it up (cells_share). Where places are wanted
- * level holds, until ring_forget, RING_KNOWN of the elements of the rings 0 to 2: the ring, and the place in the list of those. */
+ * level holds, until ring_forget, 1 + the place of the elements of the rings 0 and 1 in the list of those. */
 
 #define RING_FOUND 1
 #define RING_KINDS 4
-#define RING_KNOWN(place, ring) (RING_KINDS * (place) + (ring) + 1)
-#define RING_PLACE(known) (((known) - 1) / RING_KINDS)
-#define RING_OF(known) (((known) - 1) % RING_KINDS)
 
 /* Elements whose origin is `from` and their neighbours are given the level `to` where they have none. */
 KERNEL void ring_spread(int n_groups, int from, int to, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
@@ -107,7 +104,7 @@ KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touch
         for (int first = begin; first < end; first += W) {
             if (!rings_reach(int_load(touched, (brc_size)first), int_load(level, (brc_size)first))) continue;
             for (int e = first; e < first + W; ++e) {
-                const int ring = ring_of(which, touched[e], level[e]), known = which == 4 && ring >= 0 && ring <= 2 ? RING_KNOWN(to_2, ring) : 0;
+                const int ring = ring_of(which, touched[e], level[e]), place = which == 4 && ring >= 0 && ring <= 1 ? 1 + to_1 : 0;
                 if (ring >= 0) {
                     if (ring == 0) upto_0[to_0++] = e;
                     if (ring <= 1) upto_1[to_1++] = e;
@@ -116,7 +113,7 @@ KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touch
                     if (which == 0) level[e] = RING_FOUND + 1;
                 }
                 if (which == 1) touched[e] = 0;
-                if (which == 1 || which > 2) level[e] = known;
+                if (which == 1 || which > 2) level[e] = place;
             }
         }
     }

@@ -24,8 +24,8 @@ typedef struct dlsm_extent {
 static dlsm_extent extent_of(const brc_simulation *s, const brc_force_request *r)
 {
     if (!r->rings) return (dlsm_extent){.list = r->homogeneous ? NULL : brc_contact_bonded(s)};
-    const int rim = brc_rims_gain(s, r->rings) ? 1 : 0; /* done otherwise */
-    return (dlsm_extent){.list = &r->rings->around, .gradient = 0, .stress = 1, .flux = 2 - rim, .force = 3 - rim, .whole_flux = r->rings->whole_force};
+    const bool rim = brc_rims_gain(s, r->rings); /* ring 2 is done otherwise */
+    return (dlsm_extent){.list = &r->rings->around, .gradient = 0, .stress = 1, .flux = rim ? 1 : 2, .force = 3, .whole_flux = r->rings->whole_force};
 }
 
 /* H and, where faces are held, their part of G. */
@@ -205,7 +205,6 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
     BRC_TRY(brc_pushes_apply(s, r));
     BRC_TRY(brc_force_turned_tractions(s, r));
     brc_force_request all = *r;
-    if (r->rings && brc_rims_gain(s, r->rings)) BRC_TRY(brc_rims_force(s, r));
     if (r->rings && !r->rings->whole_force) { /* from here on forces are those of the whole body */
         BRC_TRY(brc_rings_replace(s, r->rings, brc_is_published(s) ? 2 : 3));
         all.force = s->force, all.torque = s->torque;

@@ -1,5 +1,5 @@
-/* dlsm: what broken bonds change at the rims of their rings, found from what their neighbours gained (kernels/rims.cl) in place of an evaluation of their own: fluxes of ring 2, forces of
- * ring 3. The rings within are evaluated as a whole (force.c). */
+/* dlsm: fluxes at the rim of the rings around broken bonds, ring 2, found from what the stresses of their neighbours gained (kernels/rims.cl) in place of an evaluation of their own. The rings
+ * within are evaluated as a whole (force.c). */
 #ifndef BRC_SOLVER_RIMS_H
 #define BRC_SOLVER_RIMS_H
 
@@ -7,16 +7,14 @@
 
 /* Energies around breaks are those of elements and of bonds apart: of dlsm, where no face softens; of open faces cells keep half each. */
 bool brc_rims_energies_apart(const brc_simulation *s);
-/* Whether the rims of rings may be done so: the list is to be placed (rings.h). Not where surfaces touch or soften, or in the comparison with whole evaluations. */
+/* Whether the rim may be done so: the list is to be placed (rings.h). Not where surfaces touch or soften, or in the comparison with whole evaluations. */
 bool brc_rims_may_gain(const brc_simulation *s, const brc_rings *rings);
-/* Whether they are: the list was placed, there is room for what its elements gained, and its passes are not over the whole body anyway. */
+/* Whether they are: the list was placed, there is room for what its elements gained, and the pass over the rim is not over the whole body anyway. */
 bool brc_rims_gain(const brc_simulation *s, const brc_rings *rings);
 
-/* P of rings 0 and 1 with what their elements hold, elastic_energy, and what P gained where the rims want it. */
+/* P of rings 0 and 1 with what their elements hold, elastic_energy, and what P gained where the rim wants it. */
 brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r, bool face_loads);
 /* B of ring 2, after that of the rings within. */
 brc_status brc_rims_flux(brc_simulation *s, const brc_rings *rings);
-/* All forces of ring 3, loads included: those of s->force and what changed; into the request's, after everything that acts on elements was added there. */
-brc_status brc_rims_force(brc_simulation *s, const brc_force_request *r);
 
 #endif
