@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 9, MOST_VARIANTS = 9, TRIAL_STEPS = 10, N_TRIALS = 2, WARM_STEPS = 3, AGAIN_STEPS = 1, GUARD_LOOKS = 50 };
+enum { ROUNDS = 9, MOST_VARIANTS = 9, TRIAL_STEPS = 10, N_TRIALS = 3, WARM_STEPS = 3, AGAIN_STEPS = 1, GUARD_LOOKS = 50 };
 /* Strength of a bond whose factor is 1, where bonds are to break [Pa]. */
 static const double strength = 1e8;
 /* Share of the bonds that break in a trial step. */
@@ -137,21 +137,24 @@ cleanup:
     return status;
 }
 
-/* What to multiply the speed with, so that the rate is the one that is wanted: a short trial says what share of the bonds breaks, two of the length of the
- * measurement correct it. */
+/* What to multiply the speed with, so that the rate is the one that is wanted: a short trial says what share of the bonds breaks, three over the steps of
+ * the measurement correct it. */
 static brc_status find_scale(brc_context *context, const brc_effects_request *r, const brc_domain *domain, brc_model_kind model, const effect *e, double *scale)
 {
     *scale = 1;
     for (int trial = 0; e->rate > 0 && trial <= N_TRIALS; ++trial) {
         variant v = {0};
-        int64_t n = 0;
+        int64_t before = 0, n = 0;
         const double rate = trial == 0 ? trial_rate : e->rate;
-        const int64_t steps = trial == 0 ? TRIAL_STEPS : AGAIN_STEPS + WARM_STEPS + (AGAIN_STEPS + e->most_steps) * ROUNDS;
+        const int64_t start = trial == 0 ? 0 : AGAIN_STEPS + WARM_STEPS, steps = trial == 0 ? TRIAL_STEPS : (AGAIN_STEPS + e->most_steps) * ROUNDS; /* as `alternate` counts them */
         brc_status status = make_variant(context, r, domain, model, e, rate, *scale, &v);
+        if (status == BRC_OK && start > 0) status = brc_simulation_advance(v.simulation, start);
+        if (status == BRC_OK) status = count_events(v.simulation, e, &before);
         if (status == BRC_OK) status = brc_simulation_advance(v.simulation, steps);
         if (status == BRC_OK) status = count_events(v.simulation, e, &n);
         free_variant(&v);
         BRC_TRY(status);
+        n -= before;
         if (n == 0) *scale *= 10; /* too slow to reach the weakest */
         else *scale *= fmin(trial ? 4 : 100, fmax(trial ? 0.25 : 0.01, rate * (double)steps * (double)domain->n_bonds / (double)n));
     }

@@ -95,13 +95,47 @@ static void the_frequency_is_that_of_the_changes_of_sign(void **state)
 
 /* ---- the files ---- */
 
-static brc_peer_work work_of(brc_context *context, brc_domain **domain, double **velocity)
+/* A small packing with its beams, and a folder for what is written of it. */
+typedef struct peer_case {
+    brc_context *context;
+    brc_domain *domain;
+    double *velocity;
+    brc_peer_work work;
+    char folder[32];
+} peer_case;
+
+static void remove_folder(const char *folder)
 {
-    brc_log_set_level(context, BRC_LOG_ERROR);
-    assert_int_equal(brc_cube_build(context, 200, true, domain), BRC_OK);
-    assert_int_equal(BRC_ALLOCATE(context, velocity, 3 * (*domain)->n_elements, "velocities"), BRC_OK);
-    for (int64_t k = 0; k < 3 * (*domain)->n_elements; ++k) (*velocity)[k] = 0.01 * (double)k;
-    return (brc_peer_work){.domain = *domain, .velocity = *velocity, .density = 2500, .axial = 3e8, .bend = 5e3, .twist = 4e3, .time_step = 1e-6};
+    char command[128];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
+static int open_case(void **state)
+{
+    peer_case *c = calloc(1, sizeof *c);
+    assert_non_null(c);
+    *state = c;
+    c->context = brc_context_create();
+    brc_log_set_level(c->context, BRC_LOG_ERROR);
+    assert_int_equal(brc_cube_build(c->context, 200, true, &c->domain), BRC_OK);
+    assert_int_equal(BRC_ALLOCATE(c->context, &c->velocity, 3 * c->domain->n_elements, "velocities"), BRC_OK);
+    for (int64_t k = 0; k < 3 * c->domain->n_elements; ++k) c->velocity[k] = 0.01 * (double)k;
+    c->work = (brc_peer_work){.domain = c->domain, .velocity = c->velocity, .density = 2500, .axial = 3e8, .bend = 5e3, .twist = 4e3, .time_step = 1e-6};
+    snprintf(c->folder, sizeof c->folder, "peer-test-XXXXXX");
+    assert_non_null(mkdtemp(c->folder));
+    return 0;
+}
+
+static int close_case(void **state)
+{
+    peer_case *c = *state;
+    remove_folder(c->folder);
+    brc_memory_free(c->velocity);
+    brc_domain_free(&c->domain);
+    brc_context_free(&c->context);
+    free(c);
+    return 0;
 }
 
 static void read_file(brc_context *context, const char *folder, const char *name, char **text)
@@ -112,28 +146,17 @@ static void read_file(brc_context *context, const char *folder, const char *name
     assert_int_equal(brc_file_read_whole(context, path, 1 << 20, text, &bytes), BRC_OK);
 }
 
-static void remove_folder(const char *folder)
-{
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
-}
-
 /* The energy of a beam by the textbook (Euler and Bernoulli): with theta_k the rotation of section k against the chord, N^2 l / (2 E S) for the elongation,
  * 2 E I / l (theta_1^2 + theta_1 theta_2 + theta_2^2) for each plane of bending and G J tau^2 / (2 l): the same as four springs at the middle of the branch have, by the numbers of
  * the file. Two sums of a dozen products: rounding, 1e-12. */
 static void four_springs_at_the_middle_hold_the_energy_of_the_beam(void **state)
 {
-    (void)state;
-    brc_context *context = brc_context_create();
-    brc_domain *domain;
-    double *velocity;
-    const brc_peer_work work = work_of(context, &domain, &velocity);
-    char folder[] = "peer-test-XXXXXX";
-    assert_non_null(mkdtemp(folder));
-    assert_int_equal(brc_peer_work_write_tables(context, &work, folder), BRC_OK);
+    const peer_case *c = *state;
+    const brc_domain *domain = c->domain;
+    const brc_peer_work work = c->work;
+    assert_int_equal(brc_peer_work_write_tables(c->context, &work, c->folder), BRC_OK);
     char *text;
-    read_file(context, folder, "bonds.csv", &text);
+    read_file(c->context, c->folder, "bonds.csv", &text);
     char *line = strchr(text, '\n') + 1;
     int64_t n = 0;
     for (; *line; line = strchr(line, '\n') + 1, ++n) {
@@ -153,7 +176,7 @@ static void four_springs_at_the_middle_hold_the_energy_of_the_beam(void **state)
     }
     assert_int_equal(n, domain->n_bonds);
     brc_memory_free(text);
-    read_file(context, folder, "elements.csv", &text);
+    read_file(c->context, c->folder, "elements.csv", &text);
     double mass = 0, volume = 0;
     line = strchr(text, '\n') + 1;
     for (n = 0; *line; line = strchr(line, '\n') + 1, ++n) {
@@ -167,20 +190,16 @@ static void four_springs_at_the_middle_hold_the_energy_of_the_beam(void **state)
     assert_int_equal(n, domain->n_elements);
     assert_near(mass / (2500 * volume), 1, 1e-12);
     brc_memory_free(text);
-    remove_folder(folder);
-    brc_memory_free(velocity);
-    brc_domain_free(&domain);
-    brc_context_free(&context);
 }
 
 /* The type of each bond in packing.data, and the first coefficient of each type in bonds.in. */
-static void check_types(brc_context *context, const brc_peer_work *work, bool turning, int n_types, const char *folder)
+static void check_types(const peer_case *c, bool turning, int n_types)
 {
-    assert_int_equal(brc_peer_work_write_lammps(context, work, turning, n_types, folder), BRC_OK);
-    const brc_domain *d = work->domain;
+    assert_int_equal(brc_peer_work_write_lammps(c->context, &c->work, turning, n_types, c->folder), BRC_OK);
+    const brc_domain *d = c->domain;
     char *data, *coefficients;
-    read_file(context, folder, "packing.data", &data);
-    read_file(context, folder, "bonds.in", &coefficients);
+    read_file(c->context, c->folder, "packing.data", &data);
+    read_file(c->context, c->folder, "bonds.in", &coefficients);
     const char *line = strstr(data, "\nBonds\n\n");
     assert_non_null(line);
     assert_non_null(strstr(data, turning ? "\nAtoms # bpm/sphere\n" : "\nAtoms # hybrid\n"));
@@ -196,8 +215,8 @@ static void check_types(brc_context *context, const brc_peer_work *work, bool tu
         assert_non_null(at);
         assert_int_equal(sscanf(at + strlen(mark), "%lf %lf", &k, &second), 2);
         double square = 0;
-        for (int c = 0; c < 3; ++c) square += pow(d->position[3 * (j - 1) + c] - d->position[3 * (i - 1) + c], 2);
-        const double exact = (turning ? 1 : 0.5) * work->axial / sqrt(square);
+        for (int axis = 0; axis < 3; ++axis) square += pow(d->position[3 * (j - 1) + axis] - d->position[3 * (i - 1) + axis], 2);
+        const double exact = (turning ? 1 : 0.5) * c->work.axial / sqrt(square);
         /* a class is as wide as the lengths' range over n_types, and they lie within a factor of 3: half a class is 1/n_types of the least at most */
         assert_near(k / exact, 1, n_types ? 1.0 / n_types : 1e-12);
     }
@@ -208,20 +227,10 @@ static void check_types(brc_context *context, const brc_peer_work *work, bool tu
 
 static void bonds_of_lammps_have_the_stiffness_of_their_class_or_their_own(void **state)
 {
-    (void)state;
-    brc_context *context = brc_context_create();
-    brc_domain *domain;
-    double *velocity;
-    const brc_peer_work work = work_of(context, &domain, &velocity);
-    char folder[] = "peer-test-XXXXXX";
-    assert_non_null(mkdtemp(folder));
-    check_types(context, &work, true, 0, folder);
-    check_types(context, &work, true, 64, folder);
-    check_types(context, &work, false, 64, folder);
-    remove_folder(folder);
-    brc_memory_free(velocity);
-    brc_domain_free(&domain);
-    brc_context_free(&context);
+    const peer_case *c = *state;
+    check_types(c, true, 0);
+    check_types(c, true, 64);
+    check_types(c, false, 64);
 }
 
 /* ---- programs ---- */
@@ -277,8 +286,8 @@ int main(void)
         cmocka_unit_test(of_lammps_the_last_loop_and_its_share_of_the_processor_count),
         cmocka_unit_test(what_is_missing_is_noted),
         cmocka_unit_test(the_frequency_is_that_of_the_changes_of_sign),
-        cmocka_unit_test(four_springs_at_the_middle_hold_the_energy_of_the_beam),
-        cmocka_unit_test(bonds_of_lammps_have_the_stiffness_of_their_class_or_their_own),
+        cmocka_unit_test_setup_teardown(four_springs_at_the_middle_hold_the_energy_of_the_beam, open_case, close_case),
+        cmocka_unit_test_setup_teardown(bonds_of_lammps_have_the_stiffness_of_their_class_or_their_own, open_case, close_case),
         cmocka_unit_test(programs_are_those_on_the_path_and_lammps_is_asked_for_its_beams),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
