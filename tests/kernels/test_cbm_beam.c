@@ -1,19 +1,5 @@
 /* One beam of model cbm: forces against the gradient of the energy, action and reaction, rigid motion, analytic beams. One lane, double. */
-// clang-format off
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <setjmp.h>
-#include <cmocka.h>
-// clang-format on
-#include <math.h>
-#define BRC_PRECISION 0
-#define BRC_LANES 1
-#define BRC_SLICE 1
-#define BRC_MANY_MATERIALS 0
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wshadow"
-#include "../../host/base/random.h"
+#include "one_lane.h"
 #include "../../kernels/cbm_beam.h"
 
 static const cbm_stiffness STIFF = {3.0, 0.7, 0.4}; /* of a beam about as long as 1 */
@@ -24,12 +10,7 @@ typedef struct beam {
     lane_quat q[2];
 } beam;
 
-static double uniform(int state, int which)
-{
-    double draws[4];
-    brc_random_uniform4(3, BRC_RANDOM_TEST, (uint64_t)state, (uint64_t)(which / 4), draws);
-    return 2 * draws[which % 4] - 1;
-}
+static double uniform(int state, int which) { return one_lane_uniform(3, state, which); }
 
 static lane_quat unit(double w, double x, double y, double z)
 {

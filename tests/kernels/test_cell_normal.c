@@ -1,32 +1,13 @@
 /* The room of a bond of dlsm below its limit: it spares no bond whose half of the stress is above the limit, and spares those that are clearly below. One lane, double. */
-// clang-format off
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <setjmp.h>
-#include <cmocka.h>
-// clang-format on
-#include <math.h>
-#include <stdbool.h>
-#define BRC_PRECISION 0
-#define BRC_LANES 1
-#define BRC_SLICE 1
-#define BRC_MANY_MATERIALS 0
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wshadow"
-#include "../../host/base/random.h"
+#include "one_lane.h"
 #include "../../kernels/cell_normal.h"
+#include <stdbool.h>
 
 enum { STATES = 20000 };
 
 static const double lambda = 2e10, mu = 3e10;
 
-static double uniform(int state, int which)
-{
-    double draws[4];
-    brc_random_uniform4(6, BRC_RANDOM_TEST, (uint64_t)state, (uint64_t)(which / 4), draws);
-    return 2 * draws[which % 4] - 1;
-}
+static double uniform(int state, int which) { return one_lane_uniform(6, state, which); }
 
 /* A half of a bond: H of some size turned by any angle, P of another gradient of that size, the jump of a third, as misfits of cells may be. */
 typedef struct half_bond {

@@ -1,30 +1,11 @@
 /* Principal values and directions, and limits on them. One lane, double. */
-// clang-format off
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <setjmp.h>
-#include <cmocka.h>
-// clang-format on
-#include <float.h>
-#include <math.h>
-#define BRC_PRECISION 0
-#define BRC_LANES 1
-#define BRC_SLICE 1
-#define BRC_MANY_MATERIALS 0
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wshadow"
-#include "../../host/base/random.h"
+#include "one_lane.h"
 #include "../../kernels/failure.h"
+#include <float.h>
 
 enum { STATES = 2000 };
 
-static double uniform(int state, int which)
-{
-    double draws[4];
-    brc_random_uniform4(5, BRC_RANDOM_TEST, (uint64_t)state, (uint64_t)(which / 4), draws);
-    return 2 * draws[which % 4] - 1;
-}
+static double uniform(int state, int which) { return one_lane_uniform(5, state, which); }
 
 /* Every kind of tensor: general, of one or two values, nearly so, of rank one, of very different sizes. */
 static failure_stress random_stress(int state)

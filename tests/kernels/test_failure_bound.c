@@ -1,31 +1,12 @@
 /* The bound that spares elements their stresses: above the ratio itself, sublinear, and tight where it matters. One lane, double. */
-// clang-format off
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <setjmp.h>
-#include <cmocka.h>
-// clang-format on
-#include <math.h>
-#include <stdbool.h>
-#define BRC_PRECISION 0
-#define BRC_LANES 1
-#define BRC_SLICE 1
-#define BRC_MANY_MATERIALS 0
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wshadow"
-#include "../../host/base/random.h"
+#include "one_lane.h"
 #include "../../kernels/failure.h"
 #include "../../kernels/failure_bound.h"
+#include <stdbool.h>
 
 enum { STATES = 5000, KINDS = 4 };
 
-static double uniform(int state, int which)
-{
-    double draws[4];
-    brc_random_uniform4(6, BRC_RANDOM_TEST, (uint64_t)state, (uint64_t)(which / 4), draws);
-    return 2 * draws[which % 4] - 1;
-}
+static double uniform(int state, int which) { return one_lane_uniform(6, state, which); }
 
 /* General, nearly uniaxial, nearly a pressure, and of two equal values. */
 static lane_sym3 random_stress(int state)

@@ -1,18 +1,5 @@
 /* The rotation vector of the published law against the exact one, over the angles it is made for. One lane, double. */
-// clang-format off
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <setjmp.h>
-#include <cmocka.h>
-// clang-format on
-#include <math.h>
-#define BRC_PRECISION 0
-#define BRC_LANES 1
-#define BRC_SLICE 1
-#define BRC_MANY_MATERIALS 0
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wshadow"
+#include "one_lane.h"
 #include "../../kernels/published_bond.h"
 
 static void rotation_vector_is_angle_times_axis_up_to_a_right_angle(void **state)

@@ -1,18 +1,5 @@
 /* The cohesive law of one face (kernels/softening.h). One lane, double. */
-// clang-format off
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <setjmp.h>
-#include <cmocka.h>
-// clang-format on
-#include <math.h>
-#define BRC_PRECISION 0
-#define BRC_LANES 1
-#define BRC_SLICE 1
-#define BRC_MANY_MATERIALS 0
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wshadow"
+#include "one_lane.h"
 #include "../../kernels/softening.h"
 
 static const soft_face faces[] = {{3, 0.7, 0}, {3, 0.7, 1}};
