@@ -167,6 +167,13 @@ brc_status brc_sets_append(brc_context *context, brc_domain *domain, const char 
     return BRC_OK;
 }
 
+brc_status brc_sets_add_empty(brc_context *context, brc_domain *domain, const char *name, brc_set_kind kind)
+{
+    brc_set *set;
+    BRC_TRY(brc_memory_resize(context, (void **)&domain->sets, (int64_t)domain->n_sets + 1, sizeof *domain->sets, "sets"));
+    return brc_sets_append(context, domain, name, kind, 0, &set);
+}
+
 static brc_status build_one(brc_context *context, const brc_set_request *request, brc_domain *domain)
 {
     char name[sizeof request->name + 1] = "", what[96];

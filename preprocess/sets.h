@@ -19,6 +19,8 @@ brc_status brc_sets_build(brc_context *context, int32_t n, const brc_set_request
 /* Name of the set of spheres next to a wall. */
 #define BRC_LAYER_NAME 64
 void brc_sets_layer_name(const char *wall, char out[BRC_LAYER_NAME]);
+/* Add a set without members, for a body that a region only reaches with faces it cuts (set_share.h), while others have its members. Errors as of brc_sets_append. */
+brc_status brc_sets_add_empty(brc_context *context, brc_domain *domain, const char *name, brc_set_kind kind);
 /* Append an empty set of `n_members` members to domain->sets, which has room; *out is borrowed. */
 brc_status brc_sets_append(brc_context *context, brc_domain *domain, const char *name, brc_set_kind kind,
                            int64_t n_members, brc_set **out);

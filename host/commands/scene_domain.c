@@ -4,6 +4,7 @@
 #include "../../preprocess/overlap.h"
 #include "../../preprocess/pose.h"
 #include "../../preprocess/quality.h"
+#include "../../preprocess/set_share.h"
 #include "../../preprocess/sets.h"
 #include "../base/file.h"
 #include "../base/memory.h"
@@ -157,45 +158,51 @@ static brc_status check_overlaps(brc_context *context, int32_t n, const bodies *
     return status;
 }
 
-/* Has the set members in the domain? */
-static brc_status is_there(const brc_set_request *set, const brc_domain *domain, bool *out)
+/* What a domain has of a set: members, or only faces that the set's region cuts, which loads per area act on in part. */
+typedef enum presence { ABSENT, CUT_ONLY, WITH_MEMBERS } presence;
+
+static brc_status look_for(brc_context *context, const brc_set_request *set, const brc_domain *domain, presence *out)
 {
     brc_context *quiet = brc_context_create();
-    *out = false;
-    if (!quiet) return BRC_NO_MEMORY;
+    double area[3], centroid[3];
+    *out = ABSENT;
+    if (!quiet) return BRC_FAIL(context, BRC_NO_MEMORY, "no memory for the sets of a model");
     const int64_t n = set->kind == BRC_SET_FACES ? domain->n_free_faces : domain->n_elements;
-    const bool fits = brc_predicate_check(quiet, &set->where, set->kind, domain, set->name) == BRC_OK;
-    for (int64_t k = 0; fits && !*out && k < n; ++k) *out = brc_predicate_holds(&set->where, set->kind, domain, k);
+    const bool fits = brc_predicate_check(quiet, &set->where, set->kind, domain, set->name) == BRC_OK, cuts = set->kind == BRC_SET_FACES && brc_predicate_cuts(&set->where);
+    for (int64_t k = 0; fits && *out != WITH_MEMBERS && k < n; ++k) {
+        if (brc_predicate_holds(&set->where, set->kind, domain, k)) *out = WITH_MEMBERS;
+        else if (cuts && *out == ABSENT && brc_predicate_share(&set->where, domain, k, area, centroid) > 0) *out = CUT_ONLY;
+    }
     brc_context_free(&quiet);
     return BRC_OK;
 }
 
-/* Sets go to the parts in which they have members; what no part has goes to the first, which refuses it. */
+/* Sets go to the parts in which they have members, and without members to those whose faces they cut; what has members nowhere goes to the first, which refuses it. */
 static brc_status build_sets(brc_context *context, const brc_split *split, brc_domain *const *domain)
 {
     const brc_scene *scene = split->scene;
     brc_set_request *given = NULL;
-    bool *there = NULL;
+    presence *there = NULL; /* [parts][sets] */
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &given, scene->n_sets, "sets of a model"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &there, (int64_t)split->n * scene->n_sets, "sets of a model"));
     for (int32_t s = 0; s < scene->n_sets; ++s) {
         bool any = false;
         for (int32_t k = 0; k < split->n; ++k) {
-            bool *has = &there[(int64_t)k * scene->n_sets + s];
-            if (is_there(&scene->sets[s], domain[k], has) != BRC_OK) {
-                status = BRC_FAIL(context, BRC_NO_MEMORY, "no memory for the sets of a model");
-                goto cleanup;
-            }
-            any |= *has;
+            presence *has = &there[(int64_t)k * scene->n_sets + s];
+            BRC_TRY_OR(cleanup, look_for(context, &scene->sets[s], domain[k], has));
+            any |= *has == WITH_MEMBERS;
         }
-        if (!any) there[s] = true;
+        if (!any) there[s] = WITH_MEMBERS;
     }
     for (int32_t k = 0; k < split->n; ++k) {
+        const presence *has = &there[(int64_t)k * scene->n_sets];
         int32_t n = 0;
         for (int32_t s = 0; s < scene->n_sets; ++s)
-            if (there[(int64_t)k * scene->n_sets + s]) given[n++] = scene->sets[s];
+            if (has[s] == WITH_MEMBERS) given[n++] = scene->sets[s];
         BRC_TRY_OR(cleanup, brc_sets_build(context, n, given, domain[k]));
+        for (int32_t s = 0; s < scene->n_sets; ++s)
+            if (has[s] == CUT_ONLY) BRC_TRY_OR(cleanup, brc_sets_add_empty(context, domain[k], scene->sets[s].name, scene->sets[s].kind));
     }
 cleanup:
     brc_memory_free(given);

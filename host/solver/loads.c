@@ -48,7 +48,8 @@ static void direction_at(const brc_load *load, const double *x, double out[3])
     }
 }
 
-const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind, brc_status *status)
+/* The set a load names, with or without members. */
+static const brc_set *find_named(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind, brc_status *status)
 {
     const int32_t index = brc_domain_find_set(s->domain, load->set);
     if (index < 0) {
@@ -63,12 +64,20 @@ const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, cons
                            load->set);
         return NULL;
     }
-    if (set->n_members == 0) {
-        *status = BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': the set '%s' is empty; widen its predicate", stage->name,
-                           load->set);
-        return NULL;
-    }
     return set;
+}
+
+static brc_status refuse_empty(brc_simulation *s, const brc_stage *stage, const brc_load *load)
+{
+    return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': the set '%s' is empty; widen its predicate", stage->name, load->set);
+}
+
+const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind, brc_status *status)
+{
+    const brc_set *set = find_named(s, stage, load, kind, status);
+    if (!set || set->n_members > 0) return set;
+    *status = refuse_empty(s, stage, load);
+    return NULL;
 }
 
 static bool is_face_motion(const brc_load *load)
@@ -269,7 +278,7 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
     const brc_domain *d = s->domain;
     const brc_load *load = stage->loads + l;
     brc_status status = BRC_OK;
-    const brc_set *set = brc_load_find_set(s, stage, load, BRC_SET_FACES, &status);
+    const brc_set *set = find_named(s, stage, load, BRC_SET_FACES, &status);
     if (!set) return status;
     int64_t count = 0;
     brc_loaded_face *loaded = NULL;
@@ -277,6 +286,10 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
     int32_t *element = NULL, *place = NULL, n = 0;
     double *total = NULL, *moment = NULL;
     BRC_TRY_OR(cleanup, brc_loaded_faces(s->context, s->scene, d, set, &loaded, &count));
+    if (count == 0) { /* of a part without whole faces of the set, those that its region cuts */
+        status = refuse_empty(s, stage, load);
+        goto cleanup;
+    }
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &items, count, "traction"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, count, "traction"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 2 * count, "traction"));

@@ -28,7 +28,7 @@ brc_status brc_split_create(brc_context *context, brc_scene *scene, brc_split **
 void brc_split_free(brc_split **split);
 
 /* Hand out loads, initial fields and sensors, once the parts' domains [n] are there (borrowed for the call):
- * - a load or initial field goes to every part in which its set has members; a total force (element_force) is shared by the number of the
+ * - a load or initial field goes to every part in which its set has members, a load per area also where the set's region cuts faces only (loaded_faces.h); a total force (element_force) is shared by the number of the
  *   elements or their mass; a field without a set goes to all parts;
  * - a sensor goes to the part that owns its set, or the element nearest to its point; sums (reaction, moment, broken bonds ...) and extremes go to all
  *   that have some of the set. Energies and modes are read from the whole and go to none.

@@ -1,5 +1,6 @@
 /* Handing out loads, initial fields and sensors to the parts of a scene. */
 #include "split.h"
+#include "loaded_faces.h"
 #include "../base/memory.h"
 #include <math.h>
 #include <stdio.h>
@@ -25,6 +26,33 @@ static int32_t find_parts(share *s, const char *name)
     int32_t n = 0;
     for (int32_t k = 0; k < s->split->n; ++k) n += s->has[k] = name[0] == '\0' || set_in(s, k, name);
     return n;
+}
+
+/* Does a load per area act in part k though no whole face of its set lies there? Faces that the set's region cuts are loaded as far as they reach in. */
+static brc_status cuts_faces(const share *s, int32_t k, const brc_load *load, bool *out)
+{
+    const brc_domain *d = s->domain[k];
+    const int32_t index = brc_domain_find_set(d, load->set);
+    brc_loaded_face *loaded = NULL;
+    int64_t n = 0;
+    *out = false;
+    if ((load->kind != BRC_LOAD_TRACTION && load->kind != BRC_LOAD_PRESSURE) || index < 0 || d->sets[index].kind != BRC_SET_FACES) return BRC_OK;
+    const brc_status status = brc_loaded_faces(s->context, s->split->part[k].scene, d, &d->sets[index], &loaded, &n);
+    brc_memory_free(loaded);
+    *out = n > 0;
+    return status;
+}
+
+/* Which parts the load acts in, into s->has; *n: how many. */
+static brc_status find_load_parts(share *s, const brc_load *load, int32_t *n)
+{
+    *n = find_parts(s, load->set);
+    for (int32_t k = 0; k < s->split->n; ++k) {
+        if (s->has[k]) continue;
+        BRC_TRY(cuts_faces(s, k, load, &s->has[k]));
+        *n += s->has[k];
+    }
+    return BRC_OK;
 }
 
 /* No part has members of the set: the first that knows its name, or the first of all, says so. */
@@ -63,10 +91,11 @@ static double weight_in(const share *s, int32_t k, const brc_load *load)
     return sum;
 }
 
-static void share_load(share *s, int32_t stage, const brc_load *load)
+static brc_status share_load(share *s, int32_t stage, const brc_load *load)
 {
-    const int32_t n = find_parts(s, load->set);
+    int32_t n;
     double all = 0;
+    BRC_TRY(find_load_parts(s, load, &n));
     if (n == 0) give_to_one(s, load->set);
     const bool total = n > 1 && load->kind == BRC_LOAD_ELEMENT_FORCE;
     for (int32_t k = 0; total && k < s->split->n; ++k) all += s->has[k] ? weight_in(s, k, load) : 0;
@@ -80,6 +109,7 @@ static void share_load(share *s, int32_t stage, const brc_load *load)
         for (int c = 0; c < 3; ++c) given->value[c] *= part;
         given->radial_force *= part;
     }
+    return BRC_OK;
 }
 
 static brc_status share_initial(share *s, int32_t stage, const brc_initial *field)
@@ -204,7 +234,8 @@ brc_status brc_split_share(brc_context *context, brc_split *split, const brc_dom
     if (split->n == 1) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(context, &s.has, split->n, "parts of a scene"));
     for (int32_t stage = 0; stage < whole->n_stages; ++stage) {
-        for (int32_t l = 0; l < whole->stages[stage].n_loads; ++l) share_load(&s, stage, &whole->stages[stage].loads[l]);
+        for (int32_t l = 0; l < whole->stages[stage].n_loads; ++l)
+            if ((one = share_load(&s, stage, &whole->stages[stage].loads[l])) != BRC_OK) status = one;
         for (int32_t i = 0; i < whole->stages[stage].n_initials; ++i)
             if ((one = share_initial(&s, stage, &whole->stages[stage].initials[i])) != BRC_OK) status = one;
     }

@@ -271,6 +271,43 @@ static void a_total_force_over_both_models_is_shared_out(void **state)
     release(&s);
 }
 
+/* A region that ends 5 cm behind the edge of b, whose faces are 50 cm wide: it has none of their middles, and presses what it covers of them. */
+static void a_part_whose_faces_are_only_cut_is_pressed_on_what_the_region_covers(void **state)
+{
+    (void)state;
+#define REGION(to) "sets:\n  top:\n    faces:\n      wall: z+\n      box: {from: [25 cm, -1 m, 0], to: [" to ", 2 m, 2 m]}\n"
+#define TWO_CUBES MATERIALS "model: dlsm\nbodies:\n" CUBE("a", "0", "") CUBE("b", "2 m", "    model:\n      dlsm: {tau: 0.3}\n")
+#define PRESS "stages:\n  - name: press\n    solver:\n      dynamic: {steps: 1, time_step: 1 ns}\n    loads:\n      - pressure: {set: top, value: 4 Pa}\n"
+    sample s = ready(TWO_CUBES REGION("2.05 m") PRESS QUIET);
+    const double covered[2] = {0.75, 0.05};
+    const brc_domain *second = s.setup.domain[1];
+    assert_int_equal(second->sets[brc_domain_find_set(second, "top")].n_members, 0);
+    must(brc_lockstep_begin_stage(2, s.setup.assembly.part, 0));
+    for (int k = 0; k < 2; ++k) {
+        const int64_t n = s.setup.domain[k]->n_elements;
+        double *f, sum[3] = {0};
+        must(BRC_ALLOCATE(context, &f, 3 * n, "test"));
+        must(brc_simulation_force(s.setup.simulation[k], f));
+        for (int64_t i = 0; i < 3 * n; ++i) sum[i % 3] += f[i];
+        assert_near(sum[0], 0, 1e-9);
+        assert_near(sum[1], 0, 1e-9);
+        assert_near(sum[2], -4 * covered[k], 1e-9);
+        brc_memory_free(f);
+    }
+    release(&s);
+    /* what takes whole faces goes to a alone, and a region that ends before b loads nothing of it */
+    s = ready(TWO_CUBES REGION("2.05 m") "stages:\n  - name: pull\n    solver:\n      dynamic: {steps: 1, time_step: 1 ns}\n    loads:\n"
+              "      - face_velocity: {set: top, z: 1 m/s}\nsensors:\n  pull:\n    reaction: {set: top, component: z}\n" QUIET);
+    assert_int_equal(s.setup.split->part[0].scene->stages[0].n_loads, 1);
+    assert_int_equal(s.setup.split->part[1].scene->stages[0].n_loads, 0);
+    run(&s);
+    release(&s);
+    s = ready(TWO_CUBES REGION("1.95 m") PRESS QUIET);
+    assert_int_equal(brc_domain_find_set(s.setup.domain[1], "top"), -1);
+    assert_int_equal(s.setup.split->part[1].scene->stages[0].n_loads, 0);
+    release(&s);
+}
+
 static void refused(const char *text, const char *part)
 {
     sample s;
@@ -617,6 +654,7 @@ int main(void)
         cmocka_unit_test(a_scene_of_one_model_is_its_own_only_part),
         cmocka_unit_test(all_take_the_shortest_of_the_automatic_steps_and_end_together),
         cmocka_unit_test(a_total_force_over_both_models_is_shared_out),
+        cmocka_unit_test(a_part_whose_faces_are_only_cut_is_pressed_on_what_the_region_covers),
         cmocka_unit_test(what_no_model_can_do_is_refused),
         cmocka_unit_test(a_part_that_runs_away_names_its_model),
         cmocka_unit_test(broken_bonds_of_both_are_one_stream_by_step),
