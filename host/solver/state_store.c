@@ -6,11 +6,12 @@
 
 int brc_stored_type_bytes(brc_stored_type type)
 {
-    static const int bytes[] = {[BRC_STORED_DOUBLE] = 8, [BRC_STORED_FLOAT] = 4, [BRC_STORED_INT32] = 4, [BRC_STORED_INT64] = 8, [BRC_STORED_BYTE] = 1};
+    static const int bytes[] = {[BRC_STORED_DOUBLE] = 8, [BRC_STORED_FLOAT] = 4, [BRC_STORED_INT32] = 4, [BRC_STORED_INT64] = 8, [BRC_STORED_BYTE] = 1, [BRC_STORED_SAMPLE] = 8};
     return bytes[type];
 }
 
 brc_status brc_store_double(brc_state_store *store, const char *name, double *value) { return store->numbers(store, name, BRC_STORED_DOUBLE, 1, 1, value); }
+brc_status brc_store_sample(brc_state_store *store, const char *name, double *value) { return store->numbers(store, name, BRC_STORED_SAMPLE, 1, 1, value); }
 brc_status brc_store_integer(brc_state_store *store, const char *name, int64_t *value) { return store->numbers(store, name, BRC_STORED_INT64, 1, 1, value); }
 brc_status brc_store_index(brc_state_store *store, const char *name, int32_t *value) { return store->numbers(store, name, BRC_STORED_INT32, 1, 1, value); }
 

@@ -7,7 +7,14 @@
 
 #include "simulation.h"
 
-typedef enum brc_stored_type { BRC_STORED_DOUBLE, BRC_STORED_FLOAT, BRC_STORED_INT32, BRC_STORED_INT64, BRC_STORED_BYTE } brc_stored_type;
+typedef enum brc_stored_type {
+    BRC_STORED_DOUBLE,
+    BRC_STORED_FLOAT,
+    BRC_STORED_INT32,
+    BRC_STORED_INT64,
+    BRC_STORED_BYTE,
+    BRC_STORED_SAMPLE /* a double of a report, NAN where there is none; doubles and floats of all other types are finite */
+} brc_stored_type;
 int brc_stored_type_bytes(brc_stored_type type);
 
 typedef struct brc_state_store brc_state_store;
@@ -15,7 +22,7 @@ struct brc_state_store {
     void *self;
     bool loading;
     int32_t part; /* of the scene's models; -1: the run as a whole. Names of different parts are different */
-    /* data [rows][columns] called `name` is kept, or filled. Loading: BRC_BAD_INPUT where there is none of this size. */
+    /* data [rows][columns] called `name` is kept, or filled. Loading: BRC_BAD_INPUT where there is none of this size, or a double or float that is not finite. */
     brc_status (*numbers)(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows, int32_t columns, void *data);
     /* Loading only: rows that were kept. BRC_BAD_INPUT where there is none. */
     brc_status (*count)(brc_state_store *store, const char *name, int64_t *rows);
@@ -24,6 +31,8 @@ struct brc_state_store {
 /* ---- numbers of the host ---- */
 
 brc_status brc_store_double(brc_state_store *store, const char *name, double *value);
+/* A number of a report, which may be NAN. */
+brc_status brc_store_sample(brc_state_store *store, const char *name, double *value);
 brc_status brc_store_integer(brc_state_store *store, const char *name, int64_t *value);
 brc_status brc_store_index(brc_state_store *store, const char *name, int32_t *value);
 brc_status brc_store_flag(brc_state_store *store, const char *name, bool *value);

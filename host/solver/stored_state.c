@@ -22,10 +22,11 @@ static brc_status walk_clock(brc_simulation *s, brc_state_store *store)
                    {"numerical_before", &s->numerical_before}, {"initial_energy", &s->initial_energy}, {"peak_elastic", &s->peak_elastic},
                    {"peak_kinetic", &s->peak_kinetic}, {"total_before_stage", &s->total_before_stage}, {"released", &s->released},
                    {"static.residual", &s->static_report.residual}, {"events.margin", &s->progress.margin},
-                   {"events.largest_load", &s->progress.largest_load}, {"regime.at_first_break", &s->regime.at_first_break},
-                   {"regime.at_peak", &s->regime.at_peak}, {"regime.until_peak", &s->regime.until_peak}, {"regime.last", &s->regime.last},
-                   {"regime.most", &s->regime.most}, {"regime.peak_elastic", &s->regime.peak_elastic}};
+                   {"events.largest_load", &s->progress.largest_load}, {"regime.peak_elastic", &s->regime.peak_elastic}},
+      ratios[] = {{"regime.at_first_break", &s->regime.at_first_break}, {"regime.at_peak", &s->regime.at_peak}, {"regime.until_peak", &s->regime.until_peak},
+                  {"regime.last", &s->regime.last}, {"regime.most", &s->regime.most}}; /* none before something is strained */
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) BRC_TRY(brc_store_double(store, numbers[k].name, numbers[k].value));
+    for (size_t k = 0; k < sizeof ratios / sizeof *ratios; ++k) BRC_TRY(brc_store_sample(store, ratios[k].name, ratios[k].value));
     const struct {
         const char *name;
         int64_t *value;
