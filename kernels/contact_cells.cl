@@ -141,6 +141,10 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
                 out[5] = dt > 0 && looked ? STATE(0.5) * (past[11] + viscous) * (over.volume - past[9]) : STATE(0);
                 out[6] = pressure * surface;
                 out[7] = over.volume / surface;
+                if (!is_wall) {
+                    const contact_body a = {shape_i, convex_map_of(map_i), shape_i.radius, 0}, b = {shape_j, convex_map_of(map_j), shape_j.radius, 0};
+                    out[7] = contact_depth(a, b, convex_of(branch), out[7], h);
+                }
                 contact_put_moment(out, CONTACT_RESULT, affine, pressure, over.moment_a, map_i, rub, own_i, point);
                 contact_put_moment(out, CONTACT_RESULT + width, affine && j < n, pressure, over.moment_b, map_j, back, own_j, arm_j);
                 if (keeps) {

@@ -54,4 +54,25 @@ ROUTINE int contact_parted(contact_body a, contact_body b, convex_vec branch, st
     return contact_face_parts(a, b, branch, skin) || contact_face_parts(b, a, convex_scale(STATE(-1), branch), skin);
 }
 
+/* How far the other, branch away, must move to be off a face of b, at the least: `least` or less. */
+ROUTINE state contact_face_way_out(contact_body b, contact_body other, convex_vec branch, state least)
+{
+    const convex_map turn = convex_transpose(convex_inverse(b.map));
+    for (int f = 0; f < b.shape.n_faces; ++f) {
+        const convex_plane own = convex_own_plane(b.shape, f);
+        const convex_vec n = convex_turn(turn, own.normal);
+        const state k = STATE(1) / convex_length(n), way = contact_support(other, convex_scale(-k, n)) - k * (convex_dot(n, branch) - own.height);
+        least = way < least ? way : least;
+    }
+    return least;
+}
+
+/* Depth of two that overlap: the volume they share over its area is that of a face pressed in. It grows without bound where a thin one goes through a cell, or stands inside it, for the areas of
+ * its two sides cancel; so where it is not small beside a cell of size h, it is no more than the way out of a face of either. */
+ROUTINE state contact_depth(contact_body a, contact_body b, convex_vec branch, state mean, state h)
+{
+    if (!(mean > STATE(0.1) * h)) return mean;
+    return contact_face_way_out(b, a, convex_scale(STATE(-1), branch), contact_face_way_out(a, b, branch, mean));
+}
+
 #endif

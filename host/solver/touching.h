@@ -7,7 +7,7 @@
 typedef struct brc_touching {
     double pairs;       /* that touch [-] */
     double sliding;     /* of them [-] */
-    double penetration; /* deepest: of spheres the overlap, of cells its volume over its area [m] */
+    double penetration; /* deepest: of spheres the overlap, of cells its volume over its area, and no more than the way out of one of their faces where that is beyond a tenth of a cell [m] */
     double force;       /* sum of the magnitudes of their normal forces [N] */
 } brc_touching;
 /* As of the last evaluation of the forces; read from the device. BRC_BAD_INPUT: no contact. */

@@ -40,21 +40,46 @@ const char *test_program_stderr(void)
     return error_text;
 }
 
-const char *test_scene_folder(const char *text)
+int test_make_folder(const char *scene)
 {
     char path[128];
     snprintf(folder, sizeof folder, "scene-test-XXXXXX");
-    if (!mkdtemp(folder)) return NULL;
+    if (!mkdtemp(folder)) return -1;
     snprintf(path, sizeof path, "%s/scene.yaml", folder);
     FILE *file = fopen(path, "w");
-    if (!file) return NULL;
-    const int written = fputs(text, file);
-    return fclose(file) == 0 && written >= 0 ? folder : NULL;
+    if (!file) return -1;
+    const int written = fputs(scene, file);
+    return fclose(file) == 0 && written >= 0 ? 0 : -1;
 }
 
-int test_remove_folder(void)
+const char *test_folder(void)
+{
+    return folder;
+}
+
+int test_remove_folder(void **state)
 {
     char command[128];
+    (void)state;
     snprintf(command, sizeof command, "rm -rf %s", folder);
     return system(command);
+}
+
+const char *test_text_of(const char *name)
+{
+    static char text[1 << 16];
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "r");
+    if (!file) fail_msg("no %s", path);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    return text;
+}
+
+double test_number_behind(const char *text, const char *mark)
+{
+    const char *at = text ? strstr(text, mark) : NULL;
+    if (!at) fail_msg("no '%s' in '%s'", mark, text ? text : "");
+    return strtod(at + strlen(mark), NULL);
 }

@@ -24,22 +24,19 @@ static const char scene[] =
     "sensors: {total: {energy: kinetic}}\noutput: {frames: none, picture: false, history_every: 20, checkpoint: {every: 1 ns}}\n";
 
 static brc_context *context;
-static const char *folder;
 static char kept[256];
 
 static int begin(void **state)
 {
     (void)state;
     context = brc_context_create();
-    folder = test_scene_folder(scene);
-    return context && folder ? 0 : -1;
+    return context ? test_make_folder(scene) : -1;
 }
 
 static int end(void **state)
 {
-    (void)state;
     brc_context_free(&context);
-    return test_remove_folder();
+    return test_remove_folder(state);
 }
 
 static herr_t list_one(hid_t file, const char *name, const H5L_info_t *info, void *to)
@@ -82,14 +79,14 @@ static void copy(const char *from, const char *to)
 static void remove_all(void)
 {
     char command[300];
-    snprintf(command, sizeof command, "rm -f %s/out/checkpoints/*", folder);
+    snprintf(command, sizeof command, "rm -f %s/out/checkpoints/*", test_folder());
     assert_int_equal(system(command), 0);
 }
 
 static void find_newest(char path[256])
 {
     char folder_of[128];
-    snprintf(folder_of, sizeof folder_of, "%s/out/checkpoints", folder);
+    snprintf(folder_of, sizeof folder_of, "%s/out/checkpoints", test_folder());
     DIR *directory = opendir(folder_of);
     path[0] = '\0';
     for (const struct dirent *entry = directory ? readdir(directory) : NULL; entry; entry = readdir(directory)) {
@@ -132,10 +129,10 @@ static void a_number_that_is_not_finite_is_refused_by_the_name_of_its_array(void
     static listed all;
     char arguments[400], path[256];
     bool found = false;
-    snprintf(arguments, sizeof arguments, "run %s/scene.yaml --device cpu --threads 1 -o %s/out", folder, folder);
+    snprintf(arguments, sizeof arguments, "run %s/scene.yaml --device cpu --threads 1 -o %s/out", test_folder(), test_folder());
     if (test_program(arguments) != 0) fail_msg("%s", test_program_stderr());
     find_newest(path);
-    snprintf(kept, sizeof kept, "%s/kept.h5", folder);
+    snprintf(kept, sizeof kept, "%s/kept.h5", test_folder());
     copy(path, kept);
     list_numbers(path, &all);
     for (size_t k = 0; k < sizeof known / sizeof *known; ++k, found = false) {

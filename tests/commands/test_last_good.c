@@ -48,27 +48,19 @@ static int run(const char *into, const char *more)
     return test_program(arguments);
 }
 
-/* The number after `what` in the messages. */
-static double number_after(const char *what)
-{
-    const char *at = strstr(test_program_stderr(), what);
-    if (!at) fail_msg("'%s' not in '%s'", what, test_program_stderr());
-    return atof(at + strlen(what));
-}
-
 /* The critical step of these cells is 24.2 us (`breccia check`). */
 static void the_sentence_names_a_checkpoint_of_before_the_breach(void **state)
 {
     (void)state;
     write_scene("26.6 us", ", checkpoint: {every: 1 ns}");
     assert_int_equal(run("kept", ""), 1);
-    const double stopped = number_after("stopped at step "), good = number_after("of stage 'swing' at step ");
+    const double stopped = test_number_behind(test_program_stderr(), "stopped at step "), good = test_number_behind(test_program_stderr(), "of stage 'swing' at step ");
     assert_non_null(strstr(test_program_stderr(), "kept/checkpoints/"));
     assert_true(good > 0 && good < stopped);
     assert_true(stopped - good <= 5); /* pauses are five steps apart, and each is a checkpoint */
     /* from a good state the same run goes on to the same end */
     assert_int_equal(run("kept", "--resume"), 1);
-    assert_true(number_after("stopped at step ") == stopped);
+    assert_true(test_number_behind(test_program_stderr(), "stopped at step ") == stopped);
 }
 
 static void without_checkpoints_it_says_so(void **state)

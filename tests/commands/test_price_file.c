@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *folder;
-
 static const char *const scene =
     "version: 1\nmaterials: {glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3}}\n"
     "bodies: [{name: bar, shape: {box: {size: [20 mm, 10 mm, 10 mm]}}, fill: {noisy_grid: {elements: 250}}, material: glass}]\n"
@@ -15,43 +13,20 @@ static const char *const scene =
 static int begin(void **state)
 {
     (void)state;
-    folder = test_scene_folder(scene);
-    return folder ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    return test_remove_folder();
+    return test_make_folder(scene);
 }
 
 static void call(const char *command, const char *more)
 {
     char arguments[512];
-    snprintf(arguments, sizeof arguments, "%s %s/scene.yaml --device cpu --threads 1 -o %s/run %s", command, folder, folder, more);
+    snprintf(arguments, sizeof arguments, "%s %s/scene.yaml --device cpu --threads 1 -o %s/run %s", command, test_folder(), test_folder(), more);
     assert_int_equal(test_program(arguments), 0);
-}
-
-/* The text of a file of the run; the last one is forgotten. */
-static const char *text_of(const char *name)
-{
-    static char text[65536];
-    char path[256];
-    snprintf(path, sizeof path, "%s/run/%s", folder, name);
-    FILE *file = fopen(path, "r");
-    if (!file) fail_msg("no %s", path);
-    text[fread(text, 1, sizeof text - 1, file)] = '\0';
-    fclose(file);
-    return text;
 }
 
 /* The number behind `key` after `from`. */
 static double number_of(const char *text, const char *from, const char *key)
 {
-    const char *at = strstr(text, from);
-    at = at ? strstr(at, key) : NULL;
-    if (!at) fail_msg("no %s behind %s in '%s'", key, from, text);
-    return strtod(at + strlen(key), NULL);
+    return test_number_behind(strstr(text, from), key);
 }
 
 /* Numbers of the price are those of the summary, written with nine digits; what the run took stands beside them: of a static stage too, of which the run itself predicts nothing. */
@@ -59,12 +34,12 @@ static void a_run_is_compared_with_the_price_that_check_told(void **state)
 {
     (void)state;
     call("check", "");
-    const char *price = text_of("price.json");
+    const char *price = test_text_of("run/price.json");
     const double seconds = number_of(price, "{", "\"seconds\": "), host = number_of(price, "{", "\"host_bytes\": "), disk = number_of(price, "{", "\"disk_bytes\": ");
     assert_true(seconds > 0 && host > 0 && disk > 0);
     call("run", "");
     if (!strstr(test_program_stderr(), "check told")) fail_msg("no word of it in '%s'", test_program_stderr());
-    const char *summary = text_of("summary.json"), *check = "\"check\": {";
+    const char *summary = test_text_of("run/summary.json"), *check = "\"check\": {";
     assert_near(number_of(summary, check, "\"seconds\": "), seconds, 1e-8 * seconds);
     assert_near(number_of(summary, check, "\"host_bytes\": "), host, 0);
     assert_near(number_of(summary, check, "\"disk_bytes\": "), disk, 0);
@@ -78,7 +53,7 @@ static void the_price_of_another_scene_is_not_compared(void **state)
     call("check", "--set materials.glass.nu=0.24");
     call("run", "");
     if (!strstr(test_program_stderr(), "is of another scene")) fail_msg("no word of it in '%s'", test_program_stderr());
-    assert_null(strstr(text_of("summary.json"), "\"check\": {"));
+    assert_null(strstr(test_text_of("run/summary.json"), "\"check\": {"));
     call("check", "");
     call("run", "--precision single");
     if (!strstr(test_program_stderr(), "is of another precision")) fail_msg("no word of it in '%s'", test_program_stderr());
@@ -89,7 +64,7 @@ static void a_damaged_price_stops_no_run(void **state)
     (void)state;
     char path[256];
     call("check", "");
-    snprintf(path, sizeof path, "%s/run/price.json", folder);
+    snprintf(path, sizeof path, "%s/run/price.json", test_folder());
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fputs("{\"seconds\": [", file);
@@ -100,8 +75,8 @@ static void a_damaged_price_stops_no_run(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(a_run_is_compared_with_the_price_that_check_told, begin, end),
-                                      cmocka_unit_test_setup_teardown(the_price_of_another_scene_is_not_compared, begin, end),
-                                      cmocka_unit_test_setup_teardown(a_damaged_price_stops_no_run, begin, end)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(a_run_is_compared_with_the_price_that_check_told, begin, test_remove_folder),
+                                      cmocka_unit_test_setup_teardown(the_price_of_another_scene_is_not_compared, begin, test_remove_folder),
+                                      cmocka_unit_test_setup_teardown(a_damaged_price_stops_no_run, begin, test_remove_folder)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *folder;
-
 static const char *const scene =
     "version: 1\nmaterials:\n  plaster: {E: 5 GPa, nu: 0.2, density: 1200 kg/m^3, strength: {tension: 4 MPa}}\n  wall: {E: 50 GPa, nu: 0.2, density: 2500 kg/m^3}\n"
     "bodies: [{name: ball, shape: {sphere: {centre: [0, 0, 20.1 mm], radius: 20 mm}}, fill: {noisy_grid: {elements: 1200, spread: 90 %, lloyd: 3}}, material: plaster}]\n"
@@ -17,22 +15,7 @@ static const char *const scene =
 static int begin(void **state)
 {
     (void)state;
-    folder = test_scene_folder(scene);
-    return folder ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    return test_remove_folder();
-}
-
-/* The number behind the first `mark` in a text. */
-static double number_behind(const char *text, const char *mark)
-{
-    const char *at = text ? strstr(text, mark) : NULL;
-    if (!at) fail_msg("no '%s' in '%s'", mark, text ? text : "");
-    return strtod(at + strlen(mark), NULL);
+    return test_make_folder(scene);
 }
 
 typedef struct memory {
@@ -44,21 +27,17 @@ typedef struct memory {
 static bool tell_and_run(const char *option, memory *told, memory *was)
 {
     static const char looked[] = "broken bonds: about ", whole[] = "broken bonds: ";
-    char arguments[512], path[128], summary[65536];
-    snprintf(arguments, sizeof arguments, "check %s/scene.yaml --device cpu --threads 1 %s", folder, option);
+    char arguments[512];
+    snprintf(arguments, sizeof arguments, "check %s/scene.yaml --device cpu --threads 1 %s", test_folder(), option);
     assert_int_equal(test_program(arguments), 0);
     const char *text = strstr(test_program_stdout(), "predicted:");
     const bool is_whole = text && !strstr(text, looked);
-    *told = (memory){number_behind(text, "; "), number_behind(text, "MB on the host, "), number_behind(text, is_whole ? whole : looked)};
-    snprintf(arguments, sizeof arguments, "run %s/scene.yaml --device cpu --threads 1 -o %s/run", folder, folder);
+    *told = (memory){test_number_behind(text, "; "), test_number_behind(text, "MB on the host, "), test_number_behind(text, is_whole ? whole : looked)};
+    snprintf(arguments, sizeof arguments, "run %s/scene.yaml --device cpu --threads 1 -o %s/run", test_folder(), test_folder());
     assert_int_equal(test_program(arguments), 0);
-    snprintf(path, sizeof path, "%s/run/summary.json", folder);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    summary[fread(summary, 1, sizeof summary - 1, file)] = '\0';
-    fclose(file);
-    *was = (memory){number_behind(summary, "\"host_bytes\": ") / 1e6, number_behind(summary, "\"device_bytes\": ") / 1e6,
-                    100 * number_behind(summary, "\"broken\": ") / number_behind(summary, "\"bonds\": ")};
+    const char *summary = test_text_of("run/summary.json");
+    *was = (memory){test_number_behind(summary, "\"host_bytes\": ") / 1e6, test_number_behind(summary, "\"device_bytes\": ") / 1e6,
+                    100 * test_number_behind(summary, "\"broken\": ") / test_number_behind(summary, "\"bonds\": ")};
     return is_whole;
 }
 
@@ -89,7 +68,7 @@ static void what_breaks_is_in_the_price(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(a_short_run_is_told_as_it_is, begin, end),
-                                      cmocka_unit_test_setup_teardown(what_breaks_is_in_the_price, begin, end)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(a_short_run_is_told_as_it_is, begin, test_remove_folder),
+                                      cmocka_unit_test_setup_teardown(what_breaks_is_in_the_price, begin, test_remove_folder)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,15 +18,10 @@ static const char *const small_scene =
 static int begin(void **state)
 {
     (void)state;
-    folder = test_scene_folder(small_scene);
-    if (folder) snprintf(scene, sizeof scene, "%s/scene.yaml", folder);
-    return folder ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    return test_remove_folder();
+    const int status = test_make_folder(small_scene);
+    folder = test_folder();
+    snprintf(scene, sizeof scene, "%s/scene.yaml", folder);
+    return status;
 }
 
 /* Run with the arguments `before`, and last a file `after` of the test's folder. */
@@ -207,15 +202,11 @@ static void export_needs_a_format_and_a_run(void **state)
 static void a_small_bench_writes_its_rows(void **state)
 {
     (void)state;
-    char arguments[512], path[128], text[8192] = "";
+    char arguments[512];
     snprintf(arguments, sizeof arguments,
              "bench throughput --sizes 64 --devices cpu --threads 1 --precisions double --sample 0.001 --copy 1 -o %s/bench", folder);
     assert_int_equal(test_program(arguments), 0);
-    snprintf(path, sizeof path, "%s/bench/rows.json", folder);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    text[fread(text, 1, sizeof text - 1, file)] = '\0';
-    fclose(file);
+    const char *text = test_text_of("bench/rows.json");
     static const char *const keys[] = {"bond_updates_per_s", "bandwidth_fraction", "copy_bandwidth", "device_bytes_per_element",
                                        "contraction", "compiler", "commit", "date", "\"dlsm-published\""};
     for (size_t k = 0; k < sizeof keys / sizeof *keys; ++k)
@@ -236,5 +227,5 @@ int main(void)
         cmocka_unit_test(export_needs_a_format_and_a_run),
         cmocka_unit_test(a_small_bench_writes_its_rows),
     };
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, begin, test_remove_folder);
 }
