@@ -1,5 +1,6 @@
 /* Predicates are tried on every free face or element in order, so members come out ascending and unique. */
 #include "sets.h"
+#include "set_share.h"
 
 #include "../host/base/memory.h"
 
@@ -174,6 +175,23 @@ brc_status brc_sets_add_empty(brc_context *context, brc_domain *domain, const ch
     return brc_sets_append(context, domain, name, kind, 0, &set);
 }
 
+static brc_status refuse_empty(brc_context *context, const brc_set_request *request, const brc_domain *domain, const char *what, int64_t n)
+{
+    const double spacing = domain->quality.mean_spacing;
+    const bool cuts = request->kind == BRC_SET_FACES && brc_predicate_cuts(&request->where);
+    double x[2][3], area[3], centroid[3];
+    int64_t n_cut = 0;
+    for (int64_t f = 0; cuts && f < n; ++f) n_cut += brc_predicate_share(&request->where, domain, f, area, centroid) > 0;
+    if (n_cut > 0)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "%s is empty: it reaches into %lld of the %lld free faces, and the middle of none of them is inside, as a set asks for; widen the region, or fill the body with cells "
+                        "smaller than %g m", what, (long long)n_cut, (long long)n, spacing);
+    for (int k = 0; k < 6; ++k) x[k / 3][k % 3] = fabs(domain->bounds[k / 3][k % 3]) > BRC_SET_SLACK * spacing ? domain->bounds[k / 3][k % 3] : 0; /* no rounding of a wall at 0 */
+    return BRC_FAIL(context, BRC_BAD_INPUT,
+                    "%s is empty: none of the %lld %s fits; the body reaches from (%g, %g, %g) to (%g, %g, %g) m "
+                    "with elements of about %g m; widen the region",
+                    what, (long long)n, request->kind == BRC_SET_FACES ? "free faces" : "elements", x[0][0], x[0][1], x[0][2], x[1][0], x[1][1], x[1][2], spacing);
+}
+
 static brc_status build_one(brc_context *context, const brc_set_request *request, brc_domain *domain)
 {
     char name[sizeof request->name + 1] = "", what[96];
@@ -185,13 +203,7 @@ static brc_status build_one(brc_context *context, const brc_set_request *request
     const int64_t n = request->kind == BRC_SET_FACES ? domain->n_free_faces : domain->n_elements;
     int64_t count = 0;
     for (int64_t k = 0; k < n; ++k) count += brc_predicate_holds(&request->where, request->kind, domain, k);
-    if (count == 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "%s is empty: none of the %lld %s fits; the body reaches from (%g, %g, %g) to (%g, %g, %g) m "
-                        "with elements of about %g m; widen the region",
-                        what, (long long)n, request->kind == BRC_SET_FACES ? "free faces" : "elements",
-                        domain->bounds[0][0], domain->bounds[0][1], domain->bounds[0][2], domain->bounds[1][0],
-                        domain->bounds[1][1], domain->bounds[1][2], domain->quality.mean_spacing);
+    if (count == 0) return refuse_empty(context, request, domain, what, n);
     brc_set *set;
     BRC_TRY(brc_sets_append(context, domain, name, request->kind, count, &set));
     count = 0;

@@ -7,6 +7,7 @@
 #include "scene_domain.h"
 #include "setup.h"
 #include "trial.h"
+#include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "../output/checkpoint_identity.h"
@@ -177,6 +178,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     BRC_TRY_OR(cleanup, brc_checkpoint_scene(context, scene, &yaml));
     const char *selector = brc_arguments_value(arguments, "device"), *folder = brc_arguments_value(arguments, "output");
     const brc_device_request request = {.selector = selector ? selector : "auto", .precision = precision, .n_threads = (int)n_threads};
+    if (folder) BRC_TRY_OR(cleanup, brc_file_make_folder(context, folder)); /* before the trial: it may take minutes */
     const double start = brc_pace_start_s(&request), build_start = brc_pace_clock_s(&request);
     BRC_TRY_OR(cleanup, brc_setup_domains(context, scene, NULL, (int)n_threads, &setup));
     print_counts(&setup, brc_pace_clock_s(&request) - build_start);

@@ -55,7 +55,6 @@ brc_status brc_price_file_write(brc_context *context, const char *folder, const 
     brc_prediction_told copy = *told;
     char *path = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, brc_file_make_folder(context, folder));
     BRC_TRY_OR(cleanup, brc_file_join(context, folder, FILE_NAME, &path));
     brc_json_begin_object(&json, NULL);
     brc_json_string(&json, "device", of->device);

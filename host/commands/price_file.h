@@ -13,7 +13,7 @@ typedef struct brc_price_of {
     int n_threads;      /* as asked for; 0: all */
 } brc_price_of;
 
-/* Makes the folder where there is none. BRC_FILE_FAILED. */
+/* Into a folder that is there. BRC_FILE_FAILED. */
 brc_status brc_price_file_write(brc_context *context, const char *folder, const brc_price_of *of, const brc_prediction_told *told);
 /* told->known false: there is none, or it is of something else or no price at all, which a line of the log says. */
 brc_status brc_price_file_read(brc_context *context, const char *folder, const brc_price_of *of, brc_prediction_told *told);

@@ -56,7 +56,7 @@ static void tell_dynamic(const brc_scene *scene, const brc_setup *setup, const b
 {
     const double growth = worst_growth(scene), unbroken = t->pace_s * (double)t->planned, fixed = t->enter_s + t->warm_s, output = output_of(t);
     const double factor = t->cut && slower > 1 ? fmin(slower, growth) : 1, part = t->cut && brc_trial_may_end_early(stage) && done > 0 ? fmin(done, 1) : 1;
-    const double seconds = t->cut ? fixed + part * (factor * unbroken + output) : t->enter_s + t->whole_s;
+    const double tried = t->enter_s + t->whole_s, seconds = t->cut ? fmax(fixed + part * (factor * unbroken + output), tried) : tried; /* the trial came so far without an end */
     printf("stage %s: time step %.6g s (%s", stage->name, t->time_step.value, t->time_step.governed_by);
     if (t->time_step.critical > 0) printf(", %.3g of the critical %.6g s", t->time_step.value / t->time_step.critical, t->time_step.critical);
     if (t->time_step.published > 0) printf("; the paper's rule would give %.6g s", t->time_step.published);
@@ -69,7 +69,7 @@ static void tell_dynamic(const brc_scene *scene, const brc_setup *setup, const b
     if (!t->cut) add(total, seconds, seconds, seconds);
     else if (growth == 1 && !brc_trial_may_end_early(stage)) add(total, seconds, seconds, seconds);
     else {
-        const double least = brc_trial_may_end_early(stage) ? t->enter_s + t->whole_s : uncertain * (fixed + unbroken + output), most = fixed + growth * unbroken + 2 * output;
+        const double least = brc_trial_may_end_early(stage) ? tried : uncertain * (fixed + unbroken + output), most = fixed + growth * unbroken + 2 * output;
         printf("stage %s: from %.3g to %.3g s, as %s\n", stage->name, least, most,
                brc_trial_may_end_early(stage) ? "it may end early, bonds break or surfaces meet" : "bonds break or surfaces meet");
         add(total, seconds, least, most);

@@ -158,6 +158,21 @@ static bool is_known(const brc_scene *scene, const wall_names *walls, brc_refere
     return false;
 }
 
+/* "; known: x-, x+, lid": each once, those that there is room for. */
+static const char *list_names(int n, const char *const *words, char *out, size_t room)
+{
+    size_t at = 0;
+    out[0] = '\0';
+    for (int i = 0; i < n; ++i) {
+        bool said = false;
+        for (int k = 0; k < i && !said; ++k) said = strcmp(words[k], words[i]) == 0;
+        const size_t needed = strlen(words[i]) + (at ? sizeof ", " : sizeof "; known: ");
+        if (said || at + needed > room) continue;
+        at += (size_t)snprintf(out + at, room - at, "%s%s", at ? ", " : "; known: ", words[i]);
+    }
+    return out;
+}
+
 static void check_reference(brc_reader *reader, const wall_names *walls, const brc_place *place, const char **words)
 {
     static const char *const WHAT[] = {
@@ -173,8 +188,9 @@ static void check_reference(brc_reader *reader, const wall_names *walls, const b
     if (refers == BRC_REFERS_STAGE && is_broken(reader, "stages")) return;
     if (refers == BRC_REFERS_STRIKER && is_broken(reader, "strikers")) return;
     const char *near = brc_problems_nearest(reader->problems, name, n, words);
+    char known[256];
     const char *hint = near                          ? ""
-                       : refers == BRC_REFERS_WALL   ? ""
+                       : refers == BRC_REFERS_WALL   ? list_names(n, words, known, sizeof known)
                        : about_sets                  ? "; define it under sets"
                        : refers == BRC_REFERS_SENSOR ? "; define it under sensors"
                        : refers == BRC_REFERS_STRIKER ? "; define it under strikers"

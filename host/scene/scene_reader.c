@@ -94,6 +94,14 @@ static const char *known_keys(const brc_section *section, const char **words, in
     return out;
 }
 
+/* "a ", "an ", or nothing before what is many. */
+static const char *article(const char *title)
+{
+    const size_t n = strlen(title);
+    if (n > 1 && title[n - 1] == 's' && !strchr("su", title[n - 2])) return "";
+    return strchr("aeiouE", title[0]) ? "an " : "a ";
+}
+
 static void complain_of_key(brc_reader *reader, const brc_section *section, const brc_node *node)
 {
     const char *words[MANY_KEYS];
@@ -101,8 +109,8 @@ static void complain_of_key(brc_reader *reader, const brc_section *section, cons
     int n;
     known_keys(section, words, &n, list, sizeof list);
     const char *near = brc_problems_nearest(reader->problems, node->key, n, words);
-    brc_problems_add(reader->problems, node->key_mark, "unknown key '%.60s' in a %s%s%s%s; known: %s", node->key,
-                     section->title, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", list);
+    brc_problems_add(reader->problems, node->key_mark, "unknown key '%.60s' in %s%s%s%s%s; known: %s", node->key,
+                     article(section->title), section->title, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", list);
 }
 
 static brc_status read_one_of(brc_reader *reader, const brc_section *section, const brc_node *node, char *base)

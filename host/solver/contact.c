@@ -32,9 +32,17 @@ static brc_status find_kernels(brc_simulation *s)
     return BRC_OK;
 }
 
+static void tell_if_never(const brc_simulation *s)
+{
+    for (int32_t k = 0; k < s->scene->n_stages; ++k)
+        if (s->scene->stages[k].solver == BRC_SOLVER_DYNAMIC) return;
+    brc_log(s->context, BRC_LOG_WARNING, "contact acts in dynamic stages and the scene has none: surfaces%s pass through each other; make the stage `dynamic`", s->scene->n_strikers > 0 ? ", walls and strikers" : "");
+}
+
 brc_status brc_contact_create(brc_simulation *s)
 {
     if (!s->scene->has_contact) return BRC_OK;
+    tell_if_never(s);
     BRC_TRY(BRC_ALLOCATE(s->context, &s->contact, 1, "contact"));
     s->contact->affine = brc_is_dlsm(s);
     s->contact->width = s->contact->affine ? 9 : 3;

@@ -223,6 +223,8 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
                             scene->bodies[b].name);
     if (scene->model.small_rotations && scene->has_fracture)
         return BRC_FAIL(context, BRC_BAD_INPUT, "small_rotations: a linearised law does not break; leave out small_rotations or fracture");
+    if (scene->n_interfaces > 0 && !scene->has_fracture)
+        brc_log(context, BRC_LOG_WARNING, "interfaces say how bonds break, and the scene has no `fracture`: they decide nothing; add `fracture: {}`");
     BRC_TRY(BRC_ALLOCATE(context, &s, 1, "simulation"));
     s->context = context;
     s->scene = scene;

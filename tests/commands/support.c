@@ -1,11 +1,13 @@
 /* Shared by the tests of host/commands. */
 #include "support.h"
+#include "../../host/base/log.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+brc_context *test_context;
 static char out_text[1 << 16], error_text[1 << 16], folder[64];
 
 static void take(const char *path, char *text, size_t size)
@@ -40,11 +42,16 @@ const char *test_program_stderr(void)
     return error_text;
 }
 
+static int make_folder(void)
+{
+    snprintf(folder, sizeof folder, "test-of-commands-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
 int test_make_folder(const char *scene)
 {
     char path[128];
-    snprintf(folder, sizeof folder, "scene-test-XXXXXX");
-    if (!mkdtemp(folder)) return -1;
+    if (make_folder() != 0) return -1;
     snprintf(path, sizeof path, "%s/scene.yaml", folder);
     FILE *file = fopen(path, "w");
     if (!file) return -1;
@@ -63,6 +70,25 @@ int test_remove_folder(void **state)
     (void)state;
     snprintf(command, sizeof command, "rm -rf %s", folder);
     return system(command);
+}
+
+int test_begin(void **state)
+{
+    (void)state;
+    test_context = brc_context_create();
+    brc_log_set_level(test_context, BRC_LOG_ERROR);
+    return make_folder();
+}
+
+int test_end(void **state)
+{
+    brc_context_free(&test_context);
+    return test_remove_folder(state);
+}
+
+void test_done(brc_status status)
+{
+    if (status != BRC_OK) fail_msg("%s", brc_context_message(test_context));
 }
 
 const char *test_text_of(const char *name)

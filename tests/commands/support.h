@@ -8,6 +8,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 #include <math.h>
+#include "../../host/base/status.h"
 
 #define assert_near(value, expected, tolerance) assert_true(fabs((value) - (expected)) <= (tolerance))
 
@@ -22,6 +23,11 @@ int test_make_folder(const char *scene);
 const char *test_folder(void);
 /* A teardown: the folder with all that is in it. */
 int test_remove_folder(void **state);
+/* For tests of the commands' own functions: setup and teardown of a context that logs errors alone, and of an empty folder; fails the test with what the context says. */
+extern brc_context *test_context;
+int test_begin(void **state);
+int test_end(void **state);
+void test_done(brc_status status);
 /* The text of a file of the folder, in static storage until the next is asked for; fails the test where there is none. */
 const char *test_text_of(const char *name);
 /* The number behind the first `mark` in a text; fails the test where there is none. */

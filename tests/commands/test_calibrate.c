@@ -10,32 +10,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static brc_context *context;
-static char folder[64];
-
-static void done(brc_status status)
-{
-    if (status != BRC_OK) fail_msg("%s", brc_context_message(context));
-}
-
-static int begin(void **state)
-{
-    (void)state;
-    context = brc_context_create();
-    brc_log_set_level(context, BRC_LOG_ERROR);
-    snprintf(folder, sizeof folder, "calibrate-test-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    brc_context_free(&context);
-    return system(command);
-}
-
 /* A law of the paper's form, of the size ours has. */
 static const double NU[4][4] = {{0.41, -0.167, 0.389, 0.117}, {-0.364, 0.366, 0.49, -0.07}, {0.08, -0.31, 0.66, -0.12}, {-0.034, 0.093, 0.83, -0.17}};
 static const double E[4][4] = {{-0.022, 0.0151, -0.00228, 8.2e-5}, {0.2, -0.152, 0.0235, -0.00086}, {-0.304, 0.244, -0.0329, 0.00128}, {0.1055, -0.0141, 0.0202, -0.00079}};
@@ -44,7 +18,7 @@ static const double E[4][4] = {{-0.022, 0.0151, -0.00228, 8.2e-5}, {0.2, -0.152,
 static void make_rows(const brc_calibration_plan *plan, brc_calibration_rows *rows)
 {
     memset(rows, 0, sizeof *rows);
-    done(BRC_ALLOCATE(context, &rows->rows, plan->n_coordinations * plan->n_radii, "rows"));
+    test_done(BRC_ALLOCATE(test_context, &rows->rows, plan->n_coordinations * plan->n_radii, "rows"));
     for (int c = 0; c < plan->n_coordinations; ++c)
         for (int r = 0; r < plan->n_radii; ++r)
             rows->rows[rows->n++] = (brc_calibration_row){.coordination = plan->coordination[c], .radius = plan->radius[r], .beam_young = 1,
@@ -68,7 +42,7 @@ static void both_fits_of_the_papers_form_find_the_law_that_made_the_data(void **
     brc_calibration_rows rows;
     brc_calibration_fit fit;
     make_rows(&plan, &rows);
-    done(brc_calibrate_fit(context, &plan, &rows, &fit));
+    test_done(brc_calibrate_fit(test_context, &plan, &rows, &fit));
     for (int form = BRC_FORM_TWO_STAGE; form <= BRC_FORM_JOINT; ++form) {
         assert_true(fit.made[form]);
         for (int q = 0; q < BRC_QUANTITIES; ++q) {
@@ -96,7 +70,7 @@ static void the_surface_is_found_again(void **state)
         rows.rows[k].poisson = brc_beam_law_poisson(law, rows.rows[k].coordination, rows.rows[k].radius);
         rows.rows[k].young = brc_beam_law_young(law, rows.rows[k].coordination, rows.rows[k].radius);
     }
-    done(brc_calibrate_fit(context, &plan, &rows, &fit));
+    test_done(brc_calibrate_fit(test_context, &plan, &rows, &fit));
     for (int i = 0; i < BRC_BEAM_LAW_ROWS; ++i)
         for (int j = 0; j < BRC_BEAM_LAW_COLUMNS; ++j) {
             assert_near(fit.law.poisson[i][j], law->poisson[i][j], 1e-11);
@@ -112,7 +86,7 @@ static void few_coordination_numbers_leave_the_paper_form_out(void **state)
     brc_calibration_rows rows;
     brc_calibration_fit fit;
     make_rows(&plan, &rows);
-    done(brc_calibrate_fit(context, &plan, &rows, &fit));
+    test_done(brc_calibrate_fit(test_context, &plan, &rows, &fit));
     assert_true(fit.made[BRC_FORM_CUBICS] && fit.made[BRC_FORM_SURFACE]);
     assert_false(fit.made[BRC_FORM_TWO_STAGE] || fit.made[BRC_FORM_JOINT]);
     brc_calibration_rows_free(&rows);
@@ -142,25 +116,25 @@ static void a_stopped_campaign_goes_on_to_the_same_results(void **state)
     brc_calibration_rows first, second, third;
     char *text;
     size_t bytes;
-    snprintf(whole, sizeof whole, "%s/whole", folder);
-    snprintf(stopped, sizeof stopped, "%s/stopped", folder);
+    snprintf(whole, sizeof whole, "%s/whole", test_folder());
+    snprintf(stopped, sizeof stopped, "%s/stopped", test_folder());
     const brc_calibration_plan one = small_plan(1), two = small_plan(2);
-    done(brc_calibrate_campaign(context, &one, whole, false, &first));
+    test_done(brc_calibrate_campaign(test_context, &one, whole, false, &first));
     assert_int_equal(first.n, 16);
     for (int64_t k = 0; k + 2 < first.n; ++k) /* rows run over seeds within E_m */
         if (first.rows[k].beam_young == 1 && first.rows[k].radius == first.rows[k + 2].radius)
             assert_true(fabs(first.rows[k + 2].young / first.rows[k].young - 1) < 1e-9);
     snprintf(path, sizeof path, "%s/solves.csv", whole);
-    done(brc_file_read_whole(context, path, 1 << 20, &text, &bytes));
-    done(brc_file_make_folder(context, stopped));
+    test_done(brc_file_read_whole(test_context, path, 1 << 20, &text, &bytes));
+    test_done(brc_file_make_folder(test_context, stopped));
     snprintf(path, sizeof path, "%s/solves.csv", stopped);
-    done(brc_file_write_whole(context, path, text, bytes / 2 + 3));
+    test_done(brc_file_write_whole(test_context, path, text, bytes / 2 + 3));
     brc_memory_free(text);
-    done(brc_calibrate_campaign(context, &two, stopped, true, &second));
+    test_done(brc_calibrate_campaign(test_context, &two, stopped, true, &second));
     same_rows(&first, &second);
-    done(brc_calibrate_campaign(context, &two, stopped, true, &third)); /* nothing left to do */
+    test_done(brc_calibrate_campaign(test_context, &two, stopped, true, &third)); /* nothing left to do */
     same_rows(&first, &third);
-    done(brc_file_read_whole(context, path, 1 << 20, &text, &bytes));
+    test_done(brc_file_read_whole(test_context, path, 1 << 20, &text, &bytes));
     int lines = 0;
     for (const char *c = text; *c; ++c) lines += *c == '\n';
     assert_int_equal(lines, 17);
@@ -177,12 +151,12 @@ static void results_that_are_there_are_not_mixed_unasked(void **state)
     brc_calibration_rows rows;
     brc_calibration_plan plan = small_plan(1);
     plan.n_samples = plan.n_coordinations = plan.n_radii = plan.n_youngs = 1;
-    snprintf(there, sizeof there, "%s/there", folder);
-    done(brc_calibrate_campaign(context, &plan, there, false, &rows));
+    snprintf(there, sizeof there, "%s/there", test_folder());
+    test_done(brc_calibrate_campaign(test_context, &plan, there, false, &rows));
     brc_calibration_rows_free(&rows);
-    assert_int_equal(brc_calibrate_campaign(context, &plan, there, false, &rows), BRC_BAD_INPUT);
-    assert_non_null(strstr(brc_context_message(context), "--resume goes on with it"));
-    brc_context_clear(context);
+    assert_int_equal(brc_calibrate_campaign(test_context, &plan, there, false, &rows), BRC_BAD_INPUT);
+    assert_non_null(strstr(brc_context_message(test_context), "--resume goes on with it"));
+    brc_context_clear(test_context);
 }
 
 int main(void)
@@ -194,5 +168,5 @@ int main(void)
         cmocka_unit_test(a_stopped_campaign_goes_on_to_the_same_results),
         cmocka_unit_test(results_that_are_there_are_not_mixed_unasked),
     };
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, test_begin, test_end);
 }

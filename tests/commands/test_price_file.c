@@ -73,10 +73,21 @@ static void a_damaged_price_stops_no_run(void **state)
     if (!strstr(test_program_stderr(), "cannot be read")) fail_msg("no word of it in '%s'", test_program_stderr());
 }
 
+static void a_price_that_cannot_be_written_is_refused_before_the_trial(void **state)
+{
+    (void)state;
+    char arguments[512];
+    snprintf(arguments, sizeof arguments, "check %s/scene.yaml --device cpu --threads 1 -o %s/scene.yaml", test_folder(), test_folder());
+    assert_int_equal(test_program(arguments), 3);
+    if (!strstr(test_program_stderr(), "is a file where a folder is needed")) fail_msg("no word of it in '%s'", test_program_stderr());
+    assert_null(strstr(test_program_stdout(), "predicted:"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(a_run_is_compared_with_the_price_that_check_told, begin, test_remove_folder),
                                       cmocka_unit_test_setup_teardown(the_price_of_another_scene_is_not_compared, begin, test_remove_folder),
+                                      cmocka_unit_test_setup_teardown(a_price_that_cannot_be_written_is_refused_before_the_trial, begin, test_remove_folder),
                                       cmocka_unit_test_setup_teardown(a_damaged_price_stops_no_run, begin, test_remove_folder)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

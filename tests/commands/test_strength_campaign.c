@@ -9,32 +9,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static brc_context *context;
-static char folder[64];
-
-static void done(brc_status status)
-{
-    if (status != BRC_OK) fail_msg("%s", brc_context_message(context));
-}
-
-static int begin(void **state)
-{
-    (void)state;
-    context = brc_context_create();
-    brc_log_set_level(context, BRC_LOG_ERROR);
-    snprintf(folder, sizeof folder, "strength-test-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    brc_context_free(&context);
-    return system(command);
-}
-
 static brc_strength_plan wide_plan(void)
 {
     brc_strength_plan plan = {.samples = {.n_elements = 1000, .radius_spread = 0.125, .n_samples = 1, .n_axes = 1, .n_coordinations = 8, .n_radii = 6, .n_youngs = 1,
@@ -49,7 +23,7 @@ static void make_rows(const brc_strength_plan *plan, const brc_strength_law *law
 {
     const brc_calibration_plan *s = &plan->samples;
     memset(rows, 0, sizeof *rows);
-    done(BRC_ALLOCATE(context, &rows->rows, 2 * s->n_coordinations * s->n_radii, "rows"));
+    test_done(BRC_ALLOCATE(test_context, &rows->rows, 2 * s->n_coordinations * s->n_radii, "rows"));
     for (int c = 0; c < s->n_coordinations; ++c)
         for (int r = 0; r < s->n_radii; ++r)
             for (int spoilt = 0; spoilt < 2; ++spoilt)
@@ -66,7 +40,7 @@ static void the_fit_of_eq_22_finds_the_printed_coefficients(void **state)
     brc_strength_rows rows;
     brc_strength_fit fit;
     make_rows(&plan, published, &rows);
-    done(brc_strength_fit_make(context, &plan, &rows, &fit));
+    test_done(brc_strength_fit_make(test_context, &plan, &rows, &fit));
     assert_true(fit.made[BRC_STRENGTH_REFITTED]);
     for (int k = 0; k < BRC_STRENGTH_LAW_PAPER; ++k) assert_near(fit.law[BRC_STRENGTH_REFITTED].paper[k], published->paper[k], 1e-9);
     assert_int_equal(fit.quality[BRC_STRENGTH_REFITTED].n, 40); /* r_m 0.14 is no place of eq. 22 */
@@ -87,7 +61,7 @@ static void the_surface_is_found_again(void **state)
     for (int k = 0; k < 6; ++k) plan.samples.radius[k] = law->radius[0] * pow(law->radius[1] / law->radius[0], k / 5.0);
     plan.samples.radius[5] = law->radius[1];
     make_rows(&plan, law, &rows);
-    done(brc_strength_fit_make(context, &plan, &rows, &fit));
+    test_done(brc_strength_fit_make(test_context, &plan, &rows, &fit));
     for (int i = 0; i < BRC_STRENGTH_LAW_ROWS; ++i)
         for (int j = 0; j < BRC_STRENGTH_LAW_COLUMNS; ++j) assert_near(fit.law[BRC_STRENGTH_SURFACE].surface[i][j], law->surface[i][j], 1e-12);
     brc_strength_rows_free(&rows);
@@ -101,7 +75,7 @@ static void few_places_leave_eq_22_out(void **state)
     brc_strength_fit fit;
     plan.samples.n_coordinations = 3;
     make_rows(&plan, brc_strength_law_published(), &rows);
-    done(brc_strength_fit_make(context, &plan, &rows, &fit));
+    test_done(brc_strength_fit_make(test_context, &plan, &rows, &fit));
     assert_true(fit.made[BRC_STRENGTH_SURFACE] && !fit.made[BRC_STRENGTH_REFITTED]);
     brc_strength_rows_free(&rows);
 }
@@ -131,22 +105,22 @@ static void a_stopped_campaign_goes_on_to_the_same_results(void **state)
     brc_strength_rows first, second, third;
     char *text;
     size_t bytes;
-    snprintf(whole, sizeof whole, "%s/whole", folder);
-    snprintf(stopped, sizeof stopped, "%s/stopped", folder);
+    snprintf(whole, sizeof whole, "%s/whole", test_folder());
+    snprintf(stopped, sizeof stopped, "%s/stopped", test_folder());
     const brc_strength_plan one = small_plan(1), two = small_plan(2);
-    done(brc_strength_campaign(context, &one, whole, false, &first));
+    test_done(brc_strength_campaign(test_context, &one, whole, false, &first));
     assert_int_equal(first.n, 16);
     snprintf(path, sizeof path, "%s/tests.csv", whole);
-    done(brc_file_read_whole(context, path, 1 << 20, &text, &bytes));
-    done(brc_file_make_folder(context, stopped));
+    test_done(brc_file_read_whole(test_context, path, 1 << 20, &text, &bytes));
+    test_done(brc_file_make_folder(test_context, stopped));
     snprintf(path, sizeof path, "%s/tests.csv", stopped);
-    done(brc_file_write_whole(context, path, text, bytes / 2 + 3));
+    test_done(brc_file_write_whole(test_context, path, text, bytes / 2 + 3));
     brc_memory_free(text);
-    done(brc_strength_campaign(context, &two, stopped, true, &second));
+    test_done(brc_strength_campaign(test_context, &two, stopped, true, &second));
     same_rows(&first, &second);
-    done(brc_strength_campaign(context, &two, stopped, true, &third)); /* nothing left to do */
+    test_done(brc_strength_campaign(test_context, &two, stopped, true, &third)); /* nothing left to do */
     same_rows(&first, &third);
-    done(brc_file_read_whole(context, path, 1 << 20, &text, &bytes));
+    test_done(brc_file_read_whole(test_context, path, 1 << 20, &text, &bytes));
     int lines = 0;
     for (const char *c = text; *c; ++c) lines += *c == '\n';
     assert_int_equal(lines, 17);
@@ -177,20 +151,20 @@ static void results_that_are_no_results_are_named(void **state)
     char *text;
     size_t bytes;
     plan.samples.n_samples = plan.samples.n_coordinations = plan.samples.n_youngs = plan.n_limits = 1;
-    snprintf(there, sizeof there, "%s/there", folder);
-    done(brc_strength_campaign(context, &plan, there, false, &rows));
+    snprintf(there, sizeof there, "%s/there", test_folder());
+    test_done(brc_strength_campaign(test_context, &plan, there, false, &rows));
     brc_strength_rows_free(&rows);
-    assert_int_equal(brc_strength_campaign(context, &plan, there, false, &rows), BRC_BAD_INPUT);
-    assert_non_null(strstr(brc_context_message(context), "--resume goes on with it"));
-    brc_context_clear(context);
+    assert_int_equal(brc_strength_campaign(test_context, &plan, there, false, &rows), BRC_BAD_INPUT);
+    assert_non_null(strstr(brc_context_message(test_context), "--resume goes on with it"));
+    brc_context_clear(test_context);
     snprintf(path, sizeof path, "%s/tests.csv", there);
-    done(brc_file_read_whole(context, path, 1 << 20, &text, &bytes));
+    test_done(brc_file_read_whole(test_context, path, 1 << 20, &text, &bytes));
     char *spoilt = malloc(bytes + 16);
     snprintf(spoilt, bytes + 16, "%sno result\n", text);
-    done(brc_file_write_whole(context, path, spoilt, strlen(spoilt)));
-    assert_int_equal(brc_strength_campaign(context, &plan, there, true, &rows), BRC_BAD_INPUT);
-    assert_non_null(strstr(brc_context_message(context), "tests.csv:3: not a result"));
-    brc_context_clear(context);
+    test_done(brc_file_write_whole(test_context, path, spoilt, strlen(spoilt)));
+    assert_int_equal(brc_strength_campaign(test_context, &plan, there, true, &rows), BRC_BAD_INPUT);
+    assert_non_null(strstr(brc_context_message(test_context), "tests.csv:3: not a result"));
+    brc_context_clear(test_context);
     free(spoilt);
     brc_memory_free(text);
 }
@@ -204,5 +178,5 @@ int main(void)
         cmocka_unit_test(a_stopped_campaign_goes_on_to_the_same_results),
         cmocka_unit_test(results_that_are_no_results_are_named),
     };
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, test_begin, test_end);
 }

@@ -127,7 +127,9 @@ static void bad_sets_are_refused_with_a_sentence(void **state)
     r.sets = sets;
     r.n_sets = 1;
     sets[0].where = (brc_predicate){.has_sphere = true, .sphere_centre = {5, 5, 5}, .sphere_radius = 0.1};
-    test_refused(context, &r, BRC_BAD_INPUT, "set 'clamp' is empty: none of the 600 free faces fits");
+    test_refused(context, &r, BRC_BAD_INPUT, "set 'clamp' is empty: none of the 600 free faces fits; the body reaches from (0, 0, 0) to (1, 1, 1) m");
+    sets[0].where = (brc_predicate){.has_box = true, .box = {{0.28, 0.28, 0.9}, {0.33, 0.33, 2}}}; /* about a corner of four faces of 0.1 m */
+    test_refused(context, &r, BRC_BAD_INPUT, "set 'clamp' is empty: it reaches into 4 of the 600 free faces, and the middle of none of them is inside");
     sets[0].where = (brc_predicate){.has_wall = true, .wall = "side"};
     test_refused(context, &r, BRC_BAD_INPUT, "wall 'side' is unknown, the walls of this shape are x-, x+, y-, y+, z-, z+");
     sets[0].where = (brc_predicate){.has_box = true, .box = {{0, 1, 0}, {1, 0, 1}}};

@@ -14,19 +14,10 @@
 #define B "  b: {E: 7 GPa, nu: 0.3, density: 1500 kg/m^3}\n"
 #define END "stages: [{name: pull, solver: static}]\n"
 
-static brc_scene *read(brc_context *context, const char *text)
-{
-    brc_scene *scene = NULL;
-    if (brc_scene_read_text(context, "scene.yaml", text, strlen(text), 0, NULL, &scene) != BRC_OK)
-        fail_msg("%s\n%s", brc_context_message(context), text);
-    return scene;
-}
-
 static void strengths_keep_energy_softening_and_scatter(void **state)
 {
     (void)state;
-    brc_context *context = brc_context_create();
-    brc_scene *scene = read(context, TOP A "{tension: 50 MPa, fracture_energy: 8 J/m^2, softening: exponential, scatter: {weibull: {modulus: 10, volume: 2 mm^3}}}}\n"
+    brc_scene *scene = good_scene(TOP A "{tension: 50 MPa, fracture_energy: 8 J/m^2, softening: exponential, scatter: {weibull: {modulus: 10, volume: 2 mm^3}}}}\n"
                             "  b: {E: 7 GPa, nu: 0.3, density: 1500 kg/m^3, strength: {tension: 5 MPa, scatter: {table: [{below: 0, factor: 0.5}, {below: 1, factor: 2}]}}}\n"
                             "  c: {E: 7 GPa, nu: 0.3, density: 1500 kg/m^3, strength: {tension: 5 MPa, scatter: {file: f.csv}}}\n" BODY END);
     const brc_material *a = &scene->materials[0], *b = &scene->materials[1];
@@ -40,14 +31,12 @@ static void strengths_keep_energy_softening_and_scatter(void **state)
     assert_int_equal(scene->materials[2].scatter.kind, BRC_SCATTER_FILE);
     assert_string_equal(scene->materials[2].scatter.file, "f.csv");
     brc_scene_free(&scene);
-    brc_context_free(&context);
 }
 
 static void interfaces_keep_their_sides_and_order(void **state)
 {
     (void)state;
-    brc_context *context = brc_context_create();
-    brc_scene *scene = read(context, TOP A "{tension: 50 MPa}}\n" B BODY
+    brc_scene *scene = good_scene(TOP A "{tension: 50 MPa}}\n" B BODY
                             "fracture: {criterion: bond-normal, seed: 7}\n"
                             "interactions:\n  interfaces:\n    - grains: {factor: 50 %}\n"
                             "    - materials: {first: b, second: a, tension: 3 MPa, fracture_energy: 1 N/m}\n" END);
@@ -61,7 +50,6 @@ static void interfaces_keep_their_sides_and_order(void **state)
     assert_int_equal(scene->fracture.kind, BRC_CRITERION_BOND_NORMAL);
     assert_int_equal(scene->fracture.seed, 7);
     brc_scene_free(&scene);
-    brc_context_free(&context);
 }
 
 static void criterion_follows_the_model_unless_given(void **state)
@@ -77,8 +65,7 @@ static void criterion_follows_the_model_unless_given(void **state)
 static void bodies_keep_their_own_model(void **state)
 {
     (void)state;
-    brc_context *context = brc_context_create();
-    brc_scene *scene = read(context, TOP A "{tension: 50 MPa}}\n"
+    brc_scene *scene = good_scene(TOP A "{tension: 50 MPa}}\n"
                             "model: {dlsm: {tau: 0.2}}\n"
                             "bodies:\n  - {name: one, domain: d.h5}\n  - {name: two, domain: e.h5, model: {dlsm: {compaction: false}}}\n"
                             "  - {name: three, domain: f.h5, model: cbm}\n" END);
@@ -86,7 +73,6 @@ static void bodies_keep_their_own_model(void **state)
     assert_true(scene->bodies[1].has_model && scene->bodies[1].model.kind == BRC_MODEL_DLSM && scene->bodies[1].model.beta == 0);
     assert_true(scene->bodies[2].has_model && scene->bodies[2].model.kind == BRC_MODEL_CBM && scene->bodies[2].model.beam_poisson == 0.3);
     brc_scene_free(&scene);
-    brc_context_free(&context);
 }
 
 static void what_does_not_fit_is_refused(void **state)

@@ -57,6 +57,8 @@ static void misspelt_keys_are_guessed(void **state)
     bad_scene(HEAD "stages: [{name: p, solver: {dynamik: {steps: 1}}}]\n", "9:29", "did you mean 'dynamic'?");
     bad_scene(HEAD STAGES "output: {picture: {colour: vonmises}}\n", "10:28", "did you mean von_mises?");
     bad_scene(HEAD STAGES "xyzzyplugh: 1\n", "10:1", "unknown key 'xyzzyplugh' in a scene; known: version, title");
+    bad_scene(HEAD STAGES "interactions: {interface: []}\n", "10:16", "unknown key 'interface' in interactions; did you mean 'interfaces'?");
+    bad_scene(HEAD STAGES "output: {xyzzyplugh: 1}\n", "10:10", "unknown key 'xyzzyplugh' in an output; known: ");
 }
 
 static void walls_and_strikers_need_contact_and_a_free_one_a_shape(void **state)
@@ -185,7 +187,7 @@ static void unknown_names_are_refused_with_the_nearest(void **state)
     bad_scene("version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\n"
               "bodies: [{shape: {sphere: {radius: 1 m}}, fill: {noisy_grid: {elements: 9}}}]\nsets: {a: {faces: "
               "x-}}\n" STAGES,
-              "4:19", "there is no wall 'x-'");
+              "4:19", "there is no wall 'x-'; known: surface");
 }
 
 static void names_in_a_domain_file_are_not_judged(void **state)

@@ -15,19 +15,10 @@
 #define BODY "bodies:\n  - material: a\n"
 #define END "stages: [{name: pull, solver: static}]\n"
 
-static brc_scene *read(brc_context *context, const char *text)
-{
-    brc_scene *scene = NULL;
-    if (brc_scene_read_text(context, "scene.yaml", text, strlen(text), 0, NULL, &scene) != BRC_OK)
-        fail_msg("%s\n%s", brc_context_message(context), text);
-    return scene;
-}
-
 static void parts_keep_their_order_role_pose_and_sizes(void **state)
 {
     (void)state;
-    brc_context *context = brc_context_create();
-    brc_scene *scene = read(context, TOP BODY GRID
+    brc_scene *scene = good_scene(TOP BODY GRID
                             "    shape:\n      parts:\n"
                             "        - {role: add, name: base, shape: {box: {size: [10 mm, 10 mm, 2 mm]}}}\n"
                             "        - {role: remove, name: hole, shape: {cylinder: {axis: z, length: 4 mm, radius: 1 mm}}, "
@@ -46,7 +37,6 @@ static void parts_keep_their_order_role_pose_and_sizes(void **state)
     assert_true(shape->parts[2].shape.normal[0] == 1 && shape->parts[2].shape.origin[0] == 9e-3);
     assert_string_equal(shape->parts[0].name, "base");
     brc_scene_free(&scene);
-    brc_context_free(&context);
 }
 
 static void walls_of_parts_carry_the_name_of_the_part(void **state)
@@ -62,13 +52,13 @@ static void a_packing_stops_at_the_usual_coordination_unless_told_otherwise(void
 {
     (void)state;
     brc_context *context = brc_context_create();
-    brc_scene *scene = read(context, TOP BODY "    shape: {box: {size: [1 m, 1 m, 1 m]}}\n" PACKED END);
+    brc_scene *scene = good_scene(TOP BODY "    shape: {box: {size: [1 m, 1 m, 1 m]}}\n" PACKED END);
     const brc_fill *fill = &scene->bodies[0].fill;
     assert_int_equal(fill->kind, BRC_FILL_PACKING);
     assert_true(fill->coordination == 6.2 && fill->volume_fraction == 0 && fill->radius_spread == 0.125);
     assert_int_equal(fill->n_elements, 1000);
     brc_scene_free(&scene);
-    scene = read(context, TOP BODY "    shape: {box: {size: [1 m, 1 m, 1 m]}}\n"
+    scene = good_scene(TOP BODY "    shape: {box: {size: [1 m, 1 m, 1 m]}}\n"
                  "    fill: {packing: {radius: 2 cm, volume_fraction: 60 %, radii: [{radius: 1 mm, below: 0}, {radius: 2 mm, below: 1}]}}\n" END);
     fill = &scene->bodies[0].fill;
     assert_true(fill->coordination == 0 && fill->volume_fraction == 0.6 && fill->n_radii == 2 && fill->radii[1].radius == 2e-3);
@@ -81,8 +71,7 @@ static void a_packing_stops_at_the_usual_coordination_unless_told_otherwise(void
 static void grains_cracks_beams_and_limits_are_kept(void **state)
 {
     (void)state;
-    brc_context *context = brc_context_create();
-    brc_scene *scene = read(context, TOP BODY "    shape: {box: {size: [1 m, 1 m, 1 m]}}\n" PACKED "    beams: 8\n"
+    brc_scene *scene = good_scene(TOP BODY "    shape: {box: {size: [1 m, 1 m, 1 m]}}\n" PACKED "    beams: 8\n"
                             "    grains: {number: 12, seed: 4, phases: [{material: b, fraction: 40 %}]}\n"
                             "    cracks:\n      - {name: notch, flat: false, patch: {rectangle: {corner: [0, 0, 50 cm], edge: [20 cm, 0, 0], other_edge: [0, 1 m, 0]}}}\n"
                             "      - {name: penny, patch: {disc: {centre: [50 cm, 50 cm, 50 cm], normal: [0, 0, 3], radius: 10 cm}}}\n"
@@ -98,7 +87,6 @@ static void grains_cracks_beams_and_limits_are_kept(void **state)
     assert_true(scene->n_limits == 1 && scene->limits[0].has_warn && scene->limits[0].refuse == 0.01);
     assert_string_equal(scene->limits[0].number, "volume_error");
     brc_scene_free(&scene);
-    brc_context_free(&context);
 }
 
 static void walls_of_spheres_are_sets_of_elements(void **state)

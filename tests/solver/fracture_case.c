@@ -1,6 +1,7 @@
 #include "fracture_case.h"
 #include "../../host/base/log.h"
 #include "../skip.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,6 +32,38 @@ brc_status try_fracture(bench_case *c, fracture_options o)
 }
 
 void open_fracture(bench_case *c, fracture_options options) { assert_done(c, try_fracture(c, options)); }
+
+void fracture_is_nothing_unless_asked(bench_case *plain, bench_case *strong, bench_case *with)
+{
+    assert_true(is_listed(brc_simulation_effects_out(strong->simulation), "fracture") && !is_listed(brc_simulation_effects_in(strong->simulation), "fracture"));
+    assert_true(is_listed(brc_simulation_effects_in(with->simulation), "fracture"));
+    assert_true(brc_device_bytes(plain->device) == brc_device_bytes(strong->device));
+    assert_true(brc_device_bytes(with->device) > brc_device_bytes(strong->device));
+    const int64_t n = 3 * plain->domain->n_elements;
+    double *u = calloc((size_t)(2 * n), sizeof *u);
+    begin_first(plain), begin_first(strong);
+    run_steps(plain, 50), run_steps(strong, 50);
+    assert_done(plain, brc_simulation_displacement(plain->simulation, u));
+    assert_done(strong, brc_simulation_displacement(strong->simulation, u + n));
+    assert_memory_equal(u, u + n, (size_t)n * sizeof *u);
+    free(u);
+    close_case(plain), close_case(strong), close_case(with);
+}
+
+void fracture_that_never_comes_moves_nothing(bench_case *plain, bench_case *with)
+{
+    const int64_t n = 3 * plain->domain->n_elements;
+    double *u = calloc((size_t)(2 * n), sizeof *u), largest = 0;
+    begin_first(plain), begin_first(with);
+    run_steps(plain, 50), run_steps(with, 50);
+    assert_done(plain, brc_simulation_displacement(plain->simulation, u));
+    assert_done(with, brc_simulation_displacement(with->simulation, u + n));
+    for (int64_t k = 0; k < n; ++k) largest = fmax(largest, fabs(u[k]));
+    for (int64_t k = 0; k < n; ++k) assert_true(fabs(u[k] - u[k + n]) < 1e-10 * largest);
+    assert_int_equal(count_broken(with), 0);
+    free(u);
+    close_case(plain), close_case(with);
+}
 
 void fracture_compare(fracture_options a, fracture_options b)
 {

@@ -29,6 +29,11 @@ void fracture_compare(fracture_options a, fracture_options b);
 /* fracture_compare of the cpu and another device, exactly rounded, brittle and softening; returns the exit code of the test, a skip where there is no such
  * device. */
 int fracture_device_run(const char *device);
+/* Three cases of one body and stage, which are closed: without a strength, with one, and with `fracture` too. Fracture alone takes arrays, and a strength alone changes no bit of 50 steps. */
+void fracture_is_nothing_unless_asked(bench_case *plain, bench_case *strong, bench_case *with);
+/* Two cases, which are closed, without fracture and with bonds too strong to break: the same motion in 50 steps to 1e-10 of the largest displacement. The passes of fracture compute the
+ * same forces; the compiler may round them in another order, some rounding of u a step, which a wave carries on. */
+void fracture_that_never_comes_moves_nothing(bench_case *plain, bench_case *with);
 /* Momentum and angular momentum about the origin of a free body of density 1 [kg m/s], [kg m^2/s]. */
 void fracture_momenta(bench_case *c, double p[6]);
 

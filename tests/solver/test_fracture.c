@@ -22,40 +22,16 @@ static void without_fracture_there_is_neither_array_nor_pass(void **state)
     open_fracture(&plain, (fracture_options){.stages = BURST(50)});
     open_fracture(&strong, (fracture_options){.stages = BURST(50), .strength = STRENGTH});
     open_fracture(&with, (fracture_options){.stages = BURST(50), .strength = STRENGTH, .fracture = CRITERION(1)});
-    assert_true(is_listed(brc_simulation_effects_out(strong.simulation), "fracture") && !is_listed(brc_simulation_effects_in(strong.simulation), "fracture"));
-    assert_true(is_listed(brc_simulation_effects_in(with.simulation), "fracture"));
-    assert_true(brc_device_bytes(plain.device) == brc_device_bytes(strong.device));
-    assert_true(brc_device_bytes(with.device) > brc_device_bytes(strong.device));
-    const int64_t n = 3 * plain.domain->n_elements;
-    double *u = calloc((size_t)(2 * n), sizeof *u);
-    begin_first(&plain), begin_first(&strong);
-    run_steps(&plain, 50), run_steps(&strong, 50);
-    assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
-    assert_done(&strong, brc_simulation_displacement(strong.simulation, u + n));
-    assert_memory_equal(u, u + n, (size_t)n * sizeof *u);
-    free(u);
-    close_case(&plain), close_case(&strong), close_case(&with);
+    fracture_is_nothing_unless_asked(&plain, &strong, &with);
 }
 
-/* The passes of fracture compute the same forces; the compiler may round them in another order. Per step some rounding of u, which a wave
- * carries on: 50 steps of it are far below 1e-10 of the largest displacement. */
 static void what_never_breaks_moves_as_without_fracture(void **state)
 {
     (void)state;
     bench_case plain, with;
     open_fracture(&plain, (fracture_options){.stages = BURST(50)});
     open_fracture(&with, (fracture_options){.stages = BURST(50), .strength = "strength: {tension: 1 GPa}", .fracture = CRITERION(1)});
-    const int64_t n = 3 * plain.domain->n_elements;
-    double *u = calloc((size_t)(2 * n), sizeof *u), largest = 0;
-    begin_first(&plain), begin_first(&with);
-    run_steps(&plain, 50), run_steps(&with, 50);
-    assert_done(&plain, brc_simulation_displacement(plain.simulation, u));
-    assert_done(&with, brc_simulation_displacement(with.simulation, u + n));
-    for (int64_t k = 0; k < n; ++k) largest = fmax(largest, fabs(u[k]));
-    for (int64_t k = 0; k < n; ++k) assert_true(fabs(u[k] - u[k + n]) < 1e-10 * largest);
-    assert_int_equal(count_broken(&with), 0);
-    free(u);
-    close_case(&plain), close_case(&with);
+    fracture_that_never_comes_moves_nothing(&plain, &with);
 }
 
 /* ---- which bonds ---- */

@@ -182,26 +182,8 @@ static void a_mesh_that_stands_in_a_body_is_refused(void **state)
 static void a_checkpoint_without_the_friction_of_its_pairs_is_refused(void **state)
 {
     (void)state;
-    static memory_store store;
-    const case_options options = {.n_threads = 1, .materials = CELLS_STRENGTH("2e-4 Pa"), .fill = "cells: [4, 4, 4], spread: 50 %, seed: 1", .stages = CONTACT_CRUSH, .gravity = CONTACT_KEYS};
-    static const char *const needed[] = {"contact.pairs", "contact.history", "contact.friction"};
-    for (size_t k = 0; k < sizeof needed / sizeof *needed; ++k) {
-        bench_case a, b;
-        open_case(&a, options);
-        assert_done(&a, brc_simulation_begin_stage(a.simulation, 0));
-        assert_done(&a, brc_simulation_advance(a.simulation, 150));
-        memory_store_begin(&store, a.context);
-        assert_done(&a, brc_lockstep_save(1, &a.simulation, &store.store));
-        assert_true(memory_store_find(&store, 0, "contact.pairs")->rows > 0);
-        strcpy(memory_store_find(&store, 0, needed[k])->name, "other");
-        open_case(&b, options);
-        store.context = b.context;
-        store.store.loading = true;
-        assert_int_equal(brc_lockstep_load(1, &b.simulation, &store.store), BRC_BAD_INPUT);
-        assert_non_null(strstr(brc_context_message(b.context), needed[k]));
-        memory_store_free(&store);
-        close_case(&a), close_case(&b);
-    }
+    state_is_refused_without((case_options){.n_threads = 1, .materials = CELLS_STRENGTH("2e-4 Pa"), .fill = "cells: [4, 4, 4], spread: 50 %, seed: 1", .stages = CONTACT_CRUSH, .gravity = CONTACT_KEYS}, 150, 3,
+                             (const char *const[]){"contact.pairs", "contact.history", "contact.friction"});
 }
 
 int main(void)

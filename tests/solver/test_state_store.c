@@ -85,24 +85,8 @@ static void touching_surfaces_go_on_with_their_friction(void **state)
 static void a_store_without_a_number_is_refused(void **state)
 {
     (void)state;
-    static memory_store store;
-    const case_options options = {.n_threads = 1, .stages = CELLS_BURST(4), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE};
-    static const char *const needed[] = {"velocity", "fracture.half_edges", "cells.area", "modes"};
-    for (size_t k = 0; k < sizeof needed / sizeof *needed; ++k) {
-        bench_case a, b;
-        open_case(&a, options);
-        assert_done(&a, brc_simulation_begin_stage(a.simulation, 0));
-        memory_store_begin(&store, a.context);
-        assert_done(&a, brc_lockstep_save(1, &a.simulation, &store.store));
-        strcpy(memory_store_find(&store, 0, needed[k])->name, "other");
-        open_case(&b, options);
-        store.context = b.context;
-        store.store.loading = true;
-        assert_int_equal(brc_lockstep_load(1, &b.simulation, &store.store), BRC_BAD_INPUT);
-        assert_non_null(strstr(brc_context_message(b.context), needed[k]));
-        memory_store_free(&store);
-        close_case(&a), close_case(&b);
-    }
+    state_is_refused_without((case_options){.n_threads = 1, .stages = CELLS_BURST(60), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE}, 60, 4,
+                             (const char *const[]){"velocity", "fracture.half_edges", "cells.area", "modes"});
 }
 
 static void broken_bonds_that_the_domain_does_not_have_are_refused(void **state)

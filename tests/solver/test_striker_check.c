@@ -1,4 +1,4 @@
-/* Strikers that cannot be meant: refused, or told of. */
+/* Strikers, and other parts of a scene, that cannot be meant: refused, or told of. */
 #include "support.h"
 #include "../../host/base/log.h"
 #include <math.h>
@@ -202,6 +202,18 @@ static void free_strikers_beside_others_are_told_what_they_do_not_meet(void **st
     expect_of(o, "driven", BRC_OK, NULL);
 }
 
+static void what_decides_nothing_is_told(void **state)
+{
+    (void)state;
+    static const char *const still = "  - name: load\n    solver: {static: {increments: 1}}\n";
+    expect_where("plane: {point: [0, 0, 0], normal: [0, 0, 1]}", still, true, BRC_OK, "contact acts in dynamic stages and the scene has none: surfaces, walls and strikers pass through each other");
+    case_options o = {.n_threads = 1, .stages = DURING("10 s"), .materials = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: 1 Pa}}",
+                      .gravity = "interactions: {interfaces: [{materials: {first: stone, second: stone, factor: 0.5}}]}\n"};
+    expect_of(o, "interfaces alone", BRC_OK, "the scene has no `fracture`: they decide nothing");
+    o.sets = "fracture: {criterion: bond-normal}\n";
+    expect_silence(o, "interfaces of what breaks", "decide nothing");
+}
+
 static void free_strikers_need_mass(void **state)
 {
     (void)state;
@@ -223,6 +235,7 @@ int main(void)
         cmocka_unit_test(too_few_steps_of_a_damped_blow_are_told),
         cmocka_unit_test(what_comes_near_nothing_is_told),
         cmocka_unit_test(free_strikers_beside_others_are_told_what_they_do_not_meet),
+        cmocka_unit_test(what_decides_nothing_is_told),
         cmocka_unit_test(free_strikers_need_mass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -56,6 +56,8 @@ def bonds(folder, domain):
 
 
 def main():
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
     folder, domain, half_width = sys.argv[1], sys.argv[2], float(sys.argv[3]) / 1000
     with open(os.path.join(folder, "summary.json")) as file:
         nominal = json.load(file)["measures"]["force"]["value"] / (pi * RADIUS * THICKNESS)
