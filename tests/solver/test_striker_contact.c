@@ -1,7 +1,6 @@
 /* Strikers and bodies that meet. */
-#include "support.h"
+#include "contact_case.h"
 #include "../../host/solver/strikers_internal.h"
-#include "../../host/solver/touching.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -118,28 +117,11 @@ static void a_driven_wall_does_work(void **state)
     close_case(&c);
 }
 
-/* A blade of 1 mm goes down through the top of cells of 250 mm, 1 mm a step, and begins 0.5 mm above it. While it is half in, volume over area is the depth; when it is all in, the areas of its
- * two sides cancel and their quotient is metres. The cells give way by less than 0.1 mm. */
 static void a_blade_inside_a_cell_is_as_deep_as_it_is_below_the_face(void **state)
 {
     (void)state;
-    static const struct {
-        int64_t steps;
-        double depth;
-    } at[] = {{1, 0.5e-3}, {2, 1.5e-3}, {41, 40.5e-3}, {81, 80.5e-3}};
-    bench_case c;
-    int64_t done = 0;
-    open_case(&c, (case_options){.materials = STONE, .fill = FILL, .n_threads = 1, .stages = "  - name: cut\n    solver: {dynamic: {steps: 200, time_step: 10 ms}}\n",
-                                 .gravity = "interactions: {contact: {}}\nstrikers:\n"
-                                            "  blade: {shape: {box: {size: [0.6 m, 0.6 m, 1 mm], origin: [0.2 m, 0.2 m, 1.0005 m]}}, material: stone, motion: {driven: {velocity: [0, 0, -0.1 m/s]}}}\n"});
-    assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
-    for (size_t k = 0; k < sizeof at / sizeof *at; ++k, done = at[k - 1].steps) {
-        brc_touching now;
-        assert_done(&c, brc_simulation_advance(c.simulation, at[k].steps - done));
-        assert_done(&c, brc_simulation_touching(c.simulation, &now));
-        if (!(fabs(now.penetration - at[k].depth) < 1e-4)) fail_msg("%g m deep after %d steps, expected %g m", now.penetration, (int)at[k].steps, at[k].depth);
-    }
-    close_case(&c);
+    for (int p = BRC_DOUBLE; p <= BRC_SINGLE; ++p) contact_blade((case_options){.precision = (brc_precision)p});
+    contact_blade((case_options){.model = "dlsm-published"});
 }
 
 int main(void)
