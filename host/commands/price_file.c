@@ -84,16 +84,19 @@ static const char *differs_in(const brc_node *root, const brc_price_of *of)
          : !is(root, "threads", threads) ? "number of threads" : NULL;
 }
 
+/* told->known false: one of them is no number, or below zero. */
 static void take_numbers(const brc_node *root, brc_prediction_told *told)
 {
+    bool whole = true;
     for (int k = 0; k < N_NUMBERS; ++k) {
         const brc_node *node = brc_node_find(root, numbers[k].name);
         char *end = NULL;
         const double value = node ? strtod(node->text, &end) : NAN;
         *number_of(told, k) = node && end != node->text ? value : NAN;
+        whole = whole && isfinite(*number_of(told, k)) && *number_of(told, k) >= 0;
     }
     told->processor_time = is(root, "processor_time", "true");
-    told->known = isfinite(told->seconds);
+    told->known = whole && told->seconds > 0;
 }
 
 brc_status brc_price_file_read(brc_context *context, const char *folder, const brc_price_of *of, brc_prediction_told *told)
@@ -114,6 +117,7 @@ brc_status brc_price_file_read(brc_context *context, const char *folder, const b
     const char *other = differs_in(root, of);
     if (other) brc_log(context, BRC_LOG_INFO, "%s is of another %s: what the run takes is not compared with it", path, other);
     else take_numbers(root, told);
+    if (!other && !told->known) brc_log(context, BRC_LOG_WARNING, "%s has no price: a number of it is missing, not finite or below zero; what the run takes is compared with nothing", path);
 cleanup:
     brc_problems_free(&problems);
     brc_tree_free(&tree);

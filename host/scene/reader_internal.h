@@ -28,8 +28,8 @@ typedef struct brc_reader {
 /* reader_values.c: read one value (anything but structs and lists) into its field. Problems are added; the status is
  * BRC_OK unless memory ran out. */
 brc_status brc_reader_value(brc_reader *reader, const brc_entry *entry, const brc_node *node, void *field);
-/* Is this text a name (letters, digits, _ + -, at most BRC_NAME - 1 bytes)? Adds a problem if not. */
-bool brc_reader_name(brc_reader *reader, const brc_node *node, const char *text, brc_mark mark);
+/* Is this text a name (letters, digits, _ + -, at most BRC_NAME - 1 bytes)? Adds a problem if not, which names the key whose value it is; node NULL: it is a key itself, "key". */
+bool brc_reader_name(brc_reader *reader, const char *key, const brc_node *node, const char *text, brc_mark mark);
 /* "a quantity in Pa such as 72 GPa". Written into `out`, which is returned. */
 const char *brc_entry_expects(const brc_entry *entry, const char *unit, char *out, size_t size);
 /* The unit of an entry in its struct: resolves the "@..." units. stage may be NULL where `struct_` is no load. */

@@ -190,7 +190,7 @@ static void read_text(brc_reader *reader, const brc_entry *entry, const brc_node
         memcpy(out, node->text, strlen(node->text) + 1);
 }
 
-bool brc_reader_name(brc_reader *reader, const brc_node *node, const char *text, brc_mark mark)
+bool brc_reader_name(brc_reader *reader, const char *key, const brc_node *node, const char *text, brc_mark mark)
 {
     bool good = text[0] != '\0' && strlen(text) < BRC_NAME;
     for (const char *c = text; good && *c; ++c)
@@ -198,14 +198,14 @@ bool brc_reader_name(brc_reader *reader, const brc_node *node, const char *text,
     if (node && node->kind != BRC_NODE_SCALAR) good = false;
     char found[128];
     if (!good)
-        brc_problems_add(reader->problems, mark, "%s%.80s is no name: expected 1 to %d letters, digits or _ + -",
-                         node ? "" : "key ", node ? brc_node_describe(node, found, sizeof found) : text, BRC_NAME - 1);
+        brc_problems_add(reader->problems, mark, "%s%s%.80s is no name: expected 1 to %d letters, digits or _ + -", key,
+                         node ? ": " : " ", node ? brc_node_describe(node, found, sizeof found) : text, BRC_NAME - 1);
     return good;
 }
 
 static void read_name(brc_reader *reader, const brc_entry *entry, const brc_node *node, char *out)
 {
-    if (!brc_reader_name(reader, node, node->text, node->mark)) return;
+    if (!brc_reader_name(reader, entry->key, node, node->text, node->mark)) return;
     if (strlen(node->text) >= entry->size)
         brc_problems_add(reader->problems, node->mark, "%s: '%s' is longer than %zu letters", entry->key, node->text,
                          entry->size - 1);
@@ -230,7 +230,7 @@ static int read_choice(brc_reader *reader, const brc_entry *entry, const brc_nod
 
 static void read_material(brc_reader *reader, const brc_entry *entry, const brc_node *node, int32_t *out)
 {
-    if (!brc_reader_name(reader, node, node->text, node->mark)) return;
+    if (!brc_reader_name(reader, entry->key, node, node->text, node->mark)) return;
     const brc_scene *scene = reader->scene;
     for (int i = 0; i < scene->n_materials; ++i) {
         if (strcmp(scene->materials[i].name, node->text) != 0) continue;

@@ -61,7 +61,7 @@ static brc_status read_list(brc_reader *reader, const brc_entry *entry, const br
     memcpy(base + entry->count_offset, &count, sizeof count);
     char *item = items;
     for (const brc_node *child = node->first; child; child = child->next, item += size) {
-        if (named && brc_reader_name(reader, NULL, child->key, child->key_mark)) strcpy(item, child->key);
+        if (named && brc_reader_name(reader, "key", NULL, child->key, child->key_mark)) strcpy(item, child->key);
         BRC_TRY(read_item(reader, entry->section, child, item));
     }
     return BRC_OK;

@@ -73,6 +73,21 @@ static void a_damaged_price_stops_no_run(void **state)
     if (!strstr(test_program_stderr(), "cannot be read")) fail_msg("no word of it in '%s'", test_program_stderr());
 }
 
+static void a_price_with_a_number_that_is_none_is_not_compared(void **state)
+{
+    (void)state;
+    static const char *const forged[] = {"s/\"seconds\": [^,]*/\"seconds\": -5/", "s/\"disk_bytes\": [^,]*/\"disk_bytes\": null/", "s/\"host_bytes\"/\"bytes\"/"};
+    for (size_t k = 0; k < sizeof forged / sizeof *forged; ++k) {
+        char command[256];
+        call("check", "");
+        snprintf(command, sizeof command, "sed -i '%s' %s/run/price.json", forged[k], test_folder());
+        assert_int_equal(system(command), 0);
+        call("run", "");
+        if (!strstr(test_program_stderr(), "has no price") || strstr(test_program_stderr(), "check told")) fail_msg("%s: '%s'", forged[k], test_program_stderr());
+        assert_null(strstr(test_text_of("run/summary.json"), "\"check\": {"));
+    }
+}
+
 static void a_price_that_cannot_be_written_is_refused_before_the_trial(void **state)
 {
     (void)state;
@@ -87,6 +102,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(a_run_is_compared_with_the_price_that_check_told, begin, test_remove_folder),
                                       cmocka_unit_test_setup_teardown(the_price_of_another_scene_is_not_compared, begin, test_remove_folder),
+                                      cmocka_unit_test_setup_teardown(a_price_with_a_number_that_is_none_is_not_compared, begin, test_remove_folder),
                                       cmocka_unit_test_setup_teardown(a_price_that_cannot_be_written_is_refused_before_the_trial, begin, test_remove_folder),
                                       cmocka_unit_test_setup_teardown(a_damaged_price_stops_no_run, begin, test_remove_folder)};
     return cmocka_run_group_tests(tests, NULL, NULL);

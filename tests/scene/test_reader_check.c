@@ -58,6 +58,8 @@ static void misspelt_keys_are_guessed(void **state)
     bad_scene(HEAD STAGES "output: {picture: {colour: vonmises}}\n", "10:28", "did you mean von_mises?");
     bad_scene(HEAD STAGES "xyzzyplugh: 1\n", "10:1", "unknown key 'xyzzyplugh' in a scene; known: version, title");
     bad_scene(HEAD STAGES "interactions: {interface: []}\n", "10:16", "unknown key 'interface' in interactions; did you mean 'interfaces'?");
+    bad_scene(HEAD STAGES "output: {curve: {x: 80 %, y: 80 %}}\n", "10:21", "x: '80 %' is no name: expected 1 to 63 letters, digits or _ + -");
+    bad_scene(HEAD STAGES "sensors: {a b: {energy: work}}\n", "10:11", "key a b is no name");
     bad_scene(HEAD STAGES "output: {xyzzyplugh: 1}\n", "10:10", "unknown key 'xyzzyplugh' in an output; known: ");
 }
 
