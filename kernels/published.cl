@@ -43,14 +43,16 @@ KERNEL void published_strain_pass(int n_groups, GLOBAL const int *restrict row_s
 
 /* One bond's part of the force pass; only called with a constant `finite`. */
 LAW published_bond published_one_bond(lane_vec3 r, lane_vec3 jump, lane area, lane_sym3 e_i, lane_sym3 e_j, lane_quat q_i,
-                                      lane_quat q_j, lane lambda, lane mu, lane young, coeff rotation_factor, int finite)
+                                      lane_quat q_j, lane lambda, lane mu, lane young, coeff rotation_factor, coeff couple, int finite)
 {
     const lane_sym3 sum = lane_sym3_add(e_i, e_j);
     const lane_sym3 mean = lane_sym3_scale_shift(LANE_ZERO + REAL(0.5), sum, LANE_ZERO);
     lane_quat turn;
     if (finite) turn = quat_mul(q_j, quat_conjugate(q_i));
     else turn = (lane_quat){LANE_ZERO, q_j.x - q_i.x, q_j.y - q_i.y, q_j.z - q_i.z};
-    return published_bond_law(r, jump, area, mean, quat_rotation_vector(turn, finite), lambda, mu, young, rotation_factor, finite);
+    const published_bond b = published_bond_law(r, jump, area, mean, quat_rotation_vector(turn, finite), lambda, mu, young, rotation_factor, finite);
+    if (couple == REAL(0)) return b;
+    return published_coupled(b, r, jump, couple * mu * area, mean, q_i, q_j, finite);
 }
 
 /* Moduli of a bond: the mean of its two ends. lame_of [n][3]: lambda, mu, E of each element; only read with several materials. */
@@ -87,7 +89,7 @@ LAW published_bond published_bond_at(members who, int slot, published_own own, G
                                      GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
                                      GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
                                      GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                                     coeff rotation_factor, GLOBAL const coeff *restrict lame_of, int finite)
+                                     coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of, int finite)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, branch, slot);
@@ -98,22 +100,22 @@ LAW published_bond published_bond_at(members who, int slot, published_own own, G
     const lane_sym3 e_j = lane_gather6(strain, j);
     const lane_quat q_j = lane_gather4(orientation, j);
     const published_moduli m = published_moduli_of(own.row, j, lambda_one, mu_one, young_one, lame_of);
-    return finite ? published_one_bond(r, jump, s, own.strain, e_j, own.orientation, q_j, m.lambda, m.mu, m.young, rotation_factor, 1)
-                  : published_one_bond(r, jump, s, own.strain, e_j, own.orientation, q_j, m.lambda, m.mu, m.young, rotation_factor, 0);
+    return finite ? published_one_bond(r, jump, s, own.strain, e_j, own.orientation, q_j, m.lambda, m.mu, m.young, rotation_factor, couple, 1)
+                  : published_one_bond(r, jump, s, own.strain, e_j, own.orientation, q_j, m.lambda, m.mu, m.young, rotation_factor, couple, 0);
 }
 
 /* Force [N] and torque about its own centre [N m] on every element [n][3]. */
 LAW void published_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
                                  GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
                                  GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one,
-                                 coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of, int finite,
+                                 coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of, int finite,
                                  GLOBAL state *restrict force, GLOBAL state *restrict torque)
 {
     const published_own own = published_own_of(who.own, displacement, orientation, strain);
     lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
     for (int slot = who.begin; slot < who.end; ++slot) {
         const published_bond b = published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                                                   mu_one, young_one, rotation_factor, lame_of, finite);
+                                                   mu_one, young_one, rotation_factor, couple, lame_of, finite);
         f = lane_vec3_add(f, b.force);
         t = lane_vec3_add(t, b.torque);
     }
@@ -123,24 +125,24 @@ LAW void published_force_of(members who, GLOBAL const int *restrict neighbour, G
 KERNEL void published_force_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
                                  GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
                                  GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one,
-                                 coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of, int finite,
+                                 coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of, int finite,
                                  GLOBAL state *restrict force, GLOBAL state *restrict torque)
 {
     FOR_EACH_ITEM(group, n_groups) {
         published_force_of(members_of_group(group, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                           mu_one, young_one, rotation_factor, lame_of, finite, force, torque);
+                           mu_one, young_one, rotation_factor, couple, lame_of, finite, force, torque);
     }
 }
 KERNEL void published_force_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
                                  GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
                                  GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
                                  GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one,
-                                 coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of, int finite,
+                                 coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of, int finite,
                                  GLOBAL state *restrict force, GLOBAL state *restrict torque)
 {
     FOR_EACH_ITEM(item, n_items) {
         published_force_of(members_of_list(item, n, list, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                           mu_one, young_one, rotation_factor, lame_of, finite, force, torque);
+                           mu_one, young_one, rotation_factor, couple, lame_of, finite, force, torque);
     }
 }
 #undef MATERIAL

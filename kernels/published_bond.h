@@ -87,4 +87,24 @@ LAW published_bond published_bond_law(lane_vec3 branch, lane_vec3 jump, lane are
                             REAL(2) * mu * along + normal};
 }
 
+/* Shear of a bond against the frames of its two elements, beyond that of their mean strain [-]: (R + u_j - u_i) / L0 - (I + e) m across the bond, with m the mean of R_i N and R_j N. Zero
+ * where displacements are linear and frames turn with them. AGH19 has no such term (docs/theory.md T3): its bonds do not see how far frames lag behind the solid. */
+LAW lane_vec3 published_lag(lane_vec3 branch, lane_vec3 jump, lane_sym3 strain, lane_quat q_i, lane_quat q_j, int finite)
+{
+    const lane inverse = REAL(1) / LANE_SQRT(lane_vec3_dot(branch, branch));
+    const lane_vec3 normal = lane_vec3_scale(inverse, branch), now = finite ? lane_vec3_add(branch, jump) : branch;
+    const lane_vec3 both = lane_vec3_add(quat_rotate_minus_identity(q_i, normal, finite), quat_rotate_minus_identity(q_j, normal, finite));
+    const lane_vec3 turned = lane_vec3_scale(LANE_ZERO + REAL(0.5), both), frame = finite ? lane_vec3_add(normal, turned) : normal;
+    const lane_vec3 lag = lane_vec3_sub(lane_vec3_scale(inverse, jump), lane_vec3_add(turned, lane_sym3_mul_vec(strain, frame)));
+    return lane_vec3_sub(lag, lane_vec3_scale(lane_vec3_dot(lag, now) / lane_vec3_dot(now, now), now));
+}
+
+/* b and what a couple modulus adds, as in micropolar solids: 2 stiffness times the lag, in the middle of the bond. stiffness: couple modulus times area [N]. */
+LAW published_bond published_coupled(published_bond b, lane_vec3 branch, lane_vec3 jump, lane stiffness, lane_sym3 strain, lane_quat q_i, lane_quat q_j, int finite)
+{
+    const lane_vec3 f = lane_vec3_scale(REAL(2) * stiffness, published_lag(branch, jump, strain, q_i, q_j, finite));
+    const lane_vec3 arm = lane_vec3_scale(LANE_ZERO + REAL(0.5), finite ? lane_vec3_add(branch, jump) : branch);
+    return (published_bond){lane_vec3_add(b.force, f), lane_vec3_add(b.torque, lane_vec3_cross(arm, f)), b.stress};
+}
+
 #endif

@@ -39,7 +39,7 @@ KERNEL void published_breaking_strain_listed(int n_items, int n, GLOBAL const in
 LAW void published_breaking_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
                                      GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
                                      GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one,
-                                     coeff mu_one, coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of,
+                                     coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of,
                                      GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL state *restrict torque,
                                      GLOBAL coeff *restrict reach)
 {
@@ -48,7 +48,7 @@ LAW void published_breaking_force_of(members who, GLOBAL const int *restrict nei
     lane largest = LANE_ZERO;
     for (int slot = who.begin; slot < who.end; ++slot) {
         const published_bond b = published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                                                   mu_one, young_one, rotation_factor, lame_of, 1);
+                                                   mu_one, young_one, rotation_factor, couple, lame_of, 1);
         f = lane_vec3_add(f, b.force);
         t = lane_vec3_add(t, b.torque);
         const lane ratio = b.stress / members_row1(who, limit, slot);
@@ -61,26 +61,26 @@ LAW void published_breaking_force_of(members who, GLOBAL const int *restrict nei
 KERNEL void published_breaking_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
                                      GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
                                      GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one,
-                                     coeff mu_one, coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of,
+                                     coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of,
                                      GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL state *restrict torque,
                                      GLOBAL coeff *restrict reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         published_breaking_force_of(members_of_group(group, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                                    mu_one, young_one, rotation_factor, lame_of, limit, force, torque, reach);
+                                    mu_one, young_one, rotation_factor, couple, lame_of, limit, force, torque, reach);
     }
 }
 KERNEL void published_breaking_force_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
                                      GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
                                      GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
                                      GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one,
-                                     coeff mu_one, coeff young_one, coeff rotation_factor, GLOBAL const coeff *restrict lame_of,
+                                     coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of,
                                      GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL state *restrict torque,
                                      GLOBAL coeff *restrict reach)
 {
     FOR_EACH_ITEM(item, n_items) {
         published_breaking_force_of(members_of_list(item, n, list, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                                    mu_one, young_one, rotation_factor, lame_of, limit, force, torque, reach);
+                                    mu_one, young_one, rotation_factor, couple, lame_of, limit, force, torque, reach);
     }
 }
 
@@ -90,7 +90,7 @@ KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restric
                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
                             GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
                             GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                            coeff rotation_factor, GLOBAL const coeff *restrict lame_of, GLOBAL const coeff *restrict limit,
+                            coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of, GLOBAL const coeff *restrict limit,
                             GLOBAL const coeff *restrict reach, GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
                             GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
@@ -104,7 +104,7 @@ KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restric
             for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
                 const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
                 const published_bond b = published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain,
-                                                           lambda_one, mu_one, young_one, rotation_factor, lame_of, 1);
+                                                           lambda_one, mu_one, young_one, rotation_factor, couple, lame_of, 1);
                 const lane bound = share * lane_load(limit, entry);
 #define MARK(l)                                                                                                        \
     if (LANE_ITEM(b.stress, l) > LANE_ITEM(bound, l)) {                                                                \

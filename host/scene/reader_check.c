@@ -377,6 +377,21 @@ static void complete(brc_scene *scene)
     }
 }
 
+/* Static stages find displacements before rotations, as forces of the published law do not depend on these to first order; with a couple modulus they do. */
+static void check_couples(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    for (int b = -1; b < scene->n_bodies; ++b) {
+        const brc_model *model = b < 0 ? &scene->model : &scene->bodies[b].model;
+        if ((b >= 0 && !scene->bodies[b].has_model) || model->kind != BRC_MODEL_DLSM_PUBLISHED || !(model->couple_modulus > 0)) continue;
+        for (int k = 0; k < scene->n_stages; ++k)
+            if (scene->stages[k].solver != BRC_SOLVER_DYNAMIC)
+                COMPLAIN(reader, &model->couple_modulus, model,
+                         "couple_modulus: ties forces to the rotations of elements, which static stages and modes do not know ('%s' is one); leave it out, or use "
+                         "dynamic stages only", scene->stages[k].name);
+    }
+}
+
 /* Strengths that contradict themselves. */
 static void check_material(brc_reader *reader, const brc_material *material)
 {
@@ -624,6 +639,7 @@ brc_status brc_reader_check(brc_reader *reader)
     brc_memory_free(walls.wall);
     BRC_TRY(status);
     check_limits(reader);
+    check_couples(reader);
     check_fracture(reader);
     check_contact(reader);
     BRC_TRY(check_stages(reader));

@@ -91,6 +91,7 @@ typedef struct brc_model {
     bool small_rotations; /* dlsm and published: the law linearised about the reference: a body that turns grows and strains; for comparison */
     bool area_weights;         /* least squares with weights S/L instead of 1 (default false, as printed) */
     double rotation_stiffness; /* [-] factor on K = E S^2 / (4 pi L0), default 1 */
+    double couple_modulus;     /* [-] over mu: holds the frames of elements to the turning solid; 0, as printed, by default (docs/theory.md T3) */
     /* cbm */
     double beam_poisson; /* nu_m of the beams, default 0.3: hardly matters (design-cbm.md) [-] */
     bool keep_isolated;  /* hold elements without bonds still instead of refusing them */

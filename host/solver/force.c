@@ -156,7 +156,7 @@ static brc_status published_evaluate(brc_simulation *s, const brc_force_request 
     return BRC_PASS(s, s->kernel.published_force, s->kernel.published_force_listed, list, 2, BRC_BUF(s->row_start),
                     BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->area), BRC_BUF(r->displacement),
                     BRC_BUF(r->orientation), BRC_BUF(s->gradient), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
-                    BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_BUF(s->lame_of),
+                    BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_COEFF(s->scene->model.couple_modulus), BRC_BUF(s->lame_of),
                     BRC_INT(finite), BRC_BUF(r->force), BRC_BUF(r->torque));
 }
 

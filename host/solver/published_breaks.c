@@ -78,7 +78,7 @@ brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request
     const brc_ring_list *list = r->rings && !r->rings->whole_force ? &r->rings->around : NULL;
     return BRC_PASS(s, c->breaking_force, c->breaking_force_listed, list, 2, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
                       BRC_BUF(s->area), BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_BUF(s->gradient), BRC_COEFF(m->lambda),
-                      BRC_COEFF(m->mu), BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_BUF(s->lame_of),
+                      BRC_COEFF(m->mu), BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_COEFF(s->scene->model.couple_modulus), BRC_BUF(s->lame_of),
                       BRC_BUF(c->limit), BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(c->reach));
 }
 
@@ -88,7 +88,7 @@ brc_status brc_published_breaks_mark(brc_simulation *s, double share, double *n)
     const brc_elastic *m = s->elastic + s->material_of_element[0];
     BRC_TRY(BRC_LAUNCH(c->check, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(share), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->offset), BRC_BUF(s->area), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_BUF(s->gradient),
-                       BRC_COEFF(m->lambda), BRC_COEFF(m->mu), BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness),
+                       BRC_COEFF(m->lambda), BRC_COEFF(m->mu), BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_COEFF(s->scene->model.couple_modulus),
                        BRC_BUF(s->lame_of), BRC_BUF(c->limit), BRC_BUF(c->reach), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched),
                        BRC_BUF(c->found)));
     return brc_vector_sum(s, c->found, s->n_groups, n);

@@ -12,7 +12,7 @@ static const brc_model *model_of(const brc_scene *scene, int32_t body)
 bool brc_split_same_model(const brc_model *a, const brc_model *b)
 {
     return a->kind == b->kind && a->compaction == b->compaction && a->small_rotations == b->small_rotations && a->beta == b->beta && a->tau == b->tau && a->area_weights == b->area_weights &&
-           a->rotation_stiffness == b->rotation_stiffness && a->beam_poisson == b->beam_poisson && a->keep_isolated == b->keep_isolated &&
+           a->rotation_stiffness == b->rotation_stiffness && a->couple_modulus == b->couple_modulus && a->beam_poisson == b->beam_poisson && a->keep_isolated == b->keep_isolated &&
            a->polish == b->polish;
 }
 

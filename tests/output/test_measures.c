@@ -1,6 +1,7 @@
 #include "support.h"
 #include "../../host/output/measures.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Sensors: 0 force, 1 strain, 2 lateral, 3 signal. Two stages; samples made by hand. */

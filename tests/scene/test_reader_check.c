@@ -107,6 +107,19 @@ static void with_contact_a_rest_comes_before_what_moves(void **state)
     assert_int_equal(count_errors(text), 0);
 }
 
+static void couple_modulus_is_for_dynamic_stages(void **state)
+{
+    (void)state;
+    static const char model[] = "model: {dlsm-published: {couple_modulus: 0.5}}\n", move[] = "  - {name: go, solver: {dynamic: {steps: 3}}}\n";
+    char text[1200];
+    snprintf(text, sizeof text, "%s%sstages:\n%s", HEAD, model, move);
+    assert_int_equal(count_errors(text), 0);
+    snprintf(text, sizeof text, "%s%sstages:\n  - {name: rest, solver: static}\n%s", HEAD, model, move);
+    bad_scene(text, "9:42", "static stages and modes do not know ('rest' is one)");
+    snprintf(text, sizeof text, "%smodel: {dlsm-published: {couple_modulus: 0}}\nstages:\n  - {name: rest, solver: static}\n", HEAD);
+    assert_int_equal(count_errors(text), 0);
+}
+
 static void all_errors_are_told_in_one_pass_in_the_order_of_the_text(void **state)
 {
     (void)state;
@@ -295,6 +308,7 @@ int main(void)
         cmocka_unit_test(misspelt_keys_are_guessed),
         cmocka_unit_test(walls_and_strikers_need_contact_and_a_free_one_a_shape),
         cmocka_unit_test(with_contact_a_rest_comes_before_what_moves),
+        cmocka_unit_test(couple_modulus_is_for_dynamic_stages),
         cmocka_unit_test(all_errors_are_told_in_one_pass_in_the_order_of_the_text),
         cmocka_unit_test(several_of_one_and_none_of_several_are_refused),
         cmocka_unit_test(a_shape_needs_a_fill_and_a_file_none),
