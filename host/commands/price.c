@@ -285,7 +285,8 @@ brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene,
                100 * brc_price_curve_error(&j.curve[k], now), j.curve[k].n, j.taken, j.curve[k].least, j.curve[k].most, j.curve[k].order);
     for (int32_t k = 0; own->worst >= 0 && k < scene->n_measures; ++k)
         if (!isnan(own->error[k]))
-            printf("error of measure '%s': about %.2g %% (from the same scene with about %lld elements)\n", scene->measures[k].name, 100 * own->error[k], (long long)own->least_elements);
+            printf("error of measure '%s': about %.2g %% (from the same scene with about %lld elements%s)\n", scene->measures[k].name, 100 * own->error[k], (long long)own->least_elements,
+                   own->error[k] > 1 ? "; it differs by more than itself: a number that is zero but for the cells has no relative error, leave it out of `measure`" : "");
     if (own->worst >= 0 && own->volumes > finest_class) printf("of that %.2g %%: volumes of the materials, whose boundaries run along cells\n", 100 * own->volumes);
     if (own->out_of_time)
         printf("measures were not compared with those of fewer elements: a stage of these was not over after %.0f s (another machine may tell another class)\n", brc_price_error_stage_s);

@@ -57,7 +57,7 @@ brc_status brc_append_reopen(brc_context *context, const char *path, int64_t byt
     a->bytes = bytes;
     if (a->file < 0 || fstat(a->file, &information) != 0)
         status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: cannot be opened to go on: %s", path, strerror(errno));
-    else if ((int64_t)information.st_size < bytes)
+    else if (bytes < 0 || (int64_t)information.st_size < bytes)
         status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: has %lld bytes, the run goes on behind %lld: it was changed", path, (long long)information.st_size, (long long)bytes);
     else if (ftruncate(a->file, bytes) != 0 || lseek(a->file, bytes, SEEK_SET) != bytes)
         status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write: %s", path, strerror(errno));

@@ -35,7 +35,10 @@ typedef struct state_case {
 /* The run as a whole, and left at each of these pauses (counted from 1, 0 ends the list) and taken up by a new simulation: at the last pause all
  * numbers of the state are the same, byte by byte. Returns the number of pauses of the whole run. */
 int state_resumes(state_case c, const int *pauses);
-/* A run of cells of so many steps, kept without one of these numbers: a new simulation refuses it and names the number. */
+/* A run of cells of so many steps is kept, one of its numbers forged: a new simulation refuses it with these words. */
+typedef void (*state_forgery)(memory_item *item, const bench_case *of);
+void state_is_refused_forged(case_options options, int64_t steps, const char *name, state_forgery forge, const char *words);
+/* The same without one of these numbers, which is named. */
 void state_is_refused_without(case_options options, int64_t steps, int n, const char *const *needed);
 /* Cells and beams, whole and breaking, dynamic and static, on a device ("cpu", "opencl:0") in a precision. */
 void state_resumes_on(const char *device, brc_precision precision);

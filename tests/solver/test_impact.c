@@ -179,11 +179,24 @@ static void a_mesh_that_stands_in_a_body_is_refused(void **state)
 
 /* ---- going on without what pairs remember ---- */
 
+static const case_options crushed = {.n_threads = 1, .materials = CELLS_STRENGTH("2e-4 Pa"), .fill = "cells: [4, 4, 4], spread: 50 %, seed: 1", .stages = CONTACT_CRUSH, .gravity = CONTACT_KEYS};
+
 static void a_checkpoint_without_the_friction_of_its_pairs_is_refused(void **state)
 {
     (void)state;
-    state_is_refused_without((case_options){.n_threads = 1, .materials = CELLS_STRENGTH("2e-4 Pa"), .fill = "cells: [4, 4, 4], spread: 50 %, seed: 1", .stages = CONTACT_CRUSH, .gravity = CONTACT_KEYS}, 150, 3,
-                             (const char *const[]){"contact.pairs", "contact.history", "contact.friction"});
+    state_is_refused_without(crushed, 150, 3, (const char *const[]){"contact.pairs", "contact.history", "contact.friction"});
+}
+
+static void change_the_last(memory_item *pairs, const bench_case *of)
+{
+    (void)of;
+    ((int32_t *)pairs->data)[2 * pairs->rows - 1] += 1;
+}
+
+static void a_checkpoint_with_another_pair_is_refused(void **state)
+{
+    (void)state;
+    state_is_refused_forged(crushed, 150, "contact.pairs", change_the_last, "contact.pairs: the history that was kept has elements");
 }
 
 int main(void)
@@ -195,6 +208,7 @@ int main(void)
         cmocka_unit_test(a_box_given_as_a_mesh_strikes_as_the_box),
         cmocka_unit_test(a_mesh_that_stands_in_a_body_is_refused),
         cmocka_unit_test(a_checkpoint_without_the_friction_of_its_pairs_is_refused),
+        cmocka_unit_test(a_checkpoint_with_another_pair_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

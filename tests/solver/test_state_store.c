@@ -89,25 +89,13 @@ static void a_store_without_a_number_is_refused(void **state)
                              (const char *const[]){"velocity", "fracture.half_edges", "cells.area", "modes"});
 }
 
+static void name_one_too_many(memory_item *broken, const bench_case *of) { ((int32_t *)broken->data)[broken->rows - 1] = (int32_t)of->domain->n_half_edges; }
+
 static void broken_bonds_that_the_domain_does_not_have_are_refused(void **state)
 {
     (void)state;
-    static memory_store store;
-    const case_options options = {.n_threads = 1, .stages = CELLS_BURST(60), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE};
-    bench_case a, b;
-    open_case(&a, options);
-    assert_done(&a, brc_simulation_begin_stage(a.simulation, 0));
-    assert_done(&a, brc_simulation_advance(a.simulation, 60));
-    memory_store_begin(&store, a.context);
-    assert_done(&a, brc_lockstep_save(1, &a.simulation, &store.store));
-    memory_item *broken = memory_store_find(&store, 0, "fracture.half_edges");
-    ((int32_t *)broken->data)[broken->rows - 1] = (int32_t)a.domain->n_half_edges;
-    open_case(&b, options);
-    store.context = b.context;
-    store.store.loading = true;
-    assert_int_equal(brc_lockstep_load(1, &b.simulation, &store.store), BRC_BAD_INPUT);
-    memory_store_free(&store);
-    close_case(&a), close_case(&b);
+    state_is_refused_forged((case_options){.n_threads = 1, .stages = CELLS_BURST(60), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE}, 60, "fracture.half_edges", name_one_too_many,
+                            "broken bonds: half-edge");
 }
 
 int main(void)
