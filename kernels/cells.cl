@@ -11,12 +11,12 @@
 #define CELLS_TENSION 1
 #define CELLS_DETACHED 4
 
-/* As dlsm_force, which has what it takes at hand: and the smallest room of the element's bonds, spare [n] (cell_normal.h). */
+/* As dlsm_force, which has what it takes at hand: and where some bond of a group has no room (cell_normal.h), look [n / W] is 1; cells_check puts it back to 0. */
 LAW void cells_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
                          coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
                          GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict limit,
-                         GLOBAL state *restrict force, GLOBAL coeff *restrict spare)
+                         GLOBAL state *restrict force, GLOBAL int *restrict look)
 {
     const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
     const cell_side side = cell_side_of(lane_gather9(gradient, who.own), lane_gather9(stress, who.own), members_number(who, plane));
@@ -31,17 +31,22 @@ LAW void cells_force_of(members who, GLOBAL const int *restrict neighbour, GLOBA
         least = lane_min(least, cell_room(side, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
     }
     members_store3(who, force, f);
-    members_put1(who, spare, least);
+    if (LANE_ANY_SHORT(least, LANE_ZERO)) {
+#define LOOK(l) \
+    if (!(LANE_ITEM(least, l) >= 0)) STORE_SAME(look + LANE_ITEM(who.own, l) / W, 1);
+        LANE_EACH(LOOK)
+#undef LOOK
+    }
 }
 KERNEL void cells_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
                          coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
                          GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict limit,
-                         GLOBAL state *restrict force, GLOBAL coeff *restrict spare)
+                         GLOBAL state *restrict force, GLOBAL int *restrict look)
 {
     FOR_EACH_ITEM(group, n_groups) {
         cells_force_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau, modulus, gradient, stress,
-                       plane, limit, force, spare);
+                       plane, limit, force, look);
     }
 }
 KERNEL void cells_force_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
@@ -49,27 +54,27 @@ KERNEL void cells_force_listed(int n_items, int n, GLOBAL const int *restrict li
                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
                          coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
                          GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict limit,
-                         GLOBAL state *restrict force, GLOBAL coeff *restrict spare)
+                         GLOBAL state *restrict force, GLOBAL int *restrict look)
 {
     FOR_EACH_ITEM(item, n_items) {
         cells_force_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau, modulus, gradient, stress,
-                       plane, limit, force, spare);
+                       plane, limit, force, look);
     }
 }
 
-/* Bonds whose normal stress is above share * limit are marked. modulus [n]: lambda + 2 mu [Pa]; found [n_groups]. With share 1 groups in which all
- * elements have room do not look at their bonds. */
+/* Bonds whose normal stress is above share * limit are marked. modulus [n]: lambda + 2 mu [Pa]; found [n_groups]. With share 1 only groups
+ * that the force pass told to look at their bonds do. */
 KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                         GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict modulus,
-                        GLOBAL const coeff *restrict spare, GLOBAL const coeff *restrict limit,
+                        GLOBAL int *restrict look, GLOBAL const coeff *restrict limit,
                         GLOBAL int *restrict mark, GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int first = group * W;
-        const lane left = lane_load(spare, (brc_size)first);
         int marked = 0;
-        if (share < REAL(1) || share > REAL(1) || LANE_ANY_SHORT(left, LANE_ZERO)) {
+        if (share < REAL(1) || share > REAL(1) || look[group]) {
+            look[group] = 0;
             const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
             const lane_int own = lane_own(first);
             const lane_mat3 h = lane_gather9(gradient, own), p = lane_gather9(stress, own);

@@ -38,14 +38,6 @@ KERNEL void contact_detach(int n, GLOBAL const int *restrict exposed, GLOBAL con
     }
 }
 
-/* Rigid cells have no bonds that could be near their limit: room for any stress (cells.cl, spare). */
-KERNEL void contact_no_bonds(int n, GLOBAL const int *restrict rigid, GLOBAL coeff *restrict spare)
-{
-    FOR_EACH_ITEM(e, n) {
-        if (rigid[e]) spare[e] = REAL(1e30);
-    }
-}
-
 /* H of rigid cells: their rotation, so that everything that reads H sees where they are, and no strain. */
 KERNEL void contact_pose(int n, GLOBAL const int *restrict rigid, GLOBAL const state *restrict turned, GLOBAL coeff *restrict gradient)
 {

@@ -75,7 +75,9 @@
     X(ring_book)                                                                                                       \
     X(ring_forget)                                                                                                     \
     X(rim_stress)                                                                                                      \
+    X(rim_kept)                                                                                                        \
     X(rim_flux)                                                                                                        \
+    X(rim_force)                                                                                                       \
     X(scan_sums)                                                                                                       \
     X(scan_tops)                                                                                                       \
     X(scan_fill)                                                                                                       \
@@ -123,7 +125,6 @@
     X(contact_striker_parts)                                                                                           \
     X(contact_striker_load)                                                                                            \
     X(contact_detach)                                                                                                  \
-    X(contact_no_bonds)                                                                                                \
     X(contact_pose)                                                                                                    \
     X(contact_turn)                                                                                                    \
     X(contact_spin_energy)                                                                                             \

@@ -1,15 +1,16 @@
 /* dlsm: what broken bonds change at the rim of their rings. An element of ring 2 has a whole row of bonds to go through for its flux B, yet only its neighbours of ring 1 have another stress P
- * than before, and none another H: what they gained is added to what it had, in the order of its row. The rings within are evaluated as a whole (dlsm.cl). Only for rings without surfaces that
- * touch or soften.
+ * than before, and none another H; one of ring 3 has its own B and those of most of its neighbours as before. What these gained is added to what it had, B and force, in the order of its row. The
+ * rings within, 0 and 1, are evaluated as a whole (dlsm.cl). Only for rings without surfaces that touch or soften.
  *
- * level [n]: 1 + place in the list of the rings 0 and 1 of their elements, else 0 (rings.cl). gain [place][9]: P less that of before [Pa]. */
+ * level [n]: ring and place of the elements of the list (rings.cl). gain [record][9]: P less that of before [Pa] of the rings 0 and 1, record 1 + place; from record `fluxes` on B less that of
+ * before [Pa] of the rings 0 to 2, record fluxes + 1 + place. The records 0 and fluxes are those of all others: 0. */
 
 /* As dlsm_stress of the elements of a list, and their V psi [J] from the same strain: what they hold after bonds broke. gains: 1 where gain is wanted. */
 KERNEL void rim_stress(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
                        GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads,
                        coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material, int finite, GLOBAL coeff *restrict stress, GLOBAL state *restrict elastic,
-                       int gains, GLOBAL coeff *restrict gain)
+                       int gains, GLOBAL const int *restrict level, GLOBAL coeff *restrict gain)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
@@ -18,66 +19,82 @@ KERNEL void rim_stress(int n_items, int n, GLOBAL const int *restrict list, GLOB
         const lane_mat3 p = finite ? dlsm_first_piola(g, lambda, mu, 1) : dlsm_first_piola(g, lambda, mu, 0);
         if (gains) {
             members at = who;
-#define PLACE(l) (item * W + 0x##l < n ? item * W + 0x##l : n - 1) /* as in members_of_list */
-            at.own = LANE_MAKE(lane_int, PLACE);
-#undef PLACE
+#define RECORD_OF_P(l) RING_PLACE(level[LANE_ITEM(who.own, l)])
+            at.own = LANE_MAKE(lane_int, RECORD_OF_P);
+#undef RECORD_OF_P
             members_store9(at, gain, lane_mat3_sub(p, lane_gather9(stress, who.own)));
+            for (int c = 0; item == 0 && c < 9; ++c) gain[c] = 0;
         }
         members_store9(who, stress, p);
         members_store1(who, elastic, dlsm_elastic_energy(who, g, lambda, mu, finite, inv_volume));
     }
 }
 
-/* Bonds of one element to neighbours that gained, in their order: of RIM_SLOTS slots from first on. Without a branch, as what a neighbour is waits for memory and a guess at it would be wrong
- * for every third; the faces of those that are wanted are asked for. */
+/* B of listed elements of the rings 0 and 1, before and after it is evaluated: what it gained. */
+KERNEL void rim_kept(int n, int fluxes, int after, GLOBAL const int *restrict list, GLOBAL const int *restrict level, GLOBAL const coeff *restrict flux, GLOBAL coeff *restrict gain)
+{
+    FOR_EACH_ITEM(k, n) {
+        const brc_size e = (brc_size)list[k], from = ((brc_size)fluxes + (brc_size)RING_PLACE(level[e])) * 9;
+        for (int c = 0; c < 9; ++c) gain[from + (brc_size)c] = flux[e * 9 + (brc_size)c] - (after ? gain[from + (brc_size)c] : REAL(0));
+        for (int c = 0; k == 0 && c < 9; ++c) gain[(brc_size)fluxes * 9 + (brc_size)c] = 0;
+    }
+}
+
+/* Bonds of one element that count, in their order, of RIM_SLOTS slots from first on, and the records of what their neighbours gained (0: nothing): all, or those of neighbours that gained;
+ * from_stress: of the rings 0 and 1, else of ring 2 too. Without a branch, as what a neighbour is waits for memory and a guess at it would often be wrong. */
 #define RIM_SLOTS 32
 typedef struct {
-    int n, slot[RIM_SLOTS], known[RIM_SLOTS];
+    int n, slot[RIM_SLOTS], record[RIM_SLOTS];
 } rim_bonds;
-LAW void rim_select(rim_bonds *out, int e, int first, int end, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict level, GLOBAL const coeff *restrict area,
-                    GLOBAL const coeff *restrict offset)
+LAW void rim_select(rim_bonds *out, int e, int first, int end, int all, int from_stress, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict level)
 {
     const int stop = first + RIM_SLOTS < end ? first + RIM_SLOTS : end;
     int n = 0;
     for (int slot = first; slot < stop; ++slot) {
-        const int known = level[neighbour[(brc_size)slot * C + e % C]], wanted = known > 0;
-        const brc_size at = (brc_size)(wanted ? slot : first) * 3 * C + e % C;
-        PREFETCH(area, at);
-        PREFETCH(area, at + C);
-        PREFETCH(area, at + 2 * C);
-        PREFETCH(offset, at);
-        PREFETCH(offset, at + C);
-        PREFETCH(offset, at + 2 * C);
+        const int known = level[neighbour[(brc_size)slot * C + e % C]], record = from_stress ? RING_PLACE(known) & (RING_IS_OUTER(known) - 1) : RING_PLACE(known);
         out->slot[n] = slot;
-        out->known[n] = known;
-        n += wanted;
+        out->record[n] = record;
+        n += all | (record > 0);
     }
     out->n = n;
+}
+/* Their faces are asked for. */
+LAW void rim_ask(const rim_bonds *bonds, int e, GLOBAL const coeff *restrict p)
+{
+    for (int m = 0; m < bonds->n; ++m) {
+        const brc_size at = (brc_size)bonds->slot[m] * 3 * C + e % C;
+        PREFETCH(p, at);
+        PREFETCH(p, at + C);
+        PREFETCH(p, at + 2 * C);
+    }
 }
 
 /* B of ring 2, list: that of the rings 0 to 2. It gains -(1/2) sum (P_j s) (x) d A^-1 of what its neighbours' P gained (dlsm_flux.h). A work-item looks for the bonds of W elements before it
  * sums them up, so that their faces are under way together. */
-KERNEL void rim_flux(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                     GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const int *restrict level, GLOBAL const coeff *restrict gain,
-                     GLOBAL coeff *restrict flux)
+KERNEL void rim_flux(int n_items, int n, GLOBAL const int *restrict list, int fluxes, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                     GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const int *restrict level,
+                     GLOBAL coeff *restrict gain, GLOBAL coeff *restrict flux)
 {
     FOR_EACH_ITEM(item, n_items) {
         rim_bonds bonds[W];
         const int begin = item * W, stop = begin + W < n ? begin + W : n;
         for (int k = begin; k < stop; ++k) {
             const int e = list[k];
-            if (level[e] == 0) rim_select(&bonds[k - begin], e, row_start[e / C], row_start[e / C + 1], neighbour, level, area, offset);
+            if (!RING_IS_OUTER(level[e])) continue;
+            rim_select(&bonds[k - begin], e, row_start[e / C], row_start[e / C + 1], 0, 1, neighbour, level);
+            rim_ask(&bonds[k - begin], e, area);
+            rim_ask(&bonds[k - begin], e, offset);
         }
         for (int k = begin; k < stop; ++k) {
             const int e = list[k], end = row_start[e / C + 1];
-            if (level[e] != 0) continue;
+            if (!RING_IS_OUTER(level[e])) continue;
             rim_bonds *own = &bonds[k - begin];
             coeff q[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
             for (int first = row_start[e / C]; first < end; first += RIM_SLOTS) {
-                if (first > row_start[e / C]) rim_select(own, e, first, end, neighbour, level, area, offset);
+                if (first > row_start[e / C]) rim_select(own, e, first, end, 0, 1, neighbour, level);
                 for (int m = 0; m < own->n; ++m) {
                     const brc_size at = (brc_size)own->slot[m] * 3 * C + e % C;
-                    GLOBAL const coeff *p = gain + ((brc_size)own->known[m] - 1) * 9;
+                    GLOBAL const coeff *p = gain + (brc_size)own->record[m] * 9;
                     const coeff x = area[at], y = area[at + C], z = area[at + 2 * C];
                     for (int c = 0; c < 3; ++c) {
                         const coeff pull = p[3 * c] * x + p[3 * c + 1] * y + p[3 * c + 2] * z;
@@ -86,11 +103,49 @@ KERNEL void rim_flux(int n_items, int n, GLOBAL const int *restrict list, GLOBAL
                 }
             }
             GLOBAL const coeff *a = inv_shape + (brc_size)(e / C) * 6 * C + e % C; /* xx, yy, zz, yz, xz, xy */
+            GLOBAL coeff *gained = gain + ((brc_size)fluxes + (brc_size)RING_PLACE(level[e])) * 9;
             const coeff inverse[9] = {a[0], a[5 * C], a[4 * C], a[5 * C], a[C], a[3 * C], a[4 * C], a[3 * C], a[2 * C]};
             for (int c = 0; c < 9; ++c) {
                 const coeff *row = q + c / 3 * 3;
-                flux[(brc_size)e * 9 + (brc_size)c] -= REAL(0.5) * (row[0] * inverse[c % 3] + row[1] * inverse[3 + c % 3] + row[2] * inverse[6 + c % 3]);
+                gained[c] = REAL(-0.5) * (row[0] * inverse[c % 3] + row[1] * inverse[3 + c % 3] + row[2] * inverse[6 + c % 3]);
+                flux[(brc_size)e * 9 + (brc_size)c] += gained[c];
             }
+        }
+    }
+}
+
+/* Force of the rings 2 and 3, into fresh, list: that of the rings 0 to 3. That of before and sum (B_i + B_j) s of what both gained (dlsm_bond.h). */
+KERNEL void rim_force(int n_items, int n, GLOBAL const int *restrict list, int fluxes, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                      GLOBAL const coeff *restrict area, GLOBAL const int *restrict level, GLOBAL const coeff *restrict gain, GLOBAL const state *restrict force,
+                      GLOBAL state *restrict fresh)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        rim_bonds bonds[W];
+        const int begin = item * W, stop = begin + W < n ? begin + W : n;
+        for (int k = begin; k < stop; ++k) {
+            const int e = list[k], known = level[e];
+            if (!RING_IS_OUTER(known)) continue;
+            rim_select(&bonds[k - begin], e, row_start[e / C], row_start[e / C + 1], RING_PLACE(known) > 0, 0, neighbour, level);
+            rim_ask(&bonds[k - begin], e, area);
+        }
+        for (int k = begin; k < stop; ++k) {
+            const int e = list[k], known = level[e], end = row_start[e / C + 1];
+            if (!RING_IS_OUTER(known)) continue;
+            rim_bonds *own = &bonds[k - begin];
+            coeff f[3] = {0, 0, 0}, total[3] = {0, 0, 0}; /* total: of the faces */
+            for (int first = row_start[e / C]; first < end; first += RIM_SLOTS) {
+                if (first > row_start[e / C]) rim_select(own, e, first, end, RING_PLACE(known) > 0, 0, neighbour, level);
+                for (int m = 0; m < own->n; ++m) {
+                    const brc_size at = (brc_size)own->slot[m] * 3 * C + e % C;
+                    GLOBAL const coeff *b = gain + ((brc_size)fluxes + (brc_size)own->record[m]) * 9;
+                    const coeff x = area[at], y = area[at + C], z = area[at + 2 * C];
+                    for (int c = 0; c < 3; ++c) f[c] += b[3 * c] * x + b[3 * c + 1] * y + b[3 * c + 2] * z;
+                    total[0] += x, total[1] += y, total[2] += z;
+                }
+            }
+            GLOBAL const coeff *b = gain + ((brc_size)fluxes + (brc_size)RING_PLACE(known)) * 9;
+            for (int c = 0; c < 3; ++c)
+                fresh[(brc_size)e * 3 + (brc_size)c] = force[(brc_size)e * 3 + (brc_size)c] + (state)(f[c] + b[3 * c] * total[0] + b[3 * c + 1] * total[1] + b[3 * c + 2] * total[2]);
         }
     }
 }

@@ -3,10 +3,13 @@
  *
  * touched [n]: 1 for elements of ring 0, set by whoever marks bonds, 2 when these broke. level [n]: 0, or the ring that an element was found to be in: RING_FOUND in ring 0
  * or 1 and not listed yet, then 1 + its ring. Both are 0 again when the last list is made; touched, where that list is kept, by who uses it up (cells_share). Where places are wanted
- * level holds, until ring_forget, 1 + the place of the elements of the rings 0 and 1 in the list of those. */
+ * level holds, until ring_forget, the ring, 0 to 3, and four times 1 + the place in the list of the rings 0 to 2; in ring 3 the ring alone. */
 
 #define RING_FOUND 1
 #define RING_KINDS 4
+/* Of such a level, one or W of them: 1 + the place, 0 in ring 3 and without a ring; 1 in the rings 2 and 3, else 0. */
+#define RING_PLACE(level) ((level) >> 2)
+#define RING_IS_OUTER(level) (((level) >> 1) & 1)
 
 /* Elements whose origin is `from` and their neighbours are given the level `to` where they have none. */
 KERNEL void ring_spread(int n_groups, int from, int to, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
@@ -104,7 +107,7 @@ KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touch
         for (int first = begin; first < end; first += W) {
             if (!rings_reach(int_load(touched, (brc_size)first), int_load(level, (brc_size)first))) continue;
             for (int e = first; e < first + W; ++e) {
-                const int ring = ring_of(which, touched[e], level[e]), place = which == 4 && ring >= 0 && ring <= 1 ? 1 + to_1 : 0;
+                const int ring = ring_of(which, touched[e], level[e]), place = which == 4 && ring >= 0 ? ring + (ring < 3 ? 4 * (1 + to_2) : 0) : 0;
                 if (ring >= 0) {
                     if (ring == 0) upto_0[to_0++] = e;
                     if (ring <= 1) upto_1[to_1++] = e;

@@ -26,7 +26,8 @@ static brc_status find_kernels(brc_simulation *s, brc_cell_breaks *c)
         bool wanted;
     } wanted[] = {{&c->force, "cells_force", by_bond}, {&c->force_listed, "cells_force_listed", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
                   {&c->break_pass, "cells_break", true}, {&c->rebuild, "cells_rebuild", brc_is_dlsm(s)}, {&c->share, "cells_share", true},
-                  {&c->rim_stress, "rim_stress", brc_is_dlsm(s)}, {&c->rim_flux, "rim_flux", brc_is_dlsm(s)}, {&c->elastic, "dlsm_elastic_listed", brc_is_dlsm(s)}, {&c->bonds, "dlsm_bonds_listed", brc_is_dlsm(s)}};
+                  {&c->rim_stress, "rim_stress", brc_is_dlsm(s)}, {&c->rim_kept, "rim_kept", brc_is_dlsm(s)}, {&c->rim_flux, "rim_flux", brc_is_dlsm(s)},
+                  {&c->rim_force, "rim_force", brc_is_dlsm(s)}, {&c->elastic, "dlsm_elastic_listed", brc_is_dlsm(s)}, {&c->bonds, "dlsm_bonds_listed", brc_is_dlsm(s)}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
         if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     return BRC_OK;
@@ -158,7 +159,7 @@ static brc_status create_arrays(brc_simulation *s)
     BRC_TRY(brc_buffer_create(s->device, &c->mark, 4 * entries, "marked bonds"));
     BRC_TRY(brc_buffer_create(s->device, &c->changed, 4 * n, "changed elements"));
     BRC_TRY(brc_new_coeff(s, &c->measure, entries, "stresses of marked bonds"));
-    if (brc_is_dlsm(s) && !c->by_element) BRC_TRY(brc_new_coeff(s, &c->spare, n, "rooms of bonds"));
+    if (brc_is_dlsm(s) && !c->by_element) BRC_TRY(brc_buffer_create(s->device, &c->look, 4 * (int64_t)s->n_groups, "groups to look at"));
     BRC_TRY(brc_new_state(s, &c->weight, n, "weights of broken bonds"));
     BRC_TRY(brc_new_state(s, &c->found, n, "marks of elements"));
     BRC_TRY(brc_buffer_create(s->device, &f->break_step, 4 * entries, "steps of breaks"));
@@ -176,7 +177,7 @@ int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries
     const bool by_element = brc_criterion_of(&scene->fracture, scene->model.kind) != BRC_CRITERION_BOND_NORMAL;
     int64_t bytes = n * ((dlsm ? 4 : 2) * coeff_bytes + 4 + 4 * state_bytes) + entries * (16 + 5 * coeff_bytes);
     if (by_element) bytes += n * (21 * coeff_bytes + 4) + (dlsm ? 3 * entries * coeff_bytes : 0);
-    else bytes += n * coeff_bytes;
+    else bytes += n * (dlsm ? 4 : coeff_bytes); /* on a GPU a group is one element */
     if (!dlsm) bytes += 6 * n * coeff_bytes;
     return bytes + brc_rings_bytes(scene, n, state_bytes) + brc_softening_bytes(scene, n, entries, coeff_bytes);
 }
@@ -222,7 +223,7 @@ void brc_cell_breaks_free(brc_simulation *s)
     if (!c) return;
     brc_softening_free(s);
     brc_rings_free(&c->rings);
-    brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->spare, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found,
+    brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->look, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found,
                           &c->branch, &c->spanned, &c->reach};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     brc_memory_free(c);
@@ -241,7 +242,7 @@ brc_status brc_cell_breaks_forces(brc_simulation *s, const brc_force_request *r,
     return BRC_PASS(s, c->force, c->force_listed, list, ring, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio),
                     BRC_BUF(r->displacement), BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_COEFF(s->elastic[s->material_of_element[0]].k),
                     BRC_COEFF(1 + s->scene->model.tau), BRC_BUF(s->modulus), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(c->modulus),
-                    BRC_BUF(c->limit), BRC_BUF(r->force), BRC_BUF(c->spare));
+                    BRC_BUF(c->limit), BRC_BUF(r->force), BRC_BUF(c->look));
 }
 
 /* Bonds above a share of their limit are marked; *n: marks. */
@@ -252,7 +253,7 @@ static brc_status mark_bonds(brc_simulation *s, double share, double *n)
     if (brc_is_published(s)) return brc_published_breaks_mark(s, share, n);
     BRC_TRY(BRC_LAUNCH(c->check, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(share), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress),
-                       BRC_BUF(c->modulus), BRC_BUF(c->spare), BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure),
+                       BRC_BUF(c->modulus), BRC_BUF(c->look), BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure),
                        BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
     return brc_vector_sum(s, c->found, s->n_groups, n);
 }

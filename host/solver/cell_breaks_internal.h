@@ -9,10 +9,11 @@
 
 struct brc_cell_breaks {
     brc_kernel *force, *force_listed, *check, *ratio, *break_pass, *rebuild, *share, *elastic, *bonds;
-    brc_kernel *rim_stress, *rim_flux;                              /* kernels/rims.cl */
+    brc_kernel *rim_stress, *rim_kept, *rim_flux, *rim_force;       /* kernels/rims.cl */
     brc_rings *rings;                                               /* around the bonds that break */
     brc_buffer *limit, *twin, *alive, *mark, *measure;              /* [n_slots][C] */
-    brc_buffer *modulus, *spare, *least, *support, *stiffest, *changed; /* [n_rows] */
+    brc_buffer *modulus, *least, *support, *stiffest, *changed;     /* [n_rows] */
+    brc_buffer *look;                                               /* [n_groups] */
     brc_buffer *weight, *found;                                     /* [n_rows] */
     struct brc_softening_faces *softening;    /* faces that open against cohesion (cell_softening.c); NULL: none does */
     bool by_element;                          /* criteria of elements: what follows, and the arrays of kernels/fracture.cl */

@@ -20,7 +20,7 @@ struct brc_contact_state {
         brc_kernel *scan_sums, *scan_tops, *scan_fill, *sort_count, *sort_move;
         brc_kernel *spheres, *gather_turning, *marked;
         brc_kernel *cells, *gather_moments, *gather_forces, *striker_parts, *striker_load, *pieces, *pieces_moved;
-        brc_kernel *detach, *no_bonds, *pose, *turn, *spin_energy;
+        brc_kernel *detach, *pose, *turn, *spin_energy;
     } kernel;
     bool affine;     /* dlsm: elements follow I + H; else they turn with quaternions of their own */
     int32_t width;   /* numbers of a moment: 9, else 3 */

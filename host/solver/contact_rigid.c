@@ -17,7 +17,7 @@ brc_status brc_contact_rigid_create(brc_simulation *s)
     const struct {
         brc_kernel **slot;
         const char *name;
-    } wanted[] = {{&c->kernel.detach, "contact_detach"}, {&c->kernel.no_bonds, "contact_no_bonds"}, {&c->kernel.pose, "contact_pose"}, {&c->kernel.turn, "contact_turn"}, {&c->kernel.spin_energy, "contact_spin_energy"}};
+    } wanted[] = {{&c->kernel.detach, "contact_detach"}, {&c->kernel.pose, "contact_pose"}, {&c->kernel.turn, "contact_turn"}, {&c->kernel.spin_energy, "contact_spin_energy"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &inertia, 6 * d->n_elements, "inertia of cells"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &upright, 4 * d->n_elements, "orientations of cells"));
@@ -66,8 +66,6 @@ brc_status brc_contact_list_bonded(brc_simulation *s)
         BRC_TRY(BRC_ALLOCATE(s->context, &c->bonded, 1, "cells with bonds"));
         BRC_TRY(brc_ring_list_create(s, c->bonded));
     }
-    if (brc_cell_breaks_screens(s)) /* which the force pass, no longer coming by, does not see */
-        BRC_TRY(BRC_LAUNCH(c->kernel.no_bonds, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_BUF(c->rigid), BRC_BUF(s->fracture->cells->spare)));
     return brc_rings_without(s, s->fracture->cells->rings, c->rigid, c->bonded);
 }
 

@@ -1,5 +1,5 @@
-/* dlsm: fluxes at the rim of the rings around broken bonds, ring 2, found from what the stresses of their neighbours gained (kernels/rims.cl) in place of an evaluation of their own. The rings
- * within are evaluated as a whole (force.c). */
+/* dlsm: the rim of the rings around broken bonds: fluxes of ring 2 and forces of the rings 2 and 3, found from what their neighbours' stresses and fluxes gained (kernels/rims.cl) in place of an
+ * evaluation of their own. The rings within are evaluated as a whole (force.c). */
 #ifndef BRC_SOLVER_RIMS_H
 #define BRC_SOLVER_RIMS_H
 
@@ -14,7 +14,11 @@ bool brc_rims_gain(const brc_simulation *s, const brc_rings *rings);
 
 /* P of rings 0 and 1 with what their elements hold, elastic_energy, and what P gained where the rim wants it. */
 brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r, bool face_loads);
-/* B of ring 2, after that of the rings within. */
+/* B of the rings 0 and 1 before and after it is evaluated: what it gained. Nothing where the rim is not done so. */
+brc_status brc_rims_keep(brc_simulation *s, const brc_rings *rings, bool after);
+/* B of ring 2, after that. */
 brc_status brc_rims_flux(brc_simulation *s, const brc_rings *rings);
+/* Forces of the rings 2 and 3, into rings->force: all of theirs, loads on them too, from those of the state, which are as before the breaks. Nothing where the rim is not done so. */
+brc_status brc_rims_force(brc_simulation *s, const brc_rings *rings);
 
 #endif

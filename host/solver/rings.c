@@ -95,7 +95,7 @@ brc_status brc_rings_forget(brc_rings *r, const brc_ring_list *list)
 {
     if (!r->placed) return BRC_OK;
     r->placed = false;
-    return BRC_LAUNCH(r->forget, list->n[1], BRC_INT(list->n[1]), BRC_BUF(list->upto[1]), BRC_BUF(r->level));
+    return BRC_LAUNCH(r->forget, list->n[3], BRC_INT(list->n[3]), BRC_BUF(list->upto[3]), BRC_BUF(r->level));
 }
 
 brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out) { return make_list(s, r, TOUCHED, out); }

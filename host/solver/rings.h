@@ -42,7 +42,7 @@ brc_status brc_rings_touched(brc_simulation *s, brc_rings *rings, brc_ring_list 
 /* Rings first to last around all that were touched, into rings->level: 1 + the ring. */
 brc_status brc_rings_spread(brc_simulation *s, brc_rings *rings, int first, int last);
 /* All that were touched and the rings that were spread around them; nothing is touched afterwards, or, kept, until cells_share has gone over ring 0. Placed: kept, and level knows the
- * places of the rings 0 and 1 until brc_rings_forget. */
+ * rings and the places in the list of the rings 0 to 2 until brc_rings_forget. */
 typedef enum brc_rings_closing { BRC_RINGS_DROP, BRC_RINGS_KEEP, BRC_RINGS_PLACE } brc_rings_closing;
 brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, brc_rings_closing how, brc_ring_list *out);
 /* Of the list that was placed. */
