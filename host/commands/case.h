@@ -80,7 +80,7 @@ typedef enum brc_case_formula {
     BRC_CASE_WORST,     /* largest magnitude */
     BRC_CASE_ORDER,     /* slope of log |quantity - reference| against log `against`, sign so that convergence is positive */
     BRC_CASE_RANGE,     /* largest minus smallest of a quantity, over its mean */
-    BRC_CASE_RATIO,     /* magnitude of a quantity of the first run over that of the second; exactly two runs */
+    BRC_CASE_RATIO,     /* magnitude of the mean of a quantity over the first half of the runs, over that of the second half; an even number of runs */
     BRC_CASE_DIFFERENCE, /* largest difference of kept displacements, over the largest displacement; exactly two runs */
     BRC_CASE_CROSSING    /* where a quantity first passes `origin`, along `against`, linear between runs */
 } brc_case_formula;

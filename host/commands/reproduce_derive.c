@@ -33,6 +33,17 @@ static double crossing(int n, const double *x, const double *y)
     return NAN;
 }
 
+/* The mean of the first half of the values over that of the second, as magnitudes; NAN of an odd number of them. */
+static double ratio(int n, const double *value)
+{
+    double first = 0, second = 0;
+    for (int k = 0; k < n / 2; ++k) {
+        first += value[k];
+        second += value[n / 2 + k];
+    }
+    return n % 2 == 0 && second != 0 ? fabs(first / second) : NAN;
+}
+
 static double difference(const brc_outcome *a, const brc_outcome *b)
 {
     if (!a->displacement || !b->displacement || a->n_elements != b->n_elements) return NAN;
@@ -76,7 +87,7 @@ double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *d
     case BRC_CASE_WORST: return worst;
     case BRC_CASE_ORDER: return slope(derived->n_runs, x, y);
     case BRC_CASE_RANGE: return (high - low) / fabs(sum / derived->n_runs);
-    case BRC_CASE_RATIO: return derived->n_runs == 2 && y[1] > 0 ? y[0] / y[1] : NAN;
+    case BRC_CASE_RATIO: return ratio(derived->n_runs, above);
     case BRC_CASE_CROSSING: return crossing(derived->n_runs, x, above);
     case BRC_CASE_DIFFERENCE: return derived->n_runs == 2 ? difference(outcomes[0], outcomes[1]) : NAN;
     }

@@ -35,7 +35,7 @@ static made *make(void)
 static double derive(const made *m, brc_case_formula formula, const char *against, double origin, int n_runs, char *note)
 {
     const brc_case_derived derived = {.formula = formula, .of = "q", .against = against, .origin = origin, .n_runs = n_runs,
-                                      .runs = {"a", "b", "c"}};
+                                      .runs = {"a", "b", "c", "a"}};
     return brc_derived_value(&m->campaign, &derived, note, 200);
 }
 
@@ -103,7 +103,7 @@ static void mean_and_worst_are_over_the_runs_named(void **state)
     assert_near(derive(m, BRC_CASE_WORST, "spacing", 0, 3, note), 5.75, 1e-12);
 }
 
-static void ratio_is_of_magnitudes_of_two_runs(void **state)
+static void ratio_is_of_magnitudes_of_means_of_halves(void **state)
 {
     (void)state;
     char note[200];
@@ -112,6 +112,8 @@ static void ratio_is_of_magnitudes_of_two_runs(void **state)
     m->outcomes[1].values[0].value = 8;
     assert_near(derive(m, BRC_CASE_RATIO, "spacing", 0, 2, note), 0.25, 1e-15);
     assert_true(isnan(derive(m, BRC_CASE_RATIO, "spacing", 0, 3, note)));
+    m->outcomes[2].values[0].value = -4;
+    assert_near(derive(m, BRC_CASE_RATIO, "spacing", 0, 4, note), 1, 1e-15); /* (-2 + 8) / (-4 - 2) */
     m->outcomes[1].values[0].value = 0;
     assert_true(isnan(derive(m, BRC_CASE_RATIO, "spacing", 0, 2, note)));
 }
@@ -183,7 +185,7 @@ int main(void)
         cmocka_unit_test(crossing_is_where_a_quantity_passes_a_value_along_a_label),
         cmocka_unit_test(the_exponent_of_masses_is_that_they_were_drawn_with),
         cmocka_unit_test(mean_and_worst_are_over_the_runs_named),
-        cmocka_unit_test(ratio_is_of_magnitudes_of_two_runs),
+        cmocka_unit_test(ratio_is_of_magnitudes_of_means_of_halves),
         cmocka_unit_test(difference_is_largest_over_largest),
         cmocka_unit_test(a_missing_run_gives_no_value_and_a_reason),
         cmocka_unit_test(a_missed_bound_ends_with_one_and_a_kept_one_with_zero),
