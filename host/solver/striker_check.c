@@ -187,7 +187,22 @@ static double speed_of(const brc_simulation *s, int32_t i)
     return factor * (length(striker->velocity) + reach * length(striker->spin));
 }
 
-/* The largest speed that initial fields and loads give elements [m/s]; gradients count over the bodies' diagonal. */
+/* The largest speed of a field of velocities in the box around the bodies, which it has in a corner [m/s]. */
+static double speed_of_field(const brc_initial *field, const double bounds[2][3])
+{
+    double most = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        double v[3];
+        for (int i = 0; i < 3; ++i) {
+            v[i] = field->value[i];
+            for (int j = 0; j < 3; ++j) v[i] += field->gradient[i][j] * (bounds[corner >> j & 1][j] - field->origin[j]);
+        }
+        most = fmax(most, length(v));
+    }
+    return most;
+}
+
+/* The largest speed that initial fields and loads give elements [m/s]; spins count over the bodies' diagonal. */
 static double speed_of_bodies(const brc_simulation *s)
 {
     const double(*b)[3] = s->domain->bounds, diagonal = hypot(hypot(b[1][0] - b[0][0], b[1][1] - b[0][1]), b[1][2] - b[0][2]);
@@ -196,9 +211,7 @@ static double speed_of_bodies(const brc_simulation *s)
         const brc_stage *stage = s->scene->stages + k;
         for (int32_t f = 0; f < stage->n_initials; ++f) {
             const brc_initial *field = stage->initials + f;
-            double slope = 0;
-            for (int c = 0; c < 9; ++c) slope += fabs(field->gradient[c / 3][c % 3]);
-            if (field->kind == BRC_INITIAL_VELOCITY || field->kind == BRC_INITIAL_RANDOM) most = fmax(most, length(field->value) + slope * diagonal);
+            if (field->kind == BRC_INITIAL_VELOCITY || field->kind == BRC_INITIAL_RANDOM) most = fmax(most, speed_of_field(field, b));
             if (field->kind == BRC_INITIAL_SPIN) most = fmax(most, length(field->value) * diagonal);
         }
         for (int32_t l = 0; l < stage->n_loads; ++l)
