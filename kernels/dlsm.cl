@@ -128,15 +128,14 @@ LAW dlsm_flux_sums dlsm_flux_sums_of(members who, GLOBAL const int *restrict nei
 
 /* Pass 3: B [Pa] [n][9]; with many materials the bond part [beta/(1 + tau) M - H]/2 apart. ratio q = L/S [slot][C];
  * held_moment [block][9][C]: what held faces and tractions add to Q. */
-LAW void dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+LAW lane_mat3 dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
                            GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
                            GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict inv_shape,
                            GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
                            GLOBAL const coeff *restrict held_moment, int face_loads, coeff k_one, coeff ell_one, coeff beta,
                            coeff one_plus_tau, GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
-                           GLOBAL const coeff *restrict ell_of, int finite, GLOBAL coeff *restrict flux,
-                           GLOBAL coeff *restrict bond_part)
+                           GLOBAL const coeff *restrict ell_of, int finite, GLOBAL coeff *restrict bond_part)
 {
     const lane_mat3 h = lane_gather9(gradient, who.own), p = lane_gather9(stress, who.own);
     const lane k = MEMBERS_MATERIAL(2, k_one), ell = MEMBERS_MATERIAL(3, ell_one);
@@ -156,10 +155,11 @@ LAW void dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GLOBAL 
     const lane_mat3 b = lane_mat3_mul_sym(moment, members_block6(who, inv_shape));
     const lane_mat3 part = dlsm_flux_bond_part(h, m, beta, one_plus_tau);
 #if BRC_MANY_MATERIALS
-    members_store9(who, flux, b);
     members_store9(who, bond_part, part);
+    return b;
 #else
-    members_store9(who, flux, lane_mat3_add(b, lane_mat3_scale(k * one_plus_tau, part)));
+    (void)bond_part;
+    return lane_mat3_add(b, lane_mat3_scale(k * one_plus_tau, part));
 #endif
 }
 KERNEL void dlsm_flux_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
@@ -173,9 +173,9 @@ KERNEL void dlsm_flux_pass(int n_groups, GLOBAL const int *restrict row_start, G
                            GLOBAL coeff *restrict bond_part)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        dlsm_flux_of(members_of_group(group, row_start), neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
-                     inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, flux,
-                     bond_part);
+        const members who = members_of_group(group, row_start);
+        members_store9(who, flux, dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape, inv_volume, boundary, held_moment, face_loads, k_one,
+                                               ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, bond_part));
     }
 }
 KERNEL void dlsm_flux_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
@@ -190,9 +190,9 @@ KERNEL void dlsm_flux_listed(int n_items, int n, GLOBAL const int *restrict list
                            GLOBAL coeff *restrict bond_part)
 {
     FOR_EACH_ITEM(item, n_items) {
-        dlsm_flux_of(members_of_list(item, n, list, row_start), neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
-                     inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, flux,
-                     bond_part);
+        const members who = members_of_list(item, n, list, row_start);
+        members_store9(who, flux, dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape, inv_volume, boundary, held_moment, face_loads, k_one,
+                                               ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, bond_part));
     }
 }
 

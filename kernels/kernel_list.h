@@ -75,7 +75,7 @@
     X(ring_book)                                                                                                       \
     X(ring_forget)                                                                                                     \
     X(rim_stress)                                                                                                      \
-    X(rim_kept)                                                                                                        \
+    X(rim_inner_flux)                                                                                                  \
     X(rim_flux)                                                                                                        \
     X(rim_force)                                                                                                       \
     X(scan_sums)                                                                                                       \

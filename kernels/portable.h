@@ -237,6 +237,9 @@ LAW int brc_lane_any_short(lane a, lane b)
 /* Numbers from anywhere: one instruction in place of a load, a shuffle and the arithmetic of a place for each lane. */
 #if !defined(__OPENCL_VERSION__) && !defined(BRC_TARGET) && W == 8 && defined(__AVX512F__)
 #include <immintrin.h>
+#define LANE_PACK(to, keep, x) _mm256_mask_compressstoreu_epi32((to), _mm256_movepi32_mask((__m256i)(keep)), (__m256i)(x))
+#define LANE_COUNT(keep) __builtin_popcount(_mm256_movepi32_mask((__m256i)(keep)))
+#define LANE_RANK(keep) ((lane_int)_mm256_maskz_expand_epi32(_mm256_movepi32_mask((__m256i)(keep)), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)))
 #if BRC_PRECISION == 0
 #define LANE_GATHER(p, at) ((lane)_mm512_i32gather_pd((__m256i)(at), (p), 8))
 #else

@@ -5,6 +5,16 @@
  * level [n]: ring and place of the elements of the list (rings.cl). gain [record][9]: P less that of before [Pa] of the rings 0 and 1, record 1 + place; from record `fluxes` on B less that of
  * before [Pa] of the rings 0 to 2, record fluxes + 1 + place. The records 0 and fluxes are those of all others: 0. */
 
+/* Stored as what the elements gained, behind record `first`, which is that of all others. */
+LAW void rim_gained(members who, int item, int first, GLOBAL const int *restrict level, lane_mat3 gained, GLOBAL coeff *restrict gain)
+{
+#define OF(l) (first + RING_PLACE(level[LANE_ITEM(who.own, l)]))
+    who.own = LANE_MAKE(lane_int, OF);
+#undef OF
+    members_store9(who, gain, gained);
+    for (int c = 0; item == 0 && c < 9; ++c) gain[(brc_size)first * 9 + (brc_size)c] = 0;
+}
+
 /* As dlsm_stress of the elements of a list, and their V psi [J] from the same strain: what they hold after bonds broke. gains: 1 where gain is wanted. */
 KERNEL void rim_stress(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
@@ -17,26 +27,27 @@ KERNEL void rim_stress(int n_items, int n, GLOBAL const int *restrict list, GLOB
         const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
         const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
         const lane_mat3 p = finite ? dlsm_first_piola(g, lambda, mu, 1) : dlsm_first_piola(g, lambda, mu, 0);
-        if (gains) {
-            members at = who;
-#define RECORD_OF_P(l) RING_PLACE(level[LANE_ITEM(who.own, l)])
-            at.own = LANE_MAKE(lane_int, RECORD_OF_P);
-#undef RECORD_OF_P
-            members_store9(at, gain, lane_mat3_sub(p, lane_gather9(stress, who.own)));
-            for (int c = 0; item == 0 && c < 9; ++c) gain[c] = 0;
-        }
+        if (gains) rim_gained(who, item, 0, level, lane_mat3_sub(p, lane_gather9(stress, who.own)), gain);
         members_store9(who, stress, p);
         members_store1(who, elastic, dlsm_elastic_energy(who, g, lambda, mu, finite, inv_volume));
     }
 }
 
-/* B of listed elements of the rings 0 and 1, before and after it is evaluated: what it gained. */
-KERNEL void rim_kept(int n, int fluxes, int after, GLOBAL const int *restrict list, GLOBAL const int *restrict level, GLOBAL const coeff *restrict flux, GLOBAL coeff *restrict gain)
+/* As dlsm_flux_listed of the rings 0 and 1, and what B gained. */
+KERNEL void rim_inner_flux(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                           GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                           GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict inv_shape,
+                           GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_moment, int face_loads, coeff k_one,
+                           coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
+                           GLOBAL const coeff *restrict ell_of, int finite, GLOBAL coeff *restrict flux, GLOBAL coeff *restrict bond_part, int fluxes,
+                           GLOBAL const int *restrict level, GLOBAL coeff *restrict gain)
 {
-    FOR_EACH_ITEM(k, n) {
-        const brc_size e = (brc_size)list[k], from = ((brc_size)fluxes + (brc_size)RING_PLACE(level[e])) * 9;
-        for (int c = 0; c < 9; ++c) gain[from + (brc_size)c] = flux[e * 9 + (brc_size)c] - (after ? gain[from + (brc_size)c] : REAL(0));
-        for (int c = 0; k == 0 && c < 9; ++c) gain[(brc_size)fluxes * 9 + (brc_size)c] = 0;
+    FOR_EACH_ITEM(item, n_items) {
+        const members who = members_of_list(item, n, list, row_start);
+        const lane_mat3 b = dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape, inv_volume, boundary, held_moment, face_loads, k_one, ell_one,
+                                         beta, one_plus_tau, material, modulus, ell_of, finite, bond_part);
+        rim_gained(who, item, fluxes, level, lane_mat3_sub(b, lane_gather9(flux, who.own)), gain);
+        members_store9(who, flux, b);
     }
 }
 
@@ -114,10 +125,10 @@ KERNEL void rim_flux(int n_items, int n, GLOBAL const int *restrict list, int fl
     }
 }
 
-/* Force of the rings 2 and 3, into fresh, list: that of the rings 0 to 3. That of before and sum (B_i + B_j) s of what both gained (dlsm_bond.h). */
+/* Force of the rings 2 and 3, list: that of the rings 0 to 3. That of before and sum (B_i + B_j) s of what both gained (dlsm_bond.h), taken over as ring_replace does. */
 KERNEL void rim_force(int n_items, int n, GLOBAL const int *restrict list, int fluxes, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                      GLOBAL const coeff *restrict area, GLOBAL const int *restrict level, GLOBAL const coeff *restrict gain, GLOBAL const state *restrict force,
-                      GLOBAL state *restrict fresh)
+                      GLOBAL const coeff *restrict area, GLOBAL const int *restrict level, GLOBAL const coeff *restrict gain, state half_kick,
+                      GLOBAL const state *restrict mass, GLOBAL state *restrict force, GLOBAL state *restrict velocity, GLOBAL state *restrict fresh)
 {
     FOR_EACH_ITEM(item, n_items) {
         rim_bonds bonds[W];
@@ -144,8 +155,11 @@ KERNEL void rim_force(int n_items, int n, GLOBAL const int *restrict list, int f
                 }
             }
             GLOBAL const coeff *b = gain + ((brc_size)fluxes + (brc_size)RING_PLACE(known)) * 9;
-            for (int c = 0; c < 3; ++c)
-                fresh[(brc_size)e * 3 + (brc_size)c] = force[(brc_size)e * 3 + (brc_size)c] + (state)(f[c] + b[3 * c] * total[0] + b[3 * c + 1] * total[1] + b[3 * c + 2] * total[2]);
+            const state per_mass = STATE(1) / mass[e];
+            for (int c = 0; c < 3; ++c) {
+                const brc_size at = (brc_size)e * 3 + (brc_size)c;
+                ring_take(at, half_kick, per_mass, force[at] + (state)(f[c] + b[3 * c] * total[0] + b[3 * c + 1] * total[1] + b[3 * c + 2] * total[2]), force, velocity, fresh);
+            }
         }
     }
 }

@@ -34,15 +34,8 @@ KERNEL void ring_seed(int n, int above, GLOBAL const int *restrict number, GLOBA
     FOR_EACH_ITEM(e, n) { touched[e] = (number[e] > 0) == above; }
 }
 
-/* The list an element belongs to, -1 none. which 0: what is new, in list 0 those touched that were found before, in 1 those both touched and found, in 2 those only found;
- * 1: all, by ring, for the last time; 2: those touched, in list 0; 3: as 1, and touched stays; 4: as 3, and level holds places. */
-LAW int ring_of(int which, int touched, int level)
-{
-    if (which == 0) return touched == 1 ? level == RING_FOUND : level == RING_FOUND ? 2 : -1;
-    if (which == 2) return touched ? 0 : -1;
-    return touched ? 0 : level > RING_FOUND ? level - 1 : -1;
-}
-/* All bits where ring_of is 0 to k. */
+/* All bits where an element belongs to one of the lists 0 to k. which 0: what is new, in list 0 those touched that were found before, in 1 those both touched and found, in 2 those only
+ * found; 1: all, by ring, for the last time; 2: those touched, in list 0; 3: as 1, and touched stays; 4: as 3, and level holds places. */
 LAW lane_int ring_is_upto(int which, int k, lane_int touched, lane_int level)
 {
     const lane_int found = LANE_ABOVE(level, 0) & ~LANE_ABOVE(level, RING_FOUND), any = LANE_ABOVE(touched, 0), fresh = any & ~LANE_ABOVE(touched, 1);
@@ -105,19 +98,15 @@ KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touch
         const int row = n_blocks + 1;
         int to_0 = next[b], to_1 = next[row + b], to_2 = next[2 * row + b], to_3 = next[3 * row + b];
         for (int first = begin; first < end; first += W) {
-            if (!rings_reach(int_load(touched, (brc_size)first), int_load(level, (brc_size)first))) continue;
-            for (int e = first; e < first + W; ++e) {
-                const int ring = ring_of(which, touched[e], level[e]), place = which == 4 && ring >= 0 ? ring + (ring < 3 ? 4 * (1 + to_2) : 0) : 0;
-                if (ring >= 0) {
-                    if (ring == 0) upto_0[to_0++] = e;
-                    if (ring <= 1) upto_1[to_1++] = e;
-                    if (ring <= 2) upto_2[to_2++] = e;
-                    upto_3[to_3++] = e;
-                    if (which == 0) level[e] = RING_FOUND + 1;
-                }
-                if (which == 1) touched[e] = 0;
-                if (which == 1 || which > 2) level[e] = place;
-            }
+            const brc_size at = (brc_size)first;
+            const lane_int own = lane_own(first), t = int_load(touched, at), l = int_load(level, at);
+            if (!rings_reach(t, l)) continue;
+            const lane_int none = t ^ t, is_0 = ring_is_upto(which, 0, t, l), is_1 = ring_is_upto(which, 1, t, l), is_2 = ring_is_upto(which, 2, t, l), is_3 = ring_is_upto(which, 3, t, l);
+            if (which == 4) int_store(level, at, is_3 & ((is_0 + is_1 + is_2 + RING_KINDS - 1) | (is_2 & (4 * (lane_rank(is_2) + (to_2 + 1))))));
+            else if (which != 2) int_store(level, at, which == 0 ? (is_3 & (RING_FOUND + 1)) | (~is_3 & l) : none);
+            if (which == 1) int_store(touched, at, none);
+            lane_pack(upto_0 + to_0, is_0, own), lane_pack(upto_1 + to_1, is_1, own), lane_pack(upto_2 + to_2, is_2, own), lane_pack(upto_3 + to_3, is_3, own);
+            to_0 += lane_count(is_0), to_1 += lane_count(is_1), to_2 += lane_count(is_2), to_3 += lane_count(is_3);
         }
     }
 }
@@ -127,20 +116,23 @@ KERNEL void ring_forget(int n, GLOBAL const int *restrict list, GLOBAL int *rest
     FOR_EACH_ITEM(k, n) { level[list[k]] = 0; }
 }
 
-/* fresh [n][3] takes the place of the force of the listed elements, and their velocity gains half_kick over mass times what the force loses. Afterwards
- * fresh holds what force^2 / mass gained, by components. */
+/* The force of an element becomes `now` [N], and its velocity gains half_kick over mass times what the force loses. gain: what force^2 / mass gained, by components. */
+LAW void ring_take(brc_size at, state half_kick, state per_mass, state now, GLOBAL state *restrict force, GLOBAL state *restrict velocity, GLOBAL state *restrict gain)
+{
+    const state was = force[at];
+    velocity[at] += half_kick * (was - now) * per_mass;
+    force[at] = now;
+    gain[at] = (now * now - was * was) * per_mass;
+}
+
+/* fresh [n][3] takes the place of the force of the listed elements. Afterwards fresh holds the gain. */
 KERNEL void ring_replace(int n, state half_kick, GLOBAL const int *restrict list, GLOBAL const state *restrict mass, GLOBAL state *restrict fresh,
                          GLOBAL state *restrict force, GLOBAL state *restrict velocity)
 {
     FOR_EACH_ITEM(k, n) {
         const brc_size e = (brc_size)list[k];
         const state per_mass = STATE(1) / mass[e];
-        for (int c = 0; c < 3; ++c) {
-            const state now = fresh[e * 3 + c], was = force[e * 3 + c];
-            velocity[e * 3 + c] += half_kick * (was - now) * per_mass;
-            force[e * 3 + c] = now;
-            fresh[e * 3 + c] = (now * now - was * was) * per_mass;
-        }
+        for (int c = 0; c < 3; ++c) ring_take(e * 3 + c, half_kick, per_mass, fresh[e * 3 + c], force, velocity, fresh);
     }
 }
 

@@ -103,11 +103,13 @@ LAW lane lane_load(GLOBAL const coeff *restrict p, brc_size at) { return p[at]; 
 LAW void lane_store(GLOBAL coeff *restrict p, brc_size at, lane a) { p[at] = a; }
 LAW lane_state state_load(GLOBAL const state *restrict p, brc_size at) { return p[at]; }
 LAW lane_int int_load(GLOBAL const int *restrict p, brc_size at) { return p[at]; }
+LAW void int_store(GLOBAL int *restrict p, brc_size at, lane_int a) { p[at] = a; }
 #elif defined(__OPENCL_VERSION__)
 LAW lane lane_load(GLOBAL const coeff *restrict p, brc_size at) { return BRC_VLOAD(0, p + at); }
 LAW void lane_store(GLOBAL coeff *restrict p, brc_size at, lane a) { BRC_VSTORE(a, 0, p + at); }
 LAW lane_state state_load(GLOBAL const state *restrict p, brc_size at) { return BRC_VLOAD(0, p + at); }
 LAW lane_int int_load(GLOBAL const int *restrict p, brc_size at) { return BRC_VLOAD(0, p + at); }
+LAW void int_store(GLOBAL int *restrict p, brc_size at, lane_int a) { BRC_VSTORE(a, 0, p + at); }
 #else
 typedef lane lane_anywhere __attribute__((aligned(4), may_alias));
 typedef lane_state state_anywhere __attribute__((aligned(4), may_alias));
@@ -116,6 +118,7 @@ LAW lane lane_load(const coeff *restrict p, brc_size at) { return *(const lane_a
 LAW void lane_store(coeff *restrict p, brc_size at, lane a) { *(lane_anywhere *)(p + at) = a; }
 LAW lane_state state_load(const state *restrict p, brc_size at) { return *(const state_anywhere *)(p + at); }
 LAW lane_int int_load(const int *restrict p, brc_size at) { return *(const int_anywhere *)(p + at); }
+LAW void int_store(int *restrict p, brc_size at, lane_int a) { *(int_anywhere *)(p + at) = a; }
 #endif
 #ifdef LANE_SHUFFLE
 #ifdef __OPENCL_VERSION__
@@ -143,6 +146,45 @@ LAW lane_int lane_own(int first)
 #define OWN_ITEM(l) (first + 0x##l)
     return LANE_MAKE(lane_int, OWN_ITEM);
 #undef OWN_ITEM
+}
+
+/* Of the lanes whose bits `keep` are all set (0 in the others): x side by side from `to` on, and nothing behind; how many; how many before each of them, 0 or whatever in the others. */
+LAW void lane_pack(GLOBAL int *restrict to, lane_int keep, lane_int x)
+{
+#ifdef LANE_PACK
+    LANE_PACK(to, keep, x);
+#else
+    int n = 0;
+    if (!LANE_ANY(keep)) return;
+#define PUT(l) if (LANE_ITEM(keep, l)) to[n++] = LANE_ITEM(x, l);
+    LANE_EACH(PUT)
+#undef PUT
+#endif
+}
+LAW int lane_count(lane_int keep)
+{
+#ifdef LANE_COUNT
+    return LANE_COUNT(keep);
+#else
+    int n = 0;
+#define ADD(l) n -= LANE_ITEM(keep, l);
+    LANE_EACH(ADD)
+#undef ADD
+    return n;
+#endif
+}
+LAW lane_int lane_rank(lane_int keep)
+{
+#ifdef LANE_RANK
+    return LANE_RANK(keep);
+#else
+    int before = 0;
+    lane_int rank = keep;
+#define PUT(l) LANE_ITEM(rank, l) = before, before -= LANE_ITEM(keep, l);
+    LANE_EACH(PUT)
+#undef PUT
+    return rank;
+#endif
 }
 
 /* Gathers of [element][n]: row holds the element of each lane. Eight lanes of one record each are read as eight vectors and

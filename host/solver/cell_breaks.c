@@ -26,7 +26,7 @@ static brc_status find_kernels(brc_simulation *s, brc_cell_breaks *c)
         bool wanted;
     } wanted[] = {{&c->force, "cells_force", by_bond}, {&c->force_listed, "cells_force_listed", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
                   {&c->break_pass, "cells_break", true}, {&c->rebuild, "cells_rebuild", brc_is_dlsm(s)}, {&c->share, "cells_share", true},
-                  {&c->rim_stress, "rim_stress", brc_is_dlsm(s)}, {&c->rim_kept, "rim_kept", brc_is_dlsm(s)}, {&c->rim_flux, "rim_flux", brc_is_dlsm(s)},
+                  {&c->rim_stress, "rim_stress", brc_is_dlsm(s)}, {&c->rim_inner_flux, "rim_inner_flux", brc_is_dlsm(s)}, {&c->rim_flux, "rim_flux", brc_is_dlsm(s)},
                   {&c->rim_force, "rim_force", brc_is_dlsm(s)}, {&c->elastic, "dlsm_elastic_listed", brc_is_dlsm(s)}, {&c->bonds, "dlsm_bonds_listed", brc_is_dlsm(s)}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
         if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));

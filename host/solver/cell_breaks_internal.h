@@ -9,7 +9,7 @@
 
 struct brc_cell_breaks {
     brc_kernel *force, *force_listed, *check, *ratio, *break_pass, *rebuild, *share, *elastic, *bonds;
-    brc_kernel *rim_stress, *rim_kept, *rim_flux, *rim_force;       /* kernels/rims.cl */
+    brc_kernel *rim_stress, *rim_inner_flux, *rim_flux, *rim_force; /* kernels/rims.cl */
     brc_rings *rings;                                               /* around the bonds that break */
     brc_buffer *limit, *twin, *alive, *mark, *measure;              /* [n_slots][C] */
     brc_buffer *modulus, *least, *support, *stiffest, *changed;     /* [n_rows] */

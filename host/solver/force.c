@@ -114,15 +114,16 @@ static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r, con
                          BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads), BRC_COEFF(m->lambda),
                          BRC_COEFF(m->mu), BRC_BUF(s->material), BRC_INT(finite), BRC_BUF(s->stress)));
     BRC_TRY(dlsm_face_moments(s, r));
-    if (r->rings) BRC_TRY(brc_rims_keep(s, r->rings, false));
-    BRC_TRY(BRC_PASS(s, s->kernel.flux, s->kernel.flux_listed, flux_list, x->flux, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                     BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(r->displacement),
-                     BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume),
-                     BRC_BUF(s->boundary), BRC_BUF(s->held_moment), BRC_INT(face_loads || brc_contact_acts(s, r) ? 1 : 0), BRC_COEFF(m->k),
-                     BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau), BRC_BUF(s->material),
-                     BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(s->flux), BRC_BUF(s->bond_part)));
-    if (r->rings) BRC_TRY(brc_rims_keep(s, r->rings, true));
-    if (r->rings && brc_rims_gain(s, r->rings)) return brc_rims_flux(s, r->rings);
+    brc_arg args[] = {BRC_INT(0), BRC_INT(0), BRC_INT(0), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                      BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(r->displacement),
+                      BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume),
+                      BRC_BUF(s->boundary), BRC_BUF(s->held_moment), BRC_INT(face_loads || brc_contact_acts(s, r) ? 1 : 0), BRC_COEFF(m->k),
+                      BRC_COEFF(m->ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau), BRC_BUF(s->material),
+                      BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(s->flux), BRC_BUF(s->bond_part),
+                      BRC_INT(0), BRC_INT(0), BRC_INT(0)}; /* three free places before, for lists, and behind, for the rim */
+    const int n_args = (int)(sizeof args / sizeof *args) - BRC_RIM_ARGS;
+    if (r->rings && brc_rims_gain(s, r->rings)) return brc_rims_flux(s, r->rings, n_args, args);
+    BRC_TRY(brc_pass_launch(s, s->kernel.flux, s->kernel.flux_listed, flux_list, x->flux, n_args, args));
     return r->homogeneous ? BRC_OK : brc_softening_flux(s, flux_list, x->flux);
 }
 
@@ -208,8 +209,9 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
     BRC_TRY(brc_force_turned_tractions(s, r));
     brc_force_request all = *r;
     if (r->rings && !r->rings->whole_force) { /* from here on forces are those of the whole body */
+        const int last = brc_is_published(s) ? 2 : 3;
         if (brc_is_dlsm(s)) BRC_TRY(brc_rims_force(s, r->rings));
-        BRC_TRY(brc_rings_replace(s, r->rings, brc_is_published(s) ? 2 : 3));
+        BRC_TRY(brc_rings_replace(s, r->rings, brc_is_dlsm(s) && brc_rims_gain(s, r->rings) ? 1 : last, last));
         all.force = s->force, all.torque = s->torque;
         r = &all;
     }

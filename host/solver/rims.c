@@ -23,20 +23,13 @@ brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r, bool f
                     BRC_BUF(r->rings->level), BRC_BUF(c->measure));
 }
 
-brc_status brc_rims_keep(brc_simulation *s, const brc_rings *rings, bool after)
+brc_status brc_rims_flux(brc_simulation *s, const brc_rings *rings, int n_args, brc_arg *args)
 {
     const brc_cell_breaks *c = s->fracture->cells;
-    const int32_t n = rings->around.n[1];
-    if (!brc_rims_gain(s, rings)) return BRC_OK;
-    return BRC_LAUNCH(c->rim_kept, n, BRC_INT(n), BRC_INT(records(rings)), BRC_INT(after ? 1 : 0), BRC_BUF(rings->around.upto[1]), BRC_BUF(rings->level), BRC_BUF(s->flux),
-                      BRC_BUF(c->measure));
-}
-
-brc_status brc_rims_flux(brc_simulation *s, const brc_rings *rings)
-{
-    const brc_cell_breaks *c = s->fracture->cells;
+    args[n_args] = BRC_INT(records(rings)), args[n_args + 1] = BRC_BUF(rings->level), args[n_args + 2] = BRC_BUF(c->measure);
+    BRC_TRY(brc_pass_launch(s, NULL, c->rim_inner_flux, &rings->around, 1, n_args + BRC_RIM_ARGS, args));
     return BRC_PASS(s, NULL, c->rim_flux, &rings->around, 2, BRC_INT(records(rings)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->offset),
-                      BRC_BUF(s->inv_shape), BRC_BUF(rings->level), BRC_BUF(c->measure), BRC_BUF(s->flux));
+                    BRC_BUF(s->inv_shape), BRC_BUF(rings->level), BRC_BUF(c->measure), BRC_BUF(s->flux));
 }
 
 brc_status brc_rims_force(brc_simulation *s, const brc_rings *rings)
@@ -44,5 +37,5 @@ brc_status brc_rims_force(brc_simulation *s, const brc_rings *rings)
     const brc_cell_breaks *c = s->fracture->cells;
     if (!brc_rims_gain(s, rings)) return BRC_OK;
     return BRC_PASS(s, NULL, c->rim_force, &rings->around, 3, BRC_INT(records(rings)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area),
-                      BRC_BUF(rings->level), BRC_BUF(c->measure), BRC_BUF(s->force), BRC_BUF(rings->force));
+                      BRC_BUF(rings->level), BRC_BUF(c->measure), BRC_STATE(rings->half_kick), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(s->velocity), BRC_BUF(rings->force));
 }

@@ -14,11 +14,10 @@ bool brc_rims_gain(const brc_simulation *s, const brc_rings *rings);
 
 /* P of rings 0 and 1 with what their elements hold, elastic_energy, and what P gained where the rim wants it. */
 brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r, bool face_loads);
-/* B of the rings 0 and 1 before and after it is evaluated: what it gained. Nothing where the rim is not done so. */
-brc_status brc_rims_keep(brc_simulation *s, const brc_rings *rings, bool after);
-/* B of ring 2, after that. */
-brc_status brc_rims_flux(brc_simulation *s, const brc_rings *rings);
-/* Forces of the rings 2 and 3, into rings->force: all of theirs, loads on them too, from those of the state, which are as before the breaks. Nothing where the rim is not done so. */
+/* B of the rings 0 to 2 where the rim is done so: 0 and 1 as a whole, by n_args arguments of dlsm_flux_listed behind three free places (BRC_PASS), with BRC_RIM_ARGS more behind. */
+enum { BRC_RIM_ARGS = 3 };
+brc_status brc_rims_flux(brc_simulation *s, const brc_rings *rings, int n_args, brc_arg *args);
+/* Forces of the rings 2 and 3: all of theirs, loads on them too, from those of the state, which are as before the breaks and which they replace (brc_rings_replace). Nothing where the rim is not done so. */
 brc_status brc_rims_force(brc_simulation *s, const brc_rings *rings);
 
 #endif

@@ -139,14 +139,14 @@ static brc_status book_jumps(brc_simulation *s, const brc_rings *r, int32_t n, i
                       BRC_BUF(s->lost_numerical));
 }
 
-brc_status brc_rings_replace(brc_simulation *s, const brc_rings *r, int k)
+brc_status brc_rings_replace(brc_simulation *s, const brc_rings *r, int inner, int k)
 {
-    const int32_t n = r->around.n[k];
-    BRC_TRY(BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.upto[k]), BRC_BUF(s->mass), BRC_BUF(r->force), BRC_BUF(s->force),
+    const int32_t n = r->around.n[inner];
+    BRC_TRY(BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.upto[inner]), BRC_BUF(s->mass), BRC_BUF(r->force), BRC_BUF(s->force),
                        BRC_BUF(s->velocity)));
-    if (books_jumps(s, r)) BRC_TRY(book_jumps(s, r, n, k, 1));
+    if (books_jumps(s, r)) BRC_TRY(book_jumps(s, r, r->around.n[k], k, 1));
     if (!r->torque) return BRC_OK;
-    return BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.upto[k]), BRC_BUF(s->inertia), BRC_BUF(r->torque), BRC_BUF(s->torque),
+    return BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.upto[inner]), BRC_BUF(s->inertia), BRC_BUF(r->torque), BRC_BUF(s->torque),
                       BRC_BUF(s->spin));
 }
 

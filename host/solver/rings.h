@@ -61,8 +61,9 @@ brc_status brc_pass_launch(brc_simulation *s, brc_kernel *whole, brc_kernel *lis
 /* Whether a pass over the rings 0 to `ring` goes over all elements: list NULL, or half of the elements and more. */
 bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int ring);
 
-/* rings->force (and torque) take the places of the forces of the listed rings 0 to k, and the velocities their difference over half a step. */
-brc_status brc_rings_replace(brc_simulation *s, const brc_rings *rings, int k);
+/* rings->force (and torque) take the places of the forces of the listed rings 0 to `inner`, and the velocities their difference over half a step; of those up to k, which brc_rims_force
+ * has replaced, what that loses is booked too. */
+brc_status brc_rings_replace(brc_simulation *s, const brc_rings *rings, int inner, int k);
 /* Around an evaluation of the whole body in place (whole_force): forces from before are kept, and what velocity Verlet loses by their jump is booked, as
  * brc_rings_replace does of its rings. */
 brc_status brc_rings_keep_force(brc_simulation *s, const brc_rings *rings);
