@@ -398,6 +398,12 @@ static void check_material(brc_reader *reader, const brc_material *material)
     const brc_scatter *scatter = &material->scatter;
     if (material->fracture_energy > 0 && !(material->tension > 0))
         COMPLAIN(reader, &material->fracture_energy, material, "fracture_energy: says how cohesion falls from the strength; expected `tension` beside it");
+    if (material->measured_by == BRC_STRENGTH_BY_BRAZILIAN && !(material->tension > 0))
+        COMPLAIN(reader, &material->measured_by, material, "measured_by: says what test `tension` comes from; expected `tension` beside it");
+    if (material->measured_by == BRC_STRENGTH_BY_BRAZILIAN && material->beam_strength > 0)
+        COMPLAIN(reader, &material->measured_by, material, "measured_by: decides nothing where `beam` gives the strength of beams; leave out one of them");
+    if (material->measured_by == BRC_STRENGTH_BY_BRAZILIAN && material->fracture_energy > 0)
+        COMPLAIN(reader, &material->measured_by, material, "measured_by: brazilian is of bonds that break at once; with a fracture_energy give the strength in tension");
     if (scatter->kind != BRC_SCATTER_TABLE) return;
     for (int q = 0; q < scatter->n_quantiles; ++q) {
         const brc_quantile *now = &scatter->quantiles[q], *before = q ? now - 1 : NULL;
@@ -410,6 +416,22 @@ static void check_material(brc_reader *reader, const brc_material *material)
     if (scatter->n_quantiles == 1) COMPLAIN(reader, &scatter->quantiles->below, scatter->quantiles, "table: has one entry; expected two or more");
 }
 
+/* Strengths by discs are a law of beams: cells bear what a solid bears. */
+static void check_measured_by(brc_reader *reader, const brc_body *body)
+{
+    const brc_scene *scene = reader->scene;
+    if ((body->has_model ? body->model.kind : scene->model.kind) == BRC_MODEL_CBM) return;
+    for (int m = 0; m < scene->n_materials; ++m) {
+        const brc_material *material = &scene->materials[m];
+        bool used = body->material == m;
+        for (int k = 0; k < body->n_regions; ++k) used = used || body->regions[k].material == m;
+        for (int k = 0; k < body->n_phases; ++k) used = used || body->phases[k].material == m;
+        if (used && material->measured_by == BRC_STRENGTH_BY_BRAZILIAN)
+            COMPLAIN(reader, &material->measured_by, material, "measured_by: brazilian is a law of beams (model cbm), and body '%s' is made of cells, which break at the strength in "
+                     "tension; give that", body->name);
+    }
+}
+
 /* What only scenes with fracture know. */
 static void check_fracture(brc_reader *reader)
 {
@@ -418,6 +440,8 @@ static void check_fracture(brc_reader *reader)
     static const char *const CURE = "needs `fracture: {}` at the top of the scene";
     for (int m = 0; m < scene->n_materials; ++m)
         check_material(reader, &scene->materials[m]);
+    for (int b = 0; b < scene->n_bodies; ++b)
+        check_measured_by(reader, &scene->bodies[b]);
     for (int k = 0; k < scene->n_stages && !known; ++k) {
         const brc_stage *stage = &scene->stages[k];
         if (stage->to_failure > 0) COMPLAIN(reader, &stage->to_failure, stage, "to_failure: %s", CURE);

@@ -30,6 +30,9 @@ typedef struct brc_scatter {
     char file[512];          /* relative to the scene */
 } brc_scatter;
 
+/* The test that gave a strength in tension: a body pulled apart, or a disc pressed across (NAH19 eq. 27), which nominally fails at another load. */
+typedef enum brc_strength_origin { BRC_STRENGTH_BY_TENSION, BRC_STRENGTH_BY_BRAZILIAN } brc_strength_origin;
+
 /* How the traction of a bond falls from the strength to nothing while its crack opens; G_c is the area below. */
 typedef enum brc_softening { BRC_SOFTENING_LINEAR, BRC_SOFTENING_EXPONENTIAL } brc_softening;
 
@@ -43,6 +46,7 @@ typedef struct brc_material {
     double beam_young;  /* E_m of the beams [Pa] */
     /* only read in scenes with fracture; 0: no limit */
     double tension, compression; /* strengths of the solid, positive [Pa] */
+    brc_strength_origin measured_by; /* cbm: what `tension` is the result of */
     double beam_strength;        /* cbm: sigma_m, tensile limit of the virial stress; 0: from tension by the calibrated law [Pa] */
     double beam_compression;     /* cbm: its limit of compression, positive; 0: from compression by the law [Pa] */
     double fracture_energy;      /* G_c, energy per area of a crack [J/m^2]; 0: bonds break at once */

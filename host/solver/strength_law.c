@@ -1,6 +1,7 @@
 /* Coefficients of the surface: written by `breccia calibrate` as strength/law.h (docs/beams-calibration.md has its command and the tests behind it). */
 #include "strength_law.h"
 #include "chebyshev.h"
+#include "laws/disc.h"
 #include "laws/strength.h"
 #include <math.h>
 
@@ -60,5 +61,17 @@ brc_status brc_strength_law_find(brc_context *context, const brc_strength_law *l
                         "%.4g and %.4g; choose others, or give the material's `beam: {strength: ...}`",
                         law->name, law->coordination[0], law->coordination[1], law->radius[0], law->radius[1], coordination, radius);
     *ratio = brc_strength_law_ratio(law, coordination, radius);
+    return BRC_OK;
+}
+
+brc_status brc_strength_law_disc(brc_context *context, double coordination, double radius, double *ratio)
+{
+    const brc_disc_law *law = &brc_disc_law_fitted;
+    const double x = coordination - 10;
+    if (!within(law->coordination, coordination) || !within(law->radius, radius))
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "fracture: `measured_by: brazilian` is known for coordination numbers %.4g to %.4g and r_m %.4g to %.4g, the sample has %.4g and %.4g; choose others, or "
+                        "give the strength in tension", law->coordination[0], law->coordination[1], law->radius[0], law->radius[1], coordination, radius);
+    *ratio = law->term[0] + x * (law->term[1] + x * (law->term[2] + x * law->term[3])) + radius * law->term[4];
     return BRC_OK;
 }

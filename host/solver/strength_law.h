@@ -28,6 +28,14 @@ const brc_strength_law *brc_strength_law_published(void);
 double brc_strength_law_ratio(const brc_strength_law *law, double coordination, double radius);
 /* The same; BRC_BAD_INPUT with the cure where the law says nothing (a tenth beyond its ranges is let through). */
 brc_status brc_strength_law_find(brc_context *context, const brc_strength_law *law, double coordination, double radius, double *ratio);
+/* What a disc pressed across over arcs of 24 degrees reads (2 P / (pi t D), NAH19 eq. 27) over the strength in tension of its packing [-]: a fit to discs of 20 000 spheres
+ * (laws/disc.h, docs/beams-tests.md), a polynomial of cn and r_m. BRC_BAD_INPUT with the cure more than a tenth outside the ranges it was fitted in. */
+enum { BRC_STRENGTH_LAW_DISC = 5 };
+typedef struct brc_disc_law {
+    double coordination[2], radius[2];
+    double term[BRC_STRENGTH_LAW_DISC]; /* of 1, x, x^2, x^3 with x = cn - 10, and of r_m */
+} brc_disc_law;
+brc_status brc_strength_law_disc(brc_context *context, double coordination, double radius, double *ratio);
 /* What multiplies the coefficients of eq. 22, in their order: 1, cn, cn^2, r_m, ... */
 void brc_strength_law_paper_terms(double coordination, double radius, double out[BRC_STRENGTH_LAW_PAPER]);
 /* The products T_i(s) T_j(t) of a law's ranges, row i, column j. */

@@ -75,6 +75,15 @@ static void bodies_keep_their_own_model(void **state)
     brc_scene_free(&scene);
 }
 
+static void strengths_keep_the_test_they_come_from(void **state)
+{
+    (void)state;
+    brc_scene *scene = good_scene(TOP A "{tension: 50 MPa, measured_by: brazilian}}\n" B "model: cbm\nfracture: {}\n" BODY END);
+    assert_int_equal(scene->materials[0].measured_by, BRC_STRENGTH_BY_BRAZILIAN);
+    assert_int_equal(scene->materials[1].measured_by, BRC_STRENGTH_BY_TENSION);
+    brc_scene_free(&scene);
+}
+
 static void what_does_not_fit_is_refused(void **state)
 {
     (void)state;
@@ -84,6 +93,13 @@ static void what_does_not_fit_is_refused(void **state)
         {TOP A "{tension: 50 MPa, scatter: {table: [{below: 0, factor: 2}, {below: 1, factor: 1}]}}}\n" BODY END, "3:137", "is smaller than the one before"},
         {TOP A "{tension: 50 MPa, scatter: {table: [{below: 10 %, factor: 1}, {below: 1, factor: 2}]}}}\n" BODY END, "3:103", "grow from 0 at the first"},
         {TOP A "{tension: 50 MPa, fracture_energy: 8 J}}\n" BODY END, "3:94", "J/m^2"},
+        {TOP A "{compression: 50 MPa, measured_by: brazilian}}\n" "model: cbm\n" BODY END, "3:94", "expected `tension` beside it"},
+        {TOP A "{tension: 50 MPa, fracture_energy: 8 J/m^2, measured_by: brazilian}}\n" "model: cbm\n" BODY END, "3:116", "give the strength in tension"},
+        {TOP A "{tension: 50 MPa, measured_by: brazilian}, beam: {strength: 60 MPa}}\n" "model: cbm\n" BODY END, "3:90", "leave out one of them"},
+        {TOP A "{tension: 50 MPa, measured_by: brazilian}}\n" BODY END, "3:90", "is made of cells"},
+        {TOP B A "{tension: 50 MPa, measured_by: brazilian}}\n" "model: cbm\nbodies: [{name: one, material: b, domain: d.h5}, {name: two, material: a, domain: e.h5, model: dlsm}]\n" END, "4:90",
+         "body 'two' is made of cells"},
+        {TOP A "{tension: 50 MPa, measured_by: splitting}}\n" "model: cbm\n" BODY END, "3:90", "brazilian"},
         {TOP A "{tension: 50 MPa}}\n" BODY "stages: [{name: pull, solver: {static: {events: 5}}}]\n", "5:49", "needs `fracture: {}`"},
         {TOP A "{tension: 50 MPa}}\n" BODY "fracture: {}\nstages: [{name: pull, solver: {static: {events: 5, increments: 3}}}]\n", "6:49",
          "they find the load themselves"},
@@ -105,6 +121,7 @@ int main(void)
         cmocka_unit_test(interfaces_keep_their_sides_and_order),
         cmocka_unit_test(criterion_follows_the_model_unless_given),
         cmocka_unit_test(bodies_keep_their_own_model),
+        cmocka_unit_test(strengths_keep_the_test_they_come_from),
         cmocka_unit_test(what_does_not_fit_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 /* Bonds of beams that break: which, when, what happens to force, energy and momentum; and nothing at all without `fracture`. */
 #include "fracture_case.h"
 #include "../../host/base/memory.h"
+#include "../../host/solver/beam_law.h"
 #include "../../host/solver/strength_law.h"
 #include "../../host/solver/strengths.h"
 #include <lapacke.h>
@@ -327,6 +328,23 @@ static void a_strength_for_beams_is_taken_as_given(void **state)
     close_case(&c);
 }
 
+/* Limits are larger by what discs read less; a compressive strength is no result of discs. */
+static void a_strength_by_discs_raises_the_limit_in_tension_alone(void **state)
+{
+    (void)state;
+    bench_case tension, disc;
+    brc_beam_body bonds;
+    double ratio;
+    open_fracture(&tension, (fracture_options){.fracture = CRITERION(1), .strength = "strength: {tension: 2e-4 Pa, compression: 9e-4 Pa}"});
+    open_fracture(&disc, (fracture_options){.fracture = CRITERION(1), .strength = "strength: {tension: 2e-4 Pa, compression: 9e-4 Pa, measured_by: brazilian}"});
+    assert_done(&disc, brc_beam_body_of(disc.context, disc.domain, 0, &bonds));
+    assert_done(&disc, brc_strength_law_disc(disc.context, brc_beam_law_coordination(brc_beam_law_for(0.125), &bonds), 0.4, &ratio));
+    assert_true(ratio < 0.99);
+    for (int c = 0; c < 3; ++c)
+        assert_true(fabs(disc.simulation->fracture->limit[c] * (c == 0 ? ratio : 1) - tension.simulation->fracture->limit[c]) <= 1e-12 * tension.simulation->fracture->limit[c]);
+    close_case(&tension), close_case(&disc);
+}
+
 /* NAH19 Tables 9 and 10 give sigma_m = sigma_M / k for glass (50 MPa) and alumina (380 MPa); r_m of Tables 5 and 6. 0.05 %: the rounding of
  * the printed coefficients (design-cbm.md section 4). */
 static void eq_22_gives_the_strengths_of_the_papers_tables(void **state)
@@ -371,6 +389,7 @@ int main(void)
         cmocka_unit_test(the_same_bonds_break_for_any_number_of_threads_and_lanes),
         cmocka_unit_test(scenes_that_cannot_break_are_refused_with_the_cure),
         cmocka_unit_test(a_strength_for_beams_is_taken_as_given),
+        cmocka_unit_test(a_strength_by_discs_raises_the_limit_in_tension_alone),
         cmocka_unit_test(eq_22_gives_the_strengths_of_the_papers_tables),
         cmocka_unit_test(a_static_stage_goes_to_the_asked_part_of_failure),
     };
