@@ -442,6 +442,11 @@ static void check_fracture(brc_reader *reader)
         check_material(reader, &scene->materials[m]);
     for (int b = 0; b < scene->n_bodies; ++b)
         check_measured_by(reader, &scene->bodies[b]);
+    for (int m = 0; m < scene->n_materials; ++m)
+        for (int k = 0; k < scene->n_interfaces && scene->materials[m].measured_by == BRC_STRENGTH_BY_BRAZILIAN; ++k)
+            if (scene->interfaces[k].fracture_energy > 0)
+                COMPLAIN(reader, &scene->materials[m].measured_by, &scene->materials[m], "measured_by: brazilian is of bonds that break at once, and interface number %d has a "
+                         "fracture_energy; with one give the strength in tension", k + 1);
     for (int k = 0; k < scene->n_stages && !known; ++k) {
         const brc_stage *stage = &scene->stages[k];
         if (stage->to_failure > 0) COMPLAIN(reader, &stage->to_failure, stage, "to_failure: %s", CURE);

@@ -99,6 +99,8 @@ static void what_does_not_fit_is_refused(void **state)
         {TOP A "{tension: 50 MPa, measured_by: brazilian}}\n" BODY END, "3:90", "is made of cells"},
         {TOP B A "{tension: 50 MPa, measured_by: brazilian}}\n" "model: cbm\nbodies: [{name: one, material: b, domain: d.h5}, {name: two, material: a, domain: e.h5, model: dlsm}]\n" END, "4:90",
          "body 'two' is made of cells"},
+        {TOP A "{tension: 50 MPa, measured_by: brazilian}}\n" B "model: cbm\n" BODY END "interactions: {interfaces: [{materials: {first: a, second: b, fracture_energy: 1 J/m^2}}]}\n", "3:90",
+         "interface number 1 has a fracture_energy"},
         {TOP A "{tension: 50 MPa, measured_by: splitting}}\n" "model: cbm\n" BODY END, "3:90", "brazilian"},
         {TOP A "{tension: 50 MPa}}\n" BODY "stages: [{name: pull, solver: {static: {events: 5}}}]\n", "5:49", "needs `fracture: {}`"},
         {TOP A "{tension: 50 MPa}}\n" BODY "fracture: {}\nstages: [{name: pull, solver: {static: {events: 5, increments: 3}}}]\n", "6:49",
