@@ -49,14 +49,14 @@ static brc_status dispatch(const brc_session *session, int argc, const char *con
     return command->run(session, &arguments);
 }
 
-/* GNU OpenMP lets waiting threads spin for milliseconds unless told otherwise before the program begins. When another program
- * wants the same core, each of the five launches of a step then loses a time slice: a static solve of 5120 cells beside a
- * second two-thread program took 200 s, 22 s with a short spin, 7 s without; alone it costs some 2 us a launch (docs/devices.md).
- * So the program starts itself once more without spinning, unless the user has chosen. If that fails, it goes on as it is. */
+/* GNU OpenMP lets waiting threads spin for milliseconds unless told otherwise before the program begins. When another program wants the same core, each launch of a step then loses a time slice; but a
+ * core that falls asleep between launches takes longer to wake, on virtual machines, than a launch of 10 000 elements takes. A spin of some ten microseconds is within a tenth of the best there is on a
+ * quiet machine (without: 1.3 to 2.9 times the seconds of steps) and within a quarter of it beside other programs (docs/devices.md). So the program starts itself once more with it, unless the user has
+ * chosen. If that fails, it goes on as it is. Other OpenMP libraries do not know the count and do not spin. */
 static void limit_spinning(char **argv)
 {
     if (getenv("GOMP_SPINCOUNT") || getenv("OMP_WAIT_POLICY")) return;
-    if (setenv("OMP_WAIT_POLICY", "passive", 1) == 0) execv("/proc/self/exe", argv);
+    if (setenv("GOMP_SPINCOUNT", "1000", 1) == 0 && setenv("OMP_WAIT_POLICY", "passive", 1) == 0) execv("/proc/self/exe", argv);
 }
 
 /* Once a large block was freed, glibc keeps all that are smaller, up to 32 MB each, and lists of pairs that grow leave holes: a plate under impact held 262 MB for 222.

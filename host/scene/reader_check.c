@@ -398,12 +398,12 @@ static void check_material(brc_reader *reader, const brc_material *material)
     const brc_scatter *scatter = &material->scatter;
     if (material->fracture_energy > 0 && !(material->tension > 0))
         COMPLAIN(reader, &material->fracture_energy, material, "fracture_energy: says how cohesion falls from the strength; expected `tension` beside it");
-    if (material->measured_by == BRC_STRENGTH_BY_BRAZILIAN && !(material->tension > 0))
+    if (material->measured_by != BRC_STRENGTH_BY_TENSION && !(material->tension > 0))
         COMPLAIN(reader, &material->measured_by, material, "measured_by: says what test `tension` comes from; expected `tension` beside it");
-    if (material->measured_by == BRC_STRENGTH_BY_BRAZILIAN && material->beam_strength > 0)
+    if (material->measured_by != BRC_STRENGTH_BY_TENSION && material->beam_strength > 0)
         COMPLAIN(reader, &material->measured_by, material, "measured_by: decides nothing where `beam` gives the strength of beams; leave out one of them");
-    if (material->measured_by == BRC_STRENGTH_BY_BRAZILIAN && material->fracture_energy > 0)
-        COMPLAIN(reader, &material->measured_by, material, "measured_by: brazilian is of bonds that break at once; with a fracture_energy give the strength in tension");
+    if (material->measured_by != BRC_STRENGTH_BY_TENSION && material->fracture_energy > 0)
+        COMPLAIN(reader, &material->measured_by, material, "measured_by: what discs read is known of bonds that break at once; with a fracture_energy give the strength in tension");
     if (scatter->kind != BRC_SCATTER_TABLE) return;
     for (int q = 0; q < scatter->n_quantiles; ++q) {
         const brc_quantile *now = &scatter->quantiles[q], *before = q ? now - 1 : NULL;
@@ -426,8 +426,8 @@ static void check_measured_by(brc_reader *reader, const brc_body *body)
         bool used = body->material == m;
         for (int k = 0; k < body->n_regions; ++k) used = used || body->regions[k].material == m;
         for (int k = 0; k < body->n_phases; ++k) used = used || body->phases[k].material == m;
-        if (used && material->measured_by == BRC_STRENGTH_BY_BRAZILIAN)
-            COMPLAIN(reader, &material->measured_by, material, "measured_by: brazilian is a law of beams (model cbm), and body '%s' is made of cells, which break at the strength in "
+        if (used && material->measured_by != BRC_STRENGTH_BY_TENSION)
+            COMPLAIN(reader, &material->measured_by, material, "measured_by: what discs read is a law of beams (model cbm), and body '%s' is made of cells, which break at the strength in "
                      "tension; give that", body->name);
     }
 }
@@ -443,9 +443,9 @@ static void check_fracture(brc_reader *reader)
     for (int b = 0; b < scene->n_bodies; ++b)
         check_measured_by(reader, &scene->bodies[b]);
     for (int m = 0; m < scene->n_materials; ++m)
-        for (int k = 0; k < scene->n_interfaces && scene->materials[m].measured_by == BRC_STRENGTH_BY_BRAZILIAN; ++k)
+        for (int k = 0; k < scene->n_interfaces && scene->materials[m].measured_by != BRC_STRENGTH_BY_TENSION; ++k)
             if (scene->interfaces[k].fracture_energy > 0)
-                COMPLAIN(reader, &scene->materials[m].measured_by, &scene->materials[m], "measured_by: brazilian is of bonds that break at once, and interface number %d has a "
+                COMPLAIN(reader, &scene->materials[m].measured_by, &scene->materials[m], "measured_by: what discs read is known of bonds that break at once, and interface number %d has a "
                          "fracture_energy; with one give the strength in tension", k + 1);
     for (int k = 0; k < scene->n_stages && !known; ++k) {
         const brc_stage *stage = &scene->stages[k];

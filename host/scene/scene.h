@@ -30,8 +30,8 @@ typedef struct brc_scatter {
     char file[512];          /* relative to the scene */
 } brc_scatter;
 
-/* The test that gave a strength in tension: a body pulled apart, or a disc pressed across (NAH19 eq. 27), which nominally fails at another load. */
-typedef enum brc_strength_origin { BRC_STRENGTH_BY_TENSION, BRC_STRENGTH_BY_BRAZILIAN } brc_strength_origin;
+/* The test that gave a strength in tension: a body pulled apart, or a disc pressed across (NAH19 eq. 27), which nominally fails at another load; or either, the error shared by both tests. */
+typedef enum brc_strength_origin { BRC_STRENGTH_BY_TENSION, BRC_STRENGTH_BY_BRAZILIAN, BRC_STRENGTH_BY_EITHER } brc_strength_origin;
 
 /* How the traction of a bond falls from the strength to nothing while its crack opens; G_c is the area below. */
 typedef enum brc_softening { BRC_SOFTENING_LINEAR, BRC_SOFTENING_EXPONENTIAL } brc_softening;

@@ -38,9 +38,9 @@ static const brc_section SCATTER_SECTION = {.title = "scatter",
 static const brc_entry STRENGTH[] = {
     {"tension", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, tension), .sample = "50 MPa",
      .meaning = "largest principal stress it bears"},
-    {"measured_by", BRC_TYPE_CHOICE, FIELD(brc_material, measured_by), CHOICES("tension", "brazilian"), .given = "tension",
+    {"measured_by", BRC_TYPE_CHOICE, FIELD(brc_material, measured_by), CHOICES("tension", "brazilian", "either"), .given = "tension",
      .meaning = "model cbm: the test that `tension` comes from; brazilian: 2 P / (pi t D) of discs pressed across over arcs of 24 degrees (NAH19 eq. 27), as rock is tested; "
-                "such discs then split at it"},
+                "such discs then split at it; either: not known, bodies pulled apart and discs share the difference between them, up to 3.7 % of the strength in tension"},
     {"compression", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, compression), .sample = "500 MPa",
      .meaning = "largest compressive principal stress it bears, a positive number; left out: any"},
     {"fracture_energy", BRC_TYPE_QUANTITY, "J/m^2", POSITIVE, FIELD(brc_material, fracture_energy), .sample = ENERGY_SAMPLE,

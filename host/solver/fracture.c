@@ -38,9 +38,9 @@ static double shear_limit(const brc_fracture *f, double *slope)
     return 0;
 }
 
-/* k of one body's beams; and what discs read over it, left alone where the strength is one in tension. Refused by the body's own coordination number; taken at that of the cube of 10 000 spheres with as many bonds inside, since a body's walls
+/* k of one body's beams; and the nominal strength over that in tension of the test the material's is from, 1 where that is tension. Refused by the body's own coordination number; taken at that of the cube of 10 000 spheres with as many bonds inside, since a body's walls
  * should no more change its strength than its stiffness. */
-static brc_status strength_ratio(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double *k, double *disc)
+static brc_status strength_ratio(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double *k, double *nominal)
 {
     const brc_domain *d = s->domain;
     const brc_strength_law *law = brc_strength_law_default();
@@ -59,17 +59,20 @@ static brc_status strength_ratio(brc_simulation *s, const brc_material *m, int32
             "material '%s': limits are the strengths over k = %.4f (%s, r_m %.4g, coordination number %.4g, as of cubes of 10 000 spheres with %.4g; %s: %.4f)", m->name, *k,
             law->name, radius_ratio, bonds.coordination, coordination, brc_strength_law_published()->name,
             brc_strength_law_ratio(brc_strength_law_published(), coordination, radius_ratio));
-    if (m->measured_by != BRC_STRENGTH_BY_BRAZILIAN) return BRC_OK;
-    BRC_TRY(brc_strength_law_disc(s->context, coordination, radius_ratio, disc));
-    brc_log(s->context, BRC_LOG_INFO, "material '%s': discs of its packing split at %.4g of the strength in tension, which is taken as %.4g Pa for %.4g Pa measured by them", m->name, *disc,
-            m->tension / *disc, m->tension);
+    *nominal = 1;
+    if (m->measured_by == BRC_STRENGTH_BY_TENSION) return BRC_OK;
+    double disc;
+    BRC_TRY(brc_strength_law_disc(s->context, coordination, radius_ratio, &disc));
+    *nominal = m->measured_by == BRC_STRENGTH_BY_EITHER ? brc_strength_law_either(disc) : disc;
+    brc_log(s->context, BRC_LOG_INFO, "material '%s': discs of its packing split at %.4g of the strength in tension, which is taken as %.4g Pa for %.4g Pa measured by %s", m->name, disc,
+            m->tension / *nominal, m->tension, m->measured_by == BRC_STRENGTH_BY_EITHER ? "either test" : "them");
     return BRC_OK;
 }
 
 /* Limits of the virial stress of one material in one body. */
 static brc_status limits_of(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double shear, double limit[3])
 {
-    double k = 1, disc = 1;
+    double k = 1, nominal = 1;
     limit[0] = limit[1] = limit[2] = 0;
     if (criterion(s) == BRC_CRITERION_PRINCIPAL && !(m->tension > 0 || m->compression > 0 || m->beam_strength > 0 || m->beam_compression > 0))
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
@@ -80,12 +83,12 @@ static brc_status limits_of(brc_simulation *s, const brc_material *m, int32_t bo
     }
     const bool by_law = (m->tension > 0 && !(m->beam_strength > 0)) || (m->compression > 0 && !(m->beam_compression > 0)) || shear > 0;
     if (by_law) {
-        BRC_TRY(strength_ratio(s, m, body, radius_ratio, &k, &disc));
+        BRC_TRY(strength_ratio(s, m, body, radius_ratio, &k, &nominal));
         if (s->scene->fracture.level != 1)
             brc_log(s->context, BRC_LOG_WARNING, "fracture: the law for strength was fitted for level 1, the scene asks for level %d; give "
                     "beam: {strength: ...} where that matters", (int)s->scene->fracture.level);
     }
-    limit[0] = m->beam_strength > 0 ? m->beam_strength : m->tension / (k * disc);
+    limit[0] = m->beam_strength > 0 ? m->beam_strength : m->tension / (k * nominal);
     limit[1] = m->beam_compression > 0 ? m->beam_compression : m->compression / k;
     limit[2] = shear / k;
     return BRC_OK;

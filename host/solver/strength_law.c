@@ -70,8 +70,10 @@ brc_status brc_strength_law_disc(brc_context *context, double coordination, doub
     const double x = coordination - 10;
     if (!within(law->coordination, coordination) || !within(law->radius, radius))
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "fracture: `measured_by: brazilian` is known for coordination numbers %.4g to %.4g and r_m %.4g to %.4g, the sample has %.4g and %.4g; choose others, or "
+                        "fracture: what discs read (`measured_by`) is known for coordination numbers %.4g to %.4g and r_m %.4g to %.4g, the sample has %.4g and %.4g; choose others, or "
                         "give the strength in tension", law->coordination[0], law->coordination[1], law->radius[0], law->radius[1], coordination, radius);
-    *ratio = law->term[0] + x * (law->term[1] + x * (law->term[2] + x * law->term[3])) + radius * law->term[4];
+    *ratio = law->term[0] + x * (law->term[1] + x * (law->term[2] + x * law->term[3])) + radius * (law->term[4] + x * law->term[5]);
     return BRC_OK;
 }
+
+double brc_strength_law_either(double disc) { return fmin(fmax(sqrt(disc), 1 / 1.037), 1 / 0.963); }

@@ -30,12 +30,15 @@ double brc_strength_law_ratio(const brc_strength_law *law, double coordination, 
 brc_status brc_strength_law_find(brc_context *context, const brc_strength_law *law, double coordination, double radius, double *ratio);
 /* What a disc pressed across over arcs of 24 degrees reads (2 P / (pi t D), NAH19 eq. 27) over the strength in tension of its packing [-]: a fit to discs of 20 000 spheres
  * (laws/disc.h, docs/beams-tests.md), a polynomial of cn and r_m. BRC_BAD_INPUT with the cure more than a tenth outside the ranges it was fitted in. */
-enum { BRC_STRENGTH_LAW_DISC = 5 };
+enum { BRC_STRENGTH_LAW_DISC = 6 };
 typedef struct brc_disc_law {
     double coordination[2], radius[2];
-    double term[BRC_STRENGTH_LAW_DISC]; /* of 1, x, x^2, x^3 with x = cn - 10, and of r_m */
+    double term[BRC_STRENGTH_LAW_DISC]; /* of 1, x, x^2, x^3 with x = cn - 10, of r_m and of x r_m */
 } brc_disc_law;
 brc_status brc_strength_law_disc(brc_context *context, double coordination, double radius, double *ratio);
+/* What a strength that either test may have given is divided by to be one in tension [-]: the root of `disc`, so that bars bear as much more than the number as discs read less (or the other way
+ * round), and bars at most 3.7 % more or less. */
+double brc_strength_law_either(double disc);
 /* What multiplies the coefficients of eq. 22, in their order: 1, cn, cn^2, r_m, ... */
 void brc_strength_law_paper_terms(double coordination, double radius, double out[BRC_STRENGTH_LAW_PAPER]);
 /* The products T_i(s) T_j(t) of a law's ranges, row i, column j. */

@@ -82,6 +82,9 @@ static void strengths_keep_the_test_they_come_from(void **state)
     assert_int_equal(scene->materials[0].measured_by, BRC_STRENGTH_BY_BRAZILIAN);
     assert_int_equal(scene->materials[1].measured_by, BRC_STRENGTH_BY_TENSION);
     brc_scene_free(&scene);
+    scene = good_scene(TOP A "{tension: 50 MPa, measured_by: either}}\n" "model: cbm\nfracture: {}\n" BODY END);
+    assert_int_equal(scene->materials[0].measured_by, BRC_STRENGTH_BY_EITHER);
+    brc_scene_free(&scene);
 }
 
 static void what_does_not_fit_is_refused(void **state)
@@ -97,6 +100,7 @@ static void what_does_not_fit_is_refused(void **state)
         {TOP A "{tension: 50 MPa, fracture_energy: 8 J/m^2, measured_by: brazilian}}\n" "model: cbm\n" BODY END, "3:116", "give the strength in tension"},
         {TOP A "{tension: 50 MPa, measured_by: brazilian}, beam: {strength: 60 MPa}}\n" "model: cbm\n" BODY END, "3:90", "leave out one of them"},
         {TOP A "{tension: 50 MPa, measured_by: brazilian}}\n" BODY END, "3:90", "is made of cells"},
+        {TOP A "{tension: 50 MPa, measured_by: either}}\n" BODY END, "3:90", "is made of cells"},
         {TOP B A "{tension: 50 MPa, measured_by: brazilian}}\n" "model: cbm\nbodies: [{name: one, material: b, domain: d.h5}, {name: two, material: a, domain: e.h5, model: dlsm}]\n" END, "4:90",
          "body 'two' is made of cells"},
         {TOP A "{tension: 50 MPa, measured_by: brazilian}}\n" B "model: cbm\n" BODY END "interactions: {interfaces: [{materials: {first: a, second: b, fracture_energy: 1 J/m^2}}]}\n", "3:90",

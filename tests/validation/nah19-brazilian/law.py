@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""law.py STRENGTHS.csv > disc.h: what discs read over the strength in tension of their packing, fitted by least squares with 1, x, x^2, x^3 (x = cn - 10) and r_m.
+"""law.py STRENGTHS.csv > disc.h: what discs read over the strength in tension of their packing, fitted by least squares with 1, x, x^2, x^3 (x = cn - 10), r_m and x r_m.
 
 STRENGTHS.csv: material, coordination, r_m, packing, strength_over_target of the rows laws-... of `breccia reproduce nah19-brazilian`, a line a disc."""
 import csv
@@ -12,7 +12,7 @@ cn = numpy.array([float(r["coordination"]) for r in rows])
 radius = numpy.array([float(r["r_m"]) for r in rows])
 ratio = numpy.array([float(r["strength_over_target"]) for r in rows])
 x = cn - 10
-terms = numpy.stack([x**0, x, x**2, x**3, radius], 1)
+terms = numpy.stack([x**0, x, x**2, x**3, radius, x * radius], 1)
 law, *_ = numpy.linalg.lstsq(terms, ratio, rcond=None)
 left = terms @ law / ratio - 1
 packings = sorted({int(r["packing"]) for r in rows})
