@@ -38,8 +38,8 @@ static double shear_limit(const brc_fracture *f, double *slope)
     return 0;
 }
 
-/* k of one body's beams; and the nominal strength over that in tension of the test the material's is from, 1 where that is tension. Refused by the body's own coordination number; taken at that of the cube of 10 000 spheres with as many bonds inside, since a body's walls
- * should no more change its strength than its stiffness. */
+/* k of one body's beams; and nominal, what the test that the material's strength is from reads over the strength in tension, 1 where that is tension [-, both]. Refused by the body's own coordination
+ * number; taken at that of the cube of 10 000 spheres with as many bonds inside, since a body's walls should no more change its strength than its stiffness. */
 static brc_status strength_ratio(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double *k, double *nominal)
 {
     const brc_domain *d = s->domain;

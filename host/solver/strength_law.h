@@ -32,7 +32,7 @@ brc_status brc_strength_law_find(brc_context *context, const brc_strength_law *l
  * (laws/disc.h, docs/beams-tests.md), a polynomial of cn and r_m. BRC_BAD_INPUT with the cure more than a tenth outside the ranges it was fitted in. */
 enum { BRC_STRENGTH_LAW_DISC = 6 };
 typedef struct brc_disc_law {
-    double coordination[2], radius[2];
+    double coordination[2], radius[2]; /* ranges of cn and r_m it was fitted in [-] */
     double term[BRC_STRENGTH_LAW_DISC]; /* of 1, x, x^2, x^3 with x = cn - 10, of r_m and of x r_m */
 } brc_disc_law;
 brc_status brc_strength_law_disc(brc_context *context, double coordination, double radius, double *ratio);

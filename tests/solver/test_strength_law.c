@@ -61,7 +61,7 @@ static void a_sample_outside_the_law_is_refused_with_the_cure(void **state)
 }
 
 /* The fit leaves errors of the discs in the file beside it that no polynomial of its kind could take away: least squares, so their sum with 1, x, x^2, x^3, r_m and x r_m is nothing (1e-4 of the
- * sum of their sizes: six digits of the law and of the file). And it is no worse than discs scatter: 1.85 % (laws/disc.h), 3 % for the mean of four. */
+ * sum of their sizes: six digits of the law and of the file). And it is no worse than discs scatter: 1.73 % (laws/disc.h), 3 % for the mean of four. */
 static void what_discs_read_is_the_fit_of_the_file_beside_it(void **state)
 {
     (void)state;
