@@ -1,5 +1,6 @@
 /* Coefficients of the surface: written by `breccia calibrate` as strength/law.h (docs/beams-calibration.md has its command and the tests behind it). */
 #include "strength_law.h"
+#include "../base/log.h"
 #include "chebyshev.h"
 #include "laws/disc.h"
 #include "laws/strength.h"
@@ -72,7 +73,15 @@ brc_status brc_strength_law_disc(brc_context *context, double coordination, doub
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "fracture: what discs read (`measured_by`) is known for coordination numbers %.4g to %.4g and r_m %.4g to %.4g, the sample has %.4g and %.4g; choose others, or "
                         "give the strength in tension", law->coordination[0], law->coordination[1], law->radius[0], law->radius[1], coordination, radius);
-    *ratio = law->term[0] + x * (law->term[1] + x * (law->term[2] + x * law->term[3])) + radius * (law->term[4] + x * law->term[5]);
+    const double place = fmin(fmax(coordination - law->coordination[0], 0), BRC_STRENGTH_LAW_DISC_BANDS - 1);
+    const int low = (int)fmin(place, BRC_STRENGTH_LAW_DISC_BANDS - 2);
+    double band[2];
+    for (int side = 0; side < 2; ++side) band[side] = law->band[low][side] + (place - low) * (law->band[low + 1][side] - law->band[low][side]);
+    const double known = fmin(fmax(radius, band[0]), band[1]);
+    if (fabs(radius - known) > 0.02 * known) /* packings move r_m by less */
+        brc_log(context, BRC_LOG_WARNING, "what discs read (`measured_by`) was measured at coordination number %.4g for r_m %.4g to %.4g (nu near 0.23 and 0.24), the sample has %.4g: taken as at %.4g", coordination,
+                band[0], band[1], radius, known);
+    *ratio = law->term[0] + x * (law->term[1] + x * (law->term[2] + x * law->term[3])) + known * (law->term[4] + x * law->term[5]);
     return BRC_OK;
 }
 

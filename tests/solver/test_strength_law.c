@@ -90,6 +90,15 @@ static void what_discs_read_is_the_fit_of_the_file_beside_it(void **state)
     assert_int_equal(brc_strength_law_disc(context, 5.3, 0.4, &ratio), BRC_BAD_INPUT);
     assert_int_equal(brc_strength_law_disc(context, 10, 0.6, &ratio), BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(context), "give the strength in tension"));
+    double nearest; /* no polynomial goes on where no disc was: at cn 6 discs had r_m 0.4878 to 0.5173 */
+    assert_int_equal(brc_strength_law_disc(context, 6, 0.2, &ratio), BRC_OK);
+    assert_int_equal(brc_strength_law_disc(context, 6, 0.4878, &nearest), BRC_OK);
+    assert_true(ratio == nearest);
+    for (double cn = 5.5; cn < 14; cn += 0.25)
+        for (double radius = 0.15; radius < 0.56; radius += 0.05) {
+            assert_int_equal(brc_strength_law_disc(context, cn, radius, &ratio), BRC_OK);
+            assert_true(ratio > 0.9 && ratio < 1.1); /* discs of the file: 0.897 to 1.089, their means 0.917 to 1.063 */
+        }
     brc_context_free(&context);
 }
 
