@@ -141,19 +141,20 @@ KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOB
 
 /* Bonds of touched elements that are marked on either side become missing ones. width: numbers a face's area has, 3 for a vector. weight [n]: gains the sum over the element's bonds
  * that break of stress^2 times volume (S L; without a ratio S^(3/2)): shares of the energy that they release, kept in break_energy until
- * cells_share, which leaves it 0. changed [n]: 1 where a bond went. broken [n]: bonds lost so far. */
+ * cells_share, which leaves it 0. changed [n]: 1 where a bond went. gone [n]: bonds lost so far; broken [n]: bonds that broke so
+ * far, those among them whose sides still bear on each other. */
 KERNEL void cells_break(int n_groups, int step, int width, GLOBAL const int *restrict row_start, GLOBAL const int *restrict twin,
                         GLOBAL int *restrict touched, GLOBAL const int *restrict mark, GLOBAL const coeff *restrict measure,
                         GLOBAL coeff *restrict alive, GLOBAL int *restrict neighbour, GLOBAL coeff *restrict area, GLOBAL coeff *restrict ratio,
                         GLOBAL coeff *restrict limit, GLOBAL int *restrict break_step,
                         GLOBAL int *restrict break_mode, GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
-                        GLOBAL state *restrict weight, GLOBAL int *restrict changed, GLOBAL state *restrict broken)
+                        GLOBAL state *restrict weight, GLOBAL int *restrict changed, GLOBAL state *restrict gone, GLOBAL state *restrict broken)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(touched, (brc_size)group * W);
         for (int e = group * W; LANE_ANY(some) && e < group * W + W; ++e) {
             state sum = 0;
-            int count = 0;
+            int count = 0, fresh = 0;
             for (int slot = row_start[e / C]; touched[e] && slot < row_start[e / C + 1]; ++slot) {
                 const brc_size entry = (brc_size)slot * C + e % C;
                 if (!(alive[entry] > 0)) continue;
@@ -171,18 +172,21 @@ KERNEL void cells_break(int n_groups, int step, int width, GLOBAL const int *res
                 neighbour[entry] = e;
                 if (width == 3) ratio[entry] = 1;
                 limit[entry] = CELLS_NEVER;
+                sum += (state)part;
+                count += 1;
+                if (break_step[entry]) continue; /* broke before, and its sides have come clear of each other now (softening.cl) */
                 break_step[entry] = step;
                 break_mode[entry] = mode;
                 break_stress[entry] = stress;
                 break_energy[entry] = part;
-                sum += (state)part;
-                count += 1;
+                fresh += 1;
             }
             if (touched[e]) touched[e] = 2;
             if (!count) continue;
             weight[e] += sum;
             changed[e] = 1;
-            broken[e] += (state)count;
+            gone[e] += (state)count;
+            broken[e] += (state)fresh;
         }
     }
 }

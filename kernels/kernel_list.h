@@ -131,6 +131,7 @@
     X(soft_gradient)                                                                                                   \
     X(soft_flux)                                                                                                       \
     X(soft_take_force)                                                                                                 \
+    X(soft_coast)                                                                                                      \
     X(soft_move)                                                                                                       \
     X(soft_measure)                                                                                                    \
     X(soft_book)                                                                                                       \

@@ -8,7 +8,7 @@
  * ONSET: principal stress at the onset [Pa]; WIDEST: largest |w| [m]; SPENT: energy that its cohesion took so far but for what is HELD, which comes
  * back [J]; BOOKED: what of SPENT the last step added [J]; COSINE of normal and principal axis at the onset [-]; EXPONENTIAL: 1, else linear; TILT:
  * what the direction of the opening leaves of ENERGY [-].
- * Entries: open: 1 from the onset on; lead: 1 on the side with the lower id, which computes for both. Elements [n]: n_open: open faces that hold;
+ * Entries: open: 0 whole, SOFT_OPENS from the onset on, SOFT_APART from the end of the cohesion on; lead: 1 on the side with the lower id, which computes for both. Elements [n]: n_open: open faces that hold;
  * reach: sum of |A^-1 s| over them [1/m]. */
 
 #define SOFT_OPENING 0
@@ -24,7 +24,10 @@
 #define SOFT_COSINE 16
 #define SOFT_EXPONENTIAL 17
 #define SOFT_TILT 18
-#define SOFT_WIDTH 19
+#define SOFT_AXIS 19
+#define SOFT_WIDTH 22
+#define SOFT_OPENS 1 /* open: against its cohesion */
+#define SOFT_APART 2 /* open: its cohesion ended; it still shuts */
 #define SOFT_WISH 100 /* in mark: the bond is to open */
 
 #define SOFT_ENTRY ((brc_size)slot * C + (brc_size)(e % C))
@@ -155,18 +158,71 @@ LAW soft_vector soft_bond_force(GLOBAL const coeff *restrict flux, GLOBAL const 
     return soft_add(f, spring / ratio, elastic_jump);
 }
 
+/* Mean of the two cells' stress in the present frame, sym(P F_H^T) [Pa]. */
+LAW failure_stress soft_mean_stress(GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, int i, int j)
+{
+    failure_stress sum = {0, 0, 0, 0, 0, 0};
+    for (int side = 0; side < 2; ++side) {
+        GLOBAL const coeff *h = gradient + (brc_size)(side ? j : i) * 9, *p = stress + (brc_size)(side ? j : i) * 9;
+        coeff t[9];
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) t[3 * a + b] = p[3 * a + b] + p[3 * a] * h[3 * b] + p[3 * a + 1] * h[3 * b + 1] + p[3 * a + 2] * h[3 * b + 2];
+        sum.xx += REAL(0.5) * t[0], sum.yy += REAL(0.5) * t[4], sum.zz += REAL(0.5) * t[8];
+        sum.yz += REAL(0.25) * (t[5] + t[7]), sum.xz += REAL(0.25) * (t[2] + t[6]), sum.xy += REAL(0.25) * (t[1] + t[3]);
+    }
+    return sum;
+}
+
+/* Area vector in the present frame [m^2], and the axis of the crack, from what it was in the undeformed body. */
+LAW soft_vector soft_turned(GLOBAL const coeff *restrict gradient, int i, int j, soft_vector a)
+{
+    return soft_add(a, REAL(0.5), soft_add(soft_times(gradient, i, a), REAL(1), soft_times(gradient, j, a)));
+}
+/* Back again, of a direction and small strains: by the transpose. */
+LAW soft_vector soft_turned_back(GLOBAL const coeff *restrict gradient, int i, int j, soft_vector a)
+{
+    GLOBAL const coeff *p = gradient + (brc_size)i * 9, *q = gradient + (brc_size)j * 9;
+    const soft_vector sum = {(p[0] + q[0]) * a.x + (p[3] + q[3]) * a.y + (p[6] + q[6]) * a.z, (p[1] + q[1]) * a.x + (p[4] + q[4]) * a.y + (p[7] + q[7]) * a.z,
+                             (p[2] + q[2]) * a.x + (p[5] + q[5]) * a.y + (p[8] + q[8]) * a.z};
+    return soft_add(a, REAL(0.5), sum);
+}
+LAW soft_vector soft_unit(soft_vector a) { return soft_scale(REAL(1) / SQRT(soft_dot(a, a)), a); }
+
+/* Before the sweeps of a step: faces that nothing holds go on opening as in the last step, so that what the sweeps leave of the balance is no drag on sides that fly apart. */
+KERNEL void soft_coast(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive,
+                       GLOBAL const int *restrict n_open, GLOBAL const int *restrict open, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict gradient,
+                       GLOBAL coeff *restrict crack)
+{
+    FOR_EACH_ITEM(e, n) {
+        for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = SOFT_ENTRY, other = (brc_size)twin[entry];
+            if (!open[entry] || !lead[entry] || !(alive[entry] > 0)) continue;
+            soft_vector shift = {0, 0, 0};
+            if (open[entry] == SOFT_APART) {
+                const soft_vector axis = soft_unit(soft_turned(gradient, e, neighbour[entry], soft_part(crack, entry, SOFT_AXIS)));
+                const soft_vector before = soft_part(crack, entry, SOFT_OPENING), last = soft_part(crack, entry, SOFT_SHIFT), now = soft_add(before, REAL(1), last);
+                if (soft_dot(before, axis) > 0 && soft_dot(now, axis) > 0) {
+                    shift = last;
+                    soft_put(crack, entry, SOFT_OPENING, now), soft_put(crack, other, SOFT_OPENING, soft_scale(REAL(-1), now));
+                }
+            }
+            soft_put(crack, entry, SOFT_SHIFT, shift), soft_put(crack, other, SOFT_SHIFT, soft_scale(REAL(-1), shift));
+        }
+    }
+}
+
 /* The openings of the step whose motion has just been done, by the fluxes at the new place and the old openings: each goes where its cohesion balances
  * what the bond would pull with, by the stiffness of the two cells, along their axes and across; so a sweep over all faces at once comes nearer
- * to the balance of all. is_first, is_last: of the sweeps of this step; only the last one wears the cohesion, what went too far before comes back for
+ * to the balance of all. is_last: of the sweeps of this step; only the last one wears the cohesion, what went too far before comes back for
  * nothing. A face that would close further than shut only slides. */
-KERNEL void soft_move(int n, int is_first, int is_last, coeff stiffen, coeff steepest, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff friction, coeff release, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                       GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
                       GLOBAL const int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const coeff *restrict inv_shape,
                       GLOBAL const coeff *restrict inv_volume, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict shear,
                       GLOBAL const coeff *restrict reach, coeff k_one, coeff beta, coeff one_plus_tau,
                       GLOBAL const coeff *restrict modulus, GLOBAL const state *restrict displacement,
-                      GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part)
+                      GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part)
 {
     FOR_EACH_ITEM(e, n) {
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
@@ -184,13 +240,14 @@ KERNEL void soft_move(int n, int is_first, int is_last, coeff stiffen, coeff ste
             soft_tensor stiffness = {bond, bond, bond, 0, 0, 0};
             stiffness = soft_add_cell(stiffness, own, reach[e], stiffen / inv_volume[e], plane[e], shear[e]);
             stiffness = soft_add_cell(stiffness, theirs, reach[j], stiffen / inv_volume[j], plane[j], shear[j]);
-            const soft_vector drive = soft_add(pull, REAL(1), soft_tensor_times(stiffness, before));
-            const soft_vector normal = soft_add(s, REAL(0.5), soft_add(soft_times(gradient, e, s), REAL(1), soft_times(gradient, j, s)));
+            const soft_vector normal = soft_turned(gradient, e, j, s), axis = soft_unit(soft_turned(gradient, e, j, soft_part(crack, entry, SOFT_AXIS)));
+            const coeff keeps = soft_keeps(SOFT_NUMBER(entry, WIDEST), release * ratio[entry] * SQRT(soft_dot(s, s)));
+            const soft_vector carried = soft_scale(keeps, soft_carried(soft_mean_stress(gradient, stress, e, j), axis, normal));
+            const soft_vector drive = soft_add(soft_add(pull, REAL(-1), carried), REAL(1), soft_tensor_times(stiffness, before));
             const coeff wide = SOFT_NUMBER(entry, WIDEST), was = SQRT(soft_dot(before, before)), at = was > wide ? was : wide;
-            const soft_vector now = soft_balance(face, wide, drive, stiffness, at > 0 ? soft_force(face, at) / at : 0, normal);
+            const soft_vector now = soft_balance(face, wide, drive, stiffness, at > 0 ? soft_force(face, at) / at : 0, axis, before, friction);
             const coeff w = SQRT(soft_dot(now, now));
-            soft_vector added = soft_add(now, REAL(-1), before);
-            if (!is_first) added = soft_add(added, REAL(1), soft_part(crack, entry, SOFT_SHIFT));
+            const soft_vector added = soft_add(soft_part(crack, entry, SOFT_SHIFT), REAL(1), soft_add(now, REAL(-1), before));
             soft_put(crack, entry, SOFT_OPENING, now), soft_put(crack, other, SOFT_OPENING, soft_scale(REAL(-1), now));
             soft_put(crack, entry, SOFT_SHIFT, added), soft_put(crack, other, SOFT_SHIFT, soft_scale(REAL(-1), added));
             if (is_last && w > wide) {
@@ -204,9 +261,9 @@ KERNEL void soft_move(int n, int is_first, int is_last, coeff stiffen, coeff ste
 
 /* Forces of the open bonds as they are now. book: 1: the work of the last openings (trapezoidal rule, each side half) goes to spent and, but for what
  * is still held, to lost [n]; bonds at the end of their cohesion are marked. found [n]. */
-KERNEL void soft_measure(int n, int book, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                          GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
-                         GLOBAL const int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
+                         GLOBAL int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
                          GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, coeff k_one,
                          coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const state *restrict displacement,
                          GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark,
@@ -227,9 +284,11 @@ KERNEL void soft_measure(int n, int book, GLOBAL const int *restrict row_start, 
                 const coeff work = REAL(0.5) * soft_dot(soft_add(force, REAL(1), soft_part(crack, entry, SOFT_PULL)), soft_part(crack, entry, SOFT_SHIFT));
                 holds = soft_held(face, SOFT_NUMBER(entry, WIDEST), SQRT(soft_dot(w, w)));
                 given = work - (holds - SOFT_NUMBER(entry, HELD));
-                SOFT_NUMBER(entry, SPENT) += given, SOFT_NUMBER(other, SPENT) += given;
+                if (open[entry] != SOFT_APART) SOFT_NUMBER(entry, SPENT) += given, SOFT_NUMBER(other, SPENT) += given;
                 SOFT_NUMBER(entry, HELD) = holds, SOFT_NUMBER(other, HELD) = holds;
-                if (!(SOFT_NUMBER(entry, WIDEST) < soft_end(face))) {
+                const soft_vector s = soft_area(area, entry);
+                if (!(SOFT_NUMBER(entry, WIDEST) < soft_end(face))) STORE_SAME(open + entry, SOFT_APART), STORE_SAME(open + other, SOFT_APART);
+                if (open[entry] == SOFT_APART && !(SOFT_NUMBER(entry, WIDEST) < release * ratio[entry] * SQRT(soft_dot(s, s)))) {
                     mark[entry] = CELLS_TENSION, mark[other] = CELLS_TENSION;
                     measure[entry] = SOFT_NUMBER(entry, ONSET), measure[other] = SOFT_NUMBER(entry, ONSET);
                     STORE_SAME(touched + e, 1);
@@ -244,32 +303,26 @@ KERNEL void soft_measure(int n, int book, GLOBAL const int *restrict row_start, 
     }
 }
 
-/* Each element's half of what its open bonds booked. */
-KERNEL void soft_book(int n, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict alive,
+/* Each element's half of what its open bonds booked, rubbed [n] what broken ones do to each other; bonds whose cohesion ended are broken from then on, though their sides still bear on each other. */
+KERNEL void soft_book(int n, int step, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict alive,
                       GLOBAL const int *restrict n_open, GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack,
-                      GLOBAL state *restrict lost)
+                      GLOBAL int *restrict break_step, GLOBAL int *restrict break_mode, GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
+                      GLOBAL state *restrict lost, GLOBAL state *restrict rubbed, GLOBAL state *restrict broken)
 {
     FOR_EACH_ITEM(e, n) {
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = SOFT_ENTRY;
-            if (open[entry] && alive[entry] > 0) lost[e] += STATE(0.5) * (state)SOFT_NUMBER(entry, BOOKED);
+            if (!open[entry] || !(alive[entry] > 0)) continue;
+            GLOBAL state *to = break_step[entry] ? rubbed : lost;
+            to[e] += STATE(0.5) * (state)SOFT_NUMBER(entry, BOOKED);
+            if (open[entry] != SOFT_APART || break_step[entry]) continue;
+            break_step[entry] = step;
+            break_mode[entry] = CELLS_TENSION;
+            break_stress[entry] = SOFT_NUMBER(entry, ONSET);
+            break_energy[entry] = SOFT_NUMBER(entry, SPENT);
+            broken[e] += 1;
         }
     }
-}
-
-/* Mean of the two cells' stress in the present frame, sym(P F_H^T) [Pa]. */
-LAW failure_stress soft_mean_stress(GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, int i, int j)
-{
-    failure_stress sum = {0, 0, 0, 0, 0, 0};
-    for (int side = 0; side < 2; ++side) {
-        GLOBAL const coeff *h = gradient + (brc_size)(side ? j : i) * 9, *p = stress + (brc_size)(side ? j : i) * 9;
-        coeff t[9];
-        for (int a = 0; a < 3; ++a)
-            for (int b = 0; b < 3; ++b) t[3 * a + b] = p[3 * a + b] + p[3 * a] * h[3 * b] + p[3 * a + 1] * h[3 * b + 1] + p[3 * a + 2] * h[3 * b + 2];
-        sum.xx += REAL(0.5) * t[0], sum.yy += REAL(0.5) * t[4], sum.zz += REAL(0.5) * t[8];
-        sum.yz += REAL(0.25) * (t[5] + t[7]), sum.xz += REAL(0.25) * (t[2] + t[6]), sum.xy += REAL(0.25) * (t[1] + t[3]);
-    }
-    return sum;
 }
 
 /* The stress at a bond [Pa]: the mean of its cells, but with the traction that the bond itself carries: mean + t (x) n + n (x) t - (t.n) n (x) n, t that
@@ -307,8 +360,7 @@ KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, GLOBAL 
             const int j = neighbour[entry];
             const soft_vector s = soft_area(area, entry);
             const soft_vector force = soft_bond_force(flux, bond_part, e, j, s, SOFT_BOND_MODULUS(e, j) * one_plus_tau, ratio[entry], soft_jump(displacement, e, j));
-            const soft_vector turned = soft_add(s, REAL(0.5), soft_add(soft_times(gradient, e, s), REAL(1), soft_times(gradient, j, s)));
-            const soft_vector normal = soft_scale(REAL(1) / SQRT(soft_dot(turned, turned)), turned);
+            const soft_vector normal = soft_unit(soft_turned(gradient, e, j, s));
             const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
             const failure_principal largest = failure_principal_of(soft_stress(soft_mean_stress(gradient, stress, e, j), traction, normal));
             if (!(largest.first > share * limit[entry])) continue;
@@ -318,6 +370,7 @@ KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, GLOBAL 
             mark[entry] = SOFT_WISH;
             measure[entry] = largest.first;
             SOFT_NUMBER(entry, COSINE) = size;
+            soft_put(crack, entry, SOFT_AXIS, soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
             count += 1;
         }
         found[e] = (state)count;
@@ -329,7 +382,8 @@ KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const
                        GLOBAL const int *restrict twin, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict area,
                        GLOBAL const coeff *restrict ratio, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                       GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
+                       GLOBAL const coeff *restrict bond_part, GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
+                       GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
                        GLOBAL coeff *restrict crack, GLOBAL coeff *restrict limit, GLOBAL int *restrict open,
                        GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
@@ -340,12 +394,12 @@ KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const
             if (!lead[entry] || !(mark[entry] == SOFT_WISH || mark[other] == SOFT_WISH)) continue;
             const brc_size from = mark[entry] == SOFT_WISH ? entry : other;
             const int j = neighbour[entry];
-            const coeff stress = measure[from], c = SOFT_NUMBER(from, COSINE);
+            const coeff onset = measure[from], c = SOFT_NUMBER(from, COSINE);
             mark[entry] = 0, mark[other] = 0;
             limit[entry] = CELLS_NEVER, limit[other] = CELLS_NEVER;
             if (!(SOFT_NUMBER(entry, ENERGY) > 0)) {
                 mark[entry] = CELLS_TENSION, mark[other] = CELLS_TENSION;
-                measure[entry] = stress, measure[other] = stress;
+                measure[entry] = onset, measure[other] = onset;
                 STORE_SAME(touched + e, 1);
                 STORE_SAME(touched + j, 1);
                 breaks += 1;
@@ -353,13 +407,17 @@ KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const
             }
             const soft_vector jump = soft_jump(displacement, e, j);
             const soft_vector force = soft_bond_force(flux, bond_part, e, j, soft_area(area, entry), SOFT_BOND_MODULUS(e, j) * one_plus_tau, ratio[entry], jump);
-            const coeff size = SQRT(soft_dot(force, force));
-            open[entry] = 1, open[other] = 1;
+            const soft_vector now = soft_scale(from == entry ? REAL(1) : REAL(-1), soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
+            const soft_vector released = soft_add(force, REAL(-1), soft_carried(soft_mean_stress(gradient, stress, e, j), now, soft_turned(gradient, e, j, soft_area(area, entry))));
+            const soft_vector axis = soft_unit(soft_turned_back(gradient, e, j, now));
+            const coeff size = SQRT(soft_dot(released, released));
+            open[entry] = SOFT_OPENS, open[other] = SOFT_OPENS;
+            soft_put(crack, entry, SOFT_AXIS, axis), soft_put(crack, other, SOFT_AXIS, soft_scale(REAL(-1), axis));
             SOFT_NUMBER(entry, START) = size, SOFT_NUMBER(other, START) = size;
             SOFT_NUMBER(entry, ENERGY) *= c, SOFT_NUMBER(other, ENERGY) *= c;
             SOFT_NUMBER(entry, COSINE) = c, SOFT_NUMBER(other, COSINE) = c;
             SOFT_NUMBER(entry, TILT) = 1, SOFT_NUMBER(other, TILT) = 1;
-            SOFT_NUMBER(entry, ONSET) = stress, SOFT_NUMBER(other, ONSET) = stress;
+            SOFT_NUMBER(entry, ONSET) = onset, SOFT_NUMBER(other, ONSET) = onset;
             soft_put(crack, entry, SOFT_PULL, force), soft_put(crack, other, SOFT_PULL, soft_scale(REAL(-1), force));
         }
         found[e] = (state)breaks;
@@ -435,7 +493,9 @@ KERNEL void soft_settle(int n, int step, GLOBAL const int *restrict list, GLOBAL
         const int e = list[k];
         for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = SOFT_ENTRY;
-            if (break_step[entry] == step && open[entry]) break_energy[entry] += SOFT_NUMBER(entry, SPENT);
+            if (break_step[entry] != step || !open[entry]) continue;
+            if (open[entry] == SOFT_APART) break_energy[entry] = SOFT_NUMBER(entry, SPENT);
+            else break_energy[entry] += SOFT_NUMBER(entry, SPENT);
         }
     }
 }

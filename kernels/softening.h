@@ -7,6 +7,7 @@
 #ifndef BRC_KERNELS_SOFTENING_H
 #define BRC_KERNELS_SOFTENING_H
 
+#include "failure.h"
 #include "portable.h"
 
 #define SOFT_CUT REAL(0.01)                 /* c */
@@ -14,6 +15,7 @@
 /* 1 - c ln(1 / c) / (1 - c): the area of the exponential law over start * l. */
 #define SOFT_CUT_AREA REAL(0.9534831294344638)
 
+#define SOFT_ABS(a) ((a) < 0 ? -(a) : (a))
 typedef struct { coeff x, y, z; } soft_vector;
 LAW soft_vector soft_add(soft_vector a, coeff k, soft_vector b) { return (soft_vector){a.x + k * b.x, a.y + k * b.y, a.z + k * b.z}; }
 LAW coeff soft_dot(soft_vector a, soft_vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -21,6 +23,28 @@ LAW soft_vector soft_scale(coeff k, soft_vector a) { return (soft_vector){k * a.
 
 /* start [N], energy [J] */
 typedef struct { coeff start, energy; int exponential; } soft_face;
+
+/* What a crack across `axis` leaves to a face: of the stress along the crack the pushes, as a force on the area vector `area` of the face [N]. A crack releases the traction
+ * on its own plane and nothing else; the stress along it goes on through the solid on both sides, which a zig-zag of faces cuts though the crack does not (docs/theory.md T10).
+ * Pulls along the crack are let go with it: cracks across them would find the face open. axis: unit vector. */
+LAW soft_vector soft_carried(failure_stress m, soft_vector axis, soft_vector area)
+{
+    const soft_vector side = SOFT_ABS(axis.x) < REAL(0.6) ? (soft_vector){1, 0, 0} : (soft_vector){0, 1, 0};
+    soft_vector a = soft_add(side, -soft_dot(side, axis), axis);
+    a = soft_scale(REAL(1) / SQRT(soft_dot(a, a)), a);
+    const soft_vector b = {axis.y * a.z - axis.z * a.y, axis.z * a.x - axis.x * a.z, axis.x * a.y - axis.y * a.x};
+    const soft_vector ma = {m.xx * a.x + m.xy * a.y + m.xz * a.z, m.xy * a.x + m.yy * a.y + m.yz * a.z, m.xz * a.x + m.yz * a.y + m.zz * a.z};
+    const soft_vector mb = {m.xx * b.x + m.xy * b.y + m.xz * b.z, m.xy * b.x + m.yy * b.y + m.yz * b.z, m.xz * b.x + m.yz * b.y + m.zz * b.z};
+    const coeff aa = soft_dot(a, ma), bb = soft_dot(b, mb), ab = soft_dot(a, mb);
+    const coeff mean = REAL(0.5) * (aa + bb), half = REAL(0.5) * (aa - bb), radius = SQRT(half * half + ab * ab);
+    const coeff upper = mean + radius < 0 ? mean + radius : 0, lower = mean - radius < 0 ? mean - radius : 0;
+    const coeff even = REAL(0.5) * (upper + lower), odd = radius > 0 ? REAL(0.5) * (upper - lower) / radius : 0;
+    const coeff sa = soft_dot(area, a), sb = soft_dot(area, b);
+    return soft_add(soft_scale((even + odd * half) * sa + odd * ab * sb, a), odd * ab * sa + (even - odd * half) * sb, b);
+}
+
+/* The share of this that a crack opened by `widest` still carries [-]: nothing where its sides stand clear of each other, at the opening `clear` (0: never) [m]. */
+LAW coeff soft_keeps(coeff widest, coeff clear) { return !(clear > 0) ? REAL(1) : widest < clear ? REAL(1) - widest / clear : 0; }
 
 /* Opening at which nothing is left [m]. */
 LAW coeff soft_end(soft_face f) { return f.energy / f.start * (f.exponential ? SOFT_CUT_LOG / SOFT_CUT_AREA : REAL(2)); }
@@ -124,15 +148,15 @@ LAW coeff soft_bond_stiffness(coeff k, coeff ratio, coeff share, coeff beta, coe
 
 /* The opening [m] at which the cohesion, along the opening, balances cells that pull with drive - k opening: (k + F / |w|) w = drive, by turns of |w|
  * along a direction and of the direction, begun with `pulled` = F / |w| of the opening so far [N/m] (0 of a face that is shut: it goes along drive).
- * A face does not close further than shut: across its normal it then only slides. */
-LAW soft_vector soft_balance(soft_face f, coeff widest, soft_vector drive, soft_tensor k, coeff pulled, soft_vector normal)
+ * A crack does not close further than shut: along its axis w is not below 0. What is shut bears on itself. */
+LAW soft_vector soft_free_balance(soft_face f, coeff widest, soft_vector drive, soft_tensor k, coeff pulled, soft_vector axis)
 {
     const soft_vector none = {0, 0, 0};
     soft_vector way = pulled > 0 ? soft_tensor_way(k, pulled, drive) : drive;
     coeff w = 0;
     for (int turn = 0; turn < 3; ++turn) {
-        const coeff across = soft_dot(way, normal);
-        if (across < 0) way = soft_add(way, -across / soft_dot(normal, normal), normal);
+        const coeff across = soft_dot(way, axis);
+        if (across < 0) way = soft_add(way, -across, axis);
         const coeff size = SQRT(soft_dot(way, way));
         if (!(size > 0)) return none;
         way = soft_scale(REAL(1) / size, way);
@@ -146,6 +170,22 @@ LAW soft_vector soft_balance(soft_face f, coeff widest, soft_vector drive, soft_
         }
     }
     return soft_scale(w, way);
+}
+
+/* The same with Coulomb friction on faces that are shut: they slide from where they were (before) once the shear beyond their cohesion is above friction times the push across
+ * the crack. axis: unit vector of the crack; friction [-]. */
+LAW soft_vector soft_balance(soft_face f, coeff widest, soft_vector drive, soft_tensor k, coeff pulled, soft_vector axis, soft_vector before, coeff friction)
+{
+    const soft_vector now = soft_free_balance(f, widest, drive, k, pulled, axis);
+    if (!(friction > 0) || soft_dot(now, axis) > 0) return now;
+    const soft_vector stuck = soft_add(before, -soft_dot(before, axis), axis);
+    const soft_vector left = soft_add(drive, REAL(-1), soft_tensor_times(k, stuck));
+    const coeff push = -soft_dot(left, axis), was = SQRT(soft_dot(stuck, stuck)), at = was > widest ? was : widest;
+    if (!(push > 0)) return now;
+    const soft_vector shear = soft_add(soft_add(left, push, axis), at > 0 ? -soft_force(f, at) / at : 0, stuck);
+    const coeff size = SQRT(soft_dot(shear, shear));
+    if (!(size > friction * push)) return stuck;
+    return soft_free_balance(f, widest, soft_add(drive, -friction * push / size, shear), k, pulled, axis);
 }
 
 #endif

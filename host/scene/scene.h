@@ -76,6 +76,7 @@ typedef struct brc_fracture {
     brc_criterion_kind kind;
     int32_t level;             /* shells of neighbours the stress is averaged over: 0, 1, 2; not for bond-normal */
     double cohesion, friction; /* the last two kinds: [Pa], [rad] */
+    bool closure;              /* sides of a broken face bear on each other until they stand clear (docs/fracture.md "Closed cracks") */
     uint64_t seed;             /* of the draws of strengths, keyed by the ids of a bond's elements */
 } brc_fracture;
 

@@ -105,6 +105,8 @@ static const brc_section CRITERION_SECTION = {.title = "criterion",
                                               .kind_offset = offsetof(brc_fracture, kind)};
 static const brc_entry FRACTURE[] = {
     {"criterion", BRC_TYPE_STRUCT, .section = &CRITERION_SECTION, .given = "auto", .meaning = "when bonds break"},
+    {"closure", BRC_TYPE_BOOL, FIELD(brc_fracture, closure), .given = "true",
+     .meaning = "the sides of a face that broke bear on each other, with the friction of `contact`, until they stand clear; false: a broken face carries nothing"},
     {"seed", BRC_TYPE_INTEGER, WITHIN(0, 9e15), FIELD(brc_fracture, seed), .given = "1",
      .meaning = "of the strengths that scatter; the draw of a bond depends on its elements' ids only"},
 };

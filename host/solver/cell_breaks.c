@@ -167,6 +167,7 @@ static brc_status create_arrays(brc_simulation *s)
     BRC_TRY(brc_new_coeff(s, &f->break_stress, entries, "stresses of breaks"));
     BRC_TRY(brc_new_coeff(s, &f->break_energy, entries, "energies of breaks"));
     BRC_TRY(brc_new_state(s, &f->lost, n, "energy of broken bonds"));
+    BRC_TRY(brc_new_state(s, &f->gone, n, "lost bonds"));
     BRC_TRY(brc_new_state(s, &f->broken, n, "broken bonds"));
     return brc_rings_create(s, &c->rings);
 }
@@ -175,11 +176,11 @@ int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries
 {
     const bool dlsm = scene->model.kind == BRC_MODEL_DLSM;
     const bool by_element = brc_criterion_of(&scene->fracture, scene->model.kind) != BRC_CRITERION_BOND_NORMAL;
-    int64_t bytes = n * ((dlsm ? 4 : 2) * coeff_bytes + 4 + 4 * state_bytes) + entries * (16 + 5 * coeff_bytes);
+    int64_t bytes = n * ((dlsm ? 4 : 2) * coeff_bytes + 4 + 5 * state_bytes) + entries * (16 + 5 * coeff_bytes);
     if (by_element) bytes += n * (21 * coeff_bytes + 4) + (dlsm ? 3 * entries * coeff_bytes : 0);
     else bytes += n * (dlsm ? 4 : coeff_bytes); /* on a GPU a group is one element */
     if (!dlsm) bytes += 6 * n * coeff_bytes;
-    return bytes + brc_rings_bytes(scene, n, state_bytes) + brc_softening_bytes(scene, n, entries, coeff_bytes);
+    return bytes + brc_rings_bytes(scene, n, state_bytes) + brc_softening_bytes(scene, n, entries, state_bytes, coeff_bytes);
 }
 
 static brc_status check_scene(const brc_simulation *s)
@@ -274,7 +275,7 @@ static brc_status break_marked(brc_simulation *s, double *energy)
         BRC_TRY(BRC_LAUNCH(c->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(brc_fracture_moment(s)), BRC_INT(brc_is_dlsm(s) ? 3 : 1),
                            BRC_BUF(s->row_start), BRC_BUF(c->twin), BRC_BUF(c->rings->touched), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->alive), BRC_BUF(s->neighbour), BRC_BUF(s->area),
                            BRC_BUF(s->ratio), BRC_BUF(c->limit), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
-                           BRC_BUF(f->break_energy), BRC_BUF(c->weight), BRC_BUF(c->changed), BRC_BUF(f->broken)));
+                           BRC_BUF(f->break_energy), BRC_BUF(c->weight), BRC_BUF(c->changed), BRC_BUF(f->gone), BRC_BUF(f->broken)));
         if (brc_is_published(s)) return brc_published_breaks_rebuild(s); /* its elements hang on by any bond */
         BRC_TRY(BRC_LAUNCH(c->rebuild, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(c->alive),
                            BRC_BUF(c->limit), BRC_BUF(s->inv_volume), BRC_BUF(c->support), BRC_BUF(c->stiffest), BRC_BUF(c->changed), BRC_BUF(c->least),
@@ -384,6 +385,7 @@ brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store
         {"cells.least", c->least, BRC_ROWS, BRC_OF_COEFF, 1, &elements},
         {"cells.inverse_shape", s->inv_shape, BRC_BLOCKS, BRC_OF_COEFF, 6, &elements},
         {"cells.spanned", c->spanned, BRC_BLOCKS, BRC_OF_COEFF, 6, &elements},
+        {"cells.gone", s->fracture->gone, BRC_ROWS, BRC_OF_STATE, 1, NULL},
         {"cells.weight", c->by_element ? s->fracture->weight : NULL, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
     };
     BRC_TRY_OR(cleanup, brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));

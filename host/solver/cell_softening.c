@@ -13,16 +13,20 @@ static const double screen = 0.7;
  * half would let them overshoot. What they leave of the balance costs energy in quick cracks (docs/fracture.md). */
 enum { N_SWEEPS = 3 };
 static const double stiffen = 0.6;
+/* Openings over the length of the bond from which on the sides of a broken face stand clear of each other. */
+static const double clear = 0.05;
 /* E G_c / sigma_f^2 below this many cells: the crack is not resolved; below twice as many uneven cells bear more at notches (docs/fracture.md, "Notched specimens"). */
 static const double least_cells = 4;
 
 /* Components of `crack` (kernels/softening.cl). */
-enum { START = 9, ENERGY = 10, SPENT = 13, COSINE = 16, EXPONENTIAL = 17, TILT = 18, WIDTH = 19 };
+enum { START = 9, ENERGY = 10, SPENT = 13, COSINE = 16, EXPONENTIAL = 17, TILT = 18, WIDTH = 22 };
+enum { APART = 2 }; /* SOFT_APART, of `open` */
 
 struct brc_softening_faces {
-    brc_kernel *gradient, *flux, *take_force, *move, *measure, *book, *check, *begin, *count, *energy, *settle;
+    brc_kernel *gradient, *flux, *take_force, *coast, *move, *measure, *book, *check, *begin, *count, *energy, *settle;
     brc_buffer *crack, *open, *lead;     /* [n_slots][WIDTH][C], [n_slots][C] */
     brc_buffer *n_open, *reach, *shear;  /* [n_rows] */
+    brc_buffer *rubbed;                  /* [n_rows] energy lost to friction between the sides of broken faces [J] */
     brc_ring_list around;                /* cells with open faces, for the sweeps */
     bool any;                            /* some face has opened */
     bool is_listed;                      /* around is of the faces that are open now, and, with contact, of the pairs there are */
@@ -38,7 +42,7 @@ static brc_status find_kernels(brc_simulation *s, softening_faces *f)
     const struct {
         brc_kernel **slot;
         const char *name;
-    } wanted[] = {{&f->gradient, "soft_gradient"}, {&f->flux, "soft_flux"}, {&f->take_force, "soft_take_force"}, {&f->move, "soft_move"},
+    } wanted[] = {{&f->gradient, "soft_gradient"}, {&f->flux, "soft_flux"}, {&f->take_force, "soft_take_force"}, {&f->coast, "soft_coast"}, {&f->move, "soft_move"},
                   {&f->measure, "soft_measure"}, {&f->book, "soft_book"}, {&f->check, "soft_check"}, {&f->begin, "soft_begin"},
                   {&f->count, "soft_count"}, {&f->energy, "soft_energy"}, {&f->settle, "soft_settle"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
@@ -124,6 +128,7 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->shear, layout->n_rows, "shear moduli"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear, shear, layout->n_rows));
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->reach, layout->n_rows, "reach of open faces"));
+    BRC_TRY_OR(cleanup, brc_new_state(s, &f->rubbed, layout->n_rows, "friction of broken faces"));
     BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->n_open, 4 * (int64_t)layout->n_rows, "open faces"));
     BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->open, 4 * n_entries, "open faces"));
     BRC_TRY_OR(cleanup, brc_ring_list_create(s, &f->around));
@@ -151,7 +156,7 @@ void brc_softening_free(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
     if (!f) return;
-    brc_buffer **all[] = {&f->crack, &f->open, &f->lead, &f->n_open, &f->reach, &f->shear};
+    brc_buffer **all[] = {&f->crack, &f->open, &f->lead, &f->n_open, &f->reach, &f->shear, &f->rubbed};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     brc_ring_list_free(&f->around);
     brc_memory_free(f);
@@ -208,15 +213,18 @@ brc_status brc_softening_energy(brc_simulation *s)
 
 /* ---- a step ---- */
 
+static double release_of(const brc_simulation *s) { return s->scene->fracture.closure ? clear : 0; }
+static double friction_of(const brc_simulation *s) { return s->contact ? s->scene->contact.law.friction : 0; }
+
 static brc_status sweep(brc_simulation *s, int k)
 {
     softening_faces *f = faces_of(s);
     const int32_t n = s->layout->n_rows;
-    return BRC_LAUNCH(f->move, n, BRC_INT(n), BRC_INT(k == 0), BRC_INT(k == N_SWEEPS - 1), BRC_COEFF(stiffen), BRC_COEFF(steepest), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+    return BRC_LAUNCH(f->move, n, BRC_INT(n), BRC_INT(k == N_SWEEPS - 1), BRC_COEFF(stiffen), BRC_COEFF(steepest), BRC_COEFF(friction_of(s)), BRC_COEFF(release_of(s)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                       BRC_BUF(s->fracture->cells->twin), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area),
                       BRC_BUF(s->ratio), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume), BRC_BUF(s->fracture->cells->modulus), BRC_BUF(f->shear),
                       BRC_BUF(f->reach), BRC_COEFF(one_modulus(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
-                      BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->flux), BRC_BUF(s->bond_part));
+                      BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->flux), BRC_BUF(s->bond_part));
 }
 
 /* Cells with open faces, whose fluxes are wanted, and around them those whose stresses, and those whose gradients go into them; what touches one of them presses on it as its own
@@ -241,6 +249,9 @@ brc_status brc_softening_move(brc_simulation *s)
     if (!f || !f->any) return BRC_OK;
     const bool whole = brc_contact_is_due(s);
     if (!whole) BRC_TRY(list_around(s));
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(BRC_LAUNCH(f->coast, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->twin), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
+                       BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(s->gradient), BRC_BUF(f->crack)));
     for (int k = 0; k < N_SWEEPS; ++k) { /* between sweeps only the openings change */
         BRC_TRY(brc_force_fluxes_of_state(s, whole ? NULL : &f->around, k == 0));
         BRC_TRY(sweep(s, k));
@@ -253,7 +264,7 @@ static brc_status measure(brc_simulation *s, int book)
     softening_faces *f = faces_of(s);
     brc_cell_breaks *c = s->fracture->cells;
     const int32_t n = s->layout->n_rows;
-    return BRC_LAUNCH(f->measure, n, BRC_INT(n), BRC_INT(book), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(c->alive),
+    return BRC_LAUNCH(f->measure, n, BRC_INT(n), BRC_INT(book), BRC_COEFF(release_of(s)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(c->alive),
                       BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->ratio),
                       BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement), BRC_BUF(s->flux),
                       BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found));
@@ -282,8 +293,9 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
     if (f->any) { /* what opened before this step */
         BRC_TRY(measure(s, 1));
         BRC_TRY(brc_vector_sum(s, c->found, n, n_ended));
-        BRC_TRY(BRC_LAUNCH(f->book, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(c->alive), BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->crack),
-                           BRC_BUF(s->fracture->lost)));
+        BRC_TRY(BRC_LAUNCH(f->book, n, BRC_INT(n), BRC_INT((int32_t)brc_fracture_moment(s)), BRC_BUF(s->row_start), BRC_BUF(c->alive), BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->crack),
+                           BRC_BUF(s->fracture->break_step), BRC_BUF(s->fracture->break_mode), BRC_BUF(s->fracture->break_stress), BRC_BUF(s->fracture->break_energy),
+                           BRC_BUF(s->fracture->lost), BRC_BUF(f->rubbed), BRC_BUF(s->fracture->broken)));
     }
     BRC_TRY(BRC_LAUNCH(f->check, n, BRC_INT(n), BRC_COEFF(share), BRC_COEFF(steepest), BRC_COEFF(screen), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(f->n_open), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
@@ -294,7 +306,7 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
         f->any = true;
         BRC_TRY(BRC_LAUNCH(f->begin, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(f->lead), BRC_BUF(s->area),
                            BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement),
-                           BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(f->crack), BRC_BUF(c->limit),
+                           BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(f->crack), BRC_BUF(c->limit),
                            BRC_BUF(f->open), BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
         BRC_TRY(brc_vector_sum(s, c->found, n, &brittle));
         BRC_TRY(brc_softening_recount(s));
@@ -327,6 +339,30 @@ brc_status brc_softening_begin_stage(brc_simulation *s)
     return BRC_OK;
 }
 
+/* Broken faces whose sides still bear on each other are broken bonds that have a neighbour (stored_breaks.c points all broken ones home). */
+static brc_status rejoin(brc_simulation *s, softening_faces *f)
+{
+    const brc_layout *layout = s->layout;
+    const int64_t n = layout->n_slots * layout->slice;
+    int32_t *neighbour = NULL, *open = NULL;
+    double *alive = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n, "open faces"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n, "unbroken bonds"));
+    BRC_TRY_OR(cleanup, brc_buffer_read(s->neighbour, 0, neighbour, 4 * n));
+    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n));
+    BRC_TRY_OR(cleanup, brc_download(s, s->fracture->cells->alive, brc_precision_coeff_bytes(brc_device_get_precision(s->device)), alive, n));
+    for (int64_t k = 0; k < n; ++k)
+        if (layout->half_edge[k] >= 0 && open[k] == APART && alive[k] > 0) neighbour[k] = layout->row_of_element[s->domain->neighbour[layout->half_edge[k]]];
+    BRC_TRY_OR(cleanup, brc_buffer_write(s->neighbour, 0, neighbour, 4 * n));
+cleanup:
+    brc_memory_free(neighbour);
+    brc_memory_free(open);
+    brc_memory_free(alive);
+    return status;
+}
+
 brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
 {
     softening_faces *f = faces_of(s);
@@ -339,17 +375,26 @@ brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
         {"softening.least", s->fracture->cells->least, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
         {"softening.n_open", f->n_open, BRC_ROWS, BRC_OF_INT, 1, NULL},
         {"softening.reach", f->reach, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
+        {"softening.rubbed", f->rubbed, BRC_ROWS, BRC_OF_STATE, 1, NULL},
     };
     BRC_TRY(brc_store_flag(store, "softening.any", &f->any));
-    return brc_store_entries(s, store, sizeof entries / sizeof *entries, entries);
+    BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
+    return store->loading ? rejoin(s, f) : BRC_OK;
 }
 
-int64_t brc_softening_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t coeff_bytes)
+brc_status brc_softening_friction(brc_simulation *s, double *out)
+{
+    const softening_faces *f = faces_of(s);
+    *out = 0;
+    return f && f->any ? brc_vector_sum(s, f->rubbed, s->layout->n_rows, out) : BRC_OK;
+}
+
+int64_t brc_softening_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
 {
     bool softens = false;
     for (int32_t m = 0; m < scene->n_materials; ++m) softens = softens || scene->materials[m].fracture_energy > 0;
     for (int32_t k = 0; k < scene->n_interfaces; ++k) softens = softens || scene->interfaces[k].fracture_energy > 0;
-    return softens ? entries * (WIDTH * coeff_bytes + 8) + n * (2 * coeff_bytes + 8) : 0;
+    return softens ? entries * (WIDTH * coeff_bytes + 8) + n * (2 * coeff_bytes + state_bytes + 8) : 0;
 }
 
 /* ---- what came of it ---- */
@@ -361,6 +406,7 @@ brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out
     const brc_domain *d = s->domain;
     const int64_t n_entries = layout->n_slots * layout->slice;
     double *crack = NULL, *alive = NULL;
+    int32_t *open = NULL;
     brc_status status = BRC_OK;
     if (brc_beam_softening_is_on(s)) return brc_beam_softening_report(s, out);
     *out = (brc_softening_report){0};
@@ -368,6 +414,8 @@ brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out
     const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of faces"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n_entries, "unbroken bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "open faces"));
+    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
     BRC_TRY_OR(cleanup, brc_download(s, f->crack, bytes, crack, WIDTH * n_entries));
     BRC_TRY_OR(cleanup, brc_download(s, s->fracture->cells->alive, bytes, alive, n_entries));
     for (int64_t k = 0; k < n_entries; ++k) {
@@ -377,7 +425,7 @@ brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out
         const double spent = own[SPENT * layout->slice], tilt = own[TILT * layout->slice];
         out->n_opened += 1;
         out->spent += spent;
-        if (alive[k] > 0) {
+        if (alive[k] > 0 && open[k] != APART) {
             out->unfinished += spent;
             continue;
         }
@@ -387,5 +435,6 @@ brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out
 cleanup:
     brc_memory_free(crack);
     brc_memory_free(alive);
+    brc_memory_free(open);
     return status;
 }

@@ -265,7 +265,7 @@ brc_status brc_contact_expose(brc_simulation *s)
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows;
     if (!s->fracture) return BRC_OK;
-    return BRC_LAUNCH(c->kernel.expose, n, BRC_INT(n), BRC_BUF(s->fracture->broken), BRC_BUF(c->seen), BRC_BUF(c->exposed), BRC_BUF(c->fresh));
+    return BRC_LAUNCH(c->kernel.expose, n, BRC_INT(n), BRC_BUF(s->fracture->gone ? s->fracture->gone : s->fracture->broken), BRC_BUF(c->seen), BRC_BUF(c->exposed), BRC_BUF(c->fresh));
 }
 
 /* What the breaks of this step change of the list. */

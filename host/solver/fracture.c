@@ -251,7 +251,7 @@ void brc_fracture_free(brc_simulation *s)
     brc_beam_softening_free(s);
     brc_fracture_bound_free(s);
     brc_buffer **all[] = {&f->record, &f->stress, &f->limits, &f->choice, &f->measure, &f->break_step, &f->break_mode,
-                          &f->break_stress, &f->break_energy, &f->lost, &f->broken};
+                          &f->break_stress, &f->break_energy, &f->lost, &f->broken, &f->gone};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     brc_memory_free(f->limit);
     brc_memory_free(f->spans);

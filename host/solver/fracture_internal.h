@@ -19,6 +19,7 @@ struct brc_breaking {
     brc_buffer *record, *stress, *limits, *choice, *measure;             /* kernels/fracture.cl */
     brc_buffer *break_step, *break_mode, *break_stress, *break_energy;   /* [n_slots][C] */
     brc_buffer *lost, *broken;                                           /* [n_rows] */
+    brc_buffer *gone;                                                    /* [n_rows] cells: bonds lost; NULL: those that are broken */
     brc_buffer *reach, *ease, *weight, *mark;                            /* kernels/fracture.cl */
     brc_buffer *branch;                                                  /* [n_slots][3][C] of its elements' bonds; borrowed */
     brc_buffer *factor, *weakest;                                        /* only if weighted */

@@ -116,17 +116,17 @@ static void openings_balance_in_every_direction(void **state)
     int n_across = 0;
     for (int trial = 0; trial < 500; ++trial) {
         const soft_face f = faces[trial % 2];
-        const soft_vector normal = draw_vector(&seed), drive = soft_scale(20, draw_vector(&seed));
+        const soft_vector some = draw_vector(&seed), normal = soft_scale(1 / sqrt(soft_dot(some, some)), some), shut = {0, 0, 0}, drive = soft_scale(20, draw_vector(&seed));
         soft_tensor k = {15, 15, 15, 0, 0, 0};
         for (int side = 0; side < 2; ++side) k = soft_add_cell(k, draw_vector(&seed), 4, 1, 5, 1);
-        soft_vector w = soft_balance(f, 0, drive, k, 0, normal);
+        soft_vector w = soft_balance(f, 0, drive, k, 0, normal, shut, 0);
         for (int turn = 0; turn < 200; ++turn) {
             const double size = sqrt(soft_dot(w, w));
             if (!(size > 0)) break;
             const soft_vector left = soft_add(drive, -1, soft_tensor_times(k, w));
             assert_true(fabs(soft_dot(left, w) / size - soft_force(f, size)) < 1e-9 * 40);
             assert_true(soft_dot(w, normal) >= -1e-12 * size);
-            w = soft_balance(f, 0, drive, k, soft_force(f, size) / size, normal);
+            w = soft_balance(f, 0, drive, k, soft_force(f, size) / size, normal, w, 0);
         }
         const double size = sqrt(soft_dot(w, w));
         if (!(size > 0) || !(soft_dot(w, normal) > 1e-9)) continue;
@@ -137,6 +137,54 @@ static void openings_balance_in_every_direction(void **state)
     assert_true(n_across > 100);
 }
 
+/* The force on the area: the stress along the crack, by its definition with eigenvectors (Jacobi rotations, failure.h), without its pulls. */
+static void a_crack_carries_the_pushes_along_it(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    for (int trial = 0; trial < 1000; ++trial) {
+        const soft_vector some = draw_vector(&seed), e = soft_scale(1 / sqrt(soft_dot(some, some)), some), area = draw_vector(&seed);
+        const soft_vector p = draw_vector(&seed), q = draw_vector(&seed);
+        const failure_stress m = trial % 4 ? (failure_stress){p.x, p.y, p.z, q.x, q.y, q.z} : (failure_stress){p.x, p.x, p.x, 0, 0, 0};
+        double s[3][3] = {{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}, along[3][3] = {{0}}, project[3][3], expected[3] = {0};
+        const double axis[3] = {e.x, e.y, e.z}, on[3] = {area.x, area.y, area.z};
+        for (int i = 0; i < 9; ++i) project[i / 3][i % 3] = (i / 3 == i % 3) - axis[i / 3] * axis[i % 3];
+        for (int i = 0; i < 81; ++i) along[i / 27][i / 9 % 3] += project[i / 27][i / 3 % 3] * s[i / 3 % 3][i % 3] * project[i % 3][i / 9 % 3];
+        const failure_principal value = failure_principal_of((failure_stress){along[0][0], along[1][1], along[2][2], along[1][2], along[0][2], along[0][1]});
+        /* one value is 0, of the axis; a third axis is across the other two */
+        const failure_axis first = value.first_axis, third = value.third_axis;
+        const double a[3] = {first.x, first.y, first.z}, c[3] = {third.x, third.y, third.z};
+        const double b[3] = {c[1] * a[2] - c[2] * a[1], c[2] * a[0] - c[0] * a[2], c[0] * a[1] - c[1] * a[0]};
+        const double second = along[0][0] + along[1][1] + along[2][2] - value.first - value.third;
+        for (int i = 0; i < 9; ++i)
+            expected[i / 3] += on[i % 3] * (fmin(value.first, 0) * a[i / 3] * a[i % 3] + fmin(second, 0) * b[i / 3] * b[i % 3] + fmin(value.third, 0) * c[i / 3] * c[i % 3]);
+        const soft_vector got = soft_carried(m, e, area);
+        assert_true(fabs(got.x - expected[0]) + fabs(got.y - expected[1]) + fabs(got.z - expected[2]) < 1e-12);
+        assert_true(fabs(soft_dot(got, e)) < 1e-14);
+    }
+}
+
+/* A face that is pressed shut along its axis sticks below mu times the push and slides above it until its shear is mu times the push. */
+static void shut_faces_slide_by_coulomb(void **state)
+{
+    (void)state;
+    const soft_face ended = {3, 0.7, 0};
+    const double widest = soft_end(ended), mu = 0.3;
+    const soft_vector axis = {0, 0, 1}, before = {0.02, 0.01, 0};
+    const soft_tensor k = {30, 30, 30, 0, 0, 0};
+    for (double shear = 0; shear < 4; shear += 0.1) {
+        const soft_vector drive = soft_add((soft_vector){shear, 0, -5}, 1, soft_tensor_times(k, before));
+        const soft_vector now = soft_balance(ended, widest, drive, k, 0, axis, before, mu);
+        const soft_vector left = soft_add(drive, -1, soft_tensor_times(k, now));
+        assert_true(fabs(now.z) < 1e-15);
+        if (shear < mu * 5 * 0.999) assert_true(now.x == before.x && now.y == before.y);
+        if (shear > mu * 5 * 1.001) assert_true(fabs(left.x - mu * 5) < 1e-12 && fabs(left.y) < 1e-12 && now.x > before.x);
+    }
+    const soft_vector free = soft_balance(ended, widest, (soft_vector){1, 0, 3}, k, 0, axis, before, mu); /* pulled apart: nothing holds */
+    assert_true(fabs(free.x - 1.0 / 30) < 1e-12 && fabs(free.z - 0.1) < 1e-12);
+    assert_true(soft_keeps(0.1, 0) == 1 && fabs(soft_keeps(0.1, 0.4) - 0.75) < 1e-15 && soft_keeps(0.5, 0.4) == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -144,6 +192,7 @@ int main(void)
         cmocka_unit_test(slopes_are_those_of_the_force),                 cmocka_unit_test(openings_balance),
         cmocka_unit_test(unloading_gives_back_the_secant_energy),        cmocka_unit_test(energy_follows_the_direction_of_the_opening),
         cmocka_unit_test(stiffness_of_a_cell_is_from_above),             cmocka_unit_test(openings_balance_in_every_direction),
+        cmocka_unit_test(a_crack_carries_the_pushes_along_it),           cmocka_unit_test(shut_faces_slide_by_coulomb),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -115,7 +115,9 @@ static void most_pairs_of_dispersed_dust_rest(void **state)
 static double *softened(bool whole, int64_t *n, int64_t *broken, double *spent)
 {
     bench_case c;
-    open_case(&c, (case_options){.fill = "cells: [6, 6, 6], spread: 90 %, seed: 1", .stages = CONTACT_CRUSH, .sets = CONTACT_KEYS, .n_threads = 1,
+    /* without closure surfaces meet in contact from the step on in which their bond breaks */
+    open_case(&c, (case_options){.fill = "cells: [6, 6, 6], spread: 90 %, seed: 1", .stages = CONTACT_CRUSH,
+                                 .sets = "fracture: {criterion: bond-normal, closure: false}\ninteractions: {contact: {friction: 0.3, restitution: 0.7}}\n", .n_threads = 1,
                                  .materials = CELLS_STRENGTH("4e-4 Pa, fracture_energy: 2e-7 J/m^2")});
     begin_first(&c);
     c.simulation->contact->always_whole = whole;
