@@ -188,6 +188,17 @@ LAW soft_vector soft_turned_back(GLOBAL const coeff *restrict gradient, int i, i
 }
 LAW soft_vector soft_unit(soft_vector a) { return soft_scale(REAL(1) / SQRT(soft_dot(a, a)), a); }
 
+/* The stress at a bond [Pa]: the mean of its cells, but with the traction that the bond itself carries: mean + t (x) n + n (x) t - (t.n) n (x) n, t that
+ * traction less that of the mean. So a bond that bridges an open crack, between cells without stress, is seen to be pulled. n: unit normal. */
+LAW failure_stress soft_stress(failure_stress mean, soft_vector traction, soft_vector n)
+{
+    const soft_vector t = {traction.x - (mean.xx * n.x + mean.xy * n.y + mean.xz * n.z), traction.y - (mean.xy * n.x + mean.yy * n.y + mean.yz * n.z),
+                           traction.z - (mean.xz * n.x + mean.yz * n.y + mean.zz * n.z)};
+    const soft_vector m = soft_add(t, REAL(-0.5) * soft_dot(t, n), n);
+    return (failure_stress){mean.xx + REAL(2) * m.x * n.x,         mean.yy + REAL(2) * m.y * n.y,         mean.zz + REAL(2) * m.z * n.z,
+                            mean.yz + m.y * n.z + m.z * n.y, mean.xz + m.x * n.z + m.z * n.x, mean.xy + m.x * n.y + m.y * n.x};
+}
+
 /* Before the sweeps of a step: faces that nothing holds go on opening as in the last step, so that what the sweeps leave of the balance is no drag on sides that fly apart. */
 KERNEL void soft_coast(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive,
                        GLOBAL const int *restrict n_open, GLOBAL const int *restrict open, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict gradient,
@@ -215,7 +226,7 @@ KERNEL void soft_coast(int n, GLOBAL const int *restrict row_start, GLOBAL const
  * what the bond would pull with, by the stiffness of the two cells, along their axes and across; so a sweep over all faces at once comes nearer
  * to the balance of all. is_last: of the sweeps of this step; only the last one wears the cohesion, what went too far before comes back for
  * nothing. A face that would close further than shut only slides. */
-KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff friction, coeff release, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff friction, coeff retention, coeff release, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                       GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
                       GLOBAL const int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const coeff *restrict inv_shape,
@@ -243,9 +254,10 @@ KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff f
             const soft_vector normal = soft_turned(gradient, e, j, s), axis = soft_unit(soft_turned(gradient, e, j, soft_part(crack, entry, SOFT_AXIS)));
             const coeff keeps = soft_keeps(SOFT_NUMBER(entry, WIDEST), release * ratio[entry] * SQRT(soft_dot(s, s)));
             const soft_vector carried = soft_scale(keeps, soft_carried(soft_mean_stress(gradient, stress, e, j), axis, normal));
-            const soft_vector drive = soft_add(soft_add(pull, REAL(-1), carried), REAL(1), soft_tensor_times(stiffness, before));
+            const soft_vector drive = soft_add(pull, REAL(1), soft_tensor_times(stiffness, before));
             const coeff wide = SOFT_NUMBER(entry, WIDEST), was = SQRT(soft_dot(before, before)), at = was > wide ? was : wide;
-            const soft_vector now = soft_balance(face, wide, drive, stiffness, at > 0 ? soft_force(face, at) / at : 0, axis, before, friction);
+            const soft_vector found = soft_balance(face, wide, drive, stiffness, at > 0 ? soft_force(face, at) / at : 0, axis, before, friction, carried, retention * soft_keeps(wide, REAL(2) * soft_end(face)) * SQRT(soft_dot(carried, carried)));
+            const soft_vector now = soft_outside(found, normal);
             const coeff w = SQRT(soft_dot(now, now));
             const soft_vector added = soft_add(soft_part(crack, entry, SOFT_SHIFT), REAL(1), soft_add(now, REAL(-1), before));
             soft_put(crack, entry, SOFT_OPENING, now), soft_put(crack, other, SOFT_OPENING, soft_scale(REAL(-1), now));
@@ -266,7 +278,7 @@ KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restr
                          GLOBAL int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
                          GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, coeff k_one,
                          coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const state *restrict displacement,
-                         GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark,
+                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark,
                          GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(e, n) {
@@ -288,7 +300,7 @@ KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restr
                 SOFT_NUMBER(entry, HELD) = holds, SOFT_NUMBER(other, HELD) = holds;
                 const soft_vector s = soft_area(area, entry);
                 if (!(SOFT_NUMBER(entry, WIDEST) < soft_end(face))) STORE_SAME(open + entry, SOFT_APART), STORE_SAME(open + other, SOFT_APART);
-                if (open[entry] == SOFT_APART && !(SOFT_NUMBER(entry, WIDEST) < release * ratio[entry] * SQRT(soft_dot(s, s)))) {
+                if (open[entry] == SOFT_APART && soft_is_clear(w, soft_unit(soft_turned(gradient, e, j, soft_part(crack, entry, SOFT_AXIS))), release * ratio[entry] * SQRT(soft_dot(s, s)))) {
                     mark[entry] = CELLS_TENSION, mark[other] = CELLS_TENSION;
                     measure[entry] = SOFT_NUMBER(entry, ONSET), measure[other] = SOFT_NUMBER(entry, ONSET);
                     STORE_SAME(touched + e, 1);
@@ -323,17 +335,6 @@ KERNEL void soft_book(int n, int step, GLOBAL const int *restrict row_start, GLO
             broken[e] += 1;
         }
     }
-}
-
-/* The stress at a bond [Pa]: the mean of its cells, but with the traction that the bond itself carries: mean + t (x) n + n (x) t - (t.n) n (x) n, t that
- * traction less that of the mean. So a bond that bridges an open crack, between cells without stress, is seen to be pulled. n: unit normal. */
-LAW failure_stress soft_stress(failure_stress mean, soft_vector traction, soft_vector n)
-{
-    const soft_vector t = {traction.x - (mean.xx * n.x + mean.xy * n.y + mean.xz * n.z), traction.y - (mean.xy * n.x + mean.yy * n.y + mean.yz * n.z),
-                           traction.z - (mean.xz * n.x + mean.yz * n.y + mean.zz * n.z)};
-    const soft_vector m = soft_add(t, REAL(-0.5) * soft_dot(t, n), n);
-    return (failure_stress){mean.xx + REAL(2) * m.x * n.x,         mean.yy + REAL(2) * m.y * n.y,         mean.zz + REAL(2) * m.z * n.z,
-                            mean.yz + m.y * n.z + m.z * n.y, mean.xz + m.x * n.z + m.z * n.x, mean.xy + m.x * n.y + m.y * n.x};
 }
 
 /* Whole bonds whose largest principal stress is above share * limit and that stand across it (the cosine of normal and axis is at least steepest)

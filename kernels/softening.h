@@ -108,6 +108,17 @@ LAW coeff soft_opening(soft_face f, coeff widest, coeff drive, coeff stiffness)
     return w;
 }
 
+/* No further into each other than the faces themselves allow: across the normal of the face (of any length) the opening is not below 0 either, so a face that slides along the crack rides up on the
+ * other or closes the gap that its opening has left. */
+LAW soft_vector soft_outside(soft_vector w, soft_vector normal)
+{
+    const coeff into = soft_dot(w, normal);
+    return into < 0 ? soft_add(w, -into / soft_dot(normal, normal), normal) : w;
+}
+
+/* Sides that nothing holds together are clear of each other: their gap along the axis, or ten times as much in any direction, for what slid so far that it no longer lies against the same face. */
+LAW int soft_is_clear(soft_vector w, soft_vector axis, coeff clear) { return !(soft_dot(w, axis) < clear) || !(soft_dot(w, w) < REAL(100) * clear * clear); }
+
 /* How strongly a face is drawn back when it opens [N/m], in every direction: symmetric. */
 typedef struct { coeff xx, yy, zz, yz, xz, xy; } soft_tensor;
 LAW soft_vector soft_tensor_times(soft_tensor k, soft_vector a)
@@ -172,20 +183,24 @@ LAW soft_vector soft_free_balance(soft_face f, coeff widest, soft_vector drive, 
     return soft_scale(w, way);
 }
 
-/* The same with Coulomb friction on faces that are shut: they slide from where they were (before) once the shear beyond their cohesion is above friction times the push across
- * the crack. axis: unit vector of the crack; friction [-]. */
-LAW soft_vector soft_balance(soft_face f, coeff widest, soft_vector drive, soft_tensor k, coeff pulled, soft_vector axis, soft_vector before, coeff friction)
+/* The same where something holds the two sides against sliding: the carried force, in its own direction, up to what it is; friction times the push on faces that are shut, and `held` [N], in any.
+ * What stays within that (a force nearer than held to the stretch from 0 to carried) opens along the axis of the crack alone, from where it was (before); beyond it slides straight away from there, so
+ * that sliding never gives energy. axis: unit vector of the crack; carried: across it [N]; friction [-]. */
+LAW soft_vector soft_balance(soft_face f, coeff widest, soft_vector drive, soft_tensor k, coeff pulled, soft_vector axis, soft_vector before, coeff friction, soft_vector carried, coeff held)
 {
-    const soft_vector now = soft_free_balance(f, widest, drive, k, pulled, axis);
-    if (!(friction > 0) || soft_dot(now, axis) > 0) return now;
-    const soft_vector stuck = soft_add(before, -soft_dot(before, axis), axis);
-    const soft_vector left = soft_add(drive, REAL(-1), soft_tensor_times(k, stuck));
-    const coeff push = -soft_dot(left, axis), was = SQRT(soft_dot(stuck, stuck)), at = was > widest ? was : widest;
-    if (!(push > 0)) return now;
-    const soft_vector shear = soft_add(soft_add(left, push, axis), at > 0 ? -soft_force(f, at) / at : 0, stuck);
-    const coeff size = SQRT(soft_dot(shear, shear));
-    if (!(size > friction * push)) return stuck;
-    return soft_free_balance(f, widest, soft_add(drive, -friction * push / size, shear), k, pulled, axis);
+    const soft_vector slid = soft_add(before, -soft_dot(before, axis), axis);
+    const soft_vector rest = soft_add(drive, REAL(-1), soft_tensor_times(k, slid)), stiff = soft_tensor_times(k, axis);
+    const coeff pull = soft_dot(rest, axis), w = pull > 0 ? soft_opening(f, widest, pull, soft_dot(stiff, axis)) : 0;
+    const coeff hold = held + (pull < 0 ? -friction * pull : 0), square = soft_dot(carried, carried);
+    if (!(hold > 0) && !(square > 0)) return soft_free_balance(f, widest, drive, k, pulled, axis);
+    const soft_vector stuck = soft_add(slid, w, axis), left = soft_add(rest, -w, stiff);
+    const coeff size = SQRT(soft_dot(stuck, stuck)), at = size > widest ? size : widest;
+    const soft_vector along = soft_add(left, at > 0 ? -soft_force(f, at) / at : 0, slid), shear = soft_add(along, -soft_dot(along, axis), axis);
+    const coeff part = square > 0 ? soft_dot(shear, carried) / square : 0, share = part > REAL(1) ? REAL(1) : part > 0 ? part : 0;
+    const soft_vector beyond = soft_add(shear, -share, carried);
+    const coeff excess = SQRT(soft_dot(beyond, beyond));
+    if (!(excess > hold)) return stuck;
+    return soft_free_balance(f, widest, soft_add(soft_add(drive, -share, carried), -hold / excess, beyond), k, pulled, axis);
 }
 
 #endif

@@ -15,6 +15,8 @@ enum { N_SWEEPS = 3 };
 static const double stiffen = 0.6;
 /* Openings over the length of the bond from which on the sides of a broken face stand clear of each other. */
 static const double clear = 0.05;
+/* Shear that the sides of a crack bear, over the push along it that a face carries (docs/theory.md T10). */
+static const double retention = 0.3;
 /* E G_c / sigma_f^2 below this many cells: the crack is not resolved; below twice as many uneven cells bear more at notches (docs/fracture.md, "Notched specimens"). */
 static const double least_cells = 4;
 
@@ -220,7 +222,7 @@ static brc_status sweep(brc_simulation *s, int k)
 {
     softening_faces *f = faces_of(s);
     const int32_t n = s->layout->n_rows;
-    return BRC_LAUNCH(f->move, n, BRC_INT(n), BRC_INT(k == N_SWEEPS - 1), BRC_COEFF(stiffen), BRC_COEFF(steepest), BRC_COEFF(friction_of(s)), BRC_COEFF(release_of(s)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+    return BRC_LAUNCH(f->move, n, BRC_INT(n), BRC_INT(k == N_SWEEPS - 1), BRC_COEFF(stiffen), BRC_COEFF(steepest), BRC_COEFF(friction_of(s)), BRC_COEFF(retention), BRC_COEFF(release_of(s)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                       BRC_BUF(s->fracture->cells->twin), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area),
                       BRC_BUF(s->ratio), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume), BRC_BUF(s->fracture->cells->modulus), BRC_BUF(f->shear),
                       BRC_BUF(f->reach), BRC_COEFF(one_modulus(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
@@ -266,7 +268,7 @@ static brc_status measure(brc_simulation *s, int book)
     const int32_t n = s->layout->n_rows;
     return BRC_LAUNCH(f->measure, n, BRC_INT(n), BRC_INT(book), BRC_COEFF(release_of(s)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(c->alive),
                       BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->ratio),
-                      BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement), BRC_BUF(s->flux),
+                      BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->flux),
                       BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found));
 }
 

@@ -119,14 +119,14 @@ static void openings_balance_in_every_direction(void **state)
         const soft_vector some = draw_vector(&seed), normal = soft_scale(1 / sqrt(soft_dot(some, some)), some), shut = {0, 0, 0}, drive = soft_scale(20, draw_vector(&seed));
         soft_tensor k = {15, 15, 15, 0, 0, 0};
         for (int side = 0; side < 2; ++side) k = soft_add_cell(k, draw_vector(&seed), 4, 1, 5, 1);
-        soft_vector w = soft_balance(f, 0, drive, k, 0, normal, shut, 0);
+        soft_vector w = soft_balance(f, 0, drive, k, 0, normal, shut, 0, shut, 0);
         for (int turn = 0; turn < 200; ++turn) {
             const double size = sqrt(soft_dot(w, w));
             if (!(size > 0)) break;
             const soft_vector left = soft_add(drive, -1, soft_tensor_times(k, w));
             assert_true(fabs(soft_dot(left, w) / size - soft_force(f, size)) < 1e-9 * 40);
             assert_true(soft_dot(w, normal) >= -1e-12 * size);
-            w = soft_balance(f, 0, drive, k, soft_force(f, size) / size, normal, w, 0);
+            w = soft_balance(f, 0, drive, k, soft_force(f, size) / size, normal, w, 0, shut, 0);
         }
         const double size = sqrt(soft_dot(w, w));
         if (!(size > 0) || !(soft_dot(w, normal) > 1e-9)) continue;
@@ -170,18 +170,34 @@ static void shut_faces_slide_by_coulomb(void **state)
     (void)state;
     const soft_face ended = {3, 0.7, 0};
     const double widest = soft_end(ended), mu = 0.3;
-    const soft_vector axis = {0, 0, 1}, before = {0.02, 0.01, 0};
+    const soft_vector axis = {0, 0, 1}, before = {0.02, 0.01, 0}, none = {0, 0, 0}, carried = {0.4, 0, 0};
     const soft_tensor k = {30, 30, 30, 0, 0, 0};
     for (double shear = 0; shear < 4; shear += 0.1) {
         const soft_vector drive = soft_add((soft_vector){shear, 0, -5}, 1, soft_tensor_times(k, before));
-        const soft_vector now = soft_balance(ended, widest, drive, k, 0, axis, before, mu);
+        const soft_vector now = soft_balance(ended, widest, drive, k, 0, axis, before, mu, none, 0);
         const soft_vector left = soft_add(drive, -1, soft_tensor_times(k, now));
         assert_true(fabs(now.z) < 1e-15);
         if (shear < mu * 5 * 0.999) assert_true(now.x == before.x && now.y == before.y);
         if (shear > mu * 5 * 1.001) assert_true(fabs(left.x - mu * 5) < 1e-12 && fabs(left.y) < 1e-12 && now.x > before.x);
     }
-    const soft_vector free = soft_balance(ended, widest, (soft_vector){1, 0, 3}, k, 0, axis, before, mu); /* pulled apart: nothing holds */
+    const soft_vector free = soft_balance(ended, widest, (soft_vector){1, 0, 3}, k, 0, axis, before, mu, none, 0); /* pulled apart: nothing holds */
     assert_true(fabs(free.x - 1.0 / 30) < 1e-12 && fabs(free.z - 0.1) < 1e-12);
+    /* held open: it opens along the axis alone until its shear is above what holds it */
+    const soft_vector drive = soft_add((soft_vector){0.4, 0, 3}, 1, soft_tensor_times(k, before));
+    const soft_vector held = soft_balance(ended, widest, drive, k, 0, axis, before, 0, none, 0.5), slid = soft_balance(ended, widest, drive, k, 0, axis, before, 0, none, 0.1);
+    assert_true(fabs(held.x - before.x) < 1e-12 && fabs(held.y - before.y) < 1e-12 && fabs(held.z - 0.1) < 1e-12);
+    assert_true(fabs(slid.x - before.x - 0.3 / 30) < 1e-12 && fabs(slid.y - before.y) < 1e-12 && fabs(slid.z - 0.1) < 1e-12);
+    /* carried: nothing slides while the shear lies between nothing and it; beyond it, or against it, only by what is more */
+    for (double shear = -0.6; shear < 1; shear += 0.1) {
+        const soft_vector on = soft_add((soft_vector){shear, 0, 3}, 1, soft_tensor_times(k, before)), w = soft_balance(ended, widest, on, k, 0, axis, before, 0, carried, 0);
+        const double more = shear > 0.4 ? shear - 0.4 : shear < 0 ? shear : 0;
+        assert_true(fabs(w.x - before.x - more / 30) < 1e-12 && fabs(w.z - 0.1) < 1e-12);
+        assert_true((w.x - before.x) * (shear - more) > -1e-15);
+    }
+    const soft_vector tilted = {0.6, 0, 0.8}, into = soft_outside((soft_vector){-0.1, 0.02, 0.01}, tilted), out = {0.1, 0, 0};
+    assert_true(fabs(soft_dot(into, tilted)) < 1e-15 && into.y == 0.02 && soft_outside(out, tilted).x == 0.1);
+    assert_true(!soft_is_clear((soft_vector){0, 0, 0.09}, axis, 0.1) && soft_is_clear((soft_vector){0, 0, 0.1}, axis, 0.1) && soft_is_clear((soft_vector){1, 0, 0}, axis, 0.1));
+    assert_true(soft_is_clear(none, axis, 0)); /* without closure */
     assert_true(soft_keeps(0.1, 0) == 1 && fabs(soft_keeps(0.1, 0.4) - 0.75) < 1e-15 && soft_keeps(0.5, 0.4) == 0);
 }
 
