@@ -227,10 +227,7 @@ brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *st
 
 int64_t brc_beam_softening_bytes(const brc_scene *scene, int64_t entries, int64_t coeff_bytes)
 {
-    bool softens = false;
-    for (int32_t m = 0; m < scene->n_materials; ++m) softens = softens || scene->materials[m].fracture_energy > 0;
-    for (int32_t k = 0; k < scene->n_interfaces; ++k) softens = softens || scene->interfaces[k].fracture_energy > 0;
-    return softens ? entries * ((WIDTH + 1) * coeff_bytes + 12) : 0; /* with the factors */
+    return brc_scene_softens(scene) ? entries * ((WIDTH + 1) * coeff_bytes + 12) : 0; /* with the factors */
 }
 
 brc_status brc_beam_softening_report(brc_simulation *s, brc_softening_report *out)

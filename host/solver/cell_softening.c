@@ -318,9 +318,6 @@ brc_status brc_softening_begin_stage(brc_simulation *s)
     brc_softening_report report = {0};
     if ((!faces_of(s) && !brc_beam_softening_is_on(s)) || stage->solver == BRC_SOLVER_DYNAMIC) return BRC_OK;
     BRC_TRY(brc_simulation_softening(s, &report));
-    if (stage->most_events > 0)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': events break bonds at once, and those of this scene soften; remove `fracture_energy`, or load "
-                        "slowly in a dynamic stage with mass damping", stage->name);
     if (report.n_opened > 0)
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': bonds have opened against their cohesion in an earlier stage, and openings follow in dynamic "
                         "stages only; use a dynamic stage with mass damping", stage->name);
@@ -346,10 +343,7 @@ brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
 
 int64_t brc_softening_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t coeff_bytes)
 {
-    bool softens = false;
-    for (int32_t m = 0; m < scene->n_materials; ++m) softens = softens || scene->materials[m].fracture_energy > 0;
-    for (int32_t k = 0; k < scene->n_interfaces; ++k) softens = softens || scene->interfaces[k].fracture_energy > 0;
-    return softens ? entries * (WIDTH * coeff_bytes + 8) + n * (2 * coeff_bytes + 8) : 0;
+    return brc_scene_softens(scene) ? entries * (WIDTH * coeff_bytes + 8) + n * (2 * coeff_bytes + 8) : 0;
 }
 
 /* ---- what came of it ---- */
