@@ -16,7 +16,8 @@ static int told_of(const char *command, const char *strength, const char *keys, 
     char text[2048], line[256];
     snprintf(text, sizeof text, BAR "%s" QUIET, strength, keys, stages);
     test_make_folder(text);
-    snprintf(line, sizeof line, "%s%s --device cpu %s/scene.yaml", command, strcmp(command, "run") == 0 ? " -o result" : " --brief", test_folder());
+    if (strcmp(command, "run") == 0) snprintf(line, sizeof line, "run --device cpu -o %s/result %s/scene.yaml", test_folder(), test_folder());
+    else snprintf(line, sizeof line, "%s --device cpu --brief %s/scene.yaml", command, test_folder());
     const int code = test_program(line);
     test_remove_folder(NULL);
     return code;
