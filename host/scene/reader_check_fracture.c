@@ -132,6 +132,24 @@ static void check_criterion(brc_reader *reader)
     }
 }
 
+/* Criteria of elements know limits of elements alone: an interface's own tension counts as a share of the weaker side's. */
+static void check_interfaces(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    for (int k = 0; k < scene->n_interfaces; ++k) {
+        const brc_interface *at = &scene->interfaces[k];
+        if (at->kind != BRC_INTERFACE_MATERIALS || !(at->tension > 0)) continue;
+        const brc_material *first = &scene->materials[at->material[0]], *second = &scene->materials[at->material[1]];
+        for (int b = 0; b < scene->n_bodies && !(first->tension > 0) && !(second->tension > 0); ++b) {
+            if (brc_criterion_of(&scene->fracture, brc_body_model(scene, b)->kind) == BRC_CRITERION_BOND_NORMAL) continue;
+            if (!brc_body_uses(&scene->bodies[b], at->material[0]) || !brc_body_uses(&scene->bodies[b], at->material[1])) continue;
+            COMPLAIN(reader, &at->tension, at, "tension: is compared with that of its materials where elements fail, and neither '%s' nor '%s' has one; give one of them `strength: {tension: ...}`",
+                     first->name, second->name);
+            break;
+        }
+    }
+}
+
 /* Faces and beams that soften open in dynamic stages without noise damping only. */
 static void check_softening(brc_reader *reader)
 {
@@ -188,6 +206,7 @@ void brc_reader_check_fracture(brc_reader *reader)
     check_models(reader);
     if (!scene->has_fracture || brc_reader_is_broken(reader, "fracture") || brc_reader_is_broken(reader, "materials") || brc_reader_is_broken(reader, "interactions")) return;
     check_criterion(reader);
+    check_interfaces(reader);
     if (brc_scene_softens(scene)) check_softening(reader);
     if (!has_strength(scene))
         COMPLAIN(reader, &scene->has_fracture, scene, "fracture: nothing can break: no material of a body has a strength%s; give one `strength: {tension: 50 MPa}`, or leave fracture out",

@@ -75,6 +75,9 @@ static void criteria_and_energies_are_refused_where_the_model_has_none(void **st
     bad_scene(scene_of(MATERIALS(STRONG), CELLS, ", grains: {number: 5}",
                        "model: dlsm-published\nfracture: {}\ninteractions: {interfaces: [{grains: {fracture_energy: 1 J/m^2}}]}\nstages:\n" DYNAMIC),
               "9:56", "the bonds of body 'cube' (model dlsm-published) break at once");
+    bad_scene(scene_of(MATERIALS(", strength: {compression: 9 MPa}"), CELLS, ", regions: [{material: steel, where: x-}]",
+                       "fracture: {criterion: virial-principal}\ninteractions: {interfaces: [{materials: {first: glass, second: steel, tension: 1 MPa}}]}\nstages:\n" DYNAMIC),
+              "8:80", "neither 'glass' nor 'steel' has one");
     bad_scene(scene_of(MATERIALS(STRONG), CELLS, "", "model: {dlsm: {small_rotations: true}}\nfracture: {}\nstages:\n" DYNAMIC), "7:33", "a linearised law does not break");
 }
 
