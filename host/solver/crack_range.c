@@ -12,21 +12,29 @@ static int ascending(const void *left, const void *right)
     return a < b ? -1 : a > b;
 }
 
-static double size_of(const brc_domain *d, int64_t e) { return d->element_kind == BRC_ELEMENT_SPHERE ? 2 * d->radius[e] : cbrt(d->volume[e]); }
+static double size_of(const brc_domain *d, int64_t e)
+{
+    return d->element_kind == BRC_ELEMENT_SPHERE ? 2 * d->radius[e] : cbrt(d->volume[e]);
+}
 
-brc_status brc_crack_lengths_find(brc_simulation *s, const brc_strengths *strengths, double asked, brc_crack_lengths *out)
+brc_status brc_crack_lengths_find(brc_simulation *s, const brc_strengths *strengths, double asked,
+                                  brc_crack_lengths *out)
 {
     const brc_domain *d = s->domain;
     const double bound[3] = {asked, 2 * asked, 1};
     *out = (brc_crack_lengths){0};
     BRC_TRY(BRC_ALLOCATE(s->context, &out->ratio, d->n_bonds, "lengths of cracks"));
-    for (int64_t e = 0; e < d->n_elements; ++e) out->size += size_of(d, e) / (double)d->n_elements;
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        out->size += size_of(d, e) / (double)d->n_elements;
     for (int64_t b = 0; b < d->n_bonds; ++b) {
         if (!(strengths->energy[b] > 0) || !(strengths->tension[b] > 0)) continue;
         const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
-        const double young = fmin(s->elastic[s->material_of_element[i]].young, s->elastic[s->material_of_element[j]].young);
-        const double ratio = young * strengths->energy[b] / (strengths->tension[b] * strengths->tension[b]) / (0.5 * (size_of(d, i) + size_of(d, j)));
-        for (int k = 0; k < 3; ++k) out->n_below[k] += ratio < bound[k];
+        const double young =
+            fmin(s->elastic[s->material_of_element[i]].young, s->elastic[s->material_of_element[j]].young);
+        const double ratio = young * strengths->energy[b] / (strengths->tension[b] * strengths->tension[b]) /
+                             (0.5 * (size_of(d, i) + size_of(d, j)));
+        for (int k = 0; k < 3; ++k)
+            out->n_below[k] += ratio < bound[k];
         out->ratio[out->n++] = ratio;
     }
     if (out->n > 0) qsort(out->ratio, (size_t)out->n, sizeof *out->ratio, ascending);
@@ -39,7 +47,10 @@ void brc_crack_lengths_free(brc_crack_lengths *lengths)
     *lengths = (brc_crack_lengths){0};
 }
 
-double brc_crack_lengths_size(const brc_crack_lengths *l, double ratio) { return l->size * fmin(l->ratio[l->n / 2] / ratio, l->ratio[l->n / 100]); }
+double brc_crack_lengths_size(const brc_crack_lengths *l, double ratio)
+{
+    return l->size * fmin(l->ratio[l->n / 2] / ratio, l->ratio[l->n / 100]);
+}
 
 /* ---- bodies and their cracks ---- */
 
@@ -64,7 +75,8 @@ static extent extent_of(const brc_domain *d, int32_t body)
         x.size += size_of(d, e);
         ++x.n;
         if (d->element_kind == BRC_ELEMENT_SPHERE) stretch(&x, d->position + 3 * e, d->radius[e]);
-        for (int64_t v = d->vertex ? d->vertex_start[e] : 0; d->vertex && v < d->vertex_start[e + 1]; ++v) stretch(&x, d->vertex + 3 * v, 0);
+        for (int64_t v = d->vertex ? d->vertex_start[e] : 0; d->vertex && v < d->vertex_start[e + 1]; ++v)
+            stretch(&x, d->vertex + 3 * v, 0);
     }
     x.size /= (double)(x.n > 0 ? x.n : 1);
     return x;
@@ -75,8 +87,12 @@ static bool crack_box(const brc_crack *crack, const extent *x, double low[3], do
 {
     int n_thin = 0;
     for (int c = 0; c < 3; ++c) {
-        const double *a = crack->edge[0], *b = crack->edge[1], square = crack->normal[0] * crack->normal[0] + crack->normal[1] * crack->normal[1] + crack->normal[2] * crack->normal[2];
-        const double reach = crack->kind == BRC_CRACK_DISC ? crack->radius * sqrt(fmax(0, 1 - crack->normal[c] * crack->normal[c] / square)) : 0;
+        const double *a = crack->edge[0], *b = crack->edge[1],
+                     square = crack->normal[0] * crack->normal[0] + crack->normal[1] * crack->normal[1] +
+                              crack->normal[2] * crack->normal[2];
+        const double reach = crack->kind == BRC_CRACK_DISC
+                                 ? crack->radius * sqrt(fmax(0, 1 - crack->normal[c] * crack->normal[c] / square))
+                                 : 0;
         low[c] = crack->point[c] + (crack->kind == BRC_CRACK_DISC ? -reach : fmin(0, a[c]) + fmin(0, b[c]));
         high[c] = crack->point[c] + (crack->kind == BRC_CRACK_DISC ? reach : fmax(0, a[c]) + fmax(0, b[c]));
         n_thin += high[c] - low[c] < 1e-6 * x->size;
@@ -95,7 +111,8 @@ static bool crack_lengths(const brc_crack *crack, const extent *x, double *lengt
     *left = 0;
     for (int c = 0; c < 3; ++c) {
         const double whole = x->high[c] - x->low[c] - (high[c] - low[c]);
-        if (high[c] - low[c] < 1e-6 * x->size || whole < 0.5 * x->size || (axis >= 0 && high[c] - low[c] > *length)) continue;
+        if (high[c] - low[c] < 1e-6 * x->size || whole < 0.5 * x->size || (axis >= 0 && high[c] - low[c] > *length))
+            continue;
         const double below = low[c] - x->low[c], above = x->high[c] - high[c];
         axis = c;
         *length = high[c] - low[c];
@@ -104,18 +121,23 @@ static bool crack_lengths(const brc_crack *crack, const extent *x, double *lengt
     return axis >= 0;
 }
 
-static void tell_crack(brc_simulation *s, const brc_body *body, const brc_crack *crack, const extent *x, const char *elements)
+static void tell_crack(brc_simulation *s, const brc_body *body, const brc_crack *crack, const extent *x,
+                       const char *elements)
 {
     double length, left;
     if (!crack_lengths(crack, x, &length, &left)) return;
     if (length < (1 - slack) * least_notch * x->size)
         brc_log(s->context, BRC_LOG_WARNING,
-                "fracture_energy: crack '%s' of body '%s' is about %.1f %s long and leaves %.1f: notched parts of uneven cells bear some 11 to 13 %% too much with %g along it, 4 %% with %g; use %s of "
-                "%.3g mm for %g, %.3g mm for %g", crack->name, body->name, length / x->size, elements, left / x->size, least_notch, good_notch, elements, 1e3 * length / least_notch, least_notch,
-                1e3 * length / good_notch, good_notch);
+                "fracture_energy: crack '%s' of body '%s' is about %.1f %s long and leaves %.1f: notched parts of "
+                "uneven cells bear some 11 to 13 %% too much with %g along it, 4 %% with %g; use %s of "
+                "%.3g mm for %g, %.3g mm for %g",
+                crack->name, body->name, length / x->size, elements, left / x->size, least_notch, good_notch, elements,
+                1e3 * length / least_notch, least_notch, 1e3 * length / good_notch, good_notch);
     if (left < (1 - slack) * least_through * x->size)
-        brc_log(s->context, BRC_LOG_WARNING, "fracture_energy: crack '%s' of body '%s' leaves about %.1f %s whole, expected %g or more; use %s of %.3g mm", crack->name, body->name, left / x->size, elements,
-                least_through, elements, 1e3 * left / least_through);
+        brc_log(s->context, BRC_LOG_WARNING,
+                "fracture_energy: crack '%s' of body '%s' leaves about %.1f %s whole, expected %g or more; use %s of "
+                "%.3g mm",
+                crack->name, body->name, left / x->size, elements, least_through, elements, 1e3 * left / least_through);
 }
 
 /* Is there a fracture energy in the body? */
@@ -139,8 +161,12 @@ void brc_crack_range_tell(brc_simulation *s, const char *elements)
         for (int c = 0; c < 3 && x.n > 0; ++c)
             if (x.high[c] - x.low[c] < thinnest) thinnest = x.high[c] - x.low[c], axis = c;
         if (x.n > 0 && thinnest < (1 - slack) * least_through * x.size)
-            brc_log(s->context, BRC_LOG_WARNING, "fracture_energy: body '%s' is about %.1f %s thick along %c, expected %g or more where a crack runs through it (a plane of symmetry doubles them); use %s of %.3g mm",
-                    body->name, thinnest / x.size, elements, "xyz"[axis], least_through, elements, 1e3 * thinnest / least_through);
-        for (int c = 0; c < body->n_cracks; ++c) tell_crack(s, body, &body->cracks[c], &x, elements);
+            brc_log(s->context, BRC_LOG_WARNING,
+                    "fracture_energy: body '%s' is about %.1f %s thick along %c, expected %g or more where a crack "
+                    "runs through it (a plane of symmetry doubles them); use %s of %.3g mm",
+                    body->name, thinnest / x.size, elements, "xyz"[axis], least_through, elements,
+                    1e3 * thinnest / least_through);
+        for (int c = 0; c < body->n_cracks; ++c)
+            tell_crack(s, body, &body->cracks[c], &x, elements);
     }
 }

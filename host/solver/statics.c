@@ -162,6 +162,7 @@ brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)
 {
     if (!brc_is_beams(s) && !brc_is_dlsm(s)) return BRC_OK;
     BRC_TRY(brc_pieces_find(s, &v->pieces));
+    if (!v->pieces.any) brc_pieces_free(&v->pieces);
     return BRC_OK;
 }
 

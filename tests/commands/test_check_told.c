@@ -3,12 +3,18 @@
 #include <stdio.h>
 #include <string.h>
 
-#define BAR "version: 1\nmaterials: {stone: {E: 20 GPa, nu: 0.2, density: 2500 kg/m^3%s}}\n%s" \
-            "bodies: [{name: block, shape: {box: {size: [8 mm, 4 mm, 4 mm]}}, fill: {noisy_grid: {cells: [8, 4, 4], seed: 1}}}]\n"
+#define BAR                                                                                                            \
+    "version: 1\nmaterials: {stone: {E: 20 GPa, nu: 0.2, density: 2500 kg/m^3%s}}\n%s"                                 \
+    "bodies: [{name: block, shape: {box: {size: [8 mm, 4 mm, 4 mm]}}, fill: {noisy_grid: {cells: [8, 4, 4], seed: "    \
+    "1}}}]\n"
 #define STRONG ", strength: {tension: 10 MPa}"
 #define SOFT ", strength: {tension: 10 MPa, fracture_energy: 40 J/m^2}"
-#define PULL "stages:\n  - name: pull\n    solver: static\n    loads:\n      - face_displacement: {set: x-, x: 0%s}\n      - traction: {set: x+, %s: 1 MPa}\n"
-#define TEAR "stages:\n  - {name: tear, solver: {dynamic: {steps: 20}}, initial: [{velocity: {gradient: {x: [1 1/s, 0, 0]}}}]}\n"
+#define PULL                                                                                                           \
+    "stages:\n  - name: pull\n    solver: static\n    loads:\n      - face_displacement: {set: x-, x: 0%s}\n      - "  \
+    "traction: {set: x+, %s: 1 MPa}\n"
+#define TEAR                                                                                                           \
+    "stages:\n  - {name: tear, solver: {dynamic: {steps: 20}}, initial: [{velocity: {gradient: {x: [1 1/s, 0, "        \
+    "0]}}}]}\n"
 #define QUIET "output: {frames: none, picture: false}\n"
 
 static int told_of(const char *command, const char *strength, const char *keys, const char *stages)
@@ -16,8 +22,10 @@ static int told_of(const char *command, const char *strength, const char *keys, 
     char text[2048], line[256];
     snprintf(text, sizeof text, BAR "%s" QUIET, strength, keys, stages);
     test_make_folder(text);
-    if (strcmp(command, "run") == 0) snprintf(line, sizeof line, "run --device cpu -o %s/result %s/scene.yaml", test_folder(), test_folder());
-    else snprintf(line, sizeof line, "%s --device cpu --brief %s/scene.yaml", command, test_folder());
+    if (strcmp(command, "run") == 0)
+        snprintf(line, sizeof line, "run --device cpu -o %s/result %s/scene.yaml", test_folder(), test_folder());
+    else
+        snprintf(line, sizeof line, "%s --device cpu --brief %s/scene.yaml", command, test_folder());
     const int code = test_program(line);
     test_remove_folder(NULL);
     return code;
@@ -67,7 +75,8 @@ static void both_warn_of_bodies_that_loads_push_where_nothing_holds_them(void **
 {
     (void)state;
     char pull[512];
-    static const char sentence[] = "warning: stage 'pull': body 'block' is free to move along y, z and to turn about x, and its loads push it there: no equilibrium answers them; hold it there";
+    static const char sentence[] = "warning: stage 'pull': body 'block' is free to move along y, z and to turn about "
+                                   "x, and its loads push it there: no equilibrium answers them; hold it there";
     snprintf(pull, sizeof pull, PULL, "", "y");
     told_of("check", "", "", pull);
     expect(test_program_stderr(), sentence);
@@ -75,7 +84,8 @@ static void both_warn_of_bodies_that_loads_push_where_nothing_holds_them(void **
     expect(test_program_stderr(), sentence);
     snprintf(pull, sizeof pull, PULL, "", "x");
     assert_int_equal(told_of("check", "", "", pull), 0);
-    expect(test_program_stderr(), "body 'block' is free to move along y, z and to turn about x; no load pushes it there, and it stays");
+    expect(test_program_stderr(),
+           "body 'block' is free to move along y, z and to turn about x; no load pushes it there, and it stays");
     assert_int_equal(told_of("run", "", "", pull), 0);
     assert_null(strstr(test_program_stderr(), "is free to move"));
 }
