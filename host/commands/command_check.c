@@ -12,6 +12,7 @@
 #include "../base/memory.h"
 #include "../output/checkpoint_identity.h"
 #include "../scene/scene_reader.h"
+#include "../solver/free_bodies.h"
 #include "../solver/strikers.h"
 #include "../solver/touching.h"
 
@@ -186,6 +187,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     const double built_s = brc_pace_clock_s(&request) - start;
     BRC_TRY_OR(cleanup, make_simulations(context, &request, &setup, &simulations_s));
     print_setup(&setup, precision);
+    for (int32_t k = 0; k < setup.n; ++k) BRC_TRY_OR(cleanup, brc_free_bodies_tell(context, setup.split->part[k].scene, setup.domain[k], true));
     BRC_TRY_OR(cleanup, compile_first(context, &request, &setup, &simulations_s));
     BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, brc_arguments_value(arguments, "brief") != NULL, &trial));
     if (brc_arguments_value(arguments, "effects")) print_parts(&setup);

@@ -155,10 +155,10 @@ static brc_price_curve own_curve(const brc_scene *scene, const brc_price_error *
 static void tell_class(const brc_price_curve *by, double now, const char *whose)
 {
     const double error = brc_price_curve_error(by, now);
-    if (error < finest_class) printf("error class: 0.01 %% or better (by %s '%s')\n", whose, by->problem);
+    if (error < finest_class) printf("error class (elastic): 0.01 %% or better (by %s '%s')\n", whose, by->problem);
     else {
         const double percent = 100 * brc_price_class(error), unit = pow(10, floor(log10(percent) + 1e-9));
-        printf("error class: %.3g %% (by %s '%s')\n", round(percent / unit) * unit, whose, by->problem); /* one digit: 0.3, 1, 3, 10 */
+        printf("error class (elastic): %.3g %% (by %s '%s')\n", round(percent / unit) * unit, whose, by->problem); /* one digit: 0.3, 1, 3, 10 */
     }
 }
 
@@ -275,6 +275,34 @@ brc_status brc_price_judge(brc_context *context, const brc_scene *scene, const b
     return BRC_OK;
 }
 
+/* What was measured of bodies of a model that break, as rows of docs/fracture.md say. */
+static const char *measured_of(brc_model_kind model, bool by_bond, bool softens)
+{
+    if (model == BRC_MODEL_CBM)
+        return softens ? "energy per area of a crack 0.91 to 1.06 of the fracture energy given, at coordination numbers 6 to 13 (docs/fracture.md, \"Measured on beams\")"
+                       : "strength in tension within 0.6 %, discs pressed across up to 6 % below it with few bonds, twisted rods 7 to 15 % above; a crack's energy is what strength and spheres "
+                         "make of it (docs/beams-tests.md)";
+    if (model == BRC_MODEL_DLSM_PUBLISHED || !by_bond) return "only the onset, at the strength in an even pull; a crack's energy is what strength and cells make of it (docs/fracture.md)";
+    return softens ? "peak loads of notched parts +3 to +7 % with regular cells or 30 cells in the notch, +11 to +13 % with 15 uneven ones; energy per area of a crack 0.98 to 1.09 of the fracture "
+                     "energy given (docs/fracture.md, \"What fracture must show\")"
+                   : "onset in an even pull within 0.03 % of the strength, peak loads of discs pressed across +0.6 % (arcs) to -7 % (narrow strips); a crack's energy is what strength and cells make "
+                     "of it, so loads of notched parts change with the cells (docs/fracture.md, \"What fracture must show\")";
+}
+
+/* The error class is of elastic solids; a line for every kind of breaking in the scene. */
+static void tell_breaking(const brc_scene *scene, const brc_setup *setup)
+{
+    const char *said[BRC_MODEL_CBM + 1] = {NULL};
+    if (!scene->has_fracture) return;
+    printf("what breaks: the errors above are of the elastic solid; no error of this scene's cracks or strength is known\n");
+    for (int32_t k = 0; k < setup->n; ++k) {
+        const brc_model_kind kind = setup->split->part[k].scene->model.kind;
+        if (said[kind]) continue;
+        said[kind] = measured_of(kind, brc_criterion_of(&scene->fracture, kind) == BRC_CRITERION_BOND_NORMAL, brc_scene_softens(scene));
+        printf("measured where %s breaks: %s\n", brc_model_name(kind), said[kind]);
+    }
+}
+
 brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, double seconds, const brc_price_error *own)
 {
     const double now = (double)brc_setup_n_elements(setup);
@@ -291,10 +319,12 @@ brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene,
     if (own->out_of_time)
         printf("measures were not compared with those of fewer elements: a stage of these was not over after %.0f s (another machine may tell another class)\n", brc_price_error_stage_s);
     if (!j.known) {
-        printf("error class: not known, no curve of model %s was measured (docs/accuracy.md)\n", brc_model_name(setup->split->part[0].scene->model.kind));
+        printf("error class (elastic): not known, no curve of model %s was measured (docs/accuracy.md)\n", brc_model_name(setup->split->part[0].scene->model.kind));
+        tell_breaking(scene, setup);
         return BRC_OK;
     }
     tell_class(&j.by, now, j.is_own ? "measure" : "the worst of these problems,");
+    tell_breaking(scene, setup);
     tell_choices(scene, &j, now, seconds);
     return tell_precision_and_step(context, scene, brc_model_name(setup->split->part[0].scene->model.kind), &j.by, now, seconds);
 }

@@ -8,6 +8,7 @@
 #include "../output/checkpoint.h"
 #include "../output/checkpoint_identity.h"
 #include "../output/recorder.h"
+#include "../solver/free_bodies.h"
 #include "../solver/lockstep.h"
 #include <string.h>
 
@@ -101,6 +102,7 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
                                        .n_threads = request->n_threads,
                                        .exact = request->exact};
     BRC_TRY(brc_setup_simulations(context, &device, &now->setup));
+    for (int32_t k = 0; k < now->setup.n; ++k) BRC_TRY(brc_free_bodies_tell(context, now->setup.split->part[k].scene, now->setup.domain[k], false));
     brc_assembly *assembly = &now->setup.assembly;
     brc_simulation *first = assembly->part[0]; /* hears, and is told, for all */
     if (now->recorder) {

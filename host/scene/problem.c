@@ -1,5 +1,6 @@
-/* Collecting errors, and guessing what a misspelt word was meant to be. */
+/* Collecting errors and warnings, and guessing what a misspelt word was meant to be. */
 #include "problem.h"
+#include "../base/log.h"
 #include "../base/memory.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,13 +15,17 @@ typedef struct problem {
     char text[TEXT_LENGTH];
 } problem;
 
+typedef struct problem_list {
+    int n, n_all;
+    problem items[BRC_PROBLEMS_MOST];
+} problem_list;
+
 struct brc_problems {
     brc_context *context;
     const char *name;
     int n_overrides;
     const char *const *overrides;
-    int n, n_all;
-    problem items[BRC_PROBLEMS_MOST];
+    problem_list errors, warnings;
 };
 
 brc_status brc_problems_create(brc_context *context, const char *name, int n_overrides, const char *const *overrides,
@@ -41,22 +46,35 @@ void brc_problems_free(brc_problems **problems)
     *problems = NULL;
 }
 
+static void add(problem_list *list, brc_mark mark, const char *format, va_list arguments)
+{
+    ++list->n_all;
+    if (list->n == BRC_PROBLEMS_MOST) return;
+    problem *fresh = &list->items[list->n];
+    fresh->mark = mark;
+    fresh->order = list->n++;
+    vsnprintf(fresh->text, sizeof fresh->text, format, arguments);
+}
+
 void brc_problems_add(brc_problems *problems, brc_mark mark, const char *format, ...)
 {
-    ++problems->n_all;
-    if (problems->n == BRC_PROBLEMS_MOST) return;
-    problem *fresh = &problems->items[problems->n];
-    fresh->mark = mark;
-    fresh->order = problems->n++;
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(fresh->text, sizeof fresh->text, format, arguments);
+    add(&problems->errors, mark, format, arguments);
+    va_end(arguments);
+}
+
+void brc_problems_warn(brc_problems *problems, brc_mark mark, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    add(&problems->warnings, mark, format, arguments);
     va_end(arguments);
 }
 
 int brc_problems_count(const brc_problems *problems)
 {
-    return problems->n_all;
+    return problems->errors.n_all;
 }
 
 static int by_place(const void *left, const void *right)
@@ -68,22 +86,26 @@ static int by_place(const void *left, const void *right)
     return a->order < b->order ? -1 : a->order > b->order;
 }
 
+/* "file:line:col: ", or the override in its place. */
+static const char *place_of(const brc_problems *problems, const problem *item, char *out, size_t room)
+{
+    if (item->mark.source == 0) snprintf(out, room, "%s:%d:%d: ", problems->name, item->mark.line, item->mark.column);
+    else snprintf(out, room, "%s: in the override '%.200s': ", problems->name, problems->overrides[item->mark.source - 1]);
+    return out;
+}
+
 brc_status brc_problems_report(brc_problems *problems)
 {
-    if (problems->n_all == 0) return BRC_OK;
-    qsort(problems->items, (size_t)problems->n, sizeof problems->items[0], by_place);
-    for (int i = 0; i < problems->n; ++i) {
-        const problem *item = &problems->items[i];
-        if (item->mark.source == 0)
-            BRC_FAIL(problems->context, BRC_BAD_INPUT, "%s:%d:%d: error: %s", problems->name, item->mark.line,
-                     item->mark.column, item->text);
-        else
-            BRC_FAIL(problems->context, BRC_BAD_INPUT, "%s: in the override '%.200s': error: %s", problems->name,
-                     problems->overrides[item->mark.source - 1], item->text);
+    problem_list *list = problems->errors.n_all > 0 ? &problems->errors : &problems->warnings;
+    char place[1024];
+    qsort(list->items, (size_t)list->n, sizeof list->items[0], by_place);
+    for (int i = 0; i < list->n; ++i) {
+        place_of(problems, &list->items[i], place, sizeof place);
+        if (list == &problems->errors) BRC_FAIL(problems->context, BRC_BAD_INPUT, "%serror: %s", place, list->items[i].text);
+        else brc_log(problems->context, BRC_LOG_WARNING, "%s%s", place, list->items[i].text);
     }
-    if (problems->n_all > problems->n)
-        BRC_FAIL(problems->context, BRC_BAD_INPUT, "%s: and %d more errors", problems->name,
-                 problems->n_all - problems->n);
+    if (list == &problems->warnings) return BRC_OK;
+    if (list->n_all > list->n) BRC_FAIL(problems->context, BRC_BAD_INPUT, "%s: and %d more errors", problems->name, list->n_all - list->n);
     return BRC_BAD_INPUT;
 }
 
@@ -125,5 +147,5 @@ const char *brc_nearest_word(const char *found, int n, const char *const *known)
 
 const char *brc_problems_nearest(const brc_problems *problems, const char *found, int n, const char *const *known)
 {
-    return problems->n == BRC_PROBLEMS_MOST ? NULL : brc_nearest_word(found, n, known);
+    return problems->errors.n == BRC_PROBLEMS_MOST ? NULL : brc_nearest_word(found, n, known);
 }

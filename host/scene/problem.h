@@ -1,4 +1,4 @@
-/* The errors of one reading: collected wherever they are found, told in the order of the text. */
+/* The errors and warnings of one reading: collected wherever they are found, told in the order of the text. */
 #ifndef BRC_SCENE_PROBLEM_H
 #define BRC_SCENE_PROBLEM_H
 
@@ -19,10 +19,14 @@ void brc_problems_free(brc_problems **problems);
 /* Add one: what was found, what is expected, the cure. More than BRC_PROBLEMS_MOST are only counted. */
 void brc_problems_add(brc_problems *problems, brc_mark mark, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* The same for what is no error, but hardly meant: logged where there are no errors. */
+void brc_problems_warn(brc_problems *problems, brc_mark mark, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 #define BRC_PROBLEMS_MOST 100
+/* Errors so far. */
 int brc_problems_count(const brc_problems *problems);
-/* Record all, sorted by place, as "file:line:col: error: ..." in the context. BRC_OK when there were none, else
- * BRC_BAD_INPUT. */
+/* Record all errors, sorted by place, as "file:line:col: error: ..." in the context, and return BRC_BAD_INPUT. Without
+ * any, log the warnings as "warning: file:line:col: ..." and return BRC_OK. */
 brc_status brc_problems_report(brc_problems *problems);
 
 /* The nearest of `n` known words to `found` by edit distance, NULL when none is near enough to be a slip. */

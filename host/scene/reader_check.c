@@ -18,8 +18,7 @@ static int by_address(const void *left, const void *right)
     return (a->entry != NULL) - (b->entry != NULL); /* a struct before its first field */
 }
 
-/* Where a field was given; where its struct `item` begins when it was left out. The places are sorted. */
-static brc_mark place_of(const brc_reader *reader, const void *field, const void *item)
+brc_mark brc_reader_place(const brc_reader *reader, const void *field, const void *item)
 {
     const void *const wanted[2] = {field, item};
     for (int k = 0; k < 2; ++k) {
@@ -37,11 +36,7 @@ static brc_mark place_of(const brc_reader *reader, const void *field, const void
     return (brc_mark){0, 1, 1};
 }
 
-#define COMPLAIN(reader, field, item, ...)                                                                             \
-    brc_problems_add((reader)->problems, place_of((reader), (field), (item)), __VA_ARGS__)
-
-/* Was there a problem in this top-level key? What refers to it is then not judged. */
-static bool is_broken(const brc_reader *reader, const char *key)
+bool brc_reader_is_broken(const brc_reader *reader, const char *key)
 {
     for (int i = 0; i < brc_schema()->n_entries; ++i)
         if (strcmp(brc_schema()->entries[i].key, key) == 0) return reader->broken[i];
@@ -183,10 +178,10 @@ static void check_reference(brc_reader *reader, const wall_names *walls, const b
     int n;
     if (name[0] == '\0' || is_known(scene, walls, refers, name, words, &n)) return;
     const bool about_sets = refers != BRC_REFERS_SENSOR && refers != BRC_REFERS_STAGE && refers != BRC_REFERS_STRIKER;
-    if (about_sets && (any_domain_file(scene) || is_broken(reader, "bodies") || is_broken(reader, "sets"))) return;
-    if (refers == BRC_REFERS_SENSOR && is_broken(reader, "sensors")) return;
-    if (refers == BRC_REFERS_STAGE && is_broken(reader, "stages")) return;
-    if (refers == BRC_REFERS_STRIKER && is_broken(reader, "strikers")) return;
+    if (about_sets && (any_domain_file(scene) || brc_reader_is_broken(reader, "bodies") || brc_reader_is_broken(reader, "sets"))) return;
+    if (refers == BRC_REFERS_SENSOR && brc_reader_is_broken(reader, "sensors")) return;
+    if (refers == BRC_REFERS_STAGE && brc_reader_is_broken(reader, "stages")) return;
+    if (refers == BRC_REFERS_STRIKER && brc_reader_is_broken(reader, "strikers")) return;
     const char *near = brc_problems_nearest(reader->problems, name, n, words);
     char known[256];
     const char *hint = near                          ? ""
@@ -302,7 +297,7 @@ static void check_body(brc_reader *reader, int b)
                  "fill: {noisy_grid: {elements: 1000}}");
     if (body->domain_file[0] && filled)
         COMPLAIN(reader, body->domain_file, body, "domain: the file is cut already; leave out fill");
-    const brc_mark given = place_of(reader, &body->material, NULL);
+    const brc_mark given = brc_reader_place(reader, &body->material, NULL);
     const brc_mark start = {0, 1, 1};
     if (scene->n_materials > 1 && memcmp(&given, &start, sizeof given) == 0)
         COMPLAIN(reader, NULL, body, "the key 'material' is missing in this body: the scene has %d materials, name one",
@@ -392,82 +387,6 @@ static void check_couples(brc_reader *reader)
     }
 }
 
-/* Strengths that contradict themselves. */
-static void check_material(brc_reader *reader, const brc_material *material)
-{
-    const brc_scatter *scatter = &material->scatter;
-    if (material->fracture_energy > 0 && !(material->tension > 0))
-        COMPLAIN(reader, &material->fracture_energy, material, "fracture_energy: says how cohesion falls from the strength; expected `tension` beside it");
-    if (material->measured_by != BRC_STRENGTH_BY_TENSION && !(material->tension > 0))
-        COMPLAIN(reader, &material->measured_by, material, "measured_by: says what test `tension` comes from; expected `tension` beside it");
-    if (material->measured_by != BRC_STRENGTH_BY_TENSION && material->beam_strength > 0)
-        COMPLAIN(reader, &material->measured_by, material, "measured_by: decides nothing where `beam` gives the strength of beams; leave out one of them");
-    if (material->measured_by != BRC_STRENGTH_BY_TENSION && material->fracture_energy > 0)
-        COMPLAIN(reader, &material->measured_by, material, "measured_by: what discs read is known of bonds that break at once; with a fracture_energy give the strength in tension");
-    if (scatter->kind != BRC_SCATTER_TABLE) return;
-    for (int q = 0; q < scatter->n_quantiles; ++q) {
-        const brc_quantile *now = &scatter->quantiles[q], *before = q ? now - 1 : NULL;
-        const bool last = q == scatter->n_quantiles - 1;
-        if ((q == 0 && now->below != 0) || (last && now->below != 1) || (before && now->below < before->below))
-            COMPLAIN(reader, &now->below, now, "below: expected shares that grow from 0 at the first factor to 1 at the last");
-        if (before && now->factor < before->factor)
-            COMPLAIN(reader, &now->factor, now, "factor: is smaller than the one before; expected factors that grow");
-    }
-    if (scatter->n_quantiles == 1) COMPLAIN(reader, &scatter->quantiles->below, scatter->quantiles, "table: has one entry; expected two or more");
-}
-
-/* Strengths by discs are a law of beams: cells bear what a solid bears. */
-static void check_measured_by(brc_reader *reader, const brc_body *body)
-{
-    const brc_scene *scene = reader->scene;
-    if ((body->has_model ? body->model.kind : scene->model.kind) == BRC_MODEL_CBM) return;
-    for (int m = 0; m < scene->n_materials; ++m) {
-        const brc_material *material = &scene->materials[m];
-        bool used = body->material == m;
-        for (int k = 0; k < body->n_regions; ++k) used = used || body->regions[k].material == m;
-        for (int k = 0; k < body->n_phases; ++k) used = used || body->phases[k].material == m;
-        if (used && material->measured_by != BRC_STRENGTH_BY_TENSION)
-            COMPLAIN(reader, &material->measured_by, material, "measured_by: what discs read is a law of beams (model cbm), and body '%s' is made of cells, which break at the strength in "
-                     "tension; give that", body->name);
-    }
-}
-
-/* What only scenes with fracture know. */
-static void check_fracture(brc_reader *reader)
-{
-    const brc_scene *scene = reader->scene;
-    const bool known = scene->has_fracture || is_broken(reader, "fracture");
-    static const char *const CURE = "needs `fracture: {}` at the top of the scene";
-    for (int m = 0; m < scene->n_materials; ++m)
-        check_material(reader, &scene->materials[m]);
-    for (int b = 0; b < scene->n_bodies; ++b)
-        check_measured_by(reader, &scene->bodies[b]);
-    for (int m = 0; m < scene->n_materials; ++m)
-        for (int k = 0; k < scene->n_interfaces && scene->materials[m].measured_by != BRC_STRENGTH_BY_TENSION; ++k)
-            if (scene->interfaces[k].fracture_energy > 0)
-                COMPLAIN(reader, &scene->materials[m].measured_by, &scene->materials[m], "measured_by: what discs read is known of bonds that break at once, and interface number %d has a "
-                         "fracture_energy; with one give the strength in tension", k + 1);
-    for (int k = 0; k < scene->n_stages && !known; ++k) {
-        const brc_stage *stage = &scene->stages[k];
-        if (stage->to_failure > 0) COMPLAIN(reader, &stage->to_failure, stage, "to_failure: %s", CURE);
-        if (stage->most_events > 0) COMPLAIN(reader, &stage->most_events, stage, "events: %s", CURE);
-        if (stage->stop_broken > 0) COMPLAIN(reader, &stage->stop_broken, stage, "stop_when_broken: %s", CURE);
-    }
-    for (int k = 0; k < scene->n_stages; ++k) {
-        const brc_stage *stage = &scene->stages[k];
-        if (stage->most_events > 0 && (stage->increments > 1 || stage->to_failure > 0))
-            COMPLAIN(reader, &stage->most_events, stage, "events: they find the load themselves; leave out increments and to_failure");
-    }
-    for (int i = 0; i < scene->n_sensors && !known; ++i) {
-        const brc_sensor *sensor = &scene->sensors[i];
-        if (sensor->kind == BRC_SENSOR_FRACTURE) COMPLAIN(reader, sensor->term, sensor, "fracture: this sensor %s", CURE);
-        if (sensor->kind == BRC_SENSOR_CRACK_TIP) COMPLAIN(reader, NULL, sensor, "crack_tip: this sensor %s", CURE);
-    }
-    for (int i = 0; i < scene->n_measures && !known; ++i)
-        if (scene->measures[i].kind == BRC_MEASURE_AT_FIRST_BREAK)
-            COMPLAIN(reader, NULL, &scene->measures[i], "at_first_break: this measure %s", CURE);
-}
-
 /* Bodies may be brought to rest before anything moves; what has met or broken has no linear operator to solve with. */
 static void check_rest_with_contact(brc_reader *reader)
 {
@@ -489,7 +408,7 @@ static void check_rest_with_contact(brc_reader *reader)
 static void check_contact(brc_reader *reader)
 {
     const brc_scene *scene = reader->scene;
-    const bool known = scene->has_contact || is_broken(reader, "interactions");
+    const bool known = scene->has_contact || brc_reader_is_broken(reader, "interactions");
     static const char *const CURE = "needs `interactions: {contact: {}}` at the top of the scene";
     for (int k = 0; k < scene->n_strikers; ++k) {
         const brc_striker *striker = &scene->strikers[k];
@@ -591,7 +510,7 @@ static void check_sensors(brc_reader *reader)
         if (scene->stages[k].solver == BRC_SOLVER_MODES) n_modes = scene->stages[k].n_modes;
     for (int i = 0; i < scene->n_sensors; ++i) {
         const brc_sensor *sensor = &scene->sensors[i];
-        if (sensor->kind == BRC_SENSOR_MODE && sensor->index >= n_modes && !is_broken(reader, "stages"))
+        if (sensor->kind == BRC_SENSOR_MODE && sensor->index >= n_modes && !brc_reader_is_broken(reader, "stages"))
             COMPLAIN(reader, &sensor->index, sensor,
                      "mode: %d is not computed: the scene's last modes stage computes %d, "
                      "counted from 0",
@@ -649,7 +568,7 @@ static void check_measure(brc_reader *reader, const brc_measure *measure)
                                 : measure->kind == BRC_MEASURE_INTEGRAL ? "integral"
                                 : measure->kind == BRC_MEASURE_DURATION ? "duration"
                                                                         : NULL;
-    if (!in_time || scene->n_stages == 0 || is_broken(reader, "stages")) return;
+    if (!in_time || scene->n_stages == 0 || brc_reader_is_broken(reader, "stages")) return;
     const brc_stage *stage = &scene->stages[scene->n_stages - 1];
     for (int k = 0; k < scene->n_stages; ++k)
         if (measure->stage[0] && strcmp(scene->stages[k].name, measure->stage) == 0) stage = &scene->stages[k];
@@ -664,12 +583,12 @@ brc_status brc_reader_check(brc_reader *reader)
     wall_names walls = {.wall = NULL};
     brc_status status = find_walls(reader, &walls);
     if (status == BRC_OK) status = check_references(reader, &walls);
-    if (status == BRC_OK && !is_broken(reader, "bodies")) check_bodies(reader, &walls);
+    if (status == BRC_OK && !brc_reader_is_broken(reader, "bodies")) check_bodies(reader, &walls);
     brc_memory_free(walls.wall);
     BRC_TRY(status);
     check_limits(reader);
     check_couples(reader);
-    check_fracture(reader);
+    brc_reader_check_fracture(reader);
     check_contact(reader);
     BRC_TRY(check_stages(reader));
     check_sensors(reader);

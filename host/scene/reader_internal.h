@@ -38,6 +38,16 @@ const char *brc_entry_unit(const brc_entry *entry, const brc_scene *scene, const
 /* Remember where a field (or, entry NULL, a struct) was given. */
 brc_status brc_reader_remember(brc_reader *reader, const void *address, const brc_entry *entry, brc_mark mark);
 
+/* reader_check.c: where a field was given (a flag: its key; a kind: the variant); where its struct `item` begins when it was left out. For checks, which follow when all is read. */
+brc_mark brc_reader_place(const brc_reader *reader, const void *field, const void *item);
+/* Was there a problem in this top-level key? What refers to it is then not judged. */
+bool brc_reader_is_broken(const brc_reader *reader, const char *key);
+#define COMPLAIN(reader, field, item, ...)                                                                             \
+    brc_problems_add((reader)->problems, brc_reader_place((reader), (field), (item)), __VA_ARGS__)
+#define WARN(reader, field, item, ...)                                                                                 \
+    brc_problems_warn((reader)->problems, brc_reader_place((reader), (field), (item)), __VA_ARGS__)
+/* reader_check_fracture.c: what breaks, and what scenes that break cannot have. */
+void brc_reader_check_fracture(brc_reader *reader);
 /* reader_check.c: fill in what follows from other parts, and check what needs the whole scene. */
 brc_status brc_reader_check(brc_reader *reader);
 

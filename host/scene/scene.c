@@ -52,6 +52,33 @@ int32_t brc_body_material(const brc_body *body, int32_t region)
     return region <= body->n_regions ? body->regions[region - 1].material : body->phases[region - body->n_regions - 1].material;
 }
 
+bool brc_body_uses(const brc_body *body, int32_t material)
+{
+    for (int32_t r = 0; r <= brc_body_n_regions(body); ++r)
+        if (brc_body_material(body, r) == material) return true;
+    return false;
+}
+
+const brc_model *brc_body_model(const brc_scene *scene, int32_t body)
+{
+    return scene->bodies[body].has_model ? &scene->bodies[body].model : &scene->model;
+}
+
+bool brc_material_breaks(const brc_scene *scene, brc_model_kind model, const brc_material *m)
+{
+    if (brc_criterion_of(&scene->fracture, model) == BRC_CRITERION_BOND_NORMAL) return m->tension > 0;
+    return m->tension > 0 || m->compression > 0 || scene->fracture.cohesion > 0 || (model == BRC_MODEL_CBM && (m->beam_strength > 0 || m->beam_compression > 0));
+}
+
+bool brc_scene_softens(const brc_scene *scene)
+{
+    for (int32_t m = 0; m < scene->n_materials; ++m)
+        if (scene->materials[m].fracture_energy > 0) return true;
+    for (int32_t k = 0; k < scene->n_interfaces; ++k)
+        if (scene->interfaces[k].fracture_energy > 0) return true;
+    return false;
+}
+
 brc_criterion_kind brc_criterion_of(const brc_fracture *fracture, brc_model_kind model)
 {
     if (fracture->kind != BRC_CRITERION_AUTO) return fracture->kind;

@@ -401,10 +401,18 @@ void brc_scene_free(brc_scene **scene);
 int32_t brc_body_material(const brc_body *body, int32_t region);
 /* Regions a body has besides its own material: predicates and phases of grains. */
 int32_t brc_body_n_regions(const brc_body *body);
+/* Is some of the body of this material? */
+bool brc_body_uses(const brc_body *body, int32_t material);
+/* The model of a body: its own, or the scene's. */
+const brc_model *brc_body_model(const brc_scene *scene, int32_t body);
 /* a(t) of a table at time t. */
 double brc_table_value(const brc_table *table, double t);
 /* The criterion of a model: fracture.kind, or what AUTO stands for. */
 brc_criterion_kind brc_criterion_of(const brc_fracture *fracture, brc_model_kind model);
+/* Do elements of the material fail in bodies of a model, or have they no limit that its criterion looks at? */
+bool brc_material_breaks(const brc_scene *scene, brc_model_kind model, const brc_material *material);
+/* Does some material or interface have a fracture energy? */
+bool brc_scene_softens(const brc_scene *scene);
 /* "dlsm", "dlsm-published", "cbm"; static storage. */
 const char *brc_model_name(brc_model_kind kind);
 /* Unit of a sensor's value ("N", "m", "-", "rad", "Pa", "J", "m/s", "Hz", "N m", "m^2"); static storage. */

@@ -10,6 +10,9 @@
 #define FILE_LIMIT ((size_t)16 << 20) /* a scene is a text; big data come from files of their own */
 #define MANY_KEYS 64
 
+/* In the places of keys that have no field of their own: of flags, where their key stands; of kinds, where the variant is named. */
+static const brc_entry KEY = {.key = ""};
+
 static brc_status read_section(brc_reader *reader, const brc_section *section, const brc_node *node, char *base);
 
 brc_status brc_reader_remember(brc_reader *reader, const void *address, const brc_entry *entry, brc_mark mark)
@@ -69,7 +72,10 @@ static brc_status read_list(brc_reader *reader, const brc_entry *entry, const br
 
 static brc_status read_entry(brc_reader *reader, const brc_entry *entry, const brc_node *node, char *base)
 {
-    if (entry->has_flag) base[entry->has_offset] = true;
+    if (entry->has_flag) {
+        base[entry->has_offset] = true;
+        BRC_TRY(brc_reader_remember(reader, base + entry->has_offset, &KEY, node->key_mark));
+    }
     switch (entry->type) {
     case BRC_TYPE_STRUCT: return read_section(reader, entry->section, node, base + entry->offset);
     case BRC_TYPE_LIST:
@@ -148,6 +154,7 @@ static brc_status read_one_of(brc_reader *reader, const brc_section *section, co
     if (section->has_kind) {
         const int32_t kind = variant->value;
         memcpy(base + section->kind_offset, &kind, sizeof kind);
+        BRC_TRY(brc_reader_remember(reader, base + section->kind_offset, &KEY, node->mark));
     }
     return read_entry(reader, variant, value, base);
 }

@@ -27,7 +27,8 @@ static const char INTRODUCTION[] =
     "**Overrides**: `--set bodies.0.fill.noisy_grid.elements=1000`; lists by index from 0 or by the `name` of an "
     "item.\n"
     "\n"
-    "All errors are told in one pass, as `file:line:column: error: ...`. Duplicate keys, tags, and more than one\n"
+    "All errors are told in one pass, as `file:line:column: error: ...`. What is no error but hardly meant\n"
+    "is logged as `warning: file:line:column: ...`. Duplicate keys, tags, and more than one\n"
     "document are refused; anchors and aliases work. `breccia check` prints a scene with all its defaults.\n";
 
 static const char *type_text(const brc_entry *entry, char *out, size_t size)

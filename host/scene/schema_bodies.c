@@ -22,7 +22,7 @@ static const brc_entry MATERIAL[] = {
             "moduli are infinite"},
     {"density", BRC_TYPE_QUANTITY, "kg/m^3", POSITIVE, FIELD(brc_material, density), .required = true,
      .sample = "2500 kg/m^3", .meaning = "mass per volume"},
-    {"strength", BRC_TYPE_STRUCT, .section = &brc_schema_strength, .meaning = "what it bears; for scenes with `fracture`"},
+    {"strength", BRC_TYPE_STRUCT, .section = &brc_schema_strength, .meaning = "what it bears; for scenes with `fracture`, where it does not break if this is left out"},
     {"beam", BRC_TYPE_STRUCT, .section = &MICRO_SECTION, .meaning = "micro-parameters of model cbm; from the calibrated laws when left out"},
 };
 const brc_section brc_schema_material = {.title = "material",

@@ -111,7 +111,8 @@ static const brc_entry FRACTURE[] = {
      .meaning = "of the strengths that scatter; the draw of a bond depends on its elements' ids only"},
 };
 const brc_section brc_schema_fracture = {.title = "fracture",
-                                         .meaning = "Bonds break in dynamic stages; left out: they hold for ever.",
+                                         .meaning = "Bonds break in dynamic stages, and by events in static ones; left out: they hold for ever. Materials without a strength do not break: bonds "
+                                                    "between one of them and another break by the other's.",
                                          ENTRIES(FRACTURE)};
 
 #define INTERFACE_ENTRIES                                                                                              \

@@ -339,7 +339,7 @@ static const brc_entry DYNAMIC[] = {
     {"mass_damping", BRC_TYPE_QUANTITY, "1/s", NOT_NEGATIVE, FIELD(brc_stage, mass_damping), .given = "0",
      .sample = "10 1/s", .meaning = "force -c m v on every element: the drag of a surrounding fluid"},
     {"noise_damping", BRC_TYPE_QUANTITY, "", WITHIN(0, 0.1), FIELD(brc_stage, noise_damping), .given = "0", .sample = "2 %",
-     .meaning = "model dlsm: drag on what an element moves otherwise than its neighbours do, as a share of the critical damping of the fastest oscillation; long waves pass"},
+     .meaning = "model dlsm: drag on what an element moves otherwise than its neighbours do, as a share of the critical damping of the fastest oscillation; long waves pass; not with a fracture energy"},
     {"stop_when_kinetic_below", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_stage, stop_kinetic),
      .given = "off", .word = "off", .sample = "1e-6",
      .meaning = "ends the stage when the kinetic energy was below this part of the elastic energy for 100 steps"},

@@ -1,5 +1,6 @@
 #include "beam_softening.h"
 #include "bond_area.h"
+#include "crack_range.h"
 #include <math.h>
 
 /* E G_c / sigma_f^2 below this many diameters: the crack is not resolved. */
@@ -31,24 +32,18 @@ static brc_status find_kernels(brc_simulation *s, beam_softening *f)
     return BRC_OK;
 }
 
-static void warn_of_size(brc_simulation *s, const brc_strengths *strengths)
+static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths)
 {
-    const brc_domain *d = s->domain;
-    int64_t n_short = 0, n_soft = 0;
-    double least = INFINITY;
-    for (int64_t b = 0; b < d->n_bonds; ++b) {
-        if (!(strengths->energy[b] > 0) || !(strengths->tension[b] > 0)) continue;
-        const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
-        const double young = fmin(s->elastic[s->material_of_element[i]].young, s->elastic[s->material_of_element[j]].young);
-        const double length = young * strengths->energy[b] / (strengths->tension[b] * strengths->tension[b]) / (d->radius[i] + d->radius[j]);
-        ++n_soft;
-        n_short += length < least_diameters;
-        least = fmin(least, length);
-    }
-    if (2 * n_short > n_soft) /* strengths scatter: half of the bonds lie on either side */
+    brc_crack_lengths l;
+    BRC_TRY(brc_crack_lengths_find(s, strengths, least_diameters, &l));
+    if (2 * l.n_below[0] > l.n) /* strengths scatter: half of the bonds lie on either side */
         brc_log(s->context, BRC_LOG_WARNING,
                 "fracture_energy: E G_c / sigma_f^2 is less than %g diameters at %lld of %lld bonds (%.2g at least): a crack costs about G_c per area only above; "
-                "use smaller spheres or a lower strength", least_diameters, (long long)n_short, (long long)n_soft, least);
+                "use spheres of %.3g mm in diameter (they are of %.3g mm) or a lower strength", least_diameters, (long long)l.n_below[0], (long long)l.n, l.ratio[0],
+                1e3 * brc_crack_lengths_size(&l, least_diameters), 1e3 * l.size);
+    brc_crack_lengths_free(&l);
+    brc_crack_range_tell(s, "spheres");
+    return BRC_OK;
 }
 
 /* Where only that of the virial stress is given: the limit of the weaker of its elements [Pa]. */
@@ -102,7 +97,7 @@ brc_status brc_beam_softening_create(brc_simulation *s, const brc_strengths *str
 {
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->beam_softening, 1, "cohesion of beams"));
     BRC_TRY(find_kernels(s, s->fracture->beam_softening));
-    warn_of_size(s, strengths);
+    BRC_TRY(warn_of_size(s, strengths));
     return upload_bonds(s, s->fracture->beam_softening, strengths);
 }
 
@@ -227,10 +222,7 @@ brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *st
 
 int64_t brc_beam_softening_bytes(const brc_scene *scene, int64_t entries, int64_t coeff_bytes)
 {
-    bool softens = false;
-    for (int32_t m = 0; m < scene->n_materials; ++m) softens = softens || scene->materials[m].fracture_energy > 0;
-    for (int32_t k = 0; k < scene->n_interfaces; ++k) softens = softens || scene->interfaces[k].fracture_energy > 0;
-    return softens ? entries * ((WIDTH + 1) * coeff_bytes + 12) : 0; /* with the factors */
+    return brc_scene_softens(scene) ? entries * ((WIDTH + 1) * coeff_bytes + 12) : 0; /* with the factors */
 }
 
 brc_status brc_beam_softening_report(brc_simulation *s, brc_softening_report *out)

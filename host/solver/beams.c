@@ -87,9 +87,7 @@ brc_status brc_beams_create(brc_simulation *s)
         for (int32_t m = 0; m < scene->n_materials; ++m) {
             brc_beam *beam = &s->beam[b * scene->n_materials + m];
             double ratio, young;
-            bool used = false; /* a material that the body lacks may be out of reach of its law */
-            for (int32_t r = 0; r <= brc_body_n_regions(&scene->bodies[b]); ++r) used |= brc_body_material(&scene->bodies[b], r) == m;
-            if (!used || radii[b].n == 0) continue;
+            if (!brc_body_uses(&scene->bodies[b], m) || radii[b].n == 0) continue; /* a material that the body lacks may be out of reach of its law */
             BRC_TRY_OR(cleanup, micro_parameters(s, &scene->materials[m], b, &radii[b], &ratio, &young));
             beam->radius = ratio * radii[b].sum / (double)radii[b].n;
             const double square = beam->radius * beam->radius, bending = M_PI * square * square / 4;

@@ -183,25 +183,10 @@ int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries
     return bytes + brc_rings_bytes(scene, n, state_bytes) + brc_softening_bytes(scene, n, entries, state_bytes, coeff_bytes);
 }
 
-static brc_status check_scene(const brc_simulation *s)
-{
-    if (!is_bond_normal(s)) return BRC_OK; /* limits of elements have rules of their own (fracture.c) */
-    for (int32_t b = 0; b < s->scene->n_bodies; ++b)
-        for (int32_t r = 0; r <= brc_body_n_regions(&s->scene->bodies[b]); ++r) {
-            const brc_material *m = &s->scene->materials[brc_body_material(&s->scene->bodies[b], r)];
-            if (!(m->tension > 0))
-                return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                                "fracture: material '%s' has no tensile strength; give it `strength: {tension: 50 MPa}`, or one so large that it never breaks",
-                                m->name);
-        }
-    return BRC_OK;
-}
-
 brc_status brc_cell_breaks_create(brc_simulation *s)
 {
     brc_strengths strengths = {0};
     brc_status status = BRC_OK;
-    BRC_TRY(check_scene(s));
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture, 1, "fracture"));
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells, 1, "fracture"));
     s->fracture->cells->by_element = !is_bond_normal(s);

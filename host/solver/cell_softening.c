@@ -2,6 +2,7 @@
 #include "beam_softening.h"
 #include "cell_breaks_internal.h"
 #include "contact.h"
+#include "crack_range.h"
 #include <math.h>
 
 /* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open (docs/fracture.md). */
@@ -76,31 +77,23 @@ static void tell_implied(brc_simulation *s, const brc_strengths *strengths)
 }
 
 /* Warns where E G_c / sigma_f^2 is too few cells, and of bonds whose cells give way less than the cohesion falls: those snap open; tells where loads at notches want more cells. */
-static void warn_of_size(brc_simulation *s, const brc_strengths *strengths)
+static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths)
 {
-    const brc_domain *d = s->domain;
-    int64_t n_short = 0, n_coarse = 0, n_soft = 0, n_snap = 0;
-    double least = INFINITY;
-    for (int64_t b = 0; b < d->n_bonds; ++b) {
-        if (!(strengths->energy[b] > 0) || !(strengths->tension[b] > 0)) continue;
-        const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
-        const double young = fmin(s->elastic[s->material_of_element[i]].young, s->elastic[s->material_of_element[j]].young);
-        const double size = 0.5 * (cbrt(d->volume[i]) + cbrt(d->volume[j]));
-        const double length = young * strengths->energy[b] / (strengths->tension[b] * strengths->tension[b]) / size;
-        ++n_soft;
-        n_short += length < least_cells;
-        n_coarse += length < 2 * least_cells;
-        n_snap += length < 1;
-        least = fmin(least, length);
-    }
-    if (2 * n_short > n_soft || 100 * n_snap > n_soft) /* strengths scatter: half of the bonds lie on either side */
+    brc_crack_lengths l;
+    BRC_TRY(brc_crack_lengths_find(s, strengths, least_cells, &l));
+    if (2 * l.n_below[0] > l.n || 100 * l.n_below[2] > l.n) /* strengths scatter: half of the bonds lie on either side */
         brc_log(s->context, BRC_LOG_WARNING,
                 "fracture_energy: E G_c / sigma_f^2 is less than %g cells at %lld of %lld bonds (%.2g at least), below 1 at %lld, which open at once: a crack "
-                "costs about G_c per area only above; use smaller cells or a lower strength", least_cells, (long long)n_short, (long long)n_soft, least, (long long)n_snap);
-    else if (2 * n_coarse > n_soft)
+                "costs about G_c per area only above; use cells of %.3g mm (they are of %.3g mm; notched parts: %.3g mm) or a lower strength", least_cells, (long long)l.n_below[0], (long long)l.n, l.ratio[0],
+                (long long)l.n_below[2], 1e3 * brc_crack_lengths_size(&l, least_cells), 1e3 * l.size, 1e3 * brc_crack_lengths_size(&l, 2 * least_cells));
+    else if (2 * l.n_below[1] > l.n)
         brc_log(s->context, BRC_LOG_INFO,
                 "fracture_energy: E G_c / sigma_f^2 is less than %g cells at %lld of %lld bonds: a crack costs G_c per area, but a part with a notch, of cells that are not regular, "
-                "bears some 6 to 17 %% too much; halve the cells where that matters", 2 * least_cells, (long long)n_coarse, (long long)n_soft);
+                "bears some 6 to 17 %% too much; use cells of %.3g mm where that matters (they are of %.3g mm)", 2 * least_cells, (long long)l.n_below[1], (long long)l.n,
+                1e3 * brc_crack_lengths_size(&l, 2 * least_cells), 1e3 * l.size);
+    brc_crack_lengths_free(&l);
+    brc_crack_range_tell(s, "cells");
+    return BRC_OK;
 }
 
 static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_strengths *strengths)
@@ -150,7 +143,7 @@ brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strength
                         "those, or remove it from the strengths and interfaces");
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->softening, 1, "cohesion of faces"));
     BRC_TRY(find_kernels(s, s->fracture->cells->softening));
-    warn_of_size(s, strengths);
+    BRC_TRY(warn_of_size(s, strengths));
     return upload_faces(s, s->fracture->cells->softening, strengths);
 }
 
@@ -332,9 +325,6 @@ brc_status brc_softening_begin_stage(brc_simulation *s)
     brc_softening_report report = {0};
     if ((!faces_of(s) && !brc_beam_softening_is_on(s)) || stage->solver == BRC_SOLVER_DYNAMIC) return BRC_OK;
     BRC_TRY(brc_simulation_softening(s, &report));
-    if (stage->most_events > 0)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': events break bonds at once, and those of this scene soften; remove `fracture_energy`, or load "
-                        "slowly in a dynamic stage with mass damping", stage->name);
     if (report.n_opened > 0)
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': bonds have opened against their cohesion in an earlier stage, and openings follow in dynamic "
                         "stages only; use a dynamic stage with mass damping", stage->name);
@@ -393,10 +383,7 @@ brc_status brc_softening_friction(brc_simulation *s, double *out)
 
 int64_t brc_softening_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
 {
-    bool softens = false;
-    for (int32_t m = 0; m < scene->n_materials; ++m) softens = softens || scene->materials[m].fracture_energy > 0;
-    for (int32_t k = 0; k < scene->n_interfaces; ++k) softens = softens || scene->interfaces[k].fracture_energy > 0;
-    return softens ? entries * (WIDTH * coeff_bytes + 8) + n * (2 * coeff_bytes + state_bytes + 8) : 0;
+    return brc_scene_softens(scene) ? entries * (WIDTH * coeff_bytes + 8) + n * (2 * coeff_bytes + state_bytes + 8) : 0;
 }
 
 /* ---- what came of it ---- */

@@ -6,6 +6,7 @@
 #include "fracture_internal.h"
 #include "strength_law.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -74,9 +75,6 @@ static brc_status limits_of(brc_simulation *s, const brc_material *m, int32_t bo
 {
     double k = 1, nominal = 1;
     limit[0] = limit[1] = limit[2] = 0;
-    if (criterion(s) == BRC_CRITERION_PRINCIPAL && !(m->tension > 0 || m->compression > 0 || m->beam_strength > 0 || m->beam_compression > 0))
-        return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                        "fracture: material '%s' has no strength; give it `strength: {tension: 50 MPa}`, or one so large that it never breaks", m->name);
     if (!brc_is_beams(s)) { /* the stress of a cell is that of the solid */
         limit[0] = m->tension, limit[1] = m->compression, limit[2] = shear;
         return BRC_OK;
@@ -233,11 +231,27 @@ brc_status brc_fracture_create_elements(brc_simulation *s, brc_buffer *branch)
     return upload_rows(s);
 }
 
+/* One line of the materials that bear anything. */
+static void tell_unbreakable(brc_simulation *s)
+{
+    const brc_scene *scene = s->scene;
+    char names[256] = "";
+    for (int32_t m = 0; m < scene->n_materials; ++m) {
+        bool used = false;
+        for (int32_t b = 0; b < scene->n_bodies; ++b) used = used || brc_body_uses(&scene->bodies[b], m);
+        const size_t at = strlen(names);
+        if (used && !brc_material_breaks(scene, scene->model.kind, &scene->materials[m]))
+            snprintf(names + at, sizeof names - at, "%s'%s'", at ? ", " : "", scene->materials[m].name);
+    }
+    if (names[0])
+        brc_log(s->context, BRC_LOG_INFO, "fracture: no strength%s is given for %s, which does not break; its bonds with others break by theirs",
+                criterion(s) == BRC_CRITERION_BOND_NORMAL ? " in tension" : "", names);
+}
+
 brc_status brc_fracture_create(brc_simulation *s)
 {
+    tell_unbreakable(s);
     if (!brc_is_beams(s)) return brc_cell_breaks_create(s);
-    if (criterion(s) == BRC_CRITERION_BOND_NORMAL)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: the criterion bond-normal is for cells; use virial-principal with model cbm");
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture, 1, "fracture"));
     BRC_TRY(brc_fracture_create_elements(s, s->offset));
     return create_arrays(s);

@@ -1,5 +1,4 @@
 #include "noise_damping.h"
-#include "cell_softening.h"
 #include <math.h>
 
 /* Velocity Verlet keeps v.M v + u.(K - dt^2 K M^-1 K / 4) u at whole steps, so a contraction of v there can only take from it. I - c M^-1 S contracts while c w^2 < 2 for all
@@ -19,10 +18,6 @@ bool brc_has_noise_damping(const brc_scene *scene)
 brc_status brc_noise_create(brc_simulation *s)
 {
     if (!brc_has_noise_damping(s->scene)) return BRC_OK;
-    if (!brc_is_dlsm(s))
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "noise_damping: it is made of the bonds of model dlsm; use model dlsm, mass_damping or integrator tchamwa-wielgosz");
-    if (brc_softening_is_on(s))
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "noise_damping: it would drag on faces that open against cohesion; leave out noise_damping or fracture_energy");
     BRC_TRY(BRC_ALLOCATE(s->context, &s->noise, 1, "noise damping"));
     const int64_t n = s->layout->n_rows;
     BRC_TRY(brc_kernel_find(s->device, "damp_noise", &s->noise->damp));

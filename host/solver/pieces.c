@@ -49,14 +49,39 @@ static brc_status find_free(brc_simulation *s, const int32_t *piece, brc_pieces 
     return BRC_OK;
 }
 
+brc_status brc_pieces_number(brc_context *context, const brc_domain *d, int32_t *piece, int64_t *n)
+{
+    int32_t *stack = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &stack, d->n_elements, "pieces"));
+    *n = 0;
+    for (int64_t e = 0; e < d->n_elements; ++e) piece[e] = -1;
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        int64_t top = 0;
+        if (piece[e] >= 0) continue;
+        piece[e] = (int32_t)*n;
+        stack[top++] = (int32_t)e;
+        while (top > 0) {
+            const int32_t now = stack[--top];
+            for (int64_t h = d->row_start[now]; h < d->row_start[now + 1]; ++h) {
+                if (piece[d->neighbour[h]] >= 0) continue;
+                piece[d->neighbour[h]] = (int32_t)*n;
+                stack[top++] = d->neighbour[h];
+            }
+        }
+        ++*n;
+    }
+    brc_memory_free(stack);
+    return BRC_OK;
+}
+
 brc_status brc_pieces_find(brc_simulation *s, brc_pieces *out)
 {
     int32_t *piece = NULL;
     brc_status status = BRC_OK;
     brc_pieces_free(out);
-    out->n = 1;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &piece, s->domain->n_elements, "pieces"));
     if (s->fracture) BRC_TRY_OR(cleanup, brc_simulation_fragments(s, piece, &out->n));
+    else BRC_TRY_OR(cleanup, brc_pieces_number(s->context, s->domain, piece, &out->n));
     BRC_TRY_OR(cleanup, sort_elements(s, piece, out));
     status = find_free(s, piece, out);
 cleanup:

@@ -221,8 +221,6 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
         if (scene->bodies[b].has_model && !brc_split_same_model(&scene->bodies[b].model, &scene->model))
             return BRC_FAIL(context, BRC_BAD_INPUT, "body '%s' has a model of its own, which one simulation of the whole scene cannot move; split the scene (split.h)",
                             scene->bodies[b].name);
-    if (scene->model.small_rotations && scene->has_fracture)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "small_rotations: a linearised law does not break; leave out small_rotations or fracture");
     if (scene->n_interfaces > 0 && !scene->has_fracture)
         brc_log(context, BRC_LOG_WARNING, "interfaces say how bonds break, and the scene has no `fracture`: they decide nothing; add `fracture: {}`");
     BRC_TRY(BRC_ALLOCATE(context, &s, 1, "simulation"));

@@ -4,11 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const brc_model *model_of(const brc_scene *scene, int32_t body)
-{
-    return scene->bodies[body].has_model ? &scene->bodies[body].model : &scene->model;
-}
-
 bool brc_split_same_model(const brc_model *a, const brc_model *b)
 {
     return a->kind == b->kind && a->compaction == b->compaction && a->small_rotations == b->small_rotations && a->beta == b->beta && a->tau == b->tau && a->area_weights == b->area_weights &&
@@ -23,7 +18,7 @@ static int32_t number_parts(const brc_scene *scene, int32_t *part)
     for (int32_t b = 0; b < scene->n_bodies; ++b) {
         part[b] = -1;
         for (int32_t c = 0; c < b && part[b] < 0; ++c)
-            if (brc_split_same_model(model_of(scene, b), model_of(scene, c))) part[b] = part[c];
+            if (brc_split_same_model(brc_body_model(scene, b), brc_body_model(scene, c))) part[b] = part[c];
         if (part[b] < 0) part[b] = n++;
     }
     return n;
@@ -49,7 +44,7 @@ static brc_status make_scene(brc_context *context, const brc_scene *whole, const
     scene->sensors = NULL;
     scene->n_sensors = scene->n_measures = 0;
     scene->n_bodies = part->n_bodies;
-    scene->model = *model_of(whole, part->body[0]);
+    scene->model = *brc_body_model(whole, part->body[0]);
     BRC_TRY(BRC_ALLOCATE(context, &scene->bodies, part->n_bodies, "bodies of a model"));
     for (int32_t b = 0; b < part->n_bodies; ++b) scene->bodies[b] = whole->bodies[part->body[b]];
     BRC_TRY(BRC_ALLOCATE(context, &scene->sensors, whole->n_sensors, "sensors of a model"));
@@ -95,8 +90,7 @@ void brc_split_free(brc_split **split)
 static bool uses(const brc_scene_part *part, int32_t material)
 {
     for (int32_t b = 0; b < part->n_bodies; ++b)
-        for (int32_t r = 0; r <= brc_body_n_regions(&part->scene->bodies[b]); ++r)
-            if (brc_body_material(&part->scene->bodies[b], r) == material) return true;
+        if (brc_body_uses(&part->scene->bodies[b], material)) return true;
     return false;
 }
 
@@ -134,7 +128,7 @@ brc_status brc_split_create(brc_context *context, brc_scene *scene, brc_split **
         for (int32_t b = 0; b < scene->n_bodies; ++b)
             if (part_of[b] == k) part->body[part->n_bodies++] = b;
         if (split->n == 1) {
-            scene->model = *model_of(scene, 0);
+            scene->model = *brc_body_model(scene, 0);
             part->scene = scene;
             for (int32_t i = 0; i < scene->n_sensors; ++i) part->sensor[i] = i;
         } else {

@@ -160,10 +160,9 @@ cleanup:
 
 brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)
 {
-    const bool cells_break = brc_is_dlsm(s) && s->fracture;
-    if (!brc_is_beams(s) && !cells_break) return BRC_OK;
+    if (!brc_is_beams(s) && !brc_is_dlsm(s)) return BRC_OK;
     BRC_TRY(brc_pieces_find(s, &v->pieces));
-    if (cells_break && v->pieces.n == 1) brc_pieces_free(&v->pieces); /* whole bodies of cells do without */
+    if (!v->pieces.any) brc_pieces_free(&v->pieces);
     return BRC_OK;
 }
 

@@ -5,6 +5,7 @@
 #include <cmocka.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 #include "bad.h"
 
 brc_scene *good_scene_with(const char *text, const char *override)
@@ -62,6 +63,31 @@ void bad_override(const char *text, const char *override, const char *sentence)
                  brc_context_message(context));
     assert_null(scene);
     brc_context_free(&context);
+}
+
+const char *warnings_of(const char *text, char *out, size_t room)
+{
+    FILE *file = tmpfile();
+    fflush(stderr);
+    const int kept = dup(2);
+    dup2(fileno(file), 2);
+    brc_scene *scene = good_scene(text);
+    fflush(stderr);
+    dup2(kept, 2);
+    close(kept);
+    brc_scene_free(&scene);
+    rewind(file);
+    out[fread(out, 1, room - 1, file)] = '\0';
+    fclose(file);
+    return out;
+}
+
+void warned_scene(const char *text, const char *place, const char *sentence)
+{
+    char said[4096], start[64];
+    snprintf(start, sizeof start, "warning: folder/s.yaml:%s: ", place);
+    const char *line = strstr(warnings_of(text, said, sizeof said), start);
+    if (!line || !strstr(line, sentence)) fail_msg("expected '%s...%s'\nfound '%s'", start, sentence, said);
 }
 
 int count_errors(const char *text)

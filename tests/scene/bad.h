@@ -26,6 +26,10 @@ void bad_scene(const char *text, const char *place, const char *sentence);
 void bad_bytes(const char *text, size_t bytes, const char *place, const char *sentence);
 /* The text must be good and the override refused with a sentence. */
 void bad_override(const char *text, const char *override, const char *sentence);
+/* Read a text, which must be good; the warnings of its reading into out [room], which is returned. */
+const char *warnings_of(const char *text, char *out, size_t room);
+/* The text must be good, and one of its warnings at "line:column" contains `sentence`. */
+void warned_scene(const char *text, const char *place, const char *sentence);
 /* How many errors a text has. */
 int count_errors(const char *text);
 

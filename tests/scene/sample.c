@@ -67,6 +67,8 @@ static bool is_used(const brc_section *section, const brc_entry *entry, const br
     if (section == brc_schema() && strcmp(entry->key, "sets") == 0) return true; /* the samples refer to them */
     if (section == brc_schema() && strcmp(entry->key, "sensors") == 0) return true;
     if (section == brc_schema() && strcmp(entry->key, "fracture") == 0) return true; /* sensors and stops need it */
+    if (strcmp(section->title, "material") == 0 && strcmp(entry->key, "strength") == 0) return true; /* which needs one */
+    if (strcmp(section->title, "strength") == 0 && strcmp(entry->key, "tension") == 0) return true;
     if (section == brc_schema() && strcmp(entry->key, "strikers") == 0) return true; /* and a sensor refers to one */
     if (section == brc_schema() && strcmp(entry->key, "interactions") == 0) return true; /* which needs contact */
     if (strcmp(section->title, "interactions") == 0 && strcmp(entry->key, "contact") == 0) return true;

@@ -78,7 +78,7 @@ static void walls_and_strikers_need_contact_and_a_free_one_a_shape(void **state)
     assert_int_equal(count_errors(text), 0);
     bad_scene(HEAD STAGES "interactions: {contact: {}}\n"
                           "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: glass, motion: free}}\n",
-              "11:19", "an endless plane has no mass");
+              "11:91", "an endless plane has no mass");
     bad_scene(HEAD STAGES "sensors: {pairs: {contact: pairs}}\n", "10:28", "this sensor needs `interactions");
     bad_scene(HEAD STAGES "interactions: {contact: {}}\nsensors: {push: {striker: {name: flor, quantity: force}}}\n"
                           "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: glass}}\n",
@@ -94,7 +94,7 @@ static void with_contact_a_rest_comes_before_what_moves(void **state)
     snprintf(text, sizeof text, "%s%sstages:\n%s%s%s", HEAD, contact, rest, modes, move);
     assert_int_equal(count_errors(text), 0);
     snprintf(text, sizeof text, "%s%sstages:\n%s%s%s", HEAD, contact, move, rest, modes);
-    bad_scene(text, "12:5", "expected before the first dynamic stage, which is 'go'");
+    bad_scene(text, "12:26", "expected before the first dynamic stage, which is 'go'");
     assert_int_equal(count_errors(text), 2);
     snprintf(text, sizeof text, "%sstages:\n%s%s", HEAD, move, rest); /* without contact in any order */
     assert_int_equal(count_errors(text), 0);

@@ -71,7 +71,7 @@ static void a_packing_stops_at_the_usual_coordination_unless_told_otherwise(void
 static void grains_cracks_beams_and_limits_are_kept(void **state)
 {
     (void)state;
-    brc_scene *scene = good_scene(TOP BODY "    shape: {box: {size: [1 m, 1 m, 1 m]}}\n" PACKED "    beams: 8\n"
+    brc_scene *scene = good_scene(TOP BODY "    shape: {box: {size: [1 m, 1 m, 1 m]}}\n" PACKED "    beams: 8\n    model: cbm\n"
                             "    grains: {number: 12, seed: 4, phases: [{material: b, fraction: 40 %}]}\n"
                             "    cracks:\n      - {name: notch, flat: false, patch: {rectangle: {corner: [0, 0, 50 cm], edge: [20 cm, 0, 0], other_edge: [0, 1 m, 0]}}}\n"
                             "      - {name: penny, patch: {disc: {centre: [50 cm, 50 cm, 50 cm], normal: [0, 0, 3], radius: 10 cm}}}\n"
@@ -92,12 +92,12 @@ static void grains_cracks_beams_and_limits_are_kept(void **state)
 static void walls_of_spheres_are_sets_of_elements(void **state)
 {
     (void)state;
-    static const char head[] = TOP BODY "    shape: {box: {size: [1 m, 1 m, 1 m]}}\n" PACKED "    beams: 8\n";
+    static const char head[] = TOP BODY "    shape: {box: {size: [1 m, 1 m, 1 m]}}\n" PACKED "    beams: 8\n    model: cbm\n";
     char text[2048];
     snprintf(text, sizeof text, "%sstages: [{name: p, solver: static, loads: [{element_displacement: {set: x-_layer, x: 0}}]}]\n", head);
     assert_int_equal(count_errors(text), 0);
     snprintf(text, sizeof text, "%sstages: [{name: p, solver: static, loads: [{face_displacement: {set: x-, x: 0}}]}]\n", head);
-    bad_scene(text, "10:70", "(that name is a set of elements)");
+    bad_scene(text, "11:70", "(that name is a set of elements)");
 }
 
 static void shapes_that_cannot_be_are_refused(void **state)

@@ -41,12 +41,12 @@ static bool path_has(const sample_path *path, const char *key)
     return false;
 }
 
-/* Elements have no normal, a half-space alone no end, a noisy grid no spheres, a plane no mass, one radius or factor is no distribution, and
+/* Elements have no normal, a half-space alone no end, a noisy grid no spheres and so no model of beams, a plane no mass, one radius or factor is no distribution, and
  * events know no contact, which all samples have: no valid scene made of samples alone contains these entries there. tests/scene/test_reader_check.c
  * and test_fracture_keys.c read valid ones. */
 static bool cannot_be_valid(const sample_path *path)
 {
-    return path_has(path, "beams") || path_has(path, "events") || (path_has(path, "strikers") && path_has(path, "free")) || path_has(path, "radii") ||
+    return path_has(path, "beams") || path_has(path, "events") || (path_has(path, "strikers") && path_has(path, "free")) || path_has(path, "radii") || path_has(path, "cbm") ||
            (path_has(path, "scatter") && path_has(path, "table")) ||
            (path_has(path, "half_space") && path_has(path, "parts")) ||
            (path_has(path, "normal") && !path_has(path, "faces") && !path_has(path, "half_space") && !path_has(path, "disc"));

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 double random_at(uint64_t index)
 {
@@ -96,6 +97,29 @@ bool device_is_there(const char *selector)
     brc_device_list_free(&list);
     brc_context_free(&context);
     return there;
+}
+
+static FILE *listening;
+static int real_stderr;
+
+void begin_listening(void)
+{
+    fflush(stderr);
+    listening = tmpfile();
+    real_stderr = dup(2);
+    dup2(fileno(listening), 2);
+}
+
+const char *heard(void)
+{
+    static char text[16384];
+    fflush(stderr);
+    dup2(real_stderr, 2);
+    close(real_stderr);
+    rewind(listening);
+    text[fread(text, 1, sizeof text - 1, listening)] = '\0';
+    fclose(listening);
+    return text;
 }
 
 void begin_first(bench_case *c) { assert_done(c, brc_simulation_begin_stage(c->simulation, 0)); }

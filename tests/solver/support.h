@@ -45,6 +45,9 @@ brc_status try_case(bench_case *c, case_options options);
 void close_case(bench_case *c);
 /* Assert a status is BRC_OK, showing the sentence. */
 void assert_done(bench_case *c, brc_status status);
+/* From here on what is logged is kept, until it is asked for: in static storage. */
+void begin_listening(void);
+const char *heard(void);
 /* Enter the first stage; take steps and wait for them. */
 void begin_first(bench_case *c);
 void run_steps(bench_case *c, int64_t n_steps);

@@ -293,12 +293,12 @@ static void the_same_bonds_break_for_any_number_of_threads(void **state)
     cells_compare(one, two);
 }
 
-static void materials_without_any_strength_are_refused(void **state)
+static void scenes_without_any_strength_are_refused(void **state)
 {
     (void)state;
     bench_case c;
     assert_int_equal(try_case(&c, (case_options){.sets = "fracture: {criterion: virial-principal}\n"}), BRC_BAD_INPUT);
-    assert_non_null(strstr(brc_context_message(c.context), "material 'stone' has no strength"));
+    assert_non_null(strstr(brc_context_message(c.context), "nothing can break"));
     close_case(&c);
 }
 
@@ -313,7 +313,7 @@ int main(void)
         cmocka_unit_test(what_never_breaks_moves_as_without_fracture),
         cmocka_unit_test(the_ledger_closes_through_failing_elements),
         cmocka_unit_test(the_same_bonds_break_for_any_number_of_threads),
-        cmocka_unit_test(materials_without_any_strength_are_refused),
+        cmocka_unit_test(scenes_without_any_strength_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

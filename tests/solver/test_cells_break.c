@@ -375,10 +375,10 @@ static void refused(case_options o, const char *sentence)
     close_case(&c);
 }
 
-static void materials_without_strength_are_refused(void **state)
+static void scenes_without_any_strength_are_refused(void **state)
 {
     (void)state;
-    refused((case_options){.sets = CELLS_FRACTURE}, "material 'stone' has no tensile strength");
+    refused((case_options){.sets = CELLS_FRACTURE}, "nothing can break");
 }
 
 int main(void)
@@ -397,7 +397,7 @@ int main(void)
         cmocka_unit_test(the_error_of_the_ledger_is_of_second_order),
         cmocka_unit_test(breaking_keeps_momentum_and_angular_momentum),
         cmocka_unit_test(the_same_bonds_break_for_any_number_of_threads),
-        cmocka_unit_test(materials_without_strength_are_refused),
+        cmocka_unit_test(scenes_without_any_strength_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Bonds of beams that break: which, when, what happens to force, energy and momentum; and nothing at all without `fracture`. */
 #include "fracture_case.h"
+#include "../../host/base/log.h"
 #include "../../host/base/memory.h"
 #include "../../host/solver/beam_law.h"
 #include "../../host/solver/strength_law.h"
@@ -311,11 +312,43 @@ static void refused(fracture_options o, const char *sentence)
 static void scenes_that_cannot_break_are_refused_with_the_cure(void **state)
 {
     (void)state;
-    refused((fracture_options){.fracture = CRITERION(1)}, "material 'glass' has no strength; give it `strength:");
+    refused((fracture_options){.fracture = CRITERION(1)}, "nothing can break: no material of a body has a strength");
     refused((fracture_options){.fracture = CRITERION(1), .strength = STRENGTH, .beam = "{radius: 3, E: 1 Pa}"}, "beam: {strength: ...}");
+}
+
+/* Half of a packing is of a material without a strength: none of its own beams breaks, those to the other half do. */
+static void a_material_without_a_strength_does_not_break(void **state)
+{
+    (void)state;
     bench_case c;
-    assert_int_equal(try_case(&c, (case_options){.model = "dlsm\nfracture: {}"}), BRC_BAD_INPUT);
-    assert_non_null(strstr(brc_context_message(c.context), "material 'stone' has no tensile strength"));
+    const brc_break *events;
+    int64_t n, n_between = 0;
+    open_fracture(&c, (fracture_options){.stages = BURST(400), .fracture = CRITERION(1),
+                                         .strength = "strength: {tension: 3e-4 Pa}}\n  steel: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.4, E: 8 Pa}"});
+    brc_simulation_free(&c.simulation);
+    brc_device_close(&c.device);
+    brc_body *body = &c.scene->bodies[0];
+    assert_done(&c, BRC_ALLOCATE(c.context, &body->regions, 1, "regions"));
+    body->n_regions = 1;
+    body->regions[0].material = 1;
+    for (int64_t e = 0; e < c.domain->n_elements; ++e) c.domain->region[e] = c.domain->position[3 * e] > 0.5;
+    assert_done(&c, brc_device_open(c.context, &(brc_device_request){.selector = "cpu", .many_materials = true}, &c.device));
+    brc_log_set_level(c.context, BRC_LOG_INFO);
+    begin_listening();
+    const brc_status status = brc_simulation_create(c.context, c.scene, c.domain, c.device, &c.simulation);
+    assert_non_null(strstr(heard(), "fracture: no strength is given for 'steel', which does not break"));
+    brc_log_set_level(c.context, BRC_LOG_ERROR);
+    assert_done(&c, status);
+    begin_first(&c);
+    run_steps(&c, 400);
+    assert_done(&c, brc_simulation_breaks(c.simulation, &n, &events));
+    for (int64_t k = 0; k < n; ++k) {
+        const int sides = c.domain->region[events[k].element_i] + c.domain->region[events[k].element_j];
+        assert_true(sides < 2);
+        n_between += sides == 1;
+    }
+    print_message("%lld beams broke, %lld of them to the material without a strength\n", (long long)n, (long long)n_between);
+    assert_true(n > 20 && n_between > 0);
     close_case(&c);
 }
 
@@ -394,6 +427,7 @@ int main(void)
         cmocka_unit_test(elements_without_bonds_fly_freely),
         cmocka_unit_test(the_same_bonds_break_for_any_number_of_threads_and_lanes),
         cmocka_unit_test(scenes_that_cannot_break_are_refused_with_the_cure),
+        cmocka_unit_test(a_material_without_a_strength_does_not_break),
         cmocka_unit_test(a_strength_for_beams_is_taken_as_given),
         cmocka_unit_test(a_strength_by_discs_raises_the_limit_in_tension_alone),
         cmocka_unit_test(eq_22_gives_the_strengths_of_the_papers_tables),

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define HEAD "interactions: {contact: {}}\nstrikers:\n"
 #define DURING(time) "  - name: move\n    solver: {dynamic: {duration: " time "}}\n"
@@ -13,10 +12,7 @@
 static char *told(case_options options, brc_status *status)
 {
     bench_case c;
-    fflush(stderr);
-    FILE *file = tmpfile();
-    const int kept = dup(2);
-    dup2(fileno(file), 2);
+    begin_listening();
     *status = try_case(&c, options);
     if (*status == BRC_OK) { /* once more, with what the default level shows */
         brc_simulation_free(&c.simulation);
@@ -24,15 +20,9 @@ static char *told(case_options options, brc_status *status)
         *status = brc_simulation_create(c.context, c.scene, c.domain, c.device, &c.simulation);
         if (*status == BRC_OK) *status = brc_simulation_begin_stage(c.simulation, 0);
     }
-    fflush(stderr);
-    dup2(kept, 2);
-    close(kept);
-    const size_t room = 4000;
+    const size_t room = 16384;
     char *out = calloc(1, room);
-    rewind(file);
-    const size_t n = fread(out, 1, room - 1, file);
-    if (*status != BRC_OK) snprintf(out + n, room - n, "%s", brc_context_message(c.context));
-    fclose(file);
+    snprintf(out, room, "%s%s", heard(), *status != BRC_OK ? brc_context_message(c.context) : "");
     close_case(&c);
     return out;
 }

@@ -1,0 +1,272 @@
+/* Scenes that break: strengths that fit together, models and stages that know them, and scenes in which nothing can break. */
+#include "reader_internal.h"
+#include "schema_internal.h"
+#include <string.h>
+
+/* Strengths that contradict themselves. */
+static void check_material(brc_reader *reader, const brc_material *material)
+{
+    const brc_scatter *scatter = &material->scatter;
+    if (material->fracture_energy > 0 && !(material->tension > 0))
+        COMPLAIN(reader, &material->fracture_energy, material,
+                 "fracture_energy: says how cohesion falls from the strength; expected `tension` beside it");
+    if (material->measured_by != BRC_STRENGTH_BY_TENSION && !(material->tension > 0))
+        COMPLAIN(reader, &material->measured_by, material,
+                 "measured_by: says what test `tension` comes from; expected `tension` beside it");
+    if (material->measured_by != BRC_STRENGTH_BY_TENSION && material->beam_strength > 0)
+        COMPLAIN(reader, &material->measured_by, material,
+                 "measured_by: decides nothing where `beam` gives the strength of beams; leave out one of them");
+    if (material->measured_by != BRC_STRENGTH_BY_TENSION && material->fracture_energy > 0)
+        COMPLAIN(reader, &material->measured_by, material,
+                 "measured_by: what discs read is known of bonds that break at once; with a fracture_energy give the "
+                 "strength in tension");
+    if (scatter->kind != BRC_SCATTER_TABLE) return;
+    for (int q = 0; q < scatter->n_quantiles; ++q) {
+        const brc_quantile *now = &scatter->quantiles[q], *before = q ? now - 1 : NULL;
+        const bool last = q == scatter->n_quantiles - 1;
+        if ((q == 0 && now->below != 0) || (last && now->below != 1) || (before && now->below < before->below))
+            COMPLAIN(reader, &now->below, now,
+                     "below: expected shares that grow from 0 at the first factor to 1 at the last");
+        if (before && now->factor < before->factor)
+            COMPLAIN(reader, &now->factor, now, "factor: is smaller than the one before; expected factors that grow");
+    }
+    if (scatter->n_quantiles == 1)
+        COMPLAIN(reader, &scatter->quantiles->below, scatter->quantiles, "table: has one entry; expected two or more");
+}
+
+/* Strengths by discs are a law of beams: cells bear what a solid bears. */
+static void check_measured_by(brc_reader *reader, int b)
+{
+    const brc_scene *scene = reader->scene;
+    const brc_body *body = &scene->bodies[b];
+    if (brc_body_model(scene, b)->kind == BRC_MODEL_CBM) return;
+    for (int m = 0; m < scene->n_materials; ++m) {
+        const brc_material *material = &scene->materials[m];
+        if (brc_body_uses(body, m) && material->measured_by != BRC_STRENGTH_BY_TENSION)
+            COMPLAIN(reader, &material->measured_by, material,
+                     "measured_by: what discs read is a law of beams (model cbm), and body '%s' is made of cells, "
+                     "which break at the strength in "
+                     "tension; give that",
+                     body->name);
+    }
+}
+
+/* What only scenes with fracture know, and strengths that do not fit together. */
+static void check_needs_fracture(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    const bool known = scene->has_fracture || brc_reader_is_broken(reader, "fracture");
+    static const char *const CURE = "needs `fracture: {}` at the top of the scene";
+    for (int m = 0; m < scene->n_materials; ++m)
+        check_material(reader, &scene->materials[m]);
+    for (int b = 0; b < scene->n_bodies; ++b)
+        check_measured_by(reader, b);
+    for (int m = 0; m < scene->n_materials; ++m)
+        for (int k = 0; k < scene->n_interfaces && scene->materials[m].measured_by != BRC_STRENGTH_BY_TENSION; ++k)
+            if (scene->interfaces[k].fracture_energy > 0)
+                COMPLAIN(
+                    reader, &scene->materials[m].measured_by, &scene->materials[m],
+                    "measured_by: what discs read is known of bonds that break at once, and interface number %d has a "
+                    "fracture_energy; with one give the strength in tension",
+                    k + 1);
+    for (int k = 0; k < scene->n_stages && !known; ++k) {
+        const brc_stage *stage = &scene->stages[k];
+        if (stage->to_failure > 0) COMPLAIN(reader, &stage->to_failure, stage, "to_failure: %s", CURE);
+        if (stage->most_events > 0) COMPLAIN(reader, &stage->most_events, stage, "events: %s", CURE);
+        if (stage->stop_broken > 0) COMPLAIN(reader, &stage->stop_broken, stage, "stop_when_broken: %s", CURE);
+    }
+    for (int k = 0; k < scene->n_stages; ++k) {
+        const brc_stage *stage = &scene->stages[k];
+        if (stage->most_events > 0 && (stage->increments > 1 || stage->to_failure > 0))
+            COMPLAIN(reader, &stage->most_events, stage,
+                     "events: they find the load themselves; leave out increments and to_failure");
+    }
+    for (int i = 0; i < scene->n_sensors && !known; ++i) {
+        const brc_sensor *sensor = &scene->sensors[i];
+        if (sensor->kind == BRC_SENSOR_FRACTURE)
+            COMPLAIN(reader, sensor->term, sensor, "fracture: this sensor %s", CURE);
+        if (sensor->kind == BRC_SENSOR_CRACK_TIP) COMPLAIN(reader, NULL, sensor, "crack_tip: this sensor %s", CURE);
+    }
+    for (int i = 0; i < scene->n_measures && !known; ++i)
+        if (scene->measures[i].kind == BRC_MEASURE_AT_FIRST_BREAK)
+            COMPLAIN(reader, NULL, &scene->measures[i], "at_first_break: this measure %s", CURE);
+}
+
+/* Models that their bodies are not made for. What is in a domain file is not known here. */
+static void check_models(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    for (int b = 0; b < scene->n_bodies; ++b) {
+        const brc_body *body = &scene->bodies[b];
+        const brc_model *model = brc_body_model(scene, b);
+        if (body->domain_file[0]) continue;
+        if (model->kind == BRC_MODEL_CBM && !(body->beams > 0))
+            COMPLAIN(reader, &model->kind, body,
+                     "model cbm needs spheres joined by beams, and body '%s' is made of cells; add `beams: 8` and a "
+                     "fill with radii to it, or use model: dlsm",
+                     body->name);
+        if (model->kind != BRC_MODEL_CBM && body->beams > 0)
+            COMPLAIN(reader, &body->beams, body,
+                     "beams: model %s needs cells, and body '%s' is made of spheres joined by beams; remove `beams`, "
+                     "or use model: cbm",
+                     brc_model_name(model->kind), body->name);
+    }
+    for (int k = 0; k < scene->n_stages; ++k) {
+        const brc_stage *stage = &scene->stages[k];
+        for (int b = 0; b < scene->n_bodies && stage->noise_damping > 0; ++b) {
+            if (brc_body_model(scene, b)->kind == BRC_MODEL_DLSM) continue;
+            COMPLAIN(reader, &stage->noise_damping, stage,
+                     "noise_damping: it is made of the bonds of model dlsm, and body '%s' is of model %s; use model "
+                     "dlsm, mass_damping or integrator tchamwa-wielgosz",
+                     scene->bodies[b].name, brc_model_name(brc_body_model(scene, b)->kind));
+            break;
+        }
+    }
+}
+
+/* What a criterion or a model of a body cannot have in a scene that breaks. */
+static void check_criterion(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    static const char *const CURE = "bonds soften with model cbm, and with model dlsm by the criterion bond-normal";
+    for (int b = 0; b < scene->n_bodies; ++b) {
+        const brc_body *body = &scene->bodies[b];
+        const brc_model *model = brc_body_model(scene, b);
+        const bool by_bond = brc_criterion_of(&scene->fracture, model->kind) == BRC_CRITERION_BOND_NORMAL;
+        const bool softens = model->kind == BRC_MODEL_CBM || (model->kind == BRC_MODEL_DLSM && by_bond);
+        if (model->kind == BRC_MODEL_CBM && by_bond)
+            COMPLAIN(reader, &scene->fracture.kind, scene,
+                     "criterion: bond-normal is for cells, and body '%s' is of model cbm; use virial-principal, or "
+                     "leave the criterion out",
+                     body->name);
+        if (model->kind != BRC_MODEL_CBM && model->small_rotations)
+            COMPLAIN(reader, &model->small_rotations, model,
+                     "small_rotations: a linearised law does not break; leave out small_rotations or fracture");
+        for (int m = 0; m < scene->n_materials && !softens; ++m)
+            if (scene->materials[m].fracture_energy > 0 && brc_body_uses(body, m))
+                COMPLAIN(
+                    reader, &scene->materials[m].fracture_energy, &scene->materials[m],
+                    "fracture_energy: the bonds of body '%s' (model %s%s) break at once; %s: use those, or remove it",
+                    body->name, brc_model_name(model->kind), by_bond ? "" : ", a criterion of elements", CURE);
+        for (int k = 0; k < scene->n_interfaces && !softens; ++k) {
+            const brc_interface *at = &scene->interfaces[k];
+            const bool inside = at->kind == BRC_INTERFACE_GRAINS
+                                    ? (body->grains.n > 0 || body->grains.size > 0)
+                                    : brc_body_uses(body, at->material[0]) && brc_body_uses(body, at->material[1]);
+            if (at->fracture_energy > 0 && inside)
+                COMPLAIN(
+                    reader, &at->fracture_energy, at,
+                    "fracture_energy: the bonds of body '%s' (model %s%s) break at once; %s: use those, or remove it",
+                    body->name, brc_model_name(model->kind), by_bond ? "" : ", a criterion of elements", CURE);
+        }
+    }
+}
+
+/* Criteria of elements know limits of elements alone: an interface's own tension counts as a share of the weaker side's. */
+static void check_interfaces(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    for (int k = 0; k < scene->n_interfaces; ++k) {
+        const brc_interface *at = &scene->interfaces[k];
+        if (at->kind != BRC_INTERFACE_MATERIALS || !(at->tension > 0)) continue;
+        const brc_material *first = &scene->materials[at->material[0]], *second = &scene->materials[at->material[1]];
+        for (int b = 0; b < scene->n_bodies && !(first->tension > 0) && !(second->tension > 0); ++b) {
+            if (brc_criterion_of(&scene->fracture, brc_body_model(scene, b)->kind) == BRC_CRITERION_BOND_NORMAL)
+                continue;
+            if (!brc_body_uses(&scene->bodies[b], at->material[0]) ||
+                !brc_body_uses(&scene->bodies[b], at->material[1]))
+                continue;
+            COMPLAIN(reader, &at->tension, at,
+                     "tension: is compared with that of its materials where elements fail, and neither '%s' nor '%s' "
+                     "has one; give one of them `strength: {tension: ...}`",
+                     first->name, second->name);
+            break;
+        }
+    }
+}
+
+/* Faces and beams that soften open in dynamic stages without noise damping only. */
+static void check_softening(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    const brc_stage *moving = NULL;
+    for (int k = 0; k < scene->n_stages; ++k) {
+        const brc_stage *stage = &scene->stages[k];
+        if (stage->noise_damping > 0)
+            COMPLAIN(reader, &stage->noise_damping, stage,
+                     "noise_damping: it would drag on faces that open against cohesion; leave out noise_damping or "
+                     "fracture_energy, or use mass_damping");
+        if (stage->most_events > 0)
+            COMPLAIN(reader, &stage->most_events, stage,
+                     "events: they break bonds at once, and those of this scene soften; remove `fracture_energy`, or "
+                     "load slowly in a dynamic stage with "
+                     "mass_damping");
+        else if (stage->solver != BRC_SOLVER_DYNAMIC && moving)
+            WARN(reader, &stage->solver, stage,
+                 "solver: this stage is refused if a bond has opened against its cohesion in stage '%s' or later, as "
+                 "openings follow in dynamic stages only; use a "
+                 "dynamic stage with mass_damping",
+                 moving->name);
+        if (stage->solver == BRC_SOLVER_DYNAMIC) moving = moving ? moving : stage;
+    }
+}
+
+/* Is there anything that a bond could break by? */
+static bool has_strength(const brc_scene *scene)
+{
+    for (int b = 0; b < scene->n_bodies; ++b)
+        for (int m = 0; m < scene->n_materials; ++m)
+            if (brc_body_uses(&scene->bodies[b], m) &&
+                brc_material_breaks(scene, brc_body_model(scene, b)->kind, &scene->materials[m]))
+                return true;
+    for (int k = 0; k < scene->n_interfaces; ++k)
+        if (scene->interfaces[k].tension > 0) return true;
+    return false;
+}
+
+static bool any_compression(const brc_scene *scene)
+{
+    for (int m = 0; m < scene->n_materials; ++m)
+        if (scene->materials[m].compression > 0) return true;
+    return false;
+}
+
+/* Does a stage break bonds, or is a limit looked at without breaking them? */
+static bool looks_at_limits(const brc_scene *scene)
+{
+    for (int k = 0; k < scene->n_stages; ++k)
+        if (scene->stages[k].solver == BRC_SOLVER_DYNAMIC || scene->stages[k].most_events > 0 ||
+            scene->stages[k].to_failure > 0)
+            return true;
+    for (int i = 0; i < scene->n_sensors; ++i)
+        if (scene->sensors[i].kind == BRC_SENSOR_FRACTURE && strcmp(scene->sensors[i].term, "failure_ratio") == 0)
+            return true;
+    return false;
+}
+
+void brc_reader_check_fracture(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    const bool whole = !brc_reader_is_broken(reader, "bodies") && !brc_reader_is_broken(reader, "model") &&
+                       !brc_reader_is_broken(reader, "stages");
+    check_needs_fracture(reader);
+    if (!whole) return;
+    check_models(reader);
+    if (!scene->has_fracture || brc_reader_is_broken(reader, "fracture") || brc_reader_is_broken(reader, "materials") ||
+        brc_reader_is_broken(reader, "interactions"))
+        return;
+    check_criterion(reader);
+    check_interfaces(reader);
+    if (brc_scene_softens(scene)) check_softening(reader);
+    if (!has_strength(scene))
+        COMPLAIN(reader, &scene->has_fracture, scene,
+                 "fracture: nothing can break: no material of a body has a strength%s; give one `strength: {tension: "
+                 "50 MPa}`, or leave fracture out",
+                 any_compression(scene) ? " in tension, which bonds of cells break by" : "");
+    else if (!looks_at_limits(scene))
+        WARN(reader, &scene->has_fracture, scene,
+             "fracture: no stage breaks a bond: they are static without `events`, or modes, so the solid stays elastic "
+             "whatever its load; %s",
+             brc_scene_softens(scene) ? "use a dynamic stage with mass_damping"
+                                      : "use a dynamic stage, or `solver: {static: {events: 100}}`");
+}
