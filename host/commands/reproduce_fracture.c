@@ -3,6 +3,8 @@
 #include "../output/crack_statistics.h"
 #include <math.h>
 
+static const double least_half = 0.25, least_piece = 0.05; /* of the mass */
+
 /* Middle of the domain's volume. */
 static void centre_of(const brc_domain *d, double out[3])
 {
@@ -41,8 +43,8 @@ brc_status brc_fracture_values(brc_context *context, brc_simulation *simulation,
     const brc_break *breaks;
     brc_crack_statistics cracks;
     int32_t *fragment = NULL;
-    double *volume = NULL, all = 0, largest = 0;
-    int64_t n, n_fragments;
+    double *volume = NULL, all = 0, largest = 0, crumbs = 0;
+    int64_t n, n_fragments, n_halves = 0;
     brc_status status = BRC_OK;
     BRC_TRY(brc_simulation_breaks(simulation, &n, &breaks));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &fragment, domain->n_elements, "fragments"));
@@ -52,12 +54,18 @@ brc_status brc_fracture_values(brc_context *context, brc_simulation *simulation,
     for (int64_t e = 0; e < domain->n_elements; ++e) {
         volume[fragment[e]] += domain->volume[e];
         all += domain->volume[e];
-        largest = fmax(largest, volume[fragment[e]]);
+    }
+    for (int64_t f = 0; f < n_fragments; ++f) {
+        largest = fmax(largest, volume[f]);
+        if (volume[f] < least_piece * all) crumbs += volume[f];
+        n_halves += volume[f] >= least_half * all;
     }
     brc_outcome_add(outcome, "broken", "-", (double)n, NAN);
     brc_outcome_add(outcome, "crack_area", "m^2", cracks.total_area, NAN);
     brc_outcome_add(outcome, "fragments", "-", (double)n_fragments, NAN);
     brc_outcome_add(outcome, "largest_fragment", "-", largest / all, NAN);
+    brc_outcome_add(outcome, "halves", "-", (double)n_halves, NAN);
+    brc_outcome_add(outcome, "crumbs", "-", crumbs / all, NAN);
     if (n == 0) goto cleanup;
     add_first(brc_simulation_scene(simulation), domain, n, breaks, outcome);
     for (int c = 0; c < 3; ++c) brc_outcome_add(outcome, names[c], "deg", brc_crack_angle(cracks.all.normal, c), NAN);
