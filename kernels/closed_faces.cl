@@ -1,20 +1,23 @@
 /* Closed cracks of dlsm whose bonds break at once (closed_face.h; docs/fracture.md): the faces whose two sides still lie near each other, in the entries of the bonds that broke.
  *
- * Entries [n_slots][C]: closed: CLOSED_OPEN from the break on, CLOSED_PRESSED while friction knows where the sides met, CLOSED_CLEAR once they stand clear of each other, for good; 0: never broke here.
- * spring: kappa [N/m], of the bond that was; slide [n_slots][3][C]: where along its face it sticks, in the undeformed body [m], only with friction. The lower row of a face decides for both.
+ * Entries [n_slots][C]: closed: CLOSED_OPEN from the break on, CLOSED_PRESSED while its sides are, CLOSED_CLEAR once they stand clear of each other, for good, and CLOSED_KIND
+ * times 1 + how many of its two cells have no bonds; 0: never broke here. spring: kappa [N/m], of the bond that was; overlap: the gap, below 0, that a face had when it broke or one of its
+ * cells came off, from which on it counts: nothing is pressed by a break [m]; slide [n_slots][3][C]: where along its face it sticks, in the undeformed body [m], only with friction. The lower row of a face decides for both.
  * Elements [n]: next: the step at which some face of which it is the lower row must be looked at again; presses: 1 where some face is pressed, as of the last evaluation; load [n][12]: what these
  * add to B, and their force on it [Pa] [N]; held: what they hold, half of each face [J]; rubbed: lost to friction [J]; look, near: the last step whose breaks concern the element's faces, or its force. */
 
 #define CLOSED_OPEN 1
 #define CLOSED_PRESSED 2
 #define CLOSED_CLEAR 3
+#define CLOSED_KIND 4
 #define CLOSED_LOAD 12
 #define CLOSED_NEVER 2147483647
 /* A face that stands open is looked at again when four times the speed of its cells has used up the gap, within so many steps. */
 #define CLOSED_QUIET 16
 
 #define CLOSED_ENTRY ((brc_size)slot * C + (brc_size)(e % C))
-#define CLOSED_HOLDS(entry) (closed[entry] == CLOSED_OPEN || closed[entry] == CLOSED_PRESSED)
+#define CLOSED_IS(entry) (closed[entry] % CLOSED_KIND)
+#define CLOSED_HOLDS(entry) (CLOSED_IS(entry) == CLOSED_OPEN || CLOSED_IS(entry) == CLOSED_PRESSED)
 /* A broken bond points home, and so does its twin: that is the other cell. */
 #define CLOSED_OTHER(entry) neighbour[twin[entry]]
 
@@ -40,10 +43,12 @@ LAW int closed_is_free(GLOBAL const coeff *restrict inv_shape, int e)
     return !(p[0] > 0);
 }
 LAW closed_face closed_find(GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
-                            GLOBAL const coeff *restrict gradient, int e, int j, brc_size entry)
+                            GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict overlap, int e, int j, brc_size entry)
 {
-    return closed_face_of(closed_difference(place, e, j), closed_row(offset, entry), closed_difference(displacement, e, j), mat3_load(gradient, e), mat3_load(gradient, j),
-                          closed_is_free(inv_shape, e), closed_is_free(inv_shape, j));
+    closed_face f = closed_face_of(closed_difference(place, e, j), closed_row(offset, entry), closed_difference(displacement, e, j), mat3_load(gradient, e), mat3_load(gradient, j),
+                                   closed_is_free(inv_shape, e), closed_is_free(inv_shape, j));
+    f.along -= overlap[entry];
+    return f;
 }
 
 /* Before bonds of touched elements break: marked ones that never broke are faces that may close. */
@@ -97,7 +102,7 @@ KERNEL void closed_look(int n_groups, int moment, int drop, GLOBAL const int *re
 KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff clear, coeff friction, int keeps, state dt, GLOBAL const int *restrict row_start,
                           GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset,
                           GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement, GLOBAL const state *restrict velocity, GLOBAL const coeff *restrict gradient,
-                          GLOBAL const coeff *restrict spring, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide, GLOBAL int *restrict next, GLOBAL int *restrict presses,
+                          GLOBAL const coeff *restrict spring, GLOBAL const coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide, GLOBAL int *restrict next, GLOBAL int *restrict presses,
                           GLOBAL state *restrict rubbed)
 {
     FOR_EACH_ITEM(group, n_groups) {
@@ -111,37 +116,37 @@ KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff cl
                 if (!CLOSED_HOLDS(entry)) continue;
                 const int j = CLOSED_OTHER(entry);
                 if (!(e < j)) continue;
-                const closed_face f = closed_find(place, offset, inv_shape, displacement, gradient, e, j, entry);
-                const int pressed = f.along < 0;
+                const closed_face f = closed_find(place, offset, inv_shape, displacement, gradient, overlap, e, j, entry);
+                const int pressed = f.along < 0, was = CLOSED_IS(entry) == CLOSED_PRESSED;
+                const brc_size other = (brc_size)twin[entry];
                 if (moves) {
-                    const brc_size other = (brc_size)twin[entry];
                     const coeff most = clear * f.length;
                     if (f.along > most || vec3_dot(f.across, f.across) > most * most) {
-                        const vec3 held = closed[entry] == CLOSED_PRESSED && friction > 0 ? vec3_sub(f.across, closed_row(slide, entry)) : (vec3){0, 0, 0};
+                        const vec3 held = was && friction > 0 ? vec3_sub(f.across, closed_row(slide, entry)) : (vec3){0, 0, 0};
                         if (pressed && !keeps) rubbed[e] += (state)closed_load_of(f, held, spring[entry]).energy;
                         closed[entry] = CLOSED_CLEAR;
                         closed[other] = CLOSED_CLEAR;
                         continue;
                     }
-                    if (pressed && friction > 0) {
-                        vec3 at = f.across;
-                        if (closed[entry] == CLOSED_PRESSED) {
-                            const vec3 held = vec3_sub(f.across, closed_row(slide, entry));
-                            const coeff size = SQRT(vec3_dot(held, held)), bears = -friction * f.along;
-                            const vec3 kept = size > bears ? vec3_scale(bears / size, held) : held;
-                            at = vec3_sub(f.across, kept);
-                            if (size > bears) rubbed[e] += (state)(spring[entry] * bears * (size - bears));
-                        }
-                        closed_put_row(slide, entry, at);
-                        closed_put_row(slide, other, vec3_scale(REAL(-1), at));
-                    }
-                    closed[entry] = pressed ? CLOSED_PRESSED : CLOSED_OPEN;
-                    closed[other] = closed[entry];
                     const vec3 away = closed_difference(velocity, e, j);
                     const coeff way = REAL(4) * SQRT(vec3_dot(away, away)) * (coeff)dt;
                     const int rest = pressed ? 1 : f.along < way * REAL(CLOSED_QUIET) ? 1 + (int)(f.along / way) : CLOSED_QUIET;
                     soonest = moment + rest < soonest ? moment + rest : soonest;
                 }
+                if (pressed && friction > 0 && (moves || !was)) {
+                    vec3 at = f.across;
+                    if (was) {
+                        const vec3 held = vec3_sub(f.across, closed_row(slide, entry));
+                        const coeff size = SQRT(vec3_dot(held, held)), bears = -friction * f.along;
+                        const vec3 kept = size > bears ? vec3_scale(bears / size, held) : held;
+                        at = vec3_sub(f.across, kept);
+                        if (size > bears) rubbed[e] += (state)(spring[entry] * bears * (size - bears));
+                    }
+                    closed_put_row(slide, entry, at);
+                    closed_put_row(slide, other, vec3_scale(REAL(-1), at));
+                }
+                closed[entry] += (pressed ? CLOSED_PRESSED : CLOSED_OPEN) - CLOSED_IS(entry);
+                closed[other] = closed[entry];
                 if (pressed) {
                     STORE_SAME(presses + e, 1);
                     STORE_SAME(presses + j, 1);
@@ -152,10 +157,11 @@ KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff cl
     }
 }
 
-/* What the pressed faces of one element add to it, into load and held; returns whether any is pressed. */
+/* What the pressed faces of one element add to it; returns whether any is pressed. broke: bonds did, so faces may be new, or of a cell that has come off. */
 LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const state *restrict place,
                    GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                   GLOBAL const coeff *restrict spring, GLOBAL const int *restrict closed, GLOBAL const coeff *restrict slide, int rubs, coeff *sum, state *energy)
+                   GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide, int rubs, int broke, GLOBAL const int *restrict touched,
+                   coeff *sum, state *energy)
 {
     mat3 q = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     vec3 push = {0, 0, 0};
@@ -164,9 +170,21 @@ LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int
     for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
         const brc_size entry = CLOSED_ENTRY;
         if (!CLOSED_HOLDS(entry)) continue;
-        const closed_face f = closed_find(place, offset, inv_shape, displacement, gradient, e, CLOSED_OTHER(entry), entry);
-        if (!(f.along < 0)) continue;
-        const vec3 held = rubs && closed[entry] == CLOSED_PRESSED ? vec3_sub(f.across, closed_row(slide, entry)) : (vec3){0, 0, 0};
+        const int j = CLOSED_OTHER(entry);
+        closed_face f = closed_find(place, offset, inv_shape, displacement, gradient, overlap, e, j, entry);
+        if (broke && (touched[e] || touched[j])) { /* H of one of them is another: both sides ask anew */
+            const int kind = 1 + closed_is_free(inv_shape, e) + closed_is_free(inv_shape, j);
+            if (closed[entry] / CLOSED_KIND != kind) {
+                const coeff whole = f.along + overlap[entry];
+                overlap[entry] = whole < 0 ? whole : 0;
+                f.along = whole - overlap[entry];
+                closed[entry] = CLOSED_OPEN;
+            }
+            if (rubs && f.along < 0 && CLOSED_IS(entry) == CLOSED_OPEN) closed_put_row(slide, entry, f.across);
+            closed[entry] = (f.along < 0 ? CLOSED_PRESSED : CLOSED_OPEN) + CLOSED_KIND * kind;
+        }
+        if (CLOSED_IS(entry) != CLOSED_PRESSED) continue;
+        const vec3 held = rubs ? vec3_sub(f.across, closed_row(slide, entry)) : (vec3){0, 0, 0};
         const closed_load one = closed_load_of(f, held, spring[entry]);
         q = mat3_mix(REAL(1), q, REAL(1), one.moment);
         push = vec3_add(push, one.push);
@@ -186,7 +204,7 @@ LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int
 /* Loads of the elements that closed_follow found pressed. rubs: 1 with friction. */
 KERNEL void closed_press(int n_groups, int rubs, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
                          GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
-                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring, GLOBAL const int *restrict closed, GLOBAL const coeff *restrict slide,
+                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide,
                          GLOBAL const int *restrict presses, GLOBAL coeff *restrict load, GLOBAL state *restrict held)
 {
     FOR_EACH_ITEM(group, n_groups) {
@@ -195,7 +213,7 @@ KERNEL void closed_press(int n_groups, int rubs, GLOBAL const int *restrict row_
             if (!presses[e]) continue;
             coeff sum[CLOSED_LOAD];
             state energy;
-            closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, closed, slide, rubs, sum, &energy);
+            closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, overlap, closed, slide, rubs, 0, presses, sum, &energy);
             for (int c = 0; c < CLOSED_LOAD; ++c) load[(brc_size)e * CLOSED_LOAD + (brc_size)c] = sum[c];
             held[e] = energy;
         }
@@ -234,9 +252,9 @@ KERNEL void closed_energy(int n, GLOBAL const int *restrict presses, GLOBAL cons
 /* ---- after bonds broke: the forces of the rings around them are there, with the loads of before ---- */
 
 /* Loads of the elements that the breaks concern, with their new H; gain [n][12]: what these gained. All their faces are looked at in the next step. */
-KERNEL void closed_again(int n_groups, int moment, int rubs, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
+KERNEL void closed_again(int n_groups, int moment, int rubs, GLOBAL const int *restrict touched, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
                          GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
-                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring, GLOBAL const int *restrict closed, GLOBAL const coeff *restrict slide,
+                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide,
                          GLOBAL const int *restrict look, GLOBAL int *restrict near, GLOBAL int *restrict next, GLOBAL int *restrict presses, GLOBAL coeff *restrict load,
                          GLOBAL state *restrict held, GLOBAL coeff *restrict gain)
 {
@@ -247,7 +265,7 @@ KERNEL void closed_again(int n_groups, int moment, int rubs, GLOBAL const int *r
             coeff sum[CLOSED_LOAD];
             state energy;
             const int before = presses[e];
-            const int now = closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, closed, slide, rubs, sum, &energy);
+            const int now = closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, overlap, closed, slide, rubs, 1, touched, sum, &energy);
             for (int c = 0; c < CLOSED_LOAD; ++c) {
                 const brc_size at = (brc_size)e * CLOSED_LOAD + (brc_size)c;
                 gain[at] = sum[c] - (before ? load[at] : 0);

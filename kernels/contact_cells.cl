@@ -47,7 +47,7 @@ LAW int contact_shuts(int i, int j, GLOBAL const int *restrict row_start, GLOBAL
     int near = 0;
     for (int slot = row_start[i / C]; slot < row_start[i / C + 1]; ++slot) {
         const brc_size at = (brc_size)slot * C + i % C;
-        near |= original[at] == j && (closed[at] == 1 || closed[at] == 2); /* CLOSED_OPEN, CLOSED_PRESSED */
+        near |= original[at] == j && (closed[at] % 4 == 1 || closed[at] % 4 == 2); /* CLOSED_OPEN, CLOSED_PRESSED */
     }
     return near;
 }

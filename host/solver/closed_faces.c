@@ -12,7 +12,7 @@ enum { LOAD = 12 }; /* CLOSED_LOAD of kernels/closed_faces.cl */
 
 struct brc_closed_faces {
     brc_kernel *keep, *look_pass, *follow, *press, *flux, *force, *energy, *again, *gain_pass;
-    brc_buffer *closed, *spring, *slide;       /* [n_slots][C], slide [n_slots][3][C], NULL without friction */
+    brc_buffer *closed, *spring, *overlap, *slide;       /* [n_slots][C], slide [n_slots][3][C], NULL without friction */
     brc_buffer *place;                         /* [n_rows][3] */
     brc_buffer *next, *presses, *look, *near;  /* [n_rows] */
     brc_buffer *load, *gain;                   /* [n_rows][LOAD] */
@@ -79,6 +79,7 @@ brc_status brc_closed_faces_create(brc_simulation *s)
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     BRC_TRY(brc_buffer_create(s->device, &f->closed, 4 * entries, "broken faces"));
     BRC_TRY(brc_new_coeff(s, &f->spring, entries, "springs of broken faces"));
+    BRC_TRY(brc_new_coeff(s, &f->overlap, entries, "broken faces"));
     if (friction_of(s) > 0) BRC_TRY(brc_new_coeff(s, &f->slide, 3 * entries, "friction of broken faces"));
     brc_buffer **numbers[] = {&f->presses, &f->look, &f->near};
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) BRC_TRY(brc_buffer_create(s->device, numbers[k], 4 * n, "broken faces"));
@@ -94,7 +95,7 @@ void brc_closed_faces_free(brc_simulation *s)
 {
     closed_faces *f = faces_of(s);
     if (!f) return;
-    brc_buffer **all[] = {&f->closed, &f->spring, &f->slide, &f->place, &f->next, &f->presses, &f->look, &f->near, &f->load, &f->gain, &f->held, &f->rubbed};
+    brc_buffer **all[] = {&f->closed, &f->spring, &f->overlap, &f->slide, &f->place, &f->next, &f->presses, &f->look, &f->near, &f->load, &f->gain, &f->held, &f->rubbed};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
     brc_memory_free(f);
     s->fracture->cells->closed = NULL;
@@ -104,7 +105,7 @@ int64_t brc_closed_faces_bytes(const brc_scene *scene, int64_t n, int64_t entrie
 {
     if (!is_wanted(scene, brc_softening_bytes(scene, n, entries, state_bytes, coeff_bytes) > 0)) return 0;
     const bool rubs = scene->has_contact && scene->contact.law.friction > 0;
-    return entries * (4 + (rubs ? 4 : 1) * coeff_bytes) + n * (16 + 5 * state_bytes + 2 * LOAD * coeff_bytes);
+    return entries * (4 + (rubs ? 5 : 2) * coeff_bytes) + n * (16 + 5 * state_bytes + 2 * LOAD * coeff_bytes);
 }
 
 /* ---- an evaluation ---- */
@@ -120,11 +121,11 @@ brc_status brc_closed_faces_press(brc_simulation *s, const brc_force_request *r)
     BRC_TRY(brc_buffer_fill_zero(f->presses));
     BRC_TRY(BRC_LAUNCH(f->follow, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment_of(s)), BRC_INT(f->all ? 1 : 0), BRC_INT(moves ? 1 : 0), BRC_COEFF(clear), BRC_COEFF(friction_of(s)),
                        BRC_INT(s->contact ? 1 : 0), BRC_STATE(s->time_step.value), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->twin), BRC_BUF(f->place),
-                       BRC_BUF(s->offset), BRC_BUF(s->inv_shape), BRC_BUF(s->displacement), BRC_BUF(s->velocity), BRC_BUF(s->gradient), BRC_BUF(f->spring), BRC_BUF(f->closed),
+                       BRC_BUF(s->offset), BRC_BUF(s->inv_shape), BRC_BUF(s->displacement), BRC_BUF(s->velocity), BRC_BUF(s->gradient), BRC_BUF(f->spring), BRC_BUF(f->overlap), BRC_BUF(f->closed),
                        BRC_BUF(f->slide), BRC_BUF(f->next), BRC_BUF(f->presses), BRC_BUF(f->rubbed)));
     if (moves) f->all = false;
     return BRC_LAUNCH(f->press, s->n_groups, BRC_INT(s->n_groups), BRC_INT(friction_of(s) > 0 ? 1 : 0), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->twin),
-                      BRC_BUF(f->place), BRC_BUF(s->offset), BRC_BUF(s->inv_shape), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(f->spring), BRC_BUF(f->closed), BRC_BUF(f->slide),
+                      BRC_BUF(f->place), BRC_BUF(s->offset), BRC_BUF(s->inv_shape), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(f->spring), BRC_BUF(f->overlap), BRC_BUF(f->closed), BRC_BUF(f->slide),
                       BRC_BUF(f->presses), BRC_BUF(f->load), BRC_BUF(f->held));
 }
 
@@ -173,9 +174,9 @@ brc_status brc_closed_faces_change(brc_simulation *s, double half_kick)
 {
     const closed_faces *f = faces_of(s);
     if (!f || sleeps(s)) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(f->again, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment_of(s)), BRC_INT(friction_of(s) > 0 ? 1 : 0), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+    BRC_TRY(BRC_LAUNCH(f->again, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment_of(s)), BRC_INT(friction_of(s) > 0 ? 1 : 0), BRC_BUF(s->fracture->cells->rings->touched), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(s->fracture->cells->twin), BRC_BUF(f->place), BRC_BUF(s->offset), BRC_BUF(s->inv_shape), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(f->spring),
-                       BRC_BUF(f->closed), BRC_BUF(f->slide), BRC_BUF(f->look), BRC_BUF(f->near), BRC_BUF(f->next), BRC_BUF(f->presses), BRC_BUF(f->load), BRC_BUF(f->held), BRC_BUF(f->gain)));
+                       BRC_BUF(f->overlap), BRC_BUF(f->closed), BRC_BUF(f->slide), BRC_BUF(f->look), BRC_BUF(f->near), BRC_BUF(f->next), BRC_BUF(f->presses), BRC_BUF(f->load), BRC_BUF(f->held), BRC_BUF(f->gain)));
     return BRC_LAUNCH(f->gain_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment_of(s)), BRC_STATE(half_kick), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(f->look),
                       BRC_BUF(f->near), BRC_BUF(f->gain), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(s->velocity));
 }
@@ -213,6 +214,7 @@ brc_status brc_closed_faces_store_state(brc_simulation *s, brc_state_store *stor
     const brc_state_entry entries[] = {
         {"closed.faces", f->closed, BRC_ENTRIES, BRC_OF_INT, 1, bonds},
         {"closed.spring", f->spring, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
+        {"closed.overlap", f->overlap, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
         {"closed.slide", f->slide, BRC_ENTRIES, BRC_OF_COEFF, 3, bonds},
         {"closed.next", f->next, BRC_ROWS, BRC_OF_INT, 1, NULL},
         {"closed.rubbed", f->rubbed, BRC_ROWS, BRC_OF_STATE, 1, NULL},
