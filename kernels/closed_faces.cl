@@ -12,8 +12,8 @@
 #define CLOSED_KIND 4
 #define CLOSED_LOAD 12
 #define CLOSED_NEVER 2147483647
-/* A face that stands open is looked at again when four times the speed of its cells has used up the gap, within so many steps. */
-#define CLOSED_QUIET 16
+/* A face that stands open is looked at again when twice the speed of its cells has used up the gap, within so many steps. */
+#define CLOSED_QUIET 32
 
 #define CLOSED_ENTRY ((brc_size)slot * C + (brc_size)(e % C))
 #define CLOSED_IS(entry) (closed[entry] % CLOSED_KIND)
@@ -129,7 +129,7 @@ KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff cl
                         continue;
                     }
                     const vec3 away = closed_difference(velocity, e, j);
-                    const coeff way = REAL(4) * SQRT(vec3_dot(away, away)) * (coeff)dt;
+                    const coeff way = REAL(2) * SQRT(vec3_dot(away, away)) * (coeff)dt;
                     const int rest = pressed ? 1 : f.along < way * REAL(CLOSED_QUIET) ? 1 + (int)(f.along / way) : CLOSED_QUIET;
                     soonest = moment + rest < soonest ? moment + rest : soonest;
                 }
@@ -220,16 +220,26 @@ KERNEL void closed_press(int n_groups, int rubs, GLOBAL const int *restrict row_
     }
 }
 
-/* Of all, or of the n elements of a list: loads go into B. fluxes above 0: and into what B gained, whose records begin there (rims.cl). */
+/* Elements that a work-item goes over: one of a list, or a group of which some are pressed. */
+LAW int closed_begin(int item, int listed, GLOBAL const int *restrict list) { return listed ? list[item] : item * W; }
+LAW int closed_end(int item, int listed, GLOBAL const int *restrict list, GLOBAL const int *restrict presses)
+{
+    if (listed) return list[item] + 1;
+    const lane_int some = int_load(presses, (brc_size)item * W);
+    return LANE_ANY(some) ? item * W + W : item * W;
+}
+
+/* Of all groups, or of the n elements of a list: loads go into B. fluxes above 0: and into what B gained, whose records begin there (rims.cl). */
 KERNEL void closed_flux(int n, int listed, GLOBAL const int *restrict list, int fluxes, GLOBAL const int *restrict level, GLOBAL const int *restrict presses,
                         GLOBAL const coeff *restrict load, GLOBAL coeff *restrict flux, GLOBAL coeff *restrict gain)
 {
     FOR_EACH_ITEM(item, n) {
-        const int e = listed ? list[item] : item;
-        for (int c = 0; presses[e] && c < 9; ++c) {
-            const coeff more = load[(brc_size)e * CLOSED_LOAD + (brc_size)c];
-            flux[(brc_size)e * 9 + (brc_size)c] += more;
-            if (fluxes > 0) gain[((brc_size)fluxes + (brc_size)RING_PLACE(level[e])) * 9 + (brc_size)c] += more;
+        for (int e = closed_begin(item, listed, list); e < closed_end(item, listed, list, presses); ++e) {
+            for (int c = 0; presses[e] && c < 9; ++c) {
+                const coeff more = load[(brc_size)e * CLOSED_LOAD + (brc_size)c];
+                flux[(brc_size)e * 9 + (brc_size)c] += more;
+                if (fluxes > 0) gain[((brc_size)fluxes + (brc_size)RING_PLACE(level[e])) * 9 + (brc_size)c] += more;
+            }
         }
     }
 }
@@ -238,8 +248,8 @@ KERNEL void closed_flux(int n, int listed, GLOBAL const int *restrict list, int 
 KERNEL void closed_force(int n, int listed, GLOBAL const int *restrict list, GLOBAL const int *restrict presses, GLOBAL const coeff *restrict load, GLOBAL state *restrict force)
 {
     FOR_EACH_ITEM(item, n) {
-        const int e = listed ? list[item] : item;
-        for (int c = 0; presses[e] && c < 3; ++c) force[(brc_size)e * 3 + (brc_size)c] += (state)load[(brc_size)e * CLOSED_LOAD + 9 + (brc_size)c];
+        for (int e = closed_begin(item, listed, list); e < closed_end(item, listed, list, presses); ++e)
+            for (int c = 0; presses[e] && c < 3; ++c) force[(brc_size)e * 3 + (brc_size)c] += (state)load[(brc_size)e * CLOSED_LOAD + 9 + (brc_size)c];
     }
 }
 

@@ -135,7 +135,7 @@ brc_status brc_closed_faces_flux(brc_simulation *s, const brc_force_request *r, 
     if (!acts(s, r)) return BRC_OK;
     const brc_rings *rings = s->fracture->cells->rings;
     const bool whole = brc_pass_is_whole(s, list, ring), gains = r->rings && brc_rims_gain(s, r->rings);
-    const int32_t n = whole ? s->layout->n_rows : list->n[ring];
+    const int32_t n = whole ? s->n_groups : list->n[ring];
     return BRC_LAUNCH(f->flux, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->upto[ring]), BRC_INT(gains ? brc_rims_records(rings) : 0), BRC_BUF(rings->level), BRC_BUF(f->presses),
                       BRC_BUF(f->load), BRC_BUF(s->flux), BRC_BUF(s->fracture->cells->measure));
 }
@@ -145,7 +145,7 @@ brc_status brc_closed_faces_force(brc_simulation *s, const brc_force_request *r,
     const closed_faces *f = faces_of(s);
     if (!acts(s, r)) return BRC_OK;
     const bool whole = brc_pass_is_whole(s, list, ring);
-    const int32_t n = whole ? s->layout->n_rows : list->n[ring];
+    const int32_t n = whole ? s->n_groups : list->n[ring];
     return BRC_LAUNCH(f->force, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->upto[ring]), BRC_BUF(f->presses), BRC_BUF(f->load), BRC_BUF(r->force));
 }
 
