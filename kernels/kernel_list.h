@@ -140,6 +140,15 @@
     X(soft_count)                                                                                                      \
     X(soft_energy)                                                                                                     \
     X(soft_settle)                                                                                                     \
+    X(closed_keep)                                                                                                     \
+    X(closed_look)                                                                                                     \
+    X(closed_follow)                                                                                                   \
+    X(closed_press)                                                                                                    \
+    X(closed_flux)                                                                                                     \
+    X(closed_force)                                                                                                    \
+    X(closed_energy)                                                                                                   \
+    X(closed_again)                                                                                                    \
+    X(closed_gain)                                                                                                     \
     X(beam_soft_force)                                                                                                 \
     X(beam_soft_energy)                                                                                                \
     X(beam_soft_virial)                                                                                                \

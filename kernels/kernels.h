@@ -20,6 +20,7 @@
 #include "convex_wall.h"
 #include "convex_sphere.h"
 #include "softening.h"
+#include "closed_face.h"
 #include "vector.cl"
 #include "motion.cl"
 #include "guard.cl"
@@ -44,4 +45,5 @@
 #include "contact_cells.cl"
 #include "contact_rigid.cl"
 #include "softening.cl"
+#include "closed_faces.cl"
 #include "beam_softening.cl"
