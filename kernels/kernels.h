@@ -44,4 +44,6 @@
 #include "contact_cells.cl"
 #include "contact_rigid.cl"
 #include "softening.cl"
+#include "beam_carried.h"
 #include "beam_softening.cl"
+#include "beam_closure.cl"

@@ -6,7 +6,7 @@
 static const double least_diameters = 4;
 
 /* Components of `crack` and states of `open` (kernels/beam_softening.cl). */
-enum { ENERGY = 2, EXPONENTIAL = 3, SPENT = 6, TILT = 10, CAPACITY = 11, PER_AREA = 12, WIDTH = 13 };
+enum { ENERGY = 2, EXPONENTIAL = 3, SPENT = 6, TILT = 10, CAPACITY = 11, PER_AREA = 12, WIDTH = 18 };
 enum { WHOLE = 0, BROKEN = 3 };
 
 struct brc_beam_softening {
@@ -158,7 +158,7 @@ brc_status brc_beam_softening_move(brc_simulation *s)
     const beam_softening *f = softening_of(s);
     if (!f) return BRC_OK;
     const brc_beam *beam = brc_beam_of_element(s, 0);
-    return BRC_LAUNCH(f->move, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->twin),
+    return BRC_LAUNCH(f->move, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_COEFF(s->scene->fracture.closure ? BRC_BEAM_CLEAR : 0), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->twin),
                       BRC_BUF(f->lead), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(beam->axial),
                       BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack));
 }
@@ -169,10 +169,10 @@ brc_status brc_beam_softening_begin(brc_simulation *s, int32_t moment)
     const brc_breaking *b = s->fracture;
     if (!f) return BRC_OK;
     const brc_beam *beam = brc_beam_of_element(s, 0);
-    BRC_TRY(BRC_LAUNCH(f->begin, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+    BRC_TRY(BRC_LAUNCH(f->begin, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_INT(s->scene->fracture.level > 0), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(f->twin), BRC_BUF(f->lead), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation),
                        BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_BUF(b->mark), BRC_BUF(b->choice),
-                       BRC_BUF(b->measure), BRC_BUF(f->touched), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(b->factor)));
+                       BRC_BUF(b->measure), BRC_BUF(b->record), BRC_BUF(f->touched), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(b->factor)));
     return BRC_LAUNCH(f->keep, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(b->mark),
                       BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(b->choice), BRC_BUF(f->touched));
 }
@@ -186,6 +186,13 @@ brc_status brc_beam_softening_end(brc_simulation *s, int32_t moment)
                       BRC_BUF(s->neighbour), BRC_BUF(s->ratio), BRC_BUF(b->mark), BRC_BUF(b->record), BRC_BUF(b->weight), BRC_BUF(f->active),
                       BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(b->break_step), BRC_BUF(b->break_mode), BRC_BUF(b->break_stress),
                       BRC_BUF(b->break_energy), BRC_BUF(b->lost), BRC_BUF(b->broken));
+}
+
+void brc_beam_softening_cracks(const brc_simulation *s, brc_buffer **open, brc_buffer **crack)
+{
+    const beam_softening *f = softening_of(s);
+    *open = f ? f->open : NULL;
+    *crack = f ? f->crack : NULL;
 }
 
 /* ---- what stays ---- */
