@@ -2,9 +2,10 @@
  * own geometry, until its ends stand clear of each other. Passes over all others find the bond broken; these add its force behind them, to groups that have such beams.
  *
  * other [slot][C]: row of the element over the bond there was, own row where there never was one. bears [slot][C]: 1 from the break until the ends stand clear.
- * lean [slot][LEAN][C]: SIDE, ALONG, KEEPS as of the softening; zeros: the push along the axis is all. rubs [n / W]: 1 from the first such beam of the group on. */
+ * lean [slot][LEAN][C]: SIDE, ALONG, COSINE, SINE, KEEPS as of the softening; of beams that broke at once ALONG 1 and zeros: the push along the axis is all. rubs [n / W]: 1 from the first such beam of the group on. */
 
-#define LEAN 5
+#define LEAN 7
+#define LEAN_ALONG 3
 
 LAW int closure_any(GLOBAL const int *restrict bears, brc_size entry)
 {
@@ -19,7 +20,7 @@ typedef struct {
     lane inv_length0;
     cbm_stiffness stiffness;
     cbm_shape shape;
-    lane_vec3 branch; /* now [m] */
+    lane_vec3 branch, axis0; /* now [m]; as it was [-] */
     lane_quat q_j;
     beam_lean lean;
 } closure_bond;
@@ -37,16 +38,18 @@ LAW closure_bond closure_bond_at(int slot, int lane0, cbm_own own, GLOBAL const 
     b.q_j = lane_gather4(orientation, j);
     b.shape = cbm_beam_shape_turned(r, b.inv_length0, jump, own.orientation, own.turn, b.q_j, 1);
     b.branch = lane_vec3_add(r, jump);
-    b.lean = (beam_lean){{zero, zero, zero}, zero, zero};
+    b.axis0 = lane_vec3_scale(b.inv_length0, r);
+    b.lean = (beam_lean){{zero, zero, zero}, zero + REAL(1), zero, zero, zero};
     if (leans)
         b.lean = (beam_lean){{lane_block(lean, slot, LEAN, 0, lane0), lane_block(lean, slot, LEAN, 1, lane0), lane_block(lean, slot, LEAN, 2, lane0)},
-                             lane_block(lean, slot, LEAN, 3, lane0), lane_block(lean, slot, LEAN, 4, lane0)};
+                             lane_block(lean, slot, LEAN, 3, lane0), lane_block(lean, slot, LEAN, 4, lane0), lane_block(lean, slot, LEAN, 5, lane0),
+                             lane_block(lean, slot, LEAN, 6, lane0)};
     return b;
 }
 
 LAW beam_carry closure_carry(closure_bond b, cbm_own own)
 {
-    return beam_carried(b.shape, b.inv_length0, b.stiffness, b.branch, own.turn, b.q_j, b.lean);
+    return beam_carried(b.shape, b.inv_length0, b.stiffness, b.branch, b.axis0, own.orientation, b.q_j, b.lean);
 }
 
 /* Sums over the beams of a group. */
@@ -159,7 +162,7 @@ KERNEL void closure_move(int n_groups, int step, coeff clear, GLOBAL const int *
                 b.lean.keeps = beam_fades(b.lean.keeps, b.lean.along, beam_opening(b.shape), b.inv_length0, clear);
                 const beam_carry after = closure_carry(b, own);
                 const lane half = REAL(0.5) * b.bears * (before.energy - after.energy);
-                lane_store(lean, ((brc_size)slot * LEAN + 4) * C + (brc_size)lane0, b.lean.keeps);
+                lane_store(lean, ((brc_size)slot * LEAN + 6) * C + (brc_size)lane0, b.lean.keeps);
 #define LOSE(l) lost[first + 0x##l] += (state)LANE_ITEM(half, l);
                 LANE_EACH(LOSE)
 #undef LOSE
@@ -195,8 +198,9 @@ KERNEL void closure_begin(int n_groups, int step, int closure, int softens, stat
                 if (break_step[at] != step) continue;
                 any = 1;
                 bears[at] = 1;
-                for (int c = 0; softens && open[at] == BEAM_BROKEN && c < LEAN; ++c)
-                    lean[((brc_size)slot * LEAN + (brc_size)c) * C + (brc_size)(lane0 + l)] = crack[((brc_size)slot * BEAM_WIDTH + (brc_size)(BEAM_SIDE + c)) * C + (brc_size)(lane0 + l)];
+                for (int c = 0; softens && c < LEAN; ++c)
+                    lean[((brc_size)slot * LEAN + (brc_size)c) * C + (brc_size)(lane0 + l)] =
+                        open[at] == BEAM_BROKEN ? crack[((brc_size)slot * BEAM_WIDTH + (brc_size)(BEAM_SIDE + c)) * C + (brc_size)(lane0 + l)] : c == LEAN_ALONG ? REAL(1) : 0;
             }
             if (!any) continue;
             rubs[group] = 1;

@@ -1,7 +1,7 @@
 #include "beam_closure.h"
 #include "beam_softening.h"
 
-enum { LEAN = 5 }; /* kernels/beam_closure.cl */
+enum { LEAN = 7 }; /* kernels/beam_closure.cl */
 
 struct brc_beam_closure {
     brc_kernel *force, *energy, *virial, *move, *begin;

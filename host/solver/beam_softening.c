@@ -6,7 +6,7 @@
 static const double least_diameters = 4;
 
 /* Components of `crack` and states of `open` (kernels/beam_softening.cl). */
-enum { ENERGY = 2, EXPONENTIAL = 3, SPENT = 6, TILT = 10, CAPACITY = 11, PER_AREA = 12, WIDTH = 18 };
+enum { ENERGY = 2, EXPONENTIAL = 3, SPENT = 6, TILT = 10, CAPACITY = 11, PER_AREA = 12, LATERAL = 20, WIDTH = 21 };
 enum { WHOLE = 0, BROKEN = 3 };
 
 struct brc_beam_softening {
@@ -58,6 +58,13 @@ static double beam_strength(const brc_simulation *s, int64_t h)
     return i > 0 && j > 0 ? fmin(i, j) : fmax(i, j);
 }
 
+/* nu / E of the weaker effect of its elements [1/Pa]. */
+static double lateral_of(const brc_simulation *s, int64_t h)
+{
+    const brc_material *i = &s->scene->materials[s->material_of_element[s->domain->neighbour[s->domain->twin[h]]]], *j = &s->scene->materials[s->material_of_element[s->domain->neighbour[h]]];
+    return fmax(0, fmin(i->poisson / i->young, j->poisson / j->young));
+}
+
 static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_strengths *strengths)
 {
     const brc_layout *layout = s->layout;
@@ -80,6 +87,7 @@ static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_s
         own[ENERGY * layout->slice] = strengths->energy[d->bond[h]] * area[d->bond[h]];
         own[CAPACITY * layout->slice] = strength * area[d->bond[h]];
         own[PER_AREA * layout->slice] = 1 / area[d->bond[h]];
+        own[LATERAL * layout->slice] = lateral_of(s, h);
         own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
         lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
     }
