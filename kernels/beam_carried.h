@@ -12,7 +12,8 @@
  * function of three pieces.
  *
  * o = (l - l0) n + o_m across, which turns with both elements: o_m = l (R_i^T d1 + R_j^T d2) / 2 in the undeformed body, so no rotation of the body changes U.
- * k_m counts by `keeps`: 1 where the beam leans by 30 degrees or more against the axis, less where it lies along it, since a slide along the crack is no push; it fades as the crack opens,
+ * k_m counts by `keeps`: 1 where the beam leans by 30 degrees or more against the axis and what pressed along the crack as it opened was as much as what pulled, less where the beam lies along the
+ * axis, since a slide along the crack is no push, and with the square of push over pull; it fades as the crack opens,
  * and where it is 0 the axial push is left: U = k/2 min(l - l0, 0)^2. */
 #ifndef BRC_KERNELS_BEAM_CARRIED_H
 #define BRC_KERNELS_BEAM_CARRIED_H

@@ -296,7 +296,9 @@ ROUTINE coeff beam_lay(GLOBAL coeff *restrict crack, brc_size entry, int e, int 
     crack[((entry / C) * BEAM_WIDTH + BEAM_SIDE + 2) * C + entry % C] = side.z;
     BEAM_NUMBER(entry, ALONG) = c < 1 ? c : REAL(1);
     BEAM_NUMBER(entry, COSINE) = x, BEAM_NUMBER(entry, SINE) = y;
-    BEAM_NUMBER(entry, KEEPS) = leans < 1 ? leans : REAL(1);
+    /* Where nothing presses the axes of neighbouring beams scatter, and sides that only open would lean on each other: nothing is kept along the crack. */
+    const coeff presses = third_push < principal.first ? third_push / principal.first : REAL(1);
+    BEAM_NUMBER(entry, KEEPS) = presses * presses * (leans < 1 ? leans : REAL(1));
     return REAL(2) * BEAM_NUMBER(entry, LATERAL) * (second_push + third_push);
 }
 

@@ -200,8 +200,8 @@ static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
 static void the_ledger_closes_through_fracture_with_softening(void **state)
 {
     (void)state;
-    const char *safety[] = {"0.8", "0.35"};
-    const double bound[] = {0.05, 0.01};
+    const char *safety[] = {"0.35", "0.8"};
+    const double bound[] = {0.01, 0.05};
     for (int k = 0; k < 2; ++k) {
         bench_case c;
         char stages[512];
