@@ -103,6 +103,37 @@ static void a_beam_unloads_to_its_origin_and_bears_a_push_whole(void **state)
     close_case(&c);
 }
 
+/* Broken, and pressed together again by hand: the axial spring, 1e-12 for rounding; pulled apart, nothing. At once broken by its element (no fracture energy) and at the end of its cohesion. */
+static void a_broken_beam_bears_a_push(void **state)
+{
+    (void)state;
+    const double area = area_of_pair(), stiffness = 0.01 * M_PI;
+    for (int k = 0; k < 2; ++k) {
+        bench_case c;
+        char strength[256];
+        int64_t broken;
+        double f[6];
+        const double still[6] = {0}, pushed[6] = {0, 0, 0, -0.01, 0, 0}, pulled_apart[6] = {0, 0, 0, 0.01, 0, 0};
+        snprintf(strength, sizeof strength, k ? "tension: %.17g Pa, fracture_energy: %.17g J/m^2" : "tension: %.17g Pa", 3e-4 / area, 7e-7 / area * (k ? 3.0 : 1.0));
+        open_pair(&c, strength, "x: [2e-2 1/s, 0, 0]", NULL, BRC_DOUBLE);
+        begin_first(&c);
+        for (int i = 0; i < 100; ++i) { /* until it breaks, before its ends stand clear at 0.05 of its length */
+            assert_done(&c, brc_simulation_broken(c.simulation, &broken));
+            if (broken) break;
+            run_steps(&c, 10);
+        }
+        assert_int_equal(broken, 1);
+        assert_done(&c, brc_simulation_set_state(c.simulation, pushed, still));
+        assert_done(&c, brc_simulation_force(c.simulation, f));
+        assert_true(fabs(f[0] / (-0.01 * stiffness) - 1) < 1e-12 && fabs(f[0] + f[3]) < 1e-18);
+        assert_true(fabs(ledger_now(&c).elastic / (0.5 * stiffness * 1e-4) - 1) < 1e-12);
+        assert_done(&c, brc_simulation_set_state(c.simulation, pulled_apart, still));
+        assert_done(&c, brc_simulation_force(c.simulation, f));
+        assert_true(f[0] == 0 && f[3] == 0);
+        close_case(&c);
+    }
+}
+
 /* Pulled across its axis as much as along: half of the area along the opening, cos 60 degrees, is the least; here 1 / sqrt 2. Both spheres are held from
  * turning by nothing, so the beam bends; its direction at the end says what it cost: within the two percent that it turns by. */
 static void a_beam_costs_by_its_projection_along_the_opening(void **state)
@@ -305,6 +336,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_beam_costs_its_fracture_energy),
         cmocka_unit_test(a_beam_unloads_to_its_origin_and_bears_a_push_whole),
+        cmocka_unit_test(a_broken_beam_bears_a_push),
         cmocka_unit_test(a_beam_costs_by_its_projection_along_the_opening),
         cmocka_unit_test(force_is_the_gradient_of_the_energy_whatever_is_open),
         cmocka_unit_test(the_ledger_closes_through_fracture_with_softening),
