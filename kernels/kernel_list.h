@@ -156,6 +156,11 @@
     X(beam_soft_begin)                                                                                                 \
     X(beam_soft_keep)                                                                                                  \
     X(beam_soft_end)                                                                                                   \
+    X(closure_force)                                                                                                   \
+    X(closure_energy)                                                                                                  \
+    X(closure_virial)                                                                                                  \
+    X(closure_move)                                                                                                    \
+    X(closure_begin)                                                                                                   \
     X(fracture_force)                                                                                                  \
     X(fracture_stress)                                                                                                 \
     X(fracture_stress_second)                                                                                          \

@@ -46,4 +46,6 @@
 #include "contact_rigid.cl"
 #include "softening.cl"
 #include "closed_faces.cl"
+#include "beam_carried.h"
 #include "beam_softening.cl"
+#include "beam_closure.cl"

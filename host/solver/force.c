@@ -1,4 +1,5 @@
 /* One evaluation of the forces of a model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2, design-cbm.md). */
+#include "beam_closure.h"
 #include "beam_softening.h"
 #include "cell_breaks_internal.h"
 #include "cell_softening.h"
@@ -354,6 +355,7 @@ brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabil
                            BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend), BRC_COEFF(b->twist), BRC_BUF(s->beam_of),
                            BRC_BUF(s->elastic_energy)));
         BRC_TRY(brc_beam_softening_energy(s));
+        BRC_TRY(brc_beam_closure_energy(s));
         return brc_vector_sum(s, s->elastic_energy, n, elastic);
     }
     BRC_TRY(cell_energies(s, NULL, 0));
