@@ -161,9 +161,9 @@ KERNEL void closure_move(int n_groups, int step, coeff clear, GLOBAL const int *
                 const beam_carry before = closure_carry(b, own);
                 b.lean.keeps = beam_fades(b.lean.keeps, b.lean.along, beam_opening(b.shape), b.inv_length0, clear);
                 const beam_carry after = closure_carry(b, own);
-                const lane half = REAL(0.5) * b.bears * (before.energy - after.energy);
+                const lane share = REAL(0.5) * b.bears * (before.energy - after.energy);
                 lane_store(lean, ((brc_size)slot * LEAN + 6) * C + (brc_size)lane0, b.lean.keeps);
-#define LOSE(l) lost[first + 0x##l] += (state)LANE_ITEM(half, l);
+#define LOSE(l) lost[first + 0x##l] += (state)LANE_ITEM(share, l);
                 LANE_EACH(LOSE)
 #undef LOSE
             }
