@@ -123,7 +123,8 @@ KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff cl
                     const coeff most = clear * f.length;
                     if (f.along > most || vec3_dot(f.across, f.across) > most * most) {
                         const vec3 held = was && friction > 0 ? vec3_sub(f.across, closed_row(slide, entry)) : (vec3){0, 0, 0};
-                        if (pressed && !keeps) rubbed[e] += (state)closed_load_of(f, held, spring[entry]).energy;
+                        const closed_load left = closed_load_of(f, held, spring[entry]);
+                        if (pressed && !keeps) rubbed[e] += (state)left.energy;
                         closed[entry] = CLOSED_CLEAR;
                         closed[other] = CLOSED_CLEAR;
                         continue;
