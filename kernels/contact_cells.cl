@@ -41,22 +41,10 @@ ROUTINE void contact_lay_to_rest(GLOBAL state *restrict past, contact_body a, co
     }
 }
 
-/* Whether the face between two elements broke and its sides still lie near each other. original, closed [n_slots][C]: contact_search.cl, closed_faces.cl. */
-LAW int contact_shuts(int i, int j, GLOBAL const int *restrict row_start, GLOBAL const int *restrict original, GLOBAL const int *restrict closed)
-{
-    int near = 0;
-    for (int slot = row_start[i / C]; slot < row_start[i / C + 1]; ++slot) {
-        const brc_size at = (brc_size)slot * C + i % C;
-        near |= original[at] == j && (closed[at] % 4 == 1 || closed[at] % 4 == 2); /* CLOSED_OPEN, CLOSED_PRESSED */
-    }
-    return near;
-}
-
 /* Pairs ahead whose numbers are asked for: most pairs rest, and cost what it takes to read that. */
 #define CONTACT_AHEAD 16
 /* whole: all pairs, else those of todo. broke: bonds did, so that the gradients of cells, and their surfaces with them, have jumped where nothing moved: pairs go on from how they meet
- * now, and what surfaces gained or lost by it is the break's. rigid [n], way [n]: contact_rests. shuts: 1 where pairs may be closed cracks, which are none of contact's business
- * (closed_faces.cl). */
+ * now, and what surfaces gained or lost by it is the break's. rigid [n], way [n]: contact_rests. */
 KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, int affine, int n_materials, state middle_x, state middle_y, state middle_z,
                           GLOBAL const int *restrict todo, GLOBAL const int *restrict ends, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
                           GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict orientation, GLOBAL const state *restrict corner,
@@ -64,8 +52,7 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
                           GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
                           GLOBAL const int *restrict id, GLOBAL const state *restrict size, GLOBAL const state *restrict mass, GLOBAL const int *restrict material,
                           GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind, GLOBAL const state *restrict striker_pose,
-                          GLOBAL const state *restrict law, GLOBAL const int *restrict rigid, GLOBAL const state *restrict way, int shuts,
-                          GLOBAL const int *restrict row_start, GLOBAL const int *restrict original, GLOBAL const int *restrict closed, GLOBAL state *restrict history,
+                          GLOBAL const state *restrict law, GLOBAL const int *restrict rigid, GLOBAL const state *restrict way, GLOBAL state *restrict history,
                           GLOBAL int *restrict touch, GLOBAL state *restrict result)
 {
     FOR_EACH_ITEM(item, n_items) {
@@ -91,7 +78,7 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
             turned = rigid[i] && rigid[j] ? way[i] + way[j] : STATE(0);
             rests = past[14] > STATE(1) && contact_rests(past, branch, turned);
         }
-        if (rests || (shuts && j < n && contact_shuts(i, j, row_start, original, closed))) touch[p] = 0;
+        if (rests) touch[p] = 0;
         else {
             const smat3 map_i = contact_map(affine, gradient, orientation, i);
             const convex_shape shape_i = convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[i]);

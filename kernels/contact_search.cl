@@ -187,10 +187,10 @@ KERNEL void contact_count(int n_redo, state skin, state per_edge, int mask, int 
     }
 }
 
-/* May two elements touch that are near each other? Not while a bond joins them or, broken, bears on them by itself (bears, beam_closure.cl; shuts: it is there), nor, if they never had one, while both are bonded to a third: those are in
+/* May two elements touch that are near each other? Not while a bond joins them, nor, if they never had one, while both are bonded to a third: those are in
  * touch at an edge or a corner in the reference, and what holds them is the third. Once bonded and broken they may. */
 LAW int contact_allowed(int i, int j, int within, GLOBAL const int *restrict body, GLOBAL const int *restrict row_start,
-                        GLOBAL const int *restrict neighbour, GLOBAL const int *restrict original, int shuts, GLOBAL const int *restrict bears)
+                        GLOBAL const int *restrict neighbour, GLOBAL const int *restrict original)
 {
     int bonded = 0, was = 0, third = 0;
     if (body[i] != body[j]) return 1;
@@ -200,7 +200,6 @@ LAW int contact_allowed(int i, int j, int within, GLOBAL const int *restrict bod
         const int k = neighbour[at];
         bonded |= k == j;
         was |= original[at] == j;
-        if (shuts) bonded |= bears[at] && original[at] == j;
         if (k == i || third) continue;
         for (int other = row_start[k / C]; other < row_start[k / C + 1]; ++other) third |= neighbour[(brc_size)other * C + k % C] == j;
     }
@@ -226,7 +225,7 @@ KERNEL void contact_fill(int n_redo, int rows, int pose, state skin, state per_e
                          GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
                          GLOBAL const int *restrict first, GLOBAL const int *restrict last, GLOBAL const int *restrict row,
                          GLOBAL const int *restrict id, GLOBAL const int *restrict body, GLOBAL const int *restrict row_start,
-                         GLOBAL const int *restrict neighbour, GLOBAL const int *restrict original, int shuts, GLOBAL const int *restrict bears, GLOBAL const int *restrict start,
+                         GLOBAL const int *restrict neighbour, GLOBAL const int *restrict original, GLOBAL const int *restrict start,
                          GLOBAL int *restrict entry, GLOBAL int *restrict used, GLOBAL int *restrict owned, GLOBAL int *restrict any, GLOBAL state *restrict clear)
 {
     FOR_EACH_ITEM(item, n_redo) {
@@ -241,7 +240,7 @@ KERNEL void contact_fill(int n_redo, int rows, int pose, state skin, state per_e
                 const int j = row[at];
                 const contact_cell own = contact_cell_of(built, j, per_edge);
                 if (j == e || own.x != cell.x || own.y != cell.y || own.z != cell.z || !contact_near(built, e, j, skin)) continue;
-                if (!contact_allowed(e, j, within, body, row_start, neighbour, original, shuts, bears)) continue;
+                if (!contact_allowed(e, j, within, body, row_start, neighbour, original)) continue;
                 if (pose != 0) {
                     const int low = id[e] < id[j] ? e : j, high = id[e] < id[j] ? j : e;
                     const contact_body a = contact_body_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id, rigid, built, posed, low);

@@ -36,11 +36,11 @@ LAW soft_vector soft_carried(failure_stress m, soft_vector axis, soft_vector are
     const soft_vector ma = {m.xx * a.x + m.xy * a.y + m.xz * a.z, m.xy * a.x + m.yy * a.y + m.yz * a.z, m.xz * a.x + m.yz * a.y + m.zz * a.z};
     const soft_vector mb = {m.xx * b.x + m.xy * b.y + m.xz * b.z, m.xy * b.x + m.yy * b.y + m.yz * b.z, m.xz * b.x + m.yz * b.y + m.zz * b.z};
     const coeff aa = soft_dot(a, ma), bb = soft_dot(b, mb), ab = soft_dot(a, mb);
-    const coeff mean = REAL(0.5) * (aa + bb), spread = REAL(0.5) * (aa - bb), radius = SQRT(spread * spread + ab * ab);
+    const coeff mean = REAL(0.5) * (aa + bb), split = REAL(0.5) * (aa - bb), radius = SQRT(split * split + ab * ab);
     const coeff upper = mean + radius < 0 ? mean + radius : 0, lower = mean - radius < 0 ? mean - radius : 0;
     const coeff even = REAL(0.5) * (upper + lower), odd = radius > 0 ? REAL(0.5) * (upper - lower) / radius : 0;
     const coeff sa = soft_dot(area, a), sb = soft_dot(area, b);
-    return soft_add(soft_scale((even + odd * spread) * sa + odd * ab * sb, a), odd * ab * sa + (even - odd * spread) * sb, b);
+    return soft_add(soft_scale((even + odd * split) * sa + odd * ab * sb, a), odd * ab * sa + (even - odd * split) * sb, b);
 }
 
 /* The share of this that a crack opened by `widest` still carries [-]: nothing where its sides stand clear of each other, at the opening `clear` (0: never) [m]. */

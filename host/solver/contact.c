@@ -1,7 +1,6 @@
 /* Contact in the course of a run: when to look for pairs, what they add to forces, energy and the time step. */
 #include "contact_internal.h"
 #include "cell_breaks_internal.h"
-#include "closed_faces.h"
 #include "strikers_internal.h"
 #include "touching.h"
 #include <math.h>
@@ -176,7 +175,6 @@ brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool brok
     const int32_t n = s->layout->n_rows, n_materials = s->scene->n_materials;
     const int linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
     const int32_t n_items = whole ? l->n_pairs : c->n_todo;
-    brc_buffer *closed = brc_closed_faces_of_entries(s);
     if (n_items == 0) return BRC_OK;
     if (brc_is_beams(s))
         return BRC_LAUNCH(c->kernel.spheres, n_items, BRC_INT(n_items), BRC_INT(whole ? 1 : 0), BRC_STATE(dt), BRC_INT(n), BRC_INT(linear), BRC_INT(n_materials),
@@ -190,7 +188,7 @@ brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool brok
                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->orientation), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start),
                       BRC_BUF(c->loop), BRC_BUF(c->radius), BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->id), BRC_BUF(c->size_of),
                       BRC_BUF(c->mass), BRC_BUF(c->material), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(striker_pose(s)), BRC_BUF(c->law),
-                      BRC_BUF(c->rigid), BRC_BUF(c->way), BRC_INT(closed ? 1 : 0), BRC_BUF(s->row_start), BRC_BUF(c->original), BRC_BUF(closed), BRC_BUF(l->history), BRC_BUF(c->touch), BRC_BUF(c->result));
+                      BRC_BUF(c->rigid), BRC_BUF(c->way), BRC_BUF(l->history), BRC_BUF(c->touch), BRC_BUF(c->result));
 }
 
 static brc_status gather_turning(brc_simulation *s, double sign, double kick, int book, brc_buffer *force, brc_buffer *torque)

@@ -1,5 +1,4 @@
 /* The list of pairs that may touch: a grid of hashed cells, sorted on the device (kernels/contact_search.cl, scan.cl). */
-#include "beam_closure.h"
 #include "contact_internal.h"
 #include "strikers_internal.h"
 #include <math.h>
@@ -335,13 +334,12 @@ static brc_status find_entries(brc_simulation *s, bool whole)
     BRC_TRY(BRC_LAUNCH(c->kernel.keep, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(c->again), BRC_BUF(c->id), BRC_BUF(old->slot_of), BRC_BUF(old->start), BRC_BUF(old->used),
                        BRC_BUF(old->entry), BRC_BUF(l->start), BRC_BUF(l->entry), BRC_BUF(l->used), BRC_BUF(c->owned), BRC_BUF(c->count)));
     if (n_redo == 0) return BRC_OK;
-    brc_buffer *bears = brc_beam_closure_bears(s);
     return BRC_LAUNCH(c->kernel.fill, n_redo, BRC_INT(n_redo), BRC_INT(n), BRC_INT(c->pose), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask),
                       BRC_INT(s->scene->contact.within ? 1 : 0), BRC_INT(c->n_pieces), BRC_BUF(c->piece), BRC_BUF(c->piece_kind), BRC_BUF(c->redo), BRC_BUF(l->list),
                       BRC_BUF(c->built), BRC_BUF(c->posed), BRC_BUF(c->rigid), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start), BRC_BUF(c->loop), BRC_BUF(c->radius),
                       BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->id), BRC_BUF(c->body),
-                      BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->original), BRC_INT(bears != NULL), BRC_BUF(bears), BRC_BUF(l->start), BRC_BUF(l->entry),
-                      BRC_BUF(l->used), BRC_BUF(c->owned), BRC_BUF(c->count), BRC_BUF(c->clear));
+                      BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->original), BRC_BUF(l->start), BRC_BUF(l->entry), BRC_BUF(l->used),
+                      BRC_BUF(c->owned), BRC_BUF(c->count), BRC_BUF(c->clear));
 }
 
 static brc_status number_pairs(brc_simulation *s, bool carried)

@@ -135,7 +135,7 @@ static void the_corners_of_a_face_are_its_polygon(void **state)
     brc_domain_free(&d);
 }
 
-static const char SCENE[] = TEST_SCENE_HEAD "fracture: {}\nstages:\n  - name: pull\n    solver: {static: {}}\n"
+static const char SCENE[] = TEST_SCENE_HEAD "fracture: {criterion: {mohr-coulomb: {cohesion: 1 MPa, friction: 30 deg}}}\nstages:\n  - name: pull\n    solver: {static: {}}\n"
                             "sensors:\n  a: {fracture: crack_area}\n  n: {fracture: broken}\n  f: {fracture: fragments}\n  l: {fracture: largest_fragment}\n"
                             "  r: {fracture: failure_ratio}\n  t: {crack_tip: {direction: [0, 0, 1], from: [0 m, 0 m, 1 m]}}\n";
 
