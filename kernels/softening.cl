@@ -272,13 +272,14 @@ KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff f
 }
 
 /* Forces of the open bonds as they are now. book: 1: the work of the last openings (trapezoidal rule, each side half) goes to spent and, but for what
- * is still held, to lost [n]; bonds at the end of their cohesion are marked. found [n]. */
+ * is still held, to lost [n]; bonds at the end of their cohesion are marked. found [n]. release: gap over the length of the bond from which on
+ * sides that carry pushes along the crack, more than a tenth of what they held at the onset, stand clear; a fifth of it where they do not: opened by that, the two cells only hinder each other's turning. */
 KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                          GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
                          GLOBAL int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
                          GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, coeff k_one,
                          coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const state *restrict displacement,
-                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark,
+                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark,
                          GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(e, n) {
@@ -300,7 +301,14 @@ KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restr
                 SOFT_NUMBER(entry, HELD) = holds, SOFT_NUMBER(other, HELD) = holds;
                 const soft_vector s = soft_area(area, entry);
                 if (!(SOFT_NUMBER(entry, WIDEST) < soft_end(face))) STORE_SAME(open + entry, SOFT_APART), STORE_SAME(open + other, SOFT_APART);
-                if (open[entry] == SOFT_APART && soft_is_clear(w, soft_unit(soft_turned(gradient, e, j, soft_part(crack, entry, SOFT_AXIS))), release * ratio[entry] * SQRT(soft_dot(s, s)))) {
+                int clear = open[entry] == SOFT_APART;
+                if (clear) {
+                    const soft_vector axis = soft_unit(soft_turned(gradient, e, j, soft_part(crack, entry, SOFT_AXIS)));
+                    const soft_vector push = soft_carried(soft_mean_stress(gradient, stress, e, j), axis, soft_turned(gradient, e, j, s));
+                    const coeff much = REAL(0.1) * SOFT_NUMBER(entry, START), far = release * ratio[entry] * SQRT(soft_dot(s, s));
+                    clear = soft_is_clear(w, axis, soft_dot(push, push) > much * much ? far : REAL(0.2) * far);
+                }
+                if (clear) {
                     mark[entry] = CELLS_TENSION, mark[other] = CELLS_TENSION;
                     measure[entry] = SOFT_NUMBER(entry, ONSET), measure[other] = SOFT_NUMBER(entry, ONSET);
                     STORE_SAME(touched + e, 1);

@@ -261,7 +261,7 @@ static brc_status measure(brc_simulation *s, int book)
     const int32_t n = s->layout->n_rows;
     return BRC_LAUNCH(f->measure, n, BRC_INT(n), BRC_INT(book), BRC_COEFF(release_of(s)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(c->alive),
                       BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->ratio),
-                      BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->flux),
+                      BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->flux),
                       BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found));
 }
 
