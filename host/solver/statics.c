@@ -3,6 +3,7 @@
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
 #include "statics.h"
 #include "fracture_internal.h"
+#include "look.h"
 #include "static_events.h"
 #include <math.h>
 #include <string.h>
@@ -464,6 +465,7 @@ static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_stat
     }
     for (int32_t k = 0; k < n; ++k) part[k]->step += 1;
     brc_log(context, BRC_LOG_INFO, "stage '%s': the load is scaled to %.6g, where the worst element is at %.6g of its limit", stage->name, part[0]->load_factor, ratio);
+    BRC_TRY(brc_look_here(part[0], part[0]->step - 1));
     return brc_notify_sample(part[0]);
 }
 
@@ -498,7 +500,8 @@ static brc_status tell_pause(brc_simulation *s, int32_t increments)
 {
     const brc_stage *stage = brc_current_stage(s);
     const bool done = s->step >= increments + (stage->to_failure > 0);
-    BRC_TRY(brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED : done ? BRC_PAUSE_DONE : BRC_PAUSE_GOING));
+    const bool ended = s->note[s->stage].ended;
+    BRC_TRY(brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED : ended ? BRC_PAUSE_ENDED : done ? BRC_PAUSE_DONE : BRC_PAUSE_GOING));
     if (!s->interrupted) return BRC_OK;
     return BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted after increment %lld of %d", stage->name, (long long)s->step, (int)increments);
 }
@@ -507,17 +510,19 @@ static brc_status run_increments(int32_t n, brc_simulation *const *part, brc_sta
 {
     const brc_stage *stage = brc_current_stage(part[0]);
     const int32_t increments = stage->increments > 0 ? stage->increments : 1;
-    for (int32_t i = (int32_t)part[0]->step + 1; i <= increments; ++i) {
+    const bool *ended = &part[0]->note[part[0]->stage].ended; /* by a look */
+    for (int32_t i = (int32_t)part[0]->step + 1; i <= increments && !*ended; ++i) {
         for (int32_t k = 0; k < n; ++k) { /* one after the other: they share the device's memory and threads */
             part[k]->load_factor = (double)i / increments;
             BRC_TRY(predict(part[k], &run[k].vectors, i));
             BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
             part[k]->step = i;
         }
+        BRC_TRY(brc_look_here(part[0], i - 1));
         BRC_TRY(brc_notify_sample(part[0]));
         BRC_TRY(tell_pause(part[0], increments));
     }
-    if (!(stage->to_failure > 0) || part[0]->step > increments) return BRC_OK;
+    if (!(stage->to_failure > 0) || part[0]->step > increments || *ended) return BRC_OK;
     BRC_TRY(go_to_failure(n, part, run, progress));
     return tell_pause(part[0], increments);
 }
