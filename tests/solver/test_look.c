@@ -49,7 +49,10 @@ static void assert_unmoved(bench_case *left_alone, bench_case *looked_at, int64_
     const brc_observer observer = {.self = &l, .next_look = next_look, .look = look};
     assert_done(looked_at, brc_simulation_observe(looked_at->simulation, &observer));
     bench_case *both[2] = {left_alone, looked_at};
-    for (int k = 0; k < 2; ++k) assert_done(both[k], brc_simulation_run(both[k]->simulation));
+    for (int k = 0; k < 2; ++k) {
+        both[k]->scene->output.history_every = 40; /* batches of many steps, between whose ends it looks */
+        assert_done(both[k], brc_simulation_run(both[k]->simulation));
+    }
     assert_int_equal(l.n, steps / 3);
     const size_t bytes = sizeof(double) * 3 * (size_t)left_alone->domain->n_elements;
     double *v[2] = {velocities(left_alone), velocities(looked_at)};
@@ -96,6 +99,7 @@ static void velocities_are_those_of_the_whole_step(void **state)
     open_case(&run, (case_options){.stages = stages});
     open_case(&by_hand, (case_options){.stages = stages});
     looker l = {.every = 47, .velocity = velocities(&run)};
+    run.scene->output.history_every = 50;
     const brc_observer observer = {.self = &l, .next_look = next_look, .look = look};
     assert_done(&run, brc_simulation_observe(run.simulation, &observer));
     assert_done(&run, brc_simulation_run(run.simulation));
@@ -122,6 +126,7 @@ static void a_look_ends_a_stage_at_its_step(void **state)
     bench_case c;
     open_case(&c, (case_options){.stages = "  - name: swing\n    solver: {dynamic: {steps: 500}}\n  - name: after\n    solver: {dynamic: {steps: 5}}\n"});
     looker l = {.every = 37, .end_at = 74};
+    c.scene->output.history_every = 500;
     const brc_observer observer = {.self = &l, .next_look = next_look, .look = look};
     assert_done(&c, brc_simulation_observe(c.simulation, &observer));
     assert_done(&c, brc_simulation_run(c.simulation));
