@@ -1,12 +1,10 @@
 /* breccia check: what a scene asks for and what it will cost, before it runs. */
+#include "check_scene.h"
 #include "command.h"
 #include "pace.h"
 #include "price.h"
 #include "price_file.h"
-#include "price_trial.h"
 #include "scene_domain.h"
-#include "setup.h"
-#include "trial.h"
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
@@ -131,39 +129,14 @@ static void print_parts(const brc_setup *setup)
     }
 }
 
-/* The simulations, and how long making them took. */
-static brc_status make_simulations(brc_context *context, const brc_device_request *request, brc_setup *setup, double *seconds)
-{
-    const double start = brc_pace_clock_s(request);
-    BRC_TRY(brc_setup_simulations(context, request, setup));
-    *seconds = brc_pace_clock_s(request) - start;
-    return BRC_OK;
-}
-
-/* OpenCL drivers compile a kernel when it is first launched and keep it on disk for later runs: PoCL takes some ten seconds for all of a run, which would be taken for its pace. So
- * a brief trial goes before the one that is measured. */
-static brc_status compile_first(brc_context *context, const brc_device_request *request, brc_setup *setup, double *seconds)
-{
-    brc_trial trial = {0};
-    if (brc_device_get_info(setup->device[0])->kind != BRC_DEVICE_OPENCL) return BRC_OK;
-    const brc_status status = brc_trial_run(context, setup, request, true, &trial);
-    brc_trial_free(&trial);
-    brc_setup_free_simulations(setup);
-    for (int32_t k = 0; k < setup->n; ++k) brc_device_close(&setup->device[k]);
-    return status == BRC_OK ? make_simulations(context, request, setup, seconds) : status;
-}
-
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
 {
     brc_context *context = session->context;
     brc_status status = BRC_OK;
     brc_scene *scene = NULL;
     char *yaml = NULL;
-    brc_setup setup = {0};
-    brc_trial trial = {0};
+    brc_check check = {.built = print_counts};
     brc_price_error own = {.worst = -1};
-    brc_prediction_told told;
-    double simulations_s;
     int64_t n_threads;
     brc_precision precision;
     BRC_TRY(brc_arguments_integer(context, arguments, "threads", 0, 4096, 0, &n_threads));
@@ -180,27 +153,19 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     const char *selector = brc_arguments_value(arguments, "device"), *folder = brc_arguments_value(arguments, "output");
     const brc_device_request request = {.selector = selector ? selector : "auto", .precision = precision, .n_threads = (int)n_threads};
     if (folder) BRC_TRY_OR(cleanup, brc_file_make_folder(context, folder)); /* before the trial: it may take minutes */
-    const double start = brc_pace_start_s(&request), build_start = brc_pace_clock_s(&request);
-    BRC_TRY_OR(cleanup, brc_setup_domains(context, scene, NULL, (int)n_threads, &setup));
-    print_counts(&setup, brc_pace_clock_s(&request) - build_start);
-    BRC_TRY_OR(cleanup, brc_setup_polish(context, (int)n_threads, &setup));
-    const double built_s = brc_pace_clock_s(&request) - start;
-    BRC_TRY_OR(cleanup, make_simulations(context, &request, &setup, &simulations_s));
-    print_setup(&setup, precision);
-    for (int32_t k = 0; k < setup.n; ++k) BRC_TRY_OR(cleanup, brc_free_bodies_tell(context, setup.split->part[k].scene, setup.domain[k], true));
-    BRC_TRY_OR(cleanup, compile_first(context, &request, &setup, &simulations_s));
-    BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, brc_arguments_value(arguments, "brief") != NULL, &trial));
-    if (brc_arguments_value(arguments, "effects")) print_parts(&setup);
-    brc_setup_free_simulations(&setup); /* a coarser body may need the room */
-    BRC_TRY_OR(cleanup, brc_price_tell_trial(context, scene, &setup, &request, &trial, built_s + simulations_s, &told));
-    const brc_price_of of = {yaml, brc_device_get_info(setup.device[0])->selector, precision, (int)n_threads};
-    if (folder && told.known) BRC_TRY_OR(cleanup, brc_price_file_write(context, folder, &of, &told));
-    BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &setup, &request, &trial, &own));
-    BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, &setup, precision, told.seconds, &own));
+    BRC_TRY_OR(cleanup, brc_check_build(context, scene, &request, brc_pace_start_s(&request), &check));
+    print_setup(&check.setup, precision);
+    for (int32_t k = 0; k < check.setup.n; ++k) BRC_TRY_OR(cleanup, brc_free_bodies_tell(context, check.setup.split->part[k].scene, check.setup.domain[k], true));
+    BRC_TRY_OR(cleanup, brc_check_try(context, &request, brc_arguments_value(arguments, "brief") != NULL, &check));
+    if (brc_arguments_value(arguments, "effects")) print_parts(&check.setup);
+    BRC_TRY_OR(cleanup, brc_check_price(context, scene, &request, stdout, &check));
+    const brc_price_of of = {yaml, brc_device_get_info(check.setup.device[0])->selector, precision, (int)n_threads};
+    if (folder && check.told.known) BRC_TRY_OR(cleanup, brc_price_file_write(context, folder, &of, &check.told));
+    BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &check.setup, &request, &check.trial, &own));
+    BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, &check.setup, precision, check.told.seconds, &own));
 cleanup:
     brc_price_error_free(&own);
-    brc_trial_free(&trial);
-    brc_setup_free(&setup);
+    brc_check_free(&check);
     brc_scene_free(&scene);
     brc_memory_free(yaml);
     return status;

@@ -113,6 +113,7 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
         BRC_TRY(brc_price_watch(&now->setup, &now->price));
         brc_recorder_set_prediction(now->recorder, &now->price.prediction);
     }
+    if (request->assembled) BRC_TRY(request->assembled(request->self, assembly));
     if (request->observer) BRC_TRY(brc_simulation_observe(first, request->observer));
     if (request->created) BRC_TRY(request->created(request->self, first));
     if (request->running) request->running(first);

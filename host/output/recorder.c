@@ -500,7 +500,7 @@ brc_status brc_recorder_finish(brc_recorder *recorder, brc_status end)
     bool has_ledger = false;
     brc_context *quiet = brc_context_create();
     if (!quiet) return end != BRC_OK ? end : BRC_FAIL(r->context, BRC_NO_MEMORY, "no memory for a context");
-    brc_log_set_level(quiet, brc_log_get_level(r->context));
+    brc_log_follow(quiet, r->context);
     if (r->assembly && r->csv) {
         if (is_alive(end) && has_begun(r->assembly))
             has_ledger = brc_assembly_ledger(r->assembly, &ledger) == BRC_OK;
