@@ -143,6 +143,7 @@ brc_status brc_run_scene(brc_context *context, const brc_run_request *request, b
     if (status == BRC_OK && now.recorder) brc_price_compare(&now.price);
     if (status == BRC_OK && now.price.prediction.told.known)
         brc_price_file_compare(context, request->folder, &now.price.prediction.told, brc_clock_s() - start, out->device_bytes);
+    if (request->released) request->released(request->self);
     brc_checkpoints_free(&now.checkpoints);
     brc_recorder_free(&now.recorder);
     brc_setup_free(&now.setup);

@@ -28,6 +28,8 @@ typedef struct brc_run_request {
     brc_status (*created)(void *self, brc_simulation *simulation);
     /* Called when it ended, with its state still there; may be NULL. */
     brc_status (*finished)(void *self, brc_simulation *simulation);
+    /* Called before the simulations go, however the run ended; may be NULL. */
+    void (*released)(void *self);
     void *self;
     void (*running)(brc_simulation *simulation); /* as in brc_session */
 } brc_run_request;
