@@ -26,6 +26,18 @@ typedef struct target_inside {
     const brc_kernel_instance *instance;
 } target_inside;
 
+#ifndef BRC_UNDER_SANITIZER
+/* Programs that name `environ` (Python) have it in a copy of their own; a library that finds its own names first then meets the C library's, which is NULL, and
+ * clang's OpenMP runtime reads the environment as it is loaded. */
+static void show_environment(void)
+{
+    void *const library = dlopen("libc.so.6", RTLD_LAZY | RTLD_NOLOAD);
+    char ***const own = library ? dlsym(library, "environ") : NULL;
+    if (own && !*own) *own = environ;
+    if (library) dlclose(library);
+}
+#endif
+
 /* The plug-in at a path, or NULL with the reason. A library that holds target code must never be closed again (its
  * runtime keeps threads and handlers), so the handle is given away on purpose: the loader opens a path only once. */
 static const brc_target_plugin *load(const char *path, char *why, size_t bytes)
@@ -35,6 +47,7 @@ static const brc_target_plugin *load(const char *path, char *why, size_t bytes)
              path);
     return NULL;
 #else
+    show_environment();
     void *const library = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND | RTLD_NODELETE);
     if (!library) {
         snprintf(why, bytes, "%s", dlerror());
