@@ -72,6 +72,13 @@ class Frame:
                 grid.point_data[name] = np.asarray(data)
         return grid
 
+    def cut(self, normal: Any = "z", origin: Any = None, scale: float = 0.0) -> "pyvista.PolyData":
+        """A plane through the cells, in the middle or through `origin`, with their fields; of a body of cells."""
+        mesh = self.mesh(scale)
+        if (mesh.celltypes == 1).all():
+            raise ValueError("spheres are points in the mesh and have no cut; take mesh().clip(), or mesh().glyph()")
+        return mesh.triangulate().slice(normal=normal, origin=origin)  # VTK 9.7 cuts convex point sets wrong
+
     def cracks(self) -> "pyvista.DataSet":
         """Broken faces as polygons, of a scene with fracture."""
         return _need("pyvista", "pictures").read(self.path[: -len(".vtkhdf")] + ".cracks.vtu")
@@ -116,7 +123,8 @@ class Results:
 
     def _table(self, name: str) -> "pandas.DataFrame":
         pandas = _need("pandas", "tables")
-        return pandas.read_csv(self.path(name)) if os.path.exists(self.path(name)) else pandas.DataFrame()
+        exact: Dict[str, Any] = {"float_precision": "round_trip"} if int(pandas.__version__.split(".")[0]) < 3 else {}  # from 3 on it always is
+        return pandas.read_csv(self.path(name), **exact) if os.path.exists(self.path(name)) else pandas.DataFrame()
 
     def histories(self) -> "pandas.DataFrame":
         """A row for each sample, a column for each sensor."""

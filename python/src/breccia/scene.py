@@ -18,11 +18,12 @@ PathLike = Union[str, "os.PathLike[str]"]
 
 
 def quantity(value: Any) -> Any:
-    """A value as JSON, which is YAML: pairs (number, unit) become "number unit"; NumPy numbers and arrays become plain ones."""
+    """A value as JSON, which is YAML: pairs (number, unit) become "number unit", also of each number of a list or array; NumPy's numbers become plain ones."""
     if isinstance(value, Mapping):
         return {str(key): quantity(item) for key, item in value.items()}
     if isinstance(value, tuple) and len(value) == 2 and isinstance(value[1], str) and not isinstance(value[0], (str, bool)):
-        return f"{float(value[0]):.17g} {value[1]}"
+        number = value[0].tolist() if hasattr(value[0], "tolist") else value[0]
+        return [quantity((one, value[1])) for one in number] if isinstance(number, (list, tuple)) else f"{float(number):.17g} {value[1]}"
     if hasattr(value, "tolist"):  # NumPy
         return quantity(value.tolist())
     if isinstance(value, (list, tuple)):
