@@ -65,9 +65,12 @@ class BuildWithLibrary(build_py):
         target = os.path.join(self.build_lib, "breccia", "lib")
         os.makedirs(os.path.join(target, "breccia"), exist_ok=True)
         shutil.copy(os.path.join(build, "lib", "libbreccia.so." + INTERFACE), target)
+        shutil.copy(os.path.join(ROOT, "LICENSE"), os.path.dirname(target))
         plugin = os.path.join(build, "libbreccia_target.so")
         if os.path.exists(plugin):
             shutil.copy(plugin, os.path.join(target, "breccia"))
 
 
-setup(version=VERSION, cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": PlatformWheel}, distclass=BinaryDistribution)
+OWN = os.path.join(ROOT, "build", "python")  # nothing is left among the sources
+os.makedirs(OWN, exist_ok=True)
+setup(version=VERSION, options={"build": {"build_base": OWN}, "egg_info": {"egg_base": OWN}}, cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": PlatformWheel}, distclass=BinaryDistribution)
