@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import ctypes as c
 import os
-from typing import Any, List
+from typing import Any, Dict, List
 
 INTERFACE = 1
 
@@ -62,7 +62,7 @@ class Observer(c.Structure):
 _P = c.c_void_p
 _TEXTS = c.POINTER(c.c_char_p)
 # name: what it returns, then what it takes
-_FUNCTIONS = {
+_FUNCTIONS: Dict[str, List[Any]] = {
     "version": [c.c_char_p], "commit": [c.c_char_p], "interface": [c.c_int], "status_text": [c.c_char_p, c.c_int],
     "devices": [c.c_int, c.c_int, c.POINTER(Device)],
     "scene_load": [_P, c.c_char_p, c.c_int, _TEXTS], "scene_text": [_P, c.c_char_p, c.c_char_p, c.c_size_t, c.c_int, _TEXTS],

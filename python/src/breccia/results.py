@@ -6,7 +6,7 @@ import os
 import shutil
 import weakref
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Union, cast
 
 import numpy as np
 
@@ -59,29 +59,29 @@ class Frame:
 
     def mesh(self, scale: float = 0.0) -> "pyvista.UnstructuredGrid":
         """Cells (spheres: points) with all fields; moved by `scale` times their displacement."""
-        pyvista = _need("pyvista", "pictures")
+        pv = _need("pyvista", "pictures")
         with self._open() as file:
             vtk = file["VTKHDF"]
             points, offsets, of = np.asarray(vtk["Points"], float), np.asarray(vtk["Offsets"]), np.asarray(vtk["Connectivity"])
             moved, types = np.asarray(vtk["PointData/displacement"], float), np.asarray(vtk["Types"])
             cells = np.insert(of, offsets[:-1], np.diff(offsets))
-            grid = pyvista.UnstructuredGrid(cells, types, points + scale * moved)
+            grid = pv.UnstructuredGrid(cells, types, points + scale * moved)
             for name, data in vtk["CellData"].items():
                 grid.cell_data[name] = np.asarray(data)
             for name, data in vtk["PointData"].items():
                 grid.point_data[name] = np.asarray(data)
-        return grid
+        return cast("pyvista.UnstructuredGrid", grid)
 
     def cut(self, normal: Any = "z", origin: Any = None, scale: float = 0.0) -> "pyvista.PolyData":
         """A plane through the cells, in the middle or through `origin`, with their fields; of a body of cells."""
         mesh = self.mesh(scale)
         if (mesh.celltypes == 1).all():
             raise ValueError("spheres are points in the mesh and have no cut; take mesh().clip(), or mesh().glyph()")
-        return mesh.triangulate().slice(normal=normal, origin=origin)  # VTK 9.7 cuts convex point sets wrong
+        return cast("pyvista.PolyData", mesh.triangulate().slice(normal=normal, origin=origin))  # VTK 9.7 cuts convex point sets wrong
 
     def cracks(self) -> "pyvista.DataSet":
         """Broken faces as polygons, of a scene with fracture."""
-        return _need("pyvista", "pictures").read(self.path[: -len(".vtkhdf")] + ".cracks.vtu")
+        return cast("pyvista.DataSet", _need("pyvista", "pictures").read(self.path[: -len(".vtkhdf")] + ".cracks.vtu"))
 
 
 class Results:
@@ -122,9 +122,9 @@ class Results:
         return {head: table[:, k] for k, head in enumerate(heads)}
 
     def _table(self, name: str) -> "pandas.DataFrame":
-        pandas = _need("pandas", "tables")
-        exact: Dict[str, Any] = {"float_precision": "round_trip"} if int(pandas.__version__.split(".")[0]) < 3 else {}  # from 3 on it always is
-        return pandas.read_csv(self.path(name), **exact) if os.path.exists(self.path(name)) else pandas.DataFrame()
+        pd = _need("pandas", "tables")
+        exact: Dict[str, Any] = {"float_precision": "round_trip"} if int(pd.__version__.split(".")[0]) < 3 else {}  # from 3 on it always is
+        return cast("pandas.DataFrame", pd.read_csv(self.path(name), **exact) if os.path.exists(self.path(name)) else pd.DataFrame())
 
     def histories(self) -> "pandas.DataFrame":
         """A row for each sample, a column for each sensor."""
@@ -151,7 +151,7 @@ class Results:
     def fields(self, *names: str, frames: Optional[List[int]] = None) -> "xarray.Dataset":
         """Fields of the elements over the frames, as (frame, element[, component or tensor]); all of them are read into memory. Without names: all that the
         first frame has."""
-        xarray = _need("xarray", "fields")
+        xr = _need("xarray", "fields")
         chosen = [frame for frame in self.frames if frames is None or frame.index in frames]
         if not chosen:
             raise ValueError(f"{self.folder} has no such frames; `output: {{frames: 10}}` writes some")
@@ -163,4 +163,4 @@ class Results:
         coordinates: Dict[str, Any] = {"frame": [frame.index for frame in chosen], "time": ("frame", [frame.time for frame in chosen])}
         used = {dimension for _, (dimensions, *_) in data.items() for dimension in dimensions}
         coordinates.update({key: value for key, value in (("component", list("xyz")), ("tensor", list(TENSOR)), ("quaternion", list("wxyz"))) if key in used})
-        return xarray.Dataset(data, coordinates)
+        return cast("xarray.Dataset", xr.Dataset(data, coordinates))

@@ -79,7 +79,8 @@ def devices() -> List[Device]:
 
 
 def _moment(m: Any) -> Moment:
-    return Moment(**{f.name: text(m.stage_name) if f.name == "stage_name" else getattr(m, f.name) for f in fields(Moment)})
+    values: Dict[str, Any] = {f.name: getattr(m, f.name) for f in fields(Moment)}
+    return Moment(**{**values, "stage_name": text(m.stage_name)})
 
 
 class Run:
@@ -334,7 +335,8 @@ class Run:
         report = c.Report()
         if library.run_report(self._handle, ctypes.byref(report)) != 0:
             raise InputError("the run is not over")
-        return {name: text(value) if isinstance(value, bytes) else value for name, value in ((name, getattr(report, name)) for name, _ in c.Report._fields_)}
+        values = {field[0]: getattr(report, field[0]) for field in c.Report._fields_}
+        return {name: text(value) if isinstance(value, bytes) else value for name, value in values.items()}
 
 
 def _line(moment: Moment) -> None:

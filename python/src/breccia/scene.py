@@ -129,7 +129,7 @@ class Scene:
         status = library.scene_check(self._handle, ctypes.byref(make_options(device, precision, threads)), trial, ctypes.byref(price))
         if status != 0:
             raise error_of(status, text(library.scene_message(self._handle)))
-        return Price(**{name: getattr(price, name) for name, _ in _Price._fields_})
+        return Price(**{field[0]: getattr(price, field[0]) for field in _Price._fields_})
 
     def start(self, out: Optional[PathLike] = None, *, device: Optional[str] = None, precision: Optional[str] = None, threads: int = 0,
               exact: bool = False, resume: bool = False) -> "Run":
