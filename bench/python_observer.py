@@ -50,13 +50,15 @@ def main():
     asked = options.parse_args()
     scene = breccia.Scene(SCENE, set={"bodies.0.fill.noisy_grid.elements": asked.elements, "stages.0.solver.dynamic.steps": asked.steps})
     processor_seconds(scene, 0)
-    ratios = []
+    plain, observed = [], []
     for _ in range(asked.pairs):
-        (plain, _), (observed, looks) = processor_seconds(scene, 0), processor_seconds(scene, asked.every)
-        ratios.append(observed / plain)
-    ratios.sort()
-    print(f"{asked.elements} elements, {asked.steps} steps, {looks} looks: {ratios[len(ratios) // 2]:.4f} times the processor time of the steps without "
-          f"(median of {asked.pairs} pairs, {ratios[0]:.4f} to {ratios[-1]:.4f})")
+        plain.append(processor_seconds(scene, 0)[0])
+        seconds, looks = processor_seconds(scene, asked.every)
+        observed.append(seconds)
+    ratios = sorted(other / one for one, other in zip(plain, observed))
+    steps = (min(observed) - min(plain)) / looks / (min(plain) / asked.steps)
+    print(f"{asked.elements} elements, {asked.steps} steps of {min(plain) / asked.steps:.2e} s, {looks} looks: {min(observed) / min(plain):.4f} times the processor time of the steps without "
+          f"(least of {asked.pairs} runs each; pairs {ratios[0]:.4f} to {ratios[-1]:.4f}); a look takes {steps:.3f} of a step")
 
 
 if __name__ == "__main__":
