@@ -156,11 +156,15 @@ breccia_status breccia_run_step(breccia_run *run, int64_t n, int64_t *done)
     if (n < 0) return refuse(run, "the number of steps is below 0");
     if (run->scene->status != BRC_OK) return refuse(run, "the scene has errors; see breccia_scene_problems");
     if (h->all_done || (h->begun && n == 0)) return BRECCIA_OK;
-    h->left = n; /* nobody else is at work */
+    if (h->begun && pthread_equal(h->thread, pthread_self())) return refuse(run, "an observer cannot step the run that it looks at");
+    pthread_mutex_lock(&h->mutex);
+    h->left = n;
     h->made = 0;
     h->standing = false;
-    if (!h->begun && !begin(run)) return brc_public_status(BRC_FAIL(run->context, BRC_NO_MEMORY, "no thread can be made for the run"));
-    pthread_mutex_lock(&h->mutex);
+    if (!h->begun && !begin(run)) {
+        pthread_mutex_unlock(&h->mutex);
+        return brc_public_status(BRC_FAIL(run->context, BRC_NO_MEMORY, "no thread can be made for the run"));
+    }
     pthread_cond_broadcast(&h->changed);
     await(run);
     const bool over = h->over;
@@ -174,6 +178,7 @@ breccia_status breccia_run_end(breccia_run *run)
     if (!run) return BRECCIA_NO_MEMORY;
     brc_by_hand *h = &run->hand;
     if (run->ended || !h->begun) return refuse(run, "only a run that is stepped by hand can be ended");
+    if (pthread_equal(h->thread, pthread_self())) return refuse(run, "an observer ends the run that it looks at by its answer");
     pthread_mutex_lock(&h->mutex);
     h->leave = true;
     pthread_cond_broadcast(&h->changed);

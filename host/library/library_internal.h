@@ -79,7 +79,7 @@ struct breccia_run {
     int64_t stage_first;        /* step at which the stage was begun, or taken up */
     brc_patience patience;      /* hears of iterations */
     brc_assembly assembly;      /* of its own, for reading; n = 0: the state is not there */
-    brc_simulation *volatile running;
+    brc_simulation *running;    /* the first part; NULL: the state is not there */
     brc_assembly_sensors *sensors; /* made when they are first asked for */
     int n_copies;
     brc_copy copies[BRC_LIBRARY_COPIES];

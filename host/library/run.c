@@ -90,10 +90,7 @@ breccia_status breccia_run_log(breccia_run *run, int level, void (*line)(void *s
 
 void breccia_run_interrupt(breccia_run *run)
 {
-    if (!run) return;
-    run->asked_to_stop = true;
-    brc_simulation *running = run->running;
-    if (running) brc_simulation_interrupt(running);
+    if (run) run->asked_to_stop = true; /* heard at every pause and iteration */
 }
 
 const char *breccia_run_message(const breccia_run *run) { return run ? brc_context_message(run->context) : "out of memory"; }
@@ -294,6 +291,7 @@ breccia_status breccia_run_go(breccia_run *run)
 {
     if (!run) return BRECCIA_NO_MEMORY;
     if (run->ended) return refuse(run, "the run has ended; create another one");
+    if (run->begun && !run->hand.begun) return refuse(run, "the run goes on already");
     if (run->scene->status != BRC_OK) return refuse(run, "the scene has errors; see breccia_scene_problems");
     if (run->hand.begun) {
         int64_t done;

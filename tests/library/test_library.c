@@ -60,7 +60,7 @@ static void a_check_counts_and_prices(void **state)
 typedef struct watch {
     int64_t n, last;
     int stages;
-    bool reads;
+    bool reads, steps_itself;
     int64_t end_at, stop_at;
     double largest;
     pthread_t thread;
@@ -83,6 +83,12 @@ static breccia_answer look(void *self, breccia_run *run, const breccia_moment *m
         assert_int_equal(breccia_run_bonds(run, &n_bonds, &n_broken), BRECCIA_OK);
         assert_true(value[1] == (double)n_broken);
         for (int64_t k = 0; k < 6 * stress.n_rows; ++k) w->largest = fmax(w->largest, fabs(((double *)stress.data)[k]));
+    }
+    if (w->steps_itself) {
+        int64_t done;
+        assert_int_equal(breccia_run_step(run, 1, &done), BRECCIA_BAD_INPUT);
+        assert_int_equal(breccia_run_go(run), BRECCIA_BAD_INPUT);
+        assert_int_equal(breccia_run_end(run), BRECCIA_BAD_INPUT);
     }
     return w->stop_at > 0 && moment->step == w->stop_at ? BRECCIA_STOP : w->end_at > 0 && moment->step == w->end_at ? BRECCIA_END_STAGE : BRECCIA_GO_ON;
 }
@@ -232,6 +238,33 @@ static void line(void *self, int level, const char *text)
     e->n_lines += level == 2 && text[0];
 }
 
+static void observers_cannot_step_what_they_look_at(void **state)
+{
+    (void)state;
+    breccia_scene *scene = make_scene();
+    for (int by_hand = 0; by_hand < 2; ++by_hand) {
+        watch w = {.steps_itself = true};
+        breccia_run *run = breccia_run_create(scene, &(breccia_options){.device = "cpu"});
+        breccia_run_observe(run, &(breccia_observer){.self = &w, .every_steps = 50, .look = look});
+        if (by_hand) assert_int_equal(breccia_run_step(run, 60, NULL), BRECCIA_OK);
+        else assert_status(run, breccia_run_go(run), BRECCIA_OK);
+        assert_true(w.n >= 2);
+        breccia_run_free(run);
+    }
+    breccia_scene_free(scene);
+}
+
+static void a_run_that_is_interrupted_before_it_begins_does_not(void **state)
+{
+    (void)state;
+    breccia_scene *scene = make_scene();
+    breccia_run *run = breccia_run_create(scene, &(breccia_options){.device = "cpu"});
+    breccia_run_interrupt(run);
+    assert_status(run, breccia_run_go(run), BRECCIA_INTERRUPTED);
+    breccia_run_free(run);
+    breccia_scene_free(scene);
+}
+
 static void progress_and_log_reach_the_caller(void **state)
 {
     (void)state;
@@ -292,7 +325,8 @@ int main(void)
         cmocka_unit_test(errors_have_places_and_cures),        cmocka_unit_test(a_check_counts_and_prices),
         cmocka_unit_test(observers_and_hands_leave_no_trace),  cmocka_unit_test(arrays_are_the_memory_of_the_device),
         cmocka_unit_test(observers_end_stages_and_runs),       cmocka_unit_test(progress_and_log_reach_the_caller),
-        cmocka_unit_test(a_run_by_hand_can_be_left),
+        cmocka_unit_test(a_run_by_hand_can_be_left),           cmocka_unit_test(observers_cannot_step_what_they_look_at),
+        cmocka_unit_test(a_run_that_is_interrupted_before_it_begins_does_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -227,7 +227,7 @@ class Run:
                 self._check(status)
             self._finish(status)
         if self._signalled:
-            self._signalled = False  # the steps are done, the run stands; what follows is the caller's
+            self._signalled = False  # the steps are done; the run ends where it next pauses
             raise Interrupted("interrupted")
         return done.value
 
