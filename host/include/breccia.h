@@ -83,7 +83,8 @@ typedef struct breccia_problem {
 } breccia_problem;
 
 /* Read a scene from a file, or from a text, whose name stands for the file in problems and gives the folder of relative paths. set [n_set]: overrides
- * "dotted.path=value" in YAML, as of the program's --set. Arguments are copied. NULL only where memory is exhausted: a scene with errors is an object with problems. */
+ * "dotted.path=value" in YAML, as of the program's --set. Arguments are copied. NULL only where memory is exhausted: a scene with errors is an object with
+ * problems. */
 BRECCIA_PUBLIC breccia_scene *breccia_scene_load(const char *path, int n_set, const char *const *set);
 BRECCIA_PUBLIC breccia_scene *breccia_scene_text(const char *name, const char *text, size_t bytes, int n_set, const char *const *set);
 /* No run may be left that was made of it. */
@@ -113,8 +114,8 @@ typedef struct breccia_price {
     double seconds, least_seconds, most_seconds; /* of the whole run, output included, and its range */
     double most_device_bytes, host_bytes, disk_bytes; /* of the whole run */
 } breccia_price;
-/* Build everything as a run would, which refuses what the run would refuse, and with `trial` also price it by a trial of about a second a stage; else the last two lines
- * are NAN. options may be NULL; folder, exact and resume are not looked at. */
+/* Build everything as a run would, which refuses what the run would refuse, and with `trial` also price it by a trial of about a second a stage; else the
+ * last two lines are NAN. options may be NULL; folder, exact and resume are not looked at. */
 BRECCIA_PUBLIC breccia_status breccia_scene_check(breccia_scene *scene, const breccia_options *options, bool trial, breccia_price *out);
 /* Sentences of the last check that failed, a line each; "": none. Owned by the scene. */
 BRECCIA_PUBLIC const char *breccia_scene_message(const breccia_scene *scene);
@@ -140,8 +141,8 @@ typedef struct breccia_moment {
  * BRECCIA_INTERRUPTED at its next pause (at most 256 steps on), with a checkpoint where it has a folder. */
 typedef enum breccia_answer { BRECCIA_GO_ON, BRECCIA_END_STAGE, BRECCIA_STOP } breccia_answer;
 
-/* Looks at a run at steps of its own choice; also at the start of a stage (step 0). What it looks at is never changed by looking: files and states of the run are the same
- * bytes as without it. */
+/* Looks at a run at steps of its own choice; also at the start of a stage (step 0). What it looks at is never changed by looking: files and states of the run
+ * are the same bytes as without it. */
 typedef struct breccia_observer {
     void *self;            /* borrowed until the run is freed */
     int64_t every_steps;   /* 0: not by steps. Increments and events of static stages count as steps */
@@ -164,9 +165,10 @@ BRECCIA_PUBLIC breccia_status breccia_run_log(breccia_run *run, int level, void 
 
 /* Run all that is left, and write the results. */
 BRECCIA_PUBLIC breccia_status breccia_run_go(breccia_run *run);
-/* n steps (increments, events), over the ends of stages; the first call begins the run, n = 0 only that. *done (or NULL): steps that were made, fewer than n once all stages are
- * done. Between steps the arrays are there. The files and states are those of a run that was left alone. The run goes on in a thread of its own, which also calls the observers;
- * `told` of breccia_run_progress is called in this one, and its STOP ends the run. A stage of modes is one step and cannot be divided. */
+/* n steps (increments, events), over the ends of stages; the first call begins the run, n = 0 only that. *done (or NULL): steps that were made, fewer than n
+ * once all stages are done. Between steps the arrays are there. The files and states are those of a run that was left alone. The run goes on in a thread of
+ * its own, which also calls the observers; `told` of breccia_run_progress is called in this one, and its STOP ends the run. A stage of modes is one step and
+ * cannot be divided. */
 BRECCIA_PUBLIC breccia_status breccia_run_step(breccia_run *run, int64_t n, int64_t *done);
 /* End a run that was stepped, with results of what was done: BRECCIA_OK where all stages were, else BRECCIA_INTERRUPTED. */
 BRECCIA_PUBLIC breccia_status breccia_run_end(breccia_run *run);
@@ -191,9 +193,10 @@ typedef struct breccia_array {
 
 /* Models of the scene that run apart, each with its elements; 0: the state is not there. */
 BRECCIA_PUBLIC int breccia_run_parts(const breccia_run *run);
-/* Names of the arrays of a part: displacement, velocity, force; orientation, spin (models with rotations); broken (bonds that an element has lost; with fracture): live on the cpu,
- * read back from other devices. reference: positions as the scene begins, live. position, strain, stress (Cauchy, tension positive; both xx yy zz yz xz xy), damage (broken over bonds;
- * with fracture): worked out when they are asked for. The first `most` into names; returns how many there are. Static storage. */
+/* Names of the arrays of a part: displacement, velocity, force; orientation, spin (models with rotations); broken (bonds that an element has lost; with
+ * fracture): live on the cpu, read back from other devices. reference: positions as the scene begins, live. position, strain, stress (Cauchy, tension
+ * positive; both xx yy zz yz xz xy), damage (broken over bonds; with fracture): worked out when they are asked for. The first `most` into names; returns how
+ * many there are. Static storage. */
 BRECCIA_PUBLIC int breccia_run_array_names(const breccia_run *run, int part, int most, const char **names);
 BRECCIA_PUBLIC breccia_status breccia_run_array(breccia_run *run, const char *name, int part, breccia_array *out);
 BRECCIA_PUBLIC breccia_status breccia_run_moment(const breccia_run *run, breccia_moment *out);
