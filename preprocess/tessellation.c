@@ -313,7 +313,9 @@ brc_status brc_tessellation_join(brc_context *context, const uint8_t *whole, int
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &room, rooms * threads, "points of cells"));
     unite_all(t, whole, parent);
     t->n_points = 0;
+    int64_t n_used = 0;
     for (int32_t v = 0; v < n_corners; ++v) {
+        n_used += parent[v] >= 0;
         const int32_t root = parent[v] < 0 ? -1 : root_of(parent, v);
         t->point[v] = root < 0 ? -1 : root < v ? t->point[root] : (int32_t)t->n_points++;
     }
@@ -328,6 +330,7 @@ brc_status brc_tessellation_join(brc_context *context, const uint8_t *whole, int
     }
     for (int k = 0; k < 3; ++k)
         for (int64_t e = 0; e < n; ++e) (*start[k])[e + 1] += (*start[k])[e];
+    t->plain = t->point_start[n] == n_used && t->loop_start[n] == t->corner_start[t->outline_start[n]];
 cleanup:
     brc_memory_free(parent);
     brc_memory_free(room);

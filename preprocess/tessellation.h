@@ -20,6 +20,7 @@ typedef struct brc_tessellation {
     /* after brc_tessellation_join: points, numbered by the first corner that is one; of element e: their number, those of its faces, and those of the corners
      * of its faces are differences of the starts */
     int64_t n_points;
+    bool plain;           /* no corners of a cell are one point by way of its neighbours: the starts depend on the domain alone */
     int32_t *point;       /* [vertex_start[n_elements]] of each corner; -1: of no face, or nearly another of its cell */
     int64_t *point_start; /* [n_elements + 1] */
     int64_t *face_start;  /* [n_elements + 1] */

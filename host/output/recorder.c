@@ -45,6 +45,8 @@ struct brc_recorder {
     brc_measured *measures;
     int32_t n_measures;
     brc_crack_records *cracks; /* NULL: nothing can break */
+    brc_frames *frames;        /* NULL: no frames are wanted */
+    int n_threads;
     brc_checkpoint_report checkpoints;
     double start, build_s, output_s; /* start: brc_clock_s() then; the others: wall seconds */
 };
@@ -160,6 +162,7 @@ void brc_recorder_free(brc_recorder **recorder)
     brc_recorder *r = *recorder;
     brc_assembly_sensors_free(&r->sensors);
     brc_crack_records_free(&r->cracks);
+    brc_frames_free(&r->frames);
     brc_history_free(&r->history);
     brc_history_csv_free(&r->csv);
     for (int k = 0; k < N_FILES; ++k)
@@ -186,6 +189,11 @@ void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domai
     recorder->n_domains = n;
     recorder->domains = domains;
     recorder->build_s = build_seconds;
+}
+
+void brc_recorder_set_threads(brc_recorder *recorder, int n_threads)
+{
+    recorder->n_threads = n_threads;
 }
 
 void brc_recorder_set_checkpoints(brc_recorder *recorder, const brc_checkpoint_report *report)
@@ -309,16 +317,10 @@ static brc_status write_series(brc_recorder *r)
 
 static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
 {
-    char name[32];
-    char *path = NULL;
-    snprintf(name, sizeof name, "%06lld.vtkhdf", (long long)r->n_frames);
     if (r->n_frames == 0) BRC_TRY(brc_file_make_folder(r->context, r->path[FRAMES]));
     BRC_TRY(
         brc_memory_resize(r->context, (void **)&r->frame_time, r->n_frames + 1, sizeof *r->frame_time, "frame times"));
-    BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
-    const brc_status status = brc_frame_write(r->context, r->assembly, path);
-    brc_memory_free(path);
-    BRC_TRY(status);
+    BRC_TRY(brc_frames_write(r->frames, r->path[FRAMES], r->n_frames));
     r->frame_time[r->n_frames] = index_time(r, simulation);
     ++r->n_frames;
     if (r->cracks) BRC_TRY(write_cracks(r));
@@ -331,7 +333,7 @@ static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
 static brc_status frame(void *self, brc_simulation *simulation)
 {
     brc_recorder *r = self;
-    if (r->scene->output.n_frames < 0) return BRC_OK;
+    if (!r->frames) return BRC_OK;
     const double begin = brc_clock_s();
     const brc_status status = write_frame(r, simulation);
     r->output_s += brc_clock_s() - begin;
@@ -345,6 +347,9 @@ static brc_status prepare(brc_recorder *recorder, brc_assembly *assembly)
     const int32_t n = recorder->scene->n_sensors;
     BRC_TRY(brc_assembly_sensors_create(recorder->context, assembly, &recorder->sensors));
     BRC_TRY(brc_history_create(recorder->context, n, &recorder->history));
+    const double begin = brc_clock_s();
+    if (recorder->scene->output.n_frames >= 0) BRC_TRY(brc_frames_create(recorder->context, assembly, recorder->n_threads, &recorder->frames));
+    recorder->output_s += brc_clock_s() - begin;
     return BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample");
 }
 
@@ -370,6 +375,7 @@ static brc_status store_position(brc_recorder *r, brc_state_store *store)
 {
     BRC_TRY(brc_history_store(r->context, r->history, store));
     BRC_TRY(brc_store_array(r->context, store, "frame_time", BRC_STORED_DOUBLE, 1, &r->n_frames, (void **)&r->frame_time));
+    if (r->frames) BRC_TRY(brc_frames_store(r->frames, store));
     BRC_TRY(brc_store_double(store, "peak_elastic", &r->assembly->peak_elastic));
     return brc_store_double(store, "peak_kinetic", &r->assembly->peak_kinetic);
 }
