@@ -206,6 +206,7 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
     BRC_TRY_OR(cleanup, brc_recorder_create(context, folder, brc_clock_s(), &recorder));
     brc_recorder_set_scene(recorder, scene);
     brc_recorder_set_domains(recorder, setup->n, setup->domain, 0);
+    brc_recorder_set_threads(recorder, w->request->n_threads);
     BRC_TRY_OR(cleanup, brc_simulation_observe(assembly.part[0], &(brc_observer){.self = w, .sample = before_output, .frame = before_output}));
     if (keeps_state(scene)) {
         BRC_TRY_OR(cleanup, brc_checkpoints_create(context, folder, scene, false, &checkpoints));

@@ -11,6 +11,8 @@ enum { VERTEX = 1, POLYHEDRON = 42 }; /* VTK's cell types */
 /* Rows of an array that go out at once. */
 #define ROWS_AT_ONCE (8 * BRC_H5_BLOCK)
 
+static int64_t at_once(int64_t rows) { return rows < ROWS_AT_ONCE ? rows : ROWS_AT_ONCE; }
+
 bool brc_frame_is_sphere(const brc_domain *domain) { return domain->element_kind == BRC_ELEMENT_SPHERE; }
 
 static int32_t count_parts_of_spheres(const brc_assembly *a)
@@ -96,8 +98,8 @@ static const char *const COLUMN_NAME[N_COLUMNS] = {"VTKHDF/Connectivity", "VTKHD
 static bool has_column(int k, bool cells) { return cells || k == CONNECTIVITY || k == OFFSETS; }
 
 typedef struct column {
-    int64_t written, n;
-    int64_t *data; /* [ROWS_AT_ONCE] */
+    int64_t written, n, room;
+    int64_t *data; /* [room] */
 } column;
 
 /* All columns of the polyhedra of all parts. */
@@ -123,7 +125,7 @@ static void push(table *t, int k, int64_t value)
     column *c = &t->column[k];
     if (!t->kept[k]) return;
     c->data[c->n++] = value;
-    if (c->n == ROWS_AT_ONCE) flush(t, k);
+    if (c->n == c->room) flush(t, k);
 }
 
 /* Offsets begin with 0: of no cell, of no face. */
@@ -174,29 +176,35 @@ static const char *const COUNT_NAME[] = {"NumberOfPoints", "NumberOfCells",  "Nu
                                          "NumberOfPolyhedronToFaceIds"};
 enum { N_COUNTS = sizeof COUNT_NAME / sizeof *COUNT_NAME, N_COUNTS_OF_SPHERES = 3 };
 
-/* Make the columns, as long as they will be. */
-static void make_columns(const brc_frame_cells *c, brc_h5 *h5, const bool kept[N_COLUMNS])
+/* Make the columns, as long as they will be, and room for some of their rows. */
+static brc_status make_columns(const brc_frame_cells *c, table *t)
 {
+    brc_h5 *h5 = t->h5;
     const bool cells = brc_frame_has_cells(c->assembly);
     const int64_t n_elements = brc_frame_element_rows(c, 0).all;
     int64_t ids = 0, faces = 0, face_ids = 0;
     for (int32_t k = 0; k < c->assembly->n; ++k) {
-        const brc_tessellation *t = &c->part[k];
-        const int64_t n = t->domain->n_elements;
-        const bool spheres = brc_frame_is_sphere(t->domain);
-        ids += spheres ? n : t->point_start[n];
-        faces += spheres ? 0 : t->face_start[n];
-        face_ids += spheres ? 0 : t->loop_start[n];
+        const brc_tessellation *p = &c->part[k];
+        const int64_t n = p->domain->n_elements;
+        const bool spheres = brc_frame_is_sphere(p->domain);
+        ids += spheres ? n : p->point_start[n];
+        faces += spheres ? 0 : p->face_start[n];
+        face_ids += spheres ? 0 : p->loop_start[n];
     }
     const int64_t rows[N_COLUMNS] = {ids, face_ids, n_elements + 1, faces + 1, faces, n_elements + 1};
     const int64_t count[N_COUNTS] = {brc_frame_point_rows(c, 0).all, n_elements, ids, faces, face_ids, faces};
-    for (int k = 0; k < N_COLUMNS; ++k)
-        if (kept[k]) brc_h5_packed(h5, COLUMN_NAME[k], H5T_NATIVE_INT64, rows[k], 0);
+    for (int k = 0; k < N_COLUMNS; ++k) {
+        if (!t->kept[k]) continue;
+        t->column[k].room = at_once(rows[k]);
+        BRC_TRY(BRC_ALLOCATE(c->context, &t->column[k].data, t->column[k].room, "cells of a frame"));
+        brc_h5_packed(h5, COLUMN_NAME[k], H5T_NATIVE_INT64, rows[k], 0);
+    }
     for (int k = 0; k < (cells ? N_COUNTS : N_COUNTS_OF_SPHERES); ++k) {
         char path[64];
         snprintf(path, sizeof path, "VTKHDF/%s", COUNT_NAME[k]);
         brc_h5_dataset(h5, path, H5T_NATIVE_INT64, 1, 0, &count[k]);
     }
+    return BRC_OK;
 }
 
 static void refer(brc_h5 *h5, const char *name, int64_t frame)
@@ -217,8 +225,7 @@ static brc_status write_polyhedra(const brc_frame_cells *c, brc_h5 *h5, int64_t 
         t.kept[k] = has_column(k, cells) && (k < OFFSETS || starts_frame < 0);
         if (has_column(k, cells) && !t.kept[k]) refer(h5, COLUMN_NAME[k], starts_frame);
     }
-    for (int k = 0; k < N_COLUMNS; ++k) BRC_TRY_OR(cleanup, BRC_ALLOCATE(c->context, &t.column[k].data, ROWS_AT_ONCE, "cells of a frame"));
-    make_columns(c, h5, t.kept);
+    BRC_TRY_OR(cleanup, make_columns(c, &t));
     push_starts(&t);
     for (int32_t k = 0; k < c->assembly->n; ++k)
         if (brc_frame_is_sphere(c->part[k].domain)) push_spheres(&t, c->part[k].domain->n_elements);
@@ -238,8 +245,9 @@ cleanup:
 static brc_status write_points(const brc_frame_cells *c, brc_h5 *h5)
 {
     float *block = NULL;
+    const int64_t room = at_once(brc_frame_point_rows(c, 0).all);
     int64_t n = 0, written = 0;
-    BRC_TRY(BRC_ALLOCATE(c->context, &block, 3 * ROWS_AT_ONCE, "points of a frame"));
+    BRC_TRY(BRC_ALLOCATE(c->context, &block, 3 * room, "points of a frame"));
     brc_h5_packed(h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, brc_frame_point_rows(c, 0).all, 3);
     for (int32_t k = 0; k < c->assembly->n; ++k) {
         const brc_domain *d = c->part[k].domain;
@@ -250,7 +258,7 @@ static brc_status write_points(const brc_frame_cells *c, brc_h5 *h5)
             if (!spheres && c->part[k].point[v] != next) continue;
             ++next;
             for (int m = 0; m < 3; ++m) block[3 * n + m] = (float)(spheres ? d->position : d->vertex)[3 * v + m];
-            if (++n < ROWS_AT_ONCE) continue;
+            if (++n < room) continue;
             brc_h5_pack_rows(h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, written, n, block, c->n_threads);
             written += n;
             n = 0;
