@@ -60,7 +60,8 @@ with tempfile.TemporaryDirectory() as folder:
     if installed.returncode:
         sys.exit("install: cmake --install failed: " + installed.stderr)
     shutil.move(first, moved)
-    for name in ("bin/breccia", "include/breccia.h", "share/breccia/examples"):
+    for name in ("bin/breccia", "include/breccia.h", "share/breccia/examples", "share/breccia/scene.schema.json", "share/man/man1/breccia.1",
+                 "share/bash-completion/completions/breccia", "share/zsh/site-functions/_breccia"):
         if not os.path.exists(os.path.join(moved, name)):
             failures.append(f"{name} is not installed")
     complaint = use_library(moved, folder)

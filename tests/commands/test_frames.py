@@ -11,30 +11,14 @@ import argparse
 import glob
 import json
 import os
-import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import debian
 import test_resume as small
 
-DEBIAN = "/usr/bin/python3"  # where python3-vtk9 is, whatever `python3` is
-
-
-def import_vtk():
-    try:
-        import vtk
-        return vtk
-    except ImportError:
-        pass
-    if os.path.realpath(sys.executable) != os.path.realpath(DEBIAN) and os.path.exists(DEBIAN):
-        if subprocess.run([DEBIAN, "-c", "import vtk"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
-            os.execv(DEBIAN, [DEBIAN, "-B", *sys.argv])
-    print("SKIPPED: no Python with vtk; apt-get install python3-vtk9")
-    sys.exit(1 if os.environ.get("BRC_NO_SKIPS") else 77)
-
-
-vtk = import_vtk()
+vtk, = debian.need("python3-vtk9", "vtk")
 VERSION = tuple(int(part) for part in vtk.vtkVersion().GetVTKVersion().split(".")[:2])
 
 
