@@ -4,6 +4,7 @@
 #include "assembly_sensors.h"
 #include "crack_records.h"
 #include "curve.h"
+#include "earlier_results.h"
 #include "frame_file.h"
 #include "history_csv.h"
 #include "picture.h"
@@ -15,13 +16,10 @@
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "../solver/stage_end.h"
-#include <dirent.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { SUMMARY, RESULT, HISTORIES, CRACKS, FRAGMENTS, PICTURE, CURVE, SERIES, CRACK_SERIES, STRIKER_SERIES, FRAMES, PICTURES, N_FILES };
 static const char *const FILE_NAME[N_FILES] = {
@@ -53,51 +51,18 @@ struct brc_recorder {
 
 /* ---- the folder ---- */
 
-/* "NNNNNN.vtkhdf", "NNNNNN.cracks.vtu", "NNNNNN.strikers.vtu", "NNNNNN.png", or what a killed run left of one; numbers from `first` on. */
-static bool is_frame(const char *name, int64_t first)
-{
-    static const char *const suffix[] = {".vtkhdf", ".vtkhdf.part", ".cracks.vtu", ".cracks.vtu.part", ".strikers.vtu", ".strikers.vtu.part", ".png", ".png.part"};
-    const size_t digits = strspn(name, "0123456789");
-    for (size_t k = 0; digits >= 6 && k < sizeof suffix / sizeof suffix[0]; ++k)
-        if (strcmp(name + digits, suffix[k]) == 0) return strtoll(name, NULL, 10) >= first;
-    return false;
-}
-
-static brc_status remove_file(brc_context *context, const char *path)
-{
-    if (unlink(path) == 0 || errno == ENOENT) return BRC_OK;
-    return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot remove the result of an earlier run: %s", path,
-                    strerror(errno));
-}
-
-static brc_status remove_numbered(brc_context *context, const char *folder, int64_t first)
-{
-    brc_status status = BRC_OK;
-    DIR *directory = opendir(folder);
-    if (!directory) return errno == ENOENT ? BRC_OK : remove_file(context, folder);
-    for (const struct dirent *entry = readdir(directory); entry && status == BRC_OK; entry = readdir(directory)) {
-        if (!is_frame(entry->d_name, first)) continue;
-        char *path;
-        status = brc_file_join(context, folder, entry->d_name, &path);
-        if (status == BRC_OK) status = remove_file(context, path);
-        brc_memory_free(path);
-    }
-    closedir(directory);
-    return status;
-}
-
 /* Frames and pictures from number `first` on. */
 static brc_status remove_frames(const brc_recorder *recorder, int64_t first)
 {
-    BRC_TRY(remove_numbered(recorder->context, recorder->path[FRAMES], first));
-    return remove_numbered(recorder->context, recorder->path[PICTURES], first);
+    BRC_TRY(brc_earlier_remove_numbered(recorder->context, recorder->path[FRAMES], first));
+    return brc_earlier_remove_numbered(recorder->context, recorder->path[PICTURES], first);
 }
 
 /* An older run's results beside this one's would mislead. */
 static brc_status clean(brc_recorder *recorder)
 {
     for (int k = 0; k < FRAMES; ++k)
-        BRC_TRY(remove_file(recorder->context, recorder->path[k]));
+        BRC_TRY(brc_earlier_remove_file(recorder->context, recorder->path[k]));
     return remove_frames(recorder, 0);
 }
 
@@ -174,15 +139,9 @@ void brc_recorder_free(brc_recorder **recorder)
     *recorder = NULL;
 }
 
-void brc_recorder_set_prediction(brc_recorder *recorder, const brc_prediction *prediction)
-{
-    recorder->prediction = prediction;
-}
+void brc_recorder_set_prediction(brc_recorder *recorder, const brc_prediction *prediction) { recorder->prediction = prediction; }
 
-void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene)
-{
-    recorder->scene = scene;
-}
+void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene) { recorder->scene = scene; }
 
 void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domain *const *domains, double build_seconds)
 {
@@ -191,15 +150,9 @@ void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domai
     recorder->build_s = build_seconds;
 }
 
-void brc_recorder_set_threads(brc_recorder *recorder, int n_threads)
-{
-    recorder->n_threads = n_threads;
-}
+void brc_recorder_set_threads(brc_recorder *recorder, int n_threads) { recorder->n_threads = n_threads; }
 
-void brc_recorder_set_checkpoints(brc_recorder *recorder, const brc_checkpoint_report *report)
-{
-    recorder->checkpoints = *report;
-}
+void brc_recorder_set_checkpoints(brc_recorder *recorder, const brc_checkpoint_report *report) { recorder->checkpoints = *report; }
 
 /* ---- while the simulation runs ---- */
 
