@@ -18,9 +18,9 @@ static const double looked_s = 2.5, least_looked = 200, most_looked = 0.5;
 static const double coarse_stage_s = 4; /* of a stage of a coarser body at most */
 /* Bytes of a broken bond: on the host while it runs the event of 136, and its two faces while they are written where that is more than what else is held for a while; at its
  * end the event, and where a picture of cells is drawn two faces of some 5.1 corners of 28 and 28 more; on disk once a line of cracks.csv and a row of result.h5, and in each
- * frame two polygons of 97 bytes and 32 a corner: octagons of beams, some 5.5 corners of cells; and in the frame itself, of cells, the corners that come apart and its share of
- * the polyhedra, which are written anew (ball-breaks, ceramic-plate: 60 to 80). */
-static const double host_of_break = 150, event_of_break = 136, drawn_of_break = 344, row_of_break = 420, frame_of_beam = 706, frame_of_face = 546, corners_of_break = 72;
+ * frame two polygons of 97 bytes and 32 a corner: octagons of beams, some 5.5 corners of cells; and in the frame itself, of cells, the corners that come apart. Every cell of a
+ * frame before which some bond broke is written anew, with its points and faces (branching, ball-breaks, ceramic-plate). */
+static const double host_of_break = 150, event_of_break = 136, drawn_of_break = 344, row_of_break = 420, frame_of_beam = 706, frame_of_face = 546, corners_of_break = 44, cell_anew = 200;
 
 typedef struct sums {
     double seconds, least, most;
@@ -169,6 +169,15 @@ static breaks breaks_of_look(const brc_setup *setup, const brc_trial *trial, con
     return (breaks){.more = more, .in_frames = frames > 1 ? mean * (frames - 1) + more : more * frames};
 }
 
+/* Cells written anew in all frames that the trial did not see. */
+static double cells_anew(const brc_setup *setup, const brc_trial *trial)
+{
+    double n = 0;
+    for (int32_t k = 0; k < trial->n_stages; ++k)
+        if (trial->stages[k].cut) n += fmax(0, (double)(trial->stages[k].frames_planned - trial->stages[k].frames));
+    return n * cell_anew * (double)brc_setup_n_elements(setup);
+}
+
 static memory add_up(const brc_scene *scene, const brc_setup *setup, const brc_trial *trial, const brc_coarse *looked)
 {
     const bool was_looked = !isnan(looked->broken);
@@ -180,7 +189,7 @@ static memory add_up(const brc_scene *scene, const brc_setup *setup, const brc_t
     m.device += device;
     m.resident += host + device; /* of the cpu device; a card has its own */
     m.disk += b.more * row_of_break;
-    if (scene->model.kind != BRC_MODEL_CBM) m.disk += b.in_frames * corners_of_break;
+    if (scene->model.kind != BRC_MODEL_CBM) m.disk += b.in_frames * corners_of_break + (b.in_frames > 0 || !was_looked ? cells_anew(setup, trial) : 0);
     if (scene->output.crack_surface) m.disk += b.in_frames * (scene->model.kind == BRC_MODEL_CBM ? frame_of_beam : frame_of_face);
     return m;
 }
@@ -196,13 +205,14 @@ static void tell_total(FILE *details, const brc_device_request *request, const m
 static void tell_broken(FILE *details, const brc_scene *scene, const brc_setup *setup, const brc_trial *trial, const brc_coarse *looked)
 {
     const double n_bonds = (double)brc_setup_n_bonds(setup), frame = scene->model.kind == BRC_MODEL_CBM ? frame_of_beam : frame_of_face + corners_of_break;
+    const double anew = scene->model.kind == BRC_MODEL_CBM ? 0 : cell_anew * (double)brc_setup_n_elements(setup);
     int64_t n_frames = 0;
     for (int32_t k = 0; k < trial->n_stages; ++k) n_frames += trial->stages[k].frames_planned;
     if (!scene->has_fracture) return;
     if (!isnan(looked->broken)) fprintf(details, "broken bonds: about %.2g %% of all at the end, as with %lld elements\n", 100 * looked->broken, (long long)looked->n_elements);
     else if (brc_trial_is_whole(trial)) fprintf(details, "broken bonds: %.3g %% of all at the end\n", 100 * (double)trial->n_broken / n_bonds);
     fprintf(details, "if all bonds broke: up to %.4g MB on the host and %.4g MB on disk\n", host_with(scene, trial, n_bonds) / 1e6,
-           ((double)brc_trial_disk(trial, NULL) + (row_of_break + frame * (double)n_frames) * n_bonds) / 1e6);
+           ((double)brc_trial_disk(trial, NULL) + (row_of_break + frame * (double)n_frames) * n_bonds + anew * (double)n_frames) / 1e6);
 }
 
 brc_status brc_price_tell_trial(brc_context *context, brc_scene *scene, const brc_setup *setup, const brc_device_request *request, const brc_trial *trial, double before_s,
