@@ -15,7 +15,7 @@ brc_status brc_check_build(brc_context *context, brc_scene *scene, const brc_dev
     const double build_start = brc_pace_clock_s(request);
     BRC_TRY(brc_setup_domains(context, scene, NULL, request->n_threads, &check->setup));
     check->build_s = brc_pace_clock_s(request) - build_start;
-    if (check->built) check->built(&check->setup, check->build_s);
+    if (check->built) check->built(check->details, &check->setup, check->build_s);
     BRC_TRY(brc_setup_polish(context, request->n_threads, &check->setup));
     check->before_s = brc_pace_clock_s(request) - start;
     return make_simulations(context, request, &check->setup, &check->simulations_s);
@@ -42,10 +42,15 @@ brc_status brc_check_try(brc_context *context, const brc_device_request *request
     return brc_trial_run(context, &check->setup, request, brief, &check->trial);
 }
 
-brc_status brc_check_price(brc_context *context, brc_scene *scene, const brc_device_request *request, FILE *to, brc_check *check)
+brc_status brc_check_price(brc_context *context, brc_scene *scene, const brc_device_request *request, brc_check *check)
 {
+    FILE *const nowhere = check->details ? NULL : fopen("/dev/null", "w"), *const details = nowhere ? nowhere : check->details;
+    if (!details) return BRC_FAIL(context, BRC_FILE_FAILED, "/dev/null cannot be opened");
     brc_setup_free_simulations(&check->setup); /* a coarser body may need the room */
-    return brc_price_tell_trial(context, scene, &check->setup, request, &check->trial, check->before_s + check->simulations_s, to, &check->told);
+    const brc_status status =
+        brc_price_tell_trial(context, scene, &check->setup, request, &check->trial, check->before_s + check->simulations_s, details, &check->told);
+    if (nowhere) fclose(nowhere);
+    return status;
 }
 
 void brc_check_free(brc_check *check)

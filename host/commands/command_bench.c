@@ -306,11 +306,11 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
 }
 
 const brc_command brc_command_bench = {.name = "bench",
-                                       .operands = "KIND",
+                                       .operands = "throughput|accuracy|contact|effects|peers",
                                        .least = 1,
                                        .most = 1,
                                        .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy, contact or other effects cost, or what other programs take",
-                                       .details = "KIND: throughput, accuracy, contact, effects or peers. Noisy-grid cubes; packings with ten beams an element for cbm. Lists are separated by commas; every combination is measured. "
+                                       .details = "Noisy-grid cubes; packings with ten beams an element for cbm. Lists are separated by commas; every combination is measured. "
                                                   "accuracy: problems with exact answers, error against seconds (one device, one number of threads). "
                                                   "contact: the step with nothing near, of a ball gone to dust, and of dust pressed together, over the step without contact (default 3e4 elements). "
                                                   "effects: fracture and others as multiples of the elastic step of a cube (one size, device, precision, number of threads). "

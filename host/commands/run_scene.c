@@ -90,6 +90,7 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     else
         BRC_TRY(brc_scene_read(context, request->path, request->n_overrides, request->overrides, &now->scene));
     if (now->recorder) brc_recorder_set_scene(now->recorder, now->scene);
+    if (now->recorder) brc_recorder_set_threads(now->recorder, request->n_threads);
     if (now->recorder) BRC_TRY(brc_checkpoints_create(context, request->folder, now->scene, request->resume, &now->checkpoints));
     if (now->recorder) BRC_TRY(brc_checkpoint_scene(context, now->scene, &now->yaml));
     const double build_start = brc_clock_s();

@@ -239,14 +239,12 @@ static brc_status tell_budget(pool *p, int n_missing, int first, int jobs)
     brc_device_request request = {.selector = q->device ? q->device : "auto", .n_threads = q->threads > 0 ? q->threads : 1};
     brc_check check = {0};
     brc_scene *scene = NULL;
-    FILE *nowhere = fopen("/dev/null", "w");
-    brc_status status = nowhere ? BRC_OK : BRC_FAIL(p->context, BRC_FILE_FAILED, "/dev/null cannot be opened");
     for (int k = BRC_DOUBLE; q->precision && k <= BRC_SINGLE; ++k)
         if (strcmp(q->precision, brc_precision_name((brc_precision)k)) == 0) request.precision = (brc_precision)k;
-    if (status == BRC_OK) status = brc_scene_read(p->context, p->study->scene, p->study->n_keys, p->runs[first].sets, &scene);
+    brc_status status = brc_scene_read(p->context, p->study->scene, p->study->n_keys, p->runs[first].sets, &scene);
     if (status == BRC_OK) status = brc_check_build(p->context, scene, &request, brc_pace_clock_s(&request), &check);
     if (status == BRC_OK) status = brc_check_try(p->context, &request, false, &check);
-    if (status == BRC_OK) status = brc_check_price(p->context, scene, &request, nowhere, &check);
+    if (status == BRC_OK) status = brc_check_price(p->context, scene, &request, &check);
     if (status == BRC_OK && check.told.known)
         printf("budget: %d runs of about %.3g s, %d at once: about %.3g s; %.3g MB on disk\n", n_missing, check.told.seconds, jobs,
                check.told.seconds * ceil((double)n_missing / jobs), 1e-6 * check.told.disk_bytes * n_missing);
@@ -255,7 +253,6 @@ static brc_status tell_budget(pool *p, int n_missing, int first, int jobs)
     if (status != BRC_OK) brc_context_clear(p->context); /* its own run will tell */
     brc_check_free(&check);
     brc_scene_free(&scene);
-    if (nowhere) fclose(nowhere);
     return BRC_OK;
 }
 
