@@ -3,7 +3,9 @@
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
 #include "statics.h"
 #include "fracture_internal.h"
+#include "multigrid/multigrid.h"
 #include "static_events.h"
+#include <stdlib.h>
 #include <math.h>
 #include <string.h>
 
@@ -186,7 +188,13 @@ static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
         BRC_TRY(brc_new_state(s, &v->theta, 3 * n, "rotations"));
     }
     BRC_TRY(brc_statics_find_pieces(s, v));
-    return create_blocks(s, v);
+    BRC_TRY(create_blocks(s, v));
+    if (s->domain->n_elements < BRC_MULTIGRID_LEAST || getenv("BRC_BLOCKS")) return BRC_OK;
+    BRC_TRY(brc_multigrid_create(s, &v->multigrid));
+    const brc_multigrid_report m = brc_multigrid_get_report(v->multigrid);
+    brc_log(s->context, BRC_LOG_INFO, "multigrid: %d levels, %lld, %lld, %lld, %lld nodes, %.2f s, %.0f and %.0f bytes an element", m.n_levels, (long long)m.nodes[0],(long long)m.nodes[1],(long long)m.nodes[2],(long long)m.nodes[3], m.seconds,
+     (double)m.device_bytes / (double)s->domain->n_elements, (double)m.host_bytes / (double)s->domain->n_elements);
+    return BRC_OK;
 }
 
 static void free_vectors(brc_solve_vectors *v)
@@ -196,6 +204,7 @@ static void free_vectors(brc_solve_vectors *v)
     brc_buffer **rest[] = {&v->before, &v->blocks, &v->zero, &v->orientation, &v->theta};
     for (size_t i = 0; i < sizeof rest / sizeof *rest; ++i) brc_buffer_free(rest[i]);
     brc_pieces_free(&v->pieces);
+    brc_multigrid_free(&v->multigrid);
 }
 
 /* kp = -K p. Displacements: the force of the linearised law. Rotations (dlsm-published, whose forces do not depend on them
@@ -217,6 +226,7 @@ brc_status brc_statics_apply(brc_simulation *s, brc_solve_vectors *v) { return a
 static brc_status precondition(brc_simulation *s, brc_solve_vectors *v, bool rotations)
 {
     const int32_t n = s->layout->n_rows;
+    if (v->multigrid && !rotations) return brc_multigrid_apply(v->multigrid, v->r, v->z);
     if (brc_is_beams(s))
         BRC_TRY(BRC_LAUNCH(s->kernel.precondition6, n, BRC_INT(n), BRC_BUF(v->blocks), BRC_BUF(v->r.move), BRC_BUF(v->r.turn),
                            BRC_BUF(v->z.move), BRC_BUF(v->z.turn)));

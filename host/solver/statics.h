@@ -19,6 +19,7 @@ typedef struct brc_solve_vectors {
     brc_buffer *zero, *orientation, *theta;
     int state_bytes;
     brc_pieces pieces; /* cbm, and dlsm in pieces; else empty */
+    struct brc_multigrid *multigrid; /* the preconditioner; NULL: blocks */
     double arm; /* a torque over this counts as a force: mean radius of the spheres [m] */
 } brc_solve_vectors;
 
