@@ -1,13 +1,14 @@
 #include "fine.h"
 #include "../fracture_internal.h"
 #include <math.h>
+
 #include <string.h>
 
 /* Springs along and across bonds that have the elasticity of the solid: of a uniform strain E their energy is lambda tr(E)^2 / 2 + mu E:E with
  * axial - shear = 5 lambda and shear = 2 mu - 2 lambda. Across bonds it must stay positive, so lambda counts up to `most` of mu. */
 brc_bond_moduli brc_bond_moduli_of(const brc_elastic *m)
 {
-    static const double most = 0.8, frame = 0.1; /* of mu */
+    static const double most = 0.5, frame = 0.1; /* of mu */
     const double lambda = fmin(m->lambda, most * m->mu);
     return (brc_bond_moduli){2 * m->mu + 3 * lambda, 2 * m->mu - 2 * lambda, frame * m->mu};
 }
@@ -199,7 +200,7 @@ brc_status brc_fine_create(brc_simulation *s, brc_fine *f)
     for (int32_t m = 0; m < s->scene->n_materials; ++m) f->moduli[m] = brc_bond_moduli_of(&s->elastic[m]);
     if (s->fracture) BRC_TRY(brc_fracture_whole(s, &f->whole));
     /* what a rigid motion of a piece meets: enough for the rounding of its sums, and so little that no bending is near it */
-    f->soft = brc_device_get_precision(s->device) == BRC_SINGLE ? 1e-5 : 1e-10;
+    f->soft = brc_is_published(s) ? 1e-6 : brc_device_get_precision(s->device) == BRC_SINGLE ? 1e-5 : 1e-10;
     f->nodes = (brc_nodes){.n = d->n_elements};
     BRC_TRY(BRC_ALLOCATE(s->context, &f->nodes.place, d->n_elements, "levels"));
     BRC_TRY(BRC_ALLOCATE(s->context, &f->nodes.body, d->n_elements, "levels"));

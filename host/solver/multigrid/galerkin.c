@@ -4,21 +4,25 @@
 #include <string.h>
 
 /* a += factor b c */
-static void add_product(brc_block a, double factor, const brc_block b, const brc_block c)
+static void add_product(double *restrict a, double factor, const double *restrict b, const double *restrict c)
 {
-    for (int r = 0; r < 6; ++r)
-        for (int k = 0; k < 6; ++k) {
-            const double by = factor * b[6 * r + k];
-            for (int j = 0; j < 6; ++j) a[6 * r + j] += by * c[6 * k + j];
-        }
+    for (int r = 0; r < 6; ++r) {
+        double sum[6] = {0};
+        for (int k = 0; k < 6; ++k)
+            for (int j = 0; j < 6; ++j) sum[j] += b[6 * r + k] * c[6 * k + j];
+        for (int j = 0; j < 6; ++j) a[6 * r + j] += factor * sum[j];
+    }
 }
 
 /* a += b^T c */
-static void add_transposed_product(brc_block a, const brc_block b, const brc_block c)
+static void add_transposed_product(double *restrict a, const double *restrict b, const double *restrict c)
 {
-    for (int k = 0; k < 6; ++k)
-        for (int r = 0; r < 6; ++r)
-            for (int j = 0; j < 6; ++j) a[6 * r + j] += b[6 * k + r] * c[6 * k + j];
+    for (int r = 0; r < 6; ++r) {
+        double sum[6] = {0};
+        for (int k = 0; k < 6; ++k)
+            for (int j = 0; j < 6; ++j) sum[j] += b[6 * k + r] * c[6 * k + j];
+        for (int j = 0; j < 6; ++j) a[6 * r + j] += sum[j];
+    }
 }
 
 /* Rigid motion of an aggregate at one of its nodes: displacement t + theta x arm. */

@@ -34,6 +34,7 @@ struct brc_multigrid {
     int32_t n_ground;
     brc_buffer *ground_element, *ground;
     brc_buffer *orientation; /* [n_rows][4] beams */
+    int64_t most_held; /* on the host while it was made [byte] */
     brc_multigrid_report report;
 };
 

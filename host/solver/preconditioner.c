@@ -1,0 +1,71 @@
+/* What stands for K^-1 in the iterations of static stages. */
+#include "multigrid/multigrid.h"
+#include "statics.h"
+#include <math.h>
+#include <stdlib.h>
+#include <stdio.h>
+
+brc_status brc_preconditioner_create(brc_simulation *s, brc_solve_vectors *v)
+{
+    const int64_t n = s->layout->n_rows, width = brc_is_beams(s) ? 21 : 6;
+    double *blocks = NULL;
+    BRC_TRY(brc_new_state(s, &v->preconditioner.blocks, width * n, "preconditioner"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &blocks, width * n, "preconditioner"));
+    brc_status status = brc_is_beams(s) ? brc_beams_precondition_blocks(s, blocks) : brc_geometry_precondition_blocks(s, blocks);
+    if (status == BRC_OK) status = brc_upload_state(s, v->preconditioner.blocks, blocks, width * n);
+    brc_memory_free(blocks);
+    return status;
+}
+
+brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)
+{
+    const int32_t n = s->layout->n_rows;
+    if (v->preconditioner.multigrid && !rotations) return brc_multigrid_apply(v->preconditioner.multigrid, v->r, v->z);
+    if (brc_is_beams(s))
+        BRC_TRY(BRC_LAUNCH(s->kernel.precondition6, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks), BRC_BUF(v->r.move), BRC_BUF(v->r.turn),
+                           BRC_BUF(v->z.move), BRC_BUF(v->z.turn)));
+    else
+        BRC_TRY(BRC_LAUNCH(s->kernel.precondition, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks), BRC_BUF(v->r.move), BRC_BUF(v->z.move)));
+    if (brc_is_beams(s)) BRC_TRY(brc_loads_zero_turned(s, v->z.turn));
+    return rotations ? BRC_OK : brc_loads_zero_imposed(s, v->z.move);
+}
+
+static void tell(brc_simulation *s, const brc_multigrid *multigrid, const char *again)
+{
+    const brc_multigrid_report m = brc_multigrid_get_report(multigrid);
+    char nodes[200] = "";
+    for (int i = 0, at = 0; i < m.n_levels; ++i) at += snprintf(nodes + at, sizeof nodes - (size_t)at, "%s%lld", i > 0 ? ", " : "", (long long)m.nodes[i]);
+    brc_log(s->context, BRC_LOG_INFO, "stage '%s': multigrid%s of %d levels (%s nodes) in %.2f s, %.2f kB an element", brc_current_stage(s)->name, again, m.n_levels, nodes,
+            m.seconds, 1e-3 * (double)m.device_bytes / (double)s->domain->n_elements);
+}
+
+brc_status brc_preconditioner_prepare(brc_simulation *s, brc_solve_vectors *v)
+{
+    brc_preconditioner *p = &v->preconditioner;
+    if (p->multigrid || p->blocks_alone || getenv("BRC_BLOCKS") || s->domain->n_elements < BRC_MULTIGRID_LEAST) return BRC_OK;
+    const char *again = p->bonds_broke ? ", again," : "";
+    BRC_TRY(brc_multigrid_create(s, &p->multigrid));
+    p->bonds_broke = false;
+    p->pace = 0;
+    tell(s, p->multigrid, again);
+    return BRC_OK;
+}
+
+/* Bonds that break make the body softer than its multigrid, which stays positive and only gets worse. */
+void brc_preconditioner_took(brc_solve_vectors *v, int64_t iterations, double from, double to)
+{
+    static const double worse = 1.5, least_digits = 1;
+    brc_preconditioner *p = &v->preconditioner;
+    const double digits = log10(from / to);
+    if (!p->multigrid || !(digits > least_digits)) return;
+    const double pace = (double)iterations / digits;
+    if (p->pace == 0) p->pace = pace;
+    if (p->bonds_broke && pace > worse * p->pace) brc_multigrid_free(&p->multigrid);
+}
+
+void brc_preconditioner_give_up(brc_simulation *s, brc_solve_vectors *v)
+{
+    brc_log(s->context, BRC_LOG_WARNING, "stage '%s': multigrid does not serve this stiffness; the iterations go on with diagonal blocks", brc_current_stage(s)->name);
+    v->preconditioner.blocks_alone = true;
+    brc_multigrid_free(&v->preconditioner.multigrid);
+}
