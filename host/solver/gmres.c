@@ -23,7 +23,9 @@ static brc_status precondition(brc_simulation *s, brc_solve_vectors *v, const do
 {
     if (v->preconditioner.multigrid) {
         BRC_TRY(brc_upload_state(s, v->p.move, from, 3 * rows));
+        BRC_TRY(brc_statics_project_free_motions(s, v, v->p)); /* which it would make large */
         BRC_TRY(brc_multigrid_apply(v->preconditioner.multigrid, v->p, v->z));
+        BRC_TRY(brc_statics_project_free_motions(s, v, v->z));
         return brc_download(s, v->z.move, brc_precision_state_bytes(brc_device_get_precision(s->device)), z, 3 * rows);
     }
     for (int64_t r = 0; r < rows; ++r) {

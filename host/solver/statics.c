@@ -109,7 +109,6 @@ cleanup:
 
 brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)
 {
-    if (!brc_is_beams(s) && !brc_is_dlsm(s)) return BRC_OK;
     BRC_TRY(brc_pieces_find(s, &v->pieces));
     if (!v->pieces.any) brc_pieces_free(&v->pieces);
     return BRC_OK;
@@ -243,7 +242,7 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
         BRC_TRY(brc_unknowns_copy((brc_unknowns){s->force, s->torque}, v->r));
         /* the right side without what the supports leave free: a stiffness about the reference cannot take it, and of a residual about the moved
          * sample a part as large as its strain is left in it, on which conjugate gradients would break down */
-        BRC_TRY(brc_statics_project_free_motions(s, v, v->r));
+        if (!published) BRC_TRY(brc_statics_project_free_motions(s, v, v->r));
         const double target = 0.3 * tolerance * *reference;
         const int32_t most = brc_statics_most_iterations(s);
         BRC_TRY(brc_preconditioner_prepare(s, v));

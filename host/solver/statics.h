@@ -27,7 +27,7 @@ typedef struct brc_solve_vectors {
     brc_preconditioner preconditioner;
     brc_buffer *zero, *orientation, *theta;
     int state_bytes;
-    brc_pieces pieces; /* cbm, and dlsm in pieces; else empty */
+    brc_pieces pieces; /* empty where nothing is free to move as a whole */
     double arm; /* a torque over this counts as a force: mean radius of the spheres [m] */
 } brc_solve_vectors;
 
