@@ -30,7 +30,6 @@ static bond bond_of(const brc_fine *f, int64_t e, int64_t h)
     for (int c = 0; c < 3; ++c) {
         b.n[c] = d->position[3 * j + c] - d->position[3 * e + c];
         square += b.n[c] * b.n[c];
-        surface += d->area_vector[3 * h + c] * d->area_vector[3 * h + c];
     }
     b.length = sqrt(square);
     for (int c = 0; c < 3; ++c) b.n[c] /= b.length;
@@ -44,6 +43,7 @@ static bond bond_of(const brc_fine *f, int64_t e, int64_t h)
         return b;
     }
     const brc_bond_moduli *own = &f->moduli[s->material_of_element[e]], *other = &f->moduli[s->material_of_element[j]];
+    for (int c = 0; c < 3; ++c) surface += d->area_vector[3 * h + c] * d->area_vector[3 * h + c];
     const double weight = sqrt(surface) / b.length;
     b.axial = weight * in_series(own->axial, other->axial);
     b.shear = weight * in_series(own->shear, other->shear);
