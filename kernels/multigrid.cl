@@ -20,6 +20,8 @@ KERNEL void multigrid_cells(int n_groups, GLOBAL const int *restrict row_start, 
             const lane_int j = members_neighbour(who, neighbour, slot);
             members_ahead3(who, vector, slot);
             members_ahead1(who, number, slot);
+            gathers_ahead(move, 3, neighbour, slot, who.end, who.lane0);
+            gathers_ahead(turn, 3, neighbour, slot, who.end, who.lane0);
             const lane_vec3 v = members_row3(who, vector, slot);
             const lane k = members_row1(who, number, slot);
             const multigrid_place at = by_branch ? multigrid_place_of_branch(v, k) : multigrid_place_of_face(v, k);
