@@ -2,7 +2,6 @@
 #include "multigrid/multigrid.h"
 #include "statics.h"
 #include <math.h>
-#include <stdlib.h>
 #include <stdio.h>
 
 brc_status brc_preconditioner_create(brc_simulation *s, brc_solve_vectors *v)
@@ -35,14 +34,16 @@ static void tell(brc_simulation *s, const brc_multigrid *multigrid, const char *
     const brc_multigrid_report m = brc_multigrid_get_report(multigrid);
     char nodes[200] = "";
     for (int i = 0, at = 0; i < m.n_levels; ++i) at += snprintf(nodes + at, sizeof nodes - (size_t)at, "%s%lld", i > 0 ? ", " : "", (long long)m.nodes[i]);
-    brc_log(s->context, BRC_LOG_INFO, "stage '%s': multigrid%s of %d levels (%s nodes) in %.2f s, %.2f kB an element", brc_current_stage(s)->name, again, m.n_levels, nodes,
+    brc_log(s->context, again[0] ? BRC_LOG_DEBUG : BRC_LOG_INFO, "stage '%s': multigrid%s of %d levels (%s nodes) in %.2f s, %.2f kB an element", brc_current_stage(s)->name, again, m.n_levels, nodes,
             m.seconds, 1e-3 * (double)m.device_bytes / (double)s->domain->n_elements);
 }
 
 brc_status brc_preconditioner_prepare(brc_simulation *s, brc_solve_vectors *v)
 {
     brc_preconditioner *p = &v->preconditioner;
-    if (p->multigrid || p->blocks_alone || getenv("BRC_BLOCKS") || s->domain->n_elements < BRC_MULTIGRID_LEAST) return BRC_OK;
+    const brc_preconditioner_kind kind = brc_current_stage(s)->preconditioner;
+    if (p->multigrid || p->blocks_alone || kind == BRC_PRECONDITIONER_BLOCKS) return BRC_OK;
+    if (kind == BRC_PRECONDITIONER_AUTO && s->domain->n_elements < BRC_MULTIGRID_LEAST) return BRC_OK;
     const char *again = p->bonds_broke ? ", again," : "";
     BRC_TRY(brc_multigrid_create(s, &p->multigrid));
     p->bonds_broke = false;
