@@ -93,7 +93,7 @@ static void the_preconditioner_is_symmetric_and_positive(void **state)
     assert_symmetric_and_positive((case_options){.fill = "cells: [8, 8, 8], spread: 90 %, seed: 1", .model = "dlsm-published", .sets = walls}, by_elements);
 }
 
-static const char pulled_beams[] = "sets:\n  left: {elements: {box: {min: [0, 0, 0], max: [1.2, 20, 20]}}}\n  right: {elements: {box: {min: [8.2, 0, 0], max: [20, 20, 20]}}}\n"
+static const char pulled_beams[] = "sets:\n  left: {elements: {box: {from: [0 m, 0 m, 0 m], to: [1.2 m, 20 m, 20 m]}}}\n  right: {elements: {box: {from: [8.2 m, 0 m, 0 m], to: [20 m, 20 m, 20 m]}}}\n"
                                    "stages:\n  - name: pull\n    solver: {static: {finite_strain: false}}\n    loads:\n"
                                    "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n      - element_displacement: {set: right, x: 1 mm}\n";
 
