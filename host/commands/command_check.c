@@ -131,6 +131,17 @@ static void print_parts(const brc_setup *setup)
     }
 }
 
+/* What the last static stage of each model added for its solves. */
+static void print_multigrid(const brc_setup *setup)
+{
+    for (int32_t k = 0; k < setup->n; ++k) {
+        const brc_static_report r = brc_simulation_static_report(setup->assembly.part[k]);
+        if (r.multigrid_levels > 0)
+            printf("multigrid: %d levels made in %.3g s, %.4g MB more on the device while a static stage solves (%.0f bytes an element)\n", r.multigrid_levels,
+                   r.multigrid_seconds, (double)r.multigrid_bytes / 1e6, (double)r.multigrid_bytes / (double)setup->domain[k]->n_elements);
+    }
+}
+
 /* The simulations, and how long making them took. */
 static brc_status make_simulations(brc_context *context, const brc_device_request *request, brc_setup *setup, double *seconds)
 {
@@ -190,6 +201,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     for (int32_t k = 0; k < setup.n; ++k) BRC_TRY_OR(cleanup, brc_free_bodies_tell(context, setup.split->part[k].scene, setup.domain[k], true));
     BRC_TRY_OR(cleanup, compile_first(context, &request, &setup, &simulations_s));
     BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, brc_arguments_value(arguments, "brief") != NULL, &trial));
+    print_multigrid(&setup);
     if (brc_arguments_value(arguments, "effects")) print_parts(&setup);
     brc_setup_free_simulations(&setup); /* a coarser body may need the room */
     BRC_TRY_OR(cleanup, brc_price_tell_trial(context, scene, &setup, &request, &trial, built_s + simulations_s, &told));
