@@ -1,6 +1,7 @@
 /* Multigrid as preconditioner of static solves. */
 #include "../../host/solver/multigrid/multigrid_internal.h"
 #include "beams_case.h"
+#include "../../host/base/log.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -268,6 +269,75 @@ static void iterations_hardly_grow_with_the_body(void **state)
     }
 }
 
+/* Nothing holds the body: two tractions that balance. The strains are those of blocks; nothing is said of where the body went. */
+static void a_free_body_stays_where_it_is(void **state)
+{
+    (void)state;
+    static const char freely[] = "  - name: pull\n    solver: {static: {finite_strain: false}}\n    loads:\n"
+                                 "      - traction: {set: x-, x: -1 uPa}\n      - traction: {set: x+, x: 1 uPa}\n";
+    bench_case c;
+    double *strain[2], largest = 0, off = 0;
+    int64_t n = 0;
+    for (int k = 0; k < 2; ++k) {
+        open_case(&c, (case_options){.fill = "cells: [8, 8, 8], spread: 90 %, seed: 1", .stages = freely});
+        c.scene->stages[0].preconditioner = k == 0 ? BRC_PRECONDITIONER_MULTIGRID : BRC_PRECONDITIONER_BLOCKS;
+        assert_done(&c, brc_simulation_run(c.simulation));
+        n = c.domain->n_elements;
+        strain[k] = calloc((size_t)(6 * n), sizeof *strain[k]);
+        assert_done(&c, brc_simulation_strain_stress(c.simulation, strain[k], NULL, NULL));
+        double *u = calloc((size_t)(3 * n), sizeof *u), mean[3] = {0}, span = 0;
+        assert_done(&c, brc_simulation_displacement(c.simulation, u));
+        for (int64_t i = 0; i < 3 * n; ++i) {
+            mean[i % 3] += u[i] / (double)n;
+            span = fmax(span, fabs(u[i]));
+        }
+        for (int i = 0; i < 3; ++i)
+            if (!(fabs(mean[i]) < 0.1 * span)) fail_msg("mean displacement %g, the largest %g", mean[i], span); /* multigrid's rigid motions were taken off */
+        free(u);
+        close_case(&c);
+    }
+    for (int64_t i = 0; i < 6 * n; ++i) {
+        largest = fmax(largest, fabs(strain[1][i]));
+        off = fmax(off, fabs(strain[0][i] - strain[1][i]));
+    }
+    if (!(off < 1e-7 * largest)) fail_msg("strains off by %g of %g", off, largest);
+    free(strain[0]), free(strain[1]);
+}
+
+/* Events: the levels stay while bonds break, and are made anew where iterations have grown; the same bonds break as with blocks. */
+static void events_keep_their_levels_and_renew_them(void **state)
+{
+    (void)state;
+    static const char cracking[] = "  - name: crack\n    solver: {static: {events: {most: 25}, finite_strain: false, tolerance: 1e-6}}\n    loads:\n"
+                                   "      - face_displacement: {set: x-, x: 0, y: 0, z: 0}\n      - face_displacement: {set: x+, x: 1 um}\n";
+    bench_case c;
+    int64_t n[2], iterations[2];
+    brc_break *events[2];
+    int made = 0;
+    for (int k = 0; k < 2; ++k) {
+        const brc_break *found;
+        open_case(&c, (case_options){.materials = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: 1 uPa, scatter: {weibull: {modulus: 20}}}}",
+                                     .sets = "fracture: {}\n", .fill = "cells: [10, 8, 7], spread: 50 %, seed: 1", .stages = cracking});
+        c.scene->stages[0].preconditioner = k == 0 ? BRC_PRECONDITIONER_MULTIGRID : BRC_PRECONDITIONER_BLOCKS;
+        brc_log_set_level(c.context, BRC_LOG_DEBUG);
+        begin_listening();
+        const brc_status ran = brc_simulation_run(c.simulation);
+        for (const char *at = heard(); k == 0 && (at = strstr(at, "': multigrid")); ++at) ++made;
+        assert_done(&c, ran);
+        assert_done(&c, brc_simulation_breaks(c.simulation, &n[k], &found));
+        events[k] = calloc((size_t)n[k], sizeof *events[k]);
+        memcpy(events[k], found, (size_t)n[k] * sizeof *found);
+        iterations[k] = brc_simulation_static_report(c.simulation).iterations;
+        close_case(&c);
+    }
+    assert_true(n[0] >= 25);
+    assert_int_equal(n[0], n[1]);
+    for (int64_t i = 0; i < n[0]; ++i) assert_int_equal(events[0][i].bond, events[1][i].bond);
+    if (!(made >= 2 && made < 10)) fail_msg("levels were made %d times in 25 events", made);
+    if (!(2 * iterations[0] < iterations[1])) fail_msg("%lld iterations, with blocks %lld", (long long)iterations[0], (long long)iterations[1]);
+    free(events[0]), free(events[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -276,6 +346,8 @@ int main(void)
         cmocka_unit_test(cycles_converge_to_a_dense_solve),
         cmocka_unit_test(threads_do_not_matter),
         cmocka_unit_test(the_answer_is_that_of_blocks),
+        cmocka_unit_test(a_free_body_stays_where_it_is),
+        cmocka_unit_test(events_keep_their_levels_and_renew_them),
         cmocka_unit_test(iterations_hardly_grow_with_the_body),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
