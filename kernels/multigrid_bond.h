@@ -23,8 +23,8 @@ LAW lane multigrid_nothing(void) { return LANE_ZERO + REAL(1e-30); }
 LAW multigrid_place multigrid_place_of_face(lane_vec3 area, lane ratio)
 {
     const lane_vec3 branch = lane_vec3_scale(ratio, area);
-    const lane square = lane_vec3_dot(branch, branch), inverse = REAL(1) / (square + multigrid_nothing());
-    return (multigrid_place){branch, inverse, square * inverse / ratio};
+    const lane inverse = REAL(1) / (lane_vec3_dot(branch, branch) + multigrid_nothing());
+    return (multigrid_place){branch, inverse, lane_vec3_dot(branch, area) * inverse}; /* (q s).s / (q s)^2 = 1/q, without another division */
 }
 
 LAW multigrid_place multigrid_place_of_branch(lane_vec3 branch, lane area)

@@ -317,7 +317,7 @@ static void events_keep_their_levels_and_renew_them(void **state)
     for (int k = 0; k < 2; ++k) {
         const brc_break *found;
         open_case(&c, (case_options){.materials = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: 1 uPa, scatter: {weibull: {modulus: 20}}}}",
-                                     .sets = "fracture: {}\n", .fill = "cells: [10, 8, 7], spread: 50 %, seed: 1", .stages = cracking});
+                                     .sets = "fracture: {}\n", .fill = "cells: [10, 8, 7], spread: 50 %, seed: 1", .stages = cracking, .n_threads = 1});
         c.scene->stages[0].preconditioner = k == 0 ? BRC_PRECONDITIONER_MULTIGRID : BRC_PRECONDITIONER_BLOCKS;
         brc_log_set_level(c.context, BRC_LOG_DEBUG);
         begin_listening();
