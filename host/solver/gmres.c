@@ -48,6 +48,16 @@ static brc_status multiply(brc_simulation *s, brc_solve_vectors *v, const double
     return BRC_OK;
 }
 
+/* From the start, without the motions that multigrid has put into x. */
+static brc_status begin_with_blocks(brc_simulation *s, brc_solve_vectors *v, int64_t n, double *x, double *r, double *norm)
+{
+    brc_preconditioner_give_up(s, v);
+    memset(x, 0, (size_t)n * sizeof *x);
+    BRC_TRY(brc_download(s, v->r.move, brc_precision_state_bytes(brc_device_get_precision(s->device)), r, n));
+    *norm = sqrt(dot(r, r, n));
+    return BRC_OK;
+}
+
 brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int32_t most, brc_progress *progress, double *left)
 {
     const int64_t rows = s->layout->n_rows, n = 3 * rows;
@@ -115,12 +125,8 @@ brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int
         const double now = sqrt(dot(r, r, n));
         const bool stands = !(now < (v->preconditioner.multigrid ? 0.9 : 0.9999) * norm);
         norm = now;
-        if (stands && norm > target && v->preconditioner.multigrid) { /* from the start, without the motions that it has put into x */
-            brc_preconditioner_give_up(s, v);
-            memset(x, 0, (size_t)n * sizeof *x);
-            BRC_TRY_OR(cleanup, brc_download(s, v->r.move, bytes, r, n));
-            norm = sqrt(dot(r, r, n));
-        } else if (stands) break; /* keep what there is */
+        if (stands && norm > target && v->preconditioner.multigrid) BRC_TRY_OR(cleanup, begin_with_blocks(s, v, n, x, r, &norm));
+        else if (stands) break; /* keep what there is */
     }
     *left = norm;
     BRC_TRY_OR(cleanup, brc_upload_state(s, v->x.move, x, n));
