@@ -48,12 +48,27 @@ brc_status brc_preconditioner_prepare(brc_simulation *s, brc_solve_vectors *v)
     const brc_preconditioner_kind kind = brc_current_stage(s)->preconditioner;
     if (p->multigrid || p->blocks_alone || kind == BRC_PRECONDITIONER_BLOCKS) return BRC_OK;
     if (kind == BRC_PRECONDITIONER_AUTO && s->domain->n_elements < BRC_MULTIGRID_LEAST) return BRC_OK;
-    const char *again = p->bonds_broke ? ", again," : "";
-    BRC_TRY(brc_multigrid_create(s, &p->multigrid));
-    p->bonds_broke = false;
-    p->pace = 0;
-    tell(s, p->multigrid, again);
+    const bool resumed = p->origin.weight > 0;
+    BRC_TRY(brc_multigrid_create(s, &p->origin, &p->multigrid));
+    tell(s, p->multigrid, p->bonds_broke && !resumed ? ", again," : "");
+    if (!resumed) p->bonds_broke = false, p->pace = 0;
     return BRC_OK;
+}
+
+/* What a resumed stage needs to make the same levels. */
+brc_status brc_preconditioner_store(brc_preconditioner *p, brc_state_store *store)
+{
+    BRC_TRY(brc_store_integer(store, "static.levels_moment", &p->origin.moment));
+    BRC_TRY(brc_store_double(store, "static.levels_weight", &p->origin.weight));
+    BRC_TRY(brc_store_double(store, "static.pace", &p->pace));
+    BRC_TRY(brc_store_flag(store, "static.bonds_broke", &p->bonds_broke));
+    return brc_store_flag(store, "static.blocks_alone", &p->blocks_alone);
+}
+
+static void drop(brc_preconditioner *p)
+{
+    brc_multigrid_free(&p->multigrid);
+    p->origin = (brc_multigrid_origin){0};
 }
 
 /* Bonds that break make the body softer than its multigrid, which stays positive and only gets worse. */
@@ -65,12 +80,12 @@ void brc_preconditioner_took(brc_solve_vectors *v, int64_t iterations, double fr
     if (!p->multigrid || !(digits > least_digits)) return;
     const double pace = (double)iterations / digits;
     if (p->pace == 0) p->pace = pace;
-    if (p->bonds_broke && pace > worse * p->pace) brc_multigrid_free(&p->multigrid);
+    if (p->bonds_broke && pace > worse * p->pace) drop(p);
 }
 
 void brc_preconditioner_give_up(brc_simulation *s, brc_solve_vectors *v)
 {
     brc_log(s->context, BRC_LOG_WARNING, "stage '%s': multigrid does not serve this stiffness; the iterations go on with diagonal blocks", brc_current_stage(s)->name);
     v->preconditioner.blocks_alone = true;
-    brc_multigrid_free(&v->preconditioner.multigrid);
+    drop(&v->preconditioner);
 }

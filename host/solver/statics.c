@@ -357,6 +357,7 @@ brc_status brc_statics_store_run(brc_simulation *s, brc_static_run *run, brc_sta
 {
     const brc_state_entry before = {"static.before", run->vectors.before, BRC_ROWS, BRC_OF_STATE, 3, NULL};
     BRC_TRY(brc_store_entry(s, store, &before));
+    BRC_TRY(brc_preconditioner_store(&run->vectors.preconditioner, store));
     return brc_store_double(store, "static.reference", &run->reference);
 }
 

@@ -11,10 +11,17 @@ typedef struct brc_unknowns {
     brc_buffer *move, *turn;
 } brc_unknowns;
 
+/* What multigrid was made of, from which the same can be made again later: bonds that broke after the moment (brc_fracture_moment) counted as whole. */
+typedef struct brc_multigrid_origin {
+    int64_t moment;
+    double weight; /* of a step on the finest level [-]; 0: nothing was made */
+} brc_multigrid_origin;
+
 /* What stands for K^-1 in the iterations of a stage: multigrid where the body is large enough, else diagonal blocks. */
 typedef struct brc_preconditioner {
     brc_buffer *blocks;              /* inverses [n_rows][6], cbm [n_rows][21] */
-    struct brc_multigrid *multigrid; /* NULL: blocks */
+    struct brc_multigrid *multigrid; /* NULL: blocks, or not made yet */
+    brc_multigrid_origin origin;
     bool blocks_alone;               /* multigrid failed in this stage */
     bool bonds_broke;                /* since multigrid was made */
     double pace;                     /* iterations for each digit of the residual in the first solve with it; 0: none yet */
@@ -68,6 +75,7 @@ brc_status brc_preconditioner_create(brc_simulation *s, brc_solve_vectors *v);
 brc_status brc_preconditioner_prepare(brc_simulation *s, brc_solve_vectors *v);
 /* z = M r, imposed components zero. rotations: as in brc_conjugate_gradients. */
 brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, bool rotations);
+brc_status brc_preconditioner_store(brc_preconditioner *preconditioner, brc_state_store *store);
 /* A solve took so many iterations from a residual to another. */
 void brc_preconditioner_took(brc_solve_vectors *v, int64_t iterations, double from, double to);
 /* Multigrid was not positive, or the residual stands: blocks from here on, with a warning. */

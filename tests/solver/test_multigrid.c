@@ -17,8 +17,9 @@ static const char walls[] = "sets:\n  left: {elements: {wall: x-}}\n  right: {el
 static brc_multigrid *make(bench_case *c)
 {
     brc_multigrid *m = NULL;
+    brc_multigrid_origin origin = {0};
     begin_first(c);
-    assert_done(c, brc_multigrid_create(c->simulation, &m));
+    assert_done(c, brc_multigrid_create(c->simulation, &origin, &m));
     return m;
 }
 

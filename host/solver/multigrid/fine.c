@@ -192,13 +192,13 @@ static brc_status find_spacing(brc_simulation *s, brc_fine *f)
     return BRC_OK;
 }
 
-brc_status brc_fine_create(brc_simulation *s, brc_fine *f)
+brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *f)
 {
     const brc_domain *d = s->domain;
     *f = (brc_fine){.s = s};
     BRC_TRY(BRC_ALLOCATE(s->context, &f->moduli, s->scene->n_materials, "levels"));
     for (int32_t m = 0; m < s->scene->n_materials; ++m) f->moduli[m] = brc_bond_moduli_of(&s->elastic[m]);
-    if (s->fracture) BRC_TRY(brc_fracture_whole(s, &f->whole));
+    if (s->fracture) BRC_TRY(brc_fracture_whole_at(s, moment, &f->whole));
     /* what a rigid motion of a piece meets: enough for the rounding of its sums, and so little that no bending is near it */
     f->soft = brc_is_published(s) ? 1e-6 : brc_device_get_precision(s->device) == BRC_SINGLE ? 1e-5 : 1e-10;
     f->nodes = (brc_nodes){.n = d->n_elements};

@@ -25,8 +25,8 @@ typedef struct brc_fine {
     double *spacing;         /* [bodies] mean distance of neighbours [m] */
 } brc_fine;
 
-/* Of the bonds and loads of the stage as they are. Free it after a failure too. */
-brc_status brc_fine_create(brc_simulation *s, brc_fine *out);
+/* Of the loads of the stage and the bonds as they were at a moment (brc_fracture_moment). Free it after a failure too. */
+brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *out);
 void brc_fine_free(brc_fine *fine);
 
 #endif

@@ -1,5 +1,6 @@
 /* Levels, made on the host one after the other and uploaded. */
 #include "multigrid_internal.h"
+#include "../fracture_internal.h"
 #include <math.h>
 #include <omp.h>
 #include <string.h>
@@ -187,11 +188,13 @@ static brc_status upload_matrix(brc_simulation *s, brc_level *l, const brc_store
     return new_unknowns(s, &l->step, rows->n);
 }
 
-/* Two thirds of the way of a step that the stiffest direction bears just so. */
-static brc_status weigh(brc_multigrid *m, int level)
+/* Two thirds of the way of a step that the stiffest direction bears just so. given: 0, or the weight. */
+static brc_status weigh(brc_multigrid *m, int level, double given)
 {
     static const double above = 1.05; /* what a power iteration misses */
     double stiffest;
+    m->level[level].weight = given;
+    if (given > 0) return BRC_OK;
     BRC_TRY(brc_level_stiffest(m, level, &stiffest));
     m->level[level].weight = 4 / (3 * above * stiffest);
     return BRC_OK;
@@ -249,7 +252,7 @@ static brc_status make_next(brc_multigrid *m, const brc_fine *f, made_level *mad
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &next.inverse, next.nodes.n, "levels"));
     BRC_TRY_OR(cleanup, brc_invert_blocks(s->context, &next.rows, NULL, next.inverse));
     BRC_TRY_OR(cleanup, upload_matrix(s, &m->level[m->n_levels++], &next.stored, (const double (*)[21])next.inverse));
-    BRC_TRY_OR(cleanup, weigh(m, m->n_levels - 1));
+    BRC_TRY_OR(cleanup, weigh(m, m->n_levels - 1, 0));
     *more = true;
     const made_level before = *made;
     *made = next;
@@ -262,7 +265,7 @@ cleanup:
     return status;
 }
 
-static brc_status make_levels(brc_multigrid *m, const brc_fine *f)
+static brc_status make_levels(brc_multigrid *m, const brc_fine *f, double weight)
 {
     brc_simulation *s = m->s;
     made_level made = {.rows = f->rows, .nodes = f->nodes};
@@ -278,7 +281,7 @@ static brc_status make_levels(brc_multigrid *m, const brc_fine *f)
     BRC_TRY_OR(cleanup, brc_invert_blocks(s->context, &made.rows, f->nodes.free_bits, made.inverse));
     BRC_TRY_OR(cleanup, upload_finest(m, f, (const double (*)[21])made.inverse));
     m->n_levels = 1;
-    BRC_TRY_OR(cleanup, weigh(m, 0));
+    BRC_TRY_OR(cleanup, weigh(m, 0, weight));
     while (more && made.rows.n > MOST_SOLVED) {
         BRC_TRY_OR(cleanup, make_next(m, f, &made, size, &more));
         for (int32_t b = 0; b < n_bodies; ++b) size[b] *= 2;
@@ -290,7 +293,7 @@ cleanup:
     return status;
 }
 
-brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid **out)
+brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin, brc_multigrid **out)
 {
     const int64_t held = brc_memory_held(), on_device = brc_device_bytes(s->device);
     const double since = omp_get_wtime();
@@ -301,8 +304,10 @@ brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid **out)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &m, 1, "multigrid"));
     m->s = s;
     BRC_TRY_OR(cleanup, find_kernels(m));
-    BRC_TRY_OR(cleanup, brc_fine_create(s, &fine));
-    BRC_TRY_OR(cleanup, make_levels(m, &fine));
+    if (!(origin->weight > 0) && s->fracture) origin->moment = brc_fracture_moment(s);
+    BRC_TRY_OR(cleanup, brc_fine_create(s, origin->moment, &fine));
+    BRC_TRY_OR(cleanup, make_levels(m, &fine, origin->weight));
+    origin->weight = m->level[0].weight;
     m->report = (brc_multigrid_report){.n_levels = m->n_levels,
                                        .device_bytes = brc_device_bytes(s->device) - on_device,
                                        .host_bytes = m->most_held - held,

@@ -9,8 +9,8 @@ typedef struct brc_multigrid brc_multigrid;
 /* Elements from which on it is worth its setup. */
 enum { BRC_MULTIGRID_LEAST = 500 };
 
-/* Of the current stage's supports and of the bonds as they are. BRC_NO_MEMORY, BRC_DEVICE_FAILED. */
-brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid **out);
+/* Of the current stage's supports, and of the bonds as they are (origin->weight 0; what they are goes there) or as they were. BRC_NO_MEMORY, BRC_DEVICE_FAILED. */
+brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin, brc_multigrid **out);
 void brc_multigrid_free(brc_multigrid **multigrid);
 /* z = M r. r.turn NULL: no torques; z.turn NULL: rotations are not asked for. r and z do not overlap. */
 brc_status brc_multigrid_apply(brc_multigrid *multigrid, brc_unknowns r, brc_unknowns z);
