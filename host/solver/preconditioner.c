@@ -38,8 +38,9 @@ static void tell(brc_simulation *s, const brc_multigrid *multigrid, const char *
     char nodes[200] = "";
     for (int i = 0, at = 0; i < m.n_levels; ++i)
         at += snprintf(nodes + at, sizeof nodes - (size_t)at, "%s%lld", i > 0 ? ", " : "", (long long)m.nodes[i]);
-    brc_log(s->context, again[0] ? BRC_LOG_DEBUG : BRC_LOG_INFO, "stage '%s': multigrid%s of %d levels (%s nodes) in %.2f s, %.2f kB an element",
-            brc_current_stage(s)->name, again, m.n_levels, nodes, m.seconds, 1e-3 * (double)m.device_bytes / (double)s->domain->n_elements);
+    brc_log(s->context, again[0] ? BRC_LOG_DEBUG : BRC_LOG_INFO, "stage '%s': multigrid%s of %d levels (%s nodes) in %.2f s, %.2f kB an element, %.2f while it was made",
+            brc_current_stage(s)->name, again, m.n_levels, nodes, m.seconds, 1e-3 * (double)m.device_bytes / (double)s->domain->n_elements,
+            1e-3 * (double)m.host_bytes / (double)s->domain->n_elements);
 }
 
 brc_status brc_preconditioner_prepare(brc_simulation *s, brc_solve_vectors *v)

@@ -19,7 +19,8 @@ brc_status brc_multigrid_apply(brc_multigrid *multigrid, brc_unknowns r, brc_unk
 typedef struct brc_multigrid_report {
     int n_levels;
     int64_t nodes[16];      /* of each level, the finest first */
-    int64_t device_bytes, host_bytes; /* held while it is there; the most that its setup took on the host beside */
+    int64_t device_bytes; /* held while it is there */
+    int64_t host_bytes;   /* the most that its setup held */
     double seconds;         /* of its setup */
 } brc_multigrid_report;
 brc_multigrid_report brc_multigrid_get_report(const brc_multigrid *multigrid);
