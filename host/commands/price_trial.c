@@ -230,7 +230,8 @@ brc_status brc_price_tell_trial(brc_context *context, brc_scene *scene, const br
         const brc_stage *stage = &scene->stages[k];
         const brc_trial_stage *t = &trial->stages[k];
         if (!t->ran) continue;
-        if (is_solve(stage)) tell_solve(details, stage, t, coarse.across > 0 ? (double)coarse.iterations[k] * across / coarse.across : 0, across, &total);
+        const double grown = coarse.across > 0 && brc_price_iterations_grow(stage, coarse.across) ? across / coarse.across : 1;
+        if (is_solve(stage)) tell_solve(details, stage, t, coarse.across > 0 ? (double)coarse.iterations[k] * grown : 0, across, &total);
         else if (stage->most_events > 0) tell_events(details, stage, t, &total);
         else tell_dynamic(details, scene, setup, stage, t, looked.slower ? looked.slower[k] : NAN, looked.done ? looked.done[k] : NAN, &total);
     }

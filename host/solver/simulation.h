@@ -149,6 +149,10 @@ typedef struct brc_static_report {
     int64_t iterations;  /* linear iterations in all; of a modes stage: rounds */
     int64_t corrections; /* nonlinear (modified Newton) corrections in all */
     double residual;     /* last, relative to the load [-] */
+    /* multigrid of the stage (docs/theory.md T6): levels, 0 where there was none; seconds of making it, in all; bytes that it held on the device */
+    int multigrid_levels;
+    double multigrid_seconds;
+    int64_t multigrid_bytes;
 } brc_static_report;
 brc_static_report brc_simulation_static_report(const brc_simulation *simulation);
 

@@ -162,6 +162,7 @@ static brc_status do_event(events *v, brc_ledger *before)
     BRC_TRY(break_next(v));
     for (int32_t k = 0; k < v->n; ++k) {
         v->part[k]->step += 1;
+        v->run[k].vectors.preconditioner.bonds_broke = true;
         BRC_TRY(brc_statics_find_pieces(v->part[k], &v->run[k].vectors));
     }
     const brc_status solved = solve_all(v);
