@@ -131,13 +131,13 @@ static void print_parts(const brc_setup *setup)
     }
 }
 
-/* What the last static stage of each model added for its solves. */
-static void print_multigrid(FILE *details, const brc_setup *setup)
+/* What the last static stage of each model added for its solves: memory that the price, of the end of a run, does not have. */
+static void print_multigrid(const brc_setup *setup)
 {
     for (int32_t k = 0; k < setup->n; ++k) {
         const brc_static_report r = brc_simulation_static_report(setup->assembly.part[k]);
         if (r.multigrid_levels > 0)
-            fprintf(details, "multigrid: %d levels made in %.3g s, %.4g MB more on the device while a static stage solves (%.0f bytes an element)\n", r.multigrid_levels,
+            printf("multigrid: %d levels made in %.3g s, %.4g MB more on the device while a static stage solves (%.0f bytes an element)\n", r.multigrid_levels,
                    r.multigrid_seconds, (double)r.multigrid_bytes / 1e6, (double)r.multigrid_bytes / (double)setup->domain[k]->n_elements);
     }
 }
@@ -164,7 +164,7 @@ static brc_status price(brc_context *context, const asked *a, brc_scene *scene, 
     if (!a->all) brc_check_brief_setup(stdout, scene, setup, request->precision);
     for (int32_t k = 0; k < setup->n; ++k) BRC_TRY_OR(cleanup, brc_free_bodies_tell(context, setup->split->part[k].scene, setup->domain[k], true));
     BRC_TRY_OR(cleanup, brc_check_try(context, request, a->brief, &check));
-    print_multigrid(a->details, setup);
+    print_multigrid(setup);
     if (a->effects) print_parts(setup);
     BRC_TRY_OR(cleanup, brc_check_price(context, scene, request, &check));
     if (!a->all) brc_check_brief_trial(stdout, scene, setup, &check.trial, &check.told);
