@@ -45,7 +45,7 @@ def measure(name):
 def predict(name):
     """The line `predicted:` of check, as numbers; and processor seconds that check itself took."""
     before = os.times()
-    check = subprocess.run([program, "check", str(examples / name / "scene.yaml"), *device, *shortened.get(name, [])], capture_output=True, text=True)
+    check = subprocess.run([program, "check", "--all", str(examples / name / "scene.yaml"), *device, *shortened.get(name, [])], capture_output=True, text=True)
     after = os.times()
     number = r"([-+.\de]+)"
     found = re.search(r"^predicted: %s s(?:.*? from %s to %s s)?.*; %s MB on the host, %s MB on the device, %s MB resident; %s MB on disk" % ((number,) * 7), check.stdout, re.M)

@@ -6,6 +6,15 @@
     X(vector_xpay)                                                                                                     \
     X(vector_dot)                                                                                                      \
     X(vector_sum)                                                                                                      \
+    X(multigrid_cells)                                                                                                 \
+    X(multigrid_ground)                                                                                                \
+    X(multigrid_matrix)                                                                                                \
+    X(multigrid_step)                                                                                                  \
+    X(multigrid_collect)                                                                                               \
+    X(multigrid_spread)                                                                                                \
+    X(multigrid_prolong)                                                                                               \
+    X(multigrid_restrict)                                                                                              \
+    X(multigrid_coarsest)                                                                                              \
     X(block_precondition)                                                                                              \
     X(divide_by_mass)                                                                                                  \
     X(advance)                                                                                                         \

@@ -2,7 +2,6 @@
 #include "outline.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* Corners are on a plane to rounding, which is larger for cells far from the origin: the smallest of these tolerances [of the cell's
  * size] whose corners enclose the face's area is taken. */
@@ -11,11 +10,27 @@
 /* How well a polygon's area must match the face's [of the cell's size squared]. */
 #define AREA_TOLERANCE 1e-9
 
-static int compare_angles(const void *a, const void *b)
+/* Grows with the angle of (x, y) from -2 at the negative first axis to 2, without a function of the angle. */
+static double turn_of(double x, double y)
 {
-    const brc_outline_corner *p = a, *q = b;
-    if (p->angle != q->angle) return p->angle < q->angle ? -1 : 1;
-    return p->vertex < q->vertex ? -1 : p->vertex > q->vertex;
+    const double along = fabs(x) + fabs(y) > 0.0 ? y / (fabs(x) + fabs(y)) : 0.0;
+    return x >= 0.0 ? along : y >= 0.0 ? 2.0 - along : -2.0 - along;
+}
+
+static bool comes_before(const brc_outline_corner *p, const brc_outline_corner *q)
+{
+    return p->angle != q->angle ? p->angle < q->angle : p->vertex < q->vertex;
+}
+
+/* By ascending angle; rings are short. */
+static void sort_ring(brc_outline_corner *ring, int64_t n)
+{
+    for (int64_t k = 1; k < n; ++k) {
+        const brc_outline_corner one = ring[k];
+        int64_t at = k;
+        for (; at > 0 && comes_before(&one, &ring[at - 1]); --at) ring[at] = ring[at - 1];
+        ring[at] = one;
+    }
 }
 
 static double polygon_area(const brc_outline_corner *c, int64_t n)
@@ -75,10 +90,10 @@ int64_t brc_outline(const brc_domain *domain, int64_t e, int64_t h, brc_outline_
         for (int64_t k = 0; k < n; ++k) {
             if (all[k].height > tolerance * size) continue;
             ring[on] = all[k];
-            ring[on].angle = atan2(ring[on].at[1], ring[on].at[0]);
+            ring[on].angle = turn_of(ring[on].at[0], ring[on].at[1]);
             ++on;
         }
-        qsort(ring, (size_t)on, sizeof *ring, compare_angles);
+        sort_ring(ring, on);
         if (fabs(polygon_area(ring, on) - area) > AREA_TOLERANCE * size * size) continue;
         for (int64_t k = 0; k < on; ++k) out[k] = ring[k].vertex;
         return on;

@@ -6,7 +6,7 @@
 
 /* A corner in the plane of a face, about its centroid. */
 typedef struct brc_outline_corner {
-    double angle, height, at[2]; /* height: over the plane, either side [m] */
+    double angle, height, at[2]; /* angle: what grows with it; height: over the plane, either side [m] */
     int32_t vertex;
 } brc_outline_corner;
 

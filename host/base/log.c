@@ -48,6 +48,18 @@ brc_log_level brc_log_get_level(const brc_context *context)
     return context->level;
 }
 
+void brc_log_set_sink(brc_context *context, brc_log_sink sink, void *self)
+{
+    context->sink = sink;
+    context->sink_self = self;
+}
+
+void brc_log_follow(brc_context *context, const brc_context *other)
+{
+    context->level = other->level;
+    brc_log_set_sink(context, other->sink, other->sink_self);
+}
+
 static void clear_line(brc_progress *progress)
 {
     if (!progress || !progress->on_screen) return;
@@ -59,6 +71,15 @@ void brc_log(brc_context *context, brc_log_level level, const char *format, ...)
 {
     static const char *const prefix[] = {"error: ", "warning: ", "", "debug: "};
     if (!context || level > context->level) return;
+    if (context->sink) {
+        char line[2048];
+        va_list words;
+        va_start(words, format);
+        vsnprintf(line, sizeof line, format, words);
+        va_end(words);
+        context->sink(context->sink_self, level, line);
+        return;
+    }
     clear_line(context->progress);
     fputs(prefix[level], stderr);
     va_list arguments;
@@ -100,7 +121,7 @@ static void show(brc_progress *progress, bool last)
     const double elapsed = now - progress->started_s;
     progress->shown_s = now;
     progress->shown_done = progress->done;
-    if (!progress->context || progress->context->level < BRC_LOG_INFO) return;
+    if (!progress->context || progress->context->level < BRC_LOG_INFO || progress->context->sink) return;
 
     char line[400], spent[32], rate[32], left[32] = "";
     format_duration(spent, sizeof spent, elapsed);

@@ -11,6 +11,11 @@ typedef enum brc_log_level { BRC_LOG_ERROR, BRC_LOG_WARNING, BRC_LOG_INFO, BRC_L
 
 void brc_log_set_level(brc_context *context, brc_log_level level);
 brc_log_level brc_log_get_level(const brc_context *context);
+/* Lines go to `sink` instead of stderr, without prefix and newline, and there are no progress lines; NULL: stderr again. self: borrowed. */
+typedef void (*brc_log_sink)(void *self, brc_log_level level, const char *line);
+void brc_log_set_sink(brc_context *context, brc_log_sink sink, void *self);
+/* Level and sink of another context: for one that does a part of its work. */
+void brc_log_follow(brc_context *context, const brc_context *other);
 /* One line on stderr (a newline is added); a progress line in the way is cleared first and redrawn later. */
 void brc_log(brc_context *context, brc_log_level level, const char *format, ...) __attribute__((format(printf, 3, 4)));
 

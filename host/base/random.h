@@ -20,6 +20,7 @@ typedef enum brc_random_use {
     BRC_RANDOM_STRENGTH = 11,
     BRC_RANDOM_FEATURE = 12,
     BRC_RANDOM_SKIN = 13,
+    BRC_RANDOM_STUDY = 14,
 } brc_random_use;
 
 /* Four doubles uniform in (0, 1), a function of (seed, use, a, b) alone. a, b: ids of the thing drawn for. */

@@ -136,6 +136,7 @@ static brc_status run_recorded(brc_context *context, watch *w, const char *folde
     BRC_TRY_OR(cleanup, brc_recorder_create(context, folder, brc_clock_s(), &recorder));
     brc_recorder_set_scene(recorder, setup->split->scene);
     brc_recorder_set_domains(recorder, setup->n, setup->domain, 0);
+    brc_recorder_set_threads(recorder, w->request->n_threads);
     BRC_TRY_OR(cleanup, brc_recorder_observe(recorder, &assembly));
     BRC_TRY_OR(cleanup, brc_recorder_finish(recorder, brc_lockstep_run(assembly.n, assembly.part)));
     for (int32_t k = 0; k < brc_recorder_measure_count(recorder) && !w->cut; ++k) out->measures[k] = brc_recorder_measures(recorder)[k].value;

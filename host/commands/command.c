@@ -4,9 +4,14 @@
 #include "../scene/problem.h"
 #include <string.h>
 
-static const brc_command *const commands[] = {&brc_command_check, &brc_command_build,     &brc_command_run,   &brc_command_devices,
-                                              &brc_command_bench, &brc_command_reproduce, &brc_command_calibrate, &brc_command_report, &brc_command_export};
+static const brc_command *const commands[] = {&brc_command_check, &brc_command_build,     &brc_command_run,   &brc_command_study, &brc_command_devices,
+                                              &brc_command_bench, &brc_command_reproduce, &brc_command_calibrate, &brc_command_report, &brc_command_export,
+                                              &brc_command_schema, &brc_command_completion, &brc_command_help};
+enum { OPERANDS = 20 }; /* column of the list */
 #define N_COMMANDS ((int)(sizeof commands / sizeof *commands))
+
+int brc_command_count(void) { return N_COMMANDS; }
+const brc_command *brc_command_at(int index) { return commands[index]; }
 
 const brc_command *brc_command_find(brc_context *context, const char *name)
 {
@@ -25,9 +30,11 @@ void brc_command_print_list(FILE *file)
 {
     fprintf(file, "breccia %s: brittle solids of Voronoi cells or spheres joined by beams, on the CPU and through OpenCL\n\nusage: breccia COMMAND ...\n\n",
             brc_version());
-    for (int k = 0; k < N_COMMANDS; ++k)
-        fprintf(file, "  %-10s %-20s %s\n", commands[k]->name, commands[k]->operands, commands[k]->summary);
-    fprintf(file, "\nbreccia COMMAND --help tells its options; breccia --version the version.\n"
+    for (int k = 0; k < N_COMMANDS; ++k) {
+        const bool wide = strlen(commands[k]->operands) > OPERANDS;
+        fprintf(file, "  %-10s %-*s %s%*s%s\n", commands[k]->name, OPERANDS, commands[k]->operands, wide ? "\n" : "", wide ? OPERANDS + 14 : 0, "", commands[k]->summary);
+    }
+    fprintf(file, "\nbreccia help COMMAND tells its options; breccia --version (-V) the version.\n"
                   "Exit codes: 0 done, 1 the physics was stopped or a bound missed, 2 wrong input, 3 device or file trouble.\n");
 }
 

@@ -15,7 +15,7 @@ typedef struct brc_session {
 typedef struct brc_option {
     const char *name;    /* without its dashes */
     char letter;         /* short form, 0: none */
-    const char *value;   /* what stands for the value in the help; NULL: a flag */
+    const char *value;   /* what stands for the value in the help, "a|b|c" where it is one of these words; NULL: a flag */
     bool repeats;        /* may be given more than once */
     const char *meaning; /* one line */
 } brc_option;
@@ -35,7 +35,7 @@ typedef struct brc_arguments {
 
 typedef struct brc_command {
     const char *name;
-    const char *operands; /* "SCENE", "[CASE]", "" */
+    const char *operands; /* "SCENE", "[CASE]", "a|b" where it is one of these words, "" */
     int least, most;      /* operands */
     const char *summary;  /* one line of the list */
     const char *details;  /* more lines of its own help, or "" */
@@ -45,8 +45,8 @@ typedef struct brc_command {
 } brc_command;
 
 /* The commands of the program. */
-extern const brc_command brc_command_check, brc_command_build, brc_command_run, brc_command_devices, brc_command_bench,
-    brc_command_reproduce, brc_command_report, brc_command_export, brc_command_calibrate;
+extern const brc_command brc_command_check, brc_command_build, brc_command_run, brc_command_study, brc_command_devices, brc_command_bench,
+    brc_command_reproduce, brc_command_report, brc_command_export, brc_command_calibrate, brc_command_schema, brc_command_completion, brc_command_help;
 
 /* Parse what follows the command's name. BRC_BAD_INPUT: unknown option (with the nearest one), missing or surplus
  * values and operands, an option given twice. --help and -h end the parsing. */
@@ -69,12 +69,15 @@ int brc_text_split(char *text, int most, const char **pieces);
 /* Help of the program and of one command. */
 void brc_command_print_list(FILE *file);
 void brc_command_print_help(const brc_command *command, FILE *file);
+/* All commands, in the order of their list. */
+int brc_command_count(void);
+const brc_command *brc_command_at(int index);
 /* The command of this name; NULL with a sentence naming the nearest when there is none. */
 const brc_command *brc_command_find(brc_context *context, const char *name);
 
 /* Options that several commands share, for their tables. */
 #define BRC_OPTION_DEVICE {"device", 'd', "DEVICE", false, "auto, cpu, opencl:N or target:N (default auto)"}
-#define BRC_OPTION_PRECISION {"precision", 'p', "NAME", false, "double, mixed or single (default double)"}
+#define BRC_OPTION_PRECISION {"precision", 'p', "double|mixed|single", false, "numbers of the device (default double)"}
 #define BRC_OPTION_THREADS {"threads", 't', "N", false, "threads of the cpu device and of building (default: all)"}
 #define BRC_OPTION_EXACT                                                                                               \
     {"exact", 'x', NULL, false, "round every product and sum by itself: equal bits on every device, slower"}

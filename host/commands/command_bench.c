@@ -3,6 +3,7 @@
 #include "bench_peers.h"
 #include "../../bench/contact_cost.h"
 #include "../../bench/effects.h"
+#include "../../bench/statics_cost.h"
 #include "../../bench/throughput.h"
 #include "../base/memory.h"
 #include <errno.h>
@@ -20,11 +21,12 @@ static const brc_option options[] = {
     BRC_OPTION_EXACT,
     {"sample", 0, "SECONDS", false, "least time of each of the five samples (default 0.5; effects: 0.2)"},
     {"copy", 0, "MB", false, "array of the copy that gives the bandwidth (default 256)"},
-    {"problems", 0, "LIST", false, "accuracy: which problems (default all; `--problems list` names them); contact: of nothing-near, dust, dense (default all)"},
+    {"problems", 0, "LIST", false, "accuracy: which problems (default all; `--problems list` names them); contact: of nothing-near, dust, dense; statics: of cantilever, cube (default all)"},
     {"quick", 'q', NULL, false, "accuracy: only the runs small enough for continuous integration"},
     {"folder", 'f', "DIR", false, "accuracy: read the problems from DIR/accuracy instead of from the program"},
     {"resume", 'r', NULL, false, "accuracy: go on with the points that the output folder has"},
-    {"elements", 0, "N", false, "peers: spheres of the packing, and cells (default 2e4)"},
+    {"elements", 0, "N", false, "peers: spheres of the packing, and cells (default 2e4); statics: most that diagonal blocks solve too (default 5e4)"},
+    {"poisson", 0, "NU", false, "statics: Poisson's ratio (default 0.3)"},
     {"steps", 0, "N", false, "peers: steps of each of the five samples (default 200)"},
 };
 
@@ -94,7 +96,7 @@ static brc_status refuse_options(brc_context *context, const brc_arguments *argu
 
 static brc_status run_accuracy(const brc_session *session, const brc_arguments *arguments)
 {
-    static const char *const others[] = {"sizes", "models", "precisions", "exact", "sample", "copy", "elements", "steps"};
+    static const char *const others[] = {"sizes", "models", "precisions", "exact", "sample", "copy", "elements", "steps", "poisson"};
     brc_context *context = session->context;
     char problems[256], devices[256], threads[32];
     const char *pieces[BRC_THROUGHPUT_LIST], *device[BRC_THROUGHPUT_LIST], *count[BRC_THROUGHPUT_LIST];
@@ -133,7 +135,7 @@ static brc_status print_contact(void *self, const brc_rows *rows)
 
 static brc_status run_contact(const brc_session *session, const brc_arguments *arguments)
 {
-    static const char *const others[] = {"precisions", "exact", "copy", "quick", "folder", "resume", "elements", "steps"};
+    static const char *const others[] = {"precisions", "exact", "copy", "quick", "folder", "resume", "elements", "steps", "poisson"};
     brc_context *context = session->context;
     char copy[5][256], folder[512];
     const char *device[BRC_THROUGHPUT_LIST], *size[BRC_THROUGHPUT_LIST], *model[BRC_THROUGHPUT_LIST], *count[BRC_THROUGHPUT_LIST], *row[BRC_THROUGHPUT_LIST];
@@ -177,6 +179,63 @@ static brc_status run_contact(const brc_session *session, const brc_arguments *a
     return status;
 }
 
+static brc_status print_statics(void *self, const brc_rows *rows)
+{
+    const brc_row *row = &rows->rows[rows->n_rows - 1];
+    printf("%-10s %9.0f %-9s %7.0f %9.4g s", brc_row_text(row, "body"), brc_row_number(row, "elements"), brc_row_text(row, "preconditioner"), brc_row_number(row, "iterations"),
+           brc_row_number(row, "seconds"));
+    if (brc_row_number(row, "multigrid_bytes_per_element") > 0)
+        printf(", of these %.3g s setup, %.0f bytes an element", brc_row_number(row, "setup_s"), brc_row_number(row, "multigrid_bytes_per_element"));
+    if (!isnan(brc_row_number(row, "blocks_over_this"))) printf(", blocks took %.3g times as long", brc_row_number(row, "blocks_over_this"));
+    printf("\n");
+    fflush(stdout);
+    return brc_rows_write(rows, self);
+}
+
+static brc_status run_statics(const brc_session *session, const brc_arguments *arguments)
+{
+    static const char *const others[] = {"models", "exact", "sample", "copy", "quick", "folder", "resume", "steps"};
+    brc_context *context = session->context;
+    char copy[5][256], folder[512];
+    const char *size[BRC_THROUGHPUT_LIST], *device[BRC_THROUGHPUT_LIST], *count[BRC_THROUGHPUT_LIST], *body[BRC_THROUGHPUT_LIST], *precision[BRC_THROUGHPUT_LIST];
+    int n_sizes = 0, n_devices = 0, n_counts = 0, n_bodies = 0, n_precisions = 0;
+    double number, most = 5e4;
+    BRC_TRY(refuse_options(context, arguments, "statics", sizeof others / sizeof *others, others));
+    const char *given = brc_arguments_value(arguments, "output");
+    snprintf(folder, sizeof folder, "%s", given ? given : "results/statics");
+    brc_statics_cost_request request = {.poisson = 0.3, .row = print_statics, .self = folder};
+    BRC_TRY(take_list(context, arguments, "sizes", "1e3,1e4,1e5", copy[0], sizeof copy[0], size, &n_sizes));
+    BRC_TRY(take_list(context, arguments, "devices", "cpu", copy[1], sizeof copy[1], device, &n_devices));
+    BRC_TRY(take_list(context, arguments, "threads", "1", copy[2], sizeof copy[2], count, &n_counts));
+    BRC_TRY(take_list(context, arguments, "problems", "cantilever,cube", copy[3], sizeof copy[3], body, &n_bodies));
+    BRC_TRY(take_list(context, arguments, "precisions", "double", copy[4], sizeof copy[4], precision, &n_precisions));
+    BRC_TRY(take_number(context, "threads", count[0], 1, 4096, &number));
+    if (n_devices > 1 || n_counts > 1 || n_precisions > 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench statics: one device, precision and number of threads, found several");
+    request.device = device[0];
+    request.n_threads = (int)number;
+    BRC_TRY(brc_precision_parse(context, precision[0], &request.precision));
+    if (brc_arguments_value(arguments, "elements")) BRC_TRY(take_number(context, "elements", brc_arguments_value(arguments, "elements"), 0, 1e9, &most));
+    request.most_of_blocks = (int64_t)most;
+    for (int k = 0; k < n_bodies; ++k) {
+        const bool cantilever = strcmp(body[k], "cantilever") == 0, cube = strcmp(body[k], "cube") == 0;
+        if (!cantilever && !cube) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench statics: no problem '%s', expected cantilever or cube", body[k]);
+        request.cantilever |= cantilever;
+        request.cube |= cube;
+    }
+    if (brc_arguments_value(arguments, "poisson")) BRC_TRY(take_number(context, "poisson", brc_arguments_value(arguments, "poisson"), -0.999, 0.4999, &request.poisson));
+    brc_rows rows = {.context = context};
+    brc_status status = BRC_OK;
+    for (int k = 0; k < n_sizes && status == BRC_OK; ++k) {
+        status = take_number(context, "sizes", size[k], 500, 1e9, &number);
+        request.elements = (int64_t)number;
+        if (status == BRC_OK) status = brc_statics_cost_measure(context, &request, &rows);
+    }
+    if (status == BRC_OK) printf("%s/rows.json\n", folder);
+    brc_rows_free(&rows);
+    return status;
+}
+
 /* Names of a list of models. */
 static brc_status take_models(brc_context *context, int n, const char *const *names, brc_model_kind *out)
 {
@@ -204,7 +263,7 @@ static brc_status print_effect(void *self, const brc_rows *rows)
 
 static brc_status run_effects(const brc_session *session, const brc_arguments *arguments)
 {
-    static const char *const others[] = {"problems", "quick", "folder", "resume", "exact", "copy", "elements", "steps"};
+    static const char *const others[] = {"problems", "quick", "folder", "resume", "exact", "copy", "elements", "steps", "poisson"};
     brc_context *context = session->context;
     const char *given_folder = brc_arguments_value(arguments, "output"), *pieces[BRC_THROUGHPUT_LIST];
     char folder[512], copy[5][256];
@@ -241,7 +300,7 @@ static brc_status run_effects(const brc_session *session, const brc_arguments *a
 
 static brc_status run_peers(const brc_session *session, const brc_arguments *arguments)
 {
-    static const char *const others[] = {"sizes", "models", "devices", "precisions", "exact", "sample", "copy", "problems", "quick", "folder", "resume"};
+    static const char *const others[] = {"sizes", "models", "devices", "precisions", "exact", "sample", "copy", "problems", "quick", "folder", "resume", "poisson"};
     brc_context *context = session->context;
     double elements = 2e4, steps = 200, threads = 1;
     BRC_TRY(refuse_options(context, arguments, "peers", sizeof others / sizeof *others, others));
@@ -254,14 +313,15 @@ static brc_status run_peers(const brc_session *session, const brc_arguments *arg
 
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
 {
-    static const char *const others[] = {"problems", "quick", "folder", "resume", "elements", "steps"};
+    static const char *const others[] = {"problems", "quick", "folder", "resume", "elements", "steps", "poisson"};
     brc_context *context = session->context;
     if (strcmp(arguments->positional[0], "peers") == 0) return run_peers(session, arguments);
     if (strcmp(arguments->positional[0], "accuracy") == 0) return run_accuracy(session, arguments);
     if (strcmp(arguments->positional[0], "contact") == 0) return run_contact(session, arguments);
     if (strcmp(arguments->positional[0], "effects") == 0) return run_effects(session, arguments);
+    if (strcmp(arguments->positional[0], "statics") == 0) return run_statics(session, arguments);
     if (strcmp(arguments->positional[0], "throughput") != 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects, peers", arguments->positional[0]);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects, statics, peers", arguments->positional[0]);
     BRC_TRY(refuse_options(context, arguments, "throughput", sizeof others / sizeof *others, others));
     const char *given_folder = brc_arguments_value(arguments, "output");
     char folder[512], here[256], copy[4][256], devices[256];
@@ -306,13 +366,14 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
 }
 
 const brc_command brc_command_bench = {.name = "bench",
-                                       .operands = "KIND",
+                                       .operands = "throughput|accuracy|contact|effects|statics|peers",
                                        .least = 1,
                                        .most = 1,
                                        .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy, contact or other effects cost, or what other programs take",
-                                       .details = "KIND: throughput, accuracy, contact, effects or peers. Noisy-grid cubes; packings with ten beams an element for cbm. Lists are separated by commas; every combination is measured. "
+                                       .details = "Noisy-grid cubes; packings with ten beams an element for cbm. Lists are separated by commas; every combination is measured. "
                                                   "accuracy: problems with exact answers, error against seconds (one device, one number of threads). "
                                                   "contact: the step with nothing near, of a ball gone to dust, and of dust pressed together, over the step without contact (default 3e4 elements). "
+                                                  "statics: a cantilever and a cube in equilibrium, with multigrid and with diagonal blocks (one device, precision and number of threads). "
                                                   "effects: fracture and others as multiples of the elastic step of a cube (one size, device, precision, number of threads). "
                                                   "peers: the same packing in breccia and in YADE and LAMMPS, where they are on PATH (one number of threads).",
                                        .options = options,

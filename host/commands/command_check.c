@@ -1,12 +1,11 @@
 /* breccia check: what a scene asks for and what it will cost, before it runs. */
+#include "check_scene.h"
 #include "command.h"
+#include "check_brief.h"
 #include "pace.h"
 #include "price.h"
 #include "price_file.h"
-#include "price_trial.h"
 #include "scene_domain.h"
-#include "setup.h"
-#include "trial.h"
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
@@ -22,27 +21,28 @@ static const brc_option options[] = {
     BRC_OPTION_THREADS,
     BRC_OPTION_SET,
     {"output", 'o', "DIR", false, "also write the price into DIR/price.json, with which `breccia run SCENE -o DIR` compares what it took"},
+    {"all", 'a', NULL, false, "all of it: the scene with its defaults, effects in and out, every error the class rests on"},
     {"brief", 'b', NULL, false, "cut every stage after about a second, also where bonds break or surfaces meet and some seconds more would see its end"},
     {"effects", 'E', NULL, false, "also name the kernels that the trial launched and the arrays on the device, with launches and bytes"},
     {"estimate", 'e', NULL, false, "build no domain: counts and memory of it only, no time step and no seconds"},
 };
 
-static brc_status print_resolved(brc_context *context, const brc_scene *scene)
+static brc_status print_resolved(FILE *details, brc_context *context, const brc_scene *scene)
 {
     char *yaml;
     BRC_TRY(brc_scene_to_yaml(context, scene, &yaml));
-    printf("%s\n", yaml);
+    fprintf(details, "%s\n", yaml);
     brc_memory_free(yaml);
     return BRC_OK;
 }
 
 /* model: NULL where all bodies have one. */
-static void print_effects(const char *head, const char *model, const char *const *effects)
+static void print_effects(FILE *details, const char *head, const char *model, const char *const *effects)
 {
-    printf("%s%s%s:", head, model ? " with " : "", model ? model : "");
+    fprintf(details, "%s%s%s:", head, model ? " with " : "", model ? model : "");
     for (int k = 0; effects[k]; ++k)
-        printf("%s%s", k ? ", " : " ", effects[k]);
-    printf("%s\n", effects[0] ? "" : " none");
+        fprintf(details, "%s%s", k ? ", " : " ", effects[k]);
+    fprintf(details, "%s\n", effects[0] ? "" : " none");
 }
 
 static brc_status print_estimate(brc_context *context, const brc_scene *scene)
@@ -65,7 +65,7 @@ static brc_status print_estimate(brc_context *context, const brc_scene *scene)
 }
 
 /* Model by model where there are several. */
-static void print_counts(const brc_setup *setup, double build_s)
+static void print_counts(FILE *details, const brc_setup *setup, double build_s)
 {
     int64_t n_free = 0;
     for (int32_t k = 0; k < setup->n; ++k) {
@@ -73,47 +73,47 @@ static void print_counts(const brc_setup *setup, double build_s)
         char bodies[256];
         n_free += domain->n_free_faces;
         if (setup->n > 1)
-            printf("model %s: %lld elements, %lld bonds, bodies %s\n", setup->split->part[k].name, (long long)domain->n_elements,
+            fprintf(details, "model %s: %lld elements, %lld bonds, bodies %s\n", setup->split->part[k].name, (long long)domain->n_elements,
                    (long long)domain->n_bonds, brc_split_bodies(setup->split, k, bodies, sizeof bodies));
     }
-    printf("counts: %lld elements, %lld bonds, %lld free faces (built in %.3g s)\n", (long long)brc_setup_n_elements(setup),
+    fprintf(details, "counts: %lld elements, %lld bonds, %lld free faces (built in %.3g s)\n", (long long)brc_setup_n_elements(setup),
            (long long)brc_setup_n_bonds(setup), (long long)n_free, build_s);
 }
 
 /* A line for each wall and striker. */
-static void print_strikers(const brc_assembly *a)
+static void print_strikers(FILE *details, const brc_assembly *a)
 {
     static const char *const motion[] = {[BRC_STRIKER_FIXED] = "fixed", [BRC_STRIKER_DRIVEN] = "driven", [BRC_STRIKER_FREE] = "free"};
     for (int32_t k = 0; k < brc_simulation_n_strikers(a->part[0]); ++k) {
         const brc_striker *striker = &a->scene->strikers[k];
         const brc_striker_body *body = brc_simulation_striker_body(a->part[0], k);
-        printf("striker %s: %s, %s %.6g %.6g %.6g m", striker->name, motion[striker->motion], striker->is_plane ? "plane through" : "mass centre at", body->centre[0],
+        fprintf(details, "striker %s: %s, %s %.6g %.6g %.6g m", striker->name, motion[striker->motion], striker->is_plane ? "plane through" : "mass centre at", body->centre[0],
                body->centre[1], body->centre[2]);
-        if (!striker->is_plane) printf(", %d flat faces", (int)body->surface.n_faces);
+        if (!striker->is_plane) fprintf(details, ", %d flat faces", (int)body->surface.n_faces);
         if (striker->motion == BRC_STRIKER_FREE)
-            printf(", mass %.6g kg, moments of inertia %.4g %.4g %.4g kg m^2", body->mass, body->inertia[0], body->inertia[1], body->inertia[2]);
-        printf("\n");
+            fprintf(details, ", mass %.6g kg, moments of inertia %.4g %.4g %.4g kg m^2", body->mass, body->inertia[0], body->inertia[1], body->inertia[2]);
+        fprintf(details, "\n");
     }
 }
 
 /* Device, effects and memory. */
-static void print_setup(const brc_setup *setup, brc_precision precision)
+static void print_setup(FILE *details, const brc_setup *setup, brc_precision precision)
 {
     const brc_assembly *a = &setup->assembly;
     const double bytes = (double)brc_assembly_device_bytes(a);
     const brc_device_info *info = brc_device_get_info(setup->device[0]);
-    printf("device: %s (%s), %s precision\n", info->selector, info->name, brc_precision_name(precision));
+    fprintf(details, "device: %s (%s), %s precision\n", info->selector, info->name, brc_precision_name(precision));
     for (int32_t k = 0; k < a->n; ++k) {
         const char *model = a->split ? brc_assembly_part_name(a, k) : NULL;
-        print_effects("effects in", model, brc_simulation_effects_in(a->part[k]));
-        print_effects("effects out", model, brc_simulation_effects_out(a->part[k]));
+        print_effects(details, "effects in", model, brc_simulation_effects_in(a->part[k]));
+        print_effects(details, "effects out", model, brc_simulation_effects_out(a->part[k]));
     }
-    print_strikers(a);
-    printf("memory: %.4g MB on the device (%.0f bytes an element), %.4g MB on the host so far\n", bytes / 1e6,
+    print_strikers(details, a);
+    fprintf(details, "memory: %.4g MB on the device (%.0f bytes an element), %.4g MB on the host so far\n", bytes / 1e6,
            bytes / (double)brc_setup_n_elements(setup), (double)brc_memory_peak() / 1e6);
     for (int32_t k = 0; k < a->n; ++k) {
         const double each = (double)brc_simulation_pair_bytes(a->part[k]), bonds = (double)setup->domain[k]->n_bonds;
-        if (each > 0) printf("        and at most %.0f bytes for each pair of surfaces near each other: %.4g MB for as many as there are bonds\n", each, each * bonds / 1e6);
+        if (each > 0) fprintf(details, "        and at most %.0f bytes for each pair of surfaces near each other: %.4g MB for as many as there are bonds\n", each, each * bonds / 1e6);
     }
 }
 
@@ -131,26 +131,52 @@ static void print_parts(const brc_setup *setup)
     }
 }
 
-/* The simulations, and how long making them took. */
-static brc_status make_simulations(brc_context *context, const brc_device_request *request, brc_setup *setup, double *seconds)
+/* What the last static stage of each model added for its solves: memory that the price, of the end of a run, does not have. */
+static void print_multigrid(const brc_setup *setup)
 {
-    const double start = brc_pace_clock_s(request);
-    BRC_TRY(brc_setup_simulations(context, request, setup));
-    *seconds = brc_pace_clock_s(request) - start;
-    return BRC_OK;
+    for (int32_t k = 0; k < setup->n; ++k) {
+        const brc_static_report r = brc_simulation_static_report(setup->assembly.part[k]);
+        if (r.multigrid_levels > 0)
+            printf("multigrid: %d levels made in %.3g s, %.4g MB more on the device while a static stage solves (%.0f bytes an element)\n", r.multigrid_levels,
+                   r.multigrid_seconds, (double)r.multigrid_bytes / 1e6, (double)r.multigrid_bytes / (double)setup->domain[k]->n_elements);
+    }
 }
 
-/* OpenCL drivers compile a kernel when it is first launched and keep it on disk for later runs: PoCL takes some ten seconds for all of a run, which would be taken for its pace. So
- * a brief trial goes before the one that is measured. */
-static brc_status compile_first(brc_context *context, const brc_device_request *request, brc_setup *setup, double *seconds)
+/* What the command line asks for. */
+typedef struct asked {
+    brc_device_request request;
+    const char *folder; /* NULL: no price.json */
+    bool brief, effects;
+    FILE *details; /* where the long report goes; not shown: a stream that keeps nothing */
+    bool all;
+} asked;
+
+/* The scene's price, from its domains to its class of error. */
+static brc_status price(brc_context *context, const asked *a, brc_scene *scene, const char *yaml)
 {
-    brc_trial trial = {0};
-    if (brc_device_get_info(setup->device[0])->kind != BRC_DEVICE_OPENCL) return BRC_OK;
-    const brc_status status = brc_trial_run(context, setup, request, true, &trial);
-    brc_trial_free(&trial);
-    brc_setup_free_simulations(setup);
-    for (int32_t k = 0; k < setup->n; ++k) brc_device_close(&setup->device[k]);
-    return status == BRC_OK ? make_simulations(context, request, setup, seconds) : status;
+    const brc_device_request *request = &a->request;
+    brc_check check = {.details = a->details, .built = print_counts};
+    const brc_setup *setup = &check.setup;
+    brc_price_error own = {.worst = -1};
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, brc_check_build(context, scene, request, brc_pace_start_s(request), &check));
+    print_setup(a->details, setup, request->precision);
+    if (!a->all) brc_check_brief_setup(stdout, scene, setup, request->precision);
+    for (int32_t k = 0; k < setup->n; ++k) BRC_TRY_OR(cleanup, brc_free_bodies_tell(context, setup->split->part[k].scene, setup->domain[k], true));
+    BRC_TRY_OR(cleanup, brc_check_try(context, request, a->brief, &check));
+    print_multigrid(setup);
+    if (a->effects) print_parts(setup);
+    BRC_TRY_OR(cleanup, brc_check_price(context, scene, request, &check));
+    if (!a->all) brc_check_brief_trial(stdout, scene, setup, &check.trial, &check.told);
+    const brc_price_of of = {yaml, brc_device_get_info(setup->device[0])->selector, request->precision, request->n_threads};
+    if (a->folder && check.told.known) BRC_TRY_OR(cleanup, brc_price_file_write(context, a->folder, &of, &check.told));
+    BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &check.setup, request, &check.trial, &own));
+    BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, setup, request->precision, check.told.seconds, &own, a->details));
+    if (!a->all) printf("more: breccia check --all; warnings, where there are any, are above\n");
+cleanup:
+    brc_price_error_free(&own);
+    brc_check_free(&check);
+    return status;
 }
 
 static brc_status run(const brc_session *session, const brc_arguments *arguments)
@@ -159,50 +185,34 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     brc_status status = BRC_OK;
     brc_scene *scene = NULL;
     char *yaml = NULL;
-    brc_setup setup = {0};
-    brc_trial trial = {0};
-    brc_price_error own = {.worst = -1};
-    brc_prediction_told told;
-    double simulations_s;
     int64_t n_threads;
     brc_precision precision;
-    BRC_TRY(brc_arguments_integer(context, arguments, "threads", 0, 4096, 0, &n_threads));
-    BRC_TRY(brc_arguments_precision(context, arguments, &precision));
+    const bool all = brc_arguments_value(arguments, "all") != NULL;
+    FILE *const none = all ? NULL : fopen("/dev/null", "w"), *const details = none ? none : stdout;
+    BRC_TRY_OR(cleanup, brc_arguments_integer(context, arguments, "threads", 0, 4096, 0, &n_threads));
+    BRC_TRY_OR(cleanup, brc_arguments_precision(context, arguments, &precision));
     int n_overrides;
     const char *const *overrides = brc_arguments_values(arguments, "set", &n_overrides);
-    BRC_TRY(brc_scene_read(context, arguments->positional[0], n_overrides, overrides, &scene));
-    BRC_TRY_OR(cleanup, print_resolved(context, scene));
+    BRC_TRY_OR(cleanup, brc_scene_read(context, arguments->positional[0], n_overrides, overrides, &scene));
+    BRC_TRY_OR(cleanup, print_resolved(details, context, scene));
     if (brc_arguments_value(arguments, "estimate")) {
         status = print_estimate(context, scene);
         goto cleanup;
     }
     BRC_TRY_OR(cleanup, brc_checkpoint_scene(context, scene, &yaml));
     const char *selector = brc_arguments_value(arguments, "device"), *folder = brc_arguments_value(arguments, "output");
-    const brc_device_request request = {.selector = selector ? selector : "auto", .precision = precision, .n_threads = (int)n_threads};
+    const asked a = {.request = {.selector = selector ? selector : "auto", .precision = precision, .n_threads = (int)n_threads},
+                     .folder = folder,
+                     .brief = brc_arguments_value(arguments, "brief") != NULL,
+                     .effects = brc_arguments_value(arguments, "effects") != NULL,
+                     .details = details,
+                     .all = all};
     if (folder) BRC_TRY_OR(cleanup, brc_file_make_folder(context, folder)); /* before the trial: it may take minutes */
-    const double start = brc_pace_start_s(&request), build_start = brc_pace_clock_s(&request);
-    BRC_TRY_OR(cleanup, brc_setup_domains(context, scene, NULL, (int)n_threads, &setup));
-    print_counts(&setup, brc_pace_clock_s(&request) - build_start);
-    BRC_TRY_OR(cleanup, brc_setup_polish(context, (int)n_threads, &setup));
-    const double built_s = brc_pace_clock_s(&request) - start;
-    BRC_TRY_OR(cleanup, make_simulations(context, &request, &setup, &simulations_s));
-    print_setup(&setup, precision);
-    for (int32_t k = 0; k < setup.n; ++k) BRC_TRY_OR(cleanup, brc_free_bodies_tell(context, setup.split->part[k].scene, setup.domain[k], true));
-    BRC_TRY_OR(cleanup, compile_first(context, &request, &setup, &simulations_s));
-    BRC_TRY_OR(cleanup, brc_trial_run(context, &setup, &request, brc_arguments_value(arguments, "brief") != NULL, &trial));
-    if (brc_arguments_value(arguments, "effects")) print_parts(&setup);
-    brc_setup_free_simulations(&setup); /* a coarser body may need the room */
-    BRC_TRY_OR(cleanup, brc_price_tell_trial(context, scene, &setup, &request, &trial, built_s + simulations_s, &told));
-    const brc_price_of of = {yaml, brc_device_get_info(setup.device[0])->selector, precision, (int)n_threads};
-    if (folder && told.known) BRC_TRY_OR(cleanup, brc_price_file_write(context, folder, &of, &told));
-    BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &setup, &request, &trial, &own));
-    BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, &setup, precision, told.seconds, &own));
+    status = price(context, &a, scene, yaml);
 cleanup:
-    brc_price_error_free(&own);
-    brc_trial_free(&trial);
-    brc_setup_free(&setup);
     brc_scene_free(&scene);
     brc_memory_free(yaml);
+    if (none) fclose(none);
     return status;
 }
 
@@ -211,7 +221,7 @@ const brc_command brc_command_check = {.name = "check",
                                        .least = 1,
                                        .most = 1,
                                        .summary = "validate a scene and price it: effects, counts, time step, memory, seconds",
-                                       .details = "Prints the scene with all defaults. Seconds, memory and disk come from a trial: the run itself in a folder\nthat is removed (below TMPDIR), each stage cut after about a second (where bonds break, surfaces meet or a condition ends it: only if\nmore than some seconds of it are left).",
+                                       .details = "Ten lines of what matters; --all prints the scene with its defaults and every number. Seconds, memory and disk come from a trial: the run itself in a folder\nthat is removed (below TMPDIR), each stage cut after about a second (where bonds break, surfaces meet or a condition ends it: only if\nmore than some seconds of it are left).",
                                        .options = options,
                                        .n_options = sizeof options / sizeof *options,
                                        .run = run};

@@ -3,7 +3,7 @@
 #include "../output/export.h"
 
 static const brc_option options[] = {
-    {"format", 'f', "NAME", false, "vtu, vtkhdf or csv (needed)"},
+    {"format", 'f', "vtu|vtkhdf|csv", false, "needed"},
     BRC_OPTION_OUTPUT("where to write (default: export inside the folder of the run)"),
 };
 

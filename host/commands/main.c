@@ -30,11 +30,11 @@ static void set_running(brc_simulation *simulation)
 
 static brc_status dispatch(const brc_session *session, int argc, const char *const *argv)
 {
-    if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
+    if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
         brc_command_print_list(stdout);
         return BRC_OK;
     }
-    if (strcmp(argv[1], "--version") == 0) {
+    if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {
         printf("breccia %s (commit %s, %s)\n", brc_version(), brc_version_commit(), brc_version_compiler());
         return BRC_OK;
     }

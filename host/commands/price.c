@@ -290,41 +290,41 @@ static const char *measured_of(brc_model_kind model, bool by_bond, bool softens)
 }
 
 /* The error class is of elastic solids; a line for every kind of breaking in the scene. */
-static void tell_breaking(const brc_scene *scene, const brc_setup *setup)
+static void tell_breaking(FILE *details, const brc_scene *scene, const brc_setup *setup)
 {
     const char *said[BRC_MODEL_CBM + 1] = {NULL};
     if (!scene->has_fracture) return;
-    printf("what breaks: the errors above are of the elastic solid; no error of this scene's cracks or strength is known\n");
+    fprintf(details, "what breaks: the errors above are of the elastic solid; no error of this scene's cracks or strength is known\n");
     for (int32_t k = 0; k < setup->n; ++k) {
         const brc_model_kind kind = setup->split->part[k].scene->model.kind;
         if (said[kind]) continue;
         said[kind] = measured_of(kind, brc_criterion_of(&scene->fracture, kind) == BRC_CRITERION_BOND_NORMAL, brc_scene_softens(scene));
-        printf("measured where %s breaks: %s\n", brc_model_name(kind), said[kind]);
+        fprintf(details, "measured where %s breaks: %s\n", brc_model_name(kind), said[kind]);
     }
 }
 
-brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, double seconds, const brc_price_error *own)
+brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, double seconds, const brc_price_error *own, FILE *details)
 {
     const double now = (double)brc_setup_n_elements(setup);
     brc_price_judgement j;
     BRC_TRY(brc_price_judge(context, scene, setup, precision, own, &j));
     for (int k = 0; k < j.n; ++k)
-        printf("error as of '%s' at %.0f elements: %.2g %% (%d points of %s from %.0f to %.0f elements, falls as spacing^%.2g)\n", j.curve[k].problem, now,
+        fprintf(details, "error as of '%s' at %.0f elements: %.2g %% (%d points of %s from %.0f to %.0f elements, falls as spacing^%.2g)\n", j.curve[k].problem, now,
                100 * brc_price_curve_error(&j.curve[k], now), j.curve[k].n, j.taken, j.curve[k].least, j.curve[k].most, j.curve[k].order);
     for (int32_t k = 0; own->worst >= 0 && k < scene->n_measures; ++k)
         if (!isnan(own->error[k]))
-            printf("error of measure '%s': about %.2g %% (from the same scene with about %lld elements%s)\n", scene->measures[k].name, 100 * own->error[k], (long long)own->least_elements,
+            fprintf(details, "error of measure '%s': about %.2g %% (from the same scene with about %lld elements%s)\n", scene->measures[k].name, 100 * own->error[k], (long long)own->least_elements,
                    own->error[k] > 1 ? "; it differs by more than itself: a number that is zero but for the cells has no relative error, leave it out of `measure`" : "");
-    if (own->worst >= 0 && own->volumes > finest_class) printf("of that %.2g %%: volumes of the materials, whose boundaries run along cells\n", 100 * own->volumes);
+    if (own->worst >= 0 && own->volumes > finest_class) fprintf(details, "of that %.2g %%: volumes of the materials, whose boundaries run along cells\n", 100 * own->volumes);
     if (own->out_of_time)
-        printf("measures were not compared with those of fewer elements: a stage of these was not over after %.0f s (another machine may tell another class)\n", brc_price_error_stage_s);
+        fprintf(details, "measures were not compared with those of fewer elements: a stage of these was not over after %.0f s (another machine may tell another class)\n", brc_price_error_stage_s);
     if (!j.known) {
         printf("error class (elastic): not known, no curve of model %s was measured (docs/accuracy.md)\n", brc_model_name(setup->split->part[0].scene->model.kind));
-        tell_breaking(scene, setup);
+        tell_breaking(details, scene, setup);
         return BRC_OK;
     }
     tell_class(&j.by, now, j.is_own ? "measure" : "the worst of these problems,");
-    tell_breaking(scene, setup);
+    tell_breaking(details, scene, setup);
     tell_choices(scene, &j, now, seconds);
     return tell_precision_and_step(context, scene, brc_model_name(setup->split->part[0].scene->model.kind), &j.by, now, seconds);
 }

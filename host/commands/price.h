@@ -7,6 +7,7 @@
 #include "price_curves.h"
 #include "price_error.h"
 #include "setup.h"
+#include <stdio.h>
 
 typedef struct brc_price {
     brc_context *context;
@@ -40,7 +41,7 @@ typedef struct brc_price_judgement {
 brc_status brc_price_judge(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, const brc_price_error *own, brc_price_judgement *out);
 
 /* For `breccia check`: tell that, and where the scene asks for an accuracy or has a budget, the resolution for it and its cost. seconds: predicted of the run as it
- * stands. */
-brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, double seconds, const brc_price_error *own);
+ * stands; details: where the errors that the class rests on go, and what was measured of breaking. */
+brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene, const brc_setup *setup, brc_precision precision, double seconds, const brc_price_error *own, FILE *details);
 
 #endif

@@ -1,15 +1,21 @@
 #include "price_work.h"
 #include <math.h>
 
-/* Iterations of a solve in units of elements across. */
-static const double iterations_across = 5, solves_per_finite_increment = 3;
+/* Iterations of a solve in units of elements across, and with multigrid, which bodies of so many elements across have (500 elements: host/solver/multigrid). */
+static const double iterations_across = 5, multigrid_iterations = 40, multigrid_across = 8, solves_per_finite_increment = 3;
 /* Measured in units of a bond update of a dynamic step: a round of modes for each bond and mode (rounds themselves do not grow with the modes), a cell of a sweep of Lloyd
  * or of the tessellation, a packed sphere; and how much longer a step gets where surfaces touch. */
 static const double mode_of_round = 10, swept_cell = 200, packed_sphere = 2000, touching = 3;
 
+bool brc_price_iterations_grow(const brc_stage *stage, double across)
+{
+    return stage->solver != BRC_SOLVER_STATIC || stage->preconditioner == BRC_PRECONDITIONER_BLOCKS ||
+           (stage->preconditioner == BRC_PRECONDITIONER_AUTO && across < multigrid_across);
+}
+
 double brc_price_iterations(const brc_stage *stage, double across)
 {
-    return iterations_across * across * (stage->solver == BRC_SOLVER_MODES ? stage->n_modes : stage->finite_strain ? solves_per_finite_increment : 1);
+    return (brc_price_iterations_grow(stage, across) ? iterations_across * across : multigrid_iterations) * (stage->solver == BRC_SOLVER_MODES ? stage->n_modes : stage->finite_strain ? solves_per_finite_increment : 1);
 }
 
 static double building(const brc_scene *scene, double n_elements)

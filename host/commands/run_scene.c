@@ -90,6 +90,7 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     else
         BRC_TRY(brc_scene_read(context, request->path, request->n_overrides, request->overrides, &now->scene));
     if (now->recorder) brc_recorder_set_scene(now->recorder, now->scene);
+    if (now->recorder) brc_recorder_set_threads(now->recorder, request->n_threads);
     if (now->recorder) BRC_TRY(brc_checkpoints_create(context, request->folder, now->scene, request->resume, &now->checkpoints));
     if (now->recorder) BRC_TRY(brc_checkpoint_scene(context, now->scene, &now->yaml));
     const double build_start = brc_clock_s();
@@ -113,6 +114,7 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
         BRC_TRY(brc_price_watch(&now->setup, &now->price));
         brc_recorder_set_prediction(now->recorder, &now->price.prediction);
     }
+    if (request->assembled) BRC_TRY(request->assembled(request->self, assembly));
     if (request->observer) BRC_TRY(brc_simulation_observe(first, request->observer));
     if (request->created) BRC_TRY(request->created(request->self, first));
     if (request->running) request->running(first);
@@ -142,6 +144,7 @@ brc_status brc_run_scene(brc_context *context, const brc_run_request *request, b
     if (status == BRC_OK && now.recorder) brc_price_compare(&now.price);
     if (status == BRC_OK && now.price.prediction.told.known)
         brc_price_file_compare(context, request->folder, &now.price.prediction.told, brc_clock_s() - start, out->device_bytes);
+    if (request->released) request->released(request->self);
     brc_checkpoints_free(&now.checkpoints);
     brc_recorder_free(&now.recorder);
     brc_setup_free(&now.setup);

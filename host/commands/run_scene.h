@@ -5,7 +5,7 @@
 
 #include "../output/measures.h"
 #include "../scene/scene_reader.h"
-#include "../solver/phases.h"
+#include "../solver/assembly.h"
 
 /* All borrowed during the call; zero or NULL is the default of each member but the scene's text or path. */
 typedef struct brc_run_request {
@@ -22,10 +22,14 @@ typedef struct brc_run_request {
     bool exact; /* as in brc_device_request */
     bool resume; /* go on from the last checkpoint in the folder */
     const brc_observer *observer; /* besides the recorder; its self may be filled in `created` */
+    /* Called first when all simulations exist; the assembly is borrowed until the call returns that runs the scene. May be NULL. */
+    brc_status (*assembled)(void *self, const brc_assembly *assembly);
     /* Called when the simulation exists (of several models: the first), before it runs; may be NULL. */
     brc_status (*created)(void *self, brc_simulation *simulation);
     /* Called when it ended, with its state still there; may be NULL. */
     brc_status (*finished)(void *self, brc_simulation *simulation);
+    /* Called before the simulations go, however the run ended; may be NULL. */
+    void (*released)(void *self);
     void *self;
     void (*running)(brc_simulation *simulation); /* as in brc_session */
 } brc_run_request;

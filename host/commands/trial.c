@@ -174,12 +174,19 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t inde
     return BRC_OK;
 }
 
+/* Bytes of an element in a frame that refers to others for its points: a cell with its 6.4 corners, a sphere; and where bonds break. */
+static const double cell_in_frame = 152 + 6.4 * 12, sphere_in_frame = 152 + 12 + 32, broken_in_frame = 12;
+
 /* Bytes on disk, and what of them grows with frames and samples. */
-static void weigh_folder(brc_context *context, const char *folder, const brc_scene *scene, brc_trial *out)
+static void weigh_folder(brc_context *context, const char *folder, const brc_scene *scene, const brc_setup *setup, brc_trial *out)
 {
     char *path;
+    for (int32_t k = 0; k < setup->n; ++k)
+        out->full_frame_bytes += (double)setup->domain[k]->n_elements *
+                                 ((setup->domain[k]->element_kind == BRC_ELEMENT_SPHERE ? sphere_in_frame : cell_in_frame) + (scene->has_fracture ? broken_in_frame : 0));
     if (brc_file_join(context, folder, "frames", &path) != BRC_OK) return;
     out->frames_bytes = brc_scratch_bytes(context, path, NULL);
+    out->first_frame_bytes = brc_scratch_bytes(context, path, "000000.vtkhdf");
     brc_memory_free(path);
     out->table_bytes = brc_scratch_bytes(context, folder, "histories.csv");
     out->disk_bytes = brc_scratch_bytes(context, folder, NULL);
@@ -206,6 +213,7 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
     BRC_TRY_OR(cleanup, brc_recorder_create(context, folder, brc_clock_s(), &recorder));
     brc_recorder_set_scene(recorder, scene);
     brc_recorder_set_domains(recorder, setup->n, setup->domain, 0);
+    brc_recorder_set_threads(recorder, w->request->n_threads);
     BRC_TRY_OR(cleanup, brc_simulation_observe(assembly.part[0], &(brc_observer){.self = w, .sample = before_output, .frame = before_output}));
     if (keeps_state(scene)) {
         BRC_TRY_OR(cleanup, brc_checkpoints_create(context, folder, scene, false, &checkpoints));
@@ -233,7 +241,7 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
     BRC_TRY_OR(cleanup, count_broken(&assembly, &out->n_broken));
     out->device_bytes[1] = brc_assembly_device_bytes(&assembly);
     out->device_bytes[0] = w->device_first > 0 ? w->device_first : out->device_bytes[1];
-    weigh_folder(context, folder, scene, out);
+    weigh_folder(context, folder, scene, setup, out);
     if (checkpoints) {
         const brc_checkpoint_report report = brc_checkpoints_report(checkpoints);
         out->n_checkpoints = report.n_written;
@@ -301,10 +309,12 @@ int64_t brc_trial_disk(const brc_trial *trial, const double *done)
         frames_planned += fmax((double)stage->frames, stage->cut ? part * (double)stage->frames_planned : 0);
         samples_planned += fmax((double)stage->samples, stage->cut ? part * (double)stage->samples_planned : 0);
     }
-    const double more_frames = frames > 0 ? frames_planned / frames - 1 : 0, more_samples = samples > 0 ? samples_planned / samples - 1 : 0;
+    /* as those after the first, where there were any, but with everything moving */
+    const double frame = fmax(trial->full_frame_bytes, frames > 1 ? (double)(trial->frames_bytes - trial->first_frame_bytes) / (frames - 1) : 0);
+    const double more_frames = frames > 0 ? frames_planned - frames : 0, more_samples = samples > 0 ? samples_planned / samples - 1 : 0;
     /* two are kept, of runs that write more than one */
     const int64_t second = trial->n_checkpoints == 1 && trial->writes_checkpoints && !brc_trial_is_whole(trial) ? trial->checkpoint_bytes : 0;
-    return trial->disk_bytes + second + (int64_t)(more_frames * (double)trial->frames_bytes + more_samples * (double)trial->table_bytes +
+    return trial->disk_bytes + second + (int64_t)(more_frames * frame + more_samples * (double)trial->table_bytes +
                                          (samples_planned - samples) * (double)trial->sample_bytes);
 }
 

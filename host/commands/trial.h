@@ -27,9 +27,10 @@ typedef struct brc_trial {
     int64_t host_bytes, resident_bytes; /* most so far */
     int64_t stepping_bytes;  /* of host_bytes, the most that was held while it ran, with the samples to come */
     int64_t ending_bytes;    /* the same at its end: results, measures, pictures */
-    int64_t disk_bytes, frames_bytes, table_bytes; /* of its folder, of that the frames, and histories.csv */
+    int64_t disk_bytes, frames_bytes, first_frame_bytes, table_bytes; /* of its folder, of that the frames, the one of them that has what others refer to, and histories.csv */
     bool writes_checkpoints; /* the scene asks for them */
     int64_t n_checkpoints, checkpoint_bytes; /* written, and of the last one; none where only a signal would ask for one */
+    double full_frame_bytes; /* of a frame in which everything moves: one that hardly anything does in is packed */
     int64_t sample_bytes;    /* of a sample in result.h5 */
     int64_t device_bytes[2]; /* on the devices at the first pause of dynamics (without: at the end), and at the end */
     int64_t n_broken;        /* bonds that broke, in all stages */

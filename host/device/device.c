@@ -299,6 +299,8 @@ int64_t brc_buffer_bytes(const brc_buffer *buffer)
     return buffer->bytes;
 }
 
+void *brc_buffer_host(const brc_buffer *buffer) { return buffer->device->info.kind == BRC_DEVICE_CPU ? buffer->memory : NULL; }
+
 /* Is [offset, offset + bytes) inside? Programmers' mistakes, but cheap to catch beside a blocking copy. */
 static brc_status check_range(const brc_buffer *buffer, int64_t offset, int64_t bytes, const char *verb)
 {

@@ -88,6 +88,8 @@ int brc_device_buffers(const brc_device *device, int most, brc_device_item *out)
 brc_status brc_buffer_create(brc_device *device, brc_buffer **out, int64_t bytes, const char *what);
 void brc_buffer_free(brc_buffer **buffer);
 int64_t brc_buffer_bytes(const brc_buffer *buffer);
+/* The memory itself, where the device is the cpu and works in the host's; NULL: it must be read. Kernels that were launched may still write it (brc_device_wait). */
+void *brc_buffer_host(const brc_buffer *buffer);
 /* Blocking copies, ordered after all launches so far. */
 brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data, int64_t bytes);
 brc_status brc_buffer_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes);

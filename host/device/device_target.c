@@ -26,6 +26,18 @@ typedef struct target_inside {
     const brc_kernel_instance *instance;
 } target_inside;
 
+#ifndef BRC_UNDER_SANITIZER
+/* Programs that name `environ` (Python) have it in a copy of their own; a library that finds its own names first then meets the C library's, which is NULL, and
+ * clang's OpenMP runtime reads the environment as it is loaded. */
+static void show_environment(void)
+{
+    void *const library = dlopen("libc.so.6", RTLD_LAZY | RTLD_NOLOAD);
+    char ***const own = library ? dlsym(library, "environ") : NULL;
+    if (own && !*own) *own = environ;
+    if (library) dlclose(library);
+}
+#endif
+
 /* The plug-in at a path, or NULL with the reason. A library that holds target code must never be closed again (its
  * runtime keeps threads and handlers), so the handle is given away on purpose: the loader opens a path only once. */
 static const brc_target_plugin *load(const char *path, char *why, size_t bytes)
@@ -35,6 +47,7 @@ static const brc_target_plugin *load(const char *path, char *why, size_t bytes)
              path);
     return NULL;
 #else
+    show_environment();
     void *const library = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND | RTLD_NODELETE);
     if (!library) {
         snprintf(why, bytes, "%s", dlerror());
@@ -51,27 +64,43 @@ static const brc_target_plugin *load(const char *path, char *why, size_t bytes)
 #endif
 }
 
+/* What is behind the last '/' goes; "" where there is none. */
+static void keep_folder(char *path)
+{
+    char *const slash = strrchr(path, '/');
+    path[slash ? slash + 1 - path : 0] = '\0';
+}
+
 /* The folder of the running program, with a '/' at the end; "" when it cannot be told. */
 static void program_folder(char *folder, size_t bytes)
 {
     const ssize_t length = readlink("/proc/self/exe", folder, bytes - 1);
     folder[length > 0 ? length : 0] = '\0';
-    char *const slash = strrchr(folder, '/');
-    if (slash) slash[1] = '\0';
+    keep_folder(folder);
 }
 
-/* Where the environment says, else beside the program, else where `install` puts it. */
+/* The same of the library that this is part of, or of the program. */
+static void own_folder(char *folder, size_t bytes)
+{
+    Dl_info information;
+    snprintf(folder, bytes, "%s", dladdr(&brc_backend_target, &information) && information.dli_fname ? information.dli_fname : "");
+    keep_folder(folder);
+}
+
+/* Where the environment says, else beside the program or the library, else where `install` puts it. */
 static const brc_target_plugin *find_plugin(char *why, size_t bytes)
 {
     const char *const named = getenv("BRECCIA_TARGET_LIBRARY");
     if (named && named[0]) return load(named, why, bytes);
-    static const char *const places[] = {"", "../", "../lib/breccia/"};
-    char folder[2048], path[2112];
-    program_folder(folder, sizeof folder);
-    for (size_t p = 0; p < sizeof places / sizeof places[0]; ++p) {
-        snprintf(path, sizeof path, "%s%s" PLUGIN_FILE, folder, places[p]);
-        if (access(path, R_OK) == 0) return load(path, why, bytes);
-    }
+    static const char *const places[] = {"", "../", "../lib/breccia/", "breccia/"};
+    char folder[2][2048], path[sizeof folder + 64];
+    program_folder(folder[0], sizeof folder[0]);
+    own_folder(folder[1], sizeof folder[1]);
+    for (int f = 0; f < 2; ++f)
+        for (size_t p = 0; folder[f][0] && p < sizeof places / sizeof places[0]; ++p) {
+            snprintf(path, sizeof path, "%s%s" PLUGIN_FILE, folder[f], places[p]);
+            if (access(path, R_OK) == 0) return load(path, why, bytes);
+        }
     snprintf(why, bytes,
              "the plug-in " PLUGIN_FILE " is not there: it is built when clang with libomptarget is found (Debian: "
              "clang-14 libomp-14-dev), or name it in BRECCIA_TARGET_LIBRARY");

@@ -1,7 +1,7 @@
 /* Frames as VTU: what stands where in both formats. */
 #include "export_vtu.h"
 #include "h5_read.h"
-#include "vtu.h"
+#include "vtu_faces.h"
 
 typedef struct frame_array {
     brc_vtu_place place;
@@ -57,7 +57,9 @@ static brc_status read_rows(const brc_vtu_array *array, int64_t first, int64_t n
     return brc_h5_read_rows(place->h5, place->name, memory_type(array->number), first + array->skip, n, block);
 }
 
-static brc_status ask_sizes(const brc_h5_read *h5, place_in_frame places[N_ARRAYS], brc_vtu_array arrays[N_ARRAYS], int *n_arrays)
+enum { POINTS = 1, TYPES = 4, MOST_ARRAYS = N_ARRAYS + BRC_VTU_FACE_ARRAYS }; /* the first two: places in ARRAYS, before the optional ones */
+
+static brc_status ask_sizes(const brc_h5_read *h5, const brc_vtu_faces *faces, place_in_frame places[N_ARRAYS], brc_vtu_array arrays[MOST_ARRAYS], int *n_arrays)
 {
     *n_arrays = 0;
     for (int k = 0; k < N_ARRAYS; ++k) {
@@ -72,20 +74,26 @@ static brc_status ask_sizes(const brc_h5_read *h5, place_in_frame places[N_ARRAY
         if (columns != a->columns || array->rows < 0)
             return BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %s has %lld columns, %d are expected; the file is damaged",
                             h5->path, a->source, (long long)columns, a->columns);
+        if (k != TYPES || faces->n_cells == 0) continue;
+        if (faces->n_cells != array->rows) return BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %lld cells, but faces of %lld; the file is damaged", h5->path, (long long)array->rows, (long long)faces->n_cells);
+        brc_vtu_faces_arrays(faces, arrays + *n_arrays);
+        *n_arrays += BRC_VTU_FACE_ARRAYS;
     }
     return BRC_OK;
 }
 
 brc_status brc_export_vtu_frame(brc_context *context, const char *frame, const char *path)
 {
-    enum { POINTS = 1, TYPES = 4 }; /* places in ARRAYS, before the optional ones */
     brc_h5_read h5;
     place_in_frame places[N_ARRAYS];
-    brc_vtu_array arrays[N_ARRAYS];
-    BRC_TRY(brc_h5_read_open(context, frame, &h5));
+    brc_vtu_array arrays[MOST_ARRAYS];
+    brc_vtu_faces faces;
     int n_arrays;
-    brc_status status = ask_sizes(&h5, places, arrays, &n_arrays);
+    BRC_TRY(brc_h5_read_open(context, frame, &h5));
+    brc_status status = brc_vtu_faces_of_frame(&h5, &faces);
+    if (status == BRC_OK) status = ask_sizes(&h5, &faces, places, arrays, &n_arrays);
     if (status == BRC_OK) status = brc_vtu_write(context, path, arrays[POINTS].rows, arrays[TYPES].rows, n_arrays, arrays);
+    brc_vtu_faces_free(&faces);
     brc_h5_read_close(&h5);
     return status;
 }

@@ -16,8 +16,7 @@ static void fail(brc_h5 *h5, const char *what)
                           full ? "; free some space or name another folder" : "");
 }
 
-/* After each block: a refusal shows at once, not at the end of a large file. */
-static void check(brc_h5 *h5, bool ok, const char *what)
+void brc_h5_check(brc_h5 *h5, bool ok, const char *what)
 {
     if (!ok || (h5->disk && h5->disk->error != 0)) fail(h5, what);
 }
@@ -40,6 +39,7 @@ static brc_status open_file(brc_context *context, const char *path, bool in_memo
     const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
     H5Pset_obj_track_times(creation, false);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    if (!in_memory) H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110); /* a packed dataset of one block needs no index: 2 kB less; an image says it is open for writing */
     if (in_memory) H5Pset_fapl_core(access, (size_t)1 << 20, false);
     out->file = H5Fcreate(in_memory ? path : out->aside, H5F_ACC_TRUNC, creation, access);
     if (out->file < 0) fail(out, "the file");
@@ -69,7 +69,7 @@ static void close_all(brc_h5 *h5)
     if (h5->file >= 0 && H5Fclose(h5->file) < 0) fail(h5, "the file");
     h5->file = H5I_INVALID_HID;
     if (h5->disk) {
-        check(h5, true, "the file"); /* what the last flush met */
+        brc_h5_check(h5, true, "the file"); /* what the last flush met */
         brc_h5_disk_end(h5->disk);
     }
     H5Eclear2(H5E_DEFAULT);
@@ -133,18 +133,24 @@ void brc_h5_group(brc_h5 *h5, const char *name)
     const hid_t creation = H5Pcreate(H5P_GROUP_CREATE);
     H5Pset_obj_track_times(creation, false);
     const hid_t group = H5Gcreate2(h5->file, name, H5P_DEFAULT, creation, H5P_DEFAULT);
-    check(h5, group >= 0 && H5Gclose(group) >= 0, name);
+    brc_h5_check(h5, group >= 0 && H5Gclose(group) >= 0, name);
     H5Pclose(creation);
 }
 
-static void create_dataset(brc_h5 *h5, const char *name, hid_t type, hid_t space, const void *data)
+/* block: rows and columns of what is packed together; NULL: nothing is. */
+static void create_dataset(brc_h5 *h5, const char *name, hid_t type, hid_t space, const hsize_t *block, const void *data)
 {
     const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    if (block) {
+        H5Pset_chunk(creation, H5Sget_simple_extent_ndims(space), block);
+        H5Pset_shuffle(creation);
+        H5Pset_deflate(creation, 1);
+    }
     H5Pset_obj_track_times(creation, false);
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
     const hid_t dataset = H5Dcreate2(h5->file, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
-    check(h5, dataset >= 0 && (!data || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0), name);
-    if (dataset >= 0) check(h5, H5Dclose(dataset) >= 0, name);
+    brc_h5_check(h5, dataset >= 0 && (!data || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0), name);
+    if (dataset >= 0) brc_h5_check(h5, H5Dclose(dataset) >= 0, name);
     H5Pclose(creation);
 }
 
@@ -153,7 +159,16 @@ void brc_h5_dataset(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int6
     if (h5->status != BRC_OK) return;
     const hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns};
     const hid_t space = H5Screate_simple(columns > 0 ? 2 : 1, size, NULL);
-    create_dataset(h5, name, type, space, rows > 0 ? data : NULL);
+    create_dataset(h5, name, type, space, NULL, rows > 0 ? data : NULL);
+    H5Sclose(space);
+}
+
+void brc_h5_packed(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int64_t columns)
+{
+    if (h5->status != BRC_OK) return;
+    const hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns}, block[2] = {(hsize_t)(rows < BRC_H5_BLOCK ? rows : BRC_H5_BLOCK), (hsize_t)columns};
+    const hid_t space = H5Screate_simple(columns > 0 ? 2 : 1, size, NULL);
+    create_dataset(h5, name, type, space, rows > 0 ? block : NULL, NULL);
     H5Sclose(space);
 }
 
@@ -166,13 +181,13 @@ void brc_h5_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_
     const int rank = H5Sget_simple_extent_dims(space, size, NULL);
     const hsize_t start[2] = {(hsize_t)first, 0}, count[2] = {(hsize_t)n, size[1]};
     const hid_t memory = H5Screate_simple(rank, count, NULL);
-    check(h5,
+    brc_h5_check(h5,
           rank >= 1 && H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) >= 0 &&
               H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, data) >= 0,
           name);
     H5Sclose(memory);
     H5Sclose(space);
-    check(h5, H5Dclose(dataset) >= 0, name);
+    brc_h5_check(h5, H5Dclose(dataset) >= 0, name);
 }
 
 static hid_t text_type(const char *text, H5T_cset_t set)
@@ -188,7 +203,7 @@ void brc_h5_text(brc_h5 *h5, const char *name, const char *text)
 {
     if (h5->status != BRC_OK) return;
     const hid_t type = text_type(text, H5T_CSET_UTF8), space = H5Screate(H5S_SCALAR);
-    create_dataset(h5, name, type, space, text);
+    create_dataset(h5, name, type, space, NULL, text);
     H5Sclose(space);
     H5Tclose(type);
 }
@@ -198,7 +213,7 @@ static void add_attribute(brc_h5 *h5, const char *object, const char *name, hid_
     if (h5->status != BRC_OK) return;
     const hid_t attribute =
         H5Acreate_by_name(h5->file, object, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-    check(h5, attribute >= 0 && H5Awrite(attribute, type, value) >= 0 && H5Aclose(attribute) >= 0, name);
+    brc_h5_check(h5, attribute >= 0 && H5Awrite(attribute, type, value) >= 0 && H5Aclose(attribute) >= 0, name);
 }
 
 void brc_h5_attribute_text(brc_h5 *h5, const char *object, const char *name, const char *text)
@@ -227,5 +242,5 @@ void brc_h5_attribute_number(brc_h5 *h5, const char *object, const char *name, d
 void brc_h5_external_link(brc_h5 *h5, const char *name, const char *file, const char *object)
 {
     if (h5->status != BRC_OK) return;
-    check(h5, H5Lcreate_external(file, object, h5->file, name, H5P_DEFAULT, H5P_DEFAULT) >= 0, name);
+    brc_h5_check(h5, H5Lcreate_external(file, object, h5->file, name, H5P_DEFAULT, H5P_DEFAULT) >= 0, name);
 }

@@ -30,11 +30,16 @@ brc_status brc_h5_commit_sealed(brc_h5 *h5);
 /* Close and remove without a word. */
 void brc_h5_discard(brc_h5 *h5);
 
+/* After each block of `what`: a refusal of the library or the disk shows at once, not at the end of a large file. */
+void brc_h5_check(brc_h5 *h5, bool ok, const char *what);
 /* Group by its full path; parents exist already. */
 void brc_h5_group(brc_h5 *h5, const char *name);
 /* Dataset of `rows` x `columns` (columns 0: one dimension), contiguous. data: [rows][columns] of `type`; NULL: to be
  * filled by brc_h5_rows. */
 void brc_h5_dataset(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int64_t columns, const void *data);
+/* The same, packed (shuffled and deflated) in blocks of BRC_H5_BLOCK rows: to be filled by brc_h5_pack_rows (h5_pack.h), or by brc_h5_rows in order. */
+void brc_h5_packed(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int64_t columns);
+#define BRC_H5_BLOCK ((int64_t)1 << 14)
 /* Fill rows first .. first + n - 1 of a dataset. type: of data in memory, converted where the file's differs. */
 void brc_h5_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_t n, const void *data);
 /* One fixed-length string as a dataset of no dimension (UTF-8). */

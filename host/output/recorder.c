@@ -4,6 +4,7 @@
 #include "assembly_sensors.h"
 #include "crack_records.h"
 #include "curve.h"
+#include "earlier_results.h"
 #include "frame_file.h"
 #include "history_csv.h"
 #include "picture.h"
@@ -15,13 +16,10 @@
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "../solver/stage_end.h"
-#include <dirent.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { SUMMARY, RESULT, HISTORIES, CRACKS, FRAGMENTS, PICTURE, CURVE, SERIES, CRACK_SERIES, STRIKER_SERIES, FRAMES, PICTURES, N_FILES };
 static const char *const FILE_NAME[N_FILES] = {
@@ -45,57 +43,26 @@ struct brc_recorder {
     brc_measured *measures;
     int32_t n_measures;
     brc_crack_records *cracks; /* NULL: nothing can break */
+    brc_frames *frames;        /* NULL: no frames are wanted */
+    int n_threads;
     brc_checkpoint_report checkpoints;
     double start, build_s, output_s; /* start: brc_clock_s() then; the others: wall seconds */
 };
 
 /* ---- the folder ---- */
 
-/* "NNNNNN.vtkhdf", "NNNNNN.cracks.vtu", "NNNNNN.strikers.vtu", "NNNNNN.png", or what a killed run left of one; numbers from `first` on. */
-static bool is_frame(const char *name, int64_t first)
-{
-    static const char *const suffix[] = {".vtkhdf", ".vtkhdf.part", ".cracks.vtu", ".cracks.vtu.part", ".strikers.vtu", ".strikers.vtu.part", ".png", ".png.part"};
-    const size_t digits = strspn(name, "0123456789");
-    for (size_t k = 0; digits >= 6 && k < sizeof suffix / sizeof suffix[0]; ++k)
-        if (strcmp(name + digits, suffix[k]) == 0) return strtoll(name, NULL, 10) >= first;
-    return false;
-}
-
-static brc_status remove_file(brc_context *context, const char *path)
-{
-    if (unlink(path) == 0 || errno == ENOENT) return BRC_OK;
-    return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot remove the result of an earlier run: %s", path,
-                    strerror(errno));
-}
-
-static brc_status remove_numbered(brc_context *context, const char *folder, int64_t first)
-{
-    brc_status status = BRC_OK;
-    DIR *directory = opendir(folder);
-    if (!directory) return errno == ENOENT ? BRC_OK : remove_file(context, folder);
-    for (const struct dirent *entry = readdir(directory); entry && status == BRC_OK; entry = readdir(directory)) {
-        if (!is_frame(entry->d_name, first)) continue;
-        char *path;
-        status = brc_file_join(context, folder, entry->d_name, &path);
-        if (status == BRC_OK) status = remove_file(context, path);
-        brc_memory_free(path);
-    }
-    closedir(directory);
-    return status;
-}
-
 /* Frames and pictures from number `first` on. */
 static brc_status remove_frames(const brc_recorder *recorder, int64_t first)
 {
-    BRC_TRY(remove_numbered(recorder->context, recorder->path[FRAMES], first));
-    return remove_numbered(recorder->context, recorder->path[PICTURES], first);
+    BRC_TRY(brc_earlier_remove_numbered(recorder->context, recorder->path[FRAMES], first));
+    return brc_earlier_remove_numbered(recorder->context, recorder->path[PICTURES], first);
 }
 
 /* An older run's results beside this one's would mislead. */
 static brc_status clean(brc_recorder *recorder)
 {
     for (int k = 0; k < FRAMES; ++k)
-        BRC_TRY(remove_file(recorder->context, recorder->path[k]));
+        BRC_TRY(brc_earlier_remove_file(recorder->context, recorder->path[k]));
     return remove_frames(recorder, 0);
 }
 
@@ -160,6 +127,7 @@ void brc_recorder_free(brc_recorder **recorder)
     brc_recorder *r = *recorder;
     brc_assembly_sensors_free(&r->sensors);
     brc_crack_records_free(&r->cracks);
+    brc_frames_free(&r->frames);
     brc_history_free(&r->history);
     brc_history_csv_free(&r->csv);
     for (int k = 0; k < N_FILES; ++k)
@@ -171,15 +139,9 @@ void brc_recorder_free(brc_recorder **recorder)
     *recorder = NULL;
 }
 
-void brc_recorder_set_prediction(brc_recorder *recorder, const brc_prediction *prediction)
-{
-    recorder->prediction = prediction;
-}
+void brc_recorder_set_prediction(brc_recorder *recorder, const brc_prediction *prediction) { recorder->prediction = prediction; }
 
-void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene)
-{
-    recorder->scene = scene;
-}
+void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene) { recorder->scene = scene; }
 
 void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domain *const *domains, double build_seconds)
 {
@@ -188,10 +150,9 @@ void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domai
     recorder->build_s = build_seconds;
 }
 
-void brc_recorder_set_checkpoints(brc_recorder *recorder, const brc_checkpoint_report *report)
-{
-    recorder->checkpoints = *report;
-}
+void brc_recorder_set_threads(brc_recorder *recorder, int n_threads) { recorder->n_threads = n_threads; }
+
+void brc_recorder_set_checkpoints(brc_recorder *recorder, const brc_checkpoint_report *report) { recorder->checkpoints = *report; }
 
 /* ---- while the simulation runs ---- */
 
@@ -309,16 +270,10 @@ static brc_status write_series(brc_recorder *r)
 
 static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
 {
-    char name[32];
-    char *path = NULL;
-    snprintf(name, sizeof name, "%06lld.vtkhdf", (long long)r->n_frames);
     if (r->n_frames == 0) BRC_TRY(brc_file_make_folder(r->context, r->path[FRAMES]));
     BRC_TRY(
         brc_memory_resize(r->context, (void **)&r->frame_time, r->n_frames + 1, sizeof *r->frame_time, "frame times"));
-    BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
-    const brc_status status = brc_frame_write(r->context, r->assembly, path);
-    brc_memory_free(path);
-    BRC_TRY(status);
+    BRC_TRY(brc_frames_write(r->frames, r->path[FRAMES], r->n_frames));
     r->frame_time[r->n_frames] = index_time(r, simulation);
     ++r->n_frames;
     if (r->cracks) BRC_TRY(write_cracks(r));
@@ -331,7 +286,7 @@ static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
 static brc_status frame(void *self, brc_simulation *simulation)
 {
     brc_recorder *r = self;
-    if (r->scene->output.n_frames < 0) return BRC_OK;
+    if (!r->frames) return BRC_OK;
     const double begin = brc_clock_s();
     const brc_status status = write_frame(r, simulation);
     r->output_s += brc_clock_s() - begin;
@@ -345,6 +300,9 @@ static brc_status prepare(brc_recorder *recorder, brc_assembly *assembly)
     const int32_t n = recorder->scene->n_sensors;
     BRC_TRY(brc_assembly_sensors_create(recorder->context, assembly, &recorder->sensors));
     BRC_TRY(brc_history_create(recorder->context, n, &recorder->history));
+    const double begin = brc_clock_s();
+    if (recorder->scene->output.n_frames >= 0) BRC_TRY(brc_frames_create(recorder->context, assembly, recorder->n_threads, &recorder->frames));
+    recorder->output_s += brc_clock_s() - begin;
     return BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample");
 }
 
@@ -370,6 +328,7 @@ static brc_status store_position(brc_recorder *r, brc_state_store *store)
 {
     BRC_TRY(brc_history_store(r->context, r->history, store));
     BRC_TRY(brc_store_array(r->context, store, "frame_time", BRC_STORED_DOUBLE, 1, &r->n_frames, (void **)&r->frame_time));
+    if (r->frames) BRC_TRY(brc_frames_store(r->frames, store));
     BRC_TRY(brc_store_double(store, "peak_elastic", &r->assembly->peak_elastic));
     return brc_store_double(store, "peak_kinetic", &r->assembly->peak_kinetic);
 }
@@ -500,7 +459,7 @@ brc_status brc_recorder_finish(brc_recorder *recorder, brc_status end)
     bool has_ledger = false;
     brc_context *quiet = brc_context_create();
     if (!quiet) return end != BRC_OK ? end : BRC_FAIL(r->context, BRC_NO_MEMORY, "no memory for a context");
-    brc_log_set_level(quiet, brc_log_get_level(r->context));
+    brc_log_follow(quiet, r->context);
     if (r->assembly && r->csv) {
         if (is_alive(end) && has_begun(r->assembly))
             has_ledger = brc_assembly_ledger(r->assembly, &ledger) == BRC_OK;

@@ -46,6 +46,8 @@ void brc_recorder_free(brc_recorder **recorder);
 
 /* All borrowed until brc_recorder_finish has returned; each in turn, the later ones may be missing. */
 void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene);
+/* Threads for what is found once for all frames; 0, as without this call: as OpenMP decides. */
+void brc_recorder_set_threads(brc_recorder *recorder, int n_threads);
 /* Read whenever a summary is written. */
 void brc_recorder_set_prediction(brc_recorder *recorder, const brc_prediction *prediction);
 /* domains [n]: of the parts. build_seconds: wall time of making or reading them. */

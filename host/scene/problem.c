@@ -109,24 +109,25 @@ brc_status brc_problems_report(brc_problems *problems)
     return BRC_BAD_INPUT;
 }
 
-/* Edits (insert, delete, replace a byte) from a to b, both shorter than WORD_LENGTH. */
+static int least(int a, int b) { return a < b ? a : b; }
+
+/* Slips (insert, delete, replace a byte, swap two neighbours) from a to b, both shorter than WORD_LENGTH. */
 static int edit_distance(const char *a, const char *b)
 {
-    int row[WORD_LENGTH + 1];
+    int rows[3][WORD_LENGTH + 1]; /* of the first i bytes of a, in turn */
     const int n = (int)strlen(b);
-    for (int j = 0; j <= n; ++j)
-        row[j] = j;
-    for (int i = 0; a[i] != '\0'; ++i) {
-        int diagonal = row[0];
+    for (int j = 0; j <= n; ++j) rows[0][j] = j;
+    int i = 0;
+    for (; a[i] != '\0'; ++i) {
+        const int *before = rows[(i + 2) % 3], *last = rows[i % 3];
+        int *row = rows[(i + 1) % 3];
         row[0] = i + 1;
         for (int j = 0; j < n; ++j) {
-            const int replace = diagonal + (a[i] != b[j]);
-            diagonal = row[j + 1];
-            const int other = 1 + (row[j] < row[j + 1] ? row[j] : row[j + 1]);
-            row[j + 1] = replace < other ? replace : other;
+            row[j + 1] = least(last[j] + (a[i] != b[j]), 1 + least(last[j + 1], row[j]));
+            if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j]) row[j + 1] = least(row[j + 1], 1 + before[j - 1]);
         }
     }
-    return row[n];
+    return rows[i % 3][n];
 }
 
 const char *brc_nearest_word(const char *found, int n, const char *const *known)

@@ -242,6 +242,13 @@ typedef enum brc_time_step_rule {
     BRC_TIME_STEP_PUBLISHED /* AGH19 eq. 39: 1/3 min sqrt(m L / (E S)) */
 } brc_time_step_rule;
 
+/* What stands for the inverse of the stiffness in the iterations of a linear solve. */
+typedef enum brc_preconditioner_kind {
+    BRC_PRECONDITIONER_AUTO,      /* multigrid from 500 elements on */
+    BRC_PRECONDITIONER_MULTIGRID, /* of bodies of any size */
+    BRC_PRECONDITIONER_BLOCKS     /* the diagonal block of each element */
+} brc_preconditioner_kind;
+
 typedef struct brc_stage {
     char name[BRC_NAME];
     brc_solver_kind solver;
@@ -267,6 +274,7 @@ typedef struct brc_stage {
     double tolerance;     /* residual over load [-]; 0: by precision (1e-10, 1e-6, 1e-5) */
     int32_t increments;   /* load increments, default 1 */
     int32_t max_iterations; /* per linear solve; 0: automatic */
+    brc_preconditioner_kind preconditioner;
     double to_failure;    /* scale the load so that the worst element is at this fraction of its limit; 0: the load as given [-] */
     int32_t most_events;  /* quasi-static fracture: the load is scaled to the next failing bond, most_events times; 0: nothing breaks */
     double stop_load;     /* events end when the load that breaks falls below this share of the largest so far [-] */

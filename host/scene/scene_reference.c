@@ -29,7 +29,7 @@ static const char INTRODUCTION[] =
     "\n"
     "All errors are told in one pass, as `file:line:column: error: ...`. What is no error but hardly meant\n"
     "is logged as `warning: file:line:column: ...`. Duplicate keys, tags, and more than one\n"
-    "document are refused; anchors and aliases work. `breccia check` prints a scene with all its defaults.\n";
+    "document are refused; anchors and aliases work. `breccia check --all` prints a scene with all its defaults.\n";
 
 static const char *type_text(const brc_entry *entry, char *out, size_t size)
 {

@@ -371,6 +371,8 @@ static const brc_entry STATIC[] = {
      .meaning = "residual over load; auto: 1e-10 in double, 1e-6 in mixed, 1e-5 in single precision"},
     {"max_iterations", BRC_TYPE_INTEGER, WITHIN(1, 1e9), FIELD(brc_stage, max_iterations), .given = "auto",
      .word = "auto", .sample = "5000", .meaning = "of each linear solve"},
+    {"preconditioner", BRC_TYPE_CHOICE, FIELD(brc_stage, preconditioner), CHOICES("auto", "multigrid", "blocks"), .given = "auto",
+     .meaning = "what makes iterations few: multigrid, their number hardly growing with the body, or the elements' own stiffness; auto: multigrid from 500 elements on"},
     {"to_failure", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 1), FIELD(brc_stage, to_failure), .given = "off", .word = "off",
      .sample = "80 %",
      .meaning = "scale the whole load so that the element nearest to failure is at this fraction of its limit; needs `fracture`"},

@@ -153,7 +153,9 @@ brc_status brc_simulation_damage(brc_simulation *s, double *out)
     return BRC_OK;
 }
 
-brc_status brc_fracture_whole(brc_simulation *s, uint8_t **out)
+brc_status brc_fracture_whole(brc_simulation *s, uint8_t **out) { return brc_fracture_whole_at(s, INT32_MAX, out); }
+
+brc_status brc_fracture_whole_at(brc_simulation *s, int64_t moment, uint8_t **out)
 {
     const int64_t n_entries = s->layout->n_slots * s->layout->slice;
     int32_t *step = NULL;
@@ -163,7 +165,7 @@ brc_status brc_fracture_whole(brc_simulation *s, uint8_t **out)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &whole, s->domain->n_half_edges, "unbroken bonds"));
     BRC_TRY_OR(cleanup, brc_buffer_read(s->fracture->break_step, 0, step, 4 * n_entries));
     for (int64_t k = 0; k < n_entries; ++k)
-        if (s->layout->half_edge[k] >= 0) whole[s->layout->half_edge[k]] = step[k] == 0;
+        if (s->layout->half_edge[k] >= 0) whole[s->layout->half_edge[k]] = step[k] == 0 || step[k] > moment;
 cleanup:
     brc_memory_free(step);
     if (status != BRC_OK) {

@@ -5,6 +5,7 @@
 #include "element_loads.h"
 #include "fracture_internal.h"
 #include "guard.h"
+#include "look.h"
 #include "noise_damping.h"
 #include "stage_end.h"
 #include "strikers_internal.h"
@@ -99,30 +100,36 @@ static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double
     return break_bonds(s, 0); /* velocities are at whole steps already */
 }
 
-brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps)
+brc_status brc_dynamics_close(brc_simulation *s)
+{
+    if (!s->open) return BRC_OK;
+    BRC_TRY(kick_and_drift(s, 0.5 * s->time_step.value, 0));
+    BRC_TRY(brc_loads_impose_velocity(s, s->time));
+    s->open = false;
+    return BRC_OK;
+}
+
+/* close: velocities are at whole steps when it returns; else a later call goes on from the half step with the same bits. */
+static brc_status advance(brc_simulation *s, int64_t n_steps, bool close)
 {
     const brc_stage *stage = brc_current_stage(s);
     const double dt = s->time_step.value;
     if (n_steps <= 0) return BRC_OK;
     const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_MOTION);
-    if (stage->integrator == BRC_TCHAMWA_WIELGOSZ) {
-        for (int64_t i = 0; i < n_steps; ++i) {
-            BRC_TRY(tchamwa_step(s, stage, dt));
-            if (brc_noise_is_due(s)) BRC_TRY(brc_noise_damp(s));
+    for (int64_t i = 0; i < n_steps; ++i) {
+        if (stage->integrator == BRC_TCHAMWA_WIELGOSZ) BRC_TRY(tchamwa_step(s, stage, dt));
+        else {
+            BRC_TRY(verlet_step(s, stage, dt, s->open ? dt : 0.5 * dt));
+            s->open = true;
+            if ((close && i + 1 == n_steps) || brc_noise_is_due(s)) BRC_TRY(brc_dynamics_close(s));
         }
-    } else {
-        bool whole = true; /* are velocities those of a whole step? Otherwise half a kick is missing */
-        for (int64_t i = 0; i < n_steps; ++i) {
-            BRC_TRY(verlet_step(s, stage, dt, whole ? 0.5 * dt : dt));
-            whole = i + 1 == n_steps || brc_noise_is_due(s);
-            if (whole) BRC_TRY(kick_and_drift(s, 0.5 * dt, 0));
-            if (whole) BRC_TRY(brc_loads_impose_velocity(s, s->time));
-            if (brc_noise_is_due(s)) BRC_TRY(brc_noise_damp(s));
-        }
+        if (brc_noise_is_due(s)) BRC_TRY(brc_noise_damp(s));
     }
     brc_phase_enter(s, before);
     return BRC_OK;
 }
+
+brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps) { return advance(s, n_steps, true); }
 
 int64_t brc_simulation_planned_steps(const brc_simulation *s, int32_t stage, double time_step)
 {
@@ -135,12 +142,18 @@ int64_t brc_simulation_planned_steps(const brc_simulation *s, int32_t stage, dou
 
 static int64_t next_multiple(int64_t step, int64_t every) { return (step / every + 1) * every; }
 
-/* The same steps for every part; devices that queue work at the same time. */
+/* The same steps for every part, with the looks among them; devices that queue work at the same time. A stage that ends at a look ends there. */
 static brc_status advance_all(int32_t n, brc_simulation *const *part, int64_t n_steps)
 {
-    for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_dynamics_advance(part[k], n_steps));
+    brc_simulation *s = part[0];
+    for (const int64_t end = s->step + n_steps; s->step < end && !s->note[s->stage].ended;) {
+        const int64_t from = s->step, look = brc_look_next(s), until = look < end ? look : end;
+        for (int32_t k = 0; k < n; ++k) BRC_TRY(advance(part[k], until - from, until == end));
+        if (look <= until) BRC_TRY(brc_look_within(n, part, from));
+    }
     for (int32_t k = 0; k < n; ++k) {
         brc_phase_enter(part[k], BRC_PHASE_MOTION);
+        BRC_TRY(brc_dynamics_close(part[k]));
         BRC_TRY(brc_device_wait(part[k]->device));
         brc_phase_enter(part[k], BRC_PHASE_NONE);
     }
@@ -226,8 +239,8 @@ static brc_status observe(int32_t n, brc_simulation *const *part, double n_bonds
 {
     brc_simulation *s = part[0];
     const brc_stage *stage = brc_current_stage(s);
-    const bool sampled = s->step % every == 0 || s->step == total, judged = s->fracture || stage->stop_kinetic > 0 || stage->stop_broken > 0;
-    if (sampled && (judged || every >= LEDGER_APART || s->step == total)) {
+    const bool sampled = s->step % every == 0 || s->step == total || s->note[s->stage].ended, judged = s->fracture || stage->stop_kinetic > 0 || stage->stop_broken > 0;
+    if (sampled && (judged || every >= LEDGER_APART || s->step == total || s->note[s->stage].ended)) {
         moment now;
         BRC_TRY(guard_all(n, part, &now));
         const bool calm = now.kinetic <= stage->stop_kinetic * now.elastic;

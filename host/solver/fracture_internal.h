@@ -71,5 +71,7 @@ brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store);
 brc_status brc_fracture_owners(brc_simulation *s, const brc_chosen *half_edges, brc_chosen *out);
 /* Unbroken half-edges of the domain [n_half_edges] (1, else 0); *out is the caller's (brc_memory_free). */
 brc_status brc_fracture_whole(brc_simulation *s, uint8_t **out);
+/* Those that were unbroken at a moment (brc_fracture_moment), its own breaks counted as broken. */
+brc_status brc_fracture_whole_at(brc_simulation *s, int64_t moment, uint8_t **out);
 
 #endif

@@ -4,6 +4,7 @@
 #include "fracture_internal.h"
 #include "split.h"
 #include "guard.h"
+#include "look.h"
 #include "noise_damping.h"
 #include "strikers_internal.h"
 #include <math.h>
@@ -270,6 +271,7 @@ void brc_simulation_free(brc_simulation **simulation)
     brc_contact_free(s);
     brc_fracture_free(s);
     brc_strikers_free(s);
+    brc_look_free(s);
     brc_guard_free(s);
     brc_noise_free(s);
     brc_geometry_free(s);

@@ -44,6 +44,11 @@ typedef struct brc_observer {
     brc_status (*stage_end)(void *self, brc_simulation *simulation, int32_t stage);
     /* The state may be kept here (state_store.h): the samples and frames of this moment are taken, but for the frame that ends a stage. */
     brc_status (*pause)(void *self, brc_simulation *simulation, brc_pause why);
+    /* Looks at steps of its own choice (increments, events): the first one after `step` of the current stage, INT64_MAX: none; both or neither. Velocities
+     * are those of the whole step while it looks, and the run goes on with the bits that it would have had without (look.h). What ends the stage
+     * there (stage_end.h) ends it at once; an interrupt waits for the next pause, from which the run can be taken up. */
+    int64_t (*next_look)(void *self, const brc_simulation *simulation, int64_t step);
+    brc_status (*look)(void *self, brc_simulation *simulation);
 } brc_observer;
 /* The observer struct is copied, *self is borrowed. */
 brc_status brc_simulation_observe(brc_simulation *simulation, const brc_observer *observer);
@@ -144,6 +149,10 @@ typedef struct brc_static_report {
     int64_t iterations;  /* linear iterations in all; of a modes stage: rounds */
     int64_t corrections; /* nonlinear (modified Newton) corrections in all */
     double residual;     /* last, relative to the load [-] */
+    /* multigrid of the stage (docs/theory.md T6): levels, 0 where there was none; seconds of making it, in all; bytes that it held on the device */
+    int multigrid_levels;
+    double multigrid_seconds;
+    int64_t multigrid_bytes;
 } brc_static_report;
 brc_static_report brc_simulation_static_report(const brc_simulation *simulation);
 

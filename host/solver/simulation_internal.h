@@ -149,12 +149,14 @@ struct brc_simulation {
     brc_strikers *strikers; /* only in scenes with strikers */
     struct brc_contact_state *contact; /* only in scenes with contact */
     struct brc_noise *noise; /* only where a stage has noise_damping (noise_damping.c) */
+    struct brc_look *look;   /* from the first look between two batches on (look.c) */
     struct brc_guard_state *guard; /* from the first dynamic stage that is run (not stepped by hand) on */
 
     /* stage */
     int32_t stage;
     int64_t step, total_steps;
     double time, total_time_before, load_factor;
+    bool open; /* velocities are those of half a step ago: half a kick is missing (dynamics.c) */
     brc_time_step time_step;
     char governed_by[64]; /* of the time step, where it came from a store */
     brc_stage_progress progress;
@@ -293,6 +295,8 @@ brc_step_phase brc_phase_within(brc_simulation *s, brc_step_phase phase);
 brc_status brc_initial_apply(brc_simulation *s, const brc_stage *stage);
 brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_time_step *out);
 brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps);
+/* Velocities and spins of the whole step, where they are not. */
+brc_status brc_dynamics_close(brc_simulation *s);
 /* Leave the stage before; initial fields, loads and the time step of this one, which may be made shorter before brc_stage_start evaluates the
  * first forces. */
 brc_status brc_stage_enter(brc_simulation *s, int32_t stage);

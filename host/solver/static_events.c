@@ -1,6 +1,7 @@
 /* The order of failures of a body that is loaded so slowly that nothing moves. */
 #include "static_events.h"
 #include "fracture_internal.h"
+#include "look.h"
 #include "stage_end.h"
 #include <math.h>
 #include <stdio.h>
@@ -161,6 +162,7 @@ static brc_status do_event(events *v, brc_ledger *before)
     BRC_TRY(break_next(v));
     for (int32_t k = 0; k < v->n; ++k) {
         v->part[k]->step += 1;
+        v->run[k].vectors.preconditioner.bonds_broke = true;
         BRC_TRY(brc_statics_find_pieces(v->part[k], &v->run[k].vectors));
     }
     const brc_status solved = solve_all(v);
@@ -241,6 +243,7 @@ brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_sta
         }
         BRC_TRY_OR(cleanup, load_of(&v, &load));
         judge(&v, load);
+        BRC_TRY_OR(cleanup, brc_look_here(s, s->step - 1));
         BRC_TRY_OR(cleanup, brc_notify_sample(s));
         if (event == stage->most_events || s->note[s->stage].ended) break;
         BRC_TRY_OR(cleanup, do_event(&v, before));

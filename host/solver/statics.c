@@ -3,49 +3,13 @@
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
 #include "statics.h"
 #include "fracture_internal.h"
+#include "look.h"
+#include "multigrid/multigrid.h"
 #include "static_events.h"
 #include <math.h>
 #include <string.h>
 
 enum { MOST_CORRECTIONS = 60 };
-
-/* The four operations on vectors of unknowns. */
-static brc_status add(brc_simulation *s, double a, brc_unknowns x, brc_unknowns y)
-{
-    const int32_t n = 3 * s->layout->n_rows;
-    BRC_TRY(BRC_LAUNCH(s->kernel.axpy, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x.move), BRC_BUF(y.move)));
-    return y.turn ? BRC_LAUNCH(s->kernel.axpy, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x.turn), BRC_BUF(y.turn)) : BRC_OK;
-}
-
-/* y = x + a y */
-static brc_status scale_add(brc_simulation *s, brc_unknowns x, double a, brc_unknowns y)
-{
-    const int32_t n = 3 * s->layout->n_rows;
-    BRC_TRY(BRC_LAUNCH(s->kernel.xpay, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x.move), BRC_BUF(y.move)));
-    return y.turn ? BRC_LAUNCH(s->kernel.xpay, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x.turn), BRC_BUF(y.turn)) : BRC_OK;
-}
-
-/* x.y, the rotations' part times `weight`. */
-static brc_status dot(brc_simulation *s, brc_unknowns x, brc_unknowns y, double weight, double *out)
-{
-    double turn = 0;
-    BRC_TRY(brc_vector_dot(s, x.move, y.move, 3 * (int64_t)s->layout->n_rows, out));
-    if (x.turn) BRC_TRY(brc_vector_dot(s, x.turn, y.turn, 3 * (int64_t)s->layout->n_rows, &turn));
-    *out += weight * turn;
-    return BRC_OK;
-}
-
-static brc_status copy(brc_unknowns from, brc_unknowns to)
-{
-    BRC_TRY(brc_buffer_copy(to.move, from.move, brc_buffer_bytes(from.move)));
-    return to.turn ? brc_buffer_copy(to.turn, from.turn, brc_buffer_bytes(from.turn)) : BRC_OK;
-}
-
-/* Sum of squares of forces and of torques over the arm. */
-static brc_status square_of(brc_simulation *s, const brc_solve_vectors *v, brc_unknowns r, double *out)
-{
-    return dot(s, r, r, 1 / (v->arm * v->arm), out);
-}
 
 /* A body of beams that no load holds: what would move it as a whole cannot be balanced and leaves the residual. Dead loads that balance do so to
  * first order only, since they act where the elements went. More than `rigid_most` of the residual is an error of the scene. */
@@ -96,25 +60,13 @@ brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, b
     BRC_TRY(brc_loads_zero_imposed(s, s->force));
     BRC_TRY(balance_free_body(s, finite));
     double square;
-    BRC_TRY(square_of(s, v, (brc_unknowns){s->force, brc_is_beams(s) ? s->torque : NULL}, &square));
+    BRC_TRY(brc_statics_square(s, v, (brc_unknowns){s->force, brc_is_beams(s) ? s->torque : NULL}, &square));
     *norm = sqrt(square);
     return isfinite(square) ? BRC_OK
                             : BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
                                        "stage '%s': the static residual is not finite; check that the loads balance or the supports hold the body, "
                                        "or apply the load in more increments",
                                        brc_current_stage(s)->name);
-}
-
-static brc_status create_blocks(brc_simulation *s, brc_solve_vectors *v)
-{
-    const int64_t n = s->layout->n_rows, width = brc_is_beams(s) ? 21 : 6;
-    double *blocks = NULL;
-    BRC_TRY(brc_new_state(s, &v->blocks, width * n, "preconditioner"));
-    BRC_TRY(BRC_ALLOCATE(s->context, &blocks, width * n, "preconditioner"));
-    brc_status status = brc_is_beams(s) ? brc_beams_precondition_blocks(s, blocks) : brc_geometry_precondition_blocks(s, blocks);
-    if (status == BRC_OK) status = brc_upload_state(s, v->blocks, blocks, width * n);
-    brc_memory_free(blocks);
-    return status;
 }
 
 /* Small rotations that stand for the orientations of a linear stage: (1, theta/2), and those that its loads turn. */
@@ -135,23 +87,21 @@ cleanup:
     return status;
 }
 
-/* The right side v->r without what the supports leave free: a stiffness about the reference cannot take it, and of a residual about the moved
- * sample a part as large as its strain is left in it, on which conjugate gradients would break down. */
-static brc_status project_free_motions(brc_simulation *s, brc_solve_vectors *v)
+brc_status brc_statics_project_free_motions(brc_simulation *s, const brc_solve_vectors *v, brc_unknowns r)
 {
     const int64_t n = s->domain->n_elements;
     double *force = NULL, *torque = NULL;
     brc_status status = BRC_OK;
     if (!v->pieces.any) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "free motions"));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, v->r.move, force, 3));
-    if (v->r.turn) {
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, r.move, force, 3));
+    if (r.turn) {
         BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "free motions"));
-        BRC_TRY_OR(cleanup, brc_state_from_rows(s, v->r.turn, torque, 3));
+        BRC_TRY_OR(cleanup, brc_state_from_rows(s, r.turn, torque, 3));
     }
     BRC_TRY_OR(cleanup, brc_pieces_project(s->context, &v->pieces, force, torque));
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->r.move, force, 3, 0));
-    if (torque) BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->r.turn, torque, 3, 0));
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, r.move, force, 3, 0));
+    if (torque) BRC_TRY_OR(cleanup, brc_state_to_rows(s, r.turn, torque, 3, 0));
 cleanup:
     brc_memory_free(force);
     brc_memory_free(torque);
@@ -160,7 +110,6 @@ cleanup:
 
 brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)
 {
-    if (!brc_is_beams(s) && !brc_is_dlsm(s)) return BRC_OK;
     BRC_TRY(brc_pieces_find(s, &v->pieces));
     if (!v->pieces.any) brc_pieces_free(&v->pieces);
     return BRC_OK;
@@ -186,83 +135,17 @@ static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
         BRC_TRY(brc_new_state(s, &v->theta, 3 * n, "rotations"));
     }
     BRC_TRY(brc_statics_find_pieces(s, v));
-    return create_blocks(s, v);
+    return brc_preconditioner_create(s, v);
 }
 
 static void free_vectors(brc_solve_vectors *v)
 {
     brc_unknowns *all[] = {&v->x, &v->r, &v->z, &v->p, &v->kp};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_buffer_free(&all[i]->move), brc_buffer_free(&all[i]->turn);
-    brc_buffer **rest[] = {&v->before, &v->blocks, &v->zero, &v->orientation, &v->theta};
+    brc_buffer **rest[] = {&v->before, &v->preconditioner.blocks, &v->zero, &v->orientation, &v->theta};
     for (size_t i = 0; i < sizeof rest / sizeof *rest; ++i) brc_buffer_free(rest[i]);
     brc_pieces_free(&v->pieces);
-}
-
-/* kp = -K p. Displacements: the force of the linearised law. Rotations (dlsm-published, whose forces do not depend on them
- * to first order): the torque of rotation vectors p at zero displacement. */
-static brc_status apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)
-{
-    brc_force_request r = {.displacement = v->p.move, .force = v->kp.move, .orientation = v->orientation,
-                           .torque = brc_is_beams(s) ? v->kp.turn : v->z.move, .homogeneous = true};
-    if (brc_is_dlsm(s)) return brc_force_evaluate(s, &r);
-    const int32_t n = s->layout->n_rows;
-    brc_buffer *theta = brc_is_beams(s) ? v->p.turn : rotations ? v->p.move : v->zero;
-    BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(theta), BRC_BUF(v->orientation)));
-    if (rotations) r.displacement = v->zero, r.force = v->z.move, r.torque = v->kp.move;
-    return brc_force_evaluate(s, &r);
-}
-
-brc_status brc_statics_apply(brc_simulation *s, brc_solve_vectors *v) { return apply(s, v, false); }
-
-static brc_status precondition(brc_simulation *s, brc_solve_vectors *v, bool rotations)
-{
-    const int32_t n = s->layout->n_rows;
-    if (brc_is_beams(s))
-        BRC_TRY(BRC_LAUNCH(s->kernel.precondition6, n, BRC_INT(n), BRC_BUF(v->blocks), BRC_BUF(v->r.move), BRC_BUF(v->r.turn),
-                           BRC_BUF(v->z.move), BRC_BUF(v->z.turn)));
-    else
-        BRC_TRY(BRC_LAUNCH(s->kernel.precondition, n, BRC_INT(n), BRC_BUF(v->blocks), BRC_BUF(v->r.move), BRC_BUF(v->z.move)));
-    if (brc_is_beams(s)) BRC_TRY(brc_loads_zero_turned(s, v->z.turn));
-    return rotations ? BRC_OK : brc_loads_zero_imposed(s, v->z.move);
-}
-
-/* Solve K x = r to |r| <= target; v->r holds the right side and ends as the residual. Rigid motions that the supports
- * leave free are in the null space of K: the iteration never leaves the right side's complement, so they stay zero when
- * the loads balance; when they do not, the residual stalls and the sentence says so. */
-static brc_status conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool rotations, double target, int32_t most,
-                                      brc_progress *progress, double *left)
-{
-    double rz, rr, pkp, best = INFINITY;
-    int64_t since_best = 0;
-    BRC_TRY(brc_buffer_fill_zero(v->x.move));
-    if (v->x.turn) BRC_TRY(brc_buffer_fill_zero(v->x.turn));
-    BRC_TRY(precondition(s, v, rotations));
-    BRC_TRY(copy(v->z, v->p));
-    BRC_TRY(dot(s, v->r, v->z, 1, &rz));
-    BRC_TRY(square_of(s, v, v->r, &rr));
-    for (int32_t i = 0; i < most && sqrt(rr) > target; ++i) {
-        BRC_TRY(apply(s, v, rotations));
-        BRC_TRY(dot(s, v->p, v->kp, 1, &pkp));
-        pkp = -pkp; /* the force is minus K p */
-        if (!(pkp > 0)) break; /* only rounding and rigid motions are left */
-        const double alpha = rz / pkp;
-        BRC_TRY(add(s, alpha, v->p, v->x));
-        BRC_TRY(add(s, alpha, v->kp, v->r));
-        BRC_TRY(precondition(s, v, rotations));
-        double next;
-        BRC_TRY(dot(s, v->r, v->z, 1, &next));
-        BRC_TRY(square_of(s, v, v->r, &rr));
-        BRC_TRY(scale_add(s, v->z, next / rz, v->p));
-        rz = next;
-        s->static_report.iterations += 1;
-        brc_progress_update(progress, s->static_report.iterations);
-        if (s->interrupted) return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
-        if (brc_leaves_off(s)) break;
-        if (rr < 0.99 * best) best = rr, since_best = 0;
-        else if (++since_best > 2000) break; /* rounding floor: no more to gain */
-    }
-    *left = sqrt(rr);
-    return BRC_OK;
+    brc_multigrid_free(&v->preconditioner.multigrid);
 }
 
 double brc_statics_tolerance(const brc_simulation *s)
@@ -309,8 +192,8 @@ static brc_status settle_rotations(brc_simulation *s, brc_solve_vectors *v, brc_
                                                        .homogeneous = true}));
     BRC_TRY(brc_force_turned_tractions(s, &(brc_force_request){.displacement = s->displacement, .force = v->z.move, .orientation = v->orientation, .torque = v->r.move, .t = s->load_factor}));
     BRC_TRY(remove_mean(s, v->r.move));
-    BRC_TRY(square_of(s, v, v->r, &square));
-    BRC_TRY(conjugate_gradients(s, v, true, 1e-6 * sqrt(square), brc_statics_most_iterations(s), progress, &left));
+    BRC_TRY(brc_statics_square(s, v, v->r, &square));
+    BRC_TRY(brc_conjugate_gradients(s, v, true, 1e-6 * sqrt(square), brc_statics_most_iterations(s), progress, &left));
     return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->x.move), BRC_BUF(s->orientation));
 }
 
@@ -323,8 +206,8 @@ static brc_status predict(brc_simulation *s, brc_solve_vectors *v, int32_t incre
     const brc_unknowns state = {s->displacement, NULL};
     if (increment == 1 || brc_is_beams(s)) return brc_buffer_copy(v->before, s->displacement, bytes);
     BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, bytes)); /* u becomes 2 u - before */
-    BRC_TRY(add(s, -1, (brc_unknowns){v->before, NULL}, state));
-    BRC_TRY(add(s, 1, v->z, state));
+    BRC_TRY(brc_unknowns_add(s, -1, (brc_unknowns){v->before, NULL}, state));
+    BRC_TRY(brc_unknowns_add(s, 1, v->z, state));
     return brc_buffer_copy(v->before, v->z.move, bytes);
 }
 
@@ -332,7 +215,7 @@ static brc_status predict(brc_simulation *s, brc_solve_vectors *v, int32_t incre
 static brc_status correct(brc_simulation *s, brc_solve_vectors *v, bool finite)
 {
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(add(s, 1, v->x, (brc_unknowns){s->displacement, v->theta}));
+    BRC_TRY(brc_unknowns_add(s, 1, v->x, (brc_unknowns){s->displacement, v->theta}));
     if (!brc_is_beams(s)) return BRC_OK;
     if (finite) return BRC_LAUNCH(s->kernel.turn_orientation, n, BRC_INT(n), BRC_BUF(v->x.turn), BRC_BUF(s->orientation));
     return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->theta), BRC_BUF(s->orientation));
@@ -349,20 +232,27 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
     if (norm > *reference) *reference = norm;
     for (int correction = 0; norm > tolerance * *reference; ++correction) {
         if (correction == MOST_CORRECTIONS || (correction > 2 && norm > 0.9 * last && norm > 0.9 * earlier)) {
-            if (coarse && norm < 100 * tolerance * *reference) break; /* the precision's own floor */
-            return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
-                            "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d corrections, asked %.3g; "
-                            "check that the loads balance or the supports hold the body, use more increments, or relax `tolerance`",
-                            stage->name, s->load_factor, norm / *reference, correction, tolerance);
+            const bool near = norm < 100 * tolerance * *reference;
+            if (coarse && near) break; /* the precision's own floor */
+            if (!near || !v->preconditioner.multigrid)
+                return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
+                                "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d corrections, asked %.3g; "
+                                "check that the loads balance or the supports hold the body, use more increments, or relax `tolerance`",
+                                stage->name, s->load_factor, norm / *reference, correction, tolerance);
+            brc_preconditioner_give_up(s, v); /* blocks come a little lower (docs/performance.md) */
+            last = norm = INFINITY;
         }
         earlier = last;
         last = norm;
-        BRC_TRY(copy((brc_unknowns){s->force, s->torque}, v->r));
-        BRC_TRY(project_free_motions(s, v));
+        BRC_TRY(brc_unknowns_copy((brc_unknowns){s->force, s->torque}, v->r));
+        /* the right side without what the supports leave free: a stiffness about the reference cannot take it, and of a residual about the moved
+         * sample a part as large as its strain is left in it, on which conjugate gradients would break down */
+        if (!published) BRC_TRY(brc_statics_project_free_motions(s, v, v->r));
         const double target = 0.3 * tolerance * *reference;
         const int32_t most = brc_statics_most_iterations(s);
+        BRC_TRY(brc_preconditioner_prepare(s, v));
         BRC_TRY(published ? brc_gmres(s, v, target, most, progress, &left)
-                          : conjugate_gradients(s, v, false, target, most, progress, &left));
+                          : brc_conjugate_gradients(s, v, false, target, most, progress, &left));
         BRC_TRY(correct(s, v, finite));
         BRC_TRY(brc_statics_residual(s, v, finite, &norm));
         s->static_report.corrections += 1;
@@ -383,7 +273,7 @@ brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double fac
         return brc_turns(s) ? BRC_LAUNCH(s->kernel.small_rotation, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_BUF(s->displacement), BRC_BUF(s->orientation)) : BRC_OK;
     }
     BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes));
-    BRC_TRY(add(s, factor - 1, (brc_unknowns){v->z.move, NULL}, (brc_unknowns){s->displacement, NULL}));
+    BRC_TRY(brc_unknowns_add(s, factor - 1, (brc_unknowns){v->z.move, NULL}, (brc_unknowns){s->displacement, NULL}));
     if (!brc_turns(s)) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * n, "orientations"));
     BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
@@ -464,6 +354,7 @@ static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_stat
     }
     for (int32_t k = 0; k < n; ++k) part[k]->step += 1;
     brc_log(context, BRC_LOG_INFO, "stage '%s': the load is scaled to %.6g, where the worst element is at %.6g of its limit", stage->name, part[0]->load_factor, ratio);
+    BRC_TRY(brc_look_here(part[0], part[0]->step - 1));
     return brc_notify_sample(part[0]);
 }
 
@@ -472,6 +363,7 @@ brc_status brc_statics_store_run(brc_simulation *s, brc_static_run *run, brc_sta
 {
     const brc_state_entry before = {"static.before", run->vectors.before, BRC_ROWS, BRC_OF_STATE, 3, NULL};
     BRC_TRY(brc_store_entry(s, store, &before));
+    BRC_TRY(brc_preconditioner_store(&run->vectors.preconditioner, store));
     return brc_store_double(store, "static.reference", &run->reference);
 }
 
@@ -498,7 +390,8 @@ static brc_status tell_pause(brc_simulation *s, int32_t increments)
 {
     const brc_stage *stage = brc_current_stage(s);
     const bool done = s->step >= increments + (stage->to_failure > 0);
-    BRC_TRY(brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED : done ? BRC_PAUSE_DONE : BRC_PAUSE_GOING));
+    const bool ended = s->note[s->stage].ended;
+    BRC_TRY(brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED : ended ? BRC_PAUSE_ENDED : done ? BRC_PAUSE_DONE : BRC_PAUSE_GOING));
     if (!s->interrupted) return BRC_OK;
     return BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted after increment %lld of %d", stage->name, (long long)s->step, (int)increments);
 }
@@ -507,17 +400,19 @@ static brc_status run_increments(int32_t n, brc_simulation *const *part, brc_sta
 {
     const brc_stage *stage = brc_current_stage(part[0]);
     const int32_t increments = stage->increments > 0 ? stage->increments : 1;
-    for (int32_t i = (int32_t)part[0]->step + 1; i <= increments; ++i) {
+    const bool *ended = &part[0]->note[part[0]->stage].ended; /* by a look */
+    for (int32_t i = (int32_t)part[0]->step + 1; i <= increments && !*ended; ++i) {
         for (int32_t k = 0; k < n; ++k) { /* one after the other: they share the device's memory and threads */
             part[k]->load_factor = (double)i / increments;
             BRC_TRY(predict(part[k], &run[k].vectors, i));
             BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
             part[k]->step = i;
         }
+        BRC_TRY(brc_look_here(part[0], i - 1));
         BRC_TRY(brc_notify_sample(part[0]));
         BRC_TRY(tell_pause(part[0], increments));
     }
-    if (!(stage->to_failure > 0) || part[0]->step > increments) return BRC_OK;
+    if (!(stage->to_failure > 0) || part[0]->step > increments || *ended) return BRC_OK;
     BRC_TRY(go_to_failure(n, part, run, progress));
     return tell_pause(part[0], increments);
 }

@@ -6,7 +6,7 @@ import repository
 FLOORS = {
     "kernels": 0, "host/base": 1, "preprocess": 2, "host/device": 2, "host/scene": 3,
     "host/solver": 4, "host/output": 5, "bench": 6, "host/commands": 6,
-    "host/include": 7,
+    "host/include": 7, "host/library": 8,
 }
 # The table of commands names those of bench/; bench/ knows nothing of the table.
 ALLOWED_BESIDE = {("host/commands", "bench")}

@@ -15,42 +15,80 @@ if not os.path.exists(PROGRAM):
 USER_OF_THE_LIBRARY = r"""
 #include <breccia.h>
 #include <stdio.h>
+static const char scene_text[] =
+    "version: 1\nmaterials: {stone: {density: 1 kg/m^3, E: 1 Pa, nu: 0.2}}\n"
+    "bodies: [{name: block, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {cells: [3, 3, 3], spread: 90 %}}, material: stone}]\n"
+    "stages: [{name: swing, solver: {dynamic: {steps: 20}}, initial: [velocity: {gradient: {x: [1e-3 1/s, 0, 0]}}]}]\n"
+    "sensors: {kinetic: {energy: kinetic}}\noutput: {picture: false}\n";
 int main(void)
 {
-    brc_context *context = brc_context_create();
-    brc_device_list *devices;
-    if (brc_device_list_create(context, &devices) != BRC_OK) return 1;
-    brc_run_request request = {.path = "missing.yaml"};
-    brc_run_results results;
-    const brc_status status = brc_run_scene(context, &request, &results);
-    printf("%s %s %s\n", brc_version(), devices->items[0].selector, brc_context_message(context));
-    brc_run_results_free(&results);
-    brc_device_list_free(&devices);
-    brc_context_free(&context);
-    return status == BRC_BAD_INPUT ? 0 : 1;
+    breccia_scene *scene = breccia_scene_text("user.yaml", scene_text, sizeof scene_text - 1, 0, NULL);
+    breccia_options options = {0};
+    options.device = "cpu";
+    options.folder = "results";
+    breccia_run *run = breccia_run_create(scene, &options);
+    int64_t done = 0;
+    breccia_array u = {0};
+    breccia_status status = breccia_run_step(run, 20, &done);
+    if (status == BRECCIA_OK) status = breccia_run_array(run, "displacement", 0, &u);
+    if (status == BRECCIA_OK) status = breccia_run_end(run);
+    printf("version %s steps %d rows %d %s\n", breccia_version(), (int)done, (int)u.n_rows, breccia_run_message(run));
+    breccia_run_free(run);
+    breccia_scene_free(scene);
+    return breccia_interface() == BRECCIA_INTERFACE && status == BRECCIA_OK ? 0 : 1;
 }
+"""
+FIND_PACKAGE = """cmake_minimum_required(VERSION 3.25)
+project(user C CXX)
+find_package(breccia 0.1 REQUIRED CONFIG)
+add_executable(user user.c)
+target_link_libraries(user PRIVATE breccia::breccia)
+add_executable(user_cxx user_cxx.cc)
+target_link_libraries(user_cxx PRIVATE breccia::breccia)
 """
 
 
-def use_library(prefix, folder):
-    """Compile, link and run a program against the installed header and library; the sentence of a failure, or None."""
-    with open(os.path.join(prefix, "lib/pkgconfig/breccia.pc"), encoding="utf-8") as file:
+def flags_of(prefix):
+    """Compiler and linker flags as pkg-config gives them; of the file itself where pkg-config is missing."""
+    folder = os.path.join(prefix, "lib/pkgconfig")
+    if shutil.which("pkg-config"):
+        asked = subprocess.run(["pkg-config", "--cflags", "--libs", "breccia"], capture_output=True, text=True, check=True,
+                               env=dict(os.environ, PKG_CONFIG_PATH=folder))
+        return asked.stdout.split()
+    with open(os.path.join(folder, "breccia.pc"), encoding="utf-8") as file:
         package = file.read().replace("${prefix}", prefix)
-    flags = {key: re.search(rf"^{key}: (.*)$", package, re.M).group(1).split() for key in ("Cflags", "Libs")}
-    with open(os.path.join(BUILD, "CMakeCache.txt"), encoding="utf-8") as file:
-        if "BRC_SANITIZE:BOOL=ON" in file.read():
-            flags["Libs"].append("-fsanitize=address,undefined")
+    return " ".join(re.search(rf"^{key}: (.*)$", package, re.M).group(1) for key in ("Cflags", "Libs")).split()
+
+
+def run_user(user, prefix, folder):
+    """The sentence of a failure of a program that uses the library, or None."""
+    here = tempfile.mkdtemp(dir=folder)
+    ran = subprocess.run([user], capture_output=True, text=True, cwd=here, env=dict(os.environ, LD_LIBRARY_PATH=os.path.join(prefix, "lib")))
+    if ran.returncode or not re.search(r"version [0-9.]+ steps 20 rows (2[7-9]|[3-9][0-9]) ", ran.stdout):
+        return f"a program using the library gave {ran.returncode}: {ran.stdout}{ran.stderr}"
+    with open(os.path.join(here, "results/histories.csv"), encoding="utf-8") as file:
+        rows = file.read().splitlines()
+    return None if rows[0].endswith("kinetic [J]") and len(rows) == 22 else f"its histories are {rows[:3]}, {len(rows)} rows"
+
+
+def use_library(prefix, folder):
+    """Compile, link and run programs against the installed header and library, by pkg-config and by find_package; sentences of failures."""
     source, user = os.path.join(folder, "user.c"), os.path.join(folder, "user")
     with open(source, "w", encoding="utf-8") as file:
         file.write(USER_OF_THE_LIBRARY)
-    compiler = ["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", *flags["Cflags"], source, "-o", user, *flags["Libs"]]
-    built = subprocess.run(compiler, capture_output=True, text=True)
+    shutil.copy(source, os.path.join(folder, "user_cxx.cc"))
+    with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+        file.write(FIND_PACKAGE)
+    built = subprocess.run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", source, "-o", user, *flags_of(prefix)], capture_output=True, text=True)
     if built.returncode:
-        return "a program does not compile against the library: " + built.stderr
-    ran = subprocess.run([user], capture_output=True, text=True, cwd=folder)
-    if ran.returncode or "cpu" not in ran.stdout or "missing.yaml" not in ran.stdout:
-        return f"a program using the library gave {ran.returncode}: {ran.stdout}{ran.stderr}"
-    return None
+        return ["a program does not compile against the library: " + built.stderr]
+    build = os.path.join(folder, "build")
+    for command in (["cmake", "-S", folder, "-B", build, "-DCMAKE_PREFIX_PATH=" + prefix], ["cmake", "--build", build]):
+        built = subprocess.run(command, capture_output=True, text=True)
+        if built.returncode:
+            return ["find_package(breccia): " + built.stdout + built.stderr]
+    return [found for found in (run_user(os.path.join(where), prefix, folder)
+                                for where in (user, os.path.join(build, "user"), os.path.join(build, "user_cxx"))) if found]
 
 
 failures = []
@@ -60,12 +98,14 @@ with tempfile.TemporaryDirectory() as folder:
     if installed.returncode:
         sys.exit("install: cmake --install failed: " + installed.stderr)
     shutil.move(first, moved)
-    for name in ("bin/breccia", "include/breccia.h", "share/breccia/examples"):
+    for name in ("bin/breccia", "include/breccia.h", "lib/libbreccia.so.1", "share/breccia/examples", "share/breccia/scene.schema.json", "share/man/man1/breccia.1",
+                 "share/bash-completion/completions/breccia", "share/zsh/site-functions/_breccia", "share/doc/breccia/LICENSE", "share/doc/breccia/docs/scene.md"):
         if not os.path.exists(os.path.join(moved, name)):
             failures.append(f"{name} is not installed")
-    complaint = use_library(moved, folder)
-    if complaint:
-        failures.append(complaint)
+    with open(os.path.join(BUILD, "CMakeCache.txt"), encoding="utf-8") as file:
+        sanitized = "BRC_SANITIZE:BOOL=ON" in file.read()
+    if not sanitized:  # the sanitizer's runtime must come first in a program
+        failures += use_library(moved, folder)
     program = os.path.join(moved, "bin/breccia")
     dynamic = subprocess.run(["readelf", "-d", program], capture_output=True, text=True, check=True).stdout
     if re.search(r"\((RPATH|RUNPATH)\)", dynamic):

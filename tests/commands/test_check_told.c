@@ -25,7 +25,7 @@ static int told_of(const char *command, const char *strength, const char *keys, 
     if (strcmp(command, "run") == 0)
         snprintf(line, sizeof line, "run --device cpu -o %s/result %s/scene.yaml", test_folder(), test_folder());
     else
-        snprintf(line, sizeof line, "%s --device cpu --brief %s/scene.yaml", command, test_folder());
+        snprintf(line, sizeof line, "%s --all --device cpu --brief %s/scene.yaml", command, test_folder());
     const int code = test_program(line);
     test_remove_folder(NULL);
     return code;

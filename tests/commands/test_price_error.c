@@ -74,11 +74,14 @@ static void a_slow_machine_finds_the_same_error(void **state)
     assert_true(slow == fast);
 }
 
-/* 40 steps of every bond, one solve of 5 iterations for each element across, three sweeps or tessellations of 200 a cell. */
+/* 40 steps of every bond, one solve of 40 iterations (multigrid), 5 for each element across with blocks, three sweeps or tessellations of 200 a cell. */
 static void work_is_counted(void **state)
 {
     tried *t = *state;
     const double n_bonds = (double)brc_setup_n_bonds(&t->setup), n = (double)brc_setup_n_elements(&t->setup), across = brc_setup_across(&t->setup);
+    for (int32_t k = 0; k < t->scene->n_stages; ++k) t->scene->stages[k].preconditioner = BRC_PRECONDITIONER_MULTIGRID;
+    assert_near(brc_price_work(t->scene, &t->setup, &t->trial), 40 * n_bonds + 40 * n_bonds + 3 * 200 * n, 1e-6 * n_bonds);
+    for (int32_t k = 0; k < t->scene->n_stages; ++k) t->scene->stages[k].preconditioner = BRC_PRECONDITIONER_BLOCKS;
     assert_near(brc_price_work(t->scene, &t->setup, &t->trial), 40 * n_bonds + 5 * across * n_bonds + 3 * 200 * n, 1e-6 * n_bonds);
 }
 

@@ -28,7 +28,7 @@ static bool tell_and_run(const char *option, memory *told, memory *was)
 {
     static const char looked[] = "broken bonds: about ", whole[] = "broken bonds: ";
     char arguments[512];
-    snprintf(arguments, sizeof arguments, "check %s/scene.yaml --device cpu --threads 1 %s", test_folder(), option);
+    snprintf(arguments, sizeof arguments, "check %s/scene.yaml --all --device cpu --threads 1 %s", test_folder(), option);
     assert_int_equal(test_program(arguments), 0);
     const char *text = strstr(test_program_stdout(), "predicted:");
     const bool is_whole = text && !strstr(text, looked);

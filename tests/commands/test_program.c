@@ -80,13 +80,27 @@ static void an_unknown_device_ends_with_two_and_names_those_that_are_there(void 
 static void check_prices_a_scene(void **state)
 {
     (void)state;
-    assert_int_equal(run("check --device cpu --threads 1 ", "scene.yaml"), 0);
+    assert_int_equal(run("check --all --device cpu --threads 1 ", "scene.yaml"), 0);
     static const char *const parts[] = {"materials:", "64 elements", "effects in:", "effects out:", "memory:", "time step", "the paper's rule",
                                         "50 steps", "predicted:"};
     for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k)
         expect(test_program_stdout(), parts[k]);
     assert_int_equal(run("check --estimate ", "scene.yaml"), 0);
+    assert_null(strstr(test_program_stdout(), "materials:"));
     expect(test_program_stdout(), "about 64 elements");
+}
+
+/* Ten lines or so, each with what it is about. */
+static void check_says_what_matters_in_few_lines(void **state)
+{
+    (void)state;
+    assert_int_equal(run("check --device cpu --threads 1 ", "scene.yaml"), 0);
+    static const char *const parts[] = {"scene: ", "\nelements: 64, ", "\ndevice: cpu (", "\nsimulated: conservative elasticity (dlsm)", "\nstage ", ": 50 steps of ", "\nmemory: ",
+                                        " MB on disk\n", "\nseconds: ", "\nerror class (elastic)", "breccia check --all"};
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) expect(test_program_stdout(), parts[k]);
+    int lines = 0;
+    for (const char *c = test_program_stdout(); *c; ++c) lines += *c == '\n';
+    assert_true(lines >= 8 && lines <= 12);
 }
 
 static void a_run_prints_its_measures_and_writes_its_summary(void **state)
@@ -220,6 +234,7 @@ int main(void)
         cmocka_unit_test(wrong_words_end_with_two_and_one_sentence),
         cmocka_unit_test(an_unknown_device_ends_with_two_and_names_those_that_are_there),
         cmocka_unit_test(check_prices_a_scene),
+        cmocka_unit_test(check_says_what_matters_in_few_lines),
         cmocka_unit_test(a_run_prints_its_measures_and_writes_its_summary),
         cmocka_unit_test(a_built_domain_runs_like_the_scene_it_came_from),
         cmocka_unit_test(an_interrupted_run_ends_with_three_and_keeps_its_results),

@@ -629,7 +629,7 @@ static void export_check_and_build_know_both_models(void **state)
     assert_int_equal(test_program(arguments), 0);
     snprintf(arguments, sizeof arguments, "export %s/both --format csv", folder);
     assert_int_equal(test_program(arguments), 0);
-    snprintf(arguments, sizeof arguments, "check %s/scene.yaml --device cpu --threads 1", folder);
+    snprintf(arguments, sizeof arguments, "check %s/scene.yaml --all --device cpu --threads 1", folder);
     assert_int_equal(test_program(arguments), 0);
     assert_non_null(strstr(test_program_stdout(), "model cbm: 150 elements"));
     assert_non_null(strstr(test_program_stdout(), "effects in with dlsm: conservative elasticity (dlsm)"));

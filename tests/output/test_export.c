@@ -7,7 +7,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "../../preprocess/tessellation.h"
+
 static brc_domain *domain;
+static brc_tessellation cells;
 static char *folder;
 
 /* What a killed run leaves at least: frames without an index. */
@@ -17,19 +20,23 @@ static int begin(void **state)
     domain = test_domain(100);
     folder = test_new_folder();
     brc_file_make_folder(test_context, test_path(folder, "frames"));
+    brc_simulation s = {.domain = domain, .gradient = {{1e-2, 0, 0}}, .stress = {1e6}};
+    brc_simulation *const alone = &s;
+    const brc_assembly whole = brc_assembly_make(s.scene, NULL, 1, &alone);
+    brc_frames *frames;
+    if (brc_frames_create(test_context, &whole, 1, &frames) != BRC_OK) return -1;
     for (int k = 0; k < 2; ++k) {
-        brc_simulation s = {.domain = domain, .factor = k, .gradient = {{1e-2, 0, 0}}, .stress = {1e6}};
-        brc_simulation *const alone = &s;
-        const brc_assembly whole = brc_assembly_make(s.scene, NULL, 1, &alone);
-        char name[48];
-        snprintf(name, sizeof name, "frames/%06d.vtkhdf", k);
-        if (brc_frame_write(test_context, &whole, test_path(folder, name)) != BRC_OK) return -1;
+        s.factor = k;
+        if (brc_frames_write(frames, test_path(folder, "frames"), k) != BRC_OK) return -1;
     }
+    brc_frames_free(&frames);
+    if (brc_tessellation_create(test_context, domain, 1, &cells) != BRC_OK || brc_tessellation_join(test_context, NULL, 1, &cells) != BRC_OK) return -1;
     return 0;
 }
 
 static int end(void **state)
 {
+    brc_tessellation_free(&cells);
     brc_domain_free(&domain);
     test_remove_folder(folder);
     return test_end(state);
@@ -69,7 +76,15 @@ static void a_vtu_holds_the_arrays_where_its_head_says(void **state)
     const char *offsets = strstr(data, "Name=\"offsets\"");
     int64_t first;
     memcpy(&first, raw + atol(strstr(offsets, "offset=\"") + 8) + 8, sizeof first);
-    assert_int_equal(first, domain->vertex_start[1]); /* ends, without the first 0 */
+    assert_int_equal(first, cells.point_start[1]); /* ends, without the first 0 */
+    const char *faces = strstr(data, "Name=\"faces\""), *ends = strstr(data, "Name=\"faceoffsets\"");
+    int64_t count[2], end;
+    memcpy(count, raw + atol(strstr(faces, "offset=\"") + 8) + 8, sizeof count);
+    int32_t corners[256], points[4096];
+    assert_int_equal(count[0], brc_tessellation_faces(&cells, 0, corners, points));
+    assert_int_equal(count[1], corners[0]);
+    memcpy(&end, raw + atol(strstr(ends, "offset=\"") + 8) + 8, sizeof end);
+    assert_int_equal(end, 1 + cells.face_start[1] + cells.loop_start[1]);
     brc_memory_free(data);
     char *index = test_read(test_path(folder, "export/frames.pvd"));
     assert_non_null(strstr(index, "<DataSet timestep=\"1\" file=\"frames/000001.vtu\"/>"));

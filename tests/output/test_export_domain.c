@@ -3,6 +3,8 @@
 #include "../../host/base/memory.h"
 #include "../../host/output/export_domain.h"
 #include "../../preprocess/sets.h"
+#include "../../preprocess/tessellation.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,36 +67,58 @@ static void assert_tree(const vtu *file, int64_t n_points, int64_t n_cells)
     assert_memory_equal(file->data + file->bytes - strlen(tail), tail, strlen(tail));
 }
 
-static void cells_are_convex_point_sets_with_their_corners(void **state)
+static void cells_are_polyhedra_that_share_their_corners(void **state)
 {
     (void)state;
     brc_domain *d = test_domain(200);
-    const int64_t n = d->n_elements, n_points = d->vertex_start[n];
+    const int64_t n = d->n_elements;
+    brc_tessellation cells;
+    assert_int_equal(brc_tessellation_create(test_context, d, 1, &cells), BRC_OK);
+    assert_int_equal(brc_tessellation_join(test_context, NULL, 1, &cells), BRC_OK);
+    const int64_t n_points = cells.n_points, n_ids = cells.point_start[n], n_stream = n + cells.face_start[n] + cells.loop_start[n];
+    assert_true(3 * n_points < d->vertex_start[n]);
     assert_int_equal(BRC_ALLOCATE(test_context, &d->grain, n, "grains"), BRC_OK);
     for (int64_t e = 0; e < n; ++e) d->grain[e] = (int32_t)(e % 7);
     vtu file = write_and_read(d);
     assert_tree(&file, n_points, n);
     const float *x = find(&file, "Points", "Points", "Float32", 12 * n_points);
-    const int64_t *point = find(&file, "Cells", "connectivity", "Int64", 8 * n_points), *end = find(&file, "Cells", "offsets", "Int64", 8 * n);
+    const int64_t *point = find(&file, "Cells", "connectivity", "Int64", 8 * n_ids), *end = find(&file, "Cells", "offsets", "Int64", 8 * n);
+    const int64_t *stream = find(&file, "Cells", "faces", "Int64", 8 * n_stream), *stream_end = find(&file, "Cells", "faceoffsets", "Int64", 8 * n);
     const uint8_t *type = find(&file, "Cells", "types", "UInt8", n);
     const int64_t *grain = find(&file, "CellData", "grain", "Int64", 8 * n), *id = find(&file, "CellData", "element_id", "Int64", 8 * n);
     const int64_t *bonds = find(&file, "CellData", "coordination", "Int64", 8 * n);
     const double *volume = find(&file, "CellData", "volume", "Float64", 8 * n);
-    for (int64_t e = 0; e < n; ++e) {
+    for (int64_t e = 0, place = 0; e < n; ++e) {
         int64_t at, from = 0, value;
         double number;
         memcpy(&at, end + e, 8); /* raw data need not be aligned */
         if (e > 0) memcpy(&from, end + e - 1, 8);
-        assert_int_equal(at, d->vertex_start[e + 1]);
+        assert_int_equal(at, cells.point_start[e + 1]);
+        int32_t own[256], count[256], loops[4096];
+        assert_int_equal(brc_tessellation_points(&cells, e, own), at - from);
         for (int64_t v = from; v < at; ++v) {
-            int64_t p;
-            float corner[3];
-            memcpy(&p, point + v, 8);
-            assert_int_equal(p, v);
-            memcpy(corner, x + 3 * p, 12);
-            for (int c = 0; c < 3; ++c) assert_true(corner[c] == (float)d->vertex[3 * v + c]);
+            memcpy(&value, point + v, 8);
+            assert_int_equal(value, own[v - from]);
         }
-        assert_int_equal(type[e], 41);
+        for (int64_t v = d->vertex_start[e]; v < d->vertex_start[e + 1]; ++v) { /* copies of a corner agree to rounding */
+            float corner[3];
+            memcpy(corner, x + 3 * cells.point[v], 12);
+            for (int c = 0; c < 3; ++c) assert_true(fabs(corner[c] - d->vertex[3 * v + c]) < 2e-7);
+        }
+        const int64_t n_faces = brc_tessellation_faces(&cells, e, count, loops);
+        memcpy(&value, stream + place++, 8);
+        assert_int_equal(value, n_faces);
+        for (int64_t f = 0, k = 0; f < n_faces; ++f) {
+            memcpy(&value, stream + place++, 8);
+            assert_int_equal(value, count[f]);
+            for (int32_t m = 0; m < count[f]; ++m) {
+                memcpy(&value, stream + place++, 8);
+                assert_int_equal(value, loops[k++]);
+            }
+        }
+        memcpy(&value, stream_end + e, 8);
+        assert_int_equal(value, place);
+        assert_int_equal(type[e], 42);
         memcpy(&value, grain + e, 8);
         assert_int_equal(value, e % 7);
         memcpy(&value, id + e, 8);
@@ -109,6 +133,7 @@ static void cells_are_convex_point_sets_with_their_corners(void **state)
     find(&file, "CellData", "position", "Float64", 24 * n);
     assert_null(strstr(file.data, "Name=\"radius\""));
     brc_memory_free(file.data);
+    brc_tessellation_free(&cells);
     brc_domain_free(&d);
 }
 
@@ -157,7 +182,7 @@ static void a_folder_that_is_not_there_is_an_error(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells_are_convex_point_sets_with_their_corners),
+        cmocka_unit_test(cells_are_polyhedra_that_share_their_corners),
         cmocka_unit_test(spheres_are_vertices_with_a_radius),
         cmocka_unit_test(a_folder_that_is_not_there_is_an_error),
     };

@@ -314,7 +314,7 @@ static void a_full_disk_gives_one_sentence_and_leaves_readable_results(void **st
     signal(SIGXFSZ, SIG_IGN);
     getrlimit(RLIMIT_FSIZE, &before);
     limit = before;
-    limit.rlim_cur = 100000; /* room for the index, not for a frame of 200 cells */
+    limit.rlim_cur = 45000; /* room for the index, not for a frame of 200 cells */
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
     const brc_status status = record(&r);
     setrlimit(RLIMIT_FSIZE, &before);

@@ -43,8 +43,15 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
     brc_simulation *const alone = &s;
     const brc_assembly whole = brc_assembly_make(s.scene, NULL, 1, &alone);
     brc_h5_read h5;
-    assert_int_equal(brc_frame_write(test_context, &whole, "spheres.vtkhdf"), BRC_OK);
-    assert_int_equal(brc_h5_read_open(test_context, "spheres.vtkhdf", &h5), BRC_OK);
+    brc_frames *frames;
+    char *folder = test_new_folder();
+    static char frame[512];
+    snprintf(frame, sizeof frame, "%s/000000.vtkhdf", folder);
+    assert_int_equal(brc_frames_create(test_context, &whole, 1, &frames), BRC_OK);
+    assert_int_equal(brc_frames_write(frames, folder, 0), BRC_OK);
+    brc_frames_free(&frames);
+    assert_int_equal(brc_h5_read_open(test_context, frame, &h5), BRC_OK);
+    assert_false(brc_h5_read_has(&h5, "VTKHDF/FaceConnectivity"));
     float *point = load(&h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, N, 3), *moved = load(&h5, "VTKHDF/PointData/displacement", H5T_NATIVE_FLOAT, N, 3);
     int64_t *offset = load(&h5, "VTKHDF/Offsets", H5T_NATIVE_INT64, N + 1, 1), *id = load(&h5, "VTKHDF/Connectivity", H5T_NATIVE_INT64, N, 1);
     uint8_t *type = load(&h5, "VTKHDF/Types", H5T_NATIVE_UINT8, N, 1);
@@ -63,7 +70,7 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
     void *const block[] = {point, moved, offset, id, type, radius, turn};
     for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
 
-    assert_int_equal(brc_export_vtu_frame(test_context, "spheres.vtkhdf", "spheres.vtu"), BRC_OK);
+    assert_int_equal(brc_export_vtu_frame(test_context, frame, "spheres.vtu"), BRC_OK);
     char *text = test_read("spheres.vtu");
     assert_non_null(strstr(text, "<Piece NumberOfPoints=\"3\" NumberOfCells=\"3\">"));
     const char *name = strstr(text, "<DataArray type=\"Float64\" Name=\"radius\"");
@@ -73,7 +80,7 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
     memcpy(&third, strstr(text, "raw\">\n_") + 7 + atol(strstr(name, "offset=\"") + 8) + 8 + 16, sizeof third);
     assert_true(third == 0.3 + 0.05 * 2);
     brc_memory_free(text);
-    remove("spheres.vtkhdf");
+    test_remove_folder(folder);
     remove("spheres.vtu");
     brc_domain_free(&d);
 }

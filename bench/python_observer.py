@@ -1,0 +1,65 @@
+"""What a Python observer costs a run: the same scene without one and with one that looks at the velocities every so many steps and would stop the run.
+
+PYTHONPATH=python/src BRECCIA_LIBRARY=build/release/lib/libbreccia.so python3 bench/python_observer.py [--elements 10000] [--steps 400] [--every 20] [--pairs 7]
+"""
+import argparse
+import time
+
+import numpy as np
+
+import breccia
+
+SCENE = {
+    "version": 1,
+    "materials": {"glass": {"E": "72 GPa", "nu": 0.2, "density": "2500 kg/m^3"}},
+    "model": "dlsm",
+    "bodies": [{"name": "block", "shape": {"box": {"size": ["10 mm", "10 mm", "10 mm"]}}, "fill": {"noisy_grid": {"elements": 10000, "spread": "50 %"}}, "material": "glass"}],
+    "stages": [{"name": "swing", "solver": {"dynamic": {"steps": 400}}, "initial": [{"velocity": {"gradient": {"x": ["1 1/s", 0, 0]}}}]}],
+    "output": {"frames": "none", "picture": False, "history_every": 1000000},
+}
+
+
+def stop_when_fast(run):
+    """The largest speed, read where the device keeps the velocities; 1 km/s is never reached."""
+    velocity = run.view("velocity")
+    return breccia.STOP if np.einsum("ij,ij->i", velocity, velocity).max() > 1e6 else None
+
+
+def processor_seconds(scene, every):
+    """Of the steps alone: building and setting up are over when the run stands at step 0."""
+    with scene.start(device="cpu", threads=1) as run:
+        looks = [0]
+
+        def look(run):
+            looks[0] += 1
+            return stop_when_fast(run)
+
+        if every:
+            run.observe(look, steps=every)
+        run.step(0)
+        start = time.process_time()
+        while run.step(10**9):
+            pass
+        return time.process_time() - start, looks[0]
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    for name, value in (("elements", 10000), ("steps", 400), ("every", 20), ("pairs", 7)):
+        options.add_argument("--" + name, type=int, default=value)
+    asked = options.parse_args()
+    scene = breccia.Scene(SCENE, set={"bodies.0.fill.noisy_grid.elements": asked.elements, "stages.0.solver.dynamic.steps": asked.steps})
+    processor_seconds(scene, 0)
+    plain, observed = [], []
+    for _ in range(asked.pairs):
+        plain.append(processor_seconds(scene, 0)[0])
+        seconds, looks = processor_seconds(scene, asked.every)
+        observed.append(seconds)
+    ratios = sorted(other / one for one, other in zip(plain, observed))
+    steps = (min(observed) - min(plain)) / looks / (min(plain) / asked.steps)
+    print(f"{asked.elements} elements, {asked.steps} steps of {min(plain) / asked.steps:.2e} s, {looks} looks: {min(observed) / min(plain):.4f} times the processor time of the steps without "
+          f"(least of {asked.pairs} runs each; pairs {ratios[0]:.4f} to {ratios[-1]:.4f}); a look takes {steps:.3f} of a step")
+
+
+if __name__ == "__main__":
+    main()

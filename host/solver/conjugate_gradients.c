@@ -1,0 +1,77 @@
+/* Preconditioned conjugate gradients on the linearised operator, matrix-free on the device. */
+#include "statics.h"
+#include <math.h>
+
+/* kp = -K p. Displacements: the force of the linearised law. Rotations (dlsm-published, whose forces do not depend on them
+ * to first order): the torque of rotation vectors p at zero displacement. */
+static brc_status apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)
+{
+    brc_force_request r = {.displacement = v->p.move, .force = v->kp.move, .orientation = v->orientation,
+                           .torque = brc_is_beams(s) ? v->kp.turn : v->z.move, .homogeneous = true};
+    if (brc_is_dlsm(s)) return brc_force_evaluate(s, &r);
+    const int32_t n = s->layout->n_rows;
+    brc_buffer *theta = brc_is_beams(s) ? v->p.turn : rotations ? v->p.move : v->zero;
+    BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(theta), BRC_BUF(v->orientation)));
+    if (rotations) r.displacement = v->zero, r.force = v->z.move, r.torque = v->kp.move;
+    return brc_force_evaluate(s, &r);
+}
+
+brc_status brc_statics_apply(brc_simulation *s, brc_solve_vectors *v) { return apply(s, v, false); }
+
+/* The direction of steepest descent, to begin or begin again. */
+static brc_status begin(brc_simulation *s, brc_solve_vectors *v, bool rotations, double *rz)
+{
+    BRC_TRY(brc_preconditioner_apply(s, v, rotations));
+    BRC_TRY(brc_unknowns_copy(v->z, v->p));
+    return brc_unknowns_dot(s, v->r, v->z, 1, rz);
+}
+
+/* Multigrid puts rigid motions that the supports leave free into x, which K does not see: they are taken off. */
+static brc_status remove_free_motions(brc_simulation *s, brc_solve_vectors *v)
+{
+    if (!v->pieces.any || !v->preconditioner.multigrid) return BRC_OK;
+    return brc_statics_project_free_motions(s, v, v->x);
+}
+
+/* Rigid motions that the supports leave free are in the null space of K: blocks never leave the right side's complement; when the loads do not balance, the residual stalls
+ * and the sentence says so. */
+brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool rotations, double target, int32_t most, brc_progress *progress, double *left)
+{
+    const int64_t before = s->static_report.iterations;
+    double rz, rr, pkp, first, best = INFINITY;
+    int64_t since_best = 0;
+    BRC_TRY(brc_buffer_fill_zero(v->x.move));
+    if (v->x.turn) BRC_TRY(brc_buffer_fill_zero(v->x.turn));
+    BRC_TRY(begin(s, v, rotations, &rz));
+    BRC_TRY(brc_statics_square(s, v, v->r, &rr));
+    first = sqrt(rr);
+    for (int32_t i = 0; i < most && sqrt(rr) > target; ++i) {
+        if (!(rz > 0) && v->preconditioner.multigrid && !rotations) { /* it must be positive */
+            brc_preconditioner_give_up(s, v);
+            BRC_TRY(begin(s, v, rotations, &rz));
+        }
+        BRC_TRY(apply(s, v, rotations));
+        BRC_TRY(brc_unknowns_dot(s, v->p, v->kp, 1, &pkp));
+        pkp = -pkp; /* the force is minus K p */
+        if (!(pkp > 0)) break; /* only rounding and rigid motions are left */
+        const double alpha = rz / pkp;
+        BRC_TRY(brc_unknowns_add(s, alpha, v->p, v->x));
+        BRC_TRY(brc_unknowns_add(s, alpha, v->kp, v->r));
+        BRC_TRY(brc_preconditioner_apply(s, v, rotations));
+        double next;
+        BRC_TRY(brc_unknowns_dot(s, v->r, v->z, 1, &next));
+        BRC_TRY(brc_statics_square(s, v, v->r, &rr));
+        BRC_TRY(brc_unknowns_scale_add(s, v->z, next / rz, v->p));
+        rz = next;
+        s->static_report.iterations += 1;
+        brc_progress_update(progress, s->static_report.iterations);
+        if (s->interrupted) return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
+        if (brc_leaves_off(s)) break;
+        if (rr < 0.99 * best) best = rr, since_best = 0;
+        else if (++since_best > 2000) break; /* rounding floor: no more to gain */
+    }
+    *left = sqrt(rr);
+    if (rotations) return BRC_OK;
+    brc_preconditioner_took(v, s->static_report.iterations - before, first, *left);
+    return remove_free_motions(s, v);
+}

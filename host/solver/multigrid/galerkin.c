@@ -1,0 +1,314 @@
+/* Smoothed prolongation and the matrices of coarser levels. Every row is made by one thread, its sums in the order of the rows, so that equal input gives equal bytes. */
+#include "rows.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* a += factor b c */
+static void add_product(double *restrict a, double factor, const double *restrict b, const double *restrict c)
+{
+    for (int r = 0; r < 6; ++r) {
+        double sum[6] = {0};
+        for (int k = 0; k < 6; ++k)
+            for (int j = 0; j < 6; ++j) sum[j] += b[6 * r + k] * c[6 * k + j];
+        for (int j = 0; j < 6; ++j) a[6 * r + j] += factor * sum[j];
+    }
+}
+
+/* a += b^T c */
+static void add_transposed_product(double *restrict a, const double *restrict b, const double *restrict c)
+{
+    for (int r = 0; r < 6; ++r) {
+        double sum[6] = {0};
+        for (int k = 0; k < 6; ++k)
+            for (int j = 0; j < 6; ++j) sum[j] += b[6 * k + r] * c[6 * k + j];
+        for (int j = 0; j < 6; ++j) a[6 * r + j] += sum[j];
+    }
+}
+
+/* Rigid motion of an aggregate at one of its nodes: displacement t + theta x arm. */
+static void rigid_block(const brc_nodes *nodes, const brc_nodes *coarse, int64_t i, int32_t aggregate, brc_block t)
+{
+    double arm[3];
+    memset(t, 0, sizeof(brc_block));
+    for (int c = 0; c < 3; ++c) arm[c] = nodes->place[i][c] - coarse->place[aggregate][c];
+    for (int c = 0; c < 6; ++c) t[7 * c] = 1;
+    for (int c = 0; c < 3; ++c) {
+        const int next = (c + 1) % 3, last = (c + 2) % 3;
+        t[6 * c + 3 + next] = arm[last];
+        t[6 * c + 3 + last] = -arm[next];
+    }
+    for (int c = 0; nodes->free_bits && c < 6; ++c)
+        if (!(nodes->free_bits[i] >> c & 1)) memset(t + 6 * c, 0, 6 * sizeof *t);
+}
+
+static void whole_block(const double upper[21], brc_block out)
+{
+    for (int r = 0, at = 0; r < 6; ++r)
+        for (int c = r; c < 6; ++c, ++at) out[6 * r + c] = out[6 * c + r] = upper[at];
+}
+
+static int compare(const void *left, const void *right)
+{
+    const int32_t a = *(const int32_t *)left, b = *(const int32_t *)right;
+    return (a > b) - (a < b);
+}
+
+/* Aggregates of the nodes in `column`, ascending, each once. Returns how many. */
+static int32_t aggregates_of(const int32_t *aggregate, int32_t count, const int32_t *column, int32_t *found)
+{
+    int32_t n = 0;
+    for (int32_t k = 0; k < count; ++k) {
+        const int32_t one = aggregate[column[k]];
+        int32_t at = 0;
+        while (at < n && found[at] != one) ++at;
+        if (one >= 0 && at == n) found[n++] = one;
+    }
+    qsort(found, (size_t)n, sizeof *found, compare);
+    return n;
+}
+
+static int32_t place_in(const int32_t *ascending, int32_t wanted)
+{
+    int32_t at = 0;
+    while (ascending[at] != wanted) ++at;
+    return at;
+}
+
+/* Room of one thread for a row and what is made of it. */
+typedef struct row_room {
+    int32_t *column, *found;
+    brc_block *block, *sum;
+} row_room;
+
+static brc_status get_room(brc_context *context, int32_t most, row_room *room)
+{
+    BRC_TRY(BRC_ALLOCATE(context, &room->column, most, "rows"));
+    BRC_TRY(BRC_ALLOCATE(context, &room->found, most, "rows"));
+    BRC_TRY(BRC_ALLOCATE(context, &room->block, most, "rows"));
+    return BRC_ALLOCATE(context, &room->sum, most, "rows");
+}
+
+static void free_room(row_room *room)
+{
+    brc_memory_free(room->column);
+    brc_memory_free(room->found);
+    brc_memory_free(room->block);
+    brc_memory_free(room->sum);
+}
+
+typedef struct smoothing {
+    const brc_rows *rows;
+    const brc_nodes *nodes, *coarse;
+    const int32_t *aggregate;
+    double weight;
+    const double (*inverse)[21];
+} smoothing;
+
+static void smooth_row(const smoothing *s, row_room *room, int64_t i, brc_prolongation *p)
+{
+    const int32_t count = s->rows->row(s->rows->of, i, room->column, room->block), n = (int32_t)(p->start[i + 1] - p->start[i]);
+    const int32_t *found = p->column + p->start[i];
+    brc_block rigid, inverse;
+    memset(room->sum, 0, (size_t)n * sizeof *room->sum);
+    for (int32_t k = 0; k < count; ++k) {
+        const int32_t of = s->aggregate[room->column[k]];
+        if (of < 0) continue;
+        rigid_block(s->nodes, s->coarse, room->column[k], of, rigid);
+        add_product(room->sum[place_in(found, of)], 1, room->block[k], rigid);
+    }
+    whole_block(s->inverse[i], inverse);
+    for (int32_t k = 0; k < n; ++k) {
+        brc_block out = {0};
+        if (found[k] == s->aggregate[i]) rigid_block(s->nodes, s->coarse, i, found[k], out);
+        add_product(out, -s->weight, inverse, room->sum[k]);
+        for (int c = 0; c < 36; ++c) p->block[p->start[i] + k][c] = (float)out[c];
+    }
+}
+
+/* Blocks by columns. */
+static brc_status list_columns(brc_context *context, brc_prolongation *p)
+{
+    BRC_TRY(BRC_ALLOCATE(context, &p->column_start, p->n_coarse + 1, "prolongation"));
+    BRC_TRY(BRC_ALLOCATE(context, &p->entry, p->start[p->n], "prolongation"));
+    for (int64_t k = 0; k < p->start[p->n]; ++k) p->column_start[p->column[k] + 1] += 1;
+    for (int64_t i = 0; i < p->n_coarse; ++i) p->column_start[i + 1] += p->column_start[i];
+    for (int64_t i = 0; i < p->n; ++i)
+        for (int64_t k = p->start[i]; k < p->start[i + 1]; ++k) {
+            const int64_t at = p->column_start[p->column[k]]++;
+            p->entry[at][0] = (int32_t)k;
+            p->entry[at][1] = (int32_t)i;
+        }
+    for (int64_t i = p->n_coarse; i > 0; --i) p->column_start[i] = p->column_start[i - 1];
+    p->column_start[0] = 0;
+    return BRC_OK;
+}
+
+brc_status brc_prolongation_create(brc_context *context, const brc_rows *rows, const brc_nodes *nodes, const int32_t *aggregate, const brc_nodes *coarse,
+                                   double weight, const double (*inverse)[21], brc_prolongation *out)
+{
+    const smoothing s = {rows, nodes, coarse, aggregate, weight, inverse};
+    brc_status status = BRC_OK;
+    int failed = 0;
+    *out = (brc_prolongation){.n = rows->n, .n_coarse = coarse->n};
+    BRC_TRY(BRC_ALLOCATE(context, &out->start, rows->n + 1, "prolongation"));
+    for (int pass = 0; pass < 2; ++pass) {
+#pragma omp parallel reduction(+ : failed)
+        {
+            row_room room = {0};
+            failed += get_room(context, rows->most, &room) != BRC_OK;
+#pragma omp for schedule(static)
+            for (int64_t i = 0; i < rows->n; ++i) {
+                if (failed) continue;
+                if (pass == 1) smooth_row(&s, &room, i, out);
+                else out->start[i + 1] = aggregates_of(aggregate, rows->row(rows->of, i, room.column, NULL), room.column, room.found);
+            }
+            free_room(&room);
+        }
+        if (failed) return BRC_NO_MEMORY;
+        if (pass == 1) break;
+        for (int64_t i = 0; i < rows->n; ++i) out->start[i + 1] += out->start[i];
+        BRC_TRY(BRC_ALLOCATE(context, &out->column, out->start[rows->n], "prolongation"));
+        BRC_TRY(BRC_ALLOCATE(context, &out->block, out->start[rows->n], "prolongation"));
+#pragma omp parallel reduction(+ : failed)
+        {
+            row_room room = {0};
+            failed += get_room(context, rows->most, &room) != BRC_OK;
+#pragma omp for schedule(static)
+            for (int64_t i = 0; i < rows->n; ++i) {
+                if (failed) continue;
+                const int32_t n = aggregates_of(aggregate, rows->row(rows->of, i, room.column, NULL), room.column, room.found);
+                memcpy(out->column + out->start[i], room.found, (size_t)n * sizeof *room.found);
+            }
+            free_room(&room);
+        }
+        if (failed) return BRC_NO_MEMORY;
+    }
+    status = list_columns(context, out);
+    return status;
+}
+
+void brc_prolongation_free(brc_prolongation *p)
+{
+    brc_memory_free(p->start);
+    brc_memory_free(p->column);
+    brc_memory_free(p->block);
+    brc_memory_free(p->column_start);
+    brc_memory_free(p->entry);
+    *p = (brc_prolongation){0};
+}
+
+/* Room of one thread for a row of P^T A and of P^T A P: blocks by the order in which their columns were met; mark[j] is that place, -1: not met. */
+typedef struct product_room {
+    row_room row;
+    int32_t *fine_mark, *coarse_mark, *fine, *coarse;
+    brc_block *fine_sum, *coarse_sum;
+    int64_t fine_room, coarse_room;
+} product_room;
+
+static brc_status get_product_room(brc_context *context, const brc_rows *rows, const brc_prolongation *p, product_room *room)
+{
+    BRC_TRY(get_room(context, rows->most, &room->row));
+    BRC_TRY(BRC_ALLOCATE(context, &room->fine_mark, p->n, "products"));
+    BRC_TRY(BRC_ALLOCATE(context, &room->coarse_mark, p->n_coarse, "products"));
+    memset(room->fine_mark, -1, (size_t)p->n * sizeof *room->fine_mark);
+    memset(room->coarse_mark, -1, (size_t)p->n_coarse * sizeof *room->coarse_mark);
+    return BRC_OK;
+}
+
+static void free_product_room(product_room *room)
+{
+    void *all[] = {room->fine_mark, room->coarse_mark, room->fine, room->coarse, room->fine_sum, room->coarse_sum};
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_memory_free(all[i]);
+    free_room(&room->row);
+}
+
+/* The place of column j among those met, with a zero block where it is new. */
+static brc_status meet(brc_context *context, int32_t j, int32_t *mark, int32_t *n, int32_t **list, brc_block **sum, int64_t *room)
+{
+    if (mark[j] >= 0) return BRC_OK;
+    if (*n == *room) {
+        *room = 2 * *room + 256;
+        BRC_TRY(brc_memory_resize(context, (void **)list, *room, sizeof **list, "products"));
+        BRC_TRY(brc_memory_resize(context, (void **)sum, *room, sizeof **sum, "products"));
+    }
+    memset((*sum)[*n], 0, sizeof(brc_block));
+    (*list)[*n] = j;
+    mark[j] = (*n)++;
+    return BRC_OK;
+}
+
+static void widen(const brc_narrow from, brc_block to)
+{
+    for (int c = 0; c < 36; ++c) to[c] = from[c];
+}
+
+/* Row i of P^T A P into room->coarse_sum, its columns into room->coarse; n: how many. sums: else the columns alone. */
+static brc_status product_row(brc_context *context, const brc_rows *rows, const brc_prolongation *p, int64_t i, bool sums, product_room *room, int32_t *n)
+{
+    int32_t n_fine = 0;
+    brc_block block;
+    *n = 0;
+    for (int64_t k = p->column_start[i]; k < p->column_start[i + 1]; ++k) {
+        const int32_t count = rows->row(rows->of, p->entry[k][1], room->row.column, sums ? room->row.block : NULL);
+        if (sums) widen(p->block[p->entry[k][0]], block);
+        for (int32_t c = 0; c < count; ++c) {
+            const int32_t j = room->row.column[c];
+            BRC_TRY(meet(context, j, room->fine_mark, &n_fine, &room->fine, &room->fine_sum, &room->fine_room));
+            if (sums) add_transposed_product(room->fine_sum[room->fine_mark[j]], block, room->row.block[c]);
+        }
+    }
+    BRC_TRY(meet(context, (int32_t)i, room->coarse_mark, n, &room->coarse, &room->coarse_sum, &room->coarse_room)); /* the diagonal first */
+    for (int32_t f = 0; f < n_fine; ++f) {
+        const int32_t j = room->fine[f];
+        room->fine_mark[j] = -1;
+        for (int64_t k = p->start[j]; k < p->start[j + 1]; ++k) {
+            BRC_TRY(meet(context, p->column[k], room->coarse_mark, n, &room->coarse, &room->coarse_sum, &room->coarse_room));
+            if (!sums) continue;
+            widen(p->block[k], block);
+            add_product(room->coarse_sum[room->coarse_mark[p->column[k]]], 1, room->fine_sum[f], block);
+        }
+    }
+    for (int32_t c = 0; c < *n; ++c) room->coarse_mark[room->coarse[c]] = c;
+    return BRC_OK;
+}
+
+static void store_row(const product_room *room, int64_t i, int32_t n, brc_stored_rows *out)
+{
+    int32_t *to = out->column + out->start[i];
+    memcpy(to, room->coarse, (size_t)n * sizeof *to);
+    qsort(to + 1, (size_t)n - 1, sizeof *to, compare);
+    for (int32_t c = 0; c < n; ++c) memcpy(out->block[out->start[i] + c], room->coarse_sum[room->coarse_mark[to[c]]], sizeof(brc_block));
+}
+
+brc_status brc_coarse_rows(brc_context *context, const brc_rows *rows, const brc_prolongation *p, brc_stored_rows *out)
+{
+    int failed = 0;
+    *out = (brc_stored_rows){.n = p->n_coarse};
+    BRC_TRY(BRC_ALLOCATE(context, &out->start, p->n_coarse + 1, "coarse level"));
+    for (int pass = 0; pass < 2; ++pass) {
+#pragma omp parallel reduction(+ : failed)
+        {
+            product_room room = {0};
+            failed += get_product_room(context, rows, p, &room) != BRC_OK;
+#pragma omp for schedule(dynamic, 16)
+            for (int64_t i = 0; i < p->n_coarse; ++i) {
+                int32_t n = 0;
+                if (failed) continue;
+                failed += product_row(context, rows, p, i, pass == 1, &room, &n) != BRC_OK;
+                if (pass == 0) out->start[i + 1] = n;
+                else if (!failed) store_row(&room, i, n, out);
+                for (int32_t c = 0; c < n; ++c) room.coarse_mark[room.coarse[c]] = -1;
+            }
+            free_product_room(&room);
+        }
+        if (failed) return BRC_NO_MEMORY;
+        if (pass == 1) break;
+        for (int64_t i = 0; i < p->n_coarse; ++i) {
+            if (out->start[i + 1] > out->most) out->most = (int32_t)out->start[i + 1];
+            out->start[i + 1] += out->start[i];
+        }
+        BRC_TRY(BRC_ALLOCATE(context, &out->column, out->start[p->n_coarse], "coarse level"));
+        BRC_TRY(BRC_ALLOCATE(context, &out->block, out->start[p->n_coarse], "coarse level"));
+    }
+    return BRC_OK;
+}

@@ -1,0 +1,48 @@
+/* The levels on the device, shared by the files of this folder. */
+#ifndef BRC_SOLVER_MULTIGRID_MULTIGRID_INTERNAL_H
+#define BRC_SOLVER_MULTIGRID_MULTIGRID_INTERNAL_H
+
+#include "fine.h"
+#include "multigrid.h"
+
+enum { BRC_MOST_LEVELS = 16 };
+
+/* n nodes; the finest has the rows of the simulation's layout. */
+typedef struct brc_level {
+    int64_t n;
+    double weight;                      /* of a step [-] */
+    brc_buffer *inverse;                /* [n][21] of diagonal blocks */
+    brc_buffer *start, *column, *block; /* its matrix; the finest: none, it is made from bonds */
+    brc_unknowns right, x, left, step;  /* right side and answer (none on the finest), residual, scratch */
+    /* to the next level: P, and its places by columns; from the finest: aggregates */
+    brc_buffer *p_start, *p_column, *p_block, *p_column_start, *p_entry;
+    brc_buffer *aggregate, *member_start, *member, *arm, *free_bits;
+} brc_level;
+
+typedef struct brc_level_kernels {
+    brc_kernel *cells, *ground, *matrix, *step, *collect, *spread, *prolong, *restriction, *coarsest;
+} brc_level_kernels;
+
+struct brc_multigrid {
+    brc_simulation *s;
+    brc_level_kernels kernel;
+    int n_levels;
+    brc_level level[BRC_MOST_LEVELS];
+    brc_buffer *inverse;     /* of the coarsest level's matrix; NULL: steps alone */
+    brc_bond_moduli moduli;  /* of the one material */
+    brc_buffer *moduli_of;   /* [n_rows][3] of several */
+    int32_t n_ground;
+    brc_buffer *ground_element, *ground;
+    brc_buffer *orientation; /* [n_rows][4] beams */
+    int64_t most_held; /* on the host while it was made [byte] */
+    brc_multigrid_report report;
+};
+
+/* out = right - A x of a level; right.move NULL: none; right.turn NULL: no torques. */
+brc_status brc_level_residual(brc_multigrid *m, int level, brc_unknowns x, brc_unknowns right, brc_unknowns out);
+/* x = [x +] weight D^-1 r. */
+brc_status brc_level_step(brc_multigrid *m, int level, double weight, bool add, brc_unknowns r, brc_unknowns x);
+/* Largest eigenvalue of D^-1 A, from below, to some percent. */
+brc_status brc_level_stiffest(brc_multigrid *m, int level, double *out);
+
+#endif

@@ -1,0 +1,92 @@
+/* What stands for K^-1 in the iterations of static stages. */
+#include "multigrid/multigrid.h"
+#include "statics.h"
+#include <math.h>
+#include <stdio.h>
+
+brc_status brc_preconditioner_create(brc_simulation *s, brc_solve_vectors *v)
+{
+    const int64_t n = s->layout->n_rows, width = brc_is_beams(s) ? 21 : 6;
+    double *blocks = NULL;
+    BRC_TRY(brc_new_state(s, &v->preconditioner.blocks, width * n, "preconditioner"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &blocks, width * n, "preconditioner"));
+    brc_status status = brc_is_beams(s) ? brc_beams_precondition_blocks(s, blocks) : brc_geometry_precondition_blocks(s, blocks);
+    if (status == BRC_OK) status = brc_upload_state(s, v->preconditioner.blocks, blocks, width * n);
+    brc_memory_free(blocks);
+    return status;
+}
+
+brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)
+{
+    const int32_t n = s->layout->n_rows;
+    if (v->preconditioner.multigrid && !rotations) return brc_multigrid_apply(v->preconditioner.multigrid, v->r, v->z);
+    if (brc_is_beams(s))
+        BRC_TRY(BRC_LAUNCH(s->kernel.precondition6, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks), BRC_BUF(v->r.move), BRC_BUF(v->r.turn),
+                           BRC_BUF(v->z.move), BRC_BUF(v->z.turn)));
+    else
+        BRC_TRY(BRC_LAUNCH(s->kernel.precondition, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks), BRC_BUF(v->r.move), BRC_BUF(v->z.move)));
+    if (brc_is_beams(s)) BRC_TRY(brc_loads_zero_turned(s, v->z.turn));
+    return rotations ? BRC_OK : brc_loads_zero_imposed(s, v->z.move);
+}
+
+static void tell(brc_simulation *s, const brc_multigrid *multigrid, const char *again)
+{
+    const brc_multigrid_report m = brc_multigrid_get_report(multigrid);
+    s->static_report.multigrid_levels = m.n_levels;
+    s->static_report.multigrid_seconds += m.seconds;
+    s->static_report.multigrid_bytes = m.device_bytes;
+    char nodes[200] = "";
+    for (int i = 0, at = 0; i < m.n_levels; ++i)
+        at += snprintf(nodes + at, sizeof nodes - (size_t)at, "%s%lld", i > 0 ? ", " : "", (long long)m.nodes[i]);
+    brc_log(s->context, again[0] ? BRC_LOG_DEBUG : BRC_LOG_INFO, "stage '%s': multigrid%s of %d levels (%s nodes) in %.2f s, %.2f kB an element, %.2f while it was made",
+            brc_current_stage(s)->name, again, m.n_levels, nodes, m.seconds, 1e-3 * (double)m.device_bytes / (double)s->domain->n_elements,
+            1e-3 * (double)m.host_bytes / (double)s->domain->n_elements);
+}
+
+brc_status brc_preconditioner_prepare(brc_simulation *s, brc_solve_vectors *v)
+{
+    brc_preconditioner *p = &v->preconditioner;
+    const brc_preconditioner_kind kind = brc_current_stage(s)->preconditioner;
+    if (p->multigrid || p->blocks_alone || kind == BRC_PRECONDITIONER_BLOCKS) return BRC_OK;
+    if (kind == BRC_PRECONDITIONER_AUTO && s->domain->n_elements < BRC_MULTIGRID_LEAST) return BRC_OK;
+    const bool resumed = p->origin.weight > 0;
+    BRC_TRY(brc_multigrid_create(s, &p->origin, &p->multigrid));
+    tell(s, p->multigrid, p->bonds_broke && !resumed ? ", again," : "");
+    if (!resumed) p->bonds_broke = false, p->pace = 0;
+    return BRC_OK;
+}
+
+/* What a resumed stage needs to make the same levels. */
+brc_status brc_preconditioner_store(brc_preconditioner *p, brc_state_store *store)
+{
+    BRC_TRY(brc_store_integer(store, "static.levels_moment", &p->origin.moment));
+    BRC_TRY(brc_store_double(store, "static.levels_weight", &p->origin.weight));
+    BRC_TRY(brc_store_double(store, "static.pace", &p->pace));
+    BRC_TRY(brc_store_flag(store, "static.bonds_broke", &p->bonds_broke));
+    return brc_store_flag(store, "static.blocks_alone", &p->blocks_alone);
+}
+
+static void drop(brc_preconditioner *p)
+{
+    brc_multigrid_free(&p->multigrid);
+    p->origin = (brc_multigrid_origin){0};
+}
+
+/* Bonds that break make the body softer than its multigrid, which stays positive and only gets worse. */
+void brc_preconditioner_took(brc_solve_vectors *v, int64_t iterations, double from, double to)
+{
+    static const double worse = 1.5, least_digits = 1;
+    brc_preconditioner *p = &v->preconditioner;
+    const double digits = log10(from / to);
+    if (!p->multigrid || !(digits > least_digits)) return;
+    const double pace = (double)iterations / digits;
+    if (p->pace == 0) p->pace = pace;
+    if (p->bonds_broke && pace > worse * p->pace) drop(p);
+}
+
+void brc_preconditioner_give_up(brc_simulation *s, brc_solve_vectors *v)
+{
+    brc_log(s->context, BRC_LOG_WARNING, "stage '%s': multigrid does not serve this stiffness; the iterations go on with diagonal blocks", brc_current_stage(s)->name);
+    v->preconditioner.blocks_alone = true;
+    drop(&v->preconditioner);
+}
