@@ -222,6 +222,7 @@ LAW soft_vector soft_beside(soft_vector a, soft_vector n) { return soft_add(a, -
 LAW soft_vector soft_side(soft_face f, coeff widest, soft_vector uneven, soft_tensor sides, soft_vector before, coeff even, soft_vector normal)
 {
     const coeff drawn = widest > 0 ? soft_force(f, widest) / widest : 0;
+    if (drawn > REAL(1e4) * (sides.xx + sides.yy + sides.zz)) return (soft_vector){0, 0, 0}; /* it has only begun to open, and products of this would overflow in single precision */
     const soft_vector drive = soft_beside(soft_add(uneven, -drawn, before), normal);
     const coeff size = SQRT(soft_dot(drive, drive));
     if (!(size > even)) return (soft_vector){0, 0, 0};

@@ -184,6 +184,9 @@ static void sides_turn_until_they_pull_evenly(void **state)
         const soft_vector turn = soft_side(faces[k], 0.1, uneven, alike, before, 0, normal);
         const soft_vector left = soft_add(soft_add(along, -50, turn), -drawn, soft_add(before, 1, turn));
         assert_true(soft_dot(left, left) < 1e-20);
+        /* a face that has hardly opened stays, whatever the products of its secant would be */
+        const soft_vector begins = soft_side(faces[k], 1e-300, uneven, alike, none, 0, normal);
+        assert_true(soft_dot(begins, begins) == 0);
         /* a face that is shut opens at its edge once the unevenness is above what the cohesion starts with */
         const soft_vector weak = soft_scale(0.99 * 3 / size, along), strong = soft_scale(1.5 * 3 / size, along);
         const soft_vector shut = soft_side(faces[k], 0, weak, alike, none, 0, normal), opens = soft_side(faces[k], 0, strong, alike, none, 0, normal);
