@@ -125,10 +125,6 @@ LAW soft_vector soft_tensor_times(soft_tensor k, soft_vector a)
 {
     return (soft_vector){k.xx * a.x + k.xy * a.y + k.xz * a.z, k.xy * a.x + k.yy * a.y + k.yz * a.z, k.xz * a.x + k.yz * a.y + k.zz * a.z};
 }
-LAW soft_tensor soft_tensor_add(soft_tensor a, coeff k, soft_tensor b)
-{
-    return (soft_tensor){a.xx + k * b.xx, a.yy + k * b.yy, a.zz + k * b.zz, a.yz + k * b.yz, a.xz + k * b.xz, a.xy + k * b.xy};
-}
 /* Solves (k + more I) x = a up to a factor above 0: the direction of x. k + more I is positive definite. */
 LAW soft_vector soft_tensor_way(soft_tensor k, coeff more, soft_vector a)
 {
@@ -205,32 +201,6 @@ LAW soft_vector soft_balance(soft_face f, coeff widest, soft_vector drive, soft_
     const coeff excess = SQRT(soft_dot(beyond, beyond));
     if (!(excess > hold)) return stuck;
     return soft_free_balance(f, widest, soft_add(soft_add(drive, -share, carried), -hold / excess, beyond), k, pulled, axis);
-}
-
-/* Pushes on a face and along it times this hold its two sides against pulling unevenly: beside lines of contact the stress changes by several times itself from cell to cell, which turns nothing
- * (discs between platens crumbled at 1, quick cracks rubbed off a quarter of the elastic energy at 3; docs/fracture.md). Of a face that is still whole, SOFT_EDGE_HELD. */
-#define SOFT_UNEVEN_HELD REAL(10)
-#define SOFT_EDGE_HELD REAL(3)
-/* Sides of a broken face that did not turn, |v|^2 below this times |w|^2, no longer do: they fly apart. */
-#define SOFT_UNEVEN_RESTS REAL(0.005)
-
-/* a without its part along n, a vector of any length. */
-LAW soft_vector soft_beside(soft_vector a, soft_vector n) { return soft_add(a, -soft_dot(a, n) / soft_dot(n, n), n); }
-
-/* What the openings of the two sides change against each other [m], along the face: uneven: by how much more one side pulls than the other, were they to stay [N]; sides: stiffness of both; before: what they
- * are against each other now; widest: opening of the face; even: what of the unevenness friction bears [N]. The cohesion draws this back as it draws back the opening. A face that only turns opens by this alone. */
-LAW soft_vector soft_side(soft_face f, coeff widest, soft_vector uneven, soft_tensor sides, soft_vector before, coeff even, soft_vector normal)
-{
-    const coeff drawn = widest > 0 ? soft_force(f, widest) / widest : 0;
-    if (drawn > REAL(1e4) * (sides.xx + sides.yy + sides.zz)) return (soft_vector){0, 0, 0}; /* it has only begun to open, and products of this would overflow in single precision */
-    const soft_vector drive = soft_beside(soft_add(uneven, -drawn, before), normal);
-    const coeff size = SQRT(soft_dot(drive, drive));
-    if (!(size > even)) return (soft_vector){0, 0, 0};
-    const soft_vector way = widest > 0 ? soft_beside(soft_tensor_way(sides, drawn, drive), normal) : drive;
-    const coeff square = soft_dot(way, way), along = (REAL(1) - even / size) * soft_dot(way, drive), stiff = soft_dot(way, soft_tensor_times(sides, way)) + drawn * square;
-    if (widest > 0) return soft_scale(along / stiff, way);
-    const coeff root = SQRT(square);
-    return soft_scale(soft_opening(f, widest, along / root, stiff / square) / root, way);
 }
 
 #endif
