@@ -37,16 +37,6 @@ static void add_numbers(brc_text *text, int n, const double *x, const char *betw
     }
 }
 
-static brc_status write_and_free(brc_context *context, brc_text *text, const char *folder, const char *name)
-{
-    char *path = NULL;
-    brc_status status = brc_file_join(context, folder, name, &path);
-    if (status == BRC_OK) status = brc_text_write(text, path);
-    brc_text_free(text);
-    brc_memory_free(path);
-    return status;
-}
-
 brc_status brc_peer_work_write_tables(brc_context *context, const brc_peer_work *work, const char *folder)
 {
     const brc_domain *d = work->domain;
@@ -59,7 +49,7 @@ brc_status brc_peer_work_write_tables(brc_context *context, const brc_peer_work 
         add_numbers(&text, 9, row, ",");
         brc_text_add(&text, "\n");
     }
-    BRC_TRY(write_and_free(context, &text, folder, "elements.csv"));
+    BRC_TRY(brc_text_write_into(&text, folder, "elements.csv"));
     text = (brc_text){.context = context};
     brc_text_add(&text, "i,j,kn,ks,kr,ktw,length\n");
     for (int64_t b = 0; b < d->n_bonds; ++b) {
@@ -70,7 +60,7 @@ brc_status brc_peer_work_write_tables(brc_context *context, const brc_peer_work 
         add_numbers(&text, 5, row, ",");
         brc_text_add(&text, "\n");
     }
-    return write_and_free(context, &text, folder, "bonds.csv");
+    return brc_text_write_into(&text, folder, "bonds.csv");
 }
 
 /* Shortest and longest branch. */
@@ -119,7 +109,7 @@ static brc_status write_coefficients(brc_context *context, const brc_peer_work *
             brc_text_add(&text, "\n");
         }
     }
-    return write_and_free(context, &text, folder, "bonds.in");
+    return brc_text_write_into(&text, folder, "bonds.in");
 }
 
 brc_status brc_peer_work_write_lammps(brc_context *context, const brc_peer_work *work, bool turning, int n_types, const char *folder)
@@ -155,6 +145,6 @@ brc_status brc_peer_work_write_lammps(brc_context *context, const brc_peer_work 
         const int64_t type = c.each ? b : (int64_t)fmin((length - c.least) / c.width, (double)(c.n - 1));
         brc_text_add(&text, "%lld %lld %d %d\n", (long long)b + 1, (long long)type + 1, i + 1, j + 1);
     }
-    BRC_TRY(write_and_free(context, &text, folder, "packing.data"));
+    BRC_TRY(brc_text_write_into(&text, folder, "packing.data"));
     return write_coefficients(context, work, turning, c, folder);
 }

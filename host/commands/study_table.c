@@ -176,16 +176,6 @@ static void add_weibull(brc_text *text, const brc_study *study, const brc_study_
     brc_text_add(text, "\n");
 }
 
-static brc_status write_text(brc_context *context, const char *folder, const char *name, brc_text *text)
-{
-    char *path = NULL;
-    brc_status status = brc_file_join(context, folder, name, &path);
-    if (status == BRC_OK) status = brc_text_write(text, path);
-    brc_text_free(text);
-    brc_memory_free(path);
-    return status;
-}
-
 brc_status brc_study_write(brc_context *context, const brc_study *study, const char *folder, const brc_study_outcome *outcome)
 {
     brc_text table = {.context = context}, means = table, fits = table;
@@ -198,16 +188,16 @@ brc_status brc_study_write(brc_context *context, const brc_study *study, const c
     for (int run = 0; run < study->n_runs; ++run)
         for (first[run] = 0; !same_group(study, first[run], run); ++first[run]) {}
     add_table(&table, study, outcome);
-    BRC_TRY_OR(cleanup, write_text(context, folder, "table.csv", &table));
+    BRC_TRY_OR(cleanup, brc_text_write_into(&table, folder, "table.csv"));
     add_means(&means, study, outcome, first, x);
-    BRC_TRY_OR(cleanup, write_text(context, folder, "means.csv", &means));
+    BRC_TRY_OR(cleanup, brc_text_write_into(&means, folder, "means.csv"));
     if (study->n_fits > 0) {
         brc_text_add(&fits, "law,measure,key,n,found\n");
         for (int f = 0; f < study->n_fits; ++f) {
             if (study->fits[f].power) add_power(&fits, study, outcome, &study->fits[f], x, y);
             else add_weibull(&fits, study, outcome, &study->fits[f], x);
         }
-        status = write_text(context, folder, "fits.csv", &fits);
+        status = brc_text_write_into(&fits, folder, "fits.csv");
     }
 cleanup:
     brc_memory_free(x);

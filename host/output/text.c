@@ -61,6 +61,16 @@ brc_status brc_text_write(brc_text *text, const char *path)
     return brc_file_write_whole(text->context, path, text->data ? text->data : "", text->length);
 }
 
+brc_status brc_text_write_into(brc_text *text, const char *folder, const char *name)
+{
+    char *path = NULL;
+    brc_status status = brc_file_join(text->context, folder, name, &path);
+    if (status == BRC_OK) status = brc_text_write(text, path);
+    brc_text_free(text);
+    brc_memory_free(path);
+    return status;
+}
+
 void brc_text_free(brc_text *text)
 {
     brc_memory_free(text->data);

@@ -20,6 +20,8 @@ void brc_text_add_bytes(brc_text *text, const char *bytes, size_t n);
 void brc_text_add_number(brc_text *text, double value);
 /* Status so far; if BRC_OK, the text is written whole to `path`. */
 brc_status brc_text_write(brc_text *text, const char *path);
+/* The same to `name` in `folder`, and freed whatever comes of it. */
+brc_status brc_text_write_into(brc_text *text, const char *folder, const char *name);
 void brc_text_free(brc_text *text);
 
 /* JSON: members are added to the innermost open object or array; key is NULL in arrays and at the top. Strings are

@@ -143,48 +143,46 @@ static brc_status list_columns(brc_context *context, brc_prolongation *p)
     return BRC_OK;
 }
 
+/* What a pass over the rows finds: how many aggregates each meets, which, and their blocks. */
+typedef enum { COUNTS, COLUMNS, BLOCKS } filling;
+
+static brc_status fill_rows(brc_context *context, const smoothing *s, filling what, brc_prolongation *p)
+{
+    const brc_rows *rows = s->rows;
+    int failed = 0;
+#pragma omp parallel reduction(+ : failed)
+    {
+        row_room room = {0};
+        failed += get_room(context, rows->most, &room) != BRC_OK;
+#pragma omp for schedule(static)
+        for (int64_t i = 0; i < rows->n; ++i) {
+            if (failed) continue;
+            if (what == BLOCKS) {
+                smooth_row(s, &room, i, p);
+                continue;
+            }
+            const int32_t n = aggregates_of(s->aggregate, rows->row(rows->of, i, room.column, NULL), room.column, room.found);
+            if (what == COUNTS) p->start[i + 1] = n;
+            else memcpy(p->column + p->start[i], room.found, (size_t)n * sizeof *room.found);
+        }
+        free_room(&room);
+    }
+    return failed ? BRC_NO_MEMORY : BRC_OK;
+}
+
 brc_status brc_prolongation_create(brc_context *context, const brc_rows *rows, const brc_nodes *nodes, const int32_t *aggregate, const brc_nodes *coarse,
                                    double weight, const double (*inverse)[21], brc_prolongation *out)
 {
     const smoothing s = {rows, nodes, coarse, aggregate, weight, inverse};
-    brc_status status = BRC_OK;
-    int failed = 0;
     *out = (brc_prolongation){.n = rows->n, .n_coarse = coarse->n};
     BRC_TRY(BRC_ALLOCATE(context, &out->start, rows->n + 1, "prolongation"));
-    for (int pass = 0; pass < 2; ++pass) {
-#pragma omp parallel reduction(+ : failed)
-        {
-            row_room room = {0};
-            failed += get_room(context, rows->most, &room) != BRC_OK;
-#pragma omp for schedule(static)
-            for (int64_t i = 0; i < rows->n; ++i) {
-                if (failed) continue;
-                if (pass == 1) smooth_row(&s, &room, i, out);
-                else out->start[i + 1] = aggregates_of(aggregate, rows->row(rows->of, i, room.column, NULL), room.column, room.found);
-            }
-            free_room(&room);
-        }
-        if (failed) return BRC_NO_MEMORY;
-        if (pass == 1) break;
-        for (int64_t i = 0; i < rows->n; ++i) out->start[i + 1] += out->start[i];
-        BRC_TRY(BRC_ALLOCATE(context, &out->column, out->start[rows->n], "prolongation"));
-        BRC_TRY(BRC_ALLOCATE(context, &out->block, out->start[rows->n], "prolongation"));
-#pragma omp parallel reduction(+ : failed)
-        {
-            row_room room = {0};
-            failed += get_room(context, rows->most, &room) != BRC_OK;
-#pragma omp for schedule(static)
-            for (int64_t i = 0; i < rows->n; ++i) {
-                if (failed) continue;
-                const int32_t n = aggregates_of(aggregate, rows->row(rows->of, i, room.column, NULL), room.column, room.found);
-                memcpy(out->column + out->start[i], room.found, (size_t)n * sizeof *room.found);
-            }
-            free_room(&room);
-        }
-        if (failed) return BRC_NO_MEMORY;
-    }
-    status = list_columns(context, out);
-    return status;
+    BRC_TRY(fill_rows(context, &s, COUNTS, out));
+    for (int64_t i = 0; i < rows->n; ++i) out->start[i + 1] += out->start[i];
+    BRC_TRY(BRC_ALLOCATE(context, &out->column, out->start[rows->n], "prolongation"));
+    BRC_TRY(BRC_ALLOCATE(context, &out->block, out->start[rows->n], "prolongation"));
+    BRC_TRY(fill_rows(context, &s, COLUMNS, out));
+    BRC_TRY(fill_rows(context, &s, BLOCKS, out));
+    return list_columns(context, out);
 }
 
 void brc_prolongation_free(brc_prolongation *p)
