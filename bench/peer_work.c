@@ -1,6 +1,4 @@
 #include "peer_work.h"
-#include "../host/base/file.h"
-#include "../host/base/memory.h"
 #include "../host/output/text.h"
 #include <math.h>
 

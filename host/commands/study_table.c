@@ -1,6 +1,5 @@
 /* What the runs of a study say together: tables that depend on the study and the outcomes alone. */
 #include "study.h"
-#include "../base/file.h"
 #include "../base/memory.h"
 #include "../output/text.h"
 #include "../scene/unit.h"
