@@ -112,7 +112,7 @@ typedef struct breccia_price {
     int64_t device_bytes;        /* of the arrays as the run begins */
     double build_seconds;
     double seconds, least_seconds, most_seconds; /* of the whole run, output included, and its range */
-    double most_device_bytes, host_bytes, disk_bytes; /* of the whole run */
+    double most_device_bytes, host_bytes, disk_bytes; /* of the whole run; what multigrid holds on the device while a static stage solves comes on top */
 } breccia_price;
 /* Build everything as a run would, which refuses what the run would refuse, and with `trial` also price it by a trial of about a second a stage; else the
  * last two lines are NAN. options may be NULL; folder, exact and resume are not looked at. */

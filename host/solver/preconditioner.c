@@ -36,7 +36,7 @@ static void tell(brc_simulation *s, const brc_multigrid *multigrid, const char *
     s->static_report.multigrid_seconds += m.seconds;
     s->static_report.multigrid_bytes = m.device_bytes;
     char nodes[200] = "";
-    for (int i = 0, at = 0; i < m.n_levels; ++i)
+    for (int i = 0, at = 0; i < m.n_levels && at < (int)sizeof nodes; ++i)
         at += snprintf(nodes + at, sizeof nodes - (size_t)at, "%s%lld", i > 0 ? ", " : "", (long long)m.nodes[i]);
     brc_log(s->context, again[0] ? BRC_LOG_DEBUG : BRC_LOG_INFO, "stage '%s': multigrid%s of %d levels (%s nodes) in %.2f s, %.2f kB an element, %.2f while it was made",
             brc_current_stage(s)->name, again, m.n_levels, nodes, m.seconds, 1e-3 * (double)m.device_bytes / (double)s->domain->n_elements,
