@@ -168,7 +168,7 @@ static brc_status guard_cost(const brc_effects_request *r, brc_simulation *s, do
     brc_ledger ledger;
     BRC_TRY(brc_guard_begin_stage(s));
     const brc_guard_report every = brc_simulation_guard_report(s);
-    const int64_t look_every = 16; /* docs/stability.md */
+    const int64_t look_every = 16; /* docs/notebook/stability.md */
     BRC_TRY(brc_simulation_advance(s, look_every - brc_simulation_step(s) % look_every));
     BRC_TRY(brc_simulation_wait(s));
     start = clock_s(r);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What each example is made of: effects_table.py PROGRAM OUTPUT.csv [SCENE ...] runs `breccia check SCENE --effects` for every example (or the scenes
-named), writes a row each for effects in and out, kernels and arrays, and prints the table of docs/performance.md."""
+named), writes a row each for effects in and out, kernels and arrays, and prints the table of docs/notebook/performance.md."""
 import csv
 import glob
 import os

@@ -26,7 +26,7 @@ typedef struct brc_peer {
  * itself. BRC_FILE_FAILED: a program cannot be started. */
 brc_status brc_peer_find(brc_context *context, int n_threads, const char *folder, brc_peer out[BRC_PEERS_MOST], int *n);
 
-/* Momentum of a shape (docs/peers.md) [kg m/s] and kinetic energy [J] after a step. */
+/* Momentum of a shape (docs/notebook/peers.md) [kg m/s] and kinetic energy [J] after a step. */
 typedef struct brc_peer_sample {
     int64_t step;
     double momentum, kinetic;

@@ -4,7 +4,7 @@
 
 #include "../preprocess/domain.h"
 
-/* All of it borrowed. The beams are those of model cbm (docs/beams.md); seen from the middle of its branch, one of length l is a spring E S / l along it, one of
+/* All of it borrowed. The beams are those of model cbm (docs/notebook/beams.md); seen from the middle of its branch, one of length l is a spring E S / l along it, one of
  * 12 E I / l^3 across, and its ends bend and twist against each other with E I / l and G J / l: the numbers that the laws of both programs take. */
 typedef struct brc_peer_work {
     const brc_domain *domain;  /* spheres */

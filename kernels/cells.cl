@@ -1,6 +1,6 @@
 /* Fracture of cells, dlsm and dlsm-published (design-dlsm.md section 3): which bonds break, and what becomes of their elements. A broken bond
  * is stored like a missing one: its neighbour is home, its area 0, its ratio 1; the face is then a free face of both cells without any more
- * words, since the law reads intact faces only (docs/theory.md T2). So the elastic passes do not know that anything broke.
+ * words, since the law reads intact faces only (docs/notebook/theory.md T2). So the elastic passes do not know that anything broke.
  *
  * Of the entries [n_slots][C]: limit: normal stress at which the bond breaks, CELLS_NEVER where there is none [Pa]; twin: the entry of the same
  * bond seen from the other element; alive: 1 while it holds, else 0; mark: 0, or how it breaks at the end of this step; measure: its stress

@@ -1,4 +1,4 @@
-/* Laws of touching (docs/contact.md). Normal force of spheres: Hertz's exact two-body law, or a spring; damping by a share b of the critical one; Coulomb
+/* Laws of touching (docs/notebook/contact.md). Normal force of spheres: Hertz's exact two-body law, or a spring; damping by a share b of the critical one; Coulomb
  * friction as a spring in the plane of contact that slides. */
 #ifndef BRC_KERNELS_CONTACT_LAW_H
 #define BRC_KERNELS_CONTACT_LAW_H

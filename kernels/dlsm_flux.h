@@ -1,6 +1,6 @@
 /* dlsm: the tensor B of an element whose sum over the two ends, times the area vector, is the bond force
  * (design-dlsm.md section 2, pass 3): B = Q A^-1 [Pa], with one material plus k (1 + tau) times the bond part. The stress term of Q is
- * that of G = H + sum (H_j - H_i) d (x) s / (2 V): no face moments are stored or read (docs/theory.md T2). Several materials: a bond takes the
+ * that of G = H + sum (H_j - H_i) d (x) s / (2 V): no face moments are stored or read (docs/notebook/theory.md T2). Several materials: a bond takes the
  * softer of its two stabilisation moduli, k_ij = min(k_i, k_j), for both terms of its energy, so that it stays bounded by
  * the elastic energy of either side at any contrast. */
 #ifndef BRC_KERNELS_DLSM_FLUX_H
@@ -42,7 +42,7 @@ LAW lane_mat3 dlsm_flux_moment(lane_mat3 gradient, lane_mat3 stress, lane volume
 
 /* [beta/(1 + tau) M - H] / 2 [-]: the bond terms of B over the spring k (1 + tau). The factor of H is exact and the spring is
  * the product that multiplies u_j - u_i too, so that the two cancel in a turned body to the rounding of each bond, not by
- * the rounding of a constant, which all bonds would share: that would turn a spinning body (docs/theory.md T8). */
+ * the rounding of a constant, which all bonds would share: that would turn a spinning body (docs/notebook/theory.md T8). */
 LAW lane_mat3 dlsm_flux_bond_part(lane_mat3 gradient, lane_mat3 compaction, coeff beta, coeff one_plus_tau)
 {
     const lane for_compaction = LANE_ZERO + REAL(0.5) * (beta / one_plus_tau), for_gradient = LANE_ZERO + REAL(0.5);

@@ -1,4 +1,4 @@
-/* The bond of the operator that multigrid takes for the stiffness of cells (docs/theory.md T6): a spring along the bond and one across it, seen from
+/* The bond of the operator that multigrid takes for the stiffness of cells (docs/notebook/theory.md T6): a spring along the bond and one across it, seen from
  * frames that turn with its two ends, and one between these frames. It has no energy under rigid motions. */
 #ifndef BRC_KERNELS_MULTIGRID_BOND_H
 #define BRC_KERNELS_MULTIGRID_BOND_H

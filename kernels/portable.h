@@ -8,7 +8,7 @@
  *   BRC_TARGET          defined for the OpenMP target reading of the C build
  *   BRC_EXACT           defined where a product and a sum must not be contracted into one rounding (OpenCL; C by flag)
  *
- * Vocabulary (docs/portable.md): KERNEL, GLOBAL, LAW, ROUTINE, FOR_EACH_ITEM, FOR_LANES, coeff, state, lane, lane_state, lane_int, REAL. */
+ * Vocabulary (docs/reference/portable.md): KERNEL, GLOBAL, LAW, ROUTINE, FOR_EACH_ITEM, FOR_LANES, coeff, state, lane, lane_state, lane_int, REAL. */
 #ifndef BRC_KERNELS_PORTABLE_H
 #define BRC_KERNELS_PORTABLE_H
 
@@ -196,7 +196,7 @@ LAW int brc_lane_any_short(lane a, lane b)
 #endif
 
 /* Ask for a row entry `ahead` slots further on: rows are read once, in order, and the hardware's own prefetch stops at every
- * page of 4 KiB (measured in docs/performance.md). GPUs hide the wait by their many work-items. */
+ * page of 4 KiB (measured in docs/notebook/performance.md). GPUs hide the wait by their many work-items. */
 #if !defined(__OPENCL_VERSION__) && W > 1
 #define ROWS_AHEAD 12
 #define GATHERS_AHEAD 2

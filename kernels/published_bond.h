@@ -1,4 +1,4 @@
-/* dlsm-published: the law of AGH19 as printed, with the corrections listed in docs/theory.md (design-dlsm.md section 1).
+/* dlsm-published: the law of AGH19 as printed, with the corrections listed in docs/notebook/theory.md (design-dlsm.md section 1).
  * Frames: an element's strain is found in its own frame (rotation R_i from its quaternion) and turned to the global frame;
  * bonds work in the global frame. finite: 1 as published; 0 the linearisation, in which a quaternion's vector part is half
  * a small rotation vector. */
@@ -88,7 +88,7 @@ LAW published_bond published_bond_law(lane_vec3 branch, lane_vec3 jump, lane are
 }
 
 /* Shear of a bond against the frames of its two elements, beyond that of their mean strain [-]: (R + u_j - u_i) / L0 - (I + e) m across the bond, with m the mean of R_i N and R_j N. Zero
- * where displacements are linear and frames turn with them. AGH19 has no such term (docs/theory.md T3): its bonds do not see how far frames lag behind the solid. */
+ * where displacements are linear and frames turn with them. AGH19 has no such term (docs/notebook/theory.md T3): its bonds do not see how far frames lag behind the solid. */
 LAW lane_vec3 published_lag(lane_vec3 branch, lane_vec3 jump, lane_sym3 strain, lane_quat q_i, lane_quat q_j, int finite)
 {
     const lane inverse = REAL(1) / LANE_SQRT(lane_vec3_dot(branch, branch));

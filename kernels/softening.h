@@ -1,5 +1,5 @@
 /* Cohesion of one face that a crack opens: how its force falls with the opening, and where the opening comes to rest beside the elastic cells
- * (docs/fracture.md, "Fracture energy"). Extrinsic: a face opens at the force it carries at that moment, so nothing jumps and a body that does not
+ * (docs/notebook/fracture.md, "Fracture energy"). Extrinsic: a face opens at the force it carries at that moment, so nothing jumps and a body that does not
  * crack is not softer. With the force `start` at the onset and the energy `energy` of the whole face:
  *     linear        F(w) = start (1 - w / end),                      end = 2 energy / start
  *     exponential   F(w) = start (exp(-w / l) - c) / (1 - c),        0 at end = l ln(1 / c), c = 1/100; l such that the area is energy
@@ -25,7 +25,7 @@ LAW soft_vector soft_scale(coeff k, soft_vector a) { return (soft_vector){k * a.
 typedef struct { coeff start, energy; int exponential; } soft_face;
 
 /* What a crack across `axis` leaves to a face: of the stress along the crack the pushes, as a force on the area vector `area` of the face [N]. A crack releases the traction
- * on its own plane and nothing else; the stress along it goes on through the solid on both sides, which a zig-zag of faces cuts though the crack does not (docs/theory.md T10).
+ * on its own plane and nothing else; the stress along it goes on through the solid on both sides, which a zig-zag of faces cuts though the crack does not (docs/notebook/theory.md T10).
  * Pulls along the crack are let go with it: cracks across them would find the face open. axis: unit vector. */
 LAW soft_vector soft_carried(failure_stress m, soft_vector axis, soft_vector area)
 {
@@ -136,7 +136,7 @@ LAW soft_vector soft_tensor_way(soft_tensor k, coeff more, soft_vector a)
 
 /* Centroids of faces lie beside their branches (by a third of the size of a cell in noisy grids), so an opening along its face strains the cells next to it
  * too, through the gradients that place their faces: this share of lambda counts in every direction. Without it the sweeps run away at nu 0.45, where lambda
- * is nine times mu (docs/fracture.md). */
+ * is nine times mu (docs/notebook/fracture.md). */
 #define SOFT_BESIDE REAL(0.3)
 
 /* Adds what a cell draws back with: of its V psi, with H = ... - opening (x) pull, pull = A^-1 s [1/m]; reach: sum of |pull| over all open faces of the

@@ -1,5 +1,5 @@
 /* Bonds that look alike in all directions. The pairs nearest to each other (bond_search.h) are even in direction on average; one sample of 10 000 spheres is off by some tenths of a
- * percent, and its stiffness along x, y and z with it (docs/beams-calibration.md). Here the longest bond becomes a slightly different one in each direction, so that the unevenness goes. */
+ * percent, and its stiffness along x, y and z with it (docs/notebook/beams-calibration.md). Here the longest bond becomes a slightly different one in each direction, so that the unevenness goes. */
 #ifndef BRC_PREPROCESS_BOND_BALANCE_H
 #define BRC_PREPROCESS_BOND_BALANCE_H
 

@@ -29,7 +29,7 @@
 #define DEFAULT_TINY_FACE 1e-12
 /* Cells whose volumes sum to something this far from the shape's are refused even if nothing else is asked for. */
 #define WORST_VOLUME_ERROR 0.05
-/* And beyond this it is worth a warning: smooth shapes keep below it at 10 000 cells (docs/domain.md). */
+/* And beyond this it is worth a warning: smooth shapes keep below it at 10 000 cells (docs/reference/domain.md). */
 #define DOUBTFUL_VOLUME_ERROR 0.005
 /* Where walls are exact, volumes sum to the shape's but for rounding; what is more was lost. */
 #define LOST_VOLUME 1e-8

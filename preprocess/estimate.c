@@ -1,4 +1,4 @@
-/* Faces and corners per element as fitted to built domains (docs/domain.md), times the sizes of domain.h. */
+/* Faces and corners per element as fitted to built domains (docs/reference/domain.md), times the sizes of domain.h. */
 #include "estimate.h"
 
 #include "seeds.h"

@@ -1,5 +1,5 @@
 /* How even are the directions of the bonds? The papers' three-dimensional histogram (AGH19 section 7.1, Fig. 5) with numbers;
- * formulas and what they give for known distributions are in docs/isotropy.md. */
+ * formulas and what they give for known distributions are in docs/notebook/isotropy.md. */
 #ifndef BRC_PREPROCESS_ISOTROPY_H
 #define BRC_PREPROCESS_ISOTROPY_H
 

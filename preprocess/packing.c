@@ -1,6 +1,6 @@
 /* The driver: how many spheres, at which density to begin, and the search of the one common scale at which the relaxed
  * packing has the wanted number of contacts. What guides the search is measured on packings of soft harmonic spheres
- * made here (docs/packing.md): relaxed at the volume fraction phi, they overlap by (phi - phi_J) / 3 on the average,
+ * made here (docs/notebook/packing.md): relaxed at the volume fraction phi, they overlap by (phi - phi_J) / 3 on the average,
  * and have c_0 + 9.1 sqrt(phi - phi_J) contacts, phi_J being where they just touch (the square root: O'Hern, Silbert,
  * Liu, Nagel, Phys. Rev. E 68, 011306, 2003). So one relaxed packing tells how far the wanted one is away. */
 #include "packing_internal.h"

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Order along a wall has died out three diameters away from it (docs/isotropy.md). */
+/* Order along a wall has died out three diameters away from it (docs/notebook/isotropy.md). */
 #define SKIN_DIAMETERS 3.0
 /* Between two spheres that touch at this share of the volume lie mean diameters of (6 / pi * share * V / n)^(1/3). */
 #define USUAL_FRACTION 0.63

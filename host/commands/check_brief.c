@@ -47,7 +47,7 @@ static void tell_cracks(FILE *file, const brc_scene *scene, const brc_setup *set
         if (m->fracture_energy > 0) {
             const double length = m->young * m->fracture_energy / (m->tension * m->tension);
             fprintf(file, "cracks in %s: E G_c / sigma^2 is %.3g mm, %.3g %s; %s are wanted\n", m->name, 1e3 * length, length / mean_size(d), kind_of(d),
-                    spheres ? "4" : "4, in notched parts 8,"); /* docs/fracture.md */
+                    spheres ? "4" : "4, in notched parts 8,"); /* docs/notebook/fracture.md */
         } else {
             fprintf(file, "cracks in %s: no fracture_energy, so that their energy is what strength and %s make of it, and the load of a notched part changes with the %s\n", m->name, kind_of(d), kind_of(d));
         }

@@ -6,7 +6,7 @@
 static const brc_option options[] = {
     BRC_OPTION_OUTPUT("folder of the results (needed)"), BRC_OPTION_DEVICE, BRC_OPTION_PRECISION, BRC_OPTION_THREADS,
     BRC_OPTION_EXACT,
-    {"resume", 'r', NULL, false, "go on from the last checkpoint in DIR (docs/checkpoint.md)"},
+    {"resume", 'r', NULL, false, "go on from the last checkpoint in DIR (docs/reference/checkpoint.md)"},
     BRC_OPTION_SET,
 };
 

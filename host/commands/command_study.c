@@ -48,7 +48,7 @@ const brc_command brc_command_study = {.name = "study",
                                        .least = 1,
                                        .most = 1,
                                        .summary = "run a scene many times with keys that vary, and put what it measures together",
-                                       .details = "What is done already in DIR is not done again; a run that fails leaves the others alone and has its reason in the table.\ndocs/study.md describes the file.",
+                                       .details = "What is done already in DIR is not done again; a run that fails leaves the others alone and has its reason in the table.\ndocs/reference/study.md describes the file.",
                                        .options = options,
                                        .n_options = sizeof options / sizeof *options,
                                        .run = run};

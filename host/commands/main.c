@@ -50,7 +50,7 @@ static brc_status dispatch(const brc_session *session, int argc, const char *con
 }
 
 /* Threads that wait, and those of the BLAS, are chosen before a program begins; so the program starts itself once more with what suits it, unless the user has chosen. If that fails, it goes on as it is
- * (figures: docs/devices.md, "Waiting threads").
+ * (figures: docs/notebook/devices.md, "Waiting threads").
  * GNU OpenMP lets waiting threads spin for milliseconds. When another program wants the same core, each launch of a step then loses a time slice; but a core that falls asleep between launches takes
  * longer to wake, on virtual machines, than a launch of 10 000 elements takes. A spin of some ten microseconds is within a tenth of the best there is on a quiet machine (without: 1.3 to 3.5 times the
  * seconds of steps) and within a third of it beside other programs. Other OpenMP libraries do not know the count and do not spin.

@@ -232,7 +232,7 @@ static brc_status tell_precision_and_step(brc_context *context, const brc_scene 
     size_t bytes;
     BRC_TRY(brc_case_text(context, NULL, "results", "accuracy-curves.csv", &text, &bytes));
     if (rings) printf("precision: take double: modes are not found in less\n");
-    else tell_other_choices(text, model, "precision (double where bodies turn at small strains: docs/stability.md)", "precision", brc_precision_name(BRC_DOUBLE), error);
+    else tell_other_choices(text, model, "precision (double where bodies turn at small strains: docs/notebook/stability.md)", "precision", brc_precision_name(BRC_DOUBLE), error);
     if (moves) tell_other_choices(text, model, "time step over its bound", "dt_fraction", "0.8", error);
     brc_memory_free(text);
     return BRC_OK;
@@ -275,18 +275,18 @@ brc_status brc_price_judge(brc_context *context, const brc_scene *scene, const b
     return BRC_OK;
 }
 
-/* What was measured of bodies of a model that break, as rows of docs/fracture.md say. */
+/* What was measured of bodies of a model that break, as rows of docs/notebook/fracture.md say. */
 static const char *measured_of(brc_model_kind model, bool by_bond, bool softens)
 {
     if (model == BRC_MODEL_CBM)
-        return softens ? "energy per area of a crack 0.91 to 1.06 of the fracture energy given, at coordination numbers 6 to 13 (docs/fracture.md, \"Measured on beams\")"
+        return softens ? "energy per area of a crack 0.91 to 1.06 of the fracture energy given, at coordination numbers 6 to 13 (docs/notebook/fracture.md, \"Measured on beams\")"
                        : "strength in tension within 0.6 %, discs pressed across up to 6 % below it with few bonds, twisted rods 7 to 15 % above; a crack's energy is what strength and spheres "
-                         "make of it (docs/beams-tests.md)";
-    if (model == BRC_MODEL_DLSM_PUBLISHED || !by_bond) return "only the onset, at the strength in an even pull; a crack's energy is what strength and cells make of it (docs/fracture.md)";
+                         "make of it (docs/notebook/beams-tests.md)";
+    if (model == BRC_MODEL_DLSM_PUBLISHED || !by_bond) return "only the onset, at the strength in an even pull; a crack's energy is what strength and cells make of it (docs/notebook/fracture.md)";
     return softens ? "peak loads of notched parts +3 to +7 % with regular cells or 30 cells in the notch, +11 to +13 % with 15 uneven ones; energy per area of a crack 0.98 to 1.09 of the fracture "
-                     "energy given (docs/fracture.md, \"What fracture must show\")"
+                     "energy given (docs/notebook/fracture.md, \"What fracture must show\")"
                    : "onset in an even pull within 0.03 % of the strength, peak loads of discs pressed across +0.6 % (arcs) to -7 % (narrow strips); a crack's energy is what strength and cells make "
-                     "of it, so loads of notched parts change with the cells (docs/fracture.md, \"What fracture must show\")";
+                     "of it, so loads of notched parts change with the cells (docs/notebook/fracture.md, \"What fracture must show\")";
 }
 
 /* The error class is of elastic solids; a line for every kind of breaking in the scene. */
@@ -319,7 +319,7 @@ brc_status brc_price_tell_accuracy(brc_context *context, const brc_scene *scene,
     if (own->out_of_time)
         fprintf(details, "measures were not compared with those of fewer elements: a stage of these was not over after %.0f s (another machine may tell another class)\n", brc_price_error_stage_s);
     if (!j.known) {
-        printf("error class (elastic): not known, no curve of model %s was measured (docs/accuracy.md)\n", brc_model_name(setup->split->part[0].scene->model.kind));
+        printf("error class (elastic): not known, no curve of model %s was measured (docs/notebook/accuracy.md)\n", brc_model_name(setup->split->part[0].scene->model.kind));
         tell_breaking(details, scene, setup);
         return BRC_OK;
     }

@@ -7,7 +7,7 @@
 typedef struct brc_price_error {
     double *error; /* [n_measures] relative; NAN: not found; owned */
     int32_t worst; /* measure with the largest; -1: none was found */
-    double order;  /* that errors are taken to fall with, in the spacing: several materials in a body 1, else 1.5 (below those of the measured problems: docs/accuracy.md) */
+    double order;  /* that errors are taken to fall with, in the spacing: several materials in a body 1, else 1.5 (below those of the measured problems: docs/notebook/accuracy.md) */
     double volumes; /* part of each error: the volumes of the materials (material_volume.h) [-] */
     int64_t least_elements; /* about, of the coarsest body that was run */
     bool out_of_time; /* a body was left off after brc_price_error_stage_s of a stage: then nothing was found */

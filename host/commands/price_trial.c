@@ -8,7 +8,7 @@
 static const double thumb_least = 0.5, thumb_most = 2.5;
 /* A solve of this long is counted on a coarser body. */
 static const double countable_s = 1.5;
-/* How much longer a step gets at most where bonds break, softening faces are open or surfaces touch that are apart in the trial (docs/fracture.md, docs/contact.md);
+/* How much longer a step gets at most where bonds break, softening faces are open or surfaces touch that are apart in the trial (docs/notebook/fracture.md, docs/notebook/contact.md);
  * and an event at most, as the body falls apart. */
 static const double cells_break = 4.5, beams_break = 4, faces_soften = 6, surfaces_touch = 3, events_grow = 2;
 /* The least of a range where nothing can end a stage early: what a pace is uncertain by. */

@@ -1,4 +1,4 @@
-/* A study: many runs of one scene whose keys vary, as many at once as there is room for, and what they say together. docs/study.md has the file.
+/* A study: many runs of one scene whose keys vary, as many at once as there is room for, and what they say together. docs/reference/study.md has the file.
  *
  *     DIR/00000/...     a folder a run, as `breccia run` writes it; log.txt: what it told; study.txt: what it is a run of
  *     DIR/table.csv     a row a run: its keys, how it ended, its measures

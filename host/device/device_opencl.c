@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Work-items a group; docs/devices.md has the measurements. Never left to the driver: PoCL's own choice crashed with
+/* Work-items a group; docs/notebook/devices.md has the measurements. Never left to the driver: PoCL's own choice crashed with
  * wide types. */
 enum { GROUP_GPU = 128, GROUP_CPU = 64 };
 /* Long batches reach the device while they are still being enqueued. */

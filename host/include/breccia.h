@@ -18,7 +18,7 @@
  * belongs to one thread at a time. Free functions accept NULL. Where a function needs an object, a NULL one gives BRECCIA_NO_MEMORY, so that a chain of calls
  * needs one check at its end. Two versions with the same BRECCIA_INTERFACE have the same functions and structs.
  *
- * Waiting OpenMP threads spin as the environment says when the process begins: GOMP_SPINCOUNT=1000 is what the program runs itself with (docs/devices.md). */
+ * Waiting OpenMP threads spin as the environment says when the process begins: GOMP_SPINCOUNT=1000 is what the program runs itself with (docs/notebook/devices.md). */
 #ifndef BRECCIA_H
 #define BRECCIA_H
 
@@ -225,7 +225,7 @@ typedef struct breccia_report {
     const char *device, *device_name; /* owned by the run */
 } breccia_report;
 
-/* Of runs with a folder, as docs/results.md says: path of "summary.json", "result.h5", "histories.csv", "cracks.csv", "fragments.csv", "frames.vtkhdf.series",
+/* Of runs with a folder, as docs/reference/results.md says: path of "summary.json", "result.h5", "histories.csv", "cracks.csv", "fragments.csv", "frames.vtkhdf.series",
  * "cracks.vtu.series", "picture.png", "curve.png"; NULL: not written. Owned by the run. */
 BRECCIA_PUBLIC const char *breccia_run_file(const breccia_run *run, const char *name);
 BRECCIA_PUBLIC int breccia_run_measure_count(const breccia_run *run);

@@ -1,4 +1,4 @@
-/* Checkpoints: the state of a run, written now and then so that another run can go on from it as if there had been no end (docs/checkpoint.md).
+/* Checkpoints: the state of a run, written now and then so that another run can go on from it as if there had been no end (docs/reference/checkpoint.md).
  *
  *     DIR/checkpoints/NNNNNN.h5   the two last ones, numbered from 000000; HDF5, written aside, sealed (seal.h), flushed to the disk, renamed
  *

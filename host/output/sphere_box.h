@@ -1,5 +1,5 @@
 /* The size of a sample of packed spheres, by its walls: there are no faces to measure. Along an axis it is the distance of the mean positions of
- * the spheres at two walls plus the mean diameter of all spheres as packed (NAH19; docs/beams.md). Spheres without bonds count in no mean of a wall.
+ * the spheres at two walls plus the mean diameter of all spheres as packed (NAH19; docs/notebook/beams.md). Spheres without bonds count in no mean of a wall.
  * Samples are aligned with the axes. */
 #ifndef BRC_OUTPUT_SPHERE_BOX_H
 #define BRC_OUTPUT_SPHERE_BOX_H

@@ -335,7 +335,7 @@ static void check_limits(brc_reader *reader)
         }
         if (found) continue;
         nearest = brc_problems_nearest(reader->problems, limit->number, n < 64 ? n : 64, names);
-        COMPLAIN(reader, NULL, limit, "quality: there is no number '%s'%s%s%s; docs/domain.md lists them", limit->number,
+        COMPLAIN(reader, NULL, limit, "quality: there is no number '%s'%s%s%s; docs/reference/domain.md lists them", limit->number,
                  nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
     }
 }

@@ -76,7 +76,7 @@ typedef struct brc_fracture {
     brc_criterion_kind kind;
     int32_t level;             /* shells of neighbours the stress is averaged over: 0, 1, 2; not for bond-normal */
     double cohesion, friction; /* the last two kinds: [Pa], [rad] */
-    bool closure;              /* sides of a broken face bear on each other until they stand clear (docs/fracture.md "Closed cracks") */
+    bool closure;              /* sides of a broken face bear on each other until they stand clear (docs/notebook/fracture.md "Closed cracks") */
     uint64_t seed;             /* of the draws of strengths, keyed by the ids of a bond's elements */
 } brc_fracture;
 
@@ -90,13 +90,13 @@ typedef struct brc_model {
     brc_model_kind kind;
     /* dlsm */
     bool compaction; /* true: beta as given; false: beta = 0 */
-    double beta;     /* [-] cross term, default 1.06 (docs/theory.md T2) */
+    double beta;     /* [-] cross term, default 1.06 (docs/notebook/theory.md T2) */
     double tau;      /* [-] stabilisation, default 0.15; beta^2 <= 1 + tau keeps W positive */
     /* dlsm-published */
     bool small_rotations; /* dlsm and published: the law linearised about the reference: a body that turns grows and strains; for comparison */
     bool area_weights;         /* least squares with weights S/L instead of 1 (default false, as printed) */
     double rotation_stiffness; /* [-] factor on K = E S^2 / (4 pi L0), default 1 */
-    double couple_modulus;     /* [-] over mu: holds the frames of elements to the turning solid; 0, as printed, by default (docs/theory.md T3) */
+    double couple_modulus;     /* [-] over mu: holds the frames of elements to the turning solid; 0, as printed, by default (docs/notebook/theory.md T3) */
     /* cbm */
     double beam_poisson; /* nu_m of the beams, default 0.3: hardly matters (design-cbm.md) [-] */
     bool keep_isolated;  /* hold elements without bonds still instead of refusing them */

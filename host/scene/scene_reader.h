@@ -15,7 +15,7 @@ brc_status brc_scene_read_text(brc_context *context, const char *name, const cha
                                const char *const *overrides, brc_scene **out);
 /* The scene with all defaults, as YAML that reads back to an equal scene. *out freed by brc_memory_free. */
 brc_status brc_scene_to_yaml(brc_context *context, const brc_scene *scene, char **out);
-/* docs/scene.md from the schema table: every key with type, unit, range, default, meaning. */
+/* docs/reference/scene.md from the schema table: every key with type, unit, range, default, meaning. */
 brc_status brc_scene_write_reference(brc_context *context, FILE *file);
 
 #endif

@@ -1,4 +1,4 @@
-/* docs/scene.md, written from the schema table. */
+/* docs/reference/scene.md, written from the schema table. */
 #include "scene_reader.h"
 #include "reader_internal.h"
 #include <ctype.h>

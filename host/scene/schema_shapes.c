@@ -252,7 +252,7 @@ static const brc_entry LIMIT[] = {
      .meaning = "the body is refused beyond this"},
 };
 const brc_section brc_schema_limit = {.title = "limit",
-                                      .meaning = "What one number of the quality report may be (docs/domain.md lists them).",
+                                      .meaning = "What one number of the quality report may be (docs/reference/domain.md lists them).",
                                       ENTRIES(LIMIT),
                                       .size = sizeof(brc_quality_limit),
                                       .sample_name = "volume_error",

@@ -12,7 +12,7 @@ typedef struct brc_beam_body {
 } brc_beam_body;
 
 /* The reading of a body with the edges L1 >= L2 >= L3 in mean diameters: 1 + 1 / L1 - 0.2 (1 / L2 + 1 / L3). The 0.2, a tenth of a diameter at each free surface that carries nothing, is that
- * of cubes of 1000 to 40 000 spheres, bars and plates at cn 10 (docs/beams-calibration.md). */
+ * of cubes of 1000 to 40 000 spheres, bars and plates at cn 10 (docs/notebook/beams-calibration.md). */
 double brc_beam_body_reading(const double edges[3]);
 
 /* Of one body of a domain of spheres; body < 0: of all. By the sets of the walls and "<wall>_layer" (domain.h), whose names end in x-, x+ ... for planes and in "side" for the

@@ -1,4 +1,4 @@
-/* Coefficients: written by `breccia calibrate` as law.h (docs/beams-calibration.md has its command, the solves behind it and what is left). */
+/* Coefficients: written by `breccia calibrate` as law.h (docs/notebook/beams-calibration.md has its command, the solves behind it and what is left). */
 #include "beam_law.h"
 #include "chebyshev.h"
 #include "../base/log.h"

@@ -20,7 +20,7 @@ typedef struct brc_beam_pull {
     double radius;       /* r_m: beam radius over the mean radius of the packed spheres [-] */
     double beam_poisson; /* nu_m [-] */
     double beam_young;   /* E_m [Pa]; 0: 1 Pa. The answer is the same but for rounding */
-    double tolerance;    /* residual over load; 0: 1e-5, which moves E by up to 3e-5 and nu by 1e-5 of themselves (docs/beams-calibration.md) */
+    double tolerance;    /* residual over load; 0: 1e-5, which moves E by up to 3e-5 and nu by 1e-5 of themselves (docs/notebook/beams-calibration.md) */
 } brc_beam_pull;
 
 typedef struct brc_beam_answer {

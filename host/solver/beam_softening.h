@@ -1,4 +1,4 @@
-/* Beams that open against cohesion, for a fracture energy (kernels/softening.h, beam_softening.cl; docs/fracture.md "Fracture energy of beams"). All of it
+/* Beams that open against cohesion, for a fracture energy (kernels/softening.h, beam_softening.cl; docs/notebook/fracture.md "Fracture energy of beams"). All of it
  * exists only where some bond of model cbm has a fracture energy; without it every function here does nothing. */
 #ifndef BRC_SOLVER_BEAM_SOFTENING_H
 #define BRC_SOLVER_BEAM_SOFTENING_H

@@ -5,20 +5,20 @@
 #include "crack_range.h"
 #include <math.h>
 
-/* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open (docs/fracture.md). */
+/* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open (docs/notebook/fracture.md). */
 static const double steepest = 0.5;
 /* Faces look at their own traction where the stress of a cell is above this share of the limit (kernels/softening.cl, soft_check): the two agree within a
  * few percent where nothing is open. */
 static const double screen = 0.7;
 /* Sweeps over the open faces a step, each with the forces at its openings; and the part of the stiffness, estimated from above, that they take: less than a
- * half would let them overshoot. What they leave of the balance costs energy in quick cracks (docs/fracture.md). */
+ * half would let them overshoot. What they leave of the balance costs energy in quick cracks (docs/notebook/fracture.md). */
 enum { N_SWEEPS = 3 };
 static const double stiffen = 0.6;
 /* Openings over the length of the bond from which on the sides of a broken face stand clear of each other. */
 static const double clear = 0.05;
-/* Shear that the sides of a crack bear, over the push along it that a face carries (docs/theory.md T10). */
+/* Shear that the sides of a crack bear, over the push along it that a face carries (docs/notebook/theory.md T10). */
 static const double retention = 0.3;
-/* E G_c / sigma_f^2 below this many cells: the crack is not resolved; below twice as many uneven cells bear more at notches (docs/fracture.md, "Notched specimens"). */
+/* E G_c / sigma_f^2 below this many cells: the crack is not resolved; below twice as many uneven cells bear more at notches (docs/notebook/fracture.md, "Notched specimens"). */
 static const double least_cells = 4;
 
 /* Components of `crack` (kernels/softening.cl). */

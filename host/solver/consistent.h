@@ -1,4 +1,4 @@
-/* Coefficients of dlsm whose rounding does not turn a body (docs/theory.md T8). In a body turned by a large angle the
+/* Coefficients of dlsm whose rounding does not turn a body (docs/notebook/theory.md T8). In a body turned by a large angle the
  * displacement gradient is of order 1, and forces of order E S cancel: (k (1 + tau)/q) (u_j - u_i) against the bond part of B.
  * What the rounding of the stored coefficients leaves of them turns with the body's angle, not with the step: a torque of one
  * sign, where the rounding of the arithmetic itself averages out. */

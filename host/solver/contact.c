@@ -368,7 +368,7 @@ brc_status brc_contact_critical_step(brc_simulation *s, double *out)
 /* Two equal elements without bonds are an oscillator of half their mass between their surfaces: half a period of it is a blow. */
 void brc_contact_check_step(const brc_simulation *s, const char *stage, double touching, const brc_time_step *step)
 {
-    static const double enough = 20; /* steps of a blow: restitutions are met to 0.02 (docs/contact.md) */
+    static const double enough = 20; /* steps of a blow: restitutions are met to 0.02 (docs/notebook/contact.md) */
     const brc_domain *d = s->domain;
     const double steps = M_PI / sqrt(2) * touching / step->value;
     bool damped = false, loose = s->scene->has_fracture;

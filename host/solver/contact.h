@@ -1,4 +1,4 @@
-/* Touching: of free surfaces, fragments and strikers (docs/contact.md). Nothing of it exists in scenes without `interactions: {contact: ...}`.
+/* Touching: of free surfaces, fragments and strikers (docs/notebook/contact.md). Nothing of it exists in scenes without `interactions: {contact: ...}`.
  *
  * A step asks in this order: brc_contact_follow when the elements have moved, brc_contact_gradients, brc_contact_moments and brc_contact_forces while the forces are
  * evaluated, brc_contact_broken when bonds broke. */

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Elements through a thickness or a ligament, as a crack's zone takes; along a notch, where peak loads of uneven cells were +11 to +13 % off, and where +4 % (docs/fracture.md, "Notched specimens"). */
+/* Elements through a thickness or a ligament, as a crack's zone takes; along a notch, where peak loads of uneven cells were +11 to +13 % off, and where +4 % (docs/notebook/fracture.md, "Notched specimens"). */
 static const double least_through = 4, least_notch = 15, good_notch = 30;
 static const double slack = 0.03; /* of these: the mean size is not quite that of a row */
 

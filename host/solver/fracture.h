@@ -46,7 +46,7 @@ double brc_simulation_beam_radius(const brc_simulation *simulation, int64_t e);
 brc_status brc_simulation_failure_ratio(brc_simulation *simulation, double *out);
 /* Cells: fracture energy per area that strength and cells imply where bonds break at once, mean of sigma_f^2 L / (2 E) over them; 0: none does [J/m^2]. */
 double brc_simulation_implied_fracture_energy(const brc_simulation *simulation);
-/* Cells with a fracture energy: faces that have opened against their cohesion so far (docs/fracture.md); all 0 without. A pass over all bonds. */
+/* Cells with a fracture energy: faces that have opened against their cohesion so far (docs/notebook/fracture.md); all 0 without. A pass over all bonds. */
 typedef struct brc_softening_report {
     int64_t n_opened, n_ended;   /* all, and those whose cohesion ended */
     double area;                 /* of the latter, projected along their opening [m^2] */

@@ -10,7 +10,7 @@
  * rounding: only flat or lone elements meet it. */
 static const double span_threshold = 1e-6;
 /* The same where coefficients are single: rounding of the gradient in the weakest direction is amplified by the ratio of the spans, and what it leaves
- * of a turned element's strain heats the body. An element of ratio 5e-4 doubled its energy in 1e5 steps (docs/stability.md). */
+ * of a turned element's strain heats the body. An element of ratio 5e-4 doubled its energy in 1e5 steps (docs/notebook/stability.md). */
 static const double single_span_threshold = 1e-2;
 
 static void branch_of(const brc_domain *d, int64_t h, int32_t i, double branch[3])

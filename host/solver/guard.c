@@ -6,7 +6,7 @@
 
 enum { BLOCK = 1024 }; /* rows of a work-item of guard_look */
 /* A look reads six numbers an element, 2 % of what a step moves: every 16 steps it costs a thousandth. Waiting for the device and reading a number a
- * block is worth some microseconds, a ledger about a step: every 256 and every 1024 steps both stay below a hundredth (docs/stability.md). */
+ * block is worth some microseconds, a ledger about a step: every 256 and every 1024 steps both stay below a hundredth (docs/notebook/stability.md). */
 static const int64_t look_every = 16, read_every = 256, ledger_every = 1024;
 /* An element faster than this many times the wave speed and the fastest element at the start of the stage is no physics any more. */
 static const double most_speeds = 30;

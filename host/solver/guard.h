@@ -1,5 +1,5 @@
 /* The guard of every dynamic stage: looks at each element on the device and at the energy ledger, and stops a run that goes wrong with where and why
- * (docs/stability.md). */
+ * (docs/notebook/stability.md). */
 #ifndef BRC_SOLVER_GUARD_H
 #define BRC_SOLVER_GUARD_H
 

@@ -72,7 +72,7 @@ void brc_guard_tell_cause(const brc_simulation *s, int64_t e, double off, char *
     if (safety > 1)
         add(text, size, "the time step is %.3g times the critical one: use time_step: auto", safety);
     else if (brc_is_published(s))
-        add(text, size, "the published law has no energy and diverges after thousands of steps (docs/theory.md): use model dlsm, %stchamwa-wielgosz with a larger phi",
+        add(text, size, "the published law has no energy and diverges after thousands of steps (docs/notebook/theory.md): use model dlsm, %stchamwa-wielgosz with a larger phi",
             s->scene->model.couple_modulus > 0 ? "or " : "a couple_modulus of 0.5 where strains or turns are large, or ");
     else if (off != 0 && fabs(off) < 0.1 * own)
         add(text, size, "time step: velocity Verlet's own oscillation is of this size at %.3g of the critical step; use a smaller safety, or a wider guard.closure", safety);

@@ -112,7 +112,7 @@ typedef struct brc_ledger {
     double potential; /* of gravity */
     double work;      /* of prescribed motion and tractions, since the start */
     double damping;   /* lost to mass damping, and to what events of static stages set free */
-    double numerical; /* lost to the integrator, by exact expressions on a linear system: Tchamwa-Wielgosz; dlsm with velocity Verlet: where bonds break (docs/fracture.md) */
+    double numerical; /* lost to the integrator, by exact expressions on a linear system: Tchamwa-Wielgosz; dlsm with velocity Verlet: where bonds break (docs/notebook/fracture.md) */
     double initial;   /* total brought in by initial fields */
     double total;     /* kinetic + elastic + stabilisation + potential + contact */
     double closure;
@@ -149,7 +149,7 @@ typedef struct brc_static_report {
     int64_t iterations;  /* linear iterations in all; of a modes stage: rounds */
     int64_t corrections; /* nonlinear (modified Newton) corrections in all */
     double residual;     /* last, relative to the load [-] */
-    /* multigrid of the stage (docs/theory.md T6): levels, 0 where there was none; seconds of making it, in all; bytes that it held on the device */
+    /* multigrid of the stage (docs/notebook/theory.md T6): levels, 0 where there was none; seconds of making it, in all; bytes that it held on the device */
     int multigrid_levels;
     double multigrid_seconds;
     int64_t multigrid_bytes;
@@ -162,7 +162,7 @@ const char *const *brc_simulation_effects_in(const brc_simulation *simulation);
 const char *const *brc_simulation_effects_out(const brc_simulation *simulation);
 
 /* The least a step must move through memory [byte]: every word that a pass needs, once; padding, index arithmetic and
- * repeated gathers do not count (docs/performance.md has the count). Bond updates in a step: n_bonds. */
+ * repeated gathers do not count (docs/notebook/performance.md has the count). Bond updates in a step: n_bonds. */
 double brc_simulation_floor_bytes(const brc_simulation *simulation);
 
 /* Wall seconds: setup (create and begin_stage), stepping. */

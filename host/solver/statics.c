@@ -239,7 +239,7 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
                                 "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d corrections, asked %.3g; "
                                 "check that the loads balance or the supports hold the body, use more increments, or relax `tolerance`",
                                 stage->name, s->load_factor, norm / *reference, correction, tolerance);
-            brc_preconditioner_give_up(s, v); /* blocks come a little lower (docs/performance.md) */
+            brc_preconditioner_give_up(s, v); /* blocks come a little lower (docs/notebook/performance.md) */
             last = norm = INFINITY;
         }
         earlier = last;

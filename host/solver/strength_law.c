@@ -1,4 +1,4 @@
-/* Coefficients of the surface: written by `breccia calibrate` as strength/law.h (docs/beams-calibration.md has its command and the tests behind it). */
+/* Coefficients of the surface: written by `breccia calibrate` as strength/law.h (docs/notebook/beams-calibration.md has its command and the tests behind it). */
 #include "strength_law.h"
 #include "../base/log.h"
 #include "chebyshev.h"

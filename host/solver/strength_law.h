@@ -29,7 +29,7 @@ double brc_strength_law_ratio(const brc_strength_law *law, double coordination, 
 /* The same; BRC_BAD_INPUT with the cure where the law says nothing (a tenth beyond its ranges is let through). */
 brc_status brc_strength_law_find(brc_context *context, const brc_strength_law *law, double coordination, double radius, double *ratio);
 /* What a disc pressed across over arcs of 24 degrees reads (2 P / (pi t D), NAH19 eq. 27) over the strength in tension of its packing [-]: a fit to discs of 20 000 spheres
- * (laws/disc.h, docs/beams-tests.md), a polynomial of cn and r_m. At each cn r_m was between that of alumina and that of glass: the nearer of them is taken outside, and a warning says so; BRC_BAD_INPUT
+ * (laws/disc.h, docs/notebook/beams-tests.md), a polynomial of cn and r_m. At each cn r_m was between that of alumina and that of glass: the nearer of them is taken outside, and a warning says so; BRC_BAD_INPUT
  * with the cure more than a tenth outside the ranges it was fitted in as a whole. */
 enum { BRC_STRENGTH_LAW_DISC = 6, BRC_STRENGTH_LAW_DISC_BANDS = 8 };
 typedef struct brc_disc_law {

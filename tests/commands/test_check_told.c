@@ -54,7 +54,7 @@ static void scenes_that_break_are_told_what_was_measured_of_their_kind(void **st
     expect(test_program_stdout(), "measured where dlsm breaks: onset in an even pull within 0.03 % of the strength");
     assert_int_equal(told_of("check", SOFT, "fracture: {}\n", TEAR), 0);
     expect(test_program_stdout(), "measured where dlsm breaks: peak loads of notched parts +3 to +7 %");
-    expect(test_program_stdout(), "(docs/fracture.md, \"What fracture must show\")");
+    expect(test_program_stdout(), "(docs/notebook/fracture.md, \"What fracture must show\")");
     assert_int_equal(told_of("check", STRONG, "model: dlsm-published\nfracture: {}\n", TEAR), 0);
     expect(test_program_stdout(), "measured where dlsm-published breaks: only the onset");
 }

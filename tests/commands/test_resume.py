@@ -1,4 +1,4 @@
-"""Runs that are left and taken up again: the same bytes as runs that are not (docs/checkpoint.md).
+"""Runs that are left and taken up again: the same bytes as runs that are not (docs/reference/checkpoint.md).
 
     test_resume.py                              what ctest runs: a few examples made small, five kills, refusals
     test_resume.py --all [NAME ...]             every example made small, on the cpu, an OpenCL device and a target device, in three precisions

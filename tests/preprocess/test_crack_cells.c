@@ -140,7 +140,7 @@ static void cracks_in_turned_and_round_bodies_are_flat(void **state)
         }
         print_message("%s: %lld of %lld faces are off the plane of the crack\n", k ? "sphere" : "cylinder", (long long)n_off, (long long)set->n_members);
         assert_near(height, 0.0, 1e-12); /* rounding of positions of 20 m is 4e-15 m */
-        /* the section of the planes that stand for the curved wall: they have the body's volume, and are at least 32 round it (docs/domain.md): a
+        /* the section of the planes that stand for the curved wall: they have the body's volume, and are at least 32 round it (docs/reference/domain.md): a
          * regular polygon of 32 sides reaches from 0.995 to 1.005 of the radius */
         assert_near(area / (3.14159265358979 * radius * radius), 1.0, 0.01);
         brc_domain_free(&d);

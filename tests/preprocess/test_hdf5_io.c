@@ -37,7 +37,7 @@ static void arrays_and_attributes_come_back(void **state)
     remove(path);
 }
 
-/* The formula of docs/domain.md on the stored words of -1 and 2. */
+/* The formula of docs/reference/domain.md on the stored words of -1 and 2. */
 static void the_checksum_is_the_documented_one(void **state)
 {
     brc_context *context = *state;

@@ -1,4 +1,4 @@
-/* A mesh of a million triangles: its memory is a promise, its times are printed (docs/shapes.md quotes them). */
+/* A mesh of a million triangles: its memory is a promise, its times are printed (docs/notebook/shapes.md quotes them). */
 #include "support.h"
 #include "support_mesh.h"
 

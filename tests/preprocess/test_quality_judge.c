@@ -90,11 +90,11 @@ static void every_number_is_in_the_documentation(void **state)
     char *text;
     size_t bytes;
     const brc_quality_number *numbers = brc_quality_numbers(&n);
-    assert_int_equal(brc_file_read_whole(*state, BRC_SOURCE_DIR_PATH "/docs/domain.md", 1 << 20, &text, &bytes), BRC_OK);
+    assert_int_equal(brc_file_read_whole(*state, BRC_SOURCE_DIR_PATH "/docs/reference/domain.md", 1 << 20, &text, &bytes), BRC_OK);
     for (int32_t k = 0; k < n; ++k) {
         char row[512];
         snprintf(row, sizeof row, "| `%s` | %s | %s |", numbers[k].name, numbers[k].meaning, numbers[k].less_is_worse ? "less" : "more");
-        if (!strstr(text, row)) fail_msg("docs/domain.md has no row \"%s\"", row);
+        if (!strstr(text, row)) fail_msg("docs/reference/domain.md has no row \"%s\"", row);
     }
     brc_memory_free(text);
 }

@@ -185,7 +185,7 @@ static void images_of_a_regular_grid_are_kept_once(void **state)
     brc_solid_free(&solid);
 }
 
-/* The table of docs/shapes.md: test_rough table [elements [first [last [packing]]]]. */
+/* The table of docs/notebook/shapes.md: test_rough table [elements [first [last [packing]]]]. */
 static int print_table(int64_t n, int first, int last, bool packing)
 {
     brc_context *context = brc_context_create();

@@ -449,7 +449,7 @@ static void fills_that_do_not_go_together_are_refused(void **state)
     test_refused(*state, &r, BRC_BAD_INPUT, "ask for at most");
 }
 
-/* The table of docs/domain.md: test_shapes table [elements]. */
+/* The table of docs/reference/domain.md: test_shapes table [elements]. */
 static int print_table(int64_t n)
 {
     brc_context *context = brc_context_create();

@@ -165,7 +165,7 @@ static void reference_in_docs_is_the_table(void **state)
     assert_non_null(file);
     assert_int_equal(brc_scene_write_reference(context, file), BRC_OK);
     fclose(file);
-    assert_int_equal(brc_file_read_whole(context, BRC_SOURCE_DIR_PATH "/docs/scene.md", 1 << 20, &kept, &kept_bytes),
+    assert_int_equal(brc_file_read_whole(context, BRC_SOURCE_DIR_PATH "/docs/reference/scene.md", 1 << 20, &kept, &kept_bytes),
                      BRC_OK);
     if (made_bytes != kept_bytes || memcmp(made, kept, made_bytes) != 0) {
         FILE *fresh = fopen("scene.md", "w");
@@ -174,7 +174,7 @@ static void reference_in_docs_is_the_table(void **state)
             fclose(fresh);
         }
         fail_msg(
-            "docs/scene.md is not what the table says; the right one was written to scene.md in this test's folder "
+            "docs/reference/scene.md is not what the table says; the right one was written to scene.md in this test's folder "
             "of the build (tests/): copy it");
     }
     free(made);

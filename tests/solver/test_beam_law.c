@@ -74,7 +74,7 @@ static void the_laws_give_what_the_paper_measured(void **state)
     }
 }
 
-/* The paper's form with our coefficients stands beside: it is good to 7 % (docs/beams-calibration.md). */
+/* The paper's form with our coefficients stands beside: it is good to 7 % (docs/notebook/beams-calibration.md). */
 static void the_papers_form_says_the_same_to_its_own_error(void **state)
 {
     (void)state;

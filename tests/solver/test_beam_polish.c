@@ -135,7 +135,7 @@ static void polish_scene(brc_shape_kind kind, int n_cracks, brc_material *materi
 }
 
 /* A body that cannot be pulled itself is polished on cubes packed like it, four of them: the same for every such body with the same bonds, and near to what the
- * box gives, which is the first of the four: samples of 1000 spheres differ by some 2 % in E and nu (docs/beams-calibration.md), which is 10 % in r_m. */
+ * box gives, which is the first of the four: samples of 1000 spheres differ by some 2 % in E and nu (docs/notebook/beams-calibration.md), which is 10 % in r_m. */
 static void a_body_that_is_no_plain_box_is_polished_on_cubes_packed_alike(void **state)
 {
     (void)state;

@@ -23,7 +23,7 @@
 
 /* E G_c / sigma_f^2 is 1 m, six cells. The energy is G_c A with the work of the cohesion taken by the trapezoidal rule over the openings of a step (at the
  * end one step of a thousand reaches beyond) and with what three sweeps leave of the balance of forces, first order in the step, which is a tenth of the
- * critical one: a percent is asked (0.5 of the critical step: 0.993 and 0.989, docs/fracture.md). */
+ * critical one: a percent is asked (0.5 of the critical step: 0.993 and 0.989, docs/notebook/fracture.md). */
 static void a_flat_crack_costs_its_fracture_energy(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* Ten blocks on top of each other, each of eight cells of its own, on a fixed floor under gravity: they settle in a drag, near the critical one of
  * their slowest motion (swaying, 2.8 rad/s), and then rest without it. Material of
- * E 10 kPa and density 1 kg/m^3. Environment BRC_STACK_STEPS: steps of rest, by default 2000 (docs/contact.md has 1e5). */
+ * E 10 kPa and density 1 kg/m^3. Environment BRC_STACK_STEPS: steps of rest, by default 2000 (docs/notebook/contact.md has 1e5). */
 #include "support.h"
 #include "../../host/base/log.h"
 #include <math.h>

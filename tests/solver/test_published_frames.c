@@ -1,4 +1,4 @@
-/* Frames of elements of dlsm-published: what holds them to the solid as it turns (docs/theory.md T3). E 1 Pa, nu 0.2, density 1 kg/m^3. */
+/* Frames of elements of dlsm-published: what holds them to the solid as it turns (docs/notebook/theory.md T3). E 1 Pa, nu 0.2, density 1 kg/m^3. */
 #include "support.h"
 #include "../../host/solver/simulation_internal.h"
 #include <math.h>

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* A cube of side 1, E 1, nu 0.2, turned by 0.3 rad: eps = diag(cos - 1, cos - 1, 0) costs lambda/2 (tr eps)^2 + mu eps : eps by the linearised
- * law, and nothing by the full one. Linear fields are exact (docs/theory.md), to the rounding of the geometry. */
+ * law, and nothing by the full one. Linear fields are exact (docs/notebook/theory.md), to the rounding of the geometry. */
 static void a_turned_cube_has_the_energy_of_its_small_strain(void **state)
 {
     (void)state;

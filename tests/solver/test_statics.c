@@ -189,7 +189,7 @@ static void published_tension_is_near_the_given_values(void **state)
     const double residual = free_residual(&c, imposed, &left_over);
     /* bond forces are opposite, so the reactions differ by exactly what is left on the free elements */
     if (!(fabs(force[0] + back[0] - left_over) < 1e-12 * force[0])) fail_msg("reactions %g, %g, left over %g", force[0], back[0], left_over);
-    /* which is the solver's tolerance (docs/theory.md T3): 1e-5 of what the load left unbalanced before anything moved */
+    /* which is the solver's tolerance (docs/notebook/theory.md T3): 1e-5 of what the load left unbalanced before anything moved */
     assert_done(&c, brc_simulation_set_state(c.simulation, u, NULL));
     const double first = free_residual(&c, imposed, &first_left_over);
     if (!(residual < 1e-5 * first)) fail_msg("residual %g of the load", residual / first);

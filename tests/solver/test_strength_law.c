@@ -29,7 +29,7 @@ static void the_surface_at_its_corners_is_the_sum_of_its_coefficients(void **sta
     assert_true(fabs(brc_strength_law_ratio(law, law->coordination[0], law->radius[0]) - near) <= 1e-13);
 }
 
-/* Samples are stronger with more bonds and thicker beams; 0.5 %: what the fit may ripple between its nodes (its own error, docs/beams-calibration.md). */
+/* Samples are stronger with more bonds and thicker beams; 0.5 %: what the fit may ripple between its nodes (its own error, docs/notebook/beams-calibration.md). */
 static void k_grows_with_bonds_and_thickness(void **state)
 {
     (void)state;
@@ -102,7 +102,7 @@ static void what_discs_read_is_the_fit_of_the_file_beside_it(void **state)
     brc_context_free(&context);
 }
 
-/* Bars and discs are off by as much, bars by 3.7 % at most: no bound of NAH19's discs asks for more (docs/beams-tests.md). */
+/* Bars and discs are off by as much, bars by 3.7 % at most: no bound of NAH19's discs asks for more (docs/notebook/beams-tests.md). */
 static void a_strength_from_either_test_is_shared(void **state)
 {
     (void)state;

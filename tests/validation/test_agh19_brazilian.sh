@@ -1,5 +1,5 @@
 #!/bin/sh
-# The references are those that disc.py computes; a disc of 1500 cells pressed to failure over arcs of 20 degrees, and Hondros; the full table is in docs/papers.md.
+# The references are those that disc.py computes; a disc of 1500 cells pressed to failure over arcs of 20 degrees, and Hondros; the full table is in docs/notebook/papers.md.
 here=$(dirname "$0")
 . "$here/quick.sh"
 wanted=$(mktemp)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# A short rod of 1500 spheres twisted to failure; the full campaign is in docs/beams-tests.md. both_sides is also taken from histories.csv by awk; the file has all digits, so that
+# A short rod of 1500 spheres twisted to failure; the full campaign is in docs/notebook/beams-tests.md. both_sides is also taken from histories.csv by awk; the file has all digits, so that
 # only the rounding of one sum is left between them.
 program=${BRC_PROGRAM:-breccia}
 folder=validation-nah19-torsion-$$

@@ -1,5 +1,5 @@
 /* The finest level on the host: elements with displacements and rotations, joined by bonds. Of beams it is their own linear stiffness; of cells a stand-in that has the
- * elasticity of the material and couples neighbours alone (docs/theory.md T6). */
+ * elasticity of the material and couples neighbours alone (docs/notebook/theory.md T6). */
 #ifndef BRC_SOLVER_MULTIGRID_FINE_H
 #define BRC_SOLVER_MULTIGRID_FINE_H
 

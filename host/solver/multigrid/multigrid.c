@@ -5,7 +5,7 @@
 #include <omp.h>
 #include <string.h>
 
-/* Boxes of the first aggregates, in spacings; those of each further level are twice as wide. Measured on cantilevers and cubes (docs/performance.md). */
+/* Boxes of the first aggregates, in spacings; those of each further level are twice as wide. Measured on cantilevers and cubes (docs/notebook/performance.md). */
 static const double box_in_spacings = 3;
 enum { MOST_SOLVED = 100 }; /* nodes of a coarsest level whose inverse is kept */
 

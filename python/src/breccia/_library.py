@@ -93,7 +93,7 @@ def _candidates() -> List[str]:
 
 
 def _open() -> Any:
-    # GNU OpenMP reads it as it is loaded; the program asks for the same of itself (docs/devices.md, "Waiting threads").
+    # GNU OpenMP reads it as it is loaded; the program asks for the same of itself (docs/notebook/devices.md, "Waiting threads").
     chosen = "GOMP_SPINCOUNT" in os.environ or "OMP_WAIT_POLICY" in os.environ
     if not chosen:
         os.environ["GOMP_SPINCOUNT"] = "1000"

@@ -1,4 +1,4 @@
-"""What a run has written (docs/results.md), as tables, arrays and meshes. A folder of the program is read alike."""
+"""What a run has written (docs/reference/results.md), as tables, arrays and meshes. A folder of the program is read alike."""
 from __future__ import annotations
 
 import json
@@ -135,7 +135,7 @@ class Results:
         return self._table("cracks.csv")
 
     def fragments(self) -> "pandas.DataFrame":
-        """A row for each fragment of each frame; the smallest are counted, not listed (docs/fracture.md)."""
+        """A row for each fragment of each frame; the smallest are counted, not listed (docs/notebook/fracture.md)."""
         return self._table("fragments.csv")
 
     # ---- fields ----

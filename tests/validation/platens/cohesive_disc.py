@@ -191,7 +191,7 @@ def table():
 
 def granite():
     """The discs of case.yaml: peak load [N], contact half width there [mm], nominal strength over f, opened half length over R, opening in the middle over w_c; and the load at which the centre reaches f.
-    Jaws: steel, or rigid as strikers are (the surfaces of cells give way in their place, docs/contact.md)."""
+    Jaws: steel, or rigid as strikers are (the surfaces of cells give way in their place, docs/notebook/contact.md)."""
     diameter, thick, young, nu, strength = 0.05, 0.01, 50e9, 0.25, 8e6
     for plane in ("stress", "strain"):
         for jaw, name in ((None, "flat"), (0.0375, "curved")):
