@@ -5,9 +5,10 @@
  *
  * crack [n_slots][SOFT_WIDTH][C], of an entry (vectors seen from its own element): the opening w [m]; what the last step added to it, SHIFT [m]; PULL:
  * force of the bond on the own element at the last evaluation [N]; START, ENERGY: soft_face (ENERGY before the onset: G_c S) [N] [J];
- * ONSET: principal stress at the onset [Pa]; WIDEST: largest |w| [m]; SPENT: energy that its cohesion took so far but for what is HELD, which comes
+ * ONSET: principal stress at the onset [Pa]; WIDEST: largest opening, |w| and |v| together [m]; SPENT: energy that its cohesion took so far but for what is HELD, which comes
  * back [J]; BOOKED: what of SPENT the last step added [J]; COSINE of normal and principal axis at the onset [-]; EXPONENTIAL: 1, else linear; TILT:
- * what the direction of the opening leaves of ENERGY [-].
+ * what the direction of the opening leaves of ENERGY [-]; AXIS: of the crack, in the undeformed body; SIDE: v, by how much this side of the face opens more than w and the other less, the same seen
+ * from both [m]; SIDE_SHIFT: what the last step added to it [m]; SIDE_PULL: by how much this side pulled more than the other at the last evaluation [N]; TURNS: before the onset, 1 of a face whose edge opens.
  * Entries: open: 0 whole, SOFT_OPENS from the onset on, SOFT_APART from the end of the cohesion on; lead: 1 on the side with the lower id, which computes for both. Elements [n]: n_open: open faces that hold;
  * reach: sum of |A^-1 s| over them [1/m]. */
 
@@ -25,7 +26,11 @@
 #define SOFT_EXPONENTIAL 17
 #define SOFT_TILT 18
 #define SOFT_AXIS 19
-#define SOFT_WIDTH 22
+#define SOFT_SIDE 22
+#define SOFT_SIDE_SHIFT 25
+#define SOFT_SIDE_PULL 28
+#define SOFT_TURNS 31
+#define SOFT_WIDTH 32
 #define SOFT_OPENS 1 /* open: against its cohesion */
 #define SOFT_APART 2 /* open: its cohesion ended; it still shuts */
 #define SOFT_WISH 100 /* in mark: the bond is to open */
@@ -69,8 +74,10 @@ LAW soft_vector soft_jump(GLOBAL const state *restrict displacement, int i, int 
 }
 #if BRC_MANY_MATERIALS
 #define SOFT_BOND_MODULUS(e, j) (modulus[e] < modulus[j] ? modulus[e] : modulus[j])
+#define SOFT_ELL(e) ell_of[e]
 #else
 #define SOFT_BOND_MODULUS(e, j) k_one
+#define SOFT_ELL(e) ell_one
 #endif
 
 /* Takes the openings out of H. listed: only of the n elements of the list. */
@@ -83,7 +90,8 @@ KERNEL void soft_gradient(int n, int listed, GLOBAL const int *restrict list, GL
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = SOFT_ENTRY;
             if (!open[entry] || !(alive[entry] > 0)) continue;
-            const soft_vector w = soft_part(crack, entry, SOFT_OPENING), a = soft_pull_of(inv_shape, e, soft_area(area, entry));
+            const soft_vector w = soft_add(soft_part(crack, entry, SOFT_OPENING), REAL(1), soft_part(crack, entry, SOFT_SIDE));
+            const soft_vector a = soft_pull_of(inv_shape, e, soft_area(area, entry));
             GLOBAL coeff *h = gradient + (brc_size)e * 9;
             h[0] -= w.x * a.x, h[1] -= w.x * a.y, h[2] -= w.x * a.z;
             h[3] -= w.y * a.x, h[4] -= w.y * a.y, h[5] -= w.y * a.z;
@@ -92,11 +100,11 @@ KERNEL void soft_gradient(int n, int listed, GLOBAL const int *restrict list, GL
     }
 }
 
-/* Several materials: takes them out of B, whose sum of r (x) s reads J there (with one material it reads gradients alone). */
+/* Takes them out of B, whose sum of r (x) s is that of J - w. With several materials it reads J. With one it reads gradients alone, which are those of J - w - v: v comes back in. */
 KERNEL void soft_flux(int n, int listed, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                       GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open, GLOBAL const int *restrict open,
                       GLOBAL const coeff *restrict crack, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict inv_shape,
-                      GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict modulus,
+                      GLOBAL const coeff *restrict gradient, coeff k_one, coeff ell_one, GLOBAL const coeff *restrict modulus,
                       GLOBAL const coeff *restrict ell_of, coeff beta, coeff one_plus_tau, GLOBAL coeff *restrict flux)
 {
     FOR_EACH_ITEM(item, n) {
@@ -106,9 +114,12 @@ KERNEL void soft_flux(int n, int listed, GLOBAL const int *restrict list, GLOBAL
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
                 const brc_size entry = SOFT_ENTRY;
                 if (!open[entry] || !(alive[entry] > 0)) continue;
-                const int j = neighbour[entry];
-                const coeff k = modulus[e] < modulus[j] ? modulus[e] : modulus[j];
-                const soft_vector w = soft_scale(k, soft_part(crack, entry, SOFT_OPENING)), s = soft_area(area, entry);
+#if BRC_MANY_MATERIALS
+                const soft_vector w = soft_scale(SOFT_BOND_MODULUS(e, neighbour[entry]), soft_part(crack, entry, SOFT_OPENING));
+#else
+                const soft_vector w = soft_scale(-k_one, soft_part(crack, entry, SOFT_SIDE));
+#endif
+                const soft_vector s = soft_area(area, entry);
                 rs = lane_add_outer(rs, (lane_vec3){LANE_ZERO + w.x, LANE_ZERO + w.y, LANE_ZERO + w.z},
                                     (lane_vec3){LANE_ZERO + s.x, LANE_ZERO + s.y, LANE_ZERO + s.z});
             }
@@ -116,7 +127,7 @@ KERNEL void soft_flux(int n, int listed, GLOBAL const int *restrict list, GLOBAL
             const lane_sym3 inverse = {LANE_ZERO + p[0], LANE_ZERO + p[C], LANE_ZERO + p[2 * C], LANE_ZERO + p[3 * C], LANE_ZERO + p[4 * C], LANE_ZERO + p[5 * C]};
             const lane_mat3 own = {LANE_ZERO + h[0], LANE_ZERO + h[1], LANE_ZERO + h[2], LANE_ZERO + h[3], LANE_ZERO + h[4],
                                    LANE_ZERO + h[5], LANE_ZERO + h[6], LANE_ZERO + h[7], LANE_ZERO + h[8]};
-            const lane half_tau = LANE_ZERO + REAL(0.5) * one_plus_tau, half_beta = LANE_ZERO + REAL(0.5) * beta, ell = LANE_ZERO + ell_of[e];
+            const lane half_tau = LANE_ZERO + REAL(0.5) * one_plus_tau, half_beta = LANE_ZERO + REAL(0.5) * beta, ell = LANE_ZERO + SOFT_ELL(e);
             const lane_mat3 q = lane_mat3_sub(lane_mat3_scale(half_tau, rs), dlsm_compaction_adjoint(own, lane_mat3_scale(half_beta, rs), ell, 1));
             const lane_mat3 b = lane_mat3_mul_sym(q, inverse);
             GLOBAL coeff *to = flux + (brc_size)e * 9;
@@ -156,6 +167,30 @@ LAW soft_vector soft_bond_force(GLOBAL const coeff *restrict flux, GLOBAL const 
     f = soft_add(f, spring, soft_add(soft_times(bond_part, e, s), REAL(1), soft_times(bond_part, j, s)));
 #endif
     return soft_add(f, spring / ratio, elastic_jump);
+}
+
+/* How unevenly the two sides of a face pull [N]: what the opening of either side alone does work against; the same seen from both. With one material the flux holds the bond's own part too, which
+ * depends on what both sides open. */
+LAW soft_vector soft_uneven(GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict gradient, int e, int j, soft_vector s, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau)
+{
+    soft_vector d = soft_add(soft_times(flux, e, s), REAL(-1), soft_times(flux, j, s));
+#if BRC_MANY_MATERIALS
+    (void)gradient, (void)k_one, (void)ell_one, (void)beta, (void)one_plus_tau;
+#else
+    const lane_vec3 face = {LANE_ZERO + s.x, LANE_ZERO + s.y, LANE_ZERO + s.z};
+    const lane ell = LANE_ZERO + ell_one;
+    for (int side = 0; side < 2; ++side) {
+        GLOBAL const coeff *p = gradient + (brc_size)(side ? j : e) * 9;
+        const lane_mat3 h = {LANE_ZERO + p[0], LANE_ZERO + p[1], LANE_ZERO + p[2], LANE_ZERO + p[3], LANE_ZERO + p[4],
+                             LANE_ZERO + p[5], LANE_ZERO + p[6], LANE_ZERO + p[7], LANE_ZERO + p[8]};
+        const lane_vec3 along = lane_mat3_mul_vec(h, face), compact = dlsm_compaction_along(h, along, face, ell, 1);
+        const coeff half_k = side ? REAL(0.5) * k_one : REAL(-0.5) * k_one;
+        const soft_vector m = {LANE_ITEM(compact.x, 0), LANE_ITEM(compact.y, 0), LANE_ITEM(compact.z, 0)};
+        const soft_vector g = {LANE_ITEM(along.x, 0), LANE_ITEM(along.y, 0), LANE_ITEM(along.z, 0)};
+        d = soft_add(d, half_k, soft_add(soft_scale(beta, m), -one_plus_tau, g));
+    }
+#endif
+    return d;
 }
 
 /* Mean of the two cells' stress in the present frame, sym(P F_H^T) [Pa]. */
@@ -199,6 +234,15 @@ LAW failure_stress soft_stress(failure_stress mean, soft_vector traction, soft_v
                             mean.yz + m.y * n.z + m.z * n.y, mean.xz + m.x * n.z + m.z * n.x, mean.xy + m.x * n.y + m.y * n.x};
 }
 
+/* Stress at the edge of a face that turns about the other edge [Pa], its traction even: of the moment that the uneven pulls of the two cells make over the length of the bond, and of the force across it; a push on
+ * the solid there holds it. Nothing in the middle of a face shows that a crack, which has come to one side of it, bends it. least: smallest principal stress [Pa]; n: unit normal. */
+LAW coeff soft_edge(coeff least, soft_vector uneven, soft_vector force, soft_vector n, soft_vector s, coeff ratio)
+{
+    const coeff area = SQRT(soft_dot(s, s)), across = soft_dot(force, n) / area;
+    const soft_vector along = soft_add(uneven, -soft_dot(uneven, n), n);
+    return SQRT(soft_dot(along, along)) * ratio / SQRT(area) + SOFT_EDGE_HELD * (least < 0 ? least : REAL(0)) + (across > 0 ? across : REAL(0));
+}
+
 /* Before the sweeps of a step: faces that nothing holds go on opening as in the last step, so that what the sweeps leave of the balance is no drag on sides that fly apart. */
 KERNEL void soft_coast(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive,
                        GLOBAL const int *restrict n_open, GLOBAL const int *restrict open, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict gradient,
@@ -208,7 +252,8 @@ KERNEL void soft_coast(int n, GLOBAL const int *restrict row_start, GLOBAL const
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = SOFT_ENTRY, other = (brc_size)twin[entry];
             if (!open[entry] || !lead[entry] || !(alive[entry] > 0)) continue;
-            soft_vector shift = {0, 0, 0};
+            const soft_vector none = {0, 0, 0};
+            soft_vector shift = none;
             if (open[entry] == SOFT_APART) {
                 const soft_vector axis = soft_unit(soft_turned(gradient, e, neighbour[entry], soft_part(crack, entry, SOFT_AXIS)));
                 const soft_vector before = soft_part(crack, entry, SOFT_OPENING), last = soft_part(crack, entry, SOFT_SHIFT), now = soft_add(before, REAL(1), last);
@@ -218,6 +263,7 @@ KERNEL void soft_coast(int n, GLOBAL const int *restrict row_start, GLOBAL const
                 }
             }
             soft_put(crack, entry, SOFT_SHIFT, shift), soft_put(crack, other, SOFT_SHIFT, soft_scale(REAL(-1), shift));
+            soft_put(crack, entry, SOFT_SIDE_SHIFT, none), soft_put(crack, other, SOFT_SIDE_SHIFT, none);
         }
     }
 }
@@ -231,7 +277,7 @@ KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff f
                       GLOBAL const int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const coeff *restrict inv_shape,
                       GLOBAL const coeff *restrict inv_volume, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict shear,
-                      GLOBAL const coeff *restrict reach, coeff k_one, coeff beta, coeff one_plus_tau,
+                      GLOBAL const coeff *restrict reach, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
                       GLOBAL const coeff *restrict modulus, GLOBAL const state *restrict displacement,
                       GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part)
 {
@@ -248,9 +294,10 @@ KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff f
                                                      soft_add(soft_jump(displacement, e, j), REAL(-1), before));
             const coeff share = REAL(0.5) * ratio[entry] * soft_dot(s, soft_add(own, REAL(1), theirs));
             const coeff bond = stiffen * soft_bond_stiffness(bond_modulus, ratio[entry], share, beta, one_plus_tau);
-            soft_tensor stiffness = {bond, bond, bond, 0, 0, 0};
-            stiffness = soft_add_cell(stiffness, own, reach[e], stiffen / inv_volume[e], plane[e], shear[e]);
-            stiffness = soft_add_cell(stiffness, theirs, reach[j], stiffen / inv_volume[j], plane[j], shear[j]);
+            const soft_tensor nothing = {0, 0, 0, 0, 0, 0}, spring = {bond, bond, bond, 0, 0, 0};
+            const soft_tensor here = soft_add_cell(nothing, own, reach[e], stiffen / inv_volume[e], plane[e], shear[e]);
+            const soft_tensor there = soft_add_cell(nothing, theirs, reach[j], stiffen / inv_volume[j], plane[j], shear[j]);
+            const soft_tensor sides = soft_tensor_add(here, REAL(1), there), stiffness = soft_tensor_add(sides, REAL(1), spring);
             const soft_vector normal = soft_turned(gradient, e, j, s), axis = soft_unit(soft_turned(gradient, e, j, soft_part(crack, entry, SOFT_AXIS)));
             const coeff keeps = soft_keeps(SOFT_NUMBER(entry, WIDEST), release * ratio[entry] * SQRT(soft_dot(s, s)));
             const soft_vector carried = soft_scale(keeps, soft_carried(soft_mean_stress(gradient, stress, e, j), axis, normal));
@@ -258,13 +305,24 @@ KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff f
             const coeff wide = SOFT_NUMBER(entry, WIDEST), was = SQRT(soft_dot(before, before)), at = was > wide ? was : wide;
             const soft_vector found = soft_balance(face, wide, drive, stiffness, at > 0 ? soft_force(face, at) / at : 0, axis, before, friction, carried, retention * soft_keeps(wide, REAL(2) * soft_end(face)) * SQRT(soft_dot(carried, carried)));
             const soft_vector now = soft_outside(found, normal);
-            const coeff w = SQRT(soft_dot(now, now));
+            const coeff w = SQRT(soft_dot(now, now)), push = -soft_dot(pull, axis), least = w > wide ? w : wide;
+            const coeff even = SOFT_UNEVEN_HELD * (SQRT(soft_dot(carried, carried)) + (push > 0 ? push : 0));
+            const soft_vector side_before = soft_part(crack, entry, SOFT_SIDE);
+            const soft_vector uneven = soft_add(soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau), REAL(-1),
+                                                soft_tensor_times(soft_tensor_add(here, REAL(-1), there), soft_add(now, REAL(-1), before)));
+            const int rests = open[entry] == SOFT_APART && soft_dot(side_before, side_before) < SOFT_UNEVEN_RESTS * w * w;
+            const soft_vector none = {0, 0, 0}, turn = rests ? none : soft_side(face, least, uneven, stiffness, side_before, even, normal);
+            const soft_vector side = soft_add(side_before, REAL(1), turn), turned = soft_add(soft_part(crack, entry, SOFT_SIDE_SHIFT), REAL(1), turn);
+            const coeff edge = soft_dot(side, side), both = SQRT(w * w + edge);
+            soft_put(crack, entry, SOFT_SIDE, side), soft_put(crack, other, SOFT_SIDE, side);
+            soft_put(crack, entry, SOFT_SIDE_SHIFT, turned), soft_put(crack, other, SOFT_SIDE_SHIFT, turned);
             const soft_vector added = soft_add(soft_part(crack, entry, SOFT_SHIFT), REAL(1), soft_add(now, REAL(-1), before));
             soft_put(crack, entry, SOFT_OPENING, now), soft_put(crack, other, SOFT_OPENING, soft_scale(REAL(-1), now));
             soft_put(crack, entry, SOFT_SHIFT, added), soft_put(crack, other, SOFT_SHIFT, soft_scale(REAL(-1), added));
-            if (is_last && w > wide) {
-                const coeff tilt = soft_tilt(SOFT_NUMBER(entry, COSINE), soft_dot(now, normal) / (w * SQRT(soft_dot(normal, normal))), steepest);
-                SOFT_NUMBER(entry, WIDEST) = w, SOFT_NUMBER(other, WIDEST) = w;
+            if (is_last && both > wide) {
+                const coeff across = soft_dot(now, normal) / SQRT(soft_dot(normal, normal));
+                const coeff tilt = soft_tilt(SOFT_NUMBER(entry, COSINE), (across < 0 ? SQRT(edge) : SQRT(across * across + edge)) / both, steepest);
+                SOFT_NUMBER(entry, WIDEST) = both, SOFT_NUMBER(other, WIDEST) = both;
                 SOFT_NUMBER(entry, TILT) = tilt, SOFT_NUMBER(other, TILT) = tilt;
             }
         }
@@ -277,7 +335,7 @@ KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff f
 KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                          GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
                          GLOBAL int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
-                         GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, coeff k_one,
+                         GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, coeff k_one, coeff ell_one, coeff beta,
                          coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const state *restrict displacement,
                          GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark,
                          GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
@@ -292,10 +350,13 @@ KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restr
             const soft_face face = {SOFT_NUMBER(entry, START), SOFT_NUMBER(entry, ENERGY) * SOFT_NUMBER(entry, TILT), SOFT_NUMBER(entry, EXPONENTIAL) > 0};
             const soft_vector w = soft_part(crack, entry, SOFT_OPENING), jump = soft_jump(displacement, e, j);
             const soft_vector force = soft_bond_force(flux, bond_part, e, j, soft_area(area, entry), spring, ratio[entry], soft_add(jump, REAL(-1), w));
+            const soft_vector uneven = soft_uneven(flux, gradient, e, j, soft_area(area, entry), k_one, ell_one, beta, one_plus_tau);
             coeff given = 0, holds = SOFT_NUMBER(entry, HELD);
             if (book) {
-                const coeff work = REAL(0.5) * soft_dot(soft_add(force, REAL(1), soft_part(crack, entry, SOFT_PULL)), soft_part(crack, entry, SOFT_SHIFT));
-                holds = soft_held(face, SOFT_NUMBER(entry, WIDEST), SQRT(soft_dot(w, w)));
+                const coeff work = REAL(0.5) * (soft_dot(soft_add(force, REAL(1), soft_part(crack, entry, SOFT_PULL)), soft_part(crack, entry, SOFT_SHIFT)) +
+                                                soft_dot(soft_add(uneven, REAL(1), soft_part(crack, entry, SOFT_SIDE_PULL)), soft_part(crack, entry, SOFT_SIDE_SHIFT)));
+                const soft_vector side = soft_part(crack, entry, SOFT_SIDE);
+                holds = soft_held(face, SOFT_NUMBER(entry, WIDEST), SQRT(soft_dot(w, w) + soft_dot(side, side)));
                 given = work - (holds - SOFT_NUMBER(entry, HELD));
                 if (open[entry] != SOFT_APART) SOFT_NUMBER(entry, SPENT) += given, SOFT_NUMBER(other, SPENT) += given;
                 SOFT_NUMBER(entry, HELD) = holds, SOFT_NUMBER(other, HELD) = holds;
@@ -318,6 +379,7 @@ KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restr
             }
             SOFT_NUMBER(entry, BOOKED) = given, SOFT_NUMBER(other, BOOKED) = given;
             soft_put(crack, entry, SOFT_PULL, force), soft_put(crack, other, SOFT_PULL, soft_scale(REAL(-1), force));
+            soft_put(crack, entry, SOFT_SIDE_PULL, uneven), soft_put(crack, other, SOFT_SIDE_PULL, uneven);
         }
         found[e] = (state)count;
     }
@@ -350,7 +412,7 @@ KERNEL void soft_book(int n, int step, GLOBAL const int *restrict row_start, GLO
  * the largest principal value is not above the Frobenius norm. found [n]. */
 KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, GLOBAL const int *restrict row_start,
                        GLOBAL const int *restrict neighbour, GLOBAL const int *restrict n_open, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
+                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
                        GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
                        GLOBAL const coeff *restrict least, GLOBAL const coeff *restrict limit, GLOBAL int *restrict mark,
@@ -371,15 +433,20 @@ KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, GLOBAL 
             const soft_vector force = soft_bond_force(flux, bond_part, e, j, s, SOFT_BOND_MODULUS(e, j) * one_plus_tau, ratio[entry], soft_jump(displacement, e, j));
             const soft_vector normal = soft_unit(soft_turned(gradient, e, j, s));
             const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
-            const failure_principal largest = failure_principal_of(soft_stress(soft_mean_stress(gradient, stress, e, j), traction, normal));
-            if (!(largest.first > share * limit[entry])) continue;
+            const failure_stress mean = soft_mean_stress(gradient, stress, e, j);
+            const failure_principal largest = failure_principal_of(soft_stress(mean, traction, normal));
             const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
             const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
-            if (size < steepest) continue;
+            const coeff edge = n_open[e] && n_open[j] ? soft_edge(largest.third, soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau), force, normal, s, ratio[entry]) : REAL(0);
+            const int bends = edge > largest.first;
+            const coeff worst = bends ? edge : largest.first;
+            if (!(worst > share * limit[entry]) || (!bends && size < steepest)) continue;
+            const int turned = size < steepest || largest.first < REAL(0.5) * worst;
             mark[entry] = SOFT_WISH;
-            measure[entry] = largest.first;
-            SOFT_NUMBER(entry, COSINE) = size;
-            soft_put(crack, entry, SOFT_AXIS, soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
+            measure[entry] = worst;
+            SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
+            SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : size;
+            soft_put(crack, entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
             count += 1;
         }
         found[e] = (state)count;
@@ -389,7 +456,7 @@ KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, GLOBAL 
 /* Wishes of either side come true: the bond opens at the force it carries; without a fracture energy it is marked to break. */
 KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                        GLOBAL const int *restrict twin, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
+                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
                        GLOBAL const coeff *restrict bond_part, GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
                        GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
@@ -419,7 +486,9 @@ KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const
             const soft_vector now = soft_scale(from == entry ? REAL(1) : REAL(-1), soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
             const soft_vector released = soft_add(force, REAL(-1), soft_carried(soft_mean_stress(gradient, stress, e, j), now, soft_turned(gradient, e, j, soft_area(area, entry))));
             const soft_vector axis = soft_unit(soft_turned_back(gradient, e, j, now));
-            const coeff size = SQRT(soft_dot(released, released));
+            const soft_vector uneven = soft_uneven(flux, gradient, e, j, soft_area(area, entry), k_one, ell_one, beta, one_plus_tau);
+            const coeff across = soft_dot(released, now), pulled = across > 0 ? across : 0;
+            const coeff size = SQRT(SOFT_NUMBER(from, TURNS) > 0 ? pulled * pulled + soft_dot(uneven, uneven) : soft_dot(released, released));
             open[entry] = SOFT_OPENS, open[other] = SOFT_OPENS;
             soft_put(crack, entry, SOFT_AXIS, axis), soft_put(crack, other, SOFT_AXIS, soft_scale(REAL(-1), axis));
             SOFT_NUMBER(entry, START) = size, SOFT_NUMBER(other, START) = size;
@@ -428,6 +497,7 @@ KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const
             SOFT_NUMBER(entry, TILT) = 1, SOFT_NUMBER(other, TILT) = 1;
             SOFT_NUMBER(entry, ONSET) = onset, SOFT_NUMBER(other, ONSET) = onset;
             soft_put(crack, entry, SOFT_PULL, force), soft_put(crack, other, SOFT_PULL, soft_scale(REAL(-1), force));
+            soft_put(crack, entry, SOFT_SIDE_PULL, uneven), soft_put(crack, other, SOFT_SIDE_PULL, uneven);
         }
         found[e] = (state)breaks;
     }

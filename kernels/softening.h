@@ -125,13 +125,27 @@ LAW soft_vector soft_tensor_times(soft_tensor k, soft_vector a)
 {
     return (soft_vector){k.xx * a.x + k.xy * a.y + k.xz * a.z, k.xy * a.x + k.yy * a.y + k.yz * a.z, k.xz * a.x + k.yz * a.y + k.zz * a.z};
 }
-/* Solves (k + more I) x = a up to a factor above 0: the direction of x. k + more I is positive definite. */
+LAW soft_tensor soft_tensor_add(soft_tensor a, coeff k, soft_tensor b)
+{
+    return (soft_tensor){a.xx + k * b.xx, a.yy + k * b.yy, a.zz + k * b.zz, a.yz + k * b.yz, a.xz + k * b.xz, a.xy + k * b.xy};
+}
+/* a / |a|, 0 of 0. */
+LAW soft_vector soft_direction(soft_vector a)
+{
+    const coeff most = SOFT_ABS(a.x) + SOFT_ABS(a.y) + SOFT_ABS(a.z);
+    if (!(most > 0)) return (soft_vector){0, 0, 0};
+    const soft_vector b = {a.x / most, a.y / most, a.z / most}; /* squares of forces may not fit single precision */
+    return soft_scale(REAL(1) / SQRT(soft_dot(b, b)), b);
+}
+/* The direction of x in (k + more I) x = a, a unit vector; 0 of 0. k + more I is positive definite. */
 LAW soft_vector soft_tensor_way(soft_tensor k, coeff more, soft_vector a)
 {
-    const coeff xx = k.xx + more, yy = k.yy + more, zz = k.zz + more;
-    const soft_tensor adjugate = {yy * zz - k.yz * k.yz, xx * zz - k.xz * k.xz, xx * yy - k.xy * k.xy,
-                                  k.xy * k.xz - k.yz * xx, k.xy * k.yz - k.xz * yy, k.yz * k.xz - k.xy * zz};
-    return soft_tensor_times(adjugate, a);
+    const coeff part = REAL(1) / (k.xx + k.yy + k.zz + REAL(3) * more), extra = part * more;
+    const coeff xx = part * k.xx + extra, yy = part * k.yy + extra, zz = part * k.zz + extra;
+    const coeff yz = part * k.yz, xz = part * k.xz, xy = part * k.xy;
+    const soft_tensor adjugate = {yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy,
+                                  xy * xz - yz * xx, xy * yz - xz * yy, yz * xz - xy * zz};
+    return soft_direction(soft_tensor_times(adjugate, soft_direction(a)));
 }
 
 /* Centroids of faces lie beside their branches (by a third of the size of a cell in noisy grids), so an opening along its face strains the cells next to it
@@ -163,14 +177,11 @@ LAW coeff soft_bond_stiffness(coeff k, coeff ratio, coeff share, coeff beta, coe
 LAW soft_vector soft_free_balance(soft_face f, coeff widest, soft_vector drive, soft_tensor k, coeff pulled, soft_vector axis)
 {
     const soft_vector none = {0, 0, 0};
-    soft_vector way = pulled > 0 ? soft_tensor_way(k, pulled, drive) : drive;
+    soft_vector way = pulled > 0 ? soft_tensor_way(k, pulled, drive) : soft_direction(drive);
     coeff w = 0;
     for (int turn = 0; turn < 3; ++turn) {
         const coeff across = soft_dot(way, axis);
-        if (across < 0) way = soft_add(way, -across, axis);
-        const coeff size = SQRT(soft_dot(way, way));
-        if (!(size > 0)) return none;
-        way = soft_scale(REAL(1) / size, way);
+        if (across < 0) way = soft_direction(soft_add(way, -across, axis));
         const coeff along = soft_dot(way, drive);
         if (!(along > 0)) return none;
         w = soft_opening(f, widest, along, soft_dot(way, soft_tensor_times(k, way)));
@@ -201,6 +212,29 @@ LAW soft_vector soft_balance(soft_face f, coeff widest, soft_vector drive, soft_
     const coeff excess = SQRT(soft_dot(beyond, beyond));
     if (!(excess > hold)) return stuck;
     return soft_free_balance(f, widest, soft_add(soft_add(drive, -share, carried), -hold / excess, beyond), k, pulled, axis);
+}
+
+/* Pushes on a face and along it times this hold its two sides against pulling unevenly: beside lines of contact the stress changes by several times itself from cell to cell, which turns nothing
+ * (discs between platens crumbled at 1, quick cracks rubbed off a quarter of the elastic energy at 3; docs/notebook/fracture.md). Of a face that is still whole, SOFT_EDGE_HELD. */
+#define SOFT_UNEVEN_HELD REAL(10)
+#define SOFT_EDGE_HELD REAL(3)
+/* Sides of a broken face that did not turn, |v|^2 below this times |w|^2, no longer do: they fly apart. */
+#define SOFT_UNEVEN_RESTS REAL(0.005)
+
+/* a without its part along n, a vector of any length. */
+LAW soft_vector soft_beside(soft_vector a, soft_vector n) { return soft_add(a, -soft_dot(a, n) / soft_dot(n, n), n); }
+
+/* What the openings of the two sides change against each other [m], along the face: uneven: by how much more one side pulls than the other, were they to stay [N]; sides: stiffness of both; before: what they
+ * are against each other now; widest: opening of the face; even: what of the unevenness friction bears [N]. The cohesion draws this back as it draws back the opening. A face that only turns opens by this alone. */
+LAW soft_vector soft_side(soft_face f, coeff widest, soft_vector uneven, soft_tensor sides, soft_vector before, coeff even, soft_vector normal)
+{
+    const coeff drawn = widest > 0 ? soft_force(f, widest) / widest : 0;
+    const soft_vector drive = soft_beside(soft_add(uneven, -drawn, before), normal);
+    const coeff size = SQRT(soft_dot(drive, drive));
+    if (!(size > even)) return (soft_vector){0, 0, 0};
+    const soft_vector way = soft_direction(widest > 0 ? soft_beside(soft_tensor_way(sides, drawn, drive), normal) : drive);
+    const coeff along = (REAL(1) - even / size) * soft_dot(way, drive), stiff = soft_dot(way, soft_tensor_times(sides, way));
+    return soft_scale(widest > 0 ? along / (stiff + drawn) : soft_opening(f, widest, along, stiff), way);
 }
 
 #endif

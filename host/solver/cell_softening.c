@@ -22,7 +22,7 @@ static const double retention = 0.3;
 static const double least_cells = 4;
 
 /* Components of `crack` (kernels/softening.cl). */
-enum { START = 9, ENERGY = 10, SPENT = 13, COSINE = 16, EXPONENTIAL = 17, TILT = 18, WIDTH = 22 };
+enum { START = 9, ENERGY = 10, SPENT = 13, COSINE = 16, EXPONENTIAL = 17, TILT = 18, WIDTH = 32 };
 enum { APART = 2 }; /* SOFT_APART, of `open` */
 
 struct brc_softening_faces {
@@ -161,6 +161,7 @@ void brc_softening_free(brc_simulation *s)
 /* ---- an evaluation ---- */
 
 static double one_modulus(const brc_simulation *s) { return s->elastic[s->material_of_element[0]].k; }
+static double one_ell(const brc_simulation *s) { return s->elastic[s->material_of_element[0]].ell; }
 static double one_plus_tau(const brc_simulation *s) { return 1 + s->scene->model.tau; }
 static double beta(const brc_simulation *s) { return s->scene->model.compaction ? s->scene->model.beta : 0; }
 
@@ -179,9 +180,9 @@ brc_status brc_softening_flux(brc_simulation *s, const brc_ring_list *list, int 
     softening_faces *f = faces_of(s);
     const bool whole = brc_pass_is_whole(s, list, ring);
     const int32_t n = whole ? s->layout->n_rows : list->n[ring];
-    if (!f || !f->any || !brc_device_has_many_materials(s->device)) return BRC_OK;
+    if (!f || !f->any) return BRC_OK;
     return BRC_LAUNCH(f->flux, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->upto[ring]), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
-                      BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient), BRC_BUF(s->modulus),
+                      BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_BUF(s->modulus),
                       BRC_BUF(s->ell_of), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->flux));
 }
 
@@ -202,7 +203,7 @@ brc_status brc_softening_energy(brc_simulation *s)
     if (!f || !f->any) return BRC_OK;
     return BRC_LAUNCH(f->energy, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
                       BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient),
-                      BRC_COEFF(one_modulus(s)), BRC_COEFF(s->elastic[s->material_of_element[0]].ell), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)),
+                      BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)),
                       BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_BUF(s->stabilisation_energy));
 }
 
@@ -218,7 +219,7 @@ static brc_status sweep(brc_simulation *s, int k)
     return BRC_LAUNCH(f->move, n, BRC_INT(n), BRC_INT(k == N_SWEEPS - 1), BRC_COEFF(stiffen), BRC_COEFF(steepest), BRC_COEFF(friction_of(s)), BRC_COEFF(retention), BRC_COEFF(release_of(s)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                       BRC_BUF(s->fracture->cells->twin), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area),
                       BRC_BUF(s->ratio), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume), BRC_BUF(s->fracture->cells->modulus), BRC_BUF(f->shear),
-                      BRC_BUF(f->reach), BRC_COEFF(one_modulus(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
+                      BRC_BUF(f->reach), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->flux), BRC_BUF(s->bond_part));
 }
 
@@ -261,8 +262,8 @@ static brc_status measure(brc_simulation *s, int book)
     const int32_t n = s->layout->n_rows;
     return BRC_LAUNCH(f->measure, n, BRC_INT(n), BRC_INT(book), BRC_COEFF(release_of(s)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(c->alive),
                       BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->ratio),
-                      BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->flux),
-                      BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found));
+                      BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement), BRC_BUF(s->gradient),
+                      BRC_BUF(s->stress), BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found));
 }
 
 brc_status brc_softening_recount(brc_simulation *s)
@@ -293,14 +294,14 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
                            BRC_BUF(s->fracture->lost), BRC_BUF(f->rubbed), BRC_BUF(s->fracture->broken)));
     }
     BRC_TRY(BRC_LAUNCH(f->check, n, BRC_INT(n), BRC_COEFF(share), BRC_COEFF(steepest), BRC_COEFF(screen), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(f->n_open), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
+                       BRC_BUF(f->n_open), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
                        BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_BUF(c->least),
                        BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(f->crack), BRC_BUF(c->found)));
     BRC_TRY(brc_vector_sum(s, c->found, n, &wished));
     if (wished > 0) {
         f->any = true;
         BRC_TRY(BRC_LAUNCH(f->begin, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(f->lead), BRC_BUF(s->area),
-                           BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement),
+                           BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement),
                            BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(f->crack), BRC_BUF(c->limit),
                            BRC_BUF(f->open), BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
         BRC_TRY(brc_vector_sum(s, c->found, n, &brittle));

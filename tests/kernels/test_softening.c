@@ -164,6 +164,38 @@ static void a_crack_carries_the_pushes_along_it(void **state)
     }
 }
 
+/* Along the face alone; within what is held not at all; beyond it without giving energy; and, between cells that are as stiff in every direction, to the balance of what is left and the cohesion, to rounding. */
+static void sides_turn_until_they_pull_evenly(void **state)
+{
+    (void)state;
+    const soft_vector normal = {0, 0.3, 0.4}, uneven = {2, -1, 0.5}, before = {0.02, 0, 0}, none = {0, 0, 0};
+    const soft_vector along = soft_beside(uneven, normal);
+    const double size = sqrt(soft_dot(along, along));
+    const soft_tensor cells = {40, 55, 70, 3, -5, 8}, alike = {50, 50, 50, 0, 0, 0};
+    for (int k = 0; k < 2; ++k) {
+        for (double widest = 0; widest < 0.3; widest += 0.07)
+            for (double held = 0; held < 1.2 * size; held += 0.1 * size) {
+                const soft_vector turn = soft_side(faces[k], widest, uneven, cells, none, held, normal);
+                assert_true(fabs(soft_dot(turn, normal)) < 1e-14);
+                assert_true(soft_dot(turn, along) >= 0);
+                if (held > size) assert_true(soft_dot(turn, turn) == 0);
+            }
+        const double drawn = soft_force(faces[k], 0.1) / 0.1;
+        const soft_vector turn = soft_side(faces[k], 0.1, uneven, alike, before, 0, normal);
+        const soft_vector left = soft_add(soft_add(along, -50, turn), -drawn, soft_add(before, 1, turn));
+        assert_true(soft_dot(left, left) < 1e-20);
+        /* a face that has hardly opened stays, whatever the products of its secant would be */
+        const soft_vector begins = soft_side(faces[k], 1e-300, uneven, alike, none, 0, normal);
+        assert_true(soft_dot(begins, begins) == 0);
+        /* a face that is shut opens at its edge once the unevenness is above what the cohesion starts with */
+        const soft_vector weak = soft_scale(0.99 * 3 / size, along), strong = soft_scale(1.5 * 3 / size, along);
+        const soft_vector shut = soft_side(faces[k], 0, weak, alike, none, 0, normal), opens = soft_side(faces[k], 0, strong, alike, none, 0, normal);
+        const double v = sqrt(soft_dot(opens, opens));
+        assert_true(soft_dot(shut, shut) == 0);
+        assert_true(v > 0 && fabs(50 * v + soft_force(faces[k], v) - 4.5) < 1e-9);
+    }
+}
+
 /* A face that is pressed shut along its axis sticks below mu times the push and slides above it until its shear is mu times the push. */
 static void shut_faces_slide_by_coulomb(void **state)
 {
@@ -209,6 +241,7 @@ int main(void)
         cmocka_unit_test(unloading_gives_back_the_secant_energy),        cmocka_unit_test(energy_follows_the_direction_of_the_opening),
         cmocka_unit_test(stiffness_of_a_cell_is_from_above),             cmocka_unit_test(openings_balance_in_every_direction),
         cmocka_unit_test(a_crack_carries_the_pushes_along_it),           cmocka_unit_test(shut_faces_slide_by_coulomb),
+        cmocka_unit_test(sides_turn_until_they_pull_evenly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
