@@ -219,7 +219,7 @@ LAW soft_vector soft_balance(soft_face f, coeff widest, soft_vector drive, soft_
 #define SOFT_UNEVEN_HELD REAL(10)
 #define SOFT_EDGE_HELD REAL(3)
 /* Sides of a broken face that did not turn, |v|^2 below this times |w|^2, no longer do: they fly apart. */
-#define SOFT_UNEVEN_RESTS REAL(0.005)
+#define SOFT_UNEVEN_RESTS REAL(0.02)
 
 /* a without its part along n, a vector of any length. */
 LAW soft_vector soft_beside(soft_vector a, soft_vector n) { return soft_add(a, -soft_dot(a, n) / soft_dot(n, n), n); }
