@@ -99,7 +99,7 @@ with tempfile.TemporaryDirectory() as folder:
         sys.exit("install: cmake --install failed: " + installed.stderr)
     shutil.move(first, moved)
     for name in ("bin/breccia", "include/breccia.h", "lib/libbreccia.so.1", "share/breccia/examples", "share/breccia/scene.schema.json", "share/man/man1/breccia.1",
-                 "share/bash-completion/completions/breccia", "share/zsh/site-functions/_breccia", "share/doc/breccia/LICENSE", "share/doc/breccia/docs/reference/scene.md"):
+                 "share/bash-completion/completions/breccia", "share/zsh/site-functions/_breccia", "share/doc/breccia/LICENSE", "share/doc/breccia/docs/reference/scene/README.md"):
         if not os.path.exists(os.path.join(moved, name)):
             failures.append(f"{name} is not installed")
     with open(os.path.join(BUILD, "CMakeCache.txt"), encoding="utf-8") as file:

@@ -4,7 +4,7 @@
     results = breccia.Scene.load("scene.yaml").run("results", progress=True)
     results.histories().plot(x="time [s]")
 
-See docs/reference/python.md; the keys of a scene are in docs/reference/scene.md.
+See docs/reference/python.md; the keys of a scene are in docs/reference/scene/README.md.
 """
 from ._library import library as _functions, text as _text
 from .errors import BrecciaError, DeviceError, FileError, InputError, Interrupted, PhysicsStopped, Problem, SceneError
