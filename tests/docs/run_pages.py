@@ -22,33 +22,19 @@ FILE = re.compile(r"^(?:#|//|/\*) *([\w-]+\.\w+)(?: \*/)?\n")
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
-def alike(shown, printed):
-    """Does a printed line read like a shown one? Numbers to one in the last digit shown."""
-    if NUMBER.sub("0", shown) != NUMBER.sub("0", printed):
-        return False
-    for left, right in zip(NUMBER.findall(shown), NUMBER.findall(printed)):
-        digits, _, power = left.partition("e")
-        step = 10.0 ** (int(power or 0) - len(digits.partition(".")[2]))
-        if abs(float(left) - float(right)) > 1.5 * step and left != right:
-            return False
-    return True
+def near(shown, printed):
+    """Are two numbers equal, to one in the last digit shown?"""
+    digits, _, power = shown.partition("e")
+    step = 10.0 ** (int(power or 0) - len(digits.partition(".")[2]))
+    return shown == printed or abs(float(shown) - float(printed)) <= 1.5 * step
 
 
 def line_matches(shown, printed):
-    """The same with `...` for anything."""
-    pieces = [piece.split() for piece in shown.split("...")]
-    words = printed.split()
-    if len(pieces) == 1:
-        return alike(" ".join(pieces[0]), " ".join(words))
-    first, last = pieces[0], pieces[-1]
-    if not alike(" ".join(first), " ".join(words[:len(first)])) or (last and not alike(" ".join(last), " ".join(words[-len(last):]))):
-        return False
-    at = len(first)
-    for piece in pieces[1:-1]:
-        while at + len(piece) <= len(words) and not alike(" ".join(piece), " ".join(words[at:at + len(piece)])):
-            at += 1
-        at += len(piece)
-    return at + len(last) <= len(words)
+    """Does a printed line read like a shown one, where `...` stands for anything?"""
+    shown = " ".join(shown.split())
+    pattern = ".*?".join(f"({NUMBER.pattern})".join(re.escape(words) for words in NUMBER.split(piece)) for piece in shown.split("..."))
+    match = re.fullmatch(pattern, " ".join(printed.split()))
+    return bool(match) and all(near(*pair) for pair in zip(NUMBER.findall(shown.replace("...", " ")), match.groups()))
 
 
 def missing_line(shown, printed):
@@ -66,18 +52,21 @@ def missing_line(shown, printed):
 
 
 def commands_of(text):
-    """Commands of a block: lines, with those that a backslash or a here-document goes on in."""
-    commands, open_until = [], None
+    """Commands of a block: as many lines as a shell takes for one, with the lines of a here-document."""
+    commands, command, here = [], "", None
     for line in text.split("\n"):
-        if commands and (open_until or commands[-1].endswith("\\")):
-            commands[-1] += "\n" + line
-            if open_until and line == open_until:
-                open_until = None
-        elif line.strip() and not line.startswith("#"):
-            commands.append(line)
-            here = re.search(r"<<-?'?(\w+)'?", line)
-            open_until = here.group(1) if here else None
-    return commands
+        if not command and (not line.strip() or line.startswith("#")):
+            continue
+        command += ("\n" if command else "") + line
+        if here is None:
+            opened = re.search(r"<<-?'?(\w+)'?", line)
+            here = opened.group(1) if opened else None
+        elif line == here:
+            here = None
+        if here is None and not command.endswith("\\") and subprocess.run(["bash", "-n", "-c", command], capture_output=True).returncode == 0:
+            commands.append(command)
+            command = ""
+    return commands + ([command] if command else [])
 
 
 def run_page(text, environment, say):
@@ -121,7 +110,7 @@ def self_test():
     quiet = lambda sentence: None  # noqa: E731
     good = "```sh\necho E 72.04 GPa in 3.2 s\n```\n\n```text\nE 72.05 GPa in ...\n```\n"
     bad = ["```sh\nfalse\n```\n", good.replace("72.05", "72.07"), good.replace("in ...", "on ..."), "```sh\ntrue # exits 2\n```\n",
-           "```yaml\n# a.yaml\nb\n```\n\n```sh\ncat c.yaml\n```\n", "```sh\nprintf 'b\\na\\n'\n```\n\n```text\na\nb\n```\n"]
+           "```sh\nfor i in 1 2; do\n    false\ndone\n```\n", "```yaml\n# a.yaml\nb\n```\n\n```sh\ncat c.yaml\n```\n", "```sh\nprintf 'b\\na\\n'\n```\n\n```text\na\nb\n```\n"]
     assert not run_page(good, dict(os.environ), quiet), run_page(good, dict(os.environ), quiet)
     assert not run_page("```yaml\n# a.yaml\nb\n```\n\n```sh\ncat a.yaml\n```\n\n```text\nb\n```\n", dict(os.environ), quiet)
     for page in bad:
