@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define MANY_SECTIONS 512
-#define FEW_REPEATED 3 /* as many rows that an earlier section has already are named, not written again */
+#define FEW_REPEATED 2 /* as many keys that an earlier section has already are named, not written again */
 
 /* A page and the sections it begins with; with these come the sections they lead to that no other page begins with. */
 typedef struct page_plan {
@@ -198,31 +198,27 @@ static void write_kind(FILE *file, const reference *all, int page, const brc_ent
     if (entry->word) fprintf(file, " or `%s`", entry->word);
 }
 
-/* A row of a table; of a one-of, an item of a list. */
-static void write_row(FILE *file, const reference *all, int page, const brc_section *section, const brc_entry *entry)
+static void write_item(FILE *file, const reference *all, int page, const brc_section *section, const brc_entry *entry)
 {
-    const bool same_name = entry->section && strcmp(entry->key, entry->section->title) == 0;
-    if (section->one_of && same_name) {
+    if (section->one_of && entry->section && strcmp(entry->key, entry->section->title) == 0) {
         fputs("- ", file);
         write_link(file, all, page, entry->section);
         fprintf(file, ": %s\n", entry->meaning);
         return;
     }
-    fprintf(file, section->one_of ? "- `%s`: " : "| `%s` | ", entry->key);
+    fprintf(file, "- `%s` (", entry->key);
     write_kind(file, all, page, entry);
-    if (section->one_of)
-        fputs("; ", file);
-    else if (entry->required)
-        fputs(" | required | ", file);
-    else
-        fprintf(file, " | %s%s%s | ", entry->given ? "`" : "", entry->given ? entry->given : "-", entry->given ? "`" : "");
-    fprintf(file, "%s%s%s", entry->meaning, entry->why ? "; " : "", entry->why ? entry->why : "");
-    if (entry->sample) fprintf(file, "; e.g. `%s`", entry->sample);
-    fputs(section->one_of ? "\n" : " |\n", file);
+    if (!section->one_of && entry->required)
+        fputs("; required", file);
+    else if (!section->one_of && entry->given)
+        fprintf(file, "; default `%s`", entry->given);
+    fprintf(file, "): %s%s%s", entry->meaning, entry->why ? "; " : "", entry->why ? entry->why : "");
+    if (entry->sample && !(entry->given && strcmp(entry->given, entry->sample) == 0)) fprintf(file, "; e.g. `%s`", entry->sample);
+    fputs("\n", file);
 }
 
-/* Does an earlier section of the page have the same row? */
-static bool same_row(const brc_section *section, const brc_entry *entry, const brc_section *earlier)
+/* Does an earlier section of the page have the same key? */
+static bool same_key(const brc_section *section, const brc_entry *entry, const brc_section *earlier)
 {
     const brc_entry *other = brc_section_find(earlier, entry->key);
     const char *given = entry->given ? entry->given : "";
@@ -232,11 +228,11 @@ static bool same_row(const brc_section *section, const brc_entry *entry, const b
            strcmp(other->given ? other->given : "", given) == 0 && strcmp(other->meaning, entry->meaning) == 0;
 }
 
-static int same_rows(const brc_section *section, const brc_section *earlier)
+static int n_same(const brc_section *section, const brc_section *earlier)
 {
     int n = 0;
     for (int i = 0; i < section->n_entries; ++i)
-        n += same_row(section, &section->entries[i], earlier);
+        n += same_key(section, &section->entries[i], earlier);
     return n;
 }
 
@@ -262,7 +258,7 @@ static const brc_section *alike(const reference *all, int at)
     int most = FEW_REPEATED - 1;
     for (int i = 0; i < at; ++i)
         if (all->placed[i].page == all->placed[at].page) {
-            const int n = same_rows(all->placed[at].section, all->placed[i].section);
+            const int n = n_same(all->placed[at].section, all->placed[i].section);
             if (n > most) {
                 most = n;
                 best = all->placed[i].section;
@@ -276,16 +272,14 @@ static void write_section(FILE *file, const reference *all, int at)
     const brc_section *section = all->placed[at].section, *earlier = alike(all, at);
     const int page = all->placed[at].page;
     fprintf(file, "\n## %s\n\n%s%s\n\n", section->title, section->meaning, section->one_of ? " One of:" : "");
-    if (!section->one_of && (!earlier || same_rows(section, earlier) < section->n_entries))
-        fputs("| key | takes | default | meaning |\n| --- | --- | --- | --- |\n", file);
     for (int i = 0; i < section->n_entries; ++i)
-        if (!earlier || !same_row(section, &section->entries[i], earlier)) write_row(file, all, page, section, &section->entries[i]);
+        if (!earlier || !same_key(section, &section->entries[i], earlier)) write_item(file, all, page, section, &section->entries[i]);
     if (earlier) {
-        fputs(same_rows(section, earlier) < section->n_entries ? "\nFurther keys, as in " : "As in ", file);
+        fputs(n_same(section, earlier) < section->n_entries ? "\nFurther keys, as in " : "As in ", file);
         write_link(file, all, page, earlier);
         const char *between = ": ";
         for (int i = 0; i < section->n_entries; ++i)
-            if (same_row(section, &section->entries[i], earlier)) {
+            if (same_key(section, &section->entries[i], earlier)) {
                 fprintf(file, "%s`%s`", between, section->entries[i].key);
                 between = ", ";
             }
@@ -297,17 +291,17 @@ static void write_section(FILE *file, const reference *all, int at)
 
 typedef struct indexed {
     const char *key;
-    const brc_section *section;
+    int page;
 } indexed;
 
 static int by_key(const void *left, const void *right)
 {
     const indexed *a = left, *b = right;
     const int order = strcmp(a->key, b->key);
-    return order ? order : strcmp(a->section->title, b->section->title);
+    return order ? order : a->page - b->page;
 }
 
-/* Every key with the sections it is in. */
+/* Every key with the pages it is on. */
 static brc_status write_index(brc_context *context, FILE *file, const reference *all)
 {
     size_t n = 0, at = 0;
@@ -317,16 +311,20 @@ static brc_status write_index(brc_context *context, FILE *file, const reference 
     BRC_TRY(BRC_ALLOCATE(context, &keys, n, "index of keys"));
     for (int i = 0; i < all->n_placed; ++i)
         for (int e = 0; e < all->placed[i].section->n_entries; ++e)
-            keys[at++] = (indexed){all->placed[i].section->entries[e].key, all->placed[i].section};
+            keys[at++] = (indexed){all->placed[i].section->entries[e].key, all->placed[i].page};
     qsort(keys, n, sizeof *keys, by_key);
     fputs("\n## Index of keys\n\n", file);
     for (size_t k = 0; k < n; ++k) {
-        const bool first = k == 0 || strcmp(keys[k].key, keys[k - 1].key) != 0;
-        if (first)
-            fprintf(file, "%s- `%s`: ", k ? "\n" : "", keys[k].key);
-        else
+        const bool known = k > 0 && strcmp(keys[k].key, keys[k - 1].key) == 0;
+        if (known && keys[k].page == keys[k - 1].page) continue;
+        if (known)
             fputs(", ", file);
-        write_link(file, all, 0, keys[k].section);
+        else
+            fprintf(file, "%s- `%s`: ", k ? "\n" : "", keys[k].key);
+        if (keys[k].page == 0)
+            fputs("[top](#scene)", file);
+        else
+            fprintf(file, "[%s](%s.md)", PAGES[keys[k].page].name, PAGES[keys[k].page].name);
     }
     fputs("\n", file);
     brc_memory_free(keys);
