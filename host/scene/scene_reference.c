@@ -7,7 +7,6 @@
 #include <string.h>
 
 #define MANY_SECTIONS 512
-#define FEW_REPEATED 2 /* as many keys that an earlier section has already are named, not written again */
 
 /* A page and the sections it begins with; with these come the sections they lead to that no other page begins with. */
 typedef struct page_plan {
@@ -213,7 +212,8 @@ static void write_item(FILE *file, const reference *all, int page, const brc_sec
     else if (!section->one_of && entry->given)
         fprintf(file, "; default `%s`", entry->given);
     fprintf(file, "): %s%s%s", entry->meaning, entry->why ? "; " : "", entry->why ? entry->why : "");
-    if (entry->sample && !(entry->given && strcmp(entry->given, entry->sample) == 0)) fprintf(file, "; e.g. `%s`", entry->sample);
+    const bool telling = entry->type != BRC_TYPE_NAME && entry->type != BRC_TYPE_MATERIAL && entry->type != BRC_TYPE_STRING;
+    if (telling && entry->sample && !(entry->given && strcmp(entry->given, entry->sample) == 0)) fprintf(file, "; e.g. `%s`", entry->sample);
     fputs("\n", file);
 }
 
@@ -251,11 +251,11 @@ static void write_groups(FILE *file, const brc_section *section)
     }
 }
 
-/* The earlier section of the page with the most rows in common, NULL when they are few. */
+/* The earlier section of the page with the most keys in common, NULL when there are none: such keys are named, not written again. */
 static const brc_section *alike(const reference *all, int at)
 {
     const brc_section *best = NULL;
-    int most = FEW_REPEATED - 1;
+    int most = 0;
     for (int i = 0; i < at; ++i)
         if (all->placed[i].page == all->placed[at].page) {
             const int n = n_same(all->placed[at].section, all->placed[i].section);
