@@ -53,7 +53,9 @@ if __name__ == "__main__":
     named = dict(every)
     named.update(repository.read(r"\.(c|h|cc|cl|py|sh|cmake|yaml|toml)$|CMakeLists\.txt$|^quickstart$"))
     named.pop("tests/docs/test_links.py")
-    named["CHANGELOG.md"] = None  # tells what was true then
+    for path in named:
+        if path == "CHANGELOG.md" or path.startswith("bench/results/notes/"):
+            named[path] = None  # tells what was true then
     repository.finish([
         repository.report("dead links", dead_links, every,
                           {"no file": {"a/b.md": "[x](c.md)"}, "no heading": {"a.md": "# A b\n[x](#a)"},
