@@ -21,9 +21,17 @@ def commands():
     names = re.findall(r"^  (\w+)", overview.split("usage:")[1], re.M)
     page = ["# Commands", "", "What `breccia help COMMAND` prints; the same texts make the manual page (`breccia help --man`).", "",
             "```text", tidy(overview[overview.index("usage:"):]), "```", ""]
+    options = {}  # of the commands so far, each said once
     for name in names:
-        if name != "help":
-            page += [f"## {name}", "", "```text", tidy(said("help", name)), "```", ""]
+        if name == "help":
+            continue
+        lines, known = [], []
+        for line in tidy(said("help", name)).split("\n"):
+            if line.startswith("  ") and options.setdefault(line, name) != name:
+                known.append(re.search(r"--\w+", line).group(0) + " (" + options[line] + ")")
+            else:
+                lines.append(line)
+        page += [f"## {name}", "", "```text", *lines, *(["", "  as above: " + ", ".join(known)] if known else []), "```", ""]
     return "\n".join(page)
 
 
