@@ -1,4 +1,5 @@
-"""The site of docs/ (Sphinx): `./quickstart docs` writes it to build/site, to be read from the disk or put on a server."""
+"""The site of docs/ (Sphinx): `./quickstart docs` writes it to build/site, to be read from the disk or a server."""
+
 project = "breccia"
 author = "the authors of breccia"
 extensions = ["myst_parser", "sphinx_external_toc", "sphinx_copybutton"]
@@ -11,4 +12,6 @@ html_theme = "furo"  # brings its fonts and scripts along: a page fetches nothin
 html_title = "breccia"
 html_copy_source = False
 html_show_sourcelink = False
-suppress_warnings = ["etoc.glob"]  # a folder of toc.yml may be empty; a page left out of toc.yml is an error all the same
+suppress_warnings = [
+    "etoc.glob"
+]  # a folder of toc.yml may be empty; a page left out of toc.yml is an error all the same

@@ -22,8 +22,14 @@ static const page_plan PAGES[] = {
     {"shapes", "Shapes", "boxes to STL files, and what is made of parts", {&brc_schema_shape}},
     {"fill", "Fill", "cells or spheres: how many and how even", {&brc_schema_fill}},
     {"sets", "Sets", "names for parts of the walls and of the inside", {&brc_schema_set, &brc_schema_predicate}},
-    {"fracture", "Fracture", "when bonds break, and strengths of interfaces", {&brc_schema_fracture, &brc_schema_interactions}},
-    {"contact", "Contact and strikers", "surfaces that meet, rigid walls and projectiles", {&brc_schema_contact, &brc_schema_striker}},
+    {"fracture",
+     "Fracture",
+     "when bonds break, and strengths of interfaces",
+     {&brc_schema_fracture, &brc_schema_interactions}},
+    {"contact",
+     "Contact and strikers",
+     "surfaces that meet, rigid walls and projectiles",
+     {&brc_schema_contact, &brc_schema_striker}},
     {"stages", "Stages", "static, dynamic and modal solvers, and the guard of a run", {&brc_schema_stage, NULL}},
     {"initial", "Initial fields", "displacements and velocities that a stage begins with", {&brc_schema_initial}},
     {"loads", "Loads", "what holds and pulls during a stage", {&brc_schema_load}},
@@ -45,7 +51,8 @@ typedef struct reference {
 static const char INTRODUCTION[] =
     "# Scene files\n"
     "\n"
-    "A scene is one YAML document (UTF-8, at most 16 MB) with the keys below. The order of keys is free. These pages are\n"
+    "A scene is one YAML document (UTF-8, at most 16 MB) with the keys below. The order of keys is free. These pages "
+    "are\n"
     "written by the program from the table that it reads scenes with; do not edit them.\n"
     "\n"
     "**Quantities** carry their unit: `72 GPa`, `2500 kg/m^3`, `5 us`, `0.1 rad/m`, `90 %`. A number without a unit\n"
@@ -148,7 +155,8 @@ static brc_status place_all(brc_context *context, reference *all)
         if (brc_schema()->entries[i].section && page_of_root(brc_schema()->entries[i].section) < 0)
             place(all, brc_schema()->entries[i].section, page_named("stages"));
     if (all->n_placed == MANY_SECTIONS)
-        return BRC_FAIL(context, BRC_INTERNAL, "the schema has more sections than the scene reference has room for; raise MANY_SECTIONS");
+        return BRC_FAIL(context, BRC_INTERNAL,
+                        "the schema has more sections than the scene reference has room for; raise MANY_SECTIONS");
     return BRC_OK;
 }
 
@@ -177,7 +185,8 @@ static void write_link(FILE *file, const reference *all, int from, const brc_sec
 static const char *unit_text(const brc_entry *entry)
 {
     const char *unit = entry->unit ? entry->unit : "";
-    if (strcmp(unit, BRC_UNIT_STAGE_TIME) == 0 || strcmp(unit, BRC_UNIT_MEASURE_TIME) == 0) return "s; static: fraction";
+    if (strcmp(unit, BRC_UNIT_STAGE_TIME) == 0 || strcmp(unit, BRC_UNIT_MEASURE_TIME) == 0)
+        return "s; static: fraction";
     return strcmp(unit, BRC_UNIT_MEASURE) == 0 ? "unit of the measure" : unit;
 }
 
@@ -188,7 +197,10 @@ static void write_kind(FILE *file, const reference *all, int page, const brc_ent
     if (entry->type == BRC_TYPE_STRUCT && !entry->section)
         fputs("the word alone", file);
     else if (entry->section) {
-        fputs(entry->type == BRC_TYPE_LIST ? "list of " : entry->type == BRC_TYPE_NAMED ? "map of names to " : "", file);
+        fputs(entry->type == BRC_TYPE_LIST    ? "list of "
+              : entry->type == BRC_TYPE_NAMED ? "map of names to "
+                                              : "",
+              file);
         write_link(file, all, page, entry->section);
     } else
         fputs(type_text(entry, text, sizeof text), file);
@@ -212,8 +224,10 @@ static void write_item(FILE *file, const reference *all, int page, const brc_sec
     else if (!section->one_of && entry->given)
         fprintf(file, "; default `%s`", entry->given);
     fprintf(file, "): %s%s%s", entry->meaning, entry->why ? "; " : "", entry->why ? entry->why : "");
-    const bool telling = entry->type != BRC_TYPE_NAME && entry->type != BRC_TYPE_MATERIAL && entry->type != BRC_TYPE_STRING;
-    if (telling && entry->sample && !(entry->given && strcmp(entry->given, entry->sample) == 0)) fprintf(file, "; e.g. `%s`", entry->sample);
+    const bool telling =
+        entry->type != BRC_TYPE_NAME && entry->type != BRC_TYPE_MATERIAL && entry->type != BRC_TYPE_STRING;
+    if (telling && entry->sample && !(entry->given && strcmp(entry->given, entry->sample) == 0))
+        fprintf(file, "; e.g. `%s`", entry->sample);
     fputs("\n", file);
 }
 
@@ -222,10 +236,11 @@ static bool same_key(const brc_section *section, const brc_entry *entry, const b
 {
     const brc_entry *other = brc_section_find(earlier, entry->key);
     const char *given = entry->given ? entry->given : "";
-    return other && section->one_of == earlier->one_of && other->type == entry->type && other->section == entry->section &&
-           other->refers == entry->refers && other->required == entry->required && other->length == entry->length &&
-           memcmp(&other->range, &entry->range, sizeof entry->range) == 0 && strcmp(unit_text(other), unit_text(entry)) == 0 &&
-           strcmp(other->given ? other->given : "", given) == 0 && strcmp(other->meaning, entry->meaning) == 0;
+    return other && section->one_of == earlier->one_of && other->type == entry->type &&
+           other->section == entry->section && other->refers == entry->refers && other->required == entry->required &&
+           other->length == entry->length && memcmp(&other->range, &entry->range, sizeof entry->range) == 0 &&
+           strcmp(unit_text(other), unit_text(entry)) == 0 && strcmp(other->given ? other->given : "", given) == 0 &&
+           strcmp(other->meaning, entry->meaning) == 0;
 }
 
 static int n_same(const brc_section *section, const brc_section *earlier)
@@ -251,7 +266,8 @@ static void write_groups(FILE *file, const brc_section *section)
     }
 }
 
-/* The earlier section of the page with the most keys in common, NULL when there are none: such keys are named, not written again. */
+/* The earlier section of the page with the most keys in common, which are named then and not written again; NULL when
+ * there are none. */
 static const brc_section *alike(const reference *all, int at)
 {
     const brc_section *best = NULL;
@@ -273,7 +289,8 @@ static void write_section(FILE *file, const reference *all, int at)
     const int page = all->placed[at].page;
     fprintf(file, "\n## %s\n\n%s%s\n\n", section->title, section->meaning, section->one_of ? " One of:" : "");
     for (int i = 0; i < section->n_entries; ++i)
-        if (!earlier || !same_key(section, &section->entries[i], earlier)) write_item(file, all, page, section, &section->entries[i]);
+        if (!earlier || !same_key(section, &section->entries[i], earlier))
+            write_item(file, all, page, section, &section->entries[i]);
     if (earlier) {
         fputs(n_same(section, earlier) < section->n_entries ? "\nFurther keys, as in " : "As in ", file);
         write_link(file, all, page, earlier);
@@ -352,7 +369,8 @@ brc_status brc_scene_write_page(brc_context *context, int page, const char *exam
             fprintf(file, "- [%s](%s.md): %s\n", PAGES[p].title, PAGES[p].name, PAGES[p].meaning);
     } else
         fprintf(file, "# %s\n\nOf [scene files](README.md): %s.\n", PAGES[page].title, PAGES[page].meaning);
-    fprintf(file, "\n## A complete scene\n\n`%s.yaml`, beside this page:\n\n```yaml\n%s```\n", PAGES[page].name, example);
+    fprintf(file, "\n## A complete scene\n\n`%s.yaml`, beside this page:\n\n```yaml\n%s```\n", PAGES[page].name,
+            example);
     for (int i = 0; i < all.n_placed; ++i)
         if (all.placed[i].page == page) write_section(file, &all, i);
     if (page == 0) BRC_TRY(write_index(context, file, &all));

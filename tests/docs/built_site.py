@@ -1,4 +1,5 @@
-"""The site of docs/, built once for the tests with the pinned tools of docs/requirements.txt in a virtual environment of the build folder."""
+"""The site of docs/, built with the pinned tools of docs/requirements.txt in a virtual environment of the build folder."""
+
 import filecmp
 import os
 import shutil
@@ -24,8 +25,14 @@ def tools():
         shutil.rmtree(folder, ignore_errors=True)
         made = subprocess.run([sys.executable, "-m", "venv", folder], capture_output=True, text=True)
         if made.returncode:
-            skip("python3 cannot make virtual environments (Debian: python3-venv): " + made.stdout.strip().split("\n")[0])
-        pip = subprocess.run([folder + "/bin/pip", "install", "--disable-pip-version-check", "-q", "-r", wanted], capture_output=True, text=True)
+            skip(
+                "python3 cannot make virtual environments (Debian: python3-venv): " + made.stdout.strip().split("\n")[0]
+            )
+        pip = subprocess.run(
+            [folder + "/bin/pip", "install", "--disable-pip-version-check", "-q", "-r", wanted],
+            capture_output=True,
+            text=True,
+        )
         if pip.returncode:
             if "No matching distribution" in pip.stderr and "connection" not in pip.stderr.lower():
                 sys.exit(pip.stderr)
@@ -36,5 +43,9 @@ def tools():
 
 def build(pages, out):
     """Builds strictly: the exit code of sphinx-build and what it said."""
-    done = subprocess.run([tools() + "/sphinx-build", "-q", "-W", "--keep-going", "-E", "-b", "html", pages, out], capture_output=True, text=True)
+    done = subprocess.run(
+        [tools() + "/sphinx-build", "-q", "-W", "--keep-going", "-E", "-b", "html", pages, out],
+        capture_output=True,
+        text=True,
+    )
     return done.returncode, done.stdout + done.stderr

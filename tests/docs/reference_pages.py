@@ -1,4 +1,5 @@
-"""Pages of docs/reference that follow from the program and the package: commands (from `breccia help`) and the Python API (from the source)."""
+"""Pages of docs/reference that follow from the program and the package: commands (`breccia help`) and the Python API."""
+
 import ast
 import os
 import re
@@ -14,13 +15,22 @@ def said(*arguments):
 
 def commands():
     """The text of commands.md."""
+
     def tidy(text):
         return re.sub(r" +$", "", text.replace("\n  -h, --help                   this text", "").strip(), flags=re.M)
 
     overview = said("help")
     names = re.findall(r"^  (\w+)", overview.split("usage:")[1], re.M)
-    page = ["# Commands", "", "What `breccia help COMMAND` prints; the same texts make the manual page (`breccia help --man`).", "",
-            "```text", tidy(overview[overview.index("usage:"):]), "```", ""]
+    page = [
+        "# Commands",
+        "",
+        "What `breccia help COMMAND` prints; the same texts make the manual page (`breccia help --man`).",
+        "",
+        "```text",
+        tidy(overview[overview.index("usage:") :]),
+        "```",
+        "",
+    ]
     options = {}  # of the commands so far, each said once
     for name in names:
         if name == "help":
@@ -31,7 +41,15 @@ def commands():
                 known.append(re.search(r"--\w+", line).group(0) + " (" + options[line] + ")")
             else:
                 lines.append(line)
-        page += [f"## {name}", "", "```text", *lines, *(["", "  as above: " + ", ".join(known)] if known else []), "```", ""]
+        page += [
+            f"## {name}",
+            "",
+            "```text",
+            *lines,
+            *(["", "  as above: " + ", ".join(known)] if known else []),
+            "```",
+            "",
+        ]
     return "\n".join(page)
 
 
@@ -40,12 +58,16 @@ def signature(function):
     arguments = function.args
     plain = [argument.arg for argument in arguments.args]
     first = len(plain) - len(arguments.defaults)
-    shown = [name if k < first else f"{name}={ast.unparse(arguments.defaults[k - first])}" for k, name in enumerate(plain)]
+    shown = [
+        name if k < first else f"{name}={ast.unparse(arguments.defaults[k - first])}" for k, name in enumerate(plain)
+    ]
     if arguments.vararg:
         shown.append("*" + arguments.vararg.arg)
     elif arguments.kwonlyargs:
         shown.append("*")
-    shown += [a.arg if d is None else f"{a.arg}={ast.unparse(d)}" for a, d in zip(arguments.kwonlyargs, arguments.kw_defaults)]
+    shown += [
+        a.arg if d is None else f"{a.arg}={ast.unparse(d)}" for a, d in zip(arguments.kwonlyargs, arguments.kw_defaults)
+    ]
     return ", ".join(name for name in shown if name not in ("self", "cls"))
 
 
@@ -76,19 +98,43 @@ def python_api():
     """The text of python_api.md."""
     with open(os.path.join(PACKAGE, "__init__.py"), encoding="utf-8") as file:
         tree = ast.parse(file.read())
-    public = next(ast.literal_eval(n.value) for n in tree.body if isinstance(n, ast.Assign) and ast.unparse(n.targets[0]) == "__all__")
+    public = next(
+        ast.literal_eval(n.value)
+        for n in tree.body
+        if isinstance(n, ast.Assign) and ast.unparse(n.targets[0]) == "__all__"
+    )
     found = {}
     for name in sorted(os.listdir(PACKAGE)):
         if name.endswith(".py"):
             with open(os.path.join(PACKAGE, name), encoding="utf-8") as file:
-                found.update({n.name: n for n in ast.parse(file.read()).body if isinstance(n, (ast.ClassDef, ast.FunctionDef)) and n.name in public})
-    page = ["# Python API", "", "Names of the package `breccia`, from its source; how they go together is in [the package](python.md).", ""]
+                found.update(
+                    {
+                        n.name: n
+                        for n in ast.parse(file.read()).body
+                        if isinstance(n, (ast.ClassDef, ast.FunctionDef)) and n.name in public
+                    }
+                )
+    page = [
+        "# Python API",
+        "",
+        "Names of the package `breccia`, from its source; how they go together is in [the package](python.md).",
+        "",
+    ]
     for name in sorted(found, key=str.lower):
         node = found[name]
-        start = next((m for m in getattr(node, "body", []) if isinstance(m, ast.FunctionDef) and m.name == "__init__"), None)
+        start = next(
+            (m for m in getattr(node, "body", []) if isinstance(m, ast.FunctionDef) and m.name == "__init__"), None
+        )
         call = signature(node) if isinstance(node, ast.FunctionDef) else signature(start) if start else ""
         bases = ", ".join(f"`{ast.unparse(b)}`" for b in getattr(node, "bases", []))
-        page += [f"## {name}", "", f"`breccia.{name}{f'({call})' if call else ''}`" + (f", a {bases}" if bases else ""), "", plain(ast.get_docstring(node)), ""]
+        page += [
+            f"## {name}",
+            "",
+            f"`breccia.{name}{f'({call})' if call else ''}`" + (f", a {bases}" if bases else ""),
+            "",
+            plain(ast.get_docstring(node)),
+            "",
+        ]
         members = class_lines(node) if isinstance(node, ast.ClassDef) else []
         page += members + [""] * bool(members)
     return re.sub(r"\n{3,}", "\n\n", "\n".join(page))

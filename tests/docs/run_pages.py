@@ -2,13 +2,15 @@
 
     BRC_PROGRAM=... BRC_SOURCE_DIR=... python3 run_pages.py PAGE.md ...
 
-Blocks of a page run in order, in one empty folder of its own, with `breccia` in PATH and BRECCIA_SOURCE naming the repository:
+Blocks of a page run in order, in one empty folder, with `breccia` in PATH and BRECCIA_SOURCE naming the repository:
 - ```sh: commands; each must end with 0, or with the code in `# exits N` at the end of its line.
-- ```text behind them: lines that they print, in this order. `...` stands for anything; numbers may differ by one in the last digit shown.
+- ```text behind them: lines that they print, in this order. `...` stands for anything; numbers may differ by one in
+  the last digit shown.
 - any other block whose first line is a comment that is a file's name alone (`# scene.yaml`): that file.
 - `<!-- not run: REASON -->` before a block leaves it out, and says so.
 A page may take 60 s of processor time.
 """
+
 import os
 import re
 import resource
@@ -32,7 +34,9 @@ def near(shown, printed):
 def line_matches(shown, printed):
     """Does a printed line read like a shown one, where `...` stands for anything?"""
     shown = " ".join(shown.split())
-    pattern = ".*?".join(f"({NUMBER.pattern})".join(re.escape(words) for words in NUMBER.split(piece)) for piece in shown.split("..."))
+    pattern = ".*?".join(
+        f"({NUMBER.pattern})".join(re.escape(words) for words in NUMBER.split(piece)) for piece in shown.split("...")
+    )
     match = re.fullmatch(pattern, " ".join(printed.split()))
     return bool(match) and all(near(*pair) for pair in zip(NUMBER.findall(shown.replace("...", " ")), match.groups()))
 
@@ -63,7 +67,11 @@ def commands_of(text):
             here = opened.group(1) if opened else None
         elif line == here:
             here = None
-        if here is None and not command.endswith("\\") and subprocess.run(["bash", "-n", "-c", command], capture_output=True).returncode == 0:
+        if (
+            here is None
+            and not command.endswith("\\")
+            and subprocess.run(["bash", "-n", "-c", command], capture_output=True).returncode == 0
+        ):
             commands.append(command)
             command = ""
     return commands + ([command] if command else [])
@@ -87,15 +95,25 @@ def run_blocks(text, folder, environment, say):
             printed = ""
             for command in commands_of(body):
                 wanted = re.search(r"# exits (\d+)$", command)
-                done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, text=True, errors="replace", stdin=subprocess.DEVNULL,
-                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                done = subprocess.run(
+                    ["bash", "-c", command],
+                    cwd=folder,
+                    env=environment,
+                    text=True,
+                    errors="replace",
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.STDOUT,
+                )
                 printed, ran = printed + done.stdout, ran + 1
                 if done.returncode != int(wanted.group(1) if wanted else 0):
                     return [f"line {line}: '{command}' ended with {done.returncode}:\n{done.stdout}"]
         elif kind == "text" and printed is not None:
             line_missing = missing_line(body, printed)
             if line_missing is not None:
-                return [f"line {line}: the page shows '{line_missing}', which was not printed (in this order):\n{printed}"]
+                return [
+                    f"line {line}: the page shows '{line_missing}', which was not printed (in this order):\n{printed}"
+                ]
         elif FILE.match(body):
             with open(os.path.join(folder, FILE.match(body).group(1)), "w", encoding="utf-8") as file:
                 file.write(body)
@@ -109,10 +127,19 @@ def self_test():
     """Faults that must be found, on made-up pages."""
     quiet = lambda sentence: None  # noqa: E731
     good = "```sh\necho E 72.04 GPa in 3.2 s\n```\n\n```text\nE 72.05 GPa in ...\n```\n"
-    bad = ["```sh\nfalse\n```\n", good.replace("72.05", "72.07"), good.replace("in ...", "on ..."), "```sh\ntrue # exits 2\n```\n",
-           "```sh\nfor i in 1 2; do\n    false\ndone\n```\n", "```yaml\n# a.yaml\nb\n```\n\n```sh\ncat c.yaml\n```\n", "```sh\nprintf 'b\\na\\n'\n```\n\n```text\na\nb\n```\n"]
+    bad = [
+        "```sh\nfalse\n```\n",
+        good.replace("72.05", "72.07"),
+        good.replace("in ...", "on ..."),
+        "```sh\ntrue # exits 2\n```\n",
+        "```sh\nfor i in 1 2; do\n    false\ndone\n```\n",
+        "```yaml\n# a.yaml\nb\n```\n\n```sh\ncat c.yaml\n```\n",
+        "```sh\nprintf 'b\\na\\n'\n```\n\n```text\na\nb\n```\n",
+    ]
     assert not run_page(good, dict(os.environ), quiet), run_page(good, dict(os.environ), quiet)
-    assert not run_page("```yaml\n# a.yaml\nb\n```\n\n```sh\ncat a.yaml\n```\n\n```text\nb\n```\n", dict(os.environ), quiet)
+    assert not run_page(
+        "```yaml\n# a.yaml\nb\n```\n\n```sh\ncat a.yaml\n```\n\n```text\nb\n```\n", dict(os.environ), quiet
+    )
     for page in bad:
         assert run_page(page, dict(os.environ), quiet), "no fault found in\n" + page
 

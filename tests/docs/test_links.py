@@ -1,4 +1,6 @@
-"""Links of the repository's texts, as a plain Git view follows them: files, pictures and headings exist; so does each page that a file names."""
+"""Links of the repository's texts, as a plain Git view follows them: files, pictures and headings exist, as does each
+page that a file names."""
+
 import os
 import re
 import sys
@@ -43,8 +45,13 @@ def dead_links(files):
 
 def dead_names(files):
     """Pages of docs/ that any file names as docs/....md."""
-    return [f"{path}: names {page}, which is not there" for path, text in files.items() if text
-            for page in sorted(set(re.findall(r"(?<![\w./-])docs/[\w/.-]*\.md\b", text))) if page not in files]
+    return [
+        f"{path}: names {page}, which is not there"
+        for path, text in files.items()
+        if text
+        for page in sorted(set(re.findall(r"(?<![\w./-])docs/[\w/.-]*\.md\b", text)))
+        if page not in files
+    ]
 
 
 if __name__ == "__main__":
@@ -56,9 +63,23 @@ if __name__ == "__main__":
     for path in named:
         if path == "CHANGELOG.md" or path.startswith("bench/results/notes/"):
             named[path] = None  # tells what was true then
-    repository.finish([
-        repository.report("dead links", dead_links, every,
-                          {"no file": {"a/b.md": "[x](c.md)"}, "no heading": {"a.md": "# A b\n[x](#a)"},
-                           "no picture": {"a.md": "![x](images/x.png)"}}),
-        repository.report("dead names", dead_names, named, {"moved": {"host/a.c": "/* docs/theory.md */", "docs/notebook/theory.md": ""}}),
-    ])
+    repository.finish(
+        [
+            repository.report(
+                "dead links",
+                dead_links,
+                every,
+                {
+                    "no file": {"a/b.md": "[x](c.md)"},
+                    "no heading": {"a.md": "# A b\n[x](#a)"},
+                    "no picture": {"a.md": "![x](images/x.png)"},
+                },
+            ),
+            repository.report(
+                "dead names",
+                dead_names,
+                named,
+                {"moved": {"host/a.c": "/* docs/theory.md */", "docs/notebook/theory.md": ""}},
+            ),
+        ]
+    )

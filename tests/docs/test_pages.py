@@ -1,4 +1,5 @@
 """README and the guide's pages: each command as printed, in an empty folder; what they show is what is printed."""
+
 import glob
 import os
 import sys

@@ -1,4 +1,6 @@
-"""docs/reference/commands.md and python_api.md are what program and package say; the right ones are left in the build's tests/ when they are not."""
+"""docs/reference/commands.md and python_api.md are what program and package say; if not, the right ones are left in the
+build's tests/."""
+
 import os
 import sys
 

@@ -1,4 +1,5 @@
-"""The site's search answers from file:// in headless Chromium: a word of the notebook is found, one that no page has is not."""
+"""The site's search answers from file:// in headless Chromium: words of pages are found, one that no page has is not."""
+
 import os
 import re
 import shutil
@@ -17,8 +18,21 @@ with tempfile.TemporaryDirectory() as folder:
         sys.exit(said)
 
     def results(word):
-        shown = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={folder}/profile", "--virtual-time-budget=10000",
-                                "--dump-dom", f"file://{folder}/site/search.html?q={word}"], capture_output=True, text=True, timeout=300)
+        shown = subprocess.run(
+            [
+                browser,
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu",
+                f"--user-data-dir={folder}/profile",
+                "--virtual-time-budget=10000",
+                "--dump-dom",
+                f"file://{folder}/site/search.html?q={word}",
+            ],
+            capture_output=True,
+            text=True,
+            timeout=300,
+        )
         found = re.search(r'<ul[^>]*class="search[^"]*".*?</ul>', shown.stdout, re.S)
         return re.findall(r'href="([^"]*\.html)', found.group(0)) if found else []
 

@@ -1,4 +1,5 @@
 """The site builds without a warning; no link in it is dead; its pages fetch nothing from elsewhere."""
+
 import html.parser
 import os
 import shutil
@@ -24,7 +25,11 @@ class Page(html.parser.HTMLParser):
             self.links.append(given["href"])
         if given.get("src"):
             self.fetched.append(given["src"])
-        if tag == "link" and given.get("href") and given.get("rel") not in ("canonical", "next", "prev", "index", "search"):
+        if (
+            tag == "link"
+            and given.get("href")
+            and given.get("rel") not in ("canonical", "next", "prev", "index", "search")
+        ):
             self.fetched.append(given["href"])
 
 
@@ -44,7 +49,11 @@ def findings_of(folder):
                 if target in page.fetched and parts.scheme != "data":
                     findings.append(f"{where}: fetches {target}")
                 continue
-            there = os.path.normpath(os.path.join(os.path.dirname(path), urllib.parse.unquote(parts.path))) if parts.path else path
+            there = (
+                os.path.normpath(os.path.join(os.path.dirname(path), urllib.parse.unquote(parts.path)))
+                if parts.path
+                else path
+            )
             if not os.path.exists(there):
                 findings.append(f"{where}: dead link {target}")
             elif parts.fragment and there in pages and urllib.parse.unquote(parts.fragment) not in pages[there].ids:
@@ -60,7 +69,12 @@ def made_up(text):
         return findings_of(folder)
 
 
-for bad in ('<a href="b.html">', '<a href="#b">', '<script src="https://elsewhere.org/a.js"></script>', '<img src="b.png">'):
+for bad in (
+    '<a href="b.html">',
+    '<a href="#b">',
+    '<script src="https://elsewhere.org/a.js"></script>',
+    '<img src="b.png">',
+):
     if not made_up(bad):
         sys.exit(f"this test cannot fail: nothing found in {bad}")
 

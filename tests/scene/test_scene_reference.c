@@ -1,4 +1,4 @@
-/* The pages of docs/reference/scene are what the table says, and the scene that each of them shows is one that is accepted. */
+/* The pages of docs/reference/scene are what the table says, and the scene that each of them shows is accepted. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -69,13 +69,14 @@ static void pages_in_docs_are_the_table(void **state)
     int wrong = 0;
     for (int p = 0; p < brc_scene_n_pages(); ++p)
         if (!page_is_right(p)) {
-            printf("docs/reference/scene/%s.md is not what the table says; scene-%s.md in this folder is\n", brc_scene_page_name(p),
-                   brc_scene_page_name(p));
+            printf("docs/reference/scene/%s.md is not what the table says; scene-%s.md in this folder is\n",
+                   brc_scene_page_name(p), brc_scene_page_name(p));
             ++wrong;
         }
     if (wrong)
         fail_msg("%d pages: in the build's folder tests/, run\n"
-                 "for f in scene-*.md; do mv $f " FOLDER "${f#scene-}; done", wrong);
+                 "for f in scene-*.md; do mv $f " FOLDER "${f#scene-}; done",
+                 wrong);
 }
 
 static void writing_to_a_full_disk_is_an_error(void **state)
