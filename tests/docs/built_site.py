@@ -1,4 +1,4 @@
-"""The site of docs/, built with the pinned tools of docs/requirements.txt in a virtual environment of the build folder."""
+"""The site of docs/, built with the pinned tools of docs/requirements.txt in an environment of the build folder."""
 
 import filecmp
 import os

@@ -1,4 +1,4 @@
-"""Pages of docs/reference that follow from the program and the package: commands (`breccia help`) and the Python API."""
+"""Pages of docs/reference that follow from program and package: commands (`breccia help`) and the Python API."""
 
 import ast
 import os

@@ -1,4 +1,4 @@
-"""The site's search answers from file:// in headless Chromium: words of pages are found, one that no page has is not."""
+"""The site's search answers from file:// in headless Chromium: words of pages are found, others not."""
 
 import os
 import re
