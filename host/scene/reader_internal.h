@@ -46,6 +46,17 @@ bool brc_reader_is_broken(const brc_reader *reader, const char *key);
     brc_problems_add((reader)->problems, brc_reader_place((reader), (field), (item)), __VA_ARGS__)
 #define WARN(reader, field, item, ...)                                                                                 \
     brc_problems_warn((reader)->problems, brc_reader_place((reader), (field), (item)), __VA_ARGS__)
+/* reader_names.c: the walls of all bodies. Freed by brc_wall_names_free, which accepts NULL. */
+typedef struct brc_wall_names brc_wall_names;
+brc_status brc_wall_names_find(brc_reader *reader, brc_wall_names **names);
+void brc_wall_names_free(brc_wall_names *names);
+bool brc_wall_names_has(const brc_wall_names *names, const char *name);
+/* What refers to walls, sets, bodies, sensors, stages and strikers must name one that there is. */
+brc_status brc_names_check(brc_reader *reader, const brc_wall_names *walls);
+/* Numbers of the bodies that sets name, and warnings about sets that are named as bodies. */
+void brc_names_find_bodies(brc_reader *reader);
+/* A set of elements for each body that is named as one, unless a wall or a set has the name. Last of all, as it moves the scene's sets. */
+brc_status brc_names_add_body_sets(brc_reader *reader, const brc_wall_names *walls);
 /* reader_check_fracture.c: what breaks, and what scenes that break cannot have. */
 void brc_reader_check_fracture(brc_reader *reader);
 /* reader_check.c: fill in what follows from other parts, and check what needs the whole scene. */

@@ -111,9 +111,12 @@ static bool read_quantity(brc_reader *reader, const brc_entry *entry, const char
         return false;
     }
     if (*out == 0) *out = 0; /* no minus zero, which would be written differently */
-    if (brc_range_contains(entry, *out)) return true;
-    complain_of_range(reader, entry, unit, node);
-    return false;
+    if (!brc_range_contains(entry, *out)) {
+        complain_of_range(reader, entry, unit, node);
+        return false;
+    }
+    if (entry->factor > 0) *out *= entry->factor;
+    return true;
 }
 
 static bool read_quantities(brc_reader *reader, const brc_entry *entry, const char *unit, const brc_node *node,

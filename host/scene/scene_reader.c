@@ -58,7 +58,7 @@ static brc_status read_list(brc_reader *reader, const brc_entry *entry, const br
     }
     char *items = NULL;
     const size_t size = entry->section->size;
-    BRC_TRY(brc_memory_allocate(reader->context, (void **)&items, node->n_children, size, entry->key));
+    BRC_TRY(brc_memory_allocate(reader->context, (void **)&items, node->n_children + entry->spare, size, entry->key));
     memcpy(base + entry->offset, &items, sizeof items);
     const int32_t count = node->n_children;
     memcpy(base + entry->count_offset, &count, sizeof count);
@@ -72,6 +72,10 @@ static brc_status read_list(brc_reader *reader, const brc_entry *entry, const br
 
 static brc_status read_entry(brc_reader *reader, const brc_entry *entry, const brc_node *node, char *base)
 {
+    const bool given = brc_entry_is_switch(entry) && node->kind == BRC_NODE_SCALAR;
+    if (given && strcmp(node->text, "false") == 0) return BRC_OK;
+    const brc_node nothing = {.kind = BRC_NODE_MAP, .mark = node->mark, .key_mark = node->key_mark, .key = "", .text = ""};
+    if (given && strcmp(node->text, "true") == 0) node = &nothing;
     if (entry->has_flag) {
         base[entry->has_offset] = true;
         BRC_TRY(brc_reader_remember(reader, base + entry->has_offset, &KEY, node->key_mark));

@@ -22,7 +22,8 @@ static const char INTRODUCTION[] =
     "alone\n"
     "takes all its defaults, `solver: static`.\n"
     "\n"
-    "**Names** are made of letters, digits and `_` `+` `-`. Each wall of a shape is a set of faces of that name.\n"
+    "**Names** are made of letters, digits and `_` `+` `-`. Each wall of a shape is a set of faces of that name,\n"
+    "each body a set of elements.\n"
     "\n"
     "**Overrides**: `--set bodies.0.fill.noisy_grid.elements=1000`; lists by index from 0 or by the `name` of an "
     "item.\n"
@@ -60,12 +61,13 @@ static const char *type_text(const brc_entry *entry, char *out, size_t size)
     }
     switch (entry->refers) {
     case BRC_REFERS_FACES: return "name of a wall or of a set of faces";
-    case BRC_REFERS_ELEMENTS: return "name of a set of elements";
-    case BRC_REFERS_SET: return "name of a wall or a set";
+    case BRC_REFERS_ELEMENTS: return "name of a body or of a set of elements";
+    case BRC_REFERS_SET: return "name of a wall, a body or a set";
     case BRC_REFERS_WALL: return "name of a wall";
     case BRC_REFERS_SENSOR: return "name of a sensor";
     case BRC_REFERS_STAGE: return "name of a stage";
     case BRC_REFERS_STRIKER: return "name of a striker";
+    case BRC_REFERS_BODY: return "name of a body";
     case BRC_REFERS_NOTHING: break;
     }
     return "name";
@@ -106,6 +108,7 @@ static void write_row(FILE *file, const brc_section *section, const brc_entry *e
                                               : "",
               file);
         write_link(file, entry->section);
+        if (brc_entry_is_switch(entry)) fputs(", or `true` for all its defaults, or `false`", file);
     } else
         fputs(type_text(entry, text, sizeof text), file);
     fputs(" | ", file);

@@ -75,6 +75,17 @@ bool brc_range_contains(const brc_entry *entry, double value)
     return range->high_open ? value < range->high : value <= range->high;
 }
 
+bool brc_entry_is_switch(const brc_entry *entry)
+{
+    const brc_section *section = entry->section;
+    if (entry->type != BRC_TYPE_STRUCT || !entry->has_flag || !section || section->one_of || section->short_key) return false;
+    for (int i = 0; i < section->n_entries; ++i)
+        if (section->entries[i].required) return false;
+    for (size_t g = 0; g < sizeof section->groups / sizeof section->groups[0]; ++g)
+        if (section->groups[g].rule == BRC_GROUP_EXACTLY_ONE || section->groups[g].rule == BRC_GROUP_AT_LEAST_ONE) return false;
+    return true;
+}
+
 const char *brc_range_text(const brc_entry *entry, char *out, size_t size)
 {
     const brc_range *range = &entry->range;
