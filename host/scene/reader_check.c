@@ -330,6 +330,54 @@ static brc_status check_stages(brc_reader *reader)
     return BRC_OK;
 }
 
+/* Is there a crack of the name in a body, or a file that may hold one? */
+static bool has_crack(const brc_scene *scene, const char *name)
+{
+    for (int b = 0; b < scene->n_bodies; ++b) {
+        for (int c = 0; c < scene->bodies[b].n_cracks; ++c)
+            if (strcmp(scene->bodies[b].cracks[c].name, name) == 0) return true;
+        if (scene->bodies[b].domain_file[0]) return true;
+    }
+    return false;
+}
+
+/* An opening: what each of its forms needs. */
+static void check_opening(brc_reader *reader, const brc_sensor *sensor)
+{
+    const bool directed = sensor->axis[0] != 0 || sensor->axis[1] != 0 || sensor->axis[2] != 0;
+    const brc_mark to = brc_reader_place(reader, sensor->point2, NULL), start = {0, 1, 1};
+    const bool ended = memcmp(&to, &start, sizeof to) != 0;
+    if (sensor->of_sets && sensor->set2[0] == '\0')
+        COMPLAIN(reader, sensor->set, sensor, "opening: has one side; expected the other one too, as in against: x-");
+    if (sensor->of_sets && !directed)
+        COMPLAIN(reader, sensor->set, sensor, "opening: between two sets needs a direction, as in direction: [1, 0, 0]");
+    if (!sensor->of_sets && sensor->set2[0])
+        COMPLAIN(reader, sensor->set2, sensor, "against: is the other side of a set; give `set` too, or leave it out");
+    if (sensor->of_points && !ended)
+        COMPLAIN(reader, sensor->point, sensor, "opening: a gauge has two ends; expected `to` beside `from`, as in to: [235 mm, 0, 0]");
+    if (sensor->of_points && ended && memcmp(sensor->point, sensor->point2, sizeof sensor->point) == 0)
+        COMPLAIN(reader, sensor->point2, sensor, "to: is the same point as `from`; expected the other end of the gauge");
+    if (!sensor->of_points && ended)
+        COMPLAIN(reader, sensor->point2, sensor, "to: is the other end of a gauge; give `from` too, or leave it out");
+    if (sensor->of_crack && !has_crack(reader->scene, sensor->set) && !brc_reader_is_broken(reader, "bodies"))
+        COMPLAIN(reader, sensor->set, sensor, "crack: '%s' is a wall, not a crack, and has one side; name a crack of a body, or two sets by `set` and `against`", sensor->set);
+    if (!sensor->of_crack && (sensor->is_near || sensor->within > 0))
+        COMPLAIN(reader, &sensor->within, sensor, "opening: `at` and `within` choose faces of a crack; give `crack` too, or leave them out");
+    if (sensor->of_crack && sensor->is_near != (sensor->within > 0))
+        COMPLAIN(reader, sensor->is_near ? sensor->point : (const void *)&sensor->within, sensor, "opening: `at` and `within` go together; expected both, as in at: [225 mm, 0, 0], within: 1 cm");
+}
+
+static void check_sign(brc_reader *reader, const brc_sensor *sensor)
+{
+    static const char *const SIGNED[] = {"force", "displacement", "velocity"};
+    bool known = sensor->kind != BRC_SENSOR_STRIKER || sensor->sign == BRC_SIGN_AXIS;
+    for (size_t k = 0; k < sizeof SIGNED / sizeof *SIGNED; ++k) known |= strcmp(sensor->term, SIGNED[k]) == 0;
+    if (!known)
+        COMPLAIN(reader, &sensor->sign, sensor, "sign: %s of a striker is neither compression nor tension; leave `sign` out (it is for force, displacement and velocity)", sensor->term);
+    if (sensor->kind == BRC_SENSOR_STRIKER && sensor->set2[0] && strcmp(sensor->set, sensor->set2) == 0)
+        COMPLAIN(reader, sensor->set2, sensor, "against: is the same striker; expected another one");
+}
+
 static void check_sensors(brc_reader *reader)
 {
     const brc_scene *scene = reader->scene;
@@ -338,6 +386,8 @@ static void check_sensors(brc_reader *reader)
         if (scene->stages[k].solver == BRC_SOLVER_MODES) n_modes = scene->stages[k].n_modes;
     for (int i = 0; i < scene->n_sensors; ++i) {
         const brc_sensor *sensor = &scene->sensors[i];
+        if (sensor->kind == BRC_SENSOR_OPENING) check_opening(reader, sensor);
+        check_sign(reader, sensor);
         if (sensor->kind == BRC_SENSOR_MODE && sensor->index >= n_modes && !brc_reader_is_broken(reader, "stages"))
             COMPLAIN(reader, &sensor->index, sensor,
                      "mode: %d is not computed: the scene's last modes stage computes %d, "

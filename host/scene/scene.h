@@ -304,15 +304,25 @@ typedef enum brc_sensor_kind {
     BRC_SENSOR_STRIKER,      /* striker `set`, `term`: position, displacement [m], velocity [m/s], rotation [rad], spin [rad/s], force [N] and
                               * torque [N m] of the elements on it, energy (kinetic) [J]; `component` of the vectors */
     BRC_SENSOR_CONTACT,      /* `term`: pairs (touching), sliding (of them) [-], penetration (deepest) [m], force (sum of the magnitudes of normal forces) [N] */
+    BRC_SENSOR_OPENING,      /* how far two places have moved apart along `axis`: of sets `set` and `set2`, of the elements nearest to `point` and `point2`, or of the two
+                              * sides of the crack `set` [m] */
     BRC_SENSOR_MODE          /* frequency of mode `index` (0: lowest elastic) of the last modes stage [Hz] */
 } brc_sensor_kind;
+
+/* What is positive: the component along its axis, of stress and strain tension; or what pushes into the solid. */
+typedef enum brc_sign { BRC_SIGN_AXIS, BRC_SIGN_COMPRESSION } brc_sign;
 
 typedef struct brc_sensor {
     char name[BRC_NAME];
     brc_sensor_kind kind;
-    char set[BRC_NAME], set2[BRC_NAME]; /* "" : all elements */
+    char set[BRC_NAME], set2[BRC_NAME]; /* "" : all elements; of a striker: its name, and of another whose value is taken off */
     int32_t component;  /* vectors: 0 x 1 y 2 z; tensors: 0 xx 1 yy 2 zz 3 yz 4 xz 5 xy */
     double point[3], axis[3];
+    brc_sign sign;
+    bool of_sets, of_points, of_crack; /* opening: one of them */
+    double point2[3]; /* opening of points: the other end [m] */
+    bool is_near;     /* opening of a crack: only its faces within `within` [m] of `point` */
+    double within;
     char term[BRC_NAME]; /* energy: "kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture", "contact", "friction", "impact", "potential", "total", "closure" */
     int32_t index;
 } brc_sensor;
