@@ -407,7 +407,9 @@ static brc_status read_strikers(brc_sensors *sensors, brc_simulation *simulation
     if (sensor->sign == BRC_SIGN_AXIS) return BRC_OK;
     const brc_striker *striker = &sensors->scene->strikers[sensors->first[s]];
     const double middle = 0.5 * (sensors->domain->bounds[0][c] + sensors->domain->bounds[1][c]);
-    const double side = striker->is_plane ? -striker->normal[c] : brc_simulation_striker_body(simulation, sensors->first[s])->centre[c] - middle;
+    const double side = striker->is_plane           ? -striker->normal[c]
+                        : striker->velocity[c] != 0 ? -striker->velocity[c] /* it comes from where it is */
+                                                    : brc_simulation_striker_body(simulation, sensors->first[s])->centre[c] - middle;
     sensors->outward[s] = side < 0 ? -1 : 1;
     return BRC_OK;
 }

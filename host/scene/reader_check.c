@@ -129,9 +129,10 @@ static void check_body(brc_reader *reader, int b)
         COMPLAIN(reader, body->domain_file, body, "domain: the file is cut already; leave out fill");
     const brc_mark given = brc_reader_place(reader, &body->material, NULL);
     const brc_mark start = {0, 1, 1};
-    if (scene->n_materials > 1 && memcmp(&given, &start, sizeof given) == 0)
+    const int n_materials = scene->n_materials - reader->own_material;
+    if (n_materials > 1 && memcmp(&given, &start, sizeof given) == 0)
         COMPLAIN(reader, NULL, body, "the key 'material' is missing in this body: the scene has %d materials, name one",
-                 scene->n_materials);
+                 n_materials);
     for (int c = 0; c < b; ++c)
         if (strcmp(scene->bodies[c].name, body->name) == 0) {
             COMPLAIN(reader, body->name, body, "name: another body is called '%s' too; give each its own", body->name);
@@ -485,5 +486,6 @@ brc_status brc_reader_check(brc_reader *reader)
     if (status == BRC_OK) status = check_rest(reader);
     if (status == BRC_OK) status = brc_names_add_body_sets(reader, walls); /* sets move, so that their places are gone */
     brc_wall_names_free(walls);
+    if (status == BRC_OK) status = brc_reader_finish_fixtures(reader);
     return status;
 }

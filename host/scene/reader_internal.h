@@ -22,6 +22,7 @@ typedef struct brc_reader {
     const brc_stage *stage; /* being read, for units of time */
     int64_t n_places, n_places_held;
     brc_place *places;
+    bool own_material; /* the last material is the reader's own, not the scene's */
     bool broken[32]; /* by entry of the top section: something in it was wrong */
 } brc_reader;
 
@@ -46,6 +47,12 @@ bool brc_reader_is_broken(const brc_reader *reader, const char *key);
     brc_problems_add((reader)->problems, brc_reader_place((reader), (field), (item)), __VA_ARGS__)
 #define WARN(reader, field, item, ...)                                                                                 \
     brc_problems_warn((reader)->problems, brc_reader_place((reader), (field), (item)), __VA_ARGS__)
+/* scene_reader.c: fill in the defaults of a section's keys, as of an empty map. */
+brc_status brc_reader_defaults(brc_reader *reader, const brc_section *section, brc_mark mark, void *base);
+/* reader_fixtures.c: strikers, sensors and contact of platens, jaws and rollers. Before the measures are read, whose units depend on sensors; the lists have room (brc_entry.spare). */
+brc_status brc_reader_expand_fixtures(brc_reader *reader);
+/* Their laws of contact, measures and curve. After all checks, as it moves lists of the scene. */
+brc_status brc_reader_finish_fixtures(brc_reader *reader);
 /* reader_names.c: the walls of all bodies. Freed by brc_wall_names_free, which accepts NULL. */
 typedef struct brc_wall_names brc_wall_names;
 brc_status brc_wall_names_find(brc_reader *reader, brc_wall_names **names);

@@ -151,6 +151,26 @@ typedef struct brc_striker {
     bool held_rotation;        /* free: it does not turn */
 } brc_striker;
 
+/* Tools of a testing machine: platens, jaws, rollers. The reader turns them into strikers, sensors and a law of contact; nothing else reads them but for reports. */
+typedef enum brc_fixture_moves { BRC_FIXTURE_HIGH, BRC_FIXTURE_LOW, BRC_FIXTURE_BOTH } brc_fixture_moves;
+typedef struct brc_fixture {
+    bool given;
+    char body[BRC_NAME]; /* "": the only one */
+    int32_t axis;        /* along which it presses: 0 x 1 y 2 z */
+    double speed;        /* at which the sides come together [m/s] */
+    double ramp;         /* time in which the speed rises to that [s]; 0: at once */
+    bool has_friction;
+    double friction;     /* between tools and body [-]; without: that of the scene's contact */
+    bool has_material;
+    int32_t material;    /* index into scene.materials */
+    brc_fixture_moves moves;
+    double gap;          /* between tool and body [m]; 0: automatic */
+    double radius;       /* of the jaws' hollow, of the rollers [m] */
+    double width;        /* of jaws [m]; 0: half the body's */
+    double span;         /* of the supports [m] */
+    int32_t along;       /* direction of the span: 0 automatic, else 1 + axis */
+} brc_fixture;
+
 typedef struct brc_region {
     int32_t material; /* index into scene.materials */
     brc_predicate where;
@@ -399,6 +419,7 @@ typedef struct brc_scene {
     brc_contact contact;
     int32_t n_strikers;
     brc_striker *strikers; /* [n_strikers] */
+    brc_fixture platens, jaws, rollers;
     brc_guard guard;
     double accuracy; /* wanted relative error, for proposals of `breccia check` [-]; 0: not asked */
     double budget;   /* wanted time of the run, likewise [s]; 0: not asked */

@@ -163,6 +163,12 @@ static brc_status read_one_of(brc_reader *reader, const brc_section *section, co
     return read_entry(reader, variant, value, base);
 }
 
+brc_status brc_reader_defaults(brc_reader *reader, const brc_section *section, brc_mark mark, void *base)
+{
+    const brc_node nothing = {.kind = BRC_NODE_MAP, .mark = mark, .key_mark = mark, .key = "", .text = ""};
+    return read_section(reader, section, &nothing, base);
+}
+
 static void check_group(brc_reader *reader, const brc_section *section, const brc_group *group, const brc_node *map)
 {
     char list[160] = "";
@@ -230,6 +236,7 @@ static brc_status read_section(brc_reader *reader, const brc_section *section, c
     for (int i = 0; i < section->n_entries; ++i) {
         const brc_entry *entry = &section->entries[i];
         const int before = brc_problems_count(reader->problems);
+        if (section == brc_schema() && strcmp(entry->key, "measure") == 0) BRC_TRY(brc_reader_expand_fixtures(reader));
         const brc_node *child = brc_node_find(node, entry->key);
         BRC_TRY(child ? read_entry(reader, entry, child, base) : read_default(reader, section, entry, node, base));
         if (section == brc_schema()) reader->broken[i] = brc_problems_count(reader->problems) > before;
