@@ -180,12 +180,14 @@ static brc_status add_jaws(brc_reader *reader, const fixture *f)
 {
     const double width = f->as->width > 0 ? f->as->width : 0.5 * extent(f, f->along), thick = THICKNESS * extent(f, f->axis), radius = f->as->radius;
     const double middle = 0.5 * (f->bounds[0][f->along] + f->bounds[1][f->along]), out = OVERHANG * extent(f, f->across);
+    if (2 * radius < extent(f, f->along) * (1 - 1e-9)) {
+        REFUSE(reader, f, &f->as->radius, "radius: the hollow of %.4g m is narrower than the body, which is %.4g m across; expected a radius of %.4g m or more", radius, extent(f, f->along), 0.5 * extent(f, f->along));
+        return BRC_OK;
+    }
     if (!(width < 2 * radius)) {
         REFUSE(reader, f, &f->as->width, "width: jaws %.4g m wide reach round their hollow of radius %.4g m; expected less than its diameter", width, radius);
         return BRC_OK;
     }
-    if (2 * radius < extent(f, f->along) * (1 - 1e-9))
-        REFUSE(reader, f, &f->as->radius, "radius: the hollow of %.4g m is narrower than the body, which is %.4g m across; expected a radius of %.4g m or more", radius, extent(f, f->along), 0.5 * extent(f, f->along));
     const double cell = cbrt(width * thick * (extent(f, f->across) + 2 * out) / (10 * FACETS)), stands_out = cell * cell / (24 * radius); /* the hollow is filled with convex cells */
     const double sag = radius - sqrt(radius * radius - 0.25 * width * width);
     for (int side = 0; side < 2; ++side) {
@@ -244,7 +246,7 @@ static brc_status add_sensor(brc_reader *reader, const fixture *f, const char *w
 {
     brc_scene *scene = reader->scene;
     if (!scene->sensors) BRC_TRY(BRC_ALLOCATE(reader->context, &scene->sensors, BRC_FIXTURE_SENSORS, "sensors"));
-    brc_sensor sensor = {.kind = BRC_SENSOR_STRIKER, .component = f->axis, .sign = BRC_SIGN_COMPRESSION};
+    brc_sensor sensor = {.kind = BRC_SENSOR_STRIKER, .component = f->as->axis, .sign = BRC_SIGN_COMPRESSION};
     snprintf(sensor.name, sizeof sensor.name, "%s_%s", f->name, what);
     snprintf(sensor.set, sizeof sensor.set, "%s_%s", f->tool, striker);
     if (against) snprintf(sensor.set2, sizeof sensor.set2, "%s_%s", f->tool, against);

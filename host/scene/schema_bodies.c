@@ -132,7 +132,7 @@ static const brc_section NORMAL_SECTION = {
     .title = "where normal", .meaning = "Faces that look in a direction.", ENTRIES(NORMAL)};
 static const brc_entry PREDICATE[] = {
     {"body", BRC_TYPE_NAME, FIELD(brc_predicate, body_name), FLAG(brc_predicate, has_body), .refers = BRC_REFERS_BODY,
-     .sample = "cube", .meaning = "elements of this body, or its faces; not for regions, which belong to one"},
+     .sample = "body", .meaning = "elements of this body, or its faces; not for regions, which belong to one"},
     {"wall", BRC_TYPE_NAME, FIELD(brc_predicate, wall), FLAG(brc_predicate, has_wall), .refers = BRC_REFERS_WALL,
      .sample = "x-", .meaning = "faces of this wall; elements with a face on it"},
     {"box", BRC_TYPE_STRUCT, .section = &PREDICATE_BOX_SECTION, FLAG(brc_predicate, has_box),
