@@ -73,9 +73,14 @@ static brc_status read_list(brc_reader *reader, const brc_entry *entry, const br
 static brc_status read_entry(brc_reader *reader, const brc_entry *entry, const brc_node *node, char *base)
 {
     const bool given = brc_entry_is_switch(entry) && node->kind == BRC_NODE_SCALAR;
+    char found[128];
     if (given && strcmp(node->text, "false") == 0) return BRC_OK;
+    if (given && strcmp(node->text, "true") != 0) {
+        brc_problems_add(reader->problems, node->mark, "%s: expected a map of keys, or true or false; found %s", entry->key, brc_node_describe(node, found, sizeof found));
+        return BRC_OK;
+    }
     const brc_node nothing = {.kind = BRC_NODE_MAP, .mark = node->mark, .key_mark = node->key_mark, .key = "", .text = ""};
-    if (given && strcmp(node->text, "true") == 0) node = &nothing;
+    if (given) node = &nothing;
     if (entry->has_flag) {
         base[entry->has_offset] = true;
         BRC_TRY(brc_reader_remember(reader, base + entry->has_offset, &KEY, node->key_mark));
