@@ -368,6 +368,20 @@ static void check_opening(brc_reader *reader, const brc_sensor *sensor)
         COMPLAIN(reader, sensor->is_near ? sensor->point : (const void *)&sensor->within, sensor, "opening: `at` and `within` go together; expected both, as in at: [225 mm, 0, 0], within: 1 cm");
 }
 
+/* Forces of prescribed motion where no motion is prescribed. */
+static void check_reactions(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    for (int k = 0; k < scene->n_stages; ++k)
+        for (int l = 0; l < scene->stages[k].n_loads; ++l)
+            if (is_motion(&scene->stages[k].loads[l]) || scene->stages[k].loads[l].kind == BRC_LOAD_ELEMENT_ROTATION) return;
+    if (brc_reader_is_broken(reader, "stages")) return;
+    for (int i = 0; i < scene->n_sensors; ++i)
+        if (scene->sensors[i].kind == BRC_SENSOR_REACTION || scene->sensors[i].kind == BRC_SENSOR_MOMENT)
+            WARN(reader, scene->sensors[i].set, &scene->sensors[i], "sensor %s: stays 0, as no stage prescribes the motion of a set; forces of strikers and platens are sensors `striker`",
+                 scene->sensors[i].name);
+}
+
 static void check_sign(brc_reader *reader, const brc_sensor *sensor)
 {
     static const char *const SIGNED[] = {"force", "displacement", "velocity"};
@@ -383,6 +397,7 @@ static void check_sensors(brc_reader *reader)
 {
     const brc_scene *scene = reader->scene;
     int32_t n_modes = 0;
+    check_reactions(reader);
     for (int k = 0; k < scene->n_stages; ++k)
         if (scene->stages[k].solver == BRC_SOLVER_MODES) n_modes = scene->stages[k].n_modes;
     for (int i = 0; i < scene->n_sensors; ++i) {

@@ -151,7 +151,8 @@ static const char *list_names(int n, const char *const *words, char *out, size_t
         bool said = false;
         for (int k = 0; k < i && !said; ++k) said = strcmp(words[k], words[i]) == 0;
         const size_t needed = strlen(words[i]) + (at ? sizeof ", " : sizeof "; known: ");
-        if (said || at + needed > room) continue;
+        if (at + needed > room) break;
+        if (said) continue;
         at += (size_t)snprintf(out + at, room - at, "%s%s", at ? ", " : "; known: ", words[i]);
     }
     return out;
@@ -177,7 +178,8 @@ static void check_reference(brc_reader *reader, const wall_names *walls, const b
     static const char *const CURE[] = {"", "; define it under sets, as in `sets: {NAME: {faces: {wall: x+}}}`", "; define it under sets, as in `sets: {NAME: {elements: {wall: x+}}}`",
                                        "; define it under sets, as in `sets: {NAME: {elements: {wall: x+}}}`", "", "; define it under sensors", "; name one of the stages",
                                        "; define it under strikers", "; name one of the bodies"};
-    if (near) snprintf(hint, sizeof hint, "; did you mean '%s'?", near);
+    if (brc_problems_count(reader->problems) >= BRC_PROBLEMS_MOST) hint[0] = '\0'; /* it is not told */
+    else if (near) snprintf(hint, sizeof hint, "; did you mean '%s'?%s", near, list_names(n, words, known, sizeof known));
     else snprintf(hint, sizeof hint, "%s%s", list_names(n, words, known, sizeof known), CURE[refers]);
     int n_sets;
     const char *kind = refers == BRC_REFERS_ELEMENTS && is_known(scene, walls, BRC_REFERS_SET, name, words, &n_sets)

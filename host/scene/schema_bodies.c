@@ -158,7 +158,7 @@ static const brc_entry REGION[] = {
     {"material", BRC_TYPE_MATERIAL, FIELD(brc_region, material), .required = true, .sample = "glass",
      .meaning = "of the elements in the region"},
     {"where", BRC_TYPE_STRUCT, .section = &brc_schema_predicate, .offset = offsetof(brc_region, where),
-     .required = true, .meaning = "which elements"},
+     .required = true, .sample = "{half_space: {point: [0, 0, 0], normal: [1, 0, 0]}}", .meaning = "which elements"},
 };
 static const brc_section REGION_SECTION = {.title = "region",
                                            .meaning = "A part of a body made of another material.",

@@ -111,7 +111,7 @@ static const brc_entry PART[] = {
      .meaning = "what it does to the parts before it: unite, cut away, or keep only what lies in it; the first is added"},
     {"name", BRC_TYPE_NAME, FIELD(brc_shape_part, name), .sample = "hole", .meaning = "its walls are called name_wall; without one, as the shape's"},
     {"shape", BRC_TYPE_STRUCT, .section = &LEAF_SECTION, .offset = offsetof(brc_shape_part, shape), .required = true,
-     .meaning = "the part"},
+     .sample = "{sphere: {radius: 5 mm}}", .meaning = "the part"},
     {"pose", BRC_TYPE_STRUCT, .section = &PART_POSE_SECTION, .meaning = "where it stands"},
 };
 static const brc_section PART_SECTION = {
@@ -260,7 +260,8 @@ static const brc_section PATCH_SECTION = {.title = "patch",
                                           .kind_offset = offsetof(brc_crack, kind)};
 static const brc_entry CRACK[] = {
     {"name", BRC_TYPE_NAME, FIELD(brc_crack, name), .required = true, .sample = "notch", .meaning = "the wall that its faces belong to"},
-    {"patch", BRC_TYPE_STRUCT, .section = &PATCH_SECTION, .required = true, .meaning = "where it is"},
+    {"patch", BRC_TYPE_STRUCT, .section = &PATCH_SECTION, .required = true,
+     .sample = "{rectangle: {corner: [0, 0, 5 mm], edge: [1 cm, 0, 0], other_edge: [0, 2 mm, 0]}}", .meaning = "where it is"},
     {"flat", BRC_TYPE_BOOL, FIELD(brc_crack, flat), .given = "true",
      .meaning = "seeds near it are mirrored, so that its faces lie in its plane; false: it follows the cells"},
 };
