@@ -1,7 +1,6 @@
 /* Platens, jaws and rollers: where their strikers stand follows from the shape of the body that they press. */
 #include "reader_internal.h"
 #include "schema_internal.h"
-#include "../../preprocess/solid.h"
 #include "../base/memory.h"
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +17,7 @@ typedef struct fixture {
     const brc_fixture *as;
     const char *name, *tool; /* "platens", "platen" */
     const brc_body *body;
-    double bounds[2][3]; /* of the posed body [m] */
+    double bounds[2][3]; /* of the posed body, smallest and largest corner [m] */
     double gap;          /* [m] */
     int axis, along, across; /* of the load; of the span or the jaws' width; the third */
 } fixture;
@@ -65,18 +64,59 @@ static double stand_out(const brc_body *body, double bounds[2][3], int axis)
     return (kind == BRC_SHAPE_SPHERE || kind == BRC_SHAPE_TORUS ? 2 : 1) * size * size / (12 * radius);
 }
 
-static bool holds_mesh(const brc_shape *shape)
+/* Bounds of a single shape; false: they are not known here. */
+static bool bounds_of_leaf(const brc_shape *shape, double bounds[2][3])
 {
-    bool any = shape->kind == BRC_SHAPE_MESH;
-    for (int p = 0; p < shape->n_parts; ++p) any |= shape->parts[p].shape.kind == BRC_SHAPE_MESH;
-    return any;
+    const double widest = shape->kind == BRC_SHAPE_CONE ? fmax(shape->radius, shape->radius2) : shape->kind == BRC_SHAPE_TORUS ? shape->radius + shape->radius2 : shape->radius;
+    for (int c = 0; c < 3; ++c) {
+        const bool along = c == shape->axis;
+        double low = -widest, high = widest;
+        switch (shape->kind) {
+        case BRC_SHAPE_BOX: low = 0, high = shape->size[c]; break;
+        case BRC_SHAPE_CYLINDER:
+        case BRC_SHAPE_CONE:
+            if (along) low = 0, high = shape->length;
+            break;
+        case BRC_SHAPE_TORUS:
+            if (along) low = -shape->radius2, high = shape->radius2;
+            break;
+        case BRC_SHAPE_SPHERE: break;
+        case BRC_SHAPE_HALF_SPACE:
+        case BRC_SHAPE_MESH:
+        case BRC_SHAPE_PARTS: return false;
+        }
+        bounds[0][c] = shape->origin[c] + low;
+        bounds[1][c] = shape->origin[c] + high;
+    }
+    return true;
+}
+
+static bool is_turned(const double rotation[3])
+{
+    return rotation[0] != 0 || rotation[1] != 0 || rotation[2] != 0;
+}
+
+/* Bounds of a shape; of parts those of what is added, where nothing is cut off by a plane or kept of it. */
+static bool bounds_of(const brc_shape *shape, double bounds[2][3])
+{
+    if (shape->kind != BRC_SHAPE_PARTS) return bounds_of_leaf(shape, bounds);
+    for (int p = 0; p < shape->n_parts; ++p) {
+        const brc_shape_part *part = &shape->parts[p];
+        double own[2][3];
+        if (part->role == BRC_PART_REMOVE && part->shape.kind != BRC_SHAPE_HALF_SPACE) continue;
+        if (part->role != BRC_PART_ADD || is_turned(part->rotation) || !bounds_of_leaf(&part->shape, own)) return false;
+        for (int c = 0; c < 3; ++c) {
+            bounds[0][c] = p == 0 ? own[0][c] + part->translation[c] : fmin(bounds[0][c], own[0][c] + part->translation[c]);
+            bounds[1][c] = p == 0 ? own[1][c] + part->translation[c] : fmax(bounds[1][c], own[1][c] + part->translation[c]);
+        }
+    }
+    return shape->n_parts > 0;
 }
 
 /* The body, its bounds and the directions; false: refused. */
 static bool find_body(brc_reader *reader, fixture *f)
 {
     const brc_scene *scene = reader->scene;
-    static const char *const CURE = "place strikers of your own (docs/strikers.md)";
     for (int b = 0; b < scene->n_bodies; ++b)
         if (f->as->body[0] == '\0' || strcmp(scene->bodies[b].name, f->as->body) == 0) f->body = &scene->bodies[b];
     if (f->as->body[0] == '\0' && scene->n_bodies > 1) {
@@ -84,20 +124,13 @@ static bool find_body(brc_reader *reader, fixture *f)
         return false;
     }
     if (!f->body) return false; /* the name is refused with all others */
-    const double *turn = f->body->rotation;
-    if (f->body->domain_file[0] || holds_mesh(&f->body->shape) || turn[0] != 0 || turn[1] != 0 || turn[2] != 0) {
-        REFUSE(reader, f, &f->as->given, "%s: body '%s' comes from a file or is turned, and its bounds are not known here; %s", f->name, f->body->name, CURE);
+    if (f->body->domain_file[0] || is_turned(f->body->rotation) || !bounds_of(&f->body->shape, f->bounds)) {
+        REFUSE(reader, f, &f->as->given, "%s: the bounds of body '%s' are not known here, as it comes from a file, is turned, or is cut by planes; place strikers of your own (docs/strikers.md)", f->name,
+               f->body->name);
         return false;
     }
-    brc_context *quiet = brc_context_create();
-    brc_solid *solid = NULL;
-    const bool good = quiet && brc_solid_create(quiet, &f->body->shape, 1, &solid) == BRC_OK;
-    if (good) brc_solid_bounds(solid, f->bounds);
-    for (int c = 0; c < 6 && good; ++c) f->bounds[c / 3][c % 3] += f->body->translation[c % 3];
-    if (!good) REFUSE(reader, f, &f->as->given, "%s: the shape of body '%s' cannot be made: %s", f->name, f->body->name, quiet ? brc_context_message(quiet) : "no memory");
-    brc_solid_free(&solid);
-    brc_context_free(&quiet);
-    return good;
+    for (int c = 0; c < 6; ++c) f->bounds[c / 3][c % 3] += f->body->translation[c % 3];
+    return true;
 }
 
 static double extent(const fixture *f, int c)

@@ -144,13 +144,24 @@ static void tools_that_fit_no_body_are_refused_with_the_cure(void **state)
     bad_scene(BEAM "platens: {axis: y, speed: 1 m/s}\ninteractions: {contact: {}}\nstrikers: {platen_low: {plane: {point: [0, 0, 0], normal: [0, 1, 0]}, material: rock}}\n", "5:1",
               "they make a striker 'platen_low', and the scene has one of this name");
     bad_scene("version: 1\nmaterials: {rock: {E: 1 GPa, nu: 0, density: 1 kg/m^3}}\nbodies: [{domain: d.h5}]\nstages: [{name: go, solver: {dynamic: {steps: 1}}}]\n"
-              "platens: {axis: y, speed: 1 m/s}\n", "5:1", "comes from a file or is turned");
+              "platens: {axis: y, speed: 1 m/s}\n", "5:1", "it comes from a file, is turned, or is cut by planes; place strikers of your own");
     bad_scene("version: 1\nmaterials: {rock: {E: 1 GPa, nu: 0, density: 1 kg/m^3}}\nstages: [{name: go, solver: {dynamic: {steps: 1}}}]\n"
               "bodies:\n  - {name: a, shape: {sphere: {radius: 1 m}}, fill: {noisy_grid: {elements: 9}}}\n"
               "  - {name: b, shape: {sphere: {radius: 1 m, centre: [9 m, 0, 0]}}, fill: {noisy_grid: {elements: 9}}}\n"
               "platens: {axis: y, speed: 1 m/s}\n", "7:1", "the scene has 2 bodies; expected the one that is pressed, as in body: a");
-    bad_scene("version: 1\nmaterials: {rock: {E: 1 GPa, nu: 0, density: 1 kg/m^3}}\nstages: [{name: go, solver: static}]\n"
-              "bodies: [{shape: {torus: {radius: 1 m, tube: 2 m}}, fill: {noisy_grid: {elements: 9}}}]\nplatens: {axis: y, speed: 1 m/s}\n", "5:1", "cannot be made");
+}
+
+static void bounds_are_those_of_what_is_added_and_moved(void **state)
+{
+    (void)state;
+    brc_scene *scene = good_scene("version: 1\nmaterials: {rock: {E: 1 GPa, nu: 0, density: 1 kg/m^3}}\nstages: [{name: go, solver: {dynamic: {steps: 1}}}]\n"
+                                  "bodies:\n  - fill: {noisy_grid: {elements: 9}}\n    pose: {translation: [0, 0, 5 m]}\n    shape:\n      parts:\n"
+                                  "        - {role: add, shape: {torus: {radius: 3 m, tube: 1 m}}}\n        - {role: add, shape: {sphere: {radius: 2 m}}, pose: {translation: [0, 0, 1 m]}}\n"
+                                  "        - {role: remove, shape: {box: {size: [1 m, 1 m, 9 m]}}}\nplatens: {axis: z, speed: 1 m/s, gap: 1 mm}\n");
+    const brc_striker *low = striker(scene, "platen_low"), *high = striker(scene, "platen_high");
+    assert_true(fabs(high->shape.origin[2] - 8.001) < 1e-12 && fabs(low->shape.origin[2] + low->shape.size[2] - 3.999) < 1e-12); /* sphere: -1 to 3 m, 5 m up */
+    assert_true(fabs(low->shape.origin[0] + 4.8) < 1e-12 && fabs(low->shape.size[0] - 9.6) < 1e-12);
+    brc_scene_free(&scene);
 }
 
 /* What is written with strikers, sensors and contact reads back as the same scene. */
@@ -185,6 +196,7 @@ int main(void)
         cmocka_unit_test(jaws_are_hollow_towards_the_disc),
         cmocka_unit_test(rollers_lie_below_and_above_the_beam),
         cmocka_unit_test(tools_that_fit_no_body_are_refused_with_the_cure),
+        cmocka_unit_test(bounds_are_those_of_what_is_added_and_moved),
         cmocka_unit_test(expanded_scenes_read_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
