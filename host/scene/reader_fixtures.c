@@ -125,7 +125,7 @@ static bool find_body(brc_reader *reader, fixture *f)
     }
     if (!f->body) return false; /* the name is refused with all others */
     if (f->body->domain_file[0] || is_turned(f->body->rotation) || !bounds_of(&f->body->shape, f->bounds)) {
-        REFUSE(reader, f, &f->as->given, "%s: the bounds of body '%s' are not known here, as it comes from a file, is turned, or is cut by planes; place strikers of your own (docs/strikers.md)", f->name,
+        REFUSE(reader, f, &f->as->given, "%s: the bounds of body '%s' are not known here, as it comes from a file, is turned, or is cut by planes; place strikers of your own (docs/notebook/strikers.md)", f->name,
                f->body->name);
         return false;
     }
