@@ -4,10 +4,17 @@ const TIMES = { stage: ["stage", "-"], step: ["step", "-"], stage_time: ["time o
 const TOOLS = { feature: { dataZoom: { title: { zoom: "zoom", back: "back" } }, restore: { title: "all" },
                            saveAsImage: { title: "picture" } } };
 
+/* A number of an axis: powers of ten where digits would be many zeros. */
+function numeral(value) {
+    const short = Number(value.toPrecision(6)), size = Math.abs(short);
+    return size !== 0 && (size < 1e-3 || size >= 1e6) ? short.toExponential().replace("e+", "e") : String(short);
+}
+
 /* What all charts share; names stand along their axes, so that they meet no number. */
 function axisOf(name, more = {}) {
     return { type: "value", name, nameLocation: "middle", nameGap: 30, scale: true, axisLine: { show: true, onZero: false },
-             axisTick: { show: true }, minorTick: { show: true }, ...more };
+             axisTick: { show: true }, minorTick: { show: true },
+             axisLabel: { formatter: numeral, hideOverlap: true }, ...more };
 }
 
 function chartIn(echarts, place, height) {

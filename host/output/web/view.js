@@ -140,7 +140,7 @@ class View {
         pen.clearRect(0, 0, 168, 168);
         pen.font = "24px sans-serif";
         pen.lineWidth = 3;
-        pen.textAlign = pen.textBaseline = "middle";
+        pen.textBaseline = "middle";
         pen.textAlign = "center";
         [["x", "#b2332b"], ["y", "#2b7a3b"], ["z", "#2b4fb2"]].forEach(([name, colour], c) => {
             const x = turn[4 * c], y = -turn[4 * c + 1];
@@ -157,24 +157,49 @@ class View {
     /* From a direction, the whole solid in sight. */
     look(from) {
         const sphere = this.bounds();
-        this.controls.target.copy(sphere.center);
+        this.controls.target.copy(this.middle(from));
         this.camera.zoom = 1;
         this.camera.near = -20 * sphere.radius;
         this.camera.far = 20 * sphere.radius;
         this.camera.up.set(0, from[2] > 0.99 ? 1 : 0, from[2] > 0.99 ? 0 : 1);
-        this.camera.position.copy(sphere.center).addScaledVector(new this.three.Vector3(...from), sphere.radius);
+        this.camera.position.copy(this.controls.target).addScaledVector(new this.three.Vector3(...from), sphere.radius);
         this.controls.update();
         this.fit();
     }
 
+    /* The point of the solid that is in the middle of the picture, and how far it reaches to the side and up from there. */
+    middle(from) {
+        const three = this.three, toward = new three.Vector3(...from).normalize();
+        const up = new three.Vector3(0, toward.z > 0.99 ? 1 : 0, toward.z > 0.99 ? 0 : 1);
+        const right = new three.Vector3().crossVectors(up, toward).normalize();
+        up.crossVectors(toward, right);
+        const reach = [right, up, toward].map((axis) => this.reachAlong(axis));
+        this.half = [reach[0], reach[1]].map(([low, high]) => Math.max(0.5 * (high - low), 0.02 * this.bounds().radius));
+        const out = new three.Vector3();
+        [right, up, toward].forEach((axis, k) => out.addScaledVector(axis, 0.5 * (reach[k][0] + reach[k][1])));
+        return out;
+    }
+
+    reachAlong(axis) {
+        const at = this.solid.place;
+        let low = Infinity, high = -Infinity;
+        for (let k = 0; k < at.length; k += 3) {
+            const x = at[k] * axis.x + at[k + 1] * axis.y + at[k + 2] * axis.z;
+            low = Math.min(low, x);
+            high = Math.max(high, x);
+        }
+        return [low, high];
+    }
+
     fit() {
-        const wide = this.box.clientWidth, tall = this.box.clientHeight, half = this.bounds().radius * 1.02;
+        const wide = this.box.clientWidth, tall = this.box.clientHeight;
+        const half = 1.15 * Math.max(this.half[1], this.half[0] * tall / wide);
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
         this.renderer.setSize(wide, tall, false);
-        this.camera.left = -half * Math.max(1, wide / tall);
-        this.camera.right = -this.camera.left;
-        this.camera.top = half * Math.max(1, tall / wide);
-        this.camera.bottom = -this.camera.top;
+        this.camera.top = half;
+        this.camera.bottom = -half;
+        this.camera.right = half * wide / tall;
+        this.camera.left = -this.camera.right;
         this.camera.updateProjectionMatrix();
         this.draw();
     }
@@ -234,9 +259,7 @@ class View {
         const axis = make("select", {}, ...["none", "x", "y", "z"].map((textContent) => make("option", { textContent })));
         const at = make("input", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5, ariaLabel: "place of the cut" });
         const set = () => {
-            const c = ["x", "y", "z"].indexOf(axis.value), sphere = this.bounds();
-            const box = new this.three.Box3().setFromArray(this.solid.moved);
-            if (c >= 0 && box.isEmpty()) box.setFromCenterAndSize(sphere.center, new this.three.Vector3(1, 1, 1));
+            const c = ["x", "y", "z"].indexOf(axis.value), box = new this.three.Box3().setFromArray(this.solid.place);
             const low = box.min.getComponent(Math.max(c, 0)), high = box.max.getComponent(Math.max(c, 0));
             this.solid.setCut(c, low + (high - low) * Number(at.value));
             this.draw();
