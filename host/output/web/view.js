@@ -39,8 +39,9 @@ class View {
         this.factor.value = this.scale;
         await this.show(this.frame);
         this.look(CORNER_VIEW);
-        new ResizeObserver(() => this.fit()).observe(this.box);
-        this.fit();
+        new ResizeObserver(() => this.resize()).observe(this.box);
+        this.ready = true;
+        this.drawNow();
     }
 
     /* The factor that makes the largest displacement at the end, less its mean, about 4 % of the diagonal. */
@@ -74,8 +75,8 @@ class View {
         this.solid.move(frame, moment, this.scale, rigid);
         this.paint(moment);
         this.slider.value = frame;
+        this.drawNow();
         this.told.textContent = this.sentence(frame);
-        this.draw();
         for (const listener of this.listeners) listener(frame);
     }
 
@@ -124,8 +125,17 @@ class View {
         this.bar.replaceChildren(`${name}: 0`, stripe, words(most, unit));
     }
 
+    /* With the next picture of the browser, once for however many asked. */
     draw() {
-        if (!this.controls) return;
+        if (this.asked) return;
+        this.asked = requestAnimationFrame(() => {
+            this.asked = 0;
+            this.drawNow();
+        });
+    }
+
+    drawNow() {
+        if (!this.ready) return;
         if (this.solid.spheres) {
             const tall = this.renderer.domElement.height;
             this.solid.sphereMaterial.uniforms.pixels.value = tall * this.camera.zoom / (this.camera.top - this.camera.bottom);
@@ -191,8 +201,14 @@ class View {
         return [low, high];
     }
 
+    resize() {
+        if (this.box.clientWidth === this.size[0] && this.box.clientHeight === this.size[1]) return;
+        this.fit();
+    }
+
     fit() {
         const wide = this.box.clientWidth, tall = this.box.clientHeight;
+        this.size = [wide, tall];
         const half = 1.15 * Math.max(this.half[1], this.half[0] * tall / wide);
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
         this.renderer.setSize(wide, tall, false);
