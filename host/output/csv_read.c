@@ -29,7 +29,8 @@ static brc_status read_head(brc_context *context, const char *path, char *line, 
 static int64_t count_lines(const char *text)
 {
     int64_t n = 0;
-    for (const char *s = strchr(text, '\n'); s; s = strchr(s + 1, '\n')) ++n;
+    for (const char *s = strchr(text, '\n'); s; s = strchr(s + 1, '\n'))
+        ++n;
     return n;
 }
 

@@ -72,7 +72,8 @@ static brc_status list_pictures(brc_context *context, const char *folder, char *
     brc_status status = BRC_OK;
     *n = 0;
     DIR *directory = opendir(folder);
-    for (const struct dirent *entry = directory ? readdir(directory) : NULL; entry && *n < PICTURES_MOST; entry = readdir(directory)) {
+    for (const struct dirent *entry = directory ? readdir(directory) : NULL; entry && *n < PICTURES_MOST;
+         entry = readdir(directory)) {
         if (!ends_with(entry->d_name, ".png")) continue;
         const size_t length = strlen(entry->d_name) + 1;
         status = BRC_ALLOCATE(context, &name[*n], length, "name of a picture");
@@ -85,7 +86,8 @@ static brc_status list_pictures(brc_context *context, const char *folder, char *
 }
 
 /* *room: bytes of pictures that still fit; *out: those left out. */
-static brc_status add_picture(brc_context *context, brc_text *page, const char *folder, const char *name, size_t *room, int *out)
+static brc_status add_picture(brc_context *context, brc_text *page, const char *folder, const char *name, size_t *room,
+                              int *out)
 {
     char *path = NULL, *bytes = NULL;
     size_t n;
@@ -112,8 +114,10 @@ static brc_status add_folder(brc_context *context, brc_text *page, const char *f
     int n = 0;
     BRC_TRY(BRC_ALLOCATE(context, &name, PICTURES_MOST, "names of pictures"));
     brc_status status = list_pictures(context, folder, name, &n);
-    for (int k = 0; k < n && status == BRC_OK; ++k) status = add_picture(context, page, folder, name[k], room, out);
-    for (int k = 0; k < n; ++k) brc_memory_free(name[k]);
+    for (int k = 0; k < n && status == BRC_OK; ++k)
+        status = add_picture(context, page, folder, name[k], room, out);
+    for (int k = 0; k < n; ++k)
+        brc_memory_free(name[k]);
     brc_memory_free(name);
     return status;
 }
@@ -134,8 +138,9 @@ static brc_status add_pictures(brc_context *context, brc_text *page, const char 
     if (folded) brc_text_add(page, "<details><summary>pictures of the run</summary>\n");
     if (pictures.data) brc_text_add_bytes(page, pictures.data, pictures.length);
     if (left_out > 0)
-        brc_text_add(page, "<p>%d pictures are left out: the page holds %.3g MB of them; the folder of the run has all.</p>\n",
-                     left_out, (double)most / 1e6);
+        brc_text_add(
+            page, "<p>%d pictures are left out: the page holds %.3g MB of them; the folder of the run has all.</p>\n",
+            left_out, (double)most / 1e6);
     if (folded) brc_text_add(page, "</details>\n");
     status = pictures.status;
 cleanup:
@@ -181,19 +186,23 @@ static void add_places(brc_text *page)
 static void add_scripts(brc_text *page)
 {
     static const char *const library[] = {"three.mjs.gz", "echarts.mjs.gz"};
-    static const char *const script[] = {"data.js", "colours.js", "charts.js", "cracks.js", "solid.js", "view.js", "page.js"};
-    brc_text_add(page, "<!-- three.js 0.180.0: MIT licence, copyright 2010-2025 three.js authors. Apache ECharts 6.1.0: Apache "
-                       "licence 2.0, copyright The Apache Software Foundation; zrender: BSD licence, copyright Baidu Inc. -->\n");
+    static const char *const script[] = {"data.js",  "colours.js", "charts.js", "cracks.js",
+                                         "solid.js", "view.js",    "page.js"};
+    brc_text_add(
+        page,
+        "<!-- three.js 0.180.0: MIT licence, copyright 2010-2025 three.js authors. Apache ECharts 6.1.0: Apache "
+        "licence 2.0, copyright The Apache Software Foundation; zrender: BSD licence, copyright Baidu Inc. -->\n");
     for (size_t k = 0; k < sizeof library / sizeof *library; ++k) {
         const brc_web_file *file = brc_web_file_find(library[k]);
         brc_html_packed(page, library[k], file->bytes, file->n);
     }
     brc_text_add(page, "<script>\n\"use strict\";\n");
-    for (size_t k = 0; k < sizeof script / sizeof *script; ++k) brc_html_file(page, script[k]);
+    for (size_t k = 0; k < sizeof script / sizeof *script; ++k)
+        brc_html_file(page, script[k]);
     brc_text_add(page, "</script>\n");
 }
 
-/* The view; a frame that cannot be read costs the view, not the page: `no_view` then says why. */
+/* The view. A frame that cannot be read costs the view, not the page: `no_view` says why. */
 static brc_status add_view(brc_context *context, const char *folder, const brc_csv_read *cracks, brc_text *page,
                            brc_report_frames *frames)
 {
@@ -216,7 +225,8 @@ static brc_status add_view(brc_context *context, const char *folder, const brc_c
     return status;
 }
 
-/* Do solids touch each other or a rigid body, or break? Then a displacement that is amplified shows what is not there. */
+/* Do solids touch each other or a rigid body, or break? Then a displacement that is amplified shows what is not there.
+ */
 static bool is_touching(const brc_node *summary)
 {
     static const char *const touching[] = {"contact", "walls and strikers", "fracture"};
@@ -229,8 +239,8 @@ static bool is_touching(const brc_node *summary)
 }
 
 /* Arrays and their description for the scripts. */
-static brc_status add_data(brc_context *context, const char *folder, const char *scene, const brc_node *summary, brc_text *page,
-                           bool *has_view)
+static brc_status add_data(brc_context *context, const char *folder, const char *scene, const brc_node *summary,
+                           brc_text *page, bool *has_view)
 {
     brc_csv_read cracks = {0}, fragments = {0};
     brc_report_frames frames = {0};
@@ -287,9 +297,10 @@ brc_status brc_report_write(brc_context *context, const char *folder, const char
     BRC_TRY_OR(cleanup, read_json(context, folder, "summary.json", &summary));
     BRC_TRY_OR(cleanup, read_json(context, folder, "rows.json", &rows));
     if (!summary.root && !rows.root) {
-        status = BRC_FAIL(context, BRC_BAD_INPUT,
-                          "%s: no summary.json and no rows.json in it; expected the folder of `breccia run`, `reproduce` or `bench`",
-                          folder);
+        status = BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "%s: no summary.json and no rows.json in it; expected the folder of `breccia run`, `reproduce` or `bench`",
+            folder);
         goto cleanup;
     }
     BRC_TRY_OR(cleanup, brc_file_join(context, folder, "report.html", &place));
@@ -298,8 +309,10 @@ brc_status brc_report_write(brc_context *context, const char *folder, const char
         brc_text_add(&page, "<h2>Rows</h2>\n");
         brc_html_value(&page, NULL, rows.root);
     }
-    if (summary.root) BRC_TRY_OR(cleanup, add_run(context, folder, summary.root, &page));
-    else BRC_TRY_OR(cleanup, add_pictures(context, &page, folder, false));
+    if (summary.root)
+        BRC_TRY_OR(cleanup, add_run(context, folder, summary.root, &page));
+    else
+        BRC_TRY_OR(cleanup, add_pictures(context, &page, folder, false));
     brc_html_end(&page);
     status = brc_text_write(&page, path ? path : place);
 cleanup:

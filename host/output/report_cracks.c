@@ -8,10 +8,12 @@ void brc_report_cracks_rose(const brc_csv_read *cracks, int c, double out[BRC_RE
     static const char *const name[3] = {"nx", "ny", "nz"};
     const int a = brc_csv_read_column(cracks, name[(c + 1) % 3]), b = brc_csv_read_column(cracks, name[(c + 2) % 3]);
     const int area = brc_csv_read_column(cracks, "area");
-    for (int k = 0; k < BRC_REPORT_ROSE; ++k) out[k] = 0;
+    for (int k = 0; k < BRC_REPORT_ROSE; ++k)
+        out[k] = 0;
     for (int64_t row = 0; a >= 0 && b >= 0 && area >= 0 && row < cracks->n_rows; ++row) {
         const double *value = cracks->value + row * cracks->n_columns;
-        const double across = hypot(value[a], value[b]); /* the trace is the normal's part in the plane, turned by 90 degrees */
+        const double across =
+            hypot(value[a], value[b]); /* the trace is the normal's part in the plane, turned by 90 degrees */
         const double turn = atan2(value[a], -value[b]) / M_PI, half = turn - floor(turn);
         const double seen = value[area] * across;
         if (!isfinite(half) || !isfinite(seen)) continue;
@@ -28,7 +30,8 @@ void brc_report_cracks_add_roses(const brc_csv_read *cracks, brc_json *json)
         double area[BRC_REPORT_ROSE];
         brc_report_cracks_rose(cracks, c, area);
         brc_json_begin_array(json, NULL);
-        for (int k = 0; k < BRC_REPORT_ROSE; ++k) brc_json_number(json, NULL, area[k]);
+        for (int k = 0; k < BRC_REPORT_ROSE; ++k)
+            brc_json_number(json, NULL, area[k]);
         brc_json_end(json);
     }
     brc_json_end(json);
@@ -44,7 +47,8 @@ static int heavier_first(const void *left, const void *right)
 static bool is_shown(const brc_report_frames *frames, double number)
 {
     bool shown = frames->n == 0 || number < 0;
-    for (int64_t k = 0; k < frames->n && !shown; ++k) shown = (double)frames->number[k] == number;
+    for (int64_t k = 0; k < frames->n && !shown; ++k)
+        shown = (double)frames->number[k] == number;
     return shown;
 }
 
@@ -69,14 +73,17 @@ brc_status brc_report_cracks_add_fragments(brc_context *context, const brc_csv_r
         masses[n_masses++] = (float)value[mass];
     }
     start[n] = n_masses;
-    for (int64_t k = 0; k < n; ++k) qsort(masses + start[k], (size_t)(start[k + 1] - start[k]), sizeof *masses, heavier_first);
+    for (int64_t k = 0; k < n; ++k)
+        qsort(masses + start[k], (size_t)(start[k + 1] - start[k]), sizeof *masses, heavier_first);
     status = brc_html_array(page, "fragment-masses", masses, n_masses * (int64_t)sizeof *masses);
     brc_json_begin_object(json, "fragments");
     brc_json_begin_array(json, "frame");
-    for (int64_t k = 0; k < n; ++k) brc_json_integer(json, NULL, number[k]);
+    for (int64_t k = 0; k < n; ++k)
+        brc_json_integer(json, NULL, number[k]);
     brc_json_end(json);
     brc_json_begin_array(json, "start");
-    for (int64_t k = 0; k <= n; ++k) brc_json_integer(json, NULL, start[k]);
+    for (int64_t k = 0; k <= n; ++k)
+        brc_json_integer(json, NULL, start[k]);
     brc_json_end(json);
     brc_json_end(json);
 cleanup:

@@ -30,13 +30,15 @@ cleanup:
     return status;
 }
 
-static brc_status add_numbers(brc_context *context, const brc_csv_read *csv, int64_t every, brc_text *page, int64_t *n_shown)
+static brc_status add_numbers(brc_context *context, const brc_csv_read *csv, int64_t every, brc_text *page,
+                              int64_t *n_shown)
 {
     float *value = NULL;
     int64_t n = 0;
     BRC_TRY(BRC_ALLOCATE(context, &value, csv->n_columns * (csv->n_rows / every + 2), "curves of the report"));
     for (int column = 0; column < csv->n_columns; ++column)
-        for (int64_t row = 0; row < csv->n_rows; row = row == csv->n_rows - 1 || row + every < csv->n_rows ? row + every : csv->n_rows - 1)
+        for (int64_t row = 0; row < csv->n_rows;
+             row = row == csv->n_rows - 1 || row + every < csv->n_rows ? row + every : csv->n_rows - 1)
             value[n++] = (float)csv->value[row * csv->n_columns + column];
     *n_shown = n / csv->n_columns;
     const brc_status status = brc_html_array(page, "histories", value, n * (int64_t)sizeof *value);
@@ -47,11 +49,13 @@ static brc_status add_numbers(brc_context *context, const brc_csv_read *csv, int
 static void add_names(brc_json *json, const char *key, const brc_csv_read *csv, const char *const *name)
 {
     brc_json_begin_array(json, key);
-    for (int k = 0; k < csv->n_columns; ++k) brc_json_string(json, NULL, name[k]);
+    for (int k = 0; k < csv->n_columns; ++k)
+        brc_json_string(json, NULL, name[k]);
     brc_json_end(json);
 }
 
-brc_status brc_report_curves(brc_context *context, const char *folder, const char *scene, brc_text *page, brc_json *json)
+brc_status brc_report_curves(brc_context *context, const char *folder, const char *scene, brc_text *page,
+                             brc_json *json)
 {
     brc_csv_read csv;
     int64_t n_shown = 0;

@@ -11,6 +11,7 @@ enum { BRC_REPORT_SAMPLES = 250000 }; /* numbers of all sensors together that a 
  * that the scene's output.curve names, null where it has none. Nothing where there is no histories.csv or no sample.
  * scene: text of the resolved scene, NULL: not known. BRC_BAD_INPUT: histories.csv is larger than a gigabyte.
  * BRC_FILE_FAILED, BRC_NO_MEMORY. */
-brc_status brc_report_curves(brc_context *context, const char *folder, const char *scene, brc_text *page, brc_json *json);
+brc_status brc_report_curves(brc_context *context, const char *folder, const char *scene, brc_text *page,
+                             brc_json *json);
 
 #endif

@@ -13,8 +13,10 @@ static int32_t place_of(const brc_report_frame *last, const brc_report_skin *ski
     if (!brc_report_frame_is_sphere(last, (int64_t)element)) return -1;
     while (low < high) {
         const int64_t middle = (low + high) / 2;
-        if (skin->element[middle] < (int32_t)element) low = middle + 1;
-        else high = middle;
+        if (skin->element[middle] < (int32_t)element)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low < skin->n_elements && skin->element[low] == (int32_t)element ? (int32_t)low : -1;
 }
@@ -28,8 +30,10 @@ static bool find_columns(const brc_csv_read *cracks, columns *out)
     static const char *const name[N_NUMBERS] = {"x", "y", "z", "nx", "ny", "nz", "area"};
     static const char *const element[2] = {"element_i", "element_j"};
     bool all = true;
-    for (int k = 0; k < N_NUMBERS; ++k) all = (out->number[k] = brc_csv_read_column(cracks, name[k])) >= 0 && all;
-    for (int k = 0; k < 2; ++k) all = (out->element[k] = brc_csv_read_column(cracks, element[k])) >= 0 && all;
+    for (int k = 0; k < N_NUMBERS; ++k)
+        all = (out->number[k] = brc_csv_read_column(cracks, name[k])) >= 0 && all;
+    for (int k = 0; k < 2; ++k)
+        all = (out->element[k] = brc_csv_read_column(cracks, element[k])) >= 0 && all;
     return all;
 }
 
@@ -44,7 +48,8 @@ brc_status brc_report_discs(brc_context *context, const brc_csv_read *cracks, co
     int64_t n = 0;
     for (int64_t row = 0; row < cracks->n_rows; row += every) {
         const double *value = cracks->value + row * cracks->n_columns;
-        const int32_t place[2] = {place_of(last, skin, value[column.element[0]]), place_of(last, skin, value[column.element[1]])};
+        const int32_t place[2] = {place_of(last, skin, value[column.element[0]]),
+                                  place_of(last, skin, value[column.element[1]])};
         if (place[0] < 0 || place[1] < 0) continue;
         for (int k = 0; k < N_NUMBERS; ++k) {
             const double v = value[column.number[k]];

@@ -22,8 +22,8 @@ brc_status brc_report_frame_exists(brc_context *context, const char *folder, int
 }
 
 /* A whole dataset of numbers of `bytes` bytes each; rows < 0: any number of rows, which *out_rows tells. */
-static brc_status read_whole(const brc_h5_read *h5, const char *name, hid_t type, int64_t rows, int64_t columns, void *out,
-                             int64_t *out_rows)
+static brc_status read_whole(const brc_h5_read *h5, const char *name, hid_t type, int64_t rows, int64_t columns,
+                             void *out, int64_t *out_rows)
 {
     int64_t found_rows, found_columns;
     BRC_TRY(brc_h5_read_size(h5, name, &found_rows, &found_columns));
@@ -77,7 +77,8 @@ static brc_status read_cells(const brc_h5_read *h5, brc_report_frame *f)
     BRC_TRY(read_whole(h5, "VTKHDF/Offsets", type, -1, 1, &f->cell_start, &n_starts));
     BRC_TRY(read_whole(h5, "VTKHDF/Connectivity", type, -1, 1, &f->cell_point, &n_ids));
     f->n_elements = n_starts - 1;
-    bool good = n_starts > 1 && rise_to(f->n_elements, f->cell_start, n_ids) && are_below(n_ids, f->cell_point, f->n_points);
+    bool good =
+        n_starts > 1 && rise_to(f->n_elements, f->cell_start, n_ids) && are_below(n_ids, f->cell_point, f->n_points);
     if (brc_h5_read_has(h5, "VTKHDF/FaceOffsets")) {
         BRC_TRY(read_whole(h5, "VTKHDF/FaceOffsets", type, -1, 1, &f->face_start, &n_face_starts));
         f->n_faces = n_face_starts - 1;
@@ -89,8 +90,8 @@ static brc_status read_cells(const brc_h5_read *h5, brc_report_frame *f)
     if (brc_h5_read_has(h5, "VTKHDF/PointData/radius"))
         BRC_TRY(read_whole(h5, "VTKHDF/PointData/radius", H5T_NATIVE_FLOAT, f->n_points, 1, &f->radius, NULL));
     if (good) return BRC_OK;
-    return BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: its cells refer to points or faces that are not there; the file is damaged",
-                    h5->path);
+    return BRC_FAIL(h5->context, BRC_BAD_INPUT,
+                    "%s: its cells refer to points or faces that are not there; the file is damaged", h5->path);
 }
 
 static brc_status read_fields(const brc_h5_read *h5, brc_report_frame *f)
@@ -134,7 +135,8 @@ void brc_report_frame_free(brc_report_frame *f)
 {
     void *const all[] = {f->point,      f->displacement, f->radius,    f->cell_start, f->cell_point, f->cell_face,
                          f->face_start, f->face_point,   f->von_mises, f->speed,      f->damage,     f->fragment};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_memory_free(all[k]);
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+        brc_memory_free(all[k]);
     *f = (brc_report_frame){0};
 }
 

@@ -35,7 +35,8 @@ void brc_report_pack_int32(brc_report_pack *p, int64_t n, const int32_t *value)
     for (int64_t k = 0; out && k < n; before = value[k++]) {
         const int32_t step = (int32_t)((uint32_t)value[k] - (uint32_t)before);
         const uint32_t small = (uint32_t)step << 1 ^ (uint32_t)(step >> 31);
-        for (int byte = 0; byte < 4; ++byte) out[byte * n + k] = (unsigned char)(small >> (24 - 8 * byte));
+        for (int byte = 0; byte < 4; ++byte)
+            out[byte * n + k] = (unsigned char)(small >> (24 - 8 * byte));
     }
 }
 

@@ -31,8 +31,8 @@ static brc_status pack_triangles(const brc_vtu_read *vtu, int64_t n_points, brc_
     for (int64_t f = 0, first = 0; f < n_faces; ++f) {
         const int64_t last = integer_at(end, f);
         if (last < first || last > n_corners)
-            return BRC_FAIL(vtu->context, BRC_BAD_INPUT, "%s: polygon %lld ends at %lld of %lld corners", vtu->path, (long long)f,
-                            (long long)last, (long long)n_corners);
+            return BRC_FAIL(vtu->context, BRC_BAD_INPUT, "%s: polygon %lld ends at %lld of %lld corners", vtu->path,
+                            (long long)f, (long long)last, (long long)n_corners);
         for (int64_t k = first + 1; k + 1 < last; ++k, ++*n_triangles) {
             const int64_t id[3] = {integer_at(corner, first), integer_at(corner, k), integer_at(corner, k + 1)};
             for (int i = 0; i < 3; ++i) {
@@ -73,8 +73,8 @@ static brc_status add_moment(const brc_vtu_read *vtu, int64_t k, int64_t n_point
     int64_t n;
     BRC_TRY(brc_vtu_read_array(vtu, "displacement", 4, &n, &moved));
     if (n != 3 * n_points)
-        return BRC_FAIL(vtu->context, BRC_BAD_INPUT, "%s: %lld displacements of %lld points", vtu->path, (long long)n / 3,
-                        (long long)n_points);
+        return BRC_FAIL(vtu->context, BRC_BAD_INPUT, "%s: %lld displacements of %lld points", vtu->path,
+                        (long long)n / 3, (long long)n_points);
     snprintf(id, sizeof id, "view-rigid-%lld", (long long)k);
     return brc_html_array(page, id, moved, 4 * n);
 }
@@ -92,7 +92,8 @@ brc_status brc_report_rigid(brc_context *context, const char *folder, int64_t n,
         if (there && status == BRC_OK && k == 0) status = add_shape(&vtu, page, json, &n_points);
         if (there && status == BRC_OK) status = add_moment(&vtu, k, n_points, page);
         brc_vtu_read_close(&vtu);
-        if (!there && n_points > 0) status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: missing, unlike those of earlier frames", path);
+        if (!there && n_points > 0)
+            status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: missing, unlike those of earlier frames", path);
         brc_memory_free(path);
         BRC_TRY(status);
         if (!there) break;

@@ -20,14 +20,16 @@ static uint64_t mix(uint64_t x) /* splitmix64 */
 static uint64_t key_of(int64_t n, const int64_t *point)
 {
     uint64_t key = 0;
-    for (int64_t k = 0; k < n; ++k) key += mix((uint64_t)point[k]);
+    for (int64_t k = 0; k < n; ++k)
+        key += mix((uint64_t)point[k]);
     return key ? key : 1;
 }
 
 static uint64_t slot_of(const face_table *t, uint64_t key)
 {
     uint64_t slot = key & t->mask;
-    while (t->key[slot] && t->key[slot] != key) slot = (slot + 1) & t->mask;
+    while (t->key[slot] && t->key[slot] != key)
+        slot = (slot + 1) & t->mask;
     return slot;
 }
 
@@ -35,7 +37,8 @@ static brc_status count_faces(brc_context *context, const brc_report_frame *f, f
 {
     const char *what = "faces of a frame";
     t->mask = 1;
-    while (t->mask < (uint64_t)f->n_faces * 2) t->mask = 2 * t->mask + 1;
+    while (t->mask < (uint64_t)f->n_faces * 2)
+        t->mask = 2 * t->mask + 1;
     BRC_TRY(BRC_ALLOCATE(context, &t->key, t->mask + 1, what));
     BRC_TRY(BRC_ALLOCATE(context, &t->count, t->mask + 1, what));
     for (int64_t k = 0; k < f->n_faces; ++k) {
@@ -100,12 +103,14 @@ static void add_all(making *m)
     const brc_report_frame *f = m->frame;
     brc_report_skin *s = m->skin;
     s->n_elements = s->n_points = s->n_faces = m->n_corners = 0;
-    for (int64_t k = 0; k < f->n_points; ++k) m->seen_point[k] = -1;
+    for (int64_t k = 0; k < f->n_points; ++k)
+        m->seen_point[k] = -1;
     for (int64_t e = 0; e < f->n_elements; ++e) {
         const int64_t faces_before = s->n_faces, points_before = s->n_points;
         const int32_t owner = (int32_t)s->n_elements;
         if (f->cell_start[e] == f->cell_start[e + 1]) continue;
-        if (brc_report_frame_is_sphere(f, e)) add_point(m, f->cell_point[f->cell_start[e]], owner);
+        if (brc_report_frame_is_sphere(f, e))
+            add_point(m, f->cell_point[f->cell_start[e]], owner);
         else
             for (int64_t k = f->cell_face[e]; k < f->cell_face[e + 1]; ++k)
                 if (is_open(m->table, f, k)) add_face(m, k, owner);
@@ -143,7 +148,8 @@ cleanup:
 void brc_report_skin_free(brc_report_skin *s)
 {
     void *const all[] = {s->element, s->point, s->point_owner, s->face_owner, s->face_start, s->face_corner, s->birth};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_memory_free(all[k]);
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+        brc_memory_free(all[k]);
     *s = (brc_report_skin){0};
 }
 
@@ -156,7 +162,8 @@ void brc_report_skin_places(const brc_report_skin *s, const brc_report_frame *la
         float nearest = INFINITY;
         for (int64_t k = frame->cell_start[e]; k < frame->cell_start[e + 1]; ++k) {
             const float *y = frame->point + 3 * frame->cell_point[k];
-            const float far = (x[0] - y[0]) * (x[0] - y[0]) + (x[1] - y[1]) * (x[1] - y[1]) + (x[2] - y[2]) * (x[2] - y[2]);
+            const float far =
+                (x[0] - y[0]) * (x[0] - y[0]) + (x[1] - y[1]) * (x[1] - y[1]) + (x[2] - y[2]) * (x[2] - y[2]);
             if (!(far < nearest)) continue;
             nearest = far;
             place[p] = frame->cell_point[k];
@@ -172,7 +179,8 @@ brc_status brc_report_skin_births(brc_context *context, brc_report_skin *s, cons
     for (int64_t f = 0; status == BRC_OK && f < s->n_faces; ++f) {
         uint64_t key = 0;
         if (s->birth[f] >= 0) continue;
-        for (int64_t k = s->face_start[f]; k < s->face_start[f + 1]; ++k) key += mix((uint64_t)place[s->face_corner[k]]);
+        for (int64_t k = s->face_start[f]; k < s->face_start[f + 1]; ++k)
+            key += mix((uint64_t)place[s->face_corner[k]]);
         if (table.count[slot_of(&table, key ? key : 1)] == 1) s->birth[f] = shown;
     }
     free_table(&table);

@@ -8,7 +8,7 @@
 
 typedef struct brc_report_skin {
     int64_t n_elements;
-    int32_t *element;     /* [n_elements] those seen, ascending, by their numbers in frames */
+    int32_t *element; /* [n_elements] those seen, ascending, by their numbers in frames */
     int64_t n_points;
     int64_t *point;       /* [n_points] in the last frame */
     int32_t *point_owner; /* [n_points] an element that has it, by its place in `element` */

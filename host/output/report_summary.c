@@ -50,7 +50,8 @@ static void add_shares(brc_text *page, const brc_node *map, const char *suffix, 
         brc_text_add(page, "</th><td>");
         brc_html_value(page, child->key, child);
         brc_text_add(page, "</td><td>");
-        if (whole > 0 && ends_with(child->key, suffix) && !ends_with(child->key, "_per_s") && child->kind == BRC_NODE_SCALAR)
+        if (whole > 0 && ends_with(child->key, suffix) && !ends_with(child->key, "_per_s") &&
+            child->kind == BRC_NODE_SCALAR)
             brc_text_add(page, "%.3g %%", 100 * strtod(child->text, NULL) / whole);
         brc_text_add(page, "</td></tr>\n");
     }
@@ -122,8 +123,8 @@ void brc_report_summary_cost(brc_text *page, const brc_node *summary)
 
 static bool is_shown(const brc_node *child)
 {
-    static const char *const shown[] = {"title",    "model",  "precision", "device", "version", "commit",
-                                        "end",      "ledger", "timing",    "memory", "measures"};
+    static const char *const shown[] = {"title", "model",  "precision", "device", "version", "commit",
+                                        "end",   "ledger", "timing",    "memory", "measures"};
     for (size_t k = 0; k < sizeof shown / sizeof *shown; ++k)
         if (strcmp(child->key, shown[k]) == 0) return true;
     return false;

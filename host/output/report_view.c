@@ -16,11 +16,11 @@ static const double OUTLIERS = 0.005;
 
 /* One shown frame of the skin's points and elements. */
 typedef struct moment {
-    brc_report_frame head;         /* its moment; arrays freed */
-    float *displacement;           /* [n_points][3] [m] */
-    float *von_mises, *speed;      /* [n_elements] */
-    float *damage;                 /* [n_elements]; NULL: nothing can break */
-    int32_t *fragment;             /* [n_elements] */
+    brc_report_frame head;    /* its moment; arrays freed */
+    float *displacement;      /* [n_points][3] [m] */
+    float *von_mises, *speed; /* [n_elements] */
+    float *damage;            /* [n_elements]; NULL: nothing can break */
+    int32_t *fragment;        /* [n_elements] */
 } moment;
 
 typedef struct view {
@@ -29,8 +29,8 @@ typedef struct view {
     brc_report_frames *frames;
     brc_report_frame last;
     brc_report_skin skin;
-    int64_t *place; /* [n_points] in the frame being read */
-    moment *at;     /* [frames.n] */
+    int64_t *place;          /* [n_points] in the frame being read */
+    moment *at;              /* [frames.n] */
     float low[3], step;      /* of places: low + step * (0 .. 65535) [m] */
     float displacement_step; /* [m] */
     float most[2];           /* where the colours of stress and speed end */
@@ -50,7 +50,8 @@ static brc_status choose_frames(view *v)
     n = n > FRAMES_MOST ? FRAMES_MOST : n < FRAMES_LEAST ? FRAMES_LEAST : n;
     if (n > v->frames->n_all) n = v->frames->n_all;
     BRC_TRY(BRC_ALLOCATE(v->context, &v->frames->number, n, "frames of the report"));
-    for (int64_t k = 0; k < n; ++k) v->frames->number[k] = n > 1 ? k * (v->frames->n_all - 1) / (n - 1) : v->frames->n_all - 1;
+    for (int64_t k = 0; k < n; ++k)
+        v->frames->number[k] = n > 1 ? k * (v->frames->n_all - 1) / (n - 1) : v->frames->n_all - 1;
     v->frames->n = n;
     return BRC_OK;
 }
@@ -89,8 +90,9 @@ static brc_status read_moments(view *v)
         brc_report_frame f;
         brc_status status = brc_report_frame_read(v->context, v->folder, v->frames->number[k], &f);
         if (status == BRC_OK && f.n_elements != v->last.n_elements)
-            status = BRC_FAIL(v->context, BRC_BAD_INPUT, "%s/frames: frame %lld has %lld elements, the last one %lld", v->folder,
-                              (long long)v->frames->number[k], (long long)f.n_elements, (long long)v->last.n_elements);
+            status = BRC_FAIL(v->context, BRC_BAD_INPUT, "%s/frames: frame %lld has %lld elements, the last one %lld",
+                              v->folder, (long long)v->frames->number[k], (long long)f.n_elements,
+                              (long long)v->last.n_elements);
         if (status == BRC_OK && f.n_broken != broken) {
             brc_report_skin_places(&v->skin, &v->last, &f, v->place);
             status = brc_report_skin_births(v->context, &v->skin, &f, v->place, (int32_t)k);
@@ -138,7 +140,8 @@ static void find_steps(view *v)
             if (p == 0 || x < v->low[c]) v->low[c] = x;
             if (p == 0 || x > high[c]) high[c] = x;
         }
-    for (int c = 0; c < 3; ++c) extent = fmaxf(extent, high[c] - v->low[c]);
+    for (int c = 0; c < 3; ++c)
+        extent = fmaxf(extent, high[c] - v->low[c]);
     for (int64_t k = 0; k < v->frames->n; ++k)
         for (int64_t p = 0; p < 3 * s->n_points; ++p) {
             const float u = fabsf(v->at[k].displacement[p]);
@@ -281,7 +284,8 @@ static void add_head(const view *v, brc_json *json)
     brc_json_boolean(json, "spheres", v->last.radius != NULL);
     brc_json_boolean(json, "fracture", v->last.damage != NULL);
     brc_json_begin_array(json, "low");
-    for (int c = 0; c < 3; ++c) brc_json_number(json, NULL, v->low[c]);
+    for (int c = 0; c < 3; ++c)
+        brc_json_number(json, NULL, v->low[c]);
     brc_json_end(json);
     brc_json_number(json, "step", v->step);
     brc_json_number(json, "displacement_step", v->displacement_step);
@@ -296,10 +300,12 @@ static brc_status make(view *v, const brc_csv_read *cracks, brc_text *page, brc_
     BRC_TRY(brc_report_skin_make(v->context, &v->last, &v->skin));
     BRC_TRY(choose_frames(v));
     BRC_TRY(read_moments(v));
-    for (int field = 0; field < 2; ++field) BRC_TRY(find_most(v, field, &v->most[field]));
+    for (int field = 0; field < 2; ++field)
+        BRC_TRY(find_most(v, field, &v->most[field]));
     find_steps(v);
     BRC_TRY(add_surface(v, page));
-    for (int64_t k = 0; k < v->frames->n; ++k) BRC_TRY(add_moment(v, k, page));
+    for (int64_t k = 0; k < v->frames->n; ++k)
+        BRC_TRY(add_moment(v, k, page));
     add_head(v, json);
     BRC_TRY(brc_report_discs(v->context, cracks, &v->last, &v->skin, page, json));
     BRC_TRY(brc_report_rigid(v->context, v->folder, v->frames->n, v->frames->number, page, json));
@@ -318,7 +324,8 @@ brc_status brc_report_view(brc_context *context, const char *folder, const brc_c
     for (int64_t k = 0; v.at && k < frames->n; ++k) {
         moment *m = &v.at[k];
         void *const all[] = {m->displacement, m->von_mises, m->speed, m->damage, m->fragment};
-        for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_memory_free(all[i]);
+        for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
+            brc_memory_free(all[i]);
     }
     brc_memory_free(v.at);
     brc_memory_free(v.place);

@@ -1,5 +1,5 @@
-/* The view in three dimensions of the report page: surface, cracks and rigid bodies at some of the frames of a run, small
- * enough to lie inside the page. */
+/* The view in three dimensions of the report page: surface, cracks and rigid bodies at some of the frames of a run,
+ * small enough to lie inside the page. */
 #ifndef BRC_OUTPUT_REPORT_VIEW_H
 #define BRC_OUTPUT_REPORT_VIEW_H
 

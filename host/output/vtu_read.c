@@ -40,7 +40,8 @@ brc_status brc_vtu_read_array(const brc_vtu_read *vtu, const char *name, int wid
     const size_t rest = begin < vtu->n_bytes ? vtu->n_bytes - begin : 0;
     if (rest >= sizeof bytes) memcpy(&bytes, vtu->bytes + begin, sizeof bytes);
     if (rest < sizeof bytes || bytes > rest - sizeof bytes)
-        return BRC_FAIL(vtu->context, BRC_BAD_INPUT, "%s: array %s is %s", vtu->path, name, offset ? "cut off" : "missing");
+        return BRC_FAIL(vtu->context, BRC_BAD_INPUT, "%s: array %s is %s", vtu->path, name,
+                        offset ? "cut off" : "missing");
     *out = vtu->bytes + begin + sizeof bytes;
     *n = (int64_t)bytes / width;
     return BRC_OK;

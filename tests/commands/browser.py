@@ -18,8 +18,9 @@ if not PROGRAM:
     print("SKIPPED: no chromium; apt-get install chromium")
     sys.exit(1 if os.environ.get("BRC_NO_SKIPS") else 77)
 # WebGL is drawn by the processor (SwiftShader); in containers there is no sandbox.
-ARGUMENTS = ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-             "--remote-debugging-port=0", "--remote-allow-origins=*", "--window-size=1240,1400", "--disable-dev-shm-usage"]
+ARGUMENTS = ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
+             "--enable-unsafe-swiftshader", "--remote-debugging-port=0", "--remote-allow-origins=*",
+             "--window-size=1240,1400", "--disable-dev-shm-usage"]
 EVENTS = ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Log.entryAdded", "Network.requestWillBeSent")
 
 

@@ -1,8 +1,8 @@
-"""The page of `breccia report` in a browser: it loads without a complaint and without a network, the slider moves the solid,
-other sensors and the wheel change the curve, and it is small.
+"""The page of `breccia report` in a browser: it loads without a complaint and without a network, the slider moves the
+solid, other sensors and the wheel change the curve, and it is small.
 
     test_report_page.py                      what ctest runs: three examples made small
-    test_report_page.py --page FILE ...      these pages
+    test_report_page.py --page FILE ...      these pages; the best of three first views within two seconds
     test_report_page.py --picture FILE PAGE  a picture of the page's upper part, as in docs/images
 
 Needs chromium and python3-websocket (browser.py); skipped (77) where they are missing.
@@ -57,8 +57,8 @@ def look_at_view(browser, name):
 def look_at_curves(browser, name):
     first = shown(browser, CURVE)
     assert 0.005 < browser.evaluate(PAINTED % CURVE) < 0.5, f"{name}: the curve is empty"
-    other = browser.evaluate("[...document.getElementById('sensor-y').options].map(o => o.value)"
-                             ".find(v => v !== document.getElementById('sensor-y').value && v !== 'stage' && v !== 'step')")
+    other = browser.evaluate("(() => { const e = document.getElementById('sensor-y'); return [...e.options].map(o => "
+                             "o.value).find(v => v !== e.value && v !== 'stage' && v !== 'step'); })()")
     choose(browser, "sensor-y", other)
     second = shown(browser, CURVE)
     assert second != first, f"{name}: another sensor ({other}) changes nothing"
@@ -71,9 +71,13 @@ def look_at_curves(browser, name):
 def look_at(browser, page, first_view=None):
     name = os.path.basename(os.path.dirname(page))
     size = os.path.getsize(page)
-    browser.open(page)
-    state = browser.wait("document.body.dataset.ready || document.body.dataset.failed ? {...document.body.dataset} : null")
-    assert "failed" not in state, f"{name}: {state['failed']}"
+    states = []
+    for _ in range(1 if first_view is None else 3):
+        browser.open(page)
+        states.append(browser.wait("document.body.dataset.ready || document.body.dataset.failed ? "
+                                   "{...document.body.dataset} : null"))
+        assert "failed" not in states[-1], f"{name}: {states[-1]['failed']}"
+    state = min(states, key=lambda one: int(one.get("first", 0)))
     print(f"{name}: {size / 1e6:.2f} MB, first view after {state.get('first')} ms, all after {state['ready']} ms")
     assert size <= SIZE, f"{name}: the page has {size / 1e6:.2f} MB; at most {SIZE / 1e6:.0f} are expected"
     assert first_view is None or int(state["first"]) <= first_view, f"{name}: first view after {state['first']} ms"

@@ -61,10 +61,12 @@ static void many_samples_are_thinned_and_say_so(void **state)
     brc_text text = {.context = test_context}, page = {.context = test_context};
     brc_json json = {.text = {.context = test_context}};
     brc_text_add(&text, "stage,step,stage_time,time_s");
-    for (int k = 0; k < 46; ++k) brc_text_add(&text, ",s%d [m]", k);
+    for (int k = 0; k < 46; ++k)
+        brc_text_add(&text, ",s%d [m]", k);
     for (int row = 0; row < 10000; ++row) {
         brc_text_add(&text, "\n0,%d,0,0", row);
-        for (int k = 0; k < 46; ++k) brc_text_add(&text, ",%d", row);
+        for (int k = 0; k < 46; ++k)
+            brc_text_add(&text, ",%d", row);
     }
     brc_text_add(&text, "\n");
     put(folder, "histories.csv", text.data);
@@ -78,7 +80,8 @@ static void many_samples_are_thinned_and_say_so(void **state)
     test_remove_folder(folder);
 }
 
-/* Faces across x leave a trace along y in the plane xy, and none in the plane yz; one at 30 degrees leaves it at 120. */
+/* Faces across x leave a trace along y in the plane xy, and none in the plane yz; one at 30 degrees leaves it at 120.
+ */
 static void a_rose_has_the_area_along_the_trace(void **state)
 {
     (void)state;
@@ -88,9 +91,10 @@ static void a_rose_has_the_area_along_the_trace(void **state)
     put(folder, "cracks.csv", "nx,ny,nz,area [m^2]\n1,0,0,2\n-1,0,0,1\n0.8660254,0.5,0,5\n0,0,1,7\n");
     assert_int_equal(brc_csv_read_open(test_context, folder, "cracks.csv", &csv), BRC_OK);
     brc_report_cracks_rose(&csv, 2, rose);
-    for (int k = 0; k < BRC_REPORT_ROSE; ++k) whole += rose[k];
+    for (int k = 0; k < BRC_REPORT_ROSE; ++k)
+        whole += rose[k];
     assert_true(fabs(whole - 8) < 1e-6);
-    assert_true(fabs(rose[9] - 3) < 1e-12); /* 90 to 100 degrees from x */
+    assert_true(fabs(rose[9] - 3) < 1e-12);            /* 90 to 100 degrees from x */
     assert_true(fabs(rose[11] + rose[12] - 5) < 1e-6); /* on the border of two sectors */
     brc_report_cracks_rose(&csv, 0, rose); /* y z: the oblique one is seen by its half, the one across z whole */
     assert_true(fabs(rose[9] - 2.5) < 1e-6 && fabs(rose[0] - 7) < 1e-12);
@@ -137,7 +141,7 @@ static void packed_numbers_are_differences_by_weight(void **state)
     static const unsigned char expected[] = {0, 0, 255, 6, 3, 254, 0, 0, 0, 2, 0, 0, 3, 4, 0, 128, 255, 0};
     assert_int_equal(pack.status, BRC_OK);
     assert_int_equal(pack.n, sizeof expected);
-    /* 3; -2 is 3; -32769 wraps to 32767, which is 65534. -2 is 3; 65538 is 131076. */
+    /* 3 is 6; -2 is 3; -32769 wraps to 32767, which is 65534. -2 is 3; 65538 is 131076. */
     assert_memory_equal(pack.data, expected, sizeof expected);
     brc_report_pack_free(&pack);
 }

@@ -25,7 +25,8 @@ static int begin(void **state)
     uint8_t *whole = malloc((size_t)domain->row_start[domain->n_elements]);
     memset(whole, 1, (size_t)domain->row_start[domain->n_elements]);
     brc_scene scene = {.n_strikers = 0};
-    brc_simulation s = {.scene = &scene, .domain = domain, .breaks = &one, .whole = whole, .gradient = {{1e-2}}, .stress = {3e6}};
+    brc_simulation s = {
+        .scene = &scene, .domain = domain, .breaks = &one, .whole = whole, .gradient = {{1e-2}}, .stress = {3e6}};
     brc_simulation *const alone = &s;
     const brc_assembly assembly = brc_assembly_make(&scene, NULL, 1, &alone);
     brc_frames *frames;
@@ -66,7 +67,8 @@ static double area_of(const brc_report_frame *frame, const brc_report_skin *skin
     double twice[3] = {0};
     for (int64_t k = first + 1; k + 1 < skin->face_start[f + 1]; ++k) {
         const float *o = frame->point + 3 * skin->point[skin->face_corner[first]];
-        const float *a = frame->point + 3 * skin->point[skin->face_corner[k]], *b = frame->point + 3 * skin->point[skin->face_corner[k + 1]];
+        const float *a = frame->point + 3 * skin->point[skin->face_corner[k]],
+                    *b = frame->point + 3 * skin->point[skin->face_corner[k + 1]];
         for (int c = 0; c < 3; ++c) {
             const int i = (c + 1) % 3, j = (c + 2) % 3;
             twice[c] += (double)((a[i] - o[i]) * (b[j] - o[j]) - (a[j] - o[j]) * (b[i] - o[i]));
@@ -84,8 +86,9 @@ static void an_intact_body_shows_its_outside(void **state)
     assert_int_equal(first.n_elements, domain->n_elements);
     assert_int_equal(first.n_broken, 0);
     assert_int_equal(brc_report_skin_make(test_context, &first, &skin), BRC_OK);
-    for (int64_t f = 0; f < skin.n_faces; ++f) area += area_of(&first, &skin, f);
-    assert_true(fabs(area - 10) < 1e-4); /* the box is 2 x 1 x 1 m; places are floats */
+    for (int64_t f = 0; f < skin.n_faces; ++f)
+        area += area_of(&first, &skin, f);
+    assert_true(fabs(area - 10) < 1e-4);               /* the box is 2 x 1 x 1 m; places are floats */
     assert_true(skin.n_elements < domain->n_elements); /* those inside are not seen */
     brc_report_skin_free(&skin);
     brc_report_frame_free(&first);
@@ -134,7 +137,8 @@ static void a_view_tells_of_its_frames_and_needs_all_of_them(void **state)
     assert_int_equal(brc_report_view(test_context, folder, &nothing, &page, &json, &frames), BRC_OK);
     assert_int_equal(frames.n_all, FRAMES);
     assert_int_equal(frames.n, FRAMES);
-    for (int64_t k = 0; k < FRAMES; ++k) assert_int_equal(frames.number[k], k);
+    for (int64_t k = 0; k < FRAMES; ++k)
+        assert_int_equal(frames.number[k], k);
     assert_non_null(strstr(json.text.data, "\"broken\": 1"));
     assert_non_null(strstr(page.data, "id=\"view-surface\""));
     assert_non_null(strstr(page.data, "id=\"view-2\""));

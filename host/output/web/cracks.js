@@ -7,8 +7,8 @@ class Fragments {
     }
 
     start(echarts) {
-        this.place.append(make("h2", { textContent: "Fragment sizes" }));
-        this.told = make("p", { className: "small" });
+        this.place.append(make("h2", {textContent: "Fragment sizes"}));
+        this.told = make("p", {className: "small"});
         this.place.append(this.told);
         this.chart = chartIn(echarts, this.place, 380);
         this.show(null);
@@ -29,17 +29,39 @@ class Fragments {
         this.told.textContent = `${masses.length} fragment${masses.length === 1 ? "" : "s"}` +
             (this.head.frame[of] < 0 ? " at the end of the run" : ` at frame ${this.head.frame[of]}`) +
             ` · largest ${(100 * masses[0] / whole).toPrecision(4)} % of the mass`;
-        this.chart.setOption({
-            animation: false, grid: { left: 70, right: 70, top: 50, bottom: 60 }, legend: { top: 8 }, toolbox: TOOLS,
-            tooltip: { trigger: "item" },
-            xAxis: axisOf("mass of a fragment [kg]", { type: "log" }),
-            yAxis: [axisOf("share of the mass in fragments up to it [%]", { min: 0, max: 100, nameGap: 45 }),
-                    axisOf("fragments at least as heavy", { type: "log", nameGap: 45, min: 1, splitLine: { show: false } })],
-            series: [{ type: "line", name: "share of the mass", step: "end", data: share.reverse(), color: "#27517d",
-                       showSymbol: share.length < 60 },
-                     { type: "line", name: "number", yAxisIndex: 1, data: count, color: "#b2332b", symbolSize: 5,
-                       showSymbol: count.length < 60 }],
-        }, true);
+        this.chart.setOption(
+            {
+                animation: false,
+                grid: {left: 70, right: 70, top: 50, bottom: 60},
+                legend: {top: 8},
+                toolbox: TOOLS,
+                tooltip: {trigger: "item"},
+                xAxis: axisOf("mass of a fragment [kg]", {type: "log"}),
+                yAxis: [
+                    axisOf("share of the mass in fragments up to it [%]", {min: 0, max: 100, nameGap: 45}),
+                    axisOf("fragments at least as heavy", {type: "log", nameGap: 45, min: 1, splitLine: {show: false}})
+                ],
+                series: [
+                    {
+                        type: "line",
+                        name: "share of the mass",
+                        step: "end",
+                        data: share.reverse(),
+                        color: "#27517d",
+                        showSymbol: share.length < 60
+                    },
+                    {
+                        type: "line",
+                        name: "number",
+                        yAxisIndex: 1,
+                        data: count,
+                        color: "#b2332b",
+                        symbolSize: 5,
+                        showSymbol: count.length < 60
+                    }
+                ],
+            },
+            true);
     }
 }
 
@@ -52,12 +74,14 @@ class Rose {
     }
 
     start(echarts) {
-        this.place.append(make("h2", { textContent: "Crack rose" }));
-        const plane = make("select", { id: "plane", onchange: () => this.show(PLANES[plane.selectedIndex], this.areas[plane.selectedIndex]) },
-            ...PLANES.map(([name]) => make("option", { textContent: name })));
+        this.place.append(make("h2", {textContent: "Crack rose"}));
+        const plane = make(
+            "select",
+            {id: "plane", onchange: () => this.show(PLANES[plane.selectedIndex], this.areas[plane.selectedIndex])},
+            ...PLANES.map(([name]) => make("option", {textContent: name})));
         plane.selectedIndex = 2;
-        this.told = make("span", { className: "small" });
-        this.place.append(make("div", { className: "controls" }, make("label", {}, "plane", plane), this.told));
+        this.told = make("span", {className: "small"});
+        this.place.append(make("div", {className: "controls"}, make("label", {}, "plane", plane), this.told));
         this.chart = chartIn(echarts, this.place, 380);
         plane.onchange();
     }
@@ -67,13 +91,26 @@ class Rose {
         const parts = [...area, ...area].map((a) => whole > 0 ? 100 * a / whole : 0);
         this.told.textContent = `share of the crack area by the direction of its trace, seen along ${along}; ` +
             `0°: ${across}, 90°: ${up}; area seen ${(whole * 1e6).toPrecision(3)} mm²`;
-        this.chart.setOption({
-            animation: false, polar: { radius: "78%" }, toolbox: { feature: { saveAsImage: { title: "picture" } } },
-            tooltip: { formatter: (p) => `${p.dataIndex % n * step}° to ${(p.dataIndex % n + 1) * step}°: ${p.value.toFixed(2)} %` },
-            angleAxis: { type: "category", startAngle: 0, clockwise: false, data: parts.map((_, k) => `${k * step}°`),
-                         axisLabel: { interval: 2, align: "center" }, boundaryGap: true },
-            radiusAxis: { axisLabel: { formatter: "{value} %" }, splitNumber: 3 },
-            series: [{ type: "bar", coordinateSystem: "polar", data: parts, barCategoryGap: "6%", color: "#27517d" }],
-        }, true);
+        this.chart.setOption(
+            {
+                animation: false,
+                polar: {radius: "78%"},
+                toolbox: {feature: {saveAsImage: {title: "picture"}}},
+                tooltip: {
+                    formatter: (p) =>
+                        `${p.dataIndex % n * step}° to ${(p.dataIndex % n + 1) * step}°: ${p.value.toFixed(2)} %`
+                },
+                angleAxis: {
+                    type: "category",
+                    startAngle: 0,
+                    clockwise: false,
+                    data: parts.map((_, k) => `${k * step}°`),
+                    axisLabel: {interval: 2, align: "center"},
+                    boundaryGap: true
+                },
+                radiusAxis: {axisLabel: {formatter: "{value} %"}, splitNumber: 3},
+                series: [{type: "bar", coordinateSystem: "polar", data: parts, barCategoryGap: "6%", color: "#27517d"}],
+            },
+            true);
     }
 }

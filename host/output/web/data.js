@@ -13,7 +13,7 @@ async function unpack(id, format = "deflate") {
 
 /* A library of the page as a module. */
 async function library(id) {
-    const url = URL.createObjectURL(new Blob([await unpack(id, "gzip")], { type: "text/javascript" }));
+    const url = URL.createObjectURL(new Blob([await unpack(id, "gzip")], {type: "text/javascript"}));
     const module = await import(url);
     URL.revokeObjectURL(url);
     return module;
@@ -52,13 +52,9 @@ class Reader {
     }
 
     /* Bytes are copied, so that they are aligned. */
-    float32(n) {
-        return new Float32Array(this.take(4 * n).slice().buffer);
-    }
+    float32(n) { return new Float32Array(this.take(4 * n).slice().buffer); }
 
-    plainInt32(n) {
-        return new Int32Array(this.take(4 * n).slice().buffer);
-    }
+    plainInt32(n) { return new Int32Array(this.take(4 * n).slice().buffer); }
 }
 
 /* An element with properties and children; words become text. */

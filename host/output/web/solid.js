@@ -69,8 +69,15 @@ class Solid {
             geometry.setIndex(new three.BufferAttribute(index, 1));
             geometry.setAttribute("position", this.position);
             geometry.setAttribute("color", this.colour);
-            const material = new three.MeshLambertMaterial({ vertexColors: true, flatShading: true, side: three.DoubleSide,
-                clippingPlanes: [this.cut], polygonOffset: offset > 0, polygonOffsetFactor: offset, polygonOffsetUnits: offset });
+            const material = new three.MeshLambertMaterial({
+                vertexColors: true,
+                flatShading: true,
+                side: three.DoubleSide,
+                clippingPlanes: [this.cut],
+                polygonOffset: offset > 0,
+                polygonOffsetFactor: offset,
+                polygonOffsetUnits: offset
+            });
             const made = new three.Mesh(geometry, material);
             made.frustumCulled = false;
             this.group.add(made);
@@ -82,7 +89,8 @@ class Solid {
 
     makeSpheres() {
         const three = this.three, all = [];
-        for (let p = 0; p < this.radius.length; ++p) if (this.radius[p] > 0) all.push(p);
+        for (let p = 0; p < this.radius.length; ++p)
+            if (this.radius[p] > 0) all.push(p);
         this.spherePoint = Int32Array.from(all);
         const geometry = new three.BufferGeometry();
         this.spherePlace = new three.BufferAttribute(new Float32Array(3 * all.length), 3);
@@ -90,9 +98,16 @@ class Solid {
         geometry.setAttribute("position", this.spherePlace);
         geometry.setAttribute("color", this.sphereColour);
         geometry.setAttribute("radius", new three.BufferAttribute(Float32Array.from(all, (p) => this.radius[p]), 1));
-        this.sphereMaterial = new three.ShaderMaterial({ vertexShader: SPHERE_VERTEX, fragmentShader: SPHERE_FRAGMENT,
-            vertexColors: true, uniforms: { pixels: { value: 1 }, cut: { value: new three.Vector4(0, 0, 0, 1) },
-                projection: { value: new three.Matrix4() } } });
+        this.sphereMaterial = new three.ShaderMaterial({
+            vertexShader: SPHERE_VERTEX,
+            fragmentShader: SPHERE_FRAGMENT,
+            vertexColors: true,
+            uniforms: {
+                pixels: {value: 1},
+                cut: {value: new three.Vector4(0, 0, 0, 1)},
+                projection: {value: new three.Matrix4()}
+            }
+        });
         this.spheres = new three.Points(geometry, this.sphereMaterial);
         this.spheres.frustumCulled = false;
         this.group.add(this.spheres);
@@ -114,22 +129,24 @@ class Solid {
             along.set(Math.abs(nx) < 0.7 ? 1 : 0, Math.abs(nx) < 0.7 ? 0 : 1, 0).cross(normal).normalize();
             across.crossVectors(normal, along);
             for (let k = 0; k < DISC_CORNERS; ++k) {
-                const c = radius * Math.cos(2 * Math.PI * k / DISC_CORNERS), s = radius * Math.sin(2 * Math.PI * k / DISC_CORNERS);
-                this.discShape.set([x + c * along.x + s * across.x, y + c * along.y + s * across.y,
-                                    z + c * along.z + s * across.z], 3 * (DISC_CORNERS * d + k));
+                const c = radius * Math.cos(2 * Math.PI * k / DISC_CORNERS),
+                      s = radius * Math.sin(2 * Math.PI * k / DISC_CORNERS);
+                this.discShape.set(
+                    [x + c * along.x + s * across.x, y + c * along.y + s * across.y, z + c * along.z + s * across.z],
+                    3 * (DISC_CORNERS * d + k));
             }
             for (let k = 1; k + 1 < DISC_CORNERS; ++k)
                 for (const corner of [0, k, k + 1]) index[at++] = DISC_CORNERS * d + corner;
         }
-        this.discs = this.plain(this.discShape.length / 3, index, { color: 0xb2332b });
+        this.discs = this.plain(this.discShape.length / 3, index, {color: 0xb2332b});
     }
 
     plain(n, index, colour) {
         const three = this.three, geometry = new three.BufferGeometry();
         geometry.setIndex(new three.BufferAttribute(index, 1));
         geometry.setAttribute("position", new three.BufferAttribute(new Float32Array(3 * n), 3));
-        const material = new three.MeshLambertMaterial({ ...colour, flatShading: true, side: three.DoubleSide,
-            clippingPlanes: [this.cut] });
+        const material = new three.MeshLambertMaterial(
+            {...colour, flatShading: true, side: three.DoubleSide, clippingPlanes: [this.cut]});
         const made = new three.Mesh(geometry, material);
         made.frustumCulled = false;
         this.group.add(made);
@@ -140,7 +157,8 @@ class Solid {
         const reader = new Reader(buffer);
         this.rigidPlace = reader.float32(3 * head.n_points);
         const index = Uint32Array.from(reader.plainInt32(3 * head.n_triangles));
-        this.rigid = this.plain(head.n_points, index, { color: 0x9aa3ad, transparent: true, opacity: 0.55, depthWrite: false });
+        this.rigid =
+            this.plain(head.n_points, index, {color: 0x9aa3ad, transparent: true, opacity: 0.55, depthWrite: false});
     }
 
     /* A frame unpacked: displacement of points [m] and fields of elements. */
@@ -150,11 +168,11 @@ class Solid {
         const displacement = new Float32Array(3 * h.n_points);
         for (let c = 0; c < 3; ++c)
             for (let p = 0; p < h.n_points; ++p) displacement[3 * p + c] = h.displacement_step * parts[c][p];
-        const out = { displacement, stress: reader.take(n), speed: reader.take(n) };
+        const out = {displacement, stress: reader.take(n), speed: reader.take(n)};
         if (h.fracture) {
             out.damage = reader.take(n);
             const two = reader.take(2 * n);
-            out.fragment = Uint16Array.from({ length: n }, (_, e) => two[2 * e] << 8 | two[2 * e + 1]);
+            out.fragment = Uint16Array.from({length: n}, (_, e) => two[2 * e] << 8 | two[2 * e + 1]);
         }
         return out;
     }

@@ -1,6 +1,8 @@
 /* The view of the solid with its controls. */
-const CORNER_VIEW = [Math.cos(24 * Math.PI / 180) * Math.cos(-62 * Math.PI / 180),
-                     Math.cos(24 * Math.PI / 180) * Math.sin(-62 * Math.PI / 180), Math.sin(24 * Math.PI / 180)];
+const CORNER_VIEW = [
+    Math.cos(24 * Math.PI / 180) * Math.cos(-62 * Math.PI / 180),
+    Math.cos(24 * Math.PI / 180) * Math.sin(-62 * Math.PI / 180), Math.sin(24 * Math.PI / 180)
+];
 
 class View {
     constructor(place, head, touching) {
@@ -9,7 +11,7 @@ class View {
         this.moments = new Map();
         this.listeners = [];
         this.scale = touching ? 1 : 0;
-        this.colouring = head.fracture ? "damage" : "stress";
+        this.colouring = head.fracture ? 'damage' : 'stress';
         this.place = place;
     }
 
@@ -17,7 +19,7 @@ class View {
         const three = this.three = module.THREE;
         this.makeControls();
         three.ColorManagement.enabled = false;
-        this.renderer = new three.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+        this.renderer = new three.WebGLRenderer({antialias: true, preserveDrawingBuffer: true});
         this.renderer.outputColorSpace = three.LinearSRGBColorSpace;
         this.renderer.localClippingEnabled = true;
         this.renderer.setClearColor(0xffffff);
@@ -29,12 +31,12 @@ class View {
         const lamp = new three.DirectionalLight(0xffffff, 1.4);
         lamp.position.set(-0.4, 0.6, 1);
         this.camera.add(lamp);
-        this.solid = new Solid(three, this.head, await unpack("view-surface"));
-        if (this.head.discs) this.solid.addDiscs(this.head.discs, await unpack("view-discs"));
-        if (this.head.rigid) this.solid.addRigid(this.head.rigid, await unpack("view-rigid"));
+        this.solid = new Solid(three, this.head, await unpack('view-surface'));
+        if (this.head.discs) this.solid.addDiscs(this.head.discs, await unpack('view-discs'));
+        if (this.head.rigid) this.solid.addRigid(this.head.rigid, await unpack('view-rigid'));
         this.scene.add(this.solid.group);
         this.controls = new module.OrbitControls(this.camera, this.renderer.domElement);
-        this.controls.addEventListener("change", () => this.draw());
+        this.controls.addEventListener('change', () => this.draw());
         if (!this.scale) this.scale = await this.automaticScale();
         this.factor.value = this.scale;
         await this.show(this.frame);
@@ -82,9 +84,12 @@ class View {
 
     sentence(frame) {
         const f = this.head.frames[frame], parts = [`frame ${f.number}`];
-        parts.push(f.time > 0 ? `t = ${words(f.time, "s")}` : `stage ${f.stage + 1}, load ${Number(f.stage_time.toPrecision(4))}`);
-        if (this.head.fracture) parts.push(`${f.broken} broken bonds`, `${f.fragments} fragment${f.fragments === 1 ? "" : "s"}`);
-        return parts.join(" · ");
+        parts.push(
+            f.time > 0 ? `t = ${words(f.time, 's')}` :
+                         `stage ${f.stage + 1}, load ${Number(f.stage_time.toPrecision(4))}`);
+        if (this.head.fracture)
+            parts.push(`${f.broken} broken bonds`, `${f.fragments} fragment${f.fragments === 1 ? '' : 's'}`);
+        return parts.join(' · ');
     }
 
     /* What colours the solid: [name, unit, least, most, value of an element or point as 0 to 255]. */
@@ -92,15 +97,15 @@ class View {
         const h = this.head, u = moment.displacement, most = h.displacement_step * 32767;
         const length = (p) => Math.hypot(u[3 * p], u[3 * p + 1], u[3 * p + 2]);
         return {
-            stress: ["von Mises stress", "Pa", h.most_stress, (e) => moment.stress[e]],
-            speed: ["speed", "m/s", h.most_speed, (e) => moment.speed[e]],
-            displacement: ["displacement", "m", most, (_, p) => Math.min(255, Math.round(255 * length(p) / most)) || 0],
-            damage: ["damage", "-", 1, (e) => moment.damage[e]],
+            stress: ['von Mises stress', 'Pa', h.most_stress, (e) => moment.stress[e]],
+            speed: ['speed', 'm/s', h.most_speed, (e) => moment.speed[e]],
+            displacement: ['displacement', 'm', most, (_, p) => Math.min(255, Math.round(255 * length(p) / most)) || 0],
+            damage: ['damage', '-', 1, (e) => moment.damage[e]],
         }[this.colouring];
     }
 
     paint(moment) {
-        if (this.colouring === "fragment") {
+        if (this.colouring === 'fragment') {
             const largest = mostFrequent(moment.fragment), known = new Map();
             this.solid.paint((e, _, out, at) => {
                 const number = moment.fragment[e];
@@ -110,7 +115,7 @@ class View {
                 out[at + 1] = colour[1];
                 out[at + 2] = colour[2];
             });
-            this.bar.replaceChildren("one colour for each fragment, the largest grey");
+            this.bar.replaceChildren('one colour for each fragment, the largest grey');
             return;
         }
         const [name, unit, most, value] = this.field(moment);
@@ -120,7 +125,7 @@ class View {
             out[at + 1] = LADDER[level + 1];
             out[at + 2] = LADDER[level + 2];
         });
-        const stripe = make("i");
+        const stripe = make('i');
         stripe.style.background = ladderStyle();
         this.bar.replaceChildren(`${name}: 0`, stripe, words(most, unit));
     }
@@ -138,7 +143,8 @@ class View {
         if (!this.ready) return;
         if (this.solid.spheres) {
             const tall = this.renderer.domElement.height;
-            this.solid.sphereMaterial.uniforms.pixels.value = tall * this.camera.zoom / (this.camera.top - this.camera.bottom);
+            this.solid.sphereMaterial.uniforms.pixels.value =
+                tall * this.camera.zoom / (this.camera.top - this.camera.bottom);
             this.solid.sphereMaterial.uniforms.projection.value.copy(this.camera.projectionMatrix);
         }
         this.renderer.render(this.scene, this.camera);
@@ -146,13 +152,13 @@ class View {
     }
 
     drawAxes() {
-        const pen = this.axes.getContext("2d"), turn = this.camera.matrixWorldInverse.elements;
+        const pen = this.axes.getContext('2d'), turn = this.camera.matrixWorldInverse.elements;
         pen.clearRect(0, 0, 168, 168);
-        pen.font = "24px sans-serif";
+        pen.font = '24px sans-serif';
         pen.lineWidth = 3;
-        pen.textBaseline = "middle";
-        pen.textAlign = "center";
-        [["x", "#b2332b"], ["y", "#2b7a3b"], ["z", "#2b4fb2"]].forEach(([name, colour], c) => {
+        pen.textBaseline = 'middle';
+        pen.textAlign = 'center';
+        [['x', '#b2332b'], ['y', '#2b7a3b'], ['z', '#2b4fb2']].forEach(([name, colour], c) => {
             const x = turn[4 * c], y = -turn[4 * c + 1];
             if (Math.hypot(x, y) < 0.15) return;
             pen.strokeStyle = pen.fillStyle = colour;
@@ -177,14 +183,16 @@ class View {
         this.fit();
     }
 
-    /* The point of the solid that is in the middle of the picture, and how far it reaches to the side and up from there. */
+    /* The point of the solid that is in the middle of the picture, and how far it reaches to the side and up from
+     * there. */
     middle(from) {
         const three = this.three, toward = new three.Vector3(...from).normalize();
         const up = new three.Vector3(0, toward.z > 0.99 ? 1 : 0, toward.z > 0.99 ? 0 : 1);
         const right = new three.Vector3().crossVectors(up, toward).normalize();
         up.crossVectors(toward, right);
         const reach = [right, up, toward].map((axis) => this.reachAlong(axis));
-        this.half = [reach[0], reach[1]].map(([low, high]) => Math.max(0.5 * (high - low), 0.02 * this.bounds().radius));
+        this.half =
+            [reach[0], reach[1]].map(([low, high]) => Math.max(0.5 * (high - low), 0.02 * this.bounds().radius));
         const out = new three.Vector3();
         [right, up, toward].forEach((axis, k) => out.addScaledVector(axis, 0.5 * (reach[k][0] + reach[k][1])));
         return out;
@@ -222,66 +230,114 @@ class View {
 
     makeControls() {
         const h = this.head, n = h.frames.length;
-        this.box = make("div", { className: "solid" });
-        this.axes = make("canvas", { className: "axes", width: 168, height: 168 });
-        this.slider = make("input", { type: "range", id: "frame", min: 0, max: n - 1, step: 1, value: this.frame,
-            ariaLabel: "frame", oninput: () => this.show(Number(this.slider.value)) });
-        this.play = make("button", { textContent: "play", onclick: () => this.run() });
-        this.told = make("span", { id: "moment" });
-        this.bar = make("span", { className: "bar" });
-        this.place.append(make("h2", { textContent: "View" }), this.makeChoices(), this.box,
-            make("div", { className: "time" }, this.play, this.slider), make("div", { className: "controls" }, this.told, this.bar));
+        this.box = make('div', {className: 'solid'});
+        this.axes = make('canvas', {className: 'axes', width: 168, height: 168});
+        this.slider = make('input', {
+            type: 'range',
+            id: 'frame',
+            min: 0,
+            max: n - 1,
+            step: 1,
+            value: this.frame,
+            ariaLabel: 'frame',
+            oninput: () => this.show(Number(this.slider.value))
+        });
+        this.play = make('button', {textContent: 'play', onclick: () => this.run()});
+        this.told = make('span', {id: 'moment'});
+        this.bar = make('span', {className: 'bar'});
+        this.place.append(
+            make('h2', {textContent: 'View'}), this.makeChoices(), this.box,
+            make('div', {className: 'time'}, this.play, this.slider),
+            make('div', {className: 'controls'}, this.told, this.bar));
         const left = h.n_all - n;
-        const some = left > 0 ? `${n} of the ${h.n_all} frames are shown; the folder of the run has all. ` : "";
-        const thinned = h.discs && h.discs.every > 1 ? `Each disc stands for ${h.discs.every} broken bonds. ` : "";
-        this.place.append(make("p", { className: "small", textContent: `${some}${thinned}Drag: turn; wheel: zoom; right button: move. ` +
-            "Colours of stress and speed end where 99.5 % of the values do." }));
+        const some = left > 0 ? `${n} of the ${h.n_all} frames are shown; the folder of the run has all. ` : '';
+        const thinned = h.discs && h.discs.every > 1 ? `Each disc stands for ${h.discs.every} broken bonds. ` : '';
+        this.place.append(make('p', {
+            className: 'small',
+            textContent: `${some}${thinned}Drag: turn; wheel: zoom; right button: move. ` +
+                'Colours of stress and speed end where 99.5 % of the values do.'
+        }));
     }
 
     makeChoices() {
-        const h = this.head, names = [["stress", "von Mises stress"], ["speed", "speed"], ["displacement", "displacement"]];
-        if (h.fracture) names.push(["damage", "damage"], ["fragment", "fragments"]);
-        const colour = make("select", { id: "colour", onchange: () => {
-            this.colouring = colour.value;
-            this.show(this.frame);
-        } }, ...names.map(([value, textContent]) => make("option", { value, textContent })));
+        const h = this.head,
+              names = [['stress', 'von Mises stress'], ['speed', 'speed'], ['displacement', 'displacement']];
+        if (h.fracture) names.push(['damage', 'damage'], ['fragment', 'fragments']);
+        const colour = make(
+            'select', {
+                id: 'colour',
+                onchange: () => {
+                    this.colouring = colour.value;
+                    this.show(this.frame);
+                }
+            },
+            ...names.map(([value, textContent]) => make('option', {value, textContent})));
         colour.value = this.colouring;
-        this.factor = make("input", { id: "factor", type: "number", min: 0, step: "any", onchange: () => {
-            this.scale = Number(this.factor.value) || 0;
-            this.show(this.frame);
-        } });
-        this.factor.style.width = "6em";
-        const directions = { corner: CORNER_VIEW, x: [1, 0, 0], y: [0, -1, 0], z: [0, 0, 1] };
-        const looks = Object.entries(directions).map(([textContent, from]) =>
-            make("button", { textContent, onclick: () => this.look(from) }));
-        return make("div", { className: "controls" }, make("label", {}, "colour", colour),
-            make("label", {}, "displacement ×", this.factor), make("span", {}, "view ", ...looks), ...this.makeParts(), this.makeCut());
+        this.factor = make('input', {
+            id: 'factor',
+            type: 'number',
+            min: 0,
+            step: 'any',
+            onchange: () => {
+                this.scale = Number(this.factor.value) || 0;
+                this.show(this.frame);
+            }
+        });
+        this.factor.style.width = '6em';
+        const directions = {corner: CORNER_VIEW, x: [1, 0, 0], y: [0, -1, 0], z: [0, 0, 1]};
+        const looks =
+            Object.entries(directions).map(([textContent,
+                                             from]) => make('button', {textContent, onclick: () => this.look(from)}));
+        return make(
+            'div', {className: 'controls'}, make('label', {}, 'colour', colour),
+            make('label', {}, 'displacement ×', this.factor), make('span', {}, 'view ', ...looks), ...this.makeParts(),
+            this.makeCut());
     }
 
     /* What is shown at all. */
     makeParts() {
-        const solid = (show) => { this.solid.outside.visible = show; if (this.solid.spheres) this.solid.spheres.visible = show; };
-        const cracks = (show) => { this.solid.cracks.visible = show; if (this.solid.discs) this.solid.discs.visible = show; };
-        const parts = [["solid", solid]];
-        if (this.head.fracture) parts.push(["cracks", cracks]);
-        if (this.head.rigid) parts.push(["rigid bodies", (show) => { this.solid.rigid.visible = show; }]);
+        const solid = (show) => {
+            this.solid.outside.visible = show;
+            if (this.solid.spheres) this.solid.spheres.visible = show;
+        };
+        const cracks = (show) => {
+            this.solid.cracks.visible = show;
+            if (this.solid.discs) this.solid.discs.visible = show;
+        };
+        const parts = [['solid', solid]];
+        if (this.head.fracture) parts.push(['cracks', cracks]);
+        if (this.head.rigid)
+            parts.push([
+                'rigid bodies',
+                (show) => {
+                    this.solid.rigid.visible = show;
+                }
+            ]);
         return parts.map(([name, set]) => {
-            const box = make("input", { type: "checkbox", checked: true, onchange: () => { set(box.checked); this.draw(); } });
-            return make("label", {}, box, name);
+            const box = make('input', {
+                type: 'checkbox',
+                checked: true,
+                onchange: () => {
+                    set(box.checked);
+                    this.draw();
+                }
+            });
+            return make('label', {}, box, name);
         });
     }
 
     makeCut() {
-        const axis = make("select", {}, ...["none", "x", "y", "z"].map((textContent) => make("option", { textContent })));
-        const at = make("input", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5, ariaLabel: "place of the cut" });
+        const axis = make('select', {}, ...['none', 'x', 'y', 'z'].map((textContent) => make('option', {textContent})));
+        const at =
+            make('input', {type: 'range', min: 0, max: 1, step: 0.005, value: 0.5, ariaLabel: 'place of the cut'});
         const set = () => {
-            const c = ["x", "y", "z"].indexOf(axis.value), box = new this.three.Box3().setFromArray(this.solid.place);
+            const c = ['x', 'y', 'z'].indexOf(axis.value), box = new this.three.Box3().setFromArray(this.solid.place);
             const low = box.min.getComponent(Math.max(c, 0)), high = box.max.getComponent(Math.max(c, 0));
             this.solid.setCut(c, low + (high - low) * Number(at.value));
             this.draw();
         };
         axis.onchange = at.oninput = set;
-        return make("label", {}, "cut", axis, at);
+        return make('label', {}, 'cut', axis, at);
     }
 
     /* All frames one after the other, once. */
@@ -289,10 +345,10 @@ class View {
         if (this.timer) {
             clearInterval(this.timer);
             this.timer = null;
-            this.play.textContent = "play";
+            this.play.textContent = 'play';
             return;
         }
-        this.play.textContent = "pause";
+        this.play.textContent = 'pause';
         let next = this.frame + 1 < this.head.frames.length ? this.frame + 1 : 0;
         this.timer = setInterval(async () => {
             await this.show(next++);
