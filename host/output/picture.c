@@ -203,7 +203,7 @@ static void add_visible(canvas *c, int32_t part)
         double normal[3], middle[3];
         if (!measure_face(c, part, f, normal, middle) || dot(normal, c->view.toward) <= 0) continue;
         c->faces[c->n_faces++] = (brc_paint_face){
-            .depth = dot(middle, c->view.toward), .id = (int32_t)(c->first_face[part] + f), .shade = brc_paint_shade(normal)};
+            .depth = dot(middle, c->view.toward), .id = (int32_t)(c->first_face[part] + f), .shade = brc_paint_shade(&c->view, normal)};
     }
 }
 
@@ -243,7 +243,7 @@ static void add_visible_striker(canvas *c, int32_t index)
         }
         if (!isfinite(dot(normal, normal)) || !isfinite(dot(middle, middle)) || !(dot(normal, c->view.toward) > 0)) continue;
         c->faces[c->n_faces++] = (brc_paint_face){.depth = striker->is_plane ? -INFINITY : dot(middle, c->view.toward),
-                                                  .id = (int32_t)(c->first_face[index] + f), .shade = brc_paint_shade(normal)};
+                                                  .id = (int32_t)(c->first_face[index] + f), .shade = brc_paint_shade(&c->view, normal)};
     }
 }
 
@@ -468,7 +468,7 @@ static void move_all(canvas *c, double scale)
 
 brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, const char *path)
 {
-    canvas c = {.context = context, .picture = picture, .scale = picture->scale, .view = brc_paint_corner_view()};
+    canvas c = {.context = context, .picture = picture, .scale = picture->scale, .view = picture->view ? *picture->view : brc_paint_corner_view()};
     brc_status status = BRC_OK;
     if (!(c.scale > 0)) c.scale = picture->steady ? 1 : brc_picture_automatic_scale(picture->n, picture->part);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.surface, picture->n, "parts of the picture"));

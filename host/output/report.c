@@ -225,11 +225,10 @@ static brc_status add_view(brc_context *context, const char *folder, const brc_c
     return status;
 }
 
-/* Do solids touch each other or a rigid body, or break? Then a displacement that is amplified shows what is not there.
- */
+/* Do solids touch each other or a rigid body? Then an amplified displacement shows gaps that are not there. */
 static bool is_touching(const brc_node *summary)
 {
-    static const char *const touching[] = {"contact", "walls and strikers", "fracture"};
+    static const char *const touching[] = {"contact", "walls and strikers"};
     const brc_node *effects = brc_node_find(summary, "effects");
     const brc_node *in = effects && effects->kind == BRC_NODE_MAP ? brc_node_find(effects, "in") : NULL;
     for (const brc_node *effect = in ? in->first : NULL; effect; effect = effect->next)

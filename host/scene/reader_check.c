@@ -487,6 +487,7 @@ static brc_status check_rest(brc_reader *reader)
     check_contact(reader);
     BRC_TRY(check_stages(reader));
     check_sensors(reader);
+    brc_reader_check_output(reader);
     for (int i = 0; i < reader->scene->n_measures; ++i)
         check_measure(reader, &reader->scene->measures[i]);
     return BRC_OK;

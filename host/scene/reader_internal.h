@@ -66,6 +66,8 @@ void brc_names_find_bodies(brc_reader *reader);
 brc_status brc_names_add_body_sets(brc_reader *reader, const brc_wall_names *walls);
 /* reader_check_fracture.c: what breaks, and what scenes that break cannot have. */
 void brc_reader_check_fracture(brc_reader *reader);
+/* reader_check_output.c: views of pictures. */
+void brc_reader_check_output(brc_reader *reader);
 /* reader_check.c: fill in what follows from other parts, and check what needs the whole scene. */
 brc_status brc_reader_check(brc_reader *reader);
 

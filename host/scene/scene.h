@@ -385,6 +385,9 @@ typedef struct brc_output {
     bool picture_frames;     /* draw every frame too, pictures/NNNNNN.png */
     bool has_picture_cut;    /* elements in front of the plane are not drawn */
     double picture_cut_point[3], picture_cut_normal[3]; /* [m] of the undeformed solid; unit vector */
+    char picture_view[BRC_NAME]; /* seen from: "x", "-x", "y", "-y", "z", "-z", or "corner", default */
+    bool has_picture_camera;     /* seen from one point towards another */
+    double picture_from[3], picture_towards[3]; /* [m] */
     bool crack_surface;      /* with fracture: broken faces as polygons beside every frame, default true */
     bool has_checkpoint;       /* checkpoints by interval; on a signal and before a stop there is one in any case */
     double checkpoint_every;   /* simulated time between them [s]; 0: off */

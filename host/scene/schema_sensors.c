@@ -333,17 +333,32 @@ static const brc_entry PICTURE_CUT[] = {
 };
 static const brc_section PICTURE_CUT_SECTION = {
     .title = "cut of pictures", .meaning = "Elements placed in front of a plane in the undeformed solid are not drawn, so that one sees inside.", ENTRIES(PICTURE_CUT)};
+static const brc_entry CAMERA[] = {
+    {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_output, picture_from), .length = 3, .required = true,
+     .sample = "[3 m, -2 m, 1 m]", .meaning = "where the viewer stands"},
+    {"towards", BRC_TYPE_VECTOR, "m", FIELD(brc_output, picture_towards), .length = 3,
+     .sample = "[1 m, 0, 0]", .meaning = "the point looked at; left out: the origin"},
+};
+static const brc_section CAMERA_SECTION = {
+    .title = "camera",
+    .meaning = "Pictures have no perspective and show the whole solid, so that only the direction counts.",
+    ENTRIES(CAMERA)};
 static const brc_entry PICTURE[] = {
     {"draw", BRC_TYPE_BOOL, FIELD(brc_output, picture), .given = "true", .meaning = "draw picture.png at the end"},
     {"frames", BRC_TYPE_BOOL, FIELD(brc_output, picture_frames), .given = "false", .meaning = "draw every frame too, pictures/NNNNNN.png"},
     {"cut", BRC_TYPE_STRUCT, .section = &PICTURE_CUT_SECTION, FLAG(brc_output, has_picture_cut), .meaning = "left out: the whole solid is drawn"},
+    {"view", BRC_TYPE_WORD, FIELD(brc_output, picture_view), CHOICES("corner", "x", "-x", "y", "-y", "z", "-z"),
+     .given = "corner",
+     .meaning = "the side it is seen from; z: from above; corner: from above, between x and -y"},
+    {"camera", BRC_TYPE_STRUCT, .section = &CAMERA_SECTION, FLAG(brc_output, has_picture_camera),
+     .meaning = "in place of `view`"},
     {"colour", BRC_TYPE_WORD, FIELD(brc_output, picture_colour),
      CHOICES("von_mises", "damage", "displacement", "displacement_x", "displacement_y", "displacement_z", "velocity",
              "velocity_x", "velocity_y", "velocity_z", "stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz",
              "stress_xy", "strain_xx", "strain_yy", "strain_zz", "strain_yz", "strain_xz", "strain_xy"),
      .given = "von_mises", .meaning = "what the colours show"},
     {"scale", BRC_TYPE_QUANTITY, "", POSITIVE, FIELD(brc_output, picture_scale), .given = "auto", .word = "auto",
-     .sample = "100", .meaning = "factor on the displacement"},
+     .sample = "100", .meaning = "factor on the displacement; auto: 1 with contact or strikers, else what makes it visible"},
 };
 static const brc_section PICTURE_SECTION = {.title = "picture",
                                             .meaning = "The deformed solid. true or false alone is "
