@@ -182,16 +182,33 @@ static void add_places(brc_text *page)
                        "<div id=\"view\"></div>\n<div id=\"curves\"></div>\n<div id=\"cracks\"></div>\n");
 }
 
-/* Libraries are packed; their licences are named beside them. */
+/* Whoever gets a page gets the licences of its libraries. */
+static void add_licences(brc_text *page)
+{
+    static const char *const library[][2] = {{"three.js 0.180.0", "LICENSE.three"},
+                                             {"Apache ECharts 6.1.0", "LICENSE.echarts"},
+                                             {"zrender 6.1.0", "LICENSE.zrender"}};
+    brc_text_add(page, "<details><summary>licences of the libraries in this page</summary>\n"
+                       "<p>Apache ECharts, copyright 2017-2025 The Apache Software Foundation: this product includes "
+                       "software developed at The Apache Software Foundation.</p>\n");
+    for (size_t k = 0; k < sizeof library / sizeof *library; ++k) {
+        const brc_web_file *file = brc_web_file_find(library[k][1]);
+        brc_text_add(page, "<h3>%s</h3><pre>", library[k][0]);
+        for (size_t c = 0; c < file->n; ++c) {
+            const char letter[2] = {(char)file->bytes[c], '\0'};
+            brc_html_words(page, letter);
+        }
+        brc_text_add(page, "</pre>\n");
+    }
+    brc_text_add(page, "</details>\n");
+}
+
+/* Libraries are packed, ours is not. */
 static void add_scripts(brc_text *page)
 {
     static const char *const library[] = {"three.mjs.gz", "echarts.mjs.gz"};
     static const char *const script[] = {"data.js",  "colours.js", "charts.js", "cracks.js",
                                          "solid.js", "view.js",    "page.js"};
-    brc_text_add(
-        page,
-        "<!-- three.js 0.180.0: MIT licence, copyright 2010-2025 three.js authors. Apache ECharts 6.1.0: Apache "
-        "licence 2.0, copyright The Apache Software Foundation; zrender: BSD licence, copyright Baidu Inc. -->\n");
     for (size_t k = 0; k < sizeof library / sizeof *library; ++k) {
         const brc_web_file *file = brc_web_file_find(library[k]);
         brc_html_packed(page, library[k], file->bytes, file->n);
@@ -278,6 +295,7 @@ static brc_status add_run(brc_context *context, const char *folder, const brc_no
     brc_report_summary_cost(page, summary);
     add_scene(page, scene);
     brc_report_summary_rest(page, summary);
+    add_licences(page);
     BRC_TRY_OR(cleanup, data.status);
     if (data.data) brc_text_add_bytes(page, data.data, data.length);
     add_scripts(page);

@@ -1,4 +1,4 @@
-/* Files of web/ inside the program: scripts, styles and packed libraries of the report page. */
+/* Files of web/ inside the program: scripts, styles, packed libraries and their licences. */
 #ifndef BRC_OUTPUT_WEB_FILE_H
 #define BRC_OUTPUT_WEB_FILE_H
 

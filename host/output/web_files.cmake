@@ -1,5 +1,5 @@
 # cmake -DFOLDER=host/output/web -DOUTPUT=file.c -P web_files.cmake: every file of the report page as an array of C.
-file(GLOB files ${FOLDER}/*.js ${FOLDER}/*.css ${FOLDER}/third_party/*.gz)
+file(GLOB files ${FOLDER}/*.js ${FOLDER}/*.css ${FOLDER}/third_party/*.gz ${FOLDER}/third_party/LICENSE.*)
 list(SORT files)
 set(text "#include \"web_file.h\"\n")
 set(table "")

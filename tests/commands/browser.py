@@ -87,7 +87,7 @@ class Browser:
         self.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=turns)
 
     def picture(self, path, **clip):
-        more = {"clip": {**clip, "scale": 1}} if clip else {}
+        more = {"clip": clip} if clip else {}
         answer = self.call("Page.captureScreenshot", captureBeyondViewport=True, **more)
         with open(path, "wb") as file:
             file.write(base64.b64decode(answer["data"]))

@@ -2,6 +2,7 @@
 solid, other sensors and the wheel change the curve, and it is small.
 
     test_report_page.py                      what ctest runs: three examples made small
+    test_report_page.py --all                every example made small
     test_report_page.py --page FILE ...      these pages; the best of three first views within two seconds
     test_report_page.py --picture FILE PAGE  a picture of the page's upper part, as in docs/images
 
@@ -9,7 +10,6 @@ Needs chromium and python3-websocket (browser.py); skipped (77) where they are m
 """
 import argparse
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -87,18 +87,17 @@ def look_at(browser, page, first_view=None):
     assert not complaints, f"{name}: {complaints}"
 
 
-def make_pages(folder):
-    for name in EXAMPLES:
+def make_pages(folder, names):
+    for name in names:
         out = os.path.join(folder, name)
-        scene = os.path.join(small.SOURCE, "examples", name, "scene.yaml")
-        settings = [word for setting in small.SHORT[name] for word in ("--set", setting)]
-        subprocess.run([small.PROGRAM, "run", scene, "-o", out, *settings], check=True, capture_output=True)
-        subprocess.run([small.PROGRAM, "report", out], check=True, capture_output=True)
+        small.run(small.command(name, out, small.overrides(name)))
+        small.run([small.PROGRAM, "report", out])
         yield os.path.join(out, "report.html")
 
 
 def main():
     parser = argparse.ArgumentParser()
+    parser.add_argument("--all", action="store_true", help="every example made small")
     parser.add_argument("--page", nargs="+", default=[], help="pages to look at")
     parser.add_argument("--picture", nargs=2, metavar=("FILE", "PAGE"))
     arguments = parser.parse_args()
@@ -106,11 +105,13 @@ def main():
         if arguments.picture:
             browser.open(arguments.picture[1])
             browser.wait("document.body.dataset.ready")
-            browser.picture(arguments.picture[0], x=0, y=0, width=1225, height=1700)
+            browser.picture(arguments.picture[0], x=0, y=0, width=1225, height=1560, scale=0.62)
             return
         for page in arguments.page:
             look_at(browser, page, FIRST_VIEW)
-        for page in [] if arguments.page else make_pages(folder):
+        names = sorted(os.listdir(os.path.join(small.SOURCE, "examples"))) if arguments.all else EXAMPLES
+        names = [name for name in names if os.path.exists(small.scene_of(name))]
+        for page in [] if arguments.page else make_pages(folder, names):
             look_at(browser, page)
 
 
