@@ -108,7 +108,11 @@ class Rose {
                     axisLabel: {interval: 2, align: "center"},
                     boundaryGap: true
                 },
-                radiusAxis: {axisLabel: {formatter: "{value} %"}, splitNumber: 3},
+                radiusAxis: {
+                axisLabel: {formatter: "{value} %", showMaxLabel: false, backgroundColor: "rgba(255, 255, 255, 0.75)"},
+                splitNumber: 3,
+                z: 10
+            },
                 series: [{type: "bar", coordinateSystem: "polar", data: parts, barCategoryGap: "6%", color: "#27517d"}],
             },
             true);
