@@ -20,14 +20,15 @@ import test_resume as small
 SIZE = 5e6
 FIRST_VIEW = 2000  # [ms]
 EXAMPLES = ["plate-impact", "beams-fracture", "tension"]
-# What the canvas of the view and that of the curves show; parts of the picture that are not white.
+# The canvas of the view and that of the curves, and the part of their pixels that is darker than some sum of red, green
+# and blue: the solid is dark beside rigid bodies, a curve beside paper.
 SOLID = "document.querySelector('.solid canvas')"
 CURVE = "document.querySelector('#curves .chart canvas')"
 PAINTED = """(() => { const from = %s, copy = document.createElement('canvas');
     copy.width = from.width; copy.height = from.height;
     const pen = copy.getContext('2d'); pen.drawImage(from, 0, 0);
     const bytes = pen.getImageData(0, 0, copy.width, copy.height).data; let n = 0;
-    for (let k = 0; k < bytes.length; k += 4) n += bytes[k + 3] > 0 && bytes[k] + bytes[k + 1] + bytes[k + 2] < 740;
+    for (let k = 0; k < bytes.length; k += 4) n += bytes[k + 3] > 0 && bytes[k] + bytes[k + 1] + bytes[k + 2] < %d;
     return n / (bytes.length / 4); })()"""
 
 
@@ -41,7 +42,7 @@ def choose(browser, element, value):
 
 
 def look_at_view(browser, name):
-    assert 0.05 < browser.evaluate(PAINTED % SOLID) < 0.95, f"{name}: the view is empty or all dark"
+    assert 0.05 < browser.evaluate(PAINTED % (SOLID, 560)) < 0.95, f"{name}: the view is empty or all dark"
     last, told = shown(browser, SOLID), browser.evaluate("document.getElementById('moment').textContent")
     choose(browser, "frame", 0)
     browser.wait(f"document.getElementById('moment').textContent !== {told!r}", 10)
@@ -56,7 +57,7 @@ def look_at_view(browser, name):
 
 def look_at_curves(browser, name):
     first = shown(browser, CURVE)
-    assert 0.005 < browser.evaluate(PAINTED % CURVE) < 0.5, f"{name}: the curve is empty"
+    assert 0.005 < browser.evaluate(PAINTED % (CURVE, 740)) < 0.5, f"{name}: the curve is empty"
     other = browser.evaluate("(() => { const e = document.getElementById('sensor-y'); return [...e.options].map(o => "
                              "o.value).find(v => v !== e.value && v !== 'stage' && v !== 'step'); })()")
     choose(browser, "sensor-y", other)
