@@ -87,6 +87,9 @@ typedef struct brc_fill {
 /* Where: a predicate on a free face's centroid and outward normal, or on an element's position. All given parts must
  * hold. Tolerances are absolute [m]. */
 typedef struct brc_predicate {
+    bool has_body;
+    char body_name[64]; /* as the scene gives it; `body` decides */
+    int32_t body;       /* brc_domain.body of the elements, or of those the faces belong to; -1: none */
     bool has_wall;
     char wall[32]; /* name of the wall the face belongs to (faces); elements: those with a face on it */
     bool has_box;

@@ -121,6 +121,7 @@ bool brc_predicate_holds(const brc_predicate *where, brc_set_kind kind, const br
 {
     const double *x = (kind == BRC_SET_FACES ? domain->free_centroid : domain->position) + 3 * index;
     const double slack = BRC_SET_SLACK * domain->quality.mean_spacing;
+    if (where->has_body && domain->body[kind == BRC_SET_FACES ? domain->free_element[index] : index] != where->body) return false;
     if (where->has_wall && !on_wall(domain, kind, index, where->wall)) return false;
     if (where->has_box)
         for (int k = 0; k < 3; ++k)

@@ -18,8 +18,9 @@ const brc_command brc_command_report = {.name = "report",
                                         .operands = "DIR",
                                         .least = 1,
                                         .most = 1,
-                                        .summary = "one HTML page of a run: pictures, curves, measures, ledger, timing",
-                                        .details = "DIR is a folder of `breccia run`, `reproduce` or `bench`. The page needs no other file.",
+                                        .summary = "one HTML page of a run: measures, view in 3D over time, curves, cracks, cost",
+                                        .details = "DIR is a folder of `breccia run`, `reproduce` or `bench`. The page needs no other file and no\n"
+                                                   "network; any browser of today shows it (WebGL, JavaScript).",
                                         .options = options,
                                         .n_options = sizeof options / sizeof *options,
                                         .run = run};

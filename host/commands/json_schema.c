@@ -145,8 +145,16 @@ static void value(writing *w, const brc_entry *entry)
     case BRC_TYPE_CHOICE: words(w, entry->choices); return;
     case BRC_TYPE_TABLE: table(w, entry); return;
     case BRC_TYPE_STRUCT:
-        if (entry->section) refer(w, entry->section);
-        else {
+        if (brc_entry_is_switch(entry)) {
+            brc_json_begin_array(&w->json, "anyOf");
+            brc_json_begin_object(&w->json, NULL);
+            refer(w, entry->section);
+            brc_json_end(&w->json);
+            choice_text(w, "type", "boolean");
+            brc_json_end(&w->json);
+        } else if (entry->section) {
+            refer(w, entry->section);
+        } else {
             brc_json_string(&w->json, "type", "object");
             brc_json_integer(&w->json, "maxProperties", 0);
         }

@@ -190,7 +190,7 @@ static brc_status build_sets(brc_context *context, const brc_split *split, brc_d
         bool any = false;
         for (int32_t k = 0; k < split->n; ++k) {
             presence *has = &there[(int64_t)k * scene->n_sets + s];
-            BRC_TRY_OR(cleanup, look_for(context, &scene->sets[s], domain[k], has));
+            BRC_TRY_OR(cleanup, look_for(context, &split->part[k].scene->sets[s], domain[k], has));
             any |= *has == WITH_MEMBERS;
         }
         if (!any) there[s] = WITH_MEMBERS;
@@ -199,7 +199,7 @@ static brc_status build_sets(brc_context *context, const brc_split *split, brc_d
         const presence *has = &there[(int64_t)k * scene->n_sets];
         int32_t n = 0;
         for (int32_t s = 0; s < scene->n_sets; ++s)
-            if (has[s] == WITH_MEMBERS) given[n++] = scene->sets[s];
+            if (has[s] == WITH_MEMBERS) given[n++] = split->part[k].scene->sets[s];
         BRC_TRY_OR(cleanup, brc_sets_build(context, n, given, domain[k]));
         for (int32_t s = 0; s < scene->n_sets; ++s)
             if (has[s] == CUT_ONLY) BRC_TRY_OR(cleanup, brc_sets_add_empty(context, domain[k], scene->sets[s].name, scene->sets[s].kind));

@@ -96,6 +96,26 @@ static axis make_axis(const char *name, const char *unit, double most)
     return a;
 }
 
+/* What the values of the sensor are multiplied with, before its name: "", "\xe2\x88\x92 ", "0.5 \xc3\x97 ". */
+static void sign_and_scale(const brc_measure *measure, char out[32])
+{
+    const double factor = measure->kind == BRC_MEASURE_NU ? -measure->scale : measure->scale;
+    out[0] = '\0';
+    if (factor == -1) snprintf(out, 32, "\xe2\x88\x92 ");
+    else if (factor != 1) snprintf(out, 32, "%g \xc3\x97 ", factor);
+}
+
+/* Numbers along x at round steps so far apart that none meets the next. */
+static void add_steps(brc_text *text, const brc_measure_series *series, double factor)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int64_t k = 0; k < series->n; ++k) {
+        low = fmin(low, factor * series->x[k]);
+        high = fmax(high, factor * series->x[k]);
+    }
+    if (high - low > 0 && isfinite(high - low)) brc_text_add(text, "set xtics %.12g\n", brc_label_step(high - low, 6));
+}
+
 static void number_with_unit(double value, const char *unit, char out[96])
 {
     char prefixed[32];
@@ -112,11 +132,13 @@ static void add_script(brc_text *text, const brc_scene *scene, const brc_measure
     const axis y = make_axis(measure->area_set[0] ? "stress" : measure->y, unit_y, largest(series->n, series->y));
     const char *unit = brc_measure_unit(scene, measure);
     const double to_axes = y.factor / x.factor;
-    char title[256], slope[96];
+    char title[256], slope[96], before[32];
+    sign_and_scale(measure, before);
     clean_words(title, sizeof title, scene->title);
     brc_gnuplot_begin(text, 1200, 900, picture);
     brc_text_add(text, "set title \"%s\" noenhanced\nset xlabel \"%s\"\nset ylabel \"%s%s\"\n", title, x.title,
-                 measure->kind == BRC_MEASURE_NU ? "\xe2\x88\x92 " : "", y.title);
+                 before, y.title);
+    add_steps(text, series, x.factor);
     brc_text_add(text, "set key left top Left reverse spacing 1.3\n"
                        "set autoscale noextend\nset offsets graph 0.02, graph "
                        "0.04, graph 0.06, graph 0.02\n");

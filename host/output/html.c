@@ -1,18 +1,19 @@
 #include "html.h"
+#include "web_file.h"
+#include "../base/memory.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <zlib.h>
 
 enum { COLUMNS_MOST = 40 };
 
-static const char STYLE[] =
-    "body{font:16px/1.5 system-ui,sans-serif;color:#1d2733;background:#fff;max-width:1080px;margin:2rem auto;padding:0 1rem}"
-    "h1{font-size:1.6rem;margin:0}h2{font-size:1.15rem;margin:2rem 0 .5rem;border-bottom:1px solid #d5dbe1}"
-    "table{border-collapse:collapse;font-size:.9rem;margin:.3rem 0}td,th{padding:.15rem .7rem .15rem 0;text-align:left;"
-    "vertical-align:top;border-bottom:1px solid #eef1f4;font-variant-numeric:tabular-nums}th{font-weight:600;color:#51606f}"
-    "img{max-width:100%;height:auto;margin:.4rem 0}.done{color:#14713a}.stopped{color:#a4262c;white-space:pre-wrap}"
-    ".small{color:#51606f;font-size:.85rem}input[type=range]{width:100%}";
+void brc_html_file(brc_text *page, const char *name)
+{
+    const brc_web_file *file = brc_web_file_find(name);
+    brc_text_add_bytes(page, (const char *)file->bytes, file->n);
+}
 
 void brc_html_words(brc_text *page, const char *words)
 {
@@ -26,7 +27,9 @@ void brc_html_begin(brc_text *page, const char *title)
 {
     brc_text_add(page, "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n<title>");
     brc_html_words(page, title);
-    brc_text_add(page, "</title>\n<style>%s</style></head><body>\n", STYLE);
+    brc_text_add(page, "</title>\n<style>\n");
+    brc_html_file(page, "page.css");
+    brc_text_add(page, "</style></head><body>\n");
 }
 
 void brc_html_end(brc_text *page)
@@ -148,6 +151,39 @@ static void add_base64(brc_text *page, const unsigned char *bytes, size_t n)
         const char four[4] = {digit[word >> 18], digit[word >> 12 & 63], k + 1 < n ? digit[word >> 6 & 63] : '=', k + 2 < n ? digit[word & 63] : '='};
         brc_text_add_bytes(page, four, 4);
     }
+}
+
+void brc_html_packed(brc_text *page, const char *id, const void *bytes, size_t n)
+{
+    brc_text_add(page, "<script type=\"text/plain\" id=\"%s\">", id);
+    add_base64(page, bytes, n);
+    brc_text_add(page, "</script>\n");
+}
+
+brc_status brc_html_array(brc_text *page, const char *id, const void *bytes, int64_t n)
+{
+    void *packed = NULL;
+    uLongf room = compressBound((uLong)n);
+    BRC_TRY(brc_memory_allocate(page->context, &packed, (int64_t)room, 1, "numbers of a page"));
+    if (compress2(packed, &room, bytes, (uLong)n, Z_BEST_COMPRESSION) == Z_OK) brc_html_packed(page, id, packed, room);
+    else if (page->status == BRC_OK)
+        page->status = BRC_FAIL(page->context, BRC_NO_MEMORY, "numbers of a page cannot be packed: out of memory");
+    brc_memory_free(packed);
+    return page->status;
+}
+
+void brc_html_json(brc_text *page, const char *id, brc_json *json)
+{
+    while (json->depth > 0) brc_json_end(json);
+    if (page->status == BRC_OK) page->status = json->text.status;
+    brc_text_add(page, "<script type=\"application/json\" id=\"%s\">", id);
+    const char *s = json->text.data ? json->text.data : "null";
+    for (const char *mark; (mark = strchr(s, '<')); s = mark + 1) {
+        brc_text_add_bytes(page, s, (size_t)(mark - s));
+        brc_text_add(page, "\\u003c");
+    }
+    brc_text_add(page, "%s</script>\n", s);
+    brc_text_free(&json->text);
 }
 
 void brc_html_picture(brc_text *page, const char *words, const void *bytes, size_t n)

@@ -66,7 +66,7 @@ static int64_t find_faces(const brc_isotropy *i, const brc_paint_view *view, brc
         if (spike_of(i, i->triangle + 3 * (int64_t)t))
             faces[n++] = (brc_paint_face){.depth = depth, .id = t, .shade = 1};
         else if (along(normal, view->toward) > 0)
-            faces[n++] = (brc_paint_face){.depth = depth, .id = t, .shade = brc_paint_shade(normal)};
+            faces[n++] = (brc_paint_face){.depth = depth, .id = t, .shade = brc_paint_shade(view, normal)};
     }
     brc_paint_sort(n, faces);
     return n;

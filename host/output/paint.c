@@ -15,10 +15,48 @@ brc_paint_view brc_paint_corner_view(void)
     return v;
 }
 
-float brc_paint_shade(const double n[3])
+static double dot(const double a[3], const double b[3])
 {
-    static const double lamp[3] = {0.25, -0.60, 0.76};
-    const double light = (n[0] * lamp[0] + n[1] * lamp[1] + n[2] * lamp[2]) / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Right and up of a view whose `toward` is known, of any length. */
+static void complete(brc_paint_view *v)
+{
+    const double length = sqrt(dot(v->toward, v->toward));
+    for (int c = 0; c < 3; ++c) v->toward[c] /= length;
+    const bool along_z = fabs(v->toward[2]) > 0.999;
+    const double upward[3] = {0, along_z, !along_z}, high = dot(upward, v->toward);
+    double norm = 0;
+    for (int c = 0; c < 3; ++c) v->up[c] = upward[c] - high * v->toward[c];
+    norm = sqrt(dot(v->up, v->up));
+    for (int c = 0; c < 3; ++c) v->up[c] /= norm;
+    for (int c = 0; c < 3; ++c)
+        v->right[c] = v->up[(c + 1) % 3] * v->toward[(c + 2) % 3] - v->up[(c + 2) % 3] * v->toward[(c + 1) % 3];
+}
+
+brc_paint_view brc_paint_side_view(const char *side)
+{
+    const bool minus = side[0] == '-';
+    const char axis = side[minus];
+    brc_paint_view v = {.toward = {0}};
+    if (axis < 'x' || axis > 'z' || side[minus + 1]) return brc_paint_corner_view();
+    v.toward[axis - 'x'] = minus ? -1 : 1;
+    complete(&v);
+    return v;
+}
+
+brc_paint_view brc_paint_view_between(const double from[3], const double towards[3])
+{
+    brc_paint_view v = {.toward = {from[0] - towards[0], from[1] - towards[1], from[2] - towards[2]}};
+    complete(&v);
+    return v;
+}
+
+float brc_paint_shade(const brc_paint_view *view, const double n[3])
+{
+    static const double lamp[3] = {-0.06, 0.43, 0.90}; /* along right, up, toward */
+    const double light = (dot(n, view->right) * lamp[0] + dot(n, view->up) * lamp[1] + dot(n, view->toward) * lamp[2]) / sqrt(dot(n, n));
     return (float)(0.78 + 0.22 * fmax(light, 0));
 }
 
@@ -128,14 +166,41 @@ static void draw_arrow(cairo_t *cairo, const double from[2], const double to[2])
     cairo_fill(cairo);
 }
 
+static void draw_dot(cairo_t *cairo, const double at[2])
+{
+    cairo_arc(cairo, at[0], at[1], 5, 0, 2 * M_PI);
+    cairo_fill(cairo);
+}
+
+/* An arrow shorter than this part of its length is a dot; labels are so far from each other, and from their tips [px]. */
+static const double DOT = 0.12, APART = 18, BEYOND = 22;
+
+void brc_paint_axis_labels(const brc_paint_view *view, const double origin[2], double length, double label[3][2])
+{
+    for (int a = 0; a < 3; ++a) {
+        const double across = view->right[a], up = view->up[a], part = hypot(across, up);
+        const bool is_dot = part < DOT;
+        label[a][0] = origin[0] + (is_dot ? -APART : (length * part + BEYOND) * across / part);
+        label[a][1] = origin[1] - (is_dot ? -APART : (length * part + BEYOND) * up / part);
+        for (int before = 0; before < a; ++before) {
+            if (hypot(label[a][0] - label[before][0], label[a][1] - label[before][1]) >= APART) continue;
+            label[a][fabs(up) >= fabs(across) ? 0 : 1] += APART;
+            before = -1; /* those that it was clear of, too */
+        }
+    }
+}
+
 void brc_paint_axes(brc_paint *paint, const brc_paint_view *view, const double origin[2], double length)
 {
+    double label[3][2];
+    brc_paint_axis_labels(view, origin, length, label);
     cairo_set_line_width(paint->cairo, 2);
     for (int a = 0; a < 3; ++a) {
         const double tip[2] = {origin[0] + length * view->right[a], origin[1] - length * view->up[a]};
         const char name[2] = {(char)('x' + a), '\0'};
-        draw_arrow(paint->cairo, origin, tip);
-        brc_paint_words(paint, name, origin[0] + (length + 22) * view->right[a], origin[1] - (length + 22) * view->up[a] + 5, 17, 0.5, false);
+        if (hypot(view->right[a], view->up[a]) < DOT) draw_dot(paint->cairo, origin);
+        else draw_arrow(paint->cairo, origin, tip);
+        brc_paint_words(paint, name, label[a][0], label[a][1] + 5, 17, 0.5, false);
     }
 }
 

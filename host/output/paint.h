@@ -17,8 +17,12 @@ typedef struct brc_paint_view {
 
 /* From above the corner between x and -y: x runs right, y into the depth, z up. */
 brc_paint_view brc_paint_corner_view(void);
+/* From a side: "x", "-x", "y", "-y", "z", "-z"; of anything else the corner view. z is up; seen along z, y is. */
+brc_paint_view brc_paint_side_view(const char *side);
+/* The direction from one point to another one, which differs; up as above. */
+brc_paint_view brc_paint_view_between(const double from[3], const double towards[3]);
 /* Light of a face, 0.78 .. 1: a lamp over the viewer's left shoulder. normal: outward, any length above 0. */
-float brc_paint_shade(const double normal[3]);
+float brc_paint_shade(const brc_paint_view *view, const double normal[3]);
 
 /* A face to be painted. */
 typedef struct brc_paint_face {
@@ -49,7 +53,9 @@ void brc_paint_line(brc_paint *paint, const double from[2], const double to[2], 
 void brc_paint_top(brc_paint *paint);
 /* align: 0 left, 0.5 centred, 1 right of x. In the current colour. */
 void brc_paint_words(brc_paint *paint, const char *words, double x, double y, double size, double align, bool bold);
-/* Arrows x, y, z of this length [px] from `origin`. */
+/* Where the labels of the arrows go [px]: beyond their tips, none on another one. */
+void brc_paint_axis_labels(const brc_paint_view *view, const double origin[2], double length, double label[3][2]);
+/* Arrows x, y, z of this length [px] from `origin`; one that points at the viewer is a dot. */
 void brc_paint_axes(brc_paint *paint, const brc_paint_view *view, const double origin[2], double length);
 /* Write the PNG and free. BRC_FILE_FAILED: cannot be drawn or written. */
 brc_status brc_paint_end(brc_paint *paint, const char *path);

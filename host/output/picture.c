@@ -84,37 +84,6 @@ static double value_of(const canvas *c, int64_t face)
     return p->value[is_sphere(p) ? own : c->surface[k].element[own]];
 }
 
-double brc_picture_automatic_scale(int32_t n, const brc_picture_part *part)
-{
-    double mean[3] = {0}, most = 0, diagonal = 0, low[3], high[3];
-    int64_t n_elements = 0;
-    for (int32_t k = 0; k < n; ++k) n_elements += part[k].domain->n_elements;
-    for (int32_t k = 0; k < n; ++k)
-        for (int64_t e = 0; e < part[k].domain->n_elements; ++e)
-            for (int c = 0; c < 3; ++c)
-                mean[c] += part[k].displacement[3 * e + c] / (double)n_elements;
-    for (int32_t k = 0; k < n; ++k)
-        for (int64_t e = 0; e < part[k].domain->n_elements; ++e) {
-            double square = 0;
-            for (int c = 0; c < 3; ++c)
-                square += pow(part[k].displacement[3 * e + c] - mean[c], 2);
-            most = fmax(most, sqrt(square));
-        }
-    for (int c = 0; c < 3; ++c) {
-        low[c] = part[0].domain->bounds[0][c];
-        high[c] = part[0].domain->bounds[1][c];
-        for (int32_t k = 1; k < n; ++k) {
-            low[c] = fmin(low[c], part[k].domain->bounds[0][c]);
-            high[c] = fmax(high[c], part[k].domain->bounds[1][c]);
-        }
-        diagonal += pow(high[c] - low[c], 2);
-    }
-    const double wanted = 0.04 * sqrt(diagonal) / most;
-    if (!isfinite(wanted) || wanted < 2) return 1;
-    const double decade = pow(10, floor(log10(wanted)));
-    return decade * (wanted / decade < 2 ? 1 : wanted / decade < 5 ? 2 : 5);
-}
-
 /* Corners or centres with the displacement times `scale`; at 0 those of the undeformed solid. */
 static void move_points(canvas *c, int32_t part, double scale)
 {
@@ -203,7 +172,7 @@ static void add_visible(canvas *c, int32_t part)
         double normal[3], middle[3];
         if (!measure_face(c, part, f, normal, middle) || dot(normal, c->view.toward) <= 0) continue;
         c->faces[c->n_faces++] = (brc_paint_face){
-            .depth = dot(middle, c->view.toward), .id = (int32_t)(c->first_face[part] + f), .shade = brc_paint_shade(normal)};
+            .depth = dot(middle, c->view.toward), .id = (int32_t)(c->first_face[part] + f), .shade = brc_paint_shade(&c->view, normal)};
     }
 }
 
@@ -243,7 +212,7 @@ static void add_visible_striker(canvas *c, int32_t index)
         }
         if (!isfinite(dot(normal, normal)) || !isfinite(dot(middle, middle)) || !(dot(normal, c->view.toward) > 0)) continue;
         c->faces[c->n_faces++] = (brc_paint_face){.depth = striker->is_plane ? -INFINITY : dot(middle, c->view.toward),
-                                                  .id = (int32_t)(c->first_face[index] + f), .shade = brc_paint_shade(normal)};
+                                                  .id = (int32_t)(c->first_face[index] + f), .shade = brc_paint_shade(&c->view, normal)};
     }
 }
 
@@ -468,7 +437,7 @@ static void move_all(canvas *c, double scale)
 
 brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, const char *path)
 {
-    canvas c = {.context = context, .picture = picture, .scale = picture->scale, .view = brc_paint_corner_view()};
+    canvas c = {.context = context, .picture = picture, .scale = picture->scale, .view = picture->view ? *picture->view : brc_paint_corner_view()};
     brc_status status = BRC_OK;
     if (!(c.scale > 0)) c.scale = picture->steady ? 1 : brc_picture_automatic_scale(picture->n, picture->part);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.surface, picture->n, "parts of the picture"));

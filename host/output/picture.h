@@ -4,6 +4,7 @@
 
 #include "../solver/assembly.h"
 #include "../solver/strikers.h"
+#include "paint.h"
 #include "picture_faces.h"
 
 /* Elements of one kind, all cells or all spheres. */
@@ -34,9 +35,10 @@ typedef struct brc_picture {
     bool steady;       /* one of a sequence: the view is that of the undeformed sample with strikers where they began, the automatic scale is 1 */
     double range[2];   /* of the colours; equal: that of what is seen */
     const brc_picture_cut *cut; /* NULL: the whole sample */
+    const brc_paint_view *view; /* NULL: from above one corner */
 } brc_picture;
 
-/* 1200 x 900, seen from above one corner without perspective. BRC_FILE_FAILED: cannot be written. */
+/* 1200 x 900, without perspective. BRC_FILE_FAILED: cannot be written. */
 brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, const char *path);
 /* The whole as it is now, as scene.output asks (with picture_frames all pictures of a run have one view, and damage one scale of colours): picture_colour is "von_mises", "displacement[_x|_y|_z]",
  * "velocity[_x|_y|_z]", "stress_xx" ... "stress_xy" (Cauchy) or "strain_xx" ... "strain_xy" (Green). BRC_BAD_INPUT for

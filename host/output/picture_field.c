@@ -129,6 +129,9 @@ brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly,
         BRC_TRY_OR(cleanup, brc_simulation_striker_now(assembly->part[0], k, &striker[k].now));
     }
     const brc_output *output = &scene->output;
+    const bool touching = scene->has_contact || n_strikers > 0; /* amplified, they would lie apart or in each other */
+    const brc_paint_view view = output->has_picture_camera ? brc_paint_view_between(output->picture_from, output->picture_towards)
+                                                         : brc_paint_side_view(output->picture_view);
     brc_picture_cut cut;
     memcpy(cut.point, output->picture_cut_point, sizeof cut.point);
     memcpy(cut.normal, output->picture_cut_normal, sizeof cut.normal);
@@ -140,10 +143,11 @@ brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly,
         .name = f.name,
         .unit = unit_of(f.source),
         .title = scene->title,
-        .scale = output->picture_scale,
+        .scale = output->picture_scale > 0 || !touching ? output->picture_scale : 1,
         .steady = output->picture_frames,
         .range = {0, output->picture_frames && f.source == DAMAGE ? 1 : 0},
         .cut = output->has_picture_cut ? &cut : NULL,
+        .view = &view,
     };
     status = brc_picture_draw(context, &picture, path);
 cleanup:

@@ -4,11 +4,14 @@
 
 #include "../base/status.h"
 
-/* folder: of `breccia run` (summary.json, histories.csv, pictures) or of `reproduce` and `bench` (rows.json, pictures). path: of the page; NULL: folder/report.html.
- * The page names version, commit, device and how the run ended, shows every picture of the folder and of folder/pictures (a sequence with a slider), draws every sensor
- * over time through gnuplot (sensors of one unit share a figure; a sentence where gnuplot is missing), and tables measures, ledger, timing, memory, effects and
- * whatever else summary.json has. Pictures beyond 64 MB are left out, with a sentence. A killed run is shown as far as it came.
- * BRC_BAD_INPUT: no results in the folder, or a damaged summary.json or rows.json (with its place). BRC_FILE_FAILED, BRC_NO_MEMORY. */
+/* folder: of `breccia run` (summary.json, and what else is there of histories.csv, cracks.csv, fragments.csv, frames,
+ * result.h5, pictures) or of `reproduce` and `bench` (rows.json, pictures). path: of the page; NULL:
+ * folder/report.html. Of a run the page tells how it ended, tables measures and figures of fracture, shows solid,
+ * cracks and rigid bodies in three dimensions over time (report_view.h), draws any sensor against any, sizes of
+ * fragments and a crack rose, and holds the resolved scene, cost, ledger and, folded away, everything else of
+ * summary.json. A killed run is shown as far as it came. Pictures beyond 64 MB, or 0.5 MB beside a view, are left out,
+ * with a sentence. BRC_BAD_INPUT: no results in the folder, or a damaged summary.json, rows.json or result.h5 (with its
+ * place). BRC_FILE_FAILED, BRC_NO_MEMORY. */
 brc_status brc_report_write(brc_context *context, const char *folder, const char *path);
 
 #endif

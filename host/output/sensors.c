@@ -2,6 +2,8 @@
  * stand for a face; those without bonds, which are held still, count nowhere. All sums run in the order of the set's members, so equal states give equal bytes. */
 #include "sensors.h"
 #include "crack_sensors.h"
+#include "opening.h"
+#include "sensor_patch.h"
 #include "sphere_box.h"
 #include "../base/memory.h"
 #include "../solver/fragments.h"
@@ -10,27 +12,17 @@
 #include <math.h>
 #include <string.h>
 
-/* A set that some sensor averages displacements over. Sensors of one set share it. */
-typedef struct patch {
-    int32_t set; /* index in the domain; -1: all elements */
-    bool faces;
-    int64_t n;
-    const int32_t *members;  /* borrowed; NULL: all elements */
-    double weight;           /* sum of areas [m^2] or volumes [m^3] */
-    double mean_position[3]; /* [m] */
-    double *u;               /* faces: [n][3] displacement now [m]; elements: NULL, they are in the field */
-    double mean_u[3];        /* now [m] */
-} patch;
-
 struct brc_sensors {
     brc_context *context;
     const brc_scene *scene;
     const brc_domain *domain;
     int32_t n_patches;
-    patch *patches; /* [2 n_sensors] room, n_patches used */
+    brc_sensor_patch *patches; /* [2 n_sensors] room, n_patches used */
     int32_t
         *first; /* [n_sensors] patch, or domain set (reaction, stress, strain), or element (points); -1: all, none */
     int32_t *second;                 /* [n_sensors] patch of set2 */
+    brc_opening *opening;            /* [n_sensors] of openings */
+    double *outward;                 /* [n_sensors] sets and strikers whose `sign` is compression: +-1, the way out of the solid along the component */
     double *distance;                /* [n_sensors] face strain: reference distance along the component; spheres: R [m] */
     double *displacement, *velocity; /* [n_elements][3] or NULL */
     double *strain, *stress;         /* [n_elements][6] or NULL */
@@ -40,47 +32,12 @@ struct brc_sensors {
     brc_crack_sensors *cracks; /* NULL: no sensor watches cracks */
 };
 
-static const double *patch_point(const brc_domain *d, const patch *p, int64_t k, double *weight)
-{
-    const int64_t m = p->members ? p->members[k] : k;
-    if (!p->faces) {
-        *weight = d->radius ? brc_sphere_is_bonded(d, m) : d->volume[m];
-        return d->position + 3 * m;
-    }
-    const double *s = d->free_area_vector + 3 * m;
-    *weight = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
-    return d->free_centroid + 3 * m;
-}
-
-static const double *patch_displacement(const brc_sensors *sensors, const patch *p, int64_t k)
-{
-    if (p->faces) return p->u + 3 * k;
-    return sensors->displacement + 3 * (p->members ? (int64_t)p->members[k] : k);
-}
-
 /* The patch of a set, made at its first use. */
 static brc_status find_patch(brc_sensors *sensors, int32_t set, int32_t *out)
 {
-    const brc_domain *d = sensors->domain;
     for (*out = 0; *out < sensors->n_patches; ++*out)
         if (sensors->patches[*out].set == set) return BRC_OK;
-    patch *p = &sensors->patches[*out];
-    *p = (patch){.set = set};
-    p->faces = set >= 0 && d->sets[set].kind == BRC_SET_FACES;
-    p->n = set >= 0 ? d->sets[set].n_members : d->n_elements;
-    p->members = set >= 0 ? d->sets[set].members : NULL;
-    for (int64_t k = 0; k < p->n; ++k) {
-        double weight;
-        const double *x = patch_point(d, p, k, &weight);
-        p->weight += weight;
-        for (int c = 0; c < 3; ++c)
-            p->mean_position[c] += weight * x[c];
-    }
-    if (!(p->weight > 0))
-        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensors: no element of \"%s\" has a bond; name another set", set >= 0 ? d->sets[set].name : "all");
-    for (int c = 0; c < 3; ++c)
-        p->mean_position[c] /= p->weight;
-    if (p->faces) BRC_TRY(BRC_ALLOCATE(sensors->context, &p->u, 3 * p->n, "displacement of sensor faces"));
+    BRC_TRY(brc_sensor_patch_of_set(sensors->context, sensors->domain, set, &sensors->patches[*out]));
     ++sensors->n_patches;
     return BRC_OK;
 }
@@ -118,8 +75,8 @@ static int32_t nearest_element(const brc_domain *d, const double point[3])
 
 static brc_status prepare_strain(brc_sensors *sensors, const brc_sensor *sensor, int32_t s)
 {
-    const patch *a = &sensors->patches[sensors->first[s]];
-    const patch *b = &sensors->patches[sensors->second[s]];
+    const brc_sensor_patch *a = &sensors->patches[sensors->first[s]];
+    const brc_sensor_patch *b = &sensors->patches[sensors->second[s]];
     const int c = sensor->component;
     const bool spheres = sensors->domain->radius && a->set >= 0 && b->set >= 0;
     sensors->distance[s] = a->mean_position[c] - b->mean_position[c];
@@ -183,6 +140,32 @@ static brc_status of_elements(brc_sensors *sensors, const brc_sensor *sensor, in
     return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: the set \"%s\" holds faces; %s", sensor->name, sensor->set, why);
 }
 
+static brc_status find_striker(brc_sensors *sensors, const brc_sensor *sensor, const char *name, int32_t *out)
+{
+    for (*out = 0; *out < sensors->scene->n_strikers; ++*out)
+        if (strcmp(sensors->scene->strikers[*out].name, name) == 0) return BRC_OK;
+    return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: there is no striker \"%s\"; define it under strikers", sensor->name, name);
+}
+
+/* The way out of the solid at a set, along the component: that of its faces' mean normal; of elements, away from the middle of the bodies. */
+static brc_status prepare_sign(brc_sensors *sensors, const brc_sensor *sensor, int32_t set, double *outward)
+{
+    const brc_domain *d = sensors->domain;
+    const int c = sensor->component;
+    const double middle = 0.5 * (d->bounds[0][c] + d->bounds[1][c]);
+    double sum = 0, size = 0;
+    for (int64_t k = 0; set >= 0 && k < d->sets[set].n_members; ++k) {
+        const bool faces = d->sets[set].kind == BRC_SET_FACES;
+        const double *vector = (faces ? d->free_area_vector : d->position) + 3 * (int64_t)d->sets[set].members[k];
+        sum += faces ? vector[c] : vector[c] - middle;
+        size += faces ? hypot(hypot(vector[0], vector[1]), vector[2]) : fabs(vector[c] - middle);
+    }
+    *outward = sum < 0 ? -1 : 1;
+    if (fabs(sum) > 1e-3 * size) return BRC_OK;
+    return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: \"%s\" looks neither way along %c, so that compression has no side there; leave `sign` out, or name the set of one side",
+                    sensor->name, sensor->set, 'x' + c);
+}
+
 static brc_status prepare(brc_sensors *sensors, int32_t s)
 {
     const brc_sensor *sensor = &sensors->scene->sensors[s];
@@ -194,7 +177,8 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
         if (sensor->set[0] == '\0')
             return BRC_FAIL(sensors->context, BRC_BAD_INPUT,
                             "sensor %s: a reaction needs the set whose prescribed motion it belongs to", sensor->name);
-        return find_set(sensors, sensor, sensor->set, &sensors->first[s]);
+        BRC_TRY(find_set(sensors, sensor, sensor->set, &sensors->first[s]));
+        return sensor->sign == BRC_SIGN_COMPRESSION ? prepare_sign(sensors, sensor, sensors->first[s], &sensors->outward[s]) : BRC_OK;
     case BRC_SENSOR_STRESS:
     case BRC_SENSOR_STRAIN:
         BRC_TRY(find_set(sensors, sensor, sensor->set, &sensors->first[s]));
@@ -208,6 +192,7 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
             !(hypot(hypot(sensor->axis[0], sensor->axis[1]), sensor->axis[2]) > 0))
             return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: a twist needs an axis that is not zero",
                             sensor->name);
+        if (sensor->kind == BRC_SENSOR_FACE_MEAN && sensor->sign == BRC_SIGN_COMPRESSION) BRC_TRY(prepare_sign(sensors, sensor, set, &sensors->outward[s]));
         if (sensor->kind != BRC_SENSOR_FACE_STRAIN) return BRC_OK;
         BRC_TRY(find_set(sensors, sensor, sensor->set2, &set));
         BRC_TRY(find_patch(sensors, set, &sensors->second[s]));
@@ -235,10 +220,9 @@ static brc_status prepare(brc_sensors *sensors, int32_t s)
         BRC_TRY(find_set(sensors, sensor, sensor->set, &sensors->first[s]));
         return of_elements(sensors, sensor, sensors->first[s], "a spin is one of elements");
     case BRC_SENSOR_STRIKER:
-        for (int32_t k = 0; k < sensors->scene->n_strikers; ++k)
-            if (strcmp(sensors->scene->strikers[k].name, sensor->set) == 0) sensors->first[s] = k;
-        if (sensors->first[s] >= 0) return BRC_OK;
-        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: there is no striker \"%s\"", sensor->name, sensor->set);
+        BRC_TRY(find_striker(sensors, sensor, sensor->set, &sensors->first[s]));
+        return sensor->set2[0] ? find_striker(sensors, sensor, sensor->set2, &sensors->second[s]) : BRC_OK;
+    case BRC_SENSOR_OPENING: return brc_opening_prepare(sensors->context, sensors->scene, sensors->domain, sensor, &sensors->opening[s]);
     case BRC_SENSOR_CONTACT:
         if (sensors->scene->has_contact) return BRC_OK;
         return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: nothing touches in a scene without `interactions: {contact: {}}`", sensor->name);
@@ -252,7 +236,7 @@ static brc_status allocate_fields(brc_sensors *sensors)
     bool displacement = false, velocity = false, strain = false, stress = false, orientation = false, applied = false;
     for (int32_t s = 0; s < sensors->scene->n_sensors; ++s) {
         const brc_sensor_kind kind = sensors->scene->sensors[s].kind;
-        displacement |= kind == BRC_SENSOR_POINT || kind == BRC_SENSOR_VOLUME_STRAIN;
+        displacement |= kind == BRC_SENSOR_POINT || (kind == BRC_SENSOR_OPENING && brc_opening_needs_elements(&sensors->opening[s])) || kind == BRC_SENSOR_VOLUME_STRAIN;
         orientation |= kind == BRC_SENSOR_TURN;
         applied |= kind == BRC_SENSOR_RADIAL_STRESS;
         velocity |= kind == BRC_SENSOR_POINT_VELOCITY;
@@ -284,6 +268,8 @@ brc_status brc_sensors_create(brc_context *context, const brc_scene *scene, cons
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->patches, 2 * n, "sensors"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->first, n, "sensors"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->second, n, "sensors"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->opening, n, "sensors"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->outward, n, "sensors"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->distance, n, "sensors"));
     for (int32_t s = 0; s < n; ++s) { /* all wrong sensors in one pass */
         const brc_status one = prepare(sensors, s);
@@ -300,7 +286,11 @@ void brc_sensors_free(brc_sensors **sensors)
 {
     if (!sensors || !*sensors) return;
     for (int32_t p = 0; p < (*sensors)->n_patches; ++p)
-        brc_memory_free((*sensors)->patches[p].u);
+        brc_sensor_patch_free(&(*sensors)->patches[p]);
+    for (int32_t s = 0; (*sensors)->opening && s < (*sensors)->scene->n_sensors; ++s)
+        brc_opening_free(&(*sensors)->opening[s]);
+    brc_memory_free((*sensors)->opening);
+    brc_memory_free((*sensors)->outward);
     brc_memory_free((*sensors)->patches);
     brc_memory_free((*sensors)->first);
     brc_memory_free((*sensors)->second);
@@ -324,20 +314,8 @@ static brc_status read_fields(brc_sensors *sensors, brc_simulation *simulation)
     if (sensors->applied) BRC_TRY(brc_simulation_applied_force(simulation, sensors->applied));
     if (sensors->strain || sensors->stress)
         BRC_TRY(brc_simulation_strain_stress(simulation, sensors->strain, sensors->stress, NULL));
-    for (int32_t k = 0; k < sensors->n_patches; ++k) {
-        patch *p = &sensors->patches[k];
-        if (p->faces) BRC_TRY(brc_simulation_face_displacement(simulation, p->n, p->members, p->u));
-        p->mean_u[0] = p->mean_u[1] = p->mean_u[2] = 0;
-        for (int64_t m = 0; m < p->n; ++m) {
-            double weight;
-            patch_point(sensors->domain, p, m, &weight);
-            const double *u = patch_displacement(sensors, p, m);
-            for (int c = 0; c < 3; ++c)
-                p->mean_u[c] += weight * u[c];
-        }
-        for (int c = 0; c < 3; ++c)
-            p->mean_u[c] /= p->weight;
-    }
+    for (int32_t k = 0; k < sensors->n_patches; ++k)
+        BRC_TRY(brc_sensor_patch_read(&sensors->patches[k], sensors->domain, simulation, sensors->displacement));
     return BRC_OK;
 }
 
@@ -357,7 +335,7 @@ static double volume_mean(const brc_sensors *sensors, const double *tensor, int3
 /* Mean rotation about the axis through `point`: the angle that turns the reference arms r, seen along the axis, into the
  * present ones best: tan(angle) = sum S (r x u).a / sum S r.(r + u), across the axis. To first order in u this is
  * sum S (r x u).a / sum S |r|^2; of a rigid rotation it is the angle itself, however large (within +-pi). */
-static double twist_angle(const brc_sensors *sensors, const brc_sensor *sensor, const patch *p)
+static double twist_angle(const brc_sensors *sensors, const brc_sensor *sensor, const brc_sensor_patch *p)
 {
     const double *a = sensor->axis;
     const double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
@@ -365,8 +343,8 @@ static double twist_angle(const brc_sensors *sensors, const brc_sensor *sensor, 
     double turning = 0, staying = 0;
     for (int64_t k = 0; k < p->n; ++k) {
         double weight;
-        const double *x = patch_point(sensors->domain, p, k, &weight);
-        const double *u = patch_displacement(sensors, p, k);
+        const double *x = brc_sensor_patch_point(sensors->domain, p, k, &weight);
+        const double *u = brc_sensor_patch_displacement(p, sensors->displacement, k);
         double r[3] = {x[0] - sensor->point[0], x[1] - sensor->point[1], x[2] - sensor->point[2]};
         const double along = r[0] * axis[0] + r[1] * axis[1] + r[2] * axis[2];
         for (int c = 0; c < 3; ++c)
@@ -415,6 +393,36 @@ static brc_status read_striker(brc_simulation *simulation, int32_t striker, cons
     for (size_t k = 0; k < sizeof terms / sizeof *terms; ++k)
         if (strcmp(sensor->term, terms[k].term) == 0) *value = terms[k].vector[sensor->component];
     return BRC_OK;
+}
+
+/* The same with the other striker's taken off, and the way out of the bodies, for the sign. */
+static brc_status read_strikers(brc_sensors *sensors, brc_simulation *simulation, int32_t s, double *value)
+{
+    const brc_sensor *sensor = &sensors->scene->sensors[s];
+    const int c = sensor->component;
+    double other = 0;
+    BRC_TRY(read_striker(simulation, sensors->first[s], sensor, value));
+    if (sensors->second[s] >= 0) BRC_TRY(read_striker(simulation, sensors->second[s], sensor, &other));
+    *value -= other;
+    if (sensor->sign == BRC_SIGN_AXIS) return BRC_OK;
+    const brc_striker *striker = &sensors->scene->strikers[sensors->first[s]];
+    const double middle = 0.5 * (sensors->domain->bounds[0][c] + sensors->domain->bounds[1][c]);
+    const double side = striker->is_plane           ? -striker->normal[c]
+                        : striker->velocity[c] != 0 ? -striker->velocity[c] /* it comes from where it is */
+                                                    : brc_simulation_striker_body(simulation, sensors->first[s])->centre[c] - middle;
+    sensors->outward[s] = side < 0 ? -1 : 1;
+    return BRC_OK;
+}
+
+/* Is the value that is positive in compression the negative of the one along the component? */
+static bool is_reversed(const brc_sensor *sensor, double outward)
+{
+    switch (sensor->kind) {
+    case BRC_SENSOR_REACTION:
+    case BRC_SENSOR_FACE_MEAN: return outward > 0;
+    case BRC_SENSOR_STRIKER: return strcmp(sensor->term, "force") == 0 ? outward < 0 : outward > 0;
+    default: return true; /* stress and strain */
+    }
 }
 
 static brc_status read_contact(brc_simulation *simulation, const brc_sensor *sensor, double *out)
@@ -470,9 +478,11 @@ brc_status brc_sensors_evaluate(brc_sensors *sensors, brc_simulation *simulation
         case BRC_SENSOR_CRACK_TIP: BRC_TRY(brc_crack_sensors_read(sensors->cracks, simulation, sensor, &value[s])); break;
         case BRC_SENSOR_MODE: value[s] = mode_frequency(simulation, sensor->index); break;
         case BRC_SENSOR_SPIN: BRC_TRY(read_spin(simulation, first, c, &value[s])); break;
-        case BRC_SENSOR_STRIKER: BRC_TRY(read_striker(simulation, first, sensor, &value[s])); break;
+        case BRC_SENSOR_STRIKER: BRC_TRY(read_strikers(sensors, simulation, s, &value[s])); break;
+        case BRC_SENSOR_OPENING: BRC_TRY(brc_opening_read(&sensors->opening[s], sensors->domain, simulation, sensors->displacement, &value[s])); break;
         case BRC_SENSOR_CONTACT: BRC_TRY(read_contact(simulation, sensor, &value[s])); break;
         }
+        if (sensor->sign == BRC_SIGN_COMPRESSION && is_reversed(sensor, sensors->outward[s])) value[s] = 0 - value[s];
     }
     return BRC_OK;
 }

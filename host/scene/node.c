@@ -343,6 +343,19 @@ static bool bytes_are_text(builder *b, const char *text, size_t bytes)
     return true;
 }
 
+/* What to do about the commonest slips in YAML's own grammar. */
+static const char *cure_of(const yaml_parser_t *parser, const char *text, size_t bytes)
+{
+    const char *problem = parser->problem ? parser->problem : "";
+    if (parser->problem_mark.index < bytes && text[parser->problem_mark.index] == '\t') return "; indent with blanks, not with tabs";
+    if (strstr(problem, "expected ':'")) return "; write `key: value`, with a blank behind the colon";
+    if (strstr(problem, "expected ',' or '}'")) return "; separate entries by commas, and close every { with }";
+    if (strstr(problem, "expected ',' or ']'")) return "; separate items by commas, and close every [ with ]; each item has its own unit";
+    if (strstr(problem, "mapping values are not allowed")) return "; begin a new line for the next key, and put blanks behind colons only";
+    if (strstr(problem, "did not find expected key") || strstr(problem, "block")) return "; keys of one map begin in the same column";
+    return "";
+}
+
 brc_status brc_tree_parse(brc_tree *tree, brc_problems *problems, int source, const char *text, size_t bytes,
                           brc_node **out)
 {
@@ -365,9 +378,9 @@ brc_status brc_tree_parse(brc_tree *tree, brc_problems *problems, int source, co
             if (parser.error == YAML_MEMORY_ERROR)
                 status = BRC_FAIL(tree->context, BRC_NO_MEMORY, "no memory for libyaml");
             else
-                brc_problems_add(problems, mark_of(&b, parser.problem_mark), "not YAML: %s%s%s",
+                brc_problems_add(problems, mark_of(&b, parser.problem_mark), "not YAML: %s%s%s%s",
                                  parser.problem ? parser.problem : "unreadable", parser.context ? ", " : "",
-                                 parser.context ? parser.context : "");
+                                 parser.context ? parser.context : "", cure_of(&parser, text, bytes));
             b.stopped = true;
             break;
         }

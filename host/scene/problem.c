@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define TEXT_LENGTH 768
 #define WORD_LENGTH 48 /* longer words are not guessed at */
@@ -136,6 +137,8 @@ const char *brc_nearest_word(const char *found, int n, const char *const *known)
     const size_t length = strnlen(found, WORD_LENGTH);
     if (length == WORD_LENGTH) return NULL;
     int best = 1 + (length > 4 ? (int)length / 3 : length > 1); /* a slip changes up to a third of the word */
+    for (int i = 0; i < n; ++i) /* capitals are the smallest slip */
+        if (strcasecmp(found, known[i]) == 0) return known[i];
     for (int i = 0; i < n; ++i) {
         if (strnlen(known[i], WORD_LENGTH) == WORD_LENGTH) continue;
         const int distance = edit_distance(found, known[i]);

@@ -43,176 +43,6 @@ bool brc_reader_is_broken(const brc_reader *reader, const char *key)
     return false;
 }
 
-/* What the set of a wall holds: the faces of cells, the spheres that touch it, or, of bodies of both kinds, each in its own. */
-enum { OF_FACES = 1, OF_ELEMENTS = 2 };
-typedef struct wall_name {
-    char name[BRC_NAME + 16];
-    int holds;
-} wall_name;
-
-/* The walls of all bodies, each name once. */
-typedef struct wall_names {
-    wall_name *wall; /* [n] owned */
-    int n, held;
-    int holds; /* of what is added now */
-} wall_names;
-
-static brc_status add_wall(brc_reader *reader, const char *prefix, const char *wall, const char *suffix, wall_names *out)
-{
-    wall_name added = {.holds = out->holds};
-    snprintf(added.name, sizeof added.name, "%s%s%s%s", prefix, prefix[0] ? "_" : "", wall, suffix);
-    for (int w = 0; w < out->n; ++w)
-        if (strcmp(out->wall[w].name, added.name) == 0) {
-            out->wall[w].holds |= added.holds;
-            return BRC_OK;
-        }
-    if (out->n == out->held) {
-        out->held = out->held ? 2 * out->held : 16;
-        BRC_TRY(brc_memory_resize(reader->context, (void **)&out->wall, out->held, sizeof *out->wall, "names of walls"));
-    }
-    out->wall[out->n++] = added;
-    return BRC_OK;
-}
-
-static brc_status add_leaf_walls(brc_reader *reader, const brc_shape *shape, const char *prefix, const char *suffix, wall_names *out)
-{
-    static const char *const SIDES[6] = {"x-", "x+", "y-", "y+", "z-", "z+"};
-    const bool round = shape->kind == BRC_SHAPE_CYLINDER || shape->kind == BRC_SHAPE_CONE;
-    const bool ends = shape->kind == BRC_SHAPE_BOX || round;
-    for (int w = 0; w < 6 && ends; ++w) {
-        if (round && w / 2 != shape->axis) continue;
-        const bool tip = shape->kind == BRC_SHAPE_CONE && (w % 2 ? shape->radius2 : shape->radius) == 0;
-        if (!tip) BRC_TRY(add_wall(reader, prefix, SIDES[w], suffix, out));
-    }
-    if (shape->kind == BRC_SHAPE_BOX) return BRC_OK;
-    const char *rest = round ? "side" : shape->kind == BRC_SHAPE_HALF_SPACE ? "cut" : "surface";
-    return add_wall(reader, prefix, rest, suffix, out);
-}
-
-static brc_status find_walls(brc_reader *reader, wall_names *out)
-{
-    const brc_scene *scene = reader->scene;
-    for (int b = 0; b < scene->n_bodies; ++b) {
-        const brc_body *body = &scene->bodies[b];
-        out->holds = body->beams > 0 ? OF_ELEMENTS : OF_FACES;
-        if (body->domain_file[0]) { /* the file may have any of them */
-            const brc_shape box = {.kind = BRC_SHAPE_BOX}, round = {.kind = BRC_SHAPE_CYLINDER}, sphere = {.kind = BRC_SHAPE_SPHERE};
-            BRC_TRY(add_leaf_walls(reader, &box, "", "", out));
-            BRC_TRY(add_leaf_walls(reader, &round, "", "", out));
-            BRC_TRY(add_leaf_walls(reader, &sphere, "", "", out));
-            continue;
-        }
-        const char *const suffixes[2] = {"", "_layer"};
-        for (int s = 0; s < (body->beams > 0 ? 2 : 1); ++s) {
-            if (body->shape.kind != BRC_SHAPE_PARTS) BRC_TRY(add_leaf_walls(reader, &body->shape, "", suffixes[s], out));
-            for (int p = 0; p < body->shape.n_parts; ++p)
-                BRC_TRY(add_leaf_walls(reader, &body->shape.parts[p].shape, body->shape.parts[p].name, suffixes[s], out));
-        }
-        for (int c = 0; c < body->n_cracks && !(body->beams > 0); ++c)
-            BRC_TRY(add_wall(reader, "", body->cracks[c].name, "", out));
-    }
-    return BRC_OK;
-}
-
-/* Sets and walls inside a domain file are not known here: nothing is refused then. */
-static bool any_domain_file(const brc_scene *scene)
-{
-    for (int b = 0; b < scene->n_bodies; ++b)
-        if (scene->bodies[b].domain_file[0]) return true;
-    return false;
-}
-
-/* All names that would be right, for the guess; returns their number. */
-static int known_names(const brc_scene *scene, const wall_names *walls, brc_reference refers, const char **out)
-{
-    int n = 0;
-    const int wanted = refers == BRC_REFERS_WALL || refers == BRC_REFERS_SET ? OF_FACES | OF_ELEMENTS
-                       : refers == BRC_REFERS_FACES                          ? OF_FACES
-                       : refers == BRC_REFERS_ELEMENTS                       ? OF_ELEMENTS
-                                                                             : 0;
-    for (int w = 0; w < walls->n; ++w)
-        if (walls->wall[w].holds & wanted) out[n++] = walls->wall[w].name;
-    for (int i = 0; i < scene->n_sets && refers != BRC_REFERS_WALL; ++i)
-        if (refers == BRC_REFERS_SET || (refers == BRC_REFERS_FACES && scene->sets[i].kind == BRC_SET_FACES) ||
-            (refers == BRC_REFERS_ELEMENTS && scene->sets[i].kind == BRC_SET_ELEMENTS))
-            out[n++] = scene->sets[i].name;
-    for (int i = 0; i < scene->n_sensors && refers == BRC_REFERS_SENSOR; ++i)
-        out[n++] = scene->sensors[i].name;
-    for (int i = 0; i < scene->n_stages && refers == BRC_REFERS_STAGE; ++i)
-        out[n++] = scene->stages[i].name;
-    for (int i = 0; i < scene->n_strikers && refers == BRC_REFERS_STRIKER; ++i)
-        out[n++] = scene->strikers[i].name;
-    return n;
-}
-
-static bool is_known(const brc_scene *scene, const wall_names *walls, brc_reference refers, const char *name, const char **words, int *n)
-{
-    *n = known_names(scene, walls, refers, words);
-    for (int i = 0; i < *n; ++i)
-        if (strcmp(words[i], name) == 0) return true;
-    return false;
-}
-
-/* "; known: x-, x+, lid": each once, those that there is room for. */
-static const char *list_names(int n, const char *const *words, char *out, size_t room)
-{
-    size_t at = 0;
-    out[0] = '\0';
-    for (int i = 0; i < n; ++i) {
-        bool said = false;
-        for (int k = 0; k < i && !said; ++k) said = strcmp(words[k], words[i]) == 0;
-        const size_t needed = strlen(words[i]) + (at ? sizeof ", " : sizeof "; known: ");
-        if (said || at + needed > room) continue;
-        at += (size_t)snprintf(out + at, room - at, "%s%s", at ? ", " : "; known: ", words[i]);
-    }
-    return out;
-}
-
-static void check_reference(brc_reader *reader, const wall_names *walls, const brc_place *place, const char **words)
-{
-    static const char *const WHAT[] = {
-        "", "wall or set of faces", "set of elements", "wall or set", "wall", "sensor", "stage", "striker"};
-    const brc_scene *scene = reader->scene;
-    const brc_reference refers = place->entry->refers;
-    const char *name = place->address;
-    int n;
-    if (name[0] == '\0' || is_known(scene, walls, refers, name, words, &n)) return;
-    const bool about_sets = refers != BRC_REFERS_SENSOR && refers != BRC_REFERS_STAGE && refers != BRC_REFERS_STRIKER;
-    if (about_sets && (any_domain_file(scene) || brc_reader_is_broken(reader, "bodies") || brc_reader_is_broken(reader, "sets"))) return;
-    if (refers == BRC_REFERS_SENSOR && brc_reader_is_broken(reader, "sensors")) return;
-    if (refers == BRC_REFERS_STAGE && brc_reader_is_broken(reader, "stages")) return;
-    if (refers == BRC_REFERS_STRIKER && brc_reader_is_broken(reader, "strikers")) return;
-    const char *near = brc_problems_nearest(reader->problems, name, n, words);
-    char known[256];
-    const char *hint = near                          ? ""
-                       : refers == BRC_REFERS_WALL   ? list_names(n, words, known, sizeof known)
-                       : about_sets                  ? "; define it under sets"
-                       : refers == BRC_REFERS_SENSOR ? "; define it under sensors"
-                       : refers == BRC_REFERS_STRIKER ? "; define it under strikers"
-                                                     : "";
-    int n_sets;
-    const char *kind = refers == BRC_REFERS_ELEMENTS && is_known(scene, walls, BRC_REFERS_SET, name, words, &n_sets)
-                           ? " (that name is a set of faces)"
-                       : refers == BRC_REFERS_FACES && is_known(scene, walls, BRC_REFERS_ELEMENTS, name, words, &n_sets)
-                           ? " (that name is a set of elements)"
-                           : "";
-    brc_problems_add(reader->problems, place->mark, "%s: there is no %s '%s'%s%s%s%s%s", place->entry->key,
-                     WHAT[refers], name, kind, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "",
-                     hint);
-}
-
-static brc_status check_references(brc_reader *reader, const wall_names *walls)
-{
-    const brc_scene *scene = reader->scene;
-    const char **words = NULL;
-    BRC_TRY(BRC_ALLOCATE(reader->context, &words, walls->n + scene->n_sets + scene->n_sensors + scene->n_stages + scene->n_strikers, "names"));
-    for (int64_t i = 0; i < reader->n_places; ++i)
-        if (reader->places[i].entry && reader->places[i].entry->refers)
-            check_reference(reader, walls, &reader->places[i], words);
-    brc_memory_free(words);
-    return BRC_OK;
-}
-
 static void check_predicate(brc_reader *reader, const brc_predicate *where, bool of_elements)
 {
     for (int k = 0; k < 3 && where->has_box; ++k) {
@@ -299,16 +129,19 @@ static void check_body(brc_reader *reader, int b)
         COMPLAIN(reader, body->domain_file, body, "domain: the file is cut already; leave out fill");
     const brc_mark given = brc_reader_place(reader, &body->material, NULL);
     const brc_mark start = {0, 1, 1};
-    if (scene->n_materials > 1 && memcmp(&given, &start, sizeof given) == 0)
+    const int n_materials = scene->n_materials - reader->own_material;
+    if (n_materials > 1 && memcmp(&given, &start, sizeof given) == 0)
         COMPLAIN(reader, NULL, body, "the key 'material' is missing in this body: the scene has %d materials, name one",
-                 scene->n_materials);
+                 n_materials);
     for (int c = 0; c < b; ++c)
         if (strcmp(scene->bodies[c].name, body->name) == 0) {
             COMPLAIN(reader, body->name, body, "name: another body is called '%s' too; give each its own", body->name);
             break;
         }
-    for (int r = 0; r < body->n_regions; ++r)
+    for (int r = 0; r < body->n_regions; ++r) {
         check_predicate(reader, &body->regions[r].where, true);
+        if (body->regions[r].where.has_body) COMPLAIN(reader, body->regions[r].where.body_name, &body->regions[r], "body: a region is a part of the body that it stands in; leave it out");
+    }
     check_shape(reader, shape);
     check_fill(reader, body);
     for (int c = 0; c < body->n_cracks; ++c)
@@ -340,7 +173,7 @@ static void check_limits(brc_reader *reader)
     }
 }
 
-static void check_bodies(brc_reader *reader, const wall_names *walls)
+static void check_bodies(brc_reader *reader, const brc_wall_names *walls)
 {
     const brc_scene *scene = reader->scene;
     for (int b = 0; b < scene->n_bodies; ++b)
@@ -348,12 +181,8 @@ static void check_bodies(brc_reader *reader, const wall_names *walls)
     for (int s = 0; s < scene->n_sets; ++s) {
         const brc_set_request *set = &scene->sets[s];
         check_predicate(reader, &set->where, set->kind == BRC_SET_ELEMENTS);
-        for (int w = 0; w < walls->n; ++w)
-            if (strcmp(set->name, walls->wall[w].name) == 0)
-                COMPLAIN(reader, NULL, set,
-                         "the set '%s' has the name of a wall; walls are sets already, choose another "
-                         "name",
-                         set->name);
+        if (brc_wall_names_has(walls, set->name))
+            COMPLAIN(reader, NULL, set, "the set '%s' has the name of a wall; walls are sets already, choose another name", set->name);
     }
 }
 
@@ -502,14 +331,79 @@ static brc_status check_stages(brc_reader *reader)
     return BRC_OK;
 }
 
+/* Is there a crack of the name in a body, or a file that may hold one? */
+static bool has_crack(const brc_scene *scene, const char *name)
+{
+    for (int b = 0; b < scene->n_bodies; ++b) {
+        for (int c = 0; c < scene->bodies[b].n_cracks; ++c)
+            if (strcmp(scene->bodies[b].cracks[c].name, name) == 0) return true;
+        if (scene->bodies[b].domain_file[0]) return true;
+    }
+    return false;
+}
+
+/* An opening: what each of its forms needs. */
+static void check_opening(brc_reader *reader, const brc_sensor *sensor)
+{
+    const bool directed = sensor->axis[0] != 0 || sensor->axis[1] != 0 || sensor->axis[2] != 0;
+    const brc_mark to = brc_reader_place(reader, sensor->point2, NULL), start = {0, 1, 1};
+    const bool ended = memcmp(&to, &start, sizeof to) != 0;
+    if (sensor->of_sets && sensor->set2[0] == '\0')
+        COMPLAIN(reader, sensor->set, sensor, "opening: has one side; expected the other one too, as in against: x-");
+    if (sensor->of_sets && !directed)
+        COMPLAIN(reader, sensor->set, sensor, "opening: between two sets needs a direction, as in direction: [1, 0, 0]");
+    if (!sensor->of_sets && sensor->set2[0])
+        COMPLAIN(reader, sensor->set2, sensor, "against: is the other side of a set; give `set` too, or leave it out");
+    if (sensor->of_points && !ended)
+        COMPLAIN(reader, sensor->point, sensor, "opening: a gauge has two ends; expected `to` beside `from`, as in to: [235 mm, 0, 0]");
+    if (sensor->of_points && ended && memcmp(sensor->point, sensor->point2, sizeof sensor->point) == 0)
+        COMPLAIN(reader, sensor->point2, sensor, "to: is the same point as `from`; expected the other end of the gauge");
+    if (!sensor->of_points && ended)
+        COMPLAIN(reader, sensor->point2, sensor, "to: is the other end of a gauge; give `from` too, or leave it out");
+    if (sensor->of_crack && !has_crack(reader->scene, sensor->set) && !brc_reader_is_broken(reader, "bodies"))
+        COMPLAIN(reader, sensor->set, sensor, "crack: '%s' is a wall, not a crack, and has one side; name a crack of a body, or two sets by `set` and `against`", sensor->set);
+    if (!sensor->of_crack && (sensor->is_near || sensor->within > 0))
+        COMPLAIN(reader, &sensor->within, sensor, "opening: `at` and `within` choose faces of a crack; give `crack` too, or leave them out");
+    if (sensor->of_crack && sensor->is_near != (sensor->within > 0))
+        COMPLAIN(reader, sensor->is_near ? sensor->point : (const void *)&sensor->within, sensor, "opening: `at` and `within` go together; expected both, as in at: [225 mm, 0, 0], within: 1 cm");
+}
+
+/* Forces of prescribed motion where no motion is prescribed. */
+static void check_reactions(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    for (int k = 0; k < scene->n_stages; ++k)
+        for (int l = 0; l < scene->stages[k].n_loads; ++l)
+            if (is_motion(&scene->stages[k].loads[l]) || scene->stages[k].loads[l].kind == BRC_LOAD_ELEMENT_ROTATION) return;
+    if (brc_reader_is_broken(reader, "stages")) return;
+    for (int i = 0; i < scene->n_sensors; ++i)
+        if (scene->sensors[i].kind == BRC_SENSOR_REACTION || scene->sensors[i].kind == BRC_SENSOR_MOMENT)
+            WARN(reader, scene->sensors[i].set, &scene->sensors[i], "sensor %s: stays 0, as no stage prescribes the motion of a set; forces of strikers and platens are sensors `striker`",
+                 scene->sensors[i].name);
+}
+
+static void check_sign(brc_reader *reader, const brc_sensor *sensor)
+{
+    static const char *const SIGNED[] = {"force", "displacement", "velocity"};
+    bool known = sensor->kind != BRC_SENSOR_STRIKER || sensor->sign == BRC_SIGN_AXIS;
+    for (size_t k = 0; k < sizeof SIGNED / sizeof *SIGNED; ++k) known |= strcmp(sensor->term, SIGNED[k]) == 0;
+    if (!known)
+        COMPLAIN(reader, &sensor->sign, sensor, "sign: %s of a striker is neither compression nor tension; leave `sign` out (it is for force, displacement and velocity)", sensor->term);
+    if (sensor->kind == BRC_SENSOR_STRIKER && sensor->set2[0] && strcmp(sensor->set, sensor->set2) == 0)
+        COMPLAIN(reader, sensor->set2, sensor, "against: is the same striker; expected another one");
+}
+
 static void check_sensors(brc_reader *reader)
 {
     const brc_scene *scene = reader->scene;
     int32_t n_modes = 0;
+    check_reactions(reader);
     for (int k = 0; k < scene->n_stages; ++k)
         if (scene->stages[k].solver == BRC_SOLVER_MODES) n_modes = scene->stages[k].n_modes;
     for (int i = 0; i < scene->n_sensors; ++i) {
         const brc_sensor *sensor = &scene->sensors[i];
+        if (sensor->kind == BRC_SENSOR_OPENING) check_opening(reader, sensor);
+        check_sign(reader, sensor);
         if (sensor->kind == BRC_SENSOR_MODE && sensor->index >= n_modes && !brc_reader_is_broken(reader, "stages"))
             COMPLAIN(reader, &sensor->index, sensor,
                      "mode: %d is not computed: the scene's last modes stage computes %d, "
@@ -576,23 +470,38 @@ static void check_measure(brc_reader *reader, const brc_measure *measure)
         COMPLAIN(reader, measure->stage, measure, "%s: the stage '%s' is not dynamic and has no history in time", in_time, stage->name);
 }
 
-brc_status brc_reader_check(brc_reader *reader)
+static brc_status check_names(brc_reader *reader, brc_wall_names **walls)
 {
-    if (reader->n_places > 0) qsort(reader->places, (size_t)reader->n_places, sizeof *reader->places, by_address);
-    complete(reader->scene);
-    wall_names walls = {.wall = NULL};
-    brc_status status = find_walls(reader, &walls);
-    if (status == BRC_OK) status = check_references(reader, &walls);
-    if (status == BRC_OK && !brc_reader_is_broken(reader, "bodies")) check_bodies(reader, &walls);
-    brc_memory_free(walls.wall);
-    BRC_TRY(status);
+    BRC_TRY(brc_wall_names_find(reader, walls));
+    brc_names_find_bodies(reader);
+    BRC_TRY(brc_names_check(reader, *walls));
+    if (!brc_reader_is_broken(reader, "bodies")) check_bodies(reader, *walls);
+    return BRC_OK;
+}
+
+static brc_status check_rest(brc_reader *reader)
+{
     check_limits(reader);
     check_couples(reader);
     brc_reader_check_fracture(reader);
     check_contact(reader);
     BRC_TRY(check_stages(reader));
     check_sensors(reader);
+    brc_reader_check_output(reader);
     for (int i = 0; i < reader->scene->n_measures; ++i)
         check_measure(reader, &reader->scene->measures[i]);
     return BRC_OK;
+}
+
+brc_status brc_reader_check(brc_reader *reader)
+{
+    if (reader->n_places > 0) qsort(reader->places, (size_t)reader->n_places, sizeof *reader->places, by_address);
+    complete(reader->scene);
+    brc_wall_names *walls = NULL;
+    brc_status status = check_names(reader, &walls);
+    if (status == BRC_OK) status = check_rest(reader);
+    if (status == BRC_OK) status = brc_names_add_body_sets(reader, walls); /* sets move, so that their places are gone */
+    brc_wall_names_free(walls);
+    if (status == BRC_OK) status = brc_reader_finish_fixtures(reader);
+    return status;
 }

@@ -22,6 +22,7 @@ typedef struct brc_reader {
     const brc_stage *stage; /* being read, for units of time */
     int64_t n_places, n_places_held;
     brc_place *places;
+    bool own_material; /* the last material is the reader's own, not the scene's */
     bool broken[32]; /* by entry of the top section: something in it was wrong */
 } brc_reader;
 
@@ -46,8 +47,27 @@ bool brc_reader_is_broken(const brc_reader *reader, const char *key);
     brc_problems_add((reader)->problems, brc_reader_place((reader), (field), (item)), __VA_ARGS__)
 #define WARN(reader, field, item, ...)                                                                                 \
     brc_problems_warn((reader)->problems, brc_reader_place((reader), (field), (item)), __VA_ARGS__)
+/* scene_reader.c: fill in the defaults of a section's keys, as of an empty map. */
+brc_status brc_reader_defaults(brc_reader *reader, const brc_section *section, brc_mark mark, void *base);
+/* reader_fixtures.c: strikers, sensors and contact of platens, jaws and rollers. Before the measures are read, whose units depend on sensors; the lists have room (brc_entry.spare). */
+brc_status brc_reader_expand_fixtures(brc_reader *reader);
+/* Their laws of contact, measures and curve. After all checks, as it moves lists of the scene. */
+brc_status brc_reader_finish_fixtures(brc_reader *reader);
+/* reader_names.c: the walls of all bodies. Freed by brc_wall_names_free, which accepts NULL. */
+typedef struct brc_wall_names brc_wall_names;
+brc_status brc_wall_names_find(brc_reader *reader, brc_wall_names **names);
+void brc_wall_names_free(brc_wall_names *names);
+bool brc_wall_names_has(const brc_wall_names *names, const char *name);
+/* What refers to walls, sets, bodies, sensors, stages and strikers must name one that there is. */
+brc_status brc_names_check(brc_reader *reader, const brc_wall_names *walls);
+/* Numbers of the bodies that sets name, and warnings about sets that are named as bodies. */
+void brc_names_find_bodies(brc_reader *reader);
+/* A set of elements for each body that is named as one, unless a wall or a set has the name. Last of all, as it moves the scene's sets. */
+brc_status brc_names_add_body_sets(brc_reader *reader, const brc_wall_names *walls);
 /* reader_check_fracture.c: what breaks, and what scenes that break cannot have. */
 void brc_reader_check_fracture(brc_reader *reader);
+/* reader_check_output.c: views of pictures. */
+void brc_reader_check_output(brc_reader *reader);
 /* reader_check.c: fill in what follows from other parts, and check what needs the whole scene. */
 brc_status brc_reader_check(brc_reader *reader);
 

@@ -1,5 +1,6 @@
 /* Reading single values: quantities, vectors, integers, words, names, tables. */
 #include "reader_internal.h"
+#include "hint.h"
 #include "unit.h"
 #include "../base/memory.h"
 #include <ctype.h>
@@ -85,13 +86,12 @@ static void complain(brc_reader *reader, const brc_entry *entry, const char *uni
                      brc_entry_expects(entry, unit, expected, sizeof expected));
 }
 
-static void complain_of_range(brc_reader *reader, const brc_entry *entry, const char *unit, const brc_node *node)
+static void complain_of_range(brc_reader *reader, const brc_entry *entry, const brc_node *node, double value)
 {
-    char found[128], range[96];
-    (void)unit;
-    brc_problems_add(reader->problems, node->mark, "%s: %s is out of range, it must be %s%s%s", entry->key,
+    char found[128], range[96], hint[BRC_HINT];
+    brc_problems_add(reader->problems, node->mark, "%s: %s is out of range, it must be %s%s%s%s", entry->key,
                      brc_node_describe(node, found, sizeof found), brc_range_text(entry, range, sizeof range),
-                     entry->why ? ": " : "", entry->why ? entry->why : "");
+                     entry->why ? ": " : "", entry->why ? entry->why : "", brc_hint_range(entry, node->text, value, hint));
 }
 
 static bool read_quantity(brc_reader *reader, const brc_entry *entry, const char *unit, const brc_node *node,
@@ -107,20 +107,25 @@ static bool read_quantity(brc_reader *reader, const brc_entry *entry, const char
     }
     const brc_quantity_result result = brc_quantity_read(node->text, unit, out);
     if (result != BRC_QUANTITY_OK) {
-        complain(reader, entry, unit, node, brc_quantity_problem(result));
+        char found[128], expected[SENTENCE], hint[BRC_HINT];
+        brc_problems_add(reader->problems, node->mark, "%s: %s %s; expected %s%s", entry->key, brc_node_describe(node, found, sizeof found), brc_quantity_problem(result),
+                         brc_entry_expects(entry, unit, expected, sizeof expected), brc_hint_quantity(node->text, unit, hint));
         return false;
     }
     if (*out == 0) *out = 0; /* no minus zero, which would be written differently */
-    if (brc_range_contains(entry, *out)) return true;
-    complain_of_range(reader, entry, unit, node);
-    return false;
+    if (!brc_range_contains(entry, *out)) {
+        complain_of_range(reader, entry, node, *out);
+        return false;
+    }
+    if (entry->factor > 0) *out *= entry->factor;
+    return true;
 }
 
 static bool read_quantities(brc_reader *reader, const brc_entry *entry, const char *unit, const brc_node *node,
                             double *out)
 {
     if (node->kind != BRC_NODE_LIST || node->n_children != entry->length) {
-        complain(reader, entry, unit, node, "is not that");
+        complain(reader, entry, unit, node, "does not fit");
         return false;
     }
     bool good = true;
@@ -182,7 +187,7 @@ static void read_bool(brc_reader *reader, const brc_entry *entry, const brc_node
 static void read_text(brc_reader *reader, const brc_entry *entry, const brc_node *node, char *out)
 {
     if (node->kind != BRC_NODE_SCALAR || node->text[0] == '\0')
-        complain(reader, entry, "", node, "is not that");
+        complain(reader, entry, "", node, "does not fit");
     else if (strlen(node->text) >= entry->size)
         brc_problems_add(reader->problems, node->mark, "%s: has %zu bytes, at most %zu are kept", entry->key,
                          strlen(node->text), entry->size - 1);
@@ -250,7 +255,7 @@ static brc_status read_table(brc_reader *reader, const brc_entry *entry, const b
 {
     const char *unit = brc_entry_unit(entry, reader->scene, reader->stage, NULL);
     if (node->kind != BRC_NODE_LIST || node->n_children == 0) {
-        complain(reader, entry, unit, node, "is not that");
+        complain(reader, entry, unit, node, "does not fit");
         return BRC_OK;
     }
     BRC_TRY(BRC_ALLOCATE(reader->context, &out->time, node->n_children, "table"));
@@ -304,7 +309,7 @@ brc_status brc_reader_value(brc_reader *reader, const brc_entry *entry, const br
         return BRC_OK;
     case BRC_TYPE_INTEGERS: {
         if (node->kind != BRC_NODE_LIST || node->n_children != entry->length) {
-            complain(reader, entry, "", node, "is not that");
+            complain(reader, entry, "", node, "does not fit");
             return BRC_OK;
         }
         int i = 0;

@@ -160,7 +160,8 @@ static int unit_index(const brc_sensor *sensor)
     case BRC_SENSOR_RADIAL_STRESS: return PASCAL;
     case BRC_SENSOR_VOLUME_STRAIN: return PURE;
     case BRC_SENSOR_FRACTURE: return strcmp(sensor->term, "crack_area") == 0 ? SQUARE_METRE : PURE;
-    case BRC_SENSOR_CRACK_TIP: return METRE;
+    case BRC_SENSOR_CRACK_TIP:
+    case BRC_SENSOR_OPENING: return METRE;
     case BRC_SENSOR_SPIN: return RADIAN_PER_SECOND;
     case BRC_SENSOR_STRIKER: return unit_of_striker(sensor->term);
     case BRC_SENSOR_CONTACT:

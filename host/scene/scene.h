@@ -151,6 +151,26 @@ typedef struct brc_striker {
     bool held_rotation;        /* free: it does not turn */
 } brc_striker;
 
+/* Tools of a testing machine: platens, jaws, rollers. The reader turns them into strikers, sensors and a law of contact; nothing else reads them but for reports. */
+typedef enum brc_fixture_moves { BRC_FIXTURE_HIGH, BRC_FIXTURE_LOW, BRC_FIXTURE_BOTH } brc_fixture_moves;
+typedef struct brc_fixture {
+    bool given;
+    char body[BRC_NAME]; /* "": the only one */
+    int32_t axis;        /* along which it presses: 0 x 1 y 2 z */
+    double speed;        /* at which the sides come together [m/s] */
+    double ramp;         /* time in which the speed rises to that [s]; 0: at once */
+    bool has_friction;
+    double friction;     /* between tools and body [-]; without: that of the scene's contact */
+    bool has_material;
+    int32_t material;    /* index into scene.materials */
+    brc_fixture_moves moves;
+    double gap;          /* between tool and body [m]; 0: automatic */
+    double radius;       /* of the jaws' hollow, of the rollers [m] */
+    double width;        /* of jaws [m]; 0: half the body's */
+    double span;         /* of the supports [m] */
+    int32_t along;       /* direction of the span: 0 automatic, else 1 + axis */
+} brc_fixture;
+
 typedef struct brc_region {
     int32_t material; /* index into scene.materials */
     brc_predicate where;
@@ -304,15 +324,25 @@ typedef enum brc_sensor_kind {
     BRC_SENSOR_STRIKER,      /* striker `set`, `term`: position, displacement [m], velocity [m/s], rotation [rad], spin [rad/s], force [N] and
                               * torque [N m] of the elements on it, energy (kinetic) [J]; `component` of the vectors */
     BRC_SENSOR_CONTACT,      /* `term`: pairs (touching), sliding (of them) [-], penetration (deepest) [m], force (sum of the magnitudes of normal forces) [N] */
+    BRC_SENSOR_OPENING,      /* how far two places have moved apart along `axis`: of sets `set` and `set2`, of the elements nearest to `point` and `point2`, or of the two
+                              * sides of the crack `set` [m] */
     BRC_SENSOR_MODE          /* frequency of mode `index` (0: lowest elastic) of the last modes stage [Hz] */
 } brc_sensor_kind;
+
+/* What is positive: the component along its axis, of stress and strain tension; or what pushes into the solid. */
+typedef enum brc_sign { BRC_SIGN_AXIS, BRC_SIGN_COMPRESSION } brc_sign;
 
 typedef struct brc_sensor {
     char name[BRC_NAME];
     brc_sensor_kind kind;
-    char set[BRC_NAME], set2[BRC_NAME]; /* "" : all elements */
+    char set[BRC_NAME], set2[BRC_NAME]; /* "" : all elements; of a striker: its name, and of another whose value is taken off */
     int32_t component;  /* vectors: 0 x 1 y 2 z; tensors: 0 xx 1 yy 2 zz 3 yz 4 xz 5 xy */
     double point[3], axis[3];
+    brc_sign sign;
+    bool of_sets, of_points, of_crack; /* opening: one of them */
+    double point2[3]; /* opening of points: the other end [m] */
+    bool is_near;     /* opening of a crack: only its faces within `within` [m] of `point` */
+    double within;
     char term[BRC_NAME]; /* energy: "kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture", "contact", "friction", "impact", "potential", "total", "closure" */
     int32_t index;
 } brc_sensor;
@@ -355,6 +385,9 @@ typedef struct brc_output {
     bool picture_frames;     /* draw every frame too, pictures/NNNNNN.png */
     bool has_picture_cut;    /* elements in front of the plane are not drawn */
     double picture_cut_point[3], picture_cut_normal[3]; /* [m] of the undeformed solid; unit vector */
+    char picture_view[BRC_NAME]; /* seen from: "x", "-x", "y", "-y", "z", "-z", or "corner", default */
+    bool has_picture_camera;     /* seen from one point towards another */
+    double picture_from[3], picture_towards[3]; /* [m] */
     bool crack_surface;      /* with fracture: broken faces as polygons beside every frame, default true */
     bool has_checkpoint;       /* checkpoints by interval; on a signal and before a stop there is one in any case */
     double checkpoint_every;   /* simulated time between them [s]; 0: off */
@@ -389,6 +422,7 @@ typedef struct brc_scene {
     brc_contact contact;
     int32_t n_strikers;
     brc_striker *strikers; /* [n_strikers] */
+    brc_fixture platens, jaws, rollers;
     brc_guard guard;
     double accuracy; /* wanted relative error, for proposals of `breccia check` [-]; 0: not asked */
     double budget;   /* wanted time of the run, likewise [s]; 0: not asked */

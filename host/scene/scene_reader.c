@@ -1,6 +1,7 @@
 /* Reading scenes: the tree of nodes against the schema table. */
 #include "scene_reader.h"
 #include "reader_internal.h"
+#include "hint.h"
 #include "schema_internal.h"
 #include "../base/file.h"
 #include "../base/memory.h"
@@ -40,9 +41,10 @@ static brc_status read_list(brc_reader *reader, const brc_entry *entry, const br
     const bool named = entry->type == BRC_TYPE_NAMED;
     char found[128];
     if (node->kind != (named ? BRC_NODE_MAP : BRC_NODE_LIST)) {
-        brc_problems_add(reader->problems, node->mark, "%s: expected %s, found %s", entry->key,
+        char hint[BRC_HINT];
+        brc_problems_add(reader->problems, node->mark, "%s: expected %s, found %s%s", entry->key,
                          named ? "a map from names to what they mean" : "a list (lines that begin with '- ')",
-                         brc_node_describe(node, found, sizeof found));
+                         brc_node_describe(node, found, sizeof found), brc_hint_list(entry, hint));
         return BRC_OK;
     }
     if (node->n_children > BRC_LIST_MOST) {
@@ -58,7 +60,7 @@ static brc_status read_list(brc_reader *reader, const brc_entry *entry, const br
     }
     char *items = NULL;
     const size_t size = entry->section->size;
-    BRC_TRY(brc_memory_allocate(reader->context, (void **)&items, node->n_children, size, entry->key));
+    BRC_TRY(brc_memory_allocate(reader->context, (void **)&items, node->n_children + entry->spare, size, entry->key));
     memcpy(base + entry->offset, &items, sizeof items);
     const int32_t count = node->n_children;
     memcpy(base + entry->count_offset, &count, sizeof count);
@@ -72,6 +74,15 @@ static brc_status read_list(brc_reader *reader, const brc_entry *entry, const br
 
 static brc_status read_entry(brc_reader *reader, const brc_entry *entry, const brc_node *node, char *base)
 {
+    const bool given = brc_entry_is_switch(entry) && node->kind == BRC_NODE_SCALAR;
+    char found[128];
+    if (given && strcmp(node->text, "false") == 0) return BRC_OK;
+    if (given && strcmp(node->text, "true") != 0) {
+        brc_problems_add(reader->problems, node->mark, "%s: expected a map of keys, or true or false; found %s", entry->key, brc_node_describe(node, found, sizeof found));
+        return BRC_OK;
+    }
+    const brc_node nothing = {.kind = BRC_NODE_MAP, .mark = node->mark, .key_mark = node->key_mark, .key = "", .text = ""};
+    if (given) node = &nothing;
     if (entry->has_flag) {
         base[entry->has_offset] = true;
         BRC_TRY(brc_reader_remember(reader, base + entry->has_offset, &KEY, node->key_mark));
@@ -114,9 +125,9 @@ static void complain_of_key(brc_reader *reader, const brc_section *section, cons
     char list[256];
     int n;
     known_keys(section, words, &n, list, sizeof list);
-    const char *near = brc_problems_nearest(reader->problems, node->key, n, words);
-    brc_problems_add(reader->problems, node->key_mark, "unknown key '%.60s' in %s%s%s%s%s; known: %s", node->key,
-                     article(section->title), section->title, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", list);
+    char hint[BRC_HINT];
+    brc_problems_add(reader->problems, node->key_mark, "unknown key '%.60s' in %s%s%s; known: %s", node->key, article(section->title), section->title,
+                     brc_hint_key(reader->problems, section, node->key, hint), list);
 }
 
 static brc_status read_one_of(brc_reader *reader, const brc_section *section, const brc_node *node, char *base)
@@ -143,12 +154,11 @@ static brc_status read_one_of(brc_reader *reader, const brc_section *section, co
         }
     }
     if (!variant) {
-        const char *near =
-            node->kind == BRC_NODE_SCALAR ? brc_problems_nearest(reader->problems, node->text, n, words) : NULL;
-        brc_problems_add(reader->problems, node->mark, "%s: expected exactly one of %s; found %s%s%s%s%s",
+        char hint[BRC_HINT] = "";
+        if (node->kind == BRC_NODE_SCALAR) brc_hint_key(reader->problems, section, node->text, hint);
+        brc_problems_add(reader->problems, node->mark, "%s: expected exactly one of %s; found %s%s%s",
                          section->title, list, brc_node_describe(node, found, sizeof found),
-                         node->kind == BRC_NODE_MAP ? (node->n_children ? " of several keys" : " without a key") : "",
-                         near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+                         node->kind == BRC_NODE_MAP ? (node->n_children ? " of several keys, keep one" : " without a key") : "", hint);
         return BRC_OK;
     }
     if (section->has_kind) {
@@ -157,6 +167,12 @@ static brc_status read_one_of(brc_reader *reader, const brc_section *section, co
         BRC_TRY(brc_reader_remember(reader, base + section->kind_offset, &KEY, node->mark));
     }
     return read_entry(reader, variant, value, base);
+}
+
+brc_status brc_reader_defaults(brc_reader *reader, const brc_section *section, brc_mark mark, void *base)
+{
+    const brc_node nothing = {.kind = BRC_NODE_MAP, .mark = mark, .key_mark = mark, .key = "", .text = ""};
+    return read_section(reader, section, &nothing, base);
 }
 
 static void check_group(brc_reader *reader, const brc_section *section, const brc_group *group, const brc_node *map)
@@ -201,6 +217,13 @@ static brc_status read_default(brc_reader *reader, const brc_section *section, c
     return read_entry(reader, entry, &node, base);
 }
 
+/* The key that a section's map follows: the last word of its title ("solver dynamic", "contact"). */
+static const char *key_of(const brc_section *section)
+{
+    const char *last = strrchr(section->title, ' ');
+    return last ? last + 1 : section->title;
+}
+
 static brc_status read_section(brc_reader *reader, const brc_section *section, const brc_node *node, char *base)
 {
     static const brc_section EMPTY = {.title = "variant without keys"};
@@ -217,8 +240,9 @@ static brc_status read_section(brc_reader *reader, const brc_section *section, c
         node = &short_map;
     }
     if (node->kind != BRC_NODE_MAP) {
-        brc_problems_add(reader->problems, node->mark, "%s: expected a map of keys, found %s", section->title,
-                         brc_node_describe(node, found, sizeof found));
+        char hint[BRC_HINT];
+        brc_problems_add(reader->problems, node->mark, "%s: expected a map of keys, found %s%s", section->title,
+                         brc_node_describe(node, found, sizeof found), brc_hint_map(section, key_of(section), hint));
         return BRC_OK;
     }
     for (const brc_node *child = node->first; child; child = child->next)
@@ -226,6 +250,7 @@ static brc_status read_section(brc_reader *reader, const brc_section *section, c
     for (int i = 0; i < section->n_entries; ++i) {
         const brc_entry *entry = &section->entries[i];
         const int before = brc_problems_count(reader->problems);
+        if (section == brc_schema() && strcmp(entry->key, "measure") == 0) BRC_TRY(brc_reader_expand_fixtures(reader));
         const brc_node *child = brc_node_find(node, entry->key);
         BRC_TRY(child ? read_entry(reader, entry, child, base) : read_default(reader, section, entry, node, base));
         if (section == brc_schema()) reader->broken[i] = brc_problems_count(reader->problems) > before;

@@ -11,7 +11,7 @@
 /* A page and the sections it begins with; with these come the sections they lead to that no other page begins with. */
 typedef struct page_plan {
     const char *name, *title, *meaning;
-    const brc_section *roots[4];
+    const brc_section *roots[6];
 } page_plan;
 
 static const page_plan PAGES[] = {
@@ -28,8 +28,8 @@ static const page_plan PAGES[] = {
      {&brc_schema_fracture, &brc_schema_interactions}},
     {"contact",
      "Contact and strikers",
-     "surfaces that meet, rigid walls and projectiles",
-     {&brc_schema_contact, &brc_schema_striker}},
+     "surfaces that meet, platens, jaws, rollers, walls, projectiles",
+     {&brc_schema_contact, &brc_schema_striker, &brc_schema_platens, &brc_schema_jaws, &brc_schema_rollers}},
     {"stages", "Stages", "static, dynamic and modal solvers, and the guard of a run", {&brc_schema_stage, NULL}},
     {"initial", "Initial fields", "displacements and velocities that a stage begins with", {&brc_schema_initial}},
     {"loads", "Loads", "what holds and pulls during a stage", {&brc_schema_load}},
@@ -65,7 +65,20 @@ static const char INTRODUCTION[] =
     "alone\n"
     "takes all its defaults, `solver: static`.\n"
     "\n"
-    "**Names** are made of letters, digits and `_` `+` `-`. Each wall of a shape is a set of faces of that name.\n"
+    "**Names** are made of letters, digits and `_` `+` `-`. Each wall of a shape is a set of faces of that name,\n"
+    "each body a set of elements.\n"
+    "\n"
+    "**Signs**: forces, displacements, velocities and tractions are components along the axes of the scene, of loads "
+    "and of\n"
+    "sensors alike. A reaction is what the load does to the solid: a wall x+ that is pulled reads positive, one that "
+    "is pressed\n"
+    "negative, and the wall x- the other way round. The force of a striker is what the bodies do to it: platens above "
+    "push up.\n"
+    "Stress and strain are positive in tension. A `pressure` is positive where it pushes into the solid, strengths in\n"
+    "`compression` are positive numbers, an `opening` is positive where it opens. A sensor with `sign: compression` is "
+    "positive\n"
+    "where the solid is compressed, whatever the side: a force that pushes, a wall that moves in, a stress of "
+    "compression.\n"
     "\n"
     "**Overrides**: `--set bodies.0.fill.noisy_grid.elements=1000`; lists by index from 0 or by the `name` of an "
     "item.\n"
@@ -103,12 +116,13 @@ static const char *type_text(const brc_entry *entry, char *out, size_t size)
     }
     switch (entry->refers) {
     case BRC_REFERS_FACES: return "name of a wall or of a set of faces";
-    case BRC_REFERS_ELEMENTS: return "name of a set of elements";
-    case BRC_REFERS_SET: return "name of a wall or a set";
+    case BRC_REFERS_ELEMENTS: return "name of a body or of a set of elements";
+    case BRC_REFERS_SET: return "name of a wall, a body or a set";
     case BRC_REFERS_WALL: return "name of a wall";
     case BRC_REFERS_SENSOR: return "name of a sensor";
     case BRC_REFERS_STAGE: return "name of a stage";
     case BRC_REFERS_STRIKER: return "name of a striker";
+    case BRC_REFERS_BODY: return "name of a body";
     case BRC_REFERS_NOTHING: break;
     }
     return "name";
@@ -117,7 +131,7 @@ static const char *type_text(const brc_entry *entry, char *out, size_t size)
 static int page_of_root(const brc_section *section)
 {
     for (int p = 0; p < N_PAGES; ++p)
-        for (int r = 0; r < 4; ++r)
+        for (int r = 0; r < 6; ++r)
             if (PAGES[p].roots[r] == section) return p;
     return -1;
 }
@@ -149,7 +163,7 @@ static brc_status place_all(brc_context *context, reference *all)
     all->placed[0].section = brc_schema();
     all->placed[0].page = 0;
     for (int p = 1; p < N_PAGES; ++p)
-        for (int r = 0; r < 4 && PAGES[p].roots[r]; ++r)
+        for (int r = 0; r < 6 && PAGES[p].roots[r]; ++r)
             place(all, PAGES[p].roots[r], p);
     for (int i = 0; i < brc_schema()->n_entries; ++i) /* what no page begins with: the guard */
         if (brc_schema()->entries[i].section && page_of_root(brc_schema()->entries[i].section) < 0)
@@ -202,6 +216,7 @@ static void write_kind(FILE *file, const reference *all, int page, const brc_ent
                                               : "",
               file);
         write_link(file, all, page, entry->section);
+        if (brc_entry_is_switch(entry)) fputs(", or `true` for all its defaults, or `false`", file);
     } else
         fputs(type_text(entry, text, sizeof text), file);
     if (unit_text(entry)[0]) fprintf(file, ", %s", unit_text(entry));

@@ -56,6 +56,7 @@ static bool is_in_group(const brc_group *group, const char *key)
 
 static bool is_written(const brc_section *section, const brc_entry *entry, const char *base)
 {
+    if (entry->another) return false;
     if (entry->has_flag) return base[entry->has_offset];
     if (entry->required || entry->type == BRC_TYPE_MATERIAL) return true;
     if (!is_absent(entry, base)) return true;
@@ -66,7 +67,8 @@ static bool is_written(const brc_section *section, const brc_entry *entry, const
                 const brc_entry *other = brc_section_find(section, group->keys[k]);
                 if (other != entry && !is_absent(other, base)) return false;
             }
-        if (group->rule != BRC_GROUP_AT_LEAST_ONE || strcmp(group->keys[0], entry->key) != 0) continue;
+        const bool due = group->rule == BRC_GROUP_AT_LEAST_ONE || group->rule == BRC_GROUP_EXACTLY_ONE;
+        if (!due || strcmp(group->keys[0], entry->key) != 0) continue;
         bool any = false; /* the reader wants one: the first, though it is zero */
         for (int k = 1; group->keys[k]; ++k)
             any |= is_written(section, brc_section_find(section, group->keys[k]), base);

@@ -16,11 +16,12 @@ static const brc_entry SCENE[] = {
      .why = "this breccia reads format 1", .meaning = "of the scene format"},
     {"title", BRC_TYPE_STRING, FIELD(brc_scene, title), .sample = "A cube under tension", .meaning = "one line"},
     {"materials", BRC_TYPE_NAMED, .section = &brc_schema_material, COUNTED(brc_scene, materials, n_materials),
-     .required = true, .meaning = "materials by name"},
+     .spare = 1, .required = true, .sample = "{glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3}}",
+     .meaning = "materials by name"},
     {"model", BRC_TYPE_STRUCT, .section = &brc_schema_model, .offset = offsetof(brc_scene, model), .given = "dlsm",
      .meaning = "the law between the elements"},
     {"bodies", BRC_TYPE_LIST, .section = &brc_schema_body, COUNTED(brc_scene, bodies, n_bodies), .required = true,
-     .meaning = "the solids"},
+     .sample = "[{shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {elements: 1000}}}]", .meaning = "the solids"},
     {"sets", BRC_TYPE_NAMED, .section = &brc_schema_set, COUNTED(brc_scene, sets, n_sets),
      .meaning = "named parts, besides the walls"},
     {"quality", BRC_TYPE_NAMED, .section = &brc_schema_limit, COUNTED(brc_scene, limits, n_limits),
@@ -28,7 +29,14 @@ static const brc_entry SCENE[] = {
     {"fracture", BRC_TYPE_STRUCT, .section = &brc_schema_fracture, .offset = offsetof(brc_scene, fracture),
      FLAG(brc_scene, has_fracture), .meaning = "how bonds break"},
     {"strikers", BRC_TYPE_NAMED, .section = &brc_schema_striker, COUNTED(brc_scene, strikers, n_strikers),
-     .meaning = "rigid walls and strikers, by name"},
+     .spare = BRC_FIXTURE_STRIKERS, .meaning = "rigid walls and strikers, by name"},
+    {"platens", BRC_TYPE_STRUCT, .section = &brc_schema_platens, .offset = offsetof(brc_scene, platens), FLAG(brc_scene, platens.given), .another = true,
+     .meaning = "two flat platens of a testing machine, in one line"},
+    {"jaws", BRC_TYPE_STRUCT, .section = &brc_schema_jaws, .offset = offsetof(brc_scene, jaws), FLAG(brc_scene, jaws.given), .another = true,
+     .meaning = "two hollow jaws, as of a Brazilian test"},
+    {"rollers", BRC_TYPE_STRUCT, .section = &brc_schema_rollers, .offset = offsetof(brc_scene, rollers), FLAG(brc_scene, rollers.given), .another = true,
+     .meaning = "three rollers that bend a beam"},
+    {"interactions", BRC_TYPE_STRUCT, .section = &brc_schema_interactions, .meaning = "what joins materials and grains, and how surfaces touch"},
     {"guard", BRC_TYPE_STRUCT, .section = &GUARD_SECTION, .offset = offsetof(brc_scene, guard), .given = "{}", .meaning = "what stops a run that goes wrong"},
     {"accuracy", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_scene, accuracy), .sample = "1 %",
      .meaning = "wanted relative error: `breccia check` proposes resolution, precision and time step for it"},
@@ -37,14 +45,13 @@ static const brc_entry SCENE[] = {
     {"gravity", BRC_TYPE_VECTOR, "m/s^2", FIELD(brc_scene, gravity), .length = 3, FLAG(brc_scene, has_gravity),
      .sample = "[0, 0, -9.81 m/s^2]", .meaning = "acceleration of every element"},
     {"stages", BRC_TYPE_LIST, .section = &brc_schema_stage, COUNTED(brc_scene, stages, n_stages), .required = true,
-     .meaning = "what happens, one after the other"},
+     .sample = "[{name: pull, solver: static}]", .meaning = "what happens, one after the other"},
     {"output", BRC_TYPE_STRUCT, .section = &brc_schema_output, .offset = offsetof(brc_scene, output), .given = "{}",
      .meaning = "frames, histories, picture and curve"},
-    {"sensors", BRC_TYPE_NAMED, .section = &brc_schema_sensor, COUNTED(brc_scene, sensors, n_sensors),
+    {"sensors", BRC_TYPE_NAMED, .section = &brc_schema_sensor, COUNTED(brc_scene, sensors, n_sensors), .spare = BRC_FIXTURE_SENSORS,
      .meaning = "numbers watched through the run, by name"},
     {"measure", BRC_TYPE_NAMED, .section = &brc_schema_measure, COUNTED(brc_scene, measures, n_measures),
      .meaning = "numbers computed from sensors when the run ends, by name"},
-    {"interactions", BRC_TYPE_STRUCT, .section = &brc_schema_interactions, .meaning = "what joins materials and grains"},
 };
 static const brc_section SCENE_SECTION = {
     .title = "scene", .meaning = "The top of a scene file.", ENTRIES(SCENE), .size = sizeof(brc_scene),
@@ -73,6 +80,17 @@ bool brc_range_contains(const brc_entry *entry, double value)
     const brc_range *range = &entry->range;
     if (range->low_open ? !(value > range->low) : !(value >= range->low)) return false;
     return range->high_open ? value < range->high : value <= range->high;
+}
+
+bool brc_entry_is_switch(const brc_entry *entry)
+{
+    const brc_section *section = entry->section;
+    if (entry->type != BRC_TYPE_STRUCT || !entry->has_flag || !section || section->one_of || section->short_key) return false;
+    for (int i = 0; i < section->n_entries; ++i)
+        if (section->entries[i].required) return false;
+    for (size_t g = 0; g < sizeof section->groups / sizeof section->groups[0]; ++g)
+        if (section->groups[g].rule == BRC_GROUP_EXACTLY_ONE || section->groups[g].rule == BRC_GROUP_AT_LEAST_ONE) return false;
+    return true;
 }
 
 const char *brc_range_text(const brc_entry *entry, char *out, size_t size)

@@ -34,7 +34,8 @@ typedef enum brc_reference {
     BRC_REFERS_WALL,     /* a wall of a body's shape */
     BRC_REFERS_SENSOR,
     BRC_REFERS_STAGE,
-    BRC_REFERS_STRIKER
+    BRC_REFERS_STRIKER,
+    BRC_REFERS_BODY
 } brc_reference;
 
 /* Units that depend on the scene. */
@@ -55,6 +56,8 @@ typedef struct brc_entry {
     const char *unit;
     brc_range range;          /* of every number in the entry; all zero: none */
     bool required;
+    bool another;             /* another way to give a field that has a key already: read, never written */
+    double factor;            /* quantities: what is kept over what is written; 0: 1 */
     const char *given;        /* the default, as a user would write it (a scalar, or "{}" for a map of defaults);
                                * NULL and not required: left out means zero, empty, absent */
     const char *word;         /* a word allowed in place of the number, e.g. "auto"; it stands for word_value */
@@ -64,6 +67,7 @@ typedef struct brc_entry {
     const brc_section *section;
     size_t offset, size;      /* of the field in its struct */
     size_t count_offset;      /* lists */
+    int spare;                /* lists and maps of names: room for items that the reader adds itself */
     bool has_flag;            /* a bool at has_offset becomes true when the key is there */
     size_t has_offset;
     int length;               /* of vectors */
@@ -78,7 +82,7 @@ typedef enum brc_group_rule { BRC_GROUP_NONE, BRC_GROUP_EXACTLY_ONE, BRC_GROUP_A
 
 typedef struct brc_group {
     brc_group_rule rule;
-    const char *keys[7]; /* NULL-terminated */
+    const char *keys[8]; /* NULL-terminated */
 } brc_group;
 
 struct brc_section {
@@ -92,7 +96,7 @@ struct brc_section {
     size_t kind_offset;
     const char *short_key;   /* a scalar in place of the map is the value of this key (one-of: of this variant) */
     const char *sample_name; /* of a named item */
-    brc_group groups[3];
+    brc_group groups[4];
 };
 
 /* The top of the schema: the struct brc_scene. */
@@ -104,5 +108,7 @@ const char *brc_range_text(const brc_entry *entry, char *out, size_t size);
 /* Does the entry state a range? */
 bool brc_entry_has_range(const brc_entry *entry);
 bool brc_range_contains(const brc_entry *entry, double value);
+/* May `true` stand for a map of defaults, and `false` for the key being left out? So it is for keys whose absence switches something off and whose map may be empty. */
+bool brc_entry_is_switch(const brc_entry *entry);
 
 #endif

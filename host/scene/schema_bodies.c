@@ -22,7 +22,7 @@ static const brc_entry MATERIAL[] = {
             "moduli are infinite"},
     {"density", BRC_TYPE_QUANTITY, "kg/m^3", POSITIVE, FIELD(brc_material, density), .required = true,
      .sample = "2500 kg/m^3", .meaning = "mass per volume"},
-    {"strength", BRC_TYPE_STRUCT, .section = &brc_schema_strength, .meaning = "what it bears; for scenes with `fracture`, where it does not break if this is left out"},
+    {"strength", BRC_TYPE_STRUCT, .section = &brc_schema_strength, .meaning = "what it bears, `strength: 8 MPa` in tension; for scenes with `fracture`, where it does not break if this is left out"},
     {"beam", BRC_TYPE_STRUCT, .section = &MICRO_SECTION, .meaning = "micro-parameters of model cbm; from the calibrated laws when left out"},
 };
 const brc_section brc_schema_material = {.title = "material",
@@ -95,21 +95,25 @@ static const brc_section PREDICATE_BOX_SECTION = {
 static const brc_entry PREDICATE_SPHERE[] = {
     {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, sphere_centre), .length = 3, .required = true,
      .sample = "[50 cm, 50 cm, 50 cm]", .meaning = "centre"},
-    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, sphere_radius), .required = true,
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, sphere_radius),
      .sample = "20 cm", .meaning = "radius, inclusive"},
+    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, sphere_radius), .another = true, .factor = 0.5, .sample = "40 cm",
+     .meaning = "twice the radius, in its place"},
 };
 static const brc_section PREDICATE_SPHERE_SECTION = {
-    .title = "where sphere", .meaning = "Inside a sphere.", ENTRIES(PREDICATE_SPHERE)};
+    .title = "where sphere", .meaning = "Inside a sphere.", ENTRIES(PREDICATE_SPHERE), .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}}};
 static const brc_entry PREDICATE_CYLINDER[] = {
     {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, cylinder_point), .length = 3, .required = true,
      .sample = "[0, 0, 0]", .meaning = "a point of the axis"},
     {"axis", BRC_TYPE_DIRECTION, "", FIELD(brc_predicate, cylinder_axis), .length = 3, .required = true,
      .sample = "[1, 0, 0]", .meaning = "its direction"},
-    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, cylinder_radius), .required = true,
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, cylinder_radius),
      .sample = "20 cm", .meaning = "radius, inclusive"},
+    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, cylinder_radius), .another = true, .factor = 0.5, .sample = "40 cm",
+     .meaning = "twice the radius, in its place"},
 };
 static const brc_section PREDICATE_CYLINDER_SECTION = {
-    .title = "where cylinder", .meaning = "Inside an endless cylinder.", ENTRIES(PREDICATE_CYLINDER)};
+    .title = "where cylinder", .meaning = "Inside an endless cylinder.", ENTRIES(PREDICATE_CYLINDER), .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}}};
 static const brc_entry HALF_SPACE[] = {
     {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, half_space_point), .length = 3, .required = true,
      .sample = "[50 cm, 0, 0]", .meaning = "a point of the plane"},
@@ -127,6 +131,8 @@ static const brc_entry NORMAL[] = {
 static const brc_section NORMAL_SECTION = {
     .title = "where normal", .meaning = "Faces that look in a direction.", ENTRIES(NORMAL)};
 static const brc_entry PREDICATE[] = {
+    {"body", BRC_TYPE_NAME, FIELD(brc_predicate, body_name), FLAG(brc_predicate, has_body), .refers = BRC_REFERS_BODY,
+     .sample = "body", .meaning = "elements of this body, or its faces; not for regions, which belong to one"},
     {"wall", BRC_TYPE_NAME, FIELD(brc_predicate, wall), FLAG(brc_predicate, has_wall), .refers = BRC_REFERS_WALL,
      .sample = "x-", .meaning = "faces of this wall; elements with a face on it"},
     {"box", BRC_TYPE_STRUCT, .section = &PREDICATE_BOX_SECTION, FLAG(brc_predicate, has_box),
@@ -146,13 +152,13 @@ const brc_section brc_schema_predicate = {
                "must hold. A word alone is a wall.",
     ENTRIES(PREDICATE),
     .short_key = "wall",
-    .groups = {{BRC_GROUP_AT_LEAST_ONE, {"wall", "box", "sphere", "cylinder", "half_space", "normal"}}}};
+    .groups = {{BRC_GROUP_AT_LEAST_ONE, {"wall", "body", "box", "sphere", "cylinder", "half_space", "normal"}}}};
 
 static const brc_entry REGION[] = {
     {"material", BRC_TYPE_MATERIAL, FIELD(brc_region, material), .required = true, .sample = "glass",
      .meaning = "of the elements in the region"},
     {"where", BRC_TYPE_STRUCT, .section = &brc_schema_predicate, .offset = offsetof(brc_region, where),
-     .required = true, .meaning = "which elements"},
+     .required = true, .sample = "{half_space: {point: [0, 0, 0], normal: [1, 0, 0]}}", .meaning = "which elements"},
 };
 static const brc_section REGION_SECTION = {.title = "region",
                                            .meaning = "A part of a body made of another material.",
@@ -167,7 +173,7 @@ static const brc_entry BEAMS[] = {
 static const brc_section BEAMS_SECTION = {
     .title = "beams", .meaning = "Spheres joined by beams: bonds between the nearest spheres.", ENTRIES(BEAMS), .short_key = "coordination"};
 static const brc_entry BODY[] = {
-    {"name", BRC_TYPE_NAME, FIELD(brc_body, name), .given = "body", .meaning = "for messages and overrides"},
+    {"name", BRC_TYPE_NAME, FIELD(brc_body, name), .given = "body", .meaning = "for messages and overrides, and of the set of all its elements"},
     {"domain", BRC_TYPE_STRING, FIELD(brc_body, domain_file), .sample = "domain.h5",
      .meaning = "domain file written by `breccia build`, relative to the scene; in place of shape and fill"},
     {"shape", BRC_TYPE_STRUCT, .section = &brc_schema_shape, .offset = offsetof(brc_body, shape),
@@ -203,8 +209,8 @@ static const brc_entry SET[] = {
      .value = BRC_SET_FACES, .meaning = "a set of boundary faces"},
 };
 const brc_section brc_schema_set = {.title = "set",
-                                    .meaning = "A named part of the solid. Each wall is a set of faces "
-                                               "without being asked for.",
+                                    .meaning = "A named part of the solid. Each wall is a set of faces and each body a set of "
+                                               "elements without being asked for.",
                                     ENTRIES(SET),
                                     .size = sizeof(brc_set_request),
                                     .one_of = true,

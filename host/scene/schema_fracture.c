@@ -52,6 +52,7 @@ static const brc_entry STRENGTH[] = {
 const brc_section brc_schema_strength = {.title = "strength",
                                          .meaning = "What the material bears, measured on a sample of it; used by scenes with `fracture`.",
                                          ENTRIES(STRENGTH),
+                                         .short_key = "tension",
                                          .groups = {{BRC_GROUP_AT_LEAST_ONE, {"tension", "compression"}}}};
 
 #define LEVEL_ENTRY                                                                                                    \
@@ -112,7 +113,7 @@ static const brc_entry FRACTURE[] = {
 };
 const brc_section brc_schema_fracture = {.title = "fracture",
                                          .meaning = "Bonds break in dynamic stages, and by events in static ones; left out: they hold for ever. Materials without a strength do not break: bonds "
-                                                    "between one of them and another break by the other's.",
+                                                    "between one of them and another break by the other's. `fracture: true` takes all defaults.",
                                          ENTRIES(FRACTURE)};
 
 #define INTERFACE_ENTRIES                                                                                              \

@@ -12,6 +12,9 @@
 #define ENTRIES(array) .entries = (array), .n_entries = (int)(sizeof(array) / sizeof((array)[0]))
 #define CHOICES(...) .choices = (const char *const[]){__VA_ARGS__, NULL}
 
+/* What platens, jaws and rollers of a scene add at most. */
+enum { BRC_FIXTURE_STRIKERS = 7, BRC_FIXTURE_SENSORS = 8 };
+
 /* Ranges, in SI. */
 #define POSITIVE .range = {0, INFINITY, true, true}
 #define NOT_NEGATIVE .range = {0, INFINITY, false, true}
@@ -47,5 +50,8 @@ extern const brc_section brc_schema_fracture;
 extern const brc_section brc_schema_interactions;
 extern const brc_section brc_schema_contact;
 extern const brc_section brc_schema_striker;
+extern const brc_section brc_schema_platens;
+extern const brc_section brc_schema_jaws;
+extern const brc_section brc_schema_rollers;
 
 #endif

@@ -17,14 +17,26 @@
                                                       .meaning = "elements; left out: all"                             \
     }
 
+#define AXIS_SIGN(compression)                                                                                          \
+    {                                                                                                                  \
+        "sign", BRC_TYPE_CHOICE, FIELD(brc_sensor, sign), CHOICES("axis", "compression"), .given = "axis",             \
+            .meaning = "what is positive; axis: along the component; compression: " compression                        \
+    }
+#define TENSION_SIGN                                                                                                   \
+    {                                                                                                                  \
+        "sign", BRC_TYPE_CHOICE, FIELD(brc_sensor, sign), CHOICES("tension", "compression"), .given = "tension",       \
+            .meaning = "what is positive"                                                                              \
+    }
+
 static const brc_entry ON_SET[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_SET, .sample = "x+",
      .meaning = "faces or elements"},
     COMPONENT,
+    AXIS_SIGN("what pushes or moves into the solid, against the mean normal of the faces (of elements: towards the middle of the bodies)"),
 };
 static const brc_section REACTION_SECTION = {
     .title = "reaction",
-    .meaning = "Force of the loads on the solid, summed over a set with prescribed motion [N].",
+    .meaning = "Force of the loads on the solid, summed over a set with prescribed motion [N]. Along the axes: a wall x+ that is pulled reads positive, one that is pushed negative; the wall x- the other way round.",
     ENTRIES(ON_SET)};
 static const brc_entry MOMENT[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_SET, .sample = "x+",
@@ -52,7 +64,7 @@ static const brc_section VOLUME_STRAIN_SECTION = {
     .title = "volume_strain", .meaning = "3 times the mean radial displacement of a set over R, as in radial_stress [-].", ENTRIES(ROUND)};
 static const brc_section FACE_MEAN_SECTION = {
     .title = "face_mean",
-    .meaning = "Area mean of the displacement of faces, or mean of that of elements [m].",
+    .meaning = "Area mean of the displacement of faces, or mean of that of elements, along the axes [m].",
     ENTRIES(ON_SET)};
 static const brc_entry FACE_STRAIN[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_SET, .sample = "x+",
@@ -60,6 +72,7 @@ static const brc_entry FACE_STRAIN[] = {
     {"against", BRC_TYPE_NAME, FIELD(brc_sensor, set2), .required = true, .refers = BRC_REFERS_SET, .sample = "x-",
      .meaning = "the other end"},
     COMPONENT,
+    TENSION_SIGN,
 };
 static const brc_section FACE_STRAIN_SECTION = {
     .title = "face_strain",
@@ -74,13 +87,13 @@ static const brc_entry FACE_TWIST[] = {
 };
 static const brc_section FACE_TWIST_SECTION = {
     .title = "face_twist", .meaning = "Area mean of the rotation of faces about an axis, or mean of that of elements [rad].", ENTRIES(FACE_TWIST)};
-static const brc_entry TENSOR[] = {ELEMENT_SET, TENSOR_COMPONENT};
+static const brc_entry TENSOR[] = {ELEMENT_SET, TENSOR_COMPONENT, TENSION_SIGN};
 static const brc_section STRESS_SECTION = {
     .title = "stress",
-    .meaning = "Volume mean of the second Piola-Kirchhoff stress, tension positive [Pa].",
+    .meaning = "Volume mean of the second Piola-Kirchhoff stress; tension is positive unless `sign` says otherwise [Pa].",
     ENTRIES(TENSOR)};
 static const brc_section STRAIN_SECTION = {
-    .title = "strain", .meaning = "Volume mean of the Green strain [-].", ENTRIES(TENSOR)};
+    .title = "strain", .meaning = "Volume mean of the Green strain; positive where it is longer [-].", ENTRIES(TENSOR)};
 static const brc_entry POINT[] = {
     {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), .length = 3, .required = true, .sample = "[1 m, 0, 0]",
      .meaning = "the nearest element is watched"},
@@ -101,6 +114,26 @@ static const brc_section TIP_SECTION = {
     .title = "crack_tip",
     .meaning = "How far broken bonds reach along a direction; 0 before the first. `rate` of it is the speed of the tip [m].",
     ENTRIES(TIP)};
+static const brc_entry OPENING[] = {
+    {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), FLAG(brc_sensor, of_sets), .refers = BRC_REFERS_SET, .sample = "x+",
+     .meaning = "one side: faces or elements; with `against` and `direction`"},
+    {"against", BRC_TYPE_NAME, FIELD(brc_sensor, set2), .refers = BRC_REFERS_SET, .sample = "x-", .meaning = "the other side"},
+    {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), FLAG(brc_sensor, of_points), .length = 3, .sample = "[215 mm, 0, 0]",
+     .meaning = "one end of a gauge, the element nearest to it; with `to`"},
+    {"to", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point2), .length = 3, .sample = "[235 mm, 0, 0]", .meaning = "the other end"},
+    {"crack", BRC_TYPE_NAME, FIELD(brc_sensor, set), FLAG(brc_sensor, of_crack), .refers = BRC_REFERS_WALL, .sample = "notch",
+     .meaning = "a crack of a body of cells that was there from the start: mean over its two sides"},
+    {"at", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), FLAG(brc_sensor, is_near), .length = 3, .sample = "[225 mm, 0, 0]",
+     .meaning = "of a crack: only its faces near this point, as at its mouth; left out: all of them"},
+    {"within", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_sensor, within), .sample = "1 cm", .meaning = "of `at`: how near the middle of a face must be"},
+    {"direction", BRC_TYPE_DIRECTION, "", FIELD(brc_sensor, axis), .length = 3, .sample = "[1, 0, 0]",
+     .meaning = "along which the opening is measured; its sign does not matter. Left out: from one point to the other, or across the crack"},
+};
+static const brc_section OPENING_SECTION = {
+    .title = "opening",
+    .meaning = "How far two places have moved apart, from how the scene starts [m]: of a notch, the crack mouth opening displacement (CMOD). Positive: they opened.",
+    ENTRIES(OPENING),
+    .groups = {{BRC_GROUP_EXACTLY_ONE, {"set", "from", "crack"}}}};
 static const brc_entry SPIN[] = {ELEMENT_SET, COMPONENT};
 static const brc_section SPIN_SECTION = {
     .title = "spin", .meaning = "Angular velocity of a set of elements about its mass centre [rad/s].", ENTRIES(SPIN)};
@@ -111,6 +144,9 @@ static const brc_entry OF_STRIKER[] = {
      .meaning = "of its mass centre (a plane: its point) [m], [m/s], [rad], [rad/s]; force and torque of the elements on it [N], [N m]; its "
                 "kinetic energy [J]"},
     {"component", BRC_TYPE_CHOICE, FIELD(brc_sensor, component), CHOICES("x", "y", "z"), .given = "x", .meaning = "of the vector"},
+    {"against", BRC_TYPE_NAME, FIELD(brc_sensor, set2), .refers = BRC_REFERS_STRIKER, .sample = "anvil",
+     .meaning = "another striker, whose value is taken off: how far two platens have come together"},
+    AXIS_SIGN("a force that pushes the striker away from the bodies, a motion towards them; for force, displacement and velocity"),
 };
 static const brc_section OF_STRIKER_SECTION = {.title = "sensor striker", .meaning = "Motion of a striker, or what acts on it.", ENTRIES(OF_STRIKER)};
 static const brc_entry SENSOR[] = {
@@ -149,6 +185,7 @@ static const brc_entry SENSOR[] = {
     {"striker", BRC_TYPE_STRUCT, .section = &OF_STRIKER_SECTION, .value = BRC_SENSOR_STRIKER, .meaning = "of a striker"},
     {"contact", BRC_TYPE_WORD, FIELD(brc_sensor, term), CHOICES("pairs", "sliding", "penetration", "force"), .value = BRC_SENSOR_CONTACT,
      .sample = "pairs", .meaning = "touching pairs [-], those that slide [-], deepest overlap [m], sum of normal forces [N]"},
+    {"opening", BRC_TYPE_STRUCT, .section = &OPENING_SECTION, .value = BRC_SENSOR_OPENING, .meaning = "of a crack, or between two places [m]"},
     {"mode", BRC_TYPE_INTEGER, WITHIN(0, 999), FIELD(brc_sensor, index), .value = BRC_SENSOR_MODE, .sample = "0",
      .meaning = "frequency of a mode of the last modes stage, 0 the lowest elastic one [Hz]"},
 };
@@ -296,17 +333,32 @@ static const brc_entry PICTURE_CUT[] = {
 };
 static const brc_section PICTURE_CUT_SECTION = {
     .title = "cut of pictures", .meaning = "Elements placed in front of a plane in the undeformed solid are not drawn, so that one sees inside.", ENTRIES(PICTURE_CUT)};
+static const brc_entry CAMERA[] = {
+    {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_output, picture_from), .length = 3, .required = true,
+     .sample = "[3 m, -2 m, 1 m]", .meaning = "where the viewer stands"},
+    {"towards", BRC_TYPE_VECTOR, "m", FIELD(brc_output, picture_towards), .length = 3,
+     .sample = "[1 m, 0, 0]", .meaning = "the point looked at; left out: the origin"},
+};
+static const brc_section CAMERA_SECTION = {
+    .title = "camera",
+    .meaning = "Pictures have no perspective and show the whole solid, so that only the direction counts.",
+    ENTRIES(CAMERA)};
 static const brc_entry PICTURE[] = {
     {"draw", BRC_TYPE_BOOL, FIELD(brc_output, picture), .given = "true", .meaning = "draw picture.png at the end"},
     {"frames", BRC_TYPE_BOOL, FIELD(brc_output, picture_frames), .given = "false", .meaning = "draw every frame too, pictures/NNNNNN.png"},
     {"cut", BRC_TYPE_STRUCT, .section = &PICTURE_CUT_SECTION, FLAG(brc_output, has_picture_cut), .meaning = "left out: the whole solid is drawn"},
+    {"view", BRC_TYPE_WORD, FIELD(brc_output, picture_view), CHOICES("corner", "x", "-x", "y", "-y", "z", "-z"),
+     .given = "corner",
+     .meaning = "the side it is seen from; z: from above; corner: from above, between x and -y"},
+    {"camera", BRC_TYPE_STRUCT, .section = &CAMERA_SECTION, FLAG(brc_output, has_picture_camera),
+     .meaning = "in place of `view`"},
     {"colour", BRC_TYPE_WORD, FIELD(brc_output, picture_colour),
      CHOICES("von_mises", "damage", "displacement", "displacement_x", "displacement_y", "displacement_z", "velocity",
              "velocity_x", "velocity_y", "velocity_z", "stress_xx", "stress_yy", "stress_zz", "stress_yz", "stress_xz",
              "stress_xy", "strain_xx", "strain_yy", "strain_zz", "strain_yz", "strain_xz", "strain_xy"),
      .given = "von_mises", .meaning = "what the colours show"},
     {"scale", BRC_TYPE_QUANTITY, "", POSITIVE, FIELD(brc_output, picture_scale), .given = "auto", .word = "auto",
-     .sample = "100", .meaning = "factor on the displacement"},
+     .sample = "100", .meaning = "factor on the displacement; auto: 1 with contact or strikers, else what makes it visible"},
 };
 static const brc_section PICTURE_SECTION = {.title = "picture",
                                             .meaning = "The deformed solid. true or false alone is "

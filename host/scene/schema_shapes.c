@@ -15,41 +15,56 @@ static const brc_entry CYLINDER[] = {
     {"axis", BRC_TYPE_CHOICE, FIELD(brc_shape, axis), CHOICES("x", "y", "z"), .given = "x", .meaning = "its direction"},
     {"length", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, length), .required = true, .sample = "1 m",
      .meaning = "along the axis"},
-    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .required = true, .sample = "0.1 m",
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .sample = "0.1 m",
      .meaning = "of the round"},
+    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .another = true, .factor = 0.5, .sample = "0.2 m",
+     .meaning = "twice the radius, in its place"},
 };
 static const brc_section CYLINDER_SECTION = {
     .title = "cylinder",
     .meaning = "Walls: the two ends, x- and x+ for the axis x, and side. A disc is a short cylinder.",
-    ENTRIES(CYLINDER)};
+    ENTRIES(CYLINDER),
+    .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}}};
 static const brc_entry SPHERE[] = {
     {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]", .meaning = "centre"},
-    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .required = true, .sample = "5 mm",
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .sample = "5 mm",
      .meaning = "radius"},
+    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .another = true, .factor = 0.5, .sample = "1 cm",
+     .meaning = "twice the radius, in its place"},
 };
-static const brc_section SPHERE_SECTION = {.title = "sphere", .meaning = "Wall: surface.", ENTRIES(SPHERE)};
+static const brc_section SPHERE_SECTION = {.title = "sphere", .meaning = "Wall: surface.", ENTRIES(SPHERE), .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}}};
 static const brc_entry CONE[] = {
     {"origin", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]",
      .meaning = "centre of the first end"},
     {"axis", BRC_TYPE_CHOICE, FIELD(brc_shape, axis), CHOICES("x", "y", "z"), .given = "x", .meaning = "its direction"},
     {"length", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, length), .required = true, .sample = "1 m",
      .meaning = "along the axis"},
-    {"radius", BRC_TYPE_QUANTITY, "m", NOT_NEGATIVE, FIELD(brc_shape, radius), .required = true, .sample = "20 cm",
+    {"radius", BRC_TYPE_QUANTITY, "m", NOT_NEGATIVE, FIELD(brc_shape, radius), .sample = "20 cm",
      .meaning = "at the first end; 0: a tip"},
-    {"end_radius", BRC_TYPE_QUANTITY, "m", NOT_NEGATIVE, FIELD(brc_shape, radius2), .given = "0",
-     .meaning = "at the other end; 0: a tip"},
+    {"diameter", BRC_TYPE_QUANTITY, "m", NOT_NEGATIVE, FIELD(brc_shape, radius), .another = true, .factor = 0.5, .sample = "40 cm",
+     .meaning = "twice that radius, in its place"},
+    {"end_radius", BRC_TYPE_QUANTITY, "m", NOT_NEGATIVE, FIELD(brc_shape, radius2), .sample = "10 cm",
+     .meaning = "at the other end; 0 or left out: a tip"},
+    {"end_diameter", BRC_TYPE_QUANTITY, "m", NOT_NEGATIVE, FIELD(brc_shape, radius2), .another = true, .factor = 0.5, .sample = "20 cm",
+     .meaning = "twice that radius, in its place"},
 };
 static const brc_section CONE_SECTION = {
-    .title = "cone", .meaning = "A cone or frustum. Walls: its flat ends, x- and x+ for the axis x, and side.", ENTRIES(CONE)};
+    .title = "cone", .meaning = "A cone or frustum. Walls: its flat ends, x- and x+ for the axis x, and side.", ENTRIES(CONE),
+    .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}, {BRC_GROUP_AT_MOST_ONE, {"end_radius", "end_diameter"}}}};
 static const brc_entry TORUS[] = {
     {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_shape, origin), .length = 3, .sample = "[0, 0, 0]", .meaning = "centre"},
     {"axis", BRC_TYPE_CHOICE, FIELD(brc_shape, axis), CHOICES("x", "y", "z"), .given = "z", .meaning = "of the ring"},
-    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .required = true, .sample = "5 cm",
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .sample = "5 cm",
      .meaning = "of the centre line"},
-    {"tube", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius2), .required = true, .sample = "1 cm",
+    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius), .another = true, .factor = 0.5, .sample = "10 cm",
+     .meaning = "of the centre line: twice its radius, in its place"},
+    {"tube", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius2), .sample = "1 cm",
      .meaning = "radius of the tube, below that of the centre line"},
+    {"tube_diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_shape, radius2), .another = true, .factor = 0.5, .sample = "2 cm",
+     .meaning = "twice the tube's radius, in its place"},
 };
-static const brc_section TORUS_SECTION = {.title = "torus", .meaning = "A ring. Wall: surface.", ENTRIES(TORUS)};
+static const brc_section TORUS_SECTION = {.title = "torus", .meaning = "A ring. Wall: surface.", ENTRIES(TORUS),
+    .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}, {BRC_GROUP_EXACTLY_ONE, {"tube", "tube_diameter"}}}};
 static const brc_entry MESH[] = {
     {"file", BRC_TYPE_STRING, FIELD(brc_shape, file), .required = true, .sample = "part.stl",
      .meaning = "a closed triangle mesh, STL in binary or ASCII, relative to the scene"},
@@ -96,7 +111,7 @@ static const brc_entry PART[] = {
      .meaning = "what it does to the parts before it: unite, cut away, or keep only what lies in it; the first is added"},
     {"name", BRC_TYPE_NAME, FIELD(brc_shape_part, name), .sample = "hole", .meaning = "its walls are called name_wall; without one, as the shape's"},
     {"shape", BRC_TYPE_STRUCT, .section = &LEAF_SECTION, .offset = offsetof(brc_shape_part, shape), .required = true,
-     .meaning = "the part"},
+     .sample = "{sphere: {radius: 5 mm}}", .meaning = "the part"},
     {"pose", BRC_TYPE_STRUCT, .section = &PART_POSE_SECTION, .meaning = "where it stands"},
 };
 static const brc_section PART_SECTION = {
@@ -135,17 +150,22 @@ static const brc_section NOISY_GRID_SECTION = {.title = "noisy_grid",
                                                ENTRIES(NOISY_GRID),
                                                .groups = {{BRC_GROUP_EXACTLY_ONE, {"elements", "spacing", "cells"}}}};
 static const brc_entry RADIUS[] = {
-    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_radius, radius), .required = true, .sample = "1 mm", .meaning = "ascending"},
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_radius, radius), .sample = "1 mm", .meaning = "ascending"},
+    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_radius, radius), .another = true, .factor = 0.5, .sample = "2 mm",
+     .meaning = "twice the radius, in its place"},
     {"below", BRC_TYPE_QUANTITY, "", WITHIN(0, 1), FIELD(brc_radius, fraction), .required = true, .sample = "0",
      .meaning = "share of the elements, by number, that are smaller: 0 at the first, 1 at the last"},
 };
 static const brc_section RADIUS_SECTION = {
-    .title = "radius", .meaning = "A point of the distribution of radii.", ENTRIES(RADIUS), .size = sizeof(brc_radius)};
+    .title = "radius", .meaning = "A point of the distribution of radii.", ENTRIES(RADIUS), .size = sizeof(brc_radius),
+    .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}}};
 static const brc_entry PACKING[] = {
     {"elements", BRC_TYPE_INTEGER, WITHIN(2, 2e9), FIELD(brc_fill, n_elements), .sample = "10000",
      .meaning = "number of spheres, met exactly; their size follows"},
     {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_fill, radius), .sample = "1 mm",
      .meaning = "mean radius, met nearly; the number of spheres follows"},
+    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_fill, radius), .another = true, .factor = 0.5, .sample = "2 mm",
+     .meaning = "mean diameter, in place of the mean radius"},
     {"radius_spread", BRC_TYPE_QUANTITY, "", WITHIN(0, 0.9), FIELD(brc_fill, radius_spread), .given = "12.5 %",
      .meaning = "radii are uniform within this either side of their mean"},
     {"radii", BRC_TYPE_LIST, .section = &RADIUS_SECTION, COUNTED(brc_fill, radii, n_radii),
@@ -169,7 +189,7 @@ static const brc_entry PACKING[] = {
 static const brc_section PACKING_SECTION = {.title = "packing",
                                             .meaning = "Centres of randomly packed spheres.",
                                             ENTRIES(PACKING),
-                                            .groups = {{BRC_GROUP_EXACTLY_ONE, {"elements", "radius"}},
+                                            .groups = {{BRC_GROUP_EXACTLY_ONE, {"elements", "radius", "diameter"}},
                                                        {BRC_GROUP_AT_MOST_ONE, {"radius_spread", "radii"}},
                                                        {BRC_GROUP_AT_MOST_ONE, {"coordination", "volume_fraction"}}}};
 static const brc_entry POINTS[] = {
@@ -216,9 +236,11 @@ const brc_section brc_schema_grains = {.title = "grains",
 static const brc_entry DISC[] = {
     {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_crack, point), .length = 3, .required = true, .sample = "[50 cm, 50 cm, 50 cm]", .meaning = "centre"},
     {"normal", BRC_TYPE_DIRECTION, "", FIELD(brc_crack, normal), .length = 3, .required = true, .sample = "[0, 0, 1]", .meaning = "of its plane"},
-    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_crack, radius), .required = true, .sample = "20 cm", .meaning = "radius"},
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_crack, radius), .sample = "20 cm", .meaning = "radius"},
+    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_crack, radius), .another = true, .factor = 0.5, .sample = "40 cm",
+     .meaning = "twice the radius, in its place"},
 };
-static const brc_section DISC_SECTION = {.title = "disc", .meaning = "A penny.", ENTRIES(DISC)};
+static const brc_section DISC_SECTION = {.title = "disc", .meaning = "A penny.", ENTRIES(DISC), .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}}};
 static const brc_entry RECTANGLE[] = {
     {"corner", BRC_TYPE_VECTOR, "m", FIELD(brc_crack, point), .length = 3, .required = true, .sample = "[0, 0, 50 cm]", .meaning = "a corner"},
     {"edge", BRC_TYPE_VECTOR, "m", FIELD(brc_crack, edge[0]), .length = 3, .required = true, .sample = "[1 m, 0, 0]", .meaning = "from the corner to the next one"},
@@ -238,7 +260,8 @@ static const brc_section PATCH_SECTION = {.title = "patch",
                                           .kind_offset = offsetof(brc_crack, kind)};
 static const brc_entry CRACK[] = {
     {"name", BRC_TYPE_NAME, FIELD(brc_crack, name), .required = true, .sample = "notch", .meaning = "the wall that its faces belong to"},
-    {"patch", BRC_TYPE_STRUCT, .section = &PATCH_SECTION, .required = true, .meaning = "where it is"},
+    {"patch", BRC_TYPE_STRUCT, .section = &PATCH_SECTION, .required = true,
+     .sample = "{rectangle: {corner: [0, 0, 5 mm], edge: [1 cm, 0, 0], other_edge: [0, 2 mm, 0]}}", .meaning = "where it is"},
     {"flat", BRC_TYPE_BOOL, FIELD(brc_crack, flat), .given = "true",
      .meaning = "seeds near it are mirrored, so that its faces lie in its plane; false: it follows the cells"},
 };

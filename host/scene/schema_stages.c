@@ -404,7 +404,7 @@ static const brc_section SOLVER_SECTION = {.title = "solver",
 static const brc_entry STAGE[] = {
     {"name", BRC_TYPE_NAME, FIELD(brc_stage, name), .required = true, .sample = "pull",
      .meaning = "for messages, results and measures"},
-    {"solver", BRC_TYPE_STRUCT, .section = &SOLVER_SECTION, .required = true, .meaning = "what the stage computes"},
+    {"solver", BRC_TYPE_STRUCT, .section = &SOLVER_SECTION, .required = true, .sample = "{dynamic: {duration: 1 ms}}", .meaning = "what the stage computes"},
     {"initial", BRC_TYPE_LIST, .section = &brc_schema_initial, COUNTED(brc_stage, initials, n_initials),
      .meaning = "fields added to the state at its start"},
     {"loads", BRC_TYPE_LIST, .section = &brc_schema_load, COUNTED(brc_stage, loads, n_loads),

@@ -40,6 +40,7 @@ static brc_status make_scene(brc_context *context, const brc_scene *whole, const
     brc_scene *scene = *out;
     *scene = *whole;
     scene->bodies = NULL;
+    scene->sets = NULL;
     scene->stages = NULL;
     scene->sensors = NULL;
     scene->n_sensors = scene->n_measures = 0;
@@ -47,6 +48,13 @@ static brc_status make_scene(brc_context *context, const brc_scene *whole, const
     scene->model = *brc_body_model(whole, part->body[0]);
     BRC_TRY(BRC_ALLOCATE(context, &scene->bodies, part->n_bodies, "bodies of a model"));
     for (int32_t b = 0; b < part->n_bodies; ++b) scene->bodies[b] = whole->bodies[part->body[b]];
+    BRC_TRY(BRC_ALLOCATE(context, &scene->sets, whole->n_sets, "sets of a model"));
+    for (int32_t s = 0; s < whole->n_sets; ++s) { /* bodies by their numbers in the part */
+        scene->sets[s] = whole->sets[s];
+        scene->sets[s].where.body = -1;
+        for (int32_t b = 0; b < part->n_bodies; ++b)
+            if (part->body[b] == whole->sets[s].where.body) scene->sets[s].where.body = b;
+    }
     BRC_TRY(BRC_ALLOCATE(context, &scene->sensors, whole->n_sensors, "sensors of a model"));
     BRC_TRY(BRC_ALLOCATE(context, &scene->stages, whole->n_stages, "stages of a model"));
     for (int32_t s = 0; s < whole->n_stages; ++s) {
@@ -70,6 +78,7 @@ static void free_scene(brc_scene *scene)
     brc_memory_free(scene->stages);
     brc_memory_free(scene->sensors);
     brc_memory_free(scene->bodies);
+    brc_memory_free(scene->sets);
     brc_memory_free(scene);
 }
 

@@ -161,6 +161,7 @@ brc_combine brc_split_combine(const brc_sensor *sensor)
     case BRC_SENSOR_SPIN:
     case BRC_SENSOR_FACE_MEAN:
     case BRC_SENSOR_FACE_STRAIN:
+    case BRC_SENSOR_OPENING:
     case BRC_SENSOR_FACE_TWIST:
     case BRC_SENSOR_STRESS:
     case BRC_SENSOR_STRAIN:
@@ -178,7 +179,10 @@ static brc_status find_sensor_parts(share *s, const brc_sensor *sensor)
 {
     const bool at_point = sensor->kind == BRC_SENSOR_POINT || sensor->kind == BRC_SENSOR_POINT_VELOCITY || sensor->kind == BRC_SENSOR_TURN;
     const brc_combine combine = brc_split_combine(sensor);
-    if (at_point) {
+    const bool gauge = sensor->kind == BRC_SENSOR_OPENING && sensor->of_points;
+    if (gauge && nearest_part(s, sensor->point) != nearest_part(s, sensor->point2))
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "sensor %s: its points lie in bodies of different models; an opening is measured inside one", sensor->name);
+    if (at_point || gauge) {
         memset(s->has, 0, (size_t)s->split->n * sizeof *s->has);
         s->has[nearest_part(s, sensor->point)] = true;
         return BRC_OK;

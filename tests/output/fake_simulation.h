@@ -34,6 +34,7 @@ struct brc_simulation {
     int32_t n_modes;
     const brc_break *breaks; /* [n_breaks]; NULL: nothing can break */
     int64_t n_breaks;
+    const uint8_t *whole; /* [n_half_edges] 1: unbroken; NULL: all are */
     const brc_striker_now *strikers; /* [n_strikers] now */
     const brc_striker_body *striker_body; /* [n_strikers] */
     int32_t n_strikers;
@@ -293,8 +294,12 @@ brc_status brc_simulation_striker_now(brc_simulation *s, int32_t striker, brc_st
 
 brc_status brc_simulation_whole(brc_simulation *s, uint8_t **out)
 {
-    (void)s;
+    brc_context *none = NULL;
+    const int64_t n = s->domain->row_start[s->domain->n_elements];
     *out = NULL;
+    if (!s->whole) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(none, out, n, "whole bonds"));
+    memcpy(*out, s->whole, (size_t)n);
     return BRC_OK;
 }
 

@@ -249,6 +249,62 @@ static void labels_are_round_and_carry_prefixes(void **state)
     assert_string_equal(words, "2.0e-07");
 }
 
+/* Pixels of a drawn box of 2 x 1 x 1 m, seen from a side: wide and tall. */
+static void extent_seen(const brc_paint_view *view, int *wide, int *tall)
+{
+    double *zero = calloc((size_t)(3 * domain->n_elements), sizeof *zero);
+    const brc_picture_part cells = {.domain = domain, .displacement = zero, .value = zero};
+    const brc_picture picture = {.n = 1, .part = &cells, .name = "", .unit = "-", .title = "", .scale = 1, .view = view};
+    assert_int_equal(brc_picture_draw(test_context, &picture, test_path(folder, "p.png")), BRC_OK);
+    cairo_surface_t *image = cairo_image_surface_create_from_png(test_path(folder, "p.png"));
+    int low[2] = {1200, 900}, high[2] = {0, 0};
+    for (int y = 95; y < 825; ++y)
+        for (int x = 150; x < 975; ++x) {
+            const unsigned char *p = pixel(image, x, y);
+            if (is_white(p) || abs(p[0] - p[2]) < 20) continue; /* words and lines are grey */
+            low[0] = x < low[0] ? x : low[0], high[0] = x > high[0] ? x : high[0];
+            low[1] = y < low[1] ? y : low[1], high[1] = y > high[1] ? y : high[1];
+        }
+    *wide = high[0] - low[0] + 1;
+    *tall = high[1] - low[1] + 1;
+    cairo_surface_destroy(image);
+    free(zero);
+}
+
+static void a_box_has_the_sides_of_its_views(void **state)
+{
+    (void)state;
+    static const double from[3] = {1, 0.5, 9}, towards[3] = {1, 0.5, 0.5};
+    const brc_paint_view above = brc_paint_side_view("z"), end_on = brc_paint_side_view("-x"), same = brc_paint_view_between(from, towards);
+    int wide, tall;
+    extent_seen(&end_on, &wide, &tall);
+    assert_in_range(wide, tall - 2, tall + 2);
+    extent_seen(&above, &wide, &tall);
+    assert_in_range(wide, 805, 815); /* 900 px from 60 on, of which those from 150 on are looked at */
+    assert_in_range(tall, 440, 460);
+    assert_memory_equal(&same, &above, sizeof same);
+}
+
+static void views_are_right_handed_and_their_labels_apart(void **state)
+{
+    (void)state;
+    static const double origin[2] = {90, 830}, none[3] = {0, 0, 0};
+    for (int k = 0; k < 4000; ++k) {
+        const double angle = 0.01 * k, from[3] = {cos(angle), sin(angle), k % 7 == 0 ? 0 : k % 2 ? 0.05 * k : -0.01 * k};
+        const brc_paint_view v = brc_paint_view_between(from, none);
+        double label[3][2];
+        for (int c = 0; c < 3; ++c) {
+            const int a = (c + 1) % 3, b = (c + 2) % 3;
+            assert_true(fabs(v.right[a] * v.up[b] - v.right[b] * v.up[a] - v.toward[c]) < 1e-12);
+        }
+        brc_paint_axis_labels(&v, origin, 52, label);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < i; ++j) assert_true(hypot(label[i][0] - label[j][0], label[i][1] - label[j][1]) >= 17.99);
+    }
+    const brc_paint_view odd = brc_paint_side_view("corner"), corner = brc_paint_corner_view();
+    assert_memory_equal(&odd, &corner, sizeof odd);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -262,6 +318,8 @@ int main(void)
         cmocka_unit_test(pictures_of_a_sequence_have_one_view_and_one_range),
         cmocka_unit_test(lightness_rises_evenly_along_the_sequential_map),
         cmocka_unit_test(labels_are_round_and_carry_prefixes),
+        cmocka_unit_test(a_box_has_the_sides_of_its_views),
+        cmocka_unit_test(views_are_right_handed_and_their_labels_apart),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

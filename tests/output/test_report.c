@@ -79,11 +79,34 @@ static void folders_without_results_and_damaged_files_are_refused(void **state)
     test_remove_folder(folder);
 }
 
+static void a_damaged_frame_costs_the_view_and_not_the_page(void **state)
+{
+    (void)state;
+    static const char rows[] = "stage,step,stage_time,time_s,a</script> [m]\n0,0,0,0,1\n0,1,1,1,2\n";
+    char *folder = test_new_folder();
+    put(folder, "summary.json", SUMMARY, strlen(SUMMARY));
+    put(folder, "histories.csv", rows, strlen(rows));
+    assert_int_equal(brc_file_make_folder(test_context, test_path(folder, "frames")), BRC_OK);
+    put(folder, "frames/000000.vtkhdf", "no frame", 8);
+    assert_int_equal(brc_report_write(test_context, folder, NULL), BRC_OK);
+    char *page = test_read(test_path(folder, "report.html"));
+    assert_non_null(strstr(page, "\"no_view\": "));
+    assert_non_null(strstr(page, "cannot be opened as an HDF5 file"));
+    assert_null(strstr(page, "id=\"view-surface\""));
+    assert_non_null(strstr(page, "a\\u003c/script>")); /* words of a file end no script */
+    assert_null(strstr(page, "a</script>"));
+    assert_non_null(strstr(page, "Apache License"));
+    assert_non_null(strstr(page, "copyright notice and this permission notice"));
+    brc_memory_free(page);
+    test_remove_folder(folder);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_page_holds_values_shares_and_pictures_and_needs_nothing_else),
         cmocka_unit_test(rows_of_a_case_are_a_table),
+        cmocka_unit_test(a_damaged_frame_costs_the_view_and_not_the_page),
         cmocka_unit_test(folders_without_results_and_damaged_files_are_refused),
     };
     return cmocka_run_group_tests(tests, test_begin, test_end);

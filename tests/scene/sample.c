@@ -74,7 +74,7 @@ static bool is_used(const brc_section *section, const brc_entry *entry, const br
     if (strcmp(section->title, "interactions") == 0 && strcmp(entry->key, "contact") == 0) return true;
     if (strcmp(section->title, "body") == 0 && strcmp(entry->key, "fill") == 0)
         return !on_path || strcmp(on_path->key, "domain") != 0;
-    for (int g = 0; g < 2; ++g) {
+    for (size_t g = 0; g < sizeof section->groups / sizeof section->groups[0]; ++g) {
         const brc_group *group = &section->groups[g];
         if (group->rule != BRC_GROUP_EXACTLY_ONE && group->rule != BRC_GROUP_AT_LEAST_ONE) continue;
         bool chosen = false;

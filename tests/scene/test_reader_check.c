@@ -194,7 +194,7 @@ static void unknown_names_are_refused_with_the_nearest(void **state)
               "(that name is a set of elements)");
     bad_scene(HEAD STATIC "      - element_displacement: {set: x-, x: 0}\n", "13:37", "(that name is a set of faces)");
     bad_scene(HEAD STAGES "sensors: {s: {reaction: {set: side, component: x}}}\n", "10:31",
-              "there is no wall or set 'side'");
+              "there is no wall, body or set 'side'");
     bad_scene(HEAD STAGES "output: {curve: {x: nobody, y: nobody}}\n", "10:21",
               "there is no sensor 'nobody'; define it under sensors");
     bad_scene(HEAD STAGES "sensors: {s: {energy: work}}\nmeasure: {m: {mean: {of: s, stage: pul}}}\n", "11:36",

@@ -207,6 +207,24 @@ static void bad_overrides_are_refused_by_name(void **state)
     bad_override(HEAD STAGES, "gravity={a: 1, a: 2}", "duplicate key 'a'");
 }
 
+static void views_of_pictures_are_a_side_or_two_points(void **state)
+{
+    (void)state;
+    const char *const text = HEAD STAGES "output: {picture: {view: -z}}\n";
+    brc_scene *scene = good_scene(text);
+    assert_string_equal(scene->output.picture_view, "-z");
+    assert_false(scene->output.has_picture_camera);
+    brc_scene_free(&scene);
+    scene = good_scene(HEAD STAGES "output: {picture: {camera: {from: [1 mm, 2 m, 3 m], towards: [0, 0, 1 cm]}}}\n");
+    assert_string_equal(scene->output.picture_view, "corner");
+    assert_true(scene->output.has_picture_camera && scene->output.picture_from[0] == 1e-3 && scene->output.picture_towards[2] == 1e-2);
+    brc_scene_free(&scene);
+    bad_scene(HEAD STAGES "output: {picture: {view: above}}\n", "10:26", "'above'");
+    bad_scene(HEAD STAGES "output: {picture: {camera: {towards: [0, 0, 1]}}}\n", "10:28", "from");
+    bad_scene(HEAD STAGES "output: {picture: {view: z, camera: {from: [0, 0, 1]}}}\n", "10:26", "leave out one of them");
+    bad_scene(HEAD STAGES "output: {picture: {camera: {from: [0, 0, 0]}}}\n", "10:35", "which gives no direction");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -222,6 +240,7 @@ int main(void)
         cmocka_unit_test(overrides_find_their_way_by_index_and_name),
         cmocka_unit_test(an_override_turns_a_word_into_its_map),
         cmocka_unit_test(bad_overrides_are_refused_by_name),
+        cmocka_unit_test(views_of_pictures_are_a_side_or_two_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
