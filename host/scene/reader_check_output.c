@@ -12,6 +12,6 @@ void brc_reader_check_output(brc_reader *reader)
                  "view: `camera` says already where the viewer stands; leave out one of them");
     if (memcmp(from, output->picture_towards, sizeof output->picture_from) == 0)
         COMPLAIN(reader, output->picture_from, output,
-                 "from: is the point looked at ([%g, %g, %g] m), which gives no direction; move it or `towards`", from[0],
-                 from[1], from[2]);
+                 "from: is the point looked at ([%g, %g, %g] m), which gives no direction; move it or `towards`",
+                 from[0], from[1], from[2]);
 }

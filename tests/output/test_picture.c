@@ -305,6 +305,30 @@ static void views_are_right_handed_and_their_labels_apart(void **state)
     assert_memory_equal(&odd, &corner, sizeof odd);
 }
 
+/* Bytes of the picture of a small stretch; the caller frees them. */
+static char *drawn(const brc_scene *scene, size_t *n)
+{
+    char *bytes;
+    brc_simulation s = {.scene = scene, .domain = domain, .factor = 1, .gradient = {{1e-4}}};
+    brc_simulation *const alone = &s;
+    const brc_assembly whole = brc_assembly_make(scene, NULL, 1, &alone);
+    assert_int_equal(brc_picture_write(test_context, &whole, test_path(folder, "q.png")), BRC_OK);
+    assert_int_equal(brc_file_read_whole(test_context, test_path(folder, "q.png"), 1 << 26, &bytes, n), BRC_OK);
+    return bytes;
+}
+
+static void solids_that_touch_are_drawn_where_they_are(void **state)
+{
+    (void)state;
+    const brc_scene free = {.n_strikers = 0}, touching = {.has_contact = true}, fixed = {.output = {.picture_scale = 1}};
+    size_t n[3];
+    char *const bytes[3] = {drawn(&free, &n[0]), drawn(&touching, &n[1]), drawn(&fixed, &n[2])};
+    assert_int_equal(n[1], n[2]);
+    assert_memory_equal(bytes[1], bytes[2], n[1]);
+    assert_true(n[0] != n[2] || memcmp(bytes[0], bytes[2], n[0]) != 0); /* this one is amplified */
+    for (int k = 0; k < 3; ++k) brc_memory_free(bytes[k]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -320,6 +344,7 @@ int main(void)
         cmocka_unit_test(labels_are_round_and_carry_prefixes),
         cmocka_unit_test(a_box_has_the_sides_of_its_views),
         cmocka_unit_test(views_are_right_handed_and_their_labels_apart),
+        cmocka_unit_test(solids_that_touch_are_drawn_where_they_are),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }
