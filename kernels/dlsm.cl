@@ -1,4 +1,4 @@
-/* dlsm: the four passes over elements and their bonds (design-dlsm.md section 2). Each gathers, calls the laws, and
+/* dlsm: the four passes over elements and their bonds (docs/notebook/theory.md T2). Each gathers, calls the laws, and
  * writes its own elements; nothing is scattered. One work-item does W elements: a group of all, or in the kernels named `listed` those of
  * a list (members.cl).
  * boundary[slice]: the slice's block of the face-load arrays, -1 when none of its elements has a free face; only read in

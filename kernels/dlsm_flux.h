@@ -1,5 +1,5 @@
 /* dlsm: the tensor B of an element whose sum over the two ends, times the area vector, is the bond force
- * (design-dlsm.md section 2, pass 3): B = Q A^-1 [Pa], with one material plus k (1 + tau) times the bond part. The stress term of Q is
+ * (docs/notebook/theory.md T2, third pass): B = Q A^-1 [Pa], with one material plus k (1 + tau) times the bond part. The stress term of Q is
  * that of G = H + sum (H_j - H_i) d (x) s / (2 V): no face moments are stored or read (docs/notebook/theory.md T2). Several materials: a bond takes the
  * softer of its two stabilisation moduli, k_ij = min(k_i, k_j), for both terms of its energy, so that it stays bounded by
  * the elastic energy of either side at any contrast. */

@@ -17,7 +17,7 @@
 #define BRC_JOIN_(a, b) a##b
 #define BRC_JOIN(a, b) BRC_JOIN_(a, b)
 
-/* state: u, v, f, time and ledger; coeff: everything else (design.md, Precision). */
+/* state: u, v, f, time and ledger; coeff: everything else (docs/reference/portable.md). */
 #if BRC_PRECISION == 0
 #ifdef cl_khr_fp64
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -259,7 +259,7 @@ LAW int brc_lane_any_short(lane a, lane b)
 #define LANE_ANY_SHORT(a, b) brc_lane_any_short(a, b)
 #endif
 
-/* Storage (design.md, SELL-C): element arrays of n components that are only read by their own element are blocked,
+/* Storage (SELL-C): element arrays of n components that are only read by their own element are blocked,
  * [slice][component][C]; those that neighbours gather are [element][components]. Rows are [slot][component][C]. */
 #define SLICE_OF(group) ((group) / (C / W))
 #define FIRST_LANE_OF(group) (((group) % (C / W)) * W)

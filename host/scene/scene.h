@@ -76,14 +76,14 @@ typedef struct brc_fracture {
     brc_criterion_kind kind;
     int32_t level;             /* shells of neighbours the stress is averaged over: 0, 1, 2; not for bond-normal */
     double cohesion, friction; /* the last two kinds: [Pa], [rad] */
-    bool closure;              /* sides of a broken face bear on each other until they stand clear (docs/notebook/fracture.md "Closed cracks") */
+    bool closure;              /* sides of a broken face bear on each other until they stand clear (docs/notebook/fracture.md "Beside compression") */
     uint64_t seed;             /* of the draws of strengths, keyed by the ids of a bond's elements */
 } brc_fracture;
 
 typedef enum brc_model_kind {
-    BRC_MODEL_DLSM,          /* the conservative law, design-dlsm.md section 2 */
-    BRC_MODEL_DLSM_PUBLISHED, /* the published law, AGH19, design-dlsm.md section 1 */
-    BRC_MODEL_CBM             /* spheres joined by beams, NAH19, design-cbm.md */
+    BRC_MODEL_DLSM,          /* the conservative law, docs/notebook/theory.md T2 */
+    BRC_MODEL_DLSM_PUBLISHED, /* the published law, AGH19, docs/notebook/theory.md T3 */
+    BRC_MODEL_CBM             /* spheres joined by beams, NAH19, docs/notebook/beams.md */
 } brc_model_kind;
 
 typedef struct brc_model {
@@ -98,7 +98,7 @@ typedef struct brc_model {
     double rotation_stiffness; /* [-] factor on K = E S^2 / (4 pi L0), default 1 */
     double couple_modulus;     /* [-] over mu: holds the frames of elements to the turning solid; 0, as printed, by default (docs/notebook/theory.md T3) */
     /* cbm */
-    double beam_poisson; /* nu_m of the beams, default 0.3: hardly matters (design-cbm.md) [-] */
+    double beam_poisson; /* nu_m of the beams, default 0.3: hardly matters (docs/notebook/beams.md) [-] */
     bool keep_isolated;  /* hold elements without bonds still instead of refusing them */
     bool polish;         /* correct the laws' r_m and E_m on a sample (beam_polish.h) */
 } brc_model;

@@ -127,7 +127,7 @@ brc_status brc_beams_upload(brc_simulation *s)
 
 static double in_series(double a, double b) { return 2 * a * b / (a + b); }
 
-/* Diagonal block of element e (design-cbm.md section 6), full, u before theta: sum over its beams of
+/* Diagonal block of element e (docs/notebook/beams.md), full, u before theta: sum over its beams of
  * translation ka n n^T + (6 A / l^2)(1 - n n^T), rotation 2 A (1 - n n^T) + kt n n^T, coupling (3 A / l) [n]x. */
 static void diagonal_block(const brc_simulation *s, int64_t e, double k[6][6])
 {

@@ -9,7 +9,7 @@
 #include <math.h>
 
 /* An element is held while the smallest eigenvalue of A / (2 V) is above this share of its value in the whole body, and above `support_least`
- * (design-dlsm.md section 3; 0.57 or more inside a body, 0.07 to 0.5 at its boundary). */
+ * (docs/notebook/fracture.md, Fracture of cells; 0.57 or more inside a body, 0.07 to 0.5 at its boundary). */
 static const double support_share = 0.2, support_least = 0.05;
 static const double never = 1e30; /* CELLS_NEVER of kernels/cells.cl */
 

@@ -1,4 +1,4 @@
-/* One evaluation of the forces of a model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2, design-cbm.md). */
+/* One evaluation of the forces of a model: the order of the passes, nothing else (docs/notebook/theory.md T2 and T3, docs/notebook/beams.md). */
 #include "beam_softening.h"
 #include "cell_breaks_internal.h"
 #include "cell_softening.h"

@@ -1,4 +1,4 @@
-/* The energy ledger (design.md: its terms are named once; closure is relative to the largest energy in play). */
+/* The energy ledger (docs/notebook/theory.md T4): its terms are named once; closure is relative to the largest energy. */
 #include "cell_softening.h"
 #include "contact.h"
 #include "fracture_internal.h"

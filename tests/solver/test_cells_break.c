@@ -299,7 +299,7 @@ static closure closure_of_bar(double safety, const char *relaxed)
 
 static const double bar_safety[] = {0.8, 0.35}, bar_bound[] = {0.05, 0.01}; /* the issue's */
 
-/* The bar of the design, pulled apart: a third of its bonds go. */
+/* A bar pulled apart: a third of its bonds go. */
 static void the_ledger_of_a_bar_closes_through_its_fracture(void **state)
 {
     (void)state;

@@ -385,7 +385,7 @@ static void a_strength_by_discs_raises_the_limit_in_tension_alone(void **state)
 }
 
 /* NAH19 Tables 9 and 10 give sigma_m = sigma_M / k for glass (50 MPa) and alumina (380 MPa); r_m of Tables 5 and 6. 0.05 %: the rounding of
- * the printed coefficients (design-cbm.md section 4). */
+ * the printed coefficients. */
 static void eq_22_gives_the_strengths_of_the_papers_tables(void **state)
 {
     (void)state;
