@@ -66,10 +66,14 @@ def figures(piece):
     return found
 
 
+def printed_table(text, piece):
+    """The table after a `figures` mark."""
+    return text[piece.begin:piece.end].split("-->\n", 1)[1].strip()
+
+
 def printed_values(text, piece):
-    """{name: value} of the table after a `figures` mark."""
-    table = text[piece.begin:piece.end].split("-->\n", 1)[1]
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.strip().splitlines()[2:]]
+    """{name: value} of that table."""
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in printed_table(text, piece).splitlines()[2:]]
     return {row[0]: float(row[1].split()[0]) for row in rows}
 
 

@@ -36,7 +36,7 @@ class Tutorial:
         self.text = page.read(name)
         self.pieces = page.pieces(self.text)
         self.results = page.Results(folder)
-        self.space = self.results.space()
+        self.space = {}    # names of the page's own Python
         self.environment = dict(os.environ, PATH=os.path.dirname(program) + os.pathsep + os.environ["PATH"])
         self.outputs = {}  # of a piece, by its place
         self.rows = {}     # of figures, by their place
@@ -84,8 +84,9 @@ class Tutorial:
         rows = []
         printed = page.printed_values(self.text, piece)
         for figure in page.figures(piece):
-            value = float(eval(figure.value, self.space))
-            reference = float(eval(figure.reference, self.space)) if figure.reference else None
+            space = {**self.results.space(), **self.space}
+            value = float(eval(figure.value, space))
+            reference = float(eval(figure.reference, space)) if figure.reference else None
             rows.append((figure, value, reference))
             if reference is not None and not abs(value - reference) <= figure.bound * abs(reference):
                 self.faults.append(f"{figure.name}: {value:.6g}, the reference is {reference:.6g} and the bound {100 * figure.bound:g} %")
