@@ -21,18 +21,24 @@ static void print_templates(void)
         printf("  %-14s ", brc_templates[k].name);
         print_title(&brc_templates[k]);
     }
-    printf("\nbreccia new NAME writes one of them as NAME.yaml. Each has a tutorial of its name in docs/guide/tutorials.\n");
+    printf("\nbreccia new NAME writes one of them as NAME.yaml. Each has a tutorial of its name in "
+           "docs/guide/tutorials.\n");
 }
 
 static brc_status write_template(brc_context *context, const brc_template *template, const char *path)
 {
     if (brc_file_exists(path))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia new: %s is there already and stays as it is; choose another file with -o FILE, or remove it", path);
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "breccia new: %s is there already and stays as it is; choose another file with -o FILE, or remove it",
+            path);
     BRC_TRY(brc_file_write_whole(context, path, template->text, template->bytes));
     printf("%s: ", path);
     print_title(template);
-    if (brc_template_is_study(template)) printf("next: breccia study %s -o %s\n", path, template->name);
-    else printf("next: breccia check %s; breccia run %s -o %s\n", path, path, template->name);
+    if (brc_template_is_study(template))
+        printf("next: breccia study %s -o %s\n", path, template->name);
+    else
+        printf("next: breccia check %s; breccia run %s -o %s\n", path, path, template->name);
     return BRC_OK;
 }
 
@@ -41,7 +47,9 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     brc_context *context = session->context;
     const char *output = brc_arguments_value(arguments, "output");
     if (arguments->n_positional == 0) {
-        if (output) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia new: --output without a name of a scene; `breccia new` lists them");
+        if (output)
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "breccia new: --output without a name of a scene; `breccia new` lists them");
         print_templates();
         return BRC_OK;
     }
@@ -57,11 +65,13 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     return status;
 }
 
-const brc_command brc_command_new = {.name = "new",
-                                     .operands = "[NAME]",
-                                     .most = 1,
-                                     .summary = "write a commented scene to begin with; without a name: list them",
-                                     .details = "The scenes are those of the tutorials (docs/guide/tutorials). A file that is there is never overwritten.",
-                                     .options = options,
-                                     .n_options = sizeof options / sizeof *options,
-                                     .run = run};
+const brc_command brc_command_new = {
+    .name = "new",
+    .operands = "[NAME]",
+    .most = 1,
+    .summary = "write a commented scene to begin with; without a name: list them",
+    .details =
+        "The scenes are those of the tutorials (docs/guide/tutorials). A file that is there is never overwritten.",
+    .options = options,
+    .n_options = sizeof options / sizeof *options,
+    .run = run};

@@ -14,9 +14,12 @@ const brc_template *brc_template_find(brc_context *context, const char *name)
         names[n++] = brc_templates[k].name;
     }
     const char *nearest = brc_nearest_word(name, n, names);
-    BRC_FAIL(context, BRC_BAD_INPUT, "breccia new: no scene '%s'%s%s%s; `breccia new` lists them", name, nearest ? ", did you mean '" : "", nearest ? nearest : "",
-             nearest ? "'?" : "");
+    BRC_FAIL(context, BRC_BAD_INPUT, "breccia new: no scene '%s'%s%s%s; `breccia new` lists them", name,
+             nearest ? ", did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
     return NULL;
 }
 
-bool brc_template_is_study(const brc_template *template) { return strstr(template->text, "\nscene:") != NULL; }
+bool brc_template_is_study(const brc_template *template)
+{
+    return strstr(template->text, "\nscene:") != NULL;
+}

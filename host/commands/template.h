@@ -1,4 +1,5 @@
-/* The commented scenes that `breccia new` writes: those of docs/guide/tutorials, as texts inside the program; made at build time (template_files.cmake). */
+/* The commented scenes that `breccia new` writes: those of docs/guide/tutorials, as texts inside the program; made at
+ * build time (template_files.cmake). */
 #ifndef BRC_COMMANDS_TEMPLATE_H
 #define BRC_COMMANDS_TEMPLATE_H
 

@@ -1,4 +1,5 @@
-# cmake -DFOLDER=docs/guide/tutorials -DOUTPUT=file.c -P template_files.cmake: every *.yaml of the folder as a C string, one literal a line.
+# cmake -DFOLDER=docs/guide/tutorials -DOUTPUT=file.c -P template_files.cmake: every *.yaml of the folder
+# as a C string, one literal a line.
 file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/*.yaml)
 list(SORT files)
 set(text "#include \"template.h\"\nconst brc_template brc_templates[] = {\n")

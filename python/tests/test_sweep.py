@@ -17,7 +17,9 @@ QUIET = {"output": {"frames": "none", "picture": False}}
 
 def test_a_sweep_goes_on_where_it_was_left(burst, tmp_path):
     burst = {**burst, **QUIET}
-    whole = breccia.sweep(burst, GRID, tmp_path / "whole", average=[SEED], fit=[{"power": "most", "by": NU}], jobs=2, device="cpu")
+    whole = breccia.sweep(
+        burst, GRID, tmp_path / "whole", average=[SEED], fit=[{"power": "most", "by": NU}], jobs=2, device="cpu"
+    )
     assert [row["status"] for row in whole.rows] == ["done"] * 6 and len({row["most"] for row in whole.rows}) == 6
     assert whole.rows[4][NU] == 0.3 and whole.rows[4][SEED] == 2 and whole.rows[4]["set"] == {NU: 0.3, SEED: 2}
     done = breccia.sweep(burst, [{NU: 0.1, SEED: 1}], tmp_path / "left", jobs=1, device="cpu")
@@ -34,7 +36,9 @@ def test_a_sweep_goes_on_where_it_was_left(burst, tmp_path):
     values = [row["most"] for row in whole.rows[:3]]
     mean = sum(values) / 3
     deviation = math.sqrt(sum((value - mean) ** 2 for value in values) / 2)
-    assert means[0]["mean"] == pytest.approx(mean, rel=1e-12) and means[0]["deviation"] == pytest.approx(deviation, rel=1e-9)
+    assert means[0]["mean"] == pytest.approx(mean, rel=1e-12) and means[0]["deviation"] == pytest.approx(
+        deviation, rel=1e-9
+    )
     assert means[0]["confidence"] == pytest.approx(4.303 * deviation / math.sqrt(3), rel=1e-9)
     (fit,) = whole.fits()
     assert fit["law"] == "power" and fit["n"] == "6" and "exponent" in fit["found"]
@@ -45,8 +49,14 @@ def test_a_sweep_is_the_study_of_the_program(burst, tmp_path):
     burst = {**burst, **QUIET}
     swept = breccia.sweep(burst, GRID, tmp_path / "swept", jobs=2, device="cpu")
     told = tmp_path / "told.yaml"
-    told.write_text(f"scene: swept/scene.yaml\nvary:\n  - {{key: {NU}, values: [0.1, 0.3]}}\n  - {{key: {SEED}, from: 1, to: 3}}\n")
-    subprocess.run([program(), "study", str(told), "-o", str(tmp_path / "told"), "--now", "--device", "cpu"], check=True, capture_output=True)
+    told.write_text(
+        f"scene: swept/scene.yaml\nvary:\n  - {{key: {NU}, values: [0.1, 0.3]}}\n  - {{key: {SEED}, from: 1, to: 3}}\n"
+    )
+    subprocess.run(
+        [program(), "study", str(told), "-o", str(tmp_path / "told"), "--now", "--device", "cpu"],
+        check=True,
+        capture_output=True,
+    )
     assert (tmp_path / "told" / "table.csv").read_bytes() == (tmp_path / "swept" / "table.csv").read_bytes()
     again = breccia.study(told, tmp_path / "told", device="cpu")
     assert [row["most"] for row in again.rows] == [row["most"] for row in swept.rows] and again.rows[5][SEED] == "3"
@@ -54,7 +64,9 @@ def test_a_sweep_is_the_study_of_the_program(burst, tmp_path):
 
 def test_points_of_a_list_are_runs(burst, tmp_path):
     points = [{NU: 0.1, "materials.glass.E": (1, "Pa")}, {NU: 0.2, "materials.glass.E": "2 Pa"}]
-    result = breccia.sweep({**burst, **QUIET}, points, tmp_path, set={"stages.0.solver.dynamic.steps": 20}, device="cpu")
+    result = breccia.sweep(
+        {**burst, **QUIET}, points, tmp_path, set={"stages.0.solver.dynamic.steps": 20}, device="cpu"
+    )
     with open(tmp_path / "table.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [row["status"] for row in result.rows] == ["done", "done"] and [row[NU] for row in rows] == ["0.1", "0.2"]

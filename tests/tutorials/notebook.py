@@ -1,4 +1,6 @@
-"""python3 tests/tutorials/notebook.py [--check]: writes python/notebooks/*.ipynb from the pages of docs/guide/tutorials, or says which are not the same."""
+"""python3 tests/tutorials/notebook.py [--check]: writes python/notebooks/*.ipynb from the pages of docs/guide/tutorials,
+or says which are not the same."""
+
 import json
 import os
 import re
@@ -38,7 +40,7 @@ def fit(study, number=0):
 
 
 def compare(*figures):
-    """(name, unit, value, reference or None, bound): a table; a value that is off its reference by more than the bound is an error."""
+    """(name, unit, value, reference or None, bound): a table; an error where a value is off by more than its bound."""
     for name, unit, value, reference, bound in figures:
         assert reference is None or abs(value - reference) <= bound * abs(reference), (name, value, reference)
     return pandas.DataFrame([row[:4] for row in figures], columns=["figure", "unit", "breccia", "reference"])
@@ -64,10 +66,18 @@ def call_of(line):
             operands.append(word)
     out = options.pop("out", None)
     more = "".join(f", {name}={json.dumps(value)}" for name, value in options.items())
-    of = f'breccia.Scene.load({json.dumps(operands[0])}{", set=" + json.dumps(sets) if sets else ""})' if operands else ""
-    calls = {"new": f"breccia.new({json.dumps(operands[0])})" if operands else "print(breccia.new())", "devices": "breccia.devices()",
-             "check": f"{of}.check({more[2:]})", "run": f"{of}.run({json.dumps(out)}, progress=True{more}).measures",
-             "study": f"breccia.study({json.dumps(operands[0]) if operands else ''}, {json.dumps(out)}{more}).table()"}
+    of = (
+        f'breccia.Scene.load({json.dumps(operands[0])}{", set=" + json.dumps(sets) if sets else ""})'
+        if operands
+        else ""
+    )
+    calls = {
+        "new": f"breccia.new({json.dumps(operands[0])})" if operands else "print(breccia.new())",
+        "devices": "breccia.devices()",
+        "check": f"{of}.check({more[2:]})",
+        "run": f"{of}.run({json.dumps(out)}, progress=True{more}).measures",
+        "study": f"breccia.study({json.dumps(operands[0]) if operands else ''}, {json.dumps(out)}{more}).table()",
+    }
     return calls.get(command)
 
 
@@ -79,7 +89,10 @@ def shell_cells(body):
 
 
 def figure_cell(piece):
-    rows = [f"    ({json.dumps(figure.name)}, {json.dumps(figure.unit)}, {figure.value}, {figure.reference or None}, {figure.bound or 0})," for figure in page.figures(piece)]
+    rows = [
+        f'    ("{figure.name}", "{figure.unit}", {figure.value}, {figure.reference or None}, {figure.bound or 0}),'
+        for figure in page.figures(piece)
+    ]
     return ("code", "compare(\n" + "\n".join(rows) + "\n)")
 
 
@@ -120,7 +133,19 @@ def notebook(name):
             cell.update(execution_count=None, outputs=[])
         cells.append(cell)
     kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
-    return json.dumps({"cells": cells, "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}}, "nbformat": 4, "nbformat_minor": 5}, indent=1, ensure_ascii=False) + "\n"
+    return (
+        json.dumps(
+            {
+                "cells": cells,
+                "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}},
+                "nbformat": 4,
+                "nbformat_minor": 5,
+            },
+            indent=1,
+            ensure_ascii=False,
+        )
+        + "\n"
+    )
 
 
 def path_of(name):
@@ -129,7 +154,11 @@ def path_of(name):
 
 def faults():
     """What differs between the notebooks that are there and those of the pages."""
-    found = [f"{file}: no page of this name" for file in sorted(os.listdir(FOLDER)) if file.endswith(".ipynb") and file[:-6] not in page.names()]
+    found = [
+        f"{file}: no page of this name"
+        for file in sorted(os.listdir(FOLDER))
+        if file.endswith(".ipynb") and file[:-6] not in page.names()
+    ]
     for name in page.names():
         if not os.path.exists(path_of(name)) or open(path_of(name), encoding="utf-8").read() != notebook(name):
             found.append(f"{name}.ipynb is not that of its page; python3 tests/tutorials/notebook.py")

@@ -1,4 +1,5 @@
-"""A page of docs/guide/tutorials in pieces: text, fenced blocks, figures, pictures and cells of the notebook (README.md)."""
+"""A page of docs/guide/tutorials in pieces: text, fenced blocks, figures, pictures, cells of the notebook (README.md)."""
+
 import csv
 import json
 import math
@@ -9,14 +10,18 @@ from collections import namedtuple
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FOLDER = os.path.join(ROOT, "docs", "guide", "tutorials")
 
-#: kind: text, sh, output, yaml, python, figures, picture, notebook; info: the mark before it, or its words; body: without its marks.
+#: kind: text, sh, output, yaml, python, figures, picture, notebook; info: the mark before it, or its words;
+#: body: without its marks.
 Piece = namedtuple("Piece", "kind info body begin end")
 Figure = namedtuple("Figure", "name unit value reference bound repeats")
 
-PIECE = re.compile(r"^(?:<!-- (?P<mark>long|scene \S+) -->\n)?```(?P<info>\w*)\n(?P<fenced>.*?)^```\n"
-                   r"|^<!-- (?P<figures>(?:long )?figures)\n(?P<lines>.*?)^-->\n(?P<table>(?:\n?(?:\|[^\n]*\n)+)?)"
-                   r"|^<!-- picture (?P<picture>\S+) -->\n!\[[^\]]*\]\((?P<image>[^)]+)\)\n"
-                   r"|^<!-- notebook\n(?P<notebook>.*?)^-->\n", re.M | re.S)
+PIECE = re.compile(
+    r"^(?:<!-- (?P<mark>long|scene \S+) -->\n)?```(?P<info>\w*)\n(?P<fenced>.*?)^```\n"
+    r"|^<!-- (?P<figures>(?:long )?figures)\n(?P<lines>.*?)^-->\n(?P<table>(?:\n?(?:\|[^\n]*\n)+)?)"
+    r"|^<!-- picture (?P<picture>\S+) -->\n!\[[^\]]*\]\((?P<image>[^)]+)\)\n"
+    r"|^<!-- notebook\n(?P<notebook>.*?)^-->\n",
+    re.M | re.S,
+)
 KINDS = {"sh": "sh", "text": "output", "yaml": "yaml", "python": "python"}
 
 
@@ -34,7 +39,7 @@ def pieces(text):
     found, place = [], 0
     for match in PIECE.finditer(text):
         if match.start() > place:
-            found.append(Piece("text", "", text[place:match.start()], place, match.start()))
+            found.append(Piece("text", "", text[place : match.start()], place, match.start()))
         place = match.end()
         if match["info"] is not None:
             if match["info"] not in KINDS:
@@ -68,12 +73,14 @@ def figures(piece):
 
 def printed_table(text, piece):
     """The table after a `figures` mark."""
-    return text[piece.begin:piece.end].split("-->\n", 1)[1].strip()
+    return text[piece.begin : piece.end].split("-->\n", 1)[1].strip()
 
 
 def printed_values(text, piece):
     """{name: value} of that table."""
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in printed_table(text, piece).splitlines()[2:]]
+    rows = [
+        [cell.strip() for cell in line.strip("|").split("|")] for line in printed_table(text, piece).splitlines()[2:]
+    ]
     return {row[0]: float(row[1].split()[0]) for row in rows}
 
 
@@ -89,7 +96,8 @@ def table(rows):
         if reference is None:
             lines.append(f"| {figure.name} | {number(value)}{unit} | | |")
         else:
-            lines.append(f"| {figure.name} | {number(value)}{unit} | {number(reference)}{unit} | {100 * (value / reference - 1):+.1f} % |")
+            off = 100 * (value / reference - 1)
+            lines.append(f"| {figure.name} | {number(value)}{unit} | {number(reference)}{unit} | {off:+.1f} % |")
     return "\n".join(lines) + "\n"
 
 

@@ -1,4 +1,5 @@
 """python3 tests/tutorials/run.py [--renew [--long]] NAME...: runs tutorials as their pages print them (README.md)."""
+
 import argparse
 import contextlib
 import os
@@ -18,13 +19,16 @@ def scene_faults(name, pieces):
     faults, blocks = [], {}
     for piece in pieces:
         if piece.kind == "yaml":
-            blocks.setdefault(piece.info[len("scene "):] or name + ".yaml", []).append(piece.body)
+            blocks.setdefault(piece.info[len("scene ") :] or name + ".yaml", []).append(piece.body)
     for file, shown in blocks.items():
         with open(os.path.join(page.FOLDER, file), encoding="utf-8") as scene:
             text = scene.read().split("\n", 1)[1]
         if re.sub(r"\n+", "\n", "\n" + "\n".join(shown)) != re.sub(r"\n+", "\n", "\n" + text):
             wrong = [block.split("\n")[0] for block in shown if block.strip() not in text]
-            faults.append(f"{file} is not what the page shows of it" + (f"; blocks that differ begin with {wrong}" if wrong else "; a part is missing"))
+            faults.append(
+                f"{file} is not what the page shows of it"
+                + (f"; blocks that differ begin with {wrong}" if wrong else "; a part is missing")
+            )
     return faults
 
 
@@ -36,17 +40,25 @@ class Tutorial:
         self.text = page.read(name)
         self.pieces = page.pieces(self.text)
         self.results = page.Results(folder)
-        self.space = {}    # names of the page's own Python
+        self.space = {}  # names of the page's own Python
         self.environment = dict(os.environ, PATH=os.path.dirname(program) + os.pathsep + os.environ["PATH"])
         self.outputs = {}  # of a piece, by its place
-        self.rows = {}     # of figures, by their place
+        self.rows = {}  # of figures, by their place
         self.faults = scene_faults(name, self.pieces)
 
     def skipped(self, piece):
         return piece.info.startswith("long") and not self.long
 
     def run_shell(self, piece):
-        ran = subprocess.run(["sh", "-e", "-c", piece.body], cwd=self.folder, env=self.environment, capture_output=True, text=True, timeout=SECONDS, check=False)
+        ran = subprocess.run(
+            ["sh", "-e", "-c", piece.body],
+            cwd=self.folder,
+            env=self.environment,
+            capture_output=True,
+            text=True,
+            timeout=SECONDS,
+            check=False,
+        )
         if ran.returncode != 0:
             raise SystemExit(f"{self.name}: exit code {ran.returncode} of\n{piece.body}{ran.stdout}{ran.stderr}")
         return ran.stdout
@@ -56,7 +68,9 @@ class Tutorial:
         os.chdir(self.folder)
         try:
             with contextlib.redirect_stdout(sys.stderr):
-                exec(compile(piece.body, f"{self.name}.md", "exec"), self.space)  # the page's own code is what is tested
+                exec(
+                    compile(piece.body, f"{self.name}.md", "exec"), self.space
+                )  # the page's own code is what is tested
         finally:
             os.chdir(before)
 
@@ -89,10 +103,14 @@ class Tutorial:
             reference = float(eval(figure.reference, space)) if figure.reference else None
             rows.append((figure, value, reference))
             if reference is not None and not abs(value - reference) <= figure.bound * abs(reference):
-                self.faults.append(f"{figure.name}: {value:.6g}, the reference is {reference:.6g} and the bound {100 * figure.bound:g} %")
+                self.faults.append(
+                    f"{figure.name}: {value:.6g}, the reference is {reference:.6g}, the bound {100 * figure.bound:g} %"
+                )
             old = printed.get(figure.name)
             if not self.renewed and (old is None or not abs(value - old) <= figure.repeats * abs(old)):
-                self.faults.append(f"{figure.name}: {value:.6g}, the page prints {old}; it should repeat to {100 * figure.repeats:g} %")
+                self.faults.append(
+                    f"{figure.name}: {value:.6g}, the page prints {old}; it should repeat to {100 * figure.repeats:g} %"
+                )
         self.rows[piece.begin] = rows
         print(page.table(rows), end="")
 
@@ -106,7 +124,7 @@ class Tutorial:
                 new = f"<!-- {piece.info}\n{piece.body}-->\n\n{page.table(self.rows[piece.begin])}"
             else:
                 continue
-            out += [self.text[place:piece.begin], new]
+            out += [self.text[place : piece.begin], new]
             place = piece.end
         with open(os.path.join(page.FOLDER, self.name + ".md"), "w", encoding="utf-8") as file:
             file.write("".join(out) + self.text[place:])

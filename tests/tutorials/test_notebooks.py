@@ -1,4 +1,5 @@
-"""python/notebooks: they are those of the pages, and every cell runs in an environment of its own with the wheel of this build."""
+"""python/notebooks: they are those of the pages, and every cell runs in an environment with the wheel of this build."""
+
 import os
 import subprocess
 import sys
@@ -27,8 +28,13 @@ def skipped(why):
 
 
 def pip(*words, **more):
-    return subprocess.run([os.path.join(HOLDER, "bin", "python"), "-m", "pip", "-q", "--disable-pip-version-check", "install", *words],
-                          capture_output=True, text=True, check=False, **more)
+    return subprocess.run(
+        [os.path.join(HOLDER, "bin", "python"), "-m", "pip", "-q", "--disable-pip-version-check", "install", *words],
+        capture_output=True,
+        text=True,
+        check=False,
+        **more,
+    )
 
 
 def prepare():
@@ -38,7 +44,13 @@ def prepare():
     ran = pip(*NEEDED)
     if ran.returncode != 0:
         skipped("PyPI cannot be reached: " + (ran.stderr.strip().splitlines() or ["no message"])[-1])
-    ran = pip("--no-deps", "--no-build-isolation", "--force-reinstall", os.path.join(SOURCE, "python"), env=dict(os.environ, BRECCIA_BUILD=BUILD))
+    ran = pip(
+        "--no-deps",
+        "--no-build-isolation",
+        "--force-reinstall",
+        os.path.join(SOURCE, "python"),
+        env=dict(os.environ, BRECCIA_BUILD=BUILD),
+    )
     if ran.returncode != 0:
         sys.exit(ran.stdout + ran.stderr)
 
@@ -52,13 +64,22 @@ if found:
     sys.exit("\n".join(found))
 prepare()
 names = sys.argv[1:] or page.names()
-environment = {key: value for key, value in os.environ.items() if key not in ("BRECCIA_LIBRARY", "BRECCIA_PROGRAM", "PYTHONPATH")}
+environment = {
+    key: value for key, value in os.environ.items() if key not in ("BRECCIA_LIBRARY", "BRECCIA_PROGRAM", "PYTHONPATH")
+}
 environment["PATH"] = os.path.join(HOLDER, "bin") + os.pathsep + environment["PATH"]
 failed = []
 for name in names:
     began = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
-        ran = subprocess.run([os.path.join(HOLDER, "bin", "python"), "-c", EXECUTE, notebook.path_of(name)], cwd=folder, env=environment, capture_output=True, text=True, check=False)
+        ran = subprocess.run(
+            [os.path.join(HOLDER, "bin", "python"), "-c", EXECUTE, notebook.path_of(name)],
+            cwd=folder,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
     print(f"{name}: {'runs' if ran.returncode == 0 else 'fails'}, {time.monotonic() - began:.0f} s", flush=True)
     if ran.returncode != 0:
         failed.append(f"{name}: {ran.stderr[-3000:]}")

@@ -1,4 +1,5 @@
-"""What a page is held to, shown on pages that are wrong; and what `breccia new` writes is accepted and runs, made small."""
+"""What a page is held to, shown on pages that are wrong; what `breccia new` writes is accepted and runs, made small."""
+
 import os
 import subprocess
 import sys
@@ -35,16 +36,24 @@ def scenes_run():
     listed = [line.split()[0] for line in program(".", "new").stdout.split("\n\n")[0].splitlines()]
     files = sorted(file[:-5] for file in os.listdir(page.FOLDER) if file.endswith(".yaml"))
     expect(listed == files, f"breccia new lists {listed}, the folder has {files}")
-    expect(sorted(SMALL) + ["study"] == sorted(files, key=lambda name: (name == "study", name)), f"a scene without a small form: {files}")
+    expect(
+        sorted(SMALL) + ["study"] == sorted(files, key=lambda name: (name == "study", name)),
+        f"a scene without a small form: {files}",
+    )
     with tempfile.TemporaryDirectory() as folder:
         for name in files:
             expect(program(folder, "new", name).returncode == 0, f"breccia new {name}")
-            with open(os.path.join(folder, name + ".yaml"), "rb") as written, open(os.path.join(page.FOLDER, name + ".yaml"), "rb") as own:
+            with open(os.path.join(folder, name + ".yaml"), "rb") as written, open(
+                os.path.join(page.FOLDER, name + ".yaml"), "rb"
+            ) as own:
                 expect(written.read() == own.read(), f"breccia new {name} writes other bytes")
             expect(program(folder, "new", name).returncode == 2, f"breccia new {name} writes over a file")
         for name, sets in SMALL.items():
             options = [word for one in sets for word in ("--set", one)]
-            for words in (("check", name + ".yaml"), ("run", name + ".yaml", "-o", name, "--set", "output.picture=false")):
+            for words in (
+                ("check", name + ".yaml"),
+                ("run", name + ".yaml", "-o", name, "--set", "output.picture=false"),
+            ):
                 ran = program(folder, *words, *options)
                 expect(ran.returncode == 0, f"breccia {' '.join(words)}: {ran.stderr[-500:]}")
 
@@ -60,7 +69,10 @@ def tutorial(text, folder):
     return one.faults
 
 
-FIGURE = "<!-- figures\nx | m | x | {reference} | 1 % | 1 %\n-->\n\n| figure | breccia | reference | difference |\n| --- | --- | --- | --- |\n| x | {printed} m | | |\n"
+FIGURE = (
+    "<!-- figures\nx | m | x | {reference} | 1 % | 1 %\n-->\n\n"
+    "| figure | breccia | reference | difference |\n| --- | --- | --- | --- |\n| x | {printed} m | | |\n"
+)
 
 
 def pages_can_fail():
@@ -69,9 +81,18 @@ def pages_can_fail():
         expect(tutorial(good, folder) == [], "a page that is right has faults")
         expect(len(tutorial(good.replace("2.01", "2.1"), folder)) == 1, "a figure off its reference passes")
         expect(len(tutorial(good.replace("| 2.0 m", "| 2.2 m"), folder)) == 1, "a figure that does not repeat passes")
-        expect(len(tutorial("```sh\necho words\n```\n\n```text\nother\n```\n", folder)) == 1, "an output that is not the page's passes")
-        expect(tutorial("```sh\necho words 3\n```\n\n```text\nwords 4\n```\n", folder) == [], "numbers of outputs are compared")
-        expect(len(tutorial("<!-- picture none.png -->\n![none](none.png)\n", folder)) == 1, "a picture that is not there passes")
+        expect(
+            len(tutorial("```sh\necho words\n```\n\n```text\nother\n```\n", folder)) == 1,
+            "an output that is not the page's passes",
+        )
+        expect(
+            tutorial("```sh\necho words 3\n```\n\n```text\nwords 4\n```\n", folder) == [],
+            "numbers of outputs are compared",
+        )
+        expect(
+            len(tutorial("<!-- picture none.png -->\n![none](none.png)\n", folder)) == 1,
+            "a picture that is not there passes",
+        )
         expect(len(tutorial("```yaml\nversion: 2\n```\n", folder)) == 1, "a scene that is not the page's passes")
         try:
             tutorial("```sh\nfalse\ntrue\n```\n", folder)

@@ -1,4 +1,5 @@
 """The program `breccia`, which does what is a command and no call of the library: studies and scenes to begin with."""
+
 from __future__ import annotations
 
 import os
@@ -14,7 +15,7 @@ _STATUS = {1: 1, 2: 2, 3: 5}
 
 
 def program() -> str:
-    """BRECCIA_PROGRAM alone if it is set, else the one in the package, that of the build whose library is named, or the one that the shell finds."""
+    """BRECCIA_PROGRAM alone if it is set, else the one in the package, beside BRECCIA_LIBRARY, or that of the shell."""
     named = os.environ.get("BRECCIA_PROGRAM")
     if named:
         return named
@@ -27,13 +28,17 @@ def program() -> str:
             return path
     found = shutil.which("breccia")
     if not found:
-        raise FileError("the program breccia is not in the package, beside BRECCIA_LIBRARY or in PATH; set BRECCIA_PROGRAM to it")
+        raise FileError(
+            "the program breccia is not in the package, beside BRECCIA_LIBRARY or in PATH; set BRECCIA_PROGRAM to it"
+        )
     return found
 
 
 def call(arguments: List[str], progress: bool = False) -> str:
-    """Run the program; its standard output. What it says of a failure is raised. ``progress``: its messages go to the terminal meanwhile."""
-    ran = subprocess.Popen([program(), *arguments], stdout=subprocess.PIPE, stderr=None if progress else subprocess.PIPE, text=True)
+    """Run the program; its standard output. A failure is raised. ``progress``: its messages go to the terminal."""
+    ran = subprocess.Popen(
+        [program(), *arguments], stdout=subprocess.PIPE, stderr=None if progress else subprocess.PIPE, text=True
+    )
     try:
         out, messages = ran.communicate()
     except BaseException:  # Ctrl-C reaches the program too
@@ -41,12 +46,18 @@ def call(arguments: List[str], progress: bool = False) -> str:
         ran.wait()
         raise
     if ran.returncode != 0:
-        raise error_of(_STATUS.get(ran.returncode, 7), (messages or out).strip() or f"breccia {arguments[0]} ended with {ran.returncode}")
+        raise error_of(
+            _STATUS.get(ran.returncode, 7),
+            (messages or out).strip() or f"breccia {arguments[0]} ended with {ran.returncode}",
+        )
     return out
 
 
 def new(name: Optional[str] = None, path: Optional[Union[str, "os.PathLike[str]"]] = None) -> str:
-    """Write a commented scene to begin with, as `breccia new` does, and return its path (default: NAME.yaml). Without a name: the list of them as text."""
+    """Write a commented scene to begin with, as `breccia new` does, and return its path (default: NAME.yaml).
+
+    Without a name: the list of them as text.
+    """
     if name is None:
         return call(["new"])
     target = os.fspath(path) if path is not None else name + ".yaml"
