@@ -82,7 +82,8 @@ def call_of(line):
 
 
 def shell_cells(body):
-    calls = [call_of(line) for line in body.splitlines()]
+    lines = body.replace("\\\n", " ").splitlines()
+    calls = [call_of(line) for line in lines]
     if None in calls:
         return [("code", "%%sh -e\n" + body.rstrip("\n"))]
     return [("code", call) for call in calls]
@@ -90,7 +91,7 @@ def shell_cells(body):
 
 def figure_cell(piece):
     rows = [
-        f'    ("{figure.name}", "{figure.unit}", {figure.value}, {figure.reference or None}, {figure.bound or 0}),'
+        f'    ("{figure.name}", "{figure.unit}", {figure.value}, {figure.reference or None}, {figure.bound or 0:g}),'
         for figure in page.figures(piece)
     ]
     return ("code", "compare(\n" + "\n".join(rows) + "\n)")
@@ -171,8 +172,9 @@ def main():
         print("\n".join(found))
         return 1 if found else 0
     for name in page.names():
+        text = notebook(name)
         with open(path_of(name), "w", encoding="utf-8") as file:
-            file.write(notebook(name))
+            file.write(text)
     return 0
 
 
