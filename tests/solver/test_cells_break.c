@@ -190,8 +190,8 @@ static void force_is_the_gradient_of_the_energy_of_a_broken_body(void **state)
 {
     (void)state;
     bench_case c;
-    open_case(&c, (case_options){.stages = CELLS_BURST(200), .materials = CELLS_STRENGTH("6e-4 Pa"), .sets = CELLS_FRACTURE,
-                                 .fill = "cells: [5, 5, 5], spread: 90 %, seed: 3"});
+    open_case(&c, (case_options){.stages = CELLS_BURST(200), .materials = CELLS_STRENGTH("6e-4 Pa"), .sets = "fracture: {criterion: bond-normal, closure: false}\n",
+                                 .fill = "cells: [5, 5, 5], spread: 90 %, seed: 3"}); /* with closed faces: test_closed_faces.c */
     const brc_domain *d = c.domain;
     begin_first(&c);
     run_steps(&c, 60);
