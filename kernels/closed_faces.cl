@@ -153,10 +153,17 @@ KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff cl
     }
 }
 
+/* The part of a slide that friction holds under this overlap: no more than its share. */
+LAW vec3 closed_kept(vec3 held, coeff along, coeff friction)
+{
+    const coeff size = SQRT(vec3_dot(held, held)), bears = along < 0 ? -friction * along : 0;
+    return size > bears ? vec3_scale(bears / size, held) : held;
+}
+
 /* What the pressed faces of one element add to it; returns whether any is pressed. broke: bonds did, so faces may be new, or of a cell that has come off. */
 LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const state *restrict place,
                    GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                   GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide, int rubs, int broke, GLOBAL const int *restrict touched,
+                   GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide, coeff friction, int broke, GLOBAL const int *restrict touched,
                    coeff *sum, state *energy)
 {
     mat3 q = {0, 0, 0, 0, 0, 0, 0, 0, 0};
@@ -176,11 +183,14 @@ LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int
                 f.along = whole - overlap[entry];
                 closed[entry] = CLOSED_OPEN;
             }
-            if (rubs && f.along < 0 && CLOSED_IS(entry) == CLOSED_OPEN) closed_put_row(slide, entry, f.across);
+            if (friction > 0 && f.along < 0) { /* what a break slides is part of its energy */
+                const vec3 held = CLOSED_IS(entry) == CLOSED_OPEN ? (vec3){0, 0, 0} : vec3_sub(f.across, closed_row(slide, entry));
+                closed_put_row(slide, entry, vec3_sub(f.across, closed_kept(held, f.along, friction)));
+            }
             closed[entry] = (f.along < 0 ? CLOSED_PRESSED : CLOSED_OPEN) + CLOSED_KIND * kind;
         }
         if (CLOSED_IS(entry) != CLOSED_PRESSED) continue;
-        const vec3 held = rubs ? vec3_sub(f.across, closed_row(slide, entry)) : (vec3){0, 0, 0};
+        const vec3 held = friction > 0 ? vec3_sub(f.across, closed_row(slide, entry)) : (vec3){0, 0, 0};
         const closed_load one = closed_load_of(f, held, spring[entry]);
         q = mat3_mix(REAL(1), q, REAL(1), one.moment);
         push = vec3_add(push, one.push);
@@ -197,8 +207,8 @@ LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int
     return any;
 }
 
-/* Loads of the elements that closed_follow found pressed. rubs: 1 with friction. */
-KERNEL void closed_press(int n_groups, int rubs, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
+/* Loads of the elements that closed_follow found pressed. */
+KERNEL void closed_press(int n_groups, coeff friction, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
                          GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
                          GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide,
                          GLOBAL const int *restrict presses, GLOBAL coeff *restrict load, GLOBAL state *restrict held)
@@ -209,7 +219,7 @@ KERNEL void closed_press(int n_groups, int rubs, GLOBAL const int *restrict row_
             if (!presses[e]) continue;
             coeff sum[CLOSED_LOAD];
             state energy;
-            closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, overlap, closed, slide, rubs, 0, presses, sum, &energy);
+            closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, overlap, closed, slide, friction, 0, presses, sum, &energy);
             for (int c = 0; c < CLOSED_LOAD; ++c) load[(brc_size)e * CLOSED_LOAD + (brc_size)c] = sum[c];
             held[e] = energy;
         }
@@ -258,7 +268,7 @@ KERNEL void closed_energy(int n, GLOBAL const int *restrict presses, GLOBAL cons
 /* ---- after bonds broke: the forces of the rings around them are there, with the loads of before ---- */
 
 /* Loads of the elements that the breaks concern, with their new H; gain [n][12]: what these gained. All their faces are looked at in the next step. */
-KERNEL void closed_again(int n_groups, int moment, int rubs, GLOBAL const int *restrict touched, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
+KERNEL void closed_again(int n_groups, int moment, coeff friction, GLOBAL const int *restrict touched, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
                          GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
                          GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide,
                          GLOBAL const int *restrict look, GLOBAL int *restrict near, GLOBAL int *restrict next, GLOBAL int *restrict presses, GLOBAL coeff *restrict load,
@@ -271,7 +281,7 @@ KERNEL void closed_again(int n_groups, int moment, int rubs, GLOBAL const int *r
             coeff sum[CLOSED_LOAD];
             state energy;
             const int before = presses[e];
-            const int now = closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, overlap, closed, slide, rubs, 1, touched, sum, &energy);
+            const int now = closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, overlap, closed, slide, friction, 1, touched, sum, &energy);
             for (int c = 0; c < CLOSED_LOAD; ++c) {
                 const brc_size at = (brc_size)e * CLOSED_LOAD + (brc_size)c;
                 gain[at] = sum[c] - (before ? load[at] : 0);

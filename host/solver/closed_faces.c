@@ -151,11 +151,11 @@ brc_status brc_closed_faces_press(brc_simulation *s, const brc_force_request *r)
                        BRC_BUF(f->overlap), BRC_BUF(f->closed), BRC_BUF(f->slide), BRC_BUF(f->next),
                        BRC_BUF(f->presses), BRC_BUF(f->rubbed)));
     if (moves) f->all = false;
-    return BRC_LAUNCH(f->press, s->n_groups, BRC_INT(s->n_groups), BRC_INT(friction_of(s) > 0 ? 1 : 0),
-                      BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->twin),
-                      BRC_BUF(f->place), BRC_BUF(s->offset), BRC_BUF(s->inv_shape), BRC_BUF(s->displacement),
-                      BRC_BUF(s->gradient), BRC_BUF(f->spring), BRC_BUF(f->overlap), BRC_BUF(f->closed),
-                      BRC_BUF(f->slide), BRC_BUF(f->presses), BRC_BUF(f->load), BRC_BUF(f->held));
+    return BRC_LAUNCH(f->press, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(friction_of(s)), BRC_BUF(s->row_start),
+                      BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->twin), BRC_BUF(f->place), BRC_BUF(s->offset),
+                      BRC_BUF(s->inv_shape), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(f->spring),
+                      BRC_BUF(f->overlap), BRC_BUF(f->closed), BRC_BUF(f->slide), BRC_BUF(f->presses), BRC_BUF(f->load),
+                      BRC_BUF(f->held));
 }
 
 brc_status brc_closed_faces_flux(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
@@ -208,13 +208,12 @@ brc_status brc_closed_faces_change(brc_simulation *s, double half_kick)
 {
     const closed_faces *f = faces_of(s);
     if (!f || sleeps(s)) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(f->again, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment_of(s)),
-                       BRC_INT(friction_of(s) > 0 ? 1 : 0), BRC_BUF(s->fracture->cells->rings->touched),
-                       BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->twin),
-                       BRC_BUF(f->place), BRC_BUF(s->offset), BRC_BUF(s->inv_shape), BRC_BUF(s->displacement),
-                       BRC_BUF(s->gradient), BRC_BUF(f->spring), BRC_BUF(f->overlap), BRC_BUF(f->closed),
-                       BRC_BUF(f->slide), BRC_BUF(f->look), BRC_BUF(f->near), BRC_BUF(f->next), BRC_BUF(f->presses),
-                       BRC_BUF(f->load), BRC_BUF(f->held), BRC_BUF(f->gain)));
+    BRC_TRY(BRC_LAUNCH(f->again, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment_of(s)), BRC_COEFF(friction_of(s)),
+                       BRC_BUF(s->fracture->cells->rings->touched), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                       BRC_BUF(s->fracture->cells->twin), BRC_BUF(f->place), BRC_BUF(s->offset), BRC_BUF(s->inv_shape),
+                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(f->spring), BRC_BUF(f->overlap),
+                       BRC_BUF(f->closed), BRC_BUF(f->slide), BRC_BUF(f->look), BRC_BUF(f->near), BRC_BUF(f->next),
+                       BRC_BUF(f->presses), BRC_BUF(f->load), BRC_BUF(f->held), BRC_BUF(f->gain)));
     return BRC_LAUNCH(f->gain_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment_of(s)), BRC_STATE(half_kick),
                       BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(f->look),
                       BRC_BUF(f->near), BRC_BUF(f->gain), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(s->velocity));

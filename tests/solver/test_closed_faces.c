@@ -131,6 +131,9 @@ static void force_is_the_gradient_of_the_energy(void **state)
     double *u = shifted(c.domain, 0.15 * spacing, 0.1 * spacing, true);
     for (int64_t i = 0; i < 3 * c.domain->n_elements; ++i)
         u[i] += 0.01 * spacing * random_at((uint64_t)i);
+    assert_done(&c, brc_simulation_set_state(c.simulation, u, NULL)); /* from here on friction holds what slides */
+    for (int64_t i = 0; i < 3 * c.domain->n_elements; ++i)
+        u[i] += 0.01 * spacing * random_at((uint64_t)i + 7777);
     const double shut = gradient_error(&c, u, 1e-3 * spacing);
     free(u);
     close_case(&c);
@@ -248,6 +251,30 @@ static void friction_holds_and_slides(void **state)
     close_case(&c);
 }
 
+/* Two halves that meet and slide along each other at some speed: what they rub off is booked. A step works by the mean force of its
+ * ends and is booked by the last: 1.4 % of it here. */
+static void what_slides_is_booked(void **state)
+{
+    (void)state;
+    bench_case c;
+    open_cut(&c, NOISY, WEAK(""));
+    const int64_t n = c.domain->n_elements;
+    double *u = calloc((size_t)(3 * n), sizeof *u), *v = calloc((size_t)(3 * n), sizeof *v);
+    for (int64_t e = 0; e < n; ++e)
+        if (c.domain->position[3 * e] > 0.5) v[3 * e] = -2e-3, v[3 * e + 1] = 4e-3;
+    assert_done(&c, brc_simulation_set_state(c.simulation, u, v));
+    const brc_ledger before = ledger_now(&c);
+    run_steps(&c, 40);
+    const brc_ledger after = ledger_now(&c);
+    const double lost = before.kinetic + before.elastic + before.stabilisation + before.contact - after.kinetic -
+                        after.elastic - after.stabilisation - after.contact,
+                 rubbed = after.friction - before.friction;
+    print_message("lost %.4e J, rubbed %.4e J, of %.4e J\n", lost, rubbed, before.kinetic);
+    assert_true(rubbed > 0.02 * before.kinetic && fabs(rubbed / lost - 1) < 0.03);
+    free(u), free(v);
+    close_case(&c);
+}
+
 /* Sides that came apart by half of the bond bear nothing afterwards; by a little less, they do. */
 static void sides_that_stand_clear_bear_nothing(void **state)
 {
@@ -310,6 +337,7 @@ int main(void)
         cmocka_unit_test(pressed_faces_keep_momentum_and_without_friction_angular_momentum),
         cmocka_unit_test(the_ledger_closes_and_the_step_bears_the_springs),
         cmocka_unit_test(friction_holds_and_slides),
+        cmocka_unit_test(what_slides_is_booked),
         cmocka_unit_test(sides_that_stand_clear_bear_nothing),
         cmocka_unit_test(with_contact_its_law_bears),
         cmocka_unit_test(the_same_bonds_break_for_any_number_of_threads),
