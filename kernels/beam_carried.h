@@ -37,7 +37,7 @@ LAW lane beam_positive(lane x) { return LANE_DIFFERENT(lane_max(x, LANE_ZERO), L
 
 /* Axes a, p, q by their parts along e, m1 and m2, and the parts of o across the beam. */
 typedef struct {
-    lane c[3], m1[3], m2[3];
+    lane_vec3 c, m1, m2;     /* of a, p, q */
     lane_vec3 first, second; /* m1, m2 */
     lane o1, o2;             /* [m] */
 } beam_axes;
@@ -61,6 +61,22 @@ LAW beam_axes beam_axes_of(cbm_shape shape, lane_vec3 axis0, lane_quat q_i, lane
                        lane_vec3_dot(across, second)};
 }
 
+/* A part of o along one of the axes. */
+LAW lane beam_along(lane c, lane m1, lane m2, lane elongation, lane o1, lane o2)
+{
+    return c * elongation + m1 * o1 + m2 * o2;
+}
+
+/* One of the axes at a trial y: sum: c o where it holds; free: c^2 where it does not; force: F along it [N], where it holds; rest: o - w along it but for y [m]. */
+typedef struct {
+    lane sum, free, force, rest;
+} beam_axis;
+LAW beam_axis beam_axis_of(lane c, lane o, lane k_m, lane more, lane y, lane per)
+{
+    const lane f = k_m * o + more * c * y, lets = beam_positive(f), held = REAL(1) - lets;
+    return (beam_axis){held * c * o, lets * c * c, held * f, held * o - lets * per * c * y};
+}
+
 /* branch: x_j - x_i now [m], axis0: e; q_i, q_j: orientations of the elements. */
 LAW beam_carry beam_carried(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness, lane_vec3 branch,
                             lane_vec3 axis0, lane_quat q_i, lane_quat q_j, beam_lean lean)
@@ -69,24 +85,20 @@ LAW beam_carry beam_carried(cbm_shape shape, lane inv_length0, cbm_stiffness sti
     const lane zero = LANE_ZERO, k = stiffness.axial * inv_length0,
                k_m = lean.keeps * REAL(6) * stiffness.bend * inv_length0 * inv_length0 * inv_length0, more = k - k_m;
     const lane per = more / lane_max(k_m, REAL(1e-15) * k + REAL(1e-30));
-    lane o[3], held[3], y = zero;
-    for (int i = 0; i < 3; ++i) o[i] = x.c[i] * shape.elongation + x.m1[i] * x.o1 + x.m2[i] * x.o2;
+    const lane_vec3 o = {beam_along(x.c.x, x.m1.x, x.m2.x, shape.elongation, x.o1, x.o2),
+                         beam_along(x.c.y, x.m1.y, x.m2.y, shape.elongation, x.o1, x.o2),
+                         beam_along(x.c.z, x.m1.z, x.m2.z, shape.elongation, x.o1, x.o2)};
+    beam_axis a, p, q;
+    lane y = zero;
     for (int turn = 0; turn < 5; ++turn) {
-        lane sum = zero, free = zero;
-        for (int i = 0; i < 3; ++i) {
-            held[i] = REAL(1) - beam_positive(k_m * o[i] + more * x.c[i] * y);
-            sum += held[i] * x.c[i] * o[i];
-            free += (REAL(1) - held[i]) * x.c[i] * x.c[i];
-        }
-        if (turn < 4) y = lane_min(sum / (REAL(1) + free * per), zero);
+        a = beam_axis_of(x.c.x, o.x, k_m, more, y, per);
+        p = beam_axis_of(x.c.y, o.y, k_m, more, y, per);
+        q = beam_axis_of(x.c.z, o.z, k_m, more, y, per);
+        if (turn < 4) y = lane_min((a.sum + p.sum + q.sum) / (REAL(1) + (a.free + p.free + q.free) * per), zero);
     }
-    lane energy = more * y * y, f1 = zero, f2 = zero;
-    for (int i = 0; i < 3; ++i) {
-        const lane f = held[i] * (k_m * o[i] + more * x.c[i] * y),
-                   r = held[i] * o[i] - (REAL(1) - held[i]) * per * x.c[i] * y;
-        f1 += f * x.m1[i], f2 += f * x.m2[i];
-        energy += k_m * r * r;
-    }
+    const lane energy = more * y * y + k_m * (a.rest * a.rest + p.rest * p.rest + q.rest * q.rest);
+    const lane f1 = a.force * x.m1.x + p.force * x.m1.y + q.force * x.m1.z,
+               f2 = a.force * x.m2.x + p.force * x.m2.y + q.force * x.m2.z;
     const lane_vec3 across =
         lane_vec3_add(lane_vec3_scale(REAL(0.5) * f1, x.first), lane_vec3_scale(REAL(0.5) * f2, x.second));
     const lane_vec3 own = lane_vec3_add(across, quat_rotate_minus_identity(q_i, across, 1)),
@@ -105,8 +117,7 @@ LAW lane beam_pull(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness, l
     const lane k = stiffness.axial * inv_length0,
                k_m = REAL(6) * stiffness.bend * inv_length0 * inv_length0 * inv_length0, c = lean.along;
     const lane own = lateral * c / (inv_length0 + REAL(1e-30)), stiff = k_m + (k - k_m) * c * c;
-    const lane pull =
-        k_m * (x.c[0] * shape.elongation + x.m1[0] * x.o1) + (k - k_m) * c * shape.elongation - stiff * own;
+    const lane pull = k_m * (x.c.x * shape.elongation + x.m1.x * x.o1) + (k - k_m) * c * shape.elongation - stiff * own;
     return pull * LANE_SQRT(k / lane_max(stiff, LANE_ZERO + REAL(1e-30)));
 }
 
