@@ -1,5 +1,6 @@
 /* Model cbm on the host: beams of each material and body, their diagonal blocks, and the time step that follows from them. */
 #include "beam_law.h"
+#include "beam_closure.h"
 #include "beam_softening.h"
 #include "fracture_internal.h"
 #include <lapacke.h>
@@ -214,6 +215,7 @@ static brc_status virial(brc_simulation *s, double *out)
                                    BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend),
                                    BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_BUF(rows));
     if (status == BRC_OK) status = brc_beam_softening_virial(s, rows);
+    if (status == BRC_OK) status = brc_beam_closure_virial(s, rows);
     if (status == BRC_OK) status = brc_coeff_from_rows(s, rows, out, 6);
     brc_buffer_free(&rows);
     return status;

@@ -1,5 +1,6 @@
 #include "cell_breaks_internal.h"
 #include "cell_softening.h"
+#include "closed_faces.h"
 #include "consistent.h"
 #include "contact.h"
 #include "rims.h"
@@ -180,7 +181,8 @@ int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries
     if (by_element) bytes += n * (21 * coeff_bytes + 4) + (dlsm ? 3 * entries * coeff_bytes : 0);
     else bytes += n * (dlsm ? 4 : coeff_bytes); /* on a GPU a group is one element */
     if (!dlsm) bytes += 6 * n * coeff_bytes;
-    return bytes + brc_rings_bytes(scene, n, state_bytes) + brc_softening_bytes(scene, n, entries, state_bytes, coeff_bytes);
+    return bytes + brc_rings_bytes(scene, n, state_bytes) + brc_softening_bytes(scene, n, entries, state_bytes, coeff_bytes) +
+           brc_closed_faces_bytes(scene, n, entries, state_bytes, coeff_bytes);
 }
 
 brc_status brc_cell_breaks_create(brc_simulation *s)
@@ -198,6 +200,7 @@ brc_status brc_cell_breaks_create(brc_simulation *s)
     if (brc_is_published(s)) BRC_TRY_OR(cleanup, brc_published_breaks_create(s));
     if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
     BRC_TRY_OR(cleanup, brc_softening_create(s, &strengths));
+    BRC_TRY_OR(cleanup, brc_closed_faces_create(s));
 cleanup:
     brc_strengths_free(&strengths);
     return status;
@@ -208,6 +211,7 @@ void brc_cell_breaks_free(brc_simulation *s)
     brc_cell_breaks *c = s->fracture->cells;
     if (!c) return;
     brc_softening_free(s);
+    brc_closed_faces_free(s);
     brc_rings_free(&c->rings);
     brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->look, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found,
                           &c->branch, &c->spanned, &c->reach};
@@ -257,6 +261,7 @@ static brc_status break_marked(brc_simulation *s, double *energy)
         BRC_TRY(brc_rings_find(s, c->rings));
         BRC_TRY(brc_force_energy_around(s, c->rings, true, &more));
         *energy += more;
+        BRC_TRY(brc_closed_faces_keep(s));
         BRC_TRY(BRC_LAUNCH(c->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(brc_fracture_moment(s)), BRC_INT(brc_is_dlsm(s) ? 3 : 1),
                            BRC_BUF(s->row_start), BRC_BUF(c->twin), BRC_BUF(c->rings->touched), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->alive), BRC_BUF(s->neighbour), BRC_BUF(s->area),
                            BRC_BUF(s->ratio), BRC_BUF(c->limit), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
@@ -312,10 +317,11 @@ static brc_status find_rings(brc_simulation *s)
 /* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in elements. */
 static brc_status outside_energy(brc_simulation *s, double *out)
 {
-    double touching;
+    double touching, closed;
     BRC_TRY(brc_force_held_energy(s, out));
     BRC_TRY(brc_contact_stored(s, &touching));
-    *out += touching;
+    BRC_TRY(brc_closed_faces_stored(s, &closed));
+    *out += touching + closed;
     return BRC_OK;
 }
 
@@ -337,8 +343,10 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(break_marked(s, &before));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
     BRC_TRY(brc_softening_recount(s));
+    BRC_TRY(brc_closed_faces_look(s));
     BRC_TRY(find_rings(s));
     BRC_TRY(brc_force_around_breaks(s, rings));
+    BRC_TRY(brc_closed_faces_change(s, rings->whole_force ? 0 : half_kick));
     if (rings->whole_force) BRC_TRY(brc_rings_book_whole(s, rings));
     if (rings->whole_force) BRC_TRY(kick(s, -half_kick));
     BRC_TRY(kick_others(s, -half_kick));
@@ -374,6 +382,7 @@ brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store
         {"cells.weight", c->by_element ? s->fracture->weight : NULL, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
     };
     BRC_TRY_OR(cleanup, brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
+    BRC_TRY_OR(cleanup, brc_closed_faces_store_state(s, store, bonds));
     status = brc_softening_store_state(s, store);
 cleanup:
     brc_memory_free(elements.id);

@@ -1,4 +1,5 @@
 /* Bonds that break: limits of the elements, the order of the passes, and what broke (kernels/fracture.cl). */
+#include "beam_closure.h"
 #include "beam_law.h"
 #include "beam_softening.h"
 #include "cell_breaks.h"
@@ -173,12 +174,14 @@ static brc_status create_arrays(brc_simulation *s)
     BRC_TRY(brc_new_coeff(s, &f->break_stress, entries, "stresses of breaks"));
     BRC_TRY(brc_new_coeff(s, &f->break_energy, entries, "energies of breaks"));
     BRC_TRY(brc_new_state(s, &f->lost, n, "energy of broken bonds"));
-    return brc_new_state(s, &f->broken, n, "broken bonds");
+    BRC_TRY(brc_new_state(s, &f->broken, n, "broken bonds"));
+    return brc_beam_closure_create(s);
 }
 
 int64_t brc_fracture_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
 {
-    return n * (21 * coeff_bytes + 4 + 2 * state_bytes) + entries * (8 + 2 * coeff_bytes) + brc_beam_softening_bytes(scene, entries, coeff_bytes);
+    return n * (21 * coeff_bytes + 4 + 2 * state_bytes) + entries * (8 + 2 * coeff_bytes) + brc_beam_softening_bytes(scene, entries, coeff_bytes) +
+           brc_beam_closure_bytes(scene, n, entries, state_bytes, coeff_bytes);
 }
 
 static brc_status find_kernels(brc_simulation *s)
@@ -263,6 +266,7 @@ void brc_fracture_free(brc_simulation *s)
     if (!f) return;
     brc_cell_breaks_free(s);
     brc_beam_softening_free(s);
+    brc_beam_closure_free(s);
     brc_fracture_bound_free(s);
     brc_buffer **all[] = {&f->record, &f->stress, &f->limits, &f->choice, &f->measure, &f->break_step, &f->break_mode,
                           &f->break_stress, &f->break_energy, &f->lost, &f->broken, &f->gone};
@@ -286,7 +290,8 @@ brc_status brc_fracture_force(brc_simulation *s, const brc_force_request *r)
                       BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_COEFF(f->scale[0]), BRC_COEFF(f->scale[1]), BRC_COEFF(f->scale[2]),
                       BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(f->record),
                       BRC_BUF(f->reach)));
-    return brc_beam_softening_force(s, r, is_drucker_prager(s));
+    BRC_TRY(brc_beam_softening_force(s, r, is_drucker_prager(s)));
+    return brc_beam_closure_force(s, r, is_drucker_prager(s));
 }
 
 static brc_status find_stress(brc_simulation *s)
@@ -332,6 +337,7 @@ brc_status brc_fracture_step(brc_simulation *s, double half_kick)
                       BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
                       BRC_BUF(f->break_energy), BRC_BUF(f->lost), BRC_BUF(f->broken)));
     BRC_TRY(brc_beam_softening_end(s, moment));
+    BRC_TRY(brc_beam_closure_begin(s, moment, half_kick));
     BRC_TRY(brc_loads_zero_turned(s, s->torque)); /* prescribed rotations balance theirs */
     const brc_step_phase before = brc_phase_within(s, BRC_PHASE_SEARCH);
     BRC_TRY(brc_contact_broken(s, half_kick));

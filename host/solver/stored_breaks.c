@@ -1,4 +1,5 @@
 /* What broke, for a store (state_store.h): kept of the broken bonds and of the elements that lost one only, since a new simulation has all others right. */
+#include "beam_closure.h"
 #include "beam_softening.h"
 #include "cell_breaks.h"
 #include "fracture_internal.h"
@@ -115,7 +116,8 @@ static brc_status walk_beams(brc_simulation *s, brc_state_store *store, const br
         {"fracture.reach", f->reach, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
     };
     BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
-    return brc_beam_softening_store_state(s, store);
+    BRC_TRY(brc_beam_softening_store_state(s, store));
+    return brc_beam_closure_store_state(s, store);
 }
 
 brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)

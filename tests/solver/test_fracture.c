@@ -250,8 +250,8 @@ static void elements_without_bonds_fly_freely(void **state)
     (void)state;
     bench_case c;
     brc_ledger ledger;
-    open_fracture(&c, (fracture_options){.strength = STRENGTH, .beam = "{radius: 0.4, E: 8 Pa, strength: 1e-9 Pa}", .fracture = CRITERION(0),
-                                         .stages = BURST(100)});
+    open_fracture(&c, (fracture_options){.strength = STRENGTH, .beam = "{radius: 0.4, E: 8 Pa, strength: 1e-9 Pa}",
+                                         .fracture = "{closure: false, criterion: {virial-principal: {level: 0}}}", .stages = BURST(100)});
     const int64_t n = c.domain->n_elements;
     int32_t *fragment = calloc((size_t)n, sizeof *fragment);
     double *v = calloc((size_t)(6 * n), sizeof *v), *damage = calloc((size_t)n, sizeof *damage);
