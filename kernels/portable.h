@@ -59,7 +59,7 @@ typedef float coeff;
 #endif
 #define KERNEL __kernel
 #define GLOBAL __global
-#define LAW static inline
+#define LAW static inline __attribute__((always_inline))
 #define ROUTINE static inline
 typedef ulong brc_size;
 #define FOR_EACH_ITEM(i, n) const int i = (int)get_global_id(0); if (i < (n))
