@@ -1,6 +1,7 @@
 /* OpenCL: the kernels are compiled at run time from one pasted text for the variant a run needs; everything goes
  * through one queue that keeps the order. */
 #include "opencl_list.h"
+#include "opencl_profile.h"
 #include "opencl_status.h"
 #include "program_source.h"
 #include "../base/log.h"
@@ -24,6 +25,7 @@ typedef struct opencl_inside {
     cl_context context;
     cl_command_queue queue;
     cl_program program;
+    brc_opencl_profile *profile; /* NULL: none is asked for */
     size_t group;
     int launches; /* since the last flush */
     int releases; /* of buffers so far: a handle may come back for another buffer, so set arguments are then sent again */
@@ -41,6 +43,7 @@ typedef struct opencl_kernel {
 static void release_inside(opencl_inside *inside)
 {
     if (!inside) return;
+    brc_memory_free(inside->profile);
     if (inside->program) (void)clReleaseProgram(inside->program);
     if (inside->queue) (void)clReleaseCommandQueue(inside->queue);
     if (inside->context) (void)clReleaseContext(inside->context);
@@ -154,7 +157,8 @@ static brc_status opencl_open(brc_device *device, const brc_device_request *requ
     BRC_TRY_OR(cleanup, choose_layout(device, request->lanes, &inside->group));
     inside->context = clCreateContext(NULL, 1, &inside->id, NULL, NULL, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a context"));
-    inside->queue = clCreateCommandQueue(inside->context, inside->id, 0, &code);
+    BRC_TRY_OR(cleanup, brc_opencl_profile_create(device->context, &inside->profile));
+    inside->queue = clCreateCommandQueue(inside->context, inside->id, inside->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a queue"));
     BRC_TRY_OR(cleanup, build(device, inside, request->kernel_folder, request->exact));
     device->inside = inside;
@@ -168,6 +172,7 @@ static void opencl_close(brc_device *device)
 {
     opencl_inside *const inside = device->inside;
     (void)clFinish(inside->queue); /* whatever it says, everything is given back now */
+    brc_opencl_profile_close(&inside->profile, device);
     release_inside(inside);
 }
 
@@ -290,9 +295,10 @@ static brc_status opencl_launch(brc_kernel *kernel, int64_t n_items, int n_args,
         own->set[a] = true;
     }
     const size_t global = ((size_t)n_items + own->group - 1) / own->group * own->group;
-    const cl_int code =
-        clEnqueueNDRangeKernel(inside->queue, own->kernel, 1, NULL, &global, &own->group, 0, NULL, NULL);
+    const cl_int code = clEnqueueNDRangeKernel(inside->queue, own->kernel, 1, NULL, &global, &own->group, 0, NULL,
+                                               brc_opencl_profile_event(inside->profile));
     BRC_TRY(brc_opencl_check(device, code, kernel->name));
+    brc_opencl_profile_add(inside->profile, kernel->name, n_items);
     if (++inside->launches < LAUNCHES_BETWEEN_FLUSHES) return BRC_OK;
     inside->launches = 0;
     return brc_opencl_check(device, clFlush(inside->queue), "flushing the queue");
