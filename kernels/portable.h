@@ -205,6 +205,13 @@ LAW int brc_lane_any_short(lane a, lane b)
 #define PREFETCH(p, at) ((void)0)
 #endif
 
+/* Registers bound a GPU: loops over bonds that hold much are taken apart there. On a CPU rows are read once. */
+#if defined(__OPENCL_VERSION__) && W == 1
+#define SPLIT_LOOPS 1
+#else
+#define SPLIT_LOOPS 0
+#endif
+
 /* LANE_MAKE(type, F) = (F(0), F(1), ... F(W-1)); LANE_ITEM(x, l) = component l, l a hex digit written out. */
 #if W == 1
 #define LANE_MAKE(type, F) F(0)
