@@ -92,7 +92,7 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums 
                                           GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
                                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
                                           GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of,
-                                          lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite)
+                                          state_vec3 u, lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, area, slot);
@@ -105,7 +105,7 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums 
     const lane_vec3 h_x = lane_mat3_mul_vec(h, x), h_j_x = lane_mat3_mul_vec(h_j, x), m_x = lane_mat3_mul_vec(m, x);
 #if BRC_MANY_MATERIALS
     const lane weight = lane_min(gather_component(modulus, j), k) / k;
-    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), state_gather3(displacement, who.own));
+    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
     const lane_vec3 r = lane_vec3_scale(weight, lane_vec3_sub(jump, lane_vec3_add(h_x, h_j_x)));
     const lane_vec3 m_j_x = dlsm_compaction_along(h_j, h_j_x, x, gather_component(ell_of, j), finite);
     const lane_vec3 mr = lane_vec3_scale(weight, lane_vec3_add(m_x, m_j_x));
@@ -135,8 +135,9 @@ LAW dlsm_flux_sums dlsm_flux_sums_of(members who, GLOBAL const int *restrict nei
                                      lane_mat3 h, lane_mat3 p, lane_mat3 m, lane k, coeff ell_one, int finite)
 {
     dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
+    const state_vec3 u = state_gather3(displacement, who.own); /* counts with many materials alone */
     for (int slot = who.begin; slot < who.end; ++slot) {
-        sums = dlsm_flux_gradients_at(who, slot, sums, neighbour, area, ratio, displacement, gradient, modulus, ell_of, h, m, k, ell_one, finite);
+        sums = dlsm_flux_gradients_at(who, slot, sums, neighbour, area, ratio, displacement, gradient, modulus, ell_of, u, h, m, k, ell_one, finite);
         if (!SPLIT_LOOPS) sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
     }
     return sums;
