@@ -59,7 +59,7 @@ typedef float coeff;
 #endif
 #define KERNEL __kernel
 #define GLOBAL __global
-#define LAW static inline
+#define LAW static inline __attribute__((always_inline))
 #define ROUTINE static inline
 typedef ulong brc_size;
 #define FOR_EACH_ITEM(i, n) const int i = (int)get_global_id(0); if (i < (n))
@@ -203,6 +203,13 @@ LAW int brc_lane_any_short(lane a, lane b)
 #define PREFETCH(p, at) __builtin_prefetch((p) + (at), 0, 3)
 #else
 #define PREFETCH(p, at) ((void)0)
+#endif
+
+/* Registers bound a GPU: loops over bonds that hold much are taken apart there. On a CPU rows are read once. */
+#if defined(__OPENCL_VERSION__) && W == 1
+#define SPLIT_LOOPS 1
+#else
+#define SPLIT_LOOPS 0
 #endif
 
 /* LANE_MAKE(type, F) = (F(0), F(1), ... F(W-1)); LANE_ITEM(x, l) = component l, l a hex digit written out. */
