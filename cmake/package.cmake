@@ -17,4 +17,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox, pocl-opencl-icd")
+if(TARGET brc_target_plugin) # Debian has libomptarget.so in the package for developers alone
+    string(REGEX MATCH "[0-9]+$" brc_clang_version "${BRC_TARGET_CLANG}")
+    set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libomp-${brc_clang_version}-dev")
+endif()
 include(CPack)
