@@ -41,7 +41,8 @@ static void drain(brc_opencl_profile *profile)
         const cl_event event = profile->events[e];
         if (clWaitForEvents(1, &event) == CL_SUCCESS &&
             clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof begin, &begin, NULL) == CL_SUCCESS &&
-            clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, NULL) == CL_SUCCESS && end > begin)
+            clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, NULL) == CL_SUCCESS &&
+            end > begin)
             profile->rows[profile->row_of[e]].seconds += 1e-9 * (double)(end - begin);
         (void)clReleaseEvent(event);
     }
@@ -59,9 +60,11 @@ void brc_opencl_profile_add(brc_opencl_profile *profile, const char *kernel, int
 {
     if (!profile) return;
     int row = 0;
-    while (row < profile->n_rows && strcmp(profile->rows[row].kernel, kernel) != 0) ++row;
+    while (row < profile->n_rows && strcmp(profile->rows[row].kernel, kernel) != 0)
+        ++row;
     if (row == MOST_KERNELS) --row; /* there are fewer kernels than that */
-    if (row == profile->n_rows) snprintf(profile->rows[profile->n_rows++].kernel, sizeof profile->rows[0].kernel, "%s", kernel);
+    if (row == profile->n_rows)
+        snprintf(profile->rows[profile->n_rows++].kernel, sizeof profile->rows[0].kernel, "%s", kernel);
     ++profile->rows[row].launches;
     profile->rows[row].items += n_items;
     profile->row_of[profile->n_events++] = row;
@@ -82,15 +85,16 @@ void brc_opencl_profile_close(brc_opencl_profile **handle, brc_device *device)
     FILE *const file = fopen(profile->path, "a");
     bool written = file != NULL;
     if (file) {
-        if (fseek(file, 0, SEEK_END) == 0 && ftell(file) == 0) fprintf(file, "kernel,precision,launches,work_items,seconds\n");
+        if (fseek(file, 0, SEEK_END) == 0 && ftell(file) == 0)
+            fprintf(file, "kernel,precision,launches,work_items,seconds\n");
         for (int r = 0; r < profile->n_rows; ++r)
             fprintf(file, "%s,%s,%lld,%lld,%.9g\n", profile->rows[r].kernel, brc_precision_name(device->precision),
                     (long long)profile->rows[r].launches, (long long)profile->rows[r].items, profile->rows[r].seconds);
         written = fclose(file) == 0;
     }
     if (!written)
-        brc_log(device->context, BRC_LOG_WARNING, "the profile of BRECCIA_OPENCL_PROFILE is not written to %s: %s", profile->path,
-                strerror(errno));
+        brc_log(device->context, BRC_LOG_WARNING, "the profile of BRECCIA_OPENCL_PROFILE is not written to %s: %s",
+                profile->path, strerror(errno));
     brc_memory_free(profile);
     *handle = NULL;
 }
