@@ -299,7 +299,7 @@ static void sides_that_stand_clear_bear_nothing(void **state)
     }
 }
 
-/* Contact has the pairs of broken faces, by its own stiffness k_n A^2 / h^3 (docs/guide/contact.md). */
+/* Contact has the pairs of broken faces, by its own stiffness k_n A^2 / h^3 (docs/notebook/contact.md). */
 static void with_contact_its_law_bears(void **state)
 {
     (void)state;
