@@ -15,7 +15,7 @@ static const struct {
     {"rho", "density"}, {"tensile", "tension"}, {"tensile_strength", "tension"}, {"tensile_strength", "strength"}, {"sigma_t", "tension"}, {"ft", "tension"},
     {"f_t", "tension"}, {"ucs", "compression"}, {"compressive", "compression"}, {"compressive_strength", "compression"}, {"gc", "fracture_energy"}, {"g_c", "fracture_energy"},
     {"gf", "fracture_energy"}, {"g_f", "fracture_energy"}, {"toughness", "fracture_energy"}, {"disk", "cylinder"}, {"disc", "cylinder"}, {"rod", "cylinder"}, {"plate", "box"},
-    {"block", "box"}, {"cube", "box"}, {"beam", "box"}, {"ball", "sphere"}, {"ring", "torus"}, {"stl", "mesh"}, {"thickness", "length"}, {"height", "length"}, {"depth", "length"},
+    {"block", "box"}, {"cube", "box"}, {"beam", "box"}, {"ball", "sphere"}, {"ring", "torus"}, {"difference", "parts"}, {"union", "parts"}, {"intersection", "parts"}, {"hole", "parts"}, {"stl", "mesh"}, {"thickness", "length"}, {"height", "length"}, {"depth", "length"},
     {"center", "centre"}, {"center", "origin"}, {"centre", "origin"}, {"position", "origin"}, {"corner", "origin"}, {"dimensions", "size"}, {"dimension", "size"}, {"lengths", "size"},
     {"x", "size"}, {"y", "size"}, {"z", "size"}, {"grid", "noisy_grid"}, {"voronoi", "noisy_grid"}, {"cells", "noisy_grid"}, {"cell_size", "spacing"}, {"element_size", "spacing"},
     {"mesh_size", "spacing"}, {"size", "spacing"}, {"h", "spacing"}, {"dx", "spacing"}, {"number", "elements"}, {"n", "elements"}, {"spheres", "packing"}, {"body", "bodies"},
