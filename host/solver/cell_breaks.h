@@ -10,8 +10,6 @@ typedef struct brc_cell_breaks brc_cell_breaks;
 brc_status brc_cell_breaks_create(brc_simulation *s);
 /* What brc_fracture_free does not know. */
 void brc_cell_breaks_free(brc_simulation *s);
-/* Device bytes it takes in a scene with fracture (n elements, entries of the layout). */
-int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
 /* Bonds break by a stress of their own, for which the forces of the full law are found with what the check needs. */
 bool brc_cell_breaks_by_bond(const brc_simulation *s);
 /* The last pass of dlsm's full law, but for that after breaks, finds which elements may lose bonds: the next function in its place, of the rings 0 to `ring` of

@@ -115,24 +115,41 @@ brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)
     return BRC_OK;
 }
 
+static bool of_cells(const brc_wants *w) { return !brc_wants_beams(w); }
+static bool statics(const brc_wants *w)
+{
+    bool any = false;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i) any |= w->scene->stages[i].solver == BRC_SOLVER_STATIC;
+    return any;
+}
+
+#define AT(member) BRC_FIELD_AT(brc_solve_vectors, member)
+#define UNKNOWNS(name, member) \
+    {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver"}, {name "_turn", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(member.turn), "static solver"}
+static const brc_field rows[] = {
+    UNKNOWNS("x", x),
+    UNKNOWNS("r", r),
+    UNKNOWNS("z", z),
+    UNKNOWNS("p", p),
+    UNKNOWNS("kp", kp),
+    {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver [m]"},
+    {"zero", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_published, AT(zero), "static solver"},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver [-]"},
+    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(theta), "static solver [rad]"},
+    {"block", brc_each_row, 6, BRC_FIELD_STATE, of_cells, AT(preconditioner.blocks), "preconditioner"},
+    {"block", brc_each_row, 21, BRC_FIELD_STATE, brc_wants_beams, AT(preconditioner.blocks), "preconditioner"},
+};
+BRC_FIELD_TABLE(brc_solve_fields, "static solver", BRC_LIFE_SOLVE, statics, rows);
+
 static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
 {
-    const int64_t n = s->layout->n_rows;
-    brc_unknowns *all[] = {&v->x, &v->r, &v->z, &v->p, &v->kp};
     v->state_bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
     v->arm = 1;
-    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-        BRC_TRY(brc_new_state(s, &all[i]->move, 3 * n, "static solver"));
-        if (brc_is_beams(s)) BRC_TRY(brc_new_state(s, &all[i]->turn, 3 * n, "static solver"));
-    }
-    BRC_TRY(brc_new_state(s, &v->before, 3 * n, "static solver"));
-    if (brc_is_published(s)) BRC_TRY(brc_new_state(s, &v->zero, 3 * n, "static solver"));
-    if (brc_turns(s)) BRC_TRY(brc_new_state(s, &v->orientation, 4 * n, "static solver"));
+    BRC_TRY(brc_fields_create(s->device, &brc_solve_fields, &s->wants, v));
     if (brc_is_beams(s)) {
         double sum = 0;
         for (int64_t e = 0; e < s->domain->n_elements; ++e) sum += s->domain->radius[e];
         v->arm = sum / (double)s->domain->n_elements;
-        BRC_TRY(brc_new_state(s, &v->theta, 3 * n, "rotations"));
     }
     BRC_TRY(brc_statics_find_pieces(s, v));
     return brc_preconditioner_create(s, v);
@@ -140,10 +157,7 @@ static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
 
 static void free_vectors(brc_solve_vectors *v)
 {
-    brc_unknowns *all[] = {&v->x, &v->r, &v->z, &v->p, &v->kp};
-    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_buffer_free(&all[i]->move), brc_buffer_free(&all[i]->turn);
-    brc_buffer **rest[] = {&v->before, &v->preconditioner.blocks, &v->zero, &v->orientation, &v->theta};
-    for (size_t i = 0; i < sizeof rest / sizeof *rest; ++i) brc_buffer_free(rest[i]);
+    brc_fields_free(&brc_solve_fields, v);
     brc_pieces_free(&v->pieces);
     brc_multigrid_free(&v->preconditioner.multigrid);
 }
