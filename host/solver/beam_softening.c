@@ -22,12 +22,12 @@ static bool softens(const brc_wants *w) { return w->scene->has_fracture && brc_w
 
 #define AT(member) BRC_FIELD_AT(beam_softening, member)
 static const brc_field rows[] = {
-    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of beams"},
-    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open beams"},
-    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of beams"},
-    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "cohesion of beams"},
-    {"active", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(active), "open beams"},
-    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "open beams"},
+    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of beams", "-"},
+    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open beams", "-"},
+    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of beams", "-"},
+    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "cohesion of beams", "-"},
+    {"active", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(active), "open beams", "-"},
+    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "open beams", "-"},
 };
 BRC_FIELD_TABLE(brc_beam_softening_fields, "cohesion of beams", BRC_LIFE_RUN, softens, rows);
 

@@ -152,22 +152,22 @@ static bool published_by_bond(const brc_wants *w) { return brc_wants_published(w
 
 #define AT(member) BRC_FIELD_AT(brc_cell_breaks, member)
 static const brc_field rows[] = {
-    {"limit", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(limit), "limits of bonds [Pa]"},
-    {"alive", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(alive), "unbroken bonds"},
-    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "twins"},
-    {"mark", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(mark), "marked bonds"},
-    {"measure", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses of marked bonds [Pa]"},
-    {"least", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(least), "smallest limits [Pa]"},
-    {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(modulus), "moduli of plane waves [Pa]"},
-    {"support", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(support), "supports"},
-    {"stiffest", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(stiffest), "supports [1/m^2]"},
-    {"changed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(changed), "changed elements"},
-    {"look", brc_each_group, 1, BRC_FIELD_INT, dlsm_by_bond, AT(look), "groups to look at"},
-    {"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(weight), "weights of broken bonds"},
-    {"found", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(found), "marks of elements"},
-    {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches [m]"},
-    {"spanned", brc_each_row, 6, BRC_FIELD_COEFF, brc_wants_published, AT(spanned), "supports"},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(reach), "ratios of bonds [-]"},
+    {"limit", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(limit), "limits of bonds", "Pa"},
+    {"alive", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(alive), "unbroken bonds", "-"},
+    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "twins", "-"},
+    {"mark", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(mark), "marked bonds", "-"},
+    {"measure", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses of marked bonds", "Pa"},
+    {"least", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(least), "smallest limits", "Pa"},
+    {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(modulus), "moduli", "Pa"},
+    {"support", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(support), "supports", "-"},
+    {"stiffest", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(stiffest), "supports", "1/m^2"},
+    {"changed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(changed), "changed elements", "-"},
+    {"look", brc_each_group, 1, BRC_FIELD_INT, dlsm_by_bond, AT(look), "groups to look at", "-"},
+    {"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(weight), "weights of broken bonds", "-"},
+    {"found", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(found), "marks of elements", "-"},
+    {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m"},
+    {"spanned", brc_each_row, 6, BRC_FIELD_COEFF, brc_wants_published, AT(spanned), "supports", "-"},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(reach), "ratios of bonds", "-"},
 };
 BRC_FIELD_TABLE(brc_cell_break_fields, "breaks of cells", BRC_LIFE_RUN, breaks, rows);
 

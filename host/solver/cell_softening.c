@@ -41,13 +41,13 @@ static bool softens(const brc_wants *w) { return w->scene->has_fracture && !brc_
 
 #define AT(member) BRC_FIELD_AT(softening_faces, member)
 static const brc_field rows[] = {
-    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of faces"},
-    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open faces"},
-    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of faces"},
-    {"n_open", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(n_open), "open faces"},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "reach of open faces"},
-    {"shear", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(shear), "shear moduli [Pa]"},
-    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces [J]"},
+    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of faces", "-"},
+    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open faces", "-"},
+    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of faces", "-"},
+    {"n_open", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(n_open), "open faces", "-"},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "reach of open faces", "-"},
+    {"shear", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(shear), "shear moduli", "Pa"},
+    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J"},
 };
 BRC_FIELD_TABLE(brc_softening_fields, "cohesion of faces", BRC_LIFE_RUN, softens, rows);
 

@@ -45,7 +45,8 @@ typedef struct brc_field {
     brc_field_number number;
     bool (*wanted)(const brc_wants *);           /* NULL: wherever its table is */
     size_t at;                                   /* of its brc_buffer * in the owner */
-    const char *what;                            /* [unit]; in sentences about room */
+    const char *what;                            /* in words: sentences about room, listings */
+    const char *unit;                            /* "-": a count, an index, a factor */
 } brc_field;
 #define BRC_FIELD_AT(owner, member) offsetof(owner, member)
 

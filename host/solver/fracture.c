@@ -166,27 +166,27 @@ static bool weighted(const brc_wants *w) { return w->weighted || (w->softens && 
 
 #define AT(member) BRC_FIELD_AT(brc_breaking, member)
 static const brc_field break_rows[] = {
-    {"break_step", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_step), "steps of breaks"},
-    {"break_mode", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_mode), "modes of breaks"},
-    {"break_stress", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_stress), "stresses of breaks [Pa]"},
-    {"break_energy", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_energy), "energies of breaks [J]"},
-    {"lost", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost), "energy of broken bonds [J]"},
-    {"gone", brc_each_row, 1, BRC_FIELD_STATE, of_cells, AT(gone), "lost bonds"},
-    {"broken", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(broken), "broken bonds"},
+    {"break_step", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_step), "steps of breaks", "-"},
+    {"break_mode", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_mode), "modes of breaks", "-"},
+    {"break_stress", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_stress), "stresses of breaks", "Pa"},
+    {"break_energy", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_energy), "energies of breaks", "J"},
+    {"lost", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost), "energy of broken bonds", "J"},
+    {"gone", brc_each_row, 1, BRC_FIELD_STATE, of_cells, AT(gone), "lost bonds", "-"},
+    {"broken", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(broken), "broken bonds", "-"},
 };
 BRC_FIELD_TABLE(brc_break_fields, "broken bonds", BRC_LIFE_RUN, breaks, break_rows);
 static const brc_field criterion_rows[] = {
-    {"record", brc_each_row, 8, BRC_FIELD_COEFF, NULL, AT(record), "virial records [J, m^3]"},
-    {"stress", brc_each_row, 6, BRC_FIELD_COEFF, NULL, AT(stress), "virial stresses [Pa]"},
-    {"limits", brc_each_row, 3, BRC_FIELD_COEFF, NULL, AT(limits), "limits [Pa]"},
-    {"choice", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(choice), "chosen bonds"},
-    {"measure", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses at failure [Pa]"},
-    {"ease", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(ease), "bounds of stress [-]"},
-    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(weight), "bounds of stress [m^3]"},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "bounds of stress [m^3]"},
-    {"mark", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(mark), "groups that lose bonds"},
-    {"factor", brc_each_entry, 1, BRC_FIELD_COEFF, weighted, AT(factor), "factors of bonds [-]"},
-    {"weakest", brc_each_row, 1, BRC_FIELD_COEFF, weighted, AT(weakest), "factors of bonds [-]"},
+    {"record", brc_each_row, 8, BRC_FIELD_COEFF, NULL, AT(record), "virial records", "J, m^3"},
+    {"stress", brc_each_row, 6, BRC_FIELD_COEFF, NULL, AT(stress), "virial stresses", "Pa"},
+    {"limits", brc_each_row, 3, BRC_FIELD_COEFF, NULL, AT(limits), "limits", "Pa"},
+    {"choice", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(choice), "chosen bonds", "-"},
+    {"measure", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses at failure", "Pa"},
+    {"ease", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(ease), "bounds of stress", "-"},
+    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(weight), "bounds of stress", "m^3"},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "bounds of stress", "m^3"},
+    {"mark", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(mark), "groups that lose bonds", "-"},
+    {"factor", brc_each_entry, 1, BRC_FIELD_COEFF, weighted, AT(factor), "factors of bonds", "-"},
+    {"weakest", brc_each_row, 1, BRC_FIELD_COEFF, weighted, AT(weakest), "factors of bonds", "-"},
 };
 BRC_FIELD_TABLE(brc_criterion_fields, "criteria of elements", BRC_LIFE_RUN, breaks_by_element, criterion_rows);
 

@@ -48,10 +48,10 @@ static bool modes(const brc_wants *w)
 
 #define AT(member) BRC_FIELD_AT(mode_space, member)
 static const brc_field mode_rows[] = {
-    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(in), "modes"},
-    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(out), "modes"},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "modes"},
-    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "modes"},
+    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(in), "modes", "-"},
+    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(out), "modes", "-"},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "modes", "-"},
+    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "modes", "-"},
 };
 BRC_FIELD_TABLE(brc_mode_fields, "free vibration modes", BRC_LIFE_SOLVE, modes, mode_rows);
 

@@ -125,19 +125,19 @@ static bool statics(const brc_wants *w)
 
 #define AT(member) BRC_FIELD_AT(brc_solve_vectors, member)
 #define UNKNOWNS(name, member) \
-    {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver"}, {name "_turn", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(member.turn), "static solver"}
+    {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver", "-"}, {name "_turn", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(member.turn), "static solver", "-"}
 static const brc_field rows[] = {
     UNKNOWNS("x", x),
     UNKNOWNS("r", r),
     UNKNOWNS("z", z),
     UNKNOWNS("p", p),
     UNKNOWNS("kp", kp),
-    {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver [m]"},
-    {"zero", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_published, AT(zero), "static solver"},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver [-]"},
-    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(theta), "static solver [rad]"},
-    {"block", brc_each_row, 6, BRC_FIELD_STATE, of_cells, AT(preconditioner.blocks), "preconditioner"},
-    {"block", brc_each_row, 21, BRC_FIELD_STATE, brc_wants_beams, AT(preconditioner.blocks), "preconditioner"},
+    {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver", "m"},
+    {"zero", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_published, AT(zero), "static solver", "-"},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver", "-"},
+    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(theta), "static solver", "rad"},
+    {"block", brc_each_row, 6, BRC_FIELD_STATE, of_cells, AT(preconditioner.blocks), "preconditioner", "-"},
+    {"block", brc_each_row, 21, BRC_FIELD_STATE, brc_wants_beams, AT(preconditioner.blocks), "preconditioner", "-"},
 };
 BRC_FIELD_TABLE(brc_solve_fields, "static solver", BRC_LIFE_SOLVE, statics, rows);
 

@@ -23,20 +23,20 @@ static bool strikers(const brc_wants *w) { return w->scene->n_strikers > 0; }
 
 #define AT(member) BRC_FIELD_AT(brc_strikers, member)
 static const brc_field rows[] = {
-    {"striker_pose", brc_each_striker, 12, BRC_FIELD_STATE, NULL, AT(pose), "poses of strikers [m, -]"},
-    {"motion", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(motion), "velocities of strikers [m/s, rad/s]"},
-    {"load", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(load), "forces on strikers [N, N m]"},
-    {"displacement", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements of strikers [m]"},
-    {"orientation", brc_each_striker, 4, BRC_FIELD_STATE, NULL, AT(orientation), "orientations of strikers [-]"},
-    {"momentum", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(momentum), "angular momenta of strikers [kg m^2/s]"},
-    {"freedom", brc_each_striker, 1, BRC_FIELD_INT, NULL, AT(freedom), "freedoms of strikers"},
-    {"mass", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses of strikers [kg]"},
-    {"inertia", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(inertia), "inertia of strikers [kg m^2]"},
-    {"centre", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(centre), "centres of strikers [m]"},
-    {"moved", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(moved), "moves of strikers [m, rad]"},
-    {"last", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(last), "last forces on strikers [N, N m]"},
-    {"work", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(work), "work of strikers [J]"},
-    {"lost", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(lost), "numerical dissipation of strikers [J]"},
+    {"striker_pose", brc_each_striker, 12, BRC_FIELD_STATE, NULL, AT(pose), "poses of strikers", "m, -"},
+    {"motion", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(motion), "velocities of strikers", "m/s, rad/s"},
+    {"load", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(load), "forces on strikers", "N, N m"},
+    {"displacement", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements of strikers", "m"},
+    {"orientation", brc_each_striker, 4, BRC_FIELD_STATE, NULL, AT(orientation), "orientations of strikers", "-"},
+    {"momentum", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(momentum), "angular momenta of strikers", "kg m^2/s"},
+    {"freedom", brc_each_striker, 1, BRC_FIELD_INT, NULL, AT(freedom), "freedoms of strikers", "-"},
+    {"mass", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses of strikers", "kg"},
+    {"inertia", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(inertia), "inertia of strikers", "kg m^2"},
+    {"centre", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(centre), "centres of strikers", "m"},
+    {"moved", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(moved), "moves of strikers", "m, rad"},
+    {"last", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(last), "last forces on strikers", "N, N m"},
+    {"work", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(work), "work of strikers", "J"},
+    {"lost", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(lost), "numerical dissipation of strikers", "J"},
 };
 BRC_FIELD_TABLE(brc_striker_fields, "strikers", BRC_LIFE_RUN, strikers, rows);
 

@@ -48,11 +48,11 @@ static bool dynamics(const brc_wants *w)
 
 #define AT(member) BRC_FIELD_AT(work_vectors, member)
 static const brc_field rows[] = {
-    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(x), "power iteration"},
-    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(y), "power iteration"},
-    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(theta), "power iteration"},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "power iteration"},
-    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "power iteration"},
+    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(x), "power iteration", "-"},
+    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(y), "power iteration", "-"},
+    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(theta), "power iteration", "-"},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "power iteration", "-"},
+    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "power iteration", "-"},
 };
 BRC_FIELD_TABLE(brc_power_fields, "search for the time step", BRC_LIFE_SOLVE, dynamics, rows);
 
