@@ -21,13 +21,13 @@ typedef struct brc_beam_softening beam_softening;
 static bool softens(const brc_wants *w) { return w->scene->has_fracture && brc_wants_beams(w) && w->softens; }
 
 #define AT(member) BRC_FIELD_AT(beam_softening, member)
-static const brc_field rows[] = {
-    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of beams", "-"},
-    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open beams", "-"},
-    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of beams", "-"},
-    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "cohesion of beams", "-"},
-    {"active", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(active), "open beams", "-"},
-    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "open beams", "-"},
+static const brc_field_row rows[] = {
+    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of beams", "-", BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
+    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open beams", "-", BRC_KEPT("softening.open", BRC_KEEP_ALL)},
+    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of beams", "-", BRC_NOT_KEPT},
+    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "cohesion of beams", "-", BRC_NOT_KEPT},
+    {"active", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(active), "open beams", "-", BRC_NOT_KEPT},
+    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "open beams", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_beam_softening_fields, "cohesion of beams", BRC_LIFE_RUN, softens, rows);
 
@@ -220,12 +220,8 @@ brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *st
 {
     const beam_softening *f = softening_of(s);
     if (!f) return BRC_OK;
-    const brc_state_entry entries[] = {
-        {"softening.crack", f->crack, BRC_ENTRIES, BRC_OF_COEFF, WIDTH, NULL},
-        {"softening.open", f->open, BRC_ENTRIES, BRC_OF_INT, 1, NULL},
-        {"softening.factor", s->fracture->factor, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL},
-    };
-    BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_beam_softening_fields, .owner = f}));
+    BRC_TRY(brc_store_entry(s, store, &(brc_state_entry){"softening.factor", s->fracture->factor, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL}));
     return store->loading ? find_touched(s, f) : BRC_OK;
 }
 

@@ -151,23 +151,23 @@ static bool dlsm_by_element(const brc_wants *w) { return brc_wants_dlsm(w) && w-
 static bool published_by_bond(const brc_wants *w) { return brc_wants_published(w) && !w->by_element; }
 
 #define AT(member) BRC_FIELD_AT(brc_cell_breaks, member)
-static const brc_field rows[] = {
-    {"limit", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(limit), "limits of bonds", "Pa"},
-    {"alive", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(alive), "unbroken bonds", "-"},
-    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "twins", "-"},
-    {"mark", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(mark), "marked bonds", "-"},
-    {"measure", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses of marked bonds", "Pa"},
-    {"least", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(least), "smallest limits", "Pa"},
-    {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(modulus), "moduli", "Pa"},
-    {"support", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(support), "supports", "-"},
-    {"stiffest", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(stiffest), "supports", "1/m^2"},
-    {"changed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(changed), "changed elements", "-"},
-    {"look", brc_each_group, 1, BRC_FIELD_INT, dlsm_by_bond, AT(look), "groups to look at", "-"},
-    {"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(weight), "weights of broken bonds", "-"},
-    {"found", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(found), "marks of elements", "-"},
-    {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m"},
-    {"spanned", brc_each_row, 6, BRC_FIELD_COEFF, brc_wants_published, AT(spanned), "supports", "-"},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(reach), "ratios of bonds", "-"},
+static const brc_field_row rows[] = {
+    {"limit", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(limit), "limits of bonds", "Pa", BRC_KEPT("cells.limit", BRC_KEEP_BROKEN)},
+    {"alive", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(alive), "unbroken bonds", "-", BRC_KEPT("cells.alive", BRC_KEEP_BROKEN)},
+    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "twins", "-", BRC_NOT_KEPT},
+    {"mark", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(mark), "marked bonds", "-", BRC_NOT_KEPT},
+    {"measure", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses of marked bonds", "Pa", BRC_NOT_KEPT},
+    {"least", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(least), "smallest limits", "Pa", BRC_KEPT("cells.least", BRC_KEEP_OWNERS)},
+    {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(modulus), "moduli", "Pa", BRC_NOT_KEPT},
+    {"support", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(support), "supports", "-", BRC_NOT_KEPT},
+    {"stiffest", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(stiffest), "supports", "1/m^2", BRC_NOT_KEPT},
+    {"changed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(changed), "changed elements", "-", BRC_NOT_KEPT},
+    {"look", brc_each_group, 1, BRC_FIELD_INT, dlsm_by_bond, AT(look), "groups to look at", "-", BRC_NOT_KEPT},
+    {"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(weight), "weights of broken bonds", "-", BRC_NOT_KEPT},
+    {"found", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(found), "marks of elements", "-", BRC_NOT_KEPT},
+    {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m", BRC_NOT_KEPT},
+    {"spanned", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_published, AT(spanned), "supports", "-", BRC_KEPT("cells.spanned", BRC_KEEP_OWNERS)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(reach), "ratios of bonds", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_cell_break_fields, "breaks of cells", BRC_LIFE_RUN, breaks, rows);
 
@@ -340,30 +340,6 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(brc_rings_forget(rings, &rings->around));
     BRC_TRY(brc_softening_settle(s, &rings->around));
     return brc_contact_list_bonded(s);
-}
-
-brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)
-{
-    const brc_cell_breaks *c = s->fracture->cells;
-    brc_chosen elements = {0};
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, brc_fracture_owners(s, bonds, &elements));
-    const brc_state_entry entries[] = {
-        {"cells.area", s->area, BRC_ENTRIES, BRC_OF_COEFF, brc_is_dlsm(s) ? 3 : 1, bonds},
-        {"cells.ratio", s->ratio, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
-        {"cells.limit", c->limit, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
-        {"cells.alive", c->alive, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
-        {"cells.least", c->least, BRC_ROWS, BRC_OF_COEFF, 1, &elements},
-        {"cells.inverse_shape", s->inv_shape, BRC_BLOCKS, BRC_OF_COEFF, 6, &elements},
-        {"cells.spanned", c->spanned, BRC_BLOCKS, BRC_OF_COEFF, 6, &elements},
-        {"cells.gone", s->fracture->gone, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-        {"cells.weight", c->by_element ? s->fracture->weight : NULL, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
-    };
-    BRC_TRY_OR(cleanup, brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
-    status = brc_softening_store_state(s, store);
-cleanup:
-    brc_memory_free(elements.id);
-    return status;
 }
 
 brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out)

@@ -19,8 +19,7 @@ brc_status brc_cell_breaks_forces(brc_simulation *s, const brc_force_request *r,
 /* After the forces of a step: bonds above `share` of their limit break (1: those that fail). half_kick: dt/2 where the step's velocities still
  * want the force at its end, half of it that of before the breaks (velocity Verlet); 0: none. */
 brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double share);
-/* What broken bonds, of these half-edges, changed (state_store.h). */
-brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds);
+extern const brc_field_table brc_cell_break_fields;
 /* The largest ratio of stress to limit. */
 brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out);
 

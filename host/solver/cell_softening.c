@@ -40,14 +40,14 @@ typedef struct brc_softening_faces softening_faces;
 static bool softens(const brc_wants *w) { return w->scene->has_fracture && !brc_wants_beams(w) && w->softens; }
 
 #define AT(member) BRC_FIELD_AT(softening_faces, member)
-static const brc_field rows[] = {
-    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of faces", "-"},
-    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open faces", "-"},
-    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of faces", "-"},
-    {"n_open", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(n_open), "open faces", "-"},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "reach of open faces", "-"},
-    {"shear", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(shear), "shear moduli", "Pa"},
-    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J"},
+static const brc_field_row rows[] = {
+    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of faces", "-", BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
+    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open faces", "-", BRC_KEPT("softening.open", BRC_KEEP_ALL)},
+    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of faces", "-", BRC_NOT_KEPT},
+    {"n_open", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(n_open), "open faces", "-", BRC_KEPT("softening.n_open", BRC_KEEP_ALL)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "reach of open faces", "-", BRC_KEPT("softening.reach", BRC_KEEP_ALL)},
+    {"shear", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(shear), "shear moduli", "Pa", BRC_NOT_KEPT},
+    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J", BRC_KEPT("softening.rubbed", BRC_KEEP_ALL)},
 };
 BRC_FIELD_TABLE(brc_softening_fields, "cohesion of faces", BRC_LIFE_RUN, softens, rows);
 
@@ -369,17 +369,13 @@ brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
     softening_faces *f = faces_of(s);
     if (!f) return BRC_OK;
     f->is_listed = false;
-    const brc_state_entry entries[] = {
-        {"softening.crack", f->crack, BRC_ENTRIES, BRC_OF_COEFF, WIDTH, NULL},
-        {"softening.open", f->open, BRC_ENTRIES, BRC_OF_INT, 1, NULL},
+    const brc_state_entry changed[] = {
         {"softening.limit", s->fracture->cells->limit, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL},
         {"softening.least", s->fracture->cells->least, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
-        {"softening.n_open", f->n_open, BRC_ROWS, BRC_OF_INT, 1, NULL},
-        {"softening.reach", f->reach, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
-        {"softening.rubbed", f->rubbed, BRC_ROWS, BRC_OF_STATE, 1, NULL},
     };
     BRC_TRY(brc_store_flag(store, "softening.any", &f->any));
-    BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_softening_fields, .owner = f}));
+    BRC_TRY(brc_store_entries(s, store, sizeof changed / sizeof *changed, changed));
     return store->loading ? rejoin(s, f) : BRC_OK;
 }
 

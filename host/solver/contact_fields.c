@@ -36,49 +36,49 @@ static int64_t each_sum(const brc_wants *w)
 }
 
 #define AT(member) BRC_FIELD_AT(brc_contact_state, member)
-static const brc_field rows[] = {
-    {"id", each_solid, 1, BRC_FIELD_INT, NULL, AT(id), "ids of elements", "-"},
-    {"body", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(body), "bodies of elements", "-"},
-    {"material", each_solid, 1, BRC_FIELD_INT, NULL, AT(material), "materials of elements", "-"},
-    {"mass", each_solid, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses of elements", "kg"},
-    {"size", each_solid, 1, BRC_FIELD_STATE, NULL, AT(size_of), "sizes of elements", "m"},
-    {"reach", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(reach), "radii of elements", "m"},
-    {"place", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(place), "places of elements", "m"},
-    {"exposed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(exposed), "exposed elements", "-"},
-    {"original", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(original), "bonds at the start", "-"},
-    {"law", each_law, BRC_CONTACT_LAW, BRC_FIELD_STATE, NULL, AT(law), "laws of contact", "-"},
-    {"stored", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(stored), "energy of contact", "J"},
-    {"lost_friction", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost_friction), "energy lost to friction", "J"},
-    {"lost_impact", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost_impact), "energy lost to damping of contact", "J"},
-    {"corner", each_corner, 3, BRC_FIELD_STATE, NULL, AT(corner), "polyhedra", "m"},
-    {"plane", each_face, 4, BRC_FIELD_STATE, NULL, AT(plane), "polyhedra", "-, m"},
-    {"radius", each_shape, 1, BRC_FIELD_STATE, NULL, AT(radius), "polyhedra", "m"},
-    {"corner_start", each_shape_end, 1, BRC_FIELD_INT, NULL, AT(corner_start), "polyhedra", "-"},
-    {"face_start", each_shape_end, 1, BRC_FIELD_INT, NULL, AT(face_start), "polyhedra", "-"},
-    {"loop_start", each_face_end, 1, BRC_FIELD_INT, NULL, AT(loop_start), "polyhedra", "-"},
-    {"loop", each_loop, 1, BRC_FIELD_INT, NULL, AT(loop), "polyhedra", "-"},
-    {"piece_striker", each_piece, 1, BRC_FIELD_INT, NULL, AT(piece_striker), "pieces of strikers", "-"},
-    {"piece_kind", each_piece, 1, BRC_FIELD_INT, NULL, AT(piece_kind), "pieces of strikers", "-"},
-    {"piece_radius", each_piece, 1, BRC_FIELD_STATE, NULL, AT(piece_radius), "pieces of strikers", "m"},
-    {"piece_own", each_piece, 4, BRC_FIELD_STATE, NULL, AT(piece_own), "pieces of strikers", "m"},
-    {"piece", each_piece, 4, BRC_FIELD_STATE, NULL, AT(piece), "pieces of strikers", "m"},
-    {"rigid", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(rigid), "rigid cells", "-"},
-    {"inertia", brc_each_row, 6, BRC_FIELD_STATE, detaching, AT(inertia), "inertia of cells", "kg m^2"},
-    {"turned", brc_each_row, 4, BRC_FIELD_STATE, detaching, AT(turned), "orientations of cells", "-"},
-    {"momentum", brc_each_row, 3, BRC_FIELD_STATE, detaching, AT(momentum), "angular momenta of cells", "kg m^2/s"},
-    {"torque", brc_each_row, 3, BRC_FIELD_STATE, detaching, AT(torque), "torques on cells", "N m"},
-    {"way", brc_each_row, 1, BRC_FIELD_STATE, detaching, AT(way), "turning of cells", "m"},
-    {"built", brc_each_row, 4, BRC_FIELD_STATE, NULL, AT(built), "places of the last search", "m"},
-    {"posed", brc_each_row, 9, BRC_FIELD_STATE, turning, AT(posed), "poses of the last search", "-"},
-    {"clear", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(clear), "ways to pieces of strikers", "m"},
-    {"moved", each_survey, BRC_CONTACT_MOVED, BRC_FIELD_STATE, NULL, AT(moved), "moves since the last search", "-"},
-    {"part", each_drift, BRC_CONTACT_PART, BRC_FIELD_STATE, NULL, AT(drift_part), "moves since the last search", "-"},
-    {"drift", brc_each_once, BRC_CONTACT_DRIFT, BRC_FIELD_STATE, NULL, AT(drift), "moves since the last search", "-"},
-    {"seen", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(seen), "exposed elements", "-"},
-    {"fresh", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(fresh), "exposed elements", "-"},
+static const brc_field_row rows[] = {
+    {"id", each_solid, 1, BRC_FIELD_INT, NULL, AT(id), "ids of elements", "-", BRC_NOT_KEPT},
+    {"body", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(body), "bodies of elements", "-", BRC_NOT_KEPT},
+    {"material", each_solid, 1, BRC_FIELD_INT, NULL, AT(material), "materials of elements", "-", BRC_NOT_KEPT},
+    {"mass", each_solid, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses of elements", "kg", BRC_NOT_KEPT},
+    {"size", each_solid, 1, BRC_FIELD_STATE, NULL, AT(size_of), "sizes of elements", "m", BRC_NOT_KEPT},
+    {"reach", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(reach), "radii of elements", "m", BRC_NOT_KEPT},
+    {"place", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(place), "places of elements", "m", BRC_NOT_KEPT},
+    {"exposed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(exposed), "exposed elements", "-", BRC_KEPT("contact.exposed", BRC_KEEP_ALL)},
+    {"original", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(original), "bonds at the start", "-", BRC_NOT_KEPT},
+    {"law", each_law, BRC_CONTACT_LAW, BRC_FIELD_STATE, NULL, AT(law), "laws of contact", "-", BRC_NOT_KEPT},
+    {"stored", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(stored), "energy of contact", "J", BRC_KEPT("contact.stored", BRC_KEEP_ALL)},
+    {"lost_friction", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost_friction), "energy lost to friction", "J", BRC_KEPT("contact.friction", BRC_KEEP_ALL)},
+    {"lost_impact", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost_impact), "energy lost to damping of contact", "J", BRC_KEPT("contact.impact", BRC_KEEP_ALL)},
+    {"corner", each_corner, 3, BRC_FIELD_STATE, NULL, AT(corner), "polyhedra", "m", BRC_NOT_KEPT},
+    {"plane", each_face, 4, BRC_FIELD_STATE, NULL, AT(plane), "polyhedra", "-, m", BRC_NOT_KEPT},
+    {"radius", each_shape, 1, BRC_FIELD_STATE, NULL, AT(radius), "polyhedra", "m", BRC_NOT_KEPT},
+    {"corner_start", each_shape_end, 1, BRC_FIELD_INT, NULL, AT(corner_start), "polyhedra", "-", BRC_NOT_KEPT},
+    {"face_start", each_shape_end, 1, BRC_FIELD_INT, NULL, AT(face_start), "polyhedra", "-", BRC_NOT_KEPT},
+    {"loop_start", each_face_end, 1, BRC_FIELD_INT, NULL, AT(loop_start), "polyhedra", "-", BRC_NOT_KEPT},
+    {"loop", each_loop, 1, BRC_FIELD_INT, NULL, AT(loop), "polyhedra", "-", BRC_NOT_KEPT},
+    {"piece_striker", each_piece, 1, BRC_FIELD_INT, NULL, AT(piece_striker), "pieces of strikers", "-", BRC_NOT_KEPT},
+    {"piece_kind", each_piece, 1, BRC_FIELD_INT, NULL, AT(piece_kind), "pieces of strikers", "-", BRC_NOT_KEPT},
+    {"piece_radius", each_piece, 1, BRC_FIELD_STATE, NULL, AT(piece_radius), "pieces of strikers", "m", BRC_NOT_KEPT},
+    {"piece_own", each_piece, 4, BRC_FIELD_STATE, NULL, AT(piece_own), "pieces of strikers", "m", BRC_NOT_KEPT},
+    {"piece", each_piece, 4, BRC_FIELD_STATE, NULL, AT(piece), "pieces of strikers", "m", BRC_KEPT("contact.pieces", BRC_KEEP_ALL)},
+    {"rigid", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(rigid), "rigid cells", "-", BRC_KEPT("contact.rigid", BRC_KEEP_ALL)},
+    {"inertia", brc_each_row, 6, BRC_FIELD_STATE, detaching, AT(inertia), "inertia of cells", "kg m^2", BRC_NOT_KEPT},
+    {"turned", brc_each_row, 4, BRC_FIELD_STATE, detaching, AT(turned), "orientations of cells", "-", BRC_KEPT("contact.turned", BRC_KEEP_ALL)},
+    {"momentum", brc_each_row, 3, BRC_FIELD_STATE, detaching, AT(momentum), "angular momenta of cells", "kg m^2/s", BRC_KEPT("contact.momentum", BRC_KEEP_ALL)},
+    {"torque", brc_each_row, 3, BRC_FIELD_STATE, detaching, AT(torque), "torques on cells", "N m", BRC_KEPT("contact.torque", BRC_KEEP_ALL)},
+    {"way", brc_each_row, 1, BRC_FIELD_STATE, detaching, AT(way), "turning of cells", "m", BRC_KEPT("contact.way", BRC_KEEP_ALL)},
+    {"built", brc_each_row, 4, BRC_FIELD_STATE, NULL, AT(built), "places of the last search", "m", BRC_KEPT("contact.built", BRC_KEEP_ALL)},
+    {"posed", brc_each_row, 9, BRC_FIELD_STATE, turning, AT(posed), "poses of the last search", "-", BRC_KEPT("contact.posed", BRC_KEEP_ALL)},
+    {"clear", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(clear), "ways to pieces of strikers", "m", BRC_NOT_KEPT},
+    {"moved", each_survey, BRC_CONTACT_MOVED, BRC_FIELD_STATE, NULL, AT(moved), "moves since the last search", "-", BRC_NOT_KEPT},
+    {"part", each_drift, BRC_CONTACT_PART, BRC_FIELD_STATE, NULL, AT(drift_part), "moves since the last search", "-", BRC_NOT_KEPT},
+    {"drift", brc_each_once, BRC_CONTACT_DRIFT, BRC_FIELD_STATE, NULL, AT(drift), "moves since the last search", "-", BRC_NOT_KEPT},
+    {"seen", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(seen), "exposed elements", "-", BRC_NOT_KEPT},
+    {"fresh", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(fresh), "exposed elements", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_contact_fields, "contact", BRC_LIFE_RUN, contact, rows);
-static const brc_field sum_rows[] = {{"sum", each_sum, 1, BRC_FIELD_INT, NULL, AT(sums), "running sums", "-"}};
+static const brc_field_row sum_rows[] = {{"sum", each_sum, 1, BRC_FIELD_INT, NULL, AT(sums), "running sums", "-", BRC_NOT_KEPT}};
 BRC_FIELD_TABLE(brc_contact_sum_fields, "running sums of contact", BRC_LIFE_RUN, contact, sum_rows);
 
 /* ---- what the search needs for exposed elements ---- */
@@ -90,32 +90,32 @@ static int64_t each_digit_end(const brc_wants *w) { return digits(w) + 1; }
 static int64_t each_count(const brc_wants *w) { return w->exposed_room > digits(w) ? w->exposed_room : digits(w); }
 static int64_t each_bucket(const brc_wants *w) { return w->bucket_room; }
 
-static const brc_field grid_rows[] = {
-    {"key", each_exposed, 1, BRC_FIELD_INT, NULL, AT(key), "grid of contact", "-"},
-    {"key_out", each_exposed, 1, BRC_FIELD_INT, NULL, AT(key) + sizeof(brc_buffer *), "grid of contact", "-"},
-    {"row", each_exposed, 1, BRC_FIELD_INT, NULL, AT(row), "grid of contact", "-"},
-    {"row_out", each_exposed, 1, BRC_FIELD_INT, NULL, AT(row) + sizeof(brc_buffer *), "grid of contact", "-"},
-    {"count", each_count, 1, BRC_FIELD_INT, NULL, AT(count), "grid of contact", "-"},
-    {"digits", each_digit_end, 1, BRC_FIELD_INT, NULL, AT(digits), "grid of contact", "-"},
-    {"owned", each_exposed, 1, BRC_FIELD_INT, NULL, AT(owned), "pairs of elements", "-"},
-    {"pair_start", each_exposed_end, 1, BRC_FIELD_INT, NULL, AT(pair_start), "pairs of elements", "-"},
-    {"again", each_exposed, 1, BRC_FIELD_INT, NULL, AT(again), "pairs of elements", "-"},
-    {"redo", each_exposed, 1, BRC_FIELD_INT, NULL, AT(redo), "pairs of elements", "-"},
+static const brc_field_row grid_rows[] = {
+    {"key", each_exposed, 1, BRC_FIELD_INT, NULL, AT(key), "grid of contact", "-", BRC_NOT_KEPT},
+    {"key_out", each_exposed, 1, BRC_FIELD_INT, NULL, AT(key) + sizeof(brc_buffer *), "grid of contact", "-", BRC_NOT_KEPT},
+    {"row", each_exposed, 1, BRC_FIELD_INT, NULL, AT(row), "grid of contact", "-", BRC_NOT_KEPT},
+    {"row_out", each_exposed, 1, BRC_FIELD_INT, NULL, AT(row) + sizeof(brc_buffer *), "grid of contact", "-", BRC_NOT_KEPT},
+    {"count", each_count, 1, BRC_FIELD_INT, NULL, AT(count), "grid of contact", "-", BRC_NOT_KEPT},
+    {"digits", each_digit_end, 1, BRC_FIELD_INT, NULL, AT(digits), "grid of contact", "-", BRC_NOT_KEPT},
+    {"owned", each_exposed, 1, BRC_FIELD_INT, NULL, AT(owned), "pairs of elements", "-", BRC_NOT_KEPT},
+    {"pair_start", each_exposed_end, 1, BRC_FIELD_INT, NULL, AT(pair_start), "pairs of elements", "-", BRC_NOT_KEPT},
+    {"again", each_exposed, 1, BRC_FIELD_INT, NULL, AT(again), "pairs of elements", "-", BRC_NOT_KEPT},
+    {"redo", each_exposed, 1, BRC_FIELD_INT, NULL, AT(redo), "pairs of elements", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_contact_grid_fields, "grid of contact", BRC_LIFE_SEARCH, contact, grid_rows);
-static const brc_field bucket_rows[] = {
-    {"first", each_bucket, 1, BRC_FIELD_INT, NULL, AT(first), "grid of contact", "-"},
-    {"last", each_bucket, 1, BRC_FIELD_INT, NULL, AT(last), "grid of contact", "-"},
+static const brc_field_row bucket_rows[] = {
+    {"first", each_bucket, 1, BRC_FIELD_INT, NULL, AT(first), "grid of contact", "-", BRC_NOT_KEPT},
+    {"last", each_bucket, 1, BRC_FIELD_INT, NULL, AT(last), "grid of contact", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_contact_bucket_fields, "cells of the grid of contact", BRC_LIFE_SEARCH, contact, bucket_rows);
 
 #define OF_LIST(member) BRC_FIELD_AT(brc_contact_list, member)
-static const brc_field slot_rows[] = {{"slot_of", brc_each_row_end, 1, BRC_FIELD_INT, NULL, OF_LIST(slot_of), "exposed elements", "-"}};
-static const brc_field listed_rows[] = {
-    {"list", each_exposed, 1, BRC_FIELD_INT, NULL, OF_LIST(list), "exposed elements", "-"},
-    {"busy", each_exposed, 1, BRC_FIELD_INT, NULL, OF_LIST(busy), "exposed elements", "-"},
-    {"start", each_exposed_end, 1, BRC_FIELD_INT, NULL, OF_LIST(start), "pairs of elements", "-"},
-    {"used", each_exposed, 1, BRC_FIELD_INT, NULL, OF_LIST(used), "pairs of elements", "-"},
+static const brc_field_row slot_rows[] = {{"slot_of", brc_each_row_end, 1, BRC_FIELD_INT, NULL, OF_LIST(slot_of), "exposed elements", "-", BRC_NOT_KEPT}};
+static const brc_field_row listed_rows[] = {
+    {"list", each_exposed, 1, BRC_FIELD_INT, NULL, OF_LIST(list), "exposed elements", "-", BRC_NOT_KEPT},
+    {"busy", each_exposed, 1, BRC_FIELD_INT, NULL, OF_LIST(busy), "exposed elements", "-", BRC_NOT_KEPT},
+    {"start", each_exposed_end, 1, BRC_FIELD_INT, NULL, OF_LIST(start), "pairs of elements", "-", BRC_NOT_KEPT},
+    {"used", each_exposed, 1, BRC_FIELD_INT, NULL, OF_LIST(used), "pairs of elements", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_contact_slot_fields, "places in the list", BRC_LIFE_RUN, contact, slot_rows);
 BRC_FIELD_TABLE(brc_contact_old_slot_fields, "places in the list before", BRC_LIFE_RUN, contact, slot_rows);
@@ -126,31 +126,31 @@ BRC_FIELD_TABLE(brc_contact_old_listed_fields, "list of exposed elements before"
 
 static int64_t each_result(const brc_wants *w) { return w->n_listed * (BRC_CONTACT_RESULT + 2 * (brc_wants_dlsm(w) ? 9 : 3)); }
 
-static const brc_field entry_rows[] = {
-    {"entry", brc_each_listed, 1, BRC_FIELD_INT, NULL, OF_LIST(entry), "pairs of elements", "-"},
-    {"pair", brc_each_listed, 1, BRC_FIELD_INT, NULL, OF_LIST(pair), "pairs of elements", "-"},
+static const brc_field_row entry_rows[] = {
+    {"entry", brc_each_listed, 1, BRC_FIELD_INT, NULL, OF_LIST(entry), "pairs of elements", "-", BRC_NOT_KEPT},
+    {"pair", brc_each_listed, 1, BRC_FIELD_INT, NULL, OF_LIST(pair), "pairs of elements", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_contact_entry_fields, "entries of contact", BRC_LIFE_GROWS, contact, entry_rows);
-static const brc_field pair_rows[] = {
-    {"ends", brc_each_listed, 2, BRC_FIELD_INT, NULL, OF_LIST(ends), "pairs", "-"},
-    {"history", brc_each_listed, BRC_CONTACT_HISTORY, BRC_FIELD_STATE, NULL, OF_LIST(history), "history of pairs", "-"},
+static const brc_field_row pair_rows[] = {
+    {"ends", brc_each_listed, 2, BRC_FIELD_INT, NULL, OF_LIST(ends), "pairs", "-", BRC_NOT_KEPT},
+    {"history", brc_each_listed, BRC_CONTACT_HISTORY, BRC_FIELD_STATE, NULL, OF_LIST(history), "history of pairs", "-", BRC_KEPT("contact.history", BRC_KEEP_ALL)},
 };
 BRC_FIELD_TABLE(brc_contact_pair_fields, "pairs", BRC_LIFE_GROWS, contact, pair_rows);
-static const brc_field result_rows[] = {
-    {"touch", brc_each_listed, 1, BRC_FIELD_INT, NULL, AT(touch), "pairs that touch", "-"},
-    {"result", each_result, 1, BRC_FIELD_STATE, NULL, AT(result), "forces of pairs", "-"},
+static const brc_field_row result_rows[] = {
+    {"touch", brc_each_listed, 1, BRC_FIELD_INT, NULL, AT(touch), "pairs that touch", "-", BRC_NOT_KEPT},
+    {"result", each_result, 1, BRC_FIELD_STATE, NULL, AT(result), "forces of pairs", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_contact_result_fields, "forces of pairs", BRC_LIFE_GROWS, contact, result_rows);
-static const brc_field part_rows[] = {{"part", brc_each_listed, 1, BRC_FIELD_STATE, NULL, AT(part), "forces on strikers", "-"}};
+static const brc_field_row part_rows[] = {{"part", brc_each_listed, 1, BRC_FIELD_STATE, NULL, AT(part), "forces on strikers", "-", BRC_NOT_KEPT}};
 BRC_FIELD_TABLE(brc_contact_part_fields, "forces on strikers", BRC_LIFE_GROWS, contact, part_rows);
-static const brc_field packed_at_rows[] = {{"packed_at", brc_each_listed_end, 1, BRC_FIELD_INT, NULL, AT(packed_at), "pairs that touch", "-"}};
+static const brc_field_row packed_at_rows[] = {{"packed_at", brc_each_listed_end, 1, BRC_FIELD_INT, NULL, AT(packed_at), "pairs that touch", "-", BRC_NOT_KEPT}};
 BRC_FIELD_TABLE(brc_contact_packed_at_fields, "pairs that go over", BRC_LIFE_GROWS, contact, packed_at_rows);
-static const brc_field packed_rows[] = {{"packed", each_result, 1, BRC_FIELD_STATE, NULL, AT(packed), "forces of pairs that touch", "-"}};
+static const brc_field_row packed_rows[] = {{"packed", each_result, 1, BRC_FIELD_STATE, NULL, AT(packed), "forces of pairs that touch", "-", BRC_NOT_KEPT}};
 BRC_FIELD_TABLE(brc_contact_packed_fields, "forces of pairs that go over", BRC_LIFE_GROWS, contact, packed_rows);
-static const brc_field changed_rows[] = {
-    {"flag", brc_each_listed, 1, BRC_FIELD_INT, NULL, AT(flag), "changed pairs", "-"},
-    {"flag_start", brc_each_listed_end, 1, BRC_FIELD_INT, NULL, AT(flag_start), "changed pairs", "-"},
-    {"todo", brc_each_listed, 1, BRC_FIELD_INT, NULL, AT(todo), "changed pairs", "-"},
+static const brc_field_row changed_rows[] = {
+    {"flag", brc_each_listed, 1, BRC_FIELD_INT, NULL, AT(flag), "changed pairs", "-", BRC_NOT_KEPT},
+    {"flag_start", brc_each_listed_end, 1, BRC_FIELD_INT, NULL, AT(flag_start), "changed pairs", "-", BRC_NOT_KEPT},
+    {"todo", brc_each_listed, 1, BRC_FIELD_INT, NULL, AT(todo), "changed pairs", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_contact_changed_fields, "changed pairs", BRC_LIFE_GROWS, contact, changed_rows);
 

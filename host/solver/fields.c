@@ -6,6 +6,7 @@
 enum { SPARE = 8 };
 
 int64_t brc_each_row(const brc_wants *w) { return w->layout->n_rows; }
+int64_t brc_each_block(const brc_wants *w) { return w->layout->n_rows; }
 int64_t brc_each_row_end(const brc_wants *w) { return (int64_t)w->layout->n_rows + 1; }
 int64_t brc_each_entry(const brc_wants *w) { return w->layout->n_slots * w->layout->slice; }
 int64_t brc_each_slice(const brc_wants *w) { return w->layout->n_slices; }
@@ -62,7 +63,7 @@ brc_wants brc_wants_listed(const brc_wants *wants, int64_t n)
     return listed;
 }
 
-int64_t brc_field_bytes(const brc_field *field, const brc_wants *wants)
+int64_t brc_field_bytes(const brc_field_row *field, const brc_wants *wants)
 {
     if (field->wanted && !field->wanted(wants)) return 0;
     const int64_t n = field->count(wants) * field->width;
@@ -77,13 +78,15 @@ int64_t brc_fields_bytes(const brc_field_table *table, const brc_wants *wants)
     return bytes;
 }
 
-static brc_buffer **buffer_of(const brc_field *field, void *owner) { return (brc_buffer **)(void *)((char *)owner + field->at); }
+static brc_buffer **buffer_of(const brc_field_row *field, void *owner) { return (brc_buffer **)(void *)((char *)owner + field->at); }
+
+brc_buffer *brc_field_buffer(const brc_field_row *field, const void *owner) { return *(brc_buffer *const *)(const void *)((const char *)owner + field->at); }
 
 brc_status brc_fields_create(brc_device *device, const brc_field_table *table, const brc_wants *wants, void *owner)
 {
     brc_fields_free(table, owner);
     for (int k = 0; k < table->n; ++k) {
-        const brc_field *field = &table->fields[k];
+        const brc_field_row *field = &table->fields[k];
         if (field->wanted && !field->wanted(wants)) continue;
         BRC_TRY(brc_buffer_create(device, buffer_of(field, owner), brc_field_bytes(field, wants), field->what));
     }

@@ -38,7 +38,14 @@ typedef enum brc_field_life {
     BRC_LIFE_GROWS    /* made where needed, anew where too small: its length is not known before */
 } brc_field_life;
 
-typedef struct brc_field {
+/* Which of its numbers a checkpoint has: what a new simulation has right is left out. */
+typedef enum brc_field_keep {
+    BRC_KEEP_ALL,
+    BRC_KEEP_BROKEN, /* those of broken bonds */
+    BRC_KEEP_OWNERS  /* those of elements that lost bonds */
+} brc_field_keep;
+
+typedef struct brc_field_row {
     const char *name;                            /* as kernels call it */
     int64_t (*count)(const brc_wants *);         /* things that have `width` numbers each */
     int32_t width;
@@ -47,7 +54,11 @@ typedef struct brc_field {
     size_t at;                                   /* of its brc_buffer * in the owner */
     const char *what;                            /* in words: sentences about room, listings */
     const char *unit;                            /* "-": a count, an index, a factor */
-} brc_field;
+    const char *kept;                            /* its name in a checkpoint, which is file format; NULL: it is not there (brc_store_fields) */
+    brc_field_keep keep;
+} brc_field_row;
+#define BRC_NOT_KEPT NULL, BRC_KEEP_ALL
+#define BRC_KEPT(name, which) name, which
 #define BRC_FIELD_AT(owner, member) offsetof(owner, member)
 
 typedef struct brc_field_table {
@@ -55,12 +66,13 @@ typedef struct brc_field_table {
     brc_field_life life;
     bool (*wanted)(const brc_wants *); /* NULL: in every simulation */
     int n;
-    const brc_field *fields;
+    const brc_field_row *fields;
 } brc_field_table;
 #define BRC_FIELD_TABLE(name, owner_words, when, asked, rows) const brc_field_table name = {owner_words, when, asked, (int)(sizeof rows / sizeof *rows), rows}
 
 /* ---- counts ---- */
 int64_t brc_each_row(const brc_wants *wants);      /* storage row [n_rows] */
+int64_t brc_each_block(const brc_wants *wants);    /* the same, stored slice by slice: [n_slices][width][C] */
 int64_t brc_each_row_end(const brc_wants *wants);  /* and one more */
 int64_t brc_each_entry(const brc_wants *wants);    /* stored half-edge [n_slots][C] */
 int64_t brc_each_slice(const brc_wants *wants);
@@ -86,11 +98,13 @@ brc_wants brc_wants_listed(const brc_wants *wants, int64_t n);
 
 /* ---- a table ---- */
 /* Bytes of one field; 0: not wanted. */
-int64_t brc_field_bytes(const brc_field *field, const brc_wants *wants);
+int64_t brc_field_bytes(const brc_field_row *field, const brc_wants *wants);
 int64_t brc_fields_bytes(const brc_field_table *table, const brc_wants *wants);
 /* Room for every field that is wanted, zeroed; those that are there are freed first. A failure leaves what was made, for brc_fields_free. */
 brc_status brc_fields_create(brc_device *device, const brc_field_table *table, const brc_wants *wants, void *owner);
 void brc_fields_free(const brc_field_table *table, void *owner);
+/* The array of a field; NULL: not there. */
+brc_buffer *brc_field_buffer(const brc_field_row *field, const void *owner);
 
 /* ---- all tables (field_tables.c) ---- */
 /* Bytes of all fields of a life. */

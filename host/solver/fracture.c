@@ -165,28 +165,31 @@ static bool breaks_by_element(const brc_wants *w) { return breaks(w) && (brc_wan
 static bool weighted(const brc_wants *w) { return w->weighted || (w->softens && brc_wants_beams(w)); }
 
 #define AT(member) BRC_FIELD_AT(brc_breaking, member)
-static const brc_field break_rows[] = {
-    {"break_step", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_step), "steps of breaks", "-"},
-    {"break_mode", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_mode), "modes of breaks", "-"},
-    {"break_stress", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_stress), "stresses of breaks", "Pa"},
-    {"break_energy", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_energy), "energies of breaks", "J"},
-    {"lost", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost), "energy of broken bonds", "J"},
-    {"gone", brc_each_row, 1, BRC_FIELD_STATE, of_cells, AT(gone), "lost bonds", "-"},
-    {"broken", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(broken), "broken bonds", "-"},
+static const brc_field_row break_rows[] = {
+    {"break_step", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_step), "steps of breaks", "-", BRC_KEPT("fracture.step", BRC_KEEP_BROKEN)},
+    {"break_mode", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_mode), "modes of breaks", "-", BRC_KEPT("fracture.mode", BRC_KEEP_BROKEN)},
+    {"break_stress", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_stress), "stresses of breaks", "Pa", BRC_KEPT("fracture.stress", BRC_KEEP_BROKEN)},
+    {"break_energy", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_energy), "energies of breaks", "J", BRC_KEPT("fracture.energy", BRC_KEEP_BROKEN)},
+    {"lost", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost), "energy of broken bonds", "J", BRC_KEPT("fracture.lost", BRC_KEEP_ALL)},
+    {"gone", brc_each_row, 1, BRC_FIELD_STATE, of_cells, AT(gone), "lost bonds", "-", BRC_KEPT("cells.gone", BRC_KEEP_ALL)},
+    {"broken", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(broken), "broken bonds", "-", BRC_KEPT("fracture.broken", BRC_KEEP_ALL)},
 };
 BRC_FIELD_TABLE(brc_break_fields, "broken bonds", BRC_LIFE_RUN, breaks, break_rows);
-static const brc_field criterion_rows[] = {
-    {"record", brc_each_row, 8, BRC_FIELD_COEFF, NULL, AT(record), "virial records", "J, m^3"},
-    {"stress", brc_each_row, 6, BRC_FIELD_COEFF, NULL, AT(stress), "virial stresses", "Pa"},
-    {"limits", brc_each_row, 3, BRC_FIELD_COEFF, NULL, AT(limits), "limits", "Pa"},
-    {"choice", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(choice), "chosen bonds", "-"},
-    {"measure", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses at failure", "Pa"},
-    {"ease", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(ease), "bounds of stress", "-"},
-    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(weight), "bounds of stress", "m^3"},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "bounds of stress", "m^3"},
-    {"mark", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(mark), "groups that lose bonds", "-"},
-    {"factor", brc_each_entry, 1, BRC_FIELD_COEFF, weighted, AT(factor), "factors of bonds", "-"},
-    {"weakest", brc_each_row, 1, BRC_FIELD_COEFF, weighted, AT(weakest), "factors of bonds", "-"},
+static const brc_field_row criterion_rows[] = {
+    {"record", brc_each_block, 8, BRC_FIELD_COEFF, brc_wants_beams, AT(record), "virial records", "J, m^3", BRC_KEPT("fracture.record", BRC_KEEP_ALL)},
+    {"record", brc_each_block, 8, BRC_FIELD_COEFF, of_cells, AT(record), "virial records", "J, m^3", BRC_NOT_KEPT},
+    {"stress", brc_each_row, 6, BRC_FIELD_COEFF, NULL, AT(stress), "virial stresses", "Pa", BRC_NOT_KEPT},
+    {"limits", brc_each_row, 3, BRC_FIELD_COEFF, NULL, AT(limits), "limits", "Pa", BRC_NOT_KEPT},
+    {"choice", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(choice), "chosen bonds", "-", BRC_NOT_KEPT},
+    {"measure", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses at failure", "Pa", BRC_NOT_KEPT},
+    {"ease", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(ease), "bounds of stress", "-", BRC_NOT_KEPT},
+    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(weight), "bounds of stress", "m^3", BRC_KEPT("fracture.weight", BRC_KEEP_ALL)},
+    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, of_cells, AT(weight), "bounds of stress", "m^3", BRC_KEPT("cells.weight", BRC_KEEP_ALL)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(reach), "bounds of stress", "m^3", BRC_KEPT("fracture.reach", BRC_KEEP_ALL)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, of_cells, AT(reach), "bounds of stress", "m^3", BRC_NOT_KEPT},
+    {"mark", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(mark), "groups that lose bonds", "-", BRC_NOT_KEPT},
+    {"factor", brc_each_entry, 1, BRC_FIELD_COEFF, weighted, AT(factor), "factors of bonds", "-", BRC_NOT_KEPT},
+    {"weakest", brc_each_row, 1, BRC_FIELD_COEFF, weighted, AT(weakest), "factors of bonds", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_criterion_fields, "criteria of elements", BRC_LIFE_RUN, breaks_by_element, criterion_rows);
 

@@ -38,6 +38,7 @@ struct brc_breaking {
     brc_break *events; /* [n_events] as of the last call */
 };
 
+extern const brc_field_table brc_break_fields, brc_criterion_fields;
 /* Arrays, limits and kernels; refuses models and materials that cannot break. */
 brc_status brc_fracture_create(brc_simulation *s);
 void brc_fracture_free(brc_simulation *s);

@@ -211,27 +211,27 @@ static bool of_cells(const brc_wants *w) { return !brc_wants_beams(w); }
 static bool gravity(const brc_wants *w) { return w->scene->has_gravity; }
 
 #define AT(member) BRC_FIELD_AT(brc_simulation, member)
-static const brc_field rows[] = {
-    {"row_start", brc_each_slice_end, 1, BRC_FIELD_INT, NULL, AT(row_start), "slice starts", "-"},
-    {"neighbour", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(neighbour), "neighbours", "-"},
-    {"boundary", brc_each_slice, 1, BRC_FIELD_INT, NULL, AT(boundary), "boundary blocks", "-"},
-    {"mass", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses", "kg"},
-    {"weight", brc_each_row, 1, BRC_FIELD_STATE, gravity, AT(weight), "masses in gravity", "kg"},
-    {"volume", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_published, AT(volume), "volumes", "m^3"},
-    {"inertia", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_turning, AT(inertia), "moments of inertia", "kg m^2"},
-    {"inv_volume", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(inv_volume), "inverse volumes", "1/m^3"},
-    {"inv_shape", brc_each_row, 6, BRC_FIELD_COEFF, of_cells, AT(inv_shape), "least-squares matrices", "1/m^3"},
-    {"area", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_dlsm, AT(area), "area vectors", "m^2"},
-    {"offset", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_dlsm, AT(offset), "face offsets", "m"},
-    {"ratio", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(ratio), "length over area", "1/m"},
-    {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_turning, AT(offset), "branches", "m"},
-    {"area", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_published, AT(area), "face areas", "m^2"},
-    {"inv_length", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(ratio), "inverse lengths", "1/m"},
-    {"material", brc_each_row, 4, BRC_FIELD_COEFF, many_dlsm, AT(material), "materials of elements", "Pa, -"},
-    {"modulus", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(modulus), "stabilisation moduli", "Pa"},
-    {"ell_of", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(ell_of), "compaction ratios", "-"},
-    {"lame_of", brc_each_row, 3, BRC_FIELD_COEFF, many_published, AT(lame_of), "materials of elements", "Pa"},
-    {"beam_of", brc_each_row, 3, BRC_FIELD_COEFF, many_beams, AT(beam_of), "beams of elements", "N, N m^2"},
+static const brc_field_row rows[] = {
+    {"row_start", brc_each_slice_end, 1, BRC_FIELD_INT, NULL, AT(row_start), "slice starts", "-", BRC_NOT_KEPT},
+    {"neighbour", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(neighbour), "neighbours", "-", BRC_NOT_KEPT},
+    {"boundary", brc_each_slice, 1, BRC_FIELD_INT, NULL, AT(boundary), "boundary blocks", "-", BRC_NOT_KEPT},
+    {"mass", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses", "kg", BRC_NOT_KEPT},
+    {"weight", brc_each_row, 1, BRC_FIELD_STATE, gravity, AT(weight), "masses in gravity", "kg", BRC_NOT_KEPT},
+    {"volume", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_published, AT(volume), "volumes", "m^3", BRC_NOT_KEPT},
+    {"inertia", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_turning, AT(inertia), "moments of inertia", "kg m^2", BRC_NOT_KEPT},
+    {"inv_volume", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(inv_volume), "inverse volumes", "1/m^3", BRC_NOT_KEPT},
+    {"inv_shape", brc_each_block, 6, BRC_FIELD_COEFF, of_cells, AT(inv_shape), "least-squares matrices", "1/m^3", BRC_KEPT("cells.inverse_shape", BRC_KEEP_OWNERS)},
+    {"area", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_dlsm, AT(area), "area vectors", "m^2", BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
+    {"offset", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_dlsm, AT(offset), "face offsets", "m", BRC_NOT_KEPT},
+    {"ratio", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(ratio), "length over area", "1/m", BRC_KEPT("cells.ratio", BRC_KEEP_BROKEN)},
+    {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_turning, AT(offset), "branches", "m", BRC_NOT_KEPT},
+    {"area", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_published, AT(area), "face areas", "m^2", BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
+    {"inv_length", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(ratio), "inverse lengths", "1/m", BRC_KEPT("fracture.inverse_length", BRC_KEEP_BROKEN)},
+    {"material", brc_each_row, 4, BRC_FIELD_COEFF, many_dlsm, AT(material), "materials of elements", "Pa, -", BRC_NOT_KEPT},
+    {"modulus", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(modulus), "stabilisation moduli", "Pa", BRC_NOT_KEPT},
+    {"ell_of", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(ell_of), "compaction ratios", "-", BRC_NOT_KEPT},
+    {"lame_of", brc_each_row, 3, BRC_FIELD_COEFF, many_published, AT(lame_of), "materials of elements", "Pa", BRC_NOT_KEPT},
+    {"beam_of", brc_each_row, 3, BRC_FIELD_COEFF, many_beams, AT(beam_of), "beams of elements", "N, N m^2", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_geometry_fields, "geometry", BRC_LIFE_RUN, NULL, rows);
 

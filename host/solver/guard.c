@@ -28,9 +28,9 @@ struct brc_guard_state {
 static int64_t each_block(const brc_wants *w) { return (w->layout->n_rows + BLOCK - 1) / BLOCK; }
 
 #define AT(member) BRC_FIELD_AT(struct brc_guard_state, member)
-static const brc_field rows[] = {
-    {"first", each_block, 1, BRC_FIELD_INT, NULL, AT(first), "guard", "-"},
-    {"when", each_block, 1, BRC_FIELD_INT, NULL, AT(when), "guard", "-"},
+static const brc_field_row rows[] = {
+    {"first", each_block, 1, BRC_FIELD_INT, NULL, AT(first), "guard", "-", BRC_NOT_KEPT},
+    {"when", each_block, 1, BRC_FIELD_INT, NULL, AT(when), "guard", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_guard_fields, "guard", BRC_LIFE_DYNAMIC, NULL, rows);
 

@@ -11,12 +11,12 @@ static bool asks(const brc_stage *stage) { return stage->solver == BRC_SOLVER_DY
 static bool noise(const brc_wants *w) { return w->noise; }
 
 #define AT(member) BRC_FIELD_AT(struct brc_noise, member)
-static const brc_field rows[] = {
-    {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(gradient), "gradients of velocities", "1/s"},
-    {"stress", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(no_stress), "no stresses", "-"},
-    {"flux", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(flux), "fluxes of velocities", "Pa/s"},
-    {"bond_part", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_many, AT(bond_part), "bond parts of velocities", "Pa/s"},
-    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces of noise damping", "N/s"},
+static const brc_field_row rows[] = {
+    {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(gradient), "gradients of velocities", "1/s", BRC_NOT_KEPT},
+    {"stress", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(no_stress), "no stresses", "-", BRC_NOT_KEPT},
+    {"flux", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(flux), "fluxes of velocities", "Pa/s", BRC_NOT_KEPT},
+    {"bond_part", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_many, AT(bond_part), "bond parts of velocities", "Pa/s", BRC_NOT_KEPT},
+    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces of noise damping", "N/s", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_noise_fields, "noise damping", BRC_LIFE_RUN, noise, rows);
 

@@ -9,20 +9,20 @@ static bool softening_cells(const brc_wants *w) { return of_cells(w) && w->softe
 static int64_t each_count(const brc_wants *w) { return BRC_RING_KINDS * (int64_t)((w->layout->n_rows + BLOCK - 1) / BLOCK + 1); }
 
 #define AT(member) BRC_FIELD_AT(brc_rings, member)
-static const brc_field rows[] = {
-    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "rings around broken bonds", "-"},
-    {"level", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(level), "rings around broken bonds", "-"},
-    {"count", each_count, 1, BRC_FIELD_INT, NULL, AT(count), "rings around broken bonds", "-"},
-    {"fresh", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces around broken bonds", "N"},
-    {"fresh_torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "torques around broken bonds", "N m"},
+static const brc_field_row rows[] = {
+    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "rings around broken bonds", "-", BRC_NOT_KEPT},
+    {"level", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(level), "rings around broken bonds", "-", BRC_NOT_KEPT},
+    {"count", each_count, 1, BRC_FIELD_INT, NULL, AT(count), "rings around broken bonds", "-", BRC_NOT_KEPT},
+    {"fresh", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces around broken bonds", "N", BRC_NOT_KEPT},
+    {"fresh_torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "torques around broken bonds", "N m", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_ring_fields, "rings", BRC_LIFE_RUN, of_cells, rows);
 #define LIST(k) BRC_FIELD_AT(brc_ring_list, upto) + (k) * sizeof(brc_buffer *)
-static const brc_field list_rows[BRC_RING_KINDS] = {
-    {"upto_0", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(0), "rings of elements", "-"},
-    {"upto_1", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(1), "rings of elements", "-"},
-    {"upto_2", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(2), "rings of elements", "-"},
-    {"upto_3", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(3), "rings of elements", "-"},
+static const brc_field_row list_rows[BRC_RING_KINDS] = {
+    {"upto_0", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(0), "rings of elements", "-", BRC_NOT_KEPT},
+    {"upto_1", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(1), "rings of elements", "-", BRC_NOT_KEPT},
+    {"upto_2", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(2), "rings of elements", "-", BRC_NOT_KEPT},
+    {"upto_3", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(3), "rings of elements", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_ring_list_fields, "rings around breaks", BRC_LIFE_RUN, of_cells, list_rows);
 BRC_FIELD_TABLE(brc_open_list_fields, "rings around open faces", BRC_LIFE_RUN, softening_cells, list_rows);

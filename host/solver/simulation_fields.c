@@ -13,27 +13,27 @@ static bool numerical_losses(const brc_wants *w) { return w->tchamwa || (brc_wan
 static int64_t each_partial(const brc_wants *w) { return (3 * (int64_t)w->layout->n_rows + 1023) / 1024 + 1; }
 
 #define AT(member) BRC_FIELD_AT(brc_simulation, member)
-static const brc_field rows[] = {
-    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements", "m"},
-    {"velocity", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(velocity), "velocities", "m/s"},
-    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces", "N"},
-    {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(gradient), "displacement gradients", "-"},
-    {"strain", brc_each_row, 6, BRC_FIELD_COEFF, brc_wants_published, AT(gradient), "strains", "-"},
-    {"stress", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(stress), "stresses", "Pa"},
-    {"flux", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(flux), "fluxes", "Pa"},
-    {"bond_part", brc_each_row, 9, BRC_FIELD_COEFF, bond_parts, AT(bond_part), "bond parts", "Pa"},
-    {"held_gradient", brc_each_boundary, 9, BRC_FIELD_COEFF, held_gradients, AT(held_gradient), "held gradients", "m^3"},
-    {"held_moment", brc_each_boundary, 9, BRC_FIELD_COEFF, held_moments, AT(held_moment), "held moments", "N m"},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "orientations", "-"},
-    {"spin", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(spin), "spins", "rad/s"},
-    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "torques", "N m"},
-    {"moved", brc_each_row, 3, BRC_FIELD_STATE, tchamwa, AT(moved), "moves of a step", "m"},
-    {"lost_numerical", brc_each_row, 1, BRC_FIELD_STATE, numerical_losses, AT(lost_numerical), "numerical dissipation", "J"},
-    {"lost_damping", brc_each_row, 1, BRC_FIELD_STATE, damping, AT(lost_damping), "damping dissipation", "J"},
-    {"elastic", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(elastic_energy), "elastic energies", "J"},
-    {"stabilisation", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_dlsm, AT(stabilisation_energy), "stabilisation energies", "J"},
-    {"kinetic", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(kinetic), "kinetic energies", "J"},
-    {"partial", each_partial, 1, BRC_FIELD_STATE, NULL, AT(partial), "block sums", "-"},
+static const brc_field_row rows[] = {
+    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements", "m", BRC_KEPT("displacement", BRC_KEEP_ALL)},
+    {"velocity", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(velocity), "velocities", "m/s", BRC_KEPT("velocity", BRC_KEEP_ALL)},
+    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces", "N", BRC_KEPT("force", BRC_KEEP_ALL)},
+    {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(gradient), "displacement gradients", "-", BRC_NOT_KEPT},
+    {"strain", brc_each_row, 6, BRC_FIELD_COEFF, brc_wants_published, AT(gradient), "strains", "-", BRC_KEPT("strain", BRC_KEEP_ALL)},
+    {"stress", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(stress), "stresses", "Pa", BRC_NOT_KEPT},
+    {"flux", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(flux), "fluxes", "Pa", BRC_NOT_KEPT},
+    {"bond_part", brc_each_row, 9, BRC_FIELD_COEFF, bond_parts, AT(bond_part), "bond parts", "Pa", BRC_NOT_KEPT},
+    {"held_gradient", brc_each_boundary, 9, BRC_FIELD_COEFF, held_gradients, AT(held_gradient), "held gradients", "m^3", BRC_NOT_KEPT},
+    {"held_moment", brc_each_boundary, 9, BRC_FIELD_COEFF, held_moments, AT(held_moment), "held moments", "N m", BRC_NOT_KEPT},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "orientations", "-", BRC_KEPT("orientation", BRC_KEEP_ALL)},
+    {"spin", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(spin), "spins", "rad/s", BRC_KEPT("spin", BRC_KEEP_ALL)},
+    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "torques", "N m", BRC_KEPT("torque", BRC_KEEP_ALL)},
+    {"moved", brc_each_row, 3, BRC_FIELD_STATE, tchamwa, AT(moved), "moves of a step", "m", BRC_NOT_KEPT},
+    {"lost_numerical", brc_each_row, 1, BRC_FIELD_STATE, numerical_losses, AT(lost_numerical), "numerical dissipation", "J", BRC_KEPT("lost_numerical", BRC_KEEP_ALL)},
+    {"lost_damping", brc_each_row, 1, BRC_FIELD_STATE, damping, AT(lost_damping), "damping dissipation", "J", BRC_KEPT("lost_damping", BRC_KEEP_ALL)},
+    {"elastic", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(elastic_energy), "elastic energies", "J", BRC_NOT_KEPT},
+    {"stabilisation", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_dlsm, AT(stabilisation_energy), "stabilisation energies", "J", BRC_NOT_KEPT},
+    {"kinetic", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(kinetic), "kinetic energies", "J", BRC_NOT_KEPT},
+    {"partial", each_partial, 1, BRC_FIELD_STATE, NULL, AT(partial), "block sums", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_state_fields, "state", BRC_LIFE_RUN, NULL, rows);
 

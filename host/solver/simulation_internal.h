@@ -213,10 +213,12 @@ brc_status brc_vector_dot(brc_simulation *s, brc_buffer *x, brc_buffer *y, int64
 brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, const brc_domain *domain, int32_t slice, brc_layout **out);
 
 /* ---- simulation_fields.c: state and work arrays ---- */
+extern const brc_field_table brc_state_fields;
 brc_status brc_simulation_fields_create(brc_simulation *s);
 void brc_simulation_fields_free(brc_simulation *s);
 
 /* ---- geometry.c ---- */
+extern const brc_field_table brc_geometry_fields; /* of it what breaks change is kept */
 brc_status brc_geometry_create(brc_simulation *s);
 void brc_geometry_free(brc_simulation *s);
 /* Symmetric 3 x 3 preconditioner blocks [n_rows][6]: inverse of sum (S/L) [mu I + (lambda + mu) n n^T]. */

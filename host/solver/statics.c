@@ -125,19 +125,19 @@ static bool statics(const brc_wants *w)
 
 #define AT(member) BRC_FIELD_AT(brc_solve_vectors, member)
 #define UNKNOWNS(name, member) \
-    {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver", "-"}, {name "_turn", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(member.turn), "static solver", "-"}
-static const brc_field rows[] = {
+    {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver", "-", BRC_NOT_KEPT}, {name "_turn", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(member.turn), "static solver", "-", BRC_NOT_KEPT}
+static const brc_field_row rows[] = {
     UNKNOWNS("x", x),
     UNKNOWNS("r", r),
     UNKNOWNS("z", z),
     UNKNOWNS("p", p),
     UNKNOWNS("kp", kp),
-    {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver", "m"},
-    {"zero", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_published, AT(zero), "static solver", "-"},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver", "-"},
-    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(theta), "static solver", "rad"},
-    {"block", brc_each_row, 6, BRC_FIELD_STATE, of_cells, AT(preconditioner.blocks), "preconditioner", "-"},
-    {"block", brc_each_row, 21, BRC_FIELD_STATE, brc_wants_beams, AT(preconditioner.blocks), "preconditioner", "-"},
+    {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver", "m", BRC_KEPT("static.before", BRC_KEEP_ALL)},
+    {"zero", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_published, AT(zero), "static solver", "-", BRC_NOT_KEPT},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver", "-", BRC_NOT_KEPT},
+    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(theta), "static solver", "rad", BRC_NOT_KEPT},
+    {"block", brc_each_row, 6, BRC_FIELD_STATE, of_cells, AT(preconditioner.blocks), "preconditioner", "-", BRC_NOT_KEPT},
+    {"block", brc_each_row, 21, BRC_FIELD_STATE, brc_wants_beams, AT(preconditioner.blocks), "preconditioner", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_solve_fields, "static solver", BRC_LIFE_SOLVE, statics, rows);
 
@@ -375,8 +375,7 @@ static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_stat
 /* What a resumed stage needs beside the state: the displacements before the last increment, for the guess of the next. */
 brc_status brc_statics_store_run(brc_simulation *s, brc_static_run *run, brc_state_store *store)
 {
-    const brc_state_entry before = {"static.before", run->vectors.before, BRC_ROWS, BRC_OF_STATE, 3, NULL};
-    BRC_TRY(brc_store_entry(s, store, &before));
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_solve_fields, .owner = &run->vectors}));
     BRC_TRY(brc_preconditioner_store(&run->vectors.preconditioner, store));
     return brc_store_double(store, "static.reference", &run->reference);
 }

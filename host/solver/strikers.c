@@ -22,21 +22,21 @@ static int32_t freedom_of(const brc_striker *striker)
 static bool strikers(const brc_wants *w) { return w->scene->n_strikers > 0; }
 
 #define AT(member) BRC_FIELD_AT(brc_strikers, member)
-static const brc_field rows[] = {
-    {"striker_pose", brc_each_striker, 12, BRC_FIELD_STATE, NULL, AT(pose), "poses of strikers", "m, -"},
-    {"motion", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(motion), "velocities of strikers", "m/s, rad/s"},
-    {"load", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(load), "forces on strikers", "N, N m"},
-    {"displacement", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements of strikers", "m"},
-    {"orientation", brc_each_striker, 4, BRC_FIELD_STATE, NULL, AT(orientation), "orientations of strikers", "-"},
-    {"momentum", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(momentum), "angular momenta of strikers", "kg m^2/s"},
-    {"freedom", brc_each_striker, 1, BRC_FIELD_INT, NULL, AT(freedom), "freedoms of strikers", "-"},
-    {"mass", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses of strikers", "kg"},
-    {"inertia", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(inertia), "inertia of strikers", "kg m^2"},
-    {"centre", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(centre), "centres of strikers", "m"},
-    {"moved", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(moved), "moves of strikers", "m, rad"},
-    {"last", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(last), "last forces on strikers", "N, N m"},
-    {"work", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(work), "work of strikers", "J"},
-    {"lost", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(lost), "numerical dissipation of strikers", "J"},
+static const brc_field_row rows[] = {
+    {"striker_pose", brc_each_striker, 12, BRC_FIELD_STATE, NULL, AT(pose), "poses of strikers", "m, -", BRC_KEPT("strikers.pose", BRC_KEEP_ALL)},
+    {"motion", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(motion), "velocities of strikers", "m/s, rad/s", BRC_KEPT("strikers.motion", BRC_KEEP_ALL)},
+    {"load", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(load), "forces on strikers", "N, N m", BRC_KEPT("strikers.load", BRC_KEEP_ALL)},
+    {"displacement", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements of strikers", "m", BRC_KEPT("strikers.displacement", BRC_KEEP_ALL)},
+    {"orientation", brc_each_striker, 4, BRC_FIELD_STATE, NULL, AT(orientation), "orientations of strikers", "-", BRC_KEPT("strikers.orientation", BRC_KEEP_ALL)},
+    {"momentum", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(momentum), "angular momenta of strikers", "kg m^2/s", BRC_KEPT("strikers.momentum", BRC_KEEP_ALL)},
+    {"freedom", brc_each_striker, 1, BRC_FIELD_INT, NULL, AT(freedom), "freedoms of strikers", "-", BRC_NOT_KEPT},
+    {"mass", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses of strikers", "kg", BRC_NOT_KEPT},
+    {"inertia", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(inertia), "inertia of strikers", "kg m^2", BRC_NOT_KEPT},
+    {"centre", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(centre), "centres of strikers", "m", BRC_NOT_KEPT},
+    {"moved", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(moved), "moves of strikers", "m, rad", BRC_KEPT("strikers.moved", BRC_KEEP_ALL)},
+    {"last", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(last), "last forces on strikers", "N, N m", BRC_KEPT("strikers.last", BRC_KEEP_ALL)},
+    {"work", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(work), "work of strikers", "J", BRC_KEPT("strikers.work", BRC_KEEP_ALL)},
+    {"lost", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(lost), "numerical dissipation of strikers", "J", BRC_KEPT("strikers.lost", BRC_KEEP_ALL)},
 };
 BRC_FIELD_TABLE(brc_striker_fields, "strikers", BRC_LIFE_RUN, strikers, rows);
 
@@ -189,15 +189,7 @@ brc_status brc_strikers_book(brc_simulation *s, brc_booking book)
 brc_status brc_strikers_store_state(brc_simulation *s, brc_state_store *store)
 {
     const brc_strikers *t = s->strikers;
-    const struct {
-        const char *name;
-        brc_buffer *buffer;
-        int32_t width;
-    } lists[] = {{"strikers.pose", t->pose, 12},   {"strikers.motion", t->motion, 6}, {"strikers.load", t->load, 6}, {"strikers.displacement", t->displacement, 3},
-                 {"strikers.orientation", t->orientation, 4}, {"strikers.momentum", t->momentum, 3}, {"strikers.moved", t->moved, 6}, {"strikers.last", t->last, 6},
-                 {"strikers.work", t->work, 1},    {"strikers.lost", t->lost, 1}};
-    for (size_t k = 0; k < sizeof lists / sizeof *lists; ++k)
-        BRC_TRY(brc_store_list(s, store, lists[k].name, lists[k].buffer, BRC_OF_STATE, t->n, lists[k].width, NULL));
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_striker_fields, .owner = t, .n = t->n}));
     return store->numbers(store, "strikers.placed", BRC_STORED_DOUBLE, t->n, 1, t->placed);
 }
 

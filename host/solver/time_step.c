@@ -47,12 +47,12 @@ static bool dynamics(const brc_wants *w)
 }
 
 #define AT(member) BRC_FIELD_AT(work_vectors, member)
-static const brc_field rows[] = {
-    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(x), "power iteration", "-"},
-    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(y), "power iteration", "-"},
-    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(theta), "power iteration", "-"},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "power iteration", "-"},
-    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "power iteration", "-"},
+static const brc_field_row rows[] = {
+    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(x), "power iteration", "-", BRC_NOT_KEPT},
+    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(y), "power iteration", "-", BRC_NOT_KEPT},
+    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(theta), "power iteration", "-", BRC_NOT_KEPT},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "power iteration", "-", BRC_NOT_KEPT},
+    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "power iteration", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_power_fields, "search for the time step", BRC_LIFE_SOLVE, dynamics, rows);
 

@@ -105,10 +105,10 @@ static void tables_are_sound(void **state)
     const brc_field_table *const *tables = brc_field_tables(&n);
     for (int t = 0; t < n; ++t)
         for (int i = 0; i < tables[t]->n; ++i) {
-            const brc_field *a = &tables[t]->fields[i];
+            const brc_field_row *a = &tables[t]->fields[i];
             assert_true(a->name[0] && a->what[0] && a->width > 0);
             for (int j = 0; j < i; ++j) {
-                const brc_field *b = &tables[t]->fields[j];
+                const brc_field_row *b = &tables[t]->fields[j];
                 if (a->at != b->at && strcmp(a->name, b->name) != 0) continue;
                 if (!a->wanted || !b->wanted || a->wanted == b->wanted) fail_msg("%s: '%s' and '%s' are in one place", tables[t]->owner, a->name, b->name);
             }
