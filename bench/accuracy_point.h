@@ -58,7 +58,7 @@ const brc_accuracy_point *brc_accuracy_points_find(const brc_accuracy_points *po
 brc_status brc_accuracy_points_write(const brc_accuracy_points *points, const char *path);
 /* Append the points of a file; columns may be in any order, unknown ones are passed over, missing ones stay empty. BRC_BAD_INPUT with file and line. */
 brc_status brc_accuracy_points_read(brc_accuracy_points *points, const char *path);
-/* A row of figures for every point (keys of design.md's rows: case, quantity, model, unit, reference, ours, error, seconds, ..., and the columns). */
+/* A row of figures for every point (keys: case, quantity, model, unit, reference, ours, error, seconds, ..., and the columns). */
 void brc_accuracy_points_rows(const brc_accuracy_points *points, brc_rows *rows);
 
 #endif

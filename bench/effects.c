@@ -108,7 +108,7 @@ static brc_status make_variant(brc_context *context, const brc_effects_request *
     brc_material *m = &v->cube.material;
     if (e->fracture) {
         v->cube.scene.has_fracture = true;
-        v->cube.scene.fracture.level = 1;
+        v->cube.scene.fracture = (brc_fracture){.level = 1, .closure = true, .side_friction = -1}; /* as scenes have it */
         m->tension = rate > 0 ? strength : 1e6 * strength;
         if (rate > 0) m->scatter = (brc_scatter){.kind = e->cracks ? BRC_SCATTER_FILE : BRC_SCATTER_WEIBULL, .modulus = 1};
         if (e->cracks) {

@@ -1,4 +1,4 @@
-/* Rows of figures: what `breccia reproduce` and `breccia bench` write as rows.json and rows.csv (keys: design.md). */
+/* Rows of figures: what `breccia reproduce` and `breccia bench` write as rows.json and rows.csv. */
 #ifndef BRC_BENCH_ROWS_H
 #define BRC_BENCH_ROWS_H
 

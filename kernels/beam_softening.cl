@@ -1,15 +1,14 @@
 /* Beams that open against cohesion (cbm; docs/notebook/fracture.md "Fracture energy of beams", kernels/softening.h). A beam that its element would lose
- * (fracture.cl) keeps (1 - D) of its energy instead, and so of its force and moments: D of them are taken back here after the elastic passes, which run
- * over whole beams as ever. At fixed D the force is the gradient of the energy, and both ends feel the same.
+ * (fracture.cl) keeps (1 - D) of its energy instead, but for what a crack leaves to it (beam_carried.h), which it keeps whole; and so of its force and moments: what D takes is
+ * taken back here after the elastic passes, which run over whole beams as ever. At fixed D the force is the gradient of the energy, and both ends feel the same.
  *
- * D follows from the one law of all softening bonds: the energy Y of the whole beam is that of a spring of stiffness k = E S / l0, stretched by
+ * D follows from the one law of all softening bonds: the energy Y of the whole beam, less what a crack leaves to it, is that of a spring of stiffness k = E S / l0, stretched by
  * sqrt(2 Y / k); in series with it the beam opens, and the cohesion balances the spring (soft_opening). D is the secant to where it stood at its widest.
- * A push along the axis is no part of Y: a beam that is shut bears it whole.
  *
  * crack [n_slots][BEAM_WIDTH][C], of an entry: DAMAGE D [-]; START, ENERGY: soft_face (ENERGY: G_c area, of a crack across the beam) [N] [J];
  * EXPONENTIAL: 1, else linear; WIDEST: largest opening [m]; HELD: Y as of the last step [J]; SPENT: energy that the opening took so far, BOOKED: by the
  * last step [J]; ONSET: stress of the element that failed [Pa], MODE of it; TILT: |cos| of the beam and its opening, not less than the steepest [-]; CAPACITY: strength
- * times area [N]; PER_AREA: one over the area [1/m^2].
+ * times area [N]; PER_AREA: one over the area [1/m^2]; SIDE (3 components), ALONG, COSINE, SINE, KEEPS: beam_lean; LATERAL: nu / E [1/Pa].
  * Entries: open: 0 whole, 1 opens, 2 its cohesion ended in this step, 3 broken; lead: 1 on the side with the lower id, which computes for both; twin: the
  * other entry. active [n / W], touched [n]: 1 from the first opening of the group and of the element on. */
 
@@ -26,7 +25,13 @@
 #define BEAM_TILT 10
 #define BEAM_CAPACITY 11
 #define BEAM_PER_AREA 12
-#define BEAM_WIDTH 13
+#define BEAM_SIDE 13
+#define BEAM_ALONG 16
+#define BEAM_COSINE 17
+#define BEAM_SINE 18
+#define BEAM_KEEPS 19
+#define BEAM_LATERAL 20
+#define BEAM_WIDTH 21
 #define BEAM_WHOLE 0
 #define BEAM_OPENS 1
 #define BEAM_ENDED 2
@@ -35,25 +40,32 @@
 
 #define BEAM_NUMBER(entry, what) crack[(((entry) / C) * BEAM_WIDTH + BEAM_##what) * C + (entry) % C]
 
-/* What D takes a share of: all of a beam but a push along its axis. */
+LAW beam_lean beam_lean_at(GLOBAL const coeff *restrict crack, int slot, int lane0)
+{
+    return (beam_lean){{lane_block(crack, slot, BEAM_WIDTH, BEAM_SIDE, lane0), lane_block(crack, slot, BEAM_WIDTH, BEAM_SIDE + 1, lane0),
+                        lane_block(crack, slot, BEAM_WIDTH, BEAM_SIDE + 2, lane0)},
+                       lane_block(crack, slot, BEAM_WIDTH, BEAM_ALONG, lane0), lane_block(crack, slot, BEAM_WIDTH, BEAM_COSINE, lane0),
+                       lane_block(crack, slot, BEAM_WIDTH, BEAM_SINE, lane0), lane_block(crack, slot, BEAM_WIDTH, BEAM_KEEPS, lane0)};
+}
+
+/* What D takes a share of: all of a beam but what a crack leaves to it. */
 typedef struct {
     cbm_end end;
     lane energy; /* Y [J] */
 } beam_part;
-LAW beam_part beam_part_of(cbm_bond bond)
+LAW beam_part beam_part_of(cbm_bond bond, lane_vec3 axis0, cbm_own own, lane_quat q_j, beam_lean lean)
 {
     const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
-    const lane shut = lane_min(bond.shape.elongation, LANE_ZERO), push = bond.stiffness.axial * bond.inv_length0 * shut;
-    return (beam_part){{lane_vec3_sub(end.force, lane_vec3_scale(push, bond.shape.axis)), end.torque},
-                       cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness) - REAL(0.5) * push * shut};
+    const beam_carry left = beam_carried(bond.shape, bond.inv_length0, bond.stiffness, bond.branch, axis0, own.orientation, q_j, lean);
+    return (beam_part){{lane_vec3_sub(end.force, left.end.force), lane_vec3_sub(end.torque, left.end.torque)},
+                       cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness) - left.energy};
 }
 
-/* |cos| between the axis and the opening l n - l0 (X1 + X2) / 2, which no rotation of the body changes. */
+/* |cos| between the axis and the opening. */
 LAW lane beam_cosine(cbm_bond bond)
 {
     const lane length0 = REAL(1) / bond.shape.inv_length - bond.shape.elongation;
-    const lane_vec3 opening = lane_vec3_add(lane_vec3_scale(bond.shape.elongation, bond.shape.axis),
-                                            lane_vec3_scale(REAL(0.5) * length0, lane_vec3_add(bond.shape.bent1, bond.shape.bent2)));
+    const lane_vec3 opening = beam_opening(bond.shape);
     const lane along = lane_vec3_dot(opening, bond.shape.axis);
     return LANE_SQRT(along * along / (lane_vec3_dot(opening, opening) + REAL(1e-30) * length0 * length0));
 }
@@ -86,7 +98,8 @@ LAW beam_loss beam_group_loss(int group, GLOBAL const int *restrict row_start, G
         if (!beam_any(open, (brc_size)slot * C + (brc_size)lane0, BEAM_OPENS, BEAM_ENDED)) continue;
         const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation, axial, bend, twist,
                                           beam_of, 1);
-        const beam_part part = beam_part_of(bond);
+        const lane_quat q_j = lane_gather4(orientation, int_block(neighbour, slot, lane0));
+        const beam_part part = beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, beam_lean_at(crack, slot, lane0));
         const lane damage = lane_block(crack, slot, BEAM_WIDTH, BEAM_DAMAGE, lane0);
         const lane_vec3 f = lane_vec3_scale(damage, part.end.force);
         sum.force = lane_vec3_add(sum.force, f);
@@ -168,9 +181,10 @@ KERNEL void beam_soft_virial(int n_groups, GLOBAL const int *restrict row_start,
     }
 }
 
-/* One beam after the motion of a step: y: Y [J], k [N/m], cosine of its opening. The work of the opening is the mean of Y times what D grew by, as velocity
- * Verlet's own work is the mean of the forces at both ends of the step. */
-ROUTINE void beam_follow(GLOBAL coeff *restrict crack, GLOBAL int *restrict open, brc_size entry, brc_size other, coeff y, coeff k, coeff cosine, coeff steepest)
+/* One beam after the motion of a step: y: Y [J], k [N/m], cosine of its opening; keeps, faded: beam_fades, and what that costs the push along the crack [J]. The work of the
+ * opening is the mean of Y times what D grew by, as velocity Verlet's own work is the mean of the forces at both ends of the step. */
+ROUTINE void beam_follow(GLOBAL coeff *restrict crack, GLOBAL int *restrict open, brc_size entry, brc_size other, coeff y, coeff k, coeff cosine, coeff steepest, coeff keeps,
+                         coeff faded)
 {
     const soft_face face = {BEAM_NUMBER(entry, START), BEAM_NUMBER(entry, ENERGY) * BEAM_NUMBER(entry, TILT), BEAM_NUMBER(entry, EXPONENTIAL) > 0};
     const coeff wide = BEAM_NUMBER(entry, WIDEST), before = BEAM_NUMBER(entry, DAMAGE), y_now = y > 0 ? y : 0;
@@ -183,7 +197,8 @@ ROUTINE void beam_follow(GLOBAL coeff *restrict crack, GLOBAL int *restrict open
         BEAM_NUMBER(entry, WIDEST) = w, BEAM_NUMBER(other, WIDEST) = w;
         BEAM_NUMBER(entry, TILT) = cosine > steepest ? cosine : steepest, BEAM_NUMBER(other, TILT) = BEAM_NUMBER(entry, TILT);
     }
-    const coeff booked = REAL(0.5) * (damage - before) * (y_now + BEAM_NUMBER(entry, HELD));
+    const coeff booked = REAL(0.5) * (damage - before) * (y_now + BEAM_NUMBER(entry, HELD)) + before * faded;
+    BEAM_NUMBER(entry, KEEPS) = keeps, BEAM_NUMBER(other, KEEPS) = keeps;
     BEAM_NUMBER(entry, DAMAGE) = damage, BEAM_NUMBER(other, DAMAGE) = damage;
     BEAM_NUMBER(entry, HELD) = y_now, BEAM_NUMBER(other, HELD) = y_now;
     BEAM_NUMBER(entry, BOOKED) = booked, BEAM_NUMBER(other, BOOKED) = booked;
@@ -191,7 +206,7 @@ ROUTINE void beam_follow(GLOBAL coeff *restrict crack, GLOBAL int *restrict open
 }
 
 /* Between the motion of a step and its forces. */
-KERNEL void beam_soft_move(int n_groups, coeff steepest, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                            GLOBAL const int *restrict twin, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict branch,
                            GLOBAL const coeff *restrict inv_length, GLOBAL const state *restrict displacement,
                            GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
@@ -209,11 +224,16 @@ KERNEL void beam_soft_move(int n_groups, coeff steepest, GLOBAL const int *restr
                 if (!any) continue;
                 const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation, axial, bend,
                                                   twist, beam_of, 1);
-                const beam_part part = beam_part_of(bond);
-                const lane y = part.energy, k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond);
+                const lane_quat q_j = lane_gather4(orientation, int_block(neighbour, slot, lane0));
+                beam_lean lean = beam_lean_at(crack, slot, lane0);
+                const beam_part before = beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, lean);
+                lean.keeps = beam_fades(lean.keeps, lean.along, beam_opening(bond.shape), bond.inv_length0, clear);
+                const beam_part part = beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, lean);
+                const lane y = part.energy, faded = part.energy - before.energy, k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond), keeps = lean.keeps;
 #define FOLLOW(l)                                                                                                                  \
     if (lead[entry + 0x##l] && open[entry + 0x##l] == BEAM_OPENS)                                                                  \
-        beam_follow(crack, open, entry + 0x##l, (brc_size)twin[entry + 0x##l], LANE_ITEM(y, l), LANE_ITEM(k, l), LANE_ITEM(cosine, l), steepest);
+        beam_follow(crack, open, entry + 0x##l, (brc_size)twin[entry + 0x##l], LANE_ITEM(y, l), LANE_ITEM(k, l), LANE_ITEM(cosine, l), steepest, LANE_ITEM(keeps, l), \
+                    LANE_ITEM(faded, l));
                 LANE_EACH(FOLLOW)
 #undef FOLLOW
             }
@@ -221,18 +241,65 @@ KERNEL void beam_soft_move(int n_groups, coeff steepest, GLOBAL const int *restr
     }
 }
 
-/* A beam opens at its capacity, or at what it carries where that is more. One that its element chose (mode; 0: none) is left to break at once where it
- * holds as much as its opening would take, and where the element fails by compression. */
-ROUTINE int beam_opens(GLOBAL coeff *restrict crack, brc_size entry, coeff y, coeff k, coeff cosine, coeff steepest, int mode)
+/* A beam opens where its pull (beam_pull) is above its capacity, and starts to fall there, or at what it carries where that is more. One that its element chose (mode; 0: none) is left to break at
+ * once where it holds as much as its opening would take, and where the element fails by compression. */
+ROUTINE int beam_opens(GLOBAL coeff *restrict crack, brc_size entry, coeff y, coeff k, coeff pull, coeff cosine, coeff steepest, int mode)
 {
     const coeff tilt = cosine > steepest ? cosine : steepest, energy = BEAM_NUMBER(entry, ENERGY) * tilt, capacity = BEAM_NUMBER(entry, CAPACITY);
     const coeff carried = SQRT(REAL(2) * k * (y > 0 ? y : 0)), start = carried > capacity ? carried : capacity;
     if (!(energy > 0) || !(start > 0)) return 0;
-    if (mode ? mode == FAILURE_COMPRESSION || !(REAL(2) * k * energy > start * start) : !(carried > capacity && capacity > 0)) return 0;
+    if (mode ? mode == FAILURE_COMPRESSION || !(REAL(2) * k * energy > start * start) : !(pull > capacity && capacity > 0)) return 0;
     BEAM_NUMBER(entry, START) = start;
     BEAM_NUMBER(entry, TILT) = tilt;
     BEAM_NUMBER(entry, HELD) = y > 0 ? y : 0;
     return 1;
+}
+
+/* Of an axis in the present body what it was in the undeformed one: a - 2 w v x a + 2 v x (v x a). */
+LAW soft_vector beam_back(GLOBAL const state *restrict orientation, int e, failure_axis a)
+{
+    GLOBAL const state *turn = orientation + (brc_size)e * 4;
+    const coeff w = (coeff)turn[0], x = (coeff)turn[1], y = (coeff)turn[2], z = (coeff)turn[3];
+    const soft_vector once = {y * a.z - z * a.y, z * a.x - x * a.z, x * a.y - y * a.x};
+    const soft_vector twice = {y * once.z - z * once.y, z * once.x - x * once.z, x * once.y - y * once.x};
+    return soft_add(soft_add((soft_vector){a.x, a.y, a.z}, REAL(-2) * w, once), REAL(2), twice);
+}
+
+/* How a crack across the largest principal value of the mean stress of element e (of_e), j (of_j) or both lies to the beam between them, the others along it. Returns what the body stretches
+ * across the pushes along the crack, nu / E of them [-]. */
+ROUTINE coeff beam_lay(GLOBAL coeff *restrict crack, brc_size entry, int e, int j, int slot, int of_e, int of_j, int level, GLOBAL const int *restrict row_start,
+                       GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length, GLOBAL const state *restrict orientation,
+                       GLOBAL const coeff *restrict record)
+{
+    const failure_stress own = fracture_mean_of(e, level, row_start, neighbour, record), theirs = fracture_mean_of(j, level, row_start, neighbour, record);
+    const coeff part = of_e && of_j ? REAL(0.5) : REAL(1), p = of_e ? part : 0, q = of_j ? part : 0;
+    const failure_stress mean = {p * own.xx + q * theirs.xx, p * own.yy + q * theirs.yy, p * own.zz + q * theirs.zz,
+                                 p * own.yz + q * theirs.yz, p * own.xz + q * theirs.xz, p * own.xy + q * theirs.xy};
+    const failure_principal principal = failure_principal_of(mean);
+    const failure_axis first = principal.first_axis, third = principal.third_axis;
+    const coeff second_push = principal.second < 0 ? -principal.second : 0, third_push = principal.third < 0 ? -principal.third : 0;
+    const soft_vector axis = beam_back(orientation, e, first), pressed = beam_back(orientation, e, third);
+    GLOBAL const coeff *r = branch + (brc_size)slot * 3 * C + e % C;
+    const soft_vector beam = soft_scale(inv_length[entry], (soft_vector){r[0], r[C], r[2 * C]});
+    const coeff cosine = soft_dot(axis, beam), c = cosine < 0 ? -cosine : cosine;
+    soft_vector side = soft_add(soft_scale(cosine < 0 ? REAL(-1) : REAL(1), axis), -c, beam);
+    const coeff s = SQRT(soft_dot(side, side)), leans = REAL(4) * s * s;
+    side = s > REAL(1e-6) ? side : soft_add(pressed, -soft_dot(pressed, beam), beam); /* along the axis nothing of it is kept: any will do */
+    side = soft_scale(REAL(1) / SQRT(soft_dot(side, side)), side);
+    const soft_vector other = {beam.y * side.z - beam.z * side.y, beam.z * side.x - beam.x * side.z, beam.x * side.y - beam.y * side.x};
+    const soft_vector along = soft_add(soft_scale(s, beam), -c, side);
+    coeff x = soft_dot(pressed, along), y = soft_dot(pressed, other);
+    const coeff size = SQRT(x * x + y * y), per = (x < 0 ? REAL(-1) : REAL(1)) / (size > REAL(1e-6) ? size : REAL(1));
+    x = size > REAL(1e-6) ? per * x : REAL(1), y = size > REAL(1e-6) ? per * y : 0;
+    BEAM_NUMBER(entry, SIDE) = side.x;
+    crack[((entry / C) * BEAM_WIDTH + BEAM_SIDE + 1) * C + entry % C] = side.y;
+    crack[((entry / C) * BEAM_WIDTH + BEAM_SIDE + 2) * C + entry % C] = side.z;
+    BEAM_NUMBER(entry, ALONG) = c < 1 ? c : REAL(1);
+    BEAM_NUMBER(entry, COSINE) = x, BEAM_NUMBER(entry, SINE) = y;
+    /* Where nothing presses the axes of neighbouring beams scatter, and sides that only open would lean on each other: nothing is kept along the crack. */
+    const coeff presses = third_push < principal.first ? third_push / principal.first : REAL(1);
+    BEAM_NUMBER(entry, KEEPS) = presses * presses * (leans < 1 ? leans : REAL(1));
+    return REAL(2) * BEAM_NUMBER(entry, LATERAL) * (second_push + third_push);
 }
 
 /* Which side of a whole bond looks at it: that with the lower id where its element chose it or has open beams, else the other where that has. */
@@ -245,12 +312,12 @@ LAW int beam_looks(GLOBAL const int *restrict neighbour, GLOBAL const int *restr
 
 /* After the elements chose: chosen beams open, as far as they can; and whole beams of elements with open ones, at their
  * capacity: what bridges a crack stands between elements whose mean stress no longer sees it. */
-KERNEL void beam_soft_begin(int n_groups, int step, coeff steepest, GLOBAL const int *restrict row_start,
+KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, GLOBAL const int *restrict row_start,
                             GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const int *restrict lead,
                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
                             GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
                             coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict mark,
-                            GLOBAL const int *restrict choice, GLOBAL const coeff *restrict measure, GLOBAL const int *restrict touched,
+                            GLOBAL const int *restrict choice, GLOBAL const coeff *restrict measure, GLOBAL const coeff *restrict record, GLOBAL const int *restrict touched,
                             GLOBAL int *restrict active, GLOBAL int *restrict open, GLOBAL coeff *restrict crack, GLOBAL coeff *restrict factor)
 {
     FOR_EACH_ITEM(group, n_groups) {
@@ -265,21 +332,41 @@ KERNEL void beam_soft_begin(int n_groups, int step, coeff steepest, GLOBAL const
                 if (!any) continue;
                 const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation, axial, bend,
                                                   twist, beam_of, 1);
-                const beam_part part = beam_part_of(bond);
-                const lane y = part.energy, k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond);
+                const lane k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond), whole = cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness);
+                coeff lateral[W] = {0};
+#define LAY(l)                                                                                                                                \
+    {                                                                                                                                         \
+        const brc_size at = entry + 0x##l;                                                                                                    \
+        const int e = first + 0x##l, j = neighbour[at], dies = fracture_dies(neighbour, choice, e, at), own_choice = choice[e] >= 0 && choice[e] / 4 == j; \
+        const coeff capacity = BEAM_NUMBER(at, CAPACITY);                                                                                     \
+        if (beam_looks(neighbour, lead, open, touched, e, at, dies) && (dies || REAL(2) * LANE_ITEM(k, l) * LANE_ITEM(whole, l) > capacity * capacity)) \
+            lateral[0x##l] = beam_lay(crack, at, e, j, slot, !dies || own_choice, !dies || !own_choice, level, row_start, neighbour, branch, inv_length, orientation, record); \
+    }
+                LANE_EACH(LAY)
+#undef LAY
+                const lane_quat q_j = lane_gather4(orientation, int_block(neighbour, slot, lane0));
+                const beam_part part = beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, beam_lean_at(crack, slot, lane0));
+#define LATERAL(l) lateral[0x##l]
+                const lane stretch = LANE_MAKE(lane, LATERAL);
+#undef LATERAL
+                const lane pull = beam_pull(bond.shape, bond.inv_length0, bond.stiffness, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own.orientation, q_j,
+                                            beam_lean_at(crack, slot, lane0), stretch);
+                const lane y = part.energy;
 #define BEGIN(l)                                                                                                                             \
     {                                                                                                                                         \
         const brc_size at = entry + 0x##l, to = (brc_size)twin[at];                                                                           \
         const int e = first + 0x##l, j = neighbour[at], dies = fracture_dies(neighbour, choice, e, at);                                       \
         if (beam_looks(neighbour, lead, open, touched, e, at, dies)) {                                                                        \
             const int by = choice[e] >= 0 && choice[e] / 4 == j ? e : j, mode = dies ? choice[by] % 4 : 0;                                    \
-            if (beam_opens(crack, at, LANE_ITEM(y, l), LANE_ITEM(k, l), LANE_ITEM(cosine, l), steepest, mode)) {                              \
+            if (beam_opens(crack, at, LANE_ITEM(y, l), LANE_ITEM(k, l), LANE_ITEM(pull, l), LANE_ITEM(cosine, l), steepest, mode)) {                              \
                 open[at] = BEAM_OPENS, open[to] = BEAM_OPENS;                                                                                 \
                 factor[at] = BEAM_NEVER, factor[to] = BEAM_NEVER;                                                                             \
                 BEAM_NUMBER(at, ONSET) = dies ? measure[by] : BEAM_NUMBER(at, START) * BEAM_NUMBER(at, PER_AREA);                             \
                 BEAM_NUMBER(at, MODE) = (coeff)(dies ? mode : FAILURE_TENSION);                                                               \
-                for (int what = BEAM_START; what < BEAM_WIDTH; ++what)                                                                        \
-                    crack[((to / C) * BEAM_WIDTH + (brc_size)what) * C + to % C] = crack[((at / C) * BEAM_WIDTH + (brc_size)what) * C + at % C]; \
+                for (int what = BEAM_START; what < BEAM_WIDTH; ++what) { /* beam_lean */                           \
+                    const coeff sign = (what >= BEAM_SIDE && what < BEAM_ALONG) || what == BEAM_SINE ? REAL(-1) : REAL(1);                                           \
+                    crack[((to / C) * BEAM_WIDTH + (brc_size)what) * C + to % C] = sign * crack[((at / C) * BEAM_WIDTH + (brc_size)what) * C + at % C]; \
+                }                                                                                                                             \
                 STORE_SAME(active + group, 1);                                                                                                \
                 STORE_SAME(active + j / W, 1);                                                                                                \
             }                                                                                                                                 \

@@ -1,4 +1,4 @@
-/* cbm: spheres joined by beams (NAH19; design-cbm.md). One pass over elements and their bonds, each element computing its own side of
+/* cbm: spheres joined by beams (NAH19; docs/notebook/beams.md). One pass over elements and their bonds, each element computing its own side of
  * every beam. branch X_j - X_i [slot][3][C] (missing neighbours: any branch home), inv_length 1/|branch| [slot][C] (missing: 0).
  * beam_of [n][3]: E S, 2 E I, G J of each element's beams for several materials (a bond is two half beams in series); else the three scalars.
  * Broken bonds are as missing neighbours (fracture.cl). */

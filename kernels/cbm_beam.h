@@ -1,4 +1,4 @@
-/* The law of one beam in potential form (design-cbm.md section 1; NAH19 eq. 1-4 corrected there).
+/* The law of one beam in potential form (docs/notebook/beams.md; NAH19 eq. 1-4 corrected there).
  *
  * e is the initial axis from i to j, X1 = R_i e and X2 = R_j e its images in the two elements' frames, n the current axis, l its
  * length, l0 the initial one; ka = E S / l0, A = 2 E I / l0, kt = G J / l0:

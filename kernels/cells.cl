@@ -1,4 +1,4 @@
-/* Fracture of cells, dlsm and dlsm-published (design-dlsm.md section 3): which bonds break, and what becomes of their elements. A broken bond
+/* Fracture of cells, dlsm and dlsm-published (docs/notebook/fracture.md): which bonds break, and what becomes of their elements. A broken bond
  * is stored like a missing one: its neighbour is home, its area 0, its ratio 1; the face is then a free face of both cells without any more
  * words, since the law reads intact faces only (docs/notebook/theory.md T2). So the elastic passes do not know that anything broke.
  *

@@ -1,4 +1,4 @@
-/* dlsm: the four passes over elements and their bonds (design-dlsm.md section 2). Each gathers, calls the laws, and
+/* dlsm: the four passes over elements and their bonds (docs/notebook/theory.md T2). Each gathers, calls the laws, and
  * writes its own elements; nothing is scattered. One work-item does W elements: a group of all, or in the kernels named `listed` those of
  * a list (members.cl).
  * boundary[slice]: the slice's block of the face-load arrays, -1 when none of its elements has a free face; only read in
@@ -87,7 +87,46 @@ KERNEL void dlsm_stress_listed(int n_items, int n, GLOBAL const int *restrict li
     }
 }
 
-/* Bonds of pass 3. */
+/* What the bond in one slot adds in pass 3: to the sums of gradients ... */
+LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums sums, GLOBAL const int *restrict neighbour,
+                                          GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                                          GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of,
+                                          state_vec3 u, lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite)
+{
+    const lane_int j = members_neighbour(who, neighbour, slot);
+    members_ahead3(who, area, slot);
+    members_ahead1(who, ratio, slot);
+    members_gathers_ahead9(who, gradient, neighbour, slot);
+    const lane_vec3 s = members_face3(who, area, slot);
+    const lane q = members_row1(who, ratio, slot);
+    const lane_mat3 h_j = lane_gather9(gradient, j);
+    const lane_vec3 x = lane_vec3_scale(REAL(0.5) * q, s); /* R / 2 [m] */
+    const lane_vec3 h_x = lane_mat3_mul_vec(h, x), h_j_x = lane_mat3_mul_vec(h_j, x), m_x = lane_mat3_mul_vec(m, x);
+#if BRC_MANY_MATERIALS
+    const lane weight = lane_min(gather_component(modulus, j), k) / k;
+    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
+    const lane_vec3 r = lane_vec3_scale(weight, lane_vec3_sub(jump, lane_vec3_add(h_x, h_j_x)));
+    const lane_vec3 m_j_x = dlsm_compaction_along(h_j, h_j_x, x, gather_component(ell_of, j), finite);
+    const lane_vec3 mr = lane_vec3_scale(weight, lane_vec3_add(m_x, m_j_x));
+#else
+    const lane_vec3 r = lane_vec3_sub(h_x, h_j_x);
+    const lane_vec3 mr = lane_vec3_add(m_x, dlsm_compaction_along(h_j, h_j_x, x, LANE_ZERO + ell_one, finite));
+#endif
+    return dlsm_flux_add_bond(sums, r, mr, s);
+}
+/* ... and to that of stresses. */
+LAW dlsm_flux_sums dlsm_flux_stress_at(members who, int slot, dlsm_flux_sums sums, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                                       GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict stress, lane_mat3 p)
+{
+    const lane_int j = members_neighbour(who, neighbour, slot);
+    members_ahead3(who, offset, slot);
+    members_gathers_ahead9(who, stress, neighbour, slot);
+    return dlsm_flux_add_stress(sums, lane_mat3_add(p, lane_gather9(stress, j)), members_face3(who, area, slot), members_row3(who, offset, slot));
+}
+
+/* Bonds of pass 3: those of gradients, and those of stresses in the same loop where rows are read once (SPLIT_LOOPS). Each sum is its own,
+ * so that it has the same bits either way. */
 LAW dlsm_flux_sums dlsm_flux_sums_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
                                      GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
                                      GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
@@ -96,38 +135,17 @@ LAW dlsm_flux_sums dlsm_flux_sums_of(members who, GLOBAL const int *restrict nei
                                      lane_mat3 h, lane_mat3 p, lane_mat3 m, lane k, coeff ell_one, int finite)
 {
     dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
-#if BRC_MANY_MATERIALS
-    const state_vec3 u = state_gather3(displacement, who.own);
-#endif
+    const state_vec3 u = state_gather3(displacement, who.own); /* counts with many materials alone */
     for (int slot = who.begin; slot < who.end; ++slot) {
-        const lane_int j = members_neighbour(who, neighbour, slot);
-        members_ahead3(who, area, slot);
-        members_ahead3(who, offset, slot);
-        members_ahead1(who, ratio, slot);
-        members_gathers_ahead9(who, gradient, neighbour, slot);
-        members_gathers_ahead9(who, stress, neighbour, slot);
-        const lane_vec3 s = members_face3(who, area, slot);
-        const lane q = members_row1(who, ratio, slot);
-        const lane_mat3 h_j = lane_gather9(gradient, j);
-        const lane_vec3 x = lane_vec3_scale(REAL(0.5) * q, s); /* R / 2 [m] */
-        const lane_vec3 h_x = lane_mat3_mul_vec(h, x), h_j_x = lane_mat3_mul_vec(h_j, x), m_x = lane_mat3_mul_vec(m, x);
-#if BRC_MANY_MATERIALS
-        const lane weight = lane_min(gather_component(modulus, j), k) / k;
-        const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
-        const lane_vec3 r = lane_vec3_scale(weight, lane_vec3_sub(jump, lane_vec3_add(h_x, h_j_x)));
-        const lane_vec3 m_j_x = dlsm_compaction_along(h_j, h_j_x, x, gather_component(ell_of, j), finite);
-        const lane_vec3 mr = lane_vec3_scale(weight, lane_vec3_add(m_x, m_j_x));
-#else
-        const lane_vec3 r = lane_vec3_sub(h_x, h_j_x);
-        const lane_vec3 mr = lane_vec3_add(m_x, dlsm_compaction_along(h_j, h_j_x, x, LANE_ZERO + ell_one, finite));
-#endif
-        sums = dlsm_flux_add_bond(sums, r, mr, lane_mat3_add(p, lane_gather9(stress, j)), s, members_row3(who, offset, slot));
+        sums = dlsm_flux_gradients_at(who, slot, sums, neighbour, area, ratio, displacement, gradient, modulus, ell_of, u, h, m, k, ell_one, finite);
+        if (!SPLIT_LOOPS) sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
     }
     return sums;
 }
 
 /* Pass 3: B [Pa] [n][9]; with many materials the bond part [beta/(1 + tau) M - H]/2 apart. ratio q = L/S [slot][C];
- * held_moment [block][9][C]: what held faces and tractions add to Q. */
+ * held_moment [block][9][C]: what held faces and tractions add to Q. Where loops are split, nothing of the first is held in the second but what
+ * its sums have become. */
 LAW lane_mat3 dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
                            GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
@@ -137,22 +155,30 @@ LAW lane_mat3 dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GL
                            coeff one_plus_tau, GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
                            GLOBAL const coeff *restrict ell_of, int finite, GLOBAL coeff *restrict bond_part)
 {
-    const lane_mat3 h = lane_gather9(gradient, who.own), p = lane_gather9(stress, who.own);
     const lane k = MEMBERS_MATERIAL(2, k_one), ell = MEMBERS_MATERIAL(3, ell_one);
-    const lane volume = REAL(1) / members_number(who, inv_volume);
-    lane_mat3 m, moment;
+    lane_mat3 h = lane_gather9(gradient, who.own), p = SPLIT_LOOPS ? lane_mat3_zero() : lane_gather9(stress, who.own), m;
     dlsm_flux_sums sums;
+    dlsm_flux_couples couples;
     if (finite) {
         m = dlsm_compaction(h, ell, 1);
         sums = dlsm_flux_sums_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, modulus, ell_of, h, p, m, k, ell_one, 1);
-        moment = dlsm_flux_moment(h, p, volume, sums, k, beta, one_plus_tau, ell, 1);
+        couples = dlsm_flux_couple(h, sums, k, beta, one_plus_tau, ell, 1);
     } else {
         m = dlsm_compaction(h, ell, 0);
         sums = dlsm_flux_sums_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, modulus, ell_of, h, p, m, k, ell_one, 0);
-        moment = dlsm_flux_moment(h, p, volume, sums, k, beta, one_plus_tau, ell, 0);
+        couples = dlsm_flux_couple(h, sums, k, beta, one_plus_tau, ell, 0);
     }
+    if (SPLIT_LOOPS) {
+        p = lane_gather9(stress, who.own);
+        for (int slot = who.begin; slot < who.end; ++slot) sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
+    }
+    lane_mat3 moment = dlsm_flux_moment(p, REAL(1) / members_number(who, inv_volume), sums.q, couples);
     if (face_loads) moment = members_add_boundary(who, moment, LANE_ZERO + REAL(1), boundary, held_moment);
     const lane_mat3 b = lane_mat3_mul_sym(moment, members_block6(who, inv_shape));
+    if (SPLIT_LOOPS) {
+        h = lane_gather9_again(gradient, who.own);
+        m = finite ? dlsm_compaction(h, ell, 1) : dlsm_compaction(h, ell, 0);
+    }
     const lane_mat3 part = dlsm_flux_bond_part(h, m, beta, one_plus_tau);
 #if BRC_MANY_MATERIALS
     members_store9(who, bond_part, part);

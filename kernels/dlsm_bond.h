@@ -1,4 +1,4 @@
-/* dlsm: force and energy of one bond (design-dlsm.md section 2, step 4 and pass 4). */
+/* dlsm: force and energy of one bond (docs/notebook/theory.md T2, fourth pass). */
 #ifndef BRC_KERNELS_DLSM_BOND_H
 #define BRC_KERNELS_DLSM_BOND_H
 

@@ -1,4 +1,4 @@
-/* dlsm: the cross term that makes the shear response compact (design-dlsm.md section 2, step 4, and "Toward nu < 0").
+/* dlsm: the cross term that makes the shear response compact (docs/notebook/theory.md T2).
  *   M = F_H S_c,  S_c = E_H + ell tr(E_H) I,  ell = lambda_c / (2 mu_c),  F_H = I + H
  * with mu_c = min(mu, 3 K), K_c = min(K, 2 mu / 3), lambda_c = K_c - 2 mu_c / 3: ell = 0 for nu >= 0. */
 #ifndef BRC_KERNELS_DLSM_COMPACTION_H

@@ -1,5 +1,5 @@
 /* dlsm: held faces (prescribed displacement) and tractions. One work-item does one element that has such faces, so that
- * nothing is scattered (design-dlsm.md section 2, "Prescribed faces"). Arrays of a held element h:
+ * nothing is scattered (docs/notebook/theory.md T2, Held faces). Arrays of a held element h:
  * element[h] its row, place[2h] its boundary block, place[2h + 1] its lane in the slice, face_start[h] its faces; of a face:
  * area s_f [m^2], arm d_f = C - X_i [m], held 1 or 0 per component, spring kappa_f [N/m], value u_f [m]. */
 

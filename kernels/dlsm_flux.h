@@ -1,5 +1,5 @@
 /* dlsm: the tensor B of an element whose sum over the two ends, times the area vector, is the bond force
- * (design-dlsm.md section 2, pass 3): B = Q A^-1 [Pa], with one material plus k (1 + tau) times the bond part. The stress term of Q is
+ * (docs/notebook/theory.md T2, third pass): B = Q A^-1 [Pa], with one material plus k (1 + tau) times the bond part. The stress term of Q is
  * that of G = H + sum (H_j - H_i) d (x) s / (2 V): no face moments are stored or read (docs/notebook/theory.md T2). Several materials: a bond takes the
  * softer of its two stabilisation moduli, k_ij = min(k_i, k_j), for both terms of its energy, so that it stays bounded by
  * the elastic energy of either side at any contrast. */
@@ -18,26 +18,36 @@ typedef struct {
 /* With one material, what stands for r = (u_j - u_i) - (H_i + H_j)/2 R in sum r (x) s [m] is (H_i - H_j) R / 2: the sum of
  * (u_j - u_i) (x) s is H_i A_i = sum (H_i R) (x) s. */
 
-LAW dlsm_flux_sums dlsm_flux_add_bond(dlsm_flux_sums sums, lane_vec3 residual, lane_vec3 compact,
-                                      lane_mat3 stress_sum, lane_vec3 area, lane_vec3 offset)
+LAW dlsm_flux_sums dlsm_flux_add_bond(dlsm_flux_sums sums, lane_vec3 residual, lane_vec3 compact, lane_vec3 area)
 {
     sums.rs = lane_add_outer(sums.rs, residual, area);
     sums.ms = lane_add_outer(sums.ms, compact, area);
+    return sums;
+}
+
+LAW dlsm_flux_sums dlsm_flux_add_stress(dlsm_flux_sums sums, lane_mat3 stress_sum, lane_vec3 area, lane_vec3 offset)
+{
     const lane_vec3 half_offset = {REAL(0.5) * offset.x, REAL(0.5) * offset.y, REAL(0.5) * offset.z};
     sums.q = lane_add_outer(sums.q, lane_mat3_mul_vec(stress_sum, area), half_offset);
     return sums;
 }
 
-/* Q = V P - sum_q - (k/2) [ (1 + tau) rs + beta ms ] + adjoint of M on T = (beta k / 2) rs [N m]; what face loads add is up to
- * the loop. k: stabilisation modulus [Pa]. */
-LAW lane_mat3 dlsm_flux_moment(lane_mat3 gradient, lane_mat3 stress, lane volume, dlsm_flux_sums sums, lane k, coeff beta,
-                               coeff one_plus_tau, lane ell, int finite)
+/* What the stabilisation adds to Q = V P - q - direct + adjoint [N m]: (k/2) [ (1 + tau) rs + beta ms ], and the adjoint of M on
+ * T = (beta k / 2) rs. What face loads add is up to the loop. k: stabilisation modulus [Pa]. */
+typedef struct {
+    lane_mat3 direct, adjoint;
+} dlsm_flux_couples;
+LAW dlsm_flux_couples dlsm_flux_couple(lane_mat3 gradient, dlsm_flux_sums sums, lane k, coeff beta, coeff one_plus_tau, lane ell, int finite)
 {
     const lane half_k = REAL(0.5) * k;
     const lane_mat3 t = lane_mat3_scale(half_k * beta, sums.rs);
     const lane_mat3 direct = lane_mat3_add(lane_mat3_scale(half_k * one_plus_tau, sums.rs), lane_mat3_scale(half_k * beta, sums.ms));
-    const lane_mat3 own = lane_mat3_sub(lane_mat3_scale(volume, stress), sums.q);
-    return lane_mat3_add(lane_mat3_sub(own, direct), dlsm_compaction_adjoint(gradient, t, ell, finite));
+    return (dlsm_flux_couples){direct, dlsm_compaction_adjoint(gradient, t, ell, finite)};
+}
+LAW lane_mat3 dlsm_flux_moment(lane_mat3 stress, lane volume, lane_mat3 q, dlsm_flux_couples couples)
+{
+    const lane_mat3 own = lane_mat3_sub(lane_mat3_scale(volume, stress), q);
+    return lane_mat3_add(lane_mat3_sub(own, couples.direct), couples.adjoint);
 }
 
 /* [beta/(1 + tau) M - H] / 2 [-]: the bond terms of B over the spring k (1 + tau). The factor of H is exact and the spring is

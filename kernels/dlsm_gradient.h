@@ -1,5 +1,5 @@
 /* dlsm: what one bond adds to the sums behind the two displacement gradients of an element
- * (design-dlsm.md section 2: step 1, least squares H; step 3, divergence theorem G; passes 1 and 2). */
+ * (docs/notebook/theory.md T2: least squares H, divergence theorem G; the first two passes). */
 #ifndef BRC_KERNELS_DLSM_GRADIENT_H
 #define BRC_KERNELS_DLSM_GRADIENT_H
 
@@ -15,7 +15,7 @@ LAW lane_mat3 dlsm_add_offset(lane_mat3 sum, lane_mat3 gradient_difference, lane
 }
 
 /* G = H_i + offset_sum / (2 V_i) [-]. The divergence theorem over the cell's closed surface, sum S (C - X) (x) N = V I, takes
- * the place of the face moments Z and A of the design: docs/notebook/theory.md T2. */
+ * the place of face moments Z and A: docs/notebook/theory.md T2. */
 LAW lane_mat3 dlsm_divergence_gradient(lane_mat3 gradient, lane_mat3 offset_sum, lane inv_volume)
 {
     return lane_mat3_add(gradient, lane_mat3_scale(REAL(0.5) * inv_volume, offset_sum));

@@ -1,4 +1,4 @@
-/* St. Venant-Kirchhoff elasticity from the displacement gradient G = F - I (design-dlsm.md section 2, step 5):
+/* St. Venant-Kirchhoff elasticity from the displacement gradient G = F - I (docs/notebook/theory.md T1):
  *   E = (G + G^T + G^T G)/2,  psi = lambda/2 (tr E)^2 + mu E:E,  Sigma = lambda tr E I + 2 mu E,  P = F Sigma.
  * finite: 1 for the full law, 0 for its linearisation (E = sym G, P = Sigma); strain is never formed as F - I. */
 #ifndef BRC_KERNELS_ELASTIC_SVK_H

@@ -149,6 +149,15 @@
     X(soft_count)                                                                                                      \
     X(soft_energy)                                                                                                     \
     X(soft_settle)                                                                                                     \
+    X(closed_keep)                                                                                                     \
+    X(closed_look)                                                                                                     \
+    X(closed_follow)                                                                                                   \
+    X(closed_press)                                                                                                    \
+    X(closed_flux)                                                                                                     \
+    X(closed_force)                                                                                                    \
+    X(closed_energy)                                                                                                   \
+    X(closed_again)                                                                                                    \
+    X(closed_gain)                                                                                                     \
     X(beam_soft_force)                                                                                                 \
     X(beam_soft_energy)                                                                                                \
     X(beam_soft_virial)                                                                                                \
@@ -156,6 +165,11 @@
     X(beam_soft_begin)                                                                                                 \
     X(beam_soft_keep)                                                                                                  \
     X(beam_soft_end)                                                                                                   \
+    X(closure_force)                                                                                                   \
+    X(closure_energy)                                                                                                  \
+    X(closure_virial)                                                                                                  \
+    X(closure_move)                                                                                                    \
+    X(closure_begin)                                                                                                   \
     X(fracture_force)                                                                                                  \
     X(fracture_stress)                                                                                                 \
     X(fracture_stress_second)                                                                                          \

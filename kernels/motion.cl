@@ -15,7 +15,7 @@ KERNEL void advance(int n, state kick, state drift, GLOBAL const state *restrict
     }
 }
 
-/* Tchamwa-Wielgosz: u += dt v + phi dt^2 a; v += dt a (design-dlsm.md section 1). lost accumulates, per element, the part
+/* Tchamwa-Wielgosz: u += dt v + phi dt^2 a; v += dt a (docs/notebook/theory.md T3). lost accumulates, per element, the part
  * (phi - 1/2) dt^2 m a^2 - (dt v + phi dt^2 a).f_old / 2 of the scheme's own dissipation; numerical_close adds the rest. */
 KERNEL void advance_tchamwa(int n, state dt, state phi, GLOBAL const state *restrict mass, GLOBAL const state *restrict force,
                             GLOBAL state *restrict velocity, GLOBAL state *restrict displacement,

@@ -17,7 +17,7 @@
 #define BRC_JOIN_(a, b) a##b
 #define BRC_JOIN(a, b) BRC_JOIN_(a, b)
 
-/* state: u, v, f, time and ledger; coeff: everything else (design.md, Precision). */
+/* state: u, v, f, time and ledger; coeff: everything else (docs/reference/portable.md). */
 #if BRC_PRECISION == 0
 #ifdef cl_khr_fp64
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -59,7 +59,7 @@ typedef float coeff;
 #endif
 #define KERNEL __kernel
 #define GLOBAL __global
-#define LAW static inline
+#define LAW static inline __attribute__((always_inline))
 #define ROUTINE static inline
 typedef ulong brc_size;
 #define FOR_EACH_ITEM(i, n) const int i = (int)get_global_id(0); if (i < (n))
@@ -205,6 +205,13 @@ LAW int brc_lane_any_short(lane a, lane b)
 #define PREFETCH(p, at) ((void)0)
 #endif
 
+/* Registers bound a GPU: loops over bonds that hold much are taken apart there. On a CPU rows are read once. */
+#if defined(__OPENCL_VERSION__) && W == 1
+#define SPLIT_LOOPS 1
+#else
+#define SPLIT_LOOPS 0
+#endif
+
 /* LANE_MAKE(type, F) = (F(0), F(1), ... F(W-1)); LANE_ITEM(x, l) = component l, l a hex digit written out. */
 #if W == 1
 #define LANE_MAKE(type, F) F(0)
@@ -259,7 +266,7 @@ LAW int brc_lane_any_short(lane a, lane b)
 #define LANE_ANY_SHORT(a, b) brc_lane_any_short(a, b)
 #endif
 
-/* Storage (design.md, SELL-C): element arrays of n components that are only read by their own element are blocked,
+/* Storage (SELL-C): element arrays of n components that are only read by their own element are blocked,
  * [slice][component][C]; those that neighbours gather are [element][components]. Rows are [slot][component][C]. */
 #define SLICE_OF(group) ((group) / (C / W))
 #define FIRST_LANE_OF(group) (((group) % (C / W)) * W)

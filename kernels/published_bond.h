@@ -1,4 +1,4 @@
-/* dlsm-published: the law of AGH19 as printed, with the corrections listed in docs/notebook/theory.md (design-dlsm.md section 1).
+/* dlsm-published: the law of AGH19 as printed, with the corrections listed in docs/notebook/theory.md T3.
  * Frames: an element's strain is found in its own frame (rotation R_i from its quaternion) and turned to the global frame;
  * bonds work in the global frame. finite: 1 as published; 0 the linearisation, in which a quaternion's vector part is half
  * a small rotation vector. */
@@ -65,7 +65,7 @@ typedef struct {
 } published_bond;
 
 /* branch, jump: reference branch and u_j - u_i [m]; area: S [m^2]; strain: mean of the two ends, global frame [-];
- * turn: rotation vector of j relative to i [rad]; young [Pa], rotation_factor: on K = E S^2 / (4 pi L0) (design: the
+ * turn: rotation vector of j relative to i [rad]; young [Pa], rotation_factor: on K = E S^2 / (4 pi L0) (the
  * printed K = E L0 is N/m). AGH19 eq. 16-34. */
 LAW published_bond published_bond_law(lane_vec3 branch, lane_vec3 jump, lane area, lane_sym3 strain, lane_vec3 turn,
                                       lane lambda, lane mu, lane young, coeff rotation_factor, int finite)

@@ -288,6 +288,16 @@ LAW lane_quat lane_gather4(GLOBAL const state *restrict p, lane_int row)
         LANE_FROM_STATE(gather_state_component(p + 2, at)), LANE_FROM_STATE(gather_state_component(p + 3, at))};
 }
 #endif
+/* A record that was read before, not kept from then: the compiler may not know that it is the same. */
+#if SPLIT_LOOPS
+LAW lane_mat3 lane_gather9_again(GLOBAL const coeff *restrict p, lane_int row)
+{
+    GLOBAL const volatile coeff *const r = (GLOBAL const volatile coeff *)(p + (brc_size)row * 9);
+    return (lane_mat3){r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]};
+}
+#else
+#define lane_gather9_again(p, row) lane_gather9(p, row)
+#endif
 /* b - a, taken in state and handed on as coeff. */
 LAW lane_vec3 state_vec3_difference(state_vec3 b, state_vec3 a)
 {

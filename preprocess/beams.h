@@ -1,4 +1,4 @@
-/* Spheres joined by beams: the bonds of a packing for a wanted mean coordination number, exactly (design: sort d / (R_i + R_j) and
+/* Spheres joined by beams: the bonds of a packing for a wanted mean coordination number, exactly (sort d / (R_i + R_j) and
  * cut), and the domain they make. */
 #ifndef BRC_PREPROCESS_BEAMS_H
 #define BRC_PREPROCESS_BEAMS_H

@@ -35,7 +35,7 @@ typedef struct brc_quality {
     double mean_spacing;            /* cells: (volume_cells / n_elements)^(1/3), spheres: (volume_shape / n_elements)^(1/3) [m] */
     double closure_worst;           /* largest |sum of face area vectors| of a cell over its total face area [-] */
     double twin_area_worst;         /* largest difference of a face area seen from its two sides, over the mean area [-] */
-    double support_smallest;        /* cells: smallest eigenvalue of A_i / (2 V_i), A = sum (L/S) s (x) s (design-dlsm 3) [-]; spheres: 0 */
+    double support_smallest;        /* cells: smallest eigenvalue of A_i / (2 V_i), A = sum (L/S) s (x) s [-]; spheres: 0 */
     double volume_fraction;         /* spheres: sphere volume over the shape's [-]; cells: 0 */
     double growth;                  /* spheres: largest d / (R_i + R_j) of a bond (NAH19's growth factor) [-]; cells: 0 */
     double coordination_mean;       /* 2 n_bonds / n_elements [-] */

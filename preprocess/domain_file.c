@@ -31,32 +31,56 @@ typedef struct array_entry {
     rows_of rows;
     int64_t width;
     found_in found;
+    const char *unit, *meaning;
 } array_entry;
 
-#define ENTRY(path, field, kind, rows, width, found) {path, offsetof(brc_domain, field), kind, rows, width, found}
+#define ENTRY(path, field, kind, rows, width, found, unit, meaning) \
+    {path, offsetof(brc_domain, field), kind, rows, width, found, unit, meaning}
 static const array_entry arrays[] = {
-    ENTRY("elements/position", position, BRC_H5_DOUBLE, ELEMENTS, 3, ALL),
-    ENTRY("elements/volume", volume, BRC_H5_DOUBLE, ELEMENTS, 1, ALL),
-    ENTRY("elements/centroid", centroid, BRC_H5_DOUBLE, ELEMENTS, 3, ALL),
-    ENTRY("elements/inertia", inertia, BRC_H5_DOUBLE, ELEMENTS, 6, ALL),
-    ENTRY("elements/region", region, BRC_H5_INT32, ELEMENTS, 1, ALL),
-    ENTRY("elements/body", body, BRC_H5_INT32, ELEMENTS, 1, ALL),
-    ENTRY("elements/grain", grain, BRC_H5_INT32, ELEMENTS, 1, GRAINS),
-    ENTRY("elements/radius", radius, BRC_H5_DOUBLE, ELEMENTS, 1, SPHERES),
-    ENTRY("half_edges/row_start", row_start, BRC_H5_INT64, ELEMENT_STARTS, 1, ALL),
-    ENTRY("half_edges/neighbour", neighbour, BRC_H5_INT32, HALF_EDGES, 1, ALL),
-    ENTRY("half_edges/twin", twin, BRC_H5_INT32, HALF_EDGES, 1, ALL),
-    ENTRY("half_edges/bond", bond, BRC_H5_INT32, HALF_EDGES, 1, ALL),
-    ENTRY("bonds/half_edge", bond_half_edge, BRC_H5_INT32, BONDS, 1, ALL),
-    ENTRY("free_faces/row_start", free_start, BRC_H5_INT64, ELEMENT_STARTS, 1, CELLS),
-    ENTRY("free_faces/element", free_element, BRC_H5_INT32, FREE_FACES, 1, CELLS),
-    ENTRY("free_faces/area_vector", free_area_vector, BRC_H5_DOUBLE, FREE_FACES, 3, CELLS),
-    ENTRY("free_faces/centroid", free_centroid, BRC_H5_DOUBLE, FREE_FACES, 3, CELLS),
-    ENTRY("free_faces/wall", free_wall, BRC_H5_INT32, FREE_FACES, 1, CELLS),
-    ENTRY("free_faces/polygon_start", free_polygon_start, BRC_H5_INT64, FREE_FACE_STARTS, 1, CELLS),
-    ENTRY("free_faces/polygon", free_polygon, BRC_H5_INT32, POLYGON_CORNERS, 1, CELLS),
-    ENTRY("cells/vertex_start", vertex_start, BRC_H5_INT64, ELEMENT_STARTS, 1, CELLS),
-    ENTRY("cells/vertex", vertex, BRC_H5_DOUBLE, CORNERS, 3, CELLS),
+    ENTRY("elements/position", position, BRC_H5_DOUBLE, ELEMENTS, 3, ALL,
+          "m", "position X of each element: Voronoi seed, centre of a sphere; x y z"),
+    ENTRY("elements/volume", volume, BRC_H5_DOUBLE, ELEMENTS, 1, ALL,
+          "m^3", "volume of each element"),
+    ENTRY("elements/centroid", centroid, BRC_H5_DOUBLE, ELEMENTS, 3, ALL,
+          "m", "centre of mass of each element; x y z"),
+    ENTRY("elements/inertia", inertia, BRC_H5_DOUBLE, ELEMENTS, 6, ALL,
+          "m^5", "inertia about the centroid at unit density; xx yy zz yz xz xy"),
+    ENTRY("elements/region", region, BRC_H5_INT32, ELEMENTS, 1, ALL,
+          "-", "material region; 0: the material of the body"),
+    ENTRY("elements/body", body, BRC_H5_INT32, ELEMENTS, 1, ALL,
+          "-", "index of the body"),
+    ENTRY("elements/grain", grain, BRC_H5_INT32, ELEMENTS, 1, GRAINS,
+          "-", "index of the grain, counted through all bodies"),
+    ENTRY("elements/radius", radius, BRC_H5_DOUBLE, ELEMENTS, 1, SPHERES,
+          "m", "radius as packed, before any growth"),
+    ENTRY("half_edges/row_start", row_start, BRC_H5_INT64, ELEMENT_STARTS, 1, ALL,
+          "-", "first half-edge of each element, and the end"),
+    ENTRY("half_edges/neighbour", neighbour, BRC_H5_INT32, HALF_EDGES, 1, ALL,
+          "-", "element on the other side"),
+    ENTRY("half_edges/twin", twin, BRC_H5_INT32, HALF_EDGES, 1, ALL,
+          "-", "the same face or beam seen from the neighbour"),
+    ENTRY("half_edges/bond", bond, BRC_H5_INT32, HALF_EDGES, 1, ALL,
+          "-", "bond of each half-edge"),
+    ENTRY("bonds/half_edge", bond_half_edge, BRC_H5_INT32, BONDS, 1, ALL,
+          "-", "half-edge of each bond, seen from its lower id"),
+    ENTRY("free_faces/row_start", free_start, BRC_H5_INT64, ELEMENT_STARTS, 1, CELLS,
+          "-", "first free face of each element, and the end"),
+    ENTRY("free_faces/element", free_element, BRC_H5_INT32, FREE_FACES, 1, CELLS,
+          "-", "element of each free face"),
+    ENTRY("free_faces/area_vector", free_area_vector, BRC_H5_DOUBLE, FREE_FACES, 3, CELLS,
+          "m^2", "outward area vector; x y z"),
+    ENTRY("free_faces/centroid", free_centroid, BRC_H5_DOUBLE, FREE_FACES, 3, CELLS,
+          "m", "centroid; x y z"),
+    ENTRY("free_faces/wall", free_wall, BRC_H5_INT32, FREE_FACES, 1, CELLS,
+          "-", "wall of each free face: attribute wall_N of the file"),
+    ENTRY("free_faces/polygon_start", free_polygon_start, BRC_H5_INT64, FREE_FACE_STARTS, 1, CELLS,
+          "-", "first row of each free face in polygon, and the end"),
+    ENTRY("free_faces/polygon", free_polygon, BRC_H5_INT32, POLYGON_CORNERS, 1, CELLS,
+          "-", "corners of each free face, rows of cells/vertex, counter-clockwise from outside"),
+    ENTRY("cells/vertex_start", vertex_start, BRC_H5_INT64, ELEMENT_STARTS, 1, CELLS,
+          "-", "first row of each cell in vertex, and the end"),
+    ENTRY("cells/vertex", vertex, BRC_H5_DOUBLE, CORNERS, 3, CELLS,
+          "m", "corners of each cell; x y z"),
 };
 enum { N_ARRAYS = (int)(sizeof arrays / sizeof *arrays) };
 static const char *const groups[] = {"elements", "half_edges", "bonds", "sets", "quality", "free_faces", "cells"};
@@ -148,19 +172,34 @@ static brc_status write_groups(brc_context *context, hid_t file, const brc_domai
     return BRC_OK;
 }
 
+/* Attributes `unit` and `meaning` of a dataset. */
+static brc_status describe(brc_context *context, hid_t file, const char *path, const char *name, const char *unit,
+                           const char *meaning)
+{
+    const hid_t place = H5Dopen2(file, name, H5P_DEFAULT);
+    if (place < 0) return brc_h5_fail(context, BRC_FILE_FAILED, path, name);
+    brc_status status = brc_h5_write_text(context, place, path, "unit", unit);
+    if (status == BRC_OK) status = brc_h5_write_text(context, place, path, "meaning", meaning);
+    if (H5Dclose(place) < 0 && status == BRC_OK) status = brc_h5_fail(context, BRC_FILE_FAILED, path, name);
+    return status;
+}
+
 /* Area vectors and centroids once a bond. */
 static brc_status write_bonds(brc_context *context, hid_t file, const brc_domain *d, const char *path)
 {
     double *packed = NULL;
     if (d->element_kind == BRC_ELEMENT_SPHERE) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(context, &packed, 3 * d->n_bonds, "bond geometry"));
-    const char *const name[2] = {"bonds/area_vector", "bonds/face_centroid"};
+    const char *const name[2] = {"bonds/area_vector", "bonds/face_centroid"}, *const unit[2] = {"m^2", "m"};
+    const char *const meaning[2] = {"area vector of each bond's face, out of the lower id; x y z",
+                                    "centroid of each bond's face; x y z"};
     const double *const from[2] = {d->area_vector, d->face_centroid};
     brc_status status = BRC_OK;
     for (int k = 0; k < 2 && status == BRC_OK; ++k) {
         for (int64_t b = 0; b < d->n_bonds; ++b)
             memcpy(packed + 3 * b, from[k] + 3 * (int64_t)d->bond_half_edge[b], 3 * sizeof *packed);
         status = brc_h5_write_array(context, file, path, name[k], BRC_H5_DOUBLE, d->n_bonds, 3, packed);
+        if (status == BRC_OK) status = describe(context, file, path, name[k], unit[k], meaning[k]);
     }
     brc_memory_free(packed);
     return status;
@@ -176,7 +215,9 @@ static brc_status write_sets(brc_context *context, hid_t file, const brc_domain 
     for (int32_t s = 0; s < d->n_sets; ++s) {
         const brc_set *set = &d->sets[s];
         snprintf(name, sizeof name, "sets/%d", s);
+        const char *const meaning = set->kind == BRC_SET_FACES ? "free faces of the set" : "elements of the set";
         BRC_TRY(brc_h5_write_array(context, file, path, name, BRC_H5_INT32, set->n_members, 1, set->members));
+        BRC_TRY(describe(context, file, path, name, "-", meaning));
         const hid_t place = H5Dopen2(file, name, H5P_DEFAULT);
         if (place < 0) return brc_h5_fail(context, BRC_FILE_FAILED, path, name);
         brc_status status = brc_h5_write_text(context, place, path, "name", set->name);
@@ -219,6 +260,7 @@ static brc_status write_all(brc_context *context, hid_t file, const brc_domain *
         if (!has_array(domain, &arrays[k], domain->grain != NULL)) continue;
         BRC_TRY(brc_h5_write_array(context, file, path, arrays[k].name, arrays[k].kind, rows[arrays[k].rows],
                                    arrays[k].width, data));
+        BRC_TRY(describe(context, file, path, arrays[k].name, arrays[k].unit, arrays[k].meaning));
     }
     BRC_TRY(write_bonds(context, file, domain, path));
     BRC_TRY(write_sets(context, file, domain, path));

@@ -1,4 +1,4 @@
-"""Builds libbreccia.so from the repository around this folder with the system's cmake, and puts it into the wheel.
+"""Builds libbreccia.so and the program breccia from the repository around this folder with the system's cmake, and puts both into the wheel.
 
 BRECCIA_BUILD: a build folder of the repository to take the library from, or to build it in (default: build/wheel of the repository).
 CMAKE_ARGS: more arguments for cmake, e.g. -DBRC_ISA_LEVELS=v3.
@@ -66,6 +66,9 @@ class BuildWithLibrary(build_py):
         os.makedirs(os.path.join(target, "breccia"), exist_ok=True)
         shutil.copy(os.path.join(build, "lib", "libbreccia.so." + INTERFACE), target)
         shutil.copy(os.path.join(ROOT, "LICENSE"), os.path.dirname(target))
+        program = os.path.join(self.build_lib, "breccia", "bin")
+        os.makedirs(program, exist_ok=True)
+        shutil.copy(os.path.join(build, "bin", "breccia"), program)
         plugin = os.path.join(build, "libbreccia_target.so")
         if os.path.exists(plugin):
             shutil.copy(plugin, os.path.join(target, "breccia"))

@@ -4,7 +4,7 @@
 #include "../scene/problem.h"
 #include <string.h>
 
-static const brc_command *const commands[] = {&brc_command_check, &brc_command_build,     &brc_command_run,   &brc_command_study, &brc_command_devices,
+static const brc_command *const commands[] = {&brc_command_new,   &brc_command_check,     &brc_command_build, &brc_command_run,   &brc_command_study, &brc_command_devices,
                                               &brc_command_bench, &brc_command_reproduce, &brc_command_calibrate, &brc_command_report, &brc_command_export,
                                               &brc_command_schema, &brc_command_completion, &brc_command_help};
 enum { OPERANDS = 20 }; /* column of the list */

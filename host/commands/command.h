@@ -45,7 +45,7 @@ typedef struct brc_command {
 } brc_command;
 
 /* The commands of the program. */
-extern const brc_command brc_command_check, brc_command_build, brc_command_run, brc_command_study, brc_command_devices, brc_command_bench,
+extern const brc_command brc_command_new, brc_command_check, brc_command_build, brc_command_run, brc_command_study, brc_command_devices, brc_command_bench,
     brc_command_reproduce, brc_command_report, brc_command_export, brc_command_calibrate, brc_command_schema, brc_command_completion, brc_command_help;
 
 /* Parse what follows the command's name. BRC_BAD_INPUT: unknown option (with the nearest one), missing or surplus

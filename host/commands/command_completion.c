@@ -1,5 +1,6 @@
 /* breccia completion: what a shell needs to complete commands, options and their words, from the tables of the commands. */
 #include "command.h"
+#include "template.h"
 #include <string.h>
 
 /* "a|b|c" as words between blanks. */
@@ -29,11 +30,15 @@ static void print_reply(const char *value)
     }
 }
 
-/* The cases of `breccia reproduce`, the commands for `breccia help`, else as a value. */
+/* The scenes of `breccia new`, the cases of `breccia reproduce`, the commands for `breccia help`, else as a value. */
 static void print_operand(const brc_command *command)
 {
     if (strcmp(command->operands, "[COMMAND]") == 0) {
         printf("COMPREPLY=($(compgen -W \"$commands\" -- \"$word\"))");
+    } else if (strcmp(command->operands, "[NAME]") == 0) {
+        printf("COMPREPLY=($(compgen -W \"");
+        for (int k = 0; k < brc_template_count; ++k) printf("%s%s", k ? " " : "", brc_templates[k].name);
+        printf("\" -- \"$word\"))");
     } else if (strcmp(command->operands, "[CASE]") == 0) {
         printf("COMPREPLY=($(compgen -W \"$(breccia reproduce --list 2>/dev/null | cut -d' ' -f1)\" -- \"$word\"))");
     } else {

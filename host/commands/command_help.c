@@ -21,7 +21,7 @@ static void print_manual(FILE *file)
 {
     fprintf(file, ".TH BRECCIA 1 \"\" \"breccia %s\" \"User Commands\"\n.SH NAME\nbreccia \\- fracture of brittle solids by discrete elements\n"
                   ".SH SYNOPSIS\n.B breccia\n.I COMMAND\n[OPERANDS] [OPTIONS]\n.SH DESCRIPTION\nBrittle solids of Voronoi cells or of spheres joined by beams, on the CPU and through "
-                  "OpenCL.\nA scene is a YAML file; \\fBbreccia schema\\fR and docs/reference/scene.md tell its keys.\n.SH COMMANDS\n",
+                  "OpenCL.\nA scene is a YAML file; \\fBbreccia schema\\fR and docs/reference/scene/README.md tell its keys.\n.SH COMMANDS\n",
             brc_version());
     for (int k = 0; k < brc_command_count(); ++k) {
         const brc_command *command = brc_command_at(k);

@@ -1,4 +1,4 @@
-/* The scene format as a JSON Schema (draft 2020-12), from the same table as the reader and docs/reference/scene.md, for editors that complete and check YAML. */
+/* The scene format as a JSON Schema (draft 2020-12), from the same table as the reader and docs/reference/scene/README.md, for editors that complete and check YAML. */
 #ifndef BRC_COMMANDS_JSON_SCHEMA_H
 #define BRC_COMMANDS_JSON_SCHEMA_H
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #define MODES_MOST 24
-#define DEGREE 14 /* four digits at any nu (design: section 5 of the law) */
+#define DEGREE 14 /* four digits at any nu (docs/notebook/theory.md T7) */
 #define ROUND_DEGREE 12
 
 static bool solid_of(const brc_body *body, const brc_material *material, brc_reference_solid *out)

@@ -40,6 +40,7 @@ typedef struct brc_study {
     char *scene; /* path; owned */
     int n_keys;
     brc_study_key keys[BRC_STUDY_KEYS];
+    bool together;  /* run k has the k-th value of every list and range of more than one; else all combinations */
     int draws;      /* at each point of the grid; 1 without random keys */
     uint64_t seed;
     int n_fits;

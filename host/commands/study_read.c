@@ -109,11 +109,24 @@ static void read_fits(const brc_case_reader *r, const brc_node *node, brc_study 
     }
 }
 
+/* Runs without draws: all combinations, or with `together` as many as each list and range has values that has more than one. */
+static int64_t points_of(const brc_case_reader *r, const brc_node *root, const brc_study *study)
+{
+    int64_t points = 1;
+    for (int k = 0; k < study->n_keys; ++k) {
+        const brc_study_key *key = &study->keys[k];
+        if (is_random(key)) continue;
+        if (!study->together) points = points > BRC_STUDY_RUNS ? points : points * key->n_values;
+        else if (points == 1) points = key->n_values;
+        else if (key->n_values > 1 && key->n_values != points) brc_case_wrong(r, root, "with `together` as many values in each key of `vary`");
+    }
+    return points;
+}
+
 static brc_status read_root(const brc_case_reader *r, const brc_node *root, const char *path, brc_study *study)
 {
     const brc_node *fits = NULL;
     const char *scene = "";
-    int64_t runs = 1;
     bool random = false;
     if (root->kind != BRC_NODE_MAP) brc_case_wrong(r, root, "a map with `scene` and `vary`");
     for (const brc_node *item = root->kind == BRC_NODE_MAP ? root->first : NULL; item; item = item->next) {
@@ -121,14 +134,13 @@ static brc_status read_root(const brc_case_reader *r, const brc_node *root, cons
         else if (strcmp(item->key, "vary") == 0) BRC_TRY(read_keys(r, item, study));
         else if (strcmp(item->key, DRAWS_KEY) == 0) study->draws = (int)whole_of(r, item, 1, BRC_STUDY_RUNS);
         else if (strcmp(item->key, "seed") == 0) study->seed = (uint64_t)whole_of(r, item, 0, INT32_MAX);
+        else if (strcmp(item->key, "together") == 0) study->together = brc_case_flag_of(r, item);
         else if (strcmp(item->key, "fit") == 0) fits = item;
         else brc_case_unknown_key(r, item, "study");
     }
     if (fits) read_fits(r, fits, study);
-    for (int k = 0; k < study->n_keys; ++k) {
-        random |= is_random(&study->keys[k]);
-        runs = runs > BRC_STUDY_RUNS ? runs : runs * study->keys[k].n_values;
-    }
+    for (int k = 0; k < study->n_keys; ++k) random |= is_random(&study->keys[k]);
+    const int64_t runs = points_of(r, root, study);
     if (!scene[0] || study->n_keys == 0) brc_case_wrong(r, root, "`scene: FILE` and `vary: [...]`");
     if (random != (study->draws > 0)) brc_case_wrong(r, root, "`draws` with keys that are `uniform` or `normal`, and only with them");
     if (study->draws == 0) study->draws = 1;
@@ -184,6 +196,7 @@ void brc_study_free(brc_study **handle)
 static int index_of(const brc_study *study, int run, int key)
 {
     int rest = run / study->draws;
+    if (study->together) return study->keys[key].n_values > 1 ? rest : 0;
     for (int k = study->n_keys - 1; k > key; --k) rest /= study->keys[k].n_values;
     return rest % study->keys[key].n_values;
 }

@@ -1,6 +1,7 @@
 /* OpenCL: the kernels are compiled at run time from one pasted text for the variant a run needs; everything goes
  * through one queue that keeps the order. */
 #include "opencl_list.h"
+#include "opencl_profile.h"
 #include "opencl_status.h"
 #include "program_source.h"
 #include "../base/log.h"
@@ -12,6 +13,8 @@
 /* Work-items a group; docs/notebook/devices.md has the measurements. Never left to the driver: PoCL's own choice crashed with
  * wide types. */
 enum { GROUP_GPU = 128, GROUP_CPU = 64 };
+/* Elements a slice of the storage holds on a GPU; on a CPU as many as a work-item, and at least SLICE_CPU. */
+enum { SLICE_GPU = 32, SLICE_CPU = 8 };
 /* Long batches reach the device while they are still being enqueued. */
 enum { LAUNCHES_BETWEEN_FLUSHES = 64 };
 /* Buffers are rounded up to this, so that clearing may write whole patterns. */
@@ -22,6 +25,7 @@ typedef struct opencl_inside {
     cl_context context;
     cl_command_queue queue;
     cl_program program;
+    brc_opencl_profile *profile; /* NULL: none is asked for */
     size_t group;
     int launches; /* since the last flush */
     int releases; /* of buffers so far: a handle may come back for another buffer, so set arguments are then sent again */
@@ -39,6 +43,7 @@ typedef struct opencl_kernel {
 static void release_inside(opencl_inside *inside)
 {
     if (!inside) return;
+    brc_memory_free(inside->profile);
     if (inside->program) (void)clReleaseProgram(inside->program);
     if (inside->queue) (void)clReleaseCommandQueue(inside->queue);
     if (inside->context) (void)clReleaseContext(inside->context);
@@ -59,6 +64,22 @@ static char *build_log(brc_device *device, const opencl_inside *inside)
     return log;
 }
 
+/* What makes a device round every operation by itself. Divisions and roots of single numbers may be off by 2.5 and 3 last
+ * places unless the device is asked, which it can be where it offers it (OpenCL 1.2, 5.6.4.2). */
+static const char *exact_options(brc_device *device, const opencl_inside *inside)
+{
+    cl_device_fp_config single = 0;
+    if (device->precision == BRC_DOUBLE) return " -D BRC_EXACT";
+    if (clGetDeviceInfo(inside->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof single, &single, NULL) == CL_SUCCESS &&
+        single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT)
+        return " -D BRC_EXACT -cl-fp32-correctly-rounded-divide-sqrt";
+    brc_log(device->context, BRC_LOG_WARNING,
+            "device %s does not round divisions and roots of single numbers correctly: its results in precision %s may "
+            "differ from those of other devices in spite of exact", device->info.selector,
+            brc_precision_name(device->precision));
+    return " -D BRC_EXACT";
+}
+
 static brc_status build(brc_device *device, opencl_inside *inside, const char *folder, bool exact)
 {
     brc_status status = BRC_OK;
@@ -68,7 +89,7 @@ static brc_status build(brc_device *device, opencl_inside *inside, const char *f
     snprintf(options, sizeof options,
              "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D BRC_MANY_MATERIALS=%d%s",
              (int)device->precision, device->lanes, device->slice, (int)device->many_materials,
-             exact ? " -D BRC_EXACT" : "");
+             exact ? exact_options(device, inside) : "");
     brc_device_describe(&device->info, text, sizeof text);
     BRC_TRY_OR(cleanup, brc_program_source(device->context, folder, &source));
     const char *const sources[] = {source};
@@ -94,11 +115,23 @@ cleanup:
     return status;
 }
 
-/* Work-items a group for this device, or what BRECCIA_OPENCL_GROUP says (to tune for a new device). */
-static brc_status choose_group(brc_device *device, size_t *group)
+/* W, C and work-items a group: those of a GPU or of a CPU by the kind of the device, or as BRECCIA_OPENCL_LAYOUT says (tests
+ * run the layout of a GPU on PoCL); the group also as BRECCIA_OPENCL_GROUP says (to tune for a new device). */
+static brc_status choose_layout(brc_device *device, int lanes, size_t *group)
 {
-    const char *const asked = getenv("BRECCIA_OPENCL_GROUP");
-    *group = device->info.is_gpu ? GROUP_GPU : GROUP_CPU;
+    const char *const layout = getenv("BRECCIA_OPENCL_LAYOUT"), *const asked = getenv("BRECCIA_OPENCL_GROUP");
+    bool gpu = device->info.is_gpu;
+    if (layout && layout[0]) {
+        gpu = strcmp(layout, "gpu") == 0;
+        if (!gpu && strcmp(layout, "cpu") != 0)
+            return BRC_FAIL(device->context, BRC_BAD_INPUT, "BRECCIA_OPENCL_LAYOUT is '%.32s': expected gpu or cpu", layout);
+    }
+    if (!lanes) lanes = gpu ? 1 : 8;
+    if (lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
+        return BRC_FAIL(device->context, BRC_BAD_INPUT, "%d elements a work-item: expected 1, 4, 8 or 16", lanes);
+    device->lanes = lanes;
+    device->slice = gpu ? SLICE_GPU : lanes > SLICE_CPU ? lanes : SLICE_CPU;
+    *group = gpu ? GROUP_GPU : GROUP_CPU;
     if (!asked || !asked[0]) return BRC_OK;
     char *end;
     const long number = strtol(asked, &end, 10);
@@ -115,21 +148,17 @@ static brc_status opencl_open(brc_device *device, const brc_device_request *requ
     opencl_inside *inside = NULL;
     cl_device_id devices[BRC_OPENCL_MOST_DEVICES];
     cl_int code;
-    const int lanes = request->lanes ? request->lanes : device->info.is_gpu ? 1 : 8;
-    if (lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
-        return BRC_FAIL(device->context, BRC_BAD_INPUT, "%d elements a work-item: expected 1, 4, 8 or 16", lanes);
-    device->lanes = lanes;
-    device->slice = device->info.is_gpu ? 32 : lanes > 8 ? lanes : 8;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(device->context, &inside, 1, "OpenCL device"));
     if (device->info.index >= brc_opencl_devices(devices)) {
         status = BRC_FAIL(device->context, BRC_DEVICE_FAILED, "device %s has vanished", device->info.selector);
         goto cleanup;
     }
     inside->id = devices[device->info.index];
-    BRC_TRY_OR(cleanup, choose_group(device, &inside->group));
+    BRC_TRY_OR(cleanup, choose_layout(device, request->lanes, &inside->group));
     inside->context = clCreateContext(NULL, 1, &inside->id, NULL, NULL, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a context"));
-    inside->queue = clCreateCommandQueue(inside->context, inside->id, 0, &code);
+    BRC_TRY_OR(cleanup, brc_opencl_profile_create(device->context, &inside->profile));
+    inside->queue = clCreateCommandQueue(inside->context, inside->id, inside->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a queue"));
     BRC_TRY_OR(cleanup, build(device, inside, request->kernel_folder, request->exact));
     device->inside = inside;
@@ -143,6 +172,7 @@ static void opencl_close(brc_device *device)
 {
     opencl_inside *const inside = device->inside;
     (void)clFinish(inside->queue); /* whatever it says, everything is given back now */
+    brc_opencl_profile_close(&inside->profile, device);
     release_inside(inside);
 }
 
@@ -265,9 +295,10 @@ static brc_status opencl_launch(brc_kernel *kernel, int64_t n_items, int n_args,
         own->set[a] = true;
     }
     const size_t global = ((size_t)n_items + own->group - 1) / own->group * own->group;
-    const cl_int code =
-        clEnqueueNDRangeKernel(inside->queue, own->kernel, 1, NULL, &global, &own->group, 0, NULL, NULL);
+    const cl_int code = clEnqueueNDRangeKernel(inside->queue, own->kernel, 1, NULL, &global, &own->group, 0, NULL,
+                                               brc_opencl_profile_event(inside->profile));
     BRC_TRY(brc_opencl_check(device, code, kernel->name));
+    brc_opencl_profile_add(inside->profile, kernel->name, n_items);
     if (++inside->launches < LAUNCHES_BETWEEN_FLUSHES) return BRC_OK;
     inside->launches = 0;
     return brc_opencl_check(device, clFlush(inside->queue), "flushing the queue");

@@ -1,18 +1,28 @@
 #include "opencl_list.h"
 #include "opencl_aside.h"
 #include "../base/log.h"
+#include <dirent.h>
 #include <dlfcn.h>
 #include <link.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+enum { MOST_PLATFORMS = 16 };
+
+static cl_uint find_platforms(cl_platform_id platforms[MOST_PLATFORMS])
+{
+    cl_uint n = 0;
+    if (clGetPlatformIDs(MOST_PLATFORMS, platforms, &n) != CL_SUCCESS) return 0;
+    return n < MOST_PLATFORMS ? n : MOST_PLATFORMS;
+}
 
 int brc_opencl_devices(cl_device_id devices[BRC_OPENCL_MOST_DEVICES])
 {
-    cl_platform_id platforms[16];
-    cl_uint n_platforms = 0;
+    cl_platform_id platforms[MOST_PLATFORMS];
+    const cl_uint n_platforms = find_platforms(platforms);
     int n = 0;
-    if (clGetPlatformIDs(16, platforms, &n_platforms) != CL_SUCCESS) return 0;
-    if (n_platforms > 16) n_platforms = 16;
     for (cl_uint p = 0; p < n_platforms && n < BRC_OPENCL_MOST_DEVICES; ++p) {
         cl_uint found = 0;
         const cl_uint room = (cl_uint)(BRC_OPENCL_MOST_DEVICES - n);
@@ -73,13 +83,37 @@ static brc_device_info describe(cl_device_id device, int index)
     return info;
 }
 
+/* A platform whose driver lists no device, as a row: its card may be missing, or hidden from this machine or container. */
+static brc_device_info describe_empty(cl_platform_id platform, int n_devices)
+{
+    brc_device_info row = {.kind = BRC_DEVICE_OPENCL, .index = n_devices, .name = "no device"};
+    char name[64] = "";
+    (void)clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof name, name, NULL);
+    name[sizeof name - 1] = '\0';
+    /* opencl:0 where there is no device at all, so that who asks for it is told; otherwise a name that is no selector */
+    snprintf(row.selector, sizeof row.selector, n_devices ? "opencl:-" : "opencl:0");
+    snprintf(row.driver, sizeof row.driver, "OpenCL platform %s", name);
+    snprintf(row.why_not, sizeof row.why_not,
+             "the driver of platform %.60s is there and lists no device: see whether the driver's own tools (nvidia-smi, "
+             "rocm-smi) find the card, and in a container whether it is passed in", name);
+    return row;
+}
+
 int brc_opencl_describe_all(brc_device_info *rows, int most)
 {
     cl_device_id devices[BRC_OPENCL_MOST_DEVICES];
+    cl_platform_id platforms[MOST_PLATFORMS];
     int n = brc_opencl_devices(devices);
     if (n > most) n = most;
     for (int d = 0; d < n; ++d)
         rows[d] = describe(devices[d], d);
+    const int n_devices = n;
+    const cl_uint n_platforms = find_platforms(platforms);
+    for (cl_uint p = 0; p < n_platforms && n < most; ++p) {
+        cl_uint found = 0;
+        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, 0, NULL, &found) == CL_SUCCESS && found > 0) continue;
+        rows[n++] = describe_empty(platforms[p], n_devices);
+    }
     return n;
 }
 
@@ -111,6 +145,28 @@ bool brc_opencl_driver_is_loaded(void)
     return found;
 }
 
+/* The drivers that the loader is told of, "nvidia.icd, pocl.icd"; empty where there are none. */
+static void name_drivers(char *text, size_t bytes)
+{
+    const char *const asked = getenv("OCL_ICD_VENDORS");
+    const char *const place = asked && asked[0] ? asked : "/etc/OpenCL/vendors";
+    const size_t length = strlen(place);
+    size_t used = 0;
+    text[0] = '\0';
+    if (length > 4 && strcmp(place + length - 4, ".icd") == 0 && access(place, R_OK) == 0) {
+        snprintf(text, bytes, "%s", place);
+        return;
+    }
+    DIR *const folder = opendir(place);
+    if (!folder) return;
+    for (const struct dirent *entry; (entry = readdir(folder)) && used < bytes;) {
+        const size_t end = strlen(entry->d_name);
+        if (end > 4 && strcmp(entry->d_name + end - 4, ".icd") == 0)
+            used += (size_t)snprintf(text + used, bytes - used, "%s%s", used ? ", " : "", entry->d_name);
+    }
+    closedir(folder);
+}
+
 brc_status brc_opencl_list_within(brc_context *context, brc_device_list *list, double seconds)
 {
     brc_device_info rows[BRC_OPENCL_MOST_DEVICES];
@@ -136,6 +192,12 @@ brc_status brc_opencl_list_within(brc_context *context, brc_device_list *list, d
                  "%s: mend it (PoCL needs /sys), or name the .icd file of a good one in OCL_ICD_VENDORS", trouble);
         brc_log(context, BRC_LOG_WARNING, "OpenCL is left out: %s", none.why_not);
     }
+    char drivers[96];
+    name_drivers(drivers, sizeof drivers);
+    if (n == 0 && drivers[0])
+        snprintf(none.why_not, sizeof none.why_not,
+                 "a driver is installed (%s) and gives no platform: its library is missing, or it finds no device; see the "
+                 "driver's own tools (nvidia-smi)", drivers);
     return brc_device_list_add(context, list, &none);
 }
 

@@ -61,7 +61,7 @@ void brc_cracks_free(brc_cracks *cracks)
 
 /* Columns of the stream; those of several numbers are x, y, z. */
 typedef struct column {
-    const char *name, *unit;
+    const char *name;
     int width;
     double (*value)(const brc_break *b, int c);
 } column;
@@ -72,9 +72,9 @@ static double stress_of(const brc_break *b, int c) { return (void)c, b->stress; 
 static double energy_of(const brc_break *b, int c) { return (void)c, b->energy; }
 static double area_of(const brc_break *b, int c) { return (void)c, b->area; }
 static double load_of(const brc_break *b, int c) { return (void)c, b->load; }
-static const column NUMBERS[] = {{"time", "s", 1, time_of},     {"position", "m", 3, position_of}, {"normal", "-", 3, normal_of},
-                                 {"stress", "Pa", 1, stress_of}, {"energy", "J", 1, energy_of},     {"area", "m^2", 1, area_of},
-                                 {"load", "-", 1, load_of}};
+static const column NUMBERS[] = {{"time", 1, time_of},     {"position", 3, position_of}, {"normal", 3, normal_of},
+                                 {"stress", 1, stress_of}, {"energy", 1, energy_of},     {"area", 1, area_of},
+                                 {"load", 1, load_of}};
 static int64_t step_of(const brc_break *b) { return b->step; }
 static int64_t stage_of(const brc_break *b) { return b->stage; }
 static int64_t mode_of(const brc_break *b) { return b->mode; }
@@ -104,7 +104,6 @@ brc_status brc_cracks_write_h5(brc_context *context, brc_h5 *h5, const brc_crack
             for (int i = 0; i < c->width; ++i) number[c->width * b + i] = c->value(&cracks->breaks[b], i);
         snprintf(path, sizeof path, "cracks/%s", c->name);
         brc_h5_dataset(h5, path, H5T_NATIVE_DOUBLE, n, c->width == 1 ? 0 : c->width, number);
-        brc_h5_attribute_text(h5, path, "unit", c->unit);
     }
     for (int k = 0; k < N_COUNTS; ++k) {
         for (int64_t b = 0; b < n; ++b) count[b] = COUNTS[k].value(&cracks->breaks[b]);
@@ -173,7 +172,6 @@ brc_status brc_cracks_write_frame(brc_context *context, brc_h5 *h5, const brc_as
         n_broken += broken;
     }
     brc_h5_dataset(h5, "VTKHDF/CellData/damage", H5T_NATIVE_DOUBLE, n, 0, damage);
-    brc_h5_attribute_text(h5, "VTKHDF/CellData/damage", "unit", "-");
     brc_h5_dataset(h5, "VTKHDF/CellData/fragment", H5T_NATIVE_INT32, n, 0, fragment);
     brc_h5_dataset(h5, "VTKHDF/FieldData/n_fragments", H5T_NATIVE_INT64, 1, 0, &n_fragments);
     brc_h5_dataset(h5, "VTKHDF/FieldData/n_broken", H5T_NATIVE_INT64, 1, 0, &n_broken);

@@ -4,8 +4,8 @@
 
 #include "../../preprocess/domain.h"
 
-/* Displacement gradient of an element by least squares over its neighbours, weights S/L (design-dlsm.md section 2,
- * pass 1): H = sum (u_j - u_i) (x) s A^-1, A = sum (L/S) s (x) s. Zero, so that the cell moves rigidly, where the
+/* Displacement gradient of an element by least squares over its neighbours, weights S/L (docs/notebook/theory.md
+ * T2): H = sum (u_j - u_i) (x) s A^-1, A = sum (L/S) s (x) s. Zero, so that the cell moves rigidly, where the
  * neighbours do not span space. whole: [n_half_edges] 1 where the bond is unbroken, only those count; NULL: all.
  * displacement: [n_elements][3] [m]; gradient: row i = d u_i / d x_j [-]. */
 void brc_deform_gradient(const brc_domain *domain, const uint8_t *whole, const double *displacement, int64_t element, double gradient[3][3]);

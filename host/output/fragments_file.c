@@ -37,14 +37,13 @@ void brc_fragment_table_free(brc_fragment_table *table)
 
 /* Columns of numbers; those of several are x, y, z, or xx, yy, zz, yz, xz, xy. */
 typedef struct column {
-    const char *name, *unit;
+    const char *name;
     int width;
     size_t offset;
 } column;
-#define COLUMN(name, unit, width) {#name, unit, width, offsetof(brc_fragment, name)}
-static const column COLUMNS[] = {COLUMN(mass, "kg", 1),     COLUMN(centre, "m", 3),       COLUMN(velocity, "m/s", 3),
-                                 COLUMN(spin, "rad/s", 3),  COLUMN(inertia, "kg m^2", 6), COLUMN(translation, "J", 1),
-                                 COLUMN(rotation, "J", 1),  COLUMN(internal, "J", 1)};
+#define COLUMN(name, width) {#name, width, offsetof(brc_fragment, name)}
+static const column COLUMNS[] = {COLUMN(mass, 1),    COLUMN(centre, 3),      COLUMN(velocity, 3), COLUMN(spin, 3),
+                                 COLUMN(inertia, 6), COLUMN(translation, 1), COLUMN(rotation, 1), COLUMN(internal, 1)};
 enum { N_COLUMNS = sizeof COLUMNS / sizeof *COLUMNS };
 
 static const double *numbers(const brc_fragment *f, const column *c) { return (const double *)(const void *)((const char *)f + c->offset); }
@@ -97,7 +96,6 @@ brc_status brc_fragment_table_write_h5(brc_context *context, brc_h5 *h5, const b
         for (int64_t i = 0; i < n; ++i) memcpy(number + c->width * i, numbers(&table->row[i], c), (size_t)c->width * sizeof *number);
         snprintf(path, sizeof path, "fragments/%s", c->name);
         brc_h5_dataset(h5, path, H5T_NATIVE_DOUBLE, n, c->width == 1 ? 0 : c->width, number);
-        brc_h5_attribute_text(h5, path, "unit", c->unit);
     }
 cleanup:
     brc_memory_free(number);

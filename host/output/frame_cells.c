@@ -273,7 +273,6 @@ static brc_status write_points(const brc_frame_cells *c, brc_h5 *h5)
 static brc_status write_radius(const brc_frame_cells *c, brc_h5 *h5)
 {
     brc_h5_packed(h5, "VTKHDF/PointData/radius", H5T_NATIVE_DOUBLE, brc_frame_point_rows(c, 0).all, 0);
-    brc_h5_attribute_text(h5, "VTKHDF/PointData/radius", "unit", "m");
     for (int32_t k = 0; k < c->assembly->n; ++k) {
         const brc_frame_rows r = brc_frame_point_rows(c, k);
         double *none = NULL;
@@ -292,7 +291,6 @@ static brc_status write_elements(const brc_frame_cells *c, brc_h5 *h5)
     brc_status status = BRC_OK;
     brc_h5_packed(h5, "VTKHDF/CellData/element_id", H5T_NATIVE_INT64, all, 0);
     brc_h5_packed(h5, "VTKHDF/CellData/position", H5T_NATIVE_DOUBLE, all, 3);
-    brc_h5_attribute_text(h5, "VTKHDF/CellData/position", "unit", "m");
     brc_h5_packed(h5, "VTKHDF/Types", H5T_NATIVE_UINT8, all, 0);
     if (several) brc_h5_packed(h5, "VTKHDF/CellData/body", H5T_NATIVE_INT32, all, 0);
     if (several) brc_h5_packed(h5, "VTKHDF/CellData/model", H5T_NATIVE_INT32, all, 0);

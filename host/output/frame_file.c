@@ -26,11 +26,10 @@ typedef struct frame_part {
 } frame_part;
 
 /* The part's rows of a dataset, which the first part makes. */
-static void put(const frame_part *p, const char *path, const char *unit, hid_t type, brc_frame_rows r, int64_t columns, const void *data)
+static void put(const frame_part *p, const char *path, hid_t type, brc_frame_rows r, int64_t columns, const void *data)
 {
     if (p->index == 0) brc_h5_packed(p->h5, path, type, r.all, columns);
     brc_h5_pack_rows(p->h5, path, type, r.first, r.n, data, p->cells->n_threads);
-    if (p->index == 0 && unit) brc_h5_attribute_text(p->h5, path, "unit", unit);
 }
 
 static frame_part make_part(brc_h5 *h5, const brc_frame_cells *cells, int32_t index)
@@ -78,18 +77,18 @@ static brc_status write_displacement(const frame_part *p, const double *displace
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(p->context, &out, 3 * p->points.n, "corners of a frame"));
     if (!brc_frame_is_sphere(p->domain)) BRC_TRY_OR(cleanup, move_corners(p, displacement, moved));
     for (int64_t k = 0; k < 3 * p->points.n; ++k) out[k] = (float)(brc_frame_is_sphere(p->domain) ? displacement : moved)[k];
-    put(p, "VTKHDF/PointData/displacement", "m", H5T_NATIVE_FLOAT, p->points, 3, out);
+    put(p, "VTKHDF/PointData/displacement", H5T_NATIVE_FLOAT, p->points, 3, out);
 cleanup:
     brc_memory_free(moved);
     brc_memory_free(out);
     return status;
 }
 
-static void write_field(const frame_part *p, const char *name, const char *unit, int64_t columns, const double *data)
+static void write_field(const frame_part *p, const char *name, int64_t columns, const double *data)
 {
     char path[64];
     snprintf(path, sizeof path, "VTKHDF/CellData/%s", name);
-    put(p, path, unit, H5T_NATIVE_DOUBLE, p->elements, columns, data);
+    put(p, path, H5T_NATIVE_DOUBLE, p->elements, columns, data);
 }
 
 /* xx yy zz yz xz xy -> XX YY ZZ XY YZ XZ. */
@@ -117,9 +116,9 @@ static brc_status write_tensors(const frame_part *p)
         mises[e] = brc_deform_von_mises(stress + 6 * e);
     to_vtk_order(n, strain);
     to_vtk_order(n, stress);
-    write_field(p, "stress", "Pa", 6, stress);
-    write_field(p, "strain", "-", 6, strain);
-    write_field(p, "von_mises", "Pa", 0, mises);
+    write_field(p, "stress", 6, stress);
+    write_field(p, "strain", 6, strain);
+    write_field(p, "von_mises", 0, mises);
 cleanup:
     brc_memory_free(strain);
     brc_memory_free(stress);
@@ -137,7 +136,7 @@ static brc_status write_orientation(const frame_part *p)
     for (int64_t e = 0; e < p->elements.n; ++e) orientation[4 * e] = 1;
     if (brc_frame_is_sphere(p->domain) || brc_simulation_scene(p->simulation)->model.kind != BRC_MODEL_DLSM)
         status = brc_simulation_orientation(p->simulation, orientation, NULL);
-    if (status == BRC_OK) write_field(p, "orientation", "-", 4, orientation);
+    if (status == BRC_OK) write_field(p, "orientation", 4, orientation);
     brc_memory_free(orientation);
     return status;
 }
@@ -150,9 +149,9 @@ static brc_status write_part(const frame_part *p)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(p->context, &vector, 3 * n, "displacement of a frame"));
     BRC_TRY_OR(cleanup, brc_simulation_displacement(p->simulation, vector));
     BRC_TRY_OR(cleanup, write_displacement(p, vector));
-    write_field(p, "displacement", "m", 3, vector);
+    write_field(p, "displacement", 3, vector);
     BRC_TRY_OR(cleanup, brc_simulation_velocity(p->simulation, vector));
-    write_field(p, "velocity", "m/s", 3, vector);
+    write_field(p, "velocity", 3, vector);
     BRC_TRY_OR(cleanup, write_orientation(p));
     status = write_tensors(p);
 cleanup:

@@ -1,5 +1,6 @@
 /* Writing HDF5 aside or in memory. */
 #include "h5.h"
+#include "meaning.h"
 #include "seal.h"
 #include "../base/file.h"
 #include "../base/memory.h"
@@ -152,6 +153,8 @@ static void create_dataset(brc_h5 *h5, const char *name, hid_t type, hid_t space
     brc_h5_check(h5, dataset >= 0 && (!data || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0), name);
     if (dataset >= 0) brc_h5_check(h5, H5Dclose(dataset) >= 0, name);
     H5Pclose(creation);
+    const brc_meaning *meaning = brc_meaning_of(name);
+    if (meaning) brc_h5_describe(h5, name, meaning->unit, meaning->meaning);
 }
 
 void brc_h5_dataset(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int64_t columns, const void *data)
@@ -222,6 +225,12 @@ void brc_h5_attribute_text(brc_h5 *h5, const char *object, const char *name, con
     add_attribute(h5, object, name, type, space, text);
     H5Sclose(space);
     H5Tclose(type);
+}
+
+void brc_h5_describe(brc_h5 *h5, const char *object, const char *unit, const char *meaning)
+{
+    brc_h5_attribute_text(h5, object, "unit", unit);
+    brc_h5_attribute_text(h5, object, "meaning", meaning);
 }
 
 void brc_h5_attribute_integers(brc_h5 *h5, const char *object, const char *name, int64_t n, const int64_t *values)

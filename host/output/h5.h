@@ -46,6 +46,8 @@ void brc_h5_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_
 void brc_h5_text(brc_h5 *h5, const char *name, const char *text);
 /* Attributes of a group or dataset. Strings are of fixed length, ASCII (what VTK's reader asks for). */
 void brc_h5_attribute_text(brc_h5 *h5, const char *object, const char *name, const char *text);
+/* Unit and one line of meaning of a dataset that meaning.h does not know by its path; the others get theirs when made. */
+void brc_h5_describe(brc_h5 *h5, const char *object, const char *unit, const char *meaning);
 void brc_h5_attribute_integers(brc_h5 *h5, const char *object, const char *name, int64_t n, const int64_t *values);
 void brc_h5_attribute_number(brc_h5 *h5, const char *object, const char *name, double value);
 /* name -> another file's object. */

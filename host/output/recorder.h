@@ -8,7 +8,7 @@
  *     DIR/frames/NNNNNN.strikers.vtu  with walls and strikers: their faces as polygons; index DIR/strikers.vtu.series
  *     DIR/result.h5              the index: histories, sensors, measures, ledger, resolved scene, provenance
  *     DIR/picture.png, curve.png where the scene asks for them; DIR/pictures/NNNNNN.png of every frame
- *     DIR/summary.json           what scripts read (design.md "Commands"); written by every run, also a failed one
+ *     DIR/summary.json           what scripts read; written by every run, also a failed one
  *
  * How a command uses it:
  *

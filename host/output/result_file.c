@@ -1,6 +1,7 @@
 /* The index of a run as HDF5. */
 #include "result_file.h"
 #include "h5.h"
+#include "meaning.h"
 #include "text.h"
 #include "../base/memory.h"
 #include "../base/version.h"
@@ -29,14 +30,15 @@ static brc_status write_histories(brc_context *context, brc_h5 *h5, const brc_re
     brc_h5_group(h5, "histories/sensors");
     BRC_TRY(BRC_ALLOCATE(context, &column, h->n_samples, "column of a history"));
     for (int32_t s = 0; s < h->n_sensors; ++s) {
+        const brc_sensor *sensor = &result->scene->sensors[s];
         char path[192];
         double last, smallest, largest;
         for (int64_t k = 0; k < h->n_samples; ++k)
             column[k] = h->value[k * h->n_sensors + s];
-        member(path, "histories/sensors", result->scene->sensors[s].name);
+        member(path, "histories/sensors", sensor->name);
         brc_h5_dataset(h5, path, H5T_NATIVE_DOUBLE, h->n_samples, 0, column);
         brc_history_range(h, s, &last, &smallest, &largest);
-        brc_h5_attribute_text(h5, path, "unit", brc_sensor_unit(&result->scene->sensors[s]));
+        brc_h5_describe(h5, path, brc_sensor_unit(sensor), brc_meaning_of_sensor(sensor->kind));
         brc_h5_attribute_number(h5, path, "last", last);
         brc_h5_attribute_number(h5, path, "min", smallest);
         brc_h5_attribute_number(h5, path, "max", largest);
@@ -53,7 +55,7 @@ static void write_measures(brc_h5 *h5, const brc_result *result)
         char path[192];
         member(path, "measures", measured->name);
         brc_h5_dataset(h5, path, H5T_NATIVE_DOUBLE, 1, 0, &measured->value);
-        brc_h5_attribute_text(h5, path, "unit", measured->unit);
+        brc_h5_describe(h5, path, measured->unit, brc_meaning_of_measure(result->scene->measures[m].kind));
         if (!measured->has_target) continue;
         brc_h5_attribute_number(h5, path, "target", measured->target);
         brc_h5_attribute_number(h5, path, "error", measured->error);

@@ -1,4 +1,4 @@
-/* DIR/summary.json: what scripts and tests read of a run; its keys are stable (design.md "Commands"). */
+/* DIR/summary.json: what scripts and tests read of a run; its keys are stable (docs/reference/results.md). */
 #ifndef BRC_OUTPUT_SUMMARY_H
 #define BRC_OUTPUT_SUMMARY_H
 

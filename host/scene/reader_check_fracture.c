@@ -185,6 +185,21 @@ static void check_interfaces(brc_reader *reader)
     }
 }
 
+/* Sides of broken faces rub by the law of contact where there is one. */
+static void check_sides(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    const brc_fracture *fracture = &scene->fracture;
+    if (fracture->side_friction < 0) return;
+    if (scene->has_contact)
+        COMPLAIN(reader, &fracture->side_friction, fracture,
+                 "friction: surfaces of this scene rub by `interactions: {contact: {friction: ...}}`, sides of broken "
+                 "faces too; give it there and remove it here");
+    else if (!fracture->closure)
+        COMPLAIN(reader, &fracture->side_friction, fracture,
+                 "friction: with `closure: false` the sides of broken faces do not touch; remove friction, or closure");
+}
+
 /* Faces and beams that soften open in dynamic stages without noise damping only. */
 static void check_softening(brc_reader *reader)
 {
@@ -257,6 +272,7 @@ void brc_reader_check_fracture(brc_reader *reader)
         return;
     check_criterion(reader);
     check_interfaces(reader);
+    check_sides(reader);
     if (brc_scene_softens(scene)) check_softening(reader);
     if (!has_strength(scene))
         COMPLAIN(reader, &scene->has_fracture, scene,

@@ -79,6 +79,17 @@ bool brc_scene_softens(const brc_scene *scene)
     return false;
 }
 
+bool brc_scene_shuts(const brc_scene *scene)
+{
+    return scene->has_fracture && scene->fracture.closure && !scene->has_contact;
+}
+
+double brc_scene_side_friction(const brc_scene *scene)
+{
+    const double usual = 0.3; /* a block in compression is carried from here on (docs/notebook/fracture.md, "Closed cracks") */
+    return scene->fracture.side_friction < 0 ? usual : scene->fracture.side_friction;
+}
+
 brc_criterion_kind brc_criterion_of(const brc_fracture *fracture, brc_model_kind model)
 {
     if (fracture->kind != BRC_CRITERION_AUTO) return fracture->kind;

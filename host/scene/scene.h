@@ -76,14 +76,15 @@ typedef struct brc_fracture {
     brc_criterion_kind kind;
     int32_t level;             /* shells of neighbours the stress is averaged over: 0, 1, 2; not for bond-normal */
     double cohesion, friction; /* the last two kinds: [Pa], [rad] */
-    bool closure;              /* sides of a broken face bear on each other until they stand clear (docs/notebook/fracture.md "Closed cracks") */
+    bool closure;              /* sides of a broken face bear on each other until they stand clear (docs/notebook/fracture.md "Closed faces") */
+    double side_friction;      /* Coulomb friction of those sides where the scene has no contact [-]; -1: 0.3 (brc_scene_side_friction) */
     uint64_t seed;             /* of the draws of strengths, keyed by the ids of a bond's elements */
 } brc_fracture;
 
 typedef enum brc_model_kind {
-    BRC_MODEL_DLSM,          /* the conservative law, design-dlsm.md section 2 */
-    BRC_MODEL_DLSM_PUBLISHED, /* the published law, AGH19, design-dlsm.md section 1 */
-    BRC_MODEL_CBM             /* spheres joined by beams, NAH19, design-cbm.md */
+    BRC_MODEL_DLSM,          /* the conservative law, docs/notebook/theory.md T2 */
+    BRC_MODEL_DLSM_PUBLISHED, /* the published law, AGH19, docs/notebook/theory.md T3 */
+    BRC_MODEL_CBM             /* spheres joined by beams, NAH19, docs/notebook/beams.md */
 } brc_model_kind;
 
 typedef struct brc_model {
@@ -98,7 +99,7 @@ typedef struct brc_model {
     double rotation_stiffness; /* [-] factor on K = E S^2 / (4 pi L0), default 1 */
     double couple_modulus;     /* [-] over mu: holds the frames of elements to the turning solid; 0, as printed, by default (docs/notebook/theory.md T3) */
     /* cbm */
-    double beam_poisson; /* nu_m of the beams, default 0.3: hardly matters (design-cbm.md) [-] */
+    double beam_poisson; /* nu_m of the beams, default 0.3: hardly matters (docs/notebook/beams.md) [-] */
     bool keep_isolated;  /* hold elements without bonds still instead of refusing them */
     bool polish;         /* correct the laws' r_m and E_m on a sample (beam_polish.h) */
 } brc_model;
@@ -455,6 +456,10 @@ brc_criterion_kind brc_criterion_of(const brc_fracture *fracture, brc_model_kind
 bool brc_material_breaks(const brc_scene *scene, brc_model_kind model, const brc_material *material);
 /* Does some material or interface have a fracture energy? */
 bool brc_scene_softens(const brc_scene *scene);
+/* Do bonds that broke at once still bear on each other? With contact they do not: its law has such sides. */
+bool brc_scene_shuts(const brc_scene *scene);
+/* Friction of the sides of broken faces where they do [-]. */
+double brc_scene_side_friction(const brc_scene *scene);
 /* "dlsm", "dlsm-published", "cbm"; static storage. */
 const char *brc_model_name(brc_model_kind kind);
 /* Unit of a sensor's value ("N", "m", "-", "rad", "Pa", "J", "m/s", "Hz", "N m", "m^2"); static storage. */

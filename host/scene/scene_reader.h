@@ -15,7 +15,11 @@ brc_status brc_scene_read_text(brc_context *context, const char *name, const cha
                                const char *const *overrides, brc_scene **out);
 /* The scene with all defaults, as YAML that reads back to an equal scene. *out freed by brc_memory_free. */
 brc_status brc_scene_to_yaml(brc_context *context, const brc_scene *scene, char **out);
-/* docs/reference/scene.md from the schema table: every key with type, unit, range, default, meaning. */
-brc_status brc_scene_write_reference(brc_context *context, FILE *file);
+/* The pages of docs/reference/scene from the schema table: every key with type, unit, range, default, meaning. A page
+ * has a name (`fill` is fill.md; `README`, page 0, holds contents and index) and shows an example: the text of a whole
+ * scene, borrowed. */
+int brc_scene_n_pages(void);
+const char *brc_scene_page_name(int page);
+brc_status brc_scene_write_page(brc_context *context, int page, const char *example, FILE *file);
 
 #endif

@@ -1,4 +1,4 @@
-/* The schema: one table that drives reading, checking, writing, docs/reference/scene.md and the tests of the scene format.
+/* The schema: one table that drives reading, checking, writing, docs/reference/scene/README.md and the tests of the scene format.
  *
  * A section describes one struct; its entries describe the keys. Reading follows the order of the table, not that of
  * the text, so an entry may rely on those before it (materials before bodies, sensors before measures). */
@@ -86,7 +86,7 @@ typedef struct brc_group {
 } brc_group;
 
 struct brc_section {
-    const char *title; /* as in "unknown key in a material" and in the headings of docs/reference/scene.md */
+    const char *title; /* as in "unknown key in a material" and in the headings of docs/reference/scene/README.md */
     const char *meaning;
     const brc_entry *entries;
     int n_entries;

@@ -7,7 +7,7 @@
 static const double least_diameters = 4;
 
 /* Components of `crack` and states of `open` (kernels/beam_softening.cl). */
-enum { ENERGY = 2, EXPONENTIAL = 3, SPENT = 6, TILT = 10, CAPACITY = 11, PER_AREA = 12, WIDTH = 13 };
+enum { ENERGY = 2, EXPONENTIAL = 3, SPENT = 6, TILT = 10, CAPACITY = 11, PER_AREA = 12, LATERAL = 20, WIDTH = 21 };
 enum { WHOLE = 0, BROKEN = 3 };
 
 struct brc_beam_softening {
@@ -66,6 +66,13 @@ static double beam_strength(const brc_simulation *s, int64_t h)
     return i > 0 && j > 0 ? fmin(i, j) : fmax(i, j);
 }
 
+/* nu / E of the weaker effect of its elements [1/Pa]. */
+static double lateral_of(const brc_simulation *s, int64_t h)
+{
+    const brc_material *i = &s->scene->materials[s->material_of_element[s->domain->neighbour[s->domain->twin[h]]]], *j = &s->scene->materials[s->material_of_element[s->domain->neighbour[h]]];
+    return fmax(0, fmin(i->poisson / i->young, j->poisson / j->young));
+}
+
 static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_strengths *strengths)
 {
     const brc_layout *layout = s->layout;
@@ -88,6 +95,7 @@ static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_s
         own[ENERGY * layout->slice] = strengths->energy[d->bond[h]] * area[d->bond[h]];
         own[CAPACITY * layout->slice] = strength * area[d->bond[h]];
         own[PER_AREA * layout->slice] = 1 / area[d->bond[h]];
+        own[LATERAL * layout->slice] = lateral_of(s, h);
         own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
         lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
     }
@@ -162,7 +170,7 @@ brc_status brc_beam_softening_move(brc_simulation *s)
     const beam_softening *f = softening_of(s);
     if (!f) return BRC_OK;
     const brc_beam *beam = brc_beam_of_element(s, 0);
-    return BRC_LAUNCH(f->move, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->twin),
+    return BRC_LAUNCH(f->move, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_COEFF(s->scene->fracture.closure ? BRC_BEAM_CLEAR : 0), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->twin),
                       BRC_BUF(f->lead), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(beam->axial),
                       BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack));
 }
@@ -173,10 +181,10 @@ brc_status brc_beam_softening_begin(brc_simulation *s, int32_t moment)
     const brc_breaking *b = s->fracture;
     if (!f) return BRC_OK;
     const brc_beam *beam = brc_beam_of_element(s, 0);
-    BRC_TRY(BRC_LAUNCH(f->begin, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+    BRC_TRY(BRC_LAUNCH(f->begin, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_INT(s->scene->fracture.level > 0), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(f->twin), BRC_BUF(f->lead), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation),
                        BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_BUF(b->mark), BRC_BUF(b->choice),
-                       BRC_BUF(b->measure), BRC_BUF(f->touched), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(b->factor)));
+                       BRC_BUF(b->measure), BRC_BUF(b->record), BRC_BUF(f->touched), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(b->factor)));
     return BRC_LAUNCH(f->keep, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(b->mark),
                       BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(b->choice), BRC_BUF(f->touched));
 }
@@ -190,6 +198,13 @@ brc_status brc_beam_softening_end(brc_simulation *s, int32_t moment)
                       BRC_BUF(s->neighbour), BRC_BUF(s->ratio), BRC_BUF(b->mark), BRC_BUF(b->record), BRC_BUF(b->weight), BRC_BUF(f->active),
                       BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(b->break_step), BRC_BUF(b->break_mode), BRC_BUF(b->break_stress),
                       BRC_BUF(b->break_energy), BRC_BUF(b->lost), BRC_BUF(b->broken));
+}
+
+void brc_beam_softening_cracks(const brc_simulation *s, brc_buffer **open, brc_buffer **crack)
+{
+    const beam_softening *f = softening_of(s);
+    *open = f ? f->open : NULL;
+    *crack = f ? f->crack : NULL;
 }
 
 /* ---- what stays ---- */

@@ -6,6 +6,9 @@
 #include "fracture_internal.h"
 #include "strengths.h"
 
+/* Openings over the length of a broken beam from which on its ends stand clear of each other. */
+#define BRC_BEAM_CLEAR 0.05
+
 /* Arrays and kernels; s->fracture->factor is there. Warns where E G_c / sigma_f^2 is too short for the spheres. */
 brc_status brc_beam_softening_create(brc_simulation *s, const brc_strengths *strengths);
 void brc_beam_softening_free(brc_simulation *s);
@@ -22,6 +25,9 @@ brc_status brc_beam_softening_move(brc_simulation *s);
 brc_status brc_beam_softening_begin(brc_simulation *s, int32_t moment);
 /* After what is still chosen broke: energies are booked, and beams at the end of their cohesion broken. */
 brc_status brc_beam_softening_end(brc_simulation *s, int32_t moment);
+
+/* States of the entries, and crack (kernels/beam_softening.cl); NULL where no beam softens. */
+void brc_beam_softening_cracks(const brc_simulation *s, brc_buffer **open, brc_buffer **crack);
 
 /* What a checkpoint keeps (state_store.h). */
 brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *store);

@@ -1,5 +1,6 @@
 /* Model cbm on the host: beams of each material and body, their diagonal blocks, and the time step that follows from them. */
 #include "beam_law.h"
+#include "beam_closure.h"
 #include "beam_softening.h"
 #include "fracture_internal.h"
 #include <lapacke.h>
@@ -126,7 +127,7 @@ brc_status brc_beams_upload(brc_simulation *s)
 
 static double in_series(double a, double b) { return 2 * a * b / (a + b); }
 
-/* Diagonal block of element e (design-cbm.md section 6), full, u before theta: sum over its beams of
+/* Diagonal block of element e (docs/notebook/beams.md), full, u before theta: sum over its beams of
  * translation ka n n^T + (6 A / l^2)(1 - n n^T), rotation 2 A (1 - n n^T) + kt n n^T, coupling (3 A / l) [n]x. */
 static void diagonal_block(const brc_simulation *s, int64_t e, double k[6][6])
 {
@@ -213,6 +214,7 @@ static brc_status virial(brc_simulation *s, double *out)
                                    BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend),
                                    BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_BUF(rows));
     if (status == BRC_OK) status = brc_beam_softening_virial(s, rows);
+    if (status == BRC_OK) status = brc_beam_closure_virial(s, rows);
     if (status == BRC_OK) status = brc_coeff_from_rows(s, rows, out, 6);
     brc_buffer_free(&rows);
     return status;

@@ -1,5 +1,6 @@
 #include "cell_breaks_internal.h"
 #include "cell_softening.h"
+#include "closed_faces.h"
 #include "consistent.h"
 #include "contact.h"
 #include "rims.h"
@@ -9,7 +10,7 @@
 #include <math.h>
 
 /* An element is held while the smallest eigenvalue of A / (2 V) is above this share of its value in the whole body, and above `support_least`
- * (design-dlsm.md section 3; 0.57 or more inside a body, 0.07 to 0.5 at its boundary). */
+ * (docs/notebook/fracture.md, Fracture of cells; 0.57 or more inside a body, 0.07 to 0.5 at its boundary). */
 static const double support_share = 0.2, support_least = 0.05;
 static const double never = 1e30; /* CELLS_NEVER of kernels/cells.cl */
 
@@ -186,6 +187,7 @@ brc_status brc_cell_breaks_create(brc_simulation *s)
     if (brc_is_published(s)) BRC_TRY_OR(cleanup, brc_published_breaks_create(s));
     if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
     BRC_TRY_OR(cleanup, brc_softening_create(s, &strengths));
+    BRC_TRY_OR(cleanup, brc_closed_faces_create(s));
 cleanup:
     brc_strengths_free(&strengths);
     return status;
@@ -196,6 +198,7 @@ void brc_cell_breaks_free(brc_simulation *s)
     brc_cell_breaks *c = s->fracture->cells;
     if (!c) return;
     brc_softening_free(s);
+    brc_closed_faces_free(s);
     brc_rings_free(&c->rings);
     brc_fields_free(&brc_cell_break_fields, c);
     brc_memory_free(c);
@@ -243,6 +246,7 @@ static brc_status break_marked(brc_simulation *s, double *energy)
         BRC_TRY(brc_rings_find(s, c->rings));
         BRC_TRY(brc_force_energy_around(s, c->rings, true, &more));
         *energy += more;
+        BRC_TRY(brc_closed_faces_keep(s));
         BRC_TRY(BRC_LAUNCH(c->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(brc_fracture_moment(s)), BRC_INT(brc_is_dlsm(s) ? 3 : 1),
                            BRC_BUF(s->row_start), BRC_BUF(c->twin), BRC_BUF(c->rings->touched), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->alive), BRC_BUF(s->neighbour), BRC_BUF(s->area),
                            BRC_BUF(s->ratio), BRC_BUF(c->limit), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
@@ -298,10 +302,11 @@ static brc_status find_rings(brc_simulation *s)
 /* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in elements. */
 static brc_status outside_energy(brc_simulation *s, double *out)
 {
-    double touching;
+    double touching, closed;
     BRC_TRY(brc_force_held_energy(s, out));
     BRC_TRY(brc_contact_stored(s, &touching));
-    *out += touching;
+    BRC_TRY(brc_closed_faces_stored(s, &closed));
+    *out += touching + closed;
     return BRC_OK;
 }
 
@@ -323,8 +328,10 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(break_marked(s, &before));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
     BRC_TRY(brc_softening_recount(s));
+    BRC_TRY(brc_closed_faces_look(s));
     BRC_TRY(find_rings(s));
     BRC_TRY(brc_force_around_breaks(s, rings));
+    BRC_TRY(brc_closed_faces_change(s, rings->whole_force ? 0 : half_kick));
     if (rings->whole_force) BRC_TRY(brc_rings_book_whole(s, rings));
     if (rings->whole_force) BRC_TRY(kick(s, -half_kick));
     BRC_TRY(kick_others(s, -half_kick));

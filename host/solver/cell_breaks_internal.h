@@ -16,6 +16,7 @@ struct brc_cell_breaks {
     brc_buffer *look;                                               /* [n_groups] */
     brc_buffer *weight, *found;                                     /* [n_rows] */
     struct brc_softening_faces *softening;    /* faces that open against cohesion (cell_softening.c); NULL: none does */
+    struct brc_closed_faces *closed;          /* sides of broken faces that bear on each other (closed_faces.c); NULL: none do */
     bool by_element;                          /* criteria of elements: what follows, and the arrays of kernels/fracture.cl */
     brc_kernel *record, *mark_chosen, *weigh; /* kernels/cell_criteria.cl */
     brc_buffer *branch;                       /* dlsm: [n_slots][3][C], owned */

@@ -1,4 +1,5 @@
 /* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
+#include "beam_closure.h"
 #include "beam_softening.h"
 #include "cell_softening.h"
 #include "contact.h"
@@ -41,6 +42,7 @@ static brc_status close_step(brc_simulation *s, double dt)
     if (s->fracture) brc_phase_within(s, BRC_PHASE_FRACTURE);
     BRC_TRY(brc_softening_move(s));
     BRC_TRY(brc_beam_softening_move(s));
+    BRC_TRY(brc_beam_closure_move(s));
     brc_phase_within(s, BRC_PHASE_MOTION);
     BRC_TRY(brc_guard_step(s));
     const brc_step_phase before = brc_phase_within(s, BRC_PHASE_FORCES);

@@ -1,7 +1,9 @@
-/* One evaluation of the forces of a model: the order of the passes, nothing else (design-dlsm.md sections 1 and 2, design-cbm.md). */
+/* One evaluation of the forces of a model: the order of the passes, nothing else (docs/notebook/theory.md T2 and T3, docs/notebook/beams.md). */
+#include "beam_closure.h"
 #include "beam_softening.h"
 #include "cell_breaks_internal.h"
 #include "cell_softening.h"
+#include "closed_faces.h"
 #include "contact.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
@@ -106,6 +108,7 @@ static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r, con
     const int finite = r->finite ? 1 : 0, face_loads = has_face_loads(s) ? 1 : 0;
     const brc_ring_list *flux_list = x->whole_flux ? NULL : x->list;
     BRC_TRY(dlsm_gradients(s, r, x));
+    BRC_TRY(brc_closed_faces_press(s, r));
     if (r->displacement == s->displacement && !r->homogeneous) BRC_TRY(brc_contact_gradients(s));
     if (r->rings && brc_rims_energies_apart(s)) BRC_TRY(brc_rims_stress(s, r, has_face_loads(s)));
     else
@@ -122,8 +125,9 @@ static brc_status dlsm_fluxes(brc_simulation *s, const brc_force_request *r, con
                       BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(finite), BRC_BUF(s->flux), BRC_BUF(s->bond_part),
                       BRC_INT(0), BRC_INT(0), BRC_INT(0)}; /* three free places before, for lists, and behind, for the rim */
     const int n_args = (int)(sizeof args / sizeof *args) - BRC_RIM_ARGS;
-    if (r->rings && brc_rims_gain(s, r->rings)) return brc_rims_flux(s, r->rings, n_args, args);
-    BRC_TRY(brc_pass_launch(s, s->kernel.flux, s->kernel.flux_listed, flux_list, x->flux, n_args, args));
+    if (r->rings && brc_rims_gain(s, r->rings)) BRC_TRY(brc_rims_flux(s, r->rings, n_args, args));
+    else BRC_TRY(brc_pass_launch(s, s->kernel.flux, s->kernel.flux_listed, flux_list, x->flux, n_args, args));
+    BRC_TRY(brc_closed_faces_flux(s, r, flux_list, x->flux));
     return r->homogeneous ? BRC_OK : brc_softening_flux(s, flux_list, x->flux);
 }
 
@@ -141,6 +145,7 @@ static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
                          BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(s->flux),
                          BRC_BUF(s->bond_part), BRC_COEFF(m->k), BRC_COEFF(one_plus_tau), BRC_BUF(s->modulus),
                          BRC_BUF(r->force)));
+    BRC_TRY(brc_closed_faces_force(s, r, list, x.force));
     if (!r->homogeneous) BRC_TRY(brc_softening_force(s, r->force));
     return dlsm_face_forces(s, r);
 }
@@ -350,6 +355,7 @@ brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabil
                            BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend), BRC_COEFF(b->twist), BRC_BUF(s->beam_of),
                            BRC_BUF(s->elastic_energy)));
         BRC_TRY(brc_beam_softening_energy(s));
+        BRC_TRY(brc_beam_closure_energy(s));
         return brc_vector_sum(s, s->elastic_energy, n, elastic);
     }
     BRC_TRY(cell_energies(s, NULL, 0));

@@ -1,4 +1,5 @@
 /* Bonds that break: limits of the elements, the order of the passes, and what broke (kernels/fracture.cl). */
+#include "beam_closure.h"
 #include "beam_law.h"
 #include "beam_softening.h"
 #include "cell_breaks.h"
@@ -172,6 +173,7 @@ static const brc_field_row break_rows[] = {
     {"break_energy", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_energy), "energies of breaks", "J", BRC_KEPT("fracture.energy", BRC_KEEP_BROKEN)},
     {"lost", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost), "energy of broken bonds", "J", BRC_KEPT("fracture.lost", BRC_KEEP_ALL)},
     {"gone", brc_each_row, 1, BRC_FIELD_STATE, of_cells, AT(gone), "lost bonds", "-", BRC_KEPT("cells.gone", BRC_KEEP_ALL)},
+    {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_beam_closure, AT(gone), "lost beams", "-", BRC_KEPT("closure.gone", BRC_KEEP_ALL)},
     {"broken", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(broken), "broken bonds", "-", BRC_KEPT("fracture.broken", BRC_KEEP_ALL)},
 };
 BRC_FIELD_TABLE(brc_break_fields, "broken bonds", BRC_LIFE_RUN, breaks, break_rows);
@@ -260,7 +262,9 @@ brc_status brc_fracture_create(brc_simulation *s)
     tell_unbreakable(s);
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture, 1, "fracture"));
     BRC_TRY(brc_fields_create(s->device, &brc_break_fields, &s->wants, s->fracture));
-    return brc_is_beams(s) ? brc_fracture_create_elements(s, s->offset) : brc_cell_breaks_create(s);
+    if (!brc_is_beams(s)) return brc_cell_breaks_create(s);
+    BRC_TRY(brc_fracture_create_elements(s, s->offset));
+    return brc_beam_closure_create(s);
 }
 
 void brc_fracture_free(brc_simulation *s)
@@ -269,6 +273,7 @@ void brc_fracture_free(brc_simulation *s)
     if (!f) return;
     brc_cell_breaks_free(s);
     brc_beam_softening_free(s);
+    brc_beam_closure_free(s);
     brc_fields_free(&brc_criterion_fields, f);
     brc_fields_free(&brc_break_fields, f);
     brc_memory_free(f->limit);
@@ -290,7 +295,8 @@ brc_status brc_fracture_force(brc_simulation *s, const brc_force_request *r)
                       BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_COEFF(f->scale[0]), BRC_COEFF(f->scale[1]), BRC_COEFF(f->scale[2]),
                       BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(f->record),
                       BRC_BUF(f->reach)));
-    return brc_beam_softening_force(s, r, is_drucker_prager(s));
+    BRC_TRY(brc_beam_softening_force(s, r, is_drucker_prager(s)));
+    return brc_beam_closure_force(s, r, is_drucker_prager(s));
 }
 
 static brc_status find_stress(brc_simulation *s)
@@ -336,6 +342,7 @@ brc_status brc_fracture_step(brc_simulation *s, double half_kick)
                       BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
                       BRC_BUF(f->break_energy), BRC_BUF(f->lost), BRC_BUF(f->broken)));
     BRC_TRY(brc_beam_softening_end(s, moment));
+    BRC_TRY(brc_beam_closure_begin(s, moment, half_kick));
     BRC_TRY(brc_loads_zero_turned(s, s->torque)); /* prescribed rotations balance theirs */
     const brc_step_phase before = brc_phase_within(s, BRC_PHASE_SEARCH);
     BRC_TRY(brc_contact_broken(s, half_kick));

@@ -19,7 +19,7 @@ struct brc_breaking {
     brc_buffer *record, *stress, *limits, *choice, *measure;             /* kernels/fracture.cl */
     brc_buffer *break_step, *break_mode, *break_stress, *break_energy;   /* [n_slots][C] */
     brc_buffer *lost, *broken;                                           /* [n_rows] */
-    brc_buffer *gone;                                                    /* [n_rows] cells: bonds lost; NULL: those that are broken */
+    brc_buffer *gone;                                                    /* [n_rows] bonds that bear nothing any more; NULL: those that are broken */
     brc_buffer *reach, *ease, *weight, *mark;                            /* kernels/fracture.cl */
     brc_buffer *branch;                                                  /* [n_slots][3][C] of its elements' bonds; borrowed */
     brc_buffer *factor, *weakest;                                        /* only if weighted */
@@ -28,6 +28,7 @@ struct brc_breaking {
     double *limit;     /* [n_elements][3] host */
     double slope, friction;
     struct brc_beam_softening *beam_softening; /* beams that open against cohesion (beam_softening.c); NULL: none does */
+    struct brc_beam_closure *beam_closure;     /* broken beams that bear (beam_closure.c); NULL: none does */
     struct brc_cell_breaks *cells; /* models of cells (cell_breaks.c), which use the arrays of entries and `lost`, `broken` */
     int n_spans;
     brc_break_span *spans;

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* A direction in which the neighbours of an element span less than this part of the widest is left out of its least
- * squares. Far below what a boundary cell of an unrelaxed grid shows (0.07/0.57, design-dlsm.md section 3), far above
+ * squares. Far below what a boundary cell of an unrelaxed grid shows (0.07/0.57), far above
  * rounding: only flat or lone elements meet it. */
 static const double span_threshold = 1e-6;
 /* The same where coefficients are single: rounding of the gradient in the weakest direction is amplified by the ratio of the spans, and what it leaves

@@ -13,7 +13,7 @@ static const double most_speeds = 30;
 /* Beyond any length [m] and spin [rad/s], within what single precision can square. */
 static const double endless = 1e18;
 /* Energy may exceed what was put in by this factor before the run is stopped as running away. Verlet's own oscillation is
- * some percent near the limit (design.md), so 100 is reached only by growth. */
+ * some percent near the limit (docs/notebook/stability.md), so 100 is reached only by growth. */
 static const double runaway = 100;
 
 struct brc_guard_state {

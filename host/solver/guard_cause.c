@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Neighbours that span their weakest direction by less than this part of the strongest are named as the cause: boundary cells of unrelaxed grids
- * have 0.1 and more (design-dlsm.md section 3). */
+ * have 0.1 and more. */
 static const double weak_span = 0.03;
 
 static void add(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));

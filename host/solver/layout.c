@@ -6,6 +6,8 @@
 #include <string.h>
 
 enum { WINDOW_SLICES = 32 };
+/* Kernels index rows of three components with an int (kernels/members.cl). */
+enum { MOST_ENTRIES = INT32_MAX / 3 };
 
 typedef struct sort_item {
     uint64_t key;
@@ -83,11 +85,11 @@ brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int
             boundary = boundary || has_free_face(domain, e);
         }
         layout->n_slots += longest;
-        if (layout->n_slots * slice > INT32_MAX / 2) {
+        if (layout->n_slots * slice > MOST_ENTRIES) {
             status = BRC_FAIL(context, BRC_BAD_INPUT,
-                              "the domain has %lld elements: more neighbour entries than 2^30, the most one device array "
-                              "indexes; use fewer elements",
-                              (long long)domain->n_elements);
+                              "the domain has %lld elements: more neighbour entries than %d, the most that kernels "
+                              "index; use fewer elements",
+                              (long long)domain->n_elements, MOST_ENTRIES);
             goto cleanup;
         }
         layout->slot_start[s + 1] = (int32_t)layout->n_slots;

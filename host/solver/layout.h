@@ -1,5 +1,5 @@
 /* Storage order of elements on a device: along a Hilbert curve, then by degree inside small windows, in slices of C rows
- * whose neighbour lists are padded to the longest of the slice (SELL-C, design.md "Storage decides the speed"). Element ids
+ * whose neighbour lists are padded to the longest of the slice (SELL-C). Element ids
  * never change; files and results use ids, device arrays use rows. */
 #ifndef BRC_SOLVER_LAYOUT_H
 #define BRC_SOLVER_LAYOUT_H

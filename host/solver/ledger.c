@@ -1,5 +1,6 @@
-/* The energy ledger (design.md: its terms are named once; closure is relative to the largest energy in play). */
+/* The energy ledger (docs/notebook/theory.md T4): its terms are named once; closure is relative to the largest energy. */
 #include "cell_softening.h"
+#include "closed_faces.h"
 #include "contact.h"
 #include "fracture_internal.h"
 #include "strikers_internal.h"
@@ -53,9 +54,12 @@ brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
         out->numerical += strikers.numerical;
     }
     BRC_TRY(brc_contact_ledger(s, out));
-    double rubbed;
-    BRC_TRY(brc_softening_friction(s, &rubbed));
-    out->friction += rubbed;
+    double opened_rubbed, closed_rubbed, closed;
+    BRC_TRY(brc_softening_friction(s, &opened_rubbed));
+    BRC_TRY(brc_closed_faces_friction(s, &closed_rubbed));
+    BRC_TRY(brc_closed_faces_stored(s, &closed));
+    out->friction += opened_rubbed + closed_rubbed;
+    out->contact += closed;
     out->initial = s->initial_energy;
     if (out->elastic > s->peak_elastic) s->peak_elastic = out->elastic;
     if (out->kinetic > s->peak_kinetic) s->peak_kinetic = out->kinetic;

@@ -5,7 +5,7 @@ brc_elastic brc_elastic_of(const brc_material *material)
 {
     const double young = material->young, nu = material->poisson;
     const double mu = young / (2 * (1 + nu)), bulk = young / (3 * (1 - 2 * nu));
-    /* compaction follows the softer of shear and bulk (design-dlsm.md, "Toward nu < 0") */
+    /* compaction follows the softer of shear and bulk (docs/notebook/theory.md T2) */
     const double mu_c = mu < 3 * bulk ? mu : 3 * bulk;
     const double bulk_c = bulk < 2 * mu / 3 ? bulk : 2 * mu / 3;
     const double lambda_c = bulk_c - 2 * mu_c / 3;

@@ -11,6 +11,8 @@ bool brc_rims_energies_apart(const brc_simulation *s);
 bool brc_rims_may_gain(const brc_simulation *s, const brc_rings *rings);
 /* Whether they are: the list was placed, there is room for what its elements gained, and the pass over the rim is not over the whole body anyway. */
 bool brc_rims_gain(const brc_simulation *s, const brc_rings *rings);
+/* Of each of the two gains: those of B follow those of P. */
+int32_t brc_rims_records(const brc_rings *rings);
 
 /* P of rings 0 and 1 with what their elements hold, elastic_energy, and what P gained where the rim wants it. */
 brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r, bool face_loads);

@@ -1,5 +1,6 @@
 /* Making and freeing a simulation, entering stages, running them, and the observers. */
 #include "cell_breaks.h"
+#include "closed_faces.h"
 #include "contact.h"
 #include "fracture_internal.h"
 #include "split.h"
@@ -265,6 +266,7 @@ brc_status brc_stage_start(brc_simulation *s)
     if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
     if (s->contact && brc_is_dlsm(s)) BRC_TRY(brc_force_fluxes_of_state(s, NULL, true)); /* cells reach as far as H says, which the search for the time step has used for other motions */
     BRC_TRY(brc_contact_restart(s));
+    brc_closed_faces_restart(s);
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(brc_simulation_ledger(s, &after));
     BRC_TRY(brc_contact_wakes(s, &after));

@@ -107,7 +107,7 @@ brc_status brc_simulation_reaction_moment(brc_simulation *simulation, int32_t se
 brc_status brc_simulation_applied_force(brc_simulation *simulation, double *out);
 
 /* The energy ledger [J]. closure = (kinetic + elastic + stabilisation + potential - work + damping + numerical + fracture + contact + friction + impact - initial)
- * over the largest of peak elastic energy, initial kinetic energy and work done [-] (design.md). */
+ * over the largest of peak elastic energy, initial kinetic energy and work done [-] (docs/notebook/theory.md T4). */
 typedef struct brc_ledger {
     double kinetic, elastic, stabilisation;
     double potential; /* of gravity */

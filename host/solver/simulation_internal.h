@@ -236,8 +236,8 @@ const brc_beam *brc_beam_of_element(const brc_simulation *s, int64_t e);
 brc_status brc_beams_stress(brc_simulation *s, int level, double *out);
 /* Inverses of the 6 x 6 diagonal blocks, upper triangles [n_rows][21]; elements without bonds get zero. */
 brc_status brc_beams_precondition_blocks(brc_simulation *s, double *out);
-/* Rigorous lower bound of the critical time step [s]: 2 / sqrt(2 max lambda(M_i^-1 D_i)) over the elements' diagonal blocks (design-cbm.md
- * section 6). */
+/* Rigorous lower bound of the critical time step [s]: 2 / sqrt(2 max lambda(M_i^-1 D_i)) over the elements' diagonal blocks
+ * (docs/notebook/beams.md). */
 brc_status brc_beams_node_bound(brc_simulation *s, double *out);
 
 /* ---- loads.c: one stage's loads ---- */

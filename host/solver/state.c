@@ -1,4 +1,5 @@
 /* Reading and writing the state from outside, in the order of element ids. */
+#include "closed_faces.h"
 #include "contact.h"
 #include "simulation_internal.h"
 #include <math.h>
@@ -41,6 +42,7 @@ brc_status brc_simulation_set_state(brc_simulation *s, const double *displacemen
     if (velocity) BRC_TRY(brc_state_to_rows(s, s->velocity, velocity, 3, 0));
     if (s->contact && brc_is_dlsm(s)) BRC_TRY(brc_force_fluxes_of_state(s, NULL, true)); /* H of this state, by which cells reach */
     BRC_TRY(brc_contact_restart(s));
+    brc_closed_faces_restart(s);
     return brc_force_of_state(s, BRC_BOOK_START);
 }
 

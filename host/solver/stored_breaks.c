@@ -1,7 +1,9 @@
 /* What broke, for a store (state_store.h): kept of the broken bonds and of the elements that lost one only, since a new simulation has all others right. */
+#include "beam_closure.h"
 #include "beam_softening.h"
 #include "cell_breaks.h"
 #include "cell_softening.h"
+#include "closed_faces.h"
 #include "fracture_internal.h"
 #include "state_store.h"
 #include <string.h>
@@ -140,7 +142,10 @@ brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)
         BRC_TRY_OR(cleanup, point_home(s, &bonds));
     }
     BRC_TRY_OR(cleanup, walk_arrays(s, store, &bonds));
-    status = brc_is_beams(s) ? brc_beam_softening_store_state(s, store) : brc_softening_store_state(s, store);
+    BRC_TRY_OR(cleanup, brc_closed_faces_store_state(s, store, &bonds));
+    BRC_TRY_OR(cleanup, brc_softening_store_state(s, store));
+    BRC_TRY_OR(cleanup, brc_beam_softening_store_state(s, store));
+    status = brc_beam_closure_store_state(s, store);
 cleanup:
     brc_memory_free(bonds.id);
     return status;

@@ -1,4 +1,4 @@
-/* The time step: 2 / omega_max by power iteration of M^-1 K with the scene's own force kernels (design-dlsm.md section 4),
+/* The time step: 2 / omega_max by power iteration of M^-1 K with the scene's own force kernels (docs/notebook/theory.md T5),
  * or as given, or the papers' rule. */
 #include "../base/random.h"
 #include "contact.h"

@@ -98,10 +98,20 @@ with tempfile.TemporaryDirectory() as folder:
     if installed.returncode:
         sys.exit("install: cmake --install failed: " + installed.stderr)
     shutil.move(first, moved)
-    for name in ("bin/breccia", "include/breccia.h", "lib/libbreccia.so.1", "share/breccia/examples", "share/breccia/scene.schema.json", "share/man/man1/breccia.1",
-                 "share/bash-completion/completions/breccia", "share/zsh/site-functions/_breccia", "share/doc/breccia/LICENSE", "share/doc/breccia/docs/reference/scene.md"):
+    for name in ("bin/breccia", "include/breccia.h", "lib/libbreccia.so.1", "share/breccia/examples", "share/breccia/scene.schema.json", "share/breccia/summary.schema.json", "share/breccia/rows.schema.json", "share/man/man1/breccia.1",
+                 "share/bash-completion/completions/breccia", "share/zsh/site-functions/_breccia", "share/doc/breccia/LICENSE", "share/doc/breccia/docs/reference/scene/README.md"):
         if not os.path.exists(os.path.join(moved, name)):
             failures.append(f"{name} is not installed")
+    stage = os.path.join(folder, "stage")  # as packages of distributions are made
+    subprocess.run(["cmake", "--install", BUILD, "--prefix", "/usr"], capture_output=True, text=True, check=True, env=dict(os.environ, DESTDIR=stage))
+    listed = [sorted(os.path.relpath(os.path.join(place, name), root) for place, _, names in os.walk(root) for name in names) for root in (moved, stage + "/usr")]
+    if listed[0] != listed[1]:
+        failures.append(f"with DESTDIR other files are installed: {sorted(set(listed[0]) ^ set(listed[1]))[:5]}")
+    for place, _, names in os.walk(os.path.join(os.environ["BRC_SOURCE_DIR"], "examples")):
+        for name in names:
+            path = os.path.relpath(os.path.join(place, name), os.environ["BRC_SOURCE_DIR"])
+            if not os.path.exists(os.path.join(moved, "share/breccia", path)):
+                failures.append(f"{path} is not installed")
     with open(os.path.join(BUILD, "CMakeCache.txt"), encoding="utf-8") as file:
         sanitized = "BRC_SANITIZE:BOOL=ON" in file.read()
     if not sanitized:  # the sanitizer's runtime must come first in a program

@@ -24,6 +24,7 @@ expect 2 "usage: quickstart run SCENE" fly
 expect 2 "usage: quickstart run SCENE" run
 expect 2 "usage: quickstart run SCENE" run -o somewhere
 expect 2 "usage: quickstart run SCENE" build something
+expect 2 "usage: quickstart run SCENE" docs something
 expect 2 "no scene file missing.yaml" run missing.yaml
 expect 0 "usage: quickstart run SCENE" --help
 [ -z "$(ls -A "$folder")" ] || { echo "something was left in the folder it was called from"; failures=$((failures + 1)); }

@@ -14,7 +14,7 @@ static void expect_modes(double poisson, int n, const double *expected, double t
     brc_context_free(&context);
 }
 
-/* Values of design-dlsm.md section 5, an independent computation printed to four decimals: half a unit of the last. */
+/* Values of an independent computation printed to four decimals: half a unit of the last. */
 static void cube_agrees_with_the_tabled_values_at_nu_0_2(void **state)
 {
     (void)state;

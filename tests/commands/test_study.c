@@ -66,6 +66,23 @@ static void draws_have_their_distribution_and_their_seed(void **state)
     brc_context_free(&context);
 }
 
+static void keys_together_change_in_step(void **state)
+{
+    (void)state;
+    brc_context *context = brc_context_create();
+    brc_study *study;
+    char value[64];
+    static const char *const text = "scene: a.yaml\ntogether: true\nvary:\n  - {key: x, values: [1 mm, 2 mm, 4 mm]}\n  - {key: seed, from: 7, to: 9}\n"
+                                    "  - {key: E, uniform: [1, 2], unit: GPa}\ndraws: 2\n";
+    assert_int_equal(read_text(context, text, &study), BRC_OK);
+    assert_int_equal(study->n_runs, 6);
+    static const char *const expected[6][2] = {{"1 mm", "7"}, {"1 mm", "7"}, {"2 mm", "8"}, {"2 mm", "8"}, {"4 mm", "9"}, {"4 mm", "9"}};
+    for (int run = 0; run < 6; ++run)
+        for (int k = 0; k < 2; ++k) assert_string_equal(brc_study_value(study, run, k, value, sizeof value), expected[run][k]);
+    brc_study_free(&study);
+    brc_context_free(&context);
+}
+
 static void what_is_wrong_is_told_with_its_place(void **state)
 {
     (void)state;
@@ -75,6 +92,7 @@ static void what_is_wrong_is_told_with_its_place(void **state)
                  {"scene: a.yaml\nvary: [{key: x, uniform: [1, 2]}]\n", "`draws` with keys"},
                  {"scene: a.yaml\nvary: [{key: x, values: [1]}]\ndraws: 3\n", "`draws` with keys"},
                  {"vary: [{key: x, values: [1]}]\n", "`scene: FILE`"},
+                 {"scene: a.yaml\ntogether: true\nvary: [{key: x, values: [1, 2]}, {key: y, values: [1, 2, 3]}]\n", "as many values in each key"},
                  {"scene: a.yaml\nvary: [{key: x, from: 5, to: 2}]\n", "`to` of at least `from`"},
                  {"scene: a.yaml\nvary: [{key: x, values: [1]}]\nfit: [{power: m, by: y}]\n", "by: found 'y', expected a key of `vary`"},
                  {"scene: a.yaml\nvary: [{key: x, values: [1]}]\nseeds: 1\n", ":3:1: error: unknown key 'seeds'"}};
@@ -122,7 +140,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_last_key_changes_fastest),        cmocka_unit_test(draws_have_their_distribution_and_their_seed),
-        cmocka_unit_test(what_is_wrong_is_told_with_its_place), cmocka_unit_test(weibulls_law_is_found),
+        cmocka_unit_test(keys_together_change_in_step), cmocka_unit_test(what_is_wrong_is_told_with_its_place), cmocka_unit_test(weibulls_law_is_found),
         cmocka_unit_test(a_power_law_is_found_with_its_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -66,6 +66,8 @@ with tempfile.TemporaryDirectory() as folder:
     assert complete("breccia", "run", "sc") == {"scene.yaml"}
     assert complete("breccia", "report", "") == {"results"}
     assert complete("breccia", "run", "scene.yaml", "-o", "re") == {"results"}
+    scenes = {line.split()[0] for line in run("new").split("\n\n")[0].splitlines()}
+    assert "brazilian" in scenes and complete("breccia", "new", "") == scenes
     assert complete("breccia", "help", "sch") == {"schema"}
     assert complete("breccia", "completion", "z") == {"zsh"}
     assert "agh19-table3" in complete("breccia", "reproduce", "agh19-t")

@@ -103,6 +103,29 @@ static void a_driver_that_hangs_is_stopped_in_time(void **unused)
     brc_context_free(&context);
 }
 
+static void a_driver_without_devices_is_told_from_no_driver(void **unused)
+{
+    (void)unused;
+    brc_context *context = fail_by("empty");
+    brc_device_list *list = NULL;
+    assert_int_equal(brc_device_list_create(context, &list), BRC_OK);
+    const brc_device_info *line = opencl_line(list);
+    assert_false(line->usable);
+    assert_string_equal(line->driver, "OpenCL platform EMPTY");
+    assert_non_null(strstr(line->why_not, "the driver of platform EMPTY is there and lists no device"));
+    assert_int_equal(device_cases_open(context, &(brc_device_request){.selector = "opencl:0"}), BRC_BAD_INPUT);
+    device_cases_says(context, "device opencl:0 (no device) cannot be used: the driver of platform EMPTY");
+    brc_device_list_free(&list);
+    brc_context_free(&context);
+    context = fail_by("platformless");
+    assert_int_equal(brc_device_list_create(context, &list), BRC_OK);
+    line = opencl_line(list);
+    assert_false(line->usable);
+    assert_non_null(strstr(line->why_not, "failing.icd) and gives no platform: its library is missing, or it finds no device"));
+    brc_device_list_free(&list);
+    brc_context_free(&context);
+}
+
 static void a_list_without_drivers_says_what_to_install(void **unused)
 {
     (void)unused;
@@ -121,6 +144,7 @@ int main(void)
         cmocka_unit_test(a_driver_that_aborts_is_a_line_and_auto_takes_the_cpu),
         cmocka_unit_test(a_driver_that_ends_the_program_writes_none_of_its_files_twice),
         cmocka_unit_test(a_driver_that_hangs_is_stopped_in_time),
+        cmocka_unit_test(a_driver_without_devices_is_told_from_no_driver),
         cmocka_unit_test(a_list_without_drivers_says_what_to_install),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -147,6 +147,21 @@ static void all_of_them_are_told_in_one_pass(void **state)
                      4);
 }
 
+static void friction_of_sides_is_for_scenes_in_which_they_touch(void **state)
+{
+    (void)state;
+    char said[2048];
+    bad_scene(scene_of(MATERIALS(STRONG), CELLS, "",
+                       "fracture: {friction: 0.4}\ninteractions: {contact: {friction: 0.2}}\nstages:\n" DYNAMIC),
+              "7:22", "surfaces of this scene rub by `interactions: {contact: {friction: ...}}`");
+    bad_scene(scene_of(MATERIALS(STRONG), CELLS, "", "fracture: {closure: false, friction: 0}\nstages:\n" DYNAMIC),
+              "7:38", "with `closure: false` the sides of broken faces do not touch; remove friction, or closure");
+    static const char *const taken[] = {"fracture: {friction: 0.4}\nstages:\n" DYNAMIC,
+                                        "fracture: {friction: auto}\ninteractions: {contact: {}}\nstages:\n" DYNAMIC};
+    for (int k = 0; k < 2; ++k)
+        assert_string_equal(warnings_of(scene_of(MATERIALS(STRONG), CELLS, "", taken[k]), said, sizeof said), "");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -156,6 +171,7 @@ int main(void)
         cmocka_unit_test(criteria_and_energies_are_refused_where_the_model_has_none),
         cmocka_unit_test(stages_are_refused_where_bonds_that_soften_cannot_follow),
         cmocka_unit_test(all_of_them_are_told_in_one_pass),
+        cmocka_unit_test(friction_of_sides_is_for_scenes_in_which_they_touch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,6 +25,7 @@ static void cells_break_as_on_the_cpu(void **state)
 {
     (void)state;
     compare_devices((case_options){.stages = CELLS_BURST(60), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE});
+    compare_devices((case_options){.stages = CELLS_CRUSH(100, "0.8"), .materials = CELLS_STRENGTH("3e-4 Pa"), .sets = CELLS_FRACTURE});
 }
 
 static void cells_soften_as_on_the_cpu(void **state)

@@ -13,6 +13,11 @@
 #define CELLS_BURST(steps) \
     "  - name: burst\n    solver: {dynamic: {steps: " #steps "}}\n    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n"
 
+/* Pressed together along x and y while it bursts, so that broken faces shut. */
+#define CELLS_CRUSH(steps, safety)                                                                                           \
+    "  - name: crush\n    solver: {dynamic: {steps: " #steps ", time_step: {auto: {safety: " safety "}}}}\n    initial:\n" \
+    "      - velocity: {gradient: {x: [-4e-3 1/s, 1e-3 1/s, 0], y: [-2e-3 1/s, 3e-3 1/s, 1e-3 1/s], z: [0, 0, 5e-3 1/s]}}\n"
+
 /* After 60 steps both have broken the same bonds, and some: every event to its last bit. */
 void cells_compare(case_options a, case_options b);
 /* cells_compare of the cpu and another device, exactly rounded: cells that break, that soften with one material and with two, of dlsm-published and by the stress of

@@ -173,6 +173,10 @@ void state_resumes_on(const char *device, brc_precision precision)
     state_resumes((state_case){.cells = &published}, (int[]){10, 0});
     case_options shatter = {.stages = CELLS_BURST(80), .materials = CELLS_STRENGTH("2e-4 Pa"), .sets = CELLS_FRACTURE, .device = device, .precision = precision, .n_threads = 1};
     state_resumes((state_case){.cells = &shatter}, (int[]){50, 0});
+    case_options crush = shatter; /* broken faces that are shut */
+    crush.stages = CELLS_CRUSH(120, "0.8");
+    crush.fill = "cells: [4, 4, 4], spread: 90 %, seed: 1";
+    state_resumes((state_case){.cells = &crush}, (int[]){40, 80, 0});
     fracture_options beams = {.fracture = "{criterion: virial-principal}", .strength = "strength: {tension: 2e-4 Pa}", .stages = FRACTURE_BURST(120),
                               .device = device, .precision = precision, .n_threads = 1};
     state_resumes((state_case){.beams = &beams}, (int[]){60, 0});

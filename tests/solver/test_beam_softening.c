@@ -103,6 +103,37 @@ static void a_beam_unloads_to_its_origin_and_bears_a_push_whole(void **state)
     close_case(&c);
 }
 
+/* Broken, and pressed together again by hand: the axial spring, 1e-12 for rounding; pulled apart, nothing. At once broken by its element (no fracture energy) and at the end of its cohesion. */
+static void a_broken_beam_bears_a_push(void **state)
+{
+    (void)state;
+    const double area = area_of_pair(), stiffness = 0.01 * M_PI;
+    for (int k = 0; k < 2; ++k) {
+        bench_case c;
+        char strength[256];
+        int64_t broken;
+        double f[6];
+        const double still[6] = {0}, pushed[6] = {0, 0, 0, -0.01, 0, 0}, pulled_apart[6] = {0, 0, 0, 0.01, 0, 0};
+        snprintf(strength, sizeof strength, k ? "tension: %.17g Pa, fracture_energy: %.17g J/m^2" : "tension: %.17g Pa", 3e-4 / area, 7e-7 / area * (k ? 3.0 : 1.0));
+        open_pair(&c, strength, "x: [2e-2 1/s, 0, 0]", NULL, BRC_DOUBLE);
+        begin_first(&c);
+        for (int i = 0; i < 100; ++i) { /* until it breaks, before its ends stand clear at 0.05 of its length */
+            assert_done(&c, brc_simulation_broken(c.simulation, &broken));
+            if (broken) break;
+            run_steps(&c, 10);
+        }
+        assert_int_equal(broken, 1);
+        assert_done(&c, brc_simulation_set_state(c.simulation, pushed, still));
+        assert_done(&c, brc_simulation_force(c.simulation, f));
+        assert_true(fabs(f[0] / (-0.01 * stiffness) - 1) < 1e-12 && fabs(f[0] + f[3]) < 1e-18);
+        assert_true(fabs(ledger_now(&c).elastic / (0.5 * stiffness * 1e-4) - 1) < 1e-12);
+        assert_done(&c, brc_simulation_set_state(c.simulation, pulled_apart, still));
+        assert_done(&c, brc_simulation_force(c.simulation, f));
+        assert_true(f[0] == 0 && f[3] == 0);
+        close_case(&c);
+    }
+}
+
 /* Pulled across its axis as much as along: half of the area along the opening, cos 60 degrees, is the least; here 1 / sqrt 2. Both spheres are held from
  * turning by nothing, so the beam bends; its direction at the end says what it cost: within the two percent that it turns by. */
 static void a_beam_costs_by_its_projection_along_the_opening(void **state)
@@ -126,34 +157,45 @@ static void a_beam_costs_by_its_projection_along_the_opening(void **state)
 
 /* ---- the law in a body ---- */
 
-/* At fixed damage; five-point differences as in test_cell_softening.c, fourth order: 1e-9 for their rounding. A beam that shuts has a kink in its stiffness, so
- * all are stretched, or pushed, by a fifth, which is more than they opened by. */
-static void check_gradient(bench_case *c, double stretch)
+/* At fixed damage; five-point differences as in test_cell_softening.c, fourth order: 1e-9 for their rounding. A beam that begins to push, or to pull along its crack, has a kink in its stiffness:
+ * where differences of half the width say another slope, by more than the fourth order does, there is one between them, and that place is left out; the beams are stretched or pushed by a fifth so
+ * that most places have none. sides: stretches along x, y and z. */
+static void check_gradient(bench_case *c, const double sides[3])
 {
+    static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
     const brc_domain *d = c->domain;
     const int64_t n = 3 * d->n_elements;
     double *u = calloc((size_t)n, sizeof *u), *f = calloc((size_t)n, sizeof *f), worst = 0, largest = 0;
-    const double h = 2e-3 * cbrt(d->volume[0]);
+    int n_seen = 0, n_smooth = 0;
     assert_done(c, brc_simulation_displacement(c->simulation, u));
-    for (int64_t k = 0; k < n; ++k) u[k] += 0.02 * random_at((uint64_t)k) * cbrt(d->volume[0]) + stretch * d->position[k] + 0.05 * d->position[k - k % 3 + (k + 1) % 3];
+    for (int64_t k = 0; k < n; ++k)
+        u[k] += 0.02 * random_at((uint64_t)k) * cbrt(d->volume[0]) + sides[k % 3] * d->position[k] + 0.05 * d->position[k - k % 3 + (k + 1) % 3];
     assert_done(c, brc_simulation_set_state(c->simulation, u, NULL));
     assert_done(c, brc_simulation_force(c->simulation, f));
     for (int64_t k = 0; k < n; ++k) largest = fmax(largest, fabs(f[k]));
     for (int64_t k = 0; k < n; k += n / 40 + 1) {
-        static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
         const double middle = u[k];
-        double slope = 0;
-        for (int i = 0; i < 4; ++i) {
-            u[k] = middle + at[i] * h;
-            assert_done(c, brc_simulation_set_state(c->simulation, u, NULL));
-            slope += weight[i] * ledger_now(c).elastic / h;
+        double slope[2] = {0};
+        for (int width = 0; width < 2; ++width) {
+            const double h = (width ? 1e-3 : 2e-3) * cbrt(d->volume[0]);
+            for (int i = 0; i < 4; ++i) {
+                u[k] = middle + at[i] * h;
+                assert_done(c, brc_simulation_set_state(c->simulation, u, NULL));
+                slope[width] += weight[i] * ledger_now(c).elastic / h;
+            }
         }
         u[k] = middle;
-        worst = fmax(worst, fabs(slope + f[k]) / largest);
+        n_seen += 1;
+        if (fabs(slope[0] - slope[1]) > 1e-9 * largest) continue;
+        n_smooth += 1;
+        worst = fmax(worst, fabs(slope[0] + f[k]) / largest);
     }
-    if (!(worst < 1e-9)) fail_msg("%g", worst);
+    print_message("%d of %d places without a kink, %.1e\n", n_smooth, n_seen, worst);
+    if (!(worst < 1e-9) || 2 * n_smooth < n_seen) fail_msg("%g, %d of %d", worst, n_smooth, n_seen);
     free(u), free(f);
 }
+
+static const double pulled[3] = {0.2, 0.2, 0.2}, pushed[3] = {-0.4, -0.4, -0.4}, /* from where the pull left it */ biaxial[3] = {0.4, -0.1, 0.3};
 
 static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
 {
@@ -165,8 +207,9 @@ static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
     const brc_softening_report report = softening_now(&c);
     print_message("%lld beams opened, %lld of them ended\n", (long long)report.n_opened, (long long)report.n_ended);
     assert_true(report.n_opened > 100 && report.unfinished > 0);
-    check_gradient(&c, 0.2);
-    check_gradient(&c, -0.4);
+    check_gradient(&c, pulled);
+    check_gradient(&c, pushed);
+    check_gradient(&c, biaxial);
     close_case(&c);
     open_lattice(&c, 4, (beams_options){.coordination = 6,
                                         .materials = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.2, E: 1 Pa, strength: 1e-6 Pa}, strength: {tension: 1e-6 Pa, fracture_energy: 1e-6 J/m^2}}\n"
@@ -178,8 +221,9 @@ static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
     const brc_softening_report two = softening_now(&c);
     print_message("two materials: %lld beams opened, %lld of them ended\n", (long long)two.n_opened, (long long)two.n_ended);
     assert_true(two.n_opened > 10 && two.n_opened > two.n_ended);
-    check_gradient(&c, 0.2);
-    check_gradient(&c, -0.4);
+    check_gradient(&c, pulled);
+    check_gradient(&c, pushed);
+    check_gradient(&c, biaxial);
     close_case(&c);
 }
 
@@ -187,8 +231,8 @@ static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
 static void the_ledger_closes_through_fracture_with_softening(void **state)
 {
     (void)state;
-    const char *safety[] = {"0.8", "0.35"};
-    const double bound[] = {0.05, 0.01};
+    const char *safety[] = {"0.35", "0.8"};
+    const double bound[] = {0.01, 0.05};
     for (int k = 0; k < 2; ++k) {
         bench_case c;
         char stages[512];
@@ -291,6 +335,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_beam_costs_its_fracture_energy),
         cmocka_unit_test(a_beam_unloads_to_its_origin_and_bears_a_push_whole),
+        cmocka_unit_test(a_broken_beam_bears_a_push),
         cmocka_unit_test(a_beam_costs_by_its_projection_along_the_opening),
         cmocka_unit_test(force_is_the_gradient_of_the_energy_whatever_is_open),
         cmocka_unit_test(the_ledger_closes_through_fracture_with_softening),

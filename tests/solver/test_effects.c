@@ -105,7 +105,8 @@ static void fracture_adds_its_check_and_its_arrays(void **state)
             (const char *const[]){"limits of bonds", "unbroken bonds", "smallest limits", "twins", "moduli", "supports", "marked bonds", "changed elements",
                                   "stresses of marked bonds", "groups to look at", "weights of broken bonds", "marks of elements", "steps of breaks", "modes of breaks",
                                   "stresses of breaks", "energies of breaks", "energy of broken bonds", "broken bonds", "lost bonds", "rings around broken bonds",
-                                  "forces around broken bonds", "rings of elements", "numerical dissipation", NULL});
+                                  "forces around broken bonds", "rings of elements", "numerical dissipation", "broken faces",
+                                  "springs of broken faces", "forces of broken faces", "energy of broken faces", "friction of broken faces", "places of elements", NULL});
 }
 
 int main(void)

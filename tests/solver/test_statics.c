@@ -16,7 +16,7 @@ static int32_t set_index(bench_case *c, const char *name)
     return index;
 }
 
-/* E and nu of a pulled cube, from the reaction and the side faces, corrected for the finite strain (design-dlsm.md): with
+/* E and nu of a pulled cube, from the reaction and the side faces, corrected for the finite strain (docs/notebook/theory.md T1): with
  * P the nominal stress and eps the nominal strain, Sigma = P/(1 + eps), Green strains e = eps + eps^2/2. */
 static void young_and_poisson(bench_case *c, double *young, double *poisson)
 {
@@ -228,7 +228,7 @@ static void overlapping_components_are_refused(void **state)
 static void cube_modes_are_near_the_exact_ones(void **state)
 {
     (void)state;
-    /* rad/s for E = rho = L = 1, nu 0.2 (design-dlsm.md section 5); 512 relaxed cells: 0.2 to 1.1 % were measured by the
+    /* rad/s for E = rho = L = 1, nu 0.2 (docs/notebook/theory.md T7); 512 relaxed cells: 0.2 to 1.1 % were measured by the
      * prototype at 1000 and 216 cells, 1.5 % is the bound for every single mode here */
     const double exact[8] = {1.8433, 1.8433, 2.4637, 2.4637, 2.4637, 2.5192, 2.5192, 2.5192};
     bench_case c;

@@ -4,14 +4,15 @@
     results = breccia.Scene.load("scene.yaml").run("results", progress=True)
     results.histories().plot(x="time [s]")
 
-See docs/reference/python.md; the keys of a scene are in docs/reference/scene.md.
+See docs/reference/python.md; the keys of a scene are in docs/reference/scene/README.md.
 """
 from ._library import library as _functions, text as _text
+from ._program import new
 from .errors import BrecciaError, DeviceError, FileError, InputError, Interrupted, PhysicsStopped, Problem, SceneError
 from .results import Frame, Results
 from .run import Answer, Device, Moment, Observer, Run, devices
 from .scene import Price, Scene
-from .sweep import Sweep, sweep
+from .sweep import Sweep, study, sweep
 
 END_STAGE = Answer.END_STAGE
 STOP = Answer.STOP
@@ -20,4 +21,4 @@ commit: str = _text(_functions.commit())
 
 __all__ = ["Answer", "BrecciaError", "Device", "DeviceError", "END_STAGE", "FileError", "Frame", "InputError", "Interrupted", "Moment",
            "Observer", "PhysicsStopped", "Price", "Problem", "Results", "Run", "STOP", "Scene", "SceneError", "Sweep", "commit",
-           "devices", "sweep"]
+           "devices", "new", "study", "sweep"]

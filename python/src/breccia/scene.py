@@ -66,7 +66,7 @@ class Scene:
     """A scene that was read and found to be right; else :class:`SceneError` says what is wrong, where, and the cure.
 
     ``Scene({"version": 1, "materials": {"glass": {"E": "72 GPa", "nu": 0.23, "density": (2500, "kg/m^3")}}, ...})``: keys as in YAML
-    (docs/reference/scene.md), quantities as strings with units or as pairs. ``set`` replaces values: ``{"materials.glass.E": "70 GPa"}``.
+    (docs/reference/scene/README.md), quantities as strings with units or as pairs. ``set`` replaces values: ``{"materials.glass.E": "70 GPa"}``.
     Relative paths in a dict are those of ``folder``.
     """
 

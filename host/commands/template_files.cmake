@@ -1,0 +1,18 @@
+# cmake -DFOLDER=docs/guide/tutorials -DOUTPUT=file.c -P template_files.cmake: every *.yaml of the folder
+# as a C string, one literal a line.
+file(GLOB files RELATIVE ${FOLDER} ${FOLDER}/*.yaml)
+list(SORT files)
+set(text "#include \"template.h\"\nconst brc_template brc_templates[] = {\n")
+set(count 0)
+foreach(file IN LISTS files)
+    file(READ "${FOLDER}/${file}" content)
+    string(LENGTH "${content}" bytes)
+    string(REPLACE "\\" "\\\\" content "${content}")
+    string(REPLACE "\"" "\\\"" content "${content}")
+    string(REPLACE "\n" "\\n\"\n     \"" content "${content}")
+    string(REPLACE ".yaml" "" name "${file}")
+    string(APPEND text "    {\"${name}\",\n     \"${content}\", ${bytes}},\n")
+    math(EXPR count "${count} + 1")
+endforeach()
+string(APPEND text "};\nconst int brc_template_count = ${count};\n")
+file(WRITE "${OUTPUT}" "${text}")

@@ -1,0 +1,198 @@
+#include "beam_closure.h"
+#include "beam_softening.h"
+
+enum { LEAN = 7 }; /* kernels/beam_closure.cl */
+
+struct brc_beam_closure {
+    brc_kernel *force, *energy, *virial, *move, *begin;
+    brc_buffer *other, *twin, *bears; /* [n_slots][C] */
+    brc_buffer *lean;                 /* [n_slots][LEAN][C], only where beams soften */
+    brc_buffer *rubs;                 /* [n_groups] */
+};
+typedef struct brc_beam_closure beam_closure;
+
+bool brc_wants_beam_closure(const brc_wants *w)
+{
+    return w->scene->has_fracture && brc_wants_beams(w) && (brc_scene_shuts(w->scene) || w->softens);
+}
+static bool softens(const brc_wants *w)
+{
+    return w->softens;
+}
+
+#define AT(member) BRC_FIELD_AT(beam_closure, member)
+static const brc_field_row rows[] = {
+    {"other", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(other), "broken beams", "-", BRC_NOT_KEPT},
+    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "broken beams", "-", BRC_NOT_KEPT},
+    {"bears", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(bears), "broken beams", "-",
+     BRC_KEPT("closure.bears", BRC_KEEP_ALL)},
+    {"lean", brc_each_entry, LEAN, BRC_FIELD_COEFF, softens, AT(lean), "broken beams", "-",
+     BRC_KEPT("closure.lean", BRC_KEEP_ALL)},
+    {"rubs", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(rubs), "broken beams", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_beam_closure_fields, "broken beams that bear", BRC_LIFE_RUN, brc_wants_beam_closure, rows);
+
+static beam_closure *closure_of(const brc_simulation *s)
+{
+    return s->fracture ? s->fracture->beam_closure : NULL;
+}
+/* A static stage solves a body whose broken bonds bear nothing (docs/notebook/fracture.md). */
+static bool bears_now(const brc_simulation *s)
+{
+    return brc_scene_shuts(s->scene) && s->stage >= 0 && brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC;
+}
+static bool acts(const brc_simulation *s)
+{
+    return closure_of(s) && bears_now(s);
+}
+
+/* Rows of the neighbours over all bonds there ever were, and the other entry of each; entries without one point home. */
+static brc_status upload_bonds(brc_simulation *s, beam_closure *f)
+{
+    const brc_layout *layout = s->layout;
+    const int64_t slice = layout->slice, n_entries = layout->n_slots * slice;
+    int32_t *row = NULL, *twin = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &row, n_entries, "broken beams"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &twin, n_entries, "broken beams"));
+    BRC_TRY_OR(cleanup, brc_layout_twins(s->context, layout, s->domain, twin));
+    for (int32_t k = 0; k < layout->n_slices; ++k)
+        for (int64_t at = layout->slot_start[k] * slice; at < layout->slot_start[k + 1] * slice; ++at) {
+            const int32_t h = layout->half_edge[at], home = (int32_t)(k * slice + at % slice);
+            row[at] = h >= 0 ? layout->row_of_element[s->domain->neighbour[h]] : home;
+        }
+    BRC_TRY_OR(cleanup, brc_upload_int(f->other, row, n_entries));
+    status = brc_upload_int(f->twin, twin, n_entries);
+cleanup:
+    brc_memory_free(row);
+    brc_memory_free(twin);
+    return status;
+}
+
+brc_status brc_beam_closure_create(brc_simulation *s)
+{
+    if (!brc_wants_beam_closure(&s->wants)) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->beam_closure, 1, "broken beams"));
+    beam_closure *f = s->fracture->beam_closure;
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+    } wanted[] = {{&f->force, "closure_force"},
+                  {&f->energy, "closure_energy"},
+                  {&f->virial, "closure_virial"},
+                  {&f->move, "closure_move"},
+                  {&f->begin, "closure_begin"}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
+        BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    BRC_TRY(brc_fields_create(s->device, &brc_beam_closure_fields, &s->wants, f));
+    return upload_bonds(s, f);
+}
+
+void brc_beam_closure_free(brc_simulation *s)
+{
+    beam_closure *f = closure_of(s);
+    if (!f) return;
+    brc_fields_free(&brc_beam_closure_fields, f);
+    brc_memory_free(f);
+    s->fracture->beam_closure = NULL;
+}
+
+/* ---- an evaluation ---- */
+
+brc_status brc_beam_closure_force(brc_simulation *s, const brc_force_request *r, bool drucker_prager)
+{
+    const beam_closure *f = closure_of(s);
+    const brc_breaking *b = s->fracture;
+    if (!acts(s)) return BRC_OK;
+    const brc_beam *beam = brc_beam_of_element(s, 0);
+    return BRC_LAUNCH(f->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(f->other),
+                      BRC_BUF(f->bears), BRC_BUF(s->offset), BRC_BUF(r->displacement), BRC_BUF(r->orientation),
+                      BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of),
+                      BRC_INT(f->lean != NULL), BRC_BUF(f->lean), BRC_COEFF(b->scale[0]), BRC_COEFF(b->scale[1]),
+                      BRC_COEFF(b->scale[2]), BRC_INT(drucker_prager ? 1 : 0), BRC_COEFF(b->slope), BRC_BUF(f->rubs),
+                      BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(b->record), BRC_BUF(b->reach));
+}
+
+/* Passes of one result more, of the state. */
+static brc_status of_state(brc_simulation *s, brc_kernel *kernel, brc_buffer *to)
+{
+    const beam_closure *f = closure_of(s);
+    const brc_beam *beam = brc_beam_of_element(s, 0);
+    return BRC_LAUNCH(kernel, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(f->other),
+                      BRC_BUF(f->bears), BRC_BUF(s->offset), BRC_BUF(s->displacement), BRC_BUF(s->orientation),
+                      BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of),
+                      BRC_INT(f->lean != NULL), BRC_BUF(f->lean), BRC_BUF(f->rubs), BRC_BUF(to));
+}
+
+brc_status brc_beam_closure_energy(brc_simulation *s)
+{
+    return acts(s) ? of_state(s, closure_of(s)->energy, s->elastic_energy) : BRC_OK;
+}
+brc_status brc_beam_closure_virial(brc_simulation *s, brc_buffer *virial)
+{
+    return acts(s) ? of_state(s, closure_of(s)->virial, virial) : BRC_OK;
+}
+
+/* ---- a step ---- */
+
+brc_status brc_beam_closure_move(brc_simulation *s)
+{
+    const beam_closure *f = closure_of(s);
+    const brc_breaking *b = s->fracture;
+    if (!acts(s)) return BRC_OK;
+    const brc_beam *beam = brc_beam_of_element(s, 0);
+    return BRC_LAUNCH(f->move, s->n_groups, BRC_INT(s->n_groups), BRC_INT((int32_t)brc_fracture_moment(s)),
+                      BRC_COEFF(BRC_BEAM_CLEAR), BRC_BUF(s->row_start), BRC_BUF(f->other), BRC_BUF(f->bears),
+                      BRC_BUF(s->offset), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(beam->axial),
+                      BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_INT(f->lean != NULL),
+                      BRC_BUF(f->lean), BRC_BUF(f->rubs), BRC_BUF(b->mark), BRC_BUF(b->lost), BRC_BUF(b->gone));
+}
+
+brc_status brc_beam_closure_begin(brc_simulation *s, int32_t moment, double half_kick)
+{
+    const beam_closure *f = closure_of(s);
+    const brc_breaking *b = s->fracture;
+    if (!f) return BRC_OK;
+    const brc_beam *beam = brc_beam_of_element(s, 0);
+    brc_buffer *open = NULL, *crack = NULL;
+    brc_beam_softening_cracks(s, &open, &crack);
+    return BRC_LAUNCH(f->begin, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_INT(bears_now(s) ? 1 : 0),
+                      BRC_INT(open != NULL), BRC_STATE(half_kick), BRC_BUF(s->row_start), BRC_BUF(f->other),
+                      BRC_BUF(f->twin), BRC_BUF(f->bears), BRC_BUF(s->offset), BRC_BUF(s->displacement),
+                      BRC_BUF(s->orientation), BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist),
+                      BRC_BUF(s->beam_of), BRC_BUF(f->lean), BRC_BUF(b->mark), BRC_BUF(b->break_step),
+                      BRC_BUF(b->break_mode), BRC_BUF(open), BRC_BUF(crack), BRC_BUF(s->mass), BRC_BUF(s->inertia),
+                      BRC_BUF(s->force), BRC_BUF(s->torque), BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(f->rubs),
+                      BRC_BUF(b->lost), BRC_BUF(b->gone));
+}
+
+/* ---- what stays ---- */
+
+/* Groups with beams that bear follow from the entries. */
+static brc_status find_rubs(brc_simulation *s, const beam_closure *f)
+{
+    const int64_t slice = s->layout->slice, n_entries = s->layout->n_slots * slice,
+                  width = s->layout->n_rows / s->n_groups;
+    int32_t *bears = NULL, *rubs = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &bears, n_entries, "broken beams"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rubs, s->n_groups, "broken beams"));
+    BRC_TRY_OR(cleanup, brc_buffer_read(f->bears, 0, bears, 4 * n_entries));
+    for (int32_t block = 0; block < s->layout->n_slices; ++block)
+        for (int64_t k = (int64_t)s->layout->slot_start[block] * slice;
+             k < (int64_t)s->layout->slot_start[block + 1] * slice; ++k)
+            if (bears[k]) rubs[(block * slice + k % slice) / width] = 1;
+    status = brc_buffer_write(f->rubs, 0, rubs, 4 * (int64_t)s->n_groups);
+cleanup:
+    brc_memory_free(bears);
+    brc_memory_free(rubs);
+    return status;
+}
+
+brc_status brc_beam_closure_store_state(brc_simulation *s, brc_state_store *store)
+{
+    const beam_closure *f = closure_of(s);
+    if (!f) return BRC_OK;
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_beam_closure_fields, .owner = f}));
+    return store->loading ? find_rubs(s, f) : BRC_OK;
+}

@@ -1,0 +1,141 @@
+/* What a crack leaves to a beam (docs/notebook/fracture.md "Beams beside compression"): its pushes across the crack and along it.
+ *
+ * a, p, q: axes of a crack, that across it and two along it, each turned so that the beam's initial axis e has components c_a, c_p, c_q >= 0. The ends of the beam move apart by o. As
+ * springs in series with the stiffness K = k e (x) e + k_m (1 - e (x) e) of a beam, k = E S / l0 along it and k_m = 12 E I / l0^3 across it, the crack opens along a and lets go of pulls along p
+ * and q, each by w >= 0:
+ *     U = min over w >= 0 of 1/2 (o - w) . K (o - w).
+ * It is convex, its force F = K (o - w) is continuous, and along each axis F pushes or is 0. Moments, twist and what pulls are gone. U is not above the energy of the whole beam (of small
+ * strains), so a beam loses energy by opening and gains none.
+ *
+ * With y = e.(o - w) <= 0 it is F_i = k_m o_i + (k - k_m) c_i y along axes that hold, those with F_i < 0; along the others w_i makes it 0, so that
+ * y = (sum over held of c_i o_i) / (1 + (k / k_m - 1) sum over the others of c_i^2), which turns of y and of who holds, from y = 0 on, find within four: a Newton's method on a convex
+ * function of three pieces.
+ *
+ * o = (l - l0) n + o_m across, which turns with both elements: o_m = l (R_i^T d1 + R_j^T d2) / 2 in the undeformed body, so no rotation of the body changes U.
+ * k_m counts by `keeps`: 1 where the beam leans by 30 degrees or more against the axis and what pressed along the crack as it opened was as much as what pulled, less where the beam lies along the
+ * axis, since a slide along the crack is no push, and with the square of push over pull; it fades as the crack opens,
+ * and where it is 0 the axial push is left: U = k/2 min(l - l0, 0)^2. */
+#ifndef BRC_KERNELS_BEAM_CARRIED_H
+#define BRC_KERNELS_BEAM_CARRIED_H
+
+#include "cbm_beam.h"
+
+/* How a crack lies to a beam. side: unit vector m1 across e in the plane of e and a, in the undeformed body, a = c_a e + s m1; from the other end -m1. m2 = e x m1. along: c_a; cosine, sine: of p
+ * in p = cosine (s e - c_a m1) + sine m2, cosine >= 0; from the other end -sine. keeps: share of k_m. [-, all] */
+typedef struct {
+    lane_vec3 side;
+    lane along, cosine, sine, keeps;
+} beam_lean;
+
+typedef struct {
+    cbm_end end; /* on element i */
+    lane energy; /* [J] */
+} beam_carry;
+
+/* 1 where x > 0, else 0. */
+LAW lane beam_positive(lane x) { return LANE_DIFFERENT(lane_max(x, LANE_ZERO), LANE_ZERO); }
+
+/* Axes a, p, q by their parts along e, m1 and m2, and the parts of o across the beam. */
+typedef struct {
+    lane_vec3 c, m1, m2;     /* of a, p, q */
+    lane_vec3 first, second; /* m1, m2 */
+    lane o1, o2;             /* [m] */
+} beam_axes;
+LAW beam_axes beam_axes_of(cbm_shape shape, lane_vec3 axis0, lane_quat q_i, lane_quat q_j, beam_lean lean)
+{
+    const lane one = LANE_ZERO + REAL(1), c = lean.along, s = LANE_SQRT(lane_max(one - c * c, LANE_ZERO));
+    const lane flip = one - REAL(2) * beam_positive(lean.sine),
+               sine = -flip * lean.sine; /* |sine|: q is turned towards e */
+    const lane_vec3 back_i =
+        lane_vec3_add(shape.bent1, quat_rotate_minus_identity(quat_conjugate(q_i), shape.bent1, 1));
+    const lane_vec3 back_j =
+        lane_vec3_add(shape.bent2, quat_rotate_minus_identity(quat_conjugate(q_j), shape.bent2, 1));
+    const lane_vec3 across = lane_vec3_scale(REAL(0.5) / shape.inv_length, lane_vec3_add(back_i, back_j)),
+                    second = lane_vec3_cross(axis0, lean.side);
+    return (beam_axes){{c, s * lean.cosine, s * lane_max(sine, -sine)},
+                       {s, -c * lean.cosine, -c * lane_max(sine, -sine)},
+                       {LANE_ZERO, lean.sine, flip * lean.cosine},
+                       lean.side,
+                       second,
+                       lane_vec3_dot(across, lean.side),
+                       lane_vec3_dot(across, second)};
+}
+
+/* A part of o along one of the axes. */
+LAW lane beam_along(lane c, lane m1, lane m2, lane elongation, lane o1, lane o2)
+{
+    return c * elongation + m1 * o1 + m2 * o2;
+}
+
+/* One of the axes at a trial y: sum: c o where it holds; free: c^2 where it does not; force: F along it [N], where it holds; rest: o - w along it but for y [m]. */
+typedef struct {
+    lane sum, free, force, rest;
+} beam_axis;
+LAW beam_axis beam_axis_of(lane c, lane o, lane k_m, lane more, lane y, lane per)
+{
+    const lane f = k_m * o + more * c * y, lets = beam_positive(f), held = REAL(1) - lets;
+    return (beam_axis){held * c * o, lets * c * c, held * f, held * o - lets * per * c * y};
+}
+
+/* branch: x_j - x_i now [m], axis0: e; q_i, q_j: orientations of the elements. */
+LAW beam_carry beam_carried(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness, lane_vec3 branch,
+                            lane_vec3 axis0, lane_quat q_i, lane_quat q_j, beam_lean lean)
+{
+    const beam_axes x = beam_axes_of(shape, axis0, q_i, q_j, lean);
+    const lane zero = LANE_ZERO, k = stiffness.axial * inv_length0,
+               k_m = lean.keeps * REAL(6) * stiffness.bend * inv_length0 * inv_length0 * inv_length0, more = k - k_m;
+    const lane per = more / lane_max(k_m, REAL(1e-15) * k + REAL(1e-30));
+    const lane_vec3 o = {beam_along(x.c.x, x.m1.x, x.m2.x, shape.elongation, x.o1, x.o2),
+                         beam_along(x.c.y, x.m1.y, x.m2.y, shape.elongation, x.o1, x.o2),
+                         beam_along(x.c.z, x.m1.z, x.m2.z, shape.elongation, x.o1, x.o2)};
+    beam_axis a, p, q;
+    lane y = zero;
+    for (int turn = 0; turn < 5; ++turn) {
+        a = beam_axis_of(x.c.x, o.x, k_m, more, y, per);
+        p = beam_axis_of(x.c.y, o.y, k_m, more, y, per);
+        q = beam_axis_of(x.c.z, o.z, k_m, more, y, per);
+        if (turn < 4) y = lane_min((a.sum + p.sum + q.sum) / (REAL(1) + (a.free + p.free + q.free) * per), zero);
+    }
+    const lane energy = more * y * y + k_m * (a.rest * a.rest + p.rest * p.rest + q.rest * q.rest);
+    const lane f1 = a.force * x.m1.x + p.force * x.m1.y + q.force * x.m1.z,
+               f2 = a.force * x.m2.x + p.force * x.m2.y + q.force * x.m2.z;
+    const lane_vec3 across =
+        lane_vec3_add(lane_vec3_scale(REAL(0.5) * f1, x.first), lane_vec3_scale(REAL(0.5) * f2, x.second));
+    const lane_vec3 own = lane_vec3_add(across, quat_rotate_minus_identity(q_i, across, 1)),
+                    theirs = lane_vec3_add(across, quat_rotate_minus_identity(q_j, across, 1));
+    return (beam_carry){
+        {lane_vec3_add(lane_vec3_scale(k * y, shape.axis), lane_vec3_add(own, theirs)), lane_vec3_cross(branch, own)},
+        REAL(0.5) * energy};
+}
+
+/* The pull of a whole beam along the axis of a crack, as that of a beam along the axis with as much energy to release [N], where its element has stretched by `lateral` [-] across what presses on it
+ * along the crack: all its beams are stretched so, whether there is a crack or not. */
+LAW lane beam_pull(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness, lane_vec3 axis0, lane_quat q_i,
+                   lane_quat q_j, beam_lean lean, lane lateral)
+{
+    const beam_axes x = beam_axes_of(shape, axis0, q_i, q_j, lean);
+    const lane k = stiffness.axial * inv_length0,
+               k_m = REAL(6) * stiffness.bend * inv_length0 * inv_length0 * inv_length0, c = lean.along;
+    const lane own = lateral * c / (inv_length0 + REAL(1e-30)), stiff = k_m + (k - k_m) * c * c;
+    const lane pull = k_m * (x.c.x * shape.elongation + x.m1.x * x.o1) + (k - k_m) * c * shape.elongation - stiff * own;
+    return pull * LANE_SQRT(k / lane_max(stiff, LANE_ZERO + REAL(1e-30)));
+}
+
+/* The opening l n - l0 (X1 + X2) / 2 of a beam's ends, which no rotation of the body changes [m]. */
+LAW lane_vec3 beam_opening(cbm_shape shape)
+{
+    const lane length0 = REAL(1) / shape.inv_length - shape.elongation;
+    return lane_vec3_add(lane_vec3_scale(shape.elongation, shape.axis),
+                         lane_vec3_scale(REAL(0.5) * length0, lane_vec3_add(shape.bent1, shape.bent2)));
+}
+
+/* keeps of a crack that has come to this opening: none where its ends stand clear of each other, at `clear` of the beam's length (0: it does not fade). */
+LAW lane beam_fades(lane keeps, lane along, lane_vec3 opening, lane inv_length0, coeff clear)
+{
+    const lane wide =
+        clear > 0 ? LANE_SQRT(lane_vec3_dot(opening, opening)) * inv_length0 * (REAL(1) / clear) : LANE_ZERO;
+    const lane leans = lane_min(REAL(4) * (REAL(1) - along * along), LANE_ZERO + REAL(1));
+    return lane_min(keeps, leans * lane_max(REAL(1) - wide, LANE_ZERO));
+}
+
+#endif
