@@ -89,8 +89,7 @@ brc_status brc_price_watch_output(brc_context *context, const brc_setup *setup, 
 {
     *price = (brc_price){.context = context, .prediction = {.seconds = NAN, .took_seconds = NAN, .host_bytes = brc_memory_peak()}};
     for (int32_t k = 0; k < setup->n; ++k)
-        price->prediction.device_bytes += brc_simulation_estimate_bytes(brc_simulation_scene(setup->simulation[k]), setup->domain[k],
-                                                                        brc_device_get_precision(setup->device[k]), brc_device_slice(setup->device[k]));
+        price->prediction.device_bytes += brc_simulation_planned_bytes(setup->simulation[k]);
     return brc_simulation_observe(setup->simulation[0], &(brc_observer){.self = price, .frame = frame_begin});
 }
 

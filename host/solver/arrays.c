@@ -88,10 +88,12 @@ brc_status brc_new_coeff(brc_simulation *s, brc_buffer **out, int64_t count, con
     return brc_buffer_create(s->device, out, (count + SPARE) * brc_precision_coeff_bytes(brc_device_get_precision(s->device)), what);
 }
 
+brc_status brc_upload_int(brc_buffer *buffer, const int32_t *values, int64_t count) { return count ? brc_buffer_write(buffer, 0, values, count * 4) : BRC_OK; }
+
 brc_status brc_new_int(brc_simulation *s, brc_buffer **out, const int32_t *values, int64_t count, const char *what)
 {
     BRC_TRY(brc_buffer_create(s->device, out, count * 4, what));
-    return count ? brc_buffer_write(*out, 0, values, count * 4) : BRC_OK;
+    return brc_upload_int(*out, values, count);
 }
 
 /* Add the block sums with Neumaier's compensation, so that the host's part adds no error of its own. */

@@ -11,6 +11,27 @@ struct brc_beam_closure {
 };
 typedef struct brc_beam_closure beam_closure;
 
+bool brc_wants_beam_closure(const brc_wants *w)
+{
+    return w->scene->has_fracture && brc_wants_beams(w) && (brc_scene_shuts(w->scene) || w->softens);
+}
+static bool softens(const brc_wants *w)
+{
+    return w->softens;
+}
+
+#define AT(member) BRC_FIELD_AT(beam_closure, member)
+static const brc_field_row rows[] = {
+    {"other", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(other), "broken beams", "-", BRC_NOT_KEPT},
+    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "broken beams", "-", BRC_NOT_KEPT},
+    {"bears", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(bears), "broken beams", "-",
+     BRC_KEPT("closure.bears", BRC_KEEP_ALL)},
+    {"lean", brc_each_entry, LEAN, BRC_FIELD_COEFF, softens, AT(lean), "broken beams", "-",
+     BRC_KEPT("closure.lean", BRC_KEEP_ALL)},
+    {"rubs", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(rubs), "broken beams", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_beam_closure_fields, "broken beams that bear", BRC_LIFE_RUN, brc_wants_beam_closure, rows);
+
 static beam_closure *closure_of(const brc_simulation *s)
 {
     return s->fracture ? s->fracture->beam_closure : NULL;
@@ -40,8 +61,8 @@ static brc_status upload_bonds(brc_simulation *s, beam_closure *f)
             const int32_t h = layout->half_edge[at], home = (int32_t)(k * slice + at % slice);
             row[at] = h >= 0 ? layout->row_of_element[s->domain->neighbour[h]] : home;
         }
-    BRC_TRY_OR(cleanup, brc_new_int(s, &f->other, row, n_entries, "broken beams"));
-    status = brc_new_int(s, &f->twin, twin, n_entries, "broken beams");
+    BRC_TRY_OR(cleanup, brc_upload_int(f->other, row, n_entries));
+    status = brc_upload_int(f->twin, twin, n_entries);
 cleanup:
     brc_memory_free(row);
     brc_memory_free(twin);
@@ -50,8 +71,7 @@ cleanup:
 
 brc_status brc_beam_closure_create(brc_simulation *s)
 {
-    const int64_t n_entries = s->layout->n_slots * s->layout->slice;
-    if (!brc_scene_shuts(s->scene) && !brc_beam_softening_is_on(s)) return BRC_OK;
+    if (!brc_wants_beam_closure(&s->wants)) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->beam_closure, 1, "broken beams"));
     beam_closure *f = s->fracture->beam_closure;
     const struct {
@@ -64,20 +84,15 @@ brc_status brc_beam_closure_create(brc_simulation *s)
                   {&f->begin, "closure_begin"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
         BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
-    BRC_TRY(upload_bonds(s, f));
-    BRC_TRY(brc_buffer_create(s->device, &f->bears, 4 * n_entries, "broken beams"));
-    BRC_TRY(brc_buffer_create(s->device, &f->rubs, 4 * (int64_t)s->n_groups, "broken beams"));
-    if (brc_beam_softening_is_on(s)) BRC_TRY(brc_new_coeff(s, &f->lean, LEAN * n_entries, "broken beams"));
-    return brc_new_state(s, &s->fracture->gone, s->layout->n_rows, "lost beams");
+    BRC_TRY(brc_fields_create(s->device, &brc_beam_closure_fields, &s->wants, f));
+    return upload_bonds(s, f);
 }
 
 void brc_beam_closure_free(brc_simulation *s)
 {
     beam_closure *f = closure_of(s);
     if (!f) return;
-    brc_buffer **all[] = {&f->other, &f->twin, &f->bears, &f->lean, &f->rubs};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
-        brc_buffer_free(all[k]);
+    brc_fields_free(&brc_beam_closure_fields, f);
     brc_memory_free(f);
     s->fracture->beam_closure = NULL;
 }
@@ -178,19 +193,6 @@ brc_status brc_beam_closure_store_state(brc_simulation *s, brc_state_store *stor
 {
     const beam_closure *f = closure_of(s);
     if (!f) return BRC_OK;
-    const brc_state_entry entries[] = {
-        {"closure.bears", f->bears, BRC_ENTRIES, BRC_OF_INT, 1, NULL},
-        {"closure.lean", f->lean, BRC_ENTRIES, BRC_OF_COEFF, LEAN, NULL},
-        {"closure.gone", s->fracture->gone, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-    };
-    BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_beam_closure_fields, .owner = f}));
     return store->loading ? find_rubs(s, f) : BRC_OK;
-}
-
-int64_t brc_beam_closure_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes,
-                               int64_t coeff_bytes)
-{
-    const bool softens = brc_beam_softening_bytes(scene, 1, 1) > 0;
-    return brc_scene_shuts(scene) || softens ? n * state_bytes + entries * (12 + (softens ? LEAN * coeff_bytes : 0))
-                                             : 0;
 }

@@ -21,8 +21,7 @@ brc_status brc_beam_closure_begin(brc_simulation *s, int32_t moment, double half
 
 /* What a checkpoint keeps (state_store.h). */
 brc_status brc_beam_closure_store_state(brc_simulation *s, brc_state_store *store);
-/* Device bytes it takes (n elements, entries of the layout). */
-int64_t brc_beam_closure_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes,
-                               int64_t coeff_bytes);
+/* Whether some beams may bear after they broke, or soften. */
+bool brc_wants_beam_closure(const brc_wants *wants);
 
 #endif

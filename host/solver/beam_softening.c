@@ -18,6 +18,19 @@ struct brc_beam_softening {
 };
 typedef struct brc_beam_softening beam_softening;
 
+static bool softens(const brc_wants *w) { return w->scene->has_fracture && brc_wants_beams(w) && w->softens; }
+
+#define AT(member) BRC_FIELD_AT(beam_softening, member)
+static const brc_field_row rows[] = {
+    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of beams", "-", BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
+    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open beams", "-", BRC_KEPT("softening.open", BRC_KEEP_ALL)},
+    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of beams", "-", BRC_NOT_KEPT},
+    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "cohesion of beams", "-", BRC_NOT_KEPT},
+    {"active", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(active), "open beams", "-", BRC_NOT_KEPT},
+    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "open beams", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_beam_softening_fields, "cohesion of beams", BRC_LIFE_RUN, softens, rows);
+
 static beam_softening *softening_of(const brc_simulation *s) { return s->fracture ? s->fracture->beam_softening : NULL; }
 bool brc_beam_softening_is_on(const brc_simulation *s) { return softening_of(s) != NULL; }
 
@@ -86,13 +99,9 @@ static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_s
         own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
         lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
     }
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->crack, WIDTH * n_entries, "cohesion of beams"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
-    BRC_TRY_OR(cleanup, brc_new_int(s, &f->lead, lead, n_entries, "cohesion of beams"));
-    BRC_TRY_OR(cleanup, brc_new_int(s, &f->twin, twin, n_entries, "cohesion of beams"));
-    BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->open, 4 * n_entries, "open beams"));
-    BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->touched, 4 * (int64_t)layout->n_rows, "open beams"));
-    status = brc_buffer_create(s->device, &f->active, 4 * (int64_t)s->n_groups, "open beams");
+    BRC_TRY_OR(cleanup, brc_upload_int(f->lead, lead, n_entries));
+    BRC_TRY_OR(cleanup, brc_upload_int(f->twin, twin, n_entries));
 cleanup:
     brc_memory_free(crack);
     brc_memory_free(area);
@@ -106,6 +115,7 @@ brc_status brc_beam_softening_create(brc_simulation *s, const brc_strengths *str
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->beam_softening, 1, "cohesion of beams"));
     BRC_TRY(find_kernels(s, s->fracture->beam_softening));
     BRC_TRY(warn_of_size(s, strengths));
+    BRC_TRY(brc_fields_create(s->device, &brc_beam_softening_fields, &s->wants, s->fracture->beam_softening));
     return upload_bonds(s, s->fracture->beam_softening, strengths);
 }
 
@@ -113,8 +123,7 @@ void brc_beam_softening_free(brc_simulation *s)
 {
     beam_softening *f = softening_of(s);
     if (!f) return;
-    brc_buffer **all[] = {&f->crack, &f->open, &f->lead, &f->twin, &f->active, &f->touched};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_fields_free(&brc_beam_softening_fields, f);
     brc_memory_free(f);
     s->fracture->beam_softening = NULL;
 }
@@ -226,18 +235,9 @@ brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *st
 {
     const beam_softening *f = softening_of(s);
     if (!f) return BRC_OK;
-    const brc_state_entry entries[] = {
-        {"softening.crack", f->crack, BRC_ENTRIES, BRC_OF_COEFF, WIDTH, NULL},
-        {"softening.open", f->open, BRC_ENTRIES, BRC_OF_INT, 1, NULL},
-        {"softening.factor", s->fracture->factor, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL},
-    };
-    BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_beam_softening_fields, .owner = f}));
+    BRC_TRY(brc_store_entry(s, store, &(brc_state_entry){"softening.factor", s->fracture->factor, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL}));
     return store->loading ? find_touched(s, f) : BRC_OK;
-}
-
-int64_t brc_beam_softening_bytes(const brc_scene *scene, int64_t entries, int64_t coeff_bytes)
-{
-    return brc_scene_softens(scene) ? entries * ((WIDTH + 1) * coeff_bytes + 12) : 0; /* with the factors */
 }
 
 brc_status brc_beam_softening_report(brc_simulation *s, brc_softening_report *out)

@@ -31,8 +31,6 @@ void brc_beam_softening_cracks(const brc_simulation *s, brc_buffer **open, brc_b
 
 /* What a checkpoint keeps (state_store.h). */
 brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *store);
-/* Device bytes it takes (entries of the layout); 0 for scenes without a fracture energy. */
-int64_t brc_beam_softening_bytes(const brc_scene *scene, int64_t entries, int64_t coeff_bytes);
 /* brc_simulation_softening of beams, and whether some beam opened. */
 brc_status brc_beam_softening_report(brc_simulation *s, brc_softening_report *out);
 

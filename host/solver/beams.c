@@ -120,7 +120,6 @@ brc_status brc_beams_upload(brc_simulation *s)
         rows[3 * (int64_t)r + 1] = beam->bend;
         rows[3 * (int64_t)r + 2] = beam->twist;
     }
-    if (status == BRC_OK) status = brc_new_coeff(s, &s->beam_of, 3 * (int64_t)layout->n_rows, "beams of elements");
     if (status == BRC_OK) status = brc_upload_coeff(s, s->beam_of, rows, 3 * (int64_t)layout->n_rows);
     brc_memory_free(rows);
     return status;

@@ -59,13 +59,10 @@ static brc_status upload_bonds(brc_simulation *s, const double *strength)
         double *own = &least[layout->row_of_element[d->neighbour[d->twin[h]]]];
         *own = fmin(*own, limit[k]);
     }
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->limit, n_entries, "limits of bonds"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->limit, limit, n_entries));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->alive, n_entries, "unbroken bonds"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->alive, whole, n_entries));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->least, layout->n_rows, "smallest limits"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->least, least, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_new_int(s, &cells->twin, twin, n_entries, "twins"));
+    BRC_TRY_OR(cleanup, brc_upload_int(cells->twin, twin, n_entries));
 cleanup:
     brc_memory_free(limit);
     brc_memory_free(whole);
@@ -139,11 +136,8 @@ static brc_status upload_elements(brc_simulation *s)
                 "fracture: %lld of %lld elements are held by their neighbours so weakly (smallest eigenvalue of A/2V up to %.2g) that they come off with "
                 "their first broken bond; a relaxed grid (`lloyd`) has fewer",
                 (long long)weak, (long long)s->domain->n_elements, support_least);
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->modulus, layout->n_rows, "moduli"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->modulus, modulus, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->support, layout->n_rows, "supports"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->support, support, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &cells->stiffest, layout->n_rows, "supports"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->stiffest, stiffest, layout->n_rows));
 cleanup:
     brc_memory_free(modulus);
@@ -152,51 +146,44 @@ cleanup:
     return status;
 }
 
-static brc_status create_arrays(brc_simulation *s)
-{
-    brc_breaking *f = s->fracture;
-    brc_cell_breaks *c = f->cells;
-    const int64_t n = s->layout->n_rows, entries = s->layout->n_slots * s->layout->slice;
-    BRC_TRY(brc_buffer_create(s->device, &c->mark, 4 * entries, "marked bonds"));
-    BRC_TRY(brc_buffer_create(s->device, &c->changed, 4 * n, "changed elements"));
-    BRC_TRY(brc_new_coeff(s, &c->measure, entries, "stresses of marked bonds"));
-    if (brc_is_dlsm(s) && !c->by_element) BRC_TRY(brc_buffer_create(s->device, &c->look, 4 * (int64_t)s->n_groups, "groups to look at"));
-    BRC_TRY(brc_new_state(s, &c->weight, n, "weights of broken bonds"));
-    BRC_TRY(brc_new_state(s, &c->found, n, "marks of elements"));
-    BRC_TRY(brc_buffer_create(s->device, &f->break_step, 4 * entries, "steps of breaks"));
-    BRC_TRY(brc_buffer_create(s->device, &f->break_mode, 4 * entries, "modes of breaks"));
-    BRC_TRY(brc_new_coeff(s, &f->break_stress, entries, "stresses of breaks"));
-    BRC_TRY(brc_new_coeff(s, &f->break_energy, entries, "energies of breaks"));
-    BRC_TRY(brc_new_state(s, &f->lost, n, "energy of broken bonds"));
-    BRC_TRY(brc_new_state(s, &f->gone, n, "lost bonds"));
-    BRC_TRY(brc_new_state(s, &f->broken, n, "broken bonds"));
-    return brc_rings_create(s, &c->rings);
-}
+static bool breaks(const brc_wants *w) { return w->scene->has_fracture && !brc_wants_beams(w); }
+static bool dlsm_by_bond(const brc_wants *w) { return brc_wants_dlsm(w) && !w->by_element; }
+static bool dlsm_by_element(const brc_wants *w) { return brc_wants_dlsm(w) && w->by_element; }
+static bool published_by_bond(const brc_wants *w) { return brc_wants_published(w) && !w->by_element; }
 
-int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
-{
-    const bool dlsm = scene->model.kind == BRC_MODEL_DLSM;
-    const bool by_element = brc_criterion_of(&scene->fracture, scene->model.kind) != BRC_CRITERION_BOND_NORMAL;
-    int64_t bytes = n * ((dlsm ? 4 : 2) * coeff_bytes + 4 + 5 * state_bytes) + entries * (16 + 5 * coeff_bytes);
-    if (by_element) bytes += n * (21 * coeff_bytes + 4) + (dlsm ? 3 * entries * coeff_bytes : 0);
-    else bytes += n * (dlsm ? 4 : coeff_bytes); /* on a GPU a group is one element */
-    if (!dlsm) bytes += 6 * n * coeff_bytes;
-    return bytes + brc_rings_bytes(scene, n, state_bytes) + brc_softening_bytes(scene, n, entries, state_bytes, coeff_bytes) +
-           brc_closed_faces_bytes(scene, n, entries, state_bytes, coeff_bytes);
-}
+#define AT(member) BRC_FIELD_AT(brc_cell_breaks, member)
+static const brc_field_row rows[] = {
+    {"limit", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(limit), "limits of bonds", "Pa", BRC_KEPT("cells.limit", BRC_KEEP_BROKEN)},
+    {"alive", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(alive), "unbroken bonds", "-", BRC_KEPT("cells.alive", BRC_KEEP_BROKEN)},
+    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "twins", "-", BRC_NOT_KEPT},
+    {"mark", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(mark), "marked bonds", "-", BRC_NOT_KEPT},
+    {"measure", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses of marked bonds", "Pa", BRC_NOT_KEPT},
+    {"least", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(least), "smallest limits", "Pa", BRC_KEPT("cells.least", BRC_KEEP_OWNERS)},
+    {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(modulus), "moduli", "Pa", BRC_NOT_KEPT},
+    {"support", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(support), "supports", "-", BRC_NOT_KEPT},
+    {"stiffest", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(stiffest), "supports", "1/m^2", BRC_NOT_KEPT},
+    {"changed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(changed), "changed elements", "-", BRC_NOT_KEPT},
+    {"look", brc_each_group, 1, BRC_FIELD_INT, dlsm_by_bond, AT(look), "groups to look at", "-", BRC_NOT_KEPT},
+    {"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(weight), "weights of broken bonds", "-", BRC_NOT_KEPT},
+    {"found", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(found), "marks of elements", "-", BRC_NOT_KEPT},
+    {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m", BRC_NOT_KEPT},
+    {"spanned", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_published, AT(spanned), "supports", "-", BRC_KEPT("cells.spanned", BRC_KEEP_OWNERS)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(reach), "ratios of bonds", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_cell_break_fields, "breaks of cells", BRC_LIFE_RUN, breaks, rows);
 
 brc_status brc_cell_breaks_create(brc_simulation *s)
 {
     brc_strengths strengths = {0};
     brc_status status = BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture, 1, "fracture"));
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells, 1, "fracture"));
+    BRC_TRY(brc_fields_create(s->device, &brc_cell_break_fields, &s->wants, s->fracture->cells));
     s->fracture->cells->by_element = !is_bond_normal(s);
     BRC_TRY(find_kernels(s, s->fracture->cells));
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
     BRC_TRY_OR(cleanup, upload_bonds(s, strengths.tension));
     if (brc_is_dlsm(s)) BRC_TRY_OR(cleanup, upload_elements(s));
-    BRC_TRY_OR(cleanup, create_arrays(s));
+    BRC_TRY_OR(cleanup, brc_rings_create(s, &s->fracture->cells->rings));
     if (brc_is_published(s)) BRC_TRY_OR(cleanup, brc_published_breaks_create(s));
     if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
     BRC_TRY_OR(cleanup, brc_softening_create(s, &strengths));
@@ -213,9 +200,7 @@ void brc_cell_breaks_free(brc_simulation *s)
     brc_softening_free(s);
     brc_closed_faces_free(s);
     brc_rings_free(&c->rings);
-    brc_buffer **all[] = {&c->limit, &c->twin, &c->alive, &c->mark, &c->measure, &c->modulus, &c->look, &c->least, &c->support, &c->stiffest, &c->changed, &c->weight, &c->found,
-                          &c->branch, &c->spanned, &c->reach};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_fields_free(&brc_cell_break_fields, c);
     brc_memory_free(c);
     s->fracture->cells = NULL;
 }
@@ -362,31 +347,6 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(brc_rings_forget(rings, &rings->around));
     BRC_TRY(brc_softening_settle(s, &rings->around));
     return brc_contact_list_bonded(s);
-}
-
-brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)
-{
-    const brc_cell_breaks *c = s->fracture->cells;
-    brc_chosen elements = {0};
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, brc_fracture_owners(s, bonds, &elements));
-    const brc_state_entry entries[] = {
-        {"cells.area", s->area, BRC_ENTRIES, BRC_OF_COEFF, brc_is_dlsm(s) ? 3 : 1, bonds},
-        {"cells.ratio", s->ratio, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
-        {"cells.limit", c->limit, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
-        {"cells.alive", c->alive, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
-        {"cells.least", c->least, BRC_ROWS, BRC_OF_COEFF, 1, &elements},
-        {"cells.inverse_shape", s->inv_shape, BRC_BLOCKS, BRC_OF_COEFF, 6, &elements},
-        {"cells.spanned", c->spanned, BRC_BLOCKS, BRC_OF_COEFF, 6, &elements},
-        {"cells.gone", s->fracture->gone, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-        {"cells.weight", c->by_element ? s->fracture->weight : NULL, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
-    };
-    BRC_TRY_OR(cleanup, brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
-    BRC_TRY_OR(cleanup, brc_closed_faces_store_state(s, store, bonds));
-    status = brc_softening_store_state(s, store);
-cleanup:
-    brc_memory_free(elements.id);
-    return status;
 }
 
 brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out)

@@ -10,8 +10,6 @@ typedef struct brc_cell_breaks brc_cell_breaks;
 brc_status brc_cell_breaks_create(brc_simulation *s);
 /* What brc_fracture_free does not know. */
 void brc_cell_breaks_free(brc_simulation *s);
-/* Device bytes it takes in a scene with fracture (n elements, entries of the layout). */
-int64_t brc_cell_breaks_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
 /* Bonds break by a stress of their own, for which the forces of the full law are found with what the check needs. */
 bool brc_cell_breaks_by_bond(const brc_simulation *s);
 /* The last pass of dlsm's full law, but for that after breaks, finds which elements may lose bonds: the next function in its place, of the rings 0 to `ring` of
@@ -21,8 +19,7 @@ brc_status brc_cell_breaks_forces(brc_simulation *s, const brc_force_request *r,
 /* After the forces of a step: bonds above `share` of their limit break (1: those that fail). half_kick: dt/2 where the step's velocities still
  * want the force at its end, half of it that of before the breaks (velocity Verlet); 0: none. */
 brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double share);
-/* What broken bonds, of these half-edges, changed (state_store.h). */
-brc_status brc_cell_breaks_store_state(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds);
+extern const brc_field_table brc_cell_break_fields;
 /* The largest ratio of stress to limit. */
 brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out);
 

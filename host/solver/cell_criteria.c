@@ -3,13 +3,12 @@
 #include "cell_breaks_internal.h"
 
 /* dlsm stores areas and ratios in place of branches. */
-static brc_status upload_branches(brc_simulation *s, brc_buffer **out)
+static brc_status upload_branches(brc_simulation *s, brc_buffer *branch)
 {
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
     const int64_t slice = layout->slice;
     double *rows = NULL;
-    brc_status status = BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &rows, 3 * layout->n_slots * slice, "branches"));
     for (int64_t k = 0; k < layout->n_slots * slice; ++k) {
         const int32_t h = layout->half_edge[k];
@@ -17,9 +16,7 @@ static brc_status upload_branches(brc_simulation *s, brc_buffer **out)
             rows[(k / slice * 3 + c) * slice + k % slice] =
                 h < 0 ? c == 0 : d->position[3 * (int64_t)d->neighbour[h] + c] - d->position[3 * (int64_t)d->neighbour[d->twin[h]] + c];
     }
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, out, 3 * layout->n_slots * slice, "branches"));
-    status = brc_upload_coeff(s, *out, rows, 3 * layout->n_slots * slice);
-cleanup:
+    const brc_status status = brc_upload_coeff(s, branch, rows, 3 * layout->n_slots * slice);
     brc_memory_free(rows);
     return status;
 }
@@ -27,7 +24,7 @@ cleanup:
 brc_status brc_cell_criteria_create(brc_simulation *s)
 {
     brc_cell_breaks *c = s->fracture->cells;
-    if (brc_is_dlsm(s)) BRC_TRY(upload_branches(s, &c->branch));
+    if (brc_is_dlsm(s)) BRC_TRY(upload_branches(s, c->branch));
     BRC_TRY(brc_fracture_create_elements(s, brc_is_dlsm(s) ? c->branch : s->offset));
     BRC_TRY(brc_kernel_find(s->device, brc_is_dlsm(s) ? "cells_record" : "cells_record_published", &c->record));
     BRC_TRY(brc_kernel_find(s->device, "cells_mark_chosen", &c->mark_chosen));

@@ -37,6 +37,20 @@ struct brc_softening_faces {
 };
 typedef struct brc_softening_faces softening_faces;
 
+static bool softens(const brc_wants *w) { return w->scene->has_fracture && !brc_wants_beams(w) && w->softens; }
+
+#define AT(member) BRC_FIELD_AT(softening_faces, member)
+static const brc_field_row rows[] = {
+    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of faces", "-", BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
+    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open faces", "-", BRC_KEPT("softening.open", BRC_KEEP_ALL)},
+    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of faces", "-", BRC_NOT_KEPT},
+    {"n_open", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(n_open), "open faces", "-", BRC_KEPT("softening.n_open", BRC_KEEP_ALL)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "reach of open faces", "-", BRC_KEPT("softening.reach", BRC_KEEP_ALL)},
+    {"shear", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(shear), "shear moduli", "Pa", BRC_NOT_KEPT},
+    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J", BRC_KEPT("softening.rubbed", BRC_KEEP_ALL)},
+};
+BRC_FIELD_TABLE(brc_softening_fields, "cohesion of faces", BRC_LIFE_RUN, softens, rows);
+
 static softening_faces *faces_of(const brc_simulation *s) { return s->fracture && s->fracture->cells ? s->fracture->cells->softening : NULL; }
 bool brc_softening_is_on(const brc_simulation *s) { return faces_of(s) != NULL; }
 
@@ -117,16 +131,9 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
     }
     for (int32_t r = 0; r < layout->n_rows; ++r)
         if (layout->element_of_row[r] >= 0) shear[r] = s->elastic[s->material_of_element[layout->element_of_row[r]]].mu;
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->crack, WIDTH * n_entries, "cohesion of faces"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
-    BRC_TRY_OR(cleanup, brc_new_int(s, &f->lead, lead, n_entries, "cohesion of faces"));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->shear, layout->n_rows, "shear moduli"));
+    BRC_TRY_OR(cleanup, brc_upload_int(f->lead, lead, n_entries));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear, shear, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->reach, layout->n_rows, "reach of open faces"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &f->rubbed, layout->n_rows, "friction of broken faces"));
-    BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->n_open, 4 * (int64_t)layout->n_rows, "open faces"));
-    BRC_TRY_OR(cleanup, brc_buffer_create(s->device, &f->open, 4 * n_entries, "open faces"));
-    BRC_TRY_OR(cleanup, brc_ring_list_create(s, &f->around));
 cleanup:
     brc_memory_free(crack);
     brc_memory_free(lead);
@@ -144,6 +151,8 @@ brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strength
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->softening, 1, "cohesion of faces"));
     BRC_TRY(find_kernels(s, s->fracture->cells->softening));
     BRC_TRY(warn_of_size(s, strengths));
+    BRC_TRY(brc_fields_create(s->device, &brc_softening_fields, &s->wants, s->fracture->cells->softening));
+    BRC_TRY(brc_fields_create(s->device, &brc_open_list_fields, &s->wants, &s->fracture->cells->softening->around));
     return upload_faces(s, s->fracture->cells->softening, strengths);
 }
 
@@ -151,9 +160,8 @@ void brc_softening_free(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
     if (!f) return;
-    brc_buffer **all[] = {&f->crack, &f->open, &f->lead, &f->n_open, &f->reach, &f->shear, &f->rubbed};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
-    brc_ring_list_free(&f->around);
+    brc_fields_free(&brc_softening_fields, f);
+    brc_fields_free(&brc_open_list_fields, &f->around);
     brc_memory_free(f);
     s->fracture->cells->softening = NULL;
 }
@@ -361,17 +369,13 @@ brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
     softening_faces *f = faces_of(s);
     if (!f) return BRC_OK;
     f->is_listed = false;
-    const brc_state_entry entries[] = {
-        {"softening.crack", f->crack, BRC_ENTRIES, BRC_OF_COEFF, WIDTH, NULL},
-        {"softening.open", f->open, BRC_ENTRIES, BRC_OF_INT, 1, NULL},
+    const brc_state_entry changed[] = {
         {"softening.limit", s->fracture->cells->limit, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL},
         {"softening.least", s->fracture->cells->least, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
-        {"softening.n_open", f->n_open, BRC_ROWS, BRC_OF_INT, 1, NULL},
-        {"softening.reach", f->reach, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
-        {"softening.rubbed", f->rubbed, BRC_ROWS, BRC_OF_STATE, 1, NULL},
     };
     BRC_TRY(brc_store_flag(store, "softening.any", &f->any));
-    BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_softening_fields, .owner = f}));
+    BRC_TRY(brc_store_entries(s, store, sizeof changed / sizeof *changed, changed));
     return store->loading ? rejoin(s, f) : BRC_OK;
 }
 
@@ -380,11 +384,6 @@ brc_status brc_softening_friction(brc_simulation *s, double *out)
     const softening_faces *f = faces_of(s);
     *out = 0;
     return f && f->any ? brc_vector_sum(s, f->rubbed, s->layout->n_rows, out) : BRC_OK;
-}
-
-int64_t brc_softening_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
-{
-    return brc_scene_softens(scene) ? entries * (WIDTH * coeff_bytes + 8) + n * (2 * coeff_bytes + state_bytes + 8) : 0;
 }
 
 /* ---- what came of it ---- */

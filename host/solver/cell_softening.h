@@ -36,7 +36,5 @@ brc_status brc_softening_begin_stage(brc_simulation *s);
 brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store);
 /* Energy lost to friction between the sides of broken faces so far [J]. */
 brc_status brc_softening_friction(brc_simulation *s, double *out);
-/* Device bytes it takes (n elements, entries of the layout); 0 for scenes without a fracture energy. */
-int64_t brc_softening_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
 
 #endif

@@ -57,7 +57,6 @@ static brc_status upload_places(brc_simulation *s, closed_faces *f)
     for (int64_t r = 0; r < n; ++r)
         for (int c = 0; c < 3 && s->layout->element_of_row[r] >= 0; ++c)
             place[3 * r + c] = s->domain->position[3 * (int64_t)s->layout->element_of_row[r] + c];
-    BRC_TRY_OR(cleanup, brc_new_state(s, &f->place, 3 * n, "places of elements"));
     BRC_TRY_OR(cleanup, brc_upload_state(s, f->place, place, 3 * n));
 cleanup:
     brc_memory_free(place);
@@ -71,20 +70,47 @@ static brc_status upload_next(brc_simulation *s, closed_faces *f)
     BRC_TRY(BRC_ALLOCATE(s->context, &next, n, "broken faces"));
     for (int64_t r = 0; r < n; ++r)
         next[r] = INT_MAX; /* CLOSED_NEVER */
-    const brc_status status = brc_new_int(s, &f->next, next, n, "broken faces");
+    const brc_status status = brc_upload_int(f->next, next, n);
     brc_memory_free(next);
     return status;
 }
 
-static bool is_wanted(const brc_scene *scene, bool softens)
+static bool shuts(const brc_wants *w)
 {
-    return brc_scene_shuts(scene) && scene->model.kind == BRC_MODEL_DLSM && !softens;
+    return brc_scene_shuts(w->scene) && brc_wants_dlsm(w) && !w->softens;
 }
+static bool rubs(const brc_wants *w)
+{
+    return brc_scene_side_friction(w->scene) > 0;
+}
+
+#define AT(member) BRC_FIELD_AT(closed_faces, member)
+static const brc_field_row rows[] = {
+    {"closed", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(closed), "broken faces", "-",
+     BRC_KEPT("closed.faces", BRC_KEEP_BROKEN)},
+    {"spring", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(spring), "springs of broken faces", "N/m",
+     BRC_KEPT("closed.spring", BRC_KEEP_BROKEN)},
+    {"overlap", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(overlap), "broken faces", "m",
+     BRC_KEPT("closed.overlap", BRC_KEEP_BROKEN)},
+    {"slide", brc_each_entry, 3, BRC_FIELD_COEFF, rubs, AT(slide), "friction of broken faces", "m",
+     BRC_KEPT("closed.slide", BRC_KEEP_BROKEN)},
+    {"place", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(place), "places of elements", "m", BRC_NOT_KEPT},
+    {"next", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(next), "broken faces", "-",
+     BRC_KEPT("closed.next", BRC_KEEP_ALL)},
+    {"presses", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(presses), "broken faces", "-", BRC_NOT_KEPT},
+    {"look", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(look), "broken faces", "-", BRC_NOT_KEPT},
+    {"near", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(near), "broken faces", "-", BRC_NOT_KEPT},
+    {"load", brc_each_row, LOAD, BRC_FIELD_COEFF, NULL, AT(load), "forces of broken faces", "N", BRC_NOT_KEPT},
+    {"gain", brc_each_row, LOAD, BRC_FIELD_COEFF, NULL, AT(gain), "forces of broken faces", "N", BRC_NOT_KEPT},
+    {"held", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(held), "energy of broken faces", "J", BRC_NOT_KEPT},
+    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J",
+     BRC_KEPT("closed.rubbed", BRC_KEEP_ALL)},
+};
+BRC_FIELD_TABLE(brc_closed_face_fields, "broken faces that bear", BRC_LIFE_RUN, shuts, rows);
 
 brc_status brc_closed_faces_create(brc_simulation *s)
 {
-    const int64_t n = s->layout->n_rows, entries = s->layout->n_slots * s->layout->slice;
-    if (!is_wanted(s->scene, brc_softening_is_on(s))) return BRC_OK;
+    if (!shuts(&s->wants)) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->closed, 1, "broken faces"));
     closed_faces *f = s->fracture->cells->closed;
     const struct {
@@ -95,17 +121,7 @@ brc_status brc_closed_faces_create(brc_simulation *s)
                   {&f->energy, "closed_energy"}, {&f->again, "closed_again"},    {&f->gain_pass, "closed_gain"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
         BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
-    BRC_TRY(brc_buffer_create(s->device, &f->closed, 4 * entries, "broken faces"));
-    BRC_TRY(brc_new_coeff(s, &f->spring, entries, "springs of broken faces"));
-    BRC_TRY(brc_new_coeff(s, &f->overlap, entries, "broken faces"));
-    if (friction_of(s) > 0) BRC_TRY(brc_new_coeff(s, &f->slide, 3 * entries, "friction of broken faces"));
-    brc_buffer **numbers[] = {&f->presses, &f->look, &f->near};
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k)
-        BRC_TRY(brc_buffer_create(s->device, numbers[k], 4 * n, "broken faces"));
-    BRC_TRY(brc_new_coeff(s, &f->load, LOAD * n, "forces of broken faces"));
-    BRC_TRY(brc_new_coeff(s, &f->gain, LOAD * n, "forces of broken faces"));
-    BRC_TRY(brc_new_state(s, &f->held, n, "energy of broken faces"));
-    BRC_TRY(brc_new_state(s, &f->rubbed, n, "friction of broken faces"));
+    BRC_TRY(brc_fields_create(s->device, &brc_closed_face_fields, &s->wants, f));
     BRC_TRY(upload_next(s, f));
     return upload_places(s, f);
 }
@@ -114,20 +130,9 @@ void brc_closed_faces_free(brc_simulation *s)
 {
     closed_faces *f = faces_of(s);
     if (!f) return;
-    brc_buffer **all[] = {&f->closed, &f->spring, &f->overlap, &f->slide, &f->place, &f->next,  &f->presses,
-                          &f->look,   &f->near,   &f->load,    &f->gain,  &f->held,  &f->rubbed};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
-        brc_buffer_free(all[k]);
+    brc_fields_free(&brc_closed_face_fields, f);
     brc_memory_free(f);
     s->fracture->cells->closed = NULL;
-}
-
-int64_t brc_closed_faces_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes,
-                               int64_t coeff_bytes)
-{
-    if (!is_wanted(scene, brc_softening_bytes(scene, n, entries, state_bytes, coeff_bytes) > 0)) return 0;
-    const bool rubs = brc_scene_side_friction(scene) > 0;
-    return entries * (4 + (rubs ? 5 : 2) * coeff_bytes) + n * (16 + 5 * state_bytes + 2 * LOAD * coeff_bytes);
 }
 
 /* ---- an evaluation ---- */
@@ -247,15 +252,8 @@ brc_status brc_closed_faces_store_state(brc_simulation *s, brc_state_store *stor
 {
     closed_faces *f = faces_of(s);
     if (!f) return BRC_OK;
-    const brc_state_entry entries[] = {
-        {"closed.faces", f->closed, BRC_ENTRIES, BRC_OF_INT, 1, bonds},
-        {"closed.spring", f->spring, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
-        {"closed.overlap", f->overlap, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
-        {"closed.slide", f->slide, BRC_ENTRIES, BRC_OF_COEFF, 3, bonds},
-        {"closed.next", f->next, BRC_ROWS, BRC_OF_INT, 1, NULL},
-        {"closed.rubbed", f->rubbed, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-    };
     BRC_TRY(brc_store_flag(store, "closed.any", &f->any));
     BRC_TRY(brc_store_flag(store, "closed.all", &f->all));
-    return brc_store_entries(s, store, sizeof entries / sizeof *entries, entries);
+    return brc_store_fields(
+        s, store, &(brc_kept_fields){.table = &brc_closed_face_fields, .owner = f, .bonds = bonds});
 }

@@ -9,9 +9,6 @@
 /* Arrays and kernels. s->fracture->cells is there, with what softens. */
 brc_status brc_closed_faces_create(brc_simulation *s);
 void brc_closed_faces_free(brc_simulation *s);
-/* Device bytes it takes (n elements, entries of the layout). */
-int64_t brc_closed_faces_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes,
-                               int64_t coeff_bytes);
 
 /* ---- an evaluation; of the rings around breaks with the loads that faces had before ---- */
 /* After the gradients: which faces are pressed. */

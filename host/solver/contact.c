@@ -59,26 +59,12 @@ void brc_contact_free(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     if (!c) return;
-    brc_contact_search_free(s);
-    brc_contact_rigid_free(s);
-    brc_buffer **all[] = {&c->place, &c->reach, &c->id, &c->body, &c->material, &c->mass, &c->size_of, &c->original, &c->exposed, &c->stored,
-                          &c->lost_friction, &c->lost_impact, &c->law, &c->part, &c->corner, &c->plane, &c->loop_start, &c->loop, &c->radius,
-                          &c->corner_start, &c->face_start, &c->piece_striker, &c->piece_kind, &c->piece_radius, &c->piece_own, &c->piece};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_contact_fields_free(c);
+    if (c->bonded) brc_fields_free(&brc_bonded_list_fields, c->bonded);
+    brc_memory_free(c->bonded);
     brc_memory_free(c->law_of);
     brc_memory_free(c);
     s->contact = NULL;
-}
-
-int64_t brc_contact_bytes(const brc_scene *scene, const brc_domain *d, int64_t n, int64_t entries, int64_t exposed, int64_t state_bytes)
-{
-    if (!scene->has_contact) return 0;
-    const int64_t rows = n * (7 * 4 + 2 * 4 + (3 + 1 + 1 + 1 + 4 + 1 + 3) * state_bytes), lists = exposed * 24 * 4;
-    if (d->element_kind == BRC_ELEMENT_SPHERE) return entries * 4 + rows + lists;
-    /* A face is a plane with its place in the list of loops; by Euler's formula the loops of V corners and F faces have 2 (V + F - 2) numbers. */
-    const int64_t corners = d->vertex_start[d->n_elements], faces = d->n_half_edges + d->n_free_faces, loops = 2 * (corners + faces - 2 * d->n_elements);
-    const bool rigid = scene->has_fracture && scene->model.kind == BRC_MODEL_DLSM;
-    return entries * 4 + rows + lists + corners * 3 * state_bytes + faces * (4 * state_bytes + 4) + loops * 4 + n * (2 * 4 + 10 * state_bytes + (rigid ? 17 * state_bytes : 0));
 }
 
 /* ---- when to look ---- */

@@ -12,8 +12,6 @@ typedef struct brc_contact_state brc_contact_state;
 /* s->contact, after fracture and strikers are there. It sleeps in static stages and modes, which come before dynamic ones (the reader sees to it). BRC_BAD_INPUT: models or shapes that cannot touch. */
 brc_status brc_contact_create(brc_simulation *s);
 void brc_contact_free(brc_simulation *s);
-/* Device bytes it takes before anything is near anything (n rows, entries of the layout, elements that are exposed). */
-int64_t brc_contact_bytes(const brc_scene *scene, const brc_domain *domain, int64_t n, int64_t entries, int64_t exposed, int64_t state_bytes);
 
 /* Elements were moved by hand or a stage begins: look for pairs again. */
 brc_status brc_contact_restart(brc_simulation *s);

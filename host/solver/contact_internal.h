@@ -47,7 +47,6 @@ struct brc_contact_state {
     double *law_of;  /* the same on the host */
     /* search */
     brc_buffer *moved, *drift_part, *drift, *sums, *key[2], *row[2], *digits, *first, *last, *count, *owned, *pair_start;
-    int64_t key_room, bucket_room;
     brc_buffer *seen, *fresh;  /* [n_rows]: bonds that elements had lost when they were last listed, and who has lost one since */
     brc_buffer *again, *redo;  /* of listed elements */
     brc_contact_list now, before;
@@ -66,6 +65,15 @@ struct brc_contact_state {
     double born;     /* energy that surfaces held when their bond broke [J] */
 };
 
+/* ---- contact_fields.c ---- */
+extern const brc_field_table brc_contact_fields, brc_contact_sum_fields, brc_contact_grid_fields, brc_contact_bucket_fields, brc_contact_slot_fields, brc_contact_listed_fields,
+    brc_contact_entry_fields, brc_contact_pair_fields, brc_contact_result_fields, brc_contact_part_fields, brc_contact_packed_at_fields, brc_contact_packed_fields, brc_contact_changed_fields;
+void brc_contact_fields_free(brc_contact_state *contact);
+/* For n things, and a little more, since cracks grow; for n exposed elements, at most all rows; and cells of the grid for them. */
+int64_t brc_contact_room(int64_t n);
+int64_t brc_contact_exposed_room(const brc_wants *wants, int64_t n);
+int64_t brc_contact_buckets(int64_t n);
+
 /* ---- contact_setup.c ---- */
 /* Arrays of rows, laws of materials, who is exposed at the start. */
 brc_status brc_contact_setup(brc_simulation *s);
@@ -77,7 +85,6 @@ brc_status brc_contact_shapes(brc_simulation *s);
 
 /* ---- contact_rigid.c ---- */
 brc_status brc_contact_rigid_create(brc_simulation *s);
-void brc_contact_rigid_free(brc_simulation *s);
 /* Cells without bonds become rigid. */
 brc_status brc_contact_detach(brc_simulation *s);
 /* Kinetic energy of the turning of rigid cells [J]. */
@@ -89,7 +96,6 @@ brc_status brc_contact_expose(brc_simulation *s);
 
 /* ---- contact_search.c ---- */
 brc_status brc_contact_search_create(brc_simulation *s);
-void brc_contact_search_free(brc_simulation *s);
 /* Make the list anew, from where elements are and how they stand now; what pairs remember is kept. */
 brc_status brc_contact_search(brc_simulation *s);
 /* The list for places and pieces as they were taken last: the second half of a search. */

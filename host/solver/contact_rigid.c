@@ -6,13 +6,9 @@ brc_status brc_contact_rigid_create(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const brc_domain *d = s->domain;
-    const int64_t n = s->layout->n_rows;
-    bool loose = s->scene->has_fracture;
     double *inertia = NULL, *upright = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY(brc_buffer_create(s->device, &c->rigid, 4 * n, "rigid cells"));
-    for (int64_t e = 0; e < d->n_elements; ++e) loose = loose || d->row_start[e + 1] == d->row_start[e];
-    c->detaches = c->affine && loose;
+    c->detaches = c->turned != NULL;
     if (!c->detaches) return BRC_OK;
     const struct {
         brc_kernel **slot;
@@ -25,26 +21,12 @@ brc_status brc_contact_rigid_create(brc_simulation *s)
         for (int k = 0; k < 6; ++k) inertia[6 * e + k] = d->inertia[6 * e + k] * s->elastic[s->material_of_element[e]].density;
         upright[4 * e] = 1;
     }
-    BRC_TRY_OR(cleanup, brc_new_state(s, &c->inertia, 6 * n, "inertia of cells"));
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, c->inertia, inertia, 6, 1));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &c->turned, 4 * n, "orientations of cells"));
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, c->turned, upright, 4, 0));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &c->momentum, 3 * n, "momenta of cells"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &c->torque, 3 * n, "torques on cells"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &c->way, n, "turning of cells"));
 cleanup:
     brc_memory_free(inertia);
     brc_memory_free(upright);
     return status;
-}
-
-void brc_contact_rigid_free(brc_simulation *s)
-{
-    brc_contact_state *c = s->contact;
-    brc_buffer **all[] = {&c->rigid, &c->inertia, &c->turned, &c->momentum, &c->torque, &c->way};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
-    if (c->bonded) brc_ring_list_free(c->bonded);
-    brc_memory_free(c->bonded);
 }
 
 brc_status brc_contact_detach(brc_simulation *s)
@@ -64,7 +46,7 @@ brc_status brc_contact_list_bonded(brc_simulation *s)
     if (!c || !c->detaches || !s->fracture || !(2 * c->n_rigid > s->layout->n_rows)) return BRC_OK;
     if (!c->bonded) {
         BRC_TRY(BRC_ALLOCATE(s->context, &c->bonded, 1, "cells with bonds"));
-        BRC_TRY(brc_ring_list_create(s, c->bonded));
+        BRC_TRY(brc_fields_create(s->device, &brc_bonded_list_fields, &s->wants, c->bonded));
     }
     return brc_rings_without(s, s->fracture->cells->rings, c->rigid, c->bonded);
 }

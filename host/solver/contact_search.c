@@ -5,14 +5,12 @@
 
 enum { SCAN_BLOCK = 1024, SORT_BINS = 256, MOST_QUIET = 64, FEWEST_QUIET = 8 };
 
-static brc_status new_ints(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
+/* A table of lists anew, for n things. */
+static brc_status renew(brc_simulation *s, const brc_field_table *table, int64_t n, void *owner)
 {
-    brc_buffer_free(out);
-    return brc_buffer_create(s->device, out, 4 * count, what);
+    const brc_wants wants = brc_wants_listed(&s->wants, n);
+    return brc_fields_create(s->device, table, &wants, owner);
 }
-
-/* For n things, and a little more, since cracks grow: arrays of pairs are made anew where they do not fit. */
-static int64_t room_of(int64_t n) { return n + n / 8; }
 
 static int32_t blocks_of(int64_t n, int32_t block) { return (int32_t)((n + block - 1) / block); }
 
@@ -32,17 +30,9 @@ static brc_status scan(brc_simulation *s, brc_buffer *x, int64_t n, brc_buffer *
     return BRC_OK;
 }
 
-/* Blocks of the largest scan there is: of rows, of the digits of all rows, or of so many pairs. */
-static int32_t most_blocks(const brc_simulation *s, int64_t n_pairs)
-{
-    const int64_t n = s->layout->n_rows, digits = SORT_BINS * (int64_t)blocks_of(n, SCAN_BLOCK), rows = n > digits ? n : digits;
-    return blocks_of(n_pairs > rows ? n_pairs : rows, SCAN_BLOCK);
-}
-
 brc_status brc_contact_search_create(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    const int64_t n = s->layout->n_rows;
     const struct {
         brc_kernel **slot;
         const char *name;
@@ -55,35 +45,9 @@ brc_status brc_contact_search_create(brc_simulation *s)
                   {&c->kernel.scan_sums, "scan_sums"}, {&c->kernel.scan_tops, "scan_tops"}, {&c->kernel.scan_fill, "scan_fill"},
                   {&c->kernel.pieces, "contact_pieces"}, {&c->kernel.pieces_moved, "contact_pieces_moved"}, {&c->kernel.sort_count, "sort_count"}, {&c->kernel.sort_move, "sort_move"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
-    BRC_TRY(brc_new_state(s, &c->built, 4 * n, "places of the last search"));
-    const char *what = "moves since the last search";
-    if (c->pose != 0) BRC_TRY(brc_new_state(s, &c->posed, 9 * n, "places of the last search"));
-    BRC_TRY(brc_new_state(s, &c->clear, n, what));
-    BRC_TRY(brc_new_state(s, &c->moved, BRC_CONTACT_MOVED * (blocks_of(n, BRC_CONTACT_BLOCK) + (int64_t)c->n_pieces), what));
-    BRC_TRY(brc_new_state(s, &c->drift_part, BRC_CONTACT_PART * (int64_t)blocks_of(n, BRC_CONTACT_BLOCK), what));
-    BRC_TRY(brc_new_state(s, &c->drift, BRC_CONTACT_DRIFT, what));
-    BRC_TRY(new_ints(s, &c->sums, most_blocks(s, 0) + 1, "running sums"));
-    BRC_TRY(new_ints(s, &c->seen, n, "exposed elements"));
-    BRC_TRY(new_ints(s, &c->fresh, n, "exposed elements"));
-    brc_contact_list *both[] = {&c->now, &c->before};
-    for (int k = 0; k < 2; ++k) BRC_TRY(new_ints(s, &both[k]->slot_of, n + 1, "exposed elements"));
-    return BRC_OK;
-}
-
-static void free_list(brc_contact_list *l)
-{
-    brc_buffer **all[] = {&l->list, &l->slot_of, &l->start, &l->used, &l->entry, &l->pair, &l->busy, &l->ends, &l->history};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
-}
-
-void brc_contact_search_free(brc_simulation *s)
-{
-    brc_contact_state *c = s->contact;
-    brc_buffer **all[] = {&c->built, &c->posed, &c->clear, &c->moved, &c->drift_part, &c->drift, &c->sums, &c->key[0], &c->key[1], &c->row[0], &c->row[1], &c->digits, &c->first, &c->last, &c->count, &c->owned, &c->pair_start,
-                          &c->seen, &c->fresh, &c->again, &c->redo, &c->flag, &c->flag_start, &c->todo, &c->touch, &c->result, &c->packed, &c->packed_at};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
-    free_list(&c->now);
-    free_list(&c->before);
+    BRC_TRY(brc_fields_create(s->device, &brc_contact_sum_fields, &s->wants, c));
+    BRC_TRY(brc_fields_create(s->device, &brc_contact_slot_fields, &s->wants, &c->now));
+    return brc_fields_create(s->device, &brc_contact_slot_fields, &s->wants, &c->before);
 }
 
 /* Largest of each column of n rows of c->moved from the first on; as they are where there are none. */
@@ -179,47 +143,30 @@ static brc_status sort_by_cell(brc_simulation *s, double per_edge, int32_t mask,
 }
 
 /* Room for m exposed elements. */
-static brc_status make_room(brc_simulation *s, int64_t m, int64_t buckets)
+static brc_status make_room(brc_simulation *s, int64_t m)
 {
     brc_contact_state *c = s->contact;
-    if (buckets > c->bucket_room) {
-        BRC_TRY(new_ints(s, &c->first, buckets, "grid of contact"));
-        BRC_TRY(new_ints(s, &c->last, buckets, "grid of contact"));
-        c->bucket_room = buckets;
+    const int64_t buckets = brc_contact_buckets(m);
+    if (!c->first || buckets > s->wants.bucket_room) {
+        s->wants.bucket_room = buckets;
+        BRC_TRY(brc_fields_create(s->device, &brc_contact_bucket_fields, &s->wants, c));
     }
-    if (m <= c->key_room) return BRC_OK;
-    const int64_t room = room_of(m) < s->layout->n_rows ? room_of(m) : s->layout->n_rows;
-    const int64_t digits = SORT_BINS * (int64_t)blocks_of(room, SCAN_BLOCK);
-    for (int k = 0; k < 2; ++k) {
-        BRC_TRY(new_ints(s, &c->key[k], room, "grid of contact"));
-        BRC_TRY(new_ints(s, &c->row[k], room, "grid of contact"));
-    }
-    BRC_TRY(new_ints(s, &c->count, room > digits ? room : digits, "grid of contact"));
-    BRC_TRY(new_ints(s, &c->digits, digits + 1, "grid of contact"));
-    BRC_TRY(new_ints(s, &c->owned, room, "pairs of elements"));
-    BRC_TRY(new_ints(s, &c->pair_start, room + 1, "pairs of elements"));
-    BRC_TRY(new_ints(s, &c->again, room, "pairs of elements"));
-    BRC_TRY(new_ints(s, &c->redo, room, "pairs of elements"));
-    c->key_room = room;
-    return BRC_OK;
+    if (c->key[0] && m <= s->wants.exposed_room) return BRC_OK;
+    s->wants.exposed_room = brc_contact_exposed_room(&s->wants, m);
+    return brc_fields_create(s->device, &brc_contact_grid_fields, &s->wants, c);
 }
 
 /* Arrays of the list to be made; the larger of what is asked for and what it has. */
 static brc_status room_for_listed(brc_simulation *s, brc_contact_list *l, int64_t m)
 {
     if (l->list && brc_buffer_bytes(l->list) >= 4 * m) return BRC_OK;
-    const int64_t room = s->contact->key_room;
-    BRC_TRY(new_ints(s, &l->list, room, "exposed elements"));
-    BRC_TRY(new_ints(s, &l->busy, room, "exposed elements"));
-    BRC_TRY(new_ints(s, &l->start, room + 1, "pairs of elements"));
-    return new_ints(s, &l->used, room, "pairs of elements");
+    return brc_fields_create(s->device, &brc_contact_listed_fields, &s->wants, l);
 }
 static brc_status room_for_entries(brc_simulation *s, brc_contact_list *l, int64_t n)
 {
     if (l->entry && n <= l->entry_room) return BRC_OK;
-    l->entry_room = room_of(n);
-    BRC_TRY(new_ints(s, &l->entry, l->entry_room, "pairs of elements"));
-    return new_ints(s, &l->pair, l->entry_room, "pairs of elements");
+    l->entry_room = brc_contact_room(n);
+    return renew(s, &brc_contact_entry_fields, l->entry_room, l);
 }
 /* Numbers of a result. */
 static int32_t stride_of(const brc_contact_state *c) { return BRC_CONTACT_RESULT + 2 * c->width; }
@@ -228,24 +175,19 @@ static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t
 {
     brc_contact_state *c = s->contact;
     if (!l->ends || n > l->pair_room) {
-        l->pair_room = room_of(n);
-        BRC_TRY(new_ints(s, &l->ends, 2 * l->pair_room, "pairs"));
-        brc_buffer_free(&l->history);
-        BRC_TRY(brc_new_state(s, &l->history, BRC_CONTACT_HISTORY * l->pair_room, "history of pairs"));
+        l->pair_room = brc_contact_room(n);
+        BRC_TRY(renew(s, &brc_contact_pair_fields, l->pair_room, l));
     }
     if (c->n_pieces) {
         const int64_t parts = 6 * (int64_t)s->strikers->n * blocks_of(l->pair_room, BRC_CONTACT_PAIRS);
         if (!c->part || parts > c->part_room) {
             c->part_room = parts;
-            brc_buffer_free(&c->part);
-            BRC_TRY(brc_new_state(s, &c->part, parts, "forces on strikers"));
+            BRC_TRY(renew(s, &brc_contact_part_fields, parts, c));
         }
     }
     if (c->result && n <= c->result_room) return BRC_OK;
-    c->result_room = room_of(n);
-    BRC_TRY(new_ints(s, &c->touch, c->result_room, "pairs that touch"));
-    brc_buffer_free(&c->result);
-    return brc_new_state(s, &c->result, stride_of(c) * c->result_room, "forces of pairs");
+    c->result_room = brc_contact_room(n);
+    return renew(s, &brc_contact_result_fields, c->result_room, c);
 }
 
 /* Running sums over n pairs. */
@@ -253,9 +195,8 @@ static brc_status room_for_sums(brc_simulation *s, int64_t n)
 {
     brc_contact_state *c = s->contact;
     if (n <= c->sums_room) return BRC_OK;
-    c->sums_room = room_of(n);
-    brc_buffer_free(&c->sums);
-    return new_ints(s, &c->sums, most_blocks(s, c->sums_room) + 1, "running sums");
+    c->sums_room = brc_contact_room(n);
+    return renew(s, &brc_contact_sum_fields, c->sums_room, c);
 }
 
 /* Results of the list before are on their way: those of pairs that touched, since the others hold nothing. */
@@ -267,14 +208,13 @@ static brc_status pack_results(brc_simulation *s)
     if (n == 0) return BRC_OK;
     BRC_TRY(room_for_sums(s, n));
     if (n > c->packed_at_room) {
-        c->packed_at_room = room_of(n);
-        BRC_TRY(new_ints(s, &c->packed_at, c->packed_at_room + 1, "pairs that touch"));
+        c->packed_at_room = brc_contact_room(n);
+        BRC_TRY(renew(s, &brc_contact_packed_at_fields, c->packed_at_room, c));
     }
     BRC_TRY(scan(s, c->touch, n, c->packed_at, &n_touching));
     if (!c->packed || n_touching > c->packed_room) {
-        c->packed_room = room_of(n_touching) + 1;
-        brc_buffer_free(&c->packed);
-        BRC_TRY(brc_new_state(s, &c->packed, stride_of(c) * c->packed_room, "forces of pairs that touch"));
+        c->packed_room = brc_contact_room(n_touching) + 1;
+        BRC_TRY(renew(s, &brc_contact_packed_fields, c->packed_room, c));
     }
     return BRC_LAUNCH(c->kernel.pack, n, BRC_INT(n), BRC_INT(stride_of(c)), BRC_BUF(c->touch), BRC_BUF(c->packed_at), BRC_BUF(c->result), BRC_BUF(c->packed));
 }
@@ -287,9 +227,7 @@ static brc_status list_exposed(brc_simulation *s)
     int64_t m;
     BRC_TRY(scan(s, c->exposed, n, c->now.slot_of, &m));
     c->now.n_listed = (int32_t)m;
-    int64_t buckets = SORT_BINS;
-    while (buckets < 2 * m) buckets *= 2;
-    BRC_TRY(make_room(s, m, buckets));
+    BRC_TRY(make_room(s, m));
     BRC_TRY(room_for_listed(s, &c->now, m));
     return BRC_LAUNCH(c->kernel.list, n, BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->now.slot_of), BRC_BUF(c->now.list));
 }
@@ -395,10 +333,8 @@ static brc_status find_changed(brc_simulation *s, brc_buffer *touched)
     c->n_todo = 0;
     if (n_pairs == 0) return BRC_OK;
     if (n_pairs > c->todo_room) {
-        c->todo_room = room_of(n_pairs);
-        BRC_TRY(new_ints(s, &c->flag, c->todo_room, "changed pairs"));
-        BRC_TRY(new_ints(s, &c->flag_start, c->todo_room + 1, "changed pairs"));
-        BRC_TRY(new_ints(s, &c->todo, c->todo_room, "changed pairs"));
+        c->todo_room = brc_contact_room(n_pairs);
+        BRC_TRY(renew(s, &brc_contact_changed_fields, c->todo_room, c));
     }
     BRC_TRY(room_for_sums(s, n_pairs));
     BRC_TRY(BRC_LAUNCH(c->kernel.changed, n_pairs, BRC_INT(n_pairs), BRC_INT(s->layout->n_rows), BRC_BUF(c->now.ends), BRC_BUF(c->fresh), BRC_BUF(touched), BRC_BUF(c->flag)));

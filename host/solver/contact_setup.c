@@ -57,7 +57,6 @@ static brc_status set_laws(brc_simulation *s)
             }
             fill_law(&scene->materials[i], &scene->materials[j], law, s->contact->law_of + ((int64_t)i * n + j) * BRC_CONTACT_LAW);
         }
-    BRC_TRY(brc_new_state(s, &s->contact->law, count, "laws of contact"));
     return brc_upload_state(s, s->contact->law, s->contact->law_of, count);
 }
 
@@ -94,7 +93,11 @@ static brc_status find_exposed(brc_simulation *s, int32_t *exposed)
         if (d->sets[k].kind != BRC_SET_ELEMENTS || length < sizeof layer || strcmp(d->sets[k].name + length - (sizeof layer - 1), layer) != 0) continue;
         for (int64_t m = 0; m < d->sets[k].n_members; ++m) exposed[s->layout->row_of_element[d->sets[k].members[m]]] = 1;
     }
-    return brc_new_int(s, &s->contact->exposed, exposed, s->layout->n_rows, "exposed elements");
+    int64_t n_exposed = 0;
+    for (int32_t r = 0; r < s->layout->n_rows; ++r) n_exposed += exposed[r];
+    s->wants.exposed_room = brc_contact_exposed_room(&s->wants, n_exposed);
+    s->wants.bucket_room = brc_contact_buckets(n_exposed);
+    return brc_upload_int(s->contact->exposed, exposed, s->layout->n_rows);
 }
 
 /* Rows of the neighbours over all bonds there ever were; entries without one point home. */
@@ -110,7 +113,7 @@ static brc_status upload_original(brc_simulation *s)
             const int32_t h = layout->half_edge[at];
             row[at] = h >= 0 ? layout->row_of_element[s->domain->neighbour[h]] : k * layout->slice + (int32_t)(at % layout->slice);
         }
-    status = brc_new_int(s, &s->contact->original, row, entries, "bonds at the start");
+    status = brc_upload_int(s->contact->original, row, entries);
     brc_memory_free(row);
     return status;
 }
@@ -126,30 +129,26 @@ static brc_status upload_rows(brc_simulation *s, int32_t *number, double *value)
     BRC_TRY(find_exposed(s, number));
     for (int32_t r = 0; r < n; ++r) number[r] = layout->element_of_row[r];
     for (int32_t p = 0; p < np; ++p) number[n + p] = (int32_t)d->n_elements + p;
-    BRC_TRY(brc_new_int(s, &c->id, number, n + np, "ids of elements"));
+    BRC_TRY(brc_upload_int(c->id, number, n + np));
     for (int32_t r = 0; r < n; ++r) number[r] = layout->element_of_row[r] < 0 ? -1 : d->body[layout->element_of_row[r]];
-    BRC_TRY(brc_new_int(s, &c->body, number, n, "bodies of elements"));
+    BRC_TRY(brc_upload_int(c->body, number, n));
     for (int32_t r = 0; r < n; ++r) number[r] = layout->element_of_row[r] < 0 ? 0 : s->material_of_element[layout->element_of_row[r]];
     for (int32_t p = 0; p < np; ++p) number[n + p] = s->scene->strikers[t->piece_striker[p]].material;
-    BRC_TRY(brc_new_int(s, &c->material, number, n + np, "materials of elements"));
+    BRC_TRY(brc_upload_int(c->material, number, n + np));
     for (int32_t r = 0; r < n; ++r) {
         const int32_t e = layout->element_of_row[r];
         value[r] = e < 0 ? 1 : d->volume[e] * s->elastic[s->material_of_element[e]].density;
     }
     for (int32_t p = 0; p < np; ++p) value[n + p] = t->body[t->piece_striker[p]].mass; /* 0 of those that are not free */
-    BRC_TRY(brc_new_state(s, &c->mass, n + np, "masses of elements"));
     BRC_TRY(brc_upload_state(s, c->mass, value, n + np));
     for (int32_t r = 0; r < n; ++r) value[r] = layout->element_of_row[r] < 0 ? 1 : cbrt(d->volume[layout->element_of_row[r]]);
     for (int32_t p = 0; p < np; ++p) value[n + p] = 0;
-    BRC_TRY(brc_new_state(s, &c->size_of, n + np, "sizes of elements"));
     BRC_TRY(brc_upload_state(s, c->size_of, value, n + np));
     for (int32_t r = 0; r < n; ++r) value[r] = layout->element_of_row[r] < 0 ? 0 : reach_of(d, layout->element_of_row[r]);
-    BRC_TRY(brc_new_state(s, &c->reach, n, "radii of elements"));
     BRC_TRY(brc_upload_state(s, c->reach, value, n));
     for (int32_t r = 0; r < n; ++r)
         for (int k = 0; k < 3; ++k)
             value[3 * (int64_t)r + k] = layout->element_of_row[r] < 0 ? 0 : d->position[3 * (int64_t)layout->element_of_row[r] + k] - c->middle[k];
-    BRC_TRY(brc_new_state(s, &c->place, 3 * (int64_t)n, "places of elements"));
     return brc_upload_state(s, c->place, value, 3 * (int64_t)n);
 }
 
@@ -168,14 +167,12 @@ brc_status brc_contact_setup(brc_simulation *s)
     c->n_pieces = s->strikers ? s->strikers->convex.n : 0;
     for (int64_t e = 0; e < d->n_elements; ++e) volume += d->volume[e];
     c->size = cbrt(volume / (double)d->n_elements);
+    BRC_TRY(brc_fields_create(s->device, &brc_contact_fields, &s->wants, c));
     BRC_TRY(set_laws(s));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &number, n + c->n_pieces, "elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, 3 * (n + c->n_pieces), "elements"));
     BRC_TRY_OR(cleanup, upload_rows(s, number, value));
     BRC_TRY_OR(cleanup, upload_original(s));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &c->stored, n, "energy of contact"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &c->lost_friction, n, "energy lost to friction"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &c->lost_impact, n, "energy lost to damping of contact"));
 cleanup:
     brc_memory_free(number);
     brc_memory_free(value);

@@ -6,27 +6,26 @@
 #include <string.h>
 
 /* Numbers of one kind, first those of the elements and then those of the pieces. */
-static brc_status upload_both(brc_simulation *s, brc_buffer **out, const double *first, int64_t n_first, const double *second, int64_t n_second, const char *what)
+static brc_status upload_both(brc_simulation *s, brc_buffer *out, const double *first, int64_t n_first, const double *second, int64_t n_second, const char *what)
 {
     double *all = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &all, n_first + n_second, what));
     if (n_first) memcpy(all, first, (size_t)n_first * sizeof *all);
     if (n_second) memcpy(all + n_first, second, (size_t)n_second * sizeof *all);
-    brc_status status = brc_new_state(s, out, n_first + n_second, what);
-    if (status == BRC_OK) status = brc_upload_state(s, *out, all, n_first + n_second);
+    const brc_status status = brc_upload_state(s, out, all, n_first + n_second);
     brc_memory_free(all);
     return status;
 }
 
 /* Starts [n + 1] of the elements and of the pieces after them; NULL: elements have none. */
-static brc_status upload_starts(brc_simulation *s, brc_buffer **out, const int32_t *first, int64_t n_first, const int32_t *second, int64_t n_second, const char *what)
+static brc_status upload_starts(brc_simulation *s, brc_buffer *out, const int32_t *first, int64_t n_first, const int32_t *second, int64_t n_second, const char *what)
 {
     const int32_t before = first ? first[n_first] : 0;
     int32_t *all = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &all, n_first + n_second + 1, what));
     for (int64_t k = 0; first && k <= n_first; ++k) all[k] = first[k];
     for (int64_t k = 0; k <= n_second; ++k) all[n_first + k] = before + (second ? second[k] : 0);
-    const brc_status status = brc_new_int(s, out, all, n_first + n_second + 1, what);
+    const brc_status status = brc_upload_int(out, all, n_first + n_second + 1);
     brc_memory_free(all);
     return status;
 }
@@ -41,17 +40,17 @@ static brc_status upload_shapes(brc_simulation *s, const brc_convex *cells, cons
     int32_t *loop = NULL;
     double *nothing = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, upload_both(s, &c->corner, cells->corner, 3 * corners, pieces->corner, 3 * more_corners, what));
-    BRC_TRY_OR(cleanup, upload_both(s, &c->plane, cells->plane, 4 * faces, pieces->plane, 4 * more_faces, what));
+    BRC_TRY_OR(cleanup, upload_both(s, c->corner, cells->corner, 3 * corners, pieces->corner, 3 * more_corners, what));
+    BRC_TRY_OR(cleanup, upload_both(s, c->plane, cells->plane, 4 * faces, pieces->plane, 4 * more_faces, what));
     if (!cells->n) BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &nothing, n, what));
-    BRC_TRY_OR(cleanup, upload_both(s, &c->radius, cells->n ? cells->radius : nothing, n, pieces->radius, np, what));
-    BRC_TRY_OR(cleanup, upload_starts(s, &c->corner_start, cells->n ? cells->corner_start : NULL, n, pieces->corner_start, np, what));
-    BRC_TRY_OR(cleanup, upload_starts(s, &c->face_start, cells->n ? cells->face_start : NULL, n, pieces->face_start, np, what));
-    BRC_TRY_OR(cleanup, upload_starts(s, &c->loop_start, cells->n ? cells->loop_start : NULL, faces, pieces->loop_start, more_faces, what));
+    BRC_TRY_OR(cleanup, upload_both(s, c->radius, cells->n ? cells->radius : nothing, n, pieces->radius, np, what));
+    BRC_TRY_OR(cleanup, upload_starts(s, c->corner_start, cells->n ? cells->corner_start : NULL, n, pieces->corner_start, np, what));
+    BRC_TRY_OR(cleanup, upload_starts(s, c->face_start, cells->n ? cells->face_start : NULL, n, pieces->face_start, np, what));
+    BRC_TRY_OR(cleanup, upload_starts(s, c->loop_start, cells->n ? cells->loop_start : NULL, faces, pieces->loop_start, more_faces, what));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &loop, loops + more_loops, what));
     if (loops) memcpy(loop, cells->loop, (size_t)loops * sizeof *loop);
     if (more_loops) memcpy(loop + loops, pieces->loop, (size_t)more_loops * sizeof *loop);
-    BRC_TRY_OR(cleanup, brc_new_int(s, &c->loop, loop, loops + more_loops, what));
+    BRC_TRY_OR(cleanup, brc_upload_int(c->loop, loop, loops + more_loops));
 cleanup:
     brc_memory_free(loop);
     brc_memory_free(nothing);
@@ -94,12 +93,9 @@ static brc_status upload_pieces(brc_simulation *s)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &own, 4 * (int64_t)n, "pieces of strikers"));
     for (int32_t p = 0; p < n; ++p) outline(t, p, own + 4 * (int64_t)p);
     for (int32_t p = 0; p < n; ++p) number[p] = (int32_t)t->piece_kind[p];
-    BRC_TRY_OR(cleanup, brc_new_int(s, &c->piece_striker, t ? t->piece_striker : number, n, "pieces of strikers"));
-    BRC_TRY_OR(cleanup, brc_new_int(s, &c->piece_kind, number, n, "pieces of strikers"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &c->piece_own, 4 * (int64_t)n, "pieces of strikers"));
+    BRC_TRY_OR(cleanup, brc_upload_int(c->piece_striker, t ? t->piece_striker : number, n));
+    BRC_TRY_OR(cleanup, brc_upload_int(c->piece_kind, number, n));
     BRC_TRY_OR(cleanup, brc_upload_state(s, c->piece_own, own, 4 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &c->piece, 4 * (int64_t)n, "pieces of strikers"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &c->piece_radius, n, "pieces of strikers"));
     if (n) BRC_TRY_OR(cleanup, brc_upload_state(s, c->piece_radius, t->piece_radius, n));
 cleanup:
     brc_memory_free(number);

@@ -38,7 +38,7 @@ void brc_effects_list(brc_simulation *s)
                    {"prescribed rotations", turned},
                    {"gravity", scene->has_gravity},
                    {"mass damping", damped},
-                   {"noise damping", brc_has_noise_damping(scene)},
+                   {"noise damping", s->wants.noise},
                    {"numerical damping (Tchamwa-Wielgosz)", tchamwa},
                    {"static solver", statics},
                    {"free vibration modes", modes},

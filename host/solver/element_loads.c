@@ -1,6 +1,7 @@
 /* Dead forces on elements, and elements whose rotation is prescribed. */
 #include "balance.h"
 #include "element_loads.h"
+#include "load_fields.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -92,11 +93,9 @@ brc_status brc_push_create(brc_simulation *s, const brc_stage *stage, int32_t l,
         element[i] = items[i].row;
         out->element_id[i] = items[i].id;
     }
-    BRC_TRY_OR(cleanup, brc_new_int(s, &out->element, element, n, "forces on elements"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->total, 3 * (int64_t)n, "forces on elements"));
+    BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_push_fields, n, out));
+    BRC_TRY_OR(cleanup, brc_upload_int(out->element, element, n));
     BRC_TRY_OR(cleanup, brc_upload_state(s, out->total, out->total_of, 3 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->reach, n, "forces on elements"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->work, n, "forces on elements"));
 cleanup:
     brc_memory_free(items);
     brc_memory_free(element);
@@ -139,14 +138,10 @@ brc_status brc_turn_create(brc_simulation *s, const brc_stage *stage, int32_t l,
         status = brc_loads_refuse_twice(s, stage, load, twice);
         goto cleanup;
     }
-    BRC_TRY_OR(cleanup, brc_new_int(s, &out->element, element, n, "turned elements"));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &out->component, 3 * (int64_t)n, "turned elements"));
+    BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_turn_fields, n, out));
+    BRC_TRY_OR(cleanup, brc_upload_int(out->element, element, n));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, out->component, flags, 3 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->direction, 3 * (int64_t)n, "turned elements"));
     BRC_TRY_OR(cleanup, brc_upload_state(s, out->direction, direction, 3 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->reaction, 3 * (int64_t)n, "turned elements"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->last_reaction, 3 * (int64_t)n, "turned elements"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->work, n, "turned elements"));
 cleanup:
     brc_memory_free(items);
     brc_memory_free(element);
@@ -159,15 +154,13 @@ void brc_element_loads_free(brc_loads *loads)
 {
     for (int32_t i = 0; i < loads->n_pushes; ++i) {
         brc_push_load *p = loads->pushes + i;
-        brc_buffer **all[] = {&p->element, &p->total, &p->reach, &p->work};
-        for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+        brc_fields_free(&brc_push_fields, p);
         brc_memory_free(p->element_id);
         brc_memory_free(p->total_of);
     }
     for (int32_t i = 0; i < loads->n_turns; ++i) {
         brc_turn_load *t = loads->turns + i;
-        brc_buffer **all[] = {&t->element, &t->component, &t->direction, &t->reaction, &t->last_reaction, &t->work};
-        for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+        brc_fields_free(&brc_turn_fields, t);
         brc_memory_free(t->element_id);
     }
     brc_memory_free(loads->pushes);

@@ -159,30 +159,41 @@ cleanup:
     return status;
 }
 
-static brc_status new_int(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
-{
-    return brc_buffer_create(s->device, out, count * 4, what);
-}
+static bool breaks(const brc_wants *w) { return w->scene->has_fracture; }
+static bool of_cells(const brc_wants *w) { return !brc_wants_beams(w); }
+/* By a stress of elements: beams always, cells where the criterion asks for it. */
+static bool breaks_by_element(const brc_wants *w) { return breaks(w) && (brc_wants_beams(w) || w->by_element); }
+static bool weighted(const brc_wants *w) { return w->weighted || (w->softens && brc_wants_beams(w)); }
 
-/* What beams have beside; cells have arrays of their own (cell_breaks.c). */
-static brc_status create_arrays(brc_simulation *s)
-{
-    brc_breaking *f = s->fracture;
-    const int64_t n = s->layout->n_rows, entries = s->layout->n_slots * s->layout->slice;
-    BRC_TRY(new_int(s, &f->break_step, entries, "steps of breaks"));
-    BRC_TRY(new_int(s, &f->break_mode, entries, "modes of breaks"));
-    BRC_TRY(brc_new_coeff(s, &f->break_stress, entries, "stresses of breaks"));
-    BRC_TRY(brc_new_coeff(s, &f->break_energy, entries, "energies of breaks"));
-    BRC_TRY(brc_new_state(s, &f->lost, n, "energy of broken bonds"));
-    BRC_TRY(brc_new_state(s, &f->broken, n, "broken bonds"));
-    return brc_beam_closure_create(s);
-}
-
-int64_t brc_fracture_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes)
-{
-    return n * (21 * coeff_bytes + 4 + 2 * state_bytes) + entries * (8 + 2 * coeff_bytes) + brc_beam_softening_bytes(scene, entries, coeff_bytes) +
-           brc_beam_closure_bytes(scene, n, entries, state_bytes, coeff_bytes);
-}
+#define AT(member) BRC_FIELD_AT(brc_breaking, member)
+static const brc_field_row break_rows[] = {
+    {"break_step", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_step), "steps of breaks", "-", BRC_KEPT("fracture.step", BRC_KEEP_BROKEN)},
+    {"break_mode", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_mode), "modes of breaks", "-", BRC_KEPT("fracture.mode", BRC_KEEP_BROKEN)},
+    {"break_stress", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_stress), "stresses of breaks", "Pa", BRC_KEPT("fracture.stress", BRC_KEEP_BROKEN)},
+    {"break_energy", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_energy), "energies of breaks", "J", BRC_KEPT("fracture.energy", BRC_KEEP_BROKEN)},
+    {"lost", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost), "energy of broken bonds", "J", BRC_KEPT("fracture.lost", BRC_KEEP_ALL)},
+    {"gone", brc_each_row, 1, BRC_FIELD_STATE, of_cells, AT(gone), "lost bonds", "-", BRC_KEPT("cells.gone", BRC_KEEP_ALL)},
+    {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_beam_closure, AT(gone), "lost beams", "-", BRC_KEPT("closure.gone", BRC_KEEP_ALL)},
+    {"broken", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(broken), "broken bonds", "-", BRC_KEPT("fracture.broken", BRC_KEEP_ALL)},
+};
+BRC_FIELD_TABLE(brc_break_fields, "broken bonds", BRC_LIFE_RUN, breaks, break_rows);
+static const brc_field_row criterion_rows[] = {
+    {"record", brc_each_block, 8, BRC_FIELD_COEFF, brc_wants_beams, AT(record), "virial records", "J, m^3", BRC_KEPT("fracture.record", BRC_KEEP_ALL)},
+    {"record", brc_each_block, 8, BRC_FIELD_COEFF, of_cells, AT(record), "virial records", "J, m^3", BRC_NOT_KEPT},
+    {"stress", brc_each_row, 6, BRC_FIELD_COEFF, NULL, AT(stress), "virial stresses", "Pa", BRC_NOT_KEPT},
+    {"limits", brc_each_row, 3, BRC_FIELD_COEFF, NULL, AT(limits), "limits", "Pa", BRC_NOT_KEPT},
+    {"choice", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(choice), "chosen bonds", "-", BRC_NOT_KEPT},
+    {"measure", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses at failure", "Pa", BRC_NOT_KEPT},
+    {"ease", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(ease), "bounds of stress", "-", BRC_NOT_KEPT},
+    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(weight), "bounds of stress", "m^3", BRC_KEPT("fracture.weight", BRC_KEEP_ALL)},
+    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, of_cells, AT(weight), "bounds of stress", "m^3", BRC_KEPT("cells.weight", BRC_KEEP_ALL)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(reach), "bounds of stress", "m^3", BRC_KEPT("fracture.reach", BRC_KEEP_ALL)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, of_cells, AT(reach), "bounds of stress", "m^3", BRC_NOT_KEPT},
+    {"mark", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(mark), "groups that lose bonds", "-", BRC_NOT_KEPT},
+    {"factor", brc_each_entry, 1, BRC_FIELD_COEFF, weighted, AT(factor), "factors of bonds", "-", BRC_NOT_KEPT},
+    {"weakest", brc_each_row, 1, BRC_FIELD_COEFF, weighted, AT(weakest), "factors of bonds", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_criterion_fields, "criteria of elements", BRC_LIFE_RUN, breaks_by_element, criterion_rows);
 
 static brc_status find_kernels(brc_simulation *s)
 {
@@ -215,7 +226,6 @@ static int64_t most_members(const brc_domain *d)
 brc_status brc_fracture_create_elements(brc_simulation *s, brc_buffer *branch)
 {
     brc_breaking *f = s->fracture;
-    const int64_t n = s->layout->n_rows;
     if (s->layout->n_rows >= MOST_ROWS)
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: %d elements are more than the %d that can break", (int)s->layout->n_rows, MOST_ROWS);
     if (s->scene->fracture.level == 2 && most_members(s->domain) > MOST_MEMBERS)
@@ -225,12 +235,8 @@ brc_status brc_fracture_create_elements(brc_simulation *s, brc_buffer *branch)
     f->branch = branch;
     BRC_TRY(find_kernels(s));
     BRC_TRY(find_limits(s));
+    BRC_TRY(brc_fields_create(s->device, &brc_criterion_fields, &s->wants, f));
     BRC_TRY(brc_fracture_bound(s));
-    BRC_TRY(brc_new_coeff(s, &f->record, 8 * n, "virial records"));
-    BRC_TRY(brc_new_coeff(s, &f->stress, 6 * n, "virial stresses"));
-    BRC_TRY(brc_new_coeff(s, &f->limits, 3 * n, "limits"));
-    BRC_TRY(new_int(s, &f->choice, n, "chosen bonds"));
-    BRC_TRY(brc_new_coeff(s, &f->measure, n, "stresses at failure"));
     return upload_rows(s);
 }
 
@@ -254,10 +260,11 @@ static void tell_unbreakable(brc_simulation *s)
 brc_status brc_fracture_create(brc_simulation *s)
 {
     tell_unbreakable(s);
-    if (!brc_is_beams(s)) return brc_cell_breaks_create(s);
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture, 1, "fracture"));
+    BRC_TRY(brc_fields_create(s->device, &brc_break_fields, &s->wants, s->fracture));
+    if (!brc_is_beams(s)) return brc_cell_breaks_create(s);
     BRC_TRY(brc_fracture_create_elements(s, s->offset));
-    return create_arrays(s);
+    return brc_beam_closure_create(s);
 }
 
 void brc_fracture_free(brc_simulation *s)
@@ -267,10 +274,8 @@ void brc_fracture_free(brc_simulation *s)
     brc_cell_breaks_free(s);
     brc_beam_softening_free(s);
     brc_beam_closure_free(s);
-    brc_fracture_bound_free(s);
-    brc_buffer **all[] = {&f->record, &f->stress, &f->limits, &f->choice, &f->measure, &f->break_step, &f->break_mode,
-                          &f->break_stress, &f->break_energy, &f->lost, &f->broken, &f->gone};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_fields_free(&brc_criterion_fields, f);
+    brc_fields_free(&brc_break_fields, f);
     brc_memory_free(f->limit);
     brc_memory_free(f->spans);
     brc_memory_free(f->load);

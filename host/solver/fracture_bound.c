@@ -46,8 +46,6 @@ static brc_status upload_bounds(brc_simulation *s, const double *weakest)
         weight[r] = brc_fracture_volume(d, e);
         for (int64_t h = d->row_start[e]; s->scene->fracture.level > 0 && h < d->row_start[e + 1]; ++h) weight[r] += brc_fracture_volume(d, d->neighbour[h]);
     }
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->ease, n, "bounds of stress"));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->weight, n, "bounds of stress"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->ease, ease, n));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->weight, weight, n));
 cleanup:
@@ -74,8 +72,6 @@ static brc_status upload_factors(brc_simulation *s, const double *factor_of_bond
         }
     for (int64_t r = 0; r < n; ++r)
         if (!isfinite((*weakest)[r])) (*weakest)[r] = 1; /* no bonds */
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->factor, entries, "factors of bonds"));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->weakest, n, "factors of bonds"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->factor, factor, entries));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->weakest, *weakest, n));
 cleanup:
@@ -90,22 +86,13 @@ brc_status brc_fracture_bound(brc_simulation *s)
     double *weakest = NULL;
     brc_status status = BRC_OK;
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
-    const bool softens = strengths.softens && brc_is_beams(s); /* cells: cell_softening.c */
-    f->weighted = !strengths.uniform || softens; /* beams that opened are not chosen again, by their factors */
+    const bool softens = s->wants.softens && brc_is_beams(s); /* cells: cell_softening.c */
+    f->weighted = f->factor != NULL; /* beams that opened are not chosen again, by their factors */
     if (f->weighted) BRC_TRY_OR(cleanup, upload_factors(s, strengths.factor, &weakest));
     if (softens) BRC_TRY_OR(cleanup, brc_beam_softening_create(s, &strengths));
     BRC_TRY_OR(cleanup, upload_bounds(s, weakest));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &f->reach, s->layout->n_rows, "bounds of stress"));
-    status = brc_buffer_create(s->device, &f->mark, 4 * (int64_t)s->n_groups, "groups that lose bonds");
 cleanup:
     brc_memory_free(weakest);
     brc_strengths_free(&strengths);
     return status;
-}
-
-void brc_fracture_bound_free(brc_simulation *s)
-{
-    brc_breaking *f = s->fracture;
-    brc_buffer **all[] = {&f->reach, &f->ease, &f->weight, &f->mark, &f->factor, &f->weakest};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
 }

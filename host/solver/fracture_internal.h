@@ -39,6 +39,7 @@ struct brc_breaking {
     brc_break *events; /* [n_events] as of the last call */
 };
 
+extern const brc_field_table brc_break_fields, brc_criterion_fields;
 /* Arrays, limits and kernels; refuses models and materials that cannot break. */
 brc_status brc_fracture_create(brc_simulation *s);
 void brc_fracture_free(brc_simulation *s);
@@ -51,9 +52,6 @@ brc_status brc_fracture_choose(brc_simulation *s, int32_t moment);
 brc_status brc_fracture_ratio(brc_simulation *s, double *out);
 /* Strengths of bonds, and bounds of stress (fracture_bound.c); the limits of the elements are there. */
 brc_status brc_fracture_bound(brc_simulation *s);
-void brc_fracture_bound_free(brc_simulation *s);
-/* Device bytes it takes with beams (n elements, entries of the layout). */
-int64_t brc_fracture_bytes(const brc_scene *scene, int64_t n, int64_t entries, int64_t state_bytes, int64_t coeff_bytes);
 /* A stage begins. */
 brc_status brc_fracture_begin_stage(brc_simulation *s);
 /* Steps and static events so far: what orders breaks. */

@@ -72,8 +72,8 @@ static brc_status upload_connectivity(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
     const int slice = layout->slice;
-    BRC_TRY(brc_new_int(s, &s->row_start, layout->slot_start, layout->n_slices + 1, "slice starts"));
-    BRC_TRY(brc_new_int(s, &s->boundary, layout->boundary, layout->n_slices, "boundary blocks"));
+    BRC_TRY(brc_upload_int(s->row_start, layout->slot_start, layout->n_slices + 1));
+    BRC_TRY(brc_upload_int(s->boundary, layout->boundary, layout->n_slices));
     int32_t *rows = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_slots * slice, "neighbours"));
     for (int32_t block = 0; block < layout->n_slices; ++block)
@@ -82,7 +82,7 @@ static brc_status upload_connectivity(brc_simulation *s)
                 const int32_t h = layout->half_edge[(int64_t)slot * slice + l];
                 rows[(int64_t)slot * slice + l] = h < 0 ? block * slice + l : layout->row_of_element[s->domain->neighbour[h]];
             }
-    const brc_status status = brc_new_int(s, &s->neighbour, rows, layout->n_slots * slice, "neighbours");
+    const brc_status status = brc_upload_int(s->neighbour, rows, layout->n_slots * slice);
     brc_memory_free(rows);
     return status;
 }
@@ -130,8 +130,7 @@ static brc_status upload_inverse_shapes(brc_simulation *s)
                 "%lld of %lld elements have neighbours that do not span space; their gradient is taken over the directions "
                 "they do span",
                 (long long)flat, (long long)s->domain->n_elements);
-    brc_status status = brc_new_coeff(s, &s->inv_shape, (int64_t)layout->n_rows * 6, "least-squares matrices");
-    if (status == BRC_OK) status = brc_upload_coeff(s, s->inv_shape, blocks, (int64_t)layout->n_rows * 6);
+    const brc_status status = brc_upload_coeff(s, s->inv_shape, blocks, (int64_t)layout->n_rows * 6);
     brc_memory_free(blocks);
     return status;
 }
@@ -144,27 +143,22 @@ static brc_status upload_masses(brc_simulation *s)
     brc_status status = BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &values, layout->n_rows > d->n_elements ? layout->n_rows : d->n_elements, "masses"));
     for (int64_t e = 0; e < d->n_elements; ++e) values[e] = d->volume[e] * s->elastic[s->material_of_element[e]].density;
-    BRC_TRY_OR(cleanup, brc_new_state(s, &s->mass, layout->n_rows, "masses"));
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->mass, values, 1, 1));
     if (s->scene->has_gravity) { /* padding has a mass to be divided by; falling, it would have an energy of its own */
-        BRC_TRY_OR(cleanup, brc_new_state(s, &s->weight, layout->n_rows, "masses in gravity"));
         BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->weight, values, 1, 0));
     }
     if (brc_turns(s)) {
         if (brc_is_published(s)) {
-            BRC_TRY_OR(cleanup, brc_new_state(s, &s->volume, layout->n_rows, "volumes"));
             BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->volume, d->volume, 1, 1));
         }
         /* mean of the principal moments: the trace of the inertia tensor over 3 */
         for (int64_t e = 0; e < d->n_elements; ++e)
             values[e] = s->elastic[s->material_of_element[e]].density *
                         (d->inertia[6 * e] + d->inertia[6 * e + 1] + d->inertia[6 * e + 2]) / 3;
-        BRC_TRY_OR(cleanup, brc_new_state(s, &s->inertia, layout->n_rows, "moments of inertia"));
         BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->inertia, values, 1, 1));
     } else {
         for (int32_t r = 0; r < layout->n_rows; ++r)
             values[r] = layout->element_of_row[r] < 0 ? 1 : 1 / d->volume[layout->element_of_row[r]];
-        BRC_TRY_OR(cleanup, brc_new_coeff(s, &s->inv_volume, layout->n_rows, "inverse volumes"));
         BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->inv_volume, values, layout->n_rows));
     }
 cleanup:
@@ -196,14 +190,10 @@ static brc_status upload_materials(brc_simulation *s)
         lame[3 * (int64_t)r + 2] = m->young;
     }
     if (brc_is_published(s)) {
-        BRC_TRY_OR(cleanup, brc_new_coeff(s, &s->lame_of, (int64_t)layout->n_rows * 3, "materials of elements"));
         BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->lame_of, lame, (int64_t)layout->n_rows * 3));
     } else {
-        BRC_TRY_OR(cleanup, brc_new_coeff(s, &s->material, (int64_t)layout->n_rows * 4, "materials of elements"));
         BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->material, blocks, (int64_t)layout->n_rows * 4));
-        BRC_TRY_OR(cleanup, brc_new_coeff(s, &s->modulus, layout->n_rows, "stabilisation moduli"));
         BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->modulus, modulus, layout->n_rows));
-        BRC_TRY_OR(cleanup, brc_new_coeff(s, &s->ell_of, layout->n_rows, "compaction ratios"));
         BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->ell_of, ell, layout->n_rows));
     }
 cleanup:
@@ -214,41 +204,59 @@ cleanup:
     return status;
 }
 
+static bool many_dlsm(const brc_wants *w) { return w->many_materials && brc_wants_dlsm(w); }
+static bool many_published(const brc_wants *w) { return w->many_materials && brc_wants_published(w); }
+static bool many_beams(const brc_wants *w) { return w->many_materials && brc_wants_beams(w); }
+static bool of_cells(const brc_wants *w) { return !brc_wants_beams(w); }
+static bool gravity(const brc_wants *w) { return w->scene->has_gravity; }
+
+#define AT(member) BRC_FIELD_AT(brc_simulation, member)
+static const brc_field_row rows[] = {
+    {"row_start", brc_each_slice_end, 1, BRC_FIELD_INT, NULL, AT(row_start), "slice starts", "-", BRC_NOT_KEPT},
+    {"neighbour", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(neighbour), "neighbours", "-", BRC_NOT_KEPT},
+    {"boundary", brc_each_slice, 1, BRC_FIELD_INT, NULL, AT(boundary), "boundary blocks", "-", BRC_NOT_KEPT},
+    {"mass", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses", "kg", BRC_NOT_KEPT},
+    {"weight", brc_each_row, 1, BRC_FIELD_STATE, gravity, AT(weight), "masses in gravity", "kg", BRC_NOT_KEPT},
+    {"volume", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_published, AT(volume), "volumes", "m^3", BRC_NOT_KEPT},
+    {"inertia", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_turning, AT(inertia), "moments of inertia", "kg m^2", BRC_NOT_KEPT},
+    {"inv_volume", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(inv_volume), "inverse volumes", "1/m^3", BRC_NOT_KEPT},
+    {"inv_shape", brc_each_block, 6, BRC_FIELD_COEFF, of_cells, AT(inv_shape), "least-squares matrices", "1/m^3", BRC_KEPT("cells.inverse_shape", BRC_KEEP_OWNERS)},
+    {"area", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_dlsm, AT(area), "area vectors", "m^2", BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
+    {"offset", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_dlsm, AT(offset), "face offsets", "m", BRC_NOT_KEPT},
+    {"ratio", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(ratio), "length over area", "1/m", BRC_KEPT("cells.ratio", BRC_KEEP_BROKEN)},
+    {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_turning, AT(offset), "branches", "m", BRC_NOT_KEPT},
+    {"area", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_published, AT(area), "face areas", "m^2", BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
+    {"inv_length", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(ratio), "inverse lengths", "1/m", BRC_KEPT("fracture.inverse_length", BRC_KEEP_BROKEN)},
+    {"material", brc_each_row, 4, BRC_FIELD_COEFF, many_dlsm, AT(material), "materials of elements", "Pa, -", BRC_NOT_KEPT},
+    {"modulus", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(modulus), "stabilisation moduli", "Pa", BRC_NOT_KEPT},
+    {"ell_of", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(ell_of), "compaction ratios", "-", BRC_NOT_KEPT},
+    {"lame_of", brc_each_row, 3, BRC_FIELD_COEFF, many_published, AT(lame_of), "materials of elements", "Pa", BRC_NOT_KEPT},
+    {"beam_of", brc_each_row, 3, BRC_FIELD_COEFF, many_beams, AT(beam_of), "beams of elements", "N, N m^2", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_geometry_fields, "geometry", BRC_LIFE_RUN, NULL, rows);
+
 brc_status brc_geometry_create(brc_simulation *s)
 {
-    const int64_t entries = s->layout->n_slots * s->layout->slice;
+    BRC_TRY(brc_fields_create(s->device, &brc_geometry_fields, &s->wants, s));
     BRC_TRY(upload_connectivity(s));
     BRC_TRY(upload_masses(s));
     if (brc_is_beams(s)) {
         BRC_TRY(brc_beams_upload(s));
-        BRC_TRY(brc_new_coeff(s, &s->offset, entries * 3, "branches"));
         BRC_TRY(upload_rows(s, s->offset, ROW_BRANCH));
-        BRC_TRY(brc_new_coeff(s, &s->ratio, entries, "inverse lengths"));
         return upload_rows(s, s->ratio, ROW_INVERSE_LENGTH);
     }
     BRC_TRY(upload_inverse_shapes(s));
     BRC_TRY(upload_materials(s));
     if (brc_is_published(s)) {
-        BRC_TRY(brc_new_coeff(s, &s->offset, entries * 3, "branches"));
         BRC_TRY(upload_rows(s, s->offset, ROW_BRANCH));
-        BRC_TRY(brc_new_coeff(s, &s->area, entries, "face areas"));
         return upload_rows(s, s->area, ROW_SURFACE);
     }
-    BRC_TRY(brc_new_coeff(s, &s->area, entries * 3, "area vectors"));
     BRC_TRY(upload_rows(s, s->area, ROW_AREA));
-    BRC_TRY(brc_new_coeff(s, &s->offset, entries * 3, "face offsets"));
     BRC_TRY(upload_rows(s, s->offset, ROW_OFFSET));
-    BRC_TRY(brc_new_coeff(s, &s->ratio, entries, "length over area"));
     return upload_rows(s, s->ratio, ROW_RATIO);
 }
 
-void brc_geometry_free(brc_simulation *s)
-{
-    brc_buffer **all[] = {&s->row_start, &s->neighbour, &s->boundary, &s->area, &s->offset, &s->ratio, &s->inv_shape,
-                          &s->inv_volume, &s->material, &s->modulus, &s->ell_of, &s->lame_of,
-                          &s->mass, &s->weight, &s->volume, &s->inertia, &s->beam_of};
-    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_buffer_free(all[i]);
-}
+void brc_geometry_free(brc_simulation *s) { brc_fields_free(&brc_geometry_fields, s); }
 
 brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out)
 {

@@ -25,6 +25,15 @@ struct brc_guard_state {
     brc_guard_report report;
 };
 
+static int64_t each_block(const brc_wants *w) { return (w->layout->n_rows + BLOCK - 1) / BLOCK; }
+
+#define AT(member) BRC_FIELD_AT(struct brc_guard_state, member)
+static const brc_field_row rows[] = {
+    {"first", each_block, 1, BRC_FIELD_INT, NULL, AT(first), "guard", "-", BRC_NOT_KEPT},
+    {"when", each_block, 1, BRC_FIELD_INT, NULL, AT(when), "guard", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_guard_fields, "guard", BRC_LIFE_DYNAMIC, NULL, rows);
+
 brc_guard_report brc_simulation_guard_report(const brc_simulation *s)
 {
     return s->guard ? s->guard->report : (brc_guard_report){0};
@@ -33,8 +42,7 @@ brc_guard_report brc_simulation_guard_report(const brc_simulation *s)
 void brc_guard_free(brc_simulation *s)
 {
     if (!s->guard) return;
-    brc_buffer_free(&s->guard->first);
-    brc_buffer_free(&s->guard->when);
+    brc_fields_free(&brc_guard_fields, s->guard);
     brc_memory_free(s->guard->found);
     brc_memory_free(s->guard);
     s->guard = NULL;
@@ -63,11 +71,12 @@ brc_status brc_guard_begin_stage(brc_simulation *s)
     if (!s->guard) {
         BRC_TRY(BRC_ALLOCATE(s->context, &s->guard, 1, "guard"));
         struct brc_guard_state *g = s->guard;
-        g->n_blocks = (s->layout->n_rows + BLOCK - 1) / BLOCK;
+        g->n_blocks = (int32_t)each_block(&s->wants);
         BRC_TRY(BRC_ALLOCATE(s->context, &g->found, 2 * (int64_t)g->n_blocks, "guard"));
         memset(g->found, -1, 2 * (size_t)g->n_blocks * sizeof *g->found);
-        BRC_TRY(brc_new_int(s, &g->first, g->found, g->n_blocks, "guard"));
-        BRC_TRY(brc_new_int(s, &g->when, g->found, g->n_blocks, "guard"));
+        BRC_TRY(brc_fields_create(s->device, &brc_guard_fields, &s->wants, g));
+        BRC_TRY(brc_upload_int(g->first, g->found, g->n_blocks));
+        BRC_TRY(brc_upload_int(g->when, g->found, g->n_blocks));
         const int64_t asked = s->scene->guard.every;
         g->report.every = asked > 0 ? asked : read_every;
         g->report.ledger_every = asked > 0 ? asked : ledger_every;

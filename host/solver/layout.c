@@ -141,9 +141,3 @@ void brc_layout_free(brc_layout **layout)
     brc_memory_free(*layout);
     *layout = NULL;
 }
-
-int64_t brc_layout_estimate_entries(const brc_domain *domain, int32_t slice)
-{
-    /* sorting by degree in windows leaves about 3 % of padding; the last slice is padded whole */
-    return (int64_t)(1.03 * (double)domain->n_half_edges) + 32 * (int64_t)slice;
-}

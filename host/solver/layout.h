@@ -27,7 +27,5 @@ void brc_layout_all_boundary(brc_layout *layout);
 void brc_layout_free(brc_layout **layout);
 /* Where the other half-edge of every stored bond is stored, twin [n_slots * C]; 0 for padding. */
 brc_status brc_layout_twins(brc_context *context, const brc_layout *layout, const brc_domain *domain, int32_t *twin);
-/* Entries that brc_layout_create would give, to within a few percent, from the degrees alone. */
-int64_t brc_layout_estimate_entries(const brc_domain *domain, int32_t slice);
 
 #endif

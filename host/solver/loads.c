@@ -1,5 +1,6 @@
 /* The loads of one stage: held faces, tractions, imposed elements. Lists are sorted by storage row, then by id. */
 #include "element_loads.h"
+#include "load_fields.h"
 #include "loaded_faces.h"
 #include <math.h>
 #include <stdlib.h>
@@ -104,27 +105,15 @@ static int compare_rows(const void *left, const void *right)
 }
 
 /* Temporary host arrays of a list of n entries, uploaded in one go. */
-static brc_status upload_components(brc_simulation *s, brc_buffer **out, const int32_t *bits, int32_t n)
+static brc_status upload_components(brc_simulation *s, brc_buffer *out, const int32_t *bits, int32_t n)
 {
     double *flags = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &flags, 3 * (int64_t)n, "component flags"));
     for (int32_t i = 0; i < n; ++i)
         for (int c = 0; c < 3; ++c) flags[3 * (int64_t)i + c] = bits[i] >> c & 1;
-    brc_status status = brc_new_coeff(s, out, 3 * (int64_t)n, "component flags");
-    if (status == BRC_OK) status = brc_upload_coeff(s, *out, flags, 3 * (int64_t)n);
+    const brc_status status = brc_upload_coeff(s, out, flags, 3 * (int64_t)n);
     brc_memory_free(flags);
     return status;
-}
-
-static brc_status new_uploaded_state(brc_simulation *s, brc_buffer **out, const double *values, int64_t count, const char *what)
-{
-    BRC_TRY(brc_new_state(s, out, count, what));
-    return brc_upload_state(s, *out, values, count);
-}
-static brc_status new_uploaded_coeff(brc_simulation *s, brc_buffer **out, const double *values, int64_t count, const char *what)
-{
-    BRC_TRY(brc_new_coeff(s, out, count, what));
-    return brc_upload_coeff(s, *out, values, count);
 }
 
 /* Which components of which free faces are held; refuses overlaps. bits: [n_free_faces], zeroed. */
@@ -205,13 +194,10 @@ static brc_status create_held(brc_simulation *s, const brc_stage *stage, brc_hel
         spring[i] = s->elastic[s->material_of_element[e]].k * sqrt(surface / reach);
     }
     face_start[held->n_elements] = n;
-    BRC_TRY_OR(cleanup, brc_new_int(s, &held->element, element, held->n_elements, "held elements"));
-    BRC_TRY_OR(cleanup, brc_new_int(s, &held->place, place, 2 * (int64_t)held->n_elements, "held elements"));
-    BRC_TRY_OR(cleanup, brc_new_int(s, &held->face_start, face_start, held->n_elements + 1, "held elements"));
-    BRC_TRY_OR(cleanup, new_uploaded_coeff(s, &held->area, area, 3 * (int64_t)n, "held face areas"));
-    BRC_TRY_OR(cleanup, new_uploaded_coeff(s, &held->arm, arm, 3 * (int64_t)n, "held face arms"));
-    BRC_TRY_OR(cleanup, new_uploaded_coeff(s, &held->spring, spring, n, "held face springs"));
-    BRC_TRY_OR(cleanup, upload_components(s, &held->held, held->component_of_face, n));
+    BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_held_element_fields, held->n_elements, held));
+    BRC_TRY_OR(cleanup, brc_upload_int(held->element, element, held->n_elements));
+    BRC_TRY_OR(cleanup, brc_upload_int(held->place, place, 2 * (int64_t)held->n_elements));
+    BRC_TRY_OR(cleanup, brc_upload_int(held->face_start, face_start, held->n_elements + 1));
     /* one entry list per load; velocity loads start from where the face is now, which holds only while this stage has no values yet */
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &held->loads, stage->n_loads, "held loads"));
     for (int32_t l = 0; l < stage->n_loads; ++l) {
@@ -241,23 +227,23 @@ static brc_status create_held(brc_simulation *s, const brc_stage *stage, brc_hel
                 direction_at(load, d->free_centroid + 3 * (int64_t)set->members[m], direction + 3 * m);
                 for (int c = 0; c < 3; ++c) base[3 * m + c] = now[3 * m + c];
             }
-            status = brc_new_int(s, &entry->face, face, count, "held load");
+            status = brc_load_fields_create(s, &brc_held_load_fields, count, entry);
         }
-        if (status == BRC_OK) status = upload_components(s, &entry->component, flag, (int32_t)count);
-        if (status == BRC_OK) status = new_uploaded_state(s, &entry->base, base, 3 * count, "held load");
-        if (status == BRC_OK) status = new_uploaded_state(s, &entry->direction, direction, 3 * count, "held load");
+        if (status == BRC_OK) status = brc_upload_int(entry->face, face, count);
+        if (status == BRC_OK) status = upload_components(s, entry->component, flag, (int32_t)count);
+        if (status == BRC_OK) status = brc_upload_state(s, entry->base, base, 3 * count);
+        if (status == BRC_OK) status = brc_upload_state(s, entry->direction, direction, 3 * count);
         brc_memory_free(face);
         brc_memory_free(flag);
         brc_memory_free(base);
         brc_memory_free(direction);
         if (status != BRC_OK) goto cleanup;
     }
-    brc_buffer **states[] = {&held->value, &held->zero_value, &held->reaction, &held->last,
-                             &held->last_reaction, &held->scratch};
-    for (size_t i = 0; i < sizeof states / sizeof *states; ++i)
-        BRC_TRY_OR(cleanup, brc_new_state(s, states[i], 3 * (int64_t)n, "held face state"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &held->work, n, "work of held faces"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &held->energy, n, "energy of held faces"));
+    BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_held_face_fields, n, held));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, held->area, area, 3 * (int64_t)n));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, held->arm, arm, 3 * (int64_t)n));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, held->spring, spring, n));
+    BRC_TRY_OR(cleanup, upload_components(s, held->held, held->component_of_face, n));
 cleanup:
     brc_memory_free(bits);
     brc_memory_free(items);
@@ -324,12 +310,11 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
                     push[c] * (face->centroid[k] - d->position[3 * (int64_t)e + k]);
     }
     *out = (brc_traction_load){.load = l, .n = n};
-    BRC_TRY_OR(cleanup, brc_new_int(s, &out->element, element, n, "traction"));
-    BRC_TRY_OR(cleanup, brc_new_int(s, &out->place, place, 2 * (int64_t)n, "traction"));
-    BRC_TRY_OR(cleanup, new_uploaded_coeff(s, &out->total, total, 3 * (int64_t)n, "traction"));
-    BRC_TRY_OR(cleanup, new_uploaded_coeff(s, &out->moment, moment, 9 * (int64_t)n, "traction"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->reach, n, "traction"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->work, n, "traction"));
+    BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_traction_fields, n, out));
+    BRC_TRY_OR(cleanup, brc_upload_int(out->element, element, n));
+    BRC_TRY_OR(cleanup, brc_upload_int(out->place, place, 2 * (int64_t)n));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, out->total, total, 3 * (int64_t)n));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, out->moment, moment, 9 * (int64_t)n));
 cleanup:
     brc_memory_free(loaded);
     brc_memory_free(items);
@@ -346,6 +331,14 @@ brc_status brc_loads_refuse_twice(brc_simulation *s, const brc_stage *stage, con
                     "stage '%s': the %s of '%s' prescribes components of %lld elements that another load of the stage prescribes too; give each "
                     "component of an element to one load",
                     stage->name, load->kind == BRC_LOAD_ELEMENT_ROTATION ? "rotation" : "motion", load->set, (long long)n);
+}
+
+static brc_status upload_imposed(brc_simulation *s, brc_imposed_load *out, const int32_t *row, const int32_t *bits, const double *base)
+{
+    BRC_TRY(brc_load_fields_create(s, &brc_imposed_fields, out->n, out));
+    BRC_TRY(brc_upload_int(out->element, row, out->n));
+    BRC_TRY(upload_components(s, out->component, bits, out->n));
+    return brc_upload_state(s, out->base, base, 3 * (int64_t)out->n);
 }
 
 /* Imposed elements: the members of an element set, or the owners of a face set. taken: bits per element. */
@@ -383,14 +376,8 @@ static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int3
         status = brc_loads_refuse_twice(s, stage, load, twice);
         goto cleanup;
     }
-    BRC_TRY_OR(cleanup, brc_new_int(s, &out->element, element, n, "imposed elements"));
-    BRC_TRY_OR(cleanup, upload_components(s, &out->component, flag, n));
-    BRC_TRY_OR(cleanup, new_uploaded_state(s, &out->base, base, 3 * (int64_t)n, "imposed elements"));
-    BRC_TRY_OR(cleanup, new_uploaded_state(s, &out->direction, direction, 3 * (int64_t)n, "imposed elements"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->reaction, 3 * (int64_t)n, "imposed elements"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->last, 3 * (int64_t)n, "imposed elements"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->last_reaction, 3 * (int64_t)n, "imposed elements"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->work, n, "imposed elements"));
+    BRC_TRY_OR(cleanup, upload_imposed(s, out, element, flag, base));
+    BRC_TRY_OR(cleanup, brc_upload_state(s, out->direction, direction, 3 * (int64_t)n));
 cleanup:
     brc_memory_free(items);
     brc_memory_free(element);
@@ -437,12 +424,7 @@ static brc_status create_still(brc_simulation *s, const brc_stage *stage, const 
         for (int c = 0; c < 3; ++c) base[3 * (int64_t)n + c] = now[3 * (int64_t)e + c];
         ++n;
     }
-    BRC_TRY_OR(cleanup, brc_new_int(s, &out->element, element, n, "isolated elements"));
-    BRC_TRY_OR(cleanup, upload_components(s, &out->component, flag, n));
-    BRC_TRY_OR(cleanup, new_uploaded_state(s, &out->base, base, 3 * (int64_t)n, "isolated elements"));
-    brc_buffer **states[] = {&out->direction, &out->reaction, &out->last, &out->last_reaction};
-    for (size_t i = 0; i < sizeof states / sizeof *states; ++i) BRC_TRY_OR(cleanup, brc_new_state(s, states[i], 3 * (int64_t)n, "isolated elements"));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &out->work, n, "isolated elements"));
+    status = upload_imposed(s, out, element, flag, base);
 cleanup:
     brc_memory_free(element);
     brc_memory_free(flag);
@@ -494,25 +476,14 @@ void brc_loads_free(brc_loads *loads)
     brc_held_faces *h = &loads->held;
     brc_memory_free(h->index_of_free_face);
     brc_memory_free(h->component_of_face);
-    brc_buffer **held[] = {&h->element, &h->place, &h->face_start, &h->area, &h->arm, &h->held, &h->spring, &h->value,
-                           &h->zero_value, &h->reaction, &h->last, &h->last_reaction, &h->work, &h->scratch, &h->energy};
-    for (size_t i = 0; i < sizeof held / sizeof *held; ++i) brc_buffer_free(held[i]);
-    for (int32_t i = 0; i < h->n_loads; ++i) {
-        brc_held_load *e = h->loads + i;
-        brc_buffer_free(&e->face), brc_buffer_free(&e->component), brc_buffer_free(&e->base), brc_buffer_free(&e->direction);
-    }
+    brc_fields_free(&brc_held_element_fields, h);
+    brc_fields_free(&brc_held_face_fields, h);
+    for (int32_t i = 0; i < h->n_loads; ++i) brc_fields_free(&brc_held_load_fields, h->loads + i);
     brc_memory_free(h->loads);
-    for (int32_t i = 0; i < loads->n_tractions; ++i) {
-        brc_traction_load *t = loads->tractions + i;
-        brc_buffer **all[] = {&t->element, &t->place, &t->total, &t->moment, &t->reach, &t->work};
-        for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
-    }
+    for (int32_t i = 0; i < loads->n_tractions; ++i) brc_fields_free(&brc_traction_fields, loads->tractions + i);
     for (int32_t i = 0; i < loads->n_imposed; ++i) {
-        brc_imposed_load *m = loads->imposed + i;
-        brc_memory_free(m->element_id);
-        brc_buffer **all[] = {&m->element, &m->component, &m->base, &m->direction, &m->reaction, &m->last,
-                              &m->last_reaction, &m->work};
-        for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+        brc_memory_free(loads->imposed[i].element_id);
+        brc_fields_free(&brc_imposed_fields, loads->imposed + i);
     }
     brc_memory_free(loads->tractions);
     brc_memory_free(loads->imposed);

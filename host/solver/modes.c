@@ -39,6 +39,22 @@ typedef struct mode_space {
     brc_buffer *in, *out, *orientation, *torque;
 } mode_space;
 
+static bool modes(const brc_wants *w)
+{
+    bool any = false;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i) any |= w->scene->stages[i].solver == BRC_SOLVER_MODES;
+    return any;
+}
+
+#define AT(member) BRC_FIELD_AT(mode_space, member)
+static const brc_field_row mode_rows[] = {
+    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(in), "modes", "-", BRC_NOT_KEPT},
+    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(out), "modes", "-", BRC_NOT_KEPT},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "modes", "-", BRC_NOT_KEPT},
+    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "modes", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_mode_fields, "free vibration modes", BRC_LIFE_SOLVE, modes, mode_rows);
+
 static brc_status allocate(mode_space *t)
 {
     brc_simulation *s = t->s;
@@ -48,12 +64,7 @@ static brc_status allocate(mode_space *t)
     BRC_TRY(BRC_ALLOCATE(s->context, &t->fixed, t->n, "modes"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->blocks, 2 * t->n, "modes"));
     BRC_TRY(brc_geometry_precondition_blocks(s, t->blocks));
-    BRC_TRY(brc_new_state(s, &t->in, t->n, "modes"));
-    BRC_TRY(brc_new_state(s, &t->out, t->n, "modes"));
-    if (brc_turns(s)) {
-        BRC_TRY(brc_new_state(s, &t->orientation, 4 * (t->n / 3), "modes"));
-        BRC_TRY(brc_new_state(s, &t->torque, t->n, "modes"));
-    }
+    BRC_TRY(brc_fields_create(s->device, &brc_mode_fields, &s->wants, t));
     double *mass = t->w; /* scratch */
     BRC_TRY(brc_download(s, s->mass, brc_precision_state_bytes(brc_device_get_precision(s->device)), mass, t->n / 3));
     for (int64_t i = 0; i < t->n; ++i) {
@@ -73,7 +84,7 @@ static void release(mode_space *t)
     double *all[] = {t->x, t->kx, t->w, t->kw, t->p, t->kp, t->fresh, t->k_fresh, t->mass, t->blocks};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_memory_free(all[i]);
     brc_memory_free(t->fixed);
-    brc_buffer_free(&t->in), brc_buffer_free(&t->out), brc_buffer_free(&t->orientation), brc_buffer_free(&t->torque);
+    brc_fields_free(&brc_mode_fields, t);
 }
 
 /* out = K in */

@@ -8,38 +8,32 @@ enum { MOST_STEPS = 32 };
 
 static bool asks(const brc_stage *stage) { return stage->solver == BRC_SOLVER_DYNAMIC && stage->noise_damping > 0; }
 
-bool brc_has_noise_damping(const brc_scene *scene)
-{
-    for (int32_t i = 0; i < scene->n_stages; ++i)
-        if (asks(scene->stages + i)) return true;
-    return false;
-}
+static bool noise(const brc_wants *w) { return w->noise; }
+
+#define AT(member) BRC_FIELD_AT(struct brc_noise, member)
+static const brc_field_row rows[] = {
+    {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(gradient), "gradients of velocities", "1/s", BRC_NOT_KEPT},
+    {"stress", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(no_stress), "no stresses", "-", BRC_NOT_KEPT},
+    {"flux", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(flux), "fluxes of velocities", "Pa/s", BRC_NOT_KEPT},
+    {"bond_part", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_many, AT(bond_part), "bond parts of velocities", "Pa/s", BRC_NOT_KEPT},
+    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces of noise damping", "N/s", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_noise_fields, "noise damping", BRC_LIFE_RUN, noise, rows);
 
 brc_status brc_noise_create(brc_simulation *s)
 {
-    if (!brc_has_noise_damping(s->scene)) return BRC_OK;
+    if (!s->wants.noise) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &s->noise, 1, "noise damping"));
-    const int64_t n = s->layout->n_rows;
     BRC_TRY(brc_kernel_find(s->device, "damp_noise", &s->noise->damp));
-    BRC_TRY(brc_new_coeff(s, &s->noise->gradient, 9 * n, "gradients of velocities"));
-    BRC_TRY(brc_new_coeff(s, &s->noise->no_stress, 9 * n, "no stresses"));
-    BRC_TRY(brc_new_coeff(s, &s->noise->flux, 9 * n, "fluxes of velocities"));
-    if (brc_device_has_many_materials(s->device)) BRC_TRY(brc_new_coeff(s, &s->noise->bond_part, 9 * n, "bond parts of velocities"));
-    return brc_new_state(s, &s->noise->force, 3 * n, "forces of noise damping");
+    return brc_fields_create(s->device, &brc_noise_fields, &s->wants, s->noise);
 }
 
 void brc_noise_free(brc_simulation *s)
 {
     if (!s->noise) return;
-    brc_buffer **const all[] = {&s->noise->gradient, &s->noise->no_stress, &s->noise->flux, &s->noise->bond_part, &s->noise->force};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+    brc_fields_free(&brc_noise_fields, s->noise);
     brc_memory_free(s->noise);
     s->noise = NULL;
-}
-
-int64_t brc_noise_bytes(const brc_scene *scene, int64_t n, int64_t state, int64_t coeff)
-{
-    return brc_has_noise_damping(scene) ? n * (27 * coeff + 3 * state) : 0;
 }
 
 void brc_noise_begin_stage(brc_simulation *s)

@@ -16,13 +16,9 @@ struct brc_noise {
     double factor; /* [s^2]: v -= factor / m S v */
 };
 
-/* Does any stage ask for it? */
-bool brc_has_noise_damping(const brc_scene *scene);
 /* Arrays, where a stage asks for it. BRC_BAD_INPUT: a model other than dlsm, or softening faces, whose opening is no noise. */
 brc_status brc_noise_create(brc_simulation *s);
 void brc_noise_free(brc_simulation *s);
-/* Bytes of n rows on the device. */
-int64_t brc_noise_bytes(const brc_scene *scene, int64_t n, int64_t state, int64_t coeff);
 /* Once the stage has its time step: how often, and how much. */
 void brc_noise_begin_stage(brc_simulation *s);
 /* Is it due at the end of the step just done? Depends on the step alone. */

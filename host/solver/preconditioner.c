@@ -8,7 +8,6 @@ brc_status brc_preconditioner_create(brc_simulation *s, brc_solve_vectors *v)
 {
     const int64_t n = s->layout->n_rows, width = brc_is_beams(s) ? 21 : 6;
     double *blocks = NULL;
-    BRC_TRY(brc_new_state(s, &v->preconditioner.blocks, width * n, "preconditioner"));
     BRC_TRY(BRC_ALLOCATE(s->context, &blocks, width * n, "preconditioner"));
     brc_status status = brc_is_beams(s) ? brc_beams_precondition_blocks(s, blocks) : brc_geometry_precondition_blocks(s, blocks);
     if (status == BRC_OK) status = brc_upload_state(s, v->preconditioner.blocks, blocks, width * n);

@@ -48,15 +48,12 @@ brc_status brc_published_breaks_create(brc_simulation *s)
         if (layout->element_of_row[r] >= 0) support[r] = support_of(s, layout->element_of_row[r], projector);
         for (int k = 0; k < 6; ++k) spanned[(int64_t)(r / layout->slice * 6 + k) * layout->slice + r % layout->slice] = projector[k];
     }
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &c->spanned, 6 * (int64_t)layout->n_rows, "supports"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, c->spanned, spanned, 6 * (int64_t)layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &c->support, layout->n_rows, "supports"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, c->support, support, layout->n_rows));
     if (c->by_element) goto cleanup;
     BRC_TRY_OR(cleanup, brc_kernel_find(s->device, "published_breaking_force", &c->breaking_force));
     BRC_TRY_OR(cleanup, brc_kernel_find(s->device, "published_breaking_force_listed", &c->breaking_force_listed));
     BRC_TRY_OR(cleanup, brc_kernel_find(s->device, "published_check", &c->check));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &c->reach, layout->n_rows, "ratios of bonds"));
 cleanup:
     brc_memory_free(support);
     brc_memory_free(spanned);

@@ -4,53 +4,54 @@ enum { BLOCK = 1024 }; /* SCAN_BLOCK of kernels/scan.cl */
 
 static int32_t blocks_of(const brc_simulation *s) { return (s->layout->n_rows + BLOCK - 1) / BLOCK; }
 
+static bool of_cells(const brc_wants *w) { return w->scene->has_fracture && !brc_wants_beams(w); }
+static bool softening_cells(const brc_wants *w) { return of_cells(w) && w->softens; }
+static int64_t each_count(const brc_wants *w) { return BRC_RING_KINDS * (int64_t)((w->layout->n_rows + BLOCK - 1) / BLOCK + 1); }
+
+#define AT(member) BRC_FIELD_AT(brc_rings, member)
+static const brc_field_row rows[] = {
+    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "rings around broken bonds", "-", BRC_NOT_KEPT},
+    {"level", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(level), "rings around broken bonds", "-", BRC_NOT_KEPT},
+    {"count", each_count, 1, BRC_FIELD_INT, NULL, AT(count), "rings around broken bonds", "-", BRC_NOT_KEPT},
+    {"fresh", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces around broken bonds", "N", BRC_NOT_KEPT},
+    {"fresh_torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "torques around broken bonds", "N m", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_ring_fields, "rings", BRC_LIFE_RUN, of_cells, rows);
+#define LIST(k) BRC_FIELD_AT(brc_ring_list, upto) + (k) * sizeof(brc_buffer *)
+static const brc_field_row list_rows[BRC_RING_KINDS] = {
+    {"upto_0", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(0), "rings of elements", "-", BRC_NOT_KEPT},
+    {"upto_1", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(1), "rings of elements", "-", BRC_NOT_KEPT},
+    {"upto_2", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(2), "rings of elements", "-", BRC_NOT_KEPT},
+    {"upto_3", brc_each_row, 1, BRC_FIELD_INT, NULL, LIST(3), "rings of elements", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_ring_list_fields, "rings around breaks", BRC_LIFE_RUN, of_cells, list_rows);
+BRC_FIELD_TABLE(brc_open_list_fields, "rings around open faces", BRC_LIFE_RUN, softening_cells, list_rows);
+BRC_FIELD_TABLE(brc_bonded_list_fields, "cells with bonds", BRC_LIFE_GROWS, of_cells, list_rows);
+
 brc_status brc_rings_create(brc_simulation *s, brc_rings **out)
 {
     BRC_TRY(BRC_ALLOCATE(s->context, out, 1, "rings around broken bonds"));
     brc_rings *r = *out;
-    const int64_t n = s->layout->n_rows;
     const struct {
         brc_kernel **slot;
         const char *name;
     } wanted[] = {{&r->spread, "ring_spread"}, {&r->seed, "ring_seed"}, {&r->count_pass, "ring_count"}, {&r->tops, "ring_tops"},
                   {&r->list_pass, "ring_list"}, {&r->forget, "ring_forget"}, {&r->replace, "ring_replace"}, {&r->gain, "ring_gain"}, {&r->book, "ring_book"}, {&r->gather, "vector_gather"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
-    BRC_TRY(brc_buffer_create(s->device, &r->touched, 4 * n, "rings around broken bonds"));
-    BRC_TRY(brc_buffer_create(s->device, &r->level, 4 * n, "rings around broken bonds"));
-    BRC_TRY(brc_buffer_create(s->device, &r->count, 4 * BRC_RING_KINDS * ((int64_t)blocks_of(s) + 1), "rings around broken bonds"));
+    BRC_TRY(brc_fields_create(s->device, &brc_ring_fields, &s->wants, r));
     BRC_TRY(BRC_ALLOCATE(s->context, &r->count_read, BRC_RING_KINDS * ((int64_t)blocks_of(s) + 1), "rings around broken bonds"));
-    BRC_TRY(brc_new_state(s, &r->force, 3 * n, "forces around broken bonds"));
-    if (brc_turns(s)) BRC_TRY(brc_new_state(s, &r->torque, 3 * n, "torques around broken bonds"));
-    return brc_ring_list_create(s, &r->around);
+    return brc_fields_create(s->device, &brc_ring_list_fields, &s->wants, &r->around);
 }
 
 void brc_rings_free(brc_rings **rings)
 {
     brc_rings *r = *rings;
     if (!r) return;
-    brc_buffer **all[] = {&r->touched, &r->level, &r->count, &r->force, &r->torque};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
-    brc_ring_list_free(&r->around);
+    brc_fields_free(&brc_ring_fields, r);
+    brc_fields_free(&brc_ring_list_fields, &r->around);
     brc_memory_free(r->count_read);
     brc_memory_free(r);
     *rings = NULL;
-}
-
-int64_t brc_rings_bytes(const brc_scene *scene, int64_t n, int64_t state_bytes)
-{
-    const bool turns = scene->model.kind == BRC_MODEL_DLSM_PUBLISHED;
-    return n * ((2 + BRC_RING_KINDS) * 4 + (turns ? 6 : 3) * state_bytes) + 4 * BRC_RING_KINDS * (n / BLOCK + 2);
-}
-
-brc_status brc_ring_list_create(brc_simulation *s, brc_ring_list *out)
-{
-    for (int k = 0; k < BRC_RING_KINDS; ++k) BRC_TRY(brc_buffer_create(s->device, &out->upto[k], 4 * (int64_t)s->layout->n_rows, "rings of elements"));
-    return BRC_OK;
-}
-
-void brc_ring_list_free(brc_ring_list *list)
-{
-    for (int k = 0; k < BRC_RING_KINDS; ++k) brc_buffer_free(&list->upto[k]);
 }
 
 /* ---- lists ---- */

@@ -28,12 +28,8 @@ typedef struct brc_rings {
 
 brc_status brc_rings_create(brc_simulation *s, brc_rings **out);
 void brc_rings_free(brc_rings **rings);
-/* Device bytes they take (n rows). */
-int64_t brc_rings_bytes(const brc_scene *scene, int64_t n, int64_t state_bytes);
-
-/* A list of its own. */
-brc_status brc_ring_list_create(brc_simulation *s, brc_ring_list *out);
-void brc_ring_list_free(brc_ring_list *list);
+/* Rows of a brc_ring_list: around breaks, around open faces, of cells that still have bonds (made when most have none). */
+extern const brc_field_table brc_ring_list_fields, brc_open_list_fields, brc_bonded_list_fields;
 /* What is new in ring 0 (touched) and ring 1 since the last list was closed: rings->around, up to n[0] touched ones that were found before, up to n[1] touched ones that were
  * not, up to n[2] those of ring 1 alone. */
 brc_status brc_rings_find(brc_simulation *s, brc_rings *rings);

@@ -102,110 +102,14 @@ static brc_status find_materials(brc_simulation *s)
     return BRC_OK;
 }
 
-static bool any_stage(const brc_scene *scene, bool (*test)(const brc_stage *))
+brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, const brc_domain *domain, int32_t slice, brc_layout **out)
 {
-    for (int32_t i = 0; i < scene->n_stages; ++i)
-        if (test(scene->stages + i)) return true;
-    return false;
-}
-static bool has_tchamwa(const brc_stage *stage)
-{
-    return stage->solver == BRC_SOLVER_DYNAMIC && stage->integrator == BRC_TCHAMWA_WIELGOSZ;
-}
-static bool has_damping(const brc_stage *stage)
-{
-    return stage->solver == BRC_SOLVER_DYNAMIC && (stage->mass_damping > 0 || stage->noise_damping > 0);
-}
-static bool has_face_load(const brc_stage *stage)
-{
-    for (int32_t i = 0; i < stage->n_loads; ++i) {
-        const brc_load_kind kind = stage->loads[i].kind;
-        if (kind == BRC_LOAD_FACE_DISPLACEMENT || kind == BRC_LOAD_FACE_VELOCITY || kind == BRC_LOAD_TRACTION || kind == BRC_LOAD_PRESSURE) return true;
-    }
-    return false;
+    BRC_TRY(brc_layout_create(context, domain, slice, out));
+    if (scene->has_contact) brc_layout_all_boundary(*out); /* any element may come to be pushed */
+    return BRC_OK;
 }
 
-/* Numbers per row of the state and work arrays that a scene needs. */
-typedef struct array_need {
-    brc_buffer **buffer;
-    bool wanted, is_state;
-    int64_t count;
-    const char *what;
-} array_need;
-enum { MOST_ARRAYS = 24 };
-static int list_arrays(brc_simulation *s, array_need needs[MOST_ARRAYS])
-{
-    const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s), turns = brc_turns(s), faces = any_stage(s->scene, has_face_load);
-    const bool tchamwa = any_stage(s->scene, has_tchamwa);
-    const int64_t n = s->layout->n_rows, boundary = (int64_t)s->layout->n_boundary * s->layout->slice;
-    const int64_t blocks = (3 * n + 1023) / 1024 + 1;
-    const array_need all[] = {
-        {&s->displacement, true, true, 3 * n, "displacements"},
-        {&s->velocity, true, true, 3 * n, "velocities"},
-        {&s->force, true, true, 3 * n, "forces"},
-        {&s->gradient, published || dlsm, false, (published ? 6 : 9) * n, published ? "strains" : "displacement gradients"},
-        {&s->stress, dlsm, false, 9 * n, "stresses"},
-        {&s->flux, dlsm, false, 9 * n, "fluxes"},
-        {&s->bond_part, dlsm && brc_device_has_many_materials(s->device), false, 9 * n, "bond parts"},
-        {&s->held_gradient, dlsm && faces, false, 9 * boundary, "held gradients"},
-        {&s->held_moment, dlsm && (faces || s->scene->has_contact), false, 9 * boundary, "held moments"},
-        {&s->orientation, turns, true, 4 * n, "orientations"},
-        {&s->spin, turns, true, 3 * n, "spins"},
-        {&s->torque, turns, true, 3 * n, "torques"},
-        {&s->moved, tchamwa, true, 3 * n, "moves of a step"},
-        {&s->lost_numerical, tchamwa || (dlsm && s->scene->has_fracture), true, n, "numerical dissipation"},
-        {&s->lost_damping, any_stage(s->scene, has_damping), true, n, "damping dissipation"},
-        {&s->elastic_energy, true, true, n, "elastic energies"},
-        {&s->stabilisation_energy, dlsm, true, n, "stabilisation energies"},
-        {&s->kinetic, true, true, n, "kinetic energies"},
-        {&s->partial, true, true, blocks, "block sums"},
-    };
-    memcpy(needs, all, sizeof all);
-    return (int)(sizeof all / sizeof *all);
-}
-
-static brc_status create_arrays(brc_simulation *s)
-{
-    array_need needs[MOST_ARRAYS];
-    const int n = list_arrays(s, needs);
-    for (int i = 0; i < n; ++i) {
-        if (!needs[i].wanted) continue;
-        BRC_TRY(needs[i].is_state ? brc_new_state(s, needs[i].buffer, needs[i].count, needs[i].what)
-                                  : brc_new_coeff(s, needs[i].buffer, needs[i].count, needs[i].what));
-    }
-    if (!brc_turns(s)) return BRC_OK;
-    double *upright = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &upright, 4 * (int64_t)s->layout->n_rows, "orientations"));
-    for (int64_t r = 0; r < s->layout->n_rows; ++r) upright[4 * r] = 1;
-    const brc_status status = brc_upload_state(s, s->orientation, upright, 4 * (int64_t)s->layout->n_rows);
-    brc_memory_free(upright);
-    return status;
-}
-
-int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *domain, brc_precision precision, int slice)
-{
-    const int64_t state = brc_precision_state_bytes(precision), coeff = brc_precision_coeff_bytes(precision);
-    const int64_t entries = brc_layout_estimate_entries(domain, slice);
-    const int64_t n = (domain->n_elements + slice - 1) / slice * slice;
-    const bool many = brc_simulation_needs_many_materials(scene, domain);
-    const bool tchamwa = any_stage(scene, has_tchamwa), damped = any_stage(scene, has_damping);
-    int64_t boundary = 0;
-    if (scene->model.kind == BRC_MODEL_CBM)
-        return brc_contact_bytes(scene, domain, n, entries, n, state) + (scene->has_fracture ? brc_fracture_bytes(scene, n, entries, state, coeff) : 0) + entries * (4 + 4 * coeff) + n / slice * 8 + n * ((3 + 3 + 3 + 1 + 2 + 4 + 3 + 3 + 1 + (tchamwa ? 4 : 0) + (damped ? 1 : 0) + (scene->has_gravity ? 1 : 0)) * state + (many ? 3 : 0) * coeff);
-    for (int64_t e = 0; domain->free_start && e < domain->n_elements; ++e) boundary += domain->free_start[e + 1] > domain->free_start[e];
-    boundary = boundary + boundary / 8 < n ? boundary + boundary / 8 : n; /* blocks are whole slices */
-    int64_t bytes = brc_contact_bytes(scene, domain, n, entries, boundary, state) + (scene->has_fracture ? brc_cell_breaks_bytes(scene, n, entries, state, coeff) : 0) + entries * 4 + n / slice * 8 + n * state * (3 + 3 + 3 + 1 + 2);
-    if (tchamwa) bytes += n * 4 * state;
-    else if (scene->has_fracture && scene->model.kind == BRC_MODEL_DLSM) bytes += n * state; /* what breaks cost velocity Verlet */
-    if (damped) bytes += n * state;
-    bytes += brc_noise_bytes(scene, n, state, coeff);
-    if (scene->has_gravity) bytes += n * state;
-    if (scene->model.kind == BRC_MODEL_DLSM_PUBLISHED)
-        return bytes + entries * 4 * coeff + n * ((6 + 6 + (many ? 3 : 0)) * coeff + (4 + 3 + 3 + 2) * state);
-    bytes += entries * 7 * coeff + n * (27 + 6 + 1 + (many ? 15 : 0)) * coeff + n * state;
-    const int64_t blocks = scene->has_contact ? n : boundary; /* any element may come to be pushed */
-    return bytes + blocks * 9 * coeff * (any_stage(scene, has_face_load) ? 2 : scene->has_contact ? 1 : 0);
-}
+int64_t brc_simulation_planned_bytes(const brc_simulation *s) { return brc_fields_planned(&s->wants, BRC_LIFE_RUN) + brc_fields_planned(&s->wants, BRC_LIFE_SEARCH); }
 
 brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain, brc_device *device,
                                  brc_simulation **out)
@@ -237,15 +141,15 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
                           brc_device_has_many_materials(device) ? "one" : "several");
         goto cleanup;
     }
-    BRC_TRY_OR(cleanup, brc_layout_create(context, domain, brc_device_slice(device), &s->layout));
-    if (scene->has_contact) brc_layout_all_boundary(s->layout); /* any element may come to be pushed */
-    s->n_groups = s->layout->n_slices * (brc_device_slice(device) / brc_device_lanes(device));
+    BRC_TRY_OR(cleanup, brc_simulation_layout(context, scene, domain, brc_device_slice(device), &s->layout));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &s->note, scene->n_stages, "stages"));
     BRC_TRY_OR(cleanup, find_materials(s));
+    brc_wants_make(scene, domain, s->layout, device, s->material_of_element, &s->wants);
+    s->n_groups = s->wants.n_groups;
     if (brc_is_beams(s)) BRC_TRY_OR(cleanup, brc_beams_create(s));
     BRC_TRY_OR(cleanup, find_kernels(s));
     BRC_TRY_OR(cleanup, brc_geometry_create(s));
-    BRC_TRY_OR(cleanup, create_arrays(s));
+    BRC_TRY_OR(cleanup, brc_simulation_fields_create(s));
     if (scene->has_fracture) BRC_TRY_OR(cleanup, brc_fracture_create(s));
     BRC_TRY_OR(cleanup, brc_strikers_create(s));
     BRC_TRY_OR(cleanup, brc_contact_create(s));
@@ -263,11 +167,7 @@ void brc_simulation_free(brc_simulation **simulation)
 {
     if (!simulation || !*simulation) return;
     brc_simulation *s = *simulation;
-    if (s->layout) {
-        array_need needs[MOST_ARRAYS];
-        const int n = list_arrays(s, needs);
-        for (int i = 0; i < n; ++i) brc_buffer_free(needs[i].buffer);
-    }
+    brc_simulation_fields_free(s);
     brc_loads_free(&s->loads);
     brc_contact_free(s);
     brc_fracture_free(s);

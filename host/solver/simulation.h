@@ -20,8 +20,9 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
 void brc_simulation_free(brc_simulation **simulation);
 /* More than one material on the elements of the domain. */
 bool brc_simulation_needs_many_materials(const brc_scene *scene, const brc_domain *domain);
-/* Device bytes that brc_simulation_create will take, without a device (slice: brc_device_slice). */
-int64_t brc_simulation_estimate_bytes(const brc_scene *scene, const brc_domain *domain, brc_precision precision, int slice);
+/* Device bytes that scene and domain ask for, from the tables of fields (fields.h): what brc_simulation_create takes, to the byte, and what the first search for contact takes for
+ * elements. Lists of a stage's loads, of pairs, and vectors of static solves come on top. */
+int64_t brc_simulation_planned_bytes(const brc_simulation *simulation);
 
 /* ---- running ---- */
 

@@ -4,6 +4,7 @@
 
 #include "../base/log.h"
 #include "../base/memory.h"
+#include "fields.h"
 #include "layout.h"
 #include "phases.h"
 #include "patience.h"
@@ -121,6 +122,7 @@ struct brc_simulation {
     const brc_domain *domain;
     brc_device *device;
     brc_layout *layout;
+    brc_wants wants; /* what the tables of fields ask */
     brc_kernels kernel;
     int n_groups; /* work-items of an element pass */
     brc_elastic *elastic;      /* [n_materials] */
@@ -193,6 +195,7 @@ bool brc_leaves_off(brc_simulation *s);
 /* ---- arrays.c: host doubles by id <-> device rows ---- */
 brc_status brc_upload_coeff(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count);
 brc_status brc_upload_state(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count);
+brc_status brc_upload_int(brc_buffer *buffer, const int32_t *values, int64_t count);
 brc_status brc_download(brc_simulation *s, brc_buffer *buffer, int bytes_each, double *values, int64_t count);
 /* [n_elements][width] by id to rows (padding: fill) and back. */
 brc_status brc_state_to_rows(brc_simulation *s, brc_buffer *buffer, const double *values, int width, double fill);
@@ -206,7 +209,16 @@ brc_status brc_new_int(brc_simulation *s, brc_buffer **out, const int32_t *value
 brc_status brc_vector_sum(brc_simulation *s, brc_buffer *x, int64_t count, double *out);
 brc_status brc_vector_dot(brc_simulation *s, brc_buffer *x, brc_buffer *y, int64_t count, double *out);
 
+/* Storage of a scene's elements. */
+brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, const brc_domain *domain, int32_t slice, brc_layout **out);
+
+/* ---- simulation_fields.c: state and work arrays ---- */
+extern const brc_field_table brc_state_fields;
+brc_status brc_simulation_fields_create(brc_simulation *s);
+void brc_simulation_fields_free(brc_simulation *s);
+
 /* ---- geometry.c ---- */
+extern const brc_field_table brc_geometry_fields; /* of it what breaks change is kept */
 brc_status brc_geometry_create(brc_simulation *s);
 void brc_geometry_free(brc_simulation *s);
 /* Symmetric 3 x 3 preconditioner blocks [n_rows][6]: inverse of sum (S/L) [mu I + (lambda + mu) n n^T]. */
@@ -215,7 +227,7 @@ brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out);
 /* ---- beams.c: cbm ---- */
 /* Beams of every material in every body; isolated elements are refused or reported. */
 brc_status brc_beams_create(brc_simulation *s);
-/* Per-element stiffness, for several materials. */
+/* Stiffness of every row, where there are several materials. */
 brc_status brc_beams_upload(brc_simulation *s);
 /* Stiffness of element e's own beams. */
 const brc_beam *brc_beam_of_element(const brc_simulation *s, int64_t e);

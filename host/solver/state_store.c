@@ -1,6 +1,7 @@
 /* Arrays between the device's order and that of ids, on their way to a store and back. */
 #include "state_store.h"
 #include "simulation_internal.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -180,4 +181,24 @@ cleanup:
     brc_memory_free(order);
     brc_memory_free(image);
     return status;
+}
+
+brc_status brc_store_fields(brc_simulation *s, brc_state_store *store, const brc_kept_fields *k)
+{
+    static const brc_number_kind kind[] = {[BRC_FIELD_STATE] = BRC_OF_STATE, [BRC_FIELD_COEFF] = BRC_OF_COEFF, [BRC_FIELD_INT] = BRC_OF_INT};
+    for (int i = 0; i < k->table->n; ++i) {
+        const brc_field_row *field = &k->table->fields[i];
+        const bool rows = field->count == brc_each_row, blocks = field->count == brc_each_block, entries = field->count == brc_each_entry;
+        char name[96];
+        if (!field->kept || (field->wanted && !field->wanted(&s->wants))) continue;
+        snprintf(name, sizeof name, "%s%s", k->prefix ? k->prefix : "", field->kept);
+        brc_buffer *buffer = brc_field_buffer(field, k->owner);
+        if (rows || blocks || entries) {
+            const brc_chosen *chosen = field->keep == BRC_KEEP_BROKEN ? k->bonds : field->keep == BRC_KEEP_OWNERS ? k->elements : NULL;
+            const brc_arrangement arrangement = rows ? BRC_ROWS : blocks ? BRC_BLOCKS : BRC_ENTRIES;
+            BRC_TRY(brc_store_entry(s, store, &(brc_state_entry){name, buffer, arrangement, kind[field->number], field->width, chosen}));
+        } else
+            BRC_TRY(brc_store_list(s, store, name, buffer, kind[field->number], k->n, field->width, k->id));
+    }
+    return BRC_OK;
 }

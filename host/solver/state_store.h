@@ -5,6 +5,7 @@
 #ifndef BRC_SOLVER_STATE_STORE_H
 #define BRC_SOLVER_STATE_STORE_H
 
+#include "fields.h"
 #include "simulation.h"
 
 typedef enum brc_stored_type {
@@ -70,6 +71,17 @@ brc_status brc_store_entries(brc_simulation *simulation, brc_state_store *store,
 /* A list [n][width] of things of its own; id [n]: what brings it into an order that does not depend on the device, all different; NULL: it is in one. */
 brc_status brc_store_list(brc_simulation *simulation, brc_state_store *store, const char *name, brc_buffer *buffer, brc_number_kind kind, int64_t n,
                           int32_t width, const int32_t *id);
+
+/* What a table of fields keeps, under `prefix` and the fields' kept names. n things with the ids `id` (as of brc_store_list) are those of lists. */
+typedef struct brc_kept_fields {
+    const brc_field_table *table;
+    const void *owner;
+    const char *prefix;                 /* NULL: none */
+    const brc_chosen *bonds, *elements; /* of BRC_KEEP_BROKEN (half-edges) and BRC_KEEP_OWNERS */
+    int64_t n;
+    const int32_t *id;                  /* [n] or NULL */
+} brc_kept_fields;
+brc_status brc_store_fields(brc_simulation *simulation, brc_state_store *store, const brc_kept_fields *kept);
 
 /* ---- the whole of a simulation ---- */
 

@@ -115,24 +115,41 @@ brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)
     return BRC_OK;
 }
 
+static bool of_cells(const brc_wants *w) { return !brc_wants_beams(w); }
+static bool statics(const brc_wants *w)
+{
+    bool any = false;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i) any |= w->scene->stages[i].solver == BRC_SOLVER_STATIC;
+    return any;
+}
+
+#define AT(member) BRC_FIELD_AT(brc_solve_vectors, member)
+#define UNKNOWNS(name, member) \
+    {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver", "-", BRC_NOT_KEPT}, {name "_turn", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(member.turn), "static solver", "-", BRC_NOT_KEPT}
+static const brc_field_row rows[] = {
+    UNKNOWNS("x", x),
+    UNKNOWNS("r", r),
+    UNKNOWNS("z", z),
+    UNKNOWNS("p", p),
+    UNKNOWNS("kp", kp),
+    {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver", "m", BRC_KEPT("static.before", BRC_KEEP_ALL)},
+    {"zero", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_published, AT(zero), "static solver", "-", BRC_NOT_KEPT},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver", "-", BRC_NOT_KEPT},
+    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(theta), "static solver", "rad", BRC_NOT_KEPT},
+    {"block", brc_each_row, 6, BRC_FIELD_STATE, of_cells, AT(preconditioner.blocks), "preconditioner", "-", BRC_NOT_KEPT},
+    {"block", brc_each_row, 21, BRC_FIELD_STATE, brc_wants_beams, AT(preconditioner.blocks), "preconditioner", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_solve_fields, "static solver", BRC_LIFE_SOLVE, statics, rows);
+
 static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
 {
-    const int64_t n = s->layout->n_rows;
-    brc_unknowns *all[] = {&v->x, &v->r, &v->z, &v->p, &v->kp};
     v->state_bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
     v->arm = 1;
-    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
-        BRC_TRY(brc_new_state(s, &all[i]->move, 3 * n, "static solver"));
-        if (brc_is_beams(s)) BRC_TRY(brc_new_state(s, &all[i]->turn, 3 * n, "static solver"));
-    }
-    BRC_TRY(brc_new_state(s, &v->before, 3 * n, "static solver"));
-    if (brc_is_published(s)) BRC_TRY(brc_new_state(s, &v->zero, 3 * n, "static solver"));
-    if (brc_turns(s)) BRC_TRY(brc_new_state(s, &v->orientation, 4 * n, "static solver"));
+    BRC_TRY(brc_fields_create(s->device, &brc_solve_fields, &s->wants, v));
     if (brc_is_beams(s)) {
         double sum = 0;
         for (int64_t e = 0; e < s->domain->n_elements; ++e) sum += s->domain->radius[e];
         v->arm = sum / (double)s->domain->n_elements;
-        BRC_TRY(brc_new_state(s, &v->theta, 3 * n, "rotations"));
     }
     BRC_TRY(brc_statics_find_pieces(s, v));
     return brc_preconditioner_create(s, v);
@@ -140,10 +157,7 @@ static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
 
 static void free_vectors(brc_solve_vectors *v)
 {
-    brc_unknowns *all[] = {&v->x, &v->r, &v->z, &v->p, &v->kp};
-    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_buffer_free(&all[i]->move), brc_buffer_free(&all[i]->turn);
-    brc_buffer **rest[] = {&v->before, &v->preconditioner.blocks, &v->zero, &v->orientation, &v->theta};
-    for (size_t i = 0; i < sizeof rest / sizeof *rest; ++i) brc_buffer_free(rest[i]);
+    brc_fields_free(&brc_solve_fields, v);
     brc_pieces_free(&v->pieces);
     brc_multigrid_free(&v->preconditioner.multigrid);
 }
@@ -361,8 +375,7 @@ static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_stat
 /* What a resumed stage needs beside the state: the displacements before the last increment, for the guess of the next. */
 brc_status brc_statics_store_run(brc_simulation *s, brc_static_run *run, brc_state_store *store)
 {
-    const brc_state_entry before = {"static.before", run->vectors.before, BRC_ROWS, BRC_OF_STATE, 3, NULL};
-    BRC_TRY(brc_store_entry(s, store, &before));
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_solve_fields, .owner = &run->vectors}));
     BRC_TRY(brc_preconditioner_store(&run->vectors.preconditioner, store));
     return brc_store_double(store, "static.reference", &run->reference);
 }

@@ -2,6 +2,8 @@
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "cell_breaks.h"
+#include "cell_softening.h"
+#include "closed_faces.h"
 #include "fracture_internal.h"
 #include "state_store.h"
 #include <string.h>
@@ -104,25 +106,32 @@ cleanup:
     return status;
 }
 
-/* Beams: a broken one has no length, and leaves the volume that an element's stress is averaged over; records follow from the forces but for
+/* Arrays of both models and of the criterion. A broken beam has no length, and leaves the volume that an element's stress is averaged over; records of beams follow from the forces but for
  * what bonds that broke after them carried. */
-static brc_status walk_beams(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)
+static brc_status walk_arrays(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)
 {
     const brc_breaking *f = s->fracture;
-    const brc_state_entry entries[] = {
-        {"fracture.inverse_length", s->ratio, BRC_ENTRIES, BRC_OF_COEFF, 1, bonds},
-        {"fracture.weight", f->weight, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
-        {"fracture.record", f->record, BRC_BLOCKS, BRC_OF_COEFF, 8, NULL},
-        {"fracture.reach", f->reach, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
-    };
-    BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
-    BRC_TRY(brc_beam_softening_store_state(s, store));
-    return brc_beam_closure_store_state(s, store);
+    brc_chosen elements = {0};
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, brc_fracture_owners(s, bonds, &elements));
+    const struct {
+        const brc_field_table *table;
+        const void *owner;
+        bool there;
+    } walked[] = {{&brc_break_fields, f, true},
+                  {&brc_geometry_fields, s, true},
+                  {&brc_criterion_fields, f, f->record != NULL},
+                  {&brc_cell_break_fields, f->cells, f->cells != NULL}};
+    for (size_t k = 0; k < sizeof walked / sizeof *walked; ++k)
+        if (walked[k].there)
+            BRC_TRY_OR(cleanup, brc_store_fields(s, store, &(brc_kept_fields){.table = walked[k].table, .owner = walked[k].owner, .bonds = bonds, .elements = &elements}));
+cleanup:
+    brc_memory_free(elements.id);
+    return status;
 }
 
 brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)
 {
-    const brc_breaking *f = s->fracture;
     brc_chosen bonds = {0};
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, walk_moments(s, store));
@@ -132,16 +141,11 @@ brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)
         BRC_TRY_OR(cleanup, check_ids(s, &bonds));
         BRC_TRY_OR(cleanup, point_home(s, &bonds));
     }
-    const brc_state_entry entries[] = {
-        {"fracture.step", f->break_step, BRC_ENTRIES, BRC_OF_INT, 1, &bonds},
-        {"fracture.mode", f->break_mode, BRC_ENTRIES, BRC_OF_INT, 1, &bonds},
-        {"fracture.stress", f->break_stress, BRC_ENTRIES, BRC_OF_COEFF, 1, &bonds},
-        {"fracture.energy", f->break_energy, BRC_ENTRIES, BRC_OF_COEFF, 1, &bonds},
-        {"fracture.lost", f->lost, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-        {"fracture.broken", f->broken, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-    };
-    BRC_TRY_OR(cleanup, brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
-    status = f->cells ? brc_cell_breaks_store_state(s, store, &bonds) : walk_beams(s, store, &bonds);
+    BRC_TRY_OR(cleanup, walk_arrays(s, store, &bonds));
+    BRC_TRY_OR(cleanup, brc_closed_faces_store_state(s, store, &bonds));
+    BRC_TRY_OR(cleanup, brc_softening_store_state(s, store));
+    BRC_TRY_OR(cleanup, brc_beam_softening_store_state(s, store));
+    status = brc_beam_closure_store_state(s, store);
 cleanup:
     brc_memory_free(bonds.id);
     return status;

@@ -73,7 +73,7 @@ static brc_status walk_pairs(brc_simulation *s, brc_state_store *store)
     BRC_TRY_OR(cleanup, walk_ids(s, store, pair));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rank, l->n_pairs, "pairs"));
     for (int32_t p = 0; p < l->n_pairs; ++p) rank[pair[p].at] = p;
-    status = brc_store_list(s, store, "contact.history", l->history, BRC_OF_STATE, l->n_pairs, BRC_CONTACT_HISTORY, rank);
+    status = brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_contact_pair_fields, .owner = l, .n = l->n_pairs, .id = rank});
 cleanup:
     brc_memory_free(pair);
     brc_memory_free(rank);
@@ -83,32 +83,16 @@ cleanup:
 brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store)
 {
     brc_contact_state *c = s->contact;
-    const brc_state_entry entries[] = {
-        {"contact.exposed", c->exposed, BRC_ROWS, BRC_OF_INT, 1, NULL},
-        {"contact.built", c->built, BRC_ROWS, BRC_OF_STATE, 4, NULL},
-        {"contact.posed", c->posed, BRC_ROWS, BRC_OF_STATE, 9, NULL},
-        {"contact.rigid", c->rigid, BRC_ROWS, BRC_OF_INT, 1, NULL},
-        {"contact.turned", c->turned, BRC_ROWS, BRC_OF_STATE, 4, NULL},
-        {"contact.momentum", c->momentum, BRC_ROWS, BRC_OF_STATE, 3, NULL},
-        {"contact.way", c->way, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-        {"contact.friction", c->lost_friction, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-        {"contact.impact", c->lost_impact, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-        /* of dlsm the look at how far surfaces have moved reads the gradients of the step before */
-        {"contact.gradient", c->affine ? s->gradient : NULL, BRC_ROWS, BRC_OF_COEFF, 9, NULL},
-    };
-    const brc_state_entry made_by_forces[] = {
-        {"contact.stored", c->stored, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-        {"contact.torque", c->torque, BRC_ROWS, BRC_OF_STATE, 3, NULL},
-    };
-    BRC_TRY(brc_store_entries(s, store, sizeof entries / sizeof *entries, entries));
-    BRC_TRY(brc_store_list(s, store, "contact.pieces", c->piece, BRC_OF_STATE, c->n_pieces, 4, NULL));
+    const brc_kept_fields kept = {.table = &brc_contact_fields, .owner = c, .n = c->n_pieces};
+    BRC_TRY(brc_store_fields(s, store, &kept));
+    /* of dlsm the look at how far surfaces have moved reads the gradients of the step before */
+    if (c->affine) BRC_TRY(brc_store_entry(s, store, &(brc_state_entry){"contact.gradient", s->gradient, BRC_ROWS, BRC_OF_COEFF, 9, NULL}));
     BRC_TRY(brc_store_double(store, "contact.skin", &c->skin));
     if (store->loading) {
         BRC_TRY(brc_contact_expose(s)); /* what is broken is old */
         BRC_TRY(brc_contact_list_again(s));
     }
     BRC_TRY(walk_pairs(s, store));
-    BRC_TRY(brc_store_entries(s, store, sizeof made_by_forces / sizeof *made_by_forces, made_by_forces));
     BRC_TRY(brc_store_integer(store, "contact.quiet", &c->quiet));
     BRC_TRY(brc_store_integer(store, "contact.searches", &c->searches));
     BRC_TRY(brc_store_double(store, "contact.n_rigid", &c->n_rigid));

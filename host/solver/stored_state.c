@@ -3,6 +3,7 @@
 #include "contact.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
+#include "load_fields.h"
 #include "state_store.h"
 #include "strikers_internal.h"
 #include <stdio.h>
@@ -61,50 +62,37 @@ static brc_status walk_notes(brc_simulation *s, brc_state_store *store)
 
 /* Displacement gradients and stresses of dlsm follow from the displacements; the strains of dlsm-published do so only to rounding, since the half kick
  * that closes a batch normalises its orientations once more. */
-static brc_status walk_elements(brc_simulation *s, brc_state_store *store)
-{
-    const brc_state_entry entries[] = {
-        {"displacement", s->displacement, BRC_ROWS, BRC_OF_STATE, 3, NULL},
-        {"velocity", s->velocity, BRC_ROWS, BRC_OF_STATE, 3, NULL},
-        {"force", s->force, BRC_ROWS, BRC_OF_STATE, 3, NULL},
-        {"orientation", s->orientation, BRC_ROWS, BRC_OF_STATE, 4, NULL},
-        {"spin", s->spin, BRC_ROWS, BRC_OF_STATE, 3, NULL},
-        {"torque", s->torque, BRC_ROWS, BRC_OF_STATE, 3, NULL},
-        {"strain", brc_is_published(s) ? s->gradient : NULL, BRC_ROWS, BRC_OF_COEFF, 6, NULL},
-        {"lost_numerical", s->lost_numerical, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-        {"lost_damping", s->lost_damping, BRC_ROWS, BRC_OF_STATE, 1, NULL},
-    };
-    return brc_store_entries(s, store, sizeof entries / sizeof *entries, entries);
-}
+static brc_status walk_elements(brc_simulation *s, brc_state_store *store) { return brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_state_fields, .owner = s}); }
 
 /* ---- loads ---- */
 
-/* "loads.<kind>.<i>.<what>" */
-static const char *load_name(char name[64], const char *kind, int32_t i, const char *what)
+/* What a list of a load keeps, as "loads.<kind>.<i>.<what>". */
+static brc_status walk_list(brc_simulation *s, brc_state_store *store, const char *kind, int32_t i, const brc_field_table *table, const void *list, int64_t n, const int32_t *id)
 {
-    snprintf(name, 64, "loads.%s.%d.%s", kind, (int)i, what);
-    return name;
+    char prefix[64];
+    snprintf(prefix, sizeof prefix, "loads.%s.%d.", kind, (int)i);
+    return brc_store_fields(s, store, &(brc_kept_fields){.table = table, .owner = list, .prefix = prefix, .n = n, .id = id});
+}
+
+static brc_status walk_number(brc_state_store *store, const char *kind, int32_t i, const char *what, double *value)
+{
+    char name[64];
+    snprintf(name, sizeof name, "loads.%s.%d.%s", kind, (int)i, what);
+    return brc_store_double(store, name, value);
 }
 
 static brc_status walk_held(brc_simulation *s, brc_state_store *store)
 {
     const brc_held_faces *h = &s->loads.held;
     int32_t *face = NULL;
-    char name[64];
     brc_status status = BRC_OK;
     if (h->n_faces == 0) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &face, h->n_faces, "held faces"));
     for (int64_t f = 0; f < s->domain->n_free_faces; ++f)
         if (h->index_of_free_face[f] >= 0) face[h->index_of_free_face[f]] = (int32_t)f;
-    const struct {
-        const char *what;
-        brc_buffer *buffer;
-        int32_t width;
-    } lists[] = {{"value", h->value, 3}, {"reaction", h->reaction, 3}, {"last", h->last, 3}, {"last_reaction", h->last_reaction, 3}, {"work", h->work, 1}};
-    for (size_t k = 0; k < sizeof lists / sizeof *lists; ++k)
-        BRC_TRY_OR(cleanup, brc_store_list(s, store, load_name(name, "held", 0, lists[k].what), lists[k].buffer, BRC_OF_STATE, h->n_faces, lists[k].width, face));
+    BRC_TRY_OR(cleanup, walk_list(s, store, "held", 0, &brc_held_face_fields, h, h->n_faces, face));
     for (int32_t i = 0; i < h->n_loads; ++i) /* in the order of the set's members */
-        BRC_TRY_OR(cleanup, brc_store_list(s, store, load_name(name, "held", i, "base"), h->loads[i].base, BRC_OF_STATE, h->loads[i].n, 3, NULL));
+        BRC_TRY_OR(cleanup, walk_list(s, store, "held", i, &brc_held_load_fields, h->loads + i, h->loads[i].n, NULL));
 cleanup:
     brc_memory_free(face);
     return status;
@@ -114,15 +102,13 @@ static brc_status walk_traction(brc_simulation *s, brc_state_store *store, int32
 {
     brc_traction_load *t = s->loads.tractions + i;
     int32_t *element = NULL;
-    char name[64];
     brc_status status = BRC_OK;
-    BRC_TRY(brc_store_double(store, load_name(name, "traction", i, "last_factor"), &t->last_factor));
+    BRC_TRY(walk_number(store, "traction", i, "last_factor", &t->last_factor));
     if (t->n == 0) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, t->n, "elements under traction"));
     BRC_TRY_OR(cleanup, brc_buffer_read(t->element, 0, element, 4 * (int64_t)t->n));
     for (int32_t k = 0; k < t->n; ++k) element[k] = s->layout->element_of_row[element[k]];
-    BRC_TRY_OR(cleanup, brc_store_list(s, store, load_name(name, "traction", i, "reach"), t->reach, BRC_OF_STATE, t->n, 1, element));
-    BRC_TRY_OR(cleanup, brc_store_list(s, store, load_name(name, "traction", i, "work"), t->work, BRC_OF_STATE, t->n, 1, element));
+    status = walk_list(s, store, "traction", i, &brc_traction_fields, t, t->n, element);
 cleanup:
     brc_memory_free(element);
     return status;
@@ -131,37 +117,25 @@ cleanup:
 static brc_status walk_imposed(brc_simulation *s, brc_state_store *store, int32_t i)
 {
     brc_imposed_load *m = s->loads.imposed + i;
-    char name[64];
-    const struct {
-        const char *what;
-        brc_buffer *buffer;
-        int32_t width;
-    } lists[] = {{"base", m->base, 3}, {"reaction", m->reaction, 3}, {"last", m->last, 3}, {"last_reaction", m->last_reaction, 3}, {"work", m->work, 1}};
-    for (size_t k = 0; k < sizeof lists / sizeof *lists; ++k)
-        BRC_TRY(brc_store_list(s, store, load_name(name, "imposed", i, lists[k].what), lists[k].buffer, BRC_OF_STATE, m->n, lists[k].width, m->element_id));
-    return brc_store_double(store, load_name(name, "imposed", i, "last_rate"), &m->last_rate);
+    BRC_TRY(walk_list(s, store, "imposed", i, &brc_imposed_fields, m, m->n, m->element_id));
+    return walk_number(store, "imposed", i, "last_rate", &m->last_rate);
 }
 
 static brc_status walk_push(brc_simulation *s, brc_state_store *store, int32_t i)
 {
     brc_push_load *p = s->loads.pushes + i;
-    char name[64];
-    BRC_TRY(brc_store_double(store, load_name(name, "push", i, "factor"), &p->factor));
-    BRC_TRY(brc_store_double(store, load_name(name, "push", i, "last_factor"), &p->last_factor));
-    BRC_TRY(brc_store_list(s, store, load_name(name, "push", i, "reach"), p->reach, BRC_OF_STATE, p->n, 1, p->element_id));
-    return brc_store_list(s, store, load_name(name, "push", i, "work"), p->work, BRC_OF_STATE, p->n, 1, p->element_id);
+    BRC_TRY(walk_number(store, "push", i, "factor", &p->factor));
+    BRC_TRY(walk_number(store, "push", i, "last_factor", &p->last_factor));
+    return walk_list(s, store, "push", i, &brc_push_fields, p, p->n, p->element_id);
 }
 
 static brc_status walk_turn(brc_simulation *s, brc_state_store *store, int32_t i)
 {
     brc_turn_load *m = s->loads.turns + i;
-    char name[64];
-    BRC_TRY(brc_store_double(store, load_name(name, "turn", i, "turned"), &m->turned));
-    BRC_TRY(brc_store_double(store, load_name(name, "turn", i, "last_factor"), &m->last_factor));
-    BRC_TRY(brc_store_double(store, load_name(name, "turn", i, "last_rate"), &m->last_rate));
-    BRC_TRY(brc_store_list(s, store, load_name(name, "turn", i, "reaction"), m->reaction, BRC_OF_STATE, m->n, 3, m->element_id));
-    BRC_TRY(brc_store_list(s, store, load_name(name, "turn", i, "last_reaction"), m->last_reaction, BRC_OF_STATE, m->n, 3, m->element_id));
-    return brc_store_list(s, store, load_name(name, "turn", i, "work"), m->work, BRC_OF_STATE, m->n, 1, m->element_id);
+    BRC_TRY(walk_number(store, "turn", i, "turned", &m->turned));
+    BRC_TRY(walk_number(store, "turn", i, "last_factor", &m->last_factor));
+    BRC_TRY(walk_number(store, "turn", i, "last_rate", &m->last_rate));
+    return walk_list(s, store, "turn", i, &brc_turn_fields, m, m->n, m->element_id);
 }
 
 static brc_status walk_loads(brc_simulation *s, brc_state_store *store)

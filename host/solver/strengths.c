@@ -148,6 +148,17 @@ static brc_status check_interface(brc_context *context, const brc_scene *scene, 
 
 /* ---- all bonds ---- */
 
+/* Of a bond whose strength is not scattered: what its interface makes of that of the weaker side; and its fracture energy. */
+static double interface_factor(const brc_interface *at, const brc_material *weak)
+{
+    const double factor = at && at->factor > 0 ? at->factor : 1;
+    return at && at->tension > 0 && weak->tension > 0 ? at->tension / weak->tension : factor;
+}
+static double bond_energy(const brc_interface *at, const brc_material *weak)
+{
+    return at && at->fracture_energy > 0 ? at->fracture_energy : (at && at->factor > 0 ? at->factor : 1) * weak->fracture_energy;
+}
+
 static void fill_bond(const brc_scene *scene, const brc_domain *d, int64_t bond, const brc_material *weak, const brc_interface *at,
                       const double *from_file, brc_strengths *out)
 {
@@ -157,9 +168,8 @@ static void fill_bond(const brc_scene *scene, const brc_domain *d, int64_t bond,
     else if (weak->scatter.kind != BRC_SCATTER_NONE) scatter = draw(&weak->scatter, scene->fracture.seed, d, bond);
     const bool given = at && at->tension > 0;
     out->tension[bond] = (given ? at->tension : factor * weak->tension) * scatter;
-    out->factor[bond] = (given && weak->tension > 0 ? at->tension / weak->tension : factor) * scatter;
-    out->energy[bond] = at && at->fracture_energy > 0 ? at->fracture_energy : factor * weak->fracture_energy;
-    out->uniform = out->uniform && out->factor[bond] == 1;
+    out->factor[bond] = interface_factor(at, weak) * scatter;
+    out->energy[bond] = bond_energy(at, weak);
     out->softens = out->softens || out->energy[bond] > 0;
     out->exponential[bond] = weak->softening == BRC_SOFTENING_EXPONENTIAL;
 }
@@ -175,13 +185,25 @@ static void tell_interfaces(brc_context *context, const brc_scene *scene, const 
                                                                       : " (later interfaces win)");
 }
 
+void brc_strengths_ask(const brc_scene *scene, const brc_domain *d, const int32_t *material, bool *weighted, bool *softens)
+{
+    *weighted = *softens = false;
+    for (int64_t b = 0; b < d->n_bonds && !(*weighted && *softens); ++b) {
+        const int64_t h = d->bond_half_edge[b];
+        const int32_t i = d->neighbour[d->twin[h]], j = d->neighbour[h], k = interface_of(scene, d, material, i, j);
+        const brc_interface *at = k >= 0 ? &scene->interfaces[k] : NULL;
+        const brc_material *weak = &scene->materials[weaker(scene, material[i], material[j])];
+        *weighted |= weak->scatter.kind != BRC_SCATTER_NONE || interface_factor(at, weak) != 1;
+        *softens |= bond_energy(at, weak) > 0;
+    }
+}
+
 brc_status brc_strengths_create(brc_context *context, const brc_scene *scene, const brc_domain *d, const int32_t *material, brc_strengths *out)
 {
     double **from_file = NULL;
     int64_t *count = NULL;
     brc_status status = BRC_OK;
     memset(out, 0, sizeof *out);
-    out->uniform = true;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &from_file, scene->n_materials, "factors of bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &count, scene->n_interfaces, "interfaces"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->tension, d->n_bonds, "strengths of bonds"));

@@ -16,7 +16,6 @@ typedef struct brc_strengths {
     double *tension; /* [n_bonds] normal stress at which the bond fails: the weaker side's strength, or its interface's, times factor; 0: none [Pa] */
     double *energy;  /* [n_bonds] G_c of a crack through it; 0: it breaks at once [J/m^2] */
     double *factor;  /* [n_bonds] what scatter and interface make of the strength of the weaker side [-]; for criteria of elements */
-    bool uniform;    /* every factor is 1: the scene has neither scatter nor interfaces that matter */
     bool softens;    /* some energy is above 0 */
     uint8_t *exponential; /* [n_bonds] with an energy: 1: the softening is exponential, 0: linear */
 } brc_strengths;
@@ -27,6 +26,8 @@ typedef struct brc_strengths {
 brc_status brc_strengths_create(brc_context *context, const brc_scene *scene, const brc_domain *domain, const int32_t *material,
                                 brc_strengths *out);
 void brc_strengths_free(brc_strengths *strengths);
+/* Without a draw or a file: is some bond scattered or of an interface that changes its strength; has some bond a fracture energy? */
+void brc_strengths_ask(const brc_scene *scene, const brc_domain *domain, const int32_t *material, bool *weighted, bool *softens);
 
 /* Volume of a bond as the scatter sees it [m^3]. */
 double brc_strengths_volume(const brc_domain *domain, int64_t bond);

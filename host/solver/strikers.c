@@ -19,11 +19,26 @@ static int32_t freedom_of(const brc_striker *striker)
 
 /* ---- making ---- */
 
-static brc_status new_uploaded(brc_simulation *s, brc_buffer **out, int width, const double *values, const char *what)
-{
-    BRC_TRY(brc_new_state(s, out, (int64_t)width * s->strikers->n, what));
-    return values ? brc_upload_state(s, *out, values, (int64_t)width * s->strikers->n) : BRC_OK;
-}
+static bool strikers(const brc_wants *w) { return w->scene->n_strikers > 0; }
+
+#define AT(member) BRC_FIELD_AT(brc_strikers, member)
+static const brc_field_row rows[] = {
+    {"striker_pose", brc_each_striker, 12, BRC_FIELD_STATE, NULL, AT(pose), "poses of strikers", "m, -", BRC_KEPT("strikers.pose", BRC_KEEP_ALL)},
+    {"motion", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(motion), "velocities of strikers", "m/s, rad/s", BRC_KEPT("strikers.motion", BRC_KEEP_ALL)},
+    {"load", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(load), "forces on strikers", "N, N m", BRC_KEPT("strikers.load", BRC_KEEP_ALL)},
+    {"displacement", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements of strikers", "m", BRC_KEPT("strikers.displacement", BRC_KEEP_ALL)},
+    {"orientation", brc_each_striker, 4, BRC_FIELD_STATE, NULL, AT(orientation), "orientations of strikers", "-", BRC_KEPT("strikers.orientation", BRC_KEEP_ALL)},
+    {"momentum", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(momentum), "angular momenta of strikers", "kg m^2/s", BRC_KEPT("strikers.momentum", BRC_KEEP_ALL)},
+    {"freedom", brc_each_striker, 1, BRC_FIELD_INT, NULL, AT(freedom), "freedoms of strikers", "-", BRC_NOT_KEPT},
+    {"mass", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses of strikers", "kg", BRC_NOT_KEPT},
+    {"inertia", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(inertia), "inertia of strikers", "kg m^2", BRC_NOT_KEPT},
+    {"centre", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(centre), "centres of strikers", "m", BRC_NOT_KEPT},
+    {"moved", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(moved), "moves of strikers", "m, rad", BRC_KEPT("strikers.moved", BRC_KEEP_ALL)},
+    {"last", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(last), "last forces on strikers", "N, N m", BRC_KEPT("strikers.last", BRC_KEEP_ALL)},
+    {"work", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(work), "work of strikers", "J", BRC_KEPT("strikers.work", BRC_KEEP_ALL)},
+    {"lost", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(lost), "numerical dissipation of strikers", "J", BRC_KEPT("strikers.lost", BRC_KEEP_ALL)},
+};
+BRC_FIELD_TABLE(brc_striker_fields, "strikers", BRC_LIFE_RUN, strikers, rows);
 
 /* I w of a symmetric tensor. */
 static void times(const double i[6], const double w[3], double out[3])
@@ -62,19 +77,15 @@ static brc_status upload_start(brc_simulation *s)
         }
         times(t->body[i].inertia, motion + 6 * i + 3, momentum + 3 * i);
     }
-    BRC_TRY_OR(cleanup, brc_new_int(s, &t->freedom, freedom, n, "strikers"));
-    BRC_TRY_OR(cleanup, new_uploaded(s, &t->orientation, 4, upright, "orientations of strikers"));
-    BRC_TRY_OR(cleanup, new_uploaded(s, &t->pose, 12, pose, "poses of strikers"));
-    BRC_TRY_OR(cleanup, new_uploaded(s, &t->centre, 3, centre, "centres of strikers"));
-    BRC_TRY_OR(cleanup, new_uploaded(s, &t->motion, 6, motion, "velocities of strikers"));
-    BRC_TRY_OR(cleanup, new_uploaded(s, &t->momentum, 3, momentum, "momenta of strikers"));
-    BRC_TRY_OR(cleanup, new_uploaded(s, &t->mass, 1, mass, "masses of strikers"));
-    BRC_TRY_OR(cleanup, new_uploaded(s, &t->inertia, 6, inertia, "inertia of strikers"));
-    const struct {
-        brc_buffer **buffer;
-        int width;
-    } zero[] = {{&t->displacement, 3}, {&t->load, 6}, {&t->moved, 6}, {&t->last, 6}, {&t->work, 1}, {&t->lost, 1}};
-    for (size_t k = 0; k < sizeof zero / sizeof *zero; ++k) BRC_TRY_OR(cleanup, new_uploaded(s, zero[k].buffer, zero[k].width, NULL, "state of strikers"));
+    BRC_TRY_OR(cleanup, brc_fields_create(s->device, &brc_striker_fields, &s->wants, t));
+    BRC_TRY_OR(cleanup, brc_upload_int(t->freedom, freedom, n));
+    BRC_TRY_OR(cleanup, brc_upload_state(s, t->orientation, upright, 4 * (int64_t)n));
+    BRC_TRY_OR(cleanup, brc_upload_state(s, t->pose, pose, 12 * (int64_t)n));
+    BRC_TRY_OR(cleanup, brc_upload_state(s, t->centre, centre, 3 * (int64_t)n));
+    BRC_TRY_OR(cleanup, brc_upload_state(s, t->motion, motion, 6 * (int64_t)n));
+    BRC_TRY_OR(cleanup, brc_upload_state(s, t->momentum, momentum, 3 * (int64_t)n));
+    BRC_TRY_OR(cleanup, brc_upload_state(s, t->mass, mass, 1 * (int64_t)n));
+    BRC_TRY_OR(cleanup, brc_upload_state(s, t->inertia, inertia, 6 * (int64_t)n));
 cleanup:
     brc_memory_free(room);
     brc_memory_free(freedom);
@@ -94,6 +105,7 @@ brc_status brc_strikers_create(brc_simulation *s)
     BRC_TRY(brc_kernel_find(s->device, "striker_advance", &t->advance));
     BRC_TRY(brc_kernel_find(s->device, "striker_place", &t->place));
     BRC_TRY(brc_kernel_find(s->device, "striker_book", &t->book));
+    s->wants.pieces = &t->convex;
     BRC_TRY(brc_strikers_check(s));
     return upload_start(s);
 }
@@ -102,11 +114,10 @@ void brc_strikers_free(brc_simulation *s)
 {
     brc_strikers *t = s->strikers;
     if (!t) return;
-    brc_buffer **buffers[] = {&t->pose, &t->motion, &t->load, &t->displacement, &t->orientation, &t->momentum, &t->centre, &t->freedom, &t->mass, &t->inertia,
-                              &t->moved, &t->last, &t->work, &t->lost};
-    for (size_t k = 0; k < sizeof buffers / sizeof *buffers; ++k) brc_buffer_free(buffers[k]);
+    brc_fields_free(&brc_striker_fields, t);
     for (int32_t i = 0; t->body && i < t->n; ++i) brc_striker_body_free(&t->body[i]);
     brc_convex_free(&t->convex);
+    s->wants.pieces = NULL;
     brc_memory_free(t->piece_striker);
     brc_memory_free(t->piece_kind);
     brc_memory_free(t->piece_radius);
@@ -178,15 +189,7 @@ brc_status brc_strikers_book(brc_simulation *s, brc_booking book)
 brc_status brc_strikers_store_state(brc_simulation *s, brc_state_store *store)
 {
     const brc_strikers *t = s->strikers;
-    const struct {
-        const char *name;
-        brc_buffer *buffer;
-        int32_t width;
-    } lists[] = {{"strikers.pose", t->pose, 12},   {"strikers.motion", t->motion, 6}, {"strikers.load", t->load, 6}, {"strikers.displacement", t->displacement, 3},
-                 {"strikers.orientation", t->orientation, 4}, {"strikers.momentum", t->momentum, 3}, {"strikers.moved", t->moved, 6}, {"strikers.last", t->last, 6},
-                 {"strikers.work", t->work, 1},    {"strikers.lost", t->lost, 1}};
-    for (size_t k = 0; k < sizeof lists / sizeof *lists; ++k)
-        BRC_TRY(brc_store_list(s, store, lists[k].name, lists[k].buffer, BRC_OF_STATE, t->n, lists[k].width, NULL));
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_striker_fields, .owner = t, .n = t->n}));
     return store->numbers(store, "strikers.placed", BRC_STORED_DOUBLE, t->n, 1, t->placed);
 }
 

@@ -39,22 +39,22 @@ typedef struct work_vectors {
     brc_buffer *x, *y, *theta, *orientation, *torque;
 } work_vectors;
 
-static brc_status create_work(brc_simulation *s, work_vectors *w)
+static bool dynamics(const brc_wants *w)
 {
-    const int64_t n = s->layout->n_rows;
-    BRC_TRY(brc_new_state(s, &w->x, 3 * n, "power iteration"));
-    BRC_TRY(brc_new_state(s, &w->y, 3 * n, "power iteration"));
-    if (!brc_turns(s)) return BRC_OK;
-    BRC_TRY(brc_new_state(s, &w->theta, 3 * n, "power iteration"));
-    BRC_TRY(brc_new_state(s, &w->orientation, 4 * n, "power iteration"));
-    return brc_new_state(s, &w->torque, 3 * n, "power iteration");
+    bool any = false;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i) any |= w->scene->stages[i].solver == BRC_SOLVER_DYNAMIC;
+    return any;
 }
 
-static void free_work(work_vectors *w)
-{
-    brc_buffer_free(&w->x), brc_buffer_free(&w->y), brc_buffer_free(&w->theta);
-    brc_buffer_free(&w->orientation), brc_buffer_free(&w->torque);
-}
+#define AT(member) BRC_FIELD_AT(work_vectors, member)
+static const brc_field_row rows[] = {
+    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(x), "power iteration", "-", BRC_NOT_KEPT},
+    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(y), "power iteration", "-", BRC_NOT_KEPT},
+    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(theta), "power iteration", "-", BRC_NOT_KEPT},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "power iteration", "-", BRC_NOT_KEPT},
+    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "power iteration", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_power_fields, "search for the time step", BRC_LIFE_SOLVE, dynamics, rows);
 
 static brc_status random_vector(brc_simulation *s, brc_buffer *out, uint64_t which, double scale)
 {
@@ -116,7 +116,7 @@ static brc_status critical_step(brc_simulation *s, double *out)
     work_vectors w = {0};
     brc_status status = BRC_OK;
     double rayleigh = 0, seen = 0, before = 0;
-    BRC_TRY_OR(cleanup, create_work(s, &w));
+    BRC_TRY_OR(cleanup, brc_fields_create(s->device, &brc_power_fields, &s->wants, &w));
     const double size = cbrt(s->domain->volume[0]);
     BRC_TRY_OR(cleanup, random_vector(s, w.x, 0, size));
     BRC_TRY_OR(cleanup, brc_loads_zero_imposed(s, w.x));
@@ -134,7 +134,7 @@ static brc_status critical_step(brc_simulation *s, double *out)
     }
     *out = seen > 0 ? 2 / (margin * sqrt(seen)) : INFINITY;
 cleanup:
-    free_work(&w);
+    brc_fields_free(&brc_power_fields, &w);
     return status;
 }
 
