@@ -33,7 +33,7 @@ import test_resume as small  # noqa: E402  what makes each example small
 
 PRECISIONS = ("double", "mixed", "single")
 LEVELS = ("v2", "v3", "v4")
-# What rounds by itself and in order gives the bits of v2 on every device (docs/devices.md, "The same bits").
+# What rounds by itself and in order gives the bits of v2 on every device (docs/notebook/devices.md, "The same bits").
 REFERENCE_OF = {"v2": "v2", "v3": "v3", "v4": "v4", "opencl-exact": "v2", "target": "v2"}
 FEW = ("ball-breaks+softening", "beams-fracture", "cells-two-materials", "published-breaks", "tension", "two-models")
 SUMMARY_KEYS = ("counts", "ledger", "measures", "sensors", "steps", "frames", "time_step")
