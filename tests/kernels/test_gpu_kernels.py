@@ -17,7 +17,7 @@ BUDGET = {
 }
 # Kernels that keep arrays in local memory, and how many bytes at most; every other has none.
 ARRAYS = {"contact_cells": 9216, "beam_soft_end": 6656, "fracture_stress_second": 2048, "rim_flux": 272, "rim_force": 272, "contact_drift_mean": 128,
-          "block6_precondition": 96, "multigrid_step": 96}
+          "block6_precondition": 96, "multigrid_step": 96, "closure_begin": 6656, "closed_again": 96}  # the last two: only in steps with breaks
 
 
 def skip(why, excused=False):
