@@ -1,4 +1,4 @@
-/* The two sides of a broken face of dlsm that lie against each other (docs/notebook/fracture.md, "Closed cracks"). Each side moves with its own cell, u_f = u + H (C - X); g = u_f,j - u_f,i is
+/* The two sides of a broken face of dlsm that lie against each other (docs/notebook/fracture.md, "Closed faces"). Each side moves with its own cell, u_f = u + H (C - X); g = u_f,j - u_f,i is
  * what they have come apart by, and G = F^T g, F = I + (H_i + H_j)/2, the same seen in the undeformed body, which no rotation changes. Along the normal N of the face it is a gap, across it
  * a slide. Where the gap is below 0 the face holds
  *     W = kappa/2 [ (N.G)^2 + |e|^2 ],

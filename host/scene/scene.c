@@ -86,7 +86,7 @@ bool brc_scene_shuts(const brc_scene *scene)
 
 double brc_scene_side_friction(const brc_scene *scene)
 {
-    const double usual = 0.3; /* a block in compression is carried from here on (docs/notebook/fracture.md, "Closed cracks") */
+    const double usual = 0.3; /* a block in compression is carried from here on (docs/notebook/fracture.md, "Closed faces") */
     return scene->fracture.side_friction < 0 ? usual : scene->fracture.side_friction;
 }
 
