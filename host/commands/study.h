@@ -1,9 +1,10 @@
-/* A study: many runs of one scene whose keys vary, as many at once as there is room for, and what they say together. docs/reference/study.md has the file.
+/* A study: many runs of one scene whose keys vary, as many at once as there is room for, and what they say together.
+ * docs/reference/study.md has the file.
  *
- *     DIR/00000/...     a folder a run, as `breccia run` writes it; log.txt: what it told; study.txt: what it is a run of
+ *     DIR/00000/...     a folder a run, as `breccia run` writes it; log.txt: what it told; study.txt: of what it is
  *     DIR/table.csv     a row a run: its keys, how it ended, its measures
  *     DIR/means.csv     runs that differ only in what is averaged over, together
- *     DIR/fits.csv      the laws that were asked for */
+ *     DIR/fits.csv      the laws that were asked for, a row a parameter of each */
 #ifndef BRC_COMMANDS_STUDY_H
 #define BRC_COMMANDS_STUDY_H
 
@@ -15,33 +16,59 @@
 #define BRC_STUDY_FITS 8
 #define BRC_STUDY_MEASURES 64
 #define BRC_STUDY_RUNS 100000
+#define BRC_STUDY_PARAMETERS 3
 
 typedef enum brc_study_kind { BRC_STUDY_LIST, BRC_STUDY_RANGE, BRC_STUDY_UNIFORM, BRC_STUDY_NORMAL } brc_study_kind;
 
 /* Texts are owned by the study. */
 typedef struct brc_study_key {
-    const char *key;  /* dotted path of the scene */
+    const char *key; /* dotted path of the scene */
     brc_study_kind kind;
-    int n_values;     /* of the grid; 1 of draws */
+    int n_values;        /* of the grid; 1 of draws */
     const char **values; /* [n_values] of a list; owned */
-    int64_t from;     /* of a range */
-    double a, b;      /* uniform: from, to; normal: mean, deviation */
-    const char *unit; /* of draws; "": none */
-    bool averaged;    /* means are taken over it */
+    int64_t from;        /* of a range */
+    double a, b;         /* uniform: from, to; normal: mean, deviation */
+    const char *unit;    /* of draws; "": none */
+    bool averaged;       /* means are taken over it */
 } brc_study_key;
 
+/* Laws of a measure; then those of fragments: of their number, and of the mass in fragments that are not larger. */
+typedef enum brc_study_law {
+    BRC_STUDY_WEIBULL,
+    BRC_STUDY_POWER,
+    BRC_STUDY_SIZE_EFFECT,
+    BRC_STUDY_FRAGMENTS_POWER,
+    BRC_STUDY_SCHUHMANN,
+    BRC_STUDY_ROSIN_RAMMLER,
+    BRC_STUDY_GILVARRY
+} brc_study_law;
+
 typedef struct brc_study_fit {
-    bool power;      /* y = a x^b; else Weibull */
-    const char *of;  /* measure */
-    const char *by;  /* power: key */
+    brc_study_law law;
+    const char *of; /* measure; "" of fragments */
+    const char *by; /* key of power and size effect; else "" */
+    int elements;   /* of the smallest fragment that counts */
+    /* bounds of the power law of fragments, as shares of the mass; 0: the lower one is found from the fragments,
+     * there is no upper one */
+    double above, below;
 } brc_study_fit;
+
+/* What a law comes to. */
+typedef struct brc_study_found {
+    int n;            /* values that counted */
+    int n_parameters; /* 0: there is no fit */
+    struct {
+        const char *name;    /* static storage */
+        double value, error; /* standard error; NAN: none */
+    } parameter[BRC_STUDY_PARAMETERS];
+} brc_study_found;
 
 typedef struct brc_study {
     char *scene; /* path; owned */
     int n_keys;
     brc_study_key keys[BRC_STUDY_KEYS];
-    bool together;  /* run k has the k-th value of every list and range of more than one; else all combinations */
-    int draws;      /* at each point of the grid; 1 without random keys */
+    bool together; /* run k has the k-th value of every list and range of more than one; else all combinations */
+    int draws;     /* at each point of the grid; 1 without random keys */
     uint64_t seed;
     int n_fits;
     brc_study_fit fits[BRC_STUDY_FITS];
@@ -68,18 +95,63 @@ typedef struct brc_study_request {
     const char *folder, *device, *precision; /* device, precision: NULL: default */
     int jobs, threads; /* runs at once, threads of each; 0: as many as there are processors for them; 1 */
     bool now;          /* do not price before */
+    int task, n_tasks; /* only runs task, task + n_tasks, ...; n_tasks 0: all */
+    bool collect;      /* run nothing: what is there */
 } brc_study_request;
 
-/* Run what is not done yet. Returns BRC_OK also where single runs failed; they have their outcome. outcome [n_runs], freed by brc_study_outcomes_free in any case. */
-brc_status brc_study_run(brc_context *context, const brc_study *study, const brc_study_request *request, brc_study_outcome **outcome);
+/* Run what is not done yet. Returns BRC_OK also where single runs failed; they have their outcome. outcome [n_runs],
+ * freed by brc_study_outcomes_free in any case. */
+brc_status brc_study_run(brc_context *context, const brc_study *study, const brc_study_request *request,
+                         brc_study_outcome **outcome);
 void brc_study_outcomes_free(int n, brc_study_outcome **outcome);
-/* table.csv, means.csv, fits.csv: a function of study and outcomes alone. */
-brc_status brc_study_write(brc_context *context, const brc_study *study, const char *folder, const brc_study_outcome *outcome);
+/* DIR/slurm.sh: an array job whose tasks are the runs of the study, several a task beyond as many tasks as Slurm
+ * takes by default. path: of the study. */
+brc_status brc_study_write_slurm(brc_context *context, const brc_study *study, const char *path,
+                                 const brc_study_request *request);
+/* table.csv, means.csv, fits.csv: a function of the study, the outcomes, and the fragments.csv of the runs where
+ * their laws are asked for. */
+brc_status brc_study_write(brc_context *context, const brc_study *study, const char *folder,
+                           const brc_study_outcome *outcome);
 
-/* Weibull's modulus and scale of n > 1 positive values that are not all equal, by maximum likelihood; false: there is none. */
-bool brc_study_weibull(int n, const double *x, double *modulus, double *scale);
-/* a, b and the standard error of b of y = a x^b by least squares of the logarithms; false: fewer than two different x, or one that is not positive. error is NAN for two points. */
-bool brc_study_power(int n, const double *x, const double *y, double *a, double *b, double *error);
+/* fits.csv, and what means share with it: do two runs differ only in what is averaged over and in `by` (NULL:
+ * nothing)? */
+brc_status brc_study_write_fits(brc_context *context, const brc_study *study, const char *folder,
+                                const brc_study_outcome *outcome);
+bool brc_study_same_group(const brc_study *study, int run, int other, const char *by);
+bool brc_study_is_averaged(const brc_study_key *key);
+/* A cell of a table, in quotation marks where it has to be. */
+struct brc_text;
+void brc_study_add_cell(struct brc_text *text, const char *cell);
+/* A measure of a run that is done; NAN: there is none. */
+double brc_study_measured(const brc_study_outcome *outcome, const char *name);
+
+/* Weibull's law of n > 1 positive values that are not all equal, by maximum likelihood: `modulus` with the standard
+ * error of many values, `unbiased_modulus`, times (n - 2) / (n - 0.68) (Ross, IEEE Trans. Dielectr. Electr. Insul. 1,
+ * 1994), `scale`. Nothing is found of other values. */
+brc_study_found brc_study_fit_weibull(int n, const double *x);
+/* y = factor x^exponent by least squares of the logarithms: at least two different x, all positive. */
+brc_study_found brc_study_fit_power(int n, const double *x, const double *y);
+/* Bazant's size effect law, y = strength / sqrt(1 + x / size) (J. Eng. Mech. 110, 1984, 518), by least squares of ln
+ * y: at least three different x, all positive. Nothing is found where y does not fall with x, or falls as x^(-1/2) or
+ * faster: then strength and size have no finite values. */
+brc_study_found brc_study_fit_size_effect(int n, const double *x, const double *y);
+
+/* Fragments of some runs. */
+typedef struct brc_study_pieces {
+    int n, n_runs;
+    double *share;  /* [n] mass of each over that of its run, growing; owned */
+    int *elements;  /* [n]; owned */
+    double element; /* mean share of an element */
+} brc_study_pieces;
+
+/* Those of the last frame of fragments.csv in folder/run added to *pieces, which begins as {0}; sorted by
+ * brc_study_pieces_sort. */
+brc_status brc_study_pieces_add(brc_context *context, const char *folder, int run, brc_study_pieces *pieces);
+brc_status brc_study_pieces_sort(brc_context *context, brc_study_pieces *pieces);
+void brc_study_pieces_free(brc_study_pieces *pieces);
+/* The law of the fit; see docs/reference/study.md. */
+brc_status brc_study_fit_fragments(brc_context *context, const brc_study_pieces *pieces, const brc_study_fit *fit,
+                                   brc_study_found *found);
 /* The 97.5 % point of Student's t, to 0.2 %. */
 double brc_study_student(int freedom);
 

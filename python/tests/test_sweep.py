@@ -40,8 +40,11 @@ def test_a_sweep_goes_on_where_it_was_left(burst, tmp_path):
         deviation, rel=1e-9
     )
     assert means[0]["confidence"] == pytest.approx(4.303 * deviation / math.sqrt(3), rel=1e-9)
-    (fit,) = whole.fits()
-    assert fit["law"] == "power" and fit["n"] == "6" and "exponent" in fit["found"]
+    fit, factor = whole.fits()
+    assert (
+        fit["law"] == "power" and fit["n"] == 6 and fit["parameter"] == "exponent" and factor["parameter"] == "factor"
+    )
+    assert math.isfinite(fit["value"]) and fit["error"] > 0 and fit[NU] == ""
     assert len(whole.table()) == 6
 
 

@@ -1,6 +1,9 @@
-"""`breccia study`: killed twice and taken up, it ends with the bytes of one that was left alone; one run that fails leaves the others."""
+"""`breccia study`: killed twice and taken up, and done by the tasks of an array job, it ends with the bytes of one that was
+left alone; one run that fails leaves the others."""
+
 import csv
 import glob
+import math
 import os
 import signal
 import subprocess
@@ -17,25 +20,26 @@ fracture: {}
 bodies:
   - name: block
     shape: {box: {size: [1 m, 1 m, 1 m]}}
-    fill: {noisy_grid: {cells: [6, 6, 6], spread: 90 %, seed: 1}}
+    fill: {noisy_grid: {cells: [5, 5, 5], spread: 90 %, seed: 1}}
     material: glass
 stages:
   - name: burst
-    solver: {dynamic: {steps: 1500}}
+    solver: {dynamic: {steps: 250}}
     initial: [velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}]
 sensors:
   elastic: {energy: elastic}
 measure:
   most: {peak: {of: elastic}}
-output: {frames: none, picture: false}
+output: {frames: 1, picture: false}
 """
 STUDY = """scene: scene.yaml
 vary:
   - {key: materials.glass.nu, values: [0.1, 0.3, 7]}
-  - {key: bodies.0.fill.noisy_grid.seed, from: 1, to: 4, average: true}
+  - {key: bodies.0.fill.noisy_grid.seed, from: 1, to: 20, average: true}
 fit:
   - {weibull: most}
   - {power: most, by: materials.glass.nu}
+  - {fragments: power, elements: 1, above: 1e-3}
 """
 FAILURES = []
 
@@ -46,12 +50,25 @@ def expect(condition, sentence):
 
 
 def command(folder, out):
-    return [PROGRAM, "study", os.path.join(folder, "study.yaml"), "-o", os.path.join(folder, out), "--jobs", "2", "--device", "cpu"]
+    return [
+        PROGRAM,
+        "study",
+        os.path.join(folder, "study.yaml"),
+        "-o",
+        os.path.join(folder, out),
+        "--jobs",
+        "2",
+        "--device",
+        "cpu",
+    ]
 
 
 def done(folder):
     """Runs that have come to their end."""
-    return sum('"status": "done"' in open(path, encoding="utf-8").read() for path in glob.glob(os.path.join(folder, "*/summary.json")))
+    return sum(
+        '"status": "done"' in open(path, encoding="utf-8").read()
+        for path in glob.glob(os.path.join(folder, "*/summary.json"))
+    )
 
 
 def kill_after(line, folder, n):
@@ -63,38 +80,159 @@ def kill_after(line, folder, n):
     child.wait()
 
 
+TABLES = ("table.csv", "means.csv", "fits.csv")
+RUNS, REFUSED = 40, 20
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def rows_of(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def killed_twice(folder):
+    left = os.path.join(folder, "left")
+    for n in (8, 20):
+        kill_after(command(folder, "left"), left, n)
+    before = {
+        path: os.stat(path).st_mtime_ns
+        for path in glob.glob(os.path.join(left, "*/summary.json"))
+        if b'"status": "done"' in read(path)
+    }
+    expect(20 <= len(before) < RUNS, f"{len(before)} runs were done when it was killed")
+    again = subprocess.run(command(folder, "left") + ["--now"], capture_output=True, text=True)
+    expect(
+        again.returncode == 0 and f"{len(before)} of them done" in again.stdout,
+        f"taken up: {again.stdout}{again.stderr}",
+    )
+    expect(
+        all(os.stat(path).st_mtime_ns == stamp for path, stamp in before.items()), "runs that were done were done again"
+    )
+    for name in TABLES:
+        expect(
+            read(os.path.join(left, name)) == read(os.path.join(folder, "whole", name)),
+            f"{name} differs from that of a study that was left alone",
+        )
+
+
+def array_job(folder):
+    """The script as Slurm runs it: a process a task with its number in the environment, here ten of them twice and in the wrong order."""
+    out = os.path.join(folder, "array")
+    wrote = subprocess.run(command(folder, "array") + ["--slurm"], capture_output=True, text=True)
+    script = os.path.join(out, "slurm.sh")
+    text = read(script).decode()
+    directives = [line for line in text.splitlines() if line.startswith("#SBATCH")]
+    expect(
+        wrote.returncode == 0 and "sbatch --wait" in wrote.stdout and len(os.listdir(out)) == 1,
+        f"--slurm: {wrote.stdout}{wrote.stderr}{os.listdir(out)}",
+    )
+    expect(
+        f"#SBATCH --array=0-{RUNS + REFUSED - 1}%2" in directives and "#SBATCH --cpus-per-task=1" in directives,
+        f"directives: {directives}",
+    )
+    for k in [*range(RUNS + REFUSED - 1, -1, -1), *range(10)]:
+        task = subprocess.run(
+            ["sh", script], capture_output=True, text=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": str(k)}
+        )
+        expect(task.returncode == 0, f"task {k}: {task.stdout}{task.stderr}")
+        if k == 30:
+            expect(not glob.glob(os.path.join(out, "*.csv")), "a task wrote tables")
+            early = subprocess.run(command(folder, "array") + ["--collect"], capture_output=True, text=True)
+            states = [row["status"] for row in rows_of(os.path.join(out, "table.csv"))]
+            expect(
+                early.returncode == 0 and states[:30] == ["missing"] * 30 and states[30:RUNS] == ["done"] * 10,
+                f"collected early: {states}",
+            )
+    collected = subprocess.run(command(folder, "array") + ["--collect"], capture_output=True, text=True)
+    expect(
+        collected.returncode == 0 and f"{RUNS} of {RUNS + REFUSED} runs are done" in collected.stdout,
+        f"collected: {collected.stdout}{collected.stderr}",
+    )
+    for name in TABLES:
+        expect(
+            read(os.path.join(out, name)) == read(os.path.join(folder, "whole", name)),
+            f"{name} differs from that of a study without an array job",
+        )
+    alone = subprocess.run(
+        ["sh", script],
+        capture_output=True,
+        text=True,
+        env={key: value for key, value in os.environ.items() if key != "SLURM_ARRAY_TASK_ID"},
+    )
+    expect(alone.returncode != 0 and "SLURM_ARRAY_TASK_ID" in alone.stderr, "the script ran without a task's number")
+    for wrong in ("3", "4/4", "-1/4", "1/2x"):
+        refused = subprocess.run(command(folder, "array") + [f"--task={wrong}"], capture_output=True, text=True)
+        expect(
+            refused.returncode == 2 and "expected K/N" in refused.stderr,
+            f"--task {wrong}: {refused.returncode} {refused.stderr}",
+        )
+
+
+def tables(folder):
+    rows = rows_of(os.path.join(folder, "whole", "table.csv"))
+    expect(
+        [row["status"] for row in rows] == ["done"] * RUNS + ["bad_input"] * REFUSED and "nu" in rows[RUNS]["reason"],
+        f"outcomes: {[row['status'] for row in rows]}",
+    )
+    means = rows_of(os.path.join(folder, "whole", "means.csv"))
+    values = [float(row["most"]) for row in rows[:20]]
+    mean = sum(values) / 20
+    deviation = (sum((value - mean) ** 2 for value in values) / 19) ** 0.5
+    expect(
+        len(means) == 2
+        and means[0]["n"] == "20"
+        and abs(float(means[0]["mean"]) / mean - 1) < 1e-12
+        and abs(float(means[0]["deviation"]) / deviation - 1) < 1e-6
+        and abs(float(means[0]["confidence"]) / (2.093 * deviation / 20**0.5) - 1) < 1e-6,
+        f"means: {means}",
+    )
+    fits = rows_of(os.path.join(folder, "whole", "fits.csv"))
+    found = [(row["law"], row["materials.glass.nu"], row["parameter"]) for row in fits]
+    weibull = [
+        ("weibull", nu, name)
+        for nu in ("0.1", "0.3", "7")
+        for name in (("modulus", "unbiased_modulus", "scale") if nu != "7" else ("no fit",))
+    ]
+    expect(
+        found[:7] == weibull and found[7:9] == [("power", "", "exponent"), ("power", "", "factor")], f"fits: {found}"
+    )
+    pieces = [row for row in fits if row["law"] == "fragments power" and row["materials.glass.nu"] == "0.1"]
+    expect([row["parameter"] for row in pieces] == ["exponent", "lower_cut", "distance"], f"fragments: {pieces}")
+    shares = []
+    for run in range(20):
+        fragments = rows_of(os.path.join(folder, "whole", f"{run:05d}", "fragments.csv"))
+        masses = [float(row["mass [kg]"]) for row in fragments if row["frame"] == fragments[-1]["frame"]]
+        shares += [mass / sum(masses) for mass in masses]
+    tail = [math.log(share / 1e-3) for share in shares if share >= 1e-3]
+    expect(
+        int(pieces[0]["n"]) == len(tail) and abs(float(pieces[0]["value"]) - 1 - len(tail) / sum(tail)) < 1e-6,
+        f"fragments: {pieces}, not {1 + len(tail) / sum(tail)} of {len(tail)}",
+    )
+
+
 with tempfile.TemporaryDirectory() as folder:
     for name, text in (("scene.yaml", SCENE), ("study.yaml", STUDY)):
         with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
             file.write(text)
     whole = subprocess.run(command(folder, "whole"), capture_output=True, text=True)
-    expect(whole.returncode == 0 and "study: 12 runs, 0 of them done, 4 refused" in whole.stdout and "budget: 8 runs of about" in whole.stdout
-           and "8 of 12 runs are done" in whole.stdout, f"exit code {whole.returncode}: {whole.stdout}{whole.stderr}")
-    left = os.path.join(folder, "left")
-    for n in (1, 4):
-        kill_after(command(folder, "left"), left, n)
-    before = {path: os.stat(path).st_mtime_ns for path in glob.glob(os.path.join(left, "*/summary.json")) if '"status": "done"' in open(path, encoding="utf-8").read()}
-    expect(4 <= len(before) < 8, f"{len(before)} runs were done when it was killed")
-    again = subprocess.run(command(folder, "left") + ["--now"], capture_output=True, text=True)
-    expect(again.returncode == 0 and f"{len(before)} of them done" in again.stdout, f"taken up: {again.stdout}{again.stderr}")
-    expect(all(os.stat(path).st_mtime_ns == stamp for path, stamp in before.items()), "runs that were done were done again")
-    for name in ("table.csv", "means.csv", "fits.csv"):
-        texts = [open(os.path.join(folder, out, name), "rb").read() for out in ("whole", "left")]
-        expect(texts[0] == texts[1], f"{name} differs from that of a study that was left alone")
-    with open(os.path.join(left, "table.csv"), encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    expect([row["status"] for row in rows] == ["done"] * 8 + ["bad_input"] * 4 and "nu" in rows[8]["reason"], f"outcomes: {[row['status'] for row in rows]}")
-    with open(os.path.join(left, "means.csv"), encoding="utf-8", newline="") as file:
-        means = list(csv.DictReader(file))
-    values = [float(row["most"]) for row in rows[:4]]
-    mean = sum(values) / 4
-    deviation = (sum((value - mean) ** 2 for value in values) / 3) ** 0.5
-    expect(len(means) == 2 and means[0]["n"] == "4" and abs(float(means[0]["mean"]) / mean - 1) < 1e-12
-           and abs(float(means[0]["deviation"]) / deviation - 1) < 1e-6 and abs(float(means[0]["confidence"]) / (3.182 * deviation / 2) - 1) < 1e-6, f"means: {means}")
+    expect(
+        whole.returncode == 0
+        and f"study: {RUNS + REFUSED} runs, 0 of them done, {REFUSED} refused" in whole.stdout
+        and f"budget: {RUNS} runs of about" in whole.stdout
+        and f"{RUNS} of {RUNS + REFUSED} runs are done" in whole.stdout,
+        f"exit code {whole.returncode}: {whole.stdout}{whole.stderr}",
+    )
+    tables(folder)
+    killed_twice(folder)
+    array_job(folder)
     with open(os.path.join(folder, "scene.yaml"), "w", encoding="utf-8") as file:
-        file.write(SCENE.replace("1500", "1400"))
-    other = subprocess.run(command(folder, "left") + ["--now"], capture_output=True, text=True)
-    expect("study: 12 runs, 0 of them done" in other.stdout, "runs of another scene were taken for those of this one")
+        file.write(SCENE.replace("steps: 250", "steps: 200"))
+    other = subprocess.run(command(folder, "left") + ["--collect"], capture_output=True, text=True)
+    expect("0 of them done" in other.stdout, "runs of another scene were taken for those of this one")
 for failure in FAILURES:
     print("study: " + failure)
 sys.exit(1 if FAILURES else 0)

@@ -14,7 +14,6 @@ SITE = "../../docs/guide/tutorials/"
 
 SETUP = '''import csv
 import math
-import re
 
 import breccia
 import pandas
@@ -36,7 +35,8 @@ def measure(run, name):
 def fit(study, number=0):
     """Exponent (or modulus) of a fit of a study."""
     with open(f"{study}/fits.csv", newline="") as file:
-        return float(re.search(r"(?:exponent|modulus) (\\S+)", list(csv.DictReader(file))[number]["found"]).group(1))
+        rows = [row for row in csv.DictReader(file) if row["parameter"] in ("exponent", "modulus")]
+    return float(rows[number]["value"])
 
 
 def compare(*figures):

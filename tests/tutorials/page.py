@@ -121,7 +121,8 @@ class Results:
     def fit(self, study, number=0):
         """Exponent (or modulus) of a fit of a study."""
         with open(os.path.join(self.folder, study, "fits.csv"), encoding="utf-8", newline="") as file:
-            return float(re.search(r"(?:exponent|modulus) (\S+)", list(csv.DictReader(file))[number]["found"]).group(1))
+            rows = [row for row in csv.DictReader(file) if row["parameter"] in ("exponent", "modulus")]
+        return float(rows[number]["value"])
 
     def space(self):
         return {"math": math, "ended": self.ended, "measure": self.measure, "fit": self.fit}

@@ -33,7 +33,8 @@ class Sweep:
 
     def means(self, measure: Optional[str] = None) -> List[Dict[str, Any]]:
         """A dict for each group of runs that differ only in what is averaged over, and each measure (or the one
-        that is named): the other keys, `measure`, n, mean, deviation, and half the 95 % confidence interval of the mean as `confidence` (NaN for one run)."""
+        that is named): the other keys, `measure`, n, mean, deviation, and half the 95 % confidence interval of the mean as `confidence` (NaN for one run).
+        """
         rows = _read(os.path.join(self.folder, "means.csv"))
         numbers = ("n", "mean", "deviation", "confidence")
         found = [
@@ -46,10 +47,14 @@ class Sweep:
         ]
         return [row for row in found if measure in (None, row["measure"])]
 
-    def fits(self) -> List[Dict[str, str]]:
-        """The laws that were asked for: law, measure, key, n, found."""
+    def fits(self) -> List[Dict[str, Any]]:
+        """The laws that were asked for, a dict a parameter: the keys that are not averaged over, law, measure, by, n,
+        parameter, value, error (standard error; NaN where there is none)."""
         path = os.path.join(self.folder, "fits.csv")
-        return _read(path) if os.path.exists(path) else []
+        return [
+            {**row, "n": int(row["n"]), "value": _number(row["value"]), "error": _number(row["error"])}
+            for row in (_read(path) if os.path.exists(path) else [])
+        ]
 
 
 def _read(path: str) -> List[Dict[str, str]]:
@@ -156,7 +161,7 @@ def sweep(
     out: PathLike,
     *,
     average: Sequence[str] = (),
-    fit: Sequence[Mapping[str, str]] = (),
+    fit: Sequence[Mapping[str, Any]] = (),
     set: Optional[Mapping[str, Any]] = None,
     jobs: Optional[int] = None,
     threads: int = 1,
@@ -170,7 +175,7 @@ def sweep(
 
     Writes ``out/study.yaml`` (and ``out/scene.yaml`` of a dict) and does :func:`study` with it. Means are taken over
     the keys ``average``; ``fit``: laws, as
-    ``{"weibull": "strength"}`` or ``{"power": "strength", "by": KEY}``. ``set``: values that are replaced in all runs.
+    ``{"weibull": "strength"}``, ``{"size_effect": "strength", "by": KEY}`` or ``{"fragments": "power"}``. ``set``: values that are replaced in all runs.
     """
     out = os.fspath(out)
     os.makedirs(out, exist_ok=True)
