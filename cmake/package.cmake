@@ -3,7 +3,18 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME breccia)
 set(CPACK_PACKAGE_VENDOR breccia)
-set(CPACK_PACKAGE_CONTACT "breccia <breccia@localhost>")
+# Who builds a package answers for it: the person git knows, or who is named here.
+foreach(part name email)
+    execute_process(COMMAND git config user.${part} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE brc_packager_${part}
+                    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+endforeach()
+if(brc_packager_name AND brc_packager_email)
+    set(brc_packager "${brc_packager_name} <${brc_packager_email}>")
+else()
+    set(brc_packager "unnamed builder <root@localhost>")
+endif()
+set(BRC_PACKAGER "${brc_packager}" CACHE STRING "maintainer of the Debian package: Name <address>")
+set(CPACK_PACKAGE_CONTACT "${BRC_PACKAGER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGE_DESCRIPTION "Elements are Voronoi cells or spheres; the forces of their bonds derive from one energy of the
 material's own E, nu and density, without calibration. Program, C library with header, examples and documentation.")
