@@ -2,7 +2,7 @@
 #include "accuracy_report.h"
 #include "../host/base/file.h"
 #include "../host/base/memory.h"
-#include "../host/output/gnuplot.h"
+#include "../host/output/pictures/gnuplot.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef BRC_BENCH_PEER_WORK_H
 #define BRC_BENCH_PEER_WORK_H
 
-#include "../preprocess/domain.h"
+#include "../preprocess/domain/domain.h"
 
 /* All of it borrowed. The beams are those of model cbm (docs/notebook/beams.md); seen from the middle of its branch, one of length l is a spring E S / l along it, one of
  * 12 E I / l^3 across, and its ends bend and twist against each other with E I / l and G J / l: the numbers that the laws of both programs take. */

@@ -30,7 +30,7 @@ typedef struct { state xx, xy, xz, yx, yy, yz, zx, zy, zz; } convex_map;
 /* normal . x = height, normal outward [-], height [m] */
 typedef struct { convex_vec normal; state height; } convex_plane;
 
-/* One polyhedron of the arrays of all (preprocess/convex.h makes them). */
+/* One polyhedron of the arrays of all (preprocess/shapes/convex.h makes them). */
 typedef struct {
     GLOBAL const state *corner;   /* [n_corners][3] from the origin [m] */
     GLOBAL const state *plane;    /* [n_faces][4] outward unit normal [-], height over the origin [m] */

@@ -8,7 +8,7 @@
 #ifndef BRC_PREPROCESS_POINTS_H
 #define BRC_PREPROCESS_POINTS_H
 
-#include "build.h"
+#include "domain/build.h"
 
 /* Read all points. `scale`: metres per unit of the file. *position [*n][3] [m] and *radius [*n] [m] (NULL when the file has none) are
  * owned by the caller (brc_memory_free). Numbers are decimal, in the C locale, finite; radii are > 0. BRC_BAD_INPUT as

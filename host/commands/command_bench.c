@@ -1,6 +1,6 @@
 /* breccia bench: measurements of speed, and of what accuracy costs. */
-#include "bench_accuracy.h"
-#include "bench_peers.h"
+#include "bench/bench_accuracy.h"
+#include "bench/bench_peers.h"
 #include "../../bench/contact_cost.h"
 #include "../../bench/effects.h"
 #include "../../bench/statics_cost.h"

@@ -1,15 +1,15 @@
 /* breccia build: the domain of a scene alone. */
 #include "command.h"
 #include "scene_domain.h"
-#include "../../preprocess/domain_file.h"
-#include "../../preprocess/quality.h"
+#include "../../preprocess/domain/domain_file.h"
+#include "../../preprocess/domain/quality.h"
 #include "../../preprocess/points.h"
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
-#include "../output/export_domain.h"
-#include "../output/isotropy_report.h"
-#include "../output/skin_report.h"
+#include "../output/frames/export_domain.h"
+#include "../output/report/isotropy_report.h"
+#include "../output/report/skin_report.h"
 #include "../scene/scene_reader.h"
 #include <string.h>
 

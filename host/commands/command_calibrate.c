@@ -1,7 +1,7 @@
 /* breccia calibrate: the campaigns of NAH19 section 3 and their laws. */
-#include "calibrate.h"
+#include "calibrate/calibrate.h"
 #include "command.h"
-#include "strength_campaign.h"
+#include "calibrate/strength_campaign.h"
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"

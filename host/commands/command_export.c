@@ -1,6 +1,6 @@
 /* breccia export: results of a run in other formats. */
 #include "command.h"
-#include "../output/export.h"
+#include "../output/frames/export.h"
 
 static const brc_option options[] = {
     {"format", 'f', "vtu|vtkhdf|csv", false, "needed"},

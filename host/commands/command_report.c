@@ -1,6 +1,6 @@
 /* breccia report: a folder of results as one page. */
 #include "command.h"
-#include "../output/report.h"
+#include "../output/report/report.h"
 
 static const brc_option options[] = {
     BRC_OPTION_OUTPUT("the page to write (default: report.html inside the folder)"),

@@ -1,6 +1,6 @@
 /* breccia reproduce: a table or figure of the papers, or a claim of ours, side by side with what comes out. */
-#include "reproduce_fragments.h"
-#include "reproduce_hondros.h"
+#include "reproduce/reproduce_fragments.h"
+#include "reproduce/reproduce_hondros.h"
 #include "../base/log.h"
 #include "../base/memory.h"
 #include <math.h>

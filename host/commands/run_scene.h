@@ -3,7 +3,7 @@
 #ifndef BRC_COMMANDS_RUN_SCENE_H
 #define BRC_COMMANDS_RUN_SCENE_H
 
-#include "../output/measures.h"
+#include "../output/sensors/measures.h"
 #include "../scene/scene_reader.h"
 #include "../solver/assembly.h"
 

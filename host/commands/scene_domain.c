@@ -1,11 +1,11 @@
 /* From what a scene asks to a domain. */
 #include "scene_domain.h"
-#include "../../preprocess/domain_file.h"
-#include "../../preprocess/overlap.h"
-#include "../../preprocess/pose.h"
-#include "../../preprocess/quality.h"
-#include "../../preprocess/set_share.h"
-#include "../../preprocess/sets.h"
+#include "../../preprocess/domain/domain_file.h"
+#include "../../preprocess/domain/overlap.h"
+#include "../../preprocess/domain/pose.h"
+#include "../../preprocess/domain/quality.h"
+#include "../../preprocess/domain/set_share.h"
+#include "../../preprocess/domain/sets.h"
 #include "../base/file.h"
 #include "../base/memory.h"
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef BRC_COMMANDS_SCENE_DOMAIN_H
 #define BRC_COMMANDS_SCENE_DOMAIN_H
 
-#include "../../preprocess/domain.h"
+#include "../../preprocess/domain/domain.h"
 #include "../scene/scene.h"
 #include "../solver/split.h"
 

@@ -1,6 +1,6 @@
 /* Reading a study, and the values of its runs. */
 #include "study.h"
-#include "case_node.h"
+#include "reproduce/case_node.h"
 #include "../base/file.h"
 #include "../base/memory.h"
 #include "../base/random.h"

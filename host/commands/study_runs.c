@@ -1,7 +1,7 @@
 /* The runs of a study: each a process of this program, so that one that fails, or runs out of memory, leaves the
  * others alone. */
-#include "check_scene.h"
-#include "pace.h"
+#include "price/check_scene.h"
+#include "price/pace.h"
 #include "study.h"
 #include "../base/file.h"
 #include "../base/log.h"

@@ -4,7 +4,7 @@
 
 #include "../commands/run_scene.h"
 #include "../include/breccia.h"
-#include "../output/assembly_sensors.h"
+#include "../output/sensors/assembly_sensors.h"
 #include "../solver/patience.h"
 #include <pthread.h>
 

@@ -4,8 +4,8 @@
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "../base/version.h"
-#include "../commands/check_scene.h"
-#include "../commands/pace.h"
+#include "../commands/price/check_scene.h"
+#include "../commands/price/pace.h"
 #include "../scene/scene_reader.h"
 #include <math.h>
 #include <stdio.h>

@@ -25,12 +25,12 @@
 #ifndef BRC_OUTPUT_RECORDER_H
 #define BRC_OUTPUT_RECORDER_H
 
-#include "../../preprocess/domain.h"
+#include "../../preprocess/domain/domain.h"
 #include "../scene/scene.h"
 #include "../solver/assembly.h"
 #include "../solver/state_store.h"
-#include "checkpoint_report.h"
-#include "measures.h"
+#include "checkpoint/checkpoint_report.h"
+#include "sensors/measures.h"
 #include "prediction.h"
 
 typedef struct brc_recorder brc_recorder;

@@ -3,9 +3,9 @@
 #define BRC_OUTPUT_RESULT_FILE_H
 
 #include "../solver/assembly.h"
-#include "crack_records.h"
-#include "history.h"
-#include "measures.h"
+#include "cracks/crack_records.h"
+#include "sensors/history.h"
+#include "sensors/measures.h"
 
 #define BRC_RESULT_FORMAT_VERSION 1
 

@@ -3,10 +3,10 @@
 #define BRC_OUTPUT_SUMMARY_H
 
 #include "../solver/assembly.h"
-#include "checkpoint_report.h"
-#include "crack_records.h"
-#include "history.h"
-#include "measures.h"
+#include "checkpoint/checkpoint_report.h"
+#include "cracks/crack_records.h"
+#include "sensors/history.h"
+#include "sensors/measures.h"
 #include "prediction.h"
 
 /* All pointers are borrowed for the call; what is NULL is null in the file. */

@@ -2,7 +2,7 @@
  * parts (a static load without a table grows from 0 to 1). */
 #include "reader_internal.h"
 #include "schema_internal.h"
-#include "../../preprocess/quality.h"
+#include "../../preprocess/domain/quality.h"
 #include "../base/memory.h"
 #include <stdio.h>
 #include <stdlib.h>

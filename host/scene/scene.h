@@ -4,7 +4,7 @@
 #ifndef BRC_SCENE_SCENE_H
 #define BRC_SCENE_SCENE_H
 
-#include "../../preprocess/build.h"
+#include "../../preprocess/domain/build.h"
 #include "../base/status.h"
 #include <stdint.h>
 

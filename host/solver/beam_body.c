@@ -1,6 +1,6 @@
 /* Counting bonds inside and at the walls, and measuring from wall to wall. */
 #include "beam_body.h"
-#include "../../preprocess/sets.h"
+#include "../../preprocess/domain/sets.h"
 #include "../base/memory.h"
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef BRC_SOLVER_BEAM_BODY_H
 #define BRC_SOLVER_BEAM_BODY_H
 
-#include "../../preprocess/domain.h"
+#include "../../preprocess/domain/domain.h"
 
 typedef struct brc_beam_body {
     double coordination; /* bonds of an element, mean over all of the body [-] */

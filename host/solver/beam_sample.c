@@ -1,8 +1,8 @@
 /* The elastic test of a bonded packing. The scene is made here: one material, one static stage of the linearised operator. */
 #include "beam_sample.h"
-#include "../../preprocess/beams.h"
-#include "../../preprocess/packing.h"
-#include "../../preprocess/seeds.h"
+#include "../../preprocess/packing/beams.h"
+#include "../../preprocess/packing/packing.h"
+#include "../../preprocess/cells/seeds.h"
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "beam_body.h"

@@ -3,7 +3,7 @@
 #ifndef BRC_SOLVER_BEAM_SAMPLE_H
 #define BRC_SOLVER_BEAM_SAMPLE_H
 
-#include "../../preprocess/build.h"
+#include "../../preprocess/domain/build.h"
 #include "../device/device.h"
 
 /* A packing that may be bonded to any number of coordination numbers. */

@@ -3,7 +3,7 @@
 #define BRC_SOLVER_BOND_AREA_H
 
 #include "../base/status.h"
-#include "../../preprocess/domain.h"
+#include "../../preprocess/domain/domain.h"
 
 /* Area of crack that a broken bond leaves [m^2]. Cells: that of the face. Spheres: 3 V / L with the volume V that the bond stands for
  * (brc_strengths_volume) and the length L between the centres, as for the pyramids on a face. Then the sum over bonds of area L n (x) n over the

@@ -1,5 +1,5 @@
 /* Polyhedra of the elements and of the strikers' pieces on the device, and where the pieces are. */
-#include "../../preprocess/convex.h"
+#include "../../preprocess/shapes/convex.h"
 #include "contact_internal.h"
 #include "strikers_internal.h"
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef BRC_SOLVER_FIELDS_H
 #define BRC_SOLVER_FIELDS_H
 
-#include "../../preprocess/convex.h"
+#include "../../preprocess/shapes/convex.h"
 #include "../device/device.h"
 #include "layout.h"
 #include "../scene/scene.h"

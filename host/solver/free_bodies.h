@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_FREE_BODIES_H
 #define BRC_SOLVER_FREE_BODIES_H
 
-#include "../../preprocess/domain.h"
+#include "../../preprocess/domain/domain.h"
 #include "../scene/scene.h"
 #include "balance.h"
 

@@ -1,5 +1,5 @@
 #include "layout.h"
-#include "../../preprocess/order.h"
+#include "../../preprocess/cells/order.h"
 #include "../base/memory.h"
 #include <omp.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #ifndef BRC_SOLVER_LAYOUT_H
 #define BRC_SOLVER_LAYOUT_H
 
-#include "../../preprocess/domain.h"
+#include "../../preprocess/domain/domain.h"
 #include <stdint.h>
 
 typedef struct brc_layout {

@@ -1,5 +1,5 @@
 #include "loaded_faces.h"
-#include "../../preprocess/set_share.h"
+#include "../../preprocess/domain/set_share.h"
 #include "../base/memory.h"
 #include <string.h>
 

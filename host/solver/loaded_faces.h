@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_LOADED_FACES_H
 #define BRC_SOLVER_LOADED_FACES_H
 
-#include "../../preprocess/domain.h"
+#include "../../preprocess/domain/domain.h"
 #include "../scene/scene.h"
 
 typedef struct brc_loaded_face {

@@ -5,7 +5,7 @@
 #ifndef BRC_SOLVER_SIMULATION_H
 #define BRC_SOLVER_SIMULATION_H
 
-#include "../../preprocess/domain.h"
+#include "../../preprocess/domain/domain.h"
 #include "../device/device.h"
 #include "../scene/scene.h"
 

@@ -3,7 +3,7 @@
 #ifndef BRC_SOLVER_SPLIT_H
 #define BRC_SOLVER_SPLIT_H
 
-#include "../../preprocess/domain.h"
+#include "../../preprocess/domain/domain.h"
 #include "../scene/scene.h"
 
 typedef struct brc_scene_part {

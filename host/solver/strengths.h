@@ -9,7 +9,7 @@
 #ifndef BRC_SOLVER_STRENGTHS_H
 #define BRC_SOLVER_STRENGTHS_H
 
-#include "../../preprocess/domain.h"
+#include "../../preprocess/domain/domain.h"
 #include "../scene/scene.h"
 
 typedef struct brc_strengths {

@@ -1,5 +1,5 @@
 /* What strikers are: mass properties and convex pieces of their shapes (preprocess/convex.h), turned to where the scene puts them, and their faces for pictures. */
-#include "../../preprocess/pose.h"
+#include "../../preprocess/domain/pose.h"
 #include "strikers_internal.h"
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_STRIKERS_INTERNAL_H
 #define BRC_SOLVER_STRIKERS_INTERNAL_H
 
-#include "../../preprocess/convex.h"
+#include "../../preprocess/shapes/convex.h"
 #include "simulation_internal.h"
 #include "state_store.h"
 #include "strikers.h"

@@ -12,7 +12,8 @@ def lengths(files):
 
 
 def readmes(files):
-    """Each folder that holds files, and each above it, says what lives there. Hidden folders are exempt."""
+    """Each folder that holds files, and each above it, says what lives there. Hidden folders are exempt, and those of tests/ that
+    hold the tests of a folder of the same name."""
     folders = set()
     for path in files:
         folder = os.path.dirname(path)
@@ -20,7 +21,15 @@ def readmes(files):
             folders.add(folder)
             folder = os.path.dirname(folder)
     return [f"{folder}/: has no README.md saying what lives there and what never does" for folder in sorted(folders)
-            if not folder.startswith(".") and folder + "/README.md" not in files]
+            if not folder.startswith(".") and folder + "/README.md" not in files and not mirror(folder, files)]
+
+
+def mirror(folder, files):
+    parts = folder.split("/")
+    if len(parts) < 3 or parts[0] != "tests":
+        return False
+    inner = "/".join(parts[1:])
+    return any(path.startswith((inner + "/", "host/" + inner + "/")) for path in files)
 
 
 def leftovers(files):
@@ -72,7 +81,9 @@ repository.finish([
     repository.report("lengths", lengths, repository.read(r"^(host|kernels|preprocess|bench|tests)/.*" + code),
                       {"701 lines": {"host/base/a.c": "\n" * 701}}),
     repository.report("readmes", readmes, {path: "" for path in repository.paths()},
-                      {"a folder without": {"host/base/README.md": "", "host/base/a.c": ""}}),
+                      {"a folder without": {"host/base/README.md": "", "host/base/a.c": ""},
+                       "no mirror": {"host/README.md": "", "host/base/README.md": "", "host/base/a.c": "", "tests/README.md": "",
+                                     "tests/base/README.md": "", "tests/base/inner/test_a.c": ""}}),
     repository.report("leftovers", leftovers,
                       repository.read(code + r"|\.(py|sh|cmake|md|yaml)$|CMakeLists\.txt$|^quickstart$"),
                       {"unfinished": {"a.c": "/* TO" "DO later */\n"}, "blanks": {"a.c": "int a; \n"},

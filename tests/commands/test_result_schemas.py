@@ -140,7 +140,7 @@ def rows_are_as_the_schema_says(folder):
 
 def the_schema_of_rows_has_every_key_of_the_sources():
     asked = set()
-    for path in glob.glob(f"{SOURCE}/bench/*.c") + glob.glob(f"{SOURCE}/host/commands/*.c"):
+    for path in glob.glob(f"{SOURCE}/bench/*.c") + glob.glob(f"{SOURCE}/host/commands/**/*.c", recursive=True):
         with open(path, encoding="utf-8") as file:
             text = file.read()
         asked |= set(re.findall(r'brc_rows_(?:text|number|integer)\([^,"]+, "(\w+)"', text))

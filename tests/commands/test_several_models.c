@@ -5,7 +5,7 @@
 #include "../../host/base/memory.h"
 #include "../../host/commands/run_scene.h"
 #include "../../host/commands/setup.h"
-#include "../../host/output/cracks.h"
+#include "../../host/output/cracks/cracks.h"
 #include "../../host/output/h5_read.h"
 #include "../../host/scene/scene_reader.h"
 #include "../../host/solver/lockstep.h"

@@ -4,8 +4,8 @@
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
 #include "../../host/scene/scene_reader.h"
-#include "../../preprocess/beams.h"
-#include "../../preprocess/build.h"
+#include "../../preprocess/packing/beams.h"
+#include "../../preprocess/domain/build.h"
 #include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,11 +3,11 @@
 #include "fake_simulation.h"
 #include "../../host/base/file.h"
 #include "../../host/base/memory.h"
-#include "../../host/output/export_vtu.h"
-#include "../../host/output/frame_file.h"
+#include "../../host/output/frames/export_vtu.h"
+#include "../../host/output/frames/frame_file.h"
 #include "../../host/output/h5_read.h"
-#include "../../host/output/picture.h"
-#include "../../preprocess/quality.h"
+#include "../../host/output/pictures/picture.h"
+#include "../../preprocess/domain/quality.h"
 #include <cairo.h>
 #include <stdio.h>
 #include <stdlib.h>

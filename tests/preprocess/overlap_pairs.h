@@ -2,7 +2,7 @@
 #ifndef BRC_TEST_PREPROCESS_OVERLAP_PAIRS_H
 #define BRC_TEST_PREPROCESS_OVERLAP_PAIRS_H
 
-#include "../../preprocess/convex.h"
+#include "../../preprocess/shapes/convex.h"
 
 /* Where polyhedra `of` stand: origins near each other, maps row by row. */
 typedef struct overlap_pair {

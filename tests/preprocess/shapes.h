@@ -2,7 +2,7 @@
 #ifndef BRC_TEST_PREPROCESS_SHAPES_H
 #define BRC_TEST_PREPROCESS_SHAPES_H
 
-#include "../../preprocess/build.h"
+#include "../../preprocess/domain/build.h"
 
 enum { TEST_MOST_PARTS = 4 };
 

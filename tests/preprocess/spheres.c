@@ -3,9 +3,9 @@
 
 #include "../../host/base/memory.h"
 #include "../../host/base/random.h"
-#include "../../preprocess/beams.h"
-#include "../../preprocess/quality.h"
-#include "../../preprocess/sets.h"
+#include "../../preprocess/packing/beams.h"
+#include "../../preprocess/domain/quality.h"
+#include "../../preprocess/domain/sets.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #ifndef BRC_TEST_PREPROCESS_SPHERES_H
 #define BRC_TEST_PREPROCESS_SPHERES_H
 
-#include "../../preprocess/build.h"
+#include "../../preprocess/domain/build.h"
 
 /* A box of (count[0], count[1], count[2]) metres at the origin with one sphere a cubic metre: radius 0.45 m -+ 10 %, moved by up to 0.1 m from the
  * middle; those of the outermost layers touch their walls exactly. Bonds of this coordination number; walls, sets, quality, regions (0),

@@ -2,7 +2,7 @@
 
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
-#include "../../preprocess/domain_file.h"
+#include "../../preprocess/domain/domain_file.h"
 
 #include <stdio.h>
 #include <string.h>

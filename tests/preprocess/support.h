@@ -9,7 +9,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "../../preprocess/build.h"
+#include "../../preprocess/domain/build.h"
 #include <stdio.h>
 
 /* cmocka set-up and tear-down: *state is a context that logs errors only. The tear-down fails when memory is still held

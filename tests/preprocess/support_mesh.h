@@ -2,7 +2,7 @@
 #ifndef BRC_TEST_PREPROCESS_SUPPORT_MESH_H
 #define BRC_TEST_PREPROCESS_SUPPORT_MESH_H
 
-#include "../../preprocess/mesh.h"
+#include "../../preprocess/mesh/mesh.h"
 #include <stdint.h>
 
 /* Begin with {0}; free with test_mesh_free. */

@@ -17,7 +17,7 @@ printf 'int LLVMFuzzerTestOneInput(const unsigned char *d, unsigned long n) { re
     skip "$clang has no libFuzzer runtime (Debian: libclang-rt-14-dev)"
 base=$(ls "$source"/host/base/*.c | grep -v /version.c) # the version is generated, and the reader does not ask for it
 "$clang" -std=gnu11 -D_GNU_SOURCE -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
-    "$source"/tests/fuzz/fuzz_scene.c "$source"/host/scene/*.c "$source"/preprocess/quality_numbers.c $base -o "$folder/fuzz_scene" -lyaml -lm
+    "$source"/tests/fuzz/fuzz_scene.c "$source"/host/scene/*.c "$source"/preprocess/domain/quality_numbers.c $base -o "$folder/fuzz_scene" -lyaml -lm
 mkdir "$folder/corpus"
 for scene in "$source"/examples/*/scene.yaml; do
     cp "$scene" "$folder/corpus/$(basename "$(dirname "$scene")").yaml"

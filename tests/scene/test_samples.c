@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 #include "../../host/scene/scene_reader.h"
-#include "../../preprocess/seeds.h"
+#include "../../preprocess/cells/seeds.h"
 #include "bad.h"
 
 #define TOP "version: 1\nmaterials:\n  a: {E: 72 GPa, nu: 0.2, density: 2500 kg/m^3}\n  b: {E: 7 GPa, nu: 0.3, density: 1500 kg/m^3}\n"

@@ -2,7 +2,7 @@
 #include "../../host/solver/beam_body.h"
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
-#include "../../preprocess/beams.h"
+#include "../../preprocess/packing/beams.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

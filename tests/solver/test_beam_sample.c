@@ -1,9 +1,9 @@
 /* The elastic sample test against a lattice of chains, whose answer is exact, and against itself. */
 #include "../../host/base/memory.h"
 #include "../../host/solver/beam_sample.h"
-#include "../../preprocess/beams.h"
-#include "../../preprocess/domain.h"
-#include "../../preprocess/solid.h"
+#include "../../preprocess/packing/beams.h"
+#include "../../preprocess/domain/domain.h"
+#include "../../preprocess/shapes/solid.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 #include "support.h"
 #include "../../host/base/memory.h"
-#include "../../preprocess/beams.h"
+#include "../../preprocess/packing/beams.h"
 #include <string.h>
 
 /* Four spheres in a row for a model that needs cells. */

@@ -2,7 +2,7 @@
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
 #include "../../host/solver/strengths.h"
-#include "../../preprocess/build.h"
+#include "../../preprocess/domain/build.h"
 // clang-format off
 #include <stdarg.h>
 #include <stddef.h>
