@@ -1,6 +1,5 @@
 /* breccia reproduce: a table or figure of the papers, or a claim of ours, side by side with what comes out. */
-#include "reproduce/reproduce_fragments.h"
-#include "reproduce/reproduce_hondros.h"
+#include "reproduce/operators.h"
 #include "../base/log.h"
 #include "../base/memory.h"
 #include <math.h>
@@ -168,9 +167,8 @@ static brc_status carry_out(brc_campaign *campaign)
                 derived->row.unit, note);
     }
     BRC_TRY(brc_rows_write(&campaign->rows, campaign->folder));
-    BRC_TRY(brc_isotropy_figures(campaign));
-    BRC_TRY(brc_hondros_figure(campaign));
-    BRC_TRY(brc_fragments_figure(campaign));
+    for (const brc_operator *const *k = brc_operators; *k; ++k)
+        if ((*k)->figure) BRC_TRY((*k)->figure(campaign));
     printf("%d of %d bounded rows within their bounds; %s/rows.json\n", campaign->n_judged - campaign->n_missed,
            campaign->n_judged, campaign->folder);
     if (campaign->n_missed > 0)

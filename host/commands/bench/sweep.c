@@ -1,7 +1,7 @@
 /* Reading sweeps: every combination of the values of the axes becomes a run of a case. */
 #include "sweep.h"
 #include "../reproduce/case_files.h"
-#include "../reproduce/case_node.h"
+#include "../reproduce/operators.h"
 #include "../../base/memory.h"
 #include <math.h>
 #include <stdio.h>
@@ -38,7 +38,7 @@ typedef struct expansion {
     const char *name, *scene;
     bool quick;
     double reference;
-    brc_case_operator operator;
+    const brc_operator *operator;
     int n_axes;
     const brc_node *axis[AXES];
     int n_values[AXES];
@@ -147,7 +147,7 @@ static void take_values(const brc_case_reader *r, const brc_node *node, expansio
     }
 }
 
-static brc_status read_sweep(const brc_case_reader *r, const brc_node *node, const brc_node *scenes, brc_case_operator operator, brc_sweep *sweep)
+static brc_status read_sweep(const brc_case_reader *r, const brc_node *node, const brc_node *scenes, const brc_operator *operator, brc_sweep *sweep)
 {
     expansion *x = NULL;
     const brc_node *scene_name = node->kind == BRC_NODE_MAP ? brc_node_find(node, "scene") : NULL;
@@ -186,7 +186,7 @@ static brc_status read_top(const brc_case_reader *r, const brc_node *root, brc_s
 {
     static const char *const costs[] = {"run", "crossings", NULL};
     const brc_node *scenes = NULL, *sweeps = NULL;
-    brc_case_operator operator = BRC_CASE_MEASURES;
+    const brc_operator *operator = &brc_operator_measures;
     double half_angle = 0;
     for (const brc_node *item = root->kind == BRC_NODE_MAP ? root->first : NULL; item; item = item->next) {
         if (strcmp(item->key, "title") == 0)
@@ -200,7 +200,7 @@ static brc_status read_top(const brc_case_reader *r, const brc_node *root, brc_s
         else if (strcmp(item->key, "reference") == 0)
             sweep->reference = brc_case_number_of(r, item);
         else if (strcmp(item->key, "with") == 0)
-            operator = (brc_case_operator)brc_case_word_of(r, item, brc_case_operators);
+            operator = brc_operator_of(r, item);
         else if (strcmp(item->key, "half_angle") == 0)
             half_angle = brc_case_number_of(r, item);
         else if (strcmp(item->key, "cost") == 0)

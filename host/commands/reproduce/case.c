@@ -1,6 +1,7 @@
 /* Reading a case: the node tree of scenes, with keys of our own. */
 #include "case_files.h"
 #include "case_node.h"
+#include "operators.h"
 #include "../../base/file.h"
 #include "../../base/memory.h"
 #include <math.h>
@@ -91,7 +92,7 @@ static const char *const precisions[] = {"double", "mixed", "single", NULL};
 
 static brc_status read_run(const brc_case_reader *r, const brc_node *node, brc_case_run *run)
 {
-    *run = (brc_case_run){.name = "", .scene = "scene.yaml", .about = "", .n_seeds = 1};
+    *run = (brc_case_run){.name = "", .scene = "scene.yaml", .about = "", .operator = &brc_operator_measures, .n_seeds = 1};
     if (node->kind != BRC_NODE_MAP) brc_case_wrong(r, node, "a map");
     for (const brc_node *item = node->first; node->kind == BRC_NODE_MAP && item; item = item->next) {
         if (strcmp(item->key, "name") == 0)
@@ -111,7 +112,7 @@ static brc_status read_run(const brc_case_reader *r, const brc_node *node, brc_c
         else if (strcmp(item->key, "exact") == 0)
             run->exact = brc_case_flag_of(r, item);
         else if (strcmp(item->key, "with") == 0)
-            run->operator = (brc_case_operator)brc_case_word_of(r, item, brc_case_operators);
+            run->operator = brc_operator_of(r, item);
         else if (strcmp(item->key, "device") == 0)
             run->device = brc_case_text_of(r, item);
         else if (strcmp(item->key, "precision") == 0)

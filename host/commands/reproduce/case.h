@@ -30,24 +30,8 @@ typedef struct brc_case_pair {
     const char *key, *value;
 } brc_case_pair;
 
-/* What is done with a run beside its measures. */
-typedef enum brc_case_operator {
-    BRC_CASE_MEASURES,  /* nothing */
-    BRC_CASE_VIBRATION, /* modes against Rayleigh-Ritz of the scene's box */
-    BRC_CASE_DRIFT,     /* energy, momentum and angular momentum along the run */
-    BRC_CASE_BUILD,     /* no run: seeds to domain file, timed */
-    BRC_CASE_ISOTROPY,  /* no run: directions of bonds over n_seeds samples */
-    BRC_CASE_BEAMS,     /* elastic tests of n_seeds samples of beams */
-    BRC_CASE_HONDROS,   /* stresses on the loaded diameter of a disc against Hondros */
-    BRC_CASE_VIRIAL,    /* virial stresses of a pulled box of spheres against force over section */
-    BRC_CASE_PRESSING,  /* load over strain of the measure K along the run */
-    BRC_CASE_WAVE,      /* displacement of a bar's free end against d'Alembert's solution */
-    BRC_CASE_FIELD,     /* stresses in a set against those of a pressed disc or a pulled plate with a hole */
-    BRC_CASE_TOLD,      /* the error class that `check` tells before the run, against the run's error */
-    BRC_CASE_FRAGMENTS, /* sizes of what a body broke into */
-    BRC_CASE_BOUNCE,    /* touches, rebound and spin of a body thrown on the ground */
-    BRC_CASE_SIDES      /* mean load of two sides along the run */
-} brc_case_operator;
+/* What is done with a run beside its measures (operators.h). */
+typedef struct brc_operator brc_operator;
 
 typedef struct brc_case_run {
     const char *name, *scene;
@@ -56,7 +40,7 @@ typedef struct brc_case_run {
     bool quick;        /* part of --quick */
     bool keep;         /* its displacement at the end is kept for derived rows */
     bool may_stop;     /* a stop of the physics is a result, not a failure */
-    brc_case_operator operator;
+    const brc_operator *operator;
     const char *device; /* NULL: the one of the command line. A device that is not there: the run is skipped */
     bool has_precision;
     brc_precision precision;

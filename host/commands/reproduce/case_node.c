@@ -6,8 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *const brc_case_operators[] = {"measures", "vibration", "drift", "build", "isotropy", "beams", "hondros", "virial", "pressing", "wave", "field", "told", "fragments", "bounce", "sides", NULL};
-
 void brc_case_wrong(const brc_case_reader *r, const brc_node *node, const char *expected)
 {
     char found[96];

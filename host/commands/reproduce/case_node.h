@@ -24,8 +24,6 @@ int brc_case_word_of(const brc_case_reader *r, const brc_node *node, const char 
 /* Texts of a list (a lone text is a list of one), at most BRC_CASE_LIST; how many. */
 int brc_case_texts_of(const brc_case_reader *r, const brc_node *node, const char **out);
 int brc_case_pairs_of(const brc_case_reader *r, const brc_node *node, brc_case_pair *out);
-/* The words of `with`, in the order of brc_case_operator. */
-extern const char *const brc_case_operators[];
 
 /* Read `file` of a case into a tree of its own; *root is owned by *tree. `problems` is made for it and shows the file as `shown`, borrowed till then. All freed by the caller, also after a failure. */
 brc_status brc_case_parse(brc_context *context, const char *folder, const char *name, const char *file, const char *shown, brc_tree **tree,

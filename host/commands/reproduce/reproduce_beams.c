@@ -1,6 +1,6 @@
 /* Elastic tests of samples of beams that differ by their seed alone (NAH19 section 4.1): E and nu of a material whose beams follow from the
  * laws, from `beam` parameters, or from the polish on one sample, tried on a fresh one. */
-#include "reproduce.h"
+#include "operators.h"
 #include "../../base/log.h"
 #include "../../base/memory.h"
 #include "../../solver/beam_law.h"
@@ -177,8 +177,10 @@ static void add_worst(brc_outcome *outcome, const char *name, const result *resu
     brc_outcome_add(outcome, name, "-", worst, NAN);
 }
 
-brc_status brc_beams_values(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes)
+static brc_status obtain(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes,
+                         const char *folder)
 {
+    (void)folder; /* no files */
     const brc_case_run *run = outcome->run;
     const int n = run->n_seeds, wanted = run->n_threads > 0 ? run->n_threads : campaign->n_threads, n_threads = wanted > 0 ? wanted : omp_get_max_threads();
     brc_scene *scene = NULL;
@@ -216,3 +218,9 @@ cleanup:
     brc_scene_free(&scene);
     return status;
 }
+
+/* The beams operator: elastic tests of run->n_seeds samples of the scene's box along x: nu, E (means with scatter;
+ * references: the material's), r_m, E_m, nu_worst, E_worst. A scene with `polish`: each sample polished along all
+ * axes, the result tried on a fresh sample (seeds after the last), means over its axes; and polished along x and y,
+ * tried along z: nu_axis, E_axis (means with scatter), nu_axis_worst, E_axis_worst. */
+const brc_operator brc_operator_beams = {.name = "beams", .obtain = obtain};

@@ -1,5 +1,5 @@
 /* Sums over the first flight, sample by sample. */
-#include "reproduce_bounce.h"
+#include "operators.h"
 #include "reproduce_watched.h"
 #include "../../base/memory.h"
 #include <math.h>
@@ -7,7 +7,7 @@
 enum { PUSH, HEIGHT, SPIN, N_NAMES, LEAST_SAMPLES = 16 };
 static const char *const NAMES[N_NAMES] = {"push", "height", "spin"};
 
-struct brc_bounce {
+typedef struct bounce {
     brc_context *context;
     brc_watched watched;
     int32_t sensor[N_NAMES];
@@ -17,24 +17,26 @@ struct brc_bounce {
     int bounces;
     double n, t, y, tt, ty, spin;   /* sums over the first flight; t since its first sample [s], y = height + g t^2 / 2 [m] */
     double origin;                  /* of t [s] */
-};
+} bounce;
 
-brc_status brc_bounce_create(brc_context *context, brc_bounce **out)
+static brc_status create(brc_context *context, void **out)
 {
-    BRC_TRY(BRC_ALLOCATE(context, out, 1, "bounces of a run"));
-    **out = (brc_bounce){.context = context, .first = NAN, .release = NAN, .last = NAN};
+    bounce *b = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &b, 1, "bounces of a run"));
+    *b = (bounce){.context = context, .first = NAN, .release = NAN, .last = NAN};
+    *out = b;
     return BRC_OK;
 }
 
-void brc_bounce_free(brc_bounce **bounce)
+static void release(void *self)
 {
-    if (!bounce || !*bounce) return;
-    brc_watched_close(&(*bounce)->watched);
-    brc_memory_free(*bounce);
-    *bounce = NULL;
+    bounce *b = self;
+    if (!b) return;
+    brc_watched_close(&b->watched);
+    brc_memory_free(b);
 }
 
-static brc_status prepare(brc_bounce *b, brc_simulation *simulation)
+static brc_status prepare(bounce *b, brc_simulation *simulation)
 {
     const brc_scene *scene = brc_simulation_scene(simulation);
     bool found = scene->has_gravity && scene->gravity[2] < 0;
@@ -47,7 +49,7 @@ static brc_status prepare(brc_bounce *b, brc_simulation *simulation)
     return brc_watched_open(b->context, &b->watched, simulation);
 }
 
-static void add_to_flight(brc_bounce *b, double time)
+static void add_to_flight(bounce *b, double time)
 {
     if (b->n == 0) b->origin = time;
     const double t = time - b->origin, y = b->watched.value[b->sensor[HEIGHT]] + 0.5 * b->g * t * t;
@@ -59,11 +61,11 @@ static void add_to_flight(brc_bounce *b, double time)
     b->spin += b->watched.value[b->sensor[SPIN]];
 }
 
-static void leave_flight(brc_bounce *b) { b->n = b->t = b->y = b->tt = b->ty = b->spin = 0; }
+static void leave_flight(bounce *b) { b->n = b->t = b->y = b->tt = b->ty = b->spin = 0; }
 
 static brc_status sample(void *self, brc_simulation *simulation)
 {
-    brc_bounce *b = self;
+    bounce *b = self;
     const double time = brc_simulation_total_time(simulation);
     if (!b->watched.sensors) BRC_TRY(prepare(b, simulation));
     BRC_TRY(brc_watched_read(&b->watched, simulation));
@@ -83,10 +85,12 @@ static brc_status sample(void *self, brc_simulation *simulation)
     return BRC_OK;
 }
 
-brc_observer brc_bounce_observer(brc_bounce *bounce) { return (brc_observer){.self = bounce, .sample = sample}; }
+static brc_observer observer(void *self) { return (brc_observer){.self = self, .sample = sample}; }
 
-brc_status brc_bounce_values(const brc_bounce *b, brc_outcome *outcome)
+static brc_status values(const brc_campaign *campaign, const void *self, brc_outcome *outcome)
 {
+    const bounce *b = self;
+    (void)campaign;
     const bool flew = b->n >= LEAST_SAMPLES;
     const double spread = b->tt - b->t * b->t / b->n, speed = (b->ty - b->t * b->y / b->n) / spread, height = (b->y - speed * b->t) / b->n;
     brc_outcome_add(outcome, "first_contact", "s", b->first, NAN);
@@ -96,3 +100,10 @@ brc_status brc_bounce_values(const brc_bounce *b, brc_outcome *outcome)
     brc_outcome_add(outcome, "spin_after", "rad/s", flew ? b->spin / b->n : NAN, NAN);
     return BRC_OK;
 }
+
+/* The bounce operator, of a scene with gravity along -z (and across) and three sensors: push (force of the ground),
+ * height (mean displacement along z), spin. first_contact and release [s]: first sample at which the ground pushes,
+ * and the last of that touch; touches farther apart than first_contact are others: bounces [-] is their number. apex
+ * [m]: of free flight after the first one, over the start, from the straight line through height + g t^2 / 2;
+ * spin_after: mean of that flight [rad/s]. NAN where a run did not come so far. BRC_BAD_INPUT: no such scene. */
+const brc_operator brc_operator_bounce = {.name = "bounce", .create = create, .observer = observer, .values = values, .release = release};

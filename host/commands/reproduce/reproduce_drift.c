@@ -1,10 +1,10 @@
 /* What must not change along an undamped free run: energy, momentum, angular momentum. */
-#include "reproduce.h"
+#include "operators.h"
 #include "../../base/memory.h"
 #include <math.h>
 #include <string.h>
 
-struct brc_drift {
+typedef struct drift {
     brc_context *context;
     int64_t n_samples, capacity;
     double *total;   /* [n_samples] total energy [J] */
@@ -16,31 +16,33 @@ struct brc_drift {
     double momentum[3], angular[3];         /* at the first sample */
     double momentum_scale, angular_scale;   /* largest sums of magnitudes of the parts */
     double momentum_worst, angular_worst;   /* largest deviations [kg m/s], [kg m^2/s] */
-};
+} drift;
 
-brc_status brc_drift_create(brc_context *context, brc_drift **out)
+static brc_status create(brc_context *context, void **out)
 {
-    BRC_TRY(BRC_ALLOCATE(context, out, 1, "drift of a run"));
-    (*out)->context = context;
-    (*out)->lean = 1;
+    drift *d = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &d, 1, "drift of a run"));
+    d->context = context;
+    d->lean = 1;
+    *out = d;
     return BRC_OK;
 }
 
-void brc_drift_free(brc_drift **drift)
+static void release(void *self)
 {
-    if (!drift || !*drift) return;
-    brc_memory_free((*drift)->total);
-    brc_memory_free((*drift)->mass);
-    brc_memory_free((*drift)->displacement);
-    brc_memory_free((*drift)->velocity);
-    brc_memory_free((*drift)->inertia);
-    brc_memory_free((*drift)->orientation);
-    brc_memory_free((*drift)->spin);
-    brc_memory_free(*drift);
-    *drift = NULL;
+    drift *d = self;
+    if (!d) return;
+    brc_memory_free(d->total);
+    brc_memory_free(d->mass);
+    brc_memory_free(d->displacement);
+    brc_memory_free(d->velocity);
+    brc_memory_free(d->inertia);
+    brc_memory_free(d->orientation);
+    brc_memory_free(d->spin);
+    brc_memory_free(d);
 }
 
-static brc_status prepare(brc_drift *d, brc_simulation *simulation)
+static brc_status prepare(drift *d, brc_simulation *simulation)
 {
     const brc_domain *domain = brc_simulation_domain(simulation);
     const brc_scene *scene = brc_simulation_scene(simulation);
@@ -73,7 +75,7 @@ static double length(const double a[3])
 }
 
 /* Momenta about the origin of coordinates, and the sums of the magnitudes of their parts. */
-static void add_momenta(const brc_drift *d, const brc_domain *domain, double momentum[3], double angular[3], double scale[2])
+static void add_momenta(const drift *d, const brc_domain *domain, double momentum[3], double angular[3], double scale[2])
 {
     for (int64_t e = 0; e < domain->n_elements; ++e) {
         double place[3], turn[3];
@@ -93,7 +95,7 @@ static void add_momenta(const brc_drift *d, const brc_domain *domain, double mom
 }
 
 /* How far sections lean from their beams now: both ends of every beam. */
-static void look_at_sections(brc_drift *d, const brc_domain *domain)
+static void look_at_sections(drift *d, const brc_domain *domain)
 {
     for (int64_t e = 0; e < domain->n_elements; ++e) {
         const double w = d->orientation[4 * e], *v = d->orientation + 4 * e + 1;
@@ -114,7 +116,7 @@ static void look_at_sections(brc_drift *d, const brc_domain *domain)
 
 static brc_status sample(void *self, brc_simulation *simulation)
 {
-    brc_drift *d = self;
+    drift *d = self;
     const brc_domain *domain = brc_simulation_domain(simulation);
     const brc_stage *stage = brc_simulation_scene(simulation)->stages + brc_simulation_stage(simulation);
     if (stage->solver != BRC_SOLVER_DYNAMIC) return BRC_OK; /* static stages put energy in; what may not drift is the motion after */
@@ -151,9 +153,9 @@ static brc_status sample(void *self, brc_simulation *simulation)
     return BRC_OK;
 }
 
-brc_observer brc_drift_observer(brc_drift *drift)
+static brc_observer observer(void *self)
 {
-    return (brc_observer){.self = drift, .sample = sample};
+    return (brc_observer){.self = self, .sample = sample};
 }
 
 static double mean(const double *values, int64_t from, int64_t to)
@@ -172,10 +174,12 @@ static double relative(double deviation, const double initial[3], double parts)
     return deviation / (whole > 1e-3 * parts ? whole : parts);
 }
 
-void brc_drift_values(const brc_drift *d, brc_outcome *outcome)
+static brc_status values(const brc_campaign *campaign, const void *self, brc_outcome *outcome)
 {
+    const drift *d = self;
+    (void)campaign;
     brc_outcome_add(outcome, "energy_growth", "-", d->growth, NAN);
-    if (d->n_samples < 20) return; /* no tenth to speak of */
+    if (d->n_samples < 20) return BRC_OK; /* no tenth to speak of */
     const int64_t tenth = d->n_samples / 10;
     const double first = mean(d->total, 0, tenth), last = mean(d->total, d->n_samples - tenth, d->n_samples);
     double squares = 0;
@@ -188,4 +192,15 @@ void brc_drift_values(const brc_drift *d, brc_outcome *outcome)
     if (d->spin) brc_outcome_add(outcome, "largest_section_angle", "deg", acos(d->lean) * 180 / M_PI, 0);
     brc_outcome_add(outcome, "closure_worst", "-", d->closure_worst, 0);
     brc_outcome_add(outcome, "closure_rms", "-", sqrt(d->closure_squares / (double)d->n_samples), 0);
+    return BRC_OK;
 }
+
+/* energy_drift, momentum_drift, angular_momentum_drift, closure_worst, closure_rms, energy_spread; energy_growth: the
+ * largest energy over what initial fields and loads had put in by then. */
+const brc_operator brc_operator_drift = {.name = "drift",
+                                         .one_run = true,
+                                         .create = create,
+                                         .observer = observer,
+                                         .stopped_too = true,
+                                         .values = values,
+                                         .release = release};

@@ -1,5 +1,5 @@
 /* Pressed discs and pulled rings. */
-#include "reproduce_field.h"
+#include "operators.h"
 #include "../references/reference_plane.h"
 #include "../bench/sweep.h"
 #include "../../base/memory.h"
@@ -77,7 +77,7 @@ static brc_status stresses(brc_simulation *simulation, const brc_case_run *run, 
     return level ? brc_simulation_virial_stress(simulation, (int)strtol(level, NULL, 10), out) : brc_simulation_strain_stress(simulation, NULL, out, NULL);
 }
 
-brc_status brc_field_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
+static brc_status finished(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
 {
     const brc_domain *domain = brc_simulation_domain(simulation);
     plane p;
@@ -106,3 +106,13 @@ cleanup:
     brc_memory_free(stress);
     return status;
 }
+
+/* The field operator, once a run ended. The first body is a cylinder about y through the origin, cut by boxes: a
+ * quarter of a disc pressed along z over arcs of run->half_angle (its set `middle`, the cut across the load, gives the
+ * load); or with a cylinder removed from it, a quarter of a ring, or all of it, whose outside moves by the gradient of
+ * a load. Adds field_error: root of the volume mean of |stress - exact|^2 (in-plane components, at the elements'
+ * centroids) over the nominal stress, within 0.6 of the disc's radius or three radii of the hole; and, of a ring,
+ * peak_error: the largest principal stress of the elements within 1.25 radii of the hole over the exact one at their
+ * centroids, minus 1. Of beams the stress is the virial one, over as many shells of neighbours as the run's label
+ * `level` says (1 without it). BRC_BAD_INPUT: no such scene. */
+const brc_operator brc_operator_field = {.name = "field", .finished = finished};

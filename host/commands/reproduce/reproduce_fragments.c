@@ -1,3 +1,5 @@
+/* Sizes of the pieces a body broke into, over runs at several speeds. */
+#include "operators.h"
 #include "reproduce_fragments.h"
 #include "../../base/file.h"
 #include "../../base/memory.h"
@@ -55,7 +57,7 @@ double brc_fragments_exponent(int64_t n, const double *mass, double low, double 
     return 1 - a;
 }
 
-brc_status brc_fragments_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
+static brc_status finished(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
 {
     const brc_domain *d = brc_simulation_domain(simulation);
     int32_t *fragment = NULL;
@@ -92,7 +94,7 @@ cleanup:
 
 /* ---- the figure ---- */
 
-static bool is_shown(const brc_outcome *outcome) { return outcome->done && outcome->run->operator == BRC_CASE_FRAGMENTS; }
+static bool is_shown(const brc_outcome *outcome) { return outcome->done && outcome->run->operator == &brc_operator_fragments; }
 
 /* A body that is whole has no distribution. */
 static bool is_broken(const brc_outcome *outcome)
@@ -155,7 +157,7 @@ static void draw(const void *self, brc_text *text)
     brc_text_add(text, "\nunset multiplot\n");
 }
 
-brc_status brc_fragments_figure(brc_campaign *campaign)
+static brc_status figure(brc_campaign *campaign)
 {
     brc_context *context = campaign->session->context;
     int n = 0;
@@ -175,3 +177,10 @@ cleanup:
     brc_memory_free(path);
     return status;
 }
+
+/* The fragments operator, at the end of a run: damage (share of the bonds that broke), mass_exponent (tau where the
+ * number of fragments of a mass m falls as m^-tau, most likely one between 2.5 mean cells and a twentieth of the
+ * whole), exponent_error (standard error of that), pieces (fragments in that range), and heavier_KK, how many
+ * fragments have at least 10^(-KK/6) of the whole. fragments.png and its numbers, fragments.dat, into the campaign's
+ * folder, where such runs were made: damage and largest fragment against the label `speed`, and the distributions. */
+const brc_operator brc_operator_fragments = {.name = "fragments", .finished = finished, .figure = figure};

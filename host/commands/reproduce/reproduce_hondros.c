@@ -1,6 +1,6 @@
 /* Stresses along the loaded diameter of a disc against Hondros' (NAH19 section 4.3, Fig. 15), over the nominal stress 2 P / (pi t D), so that the load does not
  * matter: means over the elements of equal stretches of the diameter, as values, and a figure of all runs of a case. */
-#include "reproduce_hondros.h"
+#include "operators.h"
 #include "../references/reference_hondros.h"
 #include "../../base/file.h"
 #include "../../base/memory.h"
@@ -97,7 +97,7 @@ static void add_element(mean *m, double volume, const double stress[2])
 static void stretch_name(char out[BRC_NAME], const char *direction, int k) { snprintf(out, BRC_NAME, "%s_%02d", direction, k); }
 static double stretch_begin(int k) { return -1 + 2.0 * k / STRETCHES; }
 
-brc_status brc_hondros_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
+static brc_status finished(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
 {
     const brc_domain *domain = brc_simulation_domain(simulation);
     mean stretch[STRETCHES] = {{0}}, centre = {0};
@@ -158,7 +158,7 @@ static void add_data(const brc_campaign *campaign, double half_angle, brc_text *
     brc_text_add(text, "END\n");
     for (int r = 0; r < campaign->what->n_runs; ++r) {
         const brc_outcome *outcome = &campaign->outcomes[r];
-        if (!outcome->done || outcome->run->operator != BRC_CASE_HONDROS) continue;
+        if (!outcome->done || outcome->run->operator != &brc_operator_hondros) continue;
         brc_text_add(text, "$ours%d << END\n", r);
         for (int k = 0; k < STRETCHES; ++k) {
             brc_text_add(text, "%.6g", stretch_begin(k) + 1.0 / STRETCHES);
@@ -183,7 +183,7 @@ static void add_curves(const brc_campaign *campaign, brc_text *text)
         for (int r = 0, colour = 0; r < campaign->what->n_runs; ++r) {
             const brc_outcome *outcome = &campaign->outcomes[r];
             static const char *const colours[] = {"#4477aa", "#cc6677", "#228833", "#ccbb44"};
-            if (!outcome->done || outcome->run->operator != BRC_CASE_HONDROS) continue;
+            if (!outcome->done || outcome->run->operator != &brc_operator_hondros) continue;
             brc_text_add(text, ", $ours%d using 1:%d:%d with yerrorbars pointtype 7 linecolor rgb '%s' title '%s'", r, 2 + 2 * c, 3 + 2 * c, colours[colour++ % 4],
                          outcome->run->name);
         }
@@ -192,12 +192,12 @@ static void add_curves(const brc_campaign *campaign, brc_text *text)
     brc_text_add(text, "unset multiplot\n");
 }
 
-brc_status brc_hondros_figure(brc_campaign *campaign)
+static brc_status figure(brc_campaign *campaign)
 {
     brc_context *context = campaign->session->context;
     double half_angle = 0;
     for (int r = 0; r < campaign->what->n_runs; ++r)
-        if (campaign->outcomes[r].done && campaign->what->runs[r].operator == BRC_CASE_HONDROS) half_angle = campaign->what->runs[r].half_angle;
+        if (campaign->outcomes[r].done && campaign->what->runs[r].operator == &brc_operator_hondros) half_angle = campaign->what->runs[r].half_angle;
     if (!(half_angle > 0)) return BRC_OK;
     brc_text data = {.context = context}, script = {.context = context};
     char *path = NULL, *numbers = NULL, *aside = NULL;
@@ -220,3 +220,10 @@ cleanup:
     brc_memory_free(aside);
     return status;
 }
+
+/* The hondros operator, at the end of a run: across_KK and along_KK (stress over 2 P / (pi t D)) in 25 stretches of
+ * the loaded diameter, centre_across and centre_along (|r| <= R/5; references: Hondros), rms_across and worst_across
+ * (rms and largest difference to Hondros) of the stretches within 0.7 R. BRC_BAD_INPUT: not one cylinder under two
+ * loads across its axis. hondros.png and its numbers, hondros.dat, into the campaign's folder, where such runs were
+ * made. */
+const brc_operator brc_operator_hondros = {.name = "hondros", .finished = finished, .figure = figure};

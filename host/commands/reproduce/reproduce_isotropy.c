@@ -1,7 +1,7 @@
 /* Directions of bonds in samples that differ by their seed alone: each number as the mean over the samples and how it
  * scatters, every bond counted once and weighted with face area, of the whole samples and inside, where walls do not reach; and the
  * histograms of the first samples as a picture. */
-#include "reproduce.h"
+#include "operators.h"
 #include "../scene_domain.h"
 #include "../../output/pictures/isotropy_picture.h"
 #include "../../base/file.h"
@@ -108,8 +108,10 @@ cleanup:
     return status;
 }
 
-brc_status brc_isotropy_values(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes)
+static brc_status obtain(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes,
+                         const char *folder)
 {
+    (void)folder; /* no files */
     brc_context *context = campaign->session->context;
     const brc_case_run *run = outcome->run;
     brc_status status = BRC_OK;
@@ -173,7 +175,7 @@ static brc_status draw(brc_campaign *campaign, int kind, brc_isotropy_panel *pan
     return status;
 }
 
-brc_status brc_isotropy_figures(brc_campaign *campaign)
+static brc_status figures(brc_campaign *campaign)
 {
     brc_isotropy_panel *panels;
     BRC_TRY(BRC_ALLOCATE(campaign->session->context, &panels, campaign->what->n_runs, "panels of a figure"));
@@ -183,3 +185,9 @@ brc_status brc_isotropy_figures(brc_campaign *campaign)
     brc_memory_free(panels);
     return status;
 }
+
+/* The isotropy operator: build run->n_seeds samples of the scene (a text, its name a path) and add fabric_anisotropy,
+ * cubic, worst_bin, rms_bin (reference: noise), noise, excess, means with their scatter, and common (what the samples
+ * share: chance falls out); the same with _area (weighted with it), _inside (three layers away from walls) and
+ * _area_inside. Figures: <case>.png, <case>-area.png, <case>-inside.png, <case>-area-inside.png. */
+const brc_operator brc_operator_isotropy = {.name = "isotropy", .obtain = obtain, .figure = figures};

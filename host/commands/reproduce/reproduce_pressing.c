@@ -1,5 +1,5 @@
 /* Load over strain at every sample of a run, as values and as a curve beside theory. */
-#include "reproduce_pressing.h"
+#include "operators.h"
 #include "reproduce_watched.h"
 #include "../../base/file.h"
 #include "../../base/memory.h"
@@ -8,33 +8,35 @@
 
 #define SETTLED 0.02
 
-struct brc_pressing {
+typedef struct pressing {
     brc_context *context;
     brc_watched watched;
     int32_t load, strain;
     int64_t n, capacity;
     double *time, *modulus; /* [n] [s], [Pa] */
     double theory;          /* [Pa]; NAN: several materials */
-};
+} pressing;
 
-brc_status brc_pressing_create(brc_context *context, brc_pressing **out)
+static brc_status create(brc_context *context, void **out)
 {
-    BRC_TRY(BRC_ALLOCATE(context, out, 1, "curve of a run"));
-    (*out)->context = context;
+    pressing *p = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &p, 1, "curve of a run"));
+    p->context = context;
+    *out = p;
     return BRC_OK;
 }
 
-void brc_pressing_free(brc_pressing **pressing)
+static void release(void *self)
 {
-    if (!pressing || !*pressing) return;
-    brc_watched_close(&(*pressing)->watched);
-    brc_memory_free((*pressing)->time);
-    brc_memory_free((*pressing)->modulus);
-    brc_memory_free(*pressing);
-    *pressing = NULL;
+    pressing *p = self;
+    if (!p) return;
+    brc_watched_close(&p->watched);
+    brc_memory_free(p->time);
+    brc_memory_free(p->modulus);
+    brc_memory_free(p);
 }
 
-static brc_status prepare(brc_pressing *p, brc_simulation *simulation)
+static brc_status prepare(pressing *p, brc_simulation *simulation)
 {
     const brc_scene *scene = brc_simulation_scene(simulation);
     const brc_measure *measure = NULL;
@@ -50,7 +52,7 @@ static brc_status prepare(brc_pressing *p, brc_simulation *simulation)
 
 static brc_status sample(void *self, brc_simulation *simulation)
 {
-    brc_pressing *p = self;
+    pressing *p = self;
     if (!p->watched.sensors) BRC_TRY(prepare(p, simulation));
     BRC_TRY(brc_watched_read(&p->watched, simulation));
     if (p->watched.value[p->strain] == 0) return BRC_OK; /* the start */
@@ -64,10 +66,10 @@ static brc_status sample(void *self, brc_simulation *simulation)
     return BRC_OK;
 }
 
-brc_observer brc_pressing_observer(brc_pressing *pressing) { return (brc_observer){.self = pressing, .sample = sample}; }
+static brc_observer observer(void *self) { return (brc_observer){.self = self, .sample = sample}; }
 
 /* Time in microseconds, modulus in GPa. */
-static brc_status write_numbers(const brc_pressing *p, const char *path)
+static brc_status write_numbers(const pressing *p, const char *path)
 {
     brc_text text = {.context = p->context};
     brc_text_add(&text, "# time_us K_GPa theory_GPa\n");
@@ -77,7 +79,7 @@ static brc_status write_numbers(const brc_pressing *p, const char *path)
     return status;
 }
 
-static brc_status draw(const brc_pressing *p, const brc_outcome *outcome, const char *numbers, const char *path)
+static brc_status draw(const pressing *p, const brc_outcome *outcome, const char *numbers, const char *path)
 {
     brc_text script = {.context = p->context};
     char *aside = NULL;
@@ -96,8 +98,9 @@ cleanup:
     return status;
 }
 
-brc_status brc_pressing_values(const brc_campaign *campaign, const brc_pressing *p, brc_outcome *outcome)
+static brc_status values(const brc_campaign *campaign, const void *self, brc_outcome *outcome)
 {
+    const pressing *p = self;
     char name[2][80], *path[2] = {NULL, NULL};
     brc_status status = BRC_OK;
     if (p->n == 0) return BRC_FAIL(p->context, BRC_BAD_INPUT, "run %s: its sensors saw no load", outcome->run->name);
@@ -120,3 +123,8 @@ cleanup:
     brc_memory_free(path[1]);
     return status;
 }
+
+/* At every sample the load over the strain of the scene's first measure of kind K. BRC_BAD_INPUT: it has none. K_mean,
+ * over the last half of them (reference: E / (3 (1 - 2 nu)) of the scene's only material), and settled, the time after
+ * which they stay within 2 % of it [s]; and <run>.png with its numbers, <run>.dat, in the campaign's folder. */
+const brc_operator brc_operator_pressing = {.name = "pressing", .create = create, .observer = observer, .values = values, .release = release};

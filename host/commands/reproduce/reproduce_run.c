@@ -1,24 +1,13 @@
 /* Carrying out one run of a case. */
 #include "../price/pace.h"
-#include "reproduce_bounce.h"
-#include "reproduce_field.h"
+#include "operators.h"
 #include "reproduce_fracture.h"
-#include "reproduce_fragments.h"
-#include "reproduce_hondros.h"
-#include "reproduce_pressing.h"
-#include "reproduce_sides.h"
-#include "reproduce_told.h"
-#include "reproduce_virial.h"
-#include "reproduce_wave.h"
-#include "../scene_domain.h"
-#include "../../../preprocess/domain/domain_file.h"
 #include "../../base/file.h"
 #include "../../base/log.h"
 #include "../../base/memory.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 void brc_outcome_add(brc_outcome *outcome, const char *name, const char *unit, double value, double reference)
 {
@@ -82,12 +71,8 @@ static brc_status finished(void *self, brc_simulation *simulation)
     brc_outcome_add(h->outcome, "iterations", "-", (double)report.iterations, NAN);
     brc_outcome_add(h->outcome, "residual", "-", report.residual, NAN);
     if (brc_simulation_has_fracture(simulation)) BRC_TRY(brc_fracture_values(h->context, simulation, h->outcome));
-    if (h->outcome->run->operator == BRC_CASE_FRAGMENTS) return brc_fragments_values(h->context, simulation, h->outcome);
-    if (h->outcome->run->operator == BRC_CASE_HONDROS) return brc_hondros_values(h->context, simulation, h->outcome);
-    if (h->outcome->run->operator == BRC_CASE_FIELD) return brc_field_values(h->context, simulation, h->outcome);
-    if (h->outcome->run->operator == BRC_CASE_VIRIAL) return brc_virial_values(h->context, simulation, h->outcome);
-    if (h->outcome->run->operator == BRC_CASE_VIBRATION) return brc_vibration_values(h->context, simulation, h->outcome);
-    return BRC_OK;
+    const brc_operator *operator = h->outcome->run->operator;
+    return operator->finished ? operator->finished(h->context, simulation, h->outcome) : BRC_OK;
 }
 
 /* stopped: the measures of a run that was stopped are of a state nobody should trust; its counts and times stand. */
@@ -122,18 +107,16 @@ static void take(brc_outcome *outcome, const brc_run_results *results, bool stop
         brc_outcome_add(outcome, "bytes_per_element", "byte", (double)results->device_bytes / (double)results->n_elements, NAN);
 }
 
-static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text, size_t bytes, const char *folder)
+brc_status brc_outcome_simulate(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text, size_t bytes,
+                                const char *folder)
 {
     brc_context *context = campaign->session->context;
     const brc_case_run *run = outcome->run;
     const brc_device_request device = {.selector = run->device ? run->device : campaign->device ? campaign->device : "auto", .precision = outcome->precision,
                                        .n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads, .exact = run->exact || campaign->exact};
     hooks h = {context, outcome, campaign->priced ? &device : NULL, brc_processor_s(), 0};
-    brc_drift *drift = NULL;
-    brc_pressing *pressing = NULL;
-    brc_wave *wave = NULL;
-    brc_bounce *bounce = NULL;
-    brc_sides *sides = NULL;
+    const brc_operator *operator = run->operator;
+    void *watching = NULL;
     brc_observer observer;
     brc_run_request request = {.path = scene,
                                .text = text,
@@ -149,44 +132,19 @@ static brc_status simulate(brc_campaign *campaign, brc_outcome *outcome, const c
                                .finished = finished,
                                .self = &h,
                                .running = campaign->session->running};
-    if (run->operator == BRC_CASE_DRIFT) {
-        BRC_TRY(brc_drift_create(context, &drift));
-        observer = brc_drift_observer(drift);
-        request.observer = &observer;
-    }
-    if (run->operator == BRC_CASE_PRESSING) {
-        BRC_TRY(brc_pressing_create(context, &pressing));
-        observer = brc_pressing_observer(pressing);
-        request.observer = &observer;
-    }
-    if (run->operator == BRC_CASE_WAVE) {
-        BRC_TRY(brc_wave_create(context, &wave));
-        observer = brc_wave_observer(wave);
-        request.observer = &observer;
-    }
-    if (run->operator == BRC_CASE_BOUNCE) {
-        BRC_TRY(brc_bounce_create(context, &bounce));
-        observer = brc_bounce_observer(bounce);
-        request.observer = &observer;
-    }
-    if (run->operator == BRC_CASE_SIDES) {
-        BRC_TRY(brc_sides_create(context, &sides));
-        observer = brc_sides_observer(sides);
+    if (operator->create) {
+        BRC_TRY(operator->create(context, &watching));
+        observer = operator->observer(watching);
         request.observer = &observer;
     }
     brc_run_results results;
     brc_status status = brc_run_scene(context, &request, &results);
     take(outcome, &results, status == BRC_PHYSICS_STOPPED);
-    if (drift) brc_drift_values(drift, outcome);
-    brc_drift_free(&drift);
-    if (pressing && status == BRC_OK) status = brc_pressing_values(campaign, pressing, outcome);
-    brc_pressing_free(&pressing);
-    if (wave && status == BRC_OK) status = brc_wave_values(wave, outcome);
-    brc_wave_free(&wave);
-    if (bounce && status == BRC_OK) status = brc_bounce_values(bounce, outcome);
-    brc_bounce_free(&bounce);
-    if (sides && status == BRC_OK) brc_sides_values(sides, outcome);
-    brc_sides_free(&sides);
+    if (watching && (status == BRC_OK || operator->stopped_too)) {
+        const brc_status valued = operator->values(campaign, watching, outcome);
+        if (status == BRC_OK) status = valued;
+    }
+    if (watching) operator->release(watching);
     brc_run_results_free(&results);
     return status;
 }
@@ -218,7 +176,7 @@ static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome,
     sums all[BRC_CASE_VALUES] = {{0}};
     uint64_t seed;
     int n_whole = 0;
-    if (run.keep || run.n_overrides == BRC_CASE_LIST || run.operator == BRC_CASE_DRIFT || run.operator == BRC_CASE_VIBRATION)
+    if (run.keep || run.n_overrides == BRC_CASE_LIST || run.operator->one_run)
         return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no seeds together with keep, drift, vibration or %d overrides", run.name, BRC_CASE_LIST);
     BRC_TRY(brc_scene_read_text(context, scene, text, bytes, run.n_overrides, run.overrides, &read));
     const char *key = seed_key(read, &seed);
@@ -234,7 +192,7 @@ static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome,
         run.n_overrides = outcome->run->n_overrides + 1;
         run.overrides[run.n_overrides - 1] = override;
         BRC_TRY(brc_file_join(context, folder, name, &one_folder));
-        const brc_status status = simulate(campaign, &one, scene, text, bytes, one_folder);
+        const brc_status status = brc_outcome_simulate(campaign, &one, scene, text, bytes, one_folder);
         brc_memory_free(one_folder);
         outcome->seconds += one.seconds;
         outcome->steps += one.steps;
@@ -266,51 +224,6 @@ static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome,
         if (strcmp(outcome->values[v].name, "stopped") == 0) outcome->values[v].value = (double)(n - n_whole) / n;
     }
     if (n_whole == 0) brc_outcome_add(outcome, "stopped", "-", 1, NAN);
-    return BRC_OK;
-}
-
-/* Seeds to domain file. The file itself is not kept: at a million elements it is larger than all other results. */
-static brc_status build(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes, const char *folder)
-{
-    brc_context *context = campaign->session->context;
-    const brc_case_run *run = outcome->run;
-    brc_status status = BRC_OK;
-    brc_scene *scene = NULL;
-    brc_domain *domain = NULL;
-    char *path = NULL;
-    BRC_TRY(brc_file_make_folder(context, folder));
-    BRC_TRY(brc_file_join(context, folder, "domain.h5", &path));
-    BRC_TRY_OR(cleanup, brc_scene_read_text(context, name, text, bytes, run->n_overrides, run->overrides, &scene));
-    const double start = brc_clock_s();
-    const int n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads;
-    BRC_TRY_OR(cleanup, brc_scene_domain_build(context, scene, n_threads, &domain));
-    const double built = brc_clock_s();
-    BRC_TRY_OR(cleanup, brc_domain_write(context, domain, path));
-    const double end = brc_clock_s();
-    unlink(path);
-    outcome->seconds = end - start;
-    outcome->n_elements = domain->n_elements;
-    outcome->n_bonds = domain->n_bonds;
-    brc_outcome_add(outcome, "seconds", "s", end - start, NAN);
-    brc_outcome_add(outcome, "build_seconds", "s", built - start, NAN);
-    brc_outcome_add(outcome, "write_seconds", "s", end - built, NAN);
-    brc_outcome_add(outcome, "elements", "-", (double)domain->n_elements, NAN);
-    brc_outcome_add(outcome, "bonds", "-", (double)domain->n_bonds, NAN);
-    brc_outcome_add(outcome, "volume_error", "-", domain->quality.volume_error, 0);
-cleanup:
-    brc_memory_free(path);
-    brc_domain_free(&domain);
-    brc_scene_free(&scene);
-    return status;
-}
-
-/* What `check` says of the scene, then the run. */
-static brc_status simulate_told(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text, size_t bytes, const char *folder)
-{
-    double error_class;
-    BRC_TRY(brc_told_class(campaign, outcome, scene, text, bytes, &error_class));
-    BRC_TRY(simulate(campaign, outcome, scene, text, bytes, folder));
-    brc_told_values(error_class, outcome);
     return BRC_OK;
 }
 
@@ -364,12 +277,9 @@ brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome)
     status = brc_file_join(context, folder, run->scene, &path);
     if (status == BRC_OK) status = put_files(campaign, run, folder);
     if (status == BRC_OK)
-        status = run->operator == BRC_CASE_BUILD      ? build(campaign, outcome, path, text, bytes, folder)
-                 : run->operator == BRC_CASE_ISOTROPY ? brc_isotropy_values(campaign, outcome, path, text, bytes)
-                 : run->operator == BRC_CASE_BEAMS    ? brc_beams_values(campaign, outcome, path, text, bytes)
-                 : run->operator == BRC_CASE_TOLD     ? simulate_told(campaign, outcome, path, text, bytes, folder)
-                 : run->n_seeds > 1                   ? simulate_samples(campaign, outcome, path, text, bytes, folder)
-                                                      : simulate(campaign, outcome, path, text, bytes, folder);
+        status = run->operator->obtain ? run->operator->obtain(campaign, outcome, path, text, bytes, folder)
+                 : run->n_seeds > 1    ? simulate_samples(campaign, outcome, path, text, bytes, folder)
+                                       : brc_outcome_simulate(campaign, outcome, path, text, bytes, folder);
     outcome->done = status == BRC_OK || (status == BRC_PHYSICS_STOPPED && run->may_stop);
     if (status != BRC_OK && status != BRC_INTERRUPTED && status != BRC_NO_MEMORY) {
         brc_log(context, outcome->done ? BRC_LOG_INFO : BRC_LOG_ERROR, "run %s: %s", run->name, brc_context_message(context));

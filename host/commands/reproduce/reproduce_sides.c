@@ -1,35 +1,37 @@
 /* The largest mean load of two sides along a run. */
-#include "reproduce_sides.h"
+#include "operators.h"
 #include "reproduce_watched.h"
 #include "../../base/memory.h"
 #include <math.h>
 
-struct brc_sides {
+typedef struct sides {
     brc_context *context;
     brc_watched watched;
     int32_t of[2];    /* sensors */
     double scale[2];
     bool is_last;     /* in the last stage */
     double largest;
-};
+} sides;
 
-brc_status brc_sides_create(brc_context *context, brc_sides **out)
+static brc_status create(brc_context *context, void **out)
 {
-    BRC_TRY(BRC_ALLOCATE(context, out, 1, "load of two sides"));
-    (*out)->context = context;
-    (*out)->largest = -INFINITY;
+    sides *s = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &s, 1, "load of two sides"));
+    s->context = context;
+    s->largest = -INFINITY;
+    *out = s;
     return BRC_OK;
 }
 
-void brc_sides_free(brc_sides **sides)
+static void release(void *self)
 {
-    if (!sides || !*sides) return;
-    brc_watched_close(&(*sides)->watched);
-    brc_memory_free(*sides);
-    *sides = NULL;
+    sides *s = self;
+    if (!s) return;
+    brc_watched_close(&s->watched);
+    brc_memory_free(s);
 }
 
-static brc_status prepare(brc_sides *s, brc_simulation *simulation)
+static brc_status prepare(sides *s, brc_simulation *simulation)
 {
     const brc_scene *scene = brc_simulation_scene(simulation);
     int n = 0;
@@ -47,20 +49,31 @@ static brc_status prepare(brc_sides *s, brc_simulation *simulation)
 
 static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t stage)
 {
-    brc_sides *s = self;
+    sides *s = self;
     s->is_last = stage == brc_simulation_scene(simulation)->n_stages - 1;
     return s->watched.sensors ? BRC_OK : prepare(s, simulation);
 }
 
 static brc_status sample(void *self, brc_simulation *simulation)
 {
-    brc_sides *s = self;
+    sides *s = self;
     if (!s->is_last) return BRC_OK;
     BRC_TRY(brc_watched_read(&s->watched, simulation));
     s->largest = fmax(s->largest, (s->scale[0] * s->watched.value[s->of[0]] + s->scale[1] * s->watched.value[s->of[1]]) / 2);
     return BRC_OK;
 }
 
-brc_observer brc_sides_observer(brc_sides *sides) { return (brc_observer){.self = sides, .stage_begin = stage_begin, .sample = sample}; }
+static brc_observer observer(void *self) { return (brc_observer){.self = self, .stage_begin = stage_begin, .sample = sample}; }
 
-void brc_sides_values(const brc_sides *sides, brc_outcome *outcome) { brc_outcome_add(outcome, "both_sides", "-", sides->largest, NAN); }
+static brc_status values(const brc_campaign *campaign, const void *self, brc_outcome *outcome)
+{
+    (void)campaign;
+    brc_outcome_add(outcome, "both_sides", "-", ((const sides *)self)->largest, NAN);
+    return BRC_OK;
+}
+
+/* At every sample of the last stage the mean of the sensors of the scene's first two measures of kind peak, each times
+ * its scale. BRC_BAD_INPUT: it has not two, or they divide by an area, or look at another stage or a window.
+ * both_sides: the largest of these means, in the unit that the scales give; waves that run to and fro between the
+ * sides after breaks raise one while they lower the other. */
+const brc_operator brc_operator_sides = {.name = "sides", .create = create, .observer = observer, .values = values, .release = release};

@@ -1,9 +1,10 @@
-#include "reproduce_told.h"
+/* The error class that `breccia check` gives of a scene, against the error of the run. */
+#include "operators.h"
 #include "../price/price.h"
 #include "../price/trial.h"
 #include <math.h>
 
-brc_status brc_told_class(brc_campaign *campaign, const brc_outcome *outcome, const char *name, const char *text, size_t bytes, double *error_class)
+static brc_status find_class(brc_campaign *campaign, const brc_outcome *outcome, const char *name, const char *text, size_t bytes, double *error_class)
 {
     brc_context *context = campaign->session->context;
     const brc_case_run *run = outcome->run;
@@ -34,7 +35,7 @@ cleanup:
     return status;
 }
 
-void brc_told_values(double error_class, brc_outcome *outcome)
+static void add_values(double error_class, brc_outcome *outcome)
 {
     double actual = NAN;
     for (int k = 0; k < outcome->n_values; ++k) {
@@ -46,3 +47,19 @@ void brc_told_values(double error_class, brc_outcome *outcome)
     brc_outcome_add(outcome, "actual", "-", actual, NAN);
     brc_outcome_add(outcome, "right", "-", right, NAN);
 }
+
+/* What `check` says of the scene, then the run. */
+static brc_status obtain(brc_campaign *campaign, brc_outcome *outcome, const char *name, const char *text, size_t bytes,
+                         const char *folder)
+{
+    double error_class;
+    BRC_TRY(find_class(campaign, outcome, name, text, bytes, &error_class));
+    BRC_TRY(brc_outcome_simulate(campaign, outcome, name, text, bytes, folder));
+    add_values(error_class, outcome);
+    return BRC_OK;
+}
+
+/* told (the class of the scene by a trial and coarser bodies, price.h [-]; BRC_BAD_INPUT where none is known), actual
+ * (the largest error of the measures with a target) and right: 1 where actual is at most the upper edge of the class,
+ * 10^(1/4) of it, and not below a tenth of it unless the class is the finest; else 0. */
+const brc_operator brc_operator_told = {.name = "told", .obtain = obtain};

@@ -1,6 +1,6 @@
 /* Modes of a free solid of cells against Rayleigh-Ritz. */
 #include "../references/reference_vibration.h"
-#include "reproduce.h"
+#include "operators.h"
 #include <math.h>
 #include <string.h>
 
@@ -25,7 +25,7 @@ static bool solid_of(const brc_body *body, const brc_material *material, brc_ref
     return shape->kind == BRC_SHAPE_BOX || shape->kind == BRC_SHAPE_CYLINDER || shape->kind == BRC_SHAPE_SPHERE;
 }
 
-brc_status brc_vibration_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
+static brc_status finished(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
 {
     int32_t n;
     const double *omega = brc_simulation_modes(simulation, &n);
@@ -46,3 +46,6 @@ brc_status brc_vibration_values(brc_context *context, brc_simulation *simulation
     brc_outcome_add(outcome, "rms", "-", sqrt(squares / n), 0);
     return BRC_OK;
 }
+
+/* The vibration operator: rms of the relative errors of the modes, and each mode [rad/s] with its exact value. */
+const brc_operator brc_operator_vibration = {.name = "vibration", .one_run = true, .finished = finished};

@@ -1,5 +1,5 @@
 /* Mean virial stress of elements against the stress of the sample, as NAH19 eq. 9. */
-#include "reproduce_virial.h"
+#include "operators.h"
 #include "../../base/memory.h"
 #include "../../output/sensors/sphere_box.h"
 #include <math.h>
@@ -69,7 +69,7 @@ static double mean_of(const brc_domain *d, const sample *s, const double *stress
     return mean;
 }
 
-brc_status brc_virial_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
+static brc_status finished(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
 {
     const brc_domain *d = brc_simulation_domain(simulation);
     double *stress = NULL;
@@ -95,3 +95,9 @@ cleanup:
     brc_memory_free(stress);
     return status;
 }
+
+/* The virial operator, at the end of a run, for levels 0, 1, 2: level_K, mean of the normal stress along the pull over
+ * the bonded elements that are not loaded, over force / section, minus 1; inside_K, the same over those more than two
+ * mean diameters away from the walls; scatter_K, how those differ from each other (standard deviation over mean).
+ * BRC_BAD_INPUT: not one box of spheres pulled along an axis by two loads in its last stage. */
+const brc_operator brc_operator_virial = {.name = "virial", .finished = finished};

@@ -1,10 +1,10 @@
 /* The free end of a bar, sample by sample. */
-#include "reproduce_wave.h"
+#include "operators.h"
 #include "reproduce_watched.h"
 #include "../../base/memory.h"
 #include <math.h>
 
-struct brc_wave {
+typedef struct wave {
     brc_context *context;
     brc_watched watched;
     int32_t end;   /* sensor */
@@ -13,24 +13,26 @@ struct brc_wave {
     int64_t n;
     double squares_off, squares; /* [m^2] */
     double peak, peak_exact;     /* [m] */
-};
+} wave;
 
-brc_status brc_wave_create(brc_context *context, brc_wave **out)
+static brc_status create(brc_context *context, void **out)
 {
-    BRC_TRY(BRC_ALLOCATE(context, out, 1, "wave of a run"));
-    (*out)->context = context;
+    wave *w = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &w, 1, "wave of a run"));
+    w->context = context;
+    *out = w;
     return BRC_OK;
 }
 
-void brc_wave_free(brc_wave **wave)
+static void release(void *self)
 {
-    if (!wave || !*wave) return;
-    brc_watched_close(&(*wave)->watched);
-    brc_memory_free(*wave);
-    *wave = NULL;
+    wave *w = self;
+    if (!w) return;
+    brc_watched_close(&w->watched);
+    brc_memory_free(w);
 }
 
-static brc_status prepare(brc_wave *w, brc_simulation *simulation)
+static brc_status prepare(wave *w, brc_simulation *simulation)
 {
     const brc_scene *scene = brc_simulation_scene(simulation);
     const brc_stage *stage = &scene->stages[0];
@@ -50,11 +52,11 @@ static brc_status prepare(brc_wave *w, brc_simulation *simulation)
 }
 
 /* a(t), at rest before the stage. */
-static double driven(const brc_wave *w, double t) { return t > 0 ? w->amplitude * brc_table_value(&w->load->table, t) : 0; }
+static double driven(const wave *w, double t) { return t > 0 ? w->amplitude * brc_table_value(&w->load->table, t) : 0; }
 
 static brc_status sample(void *self, brc_simulation *simulation)
 {
-    brc_wave *w = self;
+    wave *w = self;
     if (!w->watched.sensors) BRC_TRY(prepare(w, simulation));
     BRC_TRY(brc_watched_read(&w->watched, simulation));
     const double t = brc_simulation_time(simulation), u = w->watched.value[w->end];
@@ -68,12 +70,22 @@ static brc_status sample(void *self, brc_simulation *simulation)
     return BRC_OK;
 }
 
-brc_observer brc_wave_observer(brc_wave *wave) { return (brc_observer){.self = wave, .sample = sample}; }
+static brc_observer observer(void *self) { return (brc_observer){.self = self, .sample = sample}; }
 
-brc_status brc_wave_values(const brc_wave *w, brc_outcome *outcome)
+static brc_status values(const brc_campaign *campaign, const void *self, brc_outcome *outcome)
 {
+    const wave *w = self;
+    (void)campaign;
     if (!(w->squares > 0)) return BRC_FAIL(w->context, BRC_BAD_INPUT, "run %s: no wave came to the end x+; let it run longer than it travels", outcome->run->name);
     brc_outcome_add(outcome, "wave_error", "-", sqrt(w->squares_off / w->squares), 0);
     brc_outcome_add(outcome, "wave_peak", "-", w->peak / w->peak_exact, 1);
     return BRC_OK;
 }
+
+/* The wave operator: a box whose end x- moves by the first load of the stage, u(t) = a(t) e, and whose end x+ is free.
+ * Its mean displacement, the scene's sensor `end`, is held against 2 [a(t - T) - a(t - 3 T) + a(t - 5 T) - ...], T =
+ * length / speed, at every sample. The speed is that of plane waves in a bar of the body's own mass, so the loads must
+ * keep the bar plane: sides that slide for a pressure wave (e along x), sides held in their normal's other directions
+ * for a shear wave (e across x). wave_error: root of the mean square of the difference over that of the solution;
+ * wave_peak: largest displacement over the solution's. BRC_BAD_INPUT: no such scene. */
+const brc_operator brc_operator_wave = {.name = "wave", .create = create, .observer = observer, .values = values, .release = release};

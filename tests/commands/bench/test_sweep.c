@@ -1,5 +1,6 @@
 #include "../support.h"
 #include "../../../host/commands/bench/sweep.h"
+#include "../../../host/commands/reproduce/operators.h"
 #include "../../../host/base/file.h"
 #include "../../../host/base/memory.h"
 #include <stdio.h>
@@ -47,7 +48,7 @@ static void every_combination_is_a_run_once(void **state)
     assert_string_equal(sweep->sweep_of[1], "first");
     assert_string_equal(sweep->sweep_of[4], "second");
     assert_int_equal(sweep->cost, BRC_SWEEP_COST_CROSSINGS);
-    assert_int_equal(sweep->what.runs[0].operator, BRC_CASE_VIBRATION);
+    assert_string_equal(sweep->what.runs[0].operator->name, "vibration");
     brc_sweep_free(&sweep);
     remove_problem(folder);
     brc_context_free(&context);

@@ -1,7 +1,7 @@
 #include "../support.h"
 #include "../../../host/base/file.h"
 #include "../../../host/base/log.h"
-#include "../../../host/commands/reproduce/reproduce.h"
+#include "../../../host/commands/reproduce/operators.h"
 #include "../../../preprocess/domain/build.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ static made *make(int n_seeds)
     m.what = (brc_case){.name = "made", .n_runs = 1, .runs = &m.run};
     m.outcome.run = &m.run;
     m.campaign = (brc_campaign){.session = &m.session, .what = &m.what, .folder = "made-isotropy", .outcomes = &m.outcome, .n_threads = 1};
-    assert_int_equal(brc_isotropy_values(&m.campaign, &m.outcome, "scene.yaml", scene, sizeof scene - 1), BRC_OK);
+    assert_int_equal(brc_operator_isotropy.obtain(&m.campaign, &m.outcome, "scene.yaml", scene, sizeof scene - 1, NULL), BRC_OK);
     m.outcome.done = true;
     return &m;
 }
@@ -80,7 +80,7 @@ static void one_sample_has_no_scatter_and_figures_are_drawn(void **state)
     made *m = make(1);
     assert_true(isnan(brc_outcome_find(&m->outcome, "cubic")->scatter));
     assert_int_equal(brc_file_make_folder(m->session.context, "made-isotropy"), BRC_OK);
-    assert_int_equal(brc_isotropy_figures(&m->campaign), BRC_OK);
+    assert_int_equal(brc_operator_isotropy.figure(&m->campaign), BRC_OK);
     assert_true(brc_file_exists("made-isotropy/made.png"));
     assert_true(brc_file_exists("made-isotropy/made-area.png"));
     assert_true(brc_file_exists("made-isotropy/made-inside.png"));
