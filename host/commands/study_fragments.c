@@ -1,7 +1,7 @@
 /* Laws of the sizes of fragments, of one run or of some together. Sizes are shares of the mass of a run, or their cube
  * roots, so that runs of bodies of any size can be put together. */
 #include "study.h"
-#include "least_squares.h"
+#include "calibrate/least_squares.h"
 #include "../base/file.h"
 #include "../base/memory.h"
 #include "../output/csv_read.h"
