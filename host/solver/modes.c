@@ -1,10 +1,10 @@
 /* Lowest free vibration modes K x = omega^2 M x of the linearised operator, by locally optimal block preconditioned
- * conjugate gradients (Knyazev, SIAM J. Sci. Comput. 23, 2001) on the very force kernels of the scene; the small dense
- * problems go to LAPACK. The operator of dlsm-published is not symmetric: there the dense problem is the unsymmetric one and
+ * conjugate gradients (Knyazev, SIAM J. Sci. Comput. 23, 2001) on the very force kernels of the scene, with multigrid or diagonal
+ * blocks for K^-1; the small dense problems go to LAPACK. The operator of dlsm-published is not symmetric: there the dense problem is the unsymmetric one and
  * the modes are its eigenvalues of smallest magnitude. Rigid motions are in the first block, so they converge at once and
  * are left out of the result. */
 #include "../base/random.h"
-#include "simulation_internal.h"
+#include "multigrid/multigrid.h"
 #include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
@@ -34,7 +34,9 @@ typedef struct mode_space {
     int m;
     double *x, *kx, *w, *kw, *p, *kp, *fresh, *k_fresh; /* [m][n] each */
     double *mass;                                        /* [n] */
-    double *blocks;                                      /* [n_rows][6] */
+    double *blocks;                                      /* [n_rows][6]; NULL: multigrid */
+    brc_multigrid *multigrid;
+    brc_pieces pieces; /* whose free motions multigrid would make large */
     unsigned char *fixed;                                /* [n] 1: imposed */
     brc_buffer *in, *out, *orientation, *torque;
 } mode_space;
@@ -55,6 +57,18 @@ static const brc_field_row mode_rows[] = {
 };
 BRC_FIELD_TABLE(brc_mode_fields, "free vibration modes", BRC_LIFE_SOLVE, modes, mode_rows);
 
+static brc_status prepare_preconditioner(mode_space *t)
+{
+    brc_simulation *s = t->s;
+    if (s->domain->n_elements >= BRC_MULTIGRID_LEAST) {
+        brc_multigrid_origin origin = {0};
+        BRC_TRY(brc_multigrid_create(s, &origin, &t->multigrid));
+        return brc_pieces_find(s, &t->pieces);
+    }
+    BRC_TRY(BRC_ALLOCATE(s->context, &t->blocks, 2 * t->n, "modes"));
+    return brc_geometry_precondition_blocks(s, t->blocks);
+}
+
 static brc_status allocate(mode_space *t)
 {
     brc_simulation *s = t->s;
@@ -62,9 +76,8 @@ static brc_status allocate(mode_space *t)
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) BRC_TRY(BRC_ALLOCATE(s->context, all[i], t->n * t->m, "modes"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->mass, t->n, "modes"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->fixed, t->n, "modes"));
-    BRC_TRY(BRC_ALLOCATE(s->context, &t->blocks, 2 * t->n, "modes"));
-    BRC_TRY(brc_geometry_precondition_blocks(s, t->blocks));
     BRC_TRY(brc_fields_create(s->device, &brc_mode_fields, &s->wants, t));
+    BRC_TRY(prepare_preconditioner(t));
     double *mass = t->w; /* scratch */
     BRC_TRY(brc_download(s, s->mass, brc_precision_state_bytes(brc_device_get_precision(s->device)), mass, t->n / 3));
     for (int64_t i = 0; i < t->n; ++i) {
@@ -84,6 +97,8 @@ static void release(mode_space *t)
     double *all[] = {t->x, t->kx, t->w, t->kw, t->p, t->kp, t->fresh, t->k_fresh, t->mass, t->blocks};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_memory_free(all[i]);
     brc_memory_free(t->fixed);
+    brc_multigrid_free(&t->multigrid);
+    brc_pieces_free(&t->pieces);
     brc_fields_free(&brc_mode_fields, t);
 }
 
@@ -274,7 +289,7 @@ static void combine(mode_space *t, int count, int from, double *const *columns, 
     }
 }
 
-/* w = P (K x - l M x) for every column; the largest relative residual of the first `wanted` elastic modes. active [m]: columns that are worth a direction. */
+/* w = K x - l M x for every column; the largest relative residual of the first `wanted` elastic modes. active [m]: columns that are worth a direction. */
 static double residuals(mode_space *t, const double *values, int wanted, unsigned char *active)
 {
     double worst = 0;
@@ -290,16 +305,32 @@ static double residuals(mode_space *t, const double *values, int wanted, unsigne
         const bool rigid = values[k] < rigid_part * largest;
         active[k] = !rigid && sqrt(square) > finished * values[k];
         if (!rigid && counted++ < wanted && sqrt(square) > worst * values[k]) worst = sqrt(square) / values[k];
-        for (int64_t r = 0; r < t->n / 3; ++r) {
-            const double *b = t->blocks + 6 * r, a0 = w[3 * r], a1 = w[3 * r + 1], a2 = w[3 * r + 2];
-            w[3 * r] = b[0] * a0 + b[5] * a1 + b[4] * a2;
-            w[3 * r + 1] = b[5] * a0 + b[1] * a1 + b[3] * a2;
-            w[3 * r + 2] = b[4] * a0 + b[3] * a1 + b[2] * a2;
-            for (int c = 0; c < 3; ++c)
-                if (t->fixed[3 * r + c]) w[3 * r + c] = 0;
-        }
     }
     return counted < wanted ? INFINITY : worst;
+}
+
+/* w becomes P w. */
+static brc_status precondition(mode_space *t, double *w)
+{
+    brc_simulation *s = t->s;
+    if (t->multigrid) {
+        const brc_solve_vectors pieces = {.pieces = t->pieces};
+        const brc_unknowns in = {t->in, NULL}, out = {t->out, NULL};
+        BRC_TRY(brc_upload_state(s, t->in, w, t->n));
+        BRC_TRY(brc_statics_project_free_motions(s, &pieces, in));
+        BRC_TRY(brc_multigrid_apply(t->multigrid, in, out));
+        BRC_TRY(brc_statics_project_free_motions(s, &pieces, out));
+        BRC_TRY(brc_download(s, t->out, brc_precision_state_bytes(brc_device_get_precision(s->device)), w, t->n));
+    }
+    for (int64_t r = 0; t->blocks && r < t->n / 3; ++r) {
+        const double *b = t->blocks + 6 * r, a0 = w[3 * r], a1 = w[3 * r + 1], a2 = w[3 * r + 2];
+        w[3 * r] = b[0] * a0 + b[5] * a1 + b[4] * a2;
+        w[3 * r + 1] = b[5] * a0 + b[1] * a1 + b[3] * a2;
+        w[3 * r + 2] = b[4] * a0 + b[3] * a1 + b[2] * a2;
+    }
+    for (int64_t i = 0; i < t->n; ++i)
+        if (t->fixed[i]) w[i] = 0;
+    return BRC_OK;
 }
 
 /* Largest relative change of the elastic eigenvalues since the last look, which is renewed. */
@@ -374,8 +405,11 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
             goto cleanup;
         }
         if (!memchr(active, 1, (size_t)m)) goto cleanup;
-        for (int k = 0; k < m; ++k)
-            if (active[k]) BRC_TRY_OR(cleanup, multiply(t, t->w + k * t->n, t->kw + k * t->n));
+        for (int k = 0; k < m; ++k) {
+            if (!active[k]) continue;
+            BRC_TRY_OR(cleanup, precondition(t, t->w + k * t->n));
+            BRC_TRY_OR(cleanup, multiply(t, t->w + k * t->n, t->kw + k * t->n));
+        }
     }
     status = BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "the modes did not settle in %d rounds", MOST_ROUNDS);
 cleanup:

@@ -1,11 +1,13 @@
 /* Elastic equilibrium. dlsm and cbm: preconditioned conjugate gradients on the linearised operator, matrix-free on the device, inside a
  * modified Newton iteration on the full law. dlsm-published has no symmetric operator: restarted GMRES
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
+#include "../base/random.h"
 #include "statics.h"
 #include "fracture_internal.h"
 #include "look.h"
 #include "multigrid/multigrid.h"
 #include "static_events.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -235,9 +237,47 @@ static brc_status correct(brc_simulation *s, brc_solve_vectors *v, bool finite)
     return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->theta), BRC_BUF(s->orientation));
 }
 
+/* How much of the residual a correction of the full law is solved to: to a tenth of what the law's change left of it after the correction before; the first one to `at_first`.
+ * Where no more was left than was asked for, the law hardly changes, and the next correction is the last. (Blocks lose more by beginning anew than this saves.) */
+static double worthwhile(int correction, double lasting)
+{
+    static const double at_first = 3e-4;
+    if (correction == 0) return at_first;
+    return lasting < 3 * at_first ? 0 : fmin(0.1 * lasting, 0.1);
+}
+
+/* Whether a residual that stands is what the rounding of the displacements alone leaves: of the force of as much noise as half their last digits, a few times over, since
+ * corrections and forces are rounded too. */
+static brc_status is_rounding(brc_simulation *s, brc_solve_vectors *v, double norm, double reference, bool *out)
+{
+    static const double few = 8;
+    const int64_t n = 3 * (int64_t)s->layout->n_rows;
+    double *u = NULL, square;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, n, "rounding"));
+    BRC_TRY_OR(cleanup, brc_download(s, s->displacement, v->state_bytes, u, n));
+    for (int64_t i = 0; i < n; ++i) {
+        double draws[4];
+        brc_random_uniform4(0, BRC_RANDOM_POWER_ITERATION, (uint64_t)i, 2, draws);
+        u[i] *= (draws[0] - 0.5) * (v->state_bytes == 8 ? DBL_EPSILON : FLT_EPSILON);
+    }
+    BRC_TRY_OR(cleanup, brc_upload_state(s, v->p.move, u, n));
+    if (v->p.turn) BRC_TRY_OR(cleanup, brc_buffer_fill_zero(v->p.turn));
+    BRC_TRY_OR(cleanup, brc_loads_zero_imposed(s, v->p.move));
+    BRC_TRY_OR(cleanup, brc_statics_apply(s, v));
+    BRC_TRY_OR(cleanup, brc_statics_square(s, v, v->kp, &square));
+    *out = norm <= few * sqrt(square);
+    brc_log(s->context, *out ? BRC_LOG_INFO : BRC_LOG_DEBUG, "stage '%s': the residual stands at %.3g of the load; rounding of the displacements leaves %.3g", brc_current_stage(s)->name,
+            norm / reference, sqrt(square) / reference);
+cleanup:
+    brc_memory_free(u);
+    return status;
+}
+
 static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, double *reference, brc_progress *progress)
 {
     const brc_stage *stage = brc_current_stage(s);
+    static const double most_of_rounding = 1e-6; /* of the load; what is worse is no equilibrium, whatever the reason */
     const double tolerance = brc_statics_tolerance(s);
     const bool published = brc_is_published(s), finite = stage->finite_strain && !published;
     const bool coarse = brc_device_get_precision(s->device) != BRC_DOUBLE;
@@ -247,24 +287,27 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
     for (int correction = 0; norm > tolerance * *reference; ++correction) {
         if (correction == MOST_CORRECTIONS || (correction > 2 && norm > 0.9 * last && norm > 0.9 * earlier)) {
             const bool near = norm < 100 * tolerance * *reference;
-            if (coarse && near) break; /* the precision's own floor */
+            bool done = coarse && near; /* the precision's own floor */
+            if (!done && norm < most_of_rounding * *reference) BRC_TRY(is_rounding(s, v, norm, *reference, &done));
+            if (done) break;
             if (!near || !v->preconditioner.multigrid)
                 return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
                                 "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d corrections, asked %.3g; "
                                 "check that the loads balance or the supports hold the body, use more increments, or relax `tolerance`",
                                 stage->name, s->load_factor, norm / *reference, correction, tolerance);
-            brc_preconditioner_give_up(s, v); /* blocks come a little lower (docs/notebook/performance.md) */
+            brc_preconditioner_give_up(s, v);
             last = norm = INFINITY;
         }
+        const double lasting = norm / last; /* the part of the residual that the correction before this one left */
         earlier = last;
         last = norm;
         BRC_TRY(brc_unknowns_copy((brc_unknowns){s->force, s->torque}, v->r));
         /* the right side without what the supports leave free: a stiffness about the reference cannot take it, and of a residual about the moved
          * sample a part as large as its strain is left in it, on which conjugate gradients would break down */
         if (!published) BRC_TRY(brc_statics_project_free_motions(s, v, v->r));
-        const double target = 0.3 * tolerance * *reference;
         const int32_t most = brc_statics_most_iterations(s);
         BRC_TRY(brc_preconditioner_prepare(s, v));
+        const double worth = finite && v->preconditioner.multigrid ? worthwhile(correction, lasting) : 0, target = fmax(0.3 * tolerance * *reference, worth * norm);
         BRC_TRY(published ? brc_gmres(s, v, target, most, progress, &left)
                           : brc_conjugate_gradients(s, v, false, target, most, progress, &left));
         BRC_TRY(correct(s, v, finite));

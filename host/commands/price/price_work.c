@@ -9,7 +9,7 @@ static const double mode_of_round = 10, swept_cell = 200, packed_sphere = 2000, 
 
 bool brc_price_iterations_grow(const brc_stage *stage, double across)
 {
-    return stage->solver != BRC_SOLVER_STATIC || stage->preconditioner == BRC_PRECONDITIONER_BLOCKS ||
+    return stage->solver == BRC_SOLVER_DYNAMIC || stage->preconditioner == BRC_PRECONDITIONER_BLOCKS ||
            (stage->preconditioner == BRC_PRECONDITIONER_AUTO && across < multigrid_across);
 }
 
@@ -36,7 +36,7 @@ double brc_price_work(const brc_scene *scene, const brc_setup *setup, const brc_
         const brc_stage *stage = &scene->stages[k];
         const double planned = (double)trial->stages[k].planned;
         if (stage->solver == BRC_SOLVER_DYNAMIC) work += planned * n_bonds * (scene->has_contact ? touching : 1);
-        else if (stage->solver == BRC_SOLVER_MODES) work += iterations_across * across * mode_of_round * stage->n_modes * n_bonds;
+        else if (stage->solver == BRC_SOLVER_MODES) work += brc_price_iterations(stage, across) * mode_of_round * n_bonds;
         else work += fmax(1, planned) * brc_price_iterations(stage, across) * n_bonds;
     }
     return work;

@@ -5,11 +5,12 @@
 #include <string.h>
 
 /* Springs along and across bonds that have the elasticity of the solid: of a uniform strain E their energy is lambda tr(E)^2 / 2 + mu E:E with
- * axial - shear = 5 lambda and shear = 2 mu - 2 lambda. Across bonds it must stay positive, so lambda counts up to `most` of mu. */
+ * axial - shear = 5 lambda and shear = 2 mu - 2 lambda. Across bonds it must stay positive, so lambda counts up to `most` of mu. Below zero it does not count: where volume is soft
+ * the law is as stiff along a wave as it is without, and springs across bonds that make up for soft ones along them lock. */
 brc_bond_moduli brc_bond_moduli_of(const brc_elastic *m)
 {
-    static const double most = 0.5, frame = 0.1; /* of mu */
-    const double lambda = fmin(m->lambda, most * m->mu);
+    static const double most = 0.4, frame = 0.2; /* of mu; measured (docs/notebook/performance.md), flat about here */
+    const double lambda = fmax(fmin(m->lambda, most * m->mu), 0);
     return (brc_bond_moduli){2 * m->mu + 3 * lambda, 2 * m->mu - 2 * lambda, frame * m->mu};
 }
 
