@@ -19,13 +19,15 @@ LAW squat contact_quaternion(smat3 r)
     return squat_normalised((squat){r.yx - r.xy, r.xz + r.zx, r.zy + r.yz, zz});
 }
 
-/* Cells without bonds, which are exposed, become rigid: they keep the rotation of their deformation and begin without spin, since a cell's mass is a point. found [n]: rigid ones. */
-KERNEL void contact_detach(int n, GLOBAL const int *restrict exposed, GLOBAL const int *restrict id, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                           GLOBAL const coeff *restrict gradient, GLOBAL int *restrict rigid, GLOBAL state *restrict turned, GLOBAL state *restrict found)
+/* Cells without bonds, which are exposed, become rigid: they keep the rotation of their deformation and begin without spin, since a cell's mass is a point. Those whose faces a load
+ * holds or pulls (loaded [n]: 1, else 0) do not turn: their H stays 0, by which held faces and tractions act on them. found [n]: rigid ones. */
+KERNEL void contact_detach(int n, GLOBAL const int *restrict exposed, GLOBAL const int *restrict id, GLOBAL const int *restrict loaded, GLOBAL const int *restrict row_start,
+                           GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict gradient, GLOBAL int *restrict rigid, GLOBAL state *restrict turned,
+                           GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(e, n) {
         int bonds = 0;
-        if (exposed[e] && !rigid[e] && id[e] >= 0) {
+        if (exposed[e] && !rigid[e] && !loaded[e] && id[e] >= 0) {
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) bonds += neighbour[(brc_size)slot * C + e % C] != e;
             if (bonds == 0) {
                 const squat q = contact_quaternion(contact_polar(contact_map(1, gradient, turned, e)));

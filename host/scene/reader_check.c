@@ -455,6 +455,9 @@ static void check_measure(brc_reader *reader, const brc_measure *measure)
     case BRC_MEASURE_AT_FIRST_BREAK:
     case BRC_MEASURE_MEAN: break;
     }
+    if (measure->area_set[0] && !brc_reader_is_broken(reader, "bodies") && brc_names_is_closed(scene, measure->area_set))
+        COMPLAIN(reader, measure->area_set, measure, "area: '%s' goes all the way round, so that no area of it stands across a load; expected faces of one side, as `sets: {NAME: {faces: {wall: %s, normal: ...}}}`, or "
+                 "`scale` with one over the area that is meant", measure->area_set, measure->area_set);
     if (measure->window[1] <= measure->window[0] && (measure->window[0] != 0 || measure->window[1] != 0))
         COMPLAIN(reader, measure->window, measure, "window: ends before it begins; expected [from, to]");
     const char *const in_time = measure->kind == BRC_MEASURE_FREQUENCY  ? "frequency"

@@ -60,6 +60,8 @@ void brc_wall_names_free(brc_wall_names *names);
 bool brc_wall_names_has(const brc_wall_names *names, const char *name);
 /* What refers to walls, sets, bodies, sensors, stages and strikers must name one that there is. */
 brc_status brc_names_check(brc_reader *reader, const brc_wall_names *walls);
+/* Is it a wall of cells, or a set of all of it, that goes all the way round, so that its area vectors sum to zero? */
+bool brc_names_is_closed(const brc_scene *scene, const char *name);
 /* Numbers of the bodies that sets name, and warnings about sets that are named as bodies. */
 void brc_names_find_bodies(brc_reader *reader);
 /* A set of elements for each body that is named as one, unless a wall or a set has the name. Last of all, as it moves the scene's sets. */

@@ -100,6 +100,39 @@ static bool is_taken(const brc_scene *scene, const wall_names *names, const char
     return brc_wall_names_has(names, name);
 }
 
+/* Do the area vectors of a wall of cells sum to zero: the side of a cylinder, the surface of a sphere, a ring or a mesh, the two sides of a crack? Of parts that others cut nothing is known. */
+static bool is_closed_wall(const brc_body *body, const char *wall)
+{
+    if (body->domain_file[0] || body->beams > 0) return false;
+    for (int c = 0; c < body->n_cracks; ++c)
+        if (strcmp(body->cracks[c].name, wall) == 0) return true;
+    switch (body->shape.kind) {
+    case BRC_SHAPE_CYLINDER: return strcmp(wall, "side") == 0;
+    case BRC_SHAPE_SPHERE:
+    case BRC_SHAPE_TORUS:
+    case BRC_SHAPE_MESH: return strcmp(wall, "surface") == 0;
+    default: return false;
+    }
+}
+
+bool brc_names_is_closed(const brc_scene *scene, const char *name)
+{
+    const char *wall = name;
+    for (int s = 0; s < scene->n_sets; ++s) {
+        const brc_predicate *p = &scene->sets[s].where;
+        if (strcmp(scene->sets[s].name, name) != 0) continue;
+        if (!p->has_wall || p->has_body || p->has_box || p->has_sphere || p->has_cylinder || p->has_half_space || p->has_normal) return false;
+        wall = p->wall;
+    }
+    bool any = false;
+    for (int b = 0; b < scene->n_bodies; ++b) any |= is_closed_wall(&scene->bodies[b], wall);
+    for (int b = 0; b < scene->n_bodies; ++b) { /* a wall of this name that is open, or may be */
+        const brc_body *body = &scene->bodies[b];
+        any &= !body->domain_file[0] && !(body->beams > 0) && !(body->shape.kind == BRC_SHAPE_CONE && strcmp(wall, "side") == 0);
+    }
+    return any;
+}
+
 /* Sets and walls inside a domain file are not known here: nothing is refused then. */
 static bool any_domain_file(const brc_scene *scene)
 {

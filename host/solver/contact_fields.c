@@ -63,6 +63,7 @@ static const brc_field_row rows[] = {
     {"piece_own", each_piece, 4, BRC_FIELD_STATE, NULL, AT(piece_own), "pieces of strikers", "m", BRC_NOT_KEPT},
     {"piece", each_piece, 4, BRC_FIELD_STATE, NULL, AT(piece), "pieces of strikers", "m", BRC_KEPT("contact.pieces", BRC_KEEP_ALL)},
     {"rigid", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(rigid), "rigid cells", "-", BRC_KEPT("contact.rigid", BRC_KEEP_ALL)},
+    {"loaded", brc_each_row, 1, BRC_FIELD_INT, detaching, AT(loaded), "cells with loaded faces", "-", BRC_NOT_KEPT},
     {"inertia", brc_each_row, 6, BRC_FIELD_STATE, detaching, AT(inertia), "inertia of cells", "kg m^2", BRC_NOT_KEPT},
     {"turned", brc_each_row, 4, BRC_FIELD_STATE, detaching, AT(turned), "orientations of cells", "-", BRC_KEPT("contact.turned", BRC_KEEP_ALL)},
     {"momentum", brc_each_row, 3, BRC_FIELD_STATE, detaching, AT(momentum), "angular momenta of cells", "kg m^2/s", BRC_KEPT("contact.momentum", BRC_KEEP_ALL)},

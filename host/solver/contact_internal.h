@@ -40,6 +40,7 @@ struct brc_contact_state {
     /* rigid cells of dlsm (contact_rigid.c) */
     bool detaches;
     double n_rigid;
+    brc_buffer *loaded; /* of rows: 1 where a load of any stage acts on a face of the element, which never becomes rigid */
     brc_buffer *rigid, *inertia, *turned, *momentum, *torque, *way;
     struct brc_ring_list *bonded; /* where most cells have none: those that still have bonds, and some that lost theirs since */
     brc_buffer *stored, *lost_friction, *lost_impact;

@@ -1,6 +1,36 @@
 /* Cells of dlsm that have lost all their bonds, as rigid bodies (kernels/contact_rigid.cl). */
 #include "cell_breaks_internal.h"
 #include "contact_internal.h"
+#include "loaded_faces.h"
+
+/* Elements with a face that a load holds or pulls. */
+static brc_status mark_loaded(brc_simulation *s, const brc_load *load, int32_t *loaded)
+{
+    const brc_domain *d = s->domain;
+    const int32_t at = brc_load_holds_faces(load) || brc_load_pulls_faces(load) ? brc_domain_find_set(d, load->set) : -1;
+    brc_loaded_face *pulled = NULL;
+    int64_t n = 0;
+    if (at < 0 || d->sets[at].kind != BRC_SET_FACES) return BRC_OK; /* refused where the stage begins */
+    if (brc_load_pulls_faces(load)) BRC_TRY(brc_loaded_faces(s->context, s->scene, d, d->sets + at, &pulled, &n));
+    else n = d->sets[at].n_members;
+    for (int64_t m = 0; m < n; ++m) loaded[s->layout->row_of_element[d->free_element[pulled ? pulled[m].face : d->sets[at].members[m]]]] = 1;
+    brc_memory_free(pulled);
+    return BRC_OK;
+}
+
+/* Those of the loads of all stages. */
+static brc_status find_loaded(brc_simulation *s)
+{
+    int32_t *loaded = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &loaded, s->layout->n_rows, "elements with loaded faces"));
+    for (int32_t k = 0; k < s->scene->n_stages; ++k)
+        for (int32_t l = 0; l < s->scene->stages[k].n_loads; ++l) BRC_TRY_OR(cleanup, mark_loaded(s, s->scene->stages[k].loads + l, loaded));
+    status = brc_upload_int(s->contact->loaded, loaded, s->layout->n_rows);
+cleanup:
+    brc_memory_free(loaded);
+    return status;
+}
 
 brc_status brc_contact_rigid_create(brc_simulation *s)
 {
@@ -10,6 +40,7 @@ brc_status brc_contact_rigid_create(brc_simulation *s)
     brc_status status = BRC_OK;
     c->detaches = c->turned != NULL;
     if (!c->detaches) return BRC_OK;
+    BRC_TRY(find_loaded(s));
     const struct {
         brc_kernel **slot;
         const char *name;
@@ -34,8 +65,8 @@ brc_status brc_contact_detach(brc_simulation *s)
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows;
     if (!c->detaches) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(c->kernel.detach, n, BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->id), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->gradient),
-                       BRC_BUF(c->rigid), BRC_BUF(c->turned), BRC_BUF(s->kinetic)));
+    BRC_TRY(BRC_LAUNCH(c->kernel.detach, n, BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->id), BRC_BUF(c->loaded), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
+                       BRC_BUF(s->gradient), BRC_BUF(c->rigid), BRC_BUF(c->turned), BRC_BUF(s->kinetic)));
     BRC_TRY(brc_vector_sum(s, s->kinetic, n, &c->n_rigid));
     return brc_contact_pose(s);
 }
@@ -43,7 +74,7 @@ brc_status brc_contact_detach(brc_simulation *s)
 brc_status brc_contact_list_bonded(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    if (!c || !c->detaches || !s->fracture || !(2 * c->n_rigid > s->layout->n_rows)) return BRC_OK;
+    if (!c || !c->detaches || !s->fracture || !(2 * c->n_rigid > (double)s->domain->n_elements)) return BRC_OK;
     if (!c->bonded) {
         BRC_TRY(BRC_ALLOCATE(s->context, &c->bonded, 1, "cells with bonds"));
         BRC_TRY(brc_fields_create(s->device, &brc_bonded_list_fields, &s->wants, c->bonded));

@@ -81,10 +81,8 @@ const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, cons
     return NULL;
 }
 
-static bool is_face_motion(const brc_load *load)
-{
-    return load->kind == BRC_LOAD_FACE_DISPLACEMENT || load->kind == BRC_LOAD_FACE_VELOCITY;
-}
+bool brc_load_holds_faces(const brc_load *load) { return load->kind == BRC_LOAD_FACE_DISPLACEMENT || load->kind == BRC_LOAD_FACE_VELOCITY; }
+bool brc_load_pulls_faces(const brc_load *load) { return load->kind == BRC_LOAD_TRACTION || load->kind == BRC_LOAD_PRESSURE; }
 static bool is_element_motion(const brc_load *load)
 {
     return load->kind == BRC_LOAD_ELEMENT_DISPLACEMENT || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
@@ -122,7 +120,7 @@ static brc_status collect_held(brc_simulation *s, const brc_stage *stage, int32_
     brc_status status = BRC_OK;
     for (int32_t l = 0; l < stage->n_loads; ++l) {
         const brc_load *load = stage->loads + l;
-        if (!is_face_motion(load)) continue;
+        if (!brc_load_holds_faces(load)) continue;
         const brc_set *set = brc_load_find_set(s, stage, load, BRC_SET_FACES, &status);
         if (!set) continue;
         int64_t twice = 0;
@@ -202,7 +200,7 @@ static brc_status create_held(brc_simulation *s, const brc_stage *stage, brc_hel
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &held->loads, stage->n_loads, "held loads"));
     for (int32_t l = 0; l < stage->n_loads; ++l) {
         const brc_load *load = stage->loads + l;
-        if (!is_face_motion(load)) continue;
+        if (!brc_load_holds_faces(load)) continue;
         const brc_set *set = brc_load_find_set(s, stage, load, BRC_SET_FACES, &status);
         if (!set) goto cleanup;
         brc_held_load *entry = held->loads + held->n_loads++;
@@ -452,7 +450,7 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
             status = brc_push_create(s, stage, l, out->pushes + out->n_pushes++);
         } else if (load->kind == BRC_LOAD_ELEMENT_ROTATION) {
             status = brc_turn_create(s, stage, l, turned, out->turns + out->n_turns++);
-        } else if (!is_face_motion(load)) {
+        } else if (!brc_load_holds_faces(load)) {
             if (brc_is_beams(s))
                 status = BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': cbm takes no tractions; use model dlsm, element_force, or prescribe elements", stage->name);
             else if (first == BRC_OK)

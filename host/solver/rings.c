@@ -116,7 +116,7 @@ brc_status brc_rings_without(brc_simulation *s, brc_rings *r, brc_buffer *number
 
 /* ---- what is done with them ---- */
 
-bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int ring) { return !list || 2 * (int64_t)list->n[ring] > s->layout->n_rows; }
+bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int ring) { return !list || 2 * (int64_t)list->n[ring] > s->domain->n_elements; }
 
 brc_status brc_pass_launch(brc_simulation *s, brc_kernel *whole, brc_kernel *listed, const brc_ring_list *list, int ring, int n_args, brc_arg *args)
 {

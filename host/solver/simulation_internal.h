@@ -261,6 +261,9 @@ brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector);
 brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector);
 /* The set of a load; NULL with a sentence in *status when it is not there, empty, or of elements where faces are needed. */
 const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind, brc_status *status);
+/* Whether it prescribes the motion of faces; whether it is a force on faces. */
+bool brc_load_holds_faces(const brc_load *load);
+bool brc_load_pulls_faces(const brc_load *load);
 /* Work of all loads of this stage so far [J]. */
 brc_status brc_loads_work(brc_simulation *s, double *out);
 

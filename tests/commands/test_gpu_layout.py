@@ -6,7 +6,7 @@
 Dynamic examples give the same bytes in every frame of the elements, once the time step is given: sums over the body (energies, the
 power iteration behind `time_step: auto`) are taken in the order of the storage, and slices of 32 have another order than slices of 8.
 Histories, which hold such sums, agree to the rounding of the precision. Static stages stop within their tolerance by way of
-such sums: there only histories are compared, to that tolerance. Two examples fail with --all (docs/notebook/devices.md).
+such sums: there only histories are compared, to that tolerance. One example fails with --all (docs/notebook/devices.md).
 """
 import argparse
 import csv

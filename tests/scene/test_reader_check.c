@@ -299,6 +299,29 @@ static void measures_ask_for_fitting_sensors(void **state)
     bad_scene(HEAD STAGES SENSORS "measure: {m: {frequency: {of: f}}}\n", "11:14", "the stage 'pull' is not dynamic");
 }
 
+/* The area vectors of a wall that goes all the way round sum to zero: a load over the area across them would be a load over rounding. */
+static void the_area_of_a_measure_is_of_a_wall_that_has_sides(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *shape, *area, *sets;
+        int is_refused;
+    } wall[] = {{"cylinder: {axis: z, length: 1 m, radius: 1 m}", "side", "", 1},
+                {"cylinder: {axis: z, length: 1 m, radius: 1 m}", "mantle", "sets: {mantle: {faces: {wall: side}}}\n", 1},
+                {"cylinder: {axis: z, length: 1 m, radius: 1 m}", "half", "sets: {half: {faces: {wall: side, normal: {direction: [1, 0, 0], within: 80 deg}}}}\n", 0},
+                {"cylinder: {axis: z, length: 1 m, radius: 1 m}", "z+", "", 0},
+                {"sphere: {radius: 1 m}", "surface", "", 1},
+                {"cone: {axis: z, length: 1 m, radius: 1 m, end_radius: 2 m}", "side", "", 0}};
+    for (size_t k = 0; k < sizeof wall / sizeof *wall; ++k) {
+        char text[1024];
+        snprintf(text, sizeof text,
+                 "version: 1\nmaterials: {glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3}}\nbodies: [{name: b, shape: {%s}, fill: {noisy_grid: {elements: 100}}}]\n" STAGES
+                 "sensors: {f: {stress: {component: xx}}}\nmeasure: {m: {peak: {of: f, area: %s}}}\n%s", wall[k].shape, wall[k].area, wall[k].sets);
+        if (wall[k].is_refused) bad_scene(text, "6:35", "goes all the way round");
+        else assert_int_equal(count_errors(text), 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -322,6 +345,7 @@ int main(void)
         cmocka_unit_test(names_of_stages_and_bodies_are_unique),
         cmocka_unit_test(modes_that_are_not_computed_have_no_sensor),
         cmocka_unit_test(measures_ask_for_fitting_sensors),
+        cmocka_unit_test(the_area_of_a_measure_is_of_a_wall_that_has_sides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,11 +14,14 @@ double brc_measure_area(const brc_domain *domain, int32_t set)
     if (domain->element_kind == BRC_ELEMENT_SPHERE) return brc_sphere_box_section(domain, set);
     if (set < 0 || domain->sets[set].kind != BRC_SET_FACES) return NAN;
     const brc_set *members = &domain->sets[set];
-    double sum[3] = {0}, area = 0;
-    for (int64_t k = 0; k < members->n_members; ++k)
-        for (int c = 0; c < 3; ++c)
-            sum[c] += domain->free_area_vector[3 * (int64_t)members->members[k] + c];
+    double sum[3] = {0}, area = 0, all = 0;
+    for (int64_t k = 0; k < members->n_members; ++k) {
+        const double *s = domain->free_area_vector + 3 * (int64_t)members->members[k];
+        for (int c = 0; c < 3; ++c) sum[c] += s[c];
+        all += sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+    }
     const double length = sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+    if (!(length > 1e-9 * all)) return NAN; /* it goes all the way round: what is left is rounding */
     for (int64_t k = 0; k < members->n_members; ++k) {
         const double *s = domain->free_area_vector + 3 * (int64_t)members->members[k];
         area += fabs(s[0] * sum[0] + s[1] * sum[1] + s[2] * sum[2]) / length;
@@ -65,7 +68,7 @@ static double factor_of(const brc_measure *measure, const brc_domain *domain, br
     if (measure->area_set[0] == '\0') return factor;
     const double area = domain ? brc_measure_area(domain, brc_domain_find_set(domain, measure->area_set)) : NAN;
     if (area > 0) return factor / area;
-    why_not(measured, "\"%s\" is not a face set with an area, nor a wall of a box or cylinder of spheres", measure->area_set);
+    why_not(measured, "\"%s\" is not a face set with an area (one that goes all the way round has none), nor a wall of a box or cylinder of spheres", measure->area_set);
     return NAN;
 }
 

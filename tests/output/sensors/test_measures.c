@@ -1,6 +1,7 @@
 #include "../support.h"
 #include "../../../host/output/sensors/measures.h"
 #include <math.h>
+#include <stdlib.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -133,6 +134,16 @@ static void what_cannot_be_measured_says_why(void **state)
         &(brc_measure){.name = "E", .kind = BRC_MEASURE_E, .y = "force", .x = "strain", .area_set = "x-", .scale = 1},
         NULL, h);
     assert_non_null(strstr(m.why_not, "\"x-\" is not a face set"));
+    brc_domain *domain = test_domain(200);
+    brc_set *set = domain->sets + brc_domain_find_set(domain, "x-"), was = *set;
+    int32_t *all = calloc((size_t)domain->n_free_faces, sizeof *all);
+    for (int32_t f = 0; f < domain->n_free_faces; ++f) all[f] = f;
+    set->members = all, set->n_members = domain->n_free_faces; /* the whole surface, whose area vectors sum to rounding */
+    m = evaluate(&(brc_measure){.name = "E", .kind = BRC_MEASURE_E, .y = "force", .x = "strain", .area_set = "x-", .stage = "pull", .scale = 1}, domain, h);
+    assert_true(isnan(m.value) && strstr(m.why_not, "all the way round"));
+    *set = was;
+    free(all);
+    brc_domain_free(&domain);
     brc_history_free(&h);
 }
 
