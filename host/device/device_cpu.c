@@ -142,8 +142,9 @@ static brc_status cpu_open(brc_device *device, const brc_device_request *request
             ++level;
     const brc_kernel_instance *const instance = find_instance(level, request->precision, request->many_materials);
     if (!instance)
-        return BRC_FAIL(device->context, BRC_INTERNAL, "this build has no kernels for %s, %s", levels[level].level,
-                        brc_precision_name(request->precision));
+        return BRC_FAIL(device->context, BRC_BAD_INPUT,
+                        "this build has no kernels for %s in precision %s (./quickstart build makes those of all)",
+                        levels[level].level, brc_precision_name(request->precision));
     if (request->n_threads < 0 || request->n_threads > 4096)
         return BRC_FAIL(device->context, BRC_BAD_INPUT,
                         "%d threads: expected 1 to 4096, or 0 for as many as OpenMP takes", request->n_threads);

@@ -1,6 +1,6 @@
 # cmake -DFOLDER=kernels -DOUTPUT=file.c -DHASH=file.h -P kernel_sources.cmake: every text of the folder as a C string,
-# one literal a line (no literal of a C11 compiler need be longer than 4095 characters, and none of ours is), and a hash
-# of them all, by which the program knows whether a target plug-in was built from the same kernels.
+# and a hash of them all, by which the program knows whether a target plug-in was built from the same kernels.
+include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/text_to_c.cmake)
 file(GLOB files ${FOLDER}/*.h ${FOLDER}/*.cl)
 list(SORT files)
 set(text "#include \"kernel_signature.h\"\nconst brc_kernel_file brc_kernel_files[] = {\n")
@@ -10,10 +10,8 @@ foreach(file IN LISTS files)
     get_filename_component(name "${file}" NAME)
     file(READ "${file}" content)
     string(APPEND all "${name}\n${content}")
-    string(REPLACE "\\" "\\\\" content "${content}")
-    string(REPLACE "\"" "\\\"" content "${content}")
-    string(REPLACE "\n" "\\n\"\n     \"" content "${content}")
-    string(APPEND text "    {\"${name}\",\n     \"${content}\"},\n")
+    brc_text_to_c(content "${content}")
+    string(APPEND text "    {\"${name}\",\n     ${content}},\n")
     math(EXPR count "${count} + 1")
 endforeach()
 string(APPEND text "};\nconst int brc_kernel_file_count = ${count};\n")

@@ -70,6 +70,10 @@ brc_status brc_names_add_body_sets(brc_reader *reader, const brc_wall_names *wal
 void brc_reader_check_fracture(brc_reader *reader);
 /* reader_check_output.c: views of pictures. */
 void brc_reader_check_output(brc_reader *reader);
+/* Does a load prescribe a motion of faces or elements? */
+bool brc_load_is_motion(const brc_load *load);
+/* reader_check_sensors.c: sensors and measures against the rest of the scene. */
+void brc_reader_check_sensors(brc_reader *reader);
 /* reader_check.c: fill in what follows from other parts, and check what needs the whole scene. */
 brc_status brc_reader_check(brc_reader *reader);
 

@@ -1,228 +1,20 @@
 /* Where the surface of a solid comes near a point. Candidates are the nearest points of all surfaces, of the curves where two of
  * them cut and of the corners where three do; one is on the solid's surface where small steps off it, to every side of its surfaces, do not all agree
  * about being inside. */
-#include "solid_internal.h"
+#include "solid_near.h"
 
 #include <math.h>
 #include <string.h>
-
-/* A mesh with more patches than MOST_PATCHES near x is rough there; then it counts as a few walls. */
-enum { MOST_NEAR = 128, MOST_STEPS = 40, MOST_PATCHES = 32, MOST_WALLS = 16 };
 #define SAME_FOOT 1e-6 /* relative, and as an angle */
 
-/* A surface near x, or its other side where it curves around x. */
-typedef struct near_surface {
-    const brc_surface *surface;
-    double height, normal[3], point[3];
-    double probe[3]; /* across the surface at the point: the normal, but at a tip the axis */
-    bool opposite;
-    bool flat;       /* a plane */
-    bool rim;        /* on a sharp edge of a mesh, where its patch ends */
-    bool concave;    /* and that is concave, seen from the solid */
-    double plane[3]; /* normal of a mesh's patch there */
-    bool rough;      /* a wall of a rough mesh: */
-    brc_rough_wall wall; /* normal from x outward */
-} near_surface;
-
-static void step(const double x[3], double length, const double direction[3], double out[3])
-{
-    for (int d = 0; d < 3; ++d) out[d] = x[d] + length * direction[d];
-}
-
-static void set_probe(near_surface *a)
-{
-    const brc_surface *s = a->surface;
-    memcpy(a->probe, a->normal, sizeof a->probe);
-    if (s->kind != BRC_SURFACE_CONE) return;
-    const double gap[3] = {a->point[0] - s->point[0], a->point[1] - s->point[1], a->point[2] - s->point[2]};
-    if (brc_length3(gap) <= 1e-12 * fabs(a->height))
-        for (int d = 0; d < 3; ++d) a->probe[d] = -s->axis[d];
-}
-
-/* The walls of a rough mesh near x, as nearest points or as mean planes. */
-static int gather_rough(const brc_leaf *leaf, const brc_surface *surface, const double local[3], double reach, bool mirror, near_surface *near, int room)
-{
-    brc_rough_wall walls[MOST_WALLS];
-    const int n = brc_rough_walls(leaf->mesh, local, reach, mirror, walls, room < MOST_WALLS ? room : MOST_WALLS);
-    const double sign = n > 0 && brc_mesh_inside(leaf->mesh, local) ? 1.0 : -1.0;
-    for (int k = 0; k < n; ++k) {
-        near_surface *a = &near[k];
-        const brc_mesh_foot *foot = &walls[k].foot;
-        double out[3];
-        *a = (near_surface){.surface = surface, .height = -sign * foot->distance, .rough = true, .wall = walls[k],
-                            .concave = foot->concave != (leaf->role == BRC_PART_REMOVE)};
-        brc_leaf_from_part(leaf, foot->point, a->point);
-        brc_leaf_turn(leaf, walls[k].normal, a->wall.normal);
-        brc_leaf_turn(leaf, foot->normal, a->plane);
-        memcpy(a->probe, a->plane, sizeof a->probe);
-        for (int d = 0; d < 3; ++d) out[d] = sign * (foot->point[d] - local[d]) / foot->distance;
-        brc_leaf_turn(leaf, out, a->normal);
-    }
-    return n;
-}
-
-/* The patches of a mesh near x. */
-static int gather_mesh(const brc_solid *solid, const brc_surface *surface, const double x[3], double reach, bool mirror, near_surface *near, int room)
-{
-    const brc_leaf *leaf = &solid->leaf[surface->leaf];
-    brc_mesh_foot feet[MOST_PATCHES];
-    double local[3];
-    brc_leaf_to_part(leaf, x, local);
-    const int32_t n = brc_mesh_feet(leaf->mesh, local, reach, feet, room < MOST_PATCHES ? room : MOST_PATCHES);
-    if (n > MOST_PATCHES || n > room) return gather_rough(leaf, surface, local, reach, mirror, near, room);
-    const bool alone = solid->n_leaves == 1; /* then only points inside are asked for */
-    const double sign = n > 0 && (alone || brc_mesh_inside(leaf->mesh, local)) ? 1.0 : -1.0;
-    for (int k = 0; k < n; ++k) {
-        near_surface *a = &near[k];
-        *a = (near_surface){.surface = surface, .height = -sign * feet[k].distance, .flat = feet[k].flat, .rim = feet[k].on_edge,
-                            .concave = feet[k].concave != (leaf->role == BRC_PART_REMOVE)};
-        brc_leaf_from_part(leaf, feet[k].point, a->point);
-        brc_leaf_turn(leaf, feet[k].normal, a->plane);
-        memcpy(a->normal, a->plane, sizeof a->normal);
-        /* towards the point itself: on a patch that curves in facets it may lie on an edge of them */
-        if (feet[k].distance > 1e-3 * solid->tiny && !(feet[k].flat && !feet[k].on_edge))
-            for (int d = 0; d < 3; ++d) a->normal[d] = sign * (a->point[d] - x[d]) / feet[k].distance;
-        memcpy(a->probe, a->normal, sizeof a->probe);
-    }
-    return n;
-}
-
-/* Surfaces nearer to x than reach, in order; the opposite sides of curved ones too. mirror: rough meshes as mean planes. */
-static int gather(const brc_solid *solid, const double x[3], double reach, bool mirror, near_surface *near)
-{
-    int n = 0;
-    for (int32_t s = 0; s < solid->n_surfaces && n + 1 < MOST_NEAR; ++s) {
-        const brc_surface *surface = &solid->surface[s];
-        near_surface *a = &near[n];
-        if (surface->kind == BRC_SURFACE_MESH) {
-            n += gather_mesh(solid, surface, x, reach, mirror, a, MOST_NEAR - n);
-            continue;
-        }
-        const double height = brc_surface_height(solid, surface, x, NULL);
-        if (fabs(height) >= reach) continue;
-        *a = (near_surface){.surface = surface, .height = height, .flat = surface->kind == BRC_SURFACE_PLANE};
-        brc_surface_height(solid, surface, x, a->normal);
-        step(x, -a->height, a->normal, a->point);
-        set_probe(a);
-        ++n;
-        near_surface *b = &near[n];
-        *b = (near_surface){.surface = surface, .opposite = true};
-        if (!brc_surface_opposite(surface, x, &b->height, b->normal) || fabs(b->height) >= reach) continue;
-        step(x, -b->height, b->normal, b->point);
-        set_probe(b);
-        ++n;
-    }
-    return n;
-}
-
-/* Sides of a surface at y: is the solid there below it (bit 0), above it (bit 1)? */
-static int sides(const brc_solid *solid, const double y[3], const double normal[3])
-{
-    double below[3], above[3];
-    step(y, -solid->tiny, normal, below);
-    step(y, solid->tiny, normal, above);
-    return (brc_solid_member(solid, below) ? 1 : 0) | (brc_solid_member(solid, above) ? 2 : 0);
-}
-
-/* Does the leaf itself end at y? */
-static bool leaf_ends(const brc_solid *solid, const near_surface *a)
-{
-    const brc_leaf *leaf = &solid->leaf[a->surface->leaf];
-    if (leaf->n_surfaces == 1) return true;
-    double below[3];
-    step(a->point, -solid->tiny, a->probe, below);
-    return brc_leaf_inside(solid, leaf, below);
-}
-
-/* Solve the small symmetric system of unit normals: find the combination of normals with the given heights along them.
- * n: 2 or 3; false when they are nearly parallel. */
-static bool combine(int n, const double normal[3][3], const double value[3], double weight[3])
-{
-    const double c = brc_dot3(normal[0], normal[1]);
-    if (n == 2) {
-        const double determinant = 1.0 - c * c;
-        if (determinant < 1e-10) return false;
-        weight[0] = (value[0] - c * value[1]) / determinant;
-        weight[1] = (value[1] - c * value[0]) / determinant;
-        weight[2] = 0.0;
-        return true;
-    }
-    const double b = brc_dot3(normal[0], normal[2]), a = brc_dot3(normal[1], normal[2]);
-    const double determinant = 1.0 + 2.0 * a * b * c - a * a - b * b - c * c;
-    if (determinant < 1e-10) return false;
-    weight[0] = ((1.0 - a * a) * value[0] + (a * b - c) * value[1] + (a * c - b) * value[2]) / determinant;
-    weight[1] = ((a * b - c) * value[0] + (1.0 - b * b) * value[1] + (b * c - a) * value[2]) / determinant;
-    weight[2] = ((a * c - b) * value[0] + (b * c - a) * value[1] + (1.0 - c * c) * value[2]) / determinant;
-    return true;
-}
-
-/* The point nearest to x that lies on all n surfaces: tangent planes are cut until nothing moves. weight: x to the point in terms of the
- * normals there. False when the surfaces do not meet near x. */
-static bool meet(const brc_solid *solid, const double x[3], int n, const near_surface *const *a, double reach, double y[3],
-                 double normal[3][3], double weight[3])
-{
-    bool flat = true;
-    double height[3];
-    memcpy(y, x, 3 * sizeof *y);
-    for (int k = 0; k < n; ++k) {
-        flat = flat && a[k]->surface->kind == BRC_SURFACE_PLANE;
-        height[k] = a[k]->height;
-        memcpy(normal[k], a[k]->normal, 3 * sizeof(double));
-        if (a[k]->opposite) return false;
-    }
-    for (int i = 0; i < MOST_STEPS; ++i) {
-        double wanted[3] = {0.0, 0.0, 0.0}, next[3];
-        const double back[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
-        for (int k = 0; k < n; ++k) wanted[k] = brc_dot3(normal[k], back) - height[k];
-        if (!combine(n, (const double(*)[3])normal, wanted, weight)) return false;
-        for (int d = 0; d < 3; ++d) {
-            next[d] = x[d];
-            for (int k = 0; k < n; ++k) next[d] += weight[k] * normal[k][d];
-        }
-        const double moved[3] = {next[0] - y[0], next[1] - y[1], next[2] - y[2]}, far[3] = {next[0] - x[0], next[1] - x[1], next[2] - x[2]};
-        memcpy(y, next, sizeof next);
-        if (flat) return brc_length3(far) < reach;
-        if (brc_length3(far) > 4.0 * reach) return false;
-        if (brc_length3(moved) < 1e-3 * solid->tiny) return brc_length3(far) < reach;
-        for (int k = 0; k < n; ++k) height[k] = brc_surface_height(solid, a[k]->surface, y, normal[k]);
-    }
-    return false;
-}
-
-/* Is the solid there in each of the 2^n sectors around a point where n surfaces meet? Bit s: sector where surface k is above for each
- * bit k of s. */
-static int sectors(const brc_solid *solid, int n, const double y[3], const double normal[3][3])
-{
-    int inside = 0;
-    for (int s = 0; s < 1 << n; ++s) {
-        double value[3] = {0.0, 0.0, 0.0}, weight[3], direction[3] = {0.0, 0.0, 0.0}, x[3];
-        for (int k = 0; k < n; ++k) value[k] = s >> k & 1 ? 1.0 : -1.0;
-        if (!combine(n, normal, value, weight)) return 0;
-        for (int k = 0; k < n; ++k)
-            for (int d = 0; d < 3; ++d) direction[d] += weight[k] * normal[k][d];
-        step(y, solid->tiny / brc_length3(direction), direction, x);
-        if (brc_solid_member(solid, x)) inside |= 1 << s;
-    }
-    return inside;
-}
-
-/* The only sector outside, -1 when there is none or another one. */
-static int lone_outside(int n, int inside)
-{
-    const int all = (1 << (1 << n)) - 1, outside = all & ~inside;
-    for (int s = 0; s < 1 << n; ++s)
-        if (outside == 1 << s) return s;
-    return -1;
-}
-
 /* Distance to the nearest surface point; *corner: it and its wall where only an edge or a corner is that near. */
-static double nearest(const brc_solid *solid, const double x[3], const near_surface *near, int n, double reach, double point[3], int32_t *wall)
+static double nearest(const brc_solid *solid, const double x[3], const brc_near_surface *near, int n, double reach, double point[3], int32_t *wall)
 {
     double best = reach, y[3], normal[3][3], weight[3];
     for (int i = 0; i < n; ++i) {
         const double distance = fabs(near[i].height);
-        if (distance >= best || !leaf_ends(solid, &near[i])) continue;
-        const int side = sides(solid, near[i].point, near[i].probe);
+        if (distance >= best || !brc_near_leaf_ends(solid, &near[i])) continue;
+        const int side = brc_near_sides(solid, near[i].point, near[i].probe);
         if (side != 1 && side != 2) continue;
         best = distance;
         memcpy(point, near[i].point, sizeof near[i].point);
@@ -230,10 +22,10 @@ static double nearest(const brc_solid *solid, const double x[3], const near_surf
     }
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j) {
-            const near_surface *const pair[2] = {&near[j], &near[i]};
+            const brc_near_surface *const pair[2] = {&near[j], &near[i]};
             if (fabs(near[i].height) >= best || fabs(near[j].height) >= best || near[i].surface == near[j].surface) continue;
-            if (!meet(solid, x, 2, pair, best, y, normal, weight)) continue;
-            const int inside = sectors(solid, 2, y, (const double(*)[3])normal);
+            if (!brc_near_meet(solid, x, 2, pair, best, y, normal, weight)) continue;
+            const int inside = brc_near_sectors(solid, 2, y, (const double(*)[3])normal);
             if (inside != 0 && inside != 15) {
                 const double gap[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
                 best = brc_length3(gap);
@@ -244,11 +36,11 @@ static double nearest(const brc_solid *solid, const double x[3], const near_surf
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j)
             for (int k = 0; k < j; ++k) {
-                const near_surface *const triple[3] = {&near[k], &near[j], &near[i]};
+                const brc_near_surface *const triple[3] = {&near[k], &near[j], &near[i]};
                 if (fabs(near[i].height) >= best || fabs(near[j].height) >= best || fabs(near[k].height) >= best) continue;
                 if (near[i].surface == near[j].surface || near[j].surface == near[k].surface) continue;
-                if (!meet(solid, x, 3, triple, best, y, normal, weight)) continue;
-                const int inside = sectors(solid, 3, y, (const double(*)[3])normal);
+                if (!brc_near_meet(solid, x, 3, triple, best, y, normal, weight)) continue;
+                const int inside = brc_near_sectors(solid, 3, y, (const double(*)[3])normal);
                 if (inside != 0 && inside != 255) {
                     const double gap[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
                     best = brc_length3(gap);
@@ -269,7 +61,7 @@ double brc_solid_depth(const brc_solid *solid, const double x[3])
         for (int32_t s = 0; s < solid->n_surfaces; ++s) depth = fmin(depth, fabs(brc_surface_height(solid, &solid->surface[s], x, NULL)));
         return sign * depth;
     }
-    near_surface near[MOST_NEAR];
+    brc_near_surface near[BRC_NEAR_MOST];
     double point[3], diagonal[3], away = 0.0;
     int32_t wall;
     for (int d = 0; d < 3; ++d) {
@@ -279,7 +71,7 @@ double brc_solid_depth(const brc_solid *solid, const double x[3])
     /* look near first: most questions are asked near the surface */
     const double all = brc_length3(diagonal) + away;
     for (double reach = 1.0 / 64.0 * all;; reach *= 4.0) {
-        const int n = gather(solid, x, reach, false, near);
+        const int n = brc_near_gather(solid, x, reach, false, near);
         const double distance = nearest(solid, x, near, n, reach, point, &wall);
         if (distance < reach) return sign * distance;
         if (reach > all) return sign * all;
@@ -288,7 +80,7 @@ double brc_solid_depth(const brc_solid *solid, const double x[3])
 
 double brc_solid_distance(const brc_solid *solid, const double x[3], double reach)
 {
-    near_surface near[MOST_NEAR];
+    brc_near_surface near[BRC_NEAR_MOST];
     double point[3];
     int32_t wall;
     if (solid->n_leaves == 1 && solid->leaf[0].mesh) { /* looking no farther than needed is much faster */
@@ -297,7 +89,7 @@ double brc_solid_distance(const brc_solid *solid, const double x[3], double reac
         return brc_mesh_distance(solid->leaf[0].mesh, y, reach);
     }
     if (solid->n_leaves == 1 && solid->n_surfaces == 1) return fmin(reach, fabs(brc_surface_height(solid, &solid->surface[0], x, NULL)));
-    return nearest(solid, x, near, gather(solid, x, reach, false, near), reach, point, &wall);
+    return nearest(solid, x, near, brc_near_gather(solid, x, reach, false, near), reach, point, &wall);
 }
 
 bool brc_solid_clear(const brc_solid *solid, const double x[3], double distance)
@@ -322,32 +114,32 @@ static int32_t add_foot(brc_foot *feet, int32_t n, int32_t most, const brc_foot 
 
 /* A surface whose foot lies beyond an edge, outside the solid, still bounds what is around x when x is on its inner side and the wall itself begins near x, at
  * an edge with another surface. */
-static bool bounds_beyond(const brc_solid *solid, const near_surface *near, int n_near, int self, const double x[3], double reach)
+static bool bounds_beyond(const brc_solid *solid, const brc_near_surface *near, int n_near, int self, const double x[3], double reach)
 {
-    const near_surface *a = &near[self];
+    const brc_near_surface *a = &near[self];
     const brc_leaf *leaf = &solid->leaf[a->surface->leaf];
     if (leaf->role == BRC_PART_REMOVE ? a->height < 0.0 : a->height > 0.0) return false;
     if (leaf->role == BRC_PART_ADD && !brc_leaf_inside(solid, leaf, x)) return false;
     if (a->surface->hull != 0.0) return true;
     for (int k = 0; k < n_near; ++k) {
-        const near_surface *const pair[2] = {a, &near[k]};
+        const brc_near_surface *const pair[2] = {a, &near[k]};
         double y[3], normal[3][3], weight[3];
-        if (near[k].surface == a->surface || !meet(solid, x, 2, pair, reach, y, normal, weight)) continue;
-        const int inside = sectors(solid, 2, y, (const double(*)[3])normal); /* sectors 0 and 1, 2 and 3 are apart by surface a */
+        if (near[k].surface == a->surface || !brc_near_meet(solid, x, 2, pair, reach, y, normal, weight)) continue;
+        const int inside = brc_near_sectors(solid, 2, y, (const double(*)[3])normal); /* sectors 0 and 1, 2 and 3 are apart by surface a */
         if ((inside & 1) != (inside >> 1 & 1) || (inside >> 2 & 1) != (inside >> 3 & 1)) return true;
     }
     return false;
 }
 
-static int32_t edge_feet(const brc_solid *solid, const double x[3], const near_surface *near, int n_near, double reach, brc_foot *feet,
+static int32_t edge_feet(const brc_solid *solid, const double x[3], const brc_near_surface *near, int n_near, double reach, brc_foot *feet,
                          int32_t n, int32_t most)
 {
     double y[3], normal[3][3], weight[3];
     for (int i = 0; i < n_near; ++i)
         for (int j = 0; j < i; ++j) {
-            const near_surface *const pair[2] = {&near[j], &near[i]};
-            if (near[i].surface == near[j].surface || !meet(solid, x, 2, pair, reach, y, normal, weight)) continue;
-            const int outside = lone_outside(2, sectors(solid, 2, y, (const double(*)[3])normal));
+            const brc_near_surface *const pair[2] = {&near[j], &near[i]};
+            if (near[i].surface == near[j].surface || !brc_near_meet(solid, x, 2, pair, reach, y, normal, weight)) continue;
+            const int outside = brc_near_lone_outside(2, brc_near_sectors(solid, 2, y, (const double(*)[3])normal));
             if (outside < 0) continue;
             /* nearest to x only if x lies between the normals of the two faces */
             if ((outside & 1 ? weight[0] : -weight[0]) < 0.0 || (outside & 2 ? weight[1] : -weight[1]) < 0.0) continue;
@@ -364,7 +156,7 @@ static int32_t edge_feet(const brc_solid *solid, const double x[3], const near_s
 bool brc_solid_concave_there(const brc_solid *solid, const double x[3], const double a[3], const double b[3], double outward[2][3])
 {
     double normal[3][3] = {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}};
-    const int outside = lone_outside(2, sectors(solid, 2, x, (const double(*)[3])normal));
+    const int outside = brc_near_lone_outside(2, brc_near_sectors(solid, 2, x, (const double(*)[3])normal));
     for (int k = 0; k < 2 && outside >= 0; ++k)
         for (int d = 0; d < 3; ++d) outward[k][d] = outside >> k & 1 ? normal[k][d] : -normal[k][d];
     return outside >= 0;
@@ -383,15 +175,15 @@ static double distance_to_edge(const brc_edge *edge, const double x[3])
 }
 
 /* The point nearest to x where the planes of two flat patches of a mesh meet. */
-static bool patches_meet(const near_surface *a, const near_surface *b, const double x[3], double reach, double y[3], double normal[3][3])
+static bool patches_meet(const brc_near_surface *a, const brc_near_surface *b, const double x[3], double reach, double y[3], double normal[3][3])
 {
-    const near_surface *const pair[2] = {a, b};
+    const brc_near_surface *const pair[2] = {a, b};
     double wanted[3] = {0.0, 0.0, 0.0}, weight[3], square = 0.0;
     for (int k = 0; k < 2; ++k) {
         memcpy(normal[k], pair[k]->plane, sizeof pair[k]->plane);
         for (int d = 0; d < 3; ++d) wanted[k] += (pair[k]->point[d] - x[d]) * normal[k][d];
     }
-    if (!combine(2, (const double(*)[3])normal, wanted, weight)) return false;
+    if (!brc_near_combine(2, (const double(*)[3])normal, wanted, weight)) return false;
     for (int d = 0; d < 3; ++d) {
         const double move = weight[0] * normal[0][d] + weight[1] * normal[1][d];
         y[d] = x[d] + move;
@@ -402,42 +194,42 @@ static bool patches_meet(const near_surface *a, const near_surface *b, const dou
 
 bool brc_solid_concave_edge_near(const brc_solid *solid, const double x[3], double reach)
 {
-    near_surface near[MOST_NEAR];
+    brc_near_surface near[BRC_NEAR_MOST];
     double y[3], normal[3][3], weight[3];
-    const int n = gather(solid, x, reach, false, near);
+    const int n = brc_near_gather(solid, x, reach, false, near);
     for (int i = 0; i < n; ++i)
         if ((near[i].rim || near[i].rough) && near[i].concave) return true;
     for (int32_t e = 0; e < solid->n_edges; ++e)
         if (distance_to_edge(&solid->edge[e], x) < reach) return true;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j) {
-            const near_surface *const pair[2] = {&near[j], &near[i]};
+            const brc_near_surface *const pair[2] = {&near[j], &near[i]};
             if (near[i].rough || near[j].rough) continue;
             const bool patches = near[i].surface == near[j].surface && near[i].flat && near[j].flat;
             if (patches ? !patches_meet(&near[j], &near[i], x, reach, y, normal)
-                        : near[i].surface == near[j].surface || !meet(solid, x, 2, pair, reach, y, normal, weight))
+                        : near[i].surface == near[j].surface || !brc_near_meet(solid, x, 2, pair, reach, y, normal, weight))
                 continue;
-            if (lone_outside(2, sectors(solid, 2, y, (const double(*)[3])normal)) >= 0) return true;
+            if (brc_near_lone_outside(2, brc_near_sectors(solid, 2, y, (const double(*)[3])normal)) >= 0) return true;
         }
     return false;
 }
 
 /* The plane of a mesh's flat patch that ends at a convex edge: the same for a foot beyond it. */
-static bool beyond_rim(const brc_solid *solid, const near_surface *a, const double x[3], brc_foot *foot)
+static bool beyond_rim(const brc_solid *solid, const brc_near_surface *a, const double x[3], brc_foot *foot)
 {
     double y[3];
     const double to[3] = {a->point[0] - x[0], a->point[1] - x[1], a->point[2] - x[2]};
     if (!a->flat) return false;
     foot->depth = brc_dot3(to, a->plane);
     memcpy(foot->normal, a->plane, sizeof foot->normal);
-    step(x, foot->depth, foot->normal, y);
-    return foot->depth > 0.0 && sides(solid, y, a->plane) == 0;
+    brc_near_step(x, foot->depth, foot->normal, y);
+    return foot->depth > 0.0 && brc_near_sides(solid, y, a->plane) == 0;
 }
 
 /* The foot of x on a near surface; false: none there. mirror: also on curved walls beyond their edges. */
-static bool foot_on(const brc_solid *solid, const near_surface *near, int n_near, int self, const double x[3], double reach, bool mirror, brc_foot *foot)
+static bool foot_on(const brc_solid *solid, const brc_near_surface *near, int n_near, int self, const double x[3], double reach, bool mirror, brc_foot *foot)
 {
-    const near_surface *a = &near[self];
+    const brc_near_surface *a = &near[self];
     *foot = (brc_foot){.depth = fabs(a->height), .wall = a->surface->wall, .plane = a->flat && !a->rim, .hull = a->surface->hull != 0.0};
     for (int d = 0; d < 3; ++d) foot->normal[d] = a->height < 0.0 ? a->normal[d] : -a->normal[d];
     if (a->rough) {
@@ -446,8 +238,8 @@ static bool foot_on(const brc_solid *solid, const near_surface *near, int n_near
         memcpy(foot->normal, a->wall.normal, sizeof foot->normal);
         if (!(foot->depth > 0.0)) return false;
         if (solid->n_leaves == 1) return true;
-        const int there = sides(solid, a->point, a->probe);
-        return (there == 1 || there == 2) && leaf_ends(solid, a);
+        const int there = brc_near_sides(solid, a->point, a->probe);
+        return (there == 1 || there == 2) && brc_near_leaf_ends(solid, a);
     }
     if (a->rim && !a->concave) {
         foot->plane = true;
@@ -455,13 +247,13 @@ static bool foot_on(const brc_solid *solid, const near_surface *near, int n_near
     }
     if (!(foot->depth > 0.0)) return false;
     if (solid->n_leaves == 1 && solid->leaf[0].mesh) return true;
-    const int side = sides(solid, a->point, a->probe);
-    if (side == (a->height < 0.0 ? 1 : 2)) return leaf_ends(solid, a); /* outward is away from x */
+    const int side = brc_near_sides(solid, a->point, a->probe);
+    if (side == (a->height < 0.0 ? 1 : 2)) return brc_near_leaf_ends(solid, a); /* outward is away from x */
     return side == 0 && (a->flat || mirror) && bounds_beyond(solid, near, n_near, self, x, reach);
 }
 
 /* Tangent planes around x in a thin tube. */
-static int32_t around_feet(const near_surface *a, const double x[3], double reach, brc_foot *feet, int32_t n, int32_t most)
+static int32_t around_feet(const brc_near_surface *a, const double x[3], double reach, brc_foot *feet, int32_t n, int32_t most)
 {
     for (int k = 1; k < BRC_TUBE_PLANES; ++k) {
         double height, normal[3];
@@ -475,8 +267,8 @@ static int32_t around_feet(const near_surface *a, const double x[3], double reac
 static int32_t find_feet(const brc_solid *solid, const double x[3], double reach, bool mirror, brc_foot *feet, int32_t most)
 {
     if (!brc_solid_member(solid, x)) return 0;
-    near_surface near[MOST_NEAR];
-    const int n_near = gather(solid, x, reach, mirror, near);
+    brc_near_surface near[BRC_NEAR_MOST];
+    const int n_near = brc_near_gather(solid, x, reach, mirror, near);
     int32_t n = 0;
     double least = HUGE_VAL;
     for (int i = 0; i < n_near; ++i) {

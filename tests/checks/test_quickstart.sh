@@ -1,6 +1,6 @@
 #!/bin/sh
-# quickstart refuses wrong arguments with exit code 2 before it touches anything, from any folder; it builds the kernels of
-# this processor at first, and all for the tests.
+# quickstart refuses wrong arguments with exit code 2 before it touches anything, from any folder; and it builds no more kernels
+# than a first run needs.
 set -u
 quickstart=${BRC_SOURCE_DIR:-$(cd "$(dirname "$0")/../.." && pwd)}/quickstart
 folder=$(mktemp -d) || exit 1
@@ -30,30 +30,44 @@ expect 2 "no scene file missing.yaml" run missing.yaml
 expect 0 "usage: quickstart run SCENE" --help
 [ -z "$(ls -A "$folder")" ] || { echo "something was left in the folder it was called from"; failures=$((failures + 1)); }
 
-# A copy with tools that only note what they are asked for.
-mkdir -p "$folder/copy/build/release" "$folder/tools"
-cp "$quickstart" "$folder/copy/quickstart"
-printf '#!/bin/sh\nprintf "%%s\\n" "$*" >>"%s/asked"\n' "$folder" >"$folder/tools/cmake"
+# A clone whose tools only write down what they are asked for.
+mkdir -p "$folder/clone" "$folder/tools" || exit 1
+cp "$quickstart" "$folder/clone/quickstart"
+echo "shape: box" >"$folder/clone/scene.yaml"
+asked=$folder/asked
+printf '#!/bin/sh\necho "install ok installed"\n' >"$folder/tools/dpkg-query"
+printf '#!/bin/sh\necho "$(basename "$0") $*" >>"%s"\n' "$asked" >"$folder/tools/cmake"
 cp "$folder/tools/cmake" "$folder/tools/ctest"
-printf '#!/bin/sh\nprintf "install ok installed"\n' >"$folder/tools/dpkg-query"
-chmod +x "$folder/tools/"*
+cp "$folder/tools/cmake" "$folder/tools/apt-get"
+chmod +x "$folder/tools"/*
+export PATH="$folder/tools:$PATH"
+
+asks() { # asks YES NO ARGUMENTS...: what the tools are asked for has YES (words in this order) and not NO
+    yes=$1 no=$2
+    shift 2
+    : >"$asked"
+    "$folder/clone/quickstart" "$@" >"$folder/said" 2>&1 </dev/null
+    all=$(tr '\n' ' ' <"$asked")
+    case $all in
+    *$no*) printf 'quickstart %s: asked for: %s\n' "$*" "$all"; failures=$((failures + 1)); return ;;
+    esac
+    # shellcheck disable=SC2254 # a pattern
+    case $all in
+    $yes) ;;
+    *) printf 'quickstart %s: asked for: %s\n' "$*" "$all"; failures=$((failures + 1)) ;;
+    esac
+}
+
+asks '*BRC_LAST_PRECISION=0*--target breccia *' brc_program run "$folder/clone/scene.yaml"
+asks '*BRC_LAST_PRECISION=2*--target breccia *' brc_program run "$folder/clone/scene.yaml" --precision mixed
+asks '*--target brc_program *' "LAST_PRECISION=2" run "$folder/clone/scene.yaml" --device target
 levels=
 if [ "$(uname -m)" = x86_64 ] && grep -q '^flags.* avx2 ' /proc/cpuinfo; then
-    levels=' -DBRC_ISA_LEVELS=v2;v'
+    levels='-DBRC_ISA_LEVELS=v2;v'
 fi
-configured() { # configured COMMAND TEXT: what CMake is given first begins so
-    : >"$folder/asked"
-    PATH=$folder/tools:$PATH "$folder/copy/quickstart" "$1" >/dev/null 2>&1
-    first=$(head -n 1 "$folder/asked")
-    case $first in
-    "$2"*) return ;;
-    esac
-    printf 'quickstart %s configures with "%s", not "%s..."\n' "$1" "$first" "$2"
-    failures=$((failures + 1))
-}
-configured build "--preset release$levels"
-configured test "--preset release -UBRC_ISA_LEVELS"
-: >"$folder/copy/build/release/CMakeCache.txt"
-configured build "--preset release"
-[ "$first" = "--preset release" ] || { echo "quickstart build changes a folder that has its levels: $first"; failures=$((failures + 1)); }
+asks "*BRC_LAST_PRECISION=2 $levels*--target brc_program *" "LAST_PRECISION=0" build
+asks '*-UBRC_ISA_LEVELS -UBRC_LAST_PRECISION*--target all *ctest*' "LAST_PRECISION=0" test
+mkdir -p "$folder/clone/build/release" && : >"$folder/clone/build/release/CMakeCache.txt" # a folder that has its choice
+asks '*--preset release *--target breccia *' LAST_PRECISION run "$folder/clone/scene.yaml"
+asks '*BRC_LAST_PRECISION=2*' ISA_LEVELS run "$folder/clone/scene.yaml" --precision=single
 exit "$failures"
