@@ -3,6 +3,7 @@
 #include "bench/bench_peers.h"
 #include "../../bench/contact_cost.h"
 #include "../../bench/effects.h"
+#include "../../bench/launches.h"
 #include "../../bench/statics_cost.h"
 #include "../../bench/throughput.h"
 #include "../base/memory.h"
@@ -13,10 +14,10 @@
 
 static const brc_option options[] = {
     BRC_OPTION_OUTPUT("folder of rows.json and rows.csv (default results/throughput)"),
-    {"sizes", 0, "LIST", false, "numbers of elements (default 1e4,1e5,1e6; effects: 2e4)"},
-    {"models", 0, "LIST", false, "dlsm, dlsm-published, cbm (default the first two; effects: all)"},
-    {"devices", 0, "LIST", false, "default: cpu and every OpenCL device that is here; effects: cpu"},
-    {"precisions", 0, "LIST", false, "default double,mixed,single; effects: double"},
+    {"sizes", 0, "LIST", false, "numbers of elements (default 1e4,1e5,1e6; effects, launches: 2e4)"},
+    {"models", 0, "LIST", false, "dlsm, dlsm-published, cbm (default the first two; effects, launches: all)"},
+    {"devices", 0, "LIST", false, "default: cpu and every OpenCL device that is here; effects: cpu; launches: auto"},
+    {"precisions", 0, "LIST", false, "default double,mixed,single; effects, launches: double"},
     {"threads", 't', "LIST", false, "threads of the cpu device (default 1,2; effects, peers: 1)"},
     BRC_OPTION_EXACT,
     {"sample", 0, "SECONDS", false, "least time of each of the five samples (default 0.5; effects: 0.2)"},
@@ -27,7 +28,7 @@ static const brc_option options[] = {
     {"resume", 'r', NULL, false, "accuracy: go on with the points that the output folder has"},
     {"elements", 0, "N", false, "peers: spheres of the packing, and cells (default 2e4); statics: most that diagonal blocks solve too (default 5e4)"},
     {"poisson", 0, "NU", false, "statics: Poisson's ratio (default 0.3)"},
-    {"steps", 0, "N", false, "peers: steps of each of the five samples (default 200)"},
+    {"steps", 0, "N", false, "peers: steps of each of the five samples (default 200); launches: steps that are counted (default 1024)"},
 };
 
 /* The list of an option, or its default, split in `copy`. */
@@ -298,6 +299,56 @@ static brc_status run_effects(const brc_session *session, const brc_arguments *a
     return status;
 }
 
+static brc_status print_launches(void *self, const brc_rows *rows)
+{
+    const brc_row *row = &rows->rows[rows->n_rows - 1];
+    printf("%-15s %9.0f %-22s %8.2f %9.1f %9.0f %9.0f %11.0f %10.4g %10.4g %6.2f %10.4g\n", brc_row_text(row, "model"), brc_row_number(row, "elements"), brc_row_text(row, "quantity"),
+           brc_row_number(row, "launches_per_step"), brc_row_number(row, "waits_per_1000_steps"), brc_row_number(row, "read_bytes_per_step"), brc_row_number(row, "written_bytes_per_step"),
+           brc_row_number(row, "copied_bytes_per_step"), brc_row_number(row, "seconds"), brc_row_number(row, "seconds_by_model"), brc_row_number(row, "model_over_seconds"),
+           brc_row_number(row, "h200_seconds_by_model"));
+    fflush(stdout);
+    return brc_rows_write(rows, self);
+}
+
+static brc_status run_launches(const brc_session *session, const brc_arguments *arguments)
+{
+    static const char *const others[] = {"problems", "quick", "folder", "resume", "exact", "sample", "elements", "poisson"};
+    brc_context *context = session->context;
+    const char *given = brc_arguments_value(arguments, "output"), *pieces[BRC_THROUGHPUT_LIST];
+    char folder[512], copy[5][256];
+    brc_model_kind models[BRC_THROUGHPUT_LIST];
+    double number, megabytes = 256, steps = 1024;
+    int n_sizes = 0, n_devices = 0, n_precisions = 0, n_threads = 0;
+    BRC_TRY(refuse_options(context, arguments, "launches", sizeof others / sizeof *others, others));
+    snprintf(folder, sizeof folder, "%s", given ? given : "results/launches");
+    brc_launches_request request = {.models = models, .row = print_launches, .self = folder};
+    BRC_TRY(take_list(context, arguments, "models", "dlsm,dlsm-published,cbm", copy[0], sizeof copy[0], pieces, &request.n_models));
+    BRC_TRY(take_models(context, request.n_models, pieces, models));
+    BRC_TRY(take_list(context, arguments, "sizes", "2e4", copy[1], sizeof copy[1], pieces, &n_sizes));
+    BRC_TRY(take_number(context, "sizes", pieces[0], 8, 1e9, &number));
+    request.size = (int64_t)number;
+    BRC_TRY(take_list(context, arguments, "precisions", "double", copy[2], sizeof copy[2], pieces, &n_precisions));
+    BRC_TRY(brc_precision_parse(context, pieces[0], &request.precision));
+    BRC_TRY(take_list(context, arguments, "threads", "1", copy[3], sizeof copy[3], pieces, &n_threads));
+    BRC_TRY(take_number(context, "threads", pieces[0], 1, 4096, &number));
+    request.n_threads = (int)number;
+    BRC_TRY(take_list(context, arguments, "devices", "auto", copy[4], sizeof copy[4], pieces, &n_devices));
+    request.device = pieces[0];
+    if (n_sizes > 1 || n_precisions > 1 || n_threads > 1 || n_devices > 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench launches: one size, device, precision and number of threads, found several");
+    if (brc_arguments_value(arguments, "copy")) BRC_TRY(take_number(context, "copy", brc_arguments_value(arguments, "copy"), 1, 1e5, &megabytes));
+    if (brc_arguments_value(arguments, "steps")) BRC_TRY(take_number(context, "steps", brc_arguments_value(arguments, "steps"), 1, 1e9, &steps));
+    request.bandwidth_bytes = (int64_t)(megabytes * 1e6);
+    request.n_steps = (int64_t)steps;
+    printf("launches a step, waits in 1000 steps, bytes read, written and copied on the device a step, seconds a step, by the model, model over seconds, of an H200 by the model\n");
+    brc_rows rows = {.context = context};
+    brc_status status = brc_launches_measure(context, &request, &rows);
+    if (status == BRC_OK) status = brc_rows_write(&rows, folder);
+    if (status == BRC_OK) printf("%s/rows.json\n", folder);
+    brc_rows_free(&rows);
+    return status;
+}
+
 static brc_status run_peers(const brc_session *session, const brc_arguments *arguments)
 {
     static const char *const others[] = {"sizes", "models", "devices", "precisions", "exact", "sample", "copy", "problems", "quick", "folder", "resume", "poisson"};
@@ -320,8 +371,9 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     if (strcmp(arguments->positional[0], "contact") == 0) return run_contact(session, arguments);
     if (strcmp(arguments->positional[0], "effects") == 0) return run_effects(session, arguments);
     if (strcmp(arguments->positional[0], "statics") == 0) return run_statics(session, arguments);
+    if (strcmp(arguments->positional[0], "launches") == 0) return run_launches(session, arguments);
     if (strcmp(arguments->positional[0], "throughput") != 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects, statics, peers", arguments->positional[0]);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects, statics, launches, peers", arguments->positional[0]);
     BRC_TRY(refuse_options(context, arguments, "throughput", sizeof others / sizeof *others, others));
     const char *given_folder = brc_arguments_value(arguments, "output");
     char folder[512], here[256], copy[4][256], devices[256];
@@ -366,7 +418,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
 }
 
 const brc_command brc_command_bench = {.name = "bench",
-                                       .operands = "throughput|accuracy|contact|effects|statics|peers",
+                                       .operands = "throughput|accuracy|contact|effects|statics|launches|peers",
                                        .least = 1,
                                        .most = 1,
                                        .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy, contact or other effects cost, or what other programs take",
@@ -374,6 +426,7 @@ const brc_command brc_command_bench = {.name = "bench",
                                                   "accuracy: problems with exact answers, error against seconds (one device, one number of threads). "
                                                   "contact: the step with nothing near, of a ball gone to dust, and of dust pressed together, over the step without contact (default 3e4 elements). "
                                                   "statics: a cantilever and a cube in equilibrium, with multigrid and with diagonal blocks (one device, precision and number of threads). "
+                                                  "launches: what a step asks of a device, counted, and its price by a model of the device (one size, device, precision). "
                                                   "effects: fracture and others as multiples of the elastic step of a cube (one size, device, precision, number of threads). "
                                                   "peers: the same packing in breccia and in YADE and LAMMPS, where they are on PATH (one number of threads).",
                                        .options = options,

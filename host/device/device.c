@@ -233,8 +233,16 @@ int brc_device_buffers(const brc_device *device, int most, brc_device_item *out)
     return n;
 }
 
+brc_device_counts brc_device_counted(const brc_device *device)
+{
+    brc_device_counts counts = device->counts;
+    for (const brc_kernel *kernel = device->kernels; kernel; kernel = kernel->next) counts.launches += kernel->launches;
+    return counts;
+}
+
 brc_status brc_device_wait(brc_device *device)
 {
+    device->counts.waits += 1;
     return device->backend->wait(device);
 }
 
@@ -277,6 +285,7 @@ brc_status brc_buffer_create(brc_device *device, brc_buffer **out, int64_t bytes
     buffer->held = held;
     snprintf(buffer->what, sizeof buffer->what, "%s", what);
     device->bytes += bytes;
+    device->counts.waits += 1;
     *out = buffer;
     return BRC_OK;
 }
@@ -313,6 +322,8 @@ brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data
 {
     BRC_TRY(check_range(buffer, offset, bytes, "write"));
     if (bytes == 0) return BRC_OK;
+    buffer->device->counts.waits += 1;
+    buffer->device->counts.written_bytes += bytes;
     return buffer->device->backend->write(buffer->device, buffer->memory, offset, data, bytes);
 }
 
@@ -320,6 +331,8 @@ brc_status brc_buffer_read(brc_buffer *buffer, int64_t offset, void *data, int64
 {
     BRC_TRY(check_range(buffer, offset, bytes, "read"));
     if (bytes == 0) return BRC_OK;
+    buffer->device->counts.waits += 1;
+    buffer->device->counts.read_bytes += bytes;
     return buffer->device->backend->read(buffer->device, buffer->memory, offset, data, bytes);
 }
 
@@ -331,6 +344,7 @@ brc_status brc_buffer_copy(brc_buffer *dst, brc_buffer *src, int64_t bytes)
         return BRC_FAIL(dst->device->context, BRC_INTERNAL, "copy from %s to %s: must be two buffers of one device",
                         src->what, dst->what);
     if (bytes == 0) return BRC_OK;
+    dst->device->counts.copied_bytes += bytes;
     return dst->device->backend->copy(dst->device, dst->memory, src->memory, bytes);
 }
 

@@ -83,6 +83,13 @@ typedef struct brc_device_item {
 int brc_device_launched(const brc_device *device, int most, brc_device_item *out);
 int brc_device_buffers(const brc_device *device, int most, brc_device_item *out);
 
+/* What the host asked of the device so far. waits: times it stood still until all that was asked before was done: reads, writes, brc_device_wait, buffers (which are
+ * cleared before they are given). */
+typedef struct brc_device_counts {
+    int64_t launches, waits, read_bytes, written_bytes, copied_bytes;
+} brc_device_counts;
+brc_device_counts brc_device_counted(const brc_device *device);
+
 /* Zeroed buffer of `bytes` bytes (0 is allowed and gives a valid dummy). what: for sentences, copied.
  * BRC_DEVICE_FAILED: "device ... has no room for <what>: N bytes asked, M held, L allowed in one buffer". */
 brc_status brc_buffer_create(brc_device *device, brc_buffer **out, int64_t bytes, const char *what);

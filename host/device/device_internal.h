@@ -37,6 +37,7 @@ struct brc_device {
     int lanes;           /* W */
     int slice;           /* C */
     int64_t bytes;       /* held in buffers */
+    brc_device_counts counts; /* but for launches, which kernels count */
     void *dummy;         /* memory of 64 bytes for arguments that are NULL; not counted */
     brc_kernel *kernels; /* found so far, a list */
     brc_buffer *buffers; /* held now, a list, the youngest first */

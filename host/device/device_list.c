@@ -18,7 +18,7 @@ int brc_device_list_choose(const brc_device_list *list, brc_precision precision,
     for (int d = 0; d < list->n; ++d) {
         const brc_device_info *const info = &list->items[d];
         if (info->kind == BRC_DEVICE_OPENCL && info->usable && !info->is_gpu) ++n_cpu_drivers;
-        if (!info->is_gpu || !info->usable) continue;
+        if (info->kind != BRC_DEVICE_OPENCL || !info->is_gpu || !info->usable) continue;
         ++n_gpus;
         if (!info->has_double && precision != BRC_SINGLE) continue;
         snprintf(why, bytes, "auto takes %s, the first GPU that has the %s precision asked for (%s)", info->selector,

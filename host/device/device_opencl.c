@@ -1,10 +1,9 @@
 /* OpenCL: the kernels are compiled at run time from one pasted text for the variant a run needs; everything goes
  * through one queue that keeps the order. */
+#include "opencl_build.h"
 #include "opencl_list.h"
 #include "opencl_profile.h"
 #include "opencl_status.h"
-#include "program_source.h"
-#include "../base/log.h"
 #include "../base/memory.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,71 +47,6 @@ static void release_inside(opencl_inside *inside)
     if (inside->queue) (void)clReleaseCommandQueue(inside->queue);
     if (inside->context) (void)clReleaseContext(inside->context);
     brc_memory_free(inside);
-}
-
-/* The whole compiler log, freed with brc_memory_free; NULL when there is none. */
-static char *build_log(brc_device *device, const opencl_inside *inside)
-{
-    size_t bytes = 0;
-    char *log = NULL;
-    if (clGetProgramBuildInfo(inside->program, inside->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes) != CL_SUCCESS)
-        return NULL;
-    if (brc_memory_allocate(device->context, (void **)&log, (int64_t)bytes + 1, 1, "compiler log") != BRC_OK)
-        return NULL;
-    if (clGetProgramBuildInfo(inside->program, inside->id, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) != CL_SUCCESS)
-        log[0] = '\0';
-    return log;
-}
-
-/* What makes a device round every operation by itself. Divisions and roots of single numbers may be off by 2.5 and 3 last
- * places unless the device is asked, which it can be where it offers it (OpenCL 1.2, 5.6.4.2). */
-static const char *exact_options(brc_device *device, const opencl_inside *inside)
-{
-    cl_device_fp_config single = 0;
-    if (device->precision == BRC_DOUBLE) return " -D BRC_EXACT";
-    if (clGetDeviceInfo(inside->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof single, &single, NULL) == CL_SUCCESS &&
-        single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT)
-        return " -D BRC_EXACT -cl-fp32-correctly-rounded-divide-sqrt";
-    brc_log(device->context, BRC_LOG_WARNING,
-            "device %s does not round divisions and roots of single numbers correctly: its results in precision %s may "
-            "differ from those of other devices in spite of exact", device->info.selector,
-            brc_precision_name(device->precision));
-    return " -D BRC_EXACT";
-}
-
-static brc_status build(brc_device *device, opencl_inside *inside, const char *folder, bool exact)
-{
-    brc_status status = BRC_OK;
-    char *source = NULL, *log = NULL;
-    char options[256], text[192];
-    cl_int code;
-    snprintf(options, sizeof options,
-             "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D BRC_MANY_MATERIALS=%d%s",
-             (int)device->precision, device->lanes, device->slice, (int)device->many_materials,
-             exact ? exact_options(device, inside) : "");
-    brc_device_describe(&device->info, text, sizeof text);
-    BRC_TRY_OR(cleanup, brc_program_source(device->context, folder, &source));
-    const char *const sources[] = {source};
-    inside->program = clCreateProgramWithSource(inside->context, 1, (const char **)(uintptr_t)sources, NULL, &code);
-    BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "taking the kernel text"));
-    code = clBuildProgram(inside->program, 1, &inside->id, options, NULL, NULL);
-    if (code != CL_SUCCESS) {
-        log = build_log(device, inside);
-        status = BRC_FAIL(device->context, BRC_DEVICE_FAILED,
-                          "device %s, %s: the kernels%s%s do not compile: %s\noptions: %s\ncompiler log:\n%s", text,
-                          device->info.driver, folder ? " in " : "", folder ? folder : "", brc_opencl_status_text(code),
-                          options, log && log[0] ? log : "(empty)");
-        goto cleanup;
-    }
-    if (brc_log_get_level(device->context) >= BRC_LOG_DEBUG) {
-        log = build_log(device, inside);
-        brc_log(device->context, BRC_LOG_DEBUG, "device %s, options %s, compiler log:\n%s", text, options,
-                log && log[0] ? log : "(empty)");
-    }
-cleanup:
-    brc_memory_free(source);
-    brc_memory_free(log);
-    return status;
 }
 
 /* W, C and work-items a group: those of a GPU or of a CPU by the kind of the device, or as BRECCIA_OPENCL_LAYOUT says (tests
@@ -160,7 +94,7 @@ static brc_status opencl_open(brc_device *device, const brc_device_request *requ
     BRC_TRY_OR(cleanup, brc_opencl_profile_create(device->context, &inside->profile));
     inside->queue = clCreateCommandQueue(inside->context, inside->id, inside->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a queue"));
-    BRC_TRY_OR(cleanup, build(device, inside, request->kernel_folder, request->exact));
+    BRC_TRY_OR(cleanup, brc_opencl_build(device, inside->context, inside->id, request->kernel_folder, request->exact, &inside->program));
     device->inside = inside;
     inside = NULL;
 cleanup:

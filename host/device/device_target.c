@@ -1,9 +1,10 @@
-/* OpenMP target devices, through a plug-in library built by clang. It is opened so that nothing of it is seen by the
+/* OpenMP target devices, through a plug-in library built by clang or by gcc. It is opened so that nothing of it is seen by the
  * rest and its own OpenMP runtime is found first: gcc's runtime in the program and clang's in the plug-in share names. */
 #include "device_internal.h"
 #include "instance_call.h"
 #include "target_plugin.h"
 #include "kernel_hash.h"
+#include "../base/log.h"
 #include "../base/memory.h"
 #include <dlfcn.h>
 #include <stdio.h>
@@ -11,7 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#define PLUGIN_FILE "libbreccia_target.so"
+/* The first that is there. */
+static const char *const plugin_files[] = {"libbreccia_target.so", "libbreccia_target_nvptx.so"};
 
 #if defined(__SANITIZE_ADDRESS__)
 #define BRC_UNDER_SANITIZER
@@ -96,14 +98,14 @@ static const brc_target_plugin *find_plugin(char *why, size_t bytes)
     char folder[2][2048], path[sizeof folder + 64];
     program_folder(folder[0], sizeof folder[0]);
     own_folder(folder[1], sizeof folder[1]);
-    for (int f = 0; f < 2; ++f)
-        for (size_t p = 0; folder[f][0] && p < sizeof places / sizeof places[0]; ++p) {
-            snprintf(path, sizeof path, "%s%s" PLUGIN_FILE, folder[f], places[p]);
+    for (int k = 0; k < 4; ++k)
+        for (size_t p = 0; folder[k % 2][0] && p < sizeof places / sizeof places[0]; ++p) {
+            snprintf(path, sizeof path, "%s%s%s", folder[k % 2], places[p], plugin_files[k / 2]);
             if (access(path, R_OK) == 0) return load(path, why, bytes);
         }
     snprintf(why, bytes,
-             "the plug-in " PLUGIN_FILE " is not there: it is built when clang with libomptarget is found (Debian: "
-             "clang-14 libomp-14-dev), or name it in BRECCIA_TARGET_LIBRARY");
+             "the plug-in %s is not there: it is built when clang with libomptarget is found (Debian: "
+             "clang-14 libomp-14-dev), or name it in BRECCIA_TARGET_LIBRARY", plugin_files[0]);
     return NULL;
 }
 
@@ -112,22 +114,25 @@ brc_status brc_device_target_list(brc_context *context, brc_device_list *list)
     brc_device_info info = {.kind = BRC_DEVICE_TARGET, .name = "OpenMP target", .driver = "no plug-in"};
     const brc_target_plugin *const plugin = find_plugin(info.why_not, sizeof info.why_not);
     const int n = plugin ? plugin->devices() : 0;
+    const bool on_host = plugin && n == 0 && plugin->falls_back;
     if (plugin && n == 0)
         snprintf(
             info.why_not, sizeof info.why_not,
             "the plug-in finds no device: libomptarget and its device library must be installed (Debian: libomp5-14)");
-    if (n == 0) {
+    if (n == 0 && !on_host) {
         snprintf(info.selector, sizeof info.selector, "target:0");
         return brc_device_list_add(context, list, &info);
     }
     /* libomp presents one processor as four devices; they are the same, and one is enough. */
-    info.usable = plugin->runs_on_device(0) == 1;
+    info.usable = on_host || plugin->runs_on_device(0) == 1;
+    info.is_gpu = plugin->falls_back && !on_host;
     if (!info.usable) snprintf(info.why_not, sizeof info.why_not, "a test region fell back to the host");
+    else info.why_not[0] = '\0';
     info.has_double = true;
-    info.compute_units = (int)sysconf(_SC_NPROCESSORS_ONLN);
+    info.compute_units = info.is_gpu ? 0 : (int)sysconf(_SC_NPROCESSORS_ONLN);
     snprintf(info.selector, sizeof info.selector, "target:0");
-    snprintf(info.name, sizeof info.name, "OpenMP target device (%s)", BRC_TARGET_TRIPLE);
-    snprintf(info.driver, sizeof info.driver, "libomptarget, %.96s", plugin->compiler);
+    snprintf(info.name, sizeof info.name, "OpenMP target device (%.48s)%s", plugin->architecture, on_host ? ": there is none, the host stands in" : "");
+    snprintf(info.driver, sizeof info.driver, "%.96s", plugin->compiler);
     return brc_device_list_add(context, list, &info);
 }
 
@@ -152,6 +157,9 @@ static brc_status target_open(brc_device *device, const brc_device_request *requ
         return BRC_FAIL(device->context, BRC_BAD_INPUT,
                         "the target kernels are compiled already: a kernel folder (%.128s) needs an OpenCL device",
                         request->kernel_folder);
+    if (plugin->falls_back && plugin->devices() == 0)
+        brc_log(device->context, BRC_LOG_WARNING, "device %s: no device for %s is here, its kernels run on the host (slowly, the same numbers)", device->info.selector,
+                plugin->architecture);
     target_inside *inside = NULL;
     BRC_TRY(BRC_ALLOCATE(device->context, &inside, 1, "target device"));
     inside->plugin = plugin;

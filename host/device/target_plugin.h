@@ -1,5 +1,6 @@
-/* What the plug-in library libbreccia_target offers: plain C types only, since its OpenMP runtime (clang's) and the
- * program's own (mostly gcc's) must not meet. target/target_plugin.c defines it, device_target.c calls it. */
+/* What a plug-in library offers, libbreccia_target (clang's, whose device is the host once more) or libbreccia_target_nvptx (gcc's, for
+ * NVIDIA cards): plain C types only, since clang's OpenMP runtime and the program's own (mostly gcc's) must not meet.
+ * target/target_plugin.c defines it, device_target.c calls it. */
 #ifndef BRC_TARGET_PLUGIN_H
 #define BRC_TARGET_PLUGIN_H
 
@@ -8,12 +9,14 @@
 #include <stdint.h>
 
 /* Raised with every change of this struct or of kernel_instance.h. */
-#define BRC_TARGET_PLUGIN_VERSION 1
+#define BRC_TARGET_PLUGIN_VERSION 2
 
 typedef struct brc_target_plugin {
     int version;
     uint64_t kernels_hash; /* of the kernel texts it was built from: those of the program, or it is refused */
     const char *compiler;
+    const char *architecture; /* of its target code */
+    int falls_back;           /* not 0: without a device its regions run on the host, as device 0 */
     const brc_kernel_instance *const *instances;
     int n_instances;
     int (*devices)(void);

@@ -1,3 +1,4 @@
+#include "ahead.h"
 #include "cell_breaks_internal.h"
 #include "cell_softening.h"
 #include "closed_faces.h"
@@ -230,7 +231,7 @@ static brc_status mark_bonds(brc_simulation *s, double share, double *n)
                        BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress),
                        BRC_BUF(c->modulus), BRC_BUF(c->look), BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure),
                        BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
-    return brc_vector_sum(s, c->found, s->n_groups, n);
+    return brc_ahead_count(s, c->found, s->n_groups, n);
 }
 
 /* Marked bonds go, then the bonds of elements that the others no longer hold, until all that are left are held. *energy: what the elements whose energy

@@ -1,5 +1,6 @@
 /* Cells that fail by criteria of elements (NAH19 section 2.2 and the limits on shear that it proposes), with a cell's own stress in place of the virial of
  * beams: passes of kernels/cell_criteria.cl before and after those of kernels/fracture.cl. */
+#include "ahead.h"
 #include "cell_breaks_internal.h"
 
 /* dlsm stores areas and ratios in place of branches. */
@@ -55,7 +56,7 @@ brc_status brc_cell_criteria_mark(brc_simulation *s, double *n)
     BRC_TRY(brc_fracture_choose(s, (int32_t)brc_fracture_moment(s)));
     BRC_TRY(BRC_LAUNCH(c->mark_chosen, rows, BRC_INT(rows), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->choice), BRC_BUF(f->measure),
                        BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
-    return brc_vector_sum(s, c->found, rows, n);
+    return brc_ahead_count(s, c->found, rows, n);
 }
 
 brc_status brc_cell_criteria_settle(brc_simulation *s)

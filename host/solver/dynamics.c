@@ -1,4 +1,5 @@
 /* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
+#include "ahead.h"
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "cell_softening.h"
@@ -111,13 +112,10 @@ brc_status brc_dynamics_close(brc_simulation *s)
     return BRC_OK;
 }
 
-/* close: velocities are at whole steps when it returns; else a later call goes on from the half step with the same bits. */
-static brc_status advance(brc_simulation *s, int64_t n_steps, bool close)
+static brc_status take_steps(brc_simulation *s, int64_t n_steps, bool close)
 {
     const brc_stage *stage = brc_current_stage(s);
     const double dt = s->time_step.value;
-    if (n_steps <= 0) return BRC_OK;
-    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_MOTION);
     for (int64_t i = 0; i < n_steps; ++i) {
         if (stage->integrator == BRC_TCHAMWA_WIELGOSZ) BRC_TRY(tchamwa_step(s, stage, dt));
         else {
@@ -126,6 +124,22 @@ static brc_status advance(brc_simulation *s, int64_t n_steps, bool close)
             if ((close && i + 1 == n_steps) || brc_noise_is_due(s)) BRC_TRY(brc_dynamics_close(s));
         }
         if (brc_noise_is_due(s)) BRC_TRY(brc_noise_damp(s));
+    }
+    return BRC_OK;
+}
+
+/* close: velocities are at whole steps when it returns; else a later call goes on from the half step with the same bits. */
+static brc_status advance(brc_simulation *s, int64_t n_steps, bool close)
+{
+    if (n_steps <= 0) return BRC_OK;
+    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_MOTION);
+    for (int64_t left = n_steps; left > 0;) {
+        const int64_t ahead = brc_ahead_steps(s, left), n = ahead > 0 ? ahead : 1;
+        bool stands = true;
+        if (ahead > 0) BRC_TRY(brc_ahead_begin(s));
+        BRC_TRY(take_steps(s, n, close && n == left));
+        if (ahead > 0) BRC_TRY(brc_ahead_end(s, &stands));
+        if (stands) left -= n;
     }
     brc_phase_enter(s, before);
     return BRC_OK;

@@ -108,6 +108,13 @@ int64_t brc_guard_next(const brc_simulation *s, int64_t step)
     return (step / every + 1) * every;
 }
 
+brc_status brc_guard_store_looks(brc_simulation *s, struct brc_state_store *store)
+{
+    if (!s->guard) return BRC_OK;
+    BRC_TRY(store->field(store, s->guard->first));
+    return store->field(store, s->guard->when);
+}
+
 /* The element found first, of equals the lowest; -1: none. *look: when. */
 static brc_status find_element(brc_simulation *s, int64_t *element, int64_t *look)
 {

@@ -28,4 +28,8 @@ int64_t brc_guard_next(const brc_simulation *s, int64_t step);
  * its bonds' last events and the likely cause; several: the run has several models, and the sentence names this one. */
 brc_status brc_guard_read(brc_simulation *s, bool several, brc_ledger *ledger);
 
+struct brc_state_store;
+/* The looks so far that were not read yet, for a store of arrays on the device (state_store.h, `field`). */
+brc_status brc_guard_store_looks(brc_simulation *simulation, struct brc_state_store *store);
+
 #endif

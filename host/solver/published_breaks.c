@@ -1,4 +1,5 @@
 /* Bonds of dlsm-published that break by their normal stress (AGH19 section 5.3, eq. 35-36): passes of kernels/published_breaks.cl. */
+#include "ahead.h"
 #include "cell_breaks_internal.h"
 #include "sym3.h"
 #include <math.h>
@@ -88,7 +89,7 @@ brc_status brc_published_breaks_mark(brc_simulation *s, double share, double *n)
                        BRC_COEFF(m->lambda), BRC_COEFF(m->mu), BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_COEFF(s->scene->model.couple_modulus),
                        BRC_BUF(s->lame_of), BRC_BUF(c->limit), BRC_BUF(c->reach), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched),
                        BRC_BUF(c->found)));
-    return brc_vector_sum(s, c->found, s->n_groups, n);
+    return brc_ahead_count(s, c->found, s->n_groups, n);
 }
 
 brc_status brc_published_breaks_rebuild(brc_simulation *s)

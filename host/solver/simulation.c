@@ -1,4 +1,5 @@
 /* Making and freeing a simulation, entering stages, running them, and the observers. */
+#include "ahead.h"
 #include "cell_breaks.h"
 #include "closed_faces.h"
 #include "contact.h"
@@ -173,6 +174,7 @@ void brc_simulation_free(brc_simulation **simulation)
     brc_fracture_free(s);
     brc_strikers_free(s);
     brc_look_free(s);
+    brc_ahead_free(s);
     brc_guard_free(s);
     brc_noise_free(s);
     brc_geometry_free(s);

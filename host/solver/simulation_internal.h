@@ -152,6 +152,7 @@ struct brc_simulation {
     struct brc_contact_state *contact; /* only in scenes with contact */
     struct brc_noise *noise; /* only where a stage has noise_damping (noise_damping.c) */
     struct brc_look *look;   /* from the first look between two batches on (look.c) */
+    struct brc_ahead *ahead; /* cells that may break: from the first step on (ahead.c) */
     struct brc_guard_state *guard; /* from the first dynamic stage that is run (not stepped by hand) on */
 
     /* stage */

@@ -193,6 +193,10 @@ brc_status brc_store_fields(brc_simulation *s, brc_state_store *store, const brc
         if (!field->kept || (field->wanted && !field->wanted(&s->wants))) continue;
         snprintf(name, sizeof name, "%s%s", k->prefix ? k->prefix : "", field->kept);
         brc_buffer *buffer = brc_field_buffer(field, k->owner);
+        if (store->field) {
+            if (buffer) BRC_TRY(store->field(store, buffer));
+            continue;
+        }
         if (rows || blocks || entries) {
             const brc_chosen *chosen = field->keep == BRC_KEEP_BROKEN ? k->bonds : field->keep == BRC_KEEP_OWNERS ? k->elements : NULL;
             const brc_arrangement arrangement = rows ? BRC_ROWS : blocks ? BRC_BLOCKS : BRC_ENTRIES;

@@ -27,6 +27,8 @@ struct brc_state_store {
     brc_status (*numbers)(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows, int32_t columns, void *data);
     /* Loading only: rows that were kept. BRC_BAD_INPUT where there is none. */
     brc_status (*count)(brc_state_store *store, const char *name, int64_t *rows);
+    /* Not NULL: arrays of fields are shown to it as they are on the device, in place of `numbers`, all of what a table keeps some of. */
+    brc_status (*field)(brc_state_store *store, brc_buffer *buffer);
 };
 
 /* ---- numbers of the host ---- */
@@ -90,5 +92,7 @@ brc_status brc_simulation_save_state(brc_simulation *simulation, brc_state_store
 /* Bring a new simulation of the same scene, domain and precision to it; brc_lockstep_continue (lockstep.h) then goes on. BRC_BAD_INPUT: the store is of
  * another simulation. After a failure the simulation may only be freed. */
 brc_status brc_simulation_load_state(brc_simulation *simulation, brc_state_store *store);
+/* What a step changes in which nothing breaks and nobody touches: clock, elements, loads. */
+brc_status brc_simulation_walk_motion(brc_simulation *simulation, brc_state_store *store);
 
 #endif

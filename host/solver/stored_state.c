@@ -105,6 +105,7 @@ static brc_status walk_traction(brc_simulation *s, brc_state_store *store, int32
     brc_status status = BRC_OK;
     BRC_TRY(walk_number(store, "traction", i, "last_factor", &t->last_factor));
     if (t->n == 0) return BRC_OK;
+    if (store->field) return walk_list(s, store, "traction", i, &brc_traction_fields, t, t->n, NULL);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, t->n, "elements under traction"));
     BRC_TRY_OR(cleanup, brc_buffer_read(t->element, 0, element, 4 * (int64_t)t->n));
     for (int32_t k = 0; k < t->n; ++k) element[k] = s->layout->element_of_row[element[k]];
@@ -149,6 +150,13 @@ static brc_status walk_loads(brc_simulation *s, brc_state_store *store)
 }
 
 /* ---- the whole ---- */
+
+brc_status brc_simulation_walk_motion(brc_simulation *s, brc_state_store *store)
+{
+    BRC_TRY(walk_clock(s, store));
+    BRC_TRY(walk_elements(s, store));
+    return walk_loads(s, store);
+}
 
 /* All but the stage itself, whose loads are there. */
 static brc_status walk(brc_simulation *s, brc_state_store *store)

@@ -7,9 +7,14 @@
 #include "device_cases.h"
 #include "../skip.h"
 #include "../../host/base/file.h"
+#include "../../host/base/log.h"
 #include "../../host/device/opencl_aside.h"
 #include "../../host/device/opencl_list.h"
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static brc_device_info info;
 
@@ -100,6 +105,95 @@ static void the_kernels_compile_for_every_width(void **unused)
     brc_context_free(&context);
 }
 
+#define CACHE BRC_BUILD_DIR_PATH "/kept-programs"
+
+/* Entries of the folder; *path: one of them. */
+static int kept(char *path, size_t bytes)
+{
+    DIR *const list = opendir(CACHE);
+    int n = 0;
+    for (struct dirent *d = list ? readdir(list) : NULL; d; d = readdir(list))
+        if (d->d_name[0] != '.') {
+            ++n;
+            snprintf(path, bytes, CACHE "/%s", d->d_name);
+        }
+    if (list) closedir(list);
+    return n;
+}
+
+static void count_taken(void *self, brc_log_level level, const char *line)
+{
+    (void)level;
+    *(int *)self += strstr(line, "program taken from the cache") != NULL;
+}
+
+/* Opens, and lets a kernel of the program run. */
+static void open_and_run(brc_context *context, bool exact)
+{
+    const brc_device_request request = {.selector = info.selector, .precision = BRC_SINGLE, .exact = exact};
+    brc_device *device = NULL;
+    brc_buffer *x = NULL, *y = NULL;
+    brc_kernel *kernel = NULL;
+    const float one[3] = {1, 2, 3};
+    float doubled[3];
+    if (brc_device_open(context, &request, &device) != BRC_OK) device_cases_says(context, "(it opens)");
+    assert_int_equal(brc_buffer_create(device, &x, sizeof one, "test numbers"), BRC_OK);
+    assert_int_equal(brc_buffer_create(device, &y, sizeof one, "test numbers"), BRC_OK);
+    assert_int_equal(brc_buffer_write(x, 0, one, sizeof one), BRC_OK);
+    assert_int_equal(brc_kernel_find(device, "vector_axpy", &kernel), BRC_OK);
+    if (BRC_LAUNCH(kernel, 3, BRC_INT(3), BRC_STATE(2), BRC_BUF(x), BRC_BUF(y)) != BRC_OK) device_cases_says(context, "(it is launched)");
+    assert_int_equal(brc_buffer_read(y, 0, doubled, sizeof doubled), BRC_OK);
+    for (int k = 0; k < 3; ++k) assert_true(doubled[k] == 2 * one[k]);
+    brc_buffer_free(&x);
+    brc_buffer_free(&y);
+    brc_device_close(&device);
+}
+
+/* One byte in the middle is another, or the second half is gone. */
+static void spoil(const char *path, bool cut)
+{
+    FILE *const file = fopen(path, "r+");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, 0, SEEK_END), 0);
+    const long half = ftell(file) / 2;
+    assert_int_equal(fseek(file, half, SEEK_SET), 0);
+    const int byte = fgetc(file);
+    assert_int_equal(fseek(file, half, SEEK_SET), 0);
+    assert_true(cut ? ftruncate(fileno(file), half) == 0 : fputc(byte ^ 1, file) != EOF);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void programs_are_kept_and_what_is_not_whole_is_compiled_again(void **unused)
+{
+    (void)unused;
+    brc_context *context = brc_context_create();
+    int taken = 0;
+    char path[600];
+    while (kept(path, sizeof path)) assert_int_equal(remove(path), 0);
+    brc_log_set_level(context, BRC_LOG_DEBUG);
+    brc_log_set_sink(context, count_taken, &taken);
+    assert_int_equal(setenv("BRECCIA_OPENCL_CACHE", CACHE, 1), 0);
+    open_and_run(context, false);
+    assert_int_equal(taken, 0);
+    assert_int_equal(kept(path, sizeof path), 1);
+    open_and_run(context, false);
+    assert_int_equal(taken, 1);
+    for (int cut = 0; cut < 2; ++cut) {
+        spoil(path, cut);
+        open_and_run(context, false); /* not taken, but written anew */
+        assert_int_equal(taken, 1 + cut);
+        open_and_run(context, false);
+        assert_int_equal(taken, 2 + cut);
+    }
+    open_and_run(context, true); /* other options */
+    assert_int_equal(taken, 3);
+    assert_int_equal(kept(path, sizeof path), 2);
+    assert_int_equal(setenv("BRECCIA_OPENCL_CACHE", "off", 1), 0);
+    open_and_run(context, true);
+    assert_int_equal(taken, 3);
+    brc_context_free(&context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -107,6 +201,7 @@ int main(void)
         cmocka_unit_test(kernels_that_do_not_compile_show_the_whole_log),
         cmocka_unit_test(the_kernels_of_a_folder_replace_the_embedded_ones),
         cmocka_unit_test(the_kernels_compile_for_every_width),
+        cmocka_unit_test(programs_are_kept_and_what_is_not_whole_is_compiled_again),
     };
     char why[400];
     if (!device_cases_find(BRC_DEVICE_OPENCL, &info, why, sizeof why)) return test_skip(why);

@@ -5,7 +5,6 @@ set(BRC_TARGET_TRIPLE "x86_64-pc-linux-gnu" CACHE STRING "Target triple of the O
 set(BRC_TARGET_ARCH "-march=x86-64-v3" CACHE STRING "Instruction set of the OpenMP target plug-in")
 find_program(BRC_TARGET_CLANG NAMES clang-14 clang-15 clang-16 clang-17 clang-18 clang-19 clang)
 mark_as_advanced(BRC_TARGET_CLANG)
-target_compile_definitions(brc_device PRIVATE BRC_TARGET_TRIPLE="${BRC_TARGET_TRIPLE}")
 
 set(brc_target_flags -std=gnu11 -O3 -fPIC -fopenmp -fopenmp-targets=${BRC_TARGET_TRIPLE} -ffp-contract=off -fno-math-errno
     -fvisibility=hidden -Wall -Wextra -Wno-unused-parameter -Wno-unused-function -Wno-psabi ${BRC_TARGET_ARCH})
@@ -59,6 +58,7 @@ foreach(precision RANGE ${BRC_LAST_PRECISION})
 endforeach()
 add_custom_command(OUTPUT ${brc_target_dir}/target_plugin.o
     COMMAND ${BRC_TARGET_CLANG} ${brc_target_flags} "-DBRC_TARGET_INSTANCES(X)=${brc_target_instances}"
+            -DBRC_TARGET_ARCHITECTURE="${BRC_TARGET_TRIPLE}" -DBRC_TARGET_FALLS_BACK=0
             -I${brc_device_generated} -c ${brc_device_dir}/target/target_plugin.c -o ${brc_target_dir}/target_plugin.o
     DEPENDS ${brc_device_dir}/target/target_plugin.c ${brc_device_dir}/target_plugin.h ${brc_device_dir}/kernel_instance.h
             ${brc_device_generated}/kernel_hash.h

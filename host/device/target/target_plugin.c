@@ -1,4 +1,4 @@
-/* Memory and control of OpenMP target devices, compiled by clang into libbreccia_target beside the kernel instances. */
+/* Memory and control of OpenMP target devices, compiled beside the kernel instances by clang into libbreccia_target, by gcc into libbreccia_target_nvptx. */
 #include "../target_plugin.h"
 #include "kernel_hash.h"
 #include <omp.h>
@@ -19,16 +19,20 @@ static int devices(void)
 static void *allocate(int device, size_t bytes)
 {
     void *const memory = omp_target_alloc(bytes, device);
+#ifdef __clang__
     if (memory && omp_target_associate_ptr(memory, memory, bytes, 0, device) != 0) {
         omp_target_free(memory, device);
         return NULL;
     }
+#endif
     return memory;
 }
 
 static void release(int device, void *memory)
 {
+#ifdef __clang__
     (void)omp_target_disassociate_ptr(memory, device);
+#endif
     omp_target_free(memory, device);
 }
 
@@ -78,7 +82,13 @@ static int runs_on_device(int device)
 static const brc_target_plugin plugin = {
     .version = BRC_TARGET_PLUGIN_VERSION,
     .kernels_hash = BRC_KERNEL_TEXTS_HASH,
+#ifdef __clang__
     .compiler = "clang " __clang_version__,
+#else
+    .compiler = "gcc " __VERSION__,
+#endif
+    .architecture = BRC_TARGET_ARCHITECTURE,
+    .falls_back = BRC_TARGET_FALLS_BACK,
     .instances = instances,
     .n_instances = (int)(sizeof instances / sizeof instances[0]),
     .devices = devices,

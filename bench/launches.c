@@ -1,0 +1,145 @@
+#include "launches.h"
+#include "cube.h"
+#include "../host/base/log.h"
+#include "../host/device/device_bandwidth.h"
+#include "../host/solver/simulation.h"
+#include <math.h>
+
+enum { WARM_STEPS = 600, SAMPLES = 5, TRIAL_LAUNCHES = 2000, TRIAL_WAITS = 200 };
+/* Strength that nothing reaches [Pa]. */
+static const double endless = 1e15;
+/* What an NVIDIA H200 is taken for until one was measured: bandwidth as measured elsewhere, the others usual for its driver. */
+static const brc_device_price h200 = {.launch_s = 4e-6, .wait_s = 20e-6, .copy_bandwidth = 4.3e12};
+
+typedef struct effect {
+    const char *name;
+    bool fracture, contact;
+} effect;
+static const effect effects[] = {{"elastic", false, false}, {"fracture", true, false}, {"contact", false, true}, {"fracture and contact", true, true}};
+
+static double price_of(const brc_device_price *p, double launches, double waits, double bytes) { return launches * p->launch_s + waits * p->wait_s + bytes / p->copy_bandwidth; }
+
+brc_status brc_device_price_measure(brc_device *device, int64_t bandwidth_bytes, brc_device_price *out)
+{
+    brc_status status = BRC_OK;
+    brc_buffer *x = NULL, *y = NULL;
+    brc_kernel *copy = NULL;
+    double number[8];
+    BRC_TRY(brc_device_copy_bandwidth(device, bandwidth_bytes, &out->copy_bandwidth));
+    BRC_TRY_OR(cleanup, brc_buffer_create(device, &x, sizeof number, "bench numbers"));
+    BRC_TRY_OR(cleanup, brc_buffer_create(device, &y, sizeof number, "bench numbers"));
+    BRC_TRY_OR(cleanup, brc_kernel_find(device, "vector_copy", &copy));
+    for (int trial = 0; trial < 2; ++trial) { /* the first makes the kernel ready */
+        double start = brc_clock_s();
+        for (int k = 0; k < TRIAL_LAUNCHES; ++k) BRC_TRY_OR(cleanup, BRC_LAUNCH(copy, 1, BRC_INT(1), BRC_BUF(x), BRC_BUF(y)));
+        BRC_TRY_OR(cleanup, brc_device_wait(device));
+        out->launch_s = (brc_clock_s() - start) / TRIAL_LAUNCHES;
+        start = brc_clock_s();
+        for (int k = 0; k < TRIAL_WAITS; ++k) {
+            BRC_TRY_OR(cleanup, BRC_LAUNCH(copy, 1, BRC_INT(1), BRC_BUF(x), BRC_BUF(y)));
+            BRC_TRY_OR(cleanup, brc_buffer_read(y, 0, number, 4));
+        }
+        out->wait_s = fmax(0, (brc_clock_s() - start) / TRIAL_WAITS - out->launch_s);
+    }
+cleanup:
+    brc_buffer_free(&x);
+    brc_buffer_free(&y);
+    return status;
+}
+
+/* Work of n steps, and the least seconds of a step of several samples. */
+static brc_status count_steps(brc_device *device, brc_simulation *simulation, int64_t n, brc_device_counts *work, double *seconds)
+{
+    BRC_TRY(brc_simulation_begin_stage(simulation, 0));
+    BRC_TRY(brc_simulation_advance(simulation, WARM_STEPS)); /* stretches of ahead.h have their length */
+    *seconds = INFINITY;
+    for (int k = 0; k < SAMPLES; ++k) {
+        BRC_TRY(brc_simulation_wait(simulation));
+        const brc_device_counts before = brc_device_counted(device);
+        const double start = brc_clock_s();
+        BRC_TRY(brc_simulation_advance(simulation, n));
+        const brc_device_counts after = brc_device_counted(device);
+        BRC_TRY(brc_simulation_wait(simulation));
+        *seconds = fmin(*seconds, (brc_clock_s() - start) / (double)n);
+        *work = (brc_device_counts){after.launches - before.launches, after.waits - before.waits, after.read_bytes - before.read_bytes,
+                                    after.written_bytes - before.written_bytes, after.copied_bytes - before.copied_bytes};
+    }
+    return BRC_OK;
+}
+
+static void add_figures(const brc_launches_request *r, const brc_domain *domain, double floor_bytes, const brc_device_counts *work, double seconds, const brc_device_price *price,
+                        brc_rows *rows)
+{
+    const double n = (double)r->n_steps, launches = (double)work->launches / n, waits = (double)work->waits / n, told = price_of(price, launches, waits, floor_bytes);
+    brc_rows_number(rows, "ours", launches);
+    brc_rows_number(rows, "launches_per_step", launches);
+    brc_rows_number(rows, "waits_per_1000_steps", 1000 * waits);
+    brc_rows_number(rows, "read_bytes_per_step", (double)work->read_bytes / n);
+    brc_rows_number(rows, "written_bytes_per_step", (double)work->written_bytes / n);
+    brc_rows_number(rows, "copied_bytes_per_step", (double)work->copied_bytes / n);
+    brc_rows_number(rows, "floor_bytes_per_step", floor_bytes);
+    brc_rows_number(rows, "launch_s", price->launch_s);
+    brc_rows_number(rows, "wait_s", price->wait_s);
+    brc_rows_number(rows, "copy_bandwidth", price->copy_bandwidth);
+    brc_rows_number(rows, "seconds", seconds);
+    brc_rows_number(rows, "seconds_by_model", told);
+    brc_rows_number(rows, "model_over_seconds", told / seconds);
+    brc_rows_number(rows, "h200_seconds_by_model", price_of(&h200, launches, waits, floor_bytes));
+    brc_rows_integer(rows, "elements", domain->n_elements);
+    brc_rows_integer(rows, "bonds", domain->n_bonds);
+}
+
+static brc_status measure(brc_context *context, const brc_launches_request *r, const brc_domain *domain, brc_model_kind model, const effect *e, brc_rows *rows)
+{
+    brc_status status = BRC_OK;
+    brc_device *device = NULL;
+    brc_simulation *simulation = NULL;
+    brc_cube c;
+    brc_device_counts work;
+    brc_device_price price;
+    double seconds;
+    const brc_device_request open = {.selector = r->device, .precision = r->precision, .n_threads = r->n_threads};
+    brc_cube_make(&c, model);
+    if (e->fracture) {
+        c.scene.has_fracture = true;
+        c.scene.fracture = (brc_fracture){.level = 1, .closure = true, .side_friction = -1}; /* as scenes have it */
+        c.material.tension = endless;
+    }
+    if (e->contact) {
+        c.scene.has_contact = true;
+        c.scene.contact = (brc_contact){.within = true, .rotation = true};
+    }
+    BRC_TRY_OR(cleanup, brc_device_open(context, &open, &device));
+    BRC_TRY_OR(cleanup, brc_device_price_measure(device, r->bandwidth_bytes, &price));
+    BRC_TRY_OR(cleanup, brc_simulation_create(context, &c.scene, domain, device, &simulation));
+    BRC_TRY_OR(cleanup, count_steps(device, simulation, r->n_steps, &work, &seconds));
+    brc_rows_begin(rows);
+    brc_rows_text(rows, "case", "launches");
+    brc_rows_text(rows, "quantity", e->name);
+    brc_rows_text(rows, "model", brc_model_name(model));
+    brc_rows_text(rows, "unit", "1/step");
+    add_figures(r, domain, brc_simulation_floor_bytes(simulation), &work, seconds, &price, rows);
+    brc_rows_text(rows, "precision", brc_precision_name(r->precision));
+    brc_rows_text(rows, "device", r->device);
+    brc_rows_text(rows, "device_name", brc_device_get_info(device)->name);
+    brc_rows_integer(rows, "threads", brc_device_get_info(device)->compute_units);
+    brc_rows_stamp(rows);
+    status = rows->status != BRC_OK ? rows->status : r->row ? r->row(r->self, rows) : BRC_OK;
+cleanup:
+    brc_simulation_free(&simulation);
+    brc_device_close(&device);
+    return status;
+}
+
+brc_status brc_launches_measure(brc_context *context, const brc_launches_request *request, brc_rows *rows)
+{
+    for (int m = 0; m < request->n_models; ++m) {
+        brc_domain *domain = NULL;
+        BRC_TRY(brc_cube_build(context, request->size, request->models[m] == BRC_MODEL_CBM, &domain));
+        brc_status status = BRC_OK;
+        for (size_t k = 0; k < sizeof effects / sizeof effects[0] && status == BRC_OK; ++k) status = measure(context, request, domain, request->models[m], &effects[k], rows);
+        brc_domain_free(&domain);
+        BRC_TRY(status);
+    }
+    return BRC_OK;
+}

@@ -1,0 +1,138 @@
+#include "opencl_build.h"
+#include "opencl_status.h"
+#include "program_cache.h"
+#include "program_source.h"
+#include "../base/log.h"
+#include "../base/memory.h"
+#include <stdio.h>
+#include <string.h>
+
+/* The whole compiler log, freed with brc_memory_free; NULL when there is none. */
+static char *build_log(brc_device *device, cl_program program, cl_device_id id)
+{
+    size_t bytes = 0;
+    char *log = NULL;
+    if (clGetProgramBuildInfo(program, id, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes) != CL_SUCCESS)
+        return NULL;
+    if (brc_memory_allocate(device->context, (void **)&log, (int64_t)bytes + 1, 1, "compiler log") != BRC_OK)
+        return NULL;
+    if (clGetProgramBuildInfo(program, id, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) != CL_SUCCESS)
+        log[0] = '\0';
+    return log;
+}
+
+/* What makes a device round every operation by itself. Divisions and roots of single numbers may be off by 2.5 and 3 last
+ * places unless the device is asked, which it can be where it offers it (OpenCL 1.2, 5.6.4.2). */
+static const char *exact_options(brc_device *device, cl_device_id id)
+{
+    cl_device_fp_config single = 0;
+    if (device->precision == BRC_DOUBLE) return " -D BRC_EXACT";
+    if (clGetDeviceInfo(id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof single, &single, NULL) == CL_SUCCESS &&
+        single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT)
+        return " -D BRC_EXACT -cl-fp32-correctly-rounded-divide-sqrt";
+    brc_log(device->context, BRC_LOG_WARNING,
+            "device %s does not round divisions and roots of single numbers correctly: its results in precision %s may "
+            "differ from those of other devices in spite of exact", device->info.selector,
+            brc_precision_name(device->precision));
+    return " -D BRC_EXACT";
+}
+
+/* What a compiled program depends on, as text: platform, device and driver with their versions, options, source. Freed with brc_memory_free. */
+static brc_status make_key(brc_device *device, cl_device_id id, const char *options, const char *source, char **out)
+{
+    static const cl_device_info of_device[] = {CL_DEVICE_VENDOR, CL_DEVICE_NAME, CL_DEVICE_VERSION, CL_DRIVER_VERSION, CL_DEVICE_EXTENSIONS};
+    static const cl_platform_info of_platform[] = {CL_PLATFORM_NAME, CL_PLATFORM_VERSION};
+    enum { LINE_BYTES = 2048, LINES = 8 };
+    const size_t most = LINES * LINE_BYTES + strlen(options) + strlen(source) + 1;
+    cl_platform_id platform = NULL;
+    char line[LINE_BYTES];
+    size_t used = 0;
+    *out = NULL;
+    BRC_TRY(brc_memory_allocate(device->context, (void **)out, (int64_t)most, 1, "key of a program"));
+    (void)clGetDeviceInfo(id, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL);
+    for (size_t k = 0; k < sizeof of_device / sizeof of_device[0] + sizeof of_platform / sizeof of_platform[0]; ++k) {
+        const size_t p = k - sizeof of_device / sizeof of_device[0];
+        memset(line, 0, sizeof line);
+        if (k < sizeof of_device / sizeof of_device[0]) (void)clGetDeviceInfo(id, of_device[k], sizeof line - 1, line, NULL);
+        else (void)clGetPlatformInfo(platform, of_platform[p], sizeof line - 1, line, NULL);
+        used += (size_t)snprintf(*out + used, most - used, "%s\n", line);
+    }
+    snprintf(*out + used, most - used, "%s\n%s", options, source);
+    return BRC_OK;
+}
+
+/* The program kept under a key, ready to run; NULL: there is none, or the driver does not take it. */
+static cl_program kept_program(brc_device *device, cl_context context, cl_device_id id, const char *options, const char *key)
+{
+    size_t bytes;
+    cl_int code, taken;
+    unsigned char *const binary = brc_program_cache_find(device->context, key, &bytes);
+    if (!binary) return NULL;
+    const unsigned char *const binaries[] = {binary};
+    cl_program program = clCreateProgramWithBinary(context, 1, &id, &bytes, (const unsigned char **)(uintptr_t)binaries, &taken, &code);
+    brc_memory_free(binary);
+    if (code != CL_SUCCESS || taken != CL_SUCCESS || clBuildProgram(program, 1, &id, options, NULL, NULL) != CL_SUCCESS) {
+        if (program) (void)clReleaseProgram(program);
+        return NULL;
+    }
+    brc_log(device->context, BRC_LOG_DEBUG, "device %s: program taken from the cache", device->info.selector);
+    return program;
+}
+
+static void keep_program(brc_device *device, cl_program program, const char *key)
+{
+    size_t bytes = 0;
+    unsigned char *binary = NULL;
+    if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof bytes, &bytes, NULL) != CL_SUCCESS || bytes == 0) return;
+    if (brc_memory_allocate(device->context, (void **)&binary, (int64_t)bytes, 1, "OpenCL program") != BRC_OK) return;
+    if (clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL) == CL_SUCCESS) brc_program_cache_keep(device->context, key, binary, bytes);
+    brc_memory_free(binary);
+}
+
+/* folder: for the sentence. */
+static brc_status compile(brc_device *device, cl_context context, cl_device_id id, const char *options, const char *source, const char *folder, cl_program *out)
+{
+    brc_status status = BRC_OK;
+    const char *const sources[] = {source};
+    char text[192], *log = NULL;
+    cl_int code;
+    brc_device_describe(&device->info, text, sizeof text);
+    *out = clCreateProgramWithSource(context, 1, (const char **)(uintptr_t)sources, NULL, &code);
+    BRC_TRY(brc_opencl_check(device, code, "taking the kernel text"));
+    code = clBuildProgram(*out, 1, &id, options, NULL, NULL);
+    if (code != CL_SUCCESS || brc_log_get_level(device->context) >= BRC_LOG_DEBUG) log = build_log(device, *out, id);
+    if (code != CL_SUCCESS)
+        status = BRC_FAIL(device->context, BRC_DEVICE_FAILED,
+                          "device %s, %s: the kernels%s%s do not compile: %s\noptions: %s\ncompiler log:\n%s", text,
+                          device->info.driver, folder ? " in " : "", folder ? folder : "", brc_opencl_status_text(code),
+                          options, log && log[0] ? log : "(empty)");
+    else if (brc_log_get_level(device->context) >= BRC_LOG_DEBUG)
+        brc_log(device->context, BRC_LOG_DEBUG, "device %s, options %s, compiler log:\n%s", text, options, log && log[0] ? log : "(empty)");
+    brc_memory_free(log);
+    return status;
+}
+
+brc_status brc_opencl_build(brc_device *device, cl_context context, cl_device_id id, const char *folder, bool exact, cl_program *out)
+{
+    brc_status status = BRC_OK;
+    char *source = NULL, *key = NULL, options[256];
+    *out = NULL;
+    snprintf(options, sizeof options,
+             "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D BRC_MANY_MATERIALS=%d%s",
+             (int)device->precision, device->lanes, device->slice, (int)device->many_materials,
+             exact ? exact_options(device, id) : "");
+    BRC_TRY_OR(cleanup, brc_program_source(device->context, folder, &source));
+    BRC_TRY_OR(cleanup, make_key(device, id, options, source, &key));
+    *out = kept_program(device, context, id, options, key);
+    if (*out) goto cleanup;
+    BRC_TRY_OR(cleanup, compile(device, context, id, options, source, folder, out));
+    keep_program(device, *out, key);
+cleanup:
+    if (status != BRC_OK && *out) {
+        (void)clReleaseProgram(*out);
+        *out = NULL;
+    }
+    brc_memory_free(source);
+    brc_memory_free(key);
+    return status;
+}
