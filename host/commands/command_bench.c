@@ -4,6 +4,7 @@
 #include "../../bench/contact_cost.h"
 #include "../../bench/effects.h"
 #include "../../bench/launches.h"
+#include "../../bench/sectors.h"
 #include "../../bench/statics_cost.h"
 #include "../../bench/throughput.h"
 #include "../base/memory.h"
@@ -14,7 +15,7 @@
 
 static const brc_option options[] = {
     BRC_OPTION_OUTPUT("folder of rows.json and rows.csv (default results/throughput)"),
-    {"sizes", 0, "LIST", false, "numbers of elements (default 1e4,1e5,1e6; effects, launches: 2e4)"},
+    {"sizes", 0, "LIST", false, "numbers of elements (default 1e4,1e5,1e6; effects, launches: 2e4; sectors: 1e5)"},
     {"models", 0, "LIST", false, "dlsm, dlsm-published, cbm (default the first two; effects, launches: all)"},
     {"devices", 0, "LIST", false, "default: cpu and every OpenCL device that is here; effects: cpu; launches: auto"},
     {"precisions", 0, "LIST", false, "default double,mixed,single; effects, launches: double"},
@@ -349,6 +350,40 @@ static brc_status run_launches(const brc_session *session, const brc_arguments *
     return status;
 }
 
+static brc_status print_sectors(void *self, const brc_rows *rows)
+{
+    const brc_row *row = &rows->rows[rows->n_rows - 1];
+    printf("%-32s %-14s %-7s %4.0f %8.3f %8.3f %8.1f %8.1f %8.1f\n", brc_row_text(row, "quantity"), brc_row_text(row, "precision"), brc_row_text(row, "storage"),
+           brc_row_number(row, "record_bytes"), brc_row_number(row, "sectors_per_gather"), brc_row_number(row, "fetched_over_wanted"), brc_row_number(row, "group_128_bytes"),
+           brc_row_number(row, "group_512_bytes"), brc_row_number(row, "group_1024_bytes"));
+    fflush(stdout);
+    return brc_rows_write(rows, self);
+}
+
+static brc_status run_sectors(const brc_session *session, const brc_arguments *arguments)
+{
+    static const char *const others[] = {"models", "devices", "precisions", "threads", "problems", "quick", "folder", "resume", "exact", "sample", "copy", "elements", "poisson", "steps"};
+    brc_context *context = session->context;
+    const char *given = brc_arguments_value(arguments, "output"), *pieces[BRC_THROUGHPUT_LIST];
+    char folder[512], copy[256];
+    double number;
+    int n = 0;
+    BRC_TRY(refuse_options(context, arguments, "sectors", sizeof others / sizeof *others, others));
+    snprintf(folder, sizeof folder, "%s", given ? given : "results/sectors");
+    brc_sectors_request request = {.row = print_sectors, .self = folder};
+    BRC_TRY(take_list(context, arguments, "sizes", "1e5", copy, sizeof copy, pieces, &n));
+    if (n > 1) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench sectors: one size, found several");
+    BRC_TRY(take_number(context, "sizes", pieces[0], 8, 1e8, &number));
+    request.size = (int64_t)number;
+    printf("bytes of a record, sectors a gather, bytes fetched over wanted, bytes a half-edge where groups of 128, 512, 1024 fetch each sector once\n");
+    brc_rows rows = {.context = context};
+    brc_status status = brc_sectors_measure(context, &request, &rows);
+    if (status == BRC_OK) status = brc_rows_write(&rows, folder);
+    if (status == BRC_OK) printf("%s/rows.json\n", folder);
+    brc_rows_free(&rows);
+    return status;
+}
+
 static brc_status run_peers(const brc_session *session, const brc_arguments *arguments)
 {
     static const char *const others[] = {"sizes", "models", "devices", "precisions", "exact", "sample", "copy", "problems", "quick", "folder", "resume", "poisson"};
@@ -371,9 +406,10 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     if (strcmp(arguments->positional[0], "contact") == 0) return run_contact(session, arguments);
     if (strcmp(arguments->positional[0], "effects") == 0) return run_effects(session, arguments);
     if (strcmp(arguments->positional[0], "statics") == 0) return run_statics(session, arguments);
+    if (strcmp(arguments->positional[0], "sectors") == 0) return run_sectors(session, arguments);
     if (strcmp(arguments->positional[0], "launches") == 0) return run_launches(session, arguments);
     if (strcmp(arguments->positional[0], "throughput") != 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects, statics, launches, peers", arguments->positional[0]);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects, statics, launches, sectors, peers", arguments->positional[0]);
     BRC_TRY(refuse_options(context, arguments, "throughput", sizeof others / sizeof *others, others));
     const char *given_folder = brc_arguments_value(arguments, "output");
     char folder[512], here[256], copy[4][256], devices[256];
@@ -418,7 +454,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
 }
 
 const brc_command brc_command_bench = {.name = "bench",
-                                       .operands = "throughput|accuracy|contact|effects|statics|launches|peers",
+                                       .operands = "throughput|accuracy|contact|effects|statics|launches|sectors|peers",
                                        .least = 1,
                                        .most = 1,
                                        .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy, contact or other effects cost, or what other programs take",
@@ -427,6 +463,7 @@ const brc_command brc_command_bench = {.name = "bench",
                                                   "contact: the step with nothing near, of a ball gone to dust, and of dust pressed together, over the step without contact (default 3e4 elements). "
                                                   "statics: a cantilever and a cube in equilibrium, with multigrid and with diagonal blocks (one device, precision and number of threads). "
                                                   "launches: what a step asks of a device, counted, and its price by a model of the device (one size, device, precision). "
+                                                  "sectors: what gathers cost the memory of a GPU, counted from neighbour lists (one size). "
                                                   "effects: fracture and others as multiples of the elastic step of a cube (one size, device, precision, number of threads). "
                                                   "peers: the same packing in breccia and in YADE and LAMMPS, where they are on PATH (one number of threads).",
                                        .options = options,

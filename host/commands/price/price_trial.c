@@ -64,6 +64,7 @@ static void tell_dynamic(FILE *details, const brc_scene *scene, const brc_setup 
     fprintf(details, "stage %s: %lld steps of %.3g s each, %.3g bond updates/s, %lld samples of %.3g s, %lld frames of %.3g s: %.3g s%s\n", stage->name, (long long)t->planned, t->pace_s,
            (double)brc_setup_n_bonds(setup) / t->pace_s, (long long)t->samples_planned, t->sample_s, (long long)t->frames_planned, t->frame_s, seconds,
            t->cut ? "" : " (run to its end)");
+    if (t->launches > 0) fprintf(details, "stage %s: %.4g launches and %.3g waits for the device in a step, samples and frames included\n", stage->name, t->launches, t->waits);
     if (factor > 1) fprintf(details, "stage %s: its steps get %.2g times as long as bonds break or surfaces meet (seen with fewer elements)\n", stage->name, factor);
     if (part < 1) fprintf(details, "stage %s: it ends after %.2g of its steps (seen with fewer elements)\n", stage->name, part);
     if (!t->cut) add(total, seconds, seconds, seconds);

@@ -41,6 +41,7 @@ typedef struct watch {
     int64_t asked;
     double patience_s;
     int64_t device_first; /* bytes at the first pause */
+    brc_device_counts counted_first; /* at the first pause of the stage */
 } watch;
 
 bool brc_trial_may_end_early(const brc_stage *stage) { return stage->stop_kinetic > 0 || stage->stop_broken > 0 || stage->stop_sensor[0]; }
@@ -107,6 +108,18 @@ static brc_status after_frame(void *self, brc_simulation *simulation)
     return BRC_OK;
 }
 
+/* Of all devices so far. */
+static brc_device_counts counted(const watch *w)
+{
+    brc_device_counts sum = {0};
+    for (int32_t k = 0; k < w->setup->n; ++k) {
+        const brc_device_counts one = brc_device_counted(w->setup->device[k]);
+        sum.launches += one.launches;
+        sum.waits += one.waits;
+    }
+    return sum;
+}
+
 static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
 {
     watch *w = self;
@@ -119,9 +132,13 @@ static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
     if (w->pauses++ == 0) {
         w->first = now;
         w->first_step = step;
+        w->counted_first = counted(w);
         w->first_output_s = w->output_s;
         w->now->warm_s = now - w->begin - w->output_s;
     } else {
+        const brc_device_counts all = counted(w);
+        w->now->launches = (double)(all.launches - w->counted_first.launches) / (double)(step - w->first_step);
+        w->now->waits = (double)(all.waits - w->counted_first.waits) / (double)(step - w->first_step);
         w->now->pace_s = (now - w->first - (w->output_s - w->first_output_s)) / (double)(step - w->first_step);
         if (now - w->last < short_batch_s && w->patience.batch < LARGEST_BATCH) w->patience.batch *= 2;
     }
