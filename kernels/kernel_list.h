@@ -65,6 +65,7 @@
     X(block6_precondition)                                                                                             \
     X(striker_advance)                                                                                                 \
     X(striker_place)                                                                                                   \
+    X(striker_push)                                                                                                    \
     X(striker_book)                                                                                                    \
     X(cbm_force_pass)                                                                                                  \
     X(cells_force)                                                                                                     \

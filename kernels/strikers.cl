@@ -2,8 +2,8 @@
  * and the rotation matrix by rows; motion [n][6], velocity of the centre and angular velocity; load [n][6], force of the elements on it and their torque about
  * the centre; all in the frame of space. Besides: displacement [n][3] of the centre, centre [n][3] as the scene starts; orientation since then, quaternions w x y z
  * [n][4]; momentum of turning about the centre [n][3]; mass [n]; inertia about the centre as the scene starts, xx yy zz yz xz xy [n][6]. freedom [n]: bits 1 2 4
- * free to move along x y z, 8 free to turn; 0 for strikers that stand still or are driven. moved [n][6]: how far each moved and turned since the last
- * booking. */
+ * free to move along x y z, 8 free to turn, 16 pushed by a prescribed force; 0 for strikers that stand still or are driven. push [n][3]: that force, on the mass
+ * centre, not in load; read of pushed ones only. moved [n][6]: how far each moved and turned since the last booking. */
 
 LAW svec3 striker_vec(GLOBAL const state *restrict p, int at) { return (svec3){p[at], p[at + 1], p[at + 2]}; }
 LAW ssym3 striker_inertia(GLOBAL const state *restrict p, int i)
@@ -38,18 +38,25 @@ LAW void striker_put_pose(GLOBAL state *restrict pose, GLOBAL state *restrict or
 /* 1 where a bit of freedom is set. */
 LAW state striker_free(int freedom, int bit) { return freedom & bit ? STATE(1) : STATE(0); }
 
+/* What moves the mass centre of a free striker but gravity. */
+LAW svec3 striker_force(GLOBAL const state *restrict load, GLOBAL const state *restrict push, int bits, int i)
+{
+    const svec3 f = striker_vec(load, 6 * i);
+    return bits & 16 ? svec3_add(f, striker_vec(push, 3 * i)) : f;
+}
+
 /* Free strikers: v += kick f / m, l += kick T; moved by drift with v + extra f / m and l + extra T. As elements: extra is (phi - 1) dt for Tchamwa-Wielgosz,
  * whose own loss begins to be booked here (numerical 1, motion.cl), else 0. g: gravity [m/s^2]. */
 KERNEL void striker_advance(int n, state kick, state drift, state extra, int numerical, state gx, state gy, state gz, GLOBAL const int *restrict freedom,
                             GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia, GLOBAL const state *restrict centre,
-                            GLOBAL const state *restrict load, GLOBAL state *restrict motion, GLOBAL state *restrict momentum,
-                            GLOBAL state *restrict displacement, GLOBAL state *restrict orientation, GLOBAL state *restrict pose,
-                            GLOBAL state *restrict moved, GLOBAL state *restrict lost)
+                            GLOBAL const state *restrict load, GLOBAL const state *restrict push, GLOBAL state *restrict motion,
+                            GLOBAL state *restrict momentum, GLOBAL state *restrict displacement, GLOBAL state *restrict orientation,
+                            GLOBAL state *restrict pose, GLOBAL state *restrict moved, GLOBAL state *restrict lost)
 {
     FOR_EACH_ITEM(i, n) {
         const int bits = freedom[i];
         if (bits) {
-            const svec3 f = striker_vec(load, 6 * i), t = svec3_scale(striker_free(bits, 8), striker_vec(load, 6 * i + 3));
+            const svec3 f = striker_force(load, push, bits, i), t = svec3_scale(striker_free(bits, 8), striker_vec(load, 6 * i + 3));
             const svec3 a = {striker_free(bits, 1) * (f.x / mass[i] + gx), striker_free(bits, 2) * (f.y / mass[i] + gy),
                                  striker_free(bits, 4) * (f.z / mass[i] + gz)};
             const svec3 v = svec3_add(striker_vec(motion, 6 * i), svec3_scale(kick, a));
@@ -94,12 +101,18 @@ KERNEL void striker_place(int n, int which, state ux, state uy, state uz, state 
     }
 }
 
+/* The prescribed force on striker `which`, from here on [N]. */
+KERNEL void striker_push(int n, int which, state fx, state fy, state fz, GLOBAL state *restrict push)
+{
+    FOR_EACH_ITEM(k, n) striker_put(push, 3 * (which + k), (svec3){fx, fy, fz});
+}
+
 /* After the forces of a step. Strikers that are driven do work on what they touch, - (force . way + torque . turn) by the trapezoidal rule as impose_book
- * (motion.cl); free ones end the booking of the integrator's own loss (numerical 1). g: gravity. book: 0 nothing; 1 add; 2 start here. last [n][6]: the load at
- * the last booking. */
+ * (motion.cl), and so do prescribed forces on free ones, push . way; free ones end the booking of the integrator's own loss (numerical 1). g: gravity. book:
+ * 0 nothing; 1 add; 2 start here. last [n][6]: the load at the last booking; pushed [n][3]: the push then. */
 KERNEL void striker_book(int n, int book, int numerical, state gx, state gy, state gz, GLOBAL const int *restrict freedom, GLOBAL const state *restrict mass,
-                         GLOBAL const state *restrict load, GLOBAL state *restrict moved, GLOBAL state *restrict last, GLOBAL state *restrict work,
-                         GLOBAL state *restrict lost)
+                         GLOBAL const state *restrict load, GLOBAL const state *restrict push, GLOBAL state *restrict moved,
+                         GLOBAL state *restrict last, GLOBAL state *restrict pushed, GLOBAL state *restrict work, GLOBAL state *restrict lost)
 {
     FOR_EACH_ITEM(i, n) {
         if (book) {
@@ -108,7 +121,13 @@ KERNEL void striker_book(int n, int book, int numerical, state gx, state gy, sta
             const svec3 weight = {mass[i] * gx, mass[i] * gy, mass[i] * gz}, none = {STATE(0), STATE(0), STATE(0)};
             if (book == 1 && bits == 0)
                 work[i] -= STATE(0.5) * (svec3_dot(svec3_add(striker_vec(last, 6 * i), f), way) + svec3_dot(svec3_add(striker_vec(last, 6 * i + 3), t), turn));
-            if (book == 1 && numerical && bits) lost[i] += STATE(0.5) * (svec3_dot(svec3_add(f, weight), way) + svec3_dot(t, turn));
+            if (book == 1 && numerical && bits)
+                lost[i] += STATE(0.5) * (svec3_dot(svec3_add(striker_force(load, push, bits, i), weight), way) + svec3_dot(t, turn));
+            if (bits & 16) {
+                const svec3 p = striker_vec(push, 3 * i);
+                if (book == 1) work[i] += STATE(0.5) * svec3_dot(svec3_add(striker_vec(pushed, 3 * i), p), way);
+                striker_put(pushed, 3 * i, p);
+            }
             striker_put(last, 6 * i, f);
             striker_put(last, 6 * i + 3, t);
             striker_put(moved, 6 * i, none);

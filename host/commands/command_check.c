@@ -92,6 +92,7 @@ static void print_strikers(FILE *details, const brc_assembly *a)
         if (!striker->is_plane) fprintf(details, ", %d flat faces", (int)body->surface.n_faces);
         if (striker->motion == BRC_STRIKER_FREE)
             fprintf(details, ", mass %.6g kg, moments of inertia %.4g %.4g %.4g kg m^2", body->mass, body->inertia[0], body->inertia[1], body->inertia[2]);
+        if (striker->pushed) fprintf(details, ", pushed by %.4g %.4g %.4g N", striker->force[0], striker->force[1], striker->force[2]);
         fprintf(details, "\n");
     }
 }

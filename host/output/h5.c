@@ -248,6 +248,12 @@ void brc_h5_attribute_number(brc_h5 *h5, const char *object, const char *name, d
     H5Sclose(space);
 }
 
+void brc_h5_link(brc_h5 *h5, const char *name, const char *object)
+{
+    if (h5->status != BRC_OK) return;
+    brc_h5_check(h5, H5Lcreate_hard(h5->file, object, h5->file, name, H5P_DEFAULT, H5P_DEFAULT) >= 0, name);
+}
+
 void brc_h5_external_link(brc_h5 *h5, const char *name, const char *file, const char *object)
 {
     if (h5->status != BRC_OK) return;

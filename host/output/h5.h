@@ -50,6 +50,8 @@ void brc_h5_attribute_text(brc_h5 *h5, const char *object, const char *name, con
 void brc_h5_describe(brc_h5 *h5, const char *object, const char *unit, const char *meaning);
 void brc_h5_attribute_integers(brc_h5 *h5, const char *object, const char *name, int64_t n, const int64_t *values);
 void brc_h5_attribute_number(brc_h5 *h5, const char *object, const char *name, double value);
+/* Another name for an object of this file. */
+void brc_h5_link(brc_h5 *h5, const char *name, const char *object);
 /* name -> another file's object. */
 void brc_h5_external_link(brc_h5 *h5, const char *name, const char *file, const char *object);
 

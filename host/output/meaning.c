@@ -13,7 +13,7 @@ const brc_meaning brc_meanings_of_results[] = {
     {"ledger/elastic", "J", "elastic energy of bonds at the end, without the stabilisation"},
     {"ledger/stabilisation", "J", "elastic energy that the stabilisation of cells holds"},
     {"ledger/potential", "J", "potential energy in gravity"},
-    {"ledger/work", "J", "work of loads and driven strikers on the bodies"},
+    {"ledger/work", "J", "work of loads and driven strikers on the bodies, and of prescribed forces on free strikers"},
     {"ledger/damping", "J", "energy taken by damping"},
     {"ledger/numerical", "J", "energy taken by the integrator"},
     {"ledger/contact", "J", "elastic energy held by contacts"},

@@ -27,7 +27,7 @@ static const struct {
     {"crack_opening", "opening"}, {"cod", "opening"}, {"every", "history_every"}, {"frame_every", "frame_interval"}, {"sampling", "history_every"}, {"load", "loads"},
     {"boundary_conditions", "loads"}, {"initial_velocity", "initial"}, {"initial_conditions", "initial"}, {"walls", "strikers"}, {"platen", "platens"}, {"jaw", "jaws"},
     {"roller", "rollers"}, {"supports", "rollers"}, {"notch", "cracks"}, {"notches", "cracks"}, {"slit", "cracks"}, {"crack", "cracks"}, {"clamp", "face_displacement"}, {"clamped", "face_displacement"}, {"fixed", "face_displacement"}, {"fix", "face_displacement"}, {"support", "face_displacement"}, {"gap", "skin"}, {"value", "target"}, {"lattice", "dlsm"}, {"bpm", "cbm"},
-    {"velocity", "speed"}, {"rate", "speed"}, {"force", "speed"}, {"direction", "axis"}, {"direction", "component"}, {"quantity", "component"}, {"m", "modulus"},
+    {"velocity", "speed"}, {"rate", "speed"}, {"direction", "axis"}, {"direction", "component"}, {"quantity", "component"}, {"m", "modulus"},
 };
 
 static const char *synonym(const brc_section *section, const char *key)

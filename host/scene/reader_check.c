@@ -216,41 +216,6 @@ static void check_couples(brc_reader *reader)
     }
 }
 
-/* Bodies may be brought to rest before anything moves; what has met or broken has no linear operator to solve with. */
-static void check_rest_with_contact(brc_reader *reader)
-{
-    const brc_scene *scene = reader->scene;
-    const brc_stage *moving = NULL;
-    for (int k = 0; k < scene->n_stages; ++k) {
-        const brc_stage *stage = &scene->stages[k];
-        if (stage->solver == BRC_SOLVER_DYNAMIC) moving = moving ? moving : stage;
-        else if (stage->most_events > 0)
-            COMPLAIN(reader, &stage->most_events, stage, "events: they know no contact, and what they break would meet; use a dynamic stage, or leave contact out");
-        else if (moving)
-            COMPLAIN(reader, &stage->solver, stage,
-                     "solver: static stages and modes know no contact, as surfaces that open and close have no linear operator to solve with; expected before the first dynamic stage, "
-                     "which is '%s'. Use `dynamic` with mass damping to find a rest, or leave contact out", moving->name);
-    }
-}
-
-/* Walls, strikers and what watches contact. */
-static void check_contact(brc_reader *reader)
-{
-    const brc_scene *scene = reader->scene;
-    const bool known = scene->has_contact || brc_reader_is_broken(reader, "interactions");
-    static const char *const CURE = "needs `interactions: {contact: {}}` at the top of the scene";
-    for (int k = 0; k < scene->n_strikers; ++k) {
-        const brc_striker *striker = &scene->strikers[k];
-        if (!known) COMPLAIN(reader, NULL, striker, "striker '%s': touches nothing: it %s", striker->name, CURE);
-        if (striker->is_plane && striker->motion == BRC_STRIKER_FREE)
-            COMPLAIN(reader, &striker->motion, striker, "motion: an endless plane has no mass; expected fixed or driven");
-        if (!striker->is_plane) check_shape(reader, &striker->shape);
-    }
-    if (scene->has_contact) check_rest_with_contact(reader);
-    for (int i = 0; i < scene->n_sensors && !known; ++i)
-        if (scene->sensors[i].kind == BRC_SENSOR_CONTACT) COMPLAIN(reader, scene->sensors[i].term, &scene->sensors[i], "contact: this sensor %s", CURE);
-}
-
 bool brc_load_is_motion(const brc_load *load)
 {
     return load->kind <= BRC_LOAD_ELEMENT_VELOCITY;
@@ -345,7 +310,9 @@ static brc_status check_rest(brc_reader *reader)
     check_limits(reader);
     check_couples(reader);
     brc_reader_check_fracture(reader);
-    check_contact(reader);
+    for (int k = 0; k < reader->scene->n_strikers; ++k)
+        if (!reader->scene->strikers[k].is_plane) check_shape(reader, &reader->scene->strikers[k].shape);
+    brc_reader_check_contact(reader);
     BRC_TRY(check_stages(reader));
     brc_reader_check_sensors(reader);
     brc_reader_check_output(reader);

@@ -162,19 +162,26 @@ static int32_t tool_material(brc_reader *reader, const fixture *f)
     return scene->n_materials++;
 }
 
-static brc_status add_striker(brc_reader *reader, const fixture *f, const char *which, double speed, brc_striker **out)
+/* A tool that moves the way of `way` along the axis, with this share of the speed; 0: it stays. */
+static brc_status add_striker(brc_reader *reader, const fixture *f, const char *which, int way, double share, brc_striker **out)
 {
     brc_scene *scene = reader->scene;
     if (!scene->strikers) BRC_TRY(BRC_ALLOCATE(reader->context, &scene->strikers, BRC_FIXTURE_STRIKERS, "strikers"));
     brc_striker *striker = *out = &scene->strikers[scene->n_strikers];
-    *striker = (brc_striker){.facets = FACETS, .material = tool_material(reader, f), .motion = speed != 0 ? BRC_STRIKER_DRIVEN : BRC_STRIKER_FIXED};
+    *striker = (brc_striker){.facets = FACETS, .material = tool_material(reader, f), .mass = f->as->mass};
     snprintf(striker->name, sizeof striker->name, "%s_%s", f->tool, which);
     for (int k = 0; k < scene->n_strikers; ++k)
         if (strcmp(scene->strikers[k].name, striker->name) == 0)
             REFUSE(reader, f, &f->as->given, "%s: they make a striker '%s', and the scene has one of this name; give that another name", f->name, striker->name);
     ++scene->n_strikers;
-    striker->velocity[f->axis] = speed;
-    if (speed == 0 || !(f->as->ramp > 0)) return BRC_OK;
+    if (way == 0) return BRC_OK;
+    striker->pushed = f->as->force > 0;
+    striker->motion = striker->pushed ? BRC_STRIKER_FREE : BRC_STRIKER_DRIVEN;
+    striker->velocity[f->axis] = striker->pushed ? 0 : way * share * f->as->speed;
+    striker->force[f->axis] = way * f->as->force;
+    striker->held_rotation = striker->pushed; /* a free one is led along the axis */
+    for (int c = 0; c < 3; ++c) striker->held[c] = striker->pushed && c != f->axis;
+    if (!(f->as->ramp > 0)) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(reader->context, &striker->table.time, 2, "table"));
     BRC_TRY(BRC_ALLOCATE(reader->context, &striker->table.value, 2, "table"));
     striker->table.n = 2;
@@ -183,11 +190,11 @@ static brc_status add_striker(brc_reader *reader, const fixture *f, const char *
     return BRC_OK;
 }
 
-/* Velocity of the tool on a side (0 low, 1 high) along the axis [m/s]. */
-static double speed_of(const fixture *f, int side)
+/* The tool on a side (0 low, 1 high). */
+static brc_status add_side(brc_reader *reader, const fixture *f, int side, brc_striker **out)
 {
-    const double share = f->as->moves == BRC_FIXTURE_BOTH ? 0.5 : (f->as->moves == BRC_FIXTURE_HIGH) == (side == 1) ? 1 : 0;
-    return (side ? -1 : 1) * share * f->as->speed;
+    const bool both = f->as->moves == BRC_FIXTURE_BOTH, moves = both || (f->as->moves == BRC_FIXTURE_HIGH) == (side == 1);
+    return add_striker(reader, f, side ? "high" : "low", !moves ? 0 : side ? -1 : 1, both ? 0.5 : 1, out);
 }
 
 static brc_status add_platens(brc_reader *reader, const fixture *f)
@@ -195,7 +202,7 @@ static brc_status add_platens(brc_reader *reader, const fixture *f)
     const double thick = THICKNESS * extent(f, f->axis), out = OVERHANG * fmax(extent(f, f->along), extent(f, f->across));
     for (int side = 0; side < 2; ++side) {
         brc_striker *striker;
-        BRC_TRY(add_striker(reader, f, side ? "high" : "low", speed_of(f, side), &striker));
+        BRC_TRY(add_side(reader, f, side, &striker));
         brc_shape *box = &striker->shape;
         box->kind = BRC_SHAPE_BOX;
         for (int c = 0; c < 3; ++c) {
@@ -225,7 +232,7 @@ static brc_status add_jaws(brc_reader *reader, const fixture *f)
     const double sag = radius - sqrt(radius * radius - 0.25 * width * width);
     for (int side = 0; side < 2; ++side) {
         brc_striker *striker;
-        BRC_TRY(add_striker(reader, f, side ? "high" : "low", speed_of(f, side), &striker));
+        BRC_TRY(add_side(reader, f, side, &striker));
         striker->shape.kind = BRC_SHAPE_PARTS;
         BRC_TRY(BRC_ALLOCATE(reader->context, &striker->shape.parts, 2, "parts of a jaw"));
         striker->shape.n_parts = 2;
@@ -265,7 +272,7 @@ static brc_status add_rollers(brc_reader *reader, const fixture *f)
     for (int k = 0; k < 3; ++k) {
         brc_striker *striker;
         const int side = k == 2 ? high : !high;
-        BRC_TRY(add_striker(reader, f, WHICH[k], k == 2 ? (high ? -1 : 1) * f->as->speed : 0, &striker));
+        BRC_TRY(add_striker(reader, f, WHICH[k], k != 2 ? 0 : high ? -1 : 1, 1, &striker));
         striker->shape = (brc_shape){.kind = BRC_SHAPE_CYLINDER, .axis = f->across, .radius = f->as->radius, .length = extent(f, f->across) + 2 * out};
         striker->shape.origin[f->across] = f->bounds[0][f->across] - out;
         striker->shape.origin[f->along] = middle + (k == 2 ? 0 : k == 0 ? -0.5 : 0.5) * f->as->span;
@@ -312,6 +319,8 @@ brc_status brc_reader_expand_fixtures(brc_reader *reader)
             BRC_TRY(brc_reader_defaults(reader, &brc_schema_contact, place_of(reader, f.as, &f.as->given), scene));
         }
         BRC_TRY(add_sensors(reader, &f)); /* others may name them, whatever is wrong here */
+        if (f.as->mass > 0 && !(f.as->force > 0))
+            REFUSE(reader, &f, &f.as->mass, "mass: tools that move with a prescribed speed need none; leave it out, or press them by `force` in place of `speed`");
         if (brc_problems_count(reader->problems) > 0 || !find_body(reader, &f)) continue;
         find_directions(&f);
         BRC_TRY(k == 0 ? add_platens(reader, &f) : k == 1 ? add_jaws(reader, &f) : add_rollers(reader, &f));

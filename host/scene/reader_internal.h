@@ -64,10 +64,12 @@ brc_status brc_names_check(brc_reader *reader, const brc_wall_names *walls);
 bool brc_names_is_closed(const brc_scene *scene, const char *name);
 /* Numbers of the bodies that sets name, and warnings about sets that are named as bodies. */
 void brc_names_find_bodies(brc_reader *reader);
-/* A set of elements for each body that is named as one, unless a wall or a set has the name. Last of all, as it moves the scene's sets. */
+/* A set of elements for each body that is named as one, and one of its faces where it is named as that, unless a wall or a set has the name. Last of all, as it moves the scene's sets. */
 brc_status brc_names_add_body_sets(brc_reader *reader, const brc_wall_names *walls);
 /* reader_check_fracture.c: what breaks, and what scenes that break cannot have. */
 void brc_reader_check_fracture(brc_reader *reader);
+/* reader_check_contact.c: contact and stages, strikers, sensors of contact. */
+void brc_reader_check_contact(brc_reader *reader);
 /* reader_check_output.c: views of pictures. */
 void brc_reader_check_output(brc_reader *reader);
 /* Does a load prescribe a motion of faces or elements? */

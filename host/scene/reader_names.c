@@ -156,8 +156,10 @@ static int known_names(const brc_scene *scene, const wall_names *walls, brc_refe
             (refers == BRC_REFERS_ELEMENTS && scene->sets[i].kind == BRC_SET_ELEMENTS))
             out[n++] = scene->sets[i].name;
     const bool of_elements = refers == BRC_REFERS_SET || refers == BRC_REFERS_ELEMENTS;
-    for (int b = 0; b < scene->n_bodies; ++b)
-        if (refers == BRC_REFERS_BODY || (of_elements && !is_taken(scene, walls, scene->bodies[b].name))) out[n++] = scene->bodies[b].name;
+    for (int b = 0; b < scene->n_bodies; ++b) {
+        const bool of_set = of_elements || (refers == BRC_REFERS_FACES && !(scene->bodies[b].beams > 0)); /* spheres have no faces */
+        if (refers == BRC_REFERS_BODY || (of_set && !is_taken(scene, walls, scene->bodies[b].name))) out[n++] = scene->bodies[b].name;
+    }
     for (int i = 0; i < scene->n_sensors && refers == BRC_REFERS_SENSOR; ++i)
         out[n++] = scene->sensors[i].name;
     for (int i = 0; i < scene->n_stages && refers == BRC_REFERS_STAGE; ++i)
@@ -191,10 +193,17 @@ static const char *list_names(int n, const char *const *words, char *out, size_t
     return out;
 }
 
+static bool is_body_of_spheres(const brc_scene *scene, const char *name)
+{
+    for (int b = 0; b < scene->n_bodies; ++b)
+        if (strcmp(scene->bodies[b].name, name) == 0) return scene->bodies[b].beams > 0;
+    return false;
+}
+
 static void check_reference(brc_reader *reader, const wall_names *walls, const brc_place *place, const char **words)
 {
     static const char *const WHAT[] = {
-        "", "wall or set of faces", "body or set of elements", "wall, body or set", "wall", "sensor", "stage", "striker", "body"};
+        "", "wall, body or set of faces", "body or set of elements", "wall, body or set", "wall", "sensor", "stage", "striker", "body"};
     const brc_scene *scene = reader->scene;
     const brc_reference refers = place->entry->refers;
     const char *name = place->address;
@@ -217,6 +226,8 @@ static void check_reference(brc_reader *reader, const wall_names *walls, const b
     int n_sets;
     const char *kind = refers == BRC_REFERS_ELEMENTS && is_known(scene, walls, BRC_REFERS_SET, name, words, &n_sets)
                            ? " (that name is a set of faces)"
+                       : refers == BRC_REFERS_FACES && is_body_of_spheres(scene, name)
+                           ? " (that body is of spheres, which have no faces: load its elements)"
                        : refers == BRC_REFERS_FACES && is_known(scene, walls, BRC_REFERS_ELEMENTS, name, words, &n_sets)
                            ? " (that name is a set of elements)"
                            : "";
@@ -269,18 +280,41 @@ static bool is_named(const brc_reader *reader, const char *name)
     return false;
 }
 
+/* A body that loads of faces name stands for all of its free ones: that name becomes `faces`. False: nowhere. */
+static bool rename_faces(brc_scene *scene, const char *body, const char *faces)
+{
+    bool any = false;
+    for (int32_t k = 0; k < scene->n_stages; ++k)
+        for (int32_t l = 0; l < scene->stages[k].n_loads; ++l) {
+            brc_load *load = &scene->stages[k].loads[l];
+            const bool of_faces = load->kind == BRC_LOAD_FACE_DISPLACEMENT || load->kind == BRC_LOAD_FACE_VELOCITY || load->kind == BRC_LOAD_TRACTION || load->kind == BRC_LOAD_PRESSURE;
+            if (!of_faces || strcmp(load->set, body) != 0) continue;
+            strcpy(load->set, faces);
+            any = true;
+        }
+    return any;
+}
+
+static void add_body_set(brc_scene *scene, int32_t body, brc_set_kind kind, const char *name)
+{
+    brc_set_request *set = &scene->sets[scene->n_sets++];
+    *set = (brc_set_request){.kind = kind, .where = {.has_body = true, .body = body}};
+    strcpy(set->name, name);
+    strcpy(set->where.body_name, scene->bodies[body].name);
+}
+
 brc_status brc_names_add_body_sets(brc_reader *reader, const wall_names *walls)
 {
     brc_scene *scene = reader->scene;
     const int32_t n = scene->n_sets;
-    BRC_TRY(brc_memory_resize(reader->context, (void **)&scene->sets, (int64_t)n + scene->n_bodies, sizeof *scene->sets, "sets"));
+    BRC_TRY(brc_memory_resize(reader->context, (void **)&scene->sets, (int64_t)n + 2 * scene->n_bodies, sizeof *scene->sets, "sets"));
     for (int b = 0; b < scene->n_bodies; ++b) {
         const char *name = scene->bodies[b].name;
-        if (!is_named(reader, name) || is_taken(scene, walls, name)) continue;
-        brc_set_request *set = &scene->sets[scene->n_sets++];
-        *set = (brc_set_request){.kind = BRC_SET_ELEMENTS, .where = {.has_body = true, .body = b}};
-        strcpy(set->name, name);
-        strcpy(set->where.body_name, name);
+        char faces[BRC_NAME] = "";
+        if (is_taken(scene, walls, name)) continue;
+        if (is_named(reader, name)) add_body_set(scene, b, BRC_SET_ELEMENTS, name);
+        for (int k = 0; faces[0] == '\0' || is_taken(scene, walls, faces); ++k) snprintf(faces, sizeof faces, k == 0 ? "%.40s_faces" : "%.40s_faces_%d", name, k);
+        if (rename_faces(scene, name, faces)) add_body_set(scene, b, BRC_SET_FACES, faces);
     }
     return BRC_OK;
 }

@@ -148,7 +148,8 @@ static int unit_of_striker(const char *term)
         const char *term;
         int unit;
     } TERM[] = {{"position", METRE},         {"displacement", METRE}, {"velocity", METRE_PER_SECOND}, {"rotation", RADIAN},
-                {"spin", RADIAN_PER_SECOND}, {"force", NEWTON},       {"torque", NEWTON_METRE},       {"energy", JOULE}};
+                {"spin", RADIAN_PER_SECOND}, {"force", NEWTON},       {"torque", NEWTON_METRE},       {"energy", JOULE},
+                {"applied", NEWTON}};
     for (size_t k = 0; k < sizeof TERM / sizeof *TERM; ++k)
         if (strcmp(term, TERM[k].term) == 0) return TERM[k].unit;
     return PURE;

@@ -146,7 +146,9 @@ typedef struct brc_striker {
     int32_t material;          /* index into scene.materials */
     brc_striker_motion motion;
     double velocity[3], spin[3]; /* driven: times the table; free: at the start of the run [m/s], [rad/s] about the mass centre */
-    brc_table table;           /* driven: factor of time since the start of the run; n = 0: 1 */
+    bool pushed;               /* free: a prescribed force acts on its mass centre */
+    double force[3];           /* that, times the table [N] */
+    brc_table table;           /* factor of velocity and spin, or of force, over the time since the start of the run; n = 0: 1 */
     double mass;               /* free: [kg]; 0: volume times density */
     bool held[3];              /* free: components of its motion that stay zero */
     bool held_rotation;        /* free: it does not turn */
@@ -158,8 +160,10 @@ typedef struct brc_fixture {
     bool given;
     char body[BRC_NAME]; /* "": the only one */
     int32_t axis;        /* along which it presses: 0 x 1 y 2 z */
-    double speed;        /* at which the sides come together [m/s] */
-    double ramp;         /* time in which the speed rises to that [s]; 0: at once */
+    double speed;        /* at which the sides come together [m/s]; 0: they are pressed by `force` */
+    double force;        /* on each tool that moves [N] */
+    double mass;         /* of each of these [kg]; 0: volume times density */
+    double ramp;         /* time in which speed or force rises to that [s]; 0: at once */
     bool has_friction;
     double friction;     /* between tools and body [-]; without: that of the scene's contact */
     bool has_material;
@@ -322,7 +326,7 @@ typedef enum brc_sensor_kind {
                               * failure_ratio (largest stress over limit) [-] */
     BRC_SENSOR_CRACK_TIP,    /* farthest broken bond along `axis` from `point` [m]; 0 before the first */
     BRC_SENSOR_SPIN,         /* angular velocity of an element set: inverse of its inertia times its angular momentum about its mass centre [rad/s] */
-    BRC_SENSOR_STRIKER,      /* striker `set`, `term`: position, displacement [m], velocity [m/s], rotation [rad], spin [rad/s], force [N] and
+    BRC_SENSOR_STRIKER,      /* striker `set`, `term`: position, displacement [m], velocity [m/s], rotation [rad], spin [rad/s], force and applied [N] and
                               * torque [N m] of the elements on it, energy (kinetic) [J]; `component` of the vectors */
     BRC_SENSOR_CONTACT,      /* `term`: pairs (touching), sliding (of them) [-], penetration (deepest) [m], force (sum of the magnitudes of normal forces) [N] */
     BRC_SENSOR_OPENING,      /* how far two places have moved apart along `axis`: of sets `set` and `set2`, of the elements nearest to `point` and `point2`, or of the two
@@ -376,9 +380,12 @@ typedef struct brc_measure {
     double scale;  /* result = scale * operator, default 1 (e.g. -1 for a reaction on the other side) */
 } brc_measure;
 
+/* Of the fields of frames. */
+typedef enum brc_frame_numbers { BRC_FRAME_SINGLE, BRC_FRAME_DOUBLE } brc_frame_numbers;
 typedef struct brc_output {
     double frame_interval;   /* [s]; 0: frames at the start and end of each stage only */
     int32_t n_frames;        /* number of equal intervals over each stage; 0: by frame_interval; -1: no frames at all */
+    brc_frame_numbers frame_numbers; /* of the fields of frames, default single */
     int32_t history_every;   /* dynamic: steps between sensor samples, default 1/500 of the stage; static: every increment */
     bool picture;            /* render picture.png at the end, default true */
     char picture_colour[BRC_NAME];  /* "stress_xx", "von_mises", "displacement", ... default "von_mises" */

@@ -66,7 +66,7 @@ static const char INTRODUCTION[] =
     "takes all its defaults, `solver: static`.\n"
     "\n"
     "**Names** are made of letters, digits and `_` `+` `-`. Each wall of a shape is a set of faces of that name,\n"
-    "each body a set of elements.\n"
+    "each body the set of its elements, and of its free faces where a load wants faces.\n"
     "\n"
     "**Signs**: forces, displacements, velocities and tractions are components along the axes of the scene, of loads "
     "and of\n"
@@ -115,7 +115,7 @@ static const char *type_text(const brc_entry *entry, char *out, size_t size)
     case BRC_TYPE_NAMED: break;
     }
     switch (entry->refers) {
-    case BRC_REFERS_FACES: return "name of a wall or of a set of faces";
+    case BRC_REFERS_FACES: return "name of a wall, of a set of faces or of a body";
     case BRC_REFERS_ELEMENTS: return "name of a body or of a set of elements";
     case BRC_REFERS_SET: return "name of a wall, a body or a set";
     case BRC_REFERS_WALL: return "name of a wall";

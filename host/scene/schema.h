@@ -28,8 +28,8 @@ typedef enum brc_type {
 /* What a name must be the name of; checked when the whole scene is read. */
 typedef enum brc_reference {
     BRC_REFERS_NOTHING,
-    BRC_REFERS_FACES,    /* a wall or a set of faces */
-    BRC_REFERS_ELEMENTS, /* a set of elements */
+    BRC_REFERS_FACES,    /* a wall, a set of faces, a body of cells: all its free faces */
+    BRC_REFERS_ELEMENTS, /* a set of elements, a body */
     BRC_REFERS_SET,      /* either */
     BRC_REFERS_WALL,     /* a wall of a body's shape */
     BRC_REFERS_SENSOR,

@@ -77,12 +77,16 @@ static const brc_entry HOLD[] = {
 static const brc_section HOLD_SECTION = {.title = "hold", .meaning = "What a free striker may not do, as on a rail.", ENTRIES(HOLD)};
 static const brc_entry FREE[] = {
     VELOCITY_ENTRIES("at the start of the run"),
+    {"force", BRC_TYPE_VECTOR, "N", FIELD(brc_striker, force), FLAG(brc_striker, pushed), .length = 3, .sample = "[0, 0, -10 kN]",
+     .meaning = "on its mass centre, times the table, however it moves; gravity and contact come on top. Acts in dynamic stages"},
+    {"table", BRC_TYPE_TABLE, "s", .offset = offsetof(brc_striker, table),
+     .meaning = "factor of the force: pairs of time since the start of the run and factor, linear between, constant outside; left out: 1"},
     {"mass", BRC_TYPE_QUANTITY, "kg", POSITIVE, FIELD(brc_striker, mass), .given = "auto", .word = "auto", .sample = "1 kg",
      .meaning = "auto: volume times density; the inertia follows from the shape"},
     {"hold", BRC_TYPE_STRUCT, .section = &HOLD_SECTION, .given = "{}", .meaning = "motions that are not free"},
 };
 static const brc_section FREE_SECTION = {
-    .title = "free striker", .meaning = "A rigid body with mass and inertia; gravity acts on it.", ENTRIES(FREE)};
+    .title = "free striker", .meaning = "A rigid body with mass and inertia; gravity acts on it, and a prescribed force where one is given.", ENTRIES(FREE)};
 static const brc_entry MOTION[] = {
     {"fixed", BRC_TYPE_STRUCT, .value = BRC_STRIKER_FIXED, .meaning = "it stays"},
     {"driven", BRC_TYPE_STRUCT, .section = &DRIVEN_SECTION, .value = BRC_STRIKER_DRIVEN, .meaning = "it moves as told"},

@@ -140,9 +140,9 @@ static const brc_section SPIN_SECTION = {
 static const brc_entry OF_STRIKER[] = {
     {"name", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_STRIKER, .sample = "anvil", .meaning = "of the striker"},
     {"quantity", BRC_TYPE_WORD, FIELD(brc_sensor, term),
-     CHOICES("position", "displacement", "velocity", "rotation", "spin", "force", "torque", "energy"), .required = true, .sample = "force",
+     CHOICES("position", "displacement", "velocity", "rotation", "spin", "force", "torque", "energy", "applied"), .required = true, .sample = "force",
      .meaning = "of its mass centre (a plane: its point) [m], [m/s], [rad], [rad/s]; force and torque of the elements on it [N], [N m]; its "
-                "kinetic energy [J]"},
+                "kinetic energy [J]; applied: the prescribed force on it [N]"},
     {"component", BRC_TYPE_CHOICE, FIELD(brc_sensor, component), CHOICES("x", "y", "z"), .given = "x", .meaning = "of the vector"},
     {"against", BRC_TYPE_NAME, FIELD(brc_sensor, set2), .refers = BRC_REFERS_STRIKER, .sample = "anvil",
      .meaning = "another striker, whose value is taken off: how far two platens have come together"},
@@ -389,6 +389,8 @@ static const brc_entry OUTPUT[] = {
      .meaning = "equal intervals over each stage; 0: its start and end only; none: no frames at all"},
     {"frame_interval", BRC_TYPE_QUANTITY, "s", POSITIVE, FIELD(brc_output, frame_interval), .sample = "1 ms",
      .meaning = "time between frames, in place of their number"},
+    {"frame_numbers", BRC_TYPE_CHOICE, FIELD(brc_output, frame_numbers), CHOICES("single", "double"), .given = "single",
+     .meaning = "of the fields of frames: 7 digits, or all 16 in twice the bytes; histories and checkpoints have all"},
     {"history_every", BRC_TYPE_INTEGER, WITHIN(1, 1e9), FIELD(brc_output, history_every), .given = "auto",
      .word = "auto", .sample = "10",
      .meaning =

@@ -96,7 +96,7 @@ brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
     BRC_TRY(take_survey(s, &now));
     /* Twice the present speed and acceleration must not use up what is left before the next look: of half the skin, and of the way to the next piece of a striker. */
     const double left = 0.5 * c->skin - now.element[0], v = 2 * now.element[1] * dt, a = 2 * sqrt(now.element[2]) * dt * dt;
-    const double clear = -now.element[3] - now.piece[0], v_piece = 2 * (now.element[4] + sqrt(now.piece[1])) * dt, a_piece = 2 * sqrt(now.element[5]) * dt * dt;
+    const double clear = -now.element[3] - now.piece[0], v_piece = 2 * (now.element[4] + sqrt(now.piece[1])) * dt, a_piece = 2 * (sqrt(now.element[5]) + (c->n_pieces ? brc_strikers_pushed(s) : 0)) * dt * dt;
     int64_t steps = 0;
     while (steps < MOST_QUIET) {
         const double t = (double)(steps + 1);

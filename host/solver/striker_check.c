@@ -175,13 +175,21 @@ static brc_status check_overlap(brc_simulation *s, int32_t i)
 
 static double length(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
+/* The largest value of its table; 1 without. */
+static double largest_factor(const brc_striker *striker)
+{
+    double factor = striker->table.n > 0 ? 0 : 1;
+    for (int32_t k = 0; k < striker->table.n; ++k) factor = fmax(factor, fabs(striker->table.value[k]));
+    return factor;
+}
+
 /* The largest speed that the scene gives a striker's centre and surface [m/s]. */
 static double speed_of(const brc_simulation *s, int32_t i)
 {
     const brc_striker *striker = s->scene->strikers + i;
-    double factor = striker->table.n > 0 ? 0 : 1, reach = 0;
+    double factor = 1, reach = 0;
     if (striker->motion == BRC_STRIKER_FIXED) return 0;
-    for (int32_t k = 0; k < striker->table.n; ++k) factor = fmax(factor, fabs(striker->table.value[k]));
+    if (striker->motion == BRC_STRIKER_DRIVEN) factor = largest_factor(striker);
     for (int32_t p = 0; p < s->strikers->convex.n; ++p)
         if (s->strikers->piece_striker[p] == i && !striker->is_plane) reach = fmax(reach, s->strikers->convex.radius[p]);
     return factor * (length(striker->velocity) + reach * length(striker->spin));
@@ -359,8 +367,10 @@ static double duration_of(const brc_scene *scene)
 /* Only where nothing flies by itself: fragments of a body that bursts go anywhere. */
 static void check_reach(const brc_simulation *s, int32_t i, double bodies)
 {
+    const brc_striker *striker = s->scene->strikers + i;
     const double time = duration_of(s->scene), gap = gap_of(s, i);
-    const double way = (speed_of(s, i) + bodies) * time + (s->scene->has_gravity ? 0.5 * length(s->scene->gravity) * time * time : 0);
+    const double pull = (s->scene->has_gravity ? length(s->scene->gravity) : 0) + (striker->pushed ? largest_factor(striker) * length(striker->force) / s->strikers->body[i].mass : 0);
+    const double way = (speed_of(s, i) + bodies) * time + 0.5 * pull * time * time;
     if (s->scene->has_fracture || !isfinite(time) || !(gap > 1.5 * way)) return;
     brc_log(s->context, BRC_LOG_WARNING, "striker '%s' is %.4g m away from all bodies; as far as the scene tells they come %.4g m nearer in its %.4g s and will not meet",
             s->scene->strikers[i].name, gap, way, time);

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { TURNS = 8 }; /* bit of `freedom` behind those of x y z, kernels/strikers.cl */
+enum { TURNS = 8, PUSHED = 16 }; /* bits of `freedom` behind those of x y z, kernels/strikers.cl */
 
 static const brc_striker *asked(const brc_simulation *s, int32_t i) { return s->scene->strikers + i; }
 static bool is_driven(const brc_simulation *s, int32_t i) { return asked(s, i)->motion == BRC_STRIKER_DRIVEN; }
@@ -14,12 +14,19 @@ static int32_t freedom_of(const brc_striker *striker)
     int32_t bits = 0;
     if (striker->motion != BRC_STRIKER_FREE) return 0;
     for (int c = 0; c < 3; ++c) bits |= striker->held[c] ? 0 : 1 << c;
+    if (striker->pushed) bits |= PUSHED;
     return striker->held_rotation ? bits : bits | TURNS;
 }
 
 /* ---- making ---- */
 
 static bool strikers(const brc_wants *w) { return w->scene->n_strikers > 0; }
+static bool pushing(const brc_wants *w)
+{
+    for (int32_t i = 0; i < w->scene->n_strikers; ++i)
+        if (w->scene->strikers[i].pushed) return true;
+    return false;
+}
 
 #define AT(member) BRC_FIELD_AT(brc_strikers, member)
 static const brc_field_row rows[] = {
@@ -37,6 +44,8 @@ static const brc_field_row rows[] = {
     {"last", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(last), "last forces on strikers", "N, N m", BRC_KEPT("strikers.last", BRC_KEEP_ALL)},
     {"work", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(work), "work of strikers", "J", BRC_KEPT("strikers.work", BRC_KEEP_ALL)},
     {"lost", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(lost), "numerical dissipation of strikers", "J", BRC_KEPT("strikers.lost", BRC_KEEP_ALL)},
+    {"push", brc_each_striker, 3, BRC_FIELD_STATE, pushing, AT(push), "prescribed forces on strikers", "N", BRC_KEPT("strikers.push", BRC_KEEP_ALL)},
+    {"pushed", brc_each_striker, 3, BRC_FIELD_STATE, pushing, AT(pushed), "last prescribed forces on strikers", "N", BRC_KEPT("strikers.pushed", BRC_KEEP_ALL)},
 };
 BRC_FIELD_TABLE(brc_striker_fields, "strikers", BRC_LIFE_RUN, strikers, rows);
 
@@ -101,9 +110,11 @@ brc_status brc_strikers_create(brc_simulation *s)
     BRC_TRY(BRC_ALLOCATE(s->context, &t->body, t->n, "strikers"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->placed, t->n, "strikers"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->told, t->n, "strikers"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &t->push_now, 3 * (int64_t)t->n, "strikers"));
     for (int32_t i = 0; i < t->n; ++i) BRC_TRY(brc_striker_body_make(s, i));
     BRC_TRY(brc_kernel_find(s->device, "striker_advance", &t->advance));
     BRC_TRY(brc_kernel_find(s->device, "striker_place", &t->place));
+    BRC_TRY(brc_kernel_find(s->device, "striker_push", &t->push_on));
     BRC_TRY(brc_kernel_find(s->device, "striker_book", &t->book));
     s->wants.pieces = &t->convex;
     BRC_TRY(brc_strikers_check(s));
@@ -124,6 +135,7 @@ void brc_strikers_free(brc_simulation *s)
     brc_memory_free(t->body);
     brc_memory_free(t->placed);
     brc_memory_free(t->told);
+    brc_memory_free(t->push_now);
     brc_memory_free(t);
     s->strikers = NULL;
 }
@@ -142,8 +154,8 @@ brc_status brc_strikers_advance(brc_simulation *s, double kick, double drift, do
     const double *g = gravity(s);
     return BRC_LAUNCH(t->advance, t->n, BRC_INT(t->n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(extra), BRC_INT(numerical ? 1 : 0), BRC_STATE(g[0]),
                       BRC_STATE(g[1]), BRC_STATE(g[2]), BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->inertia), BRC_BUF(t->centre), BRC_BUF(t->load),
-                      BRC_BUF(t->motion), BRC_BUF(t->momentum), BRC_BUF(t->displacement), BRC_BUF(t->orientation), BRC_BUF(t->pose), BRC_BUF(t->moved),
-                      BRC_BUF(t->lost));
+                      BRC_BUF(t->push), BRC_BUF(t->motion), BRC_BUF(t->momentum), BRC_BUF(t->displacement), BRC_BUF(t->orientation), BRC_BUF(t->pose),
+                      BRC_BUF(t->moved), BRC_BUF(t->lost));
 }
 
 /* exp of the rotation vector `turn`. */
@@ -154,11 +166,36 @@ static void quaternion(const double turn[3], double q[4])
     for (int c = 0; c < 3; ++c) q[c + 1] = share * turn[c];
 }
 
+/* Told to the device where it has changed. */
+static brc_status push(brc_simulation *s, int32_t i, double now)
+{
+    const brc_strikers *t = s->strikers;
+    const brc_striker *striker = asked(s, i);
+    const double factor = brc_table_value(&striker->table, now);
+    double *last = t->push_now + 3 * (int64_t)i, f[3];
+    for (int c = 0; c < 3; ++c) f[c] = factor * striker->force[c];
+    if (memcmp(f, last, sizeof f) == 0) return BRC_OK;
+    memcpy(last, f, sizeof f);
+    return BRC_LAUNCH(t->push_on, 1, BRC_INT(1), BRC_INT(i), BRC_STATE(f[0]), BRC_STATE(f[1]), BRC_STATE(f[2]), BRC_BUF(t->push));
+}
+
+double brc_strikers_pushed(const brc_simulation *s)
+{
+    const brc_strikers *t = s->strikers;
+    double most = 0;
+    for (int32_t i = 0; i < t->n; ++i) {
+        const double *f = t->push_now + 3 * (int64_t)i;
+        if (asked(s, i)->pushed) most = fmax(most, sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) / t->body[i].mass);
+    }
+    return most;
+}
+
 brc_status brc_strikers_prescribe(brc_simulation *s)
 {
     brc_strikers *t = s->strikers;
     const double now = brc_simulation_total_time(s);
     for (int32_t i = 0; i < t->n; ++i) {
+        if (asked(s, i)->pushed) BRC_TRY(push(s, i, now));
         if (!is_driven(s, i)) continue;
         const brc_striker *striker = asked(s, i);
         const double factor = brc_table_value(&striker->table, now), path = brc_table_integral(&striker->table, now), step = path - t->placed[i];
@@ -182,14 +219,15 @@ brc_status brc_strikers_book(brc_simulation *s, brc_booking book)
     const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
     const bool numerical = stage && stage->solver == BRC_SOLVER_DYNAMIC && stage->integrator == BRC_TCHAMWA_WIELGOSZ;
     return BRC_LAUNCH(t->book, t->n, BRC_INT(t->n), BRC_INT(book), BRC_INT(numerical ? 1 : 0), BRC_STATE(g[0]), BRC_STATE(g[1]), BRC_STATE(g[2]),
-                      BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->load), BRC_BUF(t->moved), BRC_BUF(t->last), BRC_BUF(t->work),
-                      BRC_BUF(t->lost));
+                      BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->load), BRC_BUF(t->push), BRC_BUF(t->moved), BRC_BUF(t->last),
+                      BRC_BUF(t->pushed), BRC_BUF(t->work), BRC_BUF(t->lost));
 }
 
 brc_status brc_strikers_store_state(brc_simulation *s, brc_state_store *store)
 {
     const brc_strikers *t = s->strikers;
     BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_striker_fields, .owner = t, .n = t->n}));
+    if (t->push) BRC_TRY(store->numbers(store, "strikers.push_now", BRC_STORED_DOUBLE, t->n, 3, t->push_now));
     return store->numbers(store, "strikers.placed", BRC_STORED_DOUBLE, t->n, 1, t->placed);
 }
 
@@ -220,12 +258,13 @@ static void rotation_vector(const double q[4], double out[3])
 brc_status brc_simulation_striker_now(brc_simulation *s, int32_t i, brc_striker_now *out)
 {
     const brc_strikers *t = s->strikers;
-    double momentum[3], motion[6], load[6];
+    double momentum[3], motion[6], load[6], applied[3] = {0};
     BRC_TRY(read_one(s, t->displacement, i, 3, out->displacement));
     BRC_TRY(read_one(s, t->orientation, i, 4, out->orientation));
     BRC_TRY(read_one(s, t->momentum, i, 3, momentum));
     BRC_TRY(read_one(s, t->motion, i, 6, motion));
     BRC_TRY(read_one(s, t->load, i, 6, load));
+    if (t->push) BRC_TRY(read_one(s, t->push, i, 3, applied));
     rotation_vector(out->orientation, out->rotation);
     out->kinetic = 0;
     for (int c = 0; c < 3; ++c) {
@@ -233,6 +272,7 @@ brc_status brc_simulation_striker_now(brc_simulation *s, int32_t i, brc_striker_
         out->spin[c] = motion[3 + c];
         out->force[c] = load[c];
         out->torque[c] = load[3 + c];
+        out->applied[c] = applied[c];
         out->position[c] = t->body[i].centre[c] + out->displacement[c];
         if (is_free(s, i)) out->kinetic += 0.5 * t->body[i].mass * out->velocity[c] * out->velocity[c] + 0.5 * momentum[c] * out->spin[c];
     }

@@ -1,5 +1,5 @@
 /* Walls and strikers: rigid bodies beside the elements, which meet them by contact (scene.strikers). They stand still, are driven along a prescribed path, or are
- * free: then they have mass and inertia, and forces, torques and gravity move them with the elements, step by step on the device. */
+ * free: then they have mass and inertia, and forces, torques, gravity and a prescribed force on the mass centre move them with the elements, step by step on the device. */
 #ifndef BRC_SOLVER_STRIKERS_H
 #define BRC_SOLVER_STRIKERS_H
 
@@ -15,6 +15,7 @@ typedef struct brc_striker_now {
     double spin[3];         /* [rad/s] */
     double force[3];        /* of the elements on it [N] */
     double torque[3];       /* the same, about its mass centre [N m] */
+    double applied[3];      /* prescribed force on it [N]; else 0 */
     double kinetic;         /* energy of a free one; else 0 [J] */
 } brc_striker_now;
 

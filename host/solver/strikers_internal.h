@@ -17,7 +17,7 @@ typedef enum brc_piece_kind {
 /* Everything that exists only in scenes with strikers. What the buffers of numbers hold is told in kernels/strikers.cl. */
 struct brc_strikers {
     int32_t n;
-    brc_kernel *advance, *place, *book;
+    brc_kernel *advance, *place, *push_on, *book;
     brc_striker_body *body; /* [n] host */
     brc_convex convex;      /* pieces of all strikers, in the strikers' frames: origins at the mass centres, axes of space as the scene starts; host */
     int32_t *piece_striker; /* [convex.n] whose each is; host */
@@ -33,13 +33,15 @@ struct brc_strikers {
     brc_buffer *displacement, *orientation, *momentum;
     brc_buffer *freedom, *mass, *inertia, *centre;
     brc_buffer *moved, *last, *work, *lost;
+    brc_buffer *push, *pushed; /* where some are pushed by prescribed forces; else NULL */
+    double *push_now;          /* [n][3] that force of each as the device has it [N]; host */
 };
 
 /* Energies of all strikers [J]. */
 typedef struct brc_striker_energies {
     double kinetic;   /* of free ones */
     double potential; /* of free ones in gravity, 0 where they started */
-    double work;      /* that driven ones have done on what they touched */
+    double work;      /* that driven ones have done on what they touched, and prescribed forces on free ones */
     double numerical; /* lost to the integrator */
 } brc_striker_energies;
 
@@ -72,9 +74,11 @@ double brc_convex_face_distance(const brc_convex *convex, int32_t p, int32_t f, 
 brc_status brc_strikers_check_edges(brc_simulation *s, const brc_convex *cells);
 /* Free ones: kick and drift [s] of velocity and spin; extra: (phi - 1) dt of Tchamwa-Wielgosz, else 0. numerical: book the loss of that scheme. */
 brc_status brc_strikers_advance(brc_simulation *s, double kick, double drift, double extra, bool numerical);
-/* Driven ones are put where they are at the present time of the run. */
+/* Driven ones are put where they are at the present time of the run, and prescribed forces are what they are then. */
 brc_status brc_strikers_prescribe(brc_simulation *s);
-/* After the forces on strikers are known: work of driven ones and losses, as brc_force_request.book says. */
+/* The largest acceleration that a prescribed force gives a striker now [m/s^2]. */
+double brc_strikers_pushed(const brc_simulation *s);
+/* After the forces on strikers are known: work of driven ones, of prescribed forces, and losses, as brc_force_request.book says. */
 brc_status brc_strikers_book(brc_simulation *s, brc_booking book);
 /* Keep or take up their state (state_store.h). */
 brc_status brc_strikers_store_state(brc_simulation *s, brc_state_store *store);

@@ -42,7 +42,7 @@ HASHES = ("state", "fields", "summary", "histories", "cracks")
 PINNED = {"OPENBLAS_NUM_THREADS": "1", "OPENBLAS_CORETYPE": "Nehalem", "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F",
           "OMP_WAIT_POLICY": "passive"}
 NO_END = ("beams-events", "cells-events")  # their stage ends by a condition that leaves no checkpoint: one wherever there can be one
-OUTPUT = ["output.checkpoint.every=1e9 s", "output.picture=false"]  # a checkpoint at the end of each stage, no pictures
+OUTPUT = ["output.checkpoint.every=1e9 s", "output.picture=false", "output.frame_numbers=double"]  # a checkpoint at the end of each stage, no pictures, all digits
 
 
 class Way:

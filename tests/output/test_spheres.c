@@ -39,7 +39,8 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
 {
     (void)state;
     brc_domain *d = three_spheres();
-    brc_simulation s = {.domain = d, .factor = 1, .value = {0.1, 0, 0}, .gradient = {{0.5, 0, 0}}, .stress = {1e6}};
+    brc_scene scene = {.output = {.frame_numbers = BRC_FRAME_DOUBLE}};
+    brc_simulation s = {.scene = &scene, .domain = d, .factor = 1, .value = {0.1, 0, 0}, .gradient = {{0.5, 0, 0}}, .stress = {1e6}};
     brc_simulation *const alone = &s;
     const brc_assembly whole = brc_assembly_make(s.scene, NULL, 1, &alone);
     brc_h5_read h5;
@@ -49,6 +50,17 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
     snprintf(frame, sizeof frame, "%s/000000.vtkhdf", folder);
     assert_int_equal(brc_frames_create(test_context, &whole, 1, &frames), BRC_OK);
     assert_int_equal(brc_frames_write(frames, folder, 0), BRC_OK);
+    scene.output.frame_numbers = BRC_FRAME_SINGLE; /* one displacement under two names */
+    assert_int_equal(brc_frames_write(frames, folder, 1), BRC_OK);
+    const hid_t file = H5Fopen(test_path(folder, "000001.vtkhdf"), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t of_points = H5Dopen2(file, "VTKHDF/PointData/displacement", H5P_DEFAULT), of_cells = H5Dopen2(file, "VTKHDF/CellData/displacement", H5P_DEFAULT);
+    const float written[3 * N] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    float same[3 * N];
+    assert_true(H5Dwrite(of_points, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, written) >= 0 && H5Dread(of_cells, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, same) >= 0);
+    assert_memory_equal(same, written, sizeof same);
+    H5Dclose(of_points);
+    H5Dclose(of_cells);
+    H5Fclose(file);
     brc_frames_free(&frames);
     assert_int_equal(brc_h5_read_open(test_context, frame, &h5), BRC_OK);
     assert_false(brc_h5_read_has(&h5, "VTKHDF/FaceConnectivity"));

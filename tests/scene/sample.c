@@ -53,11 +53,18 @@ static const brc_entry *usual_variant(const maker *m, const brc_section *section
     const char *wanted = NULL;
     if (strcmp(section->title, "solver") == 0) {
         if (path_has(m->path, "face_velocity") || path_has(m->path, "element_velocity") ||
-            path_has(m->path, "frequency") || path_has(m->path, "rate") || path_has(m->path, "integral") || path_has(m->path, "duration"))
+            path_has(m->path, "frequency") || path_has(m->path, "rate") || path_has(m->path, "integral") || path_has(m->path, "duration") || path_has(m->path, "platens") || path_has(m->path, "jaws") ||
+            path_has(m->path, "rollers") || path_has(m->path, "free"))
             wanted = "dynamic";
         if (path_has(m->path, "mode")) wanted = "modes";
     }
     return wanted ? brc_section_find(section, wanted) : &section->entries[0];
+}
+
+/* Mass and table of what a prescribed force moves. */
+static bool needs_force(const brc_section *section, const brc_entry *on_path)
+{
+    return on_path && brc_section_find(section, "force") && brc_section_find(section, "mass") && (strcmp(on_path->key, "mass") == 0 || strcmp(on_path->key, "table") == 0);
 }
 
 /* Is this entry written, the path's entry of this section being `on_path` (or NULL)? */
@@ -74,12 +81,13 @@ static bool is_used(const brc_section *section, const brc_entry *entry, const br
     if (strcmp(section->title, "interactions") == 0 && strcmp(entry->key, "contact") == 0) return true;
     if (strcmp(section->title, "body") == 0 && strcmp(entry->key, "fill") == 0)
         return !on_path || strcmp(on_path->key, "domain") != 0;
+    if (needs_force(section, on_path) && strcmp(entry->key, "force") == 0) return true;
     for (size_t g = 0; g < sizeof section->groups / sizeof section->groups[0]; ++g) {
         const brc_group *group = &section->groups[g];
         if (group->rule != BRC_GROUP_EXACTLY_ONE && group->rule != BRC_GROUP_AT_LEAST_ONE) continue;
         bool chosen = false;
         for (int k = 0; group->keys[k]; ++k)
-            chosen |= on_path && strcmp(group->keys[k], on_path->key) == 0;
+            chosen |= on_path && (strcmp(group->keys[k], on_path->key) == 0 || (needs_force(section, on_path) && strcmp(group->keys[k], "force") == 0));
         if (!chosen && strcmp(group->keys[0], entry->key) == 0) return true;
     }
     return false;

@@ -87,8 +87,29 @@ static void a_body_is_a_set_of_its_elements(void **state)
     scene = good_scene(CUBE PULL); /* nobody names it */
     assert_int_equal(scene->n_sets, 0);
     brc_scene_free(&scene);
-    bad_scene(CUBE "stages: [{name: go, solver: static, loads: [{pressure: {set: cube, value: 1 Pa}}]}]\n", "4:62", "there is no wall or set of faces 'cube' (that name is a set of elements)");
     bad_scene(CUBE "stages: [{name: go, solver: {dynamic: {steps: 9}}, initial: [{velocity: {set: cub, velocity: [1 m/s, 0, 0]}}]}]\n", "4:79", "there is no body or set of elements 'cub'; did you mean 'cube'?");
+}
+
+/* Where faces are wanted a body is all of its free faces, under a name that nothing else has; where both are wanted, it is both. */
+static void a_body_is_a_set_of_its_faces(void **state)
+{
+    (void)state;
+    brc_scene *scene = good_scene(CUBE "stages: [{name: go, solver: static, loads: [{pressure: {set: cube, value: 1 Pa}}]}]\n");
+    assert_int_equal(scene->n_sets, 1);
+    assert_string_equal(scene->stages[0].loads[0].set, "cube_faces");
+    assert_string_equal(scene->sets[0].name, "cube_faces");
+    assert_true(scene->sets[0].kind == BRC_SET_FACES && scene->sets[0].where.has_body && scene->sets[0].where.body == 0);
+    brc_scene_free(&scene);
+    scene = good_scene(CUBE "sets: {cube_faces: {faces: {wall: x+}}}\nsensors: {s: {stress: {set: cube, component: xx}}}\n"
+                            "stages: [{name: go, solver: static, loads: [{traction: {set: cube, x: 1 Pa}}, {pressure: {set: cube, value: 1 Pa}}]}]\n");
+    assert_int_equal(scene->n_sets, 3);
+    assert_true(scene->sets[1].kind == BRC_SET_ELEMENTS && strcmp(scene->sets[1].name, "cube") == 0 && strcmp(scene->sensors[0].set, "cube") == 0);
+    assert_true(scene->sets[2].kind == BRC_SET_FACES && strcmp(scene->sets[2].name, "cube_faces_1") == 0);
+    for (int l = 0; l < 2; ++l) assert_string_equal(scene->stages[0].loads[l].set, "cube_faces_1");
+    brc_scene_free(&scene);
+    bad_scene(CUBE "stages: [{name: go, solver: static, loads: [{pressure: {set: cub, value: 1 Pa}}]}]\n", "4:62", "there is no wall, body or set of faces 'cub'; did you mean 'cube'?");
+    bad_scene(TOP "bodies: [{name: ball, shape: {sphere: {radius: 1 m}}, beams: 6, fill: {packing: {elements: 90}}}]\nmodel: cbm\n"
+                  "stages: [{name: go, solver: static, loads: [{pressure: {set: ball, value: 1 Pa}}]}]\n", "5:62", "(that body is of spheres, which have no faces: load its elements)");
 }
 
 static void sets_choose_by_body_too(void **state)
@@ -154,6 +175,7 @@ int main(void)
         cmocka_unit_test(one_number_is_a_strength_in_tension),
         cmocka_unit_test(true_takes_all_defaults_and_false_leaves_out),
         cmocka_unit_test(a_body_is_a_set_of_its_elements),
+        cmocka_unit_test(a_body_is_a_set_of_its_faces),
         cmocka_unit_test(sets_choose_by_body_too),
         cmocka_unit_test(openings_say_what_they_are_between),
         cmocka_unit_test(signs_are_words_that_fit_the_sensor),

@@ -95,6 +95,29 @@ static void what_the_scene_says_itself_stands(void **state)
     brc_scene_free(&scene);
 }
 
+/* What moves is free along the axis alone, and pressed; what stays, stays. */
+static void tools_are_pressed_by_a_force(void **state)
+{
+    (void)state;
+    brc_scene *scene = good_scene(DISC "platens: {axis: y, force: 6 kN, ramp: 1 ms, mass: 2 kg}\n");
+    const brc_striker *low = striker(scene, "platen_low"), *high = striker(scene, "platen_high");
+    assert_true(low->motion == BRC_STRIKER_FIXED && high->motion == BRC_STRIKER_FREE && high->pushed && !low->pushed);
+    assert_true(high->force[0] == 0 && high->force[1] == -6e3 && high->mass == 2 && high->velocity[1] == 0);
+    assert_true(high->held[0] && !high->held[1] && high->held[2] && high->held_rotation);
+    assert_true(high->table.n == 2 && high->table.time[1] == 1e-3 && high->table.value[1] == 1);
+    assert_int_equal(sensor(scene, "platens_force")->sign, BRC_SIGN_COMPRESSION);
+    brc_scene_free(&scene);
+    scene = good_scene(DISC "platens: {axis: y, force: 6 kN, moves: both}\n");
+    assert_true(striker(scene, "platen_low")->force[1] == 6e3 && striker(scene, "platen_high")->force[1] == -6e3 && striker(scene, "platen_high")->mass == 0);
+    brc_scene_free(&scene);
+    scene = good_scene(BEAM "rollers: {axis: y, span: 400 mm, diameter: 20 mm, force: 2 kN}\n");
+    assert_true(striker(scene, "roller_load")->force[1] == -2e3 && striker(scene, "roller_left")->motion == BRC_STRIKER_FIXED);
+    brc_scene_free(&scene);
+    bad_scene(DISC "platens: {axis: y, force: 6 kN, speed: 1 m/s}\n", "5:33", "expected only one of speed, force; found 2 of them");
+    bad_scene(DISC "platens: {axis: y}\n", "5:10", "expected exactly one of speed, force");
+    bad_scene(DISC "platens: {axis: y, speed: 1 m/s, mass: 2 kg}\n", "5:40", "tools that move with a prescribed speed need none; leave it out, or press them by `force`");
+}
+
 static void jaws_are_hollow_towards_the_disc(void **state)
 {
     (void)state;
@@ -168,7 +191,7 @@ static void bounds_are_those_of_what_is_added_and_moved(void **state)
 static void expanded_scenes_read_back(void **state)
 {
     (void)state;
-    static const char *const text[] = {DISC "platens: {axis: y, speed: 0.2 m/s, friction: 0.3}\n", DISC "jaws: {axis: y, radius: 30 mm, speed: 0.2 m/s, ramp: 1 us}\n",
+    static const char *const text[] = {DISC "platens: {axis: y, speed: 0.2 m/s, friction: 0.3}\n", DISC "platens: {axis: y, force: 6 kN, ramp: 1 us}\n", DISC "jaws: {axis: y, radius: 30 mm, speed: 0.2 m/s, ramp: 1 us}\n",
                                        BEAM "rollers: {axis: y, span: 400 mm, diameter: 20 mm, speed: 20 mm/s}\n"};
     brc_context *context = brc_context_create();
     for (size_t k = 0; k < sizeof text / sizeof *text; ++k) {
@@ -193,6 +216,7 @@ int main(void)
         cmocka_unit_test(platens_stand_at_both_sides_of_the_body),
         cmocka_unit_test(tools_bring_steel_contact_sensors_a_measure_and_a_curve),
         cmocka_unit_test(what_the_scene_says_itself_stands),
+        cmocka_unit_test(tools_are_pressed_by_a_force),
         cmocka_unit_test(jaws_are_hollow_towards_the_disc),
         cmocka_unit_test(rollers_lie_below_and_above_the_beam),
         cmocka_unit_test(tools_that_fit_no_body_are_refused_with_the_cure),

@@ -85,6 +85,19 @@ static void walls_and_strikers_need_contact_and_a_free_one_a_shape(void **state)
               "11:34", "there is no striker 'flor'; did you mean 'floor'?");
 }
 
+static void a_prescribed_force_acts_in_dynamic_stages_on_what_may_move(void **state)
+{
+    (void)state;
+#define BALL(motion) "interactions: {contact: {}}\nstrikers:\n  ball: {shape: {sphere: {centre: [0, 0, 3 m], radius: 10 cm}}, material: glass, motion: {free: {" motion "}}}\n"
+#define MOVING "stages: [{name: pull, solver: {dynamic: {steps: 1}}}]\n"
+    brc_scene *scene = good_scene(HEAD MOVING BALL("force: [0, 0, -1 N]"));
+    assert_true(scene->strikers[0].pushed && scene->strikers[0].force[2] == -1);
+    brc_scene_free(&scene);
+    bad_scene(HEAD STAGES BALL("force: [0, 0, -1 N]"), "12:105", "moves 'ball' in dynamic stages, and the scene has none. At rest, load a wall of the body by `traction`");
+    bad_scene(HEAD MOVING BALL("force: [1 N, 0, -1 N], hold: {x: true}"), "12:105", "has no effect along x, where `hold` lets the striker not move; expected 0 there");
+    bad_scene(HEAD MOVING BALL("table: [[0, 0], [1 s, 1]]"), "12:105", "table: is the factor of a prescribed force, and there is none; give `force`");
+}
+
 static void with_contact_a_rest_comes_before_what_moves(void **state)
 {
     (void)state;
@@ -189,7 +202,7 @@ static void unknown_names_are_refused_with_the_nearest(void **state)
               "glas}]\n" STAGES,
               "3:35", "there is no material 'glas'; did you mean 'glass'?");
     bad_scene(HEAD STATIC "      - face_displacement: {set: lidd, x: 0}\n", "13:34",
-              "there is no wall or set of faces 'lidd'; did you mean 'lid'?");
+              "there is no wall, body or set of faces 'lidd'; did you mean 'lid'?");
     bad_scene(HEAD STATIC "      - face_displacement: {set: core, x: 0}\n", "13:34",
               "(that name is a set of elements)");
     bad_scene(HEAD STATIC "      - element_displacement: {set: x-, x: 0}\n", "13:37", "(that name is a set of faces)");
@@ -330,6 +343,7 @@ int main(void)
         cmocka_unit_test(extreme_poisson_ratios_are_refused_with_the_reason),
         cmocka_unit_test(misspelt_keys_are_guessed),
         cmocka_unit_test(walls_and_strikers_need_contact_and_a_free_one_a_shape),
+        cmocka_unit_test(a_prescribed_force_acts_in_dynamic_stages_on_what_may_move),
         cmocka_unit_test(with_contact_a_rest_comes_before_what_moves),
         cmocka_unit_test(couple_modulus_is_for_dynamic_stages),
         cmocka_unit_test(all_errors_are_told_in_one_pass_in_the_order_of_the_text),

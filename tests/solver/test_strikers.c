@@ -247,6 +247,20 @@ static void single_precision_keeps_small_steps_far_from_the_origin(void **state)
     close_case(&c);
 }
 
+/* A prescribed force adds a kick to a velocity 1000 times: half a unit in the last place each, 6e-8. */
+static void single_precision_pushes_too(void **state)
+{
+    (void)state;
+    bench_case c;
+    brc_ledger ledger;
+    open_strikers(&c, STRIKERS("  brick: {shape: {box: {size: [1 m, 1 m, 1 m], origin: [10 m, 0, 0]}}, material: steel, motion: {free: {force: [200 N, 0, 0]}}}\n"), STAGE("1000"), BRC_SINGLE);
+    assert_done(&c, brc_simulation_advance(c.simulation, 1000));
+    assert_done(&c, brc_simulation_ledger(c.simulation, &ledger));
+    assert_true(fabs(now_of(&c, 0).velocity[0] / 0.2 - 1) < 1000 * 6e-8);
+    assert_true(fabs(ledger.work / 20 - 1) < 1000 * 6e-8);
+    close_case(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -259,6 +273,7 @@ int main(void)
         cmocka_unit_test(pieces_of_all_strikers_stand_in_one_list),
         cmocka_unit_test(a_shape_that_cannot_be_made_is_named),
         cmocka_unit_test(single_precision_keeps_small_steps_far_from_the_origin),
+        cmocka_unit_test(single_precision_pushes_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 #include "cracks.h"
-#include "../h5.h"
+#include "../h5_pack.h"
 #include "../../base/memory.h"
 #include <math.h>
 
@@ -155,7 +155,7 @@ brc_status brc_cracks_fragments(const brc_assembly *assembly, int32_t *fragment,
     return BRC_OK;
 }
 
-brc_status brc_cracks_write_frame(brc_context *context, brc_h5 *h5, const brc_assembly *assembly)
+brc_status brc_cracks_write_frame(brc_context *context, brc_h5 *h5, const brc_assembly *assembly, int n_threads)
 {
     const int64_t n = brc_assembly_first_element(assembly, assembly->n);
     int64_t n_fragments, n_broken = 0;
@@ -171,8 +171,10 @@ brc_status brc_cracks_write_frame(brc_context *context, brc_h5 *h5, const brc_as
         BRC_TRY_OR(cleanup, brc_simulation_broken(assembly->part[k], &broken));
         n_broken += broken;
     }
-    brc_h5_dataset(h5, "VTKHDF/CellData/damage", H5T_NATIVE_DOUBLE, n, 0, damage);
-    brc_h5_dataset(h5, "VTKHDF/CellData/fragment", H5T_NATIVE_INT32, n, 0, fragment);
+    brc_h5_packed(h5, "VTKHDF/CellData/damage", H5T_NATIVE_DOUBLE, n, 0);
+    brc_h5_pack_rows(h5, "VTKHDF/CellData/damage", H5T_NATIVE_DOUBLE, 0, n, damage, n_threads);
+    brc_h5_packed(h5, "VTKHDF/CellData/fragment", H5T_NATIVE_INT32, n, 0);
+    brc_h5_pack_rows(h5, "VTKHDF/CellData/fragment", H5T_NATIVE_INT32, 0, n, fragment, n_threads);
     brc_h5_dataset(h5, "VTKHDF/FieldData/n_fragments", H5T_NATIVE_INT64, 1, 0, &n_fragments);
     brc_h5_dataset(h5, "VTKHDF/FieldData/n_broken", H5T_NATIVE_INT64, 1, 0, &n_broken);
 cleanup:

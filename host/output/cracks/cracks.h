@@ -28,6 +28,6 @@ brc_status brc_cracks_write_h5(brc_context *context, brc_h5 *h5, const brc_crack
 const char *brc_cracks_csv_head(void);
 brc_status brc_cracks_csv_add(brc_context *context, brc_append *file, const brc_cracks *cracks, int64_t *n_written);
 /* CellData damage [-] and fragment, FieldData n_fragments and n_broken of a frame. */
-brc_status brc_cracks_write_frame(brc_context *context, brc_h5 *h5, const brc_assembly *assembly);
+brc_status brc_cracks_write_frame(brc_context *context, brc_h5 *h5, const brc_assembly *assembly, int n_threads);
 
 #endif

@@ -84,11 +84,32 @@ cleanup:
     return status;
 }
 
-static void write_field(const frame_part *p, const char *name, int64_t columns, const double *data)
+static bool is_single(const frame_part *p) { return brc_simulation_scene(p->simulation)->output.frame_numbers == BRC_FRAME_SINGLE; }
+
+/* In the precision that the scene asks for. */
+static brc_status write_field(const frame_part *p, const char *name, int64_t columns, const double *data)
 {
+    const int64_t n = p->elements.n * (columns > 0 ? columns : 1);
+    float *single = NULL;
     char path[64];
     snprintf(path, sizeof path, "VTKHDF/CellData/%s", name);
-    put(p, path, H5T_NATIVE_DOUBLE, p->elements, columns, data);
+    if (!is_single(p)) {
+        put(p, path, H5T_NATIVE_DOUBLE, p->elements, columns, data);
+        return BRC_OK;
+    }
+    BRC_TRY(BRC_ALLOCATE(p->context, &single, n, "field of a frame"));
+    for (int64_t k = 0; k < n; ++k) single[k] = (float)data[k];
+    put(p, path, H5T_NATIVE_FLOAT, p->elements, columns, single);
+    brc_memory_free(single);
+    return BRC_OK;
+}
+
+/* Of spheres alone in single precision it is what their points have, under another name. */
+static brc_status write_own_displacement(const frame_part *p, const double *displacement)
+{
+    if (!is_single(p) || brc_frame_has_cells(p->cells->assembly)) return write_field(p, "displacement", 3, displacement);
+    if (p->index == 0) brc_h5_link(p->h5, "VTKHDF/CellData/displacement", "VTKHDF/PointData/displacement");
+    return BRC_OK;
 }
 
 /* xx yy zz yz xz xy -> XX YY ZZ XY YZ XZ. */
@@ -116,9 +137,9 @@ static brc_status write_tensors(const frame_part *p)
         mises[e] = brc_deform_von_mises(stress + 6 * e);
     to_vtk_order(n, strain);
     to_vtk_order(n, stress);
-    write_field(p, "stress", 6, stress);
-    write_field(p, "strain", 6, strain);
-    write_field(p, "von_mises", 0, mises);
+    BRC_TRY_OR(cleanup, write_field(p, "stress", 6, stress));
+    BRC_TRY_OR(cleanup, write_field(p, "strain", 6, strain));
+    status = write_field(p, "von_mises", 0, mises);
 cleanup:
     brc_memory_free(strain);
     brc_memory_free(stress);
@@ -136,7 +157,7 @@ static brc_status write_orientation(const frame_part *p)
     for (int64_t e = 0; e < p->elements.n; ++e) orientation[4 * e] = 1;
     if (brc_frame_is_sphere(p->domain) || brc_simulation_scene(p->simulation)->model.kind != BRC_MODEL_DLSM)
         status = brc_simulation_orientation(p->simulation, orientation, NULL);
-    if (status == BRC_OK) write_field(p, "orientation", 4, orientation);
+    if (status == BRC_OK) status = write_field(p, "orientation", 4, orientation);
     brc_memory_free(orientation);
     return status;
 }
@@ -149,9 +170,9 @@ static brc_status write_part(const frame_part *p)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(p->context, &vector, 3 * n, "displacement of a frame"));
     BRC_TRY_OR(cleanup, brc_simulation_displacement(p->simulation, vector));
     BRC_TRY_OR(cleanup, write_displacement(p, vector));
-    write_field(p, "displacement", 3, vector);
+    BRC_TRY_OR(cleanup, write_own_displacement(p, vector));
     BRC_TRY_OR(cleanup, brc_simulation_velocity(p->simulation, vector));
-    write_field(p, "velocity", 3, vector);
+    BRC_TRY_OR(cleanup, write_field(p, "velocity", 3, vector));
     BRC_TRY_OR(cleanup, write_orientation(p));
     status = write_tensors(p);
 cleanup:
@@ -186,7 +207,7 @@ static brc_status write_content(brc_frame_cells *cells, brc_h5 *h5, int64_t numb
         const frame_part part = make_part(h5, cells, k);
         BRC_TRY(write_part(&part));
     }
-    if (brc_simulation_has_fracture(assembly->part[0])) BRC_TRY(brc_cracks_write_frame(cells->context, h5, assembly));
+    if (brc_simulation_has_fracture(assembly->part[0])) BRC_TRY(brc_cracks_write_frame(cells->context, h5, assembly, cells->n_threads));
     write_moment(h5, assembly->part[0]);
     return BRC_OK;
 }

@@ -10,8 +10,8 @@
 /* VTKHDF UnstructuredGrid. Cells are polyhedra (type 42, version 2.5) that share their corners wherever a whole bond joins them (tessellation.h).
  *   Points [m], float: corners in the reference state; PointData/displacement [m], float: the mean over the cells that share the corner of
  *   u_i + H_i (x - X_i), H_i the least-squares gradient of the element's neighbourhood (deform.h), so that "Warp By Vector" shows deformed cells;
- *   CellData, double: position (of the element, reference) [m], displacement [m], velocity [m/s], stress (Cauchy) [Pa],
- *   strain (Green) [-], von_mises [Pa]; integer: element_id. Tensors in VTK's order XX YY ZZ XY YZ XZ.
+ *   CellData, float, or double where the scene asks for that (output.frame_numbers): displacement [m], velocity [m/s], stress (Cauchy) [Pa],
+ *   strain (Green) [-], von_mises [Pa]; double: position (of the element, reference) [m]; integer: element_id. Tensors in VTK's order XX YY ZZ XY YZ XZ.
  *   Spheres are vertices (type 1): Points their reference positions, PointData/displacement their own, PointData/radius [m], as packed;
  *   CellData/orientation: unit quaternion w x y z, the rotation since the reference. A frame of spheres alone is of version 1.0.
  *   In scenes of several models parts follow one another, CellData/body and model are the indices of an element's body and part, radius is 0 at

@@ -3,6 +3,7 @@
 #include "report_pack.h"
 #include "report_rigid.h"
 #include "report_skin.h"
+#include "report_thin.h"
 #include "../../base/memory.h"
 #include <math.h>
 #include <stdio.h>
@@ -11,6 +12,8 @@
 
 /* Bytes of all shown frames before they are packed, from which follows how many are shown; and the most of them. */
 enum { FRAMES_BYTES = 2600000, FRAMES_MOST = 60, FRAMES_LEAST = 2 };
+/* Bytes of points and faces before they are packed: beyond them cracks of some cells are left out. */
+enum { SURFACE_BYTES = 6000000 };
 /* The colours of stress and speed end where all but this part of the values of all frames do. */
 static const double OUTLIERS = 0.005;
 
@@ -29,6 +32,7 @@ typedef struct view {
     brc_report_frames *frames;
     brc_report_frame last;
     brc_report_skin skin;
+    int64_t n_dropped;       /* faces of cracks that are left out */
     int64_t *place;          /* [n_points] in the frame being read */
     moment *at;              /* [frames.n] */
     float low[3], step;      /* of places: low + step * (0 .. 65535) [m] */
@@ -41,6 +45,24 @@ static brc_status count_frames(view *v)
     for (bool more = true; more; v->frames->n_all += more)
         BRC_TRY(brc_report_frame_exists(v->context, v->folder, v->frames->n_all, &more));
     return BRC_OK;
+}
+
+/* Where there are too many faces: those of the first frame stay. */
+static brc_status thin(view *v)
+{
+    brc_report_frame first;
+    brc_status status = BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(v->context, &v->place, v->skin.n_points, "frames of the report"));
+    if (brc_report_skin_bytes(&v->skin) <= SURFACE_BYTES) return BRC_OK;
+    BRC_TRY(brc_report_frame_read(v->context, v->folder, 0, &first));
+    if (first.n_elements == v->last.n_elements) { /* else it is told when the frames are read */
+        brc_report_skin_places(&v->skin, &v->last, &first, v->place);
+        status = brc_report_skin_births(v->context, &v->skin, &first, v->place, 0);
+        if (status == BRC_OK) status = brc_report_skin_thin(v->context, &v->skin, SURFACE_BYTES, &v->n_dropped);
+        for (int64_t f = 0; f < v->skin.n_faces; ++f) v->skin.birth[f] = -1;
+    }
+    brc_report_frame_free(&first);
+    return status;
 }
 
 static brc_status choose_frames(view *v)
@@ -85,7 +107,6 @@ static brc_status read_moments(view *v)
 {
     int64_t broken = -2;
     BRC_TRY(BRC_ALLOCATE(v->context, &v->at, v->frames->n, "frames of the report"));
-    BRC_TRY(BRC_ALLOCATE(v->context, &v->place, v->skin.n_points, "frames of the report"));
     for (int64_t k = 0; k < v->frames->n; ++k) {
         brc_report_frame f;
         brc_status status = brc_report_frame_read(v->context, v->folder, v->frames->number[k], &f);
@@ -279,6 +300,7 @@ static void add_head(const view *v, brc_json *json)
     brc_json_integer(json, "n_points", s->n_points);
     brc_json_integer(json, "n_elements", s->n_elements);
     brc_json_integer(json, "n_all_elements", v->last.n_elements);
+    brc_json_integer(json, "n_dropped", v->n_dropped);
     brc_json_integer(json, "n_faces", count_born(s, v->frames->n, false));
     brc_json_integer(json, "n_corners", count_born(s, v->frames->n, true));
     brc_json_boolean(json, "spheres", v->last.radius != NULL);
@@ -298,6 +320,7 @@ static brc_status make(view *v, const brc_csv_read *cracks, brc_text *page, brc_
 {
     BRC_TRY(brc_report_frame_read(v->context, v->folder, v->frames->n_all - 1, &v->last));
     BRC_TRY(brc_report_skin_make(v->context, &v->last, &v->skin));
+    BRC_TRY(thin(v));
     BRC_TRY(choose_frames(v));
     BRC_TRY(read_moments(v));
     for (int field = 0; field < 2; ++field)

@@ -347,7 +347,7 @@ static brc_status read_striker(brc_simulation *simulation, int32_t striker, cons
         const char *term;
         const double *vector;
     } terms[] = {{"position", now.position}, {"displacement", now.displacement}, {"velocity", now.velocity}, {"rotation", now.rotation},
-                 {"spin", now.spin},         {"force", now.force},               {"torque", now.torque}};
+                 {"spin", now.spin},         {"force", now.force},               {"torque", now.torque},     {"applied", now.applied}};
     *value = now.kinetic; /* "energy" */
     for (size_t k = 0; k < sizeof terms / sizeof *terms; ++k)
         if (strcmp(sensor->term, terms[k].term) == 0) *value = terms[k].vector[sensor->component];
@@ -368,6 +368,7 @@ static brc_status read_strikers(READ_ARGUMENTS)
     const double middle = 0.5 * (sensors->domain->bounds[0][c] + sensors->domain->bounds[1][c]);
     const double side = striker->is_plane           ? -striker->normal[c]
                         : striker->velocity[c] != 0 ? -striker->velocity[c] /* it comes from where it is */
+                        : striker->force[c] != 0    ? -striker->force[c]
                                                     : brc_simulation_striker_body(simulation, sensors->first[s])->centre[c] - middle;
     sensors->outward[s] = side < 0 ? -1 : 1;
     return BRC_OK;

@@ -252,9 +252,10 @@ class View {
         const left = h.n_all - n;
         const some = left > 0 ? `${n} of the ${h.n_all} frames are shown; the folder of the run has all. ` : '';
         const thinned = h.discs && h.discs.every > 1 ? `Each disc stands for ${h.discs.every} broken bonds. ` : '';
+        const cracks = h.n_dropped > 0 ? `${h.n_dropped} faces of cracks, of cells all over the body, are left out. ` : '';
         this.place.append(make('p', {
             className: 'small',
-            textContent: `${some}${thinned}Drag: turn; wheel: zoom; right button: move. ` +
+            textContent: `${some}${cracks}${thinned}Drag: turn; wheel: zoom; right button: move. ` +
                 'Colours of stress and speed end where 99.5 % of the values do.'
         }));
     }

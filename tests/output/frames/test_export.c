@@ -20,7 +20,8 @@ static int begin(void **state)
     domain = test_domain(100);
     folder = test_new_folder();
     brc_file_make_folder(test_context, test_path(folder, "frames"));
-    brc_simulation s = {.domain = domain, .gradient = {{1e-2, 0, 0}}, .stress = {1e6}};
+    const brc_scene in_double = {.output = {.frame_numbers = BRC_FRAME_DOUBLE}};
+    brc_simulation s = {.scene = &in_double, .domain = domain, .gradient = {{1e-2, 0, 0}}, .stress = {1e6}};
     brc_simulation *const alone = &s;
     const brc_assembly whole = brc_assembly_make(s.scene, NULL, 1, &alone);
     brc_frames *frames;

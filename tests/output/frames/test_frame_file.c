@@ -21,13 +21,16 @@ static brc_frames *frames_of(const brc_assembly *assembly)
     return frames;
 }
 
+static const brc_scene in_double = {.output = {.frame_numbers = BRC_FRAME_DOUBLE}};
+
 /* One frame of an affine motion, open for reading. */
 static int begin(void **state)
 {
     test_begin(state);
     domain = test_domain(300);
     folder = test_new_folder();
-    brc_simulation s = {.domain = domain,
+    brc_simulation s = {.scene = &in_double,
+                        .domain = domain,
                         .factor = 1,
                         .time = 0.125,
                         .step = 7,
@@ -229,6 +232,48 @@ static void what_an_earlier_frame_has_is_referred_to(void **state)
     brc_scene_free(&scene);
 }
 
+/* Bytes of a number of a field; of the place of an element 8 always. */
+static size_t bytes_of(const brc_h5_read *file, const char *name)
+{
+    const hid_t dataset = H5Dopen2(file->file, name, H5P_DEFAULT), type = H5Dget_type(dataset);
+    const size_t bytes = H5Tget_size(type);
+    H5Tclose(type);
+    H5Dclose(dataset);
+    return bytes;
+}
+
+/* Without being asked for all digits a field has those of a float: each number the nearest to the one in double. */
+static void fields_are_single_unless_the_scene_says_double(void **state)
+{
+    (void)state;
+    static const char *const field[] = {"VTKHDF/CellData/displacement", "VTKHDF/CellData/velocity", "VTKHDF/CellData/stress", "VTKHDF/CellData/strain", "VTKHDF/CellData/von_mises"};
+    static const int columns[] = {3, 3, 6, 6, 1};
+    const brc_scene scene = {.output = {.frame_numbers = BRC_FRAME_SINGLE}};
+    brc_simulation s = {.scene = &scene, .domain = domain, .factor = 1, .time = 0.125, .value = {0.1, 0, 0}, .gradient = {{1e-2, 2e-2, 0}, {0, -3e-3, 0}, {5e-3, 0, 4e-2}},
+                        .stress = {1e6, 2e6, 3e6, 4e6, 5e6, 6e6}};
+    brc_simulation *const alone = &s;
+    const brc_assembly whole = brc_assembly_make(&scene, NULL, 1, &alone);
+    brc_frames *frames = frames_of(&whole);
+    char *other = test_new_folder();
+    brc_h5_read file;
+    assert_int_equal(brc_frames_write(frames, other, 0), BRC_OK);
+    brc_frames_free(&frames);
+    assert_int_equal(brc_h5_read_open(test_context, test_path(other, "000000.vtkhdf"), &file), BRC_OK);
+    for (int k = 0; k < 5; ++k) {
+        const int64_t n = domain->n_elements;
+        double *both[2] = {malloc((size_t)(n * columns[k]) * sizeof(double)), malloc((size_t)(n * columns[k]) * sizeof(double))};
+        assert_true(bytes_of(&file, field[k]) == 4 && bytes_of(&h5, field[k]) == 8);
+        assert_int_equal(brc_h5_read_rows(&h5, field[k], H5T_NATIVE_DOUBLE, 0, n, both[0]), BRC_OK);
+        assert_int_equal(brc_h5_read_rows(&file, field[k], H5T_NATIVE_DOUBLE, 0, n, both[1]), BRC_OK);
+        for (int64_t m = 0; m < n * columns[k]; ++m) assert_true(both[1][m] == (double)(float)both[0][m]);
+        free(both[0]);
+        free(both[1]);
+    }
+    assert_int_equal(bytes_of(&file, "VTKHDF/CellData/position"), 8);
+    brc_h5_read_close(&file);
+    test_remove_folder(other);
+}
+
 /* Blocks that shrink, blocks that do not, and a last one that is not full come back as they were, from any number of threads in the same bytes. */
 static void packed_rows_come_back(void **state)
 {
@@ -309,6 +354,7 @@ int main(void)
         cmocka_unit_test(tensors_come_in_the_order_of_vtk),
         cmocka_unit_test(the_moment_is_kept),
         cmocka_unit_test(what_an_earlier_frame_has_is_referred_to),
+        cmocka_unit_test(fields_are_single_unless_the_scene_says_double),
         cmocka_unit_test(packed_rows_come_back),
         cmocka_unit_test(the_index_lists_every_frame_with_its_time),
     };

@@ -4,6 +4,7 @@
 #include "../../../host/base/file.h"
 #include "../../../host/output/frames/frame_file.h"
 #include "../../../host/output/report/report_skin.h"
+#include "../../../host/output/report/report_thin.h"
 #include "../../../host/output/report/report_view.h"
 #include <stdlib.h>
 #include <unistd.h>
@@ -126,6 +127,43 @@ static void a_broken_bond_opens_two_faces_that_are_born_with_it(void **state)
     brc_report_frame_free(&last);
 }
 
+/* Faces of the first frame of a body that bursts wholly all stay, whatever room there is; with room for some of the cracks, cells keep all of their faces or none of them but those, and it is used up to less than
+ * a cell's faces. Points and elements that nothing uses go. */
+static void cracks_are_left_out_where_there_is_no_room(void **state)
+{
+    (void)state;
+    for (int room = 0; room < 3; ++room) {
+        brc_report_frame last = frame_of(FRAMES - 1), first = frame_of(0);
+        brc_report_skin skin, outer;
+        int64_t n_dropped;
+        assert_int_equal(brc_report_skin_make(test_context, &first, &outer), BRC_OK);
+        assert_int_equal(brc_report_skin_make(test_context, &last, &skin), BRC_OK);
+        int64_t *place = calloc((size_t)skin.n_points, sizeof *place);
+        brc_report_skin_places(&skin, &last, &first, place);
+        assert_int_equal(brc_report_skin_births(test_context, &skin, &first, place, 0), BRC_OK);
+        free(place);
+        const int64_t all = brc_report_skin_bytes(&skin), least = brc_report_skin_bytes(&outer), faces = skin.n_faces;
+        const int64_t bytes[3] = {0, all - 1, all};
+        double area = 0, old_area = 0;
+        for (int64_t f = 0; f < outer.n_faces; ++f) old_area += area_of(&first, &outer, f);
+        assert_true(least < all);
+        assert_int_equal(brc_report_skin_thin(test_context, &skin, bytes[room], &n_dropped), BRC_OK);
+        assert_int_equal(skin.n_faces + n_dropped, faces);
+        assert_true(room == 0 ? n_dropped == 2 : room == 1 ? n_dropped <= 1 : n_dropped == 0);
+        for (int64_t f = 0; f < skin.n_faces; ++f) {
+            if (skin.birth[f] == 0) area += area_of(&last, &skin, f);
+            assert_in_range(skin.face_owner[f], 0, skin.n_elements - 1);
+            for (int64_t k = skin.face_start[f]; k < skin.face_start[f + 1]; ++k) assert_in_range(skin.face_corner[k], 0, skin.n_points - 1);
+        }
+        assert_true(fabs(area - old_area) < 1e-6 * old_area);
+        for (int64_t e = 1; e < skin.n_elements; ++e) assert_true(skin.element[e] > skin.element[e - 1]);
+        brc_report_skin_free(&skin);
+        brc_report_skin_free(&outer);
+        brc_report_frame_free(&last);
+        brc_report_frame_free(&first);
+    }
+}
+
 static void a_view_tells_of_its_frames_and_needs_all_of_them(void **state)
 {
     (void)state;
@@ -165,6 +203,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_intact_body_shows_its_outside),
         cmocka_unit_test(a_broken_bond_opens_two_faces_that_are_born_with_it),
+        cmocka_unit_test(cracks_are_left_out_where_there_is_no_room),
         cmocka_unit_test(a_view_tells_of_its_frames_and_needs_all_of_them),
         cmocka_unit_test(damaged_frames_are_refused),
     };
