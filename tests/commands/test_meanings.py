@@ -54,6 +54,13 @@ stages:
     loads: [{element_displacement: {set: x-, x: 0, y: 0, z: 0}}, {element_rotation: {set: x+, x: 1 mrad}}]
 output: {picture: false, checkpoint: {wall: 1 h}}
 """
+PRESSED = """version: 1
+materials: {glass: {E: 70 GPa, nu: 0.2, density: 2500 kg/m^3}}
+bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {cells: [2, 2, 2], spread: 30 %}}}]
+platens: {axis: y, force: 1 kN}
+stages: [{name: press, solver: {dynamic: {steps: 20}}}]
+output: {picture: false, checkpoint: {wall: 1 h}}
+"""
 FAILURES = []
 
 
@@ -113,7 +120,7 @@ def main():
         for name in names:
             run(test_resume.command(name, f"{folder}/{name}", test_resume.overrides(name) + [KEPT.get(name, "output.checkpoint.wall=1 h")]))
             walk_run(f"{folder}/{name}", seen)
-        for name, scene in (("published", PUBLISHED), ("damped", DAMPED), ("turned", TURNED)):
+        for name, scene in (("published", PUBLISHED), ("damped", DAMPED), ("turned", TURNED), ("pressed", PRESSED)):
             with open(f"{folder}/{name}.yaml", "w", encoding="utf-8") as file:
                 file.write(scene)
             run([test_resume.PROGRAM, "run", f"{folder}/{name}.yaml", "-o", f"{folder}/{name}", "--device", "cpu"])
