@@ -28,6 +28,19 @@ def _need(module: str, extra: str) -> Any:
         raise ImportError(f"{module} is missing: pip install 'breccia[{extra}]', or the package python3-{module} of Debian") from None
 
 
+def _cells(vtk: Any) -> Any:
+    """Cells as VTK takes them in one array: of a sphere 1 and its point; of a polyhedron how many numbers follow, its number of faces, and of each face its number of points and these."""
+    n = len(vtk["Types"])
+    first, starts = np.zeros(n + 1, int), np.zeros(1, int)  # faces of each cell, points of each face: none
+    points, own = np.zeros(0, int), np.asarray(vtk["Connectivity"])[np.asarray(vtk["Offsets"])[:-1]]
+    if "FaceConnectivity" in vtk:
+        first, starts, points = (np.asarray(vtk[name]) for name in ("PolyhedronOffsets", "FaceOffsets", "FaceConnectivity"))
+    faces = np.insert(points, starts[:-1], np.diff(starts))
+    at, is_cell = starts[first] + first, np.diff(first) > 0
+    heads = np.stack([np.where(is_cell, np.diff(at) + 1, 1), np.where(is_cell, np.diff(first), own)], axis=1)
+    return np.insert(faces, np.repeat(at[:-1], 2), heads.ravel())
+
+
 @dataclass(frozen=True)
 class Frame:
     """The state at one moment, in a VTKHDF file."""
@@ -62,10 +75,8 @@ class Frame:
         pv = _need("pyvista", "pictures")
         with self._open() as file:
             vtk = file["VTKHDF"]
-            points, offsets, of = np.asarray(vtk["Points"], float), np.asarray(vtk["Offsets"]), np.asarray(vtk["Connectivity"])
-            moved, types = np.asarray(vtk["PointData/displacement"], float), np.asarray(vtk["Types"])
-            cells = np.insert(of, offsets[:-1], np.diff(offsets))
-            grid = pv.UnstructuredGrid(cells, types, points + scale * moved)
+            points, moved = np.asarray(vtk["Points"], float), np.asarray(vtk["PointData/displacement"], float)
+            grid = pv.UnstructuredGrid(_cells(vtk), np.asarray(vtk["Types"]), points + scale * moved)
             for name, data in vtk["CellData"].items():
                 grid.cell_data[name] = np.asarray(data)
             for name, data in vtk["PointData"].items():
@@ -77,7 +88,7 @@ class Frame:
         mesh = self.mesh(scale)
         if (mesh.celltypes == 1).all():
             raise ValueError("spheres are points in the mesh and have no cut; take mesh().clip(), or mesh().glyph()")
-        return cast("pyvista.PolyData", mesh.triangulate().slice(normal=normal, origin=origin))  # VTK 9.7 cuts convex point sets wrong
+        return cast("pyvista.PolyData", mesh.slice(normal=normal, origin=origin))
 
     def cracks(self) -> "pyvista.DataSet":
         """Broken faces as polygons, of a scene with fracture."""

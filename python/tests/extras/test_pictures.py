@@ -24,6 +24,8 @@ def test_frames_are_meshes(results):
     mesh = results.frames[0].mesh()
     assert isinstance(mesh, pyvista.UnstructuredGrid) and mesh.n_cells == 216
     assert mesh.bounds == pytest.approx((0, 1, 0, 1, 0, 1), abs=1e-6)
+    assert (mesh.celltypes == 42).all() and mesh.volume == pytest.approx(1, rel=1e-6)
+    assert mesh.clip("x").volume == pytest.approx(0.5, rel=1e-5)
     moved = results.frames[-1].mesh(scale=1.0)
     assert np.allclose(moved.points - results.frames[-1].mesh().points, moved.point_data["displacement"])
     assert results.frames[-1].cracks().n_cells > 0
