@@ -202,7 +202,7 @@ const brc_meaning brc_meanings_of_checkpoints[] = {
     {"parts/*/strikers.work", "J", "work of driven strikers on what they touched, and of prescribed forces on free ones"},
     {"parts/*/strikers.push", "N", "prescribed force on each striker; x y z"},
     {"parts/*/strikers.pushed", "N", "that force at the last booking of work; x y z"},
-    {"parts/*/strikers.push_now", "N", "that force in full precision; x y z"},
+    {"parts/*/strikers.push_now", "N, N, N, J", "that force in full precision, x y z, and its work by changing within steps"},
     {"parts/*/strikers.lost", "J", "energy taken by the integrator"},
     {"parts/*/strikers.placed", "s", "integral of the table of a driven striker's velocity up to now"},
     {NULL, NULL, NULL},

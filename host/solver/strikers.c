@@ -4,6 +4,7 @@
 #include <string.h>
 
 enum { TURNS = 8, PUSHED = 16 }; /* bits of `freedom` behind those of x y z, kernels/strikers.cl */
+enum { N_PUSH = 4 }; /* numbers of each in push_now */
 
 static const brc_striker *asked(const brc_simulation *s, int32_t i) { return s->scene->strikers + i; }
 static bool is_driven(const brc_simulation *s, int32_t i) { return asked(s, i)->motion == BRC_STRIKER_DRIVEN; }
@@ -110,7 +111,7 @@ brc_status brc_strikers_create(brc_simulation *s)
     BRC_TRY(BRC_ALLOCATE(s->context, &t->body, t->n, "strikers"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->placed, t->n, "strikers"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->told, t->n, "strikers"));
-    BRC_TRY(BRC_ALLOCATE(s->context, &t->push_now, 3 * (int64_t)t->n, "strikers"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &t->push_now, N_PUSH * (int64_t)t->n, "strikers"));
     for (int32_t i = 0; i < t->n; ++i) BRC_TRY(brc_striker_body_make(s, i));
     BRC_TRY(brc_kernel_find(s->device, "striker_advance", &t->advance));
     BRC_TRY(brc_kernel_find(s->device, "striker_place", &t->place));
@@ -166,15 +167,18 @@ static void quaternion(const double turn[3], double q[4])
     for (int c = 0; c < 3; ++c) q[c + 1] = share * turn[c];
 }
 
-/* Told to the device where it has changed. */
+/* Told to the device where it has changed. Within a step of velocity Verlet from force f to f' its work is (f + f') / 2 . (way + dt^2 (f' - f) / 4 m); the second part, dt^2 (f'^2 - f^2) / 8 m, is summed here. */
 static brc_status push(brc_simulation *s, int32_t i, double now)
 {
     const brc_strikers *t = s->strikers;
     const brc_striker *striker = asked(s, i);
-    const double factor = brc_table_value(&striker->table, now);
-    double *last = t->push_now + 3 * (int64_t)i, f[3];
+    const double factor = brc_table_value(&striker->table, now), dt = s->time_step.value;
+    const bool verlet = s->step > 0 && brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && brc_current_stage(s)->integrator != BRC_TCHAMWA_WIELGOSZ;
+    double *last = t->push_now + N_PUSH * (int64_t)i, f[3];
     for (int c = 0; c < 3; ++c) f[c] = factor * striker->force[c];
     if (memcmp(f, last, sizeof f) == 0) return BRC_OK;
+    for (int c = 0; c < 3 && verlet; ++c)
+        if (!striker->held[c]) last[3] += dt * dt * (f[c] * f[c] - last[c] * last[c]) / (8 * t->body[i].mass);
     memcpy(last, f, sizeof f);
     return BRC_LAUNCH(t->push_on, 1, BRC_INT(1), BRC_INT(i), BRC_STATE(f[0]), BRC_STATE(f[1]), BRC_STATE(f[2]), BRC_BUF(t->push));
 }
@@ -184,7 +188,7 @@ double brc_strikers_pushed(const brc_simulation *s)
     const brc_strikers *t = s->strikers;
     double most = 0;
     for (int32_t i = 0; i < t->n; ++i) {
-        const double *f = t->push_now + 3 * (int64_t)i;
+        const double *f = t->push_now + N_PUSH * (int64_t)i;
         if (asked(s, i)->pushed) most = fmax(most, sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) / t->body[i].mass);
     }
     return most;
@@ -227,7 +231,7 @@ brc_status brc_strikers_store_state(brc_simulation *s, brc_state_store *store)
 {
     const brc_strikers *t = s->strikers;
     BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_striker_fields, .owner = t, .n = t->n}));
-    if (t->push) BRC_TRY(store->numbers(store, "strikers.push_now", BRC_STORED_DOUBLE, t->n, 3, t->push_now));
+    if (t->push) BRC_TRY(store->numbers(store, "strikers.push_now", BRC_STORED_DOUBLE, t->n, N_PUSH, t->push_now));
     return store->numbers(store, "strikers.placed", BRC_STORED_DOUBLE, t->n, 1, t->placed);
 }
 
@@ -290,7 +294,7 @@ brc_status brc_strikers_energies(brc_simulation *s, brc_striker_energies *out)
         BRC_TRY(read_one(s, s->strikers->work, i, 1, &work));
         BRC_TRY(read_one(s, s->strikers->lost, i, 1, &lost));
         out->kinetic += now.kinetic;
-        out->work += work;
+        out->work += work + s->strikers->push_now[N_PUSH * (int64_t)i + 3];
         out->numerical += lost;
         for (int c = 0; c < 3; ++c) out->potential -= s->strikers->body[i].mass * g[c] * now.displacement[c];
     }

@@ -34,7 +34,7 @@ struct brc_strikers {
     brc_buffer *freedom, *mass, *inertia, *centre;
     brc_buffer *moved, *last, *work, *lost;
     brc_buffer *push, *pushed; /* where some are pushed by prescribed forces; else NULL */
-    double *push_now;          /* [n][3] that force of each as the device has it [N]; host */
+    double *push_now;          /* [n][4] that force of each as the device has it [N]; its work by changing within steps [J]; host */
 };
 
 /* Energies of all strikers [J]. */

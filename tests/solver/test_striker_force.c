@@ -40,21 +40,24 @@ static void a_mass_under_a_constant_force_follows_the_parabola(void **state)
     close_case(&c);
 }
 
-/* A force that rises as F t / T: v = F t^2 / 2 m T exactly, as its kicks are trapezoids; x = (F t^3 - F t dt^2) / 6 m T, a third difference left out each step. Work by trapezoids lags behind the energy by
- * dt^2 F^2 / 8 m, the sum of half of each step's change of force times its mean. After T the force stays. */
+/* A force that rises as F t / T: v = F t^2 / 2 m T exactly, as its kicks are trapezoids; x = (F t^3 - F t dt^2) / 6 m T, a third difference left out each step. Its work is the energy,
+ * to roundings, after the first step too. After T the force stays. */
 static void a_force_follows_its_table_and_its_work_is_booked(void **state)
 {
     (void)state;
     bench_case c;
     open_alone(&c, BRICK("force: [0, 300 N, 0], table: [[0, 0], [1 s, 1]]"), STAGE("1500"));
-    run_steps(&c, 1000);
+    run_steps(&c, 1);
+    brc_ledger ledger = ledger_now(&c);
+    assert_true(ledger.kinetic > 0 && fabs(ledger.work / ledger.kinetic - 1) < 1e-14);
+    run_steps(&c, 999);
     brc_striker_now now = now_of(&c, 0);
     const double dt = 1e-3, m = 1000, force = 300, roundings = 1000 * 1e-16;
     assert_true(fabs(now.velocity[1] - force / (2 * m)) < roundings);
     assert_true(fabs(now.displacement[1] - force * (1 - dt * dt) / (6 * m)) < roundings);
     assert_true(now.applied[1] == force);
-    brc_ledger ledger = ledger_now(&c);
-    assert_true(fabs(ledger.kinetic - ledger.work - dt * dt * force * force / (8 * m)) < 100 * roundings);
+    ledger = ledger_now(&c);
+    assert_true(fabs(ledger.kinetic - ledger.work) < 100 * roundings);
     run_steps(&c, 500);
     now = now_of(&c, 0);
     assert_true(fabs(now.velocity[1] - (force / (2 * m) + 0.5 * force / m)) < roundings && now.applied[1] == force);
