@@ -5,6 +5,7 @@
 #include "../base/log.h"
 #include "../base/memory.h"
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The whole compiler log, freed with brc_memory_free; NULL when there is none. */
@@ -59,6 +60,13 @@ static brc_status make_key(brc_device *device, cl_device_id id, const char *opti
     }
     snprintf(*out + used, most - used, "%s\n%s", options, source);
     return BRC_OK;
+}
+
+/* Drivers that run on the CPU (PoCL) keep kernels themselves, and to hand a program out compile every kernel of it: there only where a folder is named. */
+static bool is_kept(const brc_device *device)
+{
+    const char *const folder = getenv("BRECCIA_OPENCL_CACHE");
+    return device->info.is_gpu || (folder && folder[0]);
 }
 
 /* The program kept under a key, ready to run; NULL: there is none, or the driver does not take it. */
@@ -123,10 +131,10 @@ brc_status brc_opencl_build(brc_device *device, cl_context context, cl_device_id
              exact ? exact_options(device, id) : "");
     BRC_TRY_OR(cleanup, brc_program_source(device->context, folder, &source));
     BRC_TRY_OR(cleanup, make_key(device, id, options, source, &key));
-    *out = kept_program(device, context, id, options, key);
+    if (is_kept(device)) *out = kept_program(device, context, id, options, key);
     if (*out) goto cleanup;
     BRC_TRY_OR(cleanup, compile(device, context, id, options, source, folder, out));
-    keep_program(device, *out, key);
+    if (is_kept(device)) keep_program(device, *out, key);
 cleanup:
     if (status != BRC_OK && *out) {
         (void)clReleaseProgram(*out);
