@@ -62,11 +62,11 @@ KERNEL void cells_force_listed(int n_items, int n, GLOBAL const int *restrict li
     }
 }
 
-/* Bonds whose normal stress is above share * limit are marked. modulus [n]: lambda + 2 mu [Pa]; found [n_groups]. With share 1 only groups
+/* Bonds whose normal stress is above share * limit are marked. plane [n]: lambda + 2 mu [Pa]; found [n_groups]. With share 1 only groups
  * that the force pass told to look at their bonds do. */
 KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                         GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict modulus,
+                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
                         GLOBAL int *restrict look, GLOBAL const coeff *restrict limit,
                         GLOBAL int *restrict mark, GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
@@ -78,7 +78,7 @@ KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict ro
             const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
             const lane_int own = lane_own(first);
             const lane_mat3 h = lane_gather9(gradient, own), p = lane_gather9(stress, own);
-            const lane k = lane_load(modulus, (brc_size)first);
+            const lane k = lane_load(plane, (brc_size)first);
             const cell_side side = cell_side_of(h, p, k);
             const state_vec3 u = state_gather3(displacement, own);
             for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
@@ -90,7 +90,7 @@ KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict ro
                 if (LANE_ANY_SHORT(room, LANE_ZERO)) { /* of the two halves of a bond above its limit one is above it too */
                     const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse);
                     const lane tau = cell_half_stress(h, p, k, r, strain, inverse);
-                    const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j), gather_component(modulus, j), r,
+                    const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j), gather_component(plane, j), r,
                                                         strain, inverse);
                     const lane sigma = REAL(0.5) * (tau + other);
 #define MARK(l)                                                                                                        \
@@ -113,14 +113,14 @@ KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict ro
 /* The largest sigma / limit of each element's bonds [n] [-]. */
 KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                         GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict modulus,
+                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
                         GLOBAL const coeff *restrict limit, GLOBAL coeff *restrict out)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
         const lane_int own = lane_own(first);
         const lane_mat3 h = lane_gather9(gradient, own), p = lane_gather9(stress, own);
-        const lane k = lane_load(modulus, (brc_size)first);
+        const lane k = lane_load(plane, (brc_size)first);
         const state_vec3 u = state_gather3(displacement, own);
         lane largest = LANE_ZERO;
         for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
@@ -130,7 +130,7 @@ KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOB
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
             const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse);
             const lane tau = cell_half_stress(h, p, k, r, strain, inverse);
-            const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j), gather_component(modulus, j), r, strain, inverse);
+            const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j), gather_component(plane, j), r, strain, inverse);
             largest = cell_larger(largest, REAL(0.5) * (tau + other) / lane_load(limit, entry));
         }
 #define PUT(l) out[(brc_size)first + 0x##l] = LANE_ITEM(largest, l);

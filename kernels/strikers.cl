@@ -51,7 +51,7 @@ KERNEL void striker_advance(int n, state kick, state drift, state extra, int num
                             GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia, GLOBAL const state *restrict centre,
                             GLOBAL const state *restrict load, GLOBAL const state *restrict push, GLOBAL state *restrict motion,
                             GLOBAL state *restrict momentum, GLOBAL state *restrict displacement, GLOBAL state *restrict orientation,
-                            GLOBAL state *restrict pose, GLOBAL state *restrict moved, GLOBAL state *restrict lost)
+                            GLOBAL state *restrict striker_pose, GLOBAL state *restrict moved, GLOBAL state *restrict lost)
 {
     FOR_EACH_ITEM(i, n) {
         const int bits = freedom[i];
@@ -77,7 +77,7 @@ KERNEL void striker_advance(int n, state kick, state drift, state extra, int num
             striker_put(motion, 6 * i, v);
             if (bits & 8) striker_put(motion, 6 * i + 3, rigid_spin(q, own, l));
             striker_put(momentum, 3 * i, l);
-            striker_put_pose(pose, orientation, i, svec3_add(striker_vec(centre, 3 * i), u), q);
+            striker_put_pose(striker_pose, orientation, i, svec3_add(striker_vec(centre, 3 * i), u), q);
         }
     }
 }
@@ -87,7 +87,7 @@ KERNEL void striker_advance(int n, state kick, state drift, state extra, int num
 KERNEL void striker_place(int n, int which, state ux, state uy, state uz, state qw, state qx, state qy, state qz, state vx, state vy, state vz,
                           state wx, state wy, state wz, state mx, state my, state mz, state tx, state ty, state tz,
                           GLOBAL const state *restrict centre, GLOBAL state *restrict motion, GLOBAL state *restrict displacement,
-                          GLOBAL state *restrict orientation, GLOBAL state *restrict pose, GLOBAL state *restrict moved)
+                          GLOBAL state *restrict orientation, GLOBAL state *restrict striker_pose, GLOBAL state *restrict moved)
 {
     FOR_EACH_ITEM(k, n) {
         const int i = which + k;
@@ -95,7 +95,7 @@ KERNEL void striker_place(int n, int which, state ux, state uy, state uz, state 
         striker_put(displacement, 3 * i, u);
         striker_put(motion, 6 * i, (svec3){vx, vy, vz});
         striker_put(motion, 6 * i + 3, (svec3){wx, wy, wz});
-        striker_put_pose(pose, orientation, i, svec3_add(striker_vec(centre, 3 * i), u), (squat){qw, qx, qy, qz});
+        striker_put_pose(striker_pose, orientation, i, svec3_add(striker_vec(centre, 3 * i), u), (squat){qw, qx, qy, qz});
         striker_add(moved, 6 * i, (svec3){mx, my, mz});
         striker_add(moved, 6 * i + 3, (svec3){tx, ty, tz});
     }

@@ -371,11 +371,27 @@ brc_status brc_kernel_find(brc_device *device, const char *name, brc_kernel **ou
         brc_memory_free(kernel);
         return status;
     }
-    brc_kernel_signature(name, kernel->kinds);
+    kernel->parameters = brc_kernel_signature(name, kernel->kinds);
     kernel->next = device->kernels;
     device->kernels = kernel;
     *out = kernel;
     return BRC_OK;
+}
+
+const char *brc_kernel_name(const brc_kernel *kernel)
+{
+    return kernel->name;
+}
+
+int brc_kernel_parameters(const brc_kernel *kernel)
+{
+    return (int)strlen(kernel->kinds[0]);
+}
+
+brc_arg_kind brc_kernel_parameter(const brc_kernel *kernel, int k, char *name, size_t bytes)
+{
+    brc_kernel_parameter_name(kernel->parameters, k, name, bytes);
+    return (brc_arg_kind)(strchr(BRC_KERNEL_LETTERS, kernel->kinds[0][k]) - BRC_KERNEL_LETTERS);
 }
 
 brc_packed_arg brc_arg_pack(const brc_device *device, const brc_arg *arg)

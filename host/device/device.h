@@ -123,6 +123,10 @@ typedef struct brc_arg {
 /* A kernel of the run's instance, found once by name; owned by the device. BRC_INTERNAL: no such kernel. */
 typedef struct brc_kernel brc_kernel;
 brc_status brc_kernel_find(brc_device *device, const char *name, brc_kernel **out);
+const char *brc_kernel_name(const brc_kernel *kernel);
+/* Its parameters, as the text in kernels/ has them: how many (0: they cannot be read), and name and kind of the k-th. */
+int brc_kernel_parameters(const brc_kernel *kernel);
+brc_arg_kind brc_kernel_parameter(const brc_kernel *kernel, int k, char *name, size_t bytes);
 /* Enqueue over `n_items` work-items (FOR_EACH_ITEM: one each; FOR_EACH_SLICE: n_items = slices * C / W). Launches run in
  * order; nothing waits. The number and kinds of arguments are checked against the kernel's own in debug builds. */
 brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args);

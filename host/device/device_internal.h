@@ -59,6 +59,7 @@ struct brc_kernel {
     char name[64];
     int64_t launches;
     char kinds[2][BRC_KERNEL_MOST_ARGS + 1]; /* its parameters, one letter each (kernel_signature.h); "": unknown */
+    const char *parameters;                  /* the text of its (first) list, behind the bracket; NULL: unknown */
     void (*function)(void);                  /* C builds */
     void *inside;                            /* the backend's own */
 };

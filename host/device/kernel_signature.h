@@ -17,7 +17,10 @@ extern const int brc_kernel_file_count;
 
 /* Read the parameter list(s) of `KERNEL void name(...)` from the embedded sources: one string of letters per
  * definition, at most two (one per branch of BRC_MANY_MATERIALS). "" when the text is not of that form (a parameter
- * that hides in a macro, say): launches of that kernel are then not checked. */
-void brc_kernel_signature(const char *name, char kinds[2][BRC_KERNEL_MOST_ARGS + 1]);
+ * that hides in a macro, say): launches of that kernel are then not checked. Returns the first list's text, behind its
+ * bracket; NULL where there is none. */
+const char *brc_kernel_signature(const char *name, char kinds[2][BRC_KERNEL_MOST_ARGS + 1]);
+/* The name of the k-th parameter of such a text. */
+void brc_kernel_parameter_name(const char *parameters, int k, char *name, size_t bytes);
 
 #endif

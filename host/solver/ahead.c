@@ -129,7 +129,7 @@ brc_status brc_ahead_count(brc_simulation *s, brc_buffer *found, int64_t count, 
     struct brc_ahead *a = s->ahead;
     a->calm += 1;
     *n = 0;
-    if (a->on) return BRC_LAUNCH(s->kernel.axpy, count, BRC_INT(count), BRC_STATE(1), BRC_BUF(found), BRC_BUF(a->found));
+    if (a->on) return brc_vector_axpy(s, count, 1, found, a->found);
     BRC_TRY(brc_vector_sum(s, found, count, n));
     if (*n > 0) a->calm = 0;
     return BRC_OK;

@@ -122,6 +122,22 @@ brc_status brc_vector_sum(brc_simulation *s, brc_buffer *x, int64_t count, doubl
     return add_partial(s, n_blocks, out);
 }
 
+brc_status brc_vector_axpy(brc_simulation *s, int64_t count, double a, brc_buffer *x, brc_buffer *y)
+{
+    return BRC_LAUNCH(s->kernel.axpy, count, BRC_INT(count), BRC_STATE(a), BRC_BUF(x), BRC_BUF(y));
+}
+
+brc_status brc_vector_gather(brc_simulation *s, int32_t n, brc_buffer *index, brc_buffer *x, brc_buffer *y)
+{
+    return BRC_LAUNCH(s->kernel.gather, n, BRC_INT(n), BRC_BUF(index), BRC_BUF(x), BRC_BUF(y));
+}
+
+brc_status brc_vector_small_rotation(brc_simulation *s, brc_buffer *theta, brc_buffer *orientation)
+{
+    const int32_t n = s->layout->n_rows;
+    return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(theta), BRC_BUF(orientation));
+}
+
 brc_status brc_vector_dot(brc_simulation *s, brc_buffer *x, brc_buffer *y, int64_t count, double *out)
 {
     const int64_t n_blocks = (count + SUM_BLOCK - 1) / SUM_BLOCK;

@@ -4,10 +4,11 @@
 enum { LEAN = 7 }; /* kernels/beam_closure.cl */
 
 struct brc_beam_closure {
-    brc_kernel *force, *energy, *virial, *move, *begin;
+    brc_pass *force, *energy, *virial, *move, *begin;
     brc_buffer *other, *twin, *bears; /* [n_slots][C] */
     brc_buffer *lean;                 /* [n_slots][LEAN][C], only where beams soften */
     brc_buffer *rubs;                 /* [n_groups] */
+    bool leans;                       /* there is lean */
 };
 typedef struct brc_beam_closure beam_closure;
 
@@ -69,22 +70,33 @@ cleanup:
     return status;
 }
 
+static brc_status make_passes(brc_simulation *s, beam_closure *f)
+{
+    static const brc_value_row values[] = {{"leans", BRC_VALUE_BOOL, AT(leans)}};
+    const brc_scope run = brc_scope_of_run(s), breaks = brc_scope_of_breaks(s, &run),
+                    criterion = brc_scope_of_criterion(s, &breaks);
+    const brc_scope beams = {.owner = "broken beams",
+                             .base = f,
+                             .tables = {&brc_beam_closure_fields},
+                             BRC_VALUES(values),
+                             .outer = &criterion},
+                    request = brc_scope_of_request(&beams);
+    const brc_pass_wanted wanted[] = {
+        BRC_PASS(&f->energy, "closure_energy", NULL), BRC_PASS(&f->virial, "closure_virial", "virial"),
+        BRC_PASS(&f->move, "closure_move", "step clear"),
+        BRC_PASS(&f->begin, "closure_begin", "step closure softens half_kick open crack")};
+    BRC_TRY(BRC_PASSES_MAKE(s, &beams, wanted));
+    return BRC_PASSES(s, &request, BRC_PASS(&f->force, "closure_force", NULL));
+}
+
 brc_status brc_beam_closure_create(brc_simulation *s)
 {
     if (!brc_wants_beam_closure(&s->wants)) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->beam_closure, 1, "broken beams"));
     beam_closure *f = s->fracture->beam_closure;
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-    } wanted[] = {{&f->force, "closure_force"},
-                  {&f->energy, "closure_energy"},
-                  {&f->virial, "closure_virial"},
-                  {&f->move, "closure_move"},
-                  {&f->begin, "closure_begin"}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
-        BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     BRC_TRY(brc_fields_create(s->device, &brc_beam_closure_fields, &s->wants, f));
+    f->leans = f->lean != NULL;
+    BRC_TRY(make_passes(s, f));
     return upload_bonds(s, f);
 }
 
@@ -99,38 +111,20 @@ void brc_beam_closure_free(brc_simulation *s)
 
 /* ---- an evaluation ---- */
 
-brc_status brc_beam_closure_force(brc_simulation *s, const brc_force_request *r, bool drucker_prager)
+brc_status brc_beam_closure_force(brc_simulation *s, const brc_force_request *r)
 {
     const beam_closure *f = closure_of(s);
-    const brc_breaking *b = s->fracture;
     if (!acts(s)) return BRC_OK;
-    const brc_beam *beam = brc_beam_of_element(s, 0);
-    return BRC_LAUNCH(f->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(f->other),
-                      BRC_BUF(f->bears), BRC_BUF(s->offset), BRC_BUF(r->displacement), BRC_BUF(r->orientation),
-                      BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of),
-                      BRC_INT(f->lean != NULL), BRC_BUF(f->lean), BRC_COEFF(b->scale[0]), BRC_COEFF(b->scale[1]),
-                      BRC_COEFF(b->scale[2]), BRC_INT(drucker_prager ? 1 : 0), BRC_COEFF(b->slope), BRC_BUF(f->rubs),
-                      BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(b->record), BRC_BUF(b->reach));
-}
-
-/* Passes of one result more, of the state. */
-static brc_status of_state(brc_simulation *s, brc_kernel *kernel, brc_buffer *to)
-{
-    const beam_closure *f = closure_of(s);
-    const brc_beam *beam = brc_beam_of_element(s, 0);
-    return BRC_LAUNCH(kernel, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(f->other),
-                      BRC_BUF(f->bears), BRC_BUF(s->offset), BRC_BUF(s->displacement), BRC_BUF(s->orientation),
-                      BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of),
-                      BRC_INT(f->lean != NULL), BRC_BUF(f->lean), BRC_BUF(f->rubs), BRC_BUF(to));
+    return brc_pass_run_on(f->force, s->n_groups, r, NULL, NULL);
 }
 
 brc_status brc_beam_closure_energy(brc_simulation *s)
 {
-    return acts(s) ? of_state(s, closure_of(s)->energy, s->elastic_energy) : BRC_OK;
+    return acts(s) ? brc_pass_run(closure_of(s)->energy, s->n_groups) : BRC_OK;
 }
 brc_status brc_beam_closure_virial(brc_simulation *s, brc_buffer *virial)
 {
-    return acts(s) ? of_state(s, closure_of(s)->virial, virial) : BRC_OK;
+    return acts(s) ? BRC_RUN(closure_of(s)->virial, s->n_groups, {"virial", BRC_BUF(virial)}) : BRC_OK;
 }
 
 /* ---- a step ---- */
@@ -138,32 +132,20 @@ brc_status brc_beam_closure_virial(brc_simulation *s, brc_buffer *virial)
 brc_status brc_beam_closure_move(brc_simulation *s)
 {
     const beam_closure *f = closure_of(s);
-    const brc_breaking *b = s->fracture;
     if (!acts(s)) return BRC_OK;
-    const brc_beam *beam = brc_beam_of_element(s, 0);
-    return BRC_LAUNCH(f->move, s->n_groups, BRC_INT(s->n_groups), BRC_INT((int32_t)brc_fracture_moment(s)),
-                      BRC_COEFF(BRC_BEAM_CLEAR), BRC_BUF(s->row_start), BRC_BUF(f->other), BRC_BUF(f->bears),
-                      BRC_BUF(s->offset), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(beam->axial),
-                      BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_INT(f->lean != NULL),
-                      BRC_BUF(f->lean), BRC_BUF(f->rubs), BRC_BUF(b->mark), BRC_BUF(b->lost), BRC_BUF(b->gone));
+    return BRC_RUN(f->move, s->n_groups, {"step", BRC_INT((int32_t)brc_fracture_moment(s))},
+                   {"clear", BRC_COEFF(BRC_BEAM_CLEAR)});
 }
 
 brc_status brc_beam_closure_begin(brc_simulation *s, int32_t moment, double half_kick)
 {
     const beam_closure *f = closure_of(s);
-    const brc_breaking *b = s->fracture;
     if (!f) return BRC_OK;
-    const brc_beam *beam = brc_beam_of_element(s, 0);
     brc_buffer *open = NULL, *crack = NULL;
     brc_beam_softening_cracks(s, &open, &crack);
-    return BRC_LAUNCH(f->begin, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_INT(bears_now(s) ? 1 : 0),
-                      BRC_INT(open != NULL), BRC_STATE(half_kick), BRC_BUF(s->row_start), BRC_BUF(f->other),
-                      BRC_BUF(f->twin), BRC_BUF(f->bears), BRC_BUF(s->offset), BRC_BUF(s->displacement),
-                      BRC_BUF(s->orientation), BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist),
-                      BRC_BUF(s->beam_of), BRC_BUF(f->lean), BRC_BUF(b->mark), BRC_BUF(b->break_step),
-                      BRC_BUF(b->break_mode), BRC_BUF(open), BRC_BUF(crack), BRC_BUF(s->mass), BRC_BUF(s->inertia),
-                      BRC_BUF(s->force), BRC_BUF(s->torque), BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(f->rubs),
-                      BRC_BUF(b->lost), BRC_BUF(b->gone));
+    return BRC_RUN(f->begin, s->n_groups, {"step", BRC_INT(moment)}, {"closure", BRC_INT(bears_now(s) ? 1 : 0)},
+                   {"softens", BRC_INT(open != NULL)}, {"half_kick", BRC_STATE(half_kick)}, {"open", BRC_BUF(open)},
+                   {"crack", BRC_BUF(crack)});
 }
 
 /* ---- what stays ---- */

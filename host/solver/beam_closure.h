@@ -10,7 +10,7 @@ brc_status brc_beam_closure_create(brc_simulation *s);
 void brc_beam_closure_free(brc_simulation *s);
 
 /* What broken beams bear of an evaluation: after fracture_force, after cbm_energy, after cbm_virial (virial [n_rows][6]), each after what softening takes off. */
-brc_status brc_beam_closure_force(brc_simulation *s, const brc_force_request *r, bool drucker_prager);
+brc_status brc_beam_closure_force(brc_simulation *s, const brc_force_request *r);
 brc_status brc_beam_closure_energy(brc_simulation *s);
 brc_status brc_beam_closure_virial(brc_simulation *s, brc_buffer *virial);
 

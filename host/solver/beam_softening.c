@@ -11,7 +11,7 @@ enum { ENERGY = 2, EXPONENTIAL = 3, SPENT = 6, TILT = 10, CAPACITY = 11, PER_ARE
 enum { WHOLE = 0, BROKEN = 3 };
 
 struct brc_beam_softening {
-    brc_kernel *force, *energy, *virial, *move, *begin, *keep, *end;
+    brc_pass *force, *energy, *virial, *move, *begin, *keep, *end;
     brc_buffer *crack;              /* [n_slots][WIDTH][C] */
     brc_buffer *open, *lead, *twin; /* [n_slots][C] */
     brc_buffer *active, *touched;   /* [n_groups], [n_rows] */
@@ -34,15 +34,23 @@ BRC_FIELD_TABLE(brc_beam_softening_fields, "cohesion of beams", BRC_LIFE_RUN, so
 static beam_softening *softening_of(const brc_simulation *s) { return s->fracture ? s->fracture->beam_softening : NULL; }
 bool brc_beam_softening_is_on(const brc_simulation *s) { return softening_of(s) != NULL; }
 
-static brc_status find_kernels(brc_simulation *s, beam_softening *f)
+static brc_status make_passes(brc_simulation *s, beam_softening *f)
 {
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-    } wanted[] = {{&f->force, "beam_soft_force"}, {&f->energy, "beam_soft_energy"}, {&f->virial, "beam_soft_virial"}, {&f->move, "beam_soft_move"},
-                  {&f->begin, "beam_soft_begin"}, {&f->keep, "beam_soft_keep"}, {&f->end, "beam_soft_end"}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
-    return BRC_OK;
+    const brc_scope run = brc_scope_of_run(s), breaks = brc_scope_of_breaks(s, &run),
+                    criterion = brc_scope_of_criterion(s, &breaks);
+    const brc_scope beams = {.owner = "cohesion of beams",
+                             .base = f,
+                             .tables = {&brc_beam_softening_fields},
+                             .outer = &criterion},
+                    request = brc_scope_of_request(&beams);
+    const brc_pass_wanted wanted[] = {BRC_PASS(&f->energy, "beam_soft_energy", NULL),
+                                      BRC_PASS(&f->virial, "beam_soft_virial", "virial"),
+                                      BRC_PASS(&f->move, "beam_soft_move", "steepest clear"),
+                                      BRC_PASS(&f->begin, "beam_soft_begin", "step level steepest"),
+                                      BRC_PASS(&f->keep, "beam_soft_keep", "step"),
+                                      BRC_PASS(&f->end, "beam_soft_end", "level step")};
+    BRC_TRY(BRC_PASSES_MAKE(s, &beams, wanted));
+    return BRC_PASSES(s, &request, BRC_PASS(&f->force, "beam_soft_force", NULL));
 }
 
 static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths)
@@ -113,7 +121,7 @@ cleanup:
 brc_status brc_beam_softening_create(brc_simulation *s, const brc_strengths *strengths)
 {
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->beam_softening, 1, "cohesion of beams"));
-    BRC_TRY(find_kernels(s, s->fracture->beam_softening));
+    BRC_TRY(make_passes(s, s->fracture->beam_softening));
     BRC_TRY(warn_of_size(s, strengths));
     BRC_TRY(brc_fields_create(s->device, &brc_beam_softening_fields, &s->wants, s->fracture->beam_softening));
     return upload_bonds(s, s->fracture->beam_softening, strengths);
@@ -130,37 +138,22 @@ void brc_beam_softening_free(brc_simulation *s)
 
 /* ---- an evaluation ---- */
 
-brc_status brc_beam_softening_force(brc_simulation *s, const brc_force_request *r, bool drucker_prager)
+brc_status brc_beam_softening_force(brc_simulation *s, const brc_force_request *r)
 {
     const beam_softening *f = softening_of(s);
-    const brc_breaking *b = s->fracture;
-    const brc_beam *beam = brc_beam_of_element(s, 0);
     if (!f) return BRC_OK;
-    return BRC_LAUNCH(f->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->ratio),
-                      BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist),
-                      BRC_BUF(s->beam_of), BRC_COEFF(b->scale[0]), BRC_COEFF(b->scale[1]), BRC_COEFF(b->scale[2]), BRC_INT(drucker_prager ? 1 : 0),
-                      BRC_COEFF(b->slope), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(r->force), BRC_BUF(r->torque),
-                      BRC_BUF(b->record), BRC_BUF(b->reach));
-}
-
-/* Passes of one result more, of the state. */
-static brc_status of_state(brc_simulation *s, brc_kernel *kernel, brc_buffer *to)
-{
-    const beam_softening *f = softening_of(s);
-    const brc_beam *beam = brc_beam_of_element(s, 0);
-    return BRC_LAUNCH(kernel, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->ratio),
-                      BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist),
-                      BRC_BUF(s->beam_of), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(to));
+    return brc_pass_run_on(f->force, s->n_groups, r, NULL, NULL);
 }
 
 brc_status brc_beam_softening_energy(brc_simulation *s)
 {
-    return brc_beam_softening_is_on(s) ? of_state(s, softening_of(s)->energy, s->elastic_energy) : BRC_OK;
+    return brc_beam_softening_is_on(s) ? brc_pass_run(softening_of(s)->energy, s->n_groups) : BRC_OK;
 }
 
 brc_status brc_beam_softening_virial(brc_simulation *s, brc_buffer *virial)
 {
-    return brc_beam_softening_is_on(s) ? of_state(s, softening_of(s)->virial, virial) : BRC_OK;
+    return brc_beam_softening_is_on(s) ? BRC_RUN(softening_of(s)->virial, s->n_groups, {"virial", BRC_BUF(virial)})
+                                       : BRC_OK;
 }
 
 /* ---- a step ---- */
@@ -169,35 +162,24 @@ brc_status brc_beam_softening_move(brc_simulation *s)
 {
     const beam_softening *f = softening_of(s);
     if (!f) return BRC_OK;
-    const brc_beam *beam = brc_beam_of_element(s, 0);
-    return BRC_LAUNCH(f->move, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_COEFF(s->scene->fracture.closure ? BRC_BEAM_CLEAR : 0), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->twin),
-                      BRC_BUF(f->lead), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(beam->axial),
-                      BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack));
+    return BRC_RUN(f->move, s->n_groups, {"steepest", BRC_COEFF(BRC_BEAM_LEAST_COSINE)},
+                   {"clear", BRC_COEFF(s->scene->fracture.closure ? BRC_BEAM_CLEAR : 0)});
 }
 
 brc_status brc_beam_softening_begin(brc_simulation *s, int32_t moment)
 {
     const beam_softening *f = softening_of(s);
-    const brc_breaking *b = s->fracture;
     if (!f) return BRC_OK;
-    const brc_beam *beam = brc_beam_of_element(s, 0);
-    BRC_TRY(BRC_LAUNCH(f->begin, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_INT(s->scene->fracture.level > 0), BRC_COEFF(BRC_BEAM_LEAST_COSINE), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(f->twin), BRC_BUF(f->lead), BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation),
-                       BRC_COEFF(beam->axial), BRC_COEFF(beam->bend), BRC_COEFF(beam->twist), BRC_BUF(s->beam_of), BRC_BUF(b->mark), BRC_BUF(b->choice),
-                       BRC_BUF(b->measure), BRC_BUF(b->record), BRC_BUF(f->touched), BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(b->factor)));
-    return BRC_LAUNCH(f->keep, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(b->mark),
-                      BRC_BUF(f->active), BRC_BUF(f->open), BRC_BUF(b->choice), BRC_BUF(f->touched));
+    BRC_TRY(BRC_RUN(f->begin, s->n_groups, {"step", BRC_INT(moment)}, {"level", BRC_INT(s->scene->fracture.level > 0)},
+                    {"steepest", BRC_COEFF(BRC_BEAM_LEAST_COSINE)}));
+    return BRC_RUN(f->keep, s->n_groups, {"step", BRC_INT(moment)});
 }
 
 brc_status brc_beam_softening_end(brc_simulation *s, int32_t moment)
 {
     const beam_softening *f = softening_of(s);
-    const brc_breaking *b = s->fracture;
     if (!f) return BRC_OK;
-    return BRC_LAUNCH(f->end, s->n_groups, BRC_INT(s->n_groups), BRC_INT(s->scene->fracture.level), BRC_INT(moment), BRC_BUF(s->row_start),
-                      BRC_BUF(s->neighbour), BRC_BUF(s->ratio), BRC_BUF(b->mark), BRC_BUF(b->record), BRC_BUF(b->weight), BRC_BUF(f->active),
-                      BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(b->break_step), BRC_BUF(b->break_mode), BRC_BUF(b->break_stress),
-                      BRC_BUF(b->break_energy), BRC_BUF(b->lost), BRC_BUF(b->broken));
+    return BRC_RUN(f->end, s->n_groups, {"level", BRC_INT(s->scene->fracture.level)}, {"step", BRC_INT(moment)});
 }
 
 void brc_beam_softening_cracks(const brc_simulation *s, brc_buffer **open, brc_buffer **crack)

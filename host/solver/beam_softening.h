@@ -15,7 +15,7 @@ void brc_beam_softening_free(brc_simulation *s);
 bool brc_beam_softening_is_on(const brc_simulation *s);
 
 /* What the openings take of an evaluation: after fracture_force; after cbm_energy; after cbm_virial (virial [n_rows][6]). */
-brc_status brc_beam_softening_force(brc_simulation *s, const brc_force_request *r, bool drucker_prager);
+brc_status brc_beam_softening_force(brc_simulation *s, const brc_force_request *r);
 brc_status brc_beam_softening_energy(brc_simulation *s);
 brc_status brc_beam_softening_virial(brc_simulation *s, brc_buffer *virial);
 

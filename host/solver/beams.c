@@ -207,12 +207,9 @@ brc_status brc_beams_node_bound(brc_simulation *s, double *out)
 
 static brc_status virial(brc_simulation *s, double *out)
 {
-    const brc_beam *b = brc_beam_of_element(s, 0);
     brc_buffer *rows = NULL; /* asked for at samples and frames only: not kept */
     BRC_TRY(brc_new_coeff(s, &rows, 6 * (int64_t)s->layout->n_rows, "virial"));
-    brc_status status = BRC_LAUNCH(s->kernel.cbm_virial, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                                   BRC_BUF(s->offset), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend),
-                                   BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_BUF(rows));
+    brc_status status = BRC_RUN(s->pass.cbm_virial, s->n_groups, {"virial", BRC_BUF(rows)});
     if (status == BRC_OK) status = brc_beam_softening_virial(s, rows);
     if (status == BRC_OK) status = brc_beam_closure_virial(s, rows);
     if (status == BRC_OK) status = brc_coeff_from_rows(s, rows, out, 6);

@@ -19,22 +19,6 @@ static const double never = 1e30; /* CELLS_NEVER of kernels/cells.cl */
 
 static bool is_bond_normal(const brc_simulation *s) { return brc_criterion_of(&s->scene->fracture, s->scene->model.kind) == BRC_CRITERION_BOND_NORMAL; }
 
-static brc_status find_kernels(brc_simulation *s, brc_cell_breaks *c)
-{
-    const bool by_bond = brc_is_dlsm(s) && !c->by_element;
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-        bool wanted;
-    } wanted[] = {{&c->force, "cells_force", by_bond}, {&c->force_listed, "cells_force_listed", by_bond}, {&c->check, "cells_check", by_bond}, {&c->ratio, "cells_ratio", by_bond},
-                  {&c->break_pass, "cells_break", true}, {&c->rebuild, "cells_rebuild", brc_is_dlsm(s)}, {&c->share, "cells_share", true},
-                  {&c->rim_stress, "rim_stress", brc_is_dlsm(s)}, {&c->rim_inner_flux, "rim_inner_flux", brc_is_dlsm(s)}, {&c->rim_flux, "rim_flux", brc_is_dlsm(s)},
-                  {&c->rim_force, "rim_force", brc_is_dlsm(s)}, {&c->elastic, "dlsm_elastic_listed", brc_is_dlsm(s)}, {&c->bonds, "dlsm_bonds_listed", brc_is_dlsm(s)}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
-        if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
-    return BRC_OK;
-}
-
 /* Limits of the bonds, the smallest of each element, and where a bond's other half is stored. */
 static brc_status upload_bonds(brc_simulation *s, const double *strength)
 {
@@ -154,12 +138,15 @@ static bool published_by_bond(const brc_wants *w) { return brc_wants_published(w
 
 #define AT(member) BRC_FIELD_AT(brc_cell_breaks, member)
 static const brc_field_row rows[] = {
-    {"limit", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(limit), "limits of bonds", "Pa", BRC_KEPT("cells.limit", BRC_KEEP_BROKEN)},
-    {"alive", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(alive), "unbroken bonds", "-", BRC_KEPT("cells.alive", BRC_KEEP_BROKEN)},
+    {"limit", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(limit), "limits of bonds", "Pa",
+     BRC_KEPT("cells.limit", BRC_KEEP_BROKEN)},
+    {"alive", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(alive), "unbroken bonds", "-",
+     BRC_KEPT("cells.alive", BRC_KEEP_BROKEN)},
     {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "twins", "-", BRC_NOT_KEPT},
     {"mark", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(mark), "marked bonds", "-", BRC_NOT_KEPT},
     {"measure", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses of marked bonds", "Pa", BRC_NOT_KEPT},
-    {"least", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(least), "smallest limits", "Pa", BRC_KEPT("cells.least", BRC_KEEP_OWNERS)},
+    {"least", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(least), "smallest limits", "Pa",
+     BRC_KEPT("cells.least", BRC_KEEP_OWNERS)},
     {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(modulus), "moduli", "Pa", BRC_NOT_KEPT},
     {"support", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(support), "supports", "-", BRC_NOT_KEPT},
     {"stiffest", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(stiffest), "supports", "1/m^2", BRC_NOT_KEPT},
@@ -167,11 +154,45 @@ static const brc_field_row rows[] = {
     {"look", brc_each_group, 1, BRC_FIELD_INT, dlsm_by_bond, AT(look), "groups to look at", "-", BRC_NOT_KEPT},
     {"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(weight), "weights of broken bonds", "-", BRC_NOT_KEPT},
     {"found", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(found), "marks of elements", "-", BRC_NOT_KEPT},
-    {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m", BRC_NOT_KEPT},
-    {"spanned", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_published, AT(spanned), "supports", "-", BRC_KEPT("cells.spanned", BRC_KEEP_OWNERS)},
+    {"own_branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m", BRC_NOT_KEPT},
+    {"spanned", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_published, AT(spanned), "supports", "-",
+     BRC_KEPT("cells.spanned", BRC_KEEP_OWNERS)},
     {"reach", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(reach), "ratios of bonds", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_cell_break_fields, "breaks of cells", BRC_LIFE_RUN, breaks, rows);
+
+const brc_scope *brc_cell_scopes_make(const brc_simulation *s, const brc_scope *outer, brc_cell_scopes *room)
+{
+    room->breaks = brc_scope_of_breaks(s, outer);
+    room->rings = brc_scope_of_rings(s->fracture->cells->rings, &room->breaks);
+    room->cells = (brc_scope){.owner = "breaks of cells",
+                              .base = s->fracture->cells,
+                              .tables = {&brc_cell_break_fields},
+                              .outer = &room->rings};
+    return &room->cells;
+}
+
+static brc_status make_passes(brc_simulation *s, brc_cell_breaks *c)
+{
+    const bool dlsm = brc_is_dlsm(s), by_bond = dlsm && !c->by_element;
+    const brc_scope run = brc_scope_of_run(s), request = brc_scope_of_request(&run);
+    brc_cell_scopes of_state, of_request;
+    const brc_scope *state = brc_cell_scopes_make(s, &run, &of_state);
+    const brc_pass_wanted wanted[] = {{&c->check, "cells_check", "share", !by_bond},
+                                      {&c->ratio, "cells_ratio", "out", !by_bond},
+                                      BRC_PASS(&c->break_pass, "cells_break", "step width"),
+                                      {&c->rebuild, "cells_rebuild", NULL, !dlsm},
+                                      BRC_PASS(&c->share, "cells_share", "step per_weight list"),
+                                      {&c->elastic, "dlsm_elastic_listed", BRC_LISTED, !dlsm},
+                                      {&c->bonds, "dlsm_bonds_listed", BRC_LISTED, !dlsm}};
+    BRC_TRY(BRC_PASSES_MAKE(s, state, wanted));
+    /* a request is asked first */
+    brc_scope evaluation = brc_scope_of_request(brc_cell_scopes_make(s, &request, &of_request));
+    const brc_pass_wanted of_force[] = {{&c->force, "cells_force", NULL, !by_bond},
+                                        {&c->force_listed, "cells_force_listed", BRC_LISTED, !by_bond}};
+    BRC_TRY(BRC_PASSES_MAKE(s, &evaluation, of_force));
+    return brc_rims_make_passes(s, state);
+}
 
 brc_status brc_cell_breaks_create(brc_simulation *s)
 {
@@ -180,11 +201,11 @@ brc_status brc_cell_breaks_create(brc_simulation *s)
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells, 1, "fracture"));
     BRC_TRY(brc_fields_create(s->device, &brc_cell_break_fields, &s->wants, s->fracture->cells));
     s->fracture->cells->by_element = !is_bond_normal(s);
-    BRC_TRY(find_kernels(s, s->fracture->cells));
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
     BRC_TRY_OR(cleanup, upload_bonds(s, strengths.tension));
     if (brc_is_dlsm(s)) BRC_TRY_OR(cleanup, upload_elements(s));
     BRC_TRY_OR(cleanup, brc_rings_create(s, &s->fracture->cells->rings));
+    BRC_TRY_OR(cleanup, make_passes(s, s->fracture->cells));
     if (brc_is_published(s)) BRC_TRY_OR(cleanup, brc_published_breaks_create(s));
     if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
     BRC_TRY_OR(cleanup, brc_softening_create(s, &strengths));
@@ -215,10 +236,7 @@ bool brc_cell_breaks_screens(const brc_simulation *s) { return brc_cell_breaks_b
 brc_status brc_cell_breaks_forces(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
 {
     const brc_cell_breaks *c = s->fracture->cells;
-    return BRC_PASS(s, c->force, c->force_listed, list, ring, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio),
-                    BRC_BUF(r->displacement), BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_COEFF(s->elastic[s->material_of_element[0]].k),
-                    BRC_COEFF(1 + s->scene->model.tau), BRC_BUF(s->modulus), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(c->modulus),
-                    BRC_BUF(c->limit), BRC_BUF(r->force), BRC_BUF(c->look));
+    return brc_pass_over(s, c->force, c->force_listed, list, ring, r, NULL);
 }
 
 /* Bonds above a share of their limit are marked; *n: marks. */
@@ -227,10 +245,7 @@ static brc_status mark_bonds(brc_simulation *s, double share, double *n)
     brc_cell_breaks *c = s->fracture->cells;
     if (c->by_element) return brc_cell_criteria_mark(s, n);
     if (brc_is_published(s)) return brc_published_breaks_mark(s, share, n);
-    BRC_TRY(BRC_LAUNCH(c->check, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(share), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress),
-                       BRC_BUF(c->modulus), BRC_BUF(c->look), BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure),
-                       BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
+    BRC_TRY(BRC_RUN(c->check, s->n_groups, {"share", BRC_COEFF(share)}));
     return brc_ahead_count(s, c->found, s->n_groups, n);
 }
 
@@ -248,14 +263,10 @@ static brc_status break_marked(brc_simulation *s, double *energy)
         BRC_TRY(brc_force_energy_around(s, c->rings, true, &more));
         *energy += more;
         BRC_TRY(brc_closed_faces_keep(s));
-        BRC_TRY(BRC_LAUNCH(c->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(brc_fracture_moment(s)), BRC_INT(brc_is_dlsm(s) ? 3 : 1),
-                           BRC_BUF(s->row_start), BRC_BUF(c->twin), BRC_BUF(c->rings->touched), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->alive), BRC_BUF(s->neighbour), BRC_BUF(s->area),
-                           BRC_BUF(s->ratio), BRC_BUF(c->limit), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
-                           BRC_BUF(f->break_energy), BRC_BUF(c->weight), BRC_BUF(c->changed), BRC_BUF(f->gone), BRC_BUF(f->broken)));
+        BRC_TRY(BRC_RUN(c->break_pass, s->n_groups, {"step", BRC_INT(brc_fracture_moment(s))},
+                        {"width", BRC_INT(brc_is_dlsm(s) ? 3 : 1)}));
         if (brc_is_published(s)) return brc_published_breaks_rebuild(s); /* its elements hang on by any bond */
-        BRC_TRY(BRC_LAUNCH(c->rebuild, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(c->alive),
-                           BRC_BUF(c->limit), BRC_BUF(s->inv_volume), BRC_BUF(c->support), BRC_BUF(c->stiffest), BRC_BUF(c->changed), BRC_BUF(c->least),
-                           BRC_BUF(s->inv_shape), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
+        BRC_TRY(brc_pass_run(c->rebuild, s->n_groups));
         BRC_TRY(brc_vector_sum(s, c->found, s->n_groups, &left));
     }
     return BRC_OK;
@@ -266,11 +277,10 @@ static brc_status kick(brc_simulation *s, double by)
 {
     const int32_t n = s->layout->n_rows;
     if (by == 0) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(s->kernel.advance, n, BRC_INT(n), BRC_STATE(by), BRC_STATE(0), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(s->velocity),
-                       BRC_BUF(s->displacement)));
+    BRC_TRY(BRC_RUN(s->pass.advance, n, {"kick", BRC_STATE(by)}, {"drift", BRC_STATE(0)}));
     if (brc_turns(s))
-        BRC_TRY(BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(by), BRC_STATE(0), BRC_STATE(0), BRC_BUF(s->inertia),
-                           BRC_BUF(s->torque), BRC_BUF(s->spin), BRC_BUF(s->orientation)));
+        BRC_TRY(BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(by)}, {"drift", BRC_STATE(0)},
+                        {"extra", BRC_STATE(0)}));
     return BRC_OK;
 }
 /* ... and those of rigid cells and of strikers, which are in no ring. */
@@ -338,13 +348,13 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(kick_others(s, -half_kick));
     BRC_TRY(brc_force_energy_around(s, rings, false, &after));
     BRC_TRY(outside_energy(s, &outside));
-    BRC_TRY(brc_rings_sum(s, rings, &rings->around, 0, f->cells->weight, &weight));
+    BRC_TRY(brc_rings_sum(s, &rings->around, 0, f->cells->weight, &weight));
     if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */
     BRC_TRY(brc_softening_refresh(s));
     const int32_t n = rings->around.n[0];
-    BRC_TRY(BRC_LAUNCH(f->cells->share, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_STATE((before + outside_before - after - outside) / weight),
-                       BRC_BUF(rings->around.upto[0]), BRC_BUF(s->row_start), BRC_BUF(f->break_step), BRC_BUF(rings->touched), BRC_BUF(f->cells->weight), BRC_BUF(f->break_energy),
-                       BRC_BUF(f->lost)));
+    BRC_TRY(BRC_RUN(f->cells->share, n, {"step", BRC_INT(brc_fracture_moment(s))},
+                    {"per_weight", BRC_STATE((before + outside_before - after - outside) / weight)},
+                    {"list", BRC_BUF(rings->around.upto[0])}));
     BRC_TRY(brc_rings_forget(rings, &rings->around));
     BRC_TRY(brc_softening_settle(s, &rings->around));
     return brc_contact_list_bonded(s);
@@ -361,9 +371,7 @@ brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out)
     if (brc_is_published(s)) return brc_published_breaks_ratio(s, out);
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, s->layout->n_rows, "failure ratios"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
-    BRC_TRY_OR(cleanup, BRC_LAUNCH(c->ratio, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area),
-                                   BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(c->modulus),
-                                   BRC_BUF(c->limit), BRC_BUF(ratio)));
+    BRC_TRY_OR(cleanup, BRC_RUN(c->ratio, s->n_groups, {"out", BRC_BUF(ratio)}));
     BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
     for (int64_t e = 0; e < s->domain->n_elements; ++e) *out = fmax(*out, value[e]);
 cleanup:

@@ -8,8 +8,8 @@
 #include "rings.h"
 
 struct brc_cell_breaks {
-    brc_kernel *force, *force_listed, *check, *ratio, *break_pass, *rebuild, *share, *elastic, *bonds;
-    brc_kernel *rim_stress, *rim_inner_flux, *rim_flux, *rim_force; /* kernels/rims.cl */
+    brc_pass *force, *force_listed, *check, *ratio, *break_pass, *rebuild, *share, *elastic, *bonds;
+    brc_pass *rim_stress, *rim_inner_flux, *rim_flux, *rim_force;   /* kernels/rims.cl */
     brc_rings *rings;                                               /* around the bonds that break */
     brc_buffer *limit, *twin, *alive, *mark, *measure;              /* [n_slots][C] */
     brc_buffer *modulus, *least, *support, *stiffest, *changed;     /* [n_rows] */
@@ -18,11 +18,18 @@ struct brc_cell_breaks {
     struct brc_softening_faces *softening;    /* faces that open against cohesion (cell_softening.c); NULL: none does */
     struct brc_closed_faces *closed;          /* sides of broken faces that bear on each other (closed_faces.c); NULL: none do */
     bool by_element;                          /* criteria of elements: what follows, and the arrays of kernels/fracture.cl */
-    brc_kernel *record, *mark_chosen, *weigh; /* kernels/cell_criteria.cl */
+    brc_pass *record, *mark_chosen, *weigh;   /* kernels/cell_criteria.cl */
     brc_buffer *branch;                       /* dlsm: [n_slots][3][C], owned */
-    brc_kernel *breaking_strain, *breaking_force, *breaking_strain_listed, *breaking_force_listed; /* dlsm-published: kernels/published_breaks.cl */
+    brc_pass *breaking_strain, *breaking_force, *breaking_strain_listed,
+        *breaking_force_listed;                   /* dlsm-published: kernels/published_breaks.cl */
     brc_buffer *spanned, *reach;                  /* [n_slices][6][C], [n_rows] */
 };
+
+/* Arrays of the cells' bonds, then of the rings around breaks, then what broken bonds keep. Three scopes, which must stay where they are. */
+typedef struct brc_cell_scopes {
+    brc_scope breaks, rings, cells;
+} brc_cell_scopes;
+const brc_scope *brc_cell_scopes_make(const brc_simulation *s, const brc_scope *outer, brc_cell_scopes *room);
 
 /* ---- published_breaks.c: bonds of dlsm-published by their normal stress ---- */
 brc_status brc_published_breaks_create(brc_simulation *s);

@@ -27,24 +27,24 @@ brc_status brc_cell_criteria_create(brc_simulation *s)
     brc_cell_breaks *c = s->fracture->cells;
     if (brc_is_dlsm(s)) BRC_TRY(upload_branches(s, c->branch));
     BRC_TRY(brc_fracture_create_elements(s, brc_is_dlsm(s) ? c->branch : s->offset));
-    BRC_TRY(brc_kernel_find(s->device, brc_is_dlsm(s) ? "cells_record" : "cells_record_published", &c->record));
-    BRC_TRY(brc_kernel_find(s->device, "cells_mark_chosen", &c->mark_chosen));
-    return brc_kernel_find(s->device, "cells_weigh", &c->weigh);
+    const brc_scope run = brc_scope_of_run(s), criterion = brc_scope_of_criterion(s, &run);
+    static const brc_value_row stresses[] = {
+        {"stress", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, stress)}}; /* not those of the criterion */
+    const brc_scope state = {.owner = "stresses of dlsm", .base = s, BRC_VALUES(stresses), .outer = &criterion};
+    brc_cell_scopes scopes;
+    const brc_scope *cells = brc_cell_scopes_make(s, &criterion, &scopes);
+    BRC_TRY(BRC_PASSES(s, &state,
+                       BRC_PASS(&c->record, brc_is_dlsm(s) ? "cells_record" : "cells_record_published", NULL),
+                       BRC_PASS(&c->weigh, "cells_weigh", NULL)));
+    return BRC_PASSES(s, cells, BRC_PASS(&c->mark_chosen, "cells_mark_chosen", "stress"));
 }
 
 /* Records of the state as the last forces left it. */
 static brc_status record(brc_simulation *s)
 {
     const brc_breaking *f = s->fracture;
-    const brc_elastic *m = s->elastic + s->material_of_element[0];
-    const int drucker_prager = s->scene->fracture.kind == BRC_CRITERION_DRUCKER_PRAGER;
-    if (brc_is_dlsm(s))
-        return BRC_LAUNCH(f->cells->record, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_COEFF(f->scale[0]),
-                          BRC_COEFF(f->scale[1]), BRC_COEFF(f->scale[2]), BRC_INT(drucker_prager), BRC_COEFF(f->slope), BRC_BUF(f->record),
-                          BRC_BUF(f->reach));
-    return BRC_LAUNCH(f->cells->record, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->gradient), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
-                      BRC_COEFF(m->young), BRC_BUF(s->lame_of), BRC_COEFF(f->scale[0]), BRC_COEFF(f->scale[1]), BRC_COEFF(f->scale[2]),
-                      BRC_INT(drucker_prager), BRC_COEFF(f->slope), BRC_BUF(f->record), BRC_BUF(f->reach));
+    if (brc_is_dlsm(s)) return brc_pass_run(f->cells->record, s->n_groups);
+    return brc_pass_run(f->cells->record, s->n_groups);
 }
 
 brc_status brc_cell_criteria_mark(brc_simulation *s, double *n)
@@ -54,8 +54,7 @@ brc_status brc_cell_criteria_mark(brc_simulation *s, double *n)
     const int32_t rows = s->layout->n_rows;
     BRC_TRY(record(s));
     BRC_TRY(brc_fracture_choose(s, (int32_t)brc_fracture_moment(s)));
-    BRC_TRY(BRC_LAUNCH(c->mark_chosen, rows, BRC_INT(rows), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->choice), BRC_BUF(f->measure),
-                       BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
+    BRC_TRY(BRC_RUN(c->mark_chosen, rows, {"stress", BRC_BUF(f->measure)}));
     return brc_ahead_count(s, c->found, rows, n);
 }
 
@@ -64,7 +63,7 @@ brc_status brc_cell_criteria_settle(brc_simulation *s)
     const brc_breaking *f = s->fracture;
     const int32_t n = s->layout->n_rows;
     if (s->scene->fracture.level != 1) return BRC_OK;
-    return BRC_LAUNCH(f->cells->weigh, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->record), BRC_BUF(f->weight));
+    return brc_pass_run(f->cells->weigh, n);
 }
 
 brc_status brc_cell_criteria_ratio(brc_simulation *s, double *out)

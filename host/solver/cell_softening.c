@@ -26,7 +26,7 @@ enum { START = 9, ENERGY = 10, SPENT = 13, COSINE = 16, EXPONENTIAL = 17, TILT =
 enum { APART = 2 }; /* SOFT_APART, of `open` */
 
 struct brc_softening_faces {
-    brc_kernel *gradient, *flux, *take_force, *coast, *move, *measure, *book, *check, *begin, *count, *energy, *settle;
+    brc_pass *gradient, *flux, *take_force, *coast, *move, *measure, *book, *check, *begin, *count, *energy, *settle;
     brc_buffer *crack, *open, *lead;     /* [n_slots][WIDTH][C], [n_slots][C] */
     brc_buffer *n_open, *reach, *shear;  /* [n_rows] */
     brc_buffer *rubbed;                  /* [n_rows] energy lost to friction between the sides of broken faces [J] */
@@ -54,16 +54,28 @@ BRC_FIELD_TABLE(brc_softening_fields, "cohesion of faces", BRC_LIFE_RUN, softens
 static softening_faces *faces_of(const brc_simulation *s) { return s->fracture && s->fracture->cells ? s->fracture->cells->softening : NULL; }
 bool brc_softening_is_on(const brc_simulation *s) { return faces_of(s) != NULL; }
 
-static brc_status find_kernels(brc_simulation *s, softening_faces *f)
+static brc_status make_passes(brc_simulation *s, softening_faces *f)
 {
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-    } wanted[] = {{&f->gradient, "soft_gradient"}, {&f->flux, "soft_flux"}, {&f->take_force, "soft_take_force"}, {&f->coast, "soft_coast"}, {&f->move, "soft_move"},
-                  {&f->measure, "soft_measure"}, {&f->book, "soft_book"}, {&f->check, "soft_check"}, {&f->begin, "soft_begin"},
-                  {&f->count, "soft_count"}, {&f->energy, "soft_energy"}, {&f->settle, "soft_settle"}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
-    return BRC_OK;
+    const brc_scope run = brc_scope_of_run(s);
+    brc_cell_scopes scopes;
+    const brc_scope faces = {.owner = "cohesion of faces",
+                             .base = f,
+                             .tables = {&brc_softening_fields},
+                             .outer = brc_cell_scopes_make(s, &run, &scopes)};
+    const brc_pass_wanted wanted[] = {
+        BRC_PASS(&f->gradient, "soft_gradient", "listed list"),
+        BRC_PASS(&f->flux, "soft_flux", "listed list"),
+        BRC_PASS(&f->take_force, "soft_take_force", "force"),
+        BRC_PASS(&f->coast, "soft_coast", NULL),
+        BRC_PASS(&f->move, "soft_move", "is_last stiffen steepest friction retention release"),
+        BRC_PASS(&f->measure, "soft_measure", "book release"),
+        BRC_PASS(&f->book, "soft_book", "step"),
+        BRC_PASS(&f->check, "soft_check", "share steepest screen"),
+        BRC_PASS(&f->begin, "soft_begin", NULL),
+        BRC_PASS(&f->count, "soft_count", NULL),
+        BRC_PASS(&f->energy, "soft_energy", NULL),
+        BRC_PASS(&f->settle, "soft_settle", "step list")};
+    return BRC_PASSES_MAKE(s, &faces, wanted);
 }
 
 static double norm3(const double *x) { return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
@@ -149,7 +161,7 @@ brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strength
         return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture_energy: bonds soften with model dlsm and criterion bond-normal; here they break at once: use "
                         "those, or remove it from the strengths and interfaces");
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->softening, 1, "cohesion of faces"));
-    BRC_TRY(find_kernels(s, s->fracture->cells->softening));
+    BRC_TRY(make_passes(s, s->fracture->cells->softening));
     BRC_TRY(warn_of_size(s, strengths));
     BRC_TRY(brc_fields_create(s->device, &brc_softening_fields, &s->wants, s->fracture->cells->softening));
     BRC_TRY(brc_fields_create(s->device, &brc_open_list_fields, &s->wants, &s->fracture->cells->softening->around));
@@ -168,19 +180,13 @@ void brc_softening_free(brc_simulation *s)
 
 /* ---- an evaluation ---- */
 
-static double one_modulus(const brc_simulation *s) { return s->elastic[s->material_of_element[0]].k; }
-static double one_ell(const brc_simulation *s) { return s->elastic[s->material_of_element[0]].ell; }
-static double one_plus_tau(const brc_simulation *s) { return 1 + s->scene->model.tau; }
-static double beta(const brc_simulation *s) { return s->scene->model.compaction ? s->scene->model.beta : 0; }
-
 brc_status brc_softening_gradient(brc_simulation *s, const brc_ring_list *list, int ring)
 {
     softening_faces *f = faces_of(s);
     const bool whole = brc_pass_is_whole(s, list, ring);
     const int32_t n = whole ? s->layout->n_rows : list->n[ring];
     if (!f || !f->any) return BRC_OK;
-    return BRC_LAUNCH(f->gradient, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->upto[ring]), BRC_BUF(s->row_start), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open),
-                      BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient));
+    return BRC_RUN(f->gradient, n, {"listed", BRC_INT(!whole)}, {"list", BRC_BUF(whole ? NULL : list->upto[ring])});
 }
 
 brc_status brc_softening_flux(brc_simulation *s, const brc_ring_list *list, int ring)
@@ -189,9 +195,7 @@ brc_status brc_softening_flux(brc_simulation *s, const brc_ring_list *list, int 
     const bool whole = brc_pass_is_whole(s, list, ring);
     const int32_t n = whole ? s->layout->n_rows : list->n[ring];
     if (!f || !f->any) return BRC_OK;
-    return BRC_LAUNCH(f->flux, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->upto[ring]), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
-                      BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->inv_shape), BRC_BUF(s->gradient), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_BUF(s->modulus),
-                      BRC_BUF(s->ell_of), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->flux));
+    return BRC_RUN(f->flux, n, {"listed", BRC_INT(!whole)}, {"list", BRC_BUF(whole ? NULL : list->upto[ring])});
 }
 
 brc_status brc_softening_force(brc_simulation *s, brc_buffer *force)
@@ -199,9 +203,7 @@ brc_status brc_softening_force(brc_simulation *s, brc_buffer *force)
     softening_faces *f = faces_of(s);
     const int32_t n = s->layout->n_rows;
     if (!f || !f->any) return BRC_OK;
-    return BRC_LAUNCH(f->take_force, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
-                      BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
-                      BRC_BUF(force));
+    return BRC_RUN(f->take_force, n, {"force", BRC_BUF(force)});
 }
 
 brc_status brc_softening_energy(brc_simulation *s)
@@ -209,10 +211,7 @@ brc_status brc_softening_energy(brc_simulation *s)
     softening_faces *f = faces_of(s);
     const int32_t n = s->layout->n_rows;
     if (!f || !f->any) return BRC_OK;
-    return BRC_LAUNCH(f->energy, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
-                      BRC_BUF(f->open), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_BUF(s->displacement), BRC_BUF(s->gradient),
-                      BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)),
-                      BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_BUF(s->stabilisation_energy));
+    return brc_pass_run(f->energy, n);
 }
 
 /* ---- a step ---- */
@@ -224,11 +223,9 @@ static brc_status sweep(brc_simulation *s, int k)
 {
     softening_faces *f = faces_of(s);
     const int32_t n = s->layout->n_rows;
-    return BRC_LAUNCH(f->move, n, BRC_INT(n), BRC_INT(k == N_SWEEPS - 1), BRC_COEFF(stiffen), BRC_COEFF(steepest), BRC_COEFF(friction_of(s)), BRC_COEFF(retention), BRC_COEFF(release_of(s)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                      BRC_BUF(s->fracture->cells->twin), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area),
-                      BRC_BUF(s->ratio), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume), BRC_BUF(s->fracture->cells->modulus), BRC_BUF(f->shear),
-                      BRC_BUF(f->reach), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
-                      BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->flux), BRC_BUF(s->bond_part));
+    return BRC_RUN(f->move, n, {"is_last", BRC_INT(k == N_SWEEPS - 1)}, {"stiffen", BRC_COEFF(stiffen)},
+                   {"steepest", BRC_COEFF(steepest)}, {"friction", BRC_COEFF(friction_of(s))},
+                   {"retention", BRC_COEFF(retention)}, {"release", BRC_COEFF(release_of(s))});
 }
 
 /* Cells with open faces, whose fluxes are wanted, and around them those whose stresses, and those whose gradients go into them; what touches one of them presses on it as its own
@@ -254,8 +251,7 @@ brc_status brc_softening_move(brc_simulation *s)
     const bool whole = brc_contact_is_due(s);
     if (!whole) BRC_TRY(list_around(s));
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_LAUNCH(f->coast, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->twin), BRC_BUF(s->fracture->cells->alive), BRC_BUF(f->n_open),
-                       BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(s->gradient), BRC_BUF(f->crack)));
+    BRC_TRY(brc_pass_run(f->coast, n));
     for (int k = 0; k < N_SWEEPS; ++k) { /* between sweeps only the openings change */
         BRC_TRY(brc_force_fluxes_of_state(s, whole ? NULL : &f->around, k == 0));
         BRC_TRY(sweep(s, k));
@@ -266,23 +262,17 @@ brc_status brc_softening_move(brc_simulation *s)
 static brc_status measure(brc_simulation *s, int book)
 {
     softening_faces *f = faces_of(s);
-    brc_cell_breaks *c = s->fracture->cells;
     const int32_t n = s->layout->n_rows;
-    return BRC_LAUNCH(f->measure, n, BRC_INT(n), BRC_INT(book), BRC_COEFF(release_of(s)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(c->alive),
-                      BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->lead), BRC_BUF(f->crack), BRC_BUF(s->area), BRC_BUF(s->ratio),
-                      BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement), BRC_BUF(s->gradient),
-                      BRC_BUF(s->stress), BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched), BRC_BUF(c->found));
+    return BRC_RUN(f->measure, n, {"book", BRC_INT(book)}, {"release", BRC_COEFF(release_of(s))});
 }
 
 brc_status brc_softening_recount(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
-    brc_cell_breaks *c = s->fracture->cells;
     const int32_t n = s->layout->n_rows;
     if (!f) return BRC_OK;
     f->is_listed = false;
-    return BRC_LAUNCH(f->count, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(c->alive), BRC_BUF(f->open), BRC_BUF(c->limit), BRC_BUF(s->area),
-                      BRC_BUF(s->inv_shape), BRC_BUF(f->n_open), BRC_BUF(f->reach), BRC_BUF(c->least));
+    return brc_pass_run(f->count, n);
 }
 
 brc_status brc_softening_refresh(brc_simulation *s) { return brc_softening_is_on(s) ? measure(s, 0) : BRC_OK; }
@@ -297,21 +287,14 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
     if (f->any) { /* what opened before this step */
         BRC_TRY(measure(s, 1));
         BRC_TRY(brc_vector_sum(s, c->found, n, n_ended));
-        BRC_TRY(BRC_LAUNCH(f->book, n, BRC_INT(n), BRC_INT((int32_t)brc_fracture_moment(s)), BRC_BUF(s->row_start), BRC_BUF(c->alive), BRC_BUF(f->n_open), BRC_BUF(f->open), BRC_BUF(f->crack),
-                           BRC_BUF(s->fracture->break_step), BRC_BUF(s->fracture->break_mode), BRC_BUF(s->fracture->break_stress), BRC_BUF(s->fracture->break_energy),
-                           BRC_BUF(s->fracture->lost), BRC_BUF(f->rubbed), BRC_BUF(s->fracture->broken)));
+        BRC_TRY(BRC_RUN(f->book, n, {"step", BRC_INT((int32_t)brc_fracture_moment(s))}));
     }
-    BRC_TRY(BRC_LAUNCH(f->check, n, BRC_INT(n), BRC_COEFF(share), BRC_COEFF(steepest), BRC_COEFF(screen), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(f->n_open), BRC_BUF(s->area), BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus),
-                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_BUF(c->least),
-                       BRC_BUF(c->limit), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(f->crack), BRC_BUF(c->found)));
+    BRC_TRY(BRC_RUN(f->check, n, {"share", BRC_COEFF(share)}, {"steepest", BRC_COEFF(steepest)},
+                    {"screen", BRC_COEFF(screen)}));
     BRC_TRY(brc_vector_sum(s, c->found, n, &wished));
     if (wished > 0) {
         f->any = true;
-        BRC_TRY(BRC_LAUNCH(f->begin, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(f->lead), BRC_BUF(s->area),
-                           BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(one_ell(s)), BRC_COEFF(beta(s)), BRC_COEFF(one_plus_tau(s)), BRC_BUF(s->modulus), BRC_BUF(s->displacement),
-                           BRC_BUF(s->flux), BRC_BUF(s->bond_part), BRC_BUF(s->gradient), BRC_BUF(s->stress), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(f->crack), BRC_BUF(c->limit),
-                           BRC_BUF(f->open), BRC_BUF(c->rings->touched), BRC_BUF(c->found)));
+        BRC_TRY(brc_pass_run(f->begin, n));
         BRC_TRY(brc_vector_sum(s, c->found, n, &brittle));
         BRC_TRY(brc_softening_recount(s));
     }
@@ -324,8 +307,7 @@ brc_status brc_softening_settle(brc_simulation *s, const brc_ring_list *around)
     softening_faces *f = faces_of(s);
     const int32_t n = around->n[0];
     if (!f) return BRC_OK;
-    return BRC_LAUNCH(f->settle, n, BRC_INT(n), BRC_INT(brc_fracture_moment(s)), BRC_BUF(around->upto[0]), BRC_BUF(s->row_start), BRC_BUF(s->fracture->break_step), BRC_BUF(f->open),
-                      BRC_BUF(f->crack), BRC_BUF(s->fracture->break_energy));
+    return BRC_RUN(f->settle, n, {"step", BRC_INT(brc_fracture_moment(s))}, {"list", BRC_BUF(around->upto[0])});
 }
 
 brc_status brc_softening_begin_stage(brc_simulation *s)

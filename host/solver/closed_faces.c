@@ -10,7 +10,7 @@ static const double clear = 0.5;
 enum { LOAD = 12 }; /* CLOSED_LOAD of kernels/closed_faces.cl */
 
 struct brc_closed_faces {
-    brc_kernel *keep, *look_pass, *follow, *press, *flux, *force, *energy, *again, *gain_pass;
+    brc_pass *keep, *look_pass, *follow, *press, *flux, *force, *energy, *again, *gain_pass;
     brc_buffer *closed, *spring, *overlap, *slide; /* [n_slots][C], slide [n_slots][3][C], NULL without friction */
     brc_buffer *place;                             /* [n_rows][3] */
     brc_buffer *next, *presses, *look, *near;      /* [n_rows] */
@@ -108,19 +108,34 @@ static const brc_field_row rows[] = {
 };
 BRC_FIELD_TABLE(brc_closed_face_fields, "broken faces that bear", BRC_LIFE_RUN, shuts, rows);
 
+static brc_status make_passes(brc_simulation *s, closed_faces *f)
+{
+    const brc_scope run = brc_scope_of_run(s);
+    brc_cell_scopes scopes;
+    const brc_scope faces = {.owner = "broken faces",
+                             .base = f,
+                             .tables = {&brc_closed_face_fields},
+                             .outer = brc_cell_scopes_make(s, &run, &scopes)};
+    const brc_pass_wanted wanted[] = {BRC_PASS(&f->keep, "closed_keep", NULL),
+                                      BRC_PASS(&f->look_pass, "closed_look", "moment"),
+                                      BRC_PASS(&f->follow, "closed_follow", "moment all moves clear friction dt"),
+                                      BRC_PASS(&f->press, "closed_press", "friction"),
+                                      BRC_PASS(&f->again, "closed_again", "moment friction"),
+                                      BRC_PASS(&f->gain_pass, "closed_gain", "moment half_kick")};
+    BRC_TRY(BRC_PASSES_MAKE(s, &faces, wanted));
+    const brc_scope sums = brc_scope_of_sums(s, &faces), gains = brc_scope_of_gains(s, &faces),
+                    request = brc_scope_of_request(&faces);
+    BRC_TRY(BRC_PASSES(s, &sums, BRC_PASS(&f->energy, "closed_energy", NULL)));
+    BRC_TRY(BRC_PASSES(s, &gains, BRC_PASS(&f->flux, "closed_flux", "listed list fluxes")));
+    return BRC_PASSES(s, &request, BRC_PASS(&f->force, "closed_force", "listed list"));
+}
+
 brc_status brc_closed_faces_create(brc_simulation *s)
 {
     if (!shuts(&s->wants)) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->closed, 1, "broken faces"));
     closed_faces *f = s->fracture->cells->closed;
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-    } wanted[] = {{&f->keep, "closed_keep"},     {&f->look_pass, "closed_look"}, {&f->follow, "closed_follow"},
-                  {&f->press, "closed_press"},   {&f->flux, "closed_flux"},      {&f->force, "closed_force"},
-                  {&f->energy, "closed_energy"}, {&f->again, "closed_again"},    {&f->gain_pass, "closed_gain"}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
-        BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    BRC_TRY(make_passes(s, f));
     BRC_TRY(brc_fields_create(s->device, &brc_closed_face_fields, &s->wants, f));
     BRC_TRY(upload_next(s, f));
     return upload_places(s, f);
@@ -137,30 +152,17 @@ void brc_closed_faces_free(brc_simulation *s)
 
 /* ---- an evaluation ---- */
 
-static double one_modulus(const brc_simulation *s)
-{
-    return s->elastic[s->material_of_element[0]].k;
-}
-
 brc_status brc_closed_faces_press(brc_simulation *s, const brc_force_request *r)
 {
     closed_faces *f = faces_of(s);
     if (!acts(s, r) || r->rings) return BRC_OK;
     const bool moves = r->book == BRC_BOOK_WORK;
     BRC_TRY(brc_buffer_fill_zero(f->presses));
-    BRC_TRY(BRC_LAUNCH(f->follow, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment_of(s)), BRC_INT(f->all ? 1 : 0),
-                       BRC_INT(moves ? 1 : 0), BRC_COEFF(clear), BRC_COEFF(friction_of(s)),
-                       BRC_STATE(s->time_step.value), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->fracture->cells->twin), BRC_BUF(f->place), BRC_BUF(s->offset), BRC_BUF(s->inv_shape),
-                       BRC_BUF(s->displacement), BRC_BUF(s->velocity), BRC_BUF(s->gradient), BRC_BUF(f->spring),
-                       BRC_BUF(f->overlap), BRC_BUF(f->closed), BRC_BUF(f->slide), BRC_BUF(f->next),
-                       BRC_BUF(f->presses), BRC_BUF(f->rubbed)));
+    BRC_TRY(BRC_RUN(f->follow, s->n_groups, {"moment", BRC_INT(moment_of(s))}, {"all", BRC_INT(f->all ? 1 : 0)},
+                    {"moves", BRC_INT(moves ? 1 : 0)}, {"clear", BRC_COEFF(clear)},
+                    {"friction", BRC_COEFF(friction_of(s))}, {"dt", BRC_STATE(s->time_step.value)}));
     if (moves) f->all = false;
-    return BRC_LAUNCH(f->press, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(friction_of(s)), BRC_BUF(s->row_start),
-                      BRC_BUF(s->neighbour), BRC_BUF(s->fracture->cells->twin), BRC_BUF(f->place), BRC_BUF(s->offset),
-                      BRC_BUF(s->inv_shape), BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(f->spring),
-                      BRC_BUF(f->overlap), BRC_BUF(f->closed), BRC_BUF(f->slide), BRC_BUF(f->presses), BRC_BUF(f->load),
-                      BRC_BUF(f->held));
+    return BRC_RUN(f->press, s->n_groups, {"friction", BRC_COEFF(friction_of(s))});
 }
 
 brc_status brc_closed_faces_flux(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
@@ -170,9 +172,8 @@ brc_status brc_closed_faces_flux(brc_simulation *s, const brc_force_request *r, 
     const brc_rings *rings = s->fracture->cells->rings;
     const bool whole = brc_pass_is_whole(s, list, ring), gains = r->rings && brc_rims_gain(s, r->rings);
     const int32_t n = whole ? s->n_groups : list->n[ring];
-    return BRC_LAUNCH(f->flux, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->upto[ring]),
-                      BRC_INT(gains ? brc_rims_records(rings) : 0), BRC_BUF(rings->level), BRC_BUF(f->presses),
-                      BRC_BUF(f->load), BRC_BUF(s->flux), BRC_BUF(s->fracture->cells->measure));
+    return BRC_RUN(f->flux, n, {"listed", BRC_INT(!whole)}, {"list", BRC_BUF(whole ? NULL : list->upto[ring])},
+                   {"fluxes", BRC_INT(gains ? brc_rims_records(rings) : 0)});
 }
 
 brc_status brc_closed_faces_force(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
@@ -181,8 +182,8 @@ brc_status brc_closed_faces_force(brc_simulation *s, const brc_force_request *r,
     if (!acts(s, r)) return BRC_OK;
     const bool whole = brc_pass_is_whole(s, list, ring);
     const int32_t n = whole ? s->n_groups : list->n[ring];
-    return BRC_LAUNCH(f->force, n, BRC_INT(n), BRC_INT(!whole), BRC_BUF(whole ? NULL : list->upto[ring]),
-                      BRC_BUF(f->presses), BRC_BUF(f->load), BRC_BUF(r->force));
+    return BRC_RUN_ON(f->force, n, r, NULL, {"listed", BRC_INT(!whole)},
+                      {"list", BRC_BUF(whole ? NULL : list->upto[ring])});
 }
 
 /* ---- a step with breaks ---- */
@@ -190,38 +191,24 @@ brc_status brc_closed_faces_force(brc_simulation *s, const brc_force_request *r,
 brc_status brc_closed_faces_keep(brc_simulation *s)
 {
     closed_faces *f = faces_of(s);
-    const brc_cell_breaks *c = s->fracture->cells;
     if (!f || sleeps(s)) return BRC_OK;
     f->any = true;
-    return BRC_LAUNCH(f->keep, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                      BRC_BUF(c->twin), BRC_BUF(c->rings->touched), BRC_BUF(c->mark), BRC_BUF(c->alive),
-                      BRC_BUF(s->ratio), BRC_COEFF(one_modulus(s)), BRC_COEFF(1 + s->scene->model.tau),
-                      BRC_BUF(s->modulus), BRC_BUF(f->closed), BRC_BUF(f->spring));
+    return brc_pass_run(f->keep, s->n_groups);
 }
 
 brc_status brc_closed_faces_look(brc_simulation *s)
 {
     const closed_faces *f = faces_of(s);
-    const brc_cell_breaks *c = s->fracture->cells;
     if (!f || sleeps(s)) return BRC_OK;
-    return BRC_LAUNCH(f->look_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment_of(s)), BRC_BUF(s->row_start),
-                      BRC_BUF(s->neighbour), BRC_BUF(c->twin), BRC_BUF(c->rings->touched), BRC_BUF(f->closed),
-                      BRC_BUF(f->look));
+    return BRC_RUN(f->look_pass, s->n_groups, {"moment", BRC_INT(moment_of(s))});
 }
 
 brc_status brc_closed_faces_change(brc_simulation *s, double half_kick)
 {
     const closed_faces *f = faces_of(s);
     if (!f || sleeps(s)) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(f->again, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment_of(s)), BRC_COEFF(friction_of(s)),
-                       BRC_BUF(s->fracture->cells->rings->touched), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->fracture->cells->twin), BRC_BUF(f->place), BRC_BUF(s->offset), BRC_BUF(s->inv_shape),
-                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(f->spring), BRC_BUF(f->overlap),
-                       BRC_BUF(f->closed), BRC_BUF(f->slide), BRC_BUF(f->look), BRC_BUF(f->near), BRC_BUF(f->next),
-                       BRC_BUF(f->presses), BRC_BUF(f->load), BRC_BUF(f->held), BRC_BUF(f->gain)));
-    return BRC_LAUNCH(f->gain_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(moment_of(s)), BRC_STATE(half_kick),
-                      BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(f->look),
-                      BRC_BUF(f->near), BRC_BUF(f->gain), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(s->velocity));
+    BRC_TRY(BRC_RUN(f->again, s->n_groups, {"moment", BRC_INT(moment_of(s))}, {"friction", BRC_COEFF(friction_of(s))}));
+    return BRC_RUN(f->gain_pass, s->n_groups, {"moment", BRC_INT(moment_of(s))}, {"half_kick", BRC_STATE(half_kick)});
 }
 
 /* ---- what it knows ---- */
@@ -237,7 +224,7 @@ brc_status brc_closed_faces_stored(brc_simulation *s, double *out)
     const int32_t n = s->layout->n_rows;
     *out = 0;
     if (!f || !f->any || sleeps(s)) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(f->energy, n, BRC_INT(n), BRC_BUF(f->presses), BRC_BUF(f->held), BRC_BUF(s->kinetic)));
+    BRC_TRY(brc_pass_run(f->energy, n));
     return brc_vector_sum(s, s->kinetic, n, out);
 }
 

@@ -11,25 +11,29 @@ static const double sphere_depth = 0.1; /* CONTACT_DEPTH of kernels/contact_law.
 /* In static stages and modes surfaces know nothing of each other. */
 static bool sleeps(const brc_simulation *s) { return s->stage >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC; }
 
-static brc_status find_kernels(brc_simulation *s)
+static brc_status make_passes(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    const bool spheres = brc_is_beams(s);
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-        bool wanted;
-    } wanted[] = {{&c->kernel.spheres, "contact_spheres", spheres},
-                  {&c->kernel.cells, "contact_cells", !spheres},
-                  {&c->kernel.gather_turning, "contact_gather_turning", !c->affine},
-                  {&c->kernel.gather_moments, "contact_gather_moments", c->affine},
-                  {&c->kernel.gather_forces, "contact_gather_forces", c->affine},
-                  {&c->kernel.marked, "contact_marked", spheres && s->fracture},
-                  {&c->kernel.striker_parts, "contact_striker_parts", c->n_pieces > 0},
-                  {&c->kernel.striker_load, "contact_striker_load", c->n_pieces > 0}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
-        if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
-    return BRC_OK;
+    const bool spheres = brc_is_beams(s), pieces = c->n_pieces > 0;
+    brc_contact_scopes in;
+    brc_contact_scopes_make(s, &in);
+    const brc_pass_wanted of_pairs[] = {{&c->pass.spheres, "contact_spheres", "whole dt n", !spheres},
+                                        {&c->pass.cells, "contact_cells", "whole broke dt n", spheres},
+                                        {&c->pass.gather_moments, "contact_gather_moments", "book", !c->affine},
+                                        BRC_PASS(&c->pass.expose, "contact_expose", "broken")};
+    BRC_TRY(BRC_PASSES_MAKE(s, &in.now, of_pairs));
+    BRC_TRY(BRC_PASSES(s, &in.state,
+                       {&c->pass.gather_turning, "contact_gather_turning", "sign kick book force torque", c->affine}));
+    const brc_scope request = brc_scope_of_request(&in.now);
+    BRC_TRY(BRC_PASSES(s, &request, {&c->pass.gather_forces, "contact_gather_forces", NULL, !c->affine}));
+    const brc_scope parts = {
+        .owner = "forces on strikers", .base = c, .tables = {&brc_contact_part_fields}, .outer = &in.now};
+    const brc_pass_wanted of_parts[] = {
+        {&c->pass.striker_parts, "contact_striker_parts", "n_blocks n_pairs n stride torque_at", !pieces},
+        {&c->pass.striker_load, "contact_striker_load", "n_blocks", !pieces}};
+    BRC_TRY(BRC_PASSES_MAKE(s, &parts, of_parts));
+    const brc_scope criterion = brc_scope_of_criterion(s, &in.now), sums = brc_scope_of_sums(s, &criterion);
+    return BRC_PASSES(s, &sums, {&c->pass.marked, "contact_marked", "step", !(spheres && s->fracture)});
 }
 
 static void tell_if_never(const brc_simulation *s)
@@ -49,7 +53,8 @@ brc_status brc_contact_create(brc_simulation *s)
     s->contact->pose = s->contact->affine ? 1 : brc_is_beams(s) ? 0 : 2;
     brc_contact_check_speed(s);
     BRC_TRY(brc_contact_setup(s));
-    BRC_TRY(find_kernels(s));
+    s->contact->is_linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
+    BRC_TRY(make_passes(s));
     BRC_TRY(brc_contact_shapes(s));
     BRC_TRY(brc_contact_rigid_create(s));
     return brc_contact_search_create(s);
@@ -152,38 +157,27 @@ bool brc_contact_acts(const brc_simulation *s, const brc_force_request *r)
 }
 
 /* No strikers: a buffer that no kernel touches. */
-static brc_buffer *striker_pose(const brc_simulation *s) { return s->strikers ? s->strikers->pose : NULL; }
 
 brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool broke)
 {
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
-    const int32_t n = s->layout->n_rows, n_materials = s->scene->n_materials;
-    const int linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
+    const int32_t n = s->layout->n_rows;
     const int32_t n_items = whole ? l->n_pairs : c->n_todo;
     if (n_items == 0) return BRC_OK;
     if (brc_is_beams(s))
-        return BRC_LAUNCH(c->kernel.spheres, n_items, BRC_INT(n_items), BRC_INT(whole ? 1 : 0), BRC_STATE(dt), BRC_INT(n), BRC_INT(linear), BRC_INT(n_materials),
-                          BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]), BRC_BUF(c->todo), BRC_BUF(l->ends), BRC_BUF(c->place),
-                          BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_BUF(c->reach), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start),
-                          BRC_BUF(c->loop), BRC_BUF(c->radius), BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->id), BRC_BUF(c->mass),
-                          BRC_BUF(c->material), BRC_BUF(c->body), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_radius),
-                          BRC_BUF(striker_pose(s)), BRC_BUF(c->law), BRC_BUF(l->history), BRC_BUF(c->touch), BRC_BUF(c->result));
-    return BRC_LAUNCH(c->kernel.cells, n_items, BRC_INT(n_items), BRC_INT(whole ? 1 : 0), BRC_INT(broke ? 1 : 0), BRC_STATE(dt), BRC_INT(n), BRC_INT(c->affine ? 1 : 0), BRC_INT(n_materials),
-                      BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]), BRC_BUF(c->todo), BRC_BUF(l->ends), BRC_BUF(c->place),
-                      BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->orientation), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start),
-                      BRC_BUF(c->loop), BRC_BUF(c->radius), BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->id), BRC_BUF(c->size_of),
-                      BRC_BUF(c->mass), BRC_BUF(c->material), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(striker_pose(s)), BRC_BUF(c->law),
-                      BRC_BUF(c->rigid), BRC_BUF(c->way), BRC_BUF(l->history), BRC_BUF(c->touch), BRC_BUF(c->result));
+        return BRC_RUN(c->pass.spheres, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"dt", BRC_STATE(dt)},
+                       {"n", BRC_INT(n)});
+    return BRC_RUN(c->pass.cells, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"broke", BRC_INT(broke ? 1 : 0)},
+                   {"dt", BRC_STATE(dt)}, {"n", BRC_INT(n)});
 }
 
 static brc_status gather_turning(brc_simulation *s, double sign, double kick, int book, brc_buffer *force, brc_buffer *torque)
 {
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
-    return BRC_LAUNCH(c->kernel.gather_turning, l->n_busy, BRC_INT(l->n_busy), BRC_STATE(sign), BRC_STATE(kick), BRC_INT(book), BRC_BUF(l->busy), BRC_BUF(l->list),
-                      BRC_BUF(l->start), BRC_BUF(l->used), BRC_BUF(l->pair), BRC_BUF(c->touch), BRC_BUF(c->result), BRC_BUF(s->mass), BRC_BUF(s->inertia), BRC_BUF(force),
-                      BRC_BUF(torque), BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(c->stored), BRC_BUF(c->lost_friction), BRC_BUF(c->lost_impact));
+    return BRC_RUN(c->pass.gather_turning, l->n_busy, {"sign", BRC_STATE(sign)}, {"kick", BRC_STATE(kick)},
+                   {"book", BRC_INT(book)}, {"force", BRC_BUF(force)}, {"torque", BRC_BUF(torque)});
 }
 
 /* Forces and torques of the elements on strikers. */
@@ -193,10 +187,11 @@ static brc_status load_strikers(brc_simulation *s)
     const brc_contact_list *l = &c->now;
     if (c->n_pieces == 0) return BRC_OK;
     const int32_t n = s->strikers->n, n_blocks = (l->n_pairs + BRC_CONTACT_PAIRS - 1) / BRC_CONTACT_PAIRS;
-    BRC_TRY(BRC_LAUNCH(c->kernel.striker_parts, n * n_blocks, BRC_INT(n * n_blocks), BRC_INT(n_blocks), BRC_INT(l->n_pairs), BRC_INT(s->layout->n_rows),
-                       BRC_INT(BRC_CONTACT_RESULT + 2 * c->width), BRC_INT(BRC_CONTACT_RESULT + c->width), BRC_BUF(l->ends), BRC_BUF(c->piece_striker),
-                       BRC_BUF(c->touch), BRC_BUF(c->result), BRC_BUF(c->part)));
-    return BRC_LAUNCH(c->kernel.striker_load, n, BRC_INT(n), BRC_INT(n_blocks), BRC_BUF(c->part), BRC_BUF(s->strikers->load));
+    BRC_TRY(BRC_RUN(c->pass.striker_parts, n * n_blocks, {"n_blocks", BRC_INT(n_blocks)},
+                    {"n_pairs", BRC_INT(l->n_pairs)}, {"n", BRC_INT(s->layout->n_rows)},
+                    {"stride", BRC_INT(BRC_CONTACT_RESULT + 2 * c->width)},
+                    {"torque_at", BRC_INT(BRC_CONTACT_RESULT + c->width)}));
+    return BRC_RUN(c->pass.striker_load, n, {"n_blocks", BRC_INT(n_blocks)});
 }
 
 /* Around breaks the pairs that these may have changed, in sweeps of openings those of the cells that open, else all. */
@@ -211,9 +206,7 @@ brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
     const brc_contact_list *l = &c->now;
     const int book = r->book == BRC_BOOK_WORK;
     BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
-    return BRC_LAUNCH(c->kernel.gather_moments, l->n_busy, BRC_INT(l->n_busy), BRC_INT(book), BRC_BUF(l->busy), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
-                      BRC_BUF(l->pair), BRC_BUF(c->touch), BRC_BUF(c->result), BRC_BUF(s->boundary), BRC_BUF(c->rigid), BRC_BUF(s->gradient), BRC_BUF(s->held_moment),
-                      BRC_BUF(c->torque), BRC_BUF(c->stored), BRC_BUF(c->lost_friction), BRC_BUF(c->lost_impact));
+    return BRC_RUN(c->pass.gather_moments, l->n_busy, {"book", BRC_INT(book)});
 }
 
 brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
@@ -221,8 +214,7 @@ brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
     if (c->affine)
-        BRC_TRY(BRC_LAUNCH(c->kernel.gather_forces, l->n_busy, BRC_INT(l->n_busy), BRC_BUF(l->busy), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used),
-                           BRC_BUF(l->pair), BRC_BUF(c->touch), BRC_BUF(c->result), BRC_BUF(r->force)));
+        BRC_TRY(brc_pass_run_on(c->pass.gather_forces, l->n_busy, r, NULL, NULL));
     else {
         BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
         BRC_TRY(gather_turning(s, 1, 0, r->book == BRC_BOOK_WORK, r->force, r->torque));
@@ -236,8 +228,7 @@ brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
 static brc_status beams_broke(brc_simulation *s, bool *out)
 {
     double groups;
-    BRC_TRY(BRC_LAUNCH(s->contact->kernel.marked, s->n_groups, BRC_INT(s->n_groups), BRC_INT(brc_fracture_moment(s)), BRC_BUF(s->fracture->mark),
-                       BRC_BUF(s->kinetic)));
+    BRC_TRY(BRC_RUN(s->contact->pass.marked, s->n_groups, {"step", BRC_INT(brc_fracture_moment(s))}));
     BRC_TRY(brc_vector_sum(s, s->kinetic, s->n_groups, &groups));
     *out = groups > 0;
     return BRC_OK;
@@ -251,7 +242,7 @@ brc_status brc_contact_expose(brc_simulation *s)
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows;
     if (!s->fracture) return BRC_OK;
-    return BRC_LAUNCH(c->kernel.expose, n, BRC_INT(n), BRC_BUF(s->fracture->gone ? s->fracture->gone : s->fracture->broken), BRC_BUF(c->seen), BRC_BUF(c->exposed), BRC_BUF(c->fresh));
+    return BRC_RUN(c->pass.expose, n, {"broken", BRC_BUF(s->fracture->gone ? s->fracture->gone : s->fracture->broken)});
 }
 
 /* What the breaks of this step change of the list. */
@@ -278,9 +269,9 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick)
     double before, after;
     bool any = true;
     if (!c) return BRC_OK;
-    if (c->kernel.marked) BRC_TRY(beams_broke(s, &any));
+    if (c->pass.marked) BRC_TRY(beams_broke(s, &any));
     if (!any) return BRC_OK;
-    if (!c->kernel.marked) return list_breaks(s); /* cells: the forces are evaluated next */
+    if (!c->pass.marked) return list_breaks(s); /* cells: the forces are evaluated next */
     const bool strikers = c->n_pieces > 0;
     BRC_TRY(brc_contact_stored(s, &before));
     if (strikers && half_kick > 0) BRC_TRY(brc_strikers_advance(s, half_kick, 0, 0, false)); /* the step closes with the load of before ... */

@@ -1,5 +1,6 @@
 /* What contact has on the device. */
 #include "contact_internal.h"
+#include "strikers_internal.h"
 
 enum { SCAN_BLOCK = 1024, SORT_BINS = 256 };
 
@@ -176,4 +177,50 @@ int64_t brc_contact_buckets(int64_t n)
     int64_t buckets = SORT_BINS;
     while (buckets < 2 * n) buckets *= 2;
     return buckets;
+}
+
+#define OLD(member) BRC_VALUE_BUFFER, OF_LIST(member)
+void brc_contact_scopes_make(const brc_simulation *s, brc_contact_scopes *out)
+{
+    static const brc_strikers none = {0};
+    static const brc_value_row of_contact[] = {{"middle_x", BRC_VALUE_REAL, AT(middle[0])},
+                                               {"middle_y", BRC_VALUE_REAL, AT(middle[1])},
+                                               {"middle_z", BRC_VALUE_REAL, AT(middle[2])},
+                                               {"n_pieces", BRC_VALUE_INT, AT(n_pieces)},
+                                               {"pose", BRC_VALUE_INT, AT(pose)},
+                                               {"skin", BRC_VALUE_REAL, AT(skin)},
+                                               {"span", BRC_VALUE_REAL, AT(span)},
+                                               {"affine", BRC_VALUE_BOOL, AT(affine)},
+                                               {"is_linear", BRC_VALUE_BOOL, AT(is_linear)},
+                                               {"turn", BRC_VALUE_BUFFER, AT(torque)}};
+    static const brc_value_row of_scene[] = {{"n_materials", BRC_VALUE_INT, offsetof(brc_scene, n_materials)},
+                                             {"within", BRC_VALUE_BOOL, offsetof(brc_scene, contact.within)}};
+    static const brc_value_row of_before[] = {{"old_slot_of", OLD(slot_of)}, {"old_start", OLD(start)},
+                                              {"old_used", OLD(used)},       {"old_entry", OLD(entry)},
+                                              {"old_pair", OLD(pair)},       {"old_history", OLD(history)}};
+    static const brc_value_row of_strikers[] = {{"striker_pose", BRC_VALUE_BUFFER, offsetof(brc_strikers, pose)},
+                                                {"motion", BRC_VALUE_BUFFER, offsetof(brc_strikers, motion)},
+                                                {"load", BRC_VALUE_BUFFER, offsetof(brc_strikers, load)}};
+    const brc_contact_state *c = s->contact;
+    out->run = brc_scope_of_run(s);
+    out->scene = (brc_scope){.owner = "scene", .base = s->scene, BRC_VALUES(of_scene), .outer = &out->run};
+    out->strikers = (brc_scope){
+        .owner = "strikers", .base = s->strikers ? s->strikers : &none, BRC_VALUES(of_strikers), .outer = &out->scene};
+    out->contact =
+        (brc_scope){.owner = "contact",
+                    .base = c,
+                    .tables = {&brc_contact_fields, &brc_contact_sum_fields, &brc_contact_grid_fields,
+                               &brc_contact_bucket_fields, &brc_contact_result_fields, &brc_contact_packed_at_fields,
+                               &brc_contact_packed_fields, &brc_contact_changed_fields},
+                    BRC_VALUES(of_contact),
+                    .outer = &out->strikers};
+    out->now = (brc_scope){.owner = "list of pairs",
+                           .base = &c->now,
+                           .tables = {&brc_contact_slot_fields, &brc_contact_listed_fields, &brc_contact_entry_fields,
+                                      &brc_contact_pair_fields},
+                           .outer = &out->contact};
+    out->before =
+        (brc_scope){.owner = "list of pairs before", .base = &c->before, BRC_VALUES(of_before), .outer = &out->now};
+    out->state = brc_scope_of_run(s);
+    out->state.outer = &out->before;
 }

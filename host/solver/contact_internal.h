@@ -16,12 +16,16 @@ typedef struct brc_contact_list {
 
 struct brc_contact_state {
     struct {
-        brc_kernel *extent, *largest, *drift, *drift_mean, *moved, *expose, *list, *keys, *buckets, *again, *kept, *keep, *changed, *spread, *count, *fill, *busy, *own_pairs, *other_pairs, *pack, *carry;
+        brc_pass *extent, *largest, *drift, *drift_mean, *moved, *expose, *list, *keys, *buckets, *again, *kept, *keep,
+            *changed, *spread, *count, *fill, *busy, *own_pairs, *other_pairs, *pack, *carry;
+        brc_pass *spheres, *gather_turning, *marked;
+        brc_pass *cells, *gather_moments, *gather_forces, *striker_parts, *striker_load, *pieces, *pieces_moved;
+        brc_pass *detach, *pose, *turn, *spin_energy;
+    } pass;
+    struct {
         brc_kernel *scan_sums, *scan_tops, *scan_fill, *sort_count, *sort_move;
-        brc_kernel *spheres, *gather_turning, *marked;
-        brc_kernel *cells, *gather_moments, *gather_forces, *striker_parts, *striker_load, *pieces, *pieces_moved;
-        brc_kernel *detach, *pose, *turn, *spin_energy;
     } kernel;
+    bool is_linear;  /* spheres: the law's normal force */
     bool affine;     /* dlsm: elements follow I + H; else they turn with quaternions of their own */
     int32_t width;   /* numbers of a moment: 9, else 3 */
     int pose;        /* how elements stand: 0 spheres, 1 by I + H, 2 by their rotation (kernels/contact_motion.cl) */
@@ -74,6 +78,12 @@ void brc_contact_fields_free(brc_contact_state *contact);
 int64_t brc_contact_room(int64_t n);
 int64_t brc_contact_exposed_room(const brc_wants *wants, int64_t n);
 int64_t brc_contact_buckets(int64_t n);
+
+/* Contact, the list of now and the one before, strikers, numbers of the scene; the state of the elements outermost, or, before all, in *state. They must stay where they are. */
+typedef struct brc_contact_scopes {
+    brc_scope run, scene, strikers, contact, now, before, state;
+} brc_contact_scopes;
+void brc_contact_scopes_make(const brc_simulation *s, brc_contact_scopes *out);
 
 /* ---- contact_setup.c ---- */
 /* Arrays of rows, laws of materials, who is exposed at the start. */

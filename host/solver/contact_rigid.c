@@ -32,6 +32,18 @@ cleanup:
     return status;
 }
 
+static brc_status make_passes(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    brc_contact_scopes in;
+    brc_contact_scopes_make(s, &in);
+    const brc_scope sums = brc_scope_of_sums(s, &in.now);
+    BRC_TRY(BRC_PASSES(s, &in.now, BRC_PASS(&c->pass.pose, "contact_pose", NULL),
+                       BRC_PASS(&c->pass.turn, "contact_turn", "kick drift extra")));
+    return BRC_PASSES(s, &sums, BRC_PASS(&c->pass.detach, "contact_detach", NULL),
+                      BRC_PASS(&c->pass.spin_energy, "contact_spin_energy", NULL));
+}
+
 brc_status brc_contact_rigid_create(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
@@ -41,11 +53,7 @@ brc_status brc_contact_rigid_create(brc_simulation *s)
     c->detaches = c->turned != NULL;
     if (!c->detaches) return BRC_OK;
     BRC_TRY(find_loaded(s));
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-    } wanted[] = {{&c->kernel.detach, "contact_detach"}, {&c->kernel.pose, "contact_pose"}, {&c->kernel.turn, "contact_turn"}, {&c->kernel.spin_energy, "contact_spin_energy"}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    BRC_TRY(make_passes(s));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &inertia, 6 * d->n_elements, "inertia of cells"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &upright, 4 * d->n_elements, "orientations of cells"));
     for (int64_t e = 0; e < d->n_elements; ++e) {
@@ -65,8 +73,7 @@ brc_status brc_contact_detach(brc_simulation *s)
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows;
     if (!c->detaches) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(c->kernel.detach, n, BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->id), BRC_BUF(c->loaded), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->gradient), BRC_BUF(c->rigid), BRC_BUF(c->turned), BRC_BUF(s->kinetic)));
+    BRC_TRY(brc_pass_run(c->pass.detach, n));
     BRC_TRY(brc_vector_sum(s, s->kinetic, n, &c->n_rigid));
     return brc_contact_pose(s);
 }
@@ -89,15 +96,15 @@ brc_status brc_contact_pose(brc_simulation *s)
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows;
     if (!c || !(c->n_rigid > 0)) return BRC_OK;
-    return BRC_LAUNCH(c->kernel.pose, n, BRC_INT(n), BRC_BUF(c->rigid), BRC_BUF(c->turned), BRC_BUF(s->gradient));
+    return brc_pass_run(c->pass.pose, n);
 }
 
 brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double extra)
 {
     brc_contact_state *c = s->contact;
     if (!c || !(c->n_rigid > 0) || !s->scene->contact.rotation) return BRC_OK;
-    return BRC_LAUNCH(c->kernel.turn, s->n_groups, BRC_INT(s->n_groups), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(extra), BRC_BUF(c->rigid), BRC_BUF(c->inertia),
-                      BRC_BUF(c->torque), BRC_BUF(c->reach), BRC_BUF(c->momentum), BRC_BUF(c->turned), BRC_BUF(c->way));
+    return BRC_RUN(c->pass.turn, s->n_groups, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)},
+                   {"extra", BRC_STATE(extra)});
 }
 
 brc_status brc_contact_spin_energy(brc_simulation *s, double *out)
@@ -106,6 +113,6 @@ brc_status brc_contact_spin_energy(brc_simulation *s, double *out)
     const int32_t n = s->layout->n_rows;
     *out = 0;
     if (!(c->n_rigid > 0)) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(c->kernel.spin_energy, n, BRC_INT(n), BRC_BUF(c->rigid), BRC_BUF(c->inertia), BRC_BUF(c->momentum), BRC_BUF(c->turned), BRC_BUF(s->kinetic)));
+    BRC_TRY(brc_pass_run(c->pass.spin_energy, n));
     return brc_vector_sum(s, s->kinetic, n, out);
 }

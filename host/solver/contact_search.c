@@ -30,21 +30,51 @@ static brc_status scan(brc_simulation *s, brc_buffer *x, int64_t n, brc_buffer *
     return BRC_OK;
 }
 
+static brc_status make_passes(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    brc_contact_scopes in;
+    brc_contact_scopes_make(s, &in);
+    static const brc_value_row moves[] = {{"moved", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_contact_state, moved)}};
+    const brc_scope survey = {.owner = "moves since the last search", .base = c, BRC_VALUES(moves), .outer = &in.state};
+    BRC_TRY(BRC_PASSES(s, &survey, BRC_PASS(&c->pass.drift, "contact_drift", "n"),
+                       BRC_PASS(&c->pass.moved, "contact_moved", "n")));
+    const brc_pass_wanted of_lists[] = {BRC_PASS(&c->pass.extent, "contact_extent", NULL),
+                                        BRC_PASS(&c->pass.largest, "contact_largest", "n"),
+                                        BRC_PASS(&c->pass.drift_mean, "contact_drift_mean", "n_blocks"),
+                                        BRC_PASS(&c->pass.busy, "contact_busy", "any at busy"),
+                                        BRC_PASS(&c->pass.list, "contact_list", NULL),
+                                        BRC_PASS(&c->pass.keys, "contact_keys", "per_edge mask key row"),
+                                        BRC_PASS(&c->pass.buckets, "contact_buckets", "key"),
+                                        BRC_PASS(&c->pass.again, "contact_again", "whole per_edge mask row"),
+                                        BRC_PASS(&c->pass.kept, "contact_kept", NULL),
+                                        BRC_PASS(&c->pass.keep, "contact_keep", "any"),
+                                        BRC_PASS(&c->pass.changed, "contact_changed", "n touched"),
+                                        BRC_PASS(&c->pass.spread, "contact_spread", "n to level"),
+                                        BRC_PASS(&c->pass.count, "contact_count", "per_edge mask row"),
+                                        BRC_PASS(&c->pass.fill, "contact_fill", "rows per_edge mask row any"),
+                                        BRC_PASS(&c->pass.own_pairs, "contact_own_pairs", NULL),
+                                        BRC_PASS(&c->pass.other_pairs, "contact_other_pairs", NULL),
+                                        BRC_PASS(&c->pass.pack, "contact_pack", "stride at"),
+                                        BRC_PASS(&c->pass.carry, "contact_carry", "had stride"),
+                                        BRC_PASS(&c->pass.pieces, "contact_pieces", NULL),
+                                        BRC_PASS(&c->pass.pieces_moved, "contact_pieces_moved", "first")};
+    return BRC_PASSES_MAKE(s, &in.before, of_lists);
+}
+
 brc_status brc_contact_search_create(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const struct {
         brc_kernel **slot;
         const char *name;
-    } wanted[] = {{&c->kernel.extent, "contact_extent"}, {&c->kernel.largest, "contact_largest"}, {&c->kernel.moved, "contact_moved"},
-                  {&c->kernel.drift, "contact_drift"}, {&c->kernel.drift_mean, "contact_drift_mean"}, {&c->kernel.busy, "contact_busy"},
-                  {&c->kernel.expose, "contact_expose"}, {&c->kernel.list, "contact_list"}, {&c->kernel.keys, "contact_keys"},
-                  {&c->kernel.buckets, "contact_buckets"}, {&c->kernel.again, "contact_again"}, {&c->kernel.kept, "contact_kept"}, {&c->kernel.keep, "contact_keep"},
-                  {&c->kernel.changed, "contact_changed"}, {&c->kernel.spread, "contact_spread"}, {&c->kernel.count, "contact_count"}, {&c->kernel.fill, "contact_fill"},
-                  {&c->kernel.own_pairs, "contact_own_pairs"}, {&c->kernel.other_pairs, "contact_other_pairs"}, {&c->kernel.pack, "contact_pack"}, {&c->kernel.carry, "contact_carry"},
-                  {&c->kernel.scan_sums, "scan_sums"}, {&c->kernel.scan_tops, "scan_tops"}, {&c->kernel.scan_fill, "scan_fill"},
-                  {&c->kernel.pieces, "contact_pieces"}, {&c->kernel.pieces_moved, "contact_pieces_moved"}, {&c->kernel.sort_count, "sort_count"}, {&c->kernel.sort_move, "sort_move"}};
+    } wanted[] = {{&c->kernel.scan_sums, "scan_sums"},
+                  {&c->kernel.scan_tops, "scan_tops"},
+                  {&c->kernel.scan_fill, "scan_fill"},
+                  {&c->kernel.sort_count, "sort_count"},
+                  {&c->kernel.sort_move, "sort_move"}};
     for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    BRC_TRY(make_passes(s));
     BRC_TRY(brc_fields_create(s->device, &brc_contact_sum_fields, &s->wants, c));
     BRC_TRY(brc_fields_create(s->device, &brc_contact_slot_fields, &s->wants, &c->now));
     return brc_fields_create(s->device, &brc_contact_slot_fields, &s->wants, &c->before);
@@ -74,16 +104,10 @@ static brc_status take_survey(brc_simulation *s, survey *out)
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows, n_blocks = blocks_of(n, BRC_CONTACT_BLOCK);
     *out = (survey){.element = {0}};
-    BRC_TRY(BRC_LAUNCH(c->kernel.drift, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->place), BRC_BUF(s->displacement),
-                       BRC_BUF(c->built), BRC_BUF(s->velocity), BRC_BUF(s->force), BRC_BUF(s->mass), BRC_BUF(c->drift_part)));
-    BRC_TRY(BRC_LAUNCH(c->kernel.drift_mean, 1, BRC_INT(1), BRC_INT(n_blocks), BRC_BUF(c->drift_part), BRC_BUF(c->drift)));
-    BRC_TRY(BRC_LAUNCH(c->kernel.moved, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(c->pose), BRC_BUF(c->exposed), BRC_BUF(c->rigid), BRC_BUF(c->place),
-                       BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(s->orientation), BRC_BUF(c->reach), BRC_BUF(c->built), BRC_BUF(c->posed),
-                       BRC_BUF(c->clear), BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(s->force), BRC_BUF(s->mass), BRC_BUF(c->drift), BRC_BUF(c->moved)));
-    if (c->n_pieces)
-        BRC_TRY(BRC_LAUNCH(c->kernel.pieces_moved, c->n_pieces, BRC_INT(c->n_pieces), BRC_INT(n_blocks), BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]),
-                           BRC_STATE(c->middle[2]), BRC_STATE(c->span), BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_own),
-                           BRC_BUF(s->strikers->pose), BRC_BUF(s->strikers->motion), BRC_BUF(c->piece), BRC_BUF(c->moved)));
+    BRC_TRY(BRC_RUN(c->pass.drift, n_blocks, {"n", BRC_INT(n)}));
+    BRC_TRY(BRC_RUN(c->pass.drift_mean, 1, {"n_blocks", BRC_INT(n_blocks)}));
+    BRC_TRY(BRC_RUN(c->pass.moved, n_blocks, {"n", BRC_INT(n)}));
+    if (c->n_pieces) BRC_TRY(BRC_RUN(c->pass.pieces_moved, c->n_pieces, {"first", BRC_INT(n_blocks)}));
     BRC_TRY(largest_of(s, 0, n_blocks, out->element));
     return c->n_pieces ? largest_of(s, n_blocks, c->n_pieces, out->piece) : BRC_OK;
 }
@@ -128,8 +152,8 @@ static brc_status sort_by_cell(brc_simulation *s, double per_edge, int32_t mask,
     brc_contact_state *c = s->contact;
     const int32_t m = c->now.n_listed, n_blocks = blocks_of(m, SCAN_BLOCK);
     int at = 0;
-    BRC_TRY(BRC_LAUNCH(c->kernel.keys, m, BRC_INT(m), BRC_STATE(per_edge), BRC_INT(mask), BRC_BUF(c->now.list), BRC_BUF(c->built), BRC_BUF(c->key[0]),
-                       BRC_BUF(c->row[0])));
+    BRC_TRY(BRC_RUN(c->pass.keys, m, {"per_edge", BRC_STATE(per_edge)}, {"mask", BRC_INT(mask)},
+                    {"key", BRC_BUF(c->key[0])}, {"row", BRC_BUF(c->row[0])}));
     for (int shift = 0; mask >> shift; shift += 8, at = 1 - at) {
         BRC_TRY(BRC_LAUNCH(c->kernel.sort_count, n_blocks, BRC_INT(n_blocks), BRC_INT(m), BRC_INT(shift), BRC_BUF(c->key[at]), BRC_BUF(c->count)));
         BRC_TRY(scan(s, c->count, SORT_BINS * (int64_t)n_blocks, c->digits, NULL));
@@ -139,7 +163,7 @@ static brc_status sort_by_cell(brc_simulation *s, double per_edge, int32_t mask,
     *sorted = at;
     BRC_TRY(brc_buffer_fill_zero(c->first));
     BRC_TRY(brc_buffer_fill_zero(c->last));
-    return BRC_LAUNCH(c->kernel.buckets, m, BRC_INT(m), BRC_BUF(c->key[at]), BRC_BUF(c->first), BRC_BUF(c->last));
+    return BRC_RUN(c->pass.buckets, m, {"key", BRC_BUF(c->key[at])});
 }
 
 /* Room for m exposed elements. */
@@ -216,7 +240,7 @@ static brc_status pack_results(brc_simulation *s)
         c->packed_room = brc_contact_room(n_touching) + 1;
         BRC_TRY(renew(s, &brc_contact_packed_fields, c->packed_room, c));
     }
-    return BRC_LAUNCH(c->kernel.pack, n, BRC_INT(n), BRC_INT(stride_of(c)), BRC_BUF(c->touch), BRC_BUF(c->packed_at), BRC_BUF(c->result), BRC_BUF(c->packed));
+    return BRC_RUN(c->pass.pack, n, {"stride", BRC_INT(stride_of(c))}, {"at", BRC_BUF(c->packed_at)});
 }
 
 /* Exposed elements in the list to be made. */
@@ -229,7 +253,7 @@ static brc_status list_exposed(brc_simulation *s)
     c->now.n_listed = (int32_t)m;
     BRC_TRY(make_room(s, m));
     BRC_TRY(room_for_listed(s, &c->now, m));
-    return BRC_LAUNCH(c->kernel.list, n, BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->now.slot_of), BRC_BUF(c->now.list));
+    return brc_pass_run(c->pass.list, n);
 }
 
 /* The slots of c->redo: all, or those whose entries a break may have changed; the others keep the number of theirs. */
@@ -239,11 +263,12 @@ static brc_status find_redo(brc_simulation *s, bool whole, double per_edge, int3
     brc_contact_list *l = &c->now;
     const int32_t m = l->n_listed;
     BRC_TRY(brc_buffer_fill_zero(c->again));
-    BRC_TRY(BRC_LAUNCH(c->kernel.again, m, BRC_INT(m), BRC_INT(whole ? 1 : 0), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_BUF(l->list), BRC_BUF(l->slot_of),
-                       BRC_BUF(c->fresh), BRC_BUF(c->built), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->again)));
+    BRC_TRY(BRC_RUN(c->pass.again, m, {"whole", BRC_INT(whole ? 1 : 0)}, {"per_edge", BRC_STATE(per_edge)},
+                    {"mask", BRC_INT(mask)}, {"row", BRC_BUF(c->row[sorted])}));
     BRC_TRY(scan(s, c->again, m, c->pair_start, n_redo));
-    BRC_TRY(BRC_LAUNCH(c->kernel.busy, m, BRC_INT(m), BRC_BUF(c->again), BRC_BUF(c->pair_start), BRC_BUF(c->redo)));
-    return BRC_LAUNCH(c->kernel.kept, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(c->again), BRC_BUF(c->before.slot_of), BRC_BUF(c->before.used), BRC_BUF(c->count));
+    BRC_TRY(BRC_RUN(c->pass.busy, m, {"any", BRC_BUF(c->again)}, {"at", BRC_BUF(c->pair_start)},
+                    {"busy", BRC_BUF(c->redo)}));
+    return brc_pass_run(c->pass.kept, m);
 }
 
 /* Who is near whom. */
@@ -251,33 +276,26 @@ static brc_status find_entries(brc_simulation *s, bool whole)
 {
     brc_contact_state *c = s->contact;
     brc_contact_list *l = &c->now;
-    const brc_contact_list *old = &c->before;
     const int32_t n = s->layout->n_rows, m = l->n_listed, n_blocks = blocks_of(n, BRC_CONTACT_BLOCK);
     double most[BRC_CONTACT_MOVED];
     int64_t near, n_redo;
     int sorted, mask = SORT_BINS;
     while (mask < 2 * (int64_t)m) mask *= 2;
     mask -= 1;
-    BRC_TRY(BRC_LAUNCH(c->kernel.largest, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(c->exposed), BRC_BUF(c->built), BRC_BUF(c->moved)));
+    BRC_TRY(BRC_RUN(c->pass.largest, n_blocks, {"n", BRC_INT(n)}));
     BRC_TRY(largest_of(s, 0, n_blocks, most));
     const double per_edge = 1 / (1.000001 * (2 * most[0] + c->skin));
     BRC_TRY(sort_by_cell(s, per_edge, mask, &sorted));
     BRC_TRY(find_redo(s, whole, per_edge, mask, sorted, &n_redo));
     if (n_redo > 0)
-        BRC_TRY(BRC_LAUNCH(c->kernel.count, n_redo, BRC_INT(n_redo), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask), BRC_INT(c->n_pieces), BRC_BUF(c->piece),
-                           BRC_BUF(c->piece_kind), BRC_BUF(c->redo), BRC_BUF(l->list), BRC_BUF(c->built), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]),
-                           BRC_BUF(c->count)));
+        BRC_TRY(BRC_RUN(c->pass.count, n_redo, {"per_edge", BRC_STATE(per_edge)}, {"mask", BRC_INT(mask)},
+                        {"row", BRC_BUF(c->row[sorted])}));
     BRC_TRY(scan(s, c->count, m, l->start, &near));
     BRC_TRY(room_for_entries(s, l, near));
-    BRC_TRY(BRC_LAUNCH(c->kernel.keep, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(c->again), BRC_BUF(c->id), BRC_BUF(old->slot_of), BRC_BUF(old->start), BRC_BUF(old->used),
-                       BRC_BUF(old->entry), BRC_BUF(l->start), BRC_BUF(l->entry), BRC_BUF(l->used), BRC_BUF(c->owned), BRC_BUF(c->count)));
+    BRC_TRY(BRC_RUN(c->pass.keep, m, {"any", BRC_BUF(c->count)}));
     if (n_redo == 0) return BRC_OK;
-    return BRC_LAUNCH(c->kernel.fill, n_redo, BRC_INT(n_redo), BRC_INT(n), BRC_INT(c->pose), BRC_STATE(c->skin), BRC_STATE(per_edge), BRC_INT(mask),
-                      BRC_INT(s->scene->contact.within ? 1 : 0), BRC_INT(c->n_pieces), BRC_BUF(c->piece), BRC_BUF(c->piece_kind), BRC_BUF(c->redo), BRC_BUF(l->list),
-                      BRC_BUF(c->built), BRC_BUF(c->posed), BRC_BUF(c->rigid), BRC_BUF(c->corner), BRC_BUF(c->plane), BRC_BUF(c->loop_start), BRC_BUF(c->loop), BRC_BUF(c->radius),
-                      BRC_BUF(c->corner_start), BRC_BUF(c->face_start), BRC_BUF(c->first), BRC_BUF(c->last), BRC_BUF(c->row[sorted]), BRC_BUF(c->id), BRC_BUF(c->body),
-                      BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(c->original), BRC_BUF(l->start), BRC_BUF(l->entry), BRC_BUF(l->used),
-                      BRC_BUF(c->owned), BRC_BUF(c->count), BRC_BUF(c->clear));
+    return BRC_RUN(c->pass.fill, n_redo, {"rows", BRC_INT(n)}, {"per_edge", BRC_STATE(per_edge)},
+                   {"mask", BRC_INT(mask)}, {"row", BRC_BUF(c->row[sorted])}, {"any", BRC_BUF(c->count)});
 }
 
 static brc_status number_pairs(brc_simulation *s, bool carried)
@@ -290,20 +308,18 @@ static brc_status number_pairs(brc_simulation *s, bool carried)
     if (carried) BRC_TRY(pack_results(s));
     BRC_TRY(room_for_pairs(s, l, n_pairs));
     l->n_pairs = (int32_t)n_pairs;
-    BRC_TRY(BRC_LAUNCH(c->kernel.own_pairs, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(l->start), BRC_BUF(l->used), BRC_BUF(l->entry), BRC_BUF(c->id),
-                       BRC_BUF(c->pair_start), BRC_BUF(l->pair), BRC_BUF(l->ends)));
-    BRC_TRY(BRC_LAUNCH(c->kernel.other_pairs, m, BRC_INT(m), BRC_BUF(l->list), BRC_BUF(l->slot_of), BRC_BUF(l->start), BRC_BUF(l->used), BRC_BUF(l->entry),
-                       BRC_BUF(c->id), BRC_BUF(l->pair)));
+    BRC_TRY(brc_pass_run(c->pass.own_pairs, m));
+    BRC_TRY(brc_pass_run(c->pass.other_pairs, m));
     if (n_pairs == 0) return BRC_OK;
     int64_t n_busy;
     BRC_TRY(scan(s, c->count, m, c->pair_start, &n_busy));
-    BRC_TRY(BRC_LAUNCH(c->kernel.busy, m, BRC_INT(m), BRC_BUF(c->count), BRC_BUF(c->pair_start), BRC_BUF(l->busy)));
+    BRC_TRY(BRC_RUN(c->pass.busy, m, {"any", BRC_BUF(c->count)}, {"at", BRC_BUF(c->pair_start)},
+                    {"busy", BRC_BUF(l->busy)}));
     l->n_busy = (int32_t)n_busy;
     const brc_contact_list *old = &c->before;
     const bool had = old->n_pairs > 0;
-    return BRC_LAUNCH(c->kernel.carry, n_pairs, BRC_INT(n_pairs), BRC_INT(had ? 1 : 0), BRC_INT(carried ? stride_of(c) : 0), BRC_BUF(l->ends), BRC_BUF(old->slot_of),
-                      BRC_BUF(old->start), BRC_BUF(old->used), BRC_BUF(old->entry), BRC_BUF(old->pair), BRC_BUF(old->history), BRC_BUF(c->packed_at), BRC_BUF(c->packed),
-                      BRC_BUF(l->history), BRC_BUF(c->touch), BRC_BUF(c->result));
+    return BRC_RUN(c->pass.carry, n_pairs, {"had", BRC_INT(had ? 1 : 0)},
+                   {"stride", BRC_INT(carried ? stride_of(c) : 0)});
 }
 
 /* whole: all is looked for; carried: results of pairs go over. */
@@ -337,9 +353,10 @@ static brc_status find_changed(brc_simulation *s, brc_buffer *touched)
         BRC_TRY(renew(s, &brc_contact_changed_fields, c->todo_room, c));
     }
     BRC_TRY(room_for_sums(s, n_pairs));
-    BRC_TRY(BRC_LAUNCH(c->kernel.changed, n_pairs, BRC_INT(n_pairs), BRC_INT(s->layout->n_rows), BRC_BUF(c->now.ends), BRC_BUF(c->fresh), BRC_BUF(touched), BRC_BUF(c->flag)));
+    BRC_TRY(BRC_RUN(c->pass.changed, n_pairs, {"n", BRC_INT(s->layout->n_rows)}, {"touched", BRC_BUF(touched)}));
     BRC_TRY(scan(s, c->flag, n_pairs, c->flag_start, &n_todo));
-    BRC_TRY(BRC_LAUNCH(c->kernel.busy, n_pairs, BRC_INT(n_pairs), BRC_BUF(c->flag), BRC_BUF(c->flag_start), BRC_BUF(c->todo)));
+    BRC_TRY(BRC_RUN(c->pass.busy, n_pairs, {"any", BRC_BUF(c->flag)}, {"at", BRC_BUF(c->flag_start)},
+                    {"busy", BRC_BUF(c->todo)}));
     c->n_todo = (int32_t)n_todo;
     return BRC_OK;
 }
@@ -358,7 +375,8 @@ brc_status brc_contact_spread(brc_simulation *s, brc_buffer *level, int32_t to)
 {
     brc_contact_state *c = s->contact;
     if (!c || c->n_todo == 0) return BRC_OK;
-    return BRC_LAUNCH(c->kernel.spread, c->n_todo, BRC_INT(c->n_todo), BRC_INT(s->layout->n_rows), BRC_INT(to), BRC_BUF(c->todo), BRC_BUF(c->now.ends), BRC_BUF(level));
+    return BRC_RUN(c->pass.spread, c->n_todo, {"n", BRC_INT(s->layout->n_rows)}, {"to", BRC_INT(to)},
+                   {"level", BRC_BUF(level)});
 }
 
 static brc_status search(brc_simulation *s, bool carried)
@@ -367,11 +385,8 @@ static brc_status search(brc_simulation *s, bool carried)
     const int32_t n = s->layout->n_rows;
     c->quiet = 0;
     c->searches += 1;
-    BRC_TRY(BRC_LAUNCH(c->kernel.extent, n, BRC_INT(n), BRC_INT(c->pose), BRC_BUF(c->place), BRC_BUF(s->displacement), BRC_BUF(s->gradient),
-                       BRC_BUF(s->orientation), BRC_BUF(c->reach), BRC_BUF(c->built), BRC_BUF(c->posed)));
-    if (c->n_pieces)
-        BRC_TRY(BRC_LAUNCH(c->kernel.pieces, c->n_pieces, BRC_INT(c->n_pieces), BRC_STATE(c->middle[0]), BRC_STATE(c->middle[1]), BRC_STATE(c->middle[2]),
-                           BRC_BUF(c->piece_striker), BRC_BUF(c->piece_kind), BRC_BUF(c->piece_own), BRC_BUF(s->strikers->pose), BRC_BUF(c->piece)));
+    BRC_TRY(brc_pass_run(c->pass.extent, n));
+    if (c->n_pieces) BRC_TRY(brc_pass_run(c->pass.pieces, c->n_pieces));
     BRC_TRY(choose_skin(s));
     BRC_TRY(brc_buffer_fill_zero(c->stored)); /* of elements that leave the list too */
     if (c->torque) BRC_TRY(brc_buffer_fill_zero(c->torque));

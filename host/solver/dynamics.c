@@ -21,13 +21,12 @@ enum { LEDGER_APART = 128 };
 static brc_status kick_and_drift(brc_simulation *s, double kick, double drift)
 {
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_LAUNCH(s->kernel.advance, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_BUF(s->mass), BRC_BUF(s->force),
-                       BRC_BUF(s->velocity), BRC_BUF(s->displacement)));
+    BRC_TRY(BRC_RUN(s->pass.advance, n, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)}));
     if (s->strikers) BRC_TRY(brc_strikers_advance(s, kick, drift, 0, false));
     BRC_TRY(brc_contact_turn(s, kick, drift, 0));
     if (!brc_turns(s)) return BRC_OK;
-    return BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(0),
-                      BRC_BUF(s->inertia), BRC_BUF(s->torque), BRC_BUF(s->spin), BRC_BUF(s->orientation));
+    return BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)},
+                   {"extra", BRC_STATE(0)});
 }
 
 /* Positions and forces at the end of the step whose motion has just been done. */
@@ -66,8 +65,8 @@ static brc_status drag(brc_simulation *s, const brc_stage *stage, double dt)
 {
     const int32_t n = s->layout->n_rows;
     BRC_TRY(brc_loads_zero_imposed(s, s->velocity));
-    return BRC_LAUNCH(s->kernel.damp_mass, n, BRC_INT(n), BRC_STATE(exp(-stage->mass_damping * dt)), BRC_BUF(s->mass), BRC_BUF(s->velocity),
-                      BRC_BUF(s->lost_damping));
+    return BRC_RUN(s->pass.damp_mass, n, {"factor", BRC_STATE(exp(-stage->mass_damping * dt))},
+                   {"lost", BRC_BUF(s->lost_damping)});
 }
 
 static brc_status verlet_step(brc_simulation *s, const brc_stage *stage, double dt, double kick)
@@ -88,18 +87,16 @@ static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double
 {
     const int32_t n = s->layout->n_rows;
     BRC_TRY(brc_turns_begin_step(s, s->time, (double)(s->step + 1) * dt));
-    BRC_TRY(BRC_LAUNCH(s->kernel.advance_tchamwa, n, BRC_INT(n), BRC_STATE(dt), BRC_STATE(stage->phi), BRC_BUF(s->mass),
-                       BRC_BUF(s->force), BRC_BUF(s->velocity), BRC_BUF(s->displacement), BRC_BUF(s->moved),
-                       BRC_BUF(s->lost_numerical)));
+    BRC_TRY(BRC_RUN(s->pass.advance_tchamwa, n, {"dt", BRC_STATE(dt)}, {"phi", BRC_STATE(stage->phi)},
+                    {"lost", BRC_BUF(s->lost_numerical)}));
     if (s->strikers) BRC_TRY(brc_strikers_advance(s, dt, dt, (stage->phi - 1) * dt, true));
     BRC_TRY(brc_contact_turn(s, dt, dt, (stage->phi - 1) * dt * dt));
     if (brc_turns(s)) /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
-        BRC_TRY(BRC_LAUNCH(s->kernel.advance_rotation, n, BRC_INT(n), BRC_STATE(dt), BRC_STATE(dt),
-                           BRC_STATE((stage->phi - 1) * dt * dt), BRC_BUF(s->inertia), BRC_BUF(s->torque), BRC_BUF(s->spin),
-                           BRC_BUF(s->orientation)));
+        BRC_TRY(BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(dt)}, {"drift", BRC_STATE(dt)},
+                        {"extra", BRC_STATE((stage->phi - 1) * dt * dt)}));
     if (stage->mass_damping > 0) BRC_TRY(drag(s, stage, dt));
     BRC_TRY(close_step(s, dt));
-    BRC_TRY(BRC_LAUNCH(s->kernel.numerical_close, n, BRC_INT(n), BRC_BUF(s->force), BRC_BUF(s->moved), BRC_BUF(s->lost_numerical)));
+    BRC_TRY(BRC_RUN(s->pass.numerical_close, n, {"lost", BRC_BUF(s->lost_numerical)}));
     return break_bonds(s, 0); /* velocities are at whole steps already */
 }
 

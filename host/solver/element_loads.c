@@ -174,9 +174,7 @@ brc_status brc_pushes_apply(brc_simulation *s, const brc_force_request *r)
     for (int32_t i = 0; i < s->loads.n_pushes; ++i) {
         brc_push_load *p = s->loads.pushes + i;
         p->factor = brc_load_factor(brc_current_stage(s)->loads + p->load, r->t, is_static(s));
-        BRC_TRY(BRC_LAUNCH(s->kernel.push_elements, p->n, BRC_INT(p->n), BRC_STATE(p->factor), BRC_STATE(p->last_factor), BRC_INT(r->book),
-                           BRC_BUF(p->element), BRC_BUF(p->total), BRC_BUF(r->displacement), BRC_BUF(r->force), BRC_BUF(p->reach),
-                           BRC_BUF(p->work)));
+        BRC_TRY(brc_pass_run_on(s->pass.push_elements, p->n, r, p, NULL));
         if (r->book != BRC_BOOK_NOTHING) p->last_factor = p->factor;
     }
     return BRC_OK;
@@ -188,9 +186,8 @@ brc_status brc_turns_book(brc_simulation *s, const brc_force_request *r)
         brc_turn_load *m = s->loads.turns + i;
         const brc_load *load = brc_current_stage(s)->loads + m->load;
         const double factor = brc_load_factor(load, r->t, is_static(s)), rate = is_static(s) ? 0 : brc_load_rate(load, r->t);
-        BRC_TRY(BRC_LAUNCH(s->kernel.turn_book, m->n, BRC_INT(m->n), BRC_STATE(factor - m->last_factor), BRC_STATE(rate),
-                           BRC_STATE(m->last_rate), BRC_INT(r->book), BRC_BUF(m->element), BRC_BUF(m->component), BRC_BUF(m->direction),
-                           BRC_BUF(s->inertia), BRC_BUF(r->torque), BRC_BUF(m->reaction), BRC_BUF(m->last_reaction), BRC_BUF(m->work)));
+        BRC_TRY(BRC_RUN_ON(s->pass.turn_book, m->n, r, m, {"step", BRC_STATE(factor - m->last_factor)},
+                           {"rate", BRC_STATE(rate)}));
         if (r->book == BRC_BOOK_NOTHING) continue;
         m->last_factor = factor;
         m->last_rate = rate;
@@ -200,8 +197,8 @@ brc_status brc_turns_book(brc_simulation *s, const brc_force_request *r)
 
 static brc_status turn(brc_simulation *s, const brc_turn_load *m, double angle, bool finite, double rate)
 {
-    return BRC_LAUNCH(s->kernel.impose_turn, m->n, BRC_INT(m->n), BRC_STATE(angle), BRC_INT(finite ? 1 : 0), BRC_STATE(rate), BRC_BUF(m->element),
-                      BRC_BUF(m->component), BRC_BUF(m->direction), BRC_BUF(s->spin), BRC_BUF(s->orientation));
+    return BRC_RUN_ON(s->pass.impose_turn, m->n, NULL, m, {"angle", BRC_STATE(angle)},
+                      {"finite", BRC_INT(finite ? 1 : 0)}, {"rate", BRC_STATE(rate)});
 }
 
 brc_status brc_turns_prescribe(brc_simulation *s, double t)

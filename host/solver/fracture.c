@@ -19,8 +19,10 @@ const char *brc_break_mode_name(int32_t mode)
     return mode >= BRC_BREAK_TENSION && mode <= BRC_BREAK_DETACHED ? name[mode] : name[0];
 }
 
-static brc_criterion_kind criterion(const brc_simulation *s) { return brc_criterion_of(&s->scene->fracture, s->scene->model.kind); }
-static int is_drucker_prager(const brc_simulation *s) { return criterion(s) == BRC_CRITERION_DRUCKER_PRAGER; }
+static brc_criterion_kind criterion(const brc_simulation *s)
+{
+    return brc_criterion_of(&s->scene->fracture, s->scene->model.kind);
+}
 
 /* ---- limits ---- */
 
@@ -195,19 +197,39 @@ static const brc_field_row criterion_rows[] = {
 };
 BRC_FIELD_TABLE(brc_criterion_fields, "criteria of elements", BRC_LIFE_RUN, breaks_by_element, criterion_rows);
 
-static brc_status find_kernels(brc_simulation *s)
+brc_scope brc_scope_of_breaks(const brc_simulation *s, const brc_scope *outer)
+{
+    return (brc_scope){.owner = "broken bonds", .base = s->fracture, .tables = {&brc_break_fields}, .outer = outer};
+}
+
+brc_scope brc_scope_of_criterion(const brc_simulation *s, const brc_scope *outer)
+{
+    static const brc_value_row values[] = {
+        {"inv_tension", BRC_VALUE_REAL, AT(scale[0])}, {"inv_compression", BRC_VALUE_REAL, AT(scale[1])},
+        {"inv_shear", BRC_VALUE_REAL, AT(scale[2])},   {"slope", BRC_VALUE_REAL, AT(slope)},
+        {"friction", BRC_VALUE_REAL, AT(friction)},    {"drucker_prager", BRC_VALUE_BOOL, AT(drucker_prager)},
+        {"weighted", BRC_VALUE_BOOL, AT(weighted)},    {"branch", BRC_VALUE_BUFFER, AT(branch)}};
+    return (brc_scope){.owner = "criterion",
+                       .base = s->fracture,
+                       .tables = {&brc_criterion_fields},
+                       BRC_VALUES(values),
+                       .outer = outer};
+}
+
+static brc_status make_passes(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-        bool wanted;
-    } wanted[] = {{&f->force, "fracture_force", brc_is_beams(s)}, {&f->stress_pass, "fracture_stress", true},
-                  {&f->stress_second, "fracture_stress_second", true}, {&f->check, "fracture_check", true}, {&f->choose, "fracture_choose", true},
-                  {&f->ratio, "fracture_ratio", true}, {&f->break_pass, "fracture_break", brc_is_beams(s)}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
-        if (wanted[k].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
-    return BRC_OK;
+    const brc_scope run = brc_scope_of_run(s), request = brc_scope_of_request(&run),
+                    breaks = brc_scope_of_breaks(s, &run), criterion = brc_scope_of_criterion(s, &breaks);
+    const brc_pass_wanted of_state[] = {BRC_PASS(&f->stress_pass, "fracture_stress", "level"),
+                                        BRC_PASS(&f->stress_second, "fracture_stress_second", NULL),
+                                        BRC_PASS(&f->check, "fracture_check", "level step"),
+                                        BRC_PASS(&f->choose, "fracture_choose", "step"),
+                                        BRC_PASS(&f->ratio, "fracture_ratio", "ratio"),
+                                        {&f->break_pass, "fracture_break", "level step half_kick", !brc_is_beams(s)}};
+    BRC_TRY(BRC_PASSES_MAKE(s, &criterion, of_state));
+    const brc_scope evaluation = brc_scope_of_criterion(s, &request);
+    return BRC_PASSES(s, &evaluation, {&f->force, "fracture_force", NULL, !brc_is_beams(s)});
 }
 
 /* Elements within two shells of one: no more than degrees allow. */
@@ -233,7 +255,8 @@ brc_status brc_fracture_create_elements(brc_simulation *s, brc_buffer *branch)
                         "fracture: some element may have %lld others within two shells, level 2 counts up to %d; use level 1%s",
                         (long long)most_members(s->domain), MOST_MEMBERS, brc_is_beams(s) ? " or a lower coordination number" : "");
     f->branch = branch;
-    BRC_TRY(find_kernels(s));
+    f->drucker_prager = criterion(s) == BRC_CRITERION_DRUCKER_PRAGER;
+    BRC_TRY(make_passes(s));
     BRC_TRY(find_limits(s));
     BRC_TRY(brc_fields_create(s->device, &brc_criterion_fields, &s->wants, f));
     BRC_TRY(brc_fracture_bound(s));
@@ -288,59 +311,38 @@ void brc_fracture_free(brc_simulation *s)
 
 brc_status brc_fracture_force(brc_simulation *s, const brc_force_request *r)
 {
-    const brc_beam *b = brc_beam_of_element(s, 0);
     const brc_breaking *f = s->fracture;
-    BRC_TRY(BRC_LAUNCH(f->force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
-                      BRC_BUF(s->ratio), BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend),
-                      BRC_COEFF(b->twist), BRC_BUF(s->beam_of), BRC_COEFF(f->scale[0]), BRC_COEFF(f->scale[1]), BRC_COEFF(f->scale[2]),
-                      BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(f->record),
-                      BRC_BUF(f->reach)));
-    BRC_TRY(brc_beam_softening_force(s, r, is_drucker_prager(s)));
-    return brc_beam_closure_force(s, r, is_drucker_prager(s));
+    BRC_TRY(brc_pass_run_on(f->force, s->n_groups, r, NULL, NULL));
+    BRC_TRY(brc_beam_softening_force(s, r));
+    return brc_beam_closure_force(s, r);
 }
 
 static brc_status find_stress(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
     const int32_t n = s->layout->n_rows, level = s->scene->fracture.level;
-    if (level == 2)
-        return BRC_LAUNCH(f->stress_second, n, BRC_INT(n), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->record), BRC_BUF(f->stress));
-    return BRC_LAUNCH(f->stress_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(level), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                      BRC_BUF(f->record), BRC_BUF(f->stress));
+    if (level == 2) return brc_pass_run(f->stress_second, n);
+    return BRC_RUN(f->stress_pass, s->n_groups, {"level", BRC_INT(level)});
 }
 
 brc_status brc_fracture_choose(brc_simulation *s, int32_t moment)
 {
     brc_breaking *f = s->fracture;
     const int32_t n = s->layout->n_rows, level = s->scene->fracture.level;
-    if (level < 2)
-        return BRC_LAUNCH(f->check, s->n_groups, BRC_INT(s->n_groups), BRC_INT(level), BRC_INT(moment), BRC_INT(is_drucker_prager(s)),
-                          BRC_COEFF(f->slope), BRC_COEFF(f->friction), BRC_INT(f->weighted ? 1 : 0), BRC_BUF(s->row_start),
-                          BRC_BUF(s->neighbour), BRC_BUF(f->branch), BRC_BUF(s->displacement), BRC_BUF(f->limits), BRC_BUF(f->factor),
-                          BRC_BUF(f->weakest), BRC_BUF(f->record), BRC_BUF(f->reach), BRC_BUF(f->ease), BRC_BUF(f->weight),
-                          BRC_BUF(f->choice), BRC_BUF(f->measure), BRC_BUF(f->mark));
+    if (level < 2) return BRC_RUN(f->check, s->n_groups, {"level", BRC_INT(level)}, {"step", BRC_INT(moment)});
     BRC_TRY(find_stress(s));
-    return BRC_LAUNCH(f->choose, n, BRC_INT(n), BRC_INT(moment), BRC_INT(is_drucker_prager(s)), BRC_COEFF(f->slope), BRC_COEFF(f->friction),
-                      BRC_INT(f->weighted ? 1 : 0), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(f->branch),
-                      BRC_BUF(s->displacement), BRC_BUF(f->limits), BRC_BUF(f->factor), BRC_BUF(f->weakest), BRC_BUF(f->stress),
-                      BRC_BUF(f->choice), BRC_BUF(f->measure), BRC_BUF(f->mark));
+    return BRC_RUN(f->choose, n, {"step", BRC_INT(moment)});
 }
 
 brc_status brc_fracture_step(brc_simulation *s, double half_kick)
 {
     brc_breaking *f = s->fracture;
-    const brc_beam *b = brc_beam_of_element(s, 0);
     const int32_t moment = (int32_t)brc_fracture_moment(s);
     if (f->cells) return brc_cell_breaks_step(s, half_kick, 1);
     BRC_TRY(brc_fracture_choose(s, moment));
     BRC_TRY(brc_beam_softening_begin(s, moment));
-    BRC_TRY(BRC_LAUNCH(f->break_pass, s->n_groups, BRC_INT(s->n_groups), BRC_INT(s->scene->fracture.level), BRC_INT(moment),
-                      BRC_STATE(half_kick), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset), BRC_BUF(s->ratio),
-                      BRC_BUF(f->mark), BRC_BUF(f->record), BRC_BUF(f->weight), BRC_BUF(f->choice), BRC_BUF(f->measure),
-                      BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_COEFF(b->axial), BRC_COEFF(b->bend), BRC_COEFF(b->twist),
-                      BRC_BUF(s->beam_of), BRC_BUF(s->mass), BRC_BUF(s->inertia), BRC_BUF(s->force), BRC_BUF(s->torque),
-                      BRC_BUF(s->velocity), BRC_BUF(s->spin), BRC_BUF(f->break_step), BRC_BUF(f->break_mode), BRC_BUF(f->break_stress),
-                      BRC_BUF(f->break_energy), BRC_BUF(f->lost), BRC_BUF(f->broken)));
+    BRC_TRY(BRC_RUN(f->break_pass, s->n_groups, {"level", BRC_INT(s->scene->fracture.level)}, {"step", BRC_INT(moment)},
+                    {"half_kick", BRC_STATE(half_kick)}));
     BRC_TRY(brc_beam_softening_end(s, moment));
     BRC_TRY(brc_beam_closure_begin(s, moment, half_kick));
     BRC_TRY(brc_loads_zero_turned(s, s->torque)); /* prescribed rotations balance theirs */
@@ -366,10 +368,7 @@ brc_status brc_fracture_ratio(brc_simulation *s, double *out)
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, n, "failure ratios"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
     BRC_TRY_OR(cleanup, find_stress(s));
-    BRC_TRY_OR(cleanup, BRC_LAUNCH(s->fracture->ratio, n, BRC_INT(n), BRC_INT(is_drucker_prager(s)), BRC_COEFF(s->fracture->slope),
-                                   BRC_COEFF(s->fracture->friction), BRC_INT(s->fracture->weighted ? 1 : 0), BRC_BUF(s->row_start),
-                                   BRC_BUF(s->neighbour), BRC_BUF(s->fracture->branch), BRC_BUF(s->displacement), BRC_BUF(s->fracture->limits),
-                                   BRC_BUF(s->fracture->factor), BRC_BUF(s->fracture->stress), BRC_BUF(ratio)));
+    BRC_TRY_OR(cleanup, BRC_RUN(s->fracture->ratio, n, {"ratio", BRC_BUF(ratio)}));
     BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
     for (int64_t e = 0; e < s->domain->n_elements; ++e) *out = fmax(*out, value[e]);
 cleanup:

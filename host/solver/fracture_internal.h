@@ -15,7 +15,7 @@ typedef struct brc_break_span {
 
 /* Everything that exists only in scenes with fracture. */
 struct brc_breaking {
-    brc_kernel *force, *stress_pass, *stress_second, *check, *choose, *ratio, *break_pass;
+    brc_pass *force, *stress_pass, *stress_second, *check, *choose, *ratio, *break_pass;
     brc_buffer *record, *stress, *limits, *choice, *measure;             /* kernels/fracture.cl */
     brc_buffer *break_step, *break_mode, *break_stress, *break_energy;   /* [n_slots][C] */
     brc_buffer *lost, *broken;                                           /* [n_rows] */
@@ -27,6 +27,7 @@ struct brc_breaking {
     double scale[3];   /* 1 / smallest limit of tension, compression, shear; 0: none [1/Pa] */
     double *limit;     /* [n_elements][3] host */
     double slope, friction;
+    bool drucker_prager;
     struct brc_beam_softening *beam_softening; /* beams that open against cohesion (beam_softening.c); NULL: none does */
     struct brc_beam_closure *beam_closure;     /* broken beams that bear (beam_closure.c); NULL: none does */
     struct brc_cell_breaks *cells; /* models of cells (cell_breaks.c), which use the arrays of entries and `lost`, `broken` */
@@ -40,6 +41,9 @@ struct brc_breaking {
 };
 
 extern const brc_field_table brc_break_fields, brc_criterion_fields;
+/* What bonds that broke keep; what criteria of elements have, their numbers too. */
+brc_scope brc_scope_of_breaks(const brc_simulation *s, const brc_scope *outer);
+brc_scope brc_scope_of_criterion(const brc_simulation *s, const brc_scope *outer);
 /* Arrays, limits and kernels; refuses models and materials that cannot break. */
 brc_status brc_fracture_create(brc_simulation *s);
 void brc_fracture_free(brc_simulation *s);

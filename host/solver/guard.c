@@ -17,6 +17,7 @@ static const double endless = 1e18;
 static const double runaway = 100;
 
 struct brc_guard_state {
+    brc_pass *look;
     brc_buffer *first, *when; /* [n_blocks] */
     int32_t n_blocks;
     int32_t *found; /* [2][n_blocks] host */
@@ -75,6 +76,13 @@ brc_status brc_guard_begin_stage(brc_simulation *s)
         BRC_TRY(BRC_ALLOCATE(s->context, &g->found, 2 * (int64_t)g->n_blocks, "guard"));
         memset(g->found, -1, 2 * (size_t)g->n_blocks * sizeof *g->found);
         BRC_TRY(brc_fields_create(s->device, &brc_guard_fields, &s->wants, g));
+        static const brc_value_row values[] = {{"most_v", BRC_VALUE_REAL, AT(most_v)}};
+        const brc_scope run = brc_scope_of_run(s), guard = {.owner = "guard",
+                                                            .base = g,
+                                                            .tables = {&brc_guard_fields},
+                                                            BRC_VALUES(values),
+                                                            .outer = &run};
+        BRC_TRY(BRC_PASSES(s, &guard, BRC_PASS(&g->look, "guard_look", "n look most_u")));
         BRC_TRY(brc_upload_int(g->first, g->found, g->n_blocks));
         BRC_TRY(brc_upload_int(g->when, g->found, g->n_blocks));
         const int64_t asked = s->scene->guard.every;
@@ -92,9 +100,8 @@ static brc_status look_at_elements(brc_simulation *s)
 {
     struct brc_guard_state *g = s->guard;
     const int64_t look = (s->step + g->look_every - 1) / g->look_every;
-    return BRC_LAUNCH(s->kernel.guard_look, g->n_blocks, BRC_INT(g->n_blocks), BRC_INT(s->layout->n_rows), BRC_INT(look < INT32_MAX ? look : INT32_MAX),
-                      BRC_STATE(endless), BRC_STATE(g->most_v), BRC_INT(brc_turns(s) ? 1 : 0), BRC_BUF(s->displacement), BRC_BUF(s->velocity),
-                      BRC_BUF(s->spin), BRC_BUF(g->first), BRC_BUF(g->when));
+    return BRC_RUN(g->look, g->n_blocks, {"n", BRC_INT(s->layout->n_rows)},
+                   {"look", BRC_INT(look < INT32_MAX ? look : INT32_MAX)}, {"most_u", BRC_STATE(endless)});
 }
 
 brc_status brc_guard_step(brc_simulation *s)

@@ -463,6 +463,7 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
         status = create_still(s, stage, taken, out->imposed + out->n_imposed, &any);
         out->n_imposed += any;
     }
+    out->on_faces = out->held.n_faces > 0 || out->n_tractions > 0;
 cleanup:
     brc_memory_free(taken);
     brc_memory_free(turned);
@@ -495,17 +496,15 @@ brc_status brc_loads_prescribe(brc_simulation *s, double t)
     const bool is_static = stage->solver == BRC_SOLVER_STATIC;
     for (int32_t i = 0; i < s->loads.held.n_loads; ++i) {
         brc_held_load *e = s->loads.held.loads + i;
-        BRC_TRY(BRC_LAUNCH(s->kernel.held_prescribe, e->n, BRC_INT(e->n),
-                           BRC_STATE(brc_load_factor(stage->loads + e->load, t, is_static)), BRC_BUF(e->face),
-                           BRC_BUF(e->component), BRC_BUF(e->base), BRC_BUF(e->direction), BRC_BUF(s->loads.held.value)));
+        BRC_TRY(BRC_RUN_ON(s->pass.held_prescribe, e->n, NULL, e,
+                           {"factor", BRC_STATE(brc_load_factor(stage->loads + e->load, t, is_static))}));
     }
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
         const brc_load *load = brc_imposed_of(stage, m);
-        BRC_TRY(BRC_LAUNCH(s->kernel.impose_motion, m->n, BRC_INT(m->n), BRC_STATE(brc_load_factor(load, t, is_static)),
-                           BRC_STATE(is_static ? 0 : brc_load_rate(load, t)), BRC_INT(1), BRC_BUF(m->element),
-                           BRC_BUF(m->component), BRC_BUF(m->base), BRC_BUF(m->direction), BRC_BUF(s->velocity),
-                           BRC_BUF(s->displacement)));
+        BRC_TRY(
+            BRC_RUN_ON(s->pass.impose_motion, m->n, NULL, m, {"factor", BRC_STATE(brc_load_factor(load, t, is_static))},
+                       {"rate", BRC_STATE(is_static ? 0 : brc_load_rate(load, t))}, {"set_displacement", BRC_INT(1)}));
     }
     return brc_turns_prescribe(s, t);
 }
@@ -515,10 +514,9 @@ brc_status brc_loads_impose_velocity(brc_simulation *s, double t)
     const brc_stage *stage = brc_current_stage(s);
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
-        BRC_TRY(BRC_LAUNCH(s->kernel.impose_motion, m->n, BRC_INT(m->n), BRC_STATE(0),
-                           BRC_STATE(brc_load_rate(brc_imposed_of(stage, m), t)), BRC_INT(0), BRC_BUF(m->element),
-                           BRC_BUF(m->component), BRC_BUF(m->base), BRC_BUF(m->direction), BRC_BUF(s->velocity),
-                           BRC_BUF(s->displacement)));
+        BRC_TRY(BRC_RUN_ON(s->pass.impose_motion, m->n, NULL, m, {"factor", BRC_STATE(0)},
+                           {"rate", BRC_STATE(brc_load_rate(brc_imposed_of(stage, m), t))},
+                           {"set_displacement", BRC_INT(0)}));
     }
     return brc_turns_prescribe(s, t);
 }
@@ -527,8 +525,7 @@ brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector)
 {
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
-        BRC_TRY(BRC_LAUNCH(s->kernel.impose_zero, m->n, BRC_INT(m->n), BRC_BUF(m->element), BRC_BUF(m->component),
-                           BRC_BUF(vector)));
+        BRC_TRY(BRC_RUN_ON(s->pass.zero_imposed, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
     }
     return BRC_OK;
 }
@@ -537,7 +534,7 @@ brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector)
 {
     for (int32_t i = 0; i < s->loads.n_turns; ++i) {
         brc_turn_load *m = s->loads.turns + i;
-        BRC_TRY(BRC_LAUNCH(s->kernel.impose_zero, m->n, BRC_INT(m->n), BRC_BUF(m->element), BRC_BUF(m->component), BRC_BUF(vector)));
+        BRC_TRY(BRC_RUN_ON(s->pass.zero_turned, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
     }
     return BRC_OK;
 }

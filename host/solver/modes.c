@@ -106,11 +106,10 @@ static void release(mode_space *t)
 static brc_status multiply(mode_space *t, const double *in, double *out)
 {
     brc_simulation *s = t->s;
-    const int32_t rows = (int32_t)(t->n / 3);
     BRC_TRY(brc_upload_state(s, t->in, in, t->n));
     if (brc_is_published(s)) {
         BRC_TRY(brc_buffer_fill_zero(t->torque));
-        BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, rows, BRC_INT(rows), BRC_BUF(t->torque), BRC_BUF(t->orientation)));
+        BRC_TRY(brc_vector_small_rotation(s, t->torque, t->orientation));
     }
     BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = t->in,
                                                        .force = t->out,

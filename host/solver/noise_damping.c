@@ -20,11 +20,31 @@ static const brc_field_row rows[] = {
 };
 BRC_FIELD_TABLE(brc_noise_fields, "noise damping", BRC_LIFE_RUN, noise, rows);
 
+/* The stabilisation's part of the linear law, of velocities. */
+static brc_status make_passes(brc_simulation *s, struct brc_noise *d)
+{
+    static const brc_value_row of_velocities[] = {
+        {"displacement", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, velocity)},
+        {"lost", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, lost_damping)}};
+    static const brc_value_row values[] = {
+        {"ell_one", BRC_VALUE_REAL, AT(nothing)},  {"beta", BRC_VALUE_REAL, AT(nothing)},
+        {"face_loads", BRC_VALUE_BOOL, AT(never)}, {"finite", BRC_VALUE_BOOL, AT(never)},
+        {"factor", BRC_VALUE_REAL, AT(factor)},    {"drag", BRC_VALUE_BUFFER, AT(force)}};
+    const brc_scope run = brc_scope_of_run(s),
+                    velocities = {.owner = "velocities", .base = s, BRC_VALUES(of_velocities), .outer = &run};
+    const brc_scope noise = {
+        .owner = "noise damping", .base = d, .tables = {&brc_noise_fields}, BRC_VALUES(values), .outer = &velocities};
+    const brc_pass_wanted wanted[] = {
+        BRC_PASS(&d->gradient_pass, "dlsm_gradient", NULL), BRC_PASS(&d->flux_pass, "dlsm_flux_pass", NULL),
+        BRC_PASS(&d->force_pass, "dlsm_force", NULL), BRC_PASS(&d->damp, "damp_noise", NULL)};
+    return BRC_PASSES_MAKE(s, &noise, wanted);
+}
+
 brc_status brc_noise_create(brc_simulation *s)
 {
     if (!s->wants.noise) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &s->noise, 1, "noise damping"));
-    BRC_TRY(brc_kernel_find(s->device, "damp_noise", &s->noise->damp));
+    BRC_TRY(make_passes(s, s->noise));
     return brc_fields_create(s->device, &brc_noise_fields, &s->wants, s->noise);
 }
 
@@ -56,18 +76,10 @@ bool brc_noise_is_due(const brc_simulation *s)
 brc_status brc_noise_damp(brc_simulation *s)
 {
     struct brc_noise *d = s->noise;
-    const brc_elastic *m = s->elastic + s->material_of_element[0];
-    const double one_plus_tau = 1 + s->scene->model.tau;
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_LAUNCH(s->kernel.gradient, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area),
-                       BRC_BUF(s->velocity), BRC_BUF(s->inv_shape), BRC_BUF(d->gradient)));
-    BRC_TRY(BRC_LAUNCH(s->kernel.flux, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->offset),
-                       BRC_BUF(s->ratio), BRC_BUF(s->velocity), BRC_BUF(d->gradient), BRC_BUF(d->no_stress), BRC_BUF(s->inv_shape), BRC_BUF(s->inv_volume),
-                       BRC_BUF(s->boundary), BRC_BUF(s->held_moment), BRC_INT(0), BRC_COEFF(m->k), BRC_COEFF(0), BRC_COEFF(0), BRC_COEFF(one_plus_tau),
-                       BRC_BUF(s->material), BRC_BUF(s->modulus), BRC_BUF(s->ell_of), BRC_INT(0), BRC_BUF(d->flux), BRC_BUF(d->bond_part)));
-    BRC_TRY(BRC_LAUNCH(s->kernel.force, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->ratio),
-                       BRC_BUF(s->velocity), BRC_BUF(d->flux), BRC_BUF(d->bond_part), BRC_COEFF(m->k), BRC_COEFF(one_plus_tau), BRC_BUF(s->modulus),
-                       BRC_BUF(d->force)));
+    BRC_TRY(brc_pass_run(d->gradient_pass, s->n_groups));
+    BRC_TRY(brc_pass_run(d->flux_pass, s->n_groups));
+    BRC_TRY(brc_pass_run(d->force_pass, s->n_groups));
     BRC_TRY(brc_loads_zero_imposed(s, d->force));
-    return BRC_LAUNCH(d->damp, n, BRC_INT(n), BRC_STATE(d->factor), BRC_BUF(s->mass), BRC_BUF(d->force), BRC_BUF(s->velocity), BRC_BUF(s->lost_damping));
+    return brc_pass_run(d->damp, n);
 }

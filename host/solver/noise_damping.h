@@ -10,10 +10,12 @@
 
 /* One simulation has at most one. */
 struct brc_noise {
-    brc_kernel *damp;
+    brc_pass *gradient_pass, *flux_pass, *force_pass, *damp;
     brc_buffer *gradient, *no_stress, *flux, *bond_part, *force; /* of velocities: [n][9] 1/s, zeros, [n][9], [n][9], [n][3] */
     int64_t every; /* 0: not in this stage */
     double factor; /* [s^2]: v -= factor / m S v */
+    double nothing; /* 0: no compaction */
+    bool never;     /* false: no loads on faces, and the linear law */
 };
 
 /* Arrays, where a stage asks for it. BRC_BAD_INPUT: a model other than dlsm, or softening faces, whose opening is no noise. */

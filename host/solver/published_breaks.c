@@ -32,15 +32,29 @@ static double support_of(const brc_simulation *s, int64_t e, double projector[6]
     return fmax(support_share * value[0], span_least * value[2]);
 }
 
+static brc_status make_passes(brc_simulation *s, brc_cell_breaks *c)
+{
+    const brc_scope run = brc_scope_of_run(s);
+    brc_cell_scopes scopes;
+    const brc_scope *cells = brc_cell_scopes_make(s, &run, &scopes), request = brc_scope_of_request(cells);
+    const bool by_element = c->by_element;
+    const brc_pass_wanted of_request[] = {
+        BRC_PASS(&c->breaking_strain, "published_breaking_strain", NULL),
+        BRC_PASS(&c->breaking_strain_listed, "published_breaking_strain_listed", BRC_LISTED),
+        {&c->breaking_force, "published_breaking_force", NULL, by_element},
+        {&c->breaking_force_listed, "published_breaking_force_listed", BRC_LISTED, by_element}};
+    BRC_TRY(BRC_PASSES_MAKE(s, &request, of_request));
+    return BRC_PASSES(s, cells, BRC_PASS(&c->rebuild, "published_rebuild", NULL),
+                      {&c->check, "published_check", "share", by_element});
+}
+
 brc_status brc_published_breaks_create(brc_simulation *s)
 {
     brc_cell_breaks *c = s->fracture->cells;
     const brc_layout *layout = s->layout;
     double *support = NULL, *spanned = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY(brc_kernel_find(s->device, "published_rebuild", &c->rebuild));
-    BRC_TRY(brc_kernel_find(s->device, "published_breaking_strain", &c->breaking_strain));
-    BRC_TRY(brc_kernel_find(s->device, "published_breaking_strain_listed", &c->breaking_strain_listed));
+    BRC_TRY(make_passes(s, c));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &support, layout->n_rows, "supports"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &spanned, 6 * (int64_t)layout->n_rows, "supports"));
 #pragma omp parallel for schedule(static)
@@ -51,10 +65,6 @@ brc_status brc_published_breaks_create(brc_simulation *s)
     }
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, c->spanned, spanned, 6 * (int64_t)layout->n_rows));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, c->support, support, layout->n_rows));
-    if (c->by_element) goto cleanup;
-    BRC_TRY_OR(cleanup, brc_kernel_find(s->device, "published_breaking_force", &c->breaking_force));
-    BRC_TRY_OR(cleanup, brc_kernel_find(s->device, "published_breaking_force_listed", &c->breaking_force_listed));
-    BRC_TRY_OR(cleanup, brc_kernel_find(s->device, "published_check", &c->check));
 cleanup:
     brc_memory_free(support);
     brc_memory_free(spanned);
@@ -64,31 +74,21 @@ cleanup:
 brc_status brc_published_breaks_strains(brc_simulation *s, const brc_force_request *r)
 {
     const brc_cell_breaks *c = s->fracture->cells;
-    return BRC_PASS(s, c->breaking_strain, c->breaking_strain_listed, r->rings ? &r->rings->around : NULL, 0, BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                      BRC_BUF(s->offset), BRC_BUF(s->area), BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(r->displacement), BRC_BUF(r->orientation),
-                      BRC_BUF(s->inv_shape), BRC_BUF(c->spanned), BRC_INT(r->finite ? 1 : 0), BRC_BUF(s->gradient));
+    return brc_pass_over(s, c->breaking_strain, c->breaking_strain_listed, r->rings ? &r->rings->around : NULL, 0, r,
+                         NULL);
 }
 
 brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request *r)
 {
     const brc_cell_breaks *c = s->fracture->cells;
-    const brc_elastic *m = s->elastic + s->material_of_element[0];
     const brc_ring_list *list = r->rings && !r->rings->whole_force ? &r->rings->around : NULL;
-    return BRC_PASS(s, c->breaking_force, c->breaking_force_listed, list, 2, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->offset),
-                      BRC_BUF(s->area), BRC_BUF(r->displacement), BRC_BUF(r->orientation), BRC_BUF(s->gradient), BRC_COEFF(m->lambda),
-                      BRC_COEFF(m->mu), BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_COEFF(s->scene->model.couple_modulus), BRC_BUF(s->lame_of),
-                      BRC_BUF(c->limit), BRC_BUF(r->force), BRC_BUF(r->torque), BRC_BUF(c->reach));
+    return brc_pass_over(s, c->breaking_force, c->breaking_force_listed, list, 2, r, NULL);
 }
 
 brc_status brc_published_breaks_mark(brc_simulation *s, double share, double *n)
 {
     const brc_cell_breaks *c = s->fracture->cells;
-    const brc_elastic *m = s->elastic + s->material_of_element[0];
-    BRC_TRY(BRC_LAUNCH(c->check, s->n_groups, BRC_INT(s->n_groups), BRC_COEFF(share), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->offset), BRC_BUF(s->area), BRC_BUF(s->displacement), BRC_BUF(s->orientation), BRC_BUF(s->gradient),
-                       BRC_COEFF(m->lambda), BRC_COEFF(m->mu), BRC_COEFF(m->young), BRC_COEFF(s->scene->model.rotation_stiffness), BRC_COEFF(s->scene->model.couple_modulus),
-                       BRC_BUF(s->lame_of), BRC_BUF(c->limit), BRC_BUF(c->reach), BRC_BUF(c->mark), BRC_BUF(c->measure), BRC_BUF(c->rings->touched),
-                       BRC_BUF(c->found)));
+    BRC_TRY(BRC_RUN(c->check, s->n_groups, {"share", BRC_COEFF(share)}));
     return brc_ahead_count(s, c->found, s->n_groups, n);
 }
 
@@ -96,9 +96,7 @@ brc_status brc_published_breaks_rebuild(brc_simulation *s)
 {
     const brc_cell_breaks *c = s->fracture->cells;
     const int32_t n = s->layout->n_rows;
-    return BRC_LAUNCH(c->rebuild, n, BRC_INT(n), BRC_INT(s->scene->model.area_weights ? 1 : 0), BRC_BUF(s->row_start), BRC_BUF(s->offset),
-                      BRC_BUF(s->area), BRC_BUF(c->alive), BRC_BUF(c->support), BRC_BUF(c->changed), BRC_BUF(s->inv_shape),
-                      BRC_BUF(c->spanned), BRC_BUF(c->mark));
+    return brc_pass_run(c->rebuild, n);
 }
 
 brc_status brc_published_breaks_ratio(brc_simulation *s, double *out)

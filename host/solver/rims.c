@@ -13,29 +13,47 @@ bool brc_rims_gain(const brc_simulation *s, const brc_rings *rings)
     return rings->placed && !brc_pass_is_whole(s, &rings->around, 2) && 2 * 9 * (int64_t)brc_rims_records(rings) <= s->layout->n_slots * s->layout->slice;
 }
 
-brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r, bool face_loads)
+brc_scope brc_scope_of_gains(const brc_simulation *s, const brc_scope *outer)
 {
-    const brc_elastic *m = s->elastic + s->material_of_element[0];
-    const brc_cell_breaks *c = s->fracture->cells;
-    return BRC_PASS(s, NULL, c->rim_stress, &r->rings->around, 1, BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient),
-                    BRC_BUF(s->inv_volume), BRC_BUF(s->boundary), BRC_BUF(s->held_gradient), BRC_INT(face_loads ? 1 : 0), BRC_COEFF(m->lambda), BRC_COEFF(m->mu),
-                    BRC_BUF(s->material), BRC_INT(r->finite ? 1 : 0), BRC_BUF(s->stress), BRC_BUF(s->elastic_energy), BRC_INT(brc_rims_gain(s, r->rings) ? 1 : 0),
-                    BRC_BUF(r->rings->level), BRC_BUF(c->measure));
+    static const brc_value_row values[] = {{"gain", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_cell_breaks, measure)}};
+    return (brc_scope){.owner = "gains of the rim", .base = s->fracture->cells, BRC_VALUES(values), .outer = outer};
 }
 
-brc_status brc_rims_flux(brc_simulation *s, const brc_rings *rings, int n_args, brc_arg *args)
+brc_status brc_rims_make_passes(brc_simulation *s, const brc_scope *cells)
+{
+    brc_cell_breaks *c = s->fracture->cells;
+    if (!brc_is_dlsm(s)) return BRC_OK;
+    const brc_scope gains = brc_scope_of_gains(s, cells), request = brc_scope_of_request(&gains);
+    const brc_pass_wanted of_request[] = {
+        BRC_PASS(&c->rim_stress, "rim_stress", BRC_LISTED " gains"),
+        BRC_PASS(&c->rim_inner_flux, "rim_inner_flux", BRC_LISTED " face_loads fluxes")};
+    BRC_TRY(BRC_PASSES_MAKE(s, &request, of_request));
+    const brc_pass_wanted of_gains[] = {BRC_PASS(&c->rim_flux, "rim_flux", BRC_LISTED " fluxes"),
+                                        BRC_PASS(&c->rim_force, "rim_force", BRC_LISTED " fluxes")};
+    return BRC_PASSES_MAKE(s, &gains, of_gains);
+}
+
+brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r)
 {
     const brc_cell_breaks *c = s->fracture->cells;
-    args[n_args] = BRC_INT(brc_rims_records(rings)), args[n_args + 1] = BRC_BUF(rings->level), args[n_args + 2] = BRC_BUF(c->measure);
-    BRC_TRY(brc_pass_launch(s, NULL, c->rim_inner_flux, &rings->around, 1, n_args + BRC_RIM_ARGS, args));
-    return BRC_PASS(s, NULL, c->rim_flux, &rings->around, 2, BRC_INT(brc_rims_records(rings)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area), BRC_BUF(s->offset),
-                    BRC_BUF(s->inv_shape), BRC_BUF(rings->level), BRC_BUF(c->measure), BRC_BUF(s->flux));
+    return brc_pass_over(s, NULL, c->rim_stress, &r->rings->around, 1, r,
+                         BRC_GIVEN({"gains", BRC_INT(brc_rims_gain(s, r->rings) ? 1 : 0)}));
+}
+
+brc_status brc_rims_flux(brc_simulation *s, const brc_force_request *r, bool moments)
+{
+    const brc_cell_breaks *c = s->fracture->cells;
+    const brc_rings *rings = r->rings;
+    const brc_arg records = BRC_INT(brc_rims_records(rings));
+    BRC_TRY(brc_pass_over(s, NULL, c->rim_inner_flux, &rings->around, 1, r,
+                          BRC_GIVEN({"face_loads", BRC_INT(moments ? 1 : 0)}, {"fluxes", records})));
+    return brc_pass_over(s, NULL, c->rim_flux, &rings->around, 2, NULL, BRC_GIVEN({"fluxes", records}));
 }
 
 brc_status brc_rims_force(brc_simulation *s, const brc_rings *rings)
 {
     const brc_cell_breaks *c = s->fracture->cells;
     if (!brc_rims_gain(s, rings)) return BRC_OK;
-    return BRC_PASS(s, NULL, c->rim_force, &rings->around, 3, BRC_INT(brc_rims_records(rings)), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(s->area),
-                      BRC_BUF(rings->level), BRC_BUF(c->measure), BRC_STATE(rings->half_kick), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(s->velocity), BRC_BUF(rings->force));
+    return brc_pass_over(s, NULL, c->rim_force, &rings->around, 3, NULL,
+                         BRC_GIVEN({"fluxes", BRC_INT(brc_rims_records(rings))}));
 }

@@ -14,11 +14,14 @@ bool brc_rims_gain(const brc_simulation *s, const brc_rings *rings);
 /* Of each of the two gains: those of B follow those of P. */
 int32_t brc_rims_records(const brc_rings *rings);
 
+/* Passes, in the scopes of cells that break (cell_breaks_internal.h). */
+brc_status brc_rims_make_passes(brc_simulation *s, const brc_scope *cells);
+/* What P and B gain stands where the stresses of marked bonds were. */
+brc_scope brc_scope_of_gains(const brc_simulation *s, const brc_scope *outer);
 /* P of rings 0 and 1 with what their elements hold, elastic_energy, and what P gained where the rim wants it. */
-brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r, bool face_loads);
-/* B of the rings 0 to 2 where the rim is done so: 0 and 1 as a whole, by n_args arguments of dlsm_flux_listed behind three free places (BRC_PASS), with BRC_RIM_ARGS more behind. */
-enum { BRC_RIM_ARGS = 3 };
-brc_status brc_rims_flux(brc_simulation *s, const brc_rings *rings, int n_args, brc_arg *args);
+brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r);
+/* B of the rings 0 to 2 where the rim is done so, 0 and 1 as a whole. moments: there are moments of faces (held_moment). */
+brc_status brc_rims_flux(brc_simulation *s, const brc_force_request *r, bool moments);
 /* Forces of the rings 2 and 3: all of theirs, loads on them too, from those of the state, which are as before the breaks and which they replace (brc_rings_replace). Nothing where the rim is not done so. */
 brc_status brc_rims_force(brc_simulation *s, const brc_rings *rings);
 

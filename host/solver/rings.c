@@ -28,16 +28,45 @@ BRC_FIELD_TABLE(brc_ring_list_fields, "rings around breaks", BRC_LIFE_RUN, of_ce
 BRC_FIELD_TABLE(brc_open_list_fields, "rings around open faces", BRC_LIFE_RUN, softening_cells, list_rows);
 BRC_FIELD_TABLE(brc_bonded_list_fields, "cells with bonds", BRC_LIFE_GROWS, of_cells, list_rows);
 
+brc_scope brc_scope_of_rings(const brc_rings *rings, const brc_scope *outer)
+{
+    static const brc_value_row values[] = {{"half_kick", BRC_VALUE_REAL, AT(half_kick)}};
+    return (brc_scope){
+        .owner = "rings", .base = rings, .tables = {&brc_ring_fields}, BRC_VALUES(values), .outer = outer};
+}
+
+static brc_status make_passes(brc_simulation *s, brc_rings *r)
+{
+    const brc_scope run = brc_scope_of_run(s), rings = brc_scope_of_rings(r, &run);
+    const brc_pass_wanted of_rings[] = {
+        BRC_PASS(&r->spread, "ring_spread", "from to origin"),
+        BRC_PASS(&r->seed, "ring_seed", "above number"),
+        BRC_PASS(&r->count_pass, "ring_count", "n which"),
+        BRC_PASS(&r->tops, "ring_tops", "n_blocks"),
+        BRC_PASS(&r->list_pass, "ring_list", "n which next upto_0 upto_1 upto_2 upto_3"),
+        BRC_PASS(&r->forget, "ring_forget", "list"),
+        BRC_PASS(&r->replace, "ring_replace", "list")};
+    BRC_TRY(BRC_PASSES_MAKE(s, &rings, of_rings));
+    /* forces around breaks less those before */
+    static const brc_value_row differences[] = {{"gain", BRC_VALUE_BUFFER, AT(force)},
+                                                {"was", BRC_VALUE_BUFFER, AT(force)}};
+    const brc_scope gains = {.owner = "differences of forces", .base = r, BRC_VALUES(differences), .outer = &run};
+    BRC_TRY(BRC_PASSES(s, &gains, BRC_PASS(&r->gain, "ring_gain", NULL),
+                       BRC_PASS(&r->book, "ring_book", "listed per list lost")));
+    static const brc_value_row turning[] = {{"mass", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, inertia)},
+                                            {"force", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, torque)},
+                                            {"velocity", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, spin)}};
+    static const brc_value_row torques[] = {{"fresh", BRC_VALUE_BUFFER, AT(torque)}};
+    const brc_scope spins = {.owner = "turning", .base = s, BRC_VALUES(turning), .outer = &rings},
+                    turns = {.owner = "torques", .base = r, BRC_VALUES(torques), .outer = &spins};
+    return BRC_PASSES(s, &turns, {&r->replace_turns, "ring_replace", "list", !brc_turns(s)});
+}
+
 brc_status brc_rings_create(brc_simulation *s, brc_rings **out)
 {
     BRC_TRY(BRC_ALLOCATE(s->context, out, 1, "rings around broken bonds"));
     brc_rings *r = *out;
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-    } wanted[] = {{&r->spread, "ring_spread"}, {&r->seed, "ring_seed"}, {&r->count_pass, "ring_count"}, {&r->tops, "ring_tops"},
-                  {&r->list_pass, "ring_list"}, {&r->forget, "ring_forget"}, {&r->replace, "ring_replace"}, {&r->gain, "ring_gain"}, {&r->book, "ring_book"}, {&r->gather, "vector_gather"}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    BRC_TRY(make_passes(s, r));
     BRC_TRY(brc_fields_create(s->device, &brc_ring_fields, &s->wants, r));
     BRC_TRY(BRC_ALLOCATE(s->context, &r->count_read, BRC_RING_KINDS * ((int64_t)blocks_of(s) + 1), "rings around broken bonds"));
     return brc_fields_create(s->device, &brc_ring_list_fields, &s->wants, &r->around);
@@ -58,7 +87,7 @@ void brc_rings_free(brc_rings **rings)
 
 static brc_status spread(brc_simulation *s, brc_rings *r, brc_buffer *origin, int from, int to)
 {
-    return BRC_LAUNCH(r->spread, s->n_groups, BRC_INT(s->n_groups), BRC_INT(from), BRC_INT(to), BRC_BUF(s->row_start), BRC_BUF(s->neighbour), BRC_BUF(origin), BRC_BUF(r->level));
+    return BRC_RUN(r->spread, s->n_groups, {"from", BRC_INT(from)}, {"to", BRC_INT(to)}, {"origin", BRC_BUF(origin)});
 }
 
 enum { FOUND, ALL, TOUCHED, KEPT, PLACED }; /* as in kernels/rings.cl */
@@ -66,12 +95,13 @@ enum { FOUND, ALL, TOUCHED, KEPT, PLACED }; /* as in kernels/rings.cl */
 static brc_status make_list(brc_simulation *s, brc_rings *r, int which, brc_ring_list *out)
 {
     const int32_t n = s->layout->n_rows, n_blocks = blocks_of(s);
-    BRC_TRY(BRC_LAUNCH(r->count_pass, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(which), BRC_BUF(r->touched), BRC_BUF(r->level), BRC_BUF(r->count)));
-    BRC_TRY(BRC_LAUNCH(r->tops, BRC_RING_KINDS, BRC_INT(BRC_RING_KINDS), BRC_INT(n_blocks), BRC_BUF(r->count)));
+    BRC_TRY(BRC_RUN(r->count_pass, n_blocks, {"n", BRC_INT(n)}, {"which", BRC_INT(which)}));
+    BRC_TRY(BRC_RUN(r->tops, BRC_RING_KINDS, {"n_blocks", BRC_INT(n_blocks)}));
     BRC_TRY(brc_buffer_read(r->count, 0, r->count_read, brc_buffer_bytes(r->count)));
     for (int k = 0; k < BRC_RING_KINDS; ++k) out->n[k] = r->count_read[k * (n_blocks + 1) + n_blocks];
-    return BRC_LAUNCH(r->list_pass, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_INT(which), BRC_BUF(r->touched), BRC_BUF(r->level), BRC_BUF(r->count),
-                      BRC_BUF(out->upto[0]), BRC_BUF(out->upto[1]), BRC_BUF(out->upto[2]), BRC_BUF(out->upto[3]));
+    return BRC_RUN(r->list_pass, n_blocks, {"n", BRC_INT(n)}, {"which", BRC_INT(which)}, {"next", BRC_BUF(r->count)},
+                   {"upto_0", BRC_BUF(out->upto[0])}, {"upto_1", BRC_BUF(out->upto[1])},
+                   {"upto_2", BRC_BUF(out->upto[2])}, {"upto_3", BRC_BUF(out->upto[3])});
 }
 
 brc_status brc_rings_find(brc_simulation *s, brc_rings *r)
@@ -96,7 +126,7 @@ brc_status brc_rings_forget(brc_rings *r, const brc_ring_list *list)
 {
     if (!r->placed) return BRC_OK;
     r->placed = false;
-    return BRC_LAUNCH(r->forget, list->n[3], BRC_INT(list->n[3]), BRC_BUF(list->upto[3]), BRC_BUF(r->level));
+    return BRC_RUN(r->forget, list->n[3], {"list", BRC_BUF(list->upto[3])});
 }
 
 brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out) { return make_list(s, r, TOUCHED, out); }
@@ -104,13 +134,13 @@ brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out
 brc_status brc_rings_seed(brc_simulation *s, brc_rings *r, brc_buffer *number)
 {
     const int32_t n = s->layout->n_rows;
-    return BRC_LAUNCH(r->seed, n, BRC_INT(n), BRC_INT(1), BRC_BUF(number), BRC_BUF(r->touched));
+    return BRC_RUN(r->seed, n, {"above", BRC_INT(1)}, {"number", BRC_BUF(number)});
 }
 
 brc_status brc_rings_without(brc_simulation *s, brc_rings *r, brc_buffer *number, brc_ring_list *out)
 {
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_LAUNCH(r->seed, n, BRC_INT(n), BRC_INT(0), BRC_BUF(number), BRC_BUF(r->touched)));
+    BRC_TRY(BRC_RUN(r->seed, n, {"above", BRC_INT(0)}, {"number", BRC_BUF(number)}));
     return brc_rings_close(s, r, BRC_RINGS_DROP, out);
 }
 
@@ -118,15 +148,16 @@ brc_status brc_rings_without(brc_simulation *s, brc_rings *r, brc_buffer *number
 
 bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int ring) { return !list || 2 * (int64_t)list->n[ring] > s->domain->n_elements; }
 
-brc_status brc_pass_launch(brc_simulation *s, brc_kernel *whole, brc_kernel *listed, const brc_ring_list *list, int ring, int n_args, brc_arg *args)
+enum { MOST_GIVEN = 6 };
+brc_status brc_pass_over(brc_simulation *s, const brc_pass *whole, const brc_pass *listed, const brc_ring_list *list,
+                         int ring, const brc_force_request *request, const brc_given *given)
 {
-    if (whole && brc_pass_is_whole(s, list, ring)) {
-        args[2] = BRC_INT(s->n_groups);
-        return brc_kernel_launch(whole, s->n_groups, n_args - 2, args + 2);
-    }
-    const int32_t n = list->n[ring], lanes = brc_device_lanes(s->device), n_items = (n + lanes - 1) / lanes;
-    args[0] = BRC_INT(n_items), args[1] = BRC_INT(n), args[2] = BRC_BUF(list->upto[ring]);
-    return brc_kernel_launch(listed, n_items, n_args, args);
+    if (whole && brc_pass_is_whole(s, list, ring)) return brc_pass_run_on(whole, s->n_groups, request, NULL, given);
+    const int32_t n = list->n[ring], lanes = brc_device_lanes(s->device);
+    brc_given all[MOST_GIVEN + 3] = {{"n", BRC_INT(n)}, {"list", BRC_BUF(list->upto[ring])}};
+    for (int k = 0; given && given[k].name && k < MOST_GIVEN; ++k)
+        all[2 + k] = given[k];
+    return brc_pass_run_on(listed, (n + lanes - 1) / lanes, request, NULL, all);
 }
 
 /* Of dlsm, whose law has an energy, and steps of velocity Verlet. */
@@ -136,19 +167,17 @@ static bool books_jumps(const brc_simulation *s, const brc_rings *r) { return br
 static brc_status book_jumps(brc_simulation *s, const brc_rings *r, int32_t n, int k, int listed)
 {
     BRC_TRY(brc_loads_zero_imposed(s, r->force));
-    return BRC_LAUNCH(r->book, n, BRC_INT(n), BRC_INT(listed), BRC_STATE(0.25 * r->half_kick * r->half_kick), BRC_BUF(r->around.upto[k]), BRC_BUF(r->force),
-                      BRC_BUF(s->lost_numerical));
+    return BRC_RUN(r->book, n, {"listed", BRC_INT(listed)}, {"per", BRC_STATE(0.25 * r->half_kick * r->half_kick)},
+                   {"list", BRC_BUF(r->around.upto[k])}, {"lost", BRC_BUF(s->lost_numerical)});
 }
 
 brc_status brc_rings_replace(brc_simulation *s, const brc_rings *r, int inner, int k)
 {
     const int32_t n = r->around.n[inner];
-    BRC_TRY(BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.upto[inner]), BRC_BUF(s->mass), BRC_BUF(r->force), BRC_BUF(s->force),
-                       BRC_BUF(s->velocity)));
+    BRC_TRY(BRC_RUN(r->replace, n, {"list", BRC_BUF(r->around.upto[inner])}));
     if (books_jumps(s, r)) BRC_TRY(book_jumps(s, r, r->around.n[k], k, 1));
     if (!r->torque) return BRC_OK;
-    return BRC_LAUNCH(r->replace, n, BRC_INT(n), BRC_STATE(r->half_kick), BRC_BUF(r->around.upto[inner]), BRC_BUF(s->inertia), BRC_BUF(r->torque), BRC_BUF(s->torque),
-                      BRC_BUF(s->spin));
+    return BRC_RUN(r->replace_turns, n, {"list", BRC_BUF(r->around.upto[inner])});
 }
 
 brc_status brc_rings_keep_force(brc_simulation *s, const brc_rings *r)
@@ -160,15 +189,15 @@ brc_status brc_rings_book_whole(brc_simulation *s, const brc_rings *r)
 {
     const int32_t n = s->layout->n_rows;
     if (!books_jumps(s, r)) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(r->gain, n, BRC_INT(n), BRC_BUF(s->mass), BRC_BUF(s->force), BRC_BUF(r->force)));
+    BRC_TRY(brc_pass_run(r->gain, n));
     return book_jumps(s, r, n, 0, 0);
 }
 
-brc_status brc_rings_sum(brc_simulation *s, const brc_rings *r, const brc_ring_list *list, int k, brc_buffer *x, double *out)
+brc_status brc_rings_sum(brc_simulation *s, const brc_ring_list *list, int k, brc_buffer *x, double *out)
 {
     const int32_t n = list->n[k];
     *out = 0;
     if (n == 0) return BRC_OK;
-    BRC_TRY(BRC_LAUNCH(r->gather, n, BRC_INT(n), BRC_BUF(list->upto[k]), BRC_BUF(x), BRC_BUF(s->kinetic)));
+    BRC_TRY(brc_vector_gather(s, n, list->upto[k], x, s->kinetic));
     return brc_vector_sum(s, s->kinetic, n, out);
 }

@@ -15,7 +15,7 @@ typedef struct brc_ring_list {
 } brc_ring_list;
 
 typedef struct brc_rings {
-    brc_kernel *spread, *seed, *count_pass, *tops, *list_pass, *forget, *replace, *gain, *book, *gather;
+    brc_pass *spread, *seed, *count_pass, *tops, *list_pass, *forget, *replace, *replace_turns, *gain, *book;
     brc_buffer *touched, *level; /* [n_rows] */
     brc_buffer *count;           /* [BRC_RING_KINDS][blocks + 1] */
     int32_t *count_read;         /* the same on the host */
@@ -28,6 +28,8 @@ typedef struct brc_rings {
 
 brc_status brc_rings_create(brc_simulation *s, brc_rings **out);
 void brc_rings_free(brc_rings **rings);
+/* Arrays of the rings, and half_kick. */
+brc_scope brc_scope_of_rings(const brc_rings *rings, const brc_scope *outer);
 /* Rows of a brc_ring_list: around breaks, around open faces, of cells that still have bonds (made when most have none). */
 extern const brc_field_table brc_ring_list_fields, brc_open_list_fields, brc_bonded_list_fields;
 /* What is new in ring 0 (touched) and ring 1 since the last list was closed: rings->around, up to n[0] touched ones that were found before, up to n[1] touched ones that were
@@ -48,12 +50,10 @@ brc_status brc_rings_seed(brc_simulation *s, brc_rings *rings, brc_buffer *numbe
 /* Elements whose number is not above 0, in every ring. */
 brc_status brc_rings_without(brc_simulation *s, brc_rings *rings, brc_buffer *number, brc_ring_list *out);
 
-/* A pass over the rings 0 to `ring` of a list, by the kernel `listed`, or, where list is NULL or they are so many that this is quicker, over all by `whole` (NULL: never):
- * args are those of `whole` behind three free places (BRC_PASS). */
-brc_status brc_pass_launch(brc_simulation *s, brc_kernel *whole, brc_kernel *listed, const brc_ring_list *list, int ring, int n_args, brc_arg *args);
-#define BRC_PASS(s, whole, listed, list, ring, ...)                                                                                  \
-    brc_pass_launch((s), (whole), (listed), (list), (ring), (int)(sizeof((brc_arg[]){__VA_ARGS__}) / sizeof(brc_arg)) + 3,             \
-                    (brc_arg[]){BRC_INT(0), BRC_INT(0), BRC_INT(0), __VA_ARGS__})
+/* A pass over the rings 0 to `ring` of a list, by `listed`, or, where list is NULL or they are so many that this is quicker, over all by `whole` (NULL: never). request, given: as for
+ * brc_pass_run_on, without the list, which `listed` has open beside (BRC_LISTED). */
+brc_status brc_pass_over(brc_simulation *s, const brc_pass *whole, const brc_pass *listed, const brc_ring_list *list,
+                         int ring, const brc_force_request *request, const brc_given *given);
 /* Whether a pass over the rings 0 to `ring` goes over all elements: list NULL, or half of the elements and more. */
 bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int ring);
 
@@ -65,6 +65,6 @@ brc_status brc_rings_replace(brc_simulation *s, const brc_rings *rings, int inne
 brc_status brc_rings_keep_force(brc_simulation *s, const brc_rings *rings);
 brc_status brc_rings_book_whole(brc_simulation *s, const brc_rings *rings);
 /* Sum of x [n_rows] over the rings 0 to k, in the order of the list. */
-brc_status brc_rings_sum(brc_simulation *s, const brc_rings *rings, const brc_ring_list *list, int k, brc_buffer *x, double *out);
+brc_status brc_rings_sum(brc_simulation *s, const brc_ring_list *list, int k, brc_buffer *x, double *out);
 
 #endif

@@ -12,74 +12,6 @@
 #include <math.h>
 #include <string.h>
 
-static brc_status find_kernels(brc_simulation *s)
-{
-    brc_kernels *k = &s->kernel;
-    const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s), beams = brc_is_beams(s), turns = brc_turns(s), breaks = s->scene->has_fracture;
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-        bool wanted;
-    } wanted[] = {
-        {&k->gradient, "dlsm_gradient", dlsm},
-        {&k->stress, "dlsm_stress", dlsm},
-        {&k->flux, "dlsm_flux_pass", dlsm},
-        {&k->force, "dlsm_force", dlsm},
-        {&k->energy, "dlsm_energy", dlsm},
-        {&k->deformation, "dlsm_deformation", dlsm},
-        {&k->gradient_listed, "dlsm_gradient_listed", dlsm && breaks},
-        {&k->stress_listed, "dlsm_stress_listed", dlsm && breaks},
-        {&k->flux_listed, "dlsm_flux_listed", dlsm && breaks},
-        {&k->force_listed, "dlsm_force_listed", dlsm && breaks},
-        {&k->energy_listed, "dlsm_energy_listed", dlsm && breaks},
-        {&k->held_prescribe, "held_prescribe", dlsm},
-        {&k->held_gradient, "held_gradient_pass", dlsm},
-        {&k->held_moment, "held_moment_pass", dlsm},
-        {&k->held_force, "held_force_pass", dlsm},
-        {&k->held_energy, "held_energy", dlsm},
-        {&k->traction_moment, "traction_moment_pass", dlsm},
-        {&k->traction_force, "traction_force_pass", dlsm},
-        {&k->face_displacement, "face_displacement", dlsm},
-        {&k->published_strain, "published_strain_pass", published},
-        {&k->published_force, "published_force_pass", published},
-        {&k->published_energy, "published_energy", published},
-        {&k->traction_turned, "traction_turned_pass", published},
-        {&k->published_force_listed, "published_force_listed", published && breaks},
-        {&k->published_energy_listed, "published_energy_listed", published && breaks},
-        {&k->cbm_force, "cbm_force_pass", beams},
-        {&k->cbm_energy, "cbm_energy", beams},
-        {&k->cbm_virial, "cbm_virial", beams},
-        {&k->turn_orientation, "turn_orientation", beams},
-        {&k->precondition6, "block6_precondition", beams},
-        {&k->advance_rotation, "advance_rotation", turns},
-        {&k->add_spin_energy, "add_spin_energy", turns},
-        {&k->small_rotation, "small_rotation", turns},
-        {&k->impose_turn, "impose_turn", turns},
-        {&k->turn_book, "turn_book", turns},
-        {&k->advance, "advance", true},
-        {&k->advance_tchamwa, "advance_tchamwa", true},
-        {&k->numerical_close, "numerical_close", true},
-        {&k->damp_mass, "damp_mass", true},
-        {&k->gravity, "gravity", true},
-        {&k->kinetic_energy, "kinetic_energy", true},
-        {&k->guard_look, "guard_look", true},
-        {&k->impose_motion, "impose_motion", true},
-        {&k->impose_book, "impose_book", true},
-        {&k->impose_zero, "impose_zero", true},
-        {&k->push_elements, "push_elements", true},
-        {&k->axpy, "vector_axpy", true},
-        {&k->copy, "vector_copy", true},
-        {&k->xpay, "vector_xpay", true},
-        {&k->dot, "vector_dot", true},
-        {&k->sum, "vector_sum", true},
-        {&k->precondition, "block_precondition", true},
-        {&k->divide_by_mass, "divide_by_mass", true},
-    };
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i)
-        if (wanted[i].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[i].name, wanted[i].slot));
-    return BRC_OK;
-}
-
 /* Material of an element: its body's, or that of the last region it lies in. */
 static int32_t material_index(const brc_scene *scene, const brc_domain *domain, int64_t e)
 {
@@ -148,7 +80,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     brc_wants_make(scene, domain, s->layout, device, s->material_of_element, &s->wants);
     s->n_groups = s->wants.n_groups;
     if (brc_is_beams(s)) BRC_TRY_OR(cleanup, brc_beams_create(s));
-    BRC_TRY_OR(cleanup, find_kernels(s));
+    BRC_TRY_OR(cleanup, brc_run_passes_make(s));
     BRC_TRY_OR(cleanup, brc_geometry_create(s));
     BRC_TRY_OR(cleanup, brc_simulation_fields_create(s));
     if (scene->has_fracture) BRC_TRY_OR(cleanup, brc_fracture_create(s));
@@ -178,6 +110,7 @@ void brc_simulation_free(brc_simulation **simulation)
     brc_guard_free(s);
     brc_noise_free(s);
     brc_geometry_free(s);
+    brc_passes_free(&s->passes);
     brc_layout_free(&s->layout);
     brc_memory_free(s->elastic);
     brc_memory_free(s->beam);

@@ -6,6 +6,7 @@
 #include "../base/memory.h"
 #include "fields.h"
 #include "layout.h"
+#include "passes.h"
 #include "phases.h"
 #include "patience.h"
 #include "regime.h"
@@ -82,21 +83,38 @@ typedef struct brc_loads {
     brc_turn_load *turns;
     brc_traction_load *tractions;
     brc_imposed_load *imposed;
+    bool on_faces; /* some face is held or bears a traction */
 } brc_loads;
 
-/* Kernels are looked up once; a name that a model does not use stays NULL. */
+/* Kernels of vectors, launched by position behind the functions of arrays.c, unknowns.c, preconditioner.c and multigrid/. */
 typedef struct brc_kernels {
-    brc_kernel *gradient, *stress, *flux, *force, *energy, *deformation;
-    brc_kernel *gradient_listed, *stress_listed, *flux_listed, *force_listed, *energy_listed; /* cells, only with fracture (rings.h) */
-    brc_kernel *published_force_listed, *published_energy_listed;
-    brc_kernel *held_prescribe, *held_gradient, *held_moment, *held_force, *held_energy, *traction_moment, *traction_force, *traction_turned;
-    brc_kernel *face_displacement;
-    brc_kernel *cbm_force, *cbm_energy, *cbm_virial, *turn_orientation, *precondition6;
-    brc_kernel *published_strain, *published_force, *published_energy, *advance_rotation, *add_spin_energy, *small_rotation;
-    brc_kernel *advance, *advance_tchamwa, *numerical_close, *damp_mass, *gravity, *kinetic_energy, *guard_look;
-    brc_kernel *impose_motion, *impose_book, *impose_zero, *push_elements, *impose_turn, *turn_book;
-    brc_kernel *axpy, *copy, *xpay, *dot, *sum, *precondition, *divide_by_mass;
+    brc_kernel *axpy, *copy, *xpay, *dot, *sum, *gather, *small_rotation, *turn_orientation, *precondition,
+        *precondition6;
 } brc_kernels;
+/* Passes of the run; one that a model does not use stays NULL. */
+typedef struct brc_run_passes {
+    brc_pass *gradient, *stress, *flux, *force, *energy, *deformation;
+    brc_pass *gradient_listed, *stress_listed, *flux_listed, *force_listed,
+        *energy_listed; /* cells, only with fracture (rings.h) */
+    brc_pass *published_force_listed, *published_energy_listed;
+    brc_pass *held_prescribe, *held_gradient, *held_moment, *held_force, *held_energy, *traction_moment,
+        *traction_force, *traction_turned;
+    brc_pass *face_displacement;
+    brc_pass *cbm_force, *cbm_energy, *cbm_virial;
+    brc_pass *published_strain, *published_force, *published_energy, *advance_rotation, *add_spin_energy;
+    brc_pass *advance, *advance_tchamwa, *numerical_close, *damp_mass, *gravity, *kinetic_energy, *divide_by_mass;
+    brc_pass *impose_motion, *impose_book, *zero_imposed, *zero_turned, *push_elements, *impose_turn, *turn_book;
+} brc_run_passes;
+
+/* Numbers of the scene that kernels ask for by name; those of one material where there is one (kernels gather those of several). */
+typedef struct brc_constants {
+    double lambda, mu, young, k, ell; /* brc_elastic */
+    double axial, bend, twist;        /* brc_beam; cbm */
+    double beta, one_plus_tau;        /* dlsm: 0 without compaction */
+    double rotation_factor, couple;   /* dlsm-published */
+    double gravity[3];                /* [m/s^2] */
+    bool area_weights, finite, turns; /* finite: the full law */
+} brc_constants;
 
 typedef struct brc_breaking brc_breaking; /* fracture_internal.h */
 typedef struct brc_strikers brc_strikers; /* strikers_internal.h */
@@ -124,6 +142,9 @@ struct brc_simulation {
     brc_layout *layout;
     brc_wants wants; /* what the tables of fields ask */
     brc_kernels kernel;
+    brc_run_passes pass;
+    brc_pass *passes; /* all there are, of effects too (passes.h) */
+    brc_constants constant;
     int n_groups; /* work-items of an element pass */
     brc_elastic *elastic;      /* [n_materials] */
     brc_beam *beam;            /* cbm: [n_bodies][n_materials] */
@@ -209,9 +230,31 @@ brc_status brc_new_int(brc_simulation *s, brc_buffer **out, const int32_t *value
 /* Sum of count state numbers, and dot product, in fixed blocks. */
 brc_status brc_vector_sum(brc_simulation *s, brc_buffer *x, int64_t count, double *out);
 brc_status brc_vector_dot(brc_simulation *s, brc_buffer *x, brc_buffer *y, int64_t count, double *out);
+/* y = a x + y, of count state numbers. */
+brc_status brc_vector_axpy(brc_simulation *s, int64_t count, double a, brc_buffer *x, brc_buffer *y);
+/* y = x[index], n numbers. */
+brc_status brc_vector_gather(brc_simulation *s, int32_t n, brc_buffer *index, brc_buffer *x, brc_buffer *y);
+/* Orientations (quaternions) of small rotations theta [n_rows][3]. */
+brc_status brc_vector_small_rotation(brc_simulation *s, brc_buffer *theta, brc_buffer *orientation);
 
 /* Storage of a scene's elements. */
 brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, const brc_domain *domain, int32_t slice, brc_layout **out);
+
+/* ---- scopes.c: what passes find by name (passes.h) ---- */
+/* Arrays of elements and their bonds, and constants. */
+brc_scope brc_scope_of_run(const brc_simulation *s);
+/* Those of an evaluation: a brc_force_request, which each launch gives. */
+brc_scope brc_scope_of_request(const brc_scope *outer);
+/* Kernels that write a number of each element, to be summed, into `kinetic`: their parameters `out` and `found`. */
+brc_scope brc_scope_of_sums(const brc_simulation *s, const brc_scope *outer);
+brc_status brc_passes_make(brc_simulation *s, const brc_scope *scope, int n, const brc_pass_wanted *wanted);
+#define BRC_PASSES_MAKE(s, scope, wanted)                                                                              \
+    brc_passes_make((s), (scope), (int)(sizeof(wanted) / sizeof *(wanted)), (wanted))
+#define BRC_PASSES(s, scope, ...)                                                                                      \
+    brc_passes_make((s), (scope), (int)(sizeof((brc_pass_wanted[]){__VA_ARGS__}) / sizeof(brc_pass_wanted)),           \
+                    (brc_pass_wanted[]){__VA_ARGS__})
+/* Passes of the run (brc_run_passes) and kernels of vectors. */
+brc_status brc_run_passes_make(brc_simulation *s);
 
 /* ---- simulation_fields.c: state and work arrays ---- */
 extern const brc_field_table brc_state_fields;

@@ -58,10 +58,8 @@ brc_status brc_simulation_orientation(brc_simulation *s, double *orientation, do
 static brc_status deformation(brc_simulation *s, double *out)
 {
     /* B is dead between force evaluations: its buffer takes G */
-    BRC_TRY(BRC_LAUNCH(s->kernel.deformation, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(s->area), BRC_BUF(s->offset), BRC_BUF(s->gradient), BRC_BUF(s->inv_volume),
-                       BRC_BUF(s->boundary), BRC_BUF(s->held_gradient),
-                       BRC_INT(s->loads.held.n_faces > 0 ? 1 : 0), BRC_BUF(s->flux)));
+    BRC_TRY(BRC_RUN(s->pass.deformation, s->n_groups, {"face_loads", BRC_INT(s->loads.held.n_faces > 0 ? 1 : 0)},
+                    {"deformation", BRC_BUF(s->flux)}));
     return brc_coeff_from_rows(s, s->flux, out, 9);
 }
 
@@ -199,8 +197,8 @@ brc_status brc_simulation_face_displacement(brc_simulation *s, int64_t n, const 
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &arm, 3 * n, "faces"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, arm, arms, 3 * n));
     BRC_TRY_OR(cleanup, brc_new_state(s, &result, 3 * n, "faces"));
-    BRC_TRY_OR(cleanup, BRC_LAUNCH(s->kernel.face_displacement, n, BRC_INT(n), BRC_BUF(element), BRC_BUF(arm),
-                                   BRC_BUF(s->displacement), BRC_BUF(s->gradient), BRC_BUF(result)));
+    BRC_TRY_OR(cleanup, BRC_RUN(s->pass.face_displacement, n, {"element", BRC_BUF(element)}, {"arm", BRC_BUF(arm)},
+                                {"out", BRC_BUF(result)}));
     const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
     BRC_TRY_OR(cleanup, brc_download(s, result, bytes, out, 3 * n));
     const brc_held_faces *h = &s->loads.held;

@@ -198,9 +198,8 @@ static brc_status remove_mean(brc_simulation *s, brc_buffer *torque)
 /* Rotations of dlsm-published that balance the torques of the displacements just found, into the orientations. */
 static brc_status settle_rotations(brc_simulation *s, brc_solve_vectors *v, brc_progress *progress)
 {
-    const int32_t n = s->layout->n_rows;
     double square, left;
-    BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->zero), BRC_BUF(v->orientation)));
+    BRC_TRY(brc_vector_small_rotation(s, v->zero, v->orientation));
     BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
                                                        .force = v->z.move,
                                                        .orientation = v->orientation,
@@ -210,7 +209,7 @@ static brc_status settle_rotations(brc_simulation *s, brc_solve_vectors *v, brc_
     BRC_TRY(remove_mean(s, v->r.move));
     BRC_TRY(brc_statics_square(s, v, v->r, &square));
     BRC_TRY(brc_conjugate_gradients(s, v, true, 1e-6 * sqrt(square), brc_statics_most_iterations(s), progress, &left));
-    return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->x.move), BRC_BUF(s->orientation));
+    return brc_vector_small_rotation(s, v->x.move, s->orientation);
 }
 
 /* Start from the last increment's move again: exact when the answer is proportional to the load, so that a stage of equal
@@ -234,7 +233,7 @@ static brc_status correct(brc_simulation *s, brc_solve_vectors *v, bool finite)
     BRC_TRY(brc_unknowns_add(s, 1, v->x, (brc_unknowns){s->displacement, v->theta}));
     if (!brc_is_beams(s)) return BRC_OK;
     if (finite) return BRC_LAUNCH(s->kernel.turn_orientation, n, BRC_INT(n), BRC_BUF(v->x.turn), BRC_BUF(s->orientation));
-    return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(v->theta), BRC_BUF(s->orientation));
+    return brc_vector_small_rotation(s, v->theta, s->orientation);
 }
 
 /* How much of the residual a correction of the full law is solved to: to a tenth of what the law's change left of it after the correction before; the first one to `at_first`.
@@ -327,7 +326,7 @@ brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double fac
     brc_status status = BRC_OK;
     if (factor == 0) { /* also of a state that is not finite */
         BRC_TRY(brc_buffer_fill_zero(s->displacement));
-        return brc_turns(s) ? BRC_LAUNCH(s->kernel.small_rotation, s->layout->n_rows, BRC_INT(s->layout->n_rows), BRC_BUF(s->displacement), BRC_BUF(s->orientation)) : BRC_OK;
+        return brc_turns(s) ? brc_vector_small_rotation(s, s->displacement, s->orientation) : BRC_OK;
     }
     BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes));
     BRC_TRY(brc_unknowns_add(s, factor - 1, (brc_unknowns){v->z.move, NULL}, (brc_unknowns){s->displacement, NULL}));

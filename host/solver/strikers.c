@@ -113,10 +113,11 @@ brc_status brc_strikers_create(brc_simulation *s)
     BRC_TRY(BRC_ALLOCATE(s->context, &t->told, t->n, "strikers"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->push_now, N_PUSH * (int64_t)t->n, "strikers"));
     for (int32_t i = 0; i < t->n; ++i) BRC_TRY(brc_striker_body_make(s, i));
-    BRC_TRY(brc_kernel_find(s->device, "striker_advance", &t->advance));
-    BRC_TRY(brc_kernel_find(s->device, "striker_place", &t->place));
-    BRC_TRY(brc_kernel_find(s->device, "striker_push", &t->push_on));
-    BRC_TRY(brc_kernel_find(s->device, "striker_book", &t->book));
+    const brc_scope run = brc_scope_of_run(s), bodies = {.owner = "strikers", .base = t, .tables = {&brc_striker_fields}, .outer = &run};
+    const brc_pass_wanted wanted[] = {BRC_PASS(&t->advance, "striker_advance", "kick drift extra numerical"),
+                                      BRC_PASS(&t->place, "striker_place", "which ux uy uz qw qx qy qz vx vy vz wx wy wz mx my mz tx ty tz"),
+                                      BRC_PASS(&t->push_on, "striker_push", "which fx fy fz"), BRC_PASS(&t->book, "striker_book", "book numerical")};
+    BRC_TRY(BRC_PASSES_MAKE(s, &bodies, wanted));
     s->wants.pieces = &t->convex;
     BRC_TRY(brc_strikers_check(s));
     return upload_start(s);
@@ -152,11 +153,8 @@ static const double *gravity(const brc_simulation *s)
 brc_status brc_strikers_advance(brc_simulation *s, double kick, double drift, double extra, bool numerical)
 {
     const brc_strikers *t = s->strikers;
-    const double *g = gravity(s);
-    return BRC_LAUNCH(t->advance, t->n, BRC_INT(t->n), BRC_STATE(kick), BRC_STATE(drift), BRC_STATE(extra), BRC_INT(numerical ? 1 : 0), BRC_STATE(g[0]),
-                      BRC_STATE(g[1]), BRC_STATE(g[2]), BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->inertia), BRC_BUF(t->centre), BRC_BUF(t->load),
-                      BRC_BUF(t->push), BRC_BUF(t->motion), BRC_BUF(t->momentum), BRC_BUF(t->displacement), BRC_BUF(t->orientation), BRC_BUF(t->pose),
-                      BRC_BUF(t->moved), BRC_BUF(t->lost));
+    return BRC_RUN(t->advance, t->n, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)},
+                   {"extra", BRC_STATE(extra)}, {"numerical", BRC_INT(numerical ? 1 : 0)});
 }
 
 /* exp of the rotation vector `turn`. */
@@ -180,7 +178,7 @@ static brc_status push(brc_simulation *s, int32_t i, double now)
     for (int c = 0; c < 3 && verlet; ++c)
         if (!striker->held[c]) last[3] += dt * dt * (f[c] * f[c] - last[c] * last[c]) / (8 * t->body[i].mass);
     memcpy(last, f, sizeof f);
-    return BRC_LAUNCH(t->push_on, 1, BRC_INT(1), BRC_INT(i), BRC_STATE(f[0]), BRC_STATE(f[1]), BRC_STATE(f[2]), BRC_BUF(t->push));
+    return BRC_RUN(t->push_on, 1, {"which", BRC_INT(i)}, {"fx", BRC_STATE(f[0])}, {"fy", BRC_STATE(f[1])}, {"fz", BRC_STATE(f[2])});
 }
 
 double brc_strikers_pushed(const brc_simulation *s)
@@ -206,11 +204,14 @@ brc_status brc_strikers_prescribe(brc_simulation *s)
         const double *v = striker->velocity, *w = striker->spin, turn[3] = {path * w[0], path * w[1], path * w[2]};
         double q[4];
         quaternion(turn, q);
-        BRC_TRY(BRC_LAUNCH(t->place, 1, BRC_INT(1), BRC_INT(i), BRC_STATE(path * v[0]), BRC_STATE(path * v[1]), BRC_STATE(path * v[2]), BRC_STATE(q[0]),
-                           BRC_STATE(q[1]), BRC_STATE(q[2]), BRC_STATE(q[3]), BRC_STATE(factor * v[0]), BRC_STATE(factor * v[1]), BRC_STATE(factor * v[2]),
-                           BRC_STATE(factor * w[0]), BRC_STATE(factor * w[1]), BRC_STATE(factor * w[2]), BRC_STATE(step * v[0]), BRC_STATE(step * v[1]),
-                           BRC_STATE(step * v[2]), BRC_STATE(step * w[0]), BRC_STATE(step * w[1]), BRC_STATE(step * w[2]), BRC_BUF(t->centre),
-                           BRC_BUF(t->motion), BRC_BUF(t->displacement), BRC_BUF(t->orientation), BRC_BUF(t->pose), BRC_BUF(t->moved)));
+        BRC_TRY(BRC_RUN(
+            t->place, 1, {"which", BRC_INT(i)}, {"ux", BRC_STATE(path * v[0])}, {"uy", BRC_STATE(path * v[1])},
+            {"uz", BRC_STATE(path * v[2])}, {"qw", BRC_STATE(q[0])}, {"qx", BRC_STATE(q[1])}, {"qy", BRC_STATE(q[2])},
+            {"qz", BRC_STATE(q[3])}, {"vx", BRC_STATE(factor * v[0])}, {"vy", BRC_STATE(factor * v[1])},
+            {"vz", BRC_STATE(factor * v[2])}, {"wx", BRC_STATE(factor * w[0])}, {"wy", BRC_STATE(factor * w[1])},
+            {"wz", BRC_STATE(factor * w[2])}, {"mx", BRC_STATE(step * v[0])}, {"my", BRC_STATE(step * v[1])},
+            {"mz", BRC_STATE(step * v[2])}, {"tx", BRC_STATE(step * w[0])}, {"ty", BRC_STATE(step * w[1])},
+            {"tz", BRC_STATE(step * w[2])}));
         t->placed[i] = path;
     }
     return BRC_OK;
@@ -219,12 +220,9 @@ brc_status brc_strikers_prescribe(brc_simulation *s)
 brc_status brc_strikers_book(brc_simulation *s, brc_booking book)
 {
     const brc_strikers *t = s->strikers;
-    const double *g = gravity(s);
     const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
     const bool numerical = stage && stage->solver == BRC_SOLVER_DYNAMIC && stage->integrator == BRC_TCHAMWA_WIELGOSZ;
-    return BRC_LAUNCH(t->book, t->n, BRC_INT(t->n), BRC_INT(book), BRC_INT(numerical ? 1 : 0), BRC_STATE(g[0]), BRC_STATE(g[1]), BRC_STATE(g[2]),
-                      BRC_BUF(t->freedom), BRC_BUF(t->mass), BRC_BUF(t->load), BRC_BUF(t->push), BRC_BUF(t->moved), BRC_BUF(t->last),
-                      BRC_BUF(t->pushed), BRC_BUF(t->work), BRC_BUF(t->lost));
+    return BRC_RUN(t->book, t->n, {"book", BRC_INT(book)}, {"numerical", BRC_INT(numerical ? 1 : 0)});
 }
 
 brc_status brc_strikers_store_state(brc_simulation *s, brc_state_store *store)

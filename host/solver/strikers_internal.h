@@ -17,7 +17,7 @@ typedef enum brc_piece_kind {
 /* Everything that exists only in scenes with strikers. What the buffers of numbers hold is told in kernels/strikers.cl. */
 struct brc_strikers {
     int32_t n;
-    brc_kernel *advance, *place, *push_on, *book;
+    brc_pass *advance, *place, *push_on, *book;
     brc_striker_body *body; /* [n] host */
     brc_convex convex;      /* pieces of all strikers, in the strikers' frames: origins at the mass centres, axes of space as the scene starts; host */
     int32_t *piece_striker; /* [convex.n] whose each is; host */
@@ -36,6 +36,8 @@ struct brc_strikers {
     brc_buffer *push, *pushed; /* where some are pushed by prescribed forces; else NULL */
     double *push_now;          /* [n][4] that force of each as the device has it [N]; its work by changing within steps [J]; host */
 };
+
+extern const brc_field_table brc_striker_fields;
 
 /* Energies of all strikers [J]. */
 typedef struct brc_striker_energies {

@@ -77,8 +77,7 @@ static brc_status apply(brc_simulation *s, work_vectors *w, double *rayleigh)
     const int32_t n = s->layout->n_rows;
     const bool turns = brc_turns(s);
     double mass_norm = 0, part, energy = 0;
-    if (turns)
-        BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(w->theta), BRC_BUF(w->orientation)));
+    if (turns) BRC_TRY(brc_vector_small_rotation(s, w->theta, w->orientation));
     BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = w->x,
                                                        .force = w->y,
                                                        .orientation = w->orientation,
@@ -86,11 +85,11 @@ static brc_status apply(brc_simulation *s, work_vectors *w, double *rayleigh)
                                                        .homogeneous = true}));
     BRC_TRY(brc_vector_dot(s, w->x, w->y, 3 * (int64_t)n, &part));
     energy -= part;
-    BRC_TRY(BRC_LAUNCH(s->kernel.kinetic_energy, n, BRC_INT(n), BRC_BUF(s->mass), BRC_BUF(w->x), BRC_BUF(s->kinetic)));
+    BRC_TRY(BRC_RUN(s->pass.kinetic_energy, n, {"velocity", BRC_BUF(w->x)}));
     if (turns) {
         BRC_TRY(brc_vector_dot(s, w->theta, w->torque, 3 * (int64_t)n, &part));
         energy -= part;
-        BRC_TRY(BRC_LAUNCH(s->kernel.add_spin_energy, n, BRC_INT(n), BRC_BUF(s->inertia), BRC_BUF(w->theta), BRC_BUF(s->kinetic)));
+        BRC_TRY(BRC_RUN(s->pass.add_spin_energy, n, {"spin", BRC_BUF(w->theta)}));
     }
     BRC_TRY(brc_vector_sum(s, s->kinetic, n, &mass_norm));
     mass_norm *= 2;
@@ -98,15 +97,15 @@ static brc_status apply(brc_simulation *s, work_vectors *w, double *rayleigh)
         return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "the power iteration for the time step met x.Mx = %g, x.Kx = %g; %s", mass_norm,
                         energy, "check densities and the geometry (breccia build prints its quality)");
     *rayleigh = energy / mass_norm;
-    BRC_TRY(BRC_LAUNCH(s->kernel.divide_by_mass, n, BRC_INT(n), BRC_BUF(s->mass), BRC_BUF(w->y)));
+    BRC_TRY(BRC_RUN(s->pass.divide_by_mass, n, {"mass", BRC_BUF(s->mass)}, {"vector", BRC_BUF(w->y)}));
     /* x = y / |y| in size: scale by 1 / (rayleigh * sqrt(mass_norm)), which keeps x.Mx near 1 */
     const double scale = *rayleigh != 0 ? 1 / (fabs(*rayleigh) * sqrt(mass_norm)) : 1;
     BRC_TRY(brc_buffer_fill_zero(w->x));
-    BRC_TRY(BRC_LAUNCH(s->kernel.axpy, 3 * (int64_t)n, BRC_INT(3 * n), BRC_STATE(-scale), BRC_BUF(w->y), BRC_BUF(w->x)));
+    BRC_TRY(brc_vector_axpy(s, 3 * (int64_t)n, -scale, w->y, w->x));
     if (turns) {
-        BRC_TRY(BRC_LAUNCH(s->kernel.divide_by_mass, n, BRC_INT(n), BRC_BUF(s->inertia), BRC_BUF(w->torque)));
+        BRC_TRY(BRC_RUN(s->pass.divide_by_mass, n, {"mass", BRC_BUF(s->inertia)}, {"vector", BRC_BUF(w->torque)}));
         BRC_TRY(brc_buffer_fill_zero(w->theta));
-        BRC_TRY(BRC_LAUNCH(s->kernel.axpy, 3 * (int64_t)n, BRC_INT(3 * n), BRC_STATE(-scale), BRC_BUF(w->torque), BRC_BUF(w->theta)));
+        BRC_TRY(brc_vector_axpy(s, 3 * (int64_t)n, -scale, w->torque, w->theta));
     }
     return BRC_OK;
 }
