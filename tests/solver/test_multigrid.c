@@ -273,7 +273,7 @@ static void iterations_hardly_grow_with_the_body(void **state)
 static void iterations_hardly_grow_at_the_ends_of_poissons_ratio(void **state)
 {
     (void)state;
-    /* times those of nu 0.3. Measured on cubes of 8000 cells: 1.2, 2.6, 4.2, 11 (docs/notebook/performance.md says why) */
+    /* times those of nu 0.3. Measured on cubes of 8000 cells: 1.0, 2.6, 4.1, 10 (docs/notebook/performance.md says why) */
     const struct {
         const char *nu;
         double most;
