@@ -6,8 +6,9 @@
 #include <zlib.h>
 
 enum { AT_ONCE = 64, SAMPLES = 256 }; /* blocks packed before they are written; numbers of a block that are looked at */
-/* Blocks are packed where this part of their bytes or more equals the byte of the number before: doubles that differ have a sixth (signs and exponents),
- * which is not worth the time, floats a quarter, counts and zeros most. A last block that is not full is packed for what fills it up. */
+/* Blocks of 8 bytes a number are packed where this part of their bytes or more equals the byte of the number before: doubles that differ have a sixth (signs
+ * and exponents), which is not worth the time, counts and zeros most. Others always are: floats shrink by a twelfth to a seventh. A last block that is not
+ * full is packed for what fills it up. */
 #define WORTH_PACKING 0.2
 
 /* What is packed: rows of `width` bytes in all, numbers of `bytes` bytes. */
@@ -31,7 +32,7 @@ static bool is_worth_packing(const packing *p, int64_t k)
     const int64_t rows = p->rows - k * p->block < p->block ? p->rows - k * p->block : p->block, n = rows * p->width / p->bytes;
     const char *in = p->data + k * p->block * p->width;
     int64_t equal = 0, seen = 0;
-    if (rows < p->block) return true;
+    if (rows < p->block || p->bytes < 8) return true;
     for (int64_t m = 1; m < n; m += 1 + n / SAMPLES, ++seen)
         for (int64_t b = 0; b < p->bytes; ++b) equal += in[m * p->bytes + b] == in[(m - 1) * p->bytes + b];
     return (double)equal >= WORTH_PACKING * (double)(seen * p->bytes);
