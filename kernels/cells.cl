@@ -9,6 +9,7 @@
 
 #define CELLS_NEVER REAL(1e30)
 #define CELLS_TENSION 1
+#define CELLS_SHEAR 3
 #define CELLS_DETACHED 4
 
 /* As dlsm_force, which has what it takes at hand: and where some bond of a group has no room (cell_normal.h), look [n / W] is 1; cells_check puts it back to 0. */

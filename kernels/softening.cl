@@ -8,7 +8,8 @@
  * ONSET: principal stress at the onset [Pa]; WIDEST: largest opening, |w| and |v| together [m]; SPENT: energy that its cohesion took so far but for what is HELD, which comes
  * back [J]; BOOKED: what of SPENT the last step added [J]; COSINE of normal and principal axis at the onset [-]; EXPONENTIAL: 1, else linear; TILT:
  * what the direction of the opening leaves of ENERGY [-]; AXIS: of the crack, in the undeformed body; SIDE: v, by how much this side of the face opens more than w and the other less, the same seen
- * from both [m]; SIDE_SHIFT: what the last step added to it [m]; SIDE_PULL: by how much this side pulled more than the other at the last evaluation [N]; TURNS: before the onset, 1 of a face whose edge opens.
+ * from both [m]; SIDE_SHIFT: what the last step added to it [m]; SIDE_PULL: by how much this side pulled more than the other at the last evaluation [N]; TURNS: 1 of a face whose edge opens, SOFT_SLIDES of one that slides: by shear, along the plane across AXIS. That one has
+ * no SIDE; RUBS: what the last step rubbed off [J].
  * Entries: open: 0 whole, SOFT_OPENS from the onset on, SOFT_APART from the end of the cohesion on; lead: 1 on the side with the lower id, which computes for both. Elements [n]: n_open: open faces that hold;
  * reach: sum of |A^-1 s| over them [1/m]. */
 
@@ -29,7 +30,9 @@
 #define SOFT_SIDE 22
 #define SOFT_SIDE_SHIFT 25
 #define SOFT_SIDE_PULL 28
+#define SOFT_RUBS 28
 #define SOFT_TURNS 31
+#define SOFT_SLIDES REAL(2)
 #define SOFT_WIDTH 32
 #define SOFT_OPENS 1 /* open: against its cohesion */
 #define SOFT_APART 2 /* open: its cohesion ended; it still shuts */
@@ -37,6 +40,7 @@
 
 #define SOFT_ENTRY ((brc_size)slot * C + (brc_size)(e % C))
 #define SOFT_NUMBER(entry, what) crack[(((entry) / C) * SOFT_WIDTH + SOFT_##what) * C + (entry) % C]
+#define SOFT_IS_SLIDING(entry) (SOFT_NUMBER(entry, TURNS) > REAL(1))
 
 LAW soft_vector soft_part(GLOBAL const coeff *restrict crack, brc_size entry, int what)
 {
@@ -223,26 +227,6 @@ LAW soft_vector soft_turned_back(GLOBAL const coeff *restrict gradient, int i, i
 }
 LAW soft_vector soft_unit(soft_vector a) { return soft_scale(REAL(1) / SQRT(soft_dot(a, a)), a); }
 
-/* The stress at a bond [Pa]: the mean of its cells, but with the traction that the bond itself carries: mean + t (x) n + n (x) t - (t.n) n (x) n, t that
- * traction less that of the mean. So a bond that bridges an open crack, between cells without stress, is seen to be pulled. n: unit normal. */
-LAW failure_stress soft_stress(failure_stress mean, soft_vector traction, soft_vector n)
-{
-    const soft_vector t = {traction.x - (mean.xx * n.x + mean.xy * n.y + mean.xz * n.z), traction.y - (mean.xy * n.x + mean.yy * n.y + mean.yz * n.z),
-                           traction.z - (mean.xz * n.x + mean.yz * n.y + mean.zz * n.z)};
-    const soft_vector m = soft_add(t, REAL(-0.5) * soft_dot(t, n), n);
-    return (failure_stress){mean.xx + REAL(2) * m.x * n.x,         mean.yy + REAL(2) * m.y * n.y,         mean.zz + REAL(2) * m.z * n.z,
-                            mean.yz + m.y * n.z + m.z * n.y, mean.xz + m.x * n.z + m.z * n.x, mean.xy + m.x * n.y + m.y * n.x};
-}
-
-/* Stress at the edge of a face that turns about the other edge [Pa], its traction even: of the moment that the uneven pulls of the two cells make over the length of the bond, and of the force across it; a push on
- * the solid there holds it. Nothing in the middle of a face shows that a crack, which has come to one side of it, bends it. least: smallest principal stress [Pa]; n: unit normal. */
-LAW coeff soft_edge(coeff least, soft_vector uneven, soft_vector force, soft_vector n, soft_vector s, coeff ratio)
-{
-    const coeff area = SQRT(soft_dot(s, s)), across = soft_dot(force, n) / area;
-    const soft_vector along = soft_add(uneven, -soft_dot(uneven, n), n);
-    return SQRT(soft_dot(along, along)) * ratio / SQRT(area) + SOFT_EDGE_HELD * (least < 0 ? least : REAL(0)) + (across > 0 ? across : REAL(0));
-}
-
 /* Before the sweeps of a step: faces that nothing holds go on opening as in the last step, so that what the sweeps leave of the balance is no drag on sides that fly apart. */
 KERNEL void soft_coast(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive,
                        GLOBAL const int *restrict n_open, GLOBAL const int *restrict open, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict gradient,
@@ -299,19 +283,24 @@ KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff f
             const soft_tensor there = soft_add_cell(nothing, theirs, reach[j], stiffen / inv_volume[j], plane[j], shear[j]);
             const soft_tensor sides = soft_tensor_add(here, REAL(1), there), stiffness = soft_tensor_add(sides, REAL(1), spring);
             const soft_vector normal = soft_turned(gradient, e, j, s), axis = soft_unit(soft_turned(gradient, e, j, soft_part(crack, entry, SOFT_AXIS)));
+            const int slides = SOFT_IS_SLIDING(entry);
+            const soft_vector none = {0, 0, 0};
             const coeff keeps = soft_keeps(SOFT_NUMBER(entry, WIDEST), release * ratio[entry] * SQRT(soft_dot(s, s)));
-            const soft_vector carried = soft_scale(keeps, soft_carried(soft_mean_stress(gradient, stress, e, j), axis, normal));
-            const soft_vector drive = soft_add(pull, REAL(1), soft_tensor_times(stiffness, before));
+            const failure_stress mean = soft_mean_stress(gradient, stress, e, j);
+            const coeff whole = slides ? soft_force(face, SOFT_NUMBER(entry, WIDEST)) / face.start : 0;
+            const soft_vector carried = soft_scale(slides ? keeps * (REAL(1) - whole) : keeps, soft_carried(mean, axis, normal));
+            const soft_vector passed = slides ? soft_scale(whole, soft_passed(mean, axis, normal)) : none;
+            const soft_vector drive = soft_add(soft_add(pull, REAL(1), soft_tensor_times(stiffness, before)), REAL(-1), passed);
             const coeff wide = SOFT_NUMBER(entry, WIDEST), was = SQRT(soft_dot(before, before)), at = was > wide ? was : wide;
             const soft_vector found = soft_balance(face, wide, drive, stiffness, at > 0 ? soft_force(face, at) / at : 0, axis, before, friction, carried, retention * soft_keeps(wide, REAL(2) * soft_end(face)) * SQRT(soft_dot(carried, carried)));
-            const soft_vector now = soft_outside(found, normal);
+            const soft_vector now = slides ? found : soft_outside(found, normal);
             const coeff w = SQRT(soft_dot(now, now)), push = -soft_dot(pull, axis), least = w > wide ? w : wide;
             const coeff even = SOFT_UNEVEN_HELD * (SQRT(soft_dot(carried, carried)) + (push > 0 ? push : 0));
             const soft_vector side_before = soft_part(crack, entry, SOFT_SIDE);
             const soft_vector uneven = soft_add(soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau), REAL(-1),
                                                 soft_tensor_times(soft_tensor_add(here, REAL(-1), there), soft_add(now, REAL(-1), before)));
-            const int rests = open[entry] == SOFT_APART && soft_dot(side_before, side_before) < SOFT_UNEVEN_RESTS * w * w;
-            const soft_vector none = {0, 0, 0}, turn = rests ? none : soft_side(face, least, uneven, stiffness, side_before, even, normal);
+            const int rests = slides || (open[entry] == SOFT_APART && soft_dot(side_before, side_before) < SOFT_UNEVEN_RESTS * w * w);
+            const soft_vector turn = rests ? none : soft_side(face, least, uneven, stiffness, side_before, even, normal);
             const soft_vector side = soft_add(side_before, REAL(1), turn), turned = soft_add(soft_part(crack, entry, SOFT_SIDE_SHIFT), REAL(1), turn);
             const coeff edge = soft_dot(side, side), both = SQRT(w * w + edge);
             soft_put(crack, entry, SOFT_SIDE, side), soft_put(crack, other, SOFT_SIDE, side);
@@ -321,7 +310,7 @@ KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff f
             soft_put(crack, entry, SOFT_SHIFT, added), soft_put(crack, other, SOFT_SHIFT, soft_scale(REAL(-1), added));
             if (is_last && both > wide) {
                 const coeff across = soft_dot(now, normal) / SQRT(soft_dot(normal, normal));
-                const coeff tilt = soft_tilt(SOFT_NUMBER(entry, COSINE), (across < 0 ? SQRT(edge) : SQRT(across * across + edge)) / both, steepest);
+                const coeff tilt = slides ? REAL(1) : soft_tilt(SOFT_NUMBER(entry, COSINE), (across < 0 ? SQRT(edge) : SQRT(across * across + edge)) / both, steepest);
                 SOFT_NUMBER(entry, WIDEST) = both, SOFT_NUMBER(other, WIDEST) = both;
                 SOFT_NUMBER(entry, TILT) = tilt, SOFT_NUMBER(other, TILT) = tilt;
             }
@@ -351,13 +340,19 @@ KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restr
             const soft_vector w = soft_part(crack, entry, SOFT_OPENING), jump = soft_jump(displacement, e, j);
             const soft_vector force = soft_bond_force(flux, bond_part, e, j, soft_area(area, entry), spring, ratio[entry], soft_add(jump, REAL(-1), w));
             const soft_vector uneven = soft_uneven(flux, gradient, e, j, soft_area(area, entry), k_one, ell_one, beta, one_plus_tau);
-            coeff given = 0, holds = SOFT_NUMBER(entry, HELD);
+            const int slides = SOFT_IS_SLIDING(entry), mode = slides ? CELLS_SHEAR : CELLS_TENSION;
+            coeff given = 0, rubs = 0, holds = SOFT_NUMBER(entry, HELD);
             if (book) {
-                const coeff work = REAL(0.5) * (soft_dot(soft_add(force, REAL(1), soft_part(crack, entry, SOFT_PULL)), soft_part(crack, entry, SOFT_SHIFT)) +
-                                                soft_dot(soft_add(uneven, REAL(1), soft_part(crack, entry, SOFT_SIDE_PULL)), soft_part(crack, entry, SOFT_SIDE_SHIFT)));
+                const coeff turning = slides ? 0 : soft_dot(soft_add(uneven, REAL(1), soft_part(crack, entry, SOFT_SIDE_PULL)), soft_part(crack, entry, SOFT_SIDE_SHIFT));
+                const coeff work = REAL(0.5) * (soft_dot(soft_add(force, REAL(1), soft_part(crack, entry, SOFT_PULL)), soft_part(crack, entry, SOFT_SHIFT)) + turning);
                 const soft_vector side = soft_part(crack, entry, SOFT_SIDE);
                 holds = soft_held(face, SOFT_NUMBER(entry, WIDEST), SQRT(soft_dot(w, w) + soft_dot(side, side)));
                 given = work - (holds - SOFT_NUMBER(entry, HELD));
+                if (slides) { /* the rest is friction */
+                    rubs = given;
+                    given = soft_spent(face, SOFT_NUMBER(entry, WIDEST)) - SOFT_NUMBER(entry, SPENT);
+                    rubs -= given;
+                }
                 if (open[entry] != SOFT_APART) SOFT_NUMBER(entry, SPENT) += given, SOFT_NUMBER(other, SPENT) += given;
                 SOFT_NUMBER(entry, HELD) = holds, SOFT_NUMBER(other, HELD) = holds;
                 const soft_vector s = soft_area(area, entry);
@@ -367,10 +362,10 @@ KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restr
                     const soft_vector axis = soft_unit(soft_turned(gradient, e, j, soft_part(crack, entry, SOFT_AXIS)));
                     const soft_vector push = soft_carried(soft_mean_stress(gradient, stress, e, j), axis, soft_turned(gradient, e, j, s));
                     const coeff much = REAL(0.1) * SOFT_NUMBER(entry, START), far = release * ratio[entry] * SQRT(soft_dot(s, s));
-                    clear = soft_is_clear(w, axis, soft_dot(push, push) > much * much ? far : REAL(0.2) * far);
+                    clear = soft_is_clear(w, axis, slides || soft_dot(push, push) > much * much ? far : REAL(0.2) * far);
                 }
                 if (clear) {
-                    mark[entry] = CELLS_TENSION, mark[other] = CELLS_TENSION;
+                    mark[entry] = mode, mark[other] = mode;
                     measure[entry] = SOFT_NUMBER(entry, ONSET), measure[other] = SOFT_NUMBER(entry, ONSET);
                     STORE_SAME(touched + e, 1);
                     STORE_SAME(touched + j, 1);
@@ -379,7 +374,8 @@ KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restr
             }
             SOFT_NUMBER(entry, BOOKED) = given, SOFT_NUMBER(other, BOOKED) = given;
             soft_put(crack, entry, SOFT_PULL, force), soft_put(crack, other, SOFT_PULL, soft_scale(REAL(-1), force));
-            soft_put(crack, entry, SOFT_SIDE_PULL, uneven), soft_put(crack, other, SOFT_SIDE_PULL, uneven);
+            const soft_vector last = slides ? (soft_vector){rubs, 0, 0} : uneven;
+            soft_put(crack, entry, SOFT_SIDE_PULL, last), soft_put(crack, other, SOFT_SIDE_PULL, last);
         }
         found[e] = (state)count;
     }
@@ -395,134 +391,17 @@ KERNEL void soft_book(int n, int step, GLOBAL const int *restrict row_start, GLO
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = SOFT_ENTRY;
             if (!open[entry] || !(alive[entry] > 0)) continue;
-            GLOBAL state *to = break_step[entry] ? rubbed : lost;
+            const int slides = SOFT_IS_SLIDING(entry);
+            GLOBAL state *to = break_step[entry] && !slides ? rubbed : lost;
             to[e] += STATE(0.5) * (state)SOFT_NUMBER(entry, BOOKED);
+            if (slides) rubbed[e] += STATE(0.5) * (state)SOFT_NUMBER(entry, RUBS);
             if (open[entry] != SOFT_APART || break_step[entry]) continue;
             break_step[entry] = step;
-            break_mode[entry] = CELLS_TENSION;
+            break_mode[entry] = slides ? CELLS_SHEAR : CELLS_TENSION;
             break_stress[entry] = SOFT_NUMBER(entry, ONSET);
             break_energy[entry] = SOFT_NUMBER(entry, SPENT);
             broken[e] += 1;
         }
-    }
-}
-
-/* Whole bonds whose largest principal stress is above share * limit and that stand across it (the cosine of normal and axis is at least steepest)
- * are marked SOFT_WISH, measure: that stress. Elements without open faces whose own stress is below screen * limit of their weakest bond do not look:
- * the largest principal value is not above the Frobenius norm. found [n]. */
-KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, GLOBAL const int *restrict row_start,
-                       GLOBAL const int *restrict neighbour, GLOBAL const int *restrict n_open, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
-                       GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                       GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
-                       GLOBAL const coeff *restrict least, GLOBAL const coeff *restrict limit, GLOBAL int *restrict mark,
-                       GLOBAL coeff *restrict measure, GLOBAL coeff *restrict crack, GLOBAL state *restrict found)
-{
-    FOR_EACH_ITEM(e, n) {
-        GLOBAL const coeff *p = stress + (brc_size)e * 9, *h = gradient + (brc_size)e * 9;
-        coeff square = 0, strain = 0;
-        int count = 0;
-        for (int c = 0; c < 9; ++c) square += p[c] * p[c], strain += h[c] * h[c];
-        const coeff bound = screen * share * least[e] / (REAL(1) + SQRT(strain));
-        const int look = n_open[e] > 0 || square > bound * bound;
-        for (int slot = row_start[e / C]; look && slot < row_start[e / C + 1]; ++slot) {
-            const brc_size entry = SOFT_ENTRY;
-            if (!(limit[entry] < CELLS_NEVER)) continue;
-            const int j = neighbour[entry];
-            const soft_vector s = soft_area(area, entry);
-            const soft_vector force = soft_bond_force(flux, bond_part, e, j, s, SOFT_BOND_MODULUS(e, j) * one_plus_tau, ratio[entry], soft_jump(displacement, e, j));
-            const soft_vector normal = soft_unit(soft_turned(gradient, e, j, s));
-            const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
-            const failure_stress mean = soft_mean_stress(gradient, stress, e, j);
-            const failure_principal largest = failure_principal_of(soft_stress(mean, traction, normal));
-            const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
-            const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
-            const coeff edge = n_open[e] && n_open[j] ? soft_edge(largest.third, soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau), force, normal, s, ratio[entry]) : REAL(0);
-            const int bends = edge > largest.first;
-            const coeff worst = bends ? edge : largest.first;
-            if (!(worst > share * limit[entry]) || (!bends && size < steepest)) continue;
-            const int turned = size < steepest || largest.first < REAL(0.5) * worst;
-            mark[entry] = SOFT_WISH;
-            measure[entry] = worst;
-            SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
-            SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : size;
-            soft_put(crack, entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
-            count += 1;
-        }
-        found[e] = (state)count;
-    }
-}
-
-/* Wishes of either side come true: the bond opens at the force it carries; without a fracture energy it is marked to break. */
-KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                       GLOBAL const int *restrict twin, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
-                       GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                       GLOBAL const coeff *restrict bond_part, GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
-                       GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
-                       GLOBAL coeff *restrict crack, GLOBAL coeff *restrict limit, GLOBAL int *restrict open,
-                       GLOBAL int *restrict touched, GLOBAL state *restrict found)
-{
-    FOR_EACH_ITEM(e, n) {
-        int breaks = 0;
-        for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
-            const brc_size entry = SOFT_ENTRY, other = (brc_size)twin[entry];
-            if (!lead[entry] || !(mark[entry] == SOFT_WISH || mark[other] == SOFT_WISH)) continue;
-            const brc_size from = mark[entry] == SOFT_WISH ? entry : other;
-            const int j = neighbour[entry];
-            const coeff onset = measure[from], c = SOFT_NUMBER(from, COSINE);
-            mark[entry] = 0, mark[other] = 0;
-            limit[entry] = CELLS_NEVER, limit[other] = CELLS_NEVER;
-            if (!(SOFT_NUMBER(entry, ENERGY) > 0)) {
-                mark[entry] = CELLS_TENSION, mark[other] = CELLS_TENSION;
-                measure[entry] = onset, measure[other] = onset;
-                STORE_SAME(touched + e, 1);
-                STORE_SAME(touched + j, 1);
-                breaks += 1;
-                continue;
-            }
-            const soft_vector jump = soft_jump(displacement, e, j);
-            const soft_vector force = soft_bond_force(flux, bond_part, e, j, soft_area(area, entry), SOFT_BOND_MODULUS(e, j) * one_plus_tau, ratio[entry], jump);
-            const soft_vector now = soft_scale(from == entry ? REAL(1) : REAL(-1), soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
-            const soft_vector released = soft_add(force, REAL(-1), soft_carried(soft_mean_stress(gradient, stress, e, j), now, soft_turned(gradient, e, j, soft_area(area, entry))));
-            const soft_vector axis = soft_unit(soft_turned_back(gradient, e, j, now));
-            const soft_vector uneven = soft_uneven(flux, gradient, e, j, soft_area(area, entry), k_one, ell_one, beta, one_plus_tau);
-            const coeff across = soft_dot(released, now), pulled = across > 0 ? across : 0;
-            const coeff size = SQRT(SOFT_NUMBER(from, TURNS) > 0 ? pulled * pulled + soft_dot(uneven, uneven) : soft_dot(released, released));
-            open[entry] = SOFT_OPENS, open[other] = SOFT_OPENS;
-            soft_put(crack, entry, SOFT_AXIS, axis), soft_put(crack, other, SOFT_AXIS, soft_scale(REAL(-1), axis));
-            SOFT_NUMBER(entry, START) = size, SOFT_NUMBER(other, START) = size;
-            SOFT_NUMBER(entry, ENERGY) *= c, SOFT_NUMBER(other, ENERGY) *= c;
-            SOFT_NUMBER(entry, COSINE) = c, SOFT_NUMBER(other, COSINE) = c;
-            SOFT_NUMBER(entry, TILT) = 1, SOFT_NUMBER(other, TILT) = 1;
-            SOFT_NUMBER(entry, ONSET) = onset, SOFT_NUMBER(other, ONSET) = onset;
-            soft_put(crack, entry, SOFT_PULL, force), soft_put(crack, other, SOFT_PULL, soft_scale(REAL(-1), force));
-            soft_put(crack, entry, SOFT_SIDE_PULL, uneven), soft_put(crack, other, SOFT_SIDE_PULL, uneven);
-        }
-        found[e] = (state)breaks;
-    }
-}
-
-/* Open faces of every element, and their reach; and the weakest limit of those still whole. */
-KERNEL void soft_count(int n, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict alive,
-                       GLOBAL const int *restrict open, GLOBAL const coeff *restrict limit, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict inv_shape, GLOBAL int *restrict n_open, GLOBAL coeff *restrict reach,
-                       GLOBAL coeff *restrict least)
-{
-    FOR_EACH_ITEM(e, n) {
-        int count = 0;
-        coeff sum = 0, weakest = CELLS_NEVER;
-        for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
-            const brc_size entry = SOFT_ENTRY;
-            weakest = limit[entry] < weakest ? limit[entry] : weakest;
-            if (!open[entry] || !(alive[entry] > 0)) continue;
-            const soft_vector a = soft_pull_of(inv_shape, e, soft_area(area, entry));
-            sum += SQRT(soft_dot(a, a));
-            count += 1;
-        }
-        n_open[e] = count;
-        reach[e] = sum;
-        least[e] = weakest;
     }
 }
 
@@ -578,6 +457,3 @@ KERNEL void soft_settle(int n, int step, GLOBAL const int *restrict list, GLOBAL
         }
     }
 }
-#undef SOFT_BOND_MODULUS
-#undef SOFT_ENTRY
-#undef SOFT_NUMBER

@@ -86,6 +86,16 @@ LAW coeff soft_tilt(coeff c_onset, coeff c_now, coeff steepest)
 
 /* Energy [J] that comes back when a face at opening w closes, widest: the largest so far. */
 LAW coeff soft_held(soft_face f, coeff widest, coeff w) { return widest > 0 ? REAL(0.5) * soft_force(f, widest) / widest * w * w : 0; }
+/* And what never does: the area below F up to widest but for what is held there. */
+LAW coeff soft_spent(soft_face f, coeff widest)
+{
+    const coeff end = soft_end(f);
+    if (!(widest < end)) return f.energy;
+    const coeff x = SOFT_CUT_LOG / end; /* 1 / l */
+    const coeff below = f.exponential ? f.start * ((REAL(1) - soft_decay(x * widest)) / x - SOFT_CUT * widest) / (REAL(1) - SOFT_CUT)
+                                      : f.start * widest * (REAL(1) - REAL(0.5) * widest / end);
+    return below - REAL(0.5) * soft_force(f, widest) * widest;
+}
 
 /* Opening [m] at which the cohesion balances cells that pull with drive - stiffness * opening. drive [N]; stiffness [N/m]. Where the cells give way
  * less than the cohesion falls there is no balance short of the end. */

@@ -1,6 +1,7 @@
 /* Scenes that break: strengths that fit together, models and stages that know them, and scenes in which nothing can break. */
 #include "reader_internal.h"
 #include "schema_internal.h"
+#include <math.h>
 #include <string.h>
 
 /* Strengths that contradict themselves. */
@@ -10,6 +11,10 @@ static void check_material(brc_reader *reader, const brc_material *material)
     if (material->fracture_energy > 0 && !(material->tension > 0))
         COMPLAIN(reader, &material->fracture_energy, material,
                  "fracture_energy: says how cohesion falls from the strength; expected `tension` beside it");
+    if (material->shear_fracture_energy > 0 && !(material->fracture_energy > 0))
+        COMPLAIN(reader, &material->shear_fracture_energy, material,
+                 "shear_fracture_energy: is of cracks that slide, beside that of cracks that open; expected "
+                 "`fracture_energy` beside it");
     if (material->measured_by != BRC_STRENGTH_BY_TENSION && !(material->tension > 0))
         COMPLAIN(reader, &material->measured_by, material,
                  "measured_by: says what test `tension` comes from; expected `tension` beside it");
@@ -128,11 +133,11 @@ static void check_models(brc_reader *reader)
 static void check_criterion(brc_reader *reader)
 {
     const brc_scene *scene = reader->scene;
-    static const char *const CURE = "bonds soften with model cbm, and with model dlsm by the criterion bond-normal";
+    static const char *const CURE = "bonds soften with model cbm, and with model dlsm by the criteria bond-normal and mohr-coulomb";
     for (int b = 0; b < scene->n_bodies; ++b) {
         const brc_body *body = &scene->bodies[b];
         const brc_model *model = brc_body_model(scene, b);
-        const bool by_bond = brc_criterion_of(&scene->fracture, model->kind) == BRC_CRITERION_BOND_NORMAL;
+        const bool by_bond = brc_scene_breaks_by_bond(scene, model->kind);
         const bool softens = model->kind == BRC_MODEL_CBM || (model->kind == BRC_MODEL_DLSM && by_bond);
         if (model->kind == BRC_MODEL_CBM && by_bond)
             COMPLAIN(reader, &scene->fracture.kind, scene,
@@ -171,8 +176,7 @@ static void check_interfaces(brc_reader *reader)
         if (at->kind != BRC_INTERFACE_MATERIALS || !(at->tension > 0)) continue;
         const brc_material *first = &scene->materials[at->material[0]], *second = &scene->materials[at->material[1]];
         for (int b = 0; b < scene->n_bodies && !(first->tension > 0) && !(second->tension > 0); ++b) {
-            if (brc_criterion_of(&scene->fracture, brc_body_model(scene, b)->kind) == BRC_CRITERION_BOND_NORMAL)
-                continue;
+            if (brc_scene_breaks_by_bond(scene, brc_body_model(scene, b)->kind)) continue;
             if (!brc_body_uses(&scene->bodies[b], at->material[0]) ||
                 !brc_body_uses(&scene->bodies[b], at->material[1]))
                 continue;
@@ -198,6 +202,61 @@ static void check_sides(brc_reader *reader)
     else if (!fracture->closure)
         COMPLAIN(reader, &fracture->side_friction, fracture,
                  "friction: with `closure: false` the sides of broken faces do not touch; remove friction, or closure");
+}
+
+/* Limits that nothing looks at: of compression where bonds break by tension alone or slide, of shear where none slides. */
+static void check_limits_of(brc_reader *reader, const brc_body *body, const brc_model *model,
+                            const brc_material *material)
+{
+    const brc_scene *scene = reader->scene;
+    const brc_fracture *fracture = &scene->fracture;
+    const bool slides = brc_scene_slides(scene, model->kind);
+    if (material->shear_fracture_energy > 0 && material->fracture_energy > 0 && !slides)
+        COMPLAIN(reader, &material->shear_fracture_energy, material,
+                 "shear_fracture_energy: is of cells of model dlsm that fail by mohr-coulomb, and body '%s' (model %s) "
+                 "would not look at it; %s",
+                 body->name, brc_model_name(model->kind),
+                 model->kind == BRC_MODEL_DLSM
+                     ? "add `fracture: {criterion: {mohr-coulomb: {cohesion: ..., friction: ...}}}`, or remove it"
+                     : "beams and others take their fracture_energy whatever the mode: remove it, or use model dlsm");
+    if (material->compression > 0 && slides)
+        COMPLAIN(reader, &material->compression, material,
+                 "compression: cells of body '%s' that soften fail in compression by sliding; this cohesion bears "
+                 "2 c cos(phi) / (1 - sin(phi)) = %.4g MPa in uniaxial compression: remove compression and give "
+                 "the cohesion that bears yours",
+                 body->name, 2e-6 * fracture->cohesion * cos(fracture->friction) / (1 - sin(fracture->friction)));
+    else if (material->compression > 0 && brc_scene_breaks_by_bond(scene, model->kind))
+        WARN(reader, &material->compression, material,
+             "compression: bonds of cells break by tension alone (criterion bond-normal), and body '%s' bears any "
+             "compression; use `fracture: {criterion: %s}`, or remove it",
+             body->name,
+             brc_scene_softens(scene) ? "{mohr-coulomb: {cohesion: ..., friction: ...}}" : "virial-principal");
+}
+
+static void check_limits(brc_reader *reader)
+{
+    const brc_scene *scene = reader->scene;
+    const brc_fracture *fracture = &scene->fracture;
+    bool slides = false;
+    for (int b = 0; b < scene->n_bodies; ++b) {
+        const brc_model *model = brc_body_model(scene, b);
+        slides = slides || brc_scene_slides(scene, model->kind);
+        for (int m = 0; m < scene->n_materials; ++m)
+            if (brc_body_uses(&scene->bodies[b], m))
+                check_limits_of(reader, &scene->bodies[b], model, &scene->materials[m]);
+    }
+    if (!slides) return;
+    const double rubs = scene->has_contact ? scene->contact.law.friction : brc_scene_side_friction(scene);
+    if (rubs > tan(fracture->friction))
+        WARN(reader, &fracture->friction, scene,
+             "friction: sides that have slid rub by %g, more than the solid's tan(%.3g deg) = %.3g, so that under "
+             "pressure a crack holds more than what it broke; give a friction of the sides below that",
+             rubs, fracture->friction * 180 / M_PI, tan(fracture->friction));
+    for (int i = 0; i < scene->n_sensors; ++i)
+        if (scene->sensors[i].kind == BRC_SENSOR_FRACTURE && strcmp(scene->sensors[i].term, "failure_ratio") == 0)
+            COMPLAIN(reader, scene->sensors[i].term, &scene->sensors[i],
+                     "failure_ratio: is not known of cells that slide by mohr-coulomb with a fracture energy; remove "
+                     "the sensor, or the fracture energies");
 }
 
 /* Faces and beams that soften open in dynamic stages without noise damping only. */
@@ -273,6 +332,7 @@ void brc_reader_check_fracture(brc_reader *reader)
     check_criterion(reader);
     check_interfaces(reader);
     check_sides(reader);
+    check_limits(reader);
     if (brc_scene_softens(scene)) check_softening(reader);
     if (!has_strength(scene))
         COMPLAIN(reader, &scene->has_fracture, scene,

@@ -66,7 +66,7 @@ const brc_model *brc_body_model(const brc_scene *scene, int32_t body)
 
 bool brc_material_breaks(const brc_scene *scene, brc_model_kind model, const brc_material *m)
 {
-    if (brc_criterion_of(&scene->fracture, model) == BRC_CRITERION_BOND_NORMAL) return m->tension > 0;
+    if (brc_scene_breaks_by_bond(scene, model)) return m->tension > 0;
     return m->tension > 0 || m->compression > 0 || scene->fracture.cohesion > 0 || (model == BRC_MODEL_CBM && (m->beam_strength > 0 || m->beam_compression > 0));
 }
 
@@ -77,6 +77,16 @@ bool brc_scene_softens(const brc_scene *scene)
     for (int32_t k = 0; k < scene->n_interfaces; ++k)
         if (scene->interfaces[k].fracture_energy > 0) return true;
     return false;
+}
+
+bool brc_scene_slides(const brc_scene *scene, brc_model_kind model)
+{
+    return scene->has_fracture && model == BRC_MODEL_DLSM && scene->fracture.kind == BRC_CRITERION_MOHR_COULOMB && brc_scene_softens(scene);
+}
+
+bool brc_scene_breaks_by_bond(const brc_scene *scene, brc_model_kind model)
+{
+    return brc_criterion_of(&scene->fracture, model) == BRC_CRITERION_BOND_NORMAL || brc_scene_slides(scene, model);
 }
 
 bool brc_scene_shuts(const brc_scene *scene)

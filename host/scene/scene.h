@@ -50,6 +50,7 @@ typedef struct brc_material {
     double beam_strength;        /* cbm: sigma_m, tensile limit of the virial stress; 0: from tension by the calibrated law [Pa] */
     double beam_compression;     /* cbm: its limit of compression, positive; 0: from compression by the law [Pa] */
     double fracture_energy;      /* G_c, energy per area of a crack [J/m^2]; 0: bonds break at once */
+    double shear_fracture_energy; /* G_II, of a crack whose sides slide, beside what they rub off [J/m^2]; 0: G_c */
     brc_softening softening;     /* with a fracture energy: how cohesion falls with the opening */
     brc_scatter scatter;         /* of the strength between bonds */
 } brc_material;
@@ -463,6 +464,10 @@ brc_criterion_kind brc_criterion_of(const brc_fracture *fracture, brc_model_kind
 bool brc_material_breaks(const brc_scene *scene, brc_model_kind model, const brc_material *material);
 /* Does some material or interface have a fracture energy? */
 bool brc_scene_softens(const brc_scene *scene);
+/* Do the bonds of this model break by what they carry themselves, rather than by the stress of elements: cells by bond-normal, and faces that soften in shear too (dlsm by mohr-coulomb with a fracture energy)? */
+bool brc_scene_breaks_by_bond(const brc_scene *scene, brc_model_kind model);
+/* The latter alone. */
+bool brc_scene_slides(const brc_scene *scene, brc_model_kind model);
 /* Do bonds that broke at once still bear on each other? With contact they do not: its law has such sides. */
 bool brc_scene_shuts(const brc_scene *scene);
 /* Friction of the sides of broken faces where they do [-]. */

@@ -45,6 +45,8 @@ static const brc_entry STRENGTH[] = {
      .meaning = "largest compressive principal stress it bears, a positive number; left out: any"},
     {"fracture_energy", BRC_TYPE_QUANTITY, "J/m^2", POSITIVE, FIELD(brc_material, fracture_energy), .sample = ENERGY_SAMPLE,
      .meaning = "energy per area of a crack: bonds soften in place of breaking at once; left out: what strength and cells make of it"},
+    {"shear_fracture_energy", BRC_TYPE_QUANTITY, "J/m^2", POSITIVE, FIELD(brc_material, shear_fracture_energy), .sample = ENERGY_SAMPLE,
+     .meaning = "with a fracture energy, model dlsm and criterion mohr-coulomb: energy per area of a crack whose sides slide (mode II), beside what they rub off; left out: the fracture energy"},
     {"softening", BRC_TYPE_CHOICE, FIELD(brc_material, softening), CHOICES("linear", "exponential"), .given = "linear",
      .meaning = "with a fracture energy: how the cohesion falls while a crack opens"},
     {"scatter", BRC_TYPE_STRUCT, .section = &SCATTER_SECTION, .meaning = "of the strength between bonds; left out: none"},
@@ -76,7 +78,8 @@ static const brc_entry MOHR_COULOMB[] = {SHEAR_ENTRIES, LEVEL_ENTRY};
 static const brc_section MOHR_COULOMB_SECTION = {
     .title = "mohr-coulomb",
     .meaning = "As virial-principal, with strengths only where materials give them, and a limit on shear: (s1 - s3) + sin(friction) (s1 + s3) "
-               "= 2 cohesion cos(friction). The bond is the one nearest to the normal of a slip plane.",
+               "= 2 cohesion cos(friction). The bond is the one nearest to the normal of a slip plane. Model dlsm with a fracture energy: faces within 60 degrees of a slip plane "
+               "soften by sliding along it, those of an interface along themselves, as the stress at the face reaches the limit; `level` counts for nothing.",
     ENTRIES(MOHR_COULOMB)};
 static const brc_entry DRUCKER_PRAGER[] = {SHEAR_ENTRIES, LEVEL_ENTRY};
 static const brc_section DRUCKER_PRAGER_SECTION = {
@@ -110,7 +113,7 @@ static const brc_entry FRACTURE[] = {
      .meaning = "the sides of a face or beam that broke bear on each other until they stand clear; where bonds break at once, only in scenes without `contact`, "
                 "whose law takes such sides over; false: what broke carries nothing"},
     {"friction", BRC_TYPE_QUANTITY, "", NOT_NEGATIVE, FIELD(brc_fracture, side_friction), .given = "auto", .word = "auto", .word_value = -1, .sample = "0.5",
-     .meaning = "Coulomb friction of the sides of broken faces (model dlsm, bonds that break at once) in a scene without `contact`, which has a friction of its own; auto: 0.3"},
+     .meaning = "Coulomb friction of the sides of broken faces (model dlsm: bonds that break at once, and faces that slide by mohr-coulomb with a fracture energy) in a scene without `contact`, which has a friction of its own; auto: 0.3"},
     {"seed", BRC_TYPE_INTEGER, WITHIN(0, 9e15), FIELD(brc_fracture, seed), .given = "1",
      .meaning = "of the strengths that scatter; the draw of a bond depends on its elements' ids only"},
 };

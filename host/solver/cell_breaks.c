@@ -17,8 +17,6 @@ static const double never = 1e30; /* CELLS_NEVER of kernels/cells.cl */
 
 /* ---- what is made once ---- */
 
-static bool is_bond_normal(const brc_simulation *s) { return brc_criterion_of(&s->scene->fracture, s->scene->model.kind) == BRC_CRITERION_BOND_NORMAL; }
-
 /* Limits of the bonds, the smallest of each element, and where a bond's other half is stored. */
 static brc_status upload_bonds(brc_simulation *s, const double *strength)
 {
@@ -200,7 +198,7 @@ brc_status brc_cell_breaks_create(brc_simulation *s)
     brc_status status = BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells, 1, "fracture"));
     BRC_TRY(brc_fields_create(s->device, &brc_cell_break_fields, &s->wants, s->fracture->cells));
-    s->fracture->cells->by_element = !is_bond_normal(s);
+    s->fracture->cells->by_element = !brc_scene_breaks_by_bond(s->scene, s->scene->model.kind);
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
     BRC_TRY_OR(cleanup, upload_bonds(s, strengths.tension));
     if (brc_is_dlsm(s)) BRC_TRY_OR(cleanup, upload_elements(s));

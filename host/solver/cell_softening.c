@@ -29,6 +29,9 @@ struct brc_softening_faces {
     brc_pass *gradient, *flux, *take_force, *coast, *move, *measure, *book, *check, *begin, *count, *energy, *settle;
     brc_buffer *crack, *open, *lead;     /* [n_slots][WIDTH][C], [n_slots][C] */
     brc_buffer *n_open, *reach, *shear;  /* [n_rows] */
+    brc_buffer *shear_limit;             /* [n_slots][C] scenes whose faces slide: 2 c cos phi of the bond [Pa] */
+    brc_buffer *shear_energy;            /* [n_slots][C] and G_II S [J] */
+    double shear_least;                  /* no face slides where the norm of the stress is below [Pa] */
     brc_buffer *rubbed;                  /* [n_rows] energy lost to friction between the sides of broken faces [J] */
     brc_ring_list around;                /* cells with open faces, for the sweeps */
     bool any;                            /* some face has opened */
@@ -39,6 +42,8 @@ typedef struct brc_softening_faces softening_faces;
 
 static bool softens(const brc_wants *w) { return w->scene->has_fracture && !brc_wants_beams(w) && w->softens; }
 
+static bool slides(const brc_wants *w) { return brc_scene_slides(w->scene, w->scene->model.kind); }
+
 #define AT(member) BRC_FIELD_AT(softening_faces, member)
 static const brc_field_row rows[] = {
     {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of faces", "-", BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
@@ -46,6 +51,8 @@ static const brc_field_row rows[] = {
     {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of faces", "-", BRC_NOT_KEPT},
     {"n_open", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(n_open), "open faces", "-", BRC_KEPT("softening.n_open", BRC_KEEP_ALL)},
     {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "reach of open faces", "-", BRC_KEPT("softening.reach", BRC_KEEP_ALL)},
+    {"shear_limit", brc_each_entry, 1, BRC_FIELD_COEFF, slides, AT(shear_limit), "limits of shear", "Pa", BRC_NOT_KEPT},
+    {"shear_energy", brc_each_entry, 1, BRC_FIELD_COEFF, slides, AT(shear_energy), "fracture energies in shear", "J", BRC_NOT_KEPT},
     {"shear", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(shear), "shear moduli", "Pa", BRC_NOT_KEPT},
     {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J", BRC_KEPT("softening.rubbed", BRC_KEEP_ALL)},
 };
@@ -70,8 +77,8 @@ static brc_status make_passes(brc_simulation *s, softening_faces *f)
         BRC_PASS(&f->move, "soft_move", "is_last stiffen steepest friction retention release"),
         BRC_PASS(&f->measure, "soft_measure", "book release"),
         BRC_PASS(&f->book, "soft_book", "step"),
-        BRC_PASS(&f->check, "soft_check", "share steepest screen"),
-        BRC_PASS(&f->begin, "soft_begin", NULL),
+        BRC_PASS(&f->check, "soft_check", "share steepest screen shears slope shear_least"),
+        BRC_PASS(&f->begin, "soft_begin", "friction"),
         BRC_PASS(&f->count, "soft_count", NULL),
         BRC_PASS(&f->energy, "soft_energy", NULL),
         BRC_PASS(&f->settle, "soft_settle", "step list")};
@@ -153,6 +160,35 @@ cleanup:
     return status;
 }
 
+/* Limits and energies of faces that slide. */
+static brc_status upload_shear(brc_simulation *s, softening_faces *f, const brc_strengths *strengths)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int64_t n_entries = layout->n_slots * layout->slice;
+    const double whole = 2 * s->scene->fracture.cohesion * cos(s->scene->fracture.friction);
+    const double reach = 2 * (1 + sin(s->scene->fracture.friction)); /* 2 cos |tau| + 2 sin sigma_n, and Mohr-Coulomb's sum, are at most this times the norm */
+    double *limit = NULL, *energy = NULL;
+    brc_status status = BRC_OK;
+    if (!f->shear_limit) return BRC_OK;
+    f->shear_least = INFINITY;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, n_entries, "limits of shear"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &energy, n_entries, "fracture energies in shear"));
+    for (int64_t k = 0; k < n_entries; ++k) {
+        const int32_t h = layout->half_edge[k];
+        if (h < 0) continue;
+        f->shear_least = fmin(f->shear_least, whole * strengths->factor[d->bond[h]] / reach);
+        limit[k] = (strengths->joint[d->bond[h]] ? -whole : whole) * strengths->factor[d->bond[h]];
+        energy[k] = strengths->shear_energy[d->bond[h]] * norm3(d->area_vector + 3 * (int64_t)h);
+    }
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear_limit, limit, n_entries));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear_energy, energy, n_entries));
+cleanup:
+    brc_memory_free(limit);
+    brc_memory_free(energy);
+    return status;
+}
+
 brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths)
 {
     if (!s->fracture->cells->by_element) tell_implied(s, strengths);
@@ -165,6 +201,7 @@ brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strength
     BRC_TRY(warn_of_size(s, strengths));
     BRC_TRY(brc_fields_create(s->device, &brc_softening_fields, &s->wants, s->fracture->cells->softening));
     BRC_TRY(brc_fields_create(s->device, &brc_open_list_fields, &s->wants, &s->fracture->cells->softening->around));
+    BRC_TRY(upload_shear(s, s->fracture->cells->softening, strengths));
     return upload_faces(s, s->fracture->cells->softening, strengths);
 }
 
@@ -217,7 +254,12 @@ brc_status brc_softening_energy(brc_simulation *s)
 /* ---- a step ---- */
 
 static double release_of(const brc_simulation *s) { return s->scene->fracture.closure ? clear : 0; }
-static double friction_of(const brc_simulation *s) { return s->contact ? s->scene->contact.law.friction : 0; }
+/* Faces that slide rub in scenes without contact too. */
+static double friction_of(const brc_simulation *s)
+{
+    if (s->contact) return s->scene->contact.law.friction;
+    return faces_of(s)->shear_limit ? brc_scene_side_friction(s->scene) : 0;
+}
 
 static brc_status sweep(brc_simulation *s, int k)
 {
@@ -290,11 +332,12 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
         BRC_TRY(BRC_RUN(f->book, n, {"step", BRC_INT((int32_t)brc_fracture_moment(s))}));
     }
     BRC_TRY(BRC_RUN(f->check, n, {"share", BRC_COEFF(share)}, {"steepest", BRC_COEFF(steepest)},
-                    {"screen", BRC_COEFF(screen)}));
+                    {"screen", BRC_COEFF(screen)}, {"shears", BRC_INT(f->shear_limit != NULL)},
+                    {"slope", BRC_COEFF(sin(s->scene->fracture.friction))}, {"shear_least", BRC_COEFF(f->shear_least)}));
     BRC_TRY(brc_vector_sum(s, c->found, n, &wished));
     if (wished > 0) {
         f->any = true;
-        BRC_TRY(brc_pass_run(f->begin, n));
+        BRC_TRY(BRC_RUN(f->begin, n, {"friction", BRC_COEFF(friction_of(s))}));
         BRC_TRY(brc_vector_sum(s, c->found, n, &brittle));
         BRC_TRY(brc_softening_recount(s));
     }

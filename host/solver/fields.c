@@ -49,7 +49,7 @@ void brc_wants_make(const brc_scene *scene, const brc_domain *domain, const brc_
                        .state_bytes = brc_precision_state_bytes(precision),
                        .coeff_bytes = brc_precision_coeff_bytes(precision),
                        .many_materials = brc_device_has_many_materials(device),
-                       .by_element = brc_criterion_of(&scene->fracture, scene->model.kind) != BRC_CRITERION_BOND_NORMAL,
+                       .by_element = !brc_scene_breaks_by_bond(scene, scene->model.kind),
                        .loose = scene->has_fracture};
     ask_stages(scene, out);
     if (scene->has_fracture) brc_strengths_ask(scene, domain, material, &out->weighted, &out->softens);

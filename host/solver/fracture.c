@@ -277,7 +277,7 @@ static void tell_unbreakable(brc_simulation *s)
     }
     if (names[0])
         brc_log(s->context, BRC_LOG_INFO, "fracture: no strength%s is given for %s, which does not break; its bonds with others break by theirs",
-                criterion(s) == BRC_CRITERION_BOND_NORMAL ? " in tension" : "", names);
+                brc_scene_breaks_by_bond(s->scene, s->scene->model.kind) ? " in tension" : "", names);
 }
 
 brc_status brc_fracture_create(brc_simulation *s)

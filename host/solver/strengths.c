@@ -140,7 +140,7 @@ static int32_t interface_of(const brc_scene *scene, const brc_domain *d, const i
 
 static brc_status check_interface(brc_context *context, const brc_scene *scene, int32_t k, const brc_material *weak)
 {
-    const bool of_elements = brc_criterion_of(&scene->fracture, scene->model.kind) != BRC_CRITERION_BOND_NORMAL;
+    const bool of_elements = !brc_scene_breaks_by_bond(scene, scene->model.kind);
     if (!of_elements || weak->tension > 0 || !(scene->interfaces[k].tension > 0)) return BRC_OK;
     return BRC_FAIL(context, BRC_BAD_INPUT, "interfaces, number %d: a tension of %g Pa is compared with that of its materials, and '%s' has none; give "
                     "it `strength: {tension: ...}`, or the interface a `factor`", (int)k + 1, scene->interfaces[k].tension, weak->name);
@@ -167,10 +167,12 @@ static void fill_bond(const brc_scene *scene, const brc_domain *d, int64_t bond,
     if (weak->scatter.kind == BRC_SCATTER_FILE) scatter = from_file[bond] > 0 ? from_file[bond] : 1;
     else if (weak->scatter.kind != BRC_SCATTER_NONE) scatter = draw(&weak->scatter, scene->fracture.seed, d, bond);
     const bool given = at && at->tension > 0;
+    out->joint[bond] = at != NULL;
     out->tension[bond] = (given ? at->tension : factor * weak->tension) * scatter;
     out->factor[bond] = interface_factor(at, weak) * scatter;
     out->energy[bond] = bond_energy(at, weak);
-    out->softens = out->softens || out->energy[bond] > 0;
+    out->shear_energy[bond] = out->energy[bond] * (weak->shear_fracture_energy > 0 ? weak->shear_fracture_energy / weak->fracture_energy : 1);
+    out->softens = out->softens || out->energy[bond] > 0 || brc_scene_slides(scene, scene->model.kind);
     out->exponential[bond] = weak->softening == BRC_SOFTENING_EXPONENTIAL;
 }
 
@@ -194,7 +196,7 @@ void brc_strengths_ask(const brc_scene *scene, const brc_domain *d, const int32_
         const brc_interface *at = k >= 0 ? &scene->interfaces[k] : NULL;
         const brc_material *weak = &scene->materials[weaker(scene, material[i], material[j])];
         *weighted |= weak->scatter.kind != BRC_SCATTER_NONE || interface_factor(at, weak) != 1;
-        *softens |= bond_energy(at, weak) > 0;
+        *softens |= bond_energy(at, weak) > 0 || brc_scene_slides(scene, scene->model.kind);
     }
 }
 
@@ -208,6 +210,8 @@ brc_status brc_strengths_create(brc_context *context, const brc_scene *scene, co
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &count, scene->n_interfaces, "interfaces"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->tension, d->n_bonds, "strengths of bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->energy, d->n_bonds, "fracture energies of bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->joint, d->n_bonds, "interfaces of bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->shear_energy, d->n_bonds, "fracture energies of bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->factor, d->n_bonds, "factors of bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->exponential, d->n_bonds, "softening of bonds"));
     for (int64_t b = 0; b < d->n_bonds; ++b) {
@@ -234,6 +238,8 @@ void brc_strengths_free(brc_strengths *s)
 {
     brc_memory_free(s->tension);
     brc_memory_free(s->energy);
+    brc_memory_free(s->joint);
+    brc_memory_free(s->shear_energy);
     brc_memory_free(s->factor);
     brc_memory_free(s->exponential);
     memset(s, 0, sizeof *s);

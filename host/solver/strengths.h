@@ -15,7 +15,9 @@
 typedef struct brc_strengths {
     double *tension; /* [n_bonds] normal stress at which the bond fails: the weaker side's strength, or its interface's, times factor; 0: none [Pa] */
     double *energy;  /* [n_bonds] G_c of a crack through it; 0: it breaks at once [J/m^2] */
+    double *shear_energy; /* [n_bonds] G_II, in the same ratio to the energy as in the weaker side's material [J/m^2] */
     double *factor;  /* [n_bonds] what scatter and interface make of the strength of the weaker side [-]; for criteria of elements */
+    uint8_t *joint;  /* [n_bonds] 1: it lies in an interface */
     bool softens;    /* some energy is above 0 */
     uint8_t *exponential; /* [n_bonds] with an energy: 1: the softening is exponential, 0: linear */
 } brc_strengths;

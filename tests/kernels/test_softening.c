@@ -1,6 +1,6 @@
 /* The cohesive law of one face (kernels/softening.h). One lane, double. */
 #include "one_lane.h"
-#include "../../kernels/softening.h"
+#include "../../kernels/sliding.h"
 
 static const soft_face faces[] = {{3, 0.7, 0}, {3, 0.7, 1}};
 
@@ -36,6 +36,37 @@ static void slopes_are_those_of_the_force(void **state)
             const double h = 1e-5, slope = (soft_force(faces[k], w + h) - soft_force(faces[k], w - h)) / (2 * h);
             assert_true(fabs(slope - soft_slope(faces[k], w)) < 1e-6 * 30); /* h^2 times a third derivative of some ten */
         }
+}
+
+/* What no closing gives back, by Simpson's rule as above. */
+static void spent_is_the_area_under_the_law_less_the_triangle(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; ++k)
+        for (int i = 1; i <= 20; ++i) {
+            const double end = soft_end(faces[k]), w = i * end / 20;
+            double sum = 0;
+            for (int j = 0; j < 1000; ++j)
+                for (int m = 0; m < 3; ++m) sum += (m == 1 ? 4 : 1) * soft_force(faces[k], (j + 0.5 * m) * w / 1000 * (1 - 1e-15)) * w / 6000;
+            assert_true(fabs(soft_spent(faces[k], w) - (i < 20 ? sum - 0.5 * soft_force(faces[k], w) * w : 0.7)) < 1e-9);
+        }
+}
+
+/* Mohr-Coulomb on the face itself, and the plane of the stress that is nearer to it; what a face hands on beside a plane sums to nothing over a zig-zag along it. */
+static void faces_slide_by_mohr_coulomb(void **state)
+{
+    (void)state;
+    const double phi = M_PI / 6, c = 2, p = 3, tau = c + p * tan(phi);
+    const soft_vector n = {0, 1, 0}, traction = {tau, -p, 0};
+    const failure_stress stress = {-p - 2 * tau * tan(phi), -p, -4, 0, 0, tau}; /* Mohr's circle touches the line at the face */
+    const failure_principal principal = failure_principal_of(stress);
+    const failure_state own = soft_slip(principal, traction, n, -2 * c * cos(phi), sin(phi)), all = soft_slip(principal, traction, n, 2 * c * cos(phi), sin(phi));
+    const soft_vector plane = soft_slip_plane(all, n);
+    assert_true(fabs(own.ratio - 1) < 1e-12 && fabs(all.ratio - 1) < 1e-12);
+    assert_true(fabs(plane.x) < 1e-7 && fabs(plane.y - 1) < 1e-12); /* from cosines */
+    assert_true(fabs(soft_slide_start(traction, n, 0.3) - (tau - 0.3 * p)) < 1e-12);
+    const soft_vector up = {0.7, 1, 0.2}, down = {-0.7, 2, -0.2}, sum = soft_add(soft_passed(stress, n, up), 1, soft_passed(stress, n, down));
+    assert_true(soft_dot(sum, sum) < 1e-24);
 }
 
 /* First opening, unloading to the origin and reloading: cells and cohesion pull alike, to rounding of the load. */
@@ -241,7 +272,8 @@ int main(void)
         cmocka_unit_test(unloading_gives_back_the_secant_energy),        cmocka_unit_test(energy_follows_the_direction_of_the_opening),
         cmocka_unit_test(stiffness_of_a_cell_is_from_above),             cmocka_unit_test(openings_balance_in_every_direction),
         cmocka_unit_test(a_crack_carries_the_pushes_along_it),           cmocka_unit_test(shut_faces_slide_by_coulomb),
-        cmocka_unit_test(sides_turn_until_they_pull_evenly),
+        cmocka_unit_test(sides_turn_until_they_pull_evenly),             cmocka_unit_test(spent_is_the_area_under_the_law_less_the_triangle),
+        cmocka_unit_test(faces_slide_by_mohr_coulomb),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

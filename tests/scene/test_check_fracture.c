@@ -116,6 +116,33 @@ static void criteria_and_energies_are_refused_where_the_model_has_none(void **st
               "7:33", "a linearised law does not break");
 }
 
+#define SLIDES "fracture: {criterion: {mohr-coulomb: {cohesion: 10 MPa, friction: 30 deg}}}\nstages:\n" DYNAMIC
+#define SOFT_SHEAR ", strength: {tension: 50 MPa, fracture_energy: 8 J/m^2, shear_fracture_energy: 9 J/m^2}"
+static void limits_that_nothing_looks_at_are_told(void **state)
+{
+    (void)state;
+    assert_int_equal(count_errors(scene_of(MATERIALS(SOFT), CELLS, "", SLIDES)), 0);
+    assert_int_equal(count_errors(scene_of(MATERIALS(SOFT_SHEAR), CELLS, "", SLIDES)), 0);
+    bad_scene(scene_of(MATERIALS(", strength: {tension: 50 MPa, shear_fracture_energy: 9 J/m^2}"), CELLS, "", SLIDES),
+              "3:105", "expected `fracture_energy` beside it");
+    bad_scene(scene_of(MATERIALS(SOFT_SHEAR), CELLS, "", "fracture: {}\nstages:\n" DYNAMIC), "3:131",
+              "body 'cube' (model dlsm) would not look at it; add `fracture: {criterion: {mohr-coulomb:");
+    bad_scene(scene_of(MATERIALS(SOFT_SHEAR), SPHERES, "", "model: cbm\n" SLIDES), "3:131",
+              "beams and others take their fracture_energy whatever the mode");
+    bad_scene(scene_of(MATERIALS(", strength: {tension: 50 MPa, compression: 90 MPa, fracture_energy: 8 J/m^2}"), CELLS,
+                       "", SLIDES),
+              "3:95", "fail in compression by sliding; this cohesion bears 2 c cos(phi) / (1 - sin(phi)) = 34.64 MPa");
+    warned_scene(scene_of(MATERIALS(", strength: {tension: 50 MPa, compression: 90 MPa}"), CELLS, "",
+                          "fracture: {}\nstages:\n" DYNAMIC),
+                 "3:95",
+                 "bonds of cells break by tension alone (criterion bond-normal), and body 'cube' bears any compression");
+    warned_scene(scene_of(MATERIALS(SOFT), CELLS, "",
+                          "fracture: {criterion: {mohr-coulomb: {cohesion: 10 MPa, friction: 10 deg}}}\nstages:\n" DYNAMIC),
+                 "7:67", "sides that have slid rub by 0.3, more than the solid's tan(10 deg) = 0.176");
+    bad_scene(scene_of(MATERIALS(SOFT), CELLS, "", SLIDES "sensors: {r: {fracture: failure_ratio}}\n"), "10:25",
+              "is not known of cells that slide");
+}
+
 static void stages_are_refused_where_bonds_that_soften_cannot_follow(void **state)
 {
     (void)state;
@@ -169,6 +196,7 @@ int main(void)
         cmocka_unit_test(a_scene_without_any_strength_is_refused_where_fracture_stands),
         cmocka_unit_test(models_are_refused_where_their_bodies_are_of_the_other_kind),
         cmocka_unit_test(criteria_and_energies_are_refused_where_the_model_has_none),
+        cmocka_unit_test(limits_that_nothing_looks_at_are_told),
         cmocka_unit_test(stages_are_refused_where_bonds_that_soften_cannot_follow),
         cmocka_unit_test(all_of_them_are_told_in_one_pass),
         cmocka_unit_test(friction_of_sides_is_for_scenes_in_which_they_touch),

@@ -39,6 +39,13 @@ static void cells_soften_as_on_the_cpu(void **state)
                                    .regions = "    regions:\n      - {where: {box: {from: [-1 m, 0.5 m, -1 m], to: [2 m, 2 m, 2 m]}}, material: other}\n"});
 }
 
+static void cells_slide_as_on_the_cpu(void **state)
+{
+    (void)state;
+    compare_devices((case_options){.stages = CELLS_CRUSH(60, "0.8"), .materials = CELLS_STRENGTH("3e-4 Pa, fracture_energy: 1e-7 J/m^2, shear_fracture_energy: 3e-7 J/m^2"),
+                                   .sets = "fracture: {criterion: {mohr-coulomb: {cohesion: 3e-4 Pa, friction: 30 deg}}}\n"});
+}
+
 static void published_cells_break_as_on_the_cpu(void **state)
 {
     (void)state;
@@ -53,7 +60,7 @@ static void cells_break_by_their_elements_stress_as_on_the_cpu(void **state)
 
 int cells_device_run(const char *device)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(cells_break_as_on_the_cpu), cmocka_unit_test(cells_soften_as_on_the_cpu),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(cells_break_as_on_the_cpu), cmocka_unit_test(cells_soften_as_on_the_cpu), cmocka_unit_test(cells_slide_as_on_the_cpu),
                                        cmocka_unit_test(published_cells_break_as_on_the_cpu), cmocka_unit_test(cells_break_by_their_elements_stress_as_on_the_cpu)};
     other_device = device;
     if (!device_is_there(device)) return test_skip("there is no such device with double precision");

@@ -187,6 +187,12 @@ void softening_resumes_on(const char *device, brc_precision precision)
     case_options cells = {.stages = CELLS_BURST(80), .materials = CELLS_STRENGTH("2e-4 Pa, fracture_energy: 2e-8 J/m^2"), .sets = CELLS_FRACTURE, .device = device,
                           .precision = precision, .n_threads = 1};
     state_resumes((state_case){.cells = &cells}, (int[]){30, 60, 0});
+    case_options slide = cells;
+    slide.stages = CELLS_CRUSH(80, "0.8");
+    slide.materials = CELLS_STRENGTH("3e-4 Pa, fracture_energy: 1e-7 J/m^2, shear_fracture_energy: 3e-7 J/m^2");
+    slide.sets = "fracture: {criterion: {mohr-coulomb: {cohesion: 3e-4 Pa, friction: 30 deg}}}\n";
+    slide.fill = "cells: [4, 4, 4], spread: 90 %, seed: 1";
+    state_resumes((state_case){.cells = &slide}, (int[]){40, 0});
     cells.model = "dlsm-published";
     cells.materials = CELLS_STRENGTH("2e-4 Pa");
     state_resumes((state_case){.cells = &cells}, (int[]){50, 0});

@@ -297,7 +297,7 @@ static void tell_breaking(FILE *details, const brc_scene *scene, const brc_setup
     for (int32_t k = 0; k < setup->n; ++k) {
         const brc_model_kind kind = setup->split->part[k].scene->model.kind;
         if (said[kind]) continue;
-        said[kind] = measured_of(kind, brc_criterion_of(&scene->fracture, kind) == BRC_CRITERION_BOND_NORMAL, brc_scene_softens(scene));
+        said[kind] = measured_of(kind, brc_scene_breaks_by_bond(scene, kind), brc_scene_softens(scene));
         fprintf(details, "measured where %s breaks: %s\n", brc_model_name(kind), said[kind]);
     }
 }
