@@ -66,6 +66,7 @@ static brc_status make_key(brc_device *device, cl_device_id id, const char *opti
 static bool is_kept(const brc_device *device)
 {
     const char *const folder = getenv("BRECCIA_OPENCL_CACHE");
+    if (folder && strcmp(folder, "off") == 0) return false;
     return device->info.is_gpu || (folder && folder[0]);
 }
 
