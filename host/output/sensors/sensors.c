@@ -43,7 +43,7 @@ brc_status brc_sensors_create(brc_context *context, const brc_scene *scene, cons
     *out = NULL;
     const int32_t n = scene->n_sensors;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors, 1, "sensors"));
-    *sensors = (brc_sensors){.context = context, .scene = scene, .domain = domain};
+    *sensors = (brc_sensors){.context = context, .scene = scene, .domain = domain, .n_sensors = n};
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->patches, 2 * n, "sensors"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->first, n, "sensors"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->second, n, "sensors"));
@@ -66,7 +66,7 @@ void brc_sensors_free(brc_sensors **sensors)
     if (!sensors || !*sensors) return;
     for (int32_t p = 0; p < (*sensors)->n_patches; ++p)
         brc_sensor_patch_free(&(*sensors)->patches[p]);
-    for (int32_t s = 0; (*sensors)->opening && s < (*sensors)->scene->n_sensors; ++s)
+    for (int32_t s = 0; (*sensors)->opening && s < (*sensors)->n_sensors; ++s)
         brc_opening_free(&(*sensors)->opening[s]);
     brc_memory_free((*sensors)->opening);
     brc_memory_free((*sensors)->outward);

@@ -26,6 +26,7 @@ struct brc_sensors {
     brc_sensor_patch *patches; /* [2 n_sensors] room, n_patches used */
     int32_t *first;                  /* [n_sensors] patch, domain set, element, striker: its kind knows; -1: all, none */
     int32_t *second;                 /* [n_sensors] patch of set2 */
+    int32_t n_sensors;               /* of the scene, which may be gone when sensors are freed */
     brc_opening *opening;            /* [n_sensors] of openings */
     double *outward;                 /* [n_sensors] sets and strikers whose `sign` is compression: +-1, the way out of the solid along the component */
     double *distance;                /* [n_sensors] face strain: reference distance along the component; spheres: R [m] */
