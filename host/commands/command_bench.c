@@ -263,41 +263,71 @@ static brc_status print_effect(void *self, const brc_rows *rows)
     return brc_rows_write(rows, self);
 }
 
+/* What a bench of one case is asked: models, and one of each of the rest. */
+typedef struct one_case {
+    brc_model_kind models[BRC_THROUGHPUT_LIST];
+    int n_models;
+    int64_t size; /* elements */
+    brc_precision precision;
+    int n_threads;
+    const char *device; /* in copy */
+    char copy[5][256];
+} one_case;
+
+static brc_status take_one_case(brc_context *context, const brc_arguments *arguments, const char *bench, const char *device, one_case *out)
+{
+    const char *pieces[BRC_THROUGHPUT_LIST];
+    double number;
+    int n_sizes = 0, n_devices = 0, n_precisions = 0, n_threads = 0;
+    BRC_TRY(take_list(context, arguments, "models", "dlsm,dlsm-published,cbm", out->copy[0], sizeof out->copy[0], pieces, &out->n_models));
+    BRC_TRY(take_models(context, out->n_models, pieces, out->models));
+    BRC_TRY(take_list(context, arguments, "sizes", "2e4", out->copy[1], sizeof out->copy[1], pieces, &n_sizes));
+    BRC_TRY(take_number(context, "sizes", pieces[0], 8, 1e9, &number));
+    out->size = (int64_t)number;
+    BRC_TRY(take_list(context, arguments, "precisions", "double", out->copy[2], sizeof out->copy[2], pieces, &n_precisions));
+    BRC_TRY(brc_precision_parse(context, pieces[0], &out->precision));
+    BRC_TRY(take_list(context, arguments, "threads", "1", out->copy[3], sizeof out->copy[3], pieces, &n_threads));
+    BRC_TRY(take_number(context, "threads", pieces[0], 1, 4096, &number));
+    out->n_threads = (int)number;
+    BRC_TRY(take_list(context, arguments, "devices", device, out->copy[4], sizeof out->copy[4], pieces, &n_devices));
+    out->device = pieces[0];
+    if (n_sizes > 1 || n_precisions > 1 || n_threads > 1 || n_devices > 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench %s: one size, device, precision and number of threads, found several", bench);
+    return BRC_OK;
+}
+
+/* The rows of a bench that ended with `status`: written, named, freed. */
+static brc_status close_rows(brc_status status, brc_rows *rows, const char *folder)
+{
+    if (status == BRC_OK) status = brc_rows_write(rows, folder);
+    if (status == BRC_OK) printf("%s/rows.json\n", folder);
+    brc_rows_free(rows);
+    return status;
+}
+
 static brc_status run_effects(const brc_session *session, const brc_arguments *arguments)
 {
     static const char *const others[] = {"problems", "quick", "folder", "resume", "exact", "copy", "elements", "steps", "poisson"};
     brc_context *context = session->context;
-    const char *given_folder = brc_arguments_value(arguments, "output"), *pieces[BRC_THROUGHPUT_LIST];
-    char folder[512], copy[5][256];
-    brc_model_kind models[BRC_THROUGHPUT_LIST];
-    double number;
-    int n_sizes = 0, n_devices = 0, n_precisions = 0, n_threads = 0;
+    const char *output = brc_arguments_value(arguments, "output");
+    char folder[512];
+    one_case given;
     BRC_TRY(refuse_options(context, arguments, "effects", sizeof others / sizeof *others, others));
-    snprintf(folder, sizeof folder, "%s", given_folder ? given_folder : "results/effects");
-    brc_effects_request request = {.models = models, .sample_s = 0.2, .folder = folder, .row = print_effect, .self = folder};
-    BRC_TRY(take_list(context, arguments, "models", "dlsm,dlsm-published,cbm", copy[0], sizeof copy[0], pieces, &request.n_models));
-    BRC_TRY(take_models(context, request.n_models, pieces, models));
-    BRC_TRY(take_list(context, arguments, "sizes", "2e4", copy[1], sizeof copy[1], pieces, &n_sizes));
-    BRC_TRY(take_number(context, "sizes", pieces[0], 8, 1e9, &number));
-    request.size = (int64_t)number;
-    BRC_TRY(take_list(context, arguments, "precisions", "double", copy[2], sizeof copy[2], pieces, &n_precisions));
-    BRC_TRY(brc_precision_parse(context, pieces[0], &request.precision));
-    BRC_TRY(take_list(context, arguments, "threads", "1", copy[3], sizeof copy[3], pieces, &n_threads));
-    BRC_TRY(take_number(context, "threads", pieces[0], 1, 4096, &number));
-    request.n_threads = (int)number;
-    BRC_TRY(take_list(context, arguments, "devices", "cpu", copy[4], sizeof copy[4], pieces, &n_devices));
-    request.device = pieces[0];
-    if (n_sizes > 1 || n_precisions > 1 || n_threads > 1 || n_devices > 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench effects: one size, device, precision and number of threads, found several");
+    snprintf(folder, sizeof folder, "%s", output ? output : "results/effects");
+    BRC_TRY(take_one_case(context, arguments, "effects", "cpu", &given));
+    brc_effects_request request = {.models = given.models,
+                              .n_models = given.n_models,
+                              .size = given.size,
+                              .precision = given.precision,
+                              .n_threads = given.n_threads,
+                              .device = given.device,
+                              .sample_s = 0.2, .folder = folder, .row = print_effect, .self = folder};
     if (brc_arguments_value(arguments, "sample"))
         BRC_TRY(take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600, &request.sample_s));
     printf("milliseconds a step and multiple of the elastic step (median of alternating samples, least and most); share of bonds or faces in 100 steps [%%]\n");
     brc_rows rows = {.context = context};
     brc_status status = brc_effects_measure(context, &request, &rows);
-    if (status == BRC_OK) status = brc_rows_write(&rows, folder);
-    if (status == BRC_OK) printf("%s/rows.json\n", folder);
-    brc_rows_free(&rows);
-    return status;
+    return close_rows(status, &rows, folder);
 }
 
 static brc_status print_launches(void *self, const brc_rows *rows)
@@ -315,28 +345,20 @@ static brc_status run_launches(const brc_session *session, const brc_arguments *
 {
     static const char *const others[] = {"problems", "quick", "folder", "resume", "exact", "sample", "elements", "poisson"};
     brc_context *context = session->context;
-    const char *given = brc_arguments_value(arguments, "output"), *pieces[BRC_THROUGHPUT_LIST];
-    char folder[512], copy[5][256];
-    brc_model_kind models[BRC_THROUGHPUT_LIST];
-    double number, megabytes = 256, steps = 1024;
-    int n_sizes = 0, n_devices = 0, n_precisions = 0, n_threads = 0;
+    const char *output = brc_arguments_value(arguments, "output");
+    char folder[512];
+    one_case given;
+    double megabytes = 256, steps = 1024;
     BRC_TRY(refuse_options(context, arguments, "launches", sizeof others / sizeof *others, others));
-    snprintf(folder, sizeof folder, "%s", given ? given : "results/launches");
-    brc_launches_request request = {.models = models, .row = print_launches, .self = folder};
-    BRC_TRY(take_list(context, arguments, "models", "dlsm,dlsm-published,cbm", copy[0], sizeof copy[0], pieces, &request.n_models));
-    BRC_TRY(take_models(context, request.n_models, pieces, models));
-    BRC_TRY(take_list(context, arguments, "sizes", "2e4", copy[1], sizeof copy[1], pieces, &n_sizes));
-    BRC_TRY(take_number(context, "sizes", pieces[0], 8, 1e9, &number));
-    request.size = (int64_t)number;
-    BRC_TRY(take_list(context, arguments, "precisions", "double", copy[2], sizeof copy[2], pieces, &n_precisions));
-    BRC_TRY(brc_precision_parse(context, pieces[0], &request.precision));
-    BRC_TRY(take_list(context, arguments, "threads", "1", copy[3], sizeof copy[3], pieces, &n_threads));
-    BRC_TRY(take_number(context, "threads", pieces[0], 1, 4096, &number));
-    request.n_threads = (int)number;
-    BRC_TRY(take_list(context, arguments, "devices", "auto", copy[4], sizeof copy[4], pieces, &n_devices));
-    request.device = pieces[0];
-    if (n_sizes > 1 || n_precisions > 1 || n_threads > 1 || n_devices > 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench launches: one size, device, precision and number of threads, found several");
+    snprintf(folder, sizeof folder, "%s", output ? output : "results/launches");
+    BRC_TRY(take_one_case(context, arguments, "launches", "auto", &given));
+    brc_launches_request request = {.models = given.models,
+                              .n_models = given.n_models,
+                              .size = given.size,
+                              .precision = given.precision,
+                              .n_threads = given.n_threads,
+                              .device = given.device,
+                              .row = print_launches, .self = folder};
     if (brc_arguments_value(arguments, "copy")) BRC_TRY(take_number(context, "copy", brc_arguments_value(arguments, "copy"), 1, 1e5, &megabytes));
     if (brc_arguments_value(arguments, "steps")) BRC_TRY(take_number(context, "steps", brc_arguments_value(arguments, "steps"), 1, 1e9, &steps));
     request.bandwidth_bytes = (int64_t)(megabytes * 1e6);
@@ -344,10 +366,7 @@ static brc_status run_launches(const brc_session *session, const brc_arguments *
     printf("launches a step, waits in 1000 steps, bytes read, written and copied on the device a step, seconds a step, by the model, model over seconds, of an H200 by the model\n");
     brc_rows rows = {.context = context};
     brc_status status = brc_launches_measure(context, &request, &rows);
-    if (status == BRC_OK) status = brc_rows_write(&rows, folder);
-    if (status == BRC_OK) printf("%s/rows.json\n", folder);
-    brc_rows_free(&rows);
-    return status;
+    return close_rows(status, &rows, folder);
 }
 
 static brc_status print_sectors(void *self, const brc_rows *rows)
@@ -378,10 +397,7 @@ static brc_status run_sectors(const brc_session *session, const brc_arguments *a
     printf("bytes of a record, sectors a gather, bytes fetched over wanted, bytes a half-edge where groups of 128, 512, 1024 fetch each sector once\n");
     brc_rows rows = {.context = context};
     brc_status status = brc_sectors_measure(context, &request, &rows);
-    if (status == BRC_OK) status = brc_rows_write(&rows, folder);
-    if (status == BRC_OK) printf("%s/rows.json\n", folder);
-    brc_rows_free(&rows);
-    return status;
+    return close_rows(status, &rows, folder);
 }
 
 static brc_status run_peers(const brc_session *session, const brc_arguments *arguments)

@@ -17,7 +17,6 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 import test_resume as resume
 
 DEVICE = "opencl:0"
@@ -106,16 +105,7 @@ def main():
         sys.exit(1 if refused else 77)
     names = FEW if options.all is None else options.all or sorted(
         name for name in os.listdir(f"{resume.SOURCE}/examples") if os.path.exists(f"{resume.SOURCE}/examples/{name}/scene.yaml"))
-    failures = 0
-    for precision in PRECISIONS:
-        for name in names:
-            with tempfile.TemporaryDirectory(prefix="gpu-layout-", dir=".") as folder:
-                try:
-                    print(compared(name, folder, precision), flush=True)
-                except AssertionError as error:
-                    failures += 1
-                    print(f"FAILED {error}", flush=True)
-    sys.exit(1 if failures else 0)
+    sys.exit(1 if resume.all_compared("gpu-layout-", names, PRECISIONS, compared) else 0)
 
 
 if __name__ == "__main__":

@@ -57,6 +57,20 @@ SINGLE = {"tension": ["stages.0.solver.static.tolerance=1e-4"]}  # what a lower 
 KILLED = "beams-fracture"
 
 
+def all_compared(prefix, names, precisions, compared):
+    """compared(name, folder, precision) for each, in a folder of its own: its line, or what differs. Returns how many differ."""
+    failures = 0
+    for precision in precisions:
+        for name in names:
+            with tempfile.TemporaryDirectory(prefix=prefix, dir=".") as folder:
+                try:
+                    print(compared(name, folder, precision), flush=True)
+                except AssertionError as error:
+                    failures += 1
+                    print(f"FAILED {error}", flush=True)
+    return failures
+
+
 def scene_of(name):
     return f"{SOURCE}/examples/{name.split('+')[0]}/scene.yaml"
 

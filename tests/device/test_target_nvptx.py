@@ -8,7 +8,6 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 
 SOURCE, BUILD = os.environ["BRC_SOURCE_DIR"], os.environ["BRC_BUILD_DIR"]
 sys.path.insert(0, f"{SOURCE}/tests/commands")
@@ -51,16 +50,7 @@ def main():
     assert "OpenMP target device (nvptx, sm_" in told and "there is none, the host stands in" in told, told
     cases = subprocess.run([f"{BUILD}/tests/test_device_target"], capture_output=True, text=True, env=NO_CARD)
     assert cases.returncode == 0, cases.stdout + cases.stderr
-    failures = 0
-    for precision in os.environ.get("BRC_PRECISIONS", "double,mixed,single").split(","):
-        for name in EXAMPLES:
-            with tempfile.TemporaryDirectory(prefix="target-nvptx-", dir=".") as folder:
-                try:
-                    print(compared(name, folder, precision), flush=True)
-                except AssertionError as error:
-                    failures += 1
-                    print(f"FAILED {error}", flush=True)
-    sys.exit(1 if failures else 0)
+    sys.exit(1 if resume.all_compared("target-nvptx-", EXAMPLES, os.environ.get("BRC_PRECISIONS", "double,mixed,single").split(","), compared) else 0)
 
 
 if __name__ == "__main__":
