@@ -12,7 +12,7 @@ LAW soft_vector soft_passed(failure_stress m, soft_vector axis, soft_vector area
     return (soft_vector){m.xx * p.x + m.xy * p.y + m.xz * p.z, m.xy * p.x + m.yy * p.y + m.yz * p.z, m.xz * p.x + m.yz * p.y + m.zz * p.z};
 }
 
-/* The force [N] that the cohesion of a face which slides falls from: what it carries across `axis`, less the friction of the push on it, which stays. */
+/* The force [N] that the cohesion of a face which slides falls from: what it carries across `axis`, less the friction of the push on it, which stays; a hundredth of the shear at least, as C(0) is divided by. */
 LAW coeff soft_slide_start(soft_vector released, soft_vector axis, coeff friction)
 {
     const coeff across = soft_dot(released, axis);
