@@ -7,11 +7,15 @@
 
 /* Seeds of one resolution differ by a few elements. */
 #define SAME_SPACING 0.01
-/* What a series is trusted to go on with: no law here is of more than second order, and a slope below a half is no convergence to speak of. */
+/* What a series is trusted to go on with: no law here is of more than second order, and a slope below a half is no
+ * convergence to speak of. */
 #define HIGHEST_ORDER 2.0
 #define LEAST_ORDER 0.5
 
-static bool same_number(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+static bool same_number(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
 
 static bool same_question(const brc_accuracy_point *a, const brc_accuracy_point *b)
 {
@@ -20,22 +24,31 @@ static bool same_question(const brc_accuracy_point *a, const brc_accuracy_point 
 
 static bool same_series(const brc_accuracy_point *a, const brc_accuracy_point *b)
 {
-    return same_question(a, b) && strcmp(a->model, b->model) == 0 && strcmp(a->preparation, b->preparation) == 0 && strcmp(a->precision, b->precision) == 0 &&
-           strcmp(a->integrator, b->integrator) == 0 && strcmp(a->variant, b->variant) == 0 && same_number(a->coordination, b->coordination) &&
-           same_number(a->level, b->level) && same_number(a->dt_fraction, b->dt_fraction) && same_number(a->phi, b->phi);
+    return same_question(a, b) && strcmp(a->model, b->model) == 0 && strcmp(a->preparation, b->preparation) == 0 &&
+           strcmp(a->precision, b->precision) == 0 && strcmp(a->integrator, b->integrator) == 0 &&
+           strcmp(a->variant, b->variant) == 0 && same_number(a->coordination, b->coordination) &&
+           same_number(a->level, b->level) && same_number(a->dt_fraction, b->dt_fraction) &&
+           same_number(a->phi, b->phi);
 }
 
-static bool usable(const brc_accuracy_point *p) { return isfinite(p->error) && p->error >= 0 && isfinite(p->seconds) && p->seconds > 0; }
+static bool usable(const brc_accuracy_point *p)
+{
+    return isfinite(p->error) && p->error >= 0 && isfinite(p->seconds) && p->seconds > 0;
+}
 
 static void add_point(brc_accuracy_study *s, const brc_accuracy_point *p)
 {
     int32_t q = 0, r = 0;
     int64_t m = 0;
-    while (q < s->n_questions && !same_question(s->questions[q].point, p)) ++q;
+    while (q < s->n_questions && !same_question(s->questions[q].point, p))
+        ++q;
     if (q == s->n_questions) s->questions[s->n_questions++].point = p;
-    while (r < s->n_series && !same_series(s->series[r].point, p)) ++r;
+    while (r < s->n_series && !same_series(s->series[r].point, p))
+        ++r;
     if (r == s->n_series) s->series[s->n_series++] = (brc_accuracy_series){.point = p, .question = q, .order = NAN};
-    while (m < s->n_means && !(s->means[m].series == r && fabs(s->means[m].spacing / p->spacing_over_length - 1) < SAME_SPACING)) ++m;
+    while (m < s->n_means &&
+           !(s->means[m].series == r && fabs(s->means[m].spacing / p->spacing_over_length - 1) < SAME_SPACING))
+        ++m;
     if (m == s->n_means) {
         s->means[s->n_means++] = (brc_accuracy_mean){.point = p, .series = r, .spacing = p->spacing_over_length};
         ++s->series[r].n;
@@ -73,7 +86,8 @@ static void find_order(const brc_accuracy_study *s, int32_t series, double *orde
 
 static bool beaten(const brc_accuracy_mean *mean, const brc_accuracy_mean *other)
 {
-    return other->cost_s <= mean->cost_s && other->sure <= mean->sure && (other->cost_s < mean->cost_s || other->sure < mean->sure);
+    return other->cost_s <= mean->cost_s && other->sure <= mean->sure &&
+           (other->cost_s < mean->cost_s || other->sure < mean->sure);
 }
 
 brc_status brc_accuracy_study_create(brc_context *context, const brc_accuracy_points *points, brc_accuracy_study **out)
@@ -100,11 +114,13 @@ brc_status brc_accuracy_study_create(brc_context *context, const brc_accuracy_po
         const bool finer = m + 1 < s->n_means && s->means[m + 1].series == s->means[m].series;
         s->means[m].sure = finer ? fmax(s->means[m].error, s->means[m + 1].sure) : s->means[m].error;
     }
-    for (int32_t r = 0; r < s->n_series; ++r) find_order(s, r, &s->series[r].order);
+    for (int32_t r = 0; r < s->n_series; ++r)
+        find_order(s, r, &s->series[r].order);
     for (int64_t m = 0; m < s->n_means; ++m) {
         s->means[m].front = true;
         for (int64_t o = 0; o < s->n_means && s->means[m].front; ++o)
-            s->means[m].front = s->series[s->means[o].series].question != s->series[s->means[m].series].question || !beaten(&s->means[m], &s->means[o]);
+            s->means[m].front = s->series[s->means[o].series].question != s->series[s->means[m].series].question ||
+                                !beaten(&s->means[m], &s->means[o]);
     }
     *out = s;
     s = NULL;
@@ -133,7 +149,9 @@ int64_t brc_accuracy_cheapest(const brc_accuracy_study *s, int32_t question, con
 {
     int64_t best = -1;
     for (int64_t m = 0; m < s->n_means; ++m)
-        if (answers(s, &s->means[m], question, model) && s->means[m].sure <= error && (best < 0 || s->means[m].cost_s < s->means[best].cost_s)) best = m;
+        if (answers(s, &s->means[m], question, model) && s->means[m].sure <= error &&
+            (best < 0 || s->means[m].cost_s < s->means[best].cost_s))
+            best = m;
     return best;
 }
 
@@ -143,7 +161,8 @@ static int64_t next_worse(const brc_accuracy_study *s, int32_t question, const c
     int64_t best = -1;
     for (int64_t m = 0; m < s->n_means; ++m)
         if (answers(s, &s->means[m], question, model) && s->means[m].sure > error &&
-            (best < 0 || s->means[m].sure < s->means[best].sure || (s->means[m].sure == s->means[best].sure && s->means[m].cost_s < s->means[best].cost_s)))
+            (best < 0 || s->means[m].sure < s->means[best].sure ||
+             (s->means[m].sure == s->means[best].sure && s->means[m].cost_s < s->means[best].cost_s)))
             best = m;
     return best;
 }
@@ -166,8 +185,8 @@ double brc_accuracy_cost(const brc_accuracy_study *s, int32_t question, const ch
     /* Worse means that are cheaper; the best of them begins the stretch that ends at `good`. */
     int64_t worse = -1;
     for (int64_t m = 0; m < s->n_means; ++m)
-        if (answers(s, &s->means[m], question, model) && s->means[m].sure > error && s->means[m].cost_s < s->means[good].cost_s &&
-            (worse < 0 || s->means[m].sure < s->means[worse].sure))
+        if (answers(s, &s->means[m], question, model) && s->means[m].sure > error &&
+            s->means[m].cost_s < s->means[good].cost_s && (worse < 0 || s->means[m].sure < s->means[worse].sure))
             worse = m;
     if (worse < 0) {
         *beyond = next_worse(s, question, model, error) < 0 ? 1 : 0;
@@ -181,5 +200,6 @@ double brc_accuracy_cost_beyond(const brc_accuracy_study *s, int32_t question, c
     const int64_t best = next_worse(s, question, model, 0);
     if (best < 0 || error >= s->means[best].sure) return NAN;
     const double order = fmin(s->series[s->means[best].series].order, HIGHEST_ORDER);
-    return order >= LEAST_ORDER ? s->means[best].cost_s * pow(s->means[best].sure / error, 4 / order) : NAN; /* also where there is no order */
+    return order >= LEAST_ORDER ? s->means[best].cost_s * pow(s->means[best].sure / error, 4 / order)
+                                : NAN; /* also where there is no order */
 }

@@ -16,21 +16,29 @@
 enum { ROUNDS = 5 };
 
 /* Cells, and packed spheres; all else is in the scenes below. */
-#define HEAD "version: 1\ntitle: cost of contact\nmaterials:\n  glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3, strength: {tension: 7 MPa}}\n"
+#define HEAD                                                                                                           \
+    "version: 1\ntitle: cost of contact\nmaterials:\n  glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3, strength: "  \
+    "{tension: 7 MPa}}\n"
 #define TAIL "output: {frames: none, picture: false}\n"
-#define CUBE "bodies:\n  - {name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {elements: 1000, spread: 90 %, seed: 1}}, material: glass}\n"
-#define BALL "bodies:\n  - {name: ball, shape: {sphere: {radius: 1 m}}, fill: {noisy_grid: {elements: 1000, spread: 90 %, seed: 1}}, material: glass}\n"
+#define CUBE                                                                                                           \
+    "bodies:\n  - {name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {elements: 1000, spread: 90 " \
+    "%, seed: 1}}, material: glass}\n"
+#define BALL                                                                                                           \
+    "bodies:\n  - {name: ball, shape: {sphere: {radius: 1 m}}, fill: {noisy_grid: {elements: 1000, spread: 90 %, "     \
+    "seed: 1}}, material: glass}\n"
 #define TOUCH "interactions: {contact: {friction: 0.3}}\n"
-#define SHAKEN \
-    "stages:\n  - name: run\n    solver: {dynamic: {steps: 1000000000}}\n    initial:\n" \
-    "      - velocity: {gradient: {x: [1e-2 1/s, 2e-3 1/s, 0], y: [0, -3e-3 1/s, 1e-3 1/s], z: [1e-3 1/s, 0, 5e-3 1/s]}}\n" \
+#define SHAKEN                                                                                                         \
+    "stages:\n  - name: run\n    solver: {dynamic: {steps: 1000000000}}\n    initial:\n"                               \
+    "      - velocity: {gradient: {x: [1e-2 1/s, 2e-3 1/s, 0], y: [0, -3e-3 1/s, 1e-3 1/s], z: [1e-3 1/s, 0, 5e-3 "    \
+    "1/s]}}\n"                                                                                                         \
     "      - random: {amplitude: [0.1 mm/s, 0.1 mm/s, 0.1 mm/s], seed: 1}\n"
 /* A tenth of the wave speed at the ball's surface: every bond is pulled past its strength by the first step. */
-#define BURST \
-    "stages:\n  - name: run\n    solver: {dynamic: {steps: 1000000000}}\n    initial:\n" \
+#define BURST                                                                                                          \
+    "stages:\n  - name: run\n    solver: {dynamic: {steps: 1000000000}}\n    initial:\n"                               \
     "      - velocity: {gradient: {x: [550 1/s, 0, 0], y: [0, 550 1/s, 0], z: [0, 0, 550 1/s]}}\n"
 static const double growth_rate = 550; /* [1/s] as above */
-/* A hundredth of the wave speed in all directions [m/s], from when the cells have come off each other: by then the ball has grown to 1 + stirred_at. */
+/* A hundredth of the wave speed in all directions [m/s], from when the cells have come off each other: by then the ball
+ * has grown to 1 + stirred_at. */
 static const double stirring = 55, stirred_at = 0.25, dispersed_at = 1;
 
 typedef struct side {
@@ -46,7 +54,8 @@ static void close_side(side *one)
     brc_scene_free(&one->scene);
 }
 
-static brc_status open_side(brc_context *context, const brc_contact_cost_request *r, const char *text, const brc_domain *domain, side *one)
+static brc_status open_side(brc_context *context, const brc_contact_cost_request *r, const char *text,
+                            const brc_domain *domain, side *one)
 {
     const brc_device_request open = {.selector = r->device, .precision = r->precision, .n_threads = r->n_threads};
     BRC_TRY(brc_scene_read_text(context, "bench contact", text, strlen(text), 0, NULL, &one->scene));
@@ -62,7 +71,8 @@ static brc_status build(brc_context *context, const char *text, int64_t elements
     if (status != BRC_OK) return status;
     brc_build_request request = {.shape = scene->bodies[0].shape, .fill = scene->bodies[0].fill};
     if (spheres) { /* its relaxation is no part of what is measured, so it stops early */
-        request.fill = (brc_fill){.kind = BRC_FILL_PACKING, .radius_spread = 0.125, .coordination = 6.2, .tolerance = 0.1, .seed = 1};
+        request.fill = (brc_fill){
+            .kind = BRC_FILL_PACKING, .radius_spread = 0.125, .coordination = 6.2, .tolerance = 0.1, .seed = 1};
         request.beams = 10;
     }
     request.fill.n_elements = elements;
@@ -119,7 +129,8 @@ static brc_status take_turns(const brc_contact_cost_request *r, side *a, side *b
     return BRC_OK;
 }
 
-static void begin_row(const brc_contact_cost_request *r, const char *quantity, const char *model, const char *unit, double bound, const brc_domain *domain, brc_rows *rows)
+static void begin_row(const brc_contact_cost_request *r, const char *quantity, const char *model, const char *unit,
+                      double bound, const brc_domain *domain, brc_rows *rows)
 {
     brc_rows_begin(rows);
     brc_rows_text(rows, "case", "contact");
@@ -146,10 +157,12 @@ static brc_status end_row(const brc_contact_cost_request *r, const turns *t, brc
     return r->row ? r->row(r->self, rows) : BRC_OK;
 }
 
-static brc_status measure_nothing_near(brc_context *context, const brc_contact_cost_request *r, bool spheres, brc_rows *rows)
+static brc_status measure_nothing_near(brc_context *context, const brc_contact_cost_request *r, bool spheres,
+                                       brc_rows *rows)
 {
     const char *without = spheres ? HEAD "model: cbm\n" CUBE SHAKEN TAIL : HEAD "model: dlsm\n" CUBE SHAKEN TAIL;
-    const char *with = spheres ? HEAD "model: cbm\n" CUBE TOUCH SHAKEN TAIL : HEAD "model: dlsm\n" CUBE TOUCH SHAKEN TAIL;
+    const char *with =
+        spheres ? HEAD "model: cbm\n" CUBE TOUCH SHAKEN TAIL : HEAD "model: dlsm\n" CUBE TOUCH SHAKEN TAIL;
     side a = {0}, b = {0};
     brc_domain *domain = NULL;
     turns t;
@@ -177,8 +190,9 @@ static brc_status burst(brc_context *context, side *dust, const brc_domain *doma
     int64_t broken = 0;
     for (int64_t steps = 0; broken < domain->n_bonds; steps += 16) {
         if (steps > 4000)
-            return BRC_FAIL(context, BRC_INTERNAL, "bench contact: after %lld steps %lld of %lld bonds of the ball are broken, expected all", (long long)steps, (long long)broken,
-                            (long long)domain->n_bonds);
+            return BRC_FAIL(context, BRC_INTERNAL,
+                            "bench contact: after %lld steps %lld of %lld bonds of the ball are broken, expected all",
+                            (long long)steps, (long long)broken, (long long)domain->n_bonds);
         BRC_TRY(brc_simulation_advance(dust->simulation, 16));
         BRC_TRY(brc_simulation_broken(dust->simulation, &broken));
     }
@@ -187,7 +201,8 @@ static brc_status burst(brc_context *context, side *dust, const brc_domain *doma
 
 static brc_status fly(side *dust, double growth)
 {
-    while (growth_rate * brc_simulation_time(dust->simulation) < growth) BRC_TRY(brc_simulation_advance(dust->simulation, 16));
+    while (growth_rate * brc_simulation_time(dust->simulation) < growth)
+        BRC_TRY(brc_simulation_advance(dust->simulation, 16));
     return BRC_OK;
 }
 
@@ -203,7 +218,8 @@ static brc_status disperse(brc_context *context, side *dust, const brc_domain *d
     for (int64_t e = 0; e < domain->n_elements; ++e) {
         double u[4];
         brc_random_uniform4(1, BRC_RANDOM_INITIAL_FIELD, (uint64_t)e, 0, u);
-        for (int c = 0; c < 3; ++c) velocity[3 * e + c] += stirring * (2 * u[c] - 1);
+        for (int c = 0; c < 3; ++c)
+            velocity[3 * e + c] += stirring * (2 * u[c] - 1);
     }
     BRC_TRY_OR(cleanup, brc_simulation_set_state(dust->simulation, NULL, velocity));
     status = fly(dust, dispersed_at);
@@ -212,17 +228,20 @@ cleanup:
     return status;
 }
 
-/* The ball bursts, and every cell flies back to the middle; half of it on, so that the pressed ball stays pressed for a while. */
+/* The ball bursts, and every cell flies back to the middle; half of it on, so that the pressed ball stays pressed for a
+ * while. */
 static brc_status press(brc_context *context, side *dust, const brc_domain *domain)
 {
     double *velocity = NULL;
     BRC_TRY(burst(context, dust, domain));
     BRC_TRY(BRC_ALLOCATE(context, &velocity, 3 * domain->n_elements, "velocities"));
-    for (int64_t k = 0; k < 3 * domain->n_elements; ++k) velocity[k] = -0.2 * growth_rate * domain->position[k];
+    for (int64_t k = 0; k < 3 * domain->n_elements; ++k)
+        velocity[k] = -0.2 * growth_rate * domain->position[k];
     brc_status status = brc_simulation_set_state(dust->simulation, NULL, velocity);
     brc_memory_free(velocity);
     const double until = brc_simulation_time(dust->simulation) + 0.02 / (0.2 * growth_rate);
-    while (status == BRC_OK && brc_simulation_time(dust->simulation) < until) status = brc_simulation_advance(dust->simulation, 16);
+    while (status == BRC_OK && brc_simulation_time(dust->simulation) < until)
+        status = brc_simulation_advance(dust->simulation, 16);
     return status;
 }
 
@@ -238,8 +257,10 @@ static brc_status look(side *dust, double *touching)
     return BRC_OK;
 }
 
-/* The ball after what `prepare` does to it, beside the whole one; how many pairs touch is the mean of before and after. */
-static brc_status measure_broken(brc_context *context, const brc_contact_cost_request *r, const brc_domain *domain, prepare_dust *prepare, side *intact, brc_rows *rows)
+/* The ball after what `prepare` does to it, beside the whole one; how many pairs touch is the mean of before and
+ * after. */
+static brc_status measure_broken(brc_context *context, const brc_contact_cost_request *r, const brc_domain *domain,
+                                 prepare_dust *prepare, side *intact, brc_rows *rows)
 {
     side dust = {0};
     double touching = 0;
@@ -252,7 +273,8 @@ static brc_status measure_broken(brc_context *context, const brc_contact_cost_re
     BRC_TRY_OR(cleanup, take_turns(r, intact, &dust, &t));
     BRC_TRY_OR(cleanup, look(&dust, &touching));
     begin_row(r, dispersed ? "dust" : "dense", "dlsm", dispersed ? "-" : "us", dispersed ? 3 : NAN, domain, rows);
-    brc_rows_number(rows, "ours", dispersed ? t.ratio[ROUNDS / 2] : 1e6 * (t.b[ROUNDS / 2] - t.a[ROUNDS / 2]) / touching);
+    brc_rows_number(rows, "ours",
+                    dispersed ? t.ratio[ROUNDS / 2] : 1e6 * (t.b[ROUNDS / 2] - t.a[ROUNDS / 2]) / touching);
     brc_rows_number(rows, "touching", touching);
     if (dispersed) brc_rows_number(rows, "grown", 1 + growth_rate * brc_simulation_time(dust.simulation));
     status = end_row(r, &t, rows);

@@ -25,7 +25,8 @@ brc_status brc_crack_factors_write(brc_context *context, const brc_domain *d, co
     used = (size_t)snprintf(text, room, "element_i,element_j,factor\n");
     for (int64_t b = 0; b < d->n_bonds; ++b) {
         const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
-        used += (size_t)snprintf(text + used, room - used, "%lld,%lld,%.9g\n", (long long)i, (long long)j, factor_of(d->position + 3 * i, d->position + 3 * j));
+        used += (size_t)snprintf(text + used, room - used, "%lld,%lld,%.9g\n", (long long)i, (long long)j,
+                                 factor_of(d->position + 3 * i, d->position + 3 * j));
     }
     status = brc_file_write_whole(context, path, text, used);
     brc_memory_free(text);

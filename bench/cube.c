@@ -8,15 +8,34 @@ void brc_cube_make(brc_cube *c, brc_model_kind model)
     c->material = (brc_material){.name = "glass", .young = 72e9, .poisson = 0.23, .density = 2500};
     snprintf(c->body.name, sizeof c->body.name, "cube");
     c->body.shape = (brc_shape){.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}};
-    c->initial[0] = (brc_initial){.kind = BRC_INITIAL_AFFINE, .gradient = {{1e-6, 2e-7, 0}, {0, -3e-7, 1e-7}, {1e-7, 0, 5e-7}}};
+    c->initial[0] =
+        (brc_initial){.kind = BRC_INITIAL_AFFINE, .gradient = {{1e-6, 2e-7, 0}, {0, -3e-7, 1e-7}, {1e-7, 0, 5e-7}}};
     c->initial[1] = (brc_initial){.kind = BRC_INITIAL_RANDOM, .value = {1e-4, 1e-4, 1e-4}, .seed = 1};
     /* The paper's time step is far below the critical one at this nu and needs no power iteration. */
-    c->stage = (brc_stage){.name = "run", .solver = BRC_SOLVER_DYNAMIC, .n_initials = 2, .initials = c->initial,
-                           .integrator = model == BRC_MODEL_DLSM_PUBLISHED ? BRC_TCHAMWA_WIELGOSZ : BRC_VELOCITY_VERLET, .phi = 1.03,
-                           .time_step_rule = model == BRC_MODEL_CBM ? BRC_TIME_STEP_AUTO : BRC_TIME_STEP_PUBLISHED, .safety = 0.8, .steps = INT64_C(1) << 40};
-    c->scene = (brc_scene){.version = 1, .folder = ".", .n_materials = 1, .materials = &c->material, .n_bodies = 1,
-                           .bodies = &c->body, .n_stages = 1, .stages = &c->stage,
-                           .model = {.kind = model, .compaction = true, .beta = 1, .tau = 0.1, .rotation_stiffness = 1, .beam_poisson = 0.3, .keep_isolated = true},
+    c->stage = (brc_stage){.name = "run",
+                           .solver = BRC_SOLVER_DYNAMIC,
+                           .n_initials = 2,
+                           .initials = c->initial,
+                           .integrator = model == BRC_MODEL_DLSM_PUBLISHED ? BRC_TCHAMWA_WIELGOSZ : BRC_VELOCITY_VERLET,
+                           .phi = 1.03,
+                           .time_step_rule = model == BRC_MODEL_CBM ? BRC_TIME_STEP_AUTO : BRC_TIME_STEP_PUBLISHED,
+                           .safety = 0.8,
+                           .steps = INT64_C(1) << 40};
+    c->scene = (brc_scene){.version = 1,
+                           .folder = ".",
+                           .n_materials = 1,
+                           .materials = &c->material,
+                           .n_bodies = 1,
+                           .bodies = &c->body,
+                           .n_stages = 1,
+                           .stages = &c->stage,
+                           .model = {.kind = model,
+                                     .compaction = true,
+                                     .beta = 1,
+                                     .tau = 0.1,
+                                     .rotation_stiffness = 1,
+                                     .beam_poisson = 0.3,
+                                     .keep_isolated = true},
                            .output = {.n_frames = -1}};
 }
 
@@ -24,8 +43,12 @@ void brc_cube_make(brc_cube *c, brc_model_kind model)
 static brc_status build_packing(brc_context *context, const double edges[3], int64_t size, brc_domain **out)
 {
     brc_build_request packed = {.shape = {.kind = BRC_SHAPE_BOX, .size = {edges[0], edges[1], edges[2]}},
-                                .fill = {.kind = BRC_FILL_PACKING, .n_elements = size, .radius_spread = 0.125, .coordination = 6.2,
-                                         .tolerance = 0.1, .seed = 1},
+                                .fill = {.kind = BRC_FILL_PACKING,
+                                         .n_elements = size,
+                                         .radius_spread = 0.125,
+                                         .coordination = 6.2,
+                                         .tolerance = 0.1,
+                                         .seed = 1},
                                 .beams = 10};
     return brc_domain_build(context, &packed, out);
 }

@@ -4,7 +4,8 @@
 
 #include "../host/scene/scene.h"
 
-/* A scene with what it points to: not to be copied. One dynamic stage without end, slightly strained and shaken so that no number is zero. */
+/* A scene with what it points to: not to be copied. One dynamic stage without end, slightly strained and shaken so that
+ * no number is zero. */
 typedef struct brc_cube {
     brc_material material;
     brc_body body;

@@ -12,13 +12,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 9, MOST_VARIANTS = 9, TRIAL_STEPS = 10, N_TRIALS = 3, WARM_STEPS = 3, AGAIN_STEPS = 1, GUARD_LOOKS = 50 };
+enum {
+    ROUNDS = 9,
+    MOST_VARIANTS = 9,
+    TRIAL_STEPS = 10,
+    N_TRIALS = 3,
+    WARM_STEPS = 3,
+    AGAIN_STEPS = 1,
+    GUARD_LOOKS = 50
+};
 /* Strength of a bond whose factor is 1, where bonds are to break [Pa]. */
 static const double strength = 1e8;
 /* Share of the bonds that break in a trial step. */
 static const double trial_rate = 1e-3;
 
-/* An effect. rate: share of the bonds that break, or faces that open, in each step; bound: of the issue, over the elastic step, 0: none. */
+/* An effect. rate: share of the bonds that break, or faces that open, in each step; bound: of the issue, over the
+ * elastic step, 0: none. */
 typedef struct effect {
     const char *name;
     bool fracture, contact, softens;
@@ -26,14 +35,15 @@ typedef struct effect {
     int64_t most_steps; /* of a sample: the rate holds for some dozens of steps */
     bool cracks;        /* bonds break along three planes (crack_factors.h), else anywhere */
 } effect;
-static const effect effects[] = {{"elastic, again", false, false, false, 0, 0, INT64_MAX, false},
-                                 {"fracture, nothing breaks", true, false, false, 0, 1.15, INT64_MAX, false},
-                                 {"fracture, 1 % of the bonds break in 100 steps", true, false, false, 1e-4, 1.3, 10, false},
-                                 {"the same along three cracks that run", true, false, false, 1e-4, 1.3, 10, true},
-                                 {"fracture, 1 % of the bonds break in every step", true, false, false, 1e-2, 0, 2, false},
-                                 {"fracture energy, no face open", true, false, true, 0, 0, INT64_MAX, false},
-                                 {"fracture energy, 1 % of the faces open in 100 steps", true, false, true, 1e-4, 0, 10, false},
-                                 {"contact, nothing near", false, true, false, 0, 1.05, INT64_MAX, false}};
+static const effect effects[] = {
+    {"elastic, again", false, false, false, 0, 0, INT64_MAX, false},
+    {"fracture, nothing breaks", true, false, false, 0, 1.15, INT64_MAX, false},
+    {"fracture, 1 % of the bonds break in 100 steps", true, false, false, 1e-4, 1.3, 10, false},
+    {"the same along three cracks that run", true, false, false, 1e-4, 1.3, 10, true},
+    {"fracture, 1 % of the bonds break in every step", true, false, false, 1e-2, 0, 2, false},
+    {"fracture energy, no face open", true, false, true, 0, 0, INT64_MAX, false},
+    {"fracture energy, 1 % of the faces open in 100 steps", true, false, true, 1e-4, 0, 10, false},
+    {"contact, nothing near", false, true, false, 0, 1.05, INT64_MAX, false}};
 enum { N_EFFECTS = sizeof effects / sizeof effects[0] };
 
 /* A simulation of the cube that is stepped. */
@@ -59,12 +69,20 @@ static double median(const double *x, int n)
     return n % 2 ? sorted[n / 2] : 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]);
 }
 
-/* Of one thread of the cpu processor time, which other programs on the machine do not lengthen; else that of the wall [s]. */
-static bool counts_processor(const brc_effects_request *r) { return r->n_threads == 1 && strcmp(r->device, "cpu") == 0; }
-static double clock_s(const brc_effects_request *r) { return counts_processor(r) ? brc_processor_s() : brc_clock_s(); }
+/* Of one thread of the cpu processor time, which other programs on the machine do not lengthen; else that of the wall
+ * [s]. */
+static bool counts_processor(const brc_effects_request *r)
+{
+    return r->n_threads == 1 && strcmp(r->device, "cpu") == 0;
+}
+static double clock_s(const brc_effects_request *r)
+{
+    return counts_processor(r) ? brc_processor_s() : brc_clock_s();
+}
 
-/* Each sample follows AGAIN_STEPS without a clock: a simulation whose turn it is finds caches and pages full of the one before, which costs its first step half to all of another
- * one, and is no part of what an effect costs a run. Samples of ten steps would bear four times as much of it as those of the elastic cube. */
+/* Each sample follows AGAIN_STEPS without a clock: a simulation whose turn it is finds caches and pages full of the one
+ * before, which costs its first step half to all of another one, and is no part of what an effect costs a run. Samples
+ * of ten steps would bear four times as much of it as those of the elastic cube. */
 static brc_status time_steps(const brc_effects_request *r, brc_simulation *simulation, int64_t n, double *seconds)
 {
     BRC_TRY(brc_simulation_advance(simulation, AGAIN_STEPS));
@@ -95,10 +113,10 @@ static void free_variant(variant *v)
     brc_device_close(&v->device);
 }
 
-/* The cube at rest, whose points fly apart so that the strain of all of it grows by the same in every step. Strengths follow 1 - exp(-f), so that a steady share of
- * the bonds breaks, `rate` in a step where scale is 1. */
-static brc_status make_variant(brc_context *context, const brc_effects_request *r, const brc_domain *domain, brc_model_kind model, const effect *e, double rate, double scale,
-                               variant *v)
+/* The cube at rest, whose points fly apart so that the strain of all of it grows by the same in every step. Strengths
+ * follow 1 - exp(-f), so that a steady share of the bonds breaks, `rate` in a step where scale is 1. */
+static brc_status make_variant(brc_context *context, const brc_effects_request *r, const brc_domain *domain,
+                               brc_model_kind model, const effect *e, double rate, double scale, variant *v)
 {
     brc_status status = BRC_OK;
     double *velocity = NULL;
@@ -108,16 +126,19 @@ static brc_status make_variant(brc_context *context, const brc_effects_request *
     brc_material *m = &v->cube.material;
     if (e->fracture) {
         v->cube.scene.has_fracture = true;
-        v->cube.scene.fracture = (brc_fracture){.level = 1, .closure = true, .side_friction = -1}; /* as scenes have it */
+        v->cube.scene.fracture =
+            (brc_fracture){.level = 1, .closure = true, .side_friction = -1}; /* as scenes have it */
         m->tension = rate > 0 ? strength : 1e6 * strength;
-        if (rate > 0) m->scatter = (brc_scatter){.kind = e->cracks ? BRC_SCATTER_FILE : BRC_SCATTER_WEIBULL, .modulus = 1};
+        if (rate > 0)
+            m->scatter = (brc_scatter){.kind = e->cracks ? BRC_SCATTER_FILE : BRC_SCATTER_WEIBULL, .modulus = 1};
         if (e->cracks) {
             BRC_TRY_OR(cleanup, brc_file_make_folder(context, r->folder));
             snprintf(m->scatter.file, sizeof m->scatter.file, "%s/crack_factors.csv", r->folder);
             BRC_TRY_OR(cleanup, brc_crack_factors_write(context, domain, m->scatter.file));
         }
         /* twenty cells of E G_c / strength^2: faces that open stay open */
-        if (e->softens) m->fracture_energy = 20 * m->tension * m->tension / m->young * cbrt(1.0 / (double)domain->n_elements);
+        if (e->softens)
+            m->fracture_energy = 20 * m->tension * m->tension / m->young * cbrt(1.0 / (double)domain->n_elements);
     }
     if (e->contact) {
         v->cube.scene.has_contact = true;
@@ -129,7 +150,8 @@ static brc_status make_variant(brc_context *context, const brc_effects_request *
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &velocity, 3 * domain->n_elements, "velocities"));
     const double three_bulk = m->young / (1 - 2 * m->poisson), dt = brc_simulation_time_step(v->simulation).value;
     const double gradient = (rate > 0 ? rate : trial_rate) * scale * strength / three_bulk / dt;
-    for (int64_t k = 0; k < 3 * domain->n_elements; ++k) velocity[k] = gradient * (domain->position[k] - 0.5);
+    for (int64_t k = 0; k < 3 * domain->n_elements; ++k)
+        velocity[k] = gradient * (domain->position[k] - 0.5);
     status = brc_simulation_set_state(v->simulation, NULL, velocity);
 cleanup:
     if (m->scatter.file[0]) remove(m->scatter.file);
@@ -137,16 +159,19 @@ cleanup:
     return status;
 }
 
-/* What to multiply the speed with, so that the rate is the one that is wanted: a short trial says what share of the bonds breaks, three over the steps of
- * the measurement correct it. */
-static brc_status find_scale(brc_context *context, const brc_effects_request *r, const brc_domain *domain, brc_model_kind model, const effect *e, double *scale)
+/* What to multiply the speed with, so that the rate is the one that is wanted: a short trial says what share of the
+ * bonds breaks, three over the steps of the measurement correct it. */
+static brc_status find_scale(brc_context *context, const brc_effects_request *r, const brc_domain *domain,
+                             brc_model_kind model, const effect *e, double *scale)
 {
     *scale = 1;
     for (int trial = 0; e->rate > 0 && trial <= N_TRIALS; ++trial) {
         variant v = {0};
         int64_t before = 0, n = 0;
         const double rate = trial == 0 ? trial_rate : e->rate;
-        const int64_t start = trial == 0 ? 0 : AGAIN_STEPS + WARM_STEPS, steps = trial == 0 ? TRIAL_STEPS : (AGAIN_STEPS + e->most_steps) * ROUNDS; /* as `alternate` counts them */
+        const int64_t start = trial == 0 ? 0 : AGAIN_STEPS + WARM_STEPS,
+                      steps = trial == 0 ? TRIAL_STEPS
+                                         : (AGAIN_STEPS + e->most_steps) * ROUNDS; /* as `alternate` counts them */
         brc_status status = make_variant(context, r, domain, model, e, rate, *scale, &v);
         if (status == BRC_OK && start > 0) status = brc_simulation_advance(v.simulation, start);
         if (status == BRC_OK) status = count_events(v.simulation, e, &before);
@@ -155,13 +180,17 @@ static brc_status find_scale(brc_context *context, const brc_effects_request *r,
         free_variant(&v);
         BRC_TRY(status);
         n -= before;
-        if (n == 0) *scale *= 10; /* too slow to reach the weakest */
-        else *scale *= fmin(trial ? 4 : 100, fmax(trial ? 0.25 : 0.01, rate * (double)steps * (double)domain->n_bonds / (double)n));
+        if (n == 0)
+            *scale *= 10; /* too slow to reach the weakest */
+        else
+            *scale *= fmin(trial ? 4 : 100,
+                           fmax(trial ? 0.25 : 0.01, rate * (double)steps * (double)domain->n_bonds / (double)n));
     }
     return BRC_OK;
 }
 
-/* Cost of the guard over a step of this many seconds: its looks, readings and ledgers apart, each over the steps between two of them. */
+/* Cost of the guard over a step of this many seconds: its looks, readings and ledgers apart, each over the steps
+ * between two of them. */
 static brc_status guard_cost(const brc_effects_request *r, brc_simulation *s, double per_step, double *out)
 {
     double look, read, ledger_s, start;
@@ -172,14 +201,17 @@ static brc_status guard_cost(const brc_effects_request *r, brc_simulation *s, do
     BRC_TRY(brc_simulation_advance(s, look_every - brc_simulation_step(s) % look_every));
     BRC_TRY(brc_simulation_wait(s));
     start = clock_s(r);
-    for (int k = 0; k < GUARD_LOOKS; ++k) BRC_TRY(brc_guard_step(s));
+    for (int k = 0; k < GUARD_LOOKS; ++k)
+        BRC_TRY(brc_guard_step(s));
     BRC_TRY(brc_simulation_wait(s));
     look = (clock_s(r) - start) / GUARD_LOOKS;
     start = clock_s(r);
-    for (int k = 0; k < GUARD_LOOKS; ++k) BRC_TRY(brc_guard_read(s, false, NULL));
+    for (int k = 0; k < GUARD_LOOKS; ++k)
+        BRC_TRY(brc_guard_read(s, false, NULL));
     read = (clock_s(r) - start) / GUARD_LOOKS;
     start = clock_s(r);
-    for (int k = 0; k < WARM_STEPS; ++k) BRC_TRY(brc_simulation_ledger(s, &ledger));
+    for (int k = 0; k < WARM_STEPS; ++k)
+        BRC_TRY(brc_simulation_ledger(s, &ledger));
     ledger_s = (clock_s(r) - start) / WARM_STEPS;
     *out = (look / (double)look_every + read / (double)every.every + ledger_s / (double)every.ledger_every) / per_step;
     return BRC_OK;
@@ -190,7 +222,8 @@ typedef struct figures {
     double ratio, low, high, bound, per_step, per_hundred;
 } figures;
 
-static brc_status add_row(const brc_effects_request *r, const brc_domain *domain, brc_model_kind model, const brc_device *device, const figures *f, brc_rows *rows)
+static brc_status add_row(const brc_effects_request *r, const brc_domain *domain, brc_model_kind model,
+                          const brc_device *device, const figures *f, brc_rows *rows)
 {
     brc_rows_begin(rows);
     brc_rows_text(rows, "case", "effects");
@@ -247,7 +280,8 @@ static brc_status alternate(const brc_effects_request *r, const effect *const *w
     return BRC_OK;
 }
 
-static brc_status measure_model(brc_context *context, const brc_effects_request *r, brc_model_kind model, brc_rows *rows)
+static brc_status measure_model(brc_context *context, const brc_effects_request *r, brc_model_kind model,
+                                brc_rows *rows)
 {
     brc_status status = BRC_OK;
     static const effect elastic = {"elastic", false, false, false, 0, 0, INT64_MAX, false};
@@ -270,17 +304,27 @@ static brc_status measure_model(brc_context *context, const brc_effects_request 
     const figures plain = {.name = elastic.name, .ratio = 1, .low = 1, .high = 1, .per_step = per_step};
     BRC_TRY_OR(cleanup, add_row(r, domain, model, base.device, &plain, rows));
     for (int k = 0; k < n; ++k) {
-        figures f = {.name = which[k]->name, .ratio = median(v[k].ratio, ROUNDS), .bound = which[k]->bound, .per_step = median(v[k].per_step, ROUNDS),
+        figures f = {.name = which[k]->name,
+                     .ratio = median(v[k].ratio, ROUNDS),
+                     .bound = which[k]->bound,
+                     .per_step = median(v[k].per_step, ROUNDS),
                      .per_hundred = 100 * (double)v[k].n_events / (double)v[k].steps / (double)domain->n_bonds};
         f.low = INFINITY;
-        for (int round = 0; round < ROUNDS; ++round) f.low = fmin(f.low, v[k].ratio[round]), f.high = fmax(f.high, v[k].ratio[round]);
+        for (int round = 0; round < ROUNDS; ++round)
+            f.low = fmin(f.low, v[k].ratio[round]), f.high = fmax(f.high, v[k].ratio[round]);
         BRC_TRY_OR(cleanup, add_row(r, domain, model, base.device, &f, rows));
     }
     BRC_TRY_OR(cleanup, guard_cost(r, base.simulation, per_step, &cost));
-    const figures guard = {.name = "guard", .ratio = 1 + cost, .low = 1 + cost, .high = 1 + cost, .bound = 1.01, .per_step = per_step * (1 + cost)};
+    const figures guard = {.name = "guard",
+                           .ratio = 1 + cost,
+                           .low = 1 + cost,
+                           .high = 1 + cost,
+                           .bound = 1.01,
+                           .per_step = per_step * (1 + cost)};
     BRC_TRY_OR(cleanup, add_row(r, domain, model, base.device, &guard, rows));
 cleanup:
-    for (int k = 0; v && k < n; ++k) free_variant(&v[k]);
+    for (int k = 0; v && k < n; ++k)
+        free_variant(&v[k]);
     free_variant(&base);
     brc_memory_free(v);
     brc_domain_free(&domain);
@@ -289,6 +333,7 @@ cleanup:
 
 brc_status brc_effects_measure(brc_context *context, const brc_effects_request *request, brc_rows *rows)
 {
-    for (int k = 0; k < request->n_models; ++k) BRC_TRY(measure_model(context, request, request->models[k], rows));
+    for (int k = 0; k < request->n_models; ++k)
+        BRC_TRY(measure_model(context, request, request->models[k], rows));
     return BRC_OK;
 }

@@ -8,16 +8,23 @@
 enum { WARM_STEPS = 600, SAMPLES = 5, TRIAL_LAUNCHES = 2000, TRIAL_WAITS = 200 };
 /* Strength that nothing reaches [Pa]. */
 static const double endless = 1e15;
-/* What an NVIDIA H200 is taken for until one was measured: bandwidth as measured elsewhere, the others usual for its driver. */
+/* What an NVIDIA H200 is taken for until one was measured: bandwidth as measured elsewhere, the others usual for its
+ * driver. */
 static const brc_device_price h200 = {.launch_s = 4e-6, .wait_s = 20e-6, .copy_bandwidth = 4.3e12};
 
 typedef struct effect {
     const char *name;
     bool fracture, contact;
 } effect;
-static const effect effects[] = {{"elastic", false, false}, {"fracture", true, false}, {"contact", false, true}, {"fracture and contact", true, true}};
+static const effect effects[] = {{"elastic", false, false},
+                                 {"fracture", true, false},
+                                 {"contact", false, true},
+                                 {"fracture and contact", true, true}};
 
-static double price_of(const brc_device_price *p, double launches, double waits, double bytes) { return launches * p->launch_s + waits * p->wait_s + bytes / p->copy_bandwidth; }
+static double price_of(const brc_device_price *p, double launches, double waits, double bytes)
+{
+    return launches * p->launch_s + waits * p->wait_s + bytes / p->copy_bandwidth;
+}
 
 brc_status brc_device_price_measure(brc_device *device, int64_t bandwidth_bytes, brc_device_price *out)
 {
@@ -31,7 +38,8 @@ brc_status brc_device_price_measure(brc_device *device, int64_t bandwidth_bytes,
     BRC_TRY_OR(cleanup, brc_kernel_find(device, "vector_copy", &copy));
     for (int trial = 0; trial < 2; ++trial) { /* the first makes the kernel ready */
         double start = brc_clock_s();
-        for (int k = 0; k < TRIAL_LAUNCHES; ++k) BRC_TRY_OR(cleanup, BRC_LAUNCH(copy, 1, BRC_INT(1), BRC_BUF(x), BRC_BUF(y)));
+        for (int k = 0; k < TRIAL_LAUNCHES; ++k)
+            BRC_TRY_OR(cleanup, BRC_LAUNCH(copy, 1, BRC_INT(1), BRC_BUF(x), BRC_BUF(y)));
         BRC_TRY_OR(cleanup, brc_device_wait(device));
         out->launch_s = (brc_clock_s() - start) / TRIAL_LAUNCHES;
         start = brc_clock_s();
@@ -48,7 +56,8 @@ cleanup:
 }
 
 /* Work of n steps, and the least seconds of a step of several samples. */
-static brc_status count_steps(brc_device *device, brc_simulation *simulation, int64_t n, brc_device_counts *work, double *seconds)
+static brc_status count_steps(brc_device *device, brc_simulation *simulation, int64_t n, brc_device_counts *work,
+                              double *seconds)
 {
     BRC_TRY(brc_simulation_begin_stage(simulation, 0));
     BRC_TRY(brc_simulation_advance(simulation, WARM_STEPS)); /* stretches of ahead.h have their length */
@@ -61,16 +70,18 @@ static brc_status count_steps(brc_device *device, brc_simulation *simulation, in
         const brc_device_counts after = brc_device_counted(device);
         BRC_TRY(brc_simulation_wait(simulation));
         *seconds = fmin(*seconds, (brc_clock_s() - start) / (double)n);
-        *work = (brc_device_counts){after.launches - before.launches, after.waits - before.waits, after.read_bytes - before.read_bytes,
-                                    after.written_bytes - before.written_bytes, after.copied_bytes - before.copied_bytes};
+        *work = (brc_device_counts){after.launches - before.launches, after.waits - before.waits,
+                                    after.read_bytes - before.read_bytes, after.written_bytes - before.written_bytes,
+                                    after.copied_bytes - before.copied_bytes};
     }
     return BRC_OK;
 }
 
-static void add_figures(const brc_launches_request *r, const brc_domain *domain, double floor_bytes, const brc_device_counts *work, double seconds, const brc_device_price *price,
-                        brc_rows *rows)
+static void add_figures(const brc_launches_request *r, const brc_domain *domain, double floor_bytes,
+                        const brc_device_counts *work, double seconds, const brc_device_price *price, brc_rows *rows)
 {
-    const double n = (double)r->n_steps, launches = (double)work->launches / n, waits = (double)work->waits / n, told = price_of(price, launches, waits, floor_bytes);
+    const double n = (double)r->n_steps, launches = (double)work->launches / n, waits = (double)work->waits / n,
+                 told = price_of(price, launches, waits, floor_bytes);
     brc_rows_number(rows, "ours", launches);
     brc_rows_number(rows, "launches_per_step", launches);
     brc_rows_number(rows, "waits_per_1000_steps", 1000 * waits);
@@ -89,7 +100,8 @@ static void add_figures(const brc_launches_request *r, const brc_domain *domain,
     brc_rows_integer(rows, "bonds", domain->n_bonds);
 }
 
-static brc_status measure(brc_context *context, const brc_launches_request *r, const brc_domain *domain, brc_model_kind model, const effect *e, brc_rows *rows)
+static brc_status measure(brc_context *context, const brc_launches_request *r, const brc_domain *domain,
+                          brc_model_kind model, const effect *e, brc_rows *rows)
 {
     brc_status status = BRC_OK;
     brc_device *device = NULL;
@@ -137,7 +149,8 @@ brc_status brc_launches_measure(brc_context *context, const brc_launches_request
         brc_domain *domain = NULL;
         BRC_TRY(brc_cube_build(context, request->size, request->models[m] == BRC_MODEL_CBM, &domain));
         brc_status status = BRC_OK;
-        for (size_t k = 0; k < sizeof effects / sizeof effects[0] && status == BRC_OK; ++k) status = measure(context, request, domain, request->models[m], &effects[k], rows);
+        for (size_t k = 0; k < sizeof effects / sizeof effects[0] && status == BRC_OK; ++k)
+            status = measure(context, request, domain, request->models[m], &effects[k], rows);
         brc_domain_free(&domain);
         BRC_TRY(status);
     }

@@ -1,6 +1,8 @@
-/* `breccia bench launches`: what a step asks of a device, counted: launches, times the host waits, bytes between host and device; and what that is worth by a model of
- * the device, seconds = launches x launch + waits x wait + least bytes / copy bandwidth, whose constants are measured here, and for a card given in docs/notebook/devices.md.
- * Noisy-grid cubes and packings as of `bench throughput`: elastic, with fracture and contact where nothing breaks and nothing is near. */
+/* `breccia bench launches`: what a step asks of a device, counted: launches, times the host waits, bytes between host
+ * and device; and what that is worth by a model of the device, seconds = launches x launch + waits x wait + least bytes
+ * / copy bandwidth, whose constants are measured here, and for a card given in docs/notebook/devices.md. Noisy-grid
+ * cubes and packings as of `bench throughput`: elastic, with fracture and contact where nothing breaks and nothing is
+ * near. */
 #ifndef BRC_BENCH_LAUNCHES_H
 #define BRC_BENCH_LAUNCHES_H
 

@@ -1,4 +1,5 @@
-/* The other programs of `breccia bench peers`: which are on PATH, and a run of one of them, whose own clock and words are read from what it prints. */
+/* The other programs of `breccia bench peers`: which are on PATH, and a run of one of them, whose own clock and words
+ * are read from what it prints. */
 #ifndef BRC_BENCH_PEER_H
 #define BRC_BENCH_PEER_H
 
@@ -22,8 +23,8 @@ typedef struct brc_peer {
 } brc_peer;
 
 #define BRC_PEERS_MOST 2
-/* Those on PATH that can use n_threads. What is missing, or lacks a package, is told in the log with what would install it. `folder` is there and takes what LAMMPS says of
- * itself. BRC_FILE_FAILED: a program cannot be started. */
+/* Those on PATH that can use n_threads. What is missing, or lacks a package, is told in the log with what would install
+ * it. `folder` is there and takes what LAMMPS says of itself. BRC_FILE_FAILED: a program cannot be started. */
 brc_status brc_peer_find(brc_context *context, int n_threads, const char *folder, brc_peer out[BRC_PEERS_MOST], int *n);
 
 /* Momentum of a shape (docs/notebook/peers.md) [kg m/s] and kinetic energy [J] after a step. */
@@ -33,9 +34,11 @@ typedef struct brc_peer_sample {
 } brc_peer_sample;
 
 typedef struct brc_peer_request {
-    const char *folder; /* of the packing (peer_work.h) and the script; <script>.txt there takes all that the program prints */
-    int64_t steps, warm, every; /* steps that are timed, after `warm` others; every > 0: samples of every so many steps instead */
-    double time_step, longest;  /* [s]; longest branch [m] */
+    const char
+        *folder; /* of the packing (peer_work.h) and the script; <script>.txt there takes all that the program prints */
+    int64_t steps, warm,
+        every; /* steps that are timed, after `warm` others; every > 0: samples of every so many steps instead */
+    double time_step, longest; /* [s]; longest branch [m] */
     int n_threads;
 } brc_peer_request;
 
@@ -48,10 +51,13 @@ typedef struct brc_peer_result {
     char note[160];           /* why there are no figures; "" where there are */
 } brc_peer_result;
 
-/* Run a peer to its end. A program that fails is a result with a note, not a failure. The result begins as {0} and is freed by the caller. */
-brc_status brc_peer_run(brc_context *context, const brc_peer *peer, const brc_peer_request *request, brc_peer_result *out);
-/* Read what a peer printed: the lines "breccia-peer KEY ..." (version, seconds, processor, bonds, sample), and LAMMPS's own "Loop time of" and "% CPU use", of which the last
- * ones count. note: that figures are missing (seconds of a timed run, samples of the other), or that LAMMPS ran on another number of processes. */
+/* Run a peer to its end. A program that fails is a result with a note, not a failure. The result begins as {0} and is
+ * freed by the caller. */
+brc_status brc_peer_run(brc_context *context, const brc_peer *peer, const brc_peer_request *request,
+                        brc_peer_result *out);
+/* Read what a peer printed: the lines "breccia-peer KEY ..." (version, seconds, processor, bonds, sample), and LAMMPS's
+ * own "Loop time of" and "% CPU use", of which the last ones count. note: that figures are missing (seconds of a timed
+ * run, samples of the other), or that LAMMPS ran on another number of processes. */
 brc_status brc_peer_read(brc_context *context, const char *text, const brc_peer_request *request, brc_peer_result *out);
 void brc_peer_result_free(brc_peer_result *result);
 

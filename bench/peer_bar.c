@@ -13,14 +13,16 @@ static brc_peer_sample sample_of(const brc_domain *d, double density, const doub
     return sample;
 }
 
-brc_status brc_peer_bar_follow(brc_context *context, brc_simulation *simulation, double density, int64_t steps, int64_t every, brc_peer_result *out)
+brc_status brc_peer_bar_follow(brc_context *context, brc_simulation *simulation, double density, int64_t steps,
+                               int64_t every, brc_peer_result *out)
 {
     const brc_domain *d = brc_simulation_domain(simulation);
     double *velocity = NULL;
     brc_status status = BRC_OK;
     out->n_samples = 0;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &velocity, 3 * d->n_elements, "velocities"));
-    BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&out->samples, steps / every + 1, sizeof *out->samples, "samples of the bar"));
+    BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&out->samples, steps / every + 1, sizeof *out->samples,
+                                          "samples of the bar"));
     for (int64_t step = 0; step <= steps; step += every) {
         if (step > 0) BRC_TRY_OR(cleanup, brc_simulation_advance(simulation, every));
         BRC_TRY_OR(cleanup, brc_simulation_velocity(simulation, velocity));

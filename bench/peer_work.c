@@ -2,7 +2,10 @@
 #include "../host/output/text.h"
 #include <math.h>
 
-static double mass_of(const brc_peer_work *w, int64_t e) { return w->density * w->domain->volume[e]; }
+static double mass_of(const brc_peer_work *w, int64_t e)
+{
+    return w->density * w->domain->volume[e];
+}
 
 /* The ends and the length of a bond. */
 static double branch_of(const brc_domain *d, int64_t b, int32_t *i, int32_t *j)
@@ -43,7 +46,8 @@ brc_status brc_peer_work_write_tables(brc_context *context, const brc_peer_work 
     brc_text_add(&text, "x,y,z,radius,mass,inertia,vx,vy,vz\n");
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const double *x = &d->position[3 * e], *v = &work->velocity[3 * e];
-        const double row[9] = {x[0], x[1], x[2], d->radius[e], mass_of(work, e), work->density * d->inertia[6 * e], v[0], v[1], v[2]};
+        const double row[9] = {x[0], x[1], x[2], d->radius[e], mass_of(work, e), work->density * d->inertia[6 * e],
+                               v[0], v[1], v[2]};
         add_numbers(&text, 9, row, ",");
         brc_text_add(&text, "\n");
     }
@@ -83,12 +87,13 @@ double brc_peer_work_longest(const brc_peer_work *work)
 
 /* The types of bonds. */
 typedef struct classes {
-    bool each;           /* every bond is one */
+    bool each; /* every bond is one */
     int64_t n;
     double least, width; /* of the lengths, where they are classes [m] */
 } classes;
 
-static brc_status write_coefficients(brc_context *context, const brc_peer_work *work, bool turning, classes c, const char *folder)
+static brc_status write_coefficients(brc_context *context, const brc_peer_work *work, bool turning, classes c,
+                                     const char *folder)
 {
     brc_text text = {.context = context};
     int32_t i, j;
@@ -110,7 +115,8 @@ static brc_status write_coefficients(brc_context *context, const brc_peer_work *
     return brc_text_write_into(&text, folder, "bonds.in");
 }
 
-brc_status brc_peer_work_write_lammps(brc_context *context, const brc_peer_work *work, bool turning, int n_types, const char *folder)
+brc_status brc_peer_work_write_lammps(brc_context *context, const brc_peer_work *work, bool turning, int n_types,
+                                      const char *folder)
 {
     const brc_domain *d = work->domain;
     brc_text text = {.context = context};
@@ -118,10 +124,13 @@ brc_status brc_peer_work_write_lammps(brc_context *context, const brc_peer_work 
     int32_t i, j;
     lengths(d, &least, &most);
     const bool each = n_types == 0;
-    const classes c = {each, each ? d->n_bonds : n_types, least, each ? 0 : fmax((most - least) / n_types, 1e-9 * most)};
-    brc_text_add(&text, "breccia bench peers\n\n%lld atoms\n%lld bonds\n1 atom types\n%lld bond types\n\n", (long long)d->n_elements, (long long)d->n_bonds, (long long)c.n);
+    const classes c = {each, each ? d->n_bonds : n_types, least,
+                       each ? 0 : fmax((most - least) / n_types, 1e-9 * most)};
+    brc_text_add(&text, "breccia bench peers\n\n%lld atoms\n%lld bonds\n1 atom types\n%lld bond types\n\n",
+                 (long long)d->n_elements, (long long)d->n_bonds, (long long)c.n);
     for (int x = 0; x < 3; ++x) /* room around, which nothing leaves */
-        brc_text_add(&text, "%.17g %.17g %clo %chi\n", d->bounds[0][x] - most, d->bounds[1][x] + most, "xyz"[x], "xyz"[x]);
+        brc_text_add(&text, "%.17g %.17g %clo %chi\n", d->bounds[0][x] - most, d->bounds[1][x] + most, "xyz"[x],
+                     "xyz"[x]);
     brc_text_add(&text, "\nAtoms # %s\n\n", turning ? "bpm/sphere" : "hybrid");
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const double *x = &d->position[3 * e], sphere[2] = {2 * d->radius[e], work->density};

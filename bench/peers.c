@@ -12,7 +12,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 5, WARM_STEPS = 10, BAR_ELEMENTS = 1000, BAR_PERIODS = 4, BAR_SAMPLES = 50 /* in a period */, CUBE_TYPES = 256 /* of bonds, for LAMMPS */ };
+enum {
+    ROUNDS = 5,
+    WARM_STEPS = 10,
+    BAR_ELEMENTS = 1000,
+    BAR_PERIODS = 4,
+    BAR_SAMPLES = 50 /* in a period */,
+    CUBE_TYPES = 256 /* of bonds, for LAMMPS */
+};
 /* Largest velocity at the start: strains of some 1e-5, far within what is linear [m/s]. */
 static const double speed = 0.05;
 
@@ -36,7 +43,8 @@ static void free_field(field *f)
     brc_memory_free(f->folder);
 }
 
-/* The velocities of the bar's first longitudinal mode; in the cube waves along all axes. What no bond holds stays where it is, as cbm holds it. */
+/* The velocities of the bar's first longitudinal mode; in the cube waves along all axes. What no bond holds stays where
+ * it is, as cbm holds it. */
 static void set_velocity(const brc_domain *d, bool bar, double *velocity)
 {
     for (int64_t e = 0; e < d->n_elements; ++e) {
@@ -61,9 +69,14 @@ static brc_status choose_beams(brc_context *context, field *f)
     }
     const double mean = sum / (double)d->n_elements;
     BRC_TRY(brc_beam_body_of(context, d, -1, &bonds));
-    BRC_TRY(brc_beam_law_invert(context, brc_beam_law_for(0.5 * (most - least) / mean), &bonds, m->poisson, m->young, &m->beam_radius, &m->beam_young, NULL));
+    BRC_TRY(brc_beam_law_invert(context, brc_beam_law_for(0.5 * (most - least) / mean), &bonds, m->poisson, m->young,
+                                &m->beam_radius, &m->beam_young, NULL));
     const double square = m->beam_radius * mean * m->beam_radius * mean, moment = M_PI * square * square / 4;
-    f->work = (brc_peer_work){.domain = d, .velocity = f->velocity, .density = m->density, .axial = m->beam_young * M_PI * square, .bend = m->beam_young * moment,
+    f->work = (brc_peer_work){.domain = d,
+                              .velocity = f->velocity,
+                              .density = m->density,
+                              .axial = m->beam_young * M_PI * square,
+                              .bend = m->beam_young * moment,
                               .twist = m->beam_young / (2 * (1 + f->cube.scene.model.beam_poisson)) * 2 * moment};
     return BRC_OK;
 }
@@ -76,7 +89,8 @@ static brc_status make_field(brc_context *context, const brc_peers_request *r, b
     if (bar) f->cube.body.shape.size[1] = f->cube.body.shape.size[2] = BRC_BAR_WIDTH;
     BRC_TRY(brc_file_join(context, r->folder, bar ? "bar" : "cube", &f->folder));
     BRC_TRY(brc_file_make_folder(context, f->folder));
-    BRC_TRY(bar ? brc_cube_build_bar(context, BAR_ELEMENTS, &f->domain) : brc_cube_build(context, r->elements, true, &f->domain));
+    BRC_TRY(bar ? brc_cube_build_bar(context, BAR_ELEMENTS, &f->domain)
+                : brc_cube_build(context, r->elements, true, &f->domain));
     BRC_TRY(BRC_ALLOCATE(context, &f->velocity, 3 * f->domain->n_elements, "velocities"));
     set_velocity(f->domain, bar, f->velocity);
     BRC_TRY(choose_beams(context, f));
@@ -88,15 +102,18 @@ static brc_status make_field(brc_context *context, const brc_peers_request *r, b
 }
 
 /* The packing and the scripts, for each peer. n_types: of bonds in LAMMPS. */
-static brc_status write_inputs(brc_context *context, const brc_peers_request *r, const field *f, int n_types, const brc_peer *peers, int n)
+static brc_status write_inputs(brc_context *context, const brc_peers_request *r, const field *f, int n_types,
+                               const brc_peer *peers, int n)
 {
     for (int k = 0; k < n; ++k)
-        BRC_TRY(peers[k].kind == BRC_PEER_YADE ? brc_peer_work_write_tables(context, &f->work, f->folder)
-                                               : brc_peer_work_write_lammps(context, &f->work, peers[k].turning, n_types, f->folder));
+        BRC_TRY(peers[k].kind == BRC_PEER_YADE
+                    ? brc_peer_work_write_tables(context, &f->work, f->folder)
+                    : brc_peer_work_write_lammps(context, &f->work, peers[k].turning, n_types, f->folder));
     for (int k = 0; n > 0 && k < r->n_scripts; ++k) {
         char *path = NULL;
         brc_status status = brc_file_join(context, f->folder, r->scripts[k].name, &path);
-        if (status == BRC_OK) status = brc_file_write_whole(context, path, r->scripts[k].text, strlen(r->scripts[k].text));
+        if (status == BRC_OK)
+            status = brc_file_write_whole(context, path, r->scripts[k].text, strlen(r->scripts[k].text));
         brc_memory_free(path);
         BRC_TRY(status);
     }
@@ -104,8 +121,8 @@ static brc_status write_inputs(brc_context *context, const brc_peers_request *r,
 }
 
 /* The first fields of a row. peer NULL: breccia with this model. */
-static void begin_row(const brc_peers_request *r, const char *what, const char *quantity, const char *unit, brc_model_kind model, const brc_domain *d, const brc_peer *peer,
-                      brc_rows *rows)
+static void begin_row(const brc_peers_request *r, const char *what, const char *quantity, const char *unit,
+                      brc_model_kind model, const brc_domain *d, const brc_peer *peer, brc_rows *rows)
 {
     brc_rows_begin(rows);
     brc_rows_text(rows, "case", what);
@@ -127,7 +144,8 @@ static void begin_row(const brc_peers_request *r, const char *what, const char *
 }
 
 /* The stamp, in which a peer has its own version, and the caller's look at the row. */
-static brc_status end_row(const brc_peers_request *r, const brc_device *device, const brc_peer_result *theirs, brc_rows *rows)
+static brc_status end_row(const brc_peers_request *r, const brc_device *device, const brc_peer_result *theirs,
+                          brc_rows *rows)
 {
     brc_rows_text(rows, "device_name", brc_device_get_info(device)->name);
     brc_rows_stamp(rows);
@@ -141,11 +159,13 @@ static brc_status end_row(const brc_peers_request *r, const brc_device *device, 
 static double slender_frequency(const field *f)
 {
     double mass = 0;
-    for (int64_t e = 0; e < f->domain->n_elements; ++e) mass += f->work.density * f->domain->volume[e];
+    for (int64_t e = 0; e < f->domain->n_elements; ++e)
+        mass += f->work.density * f->domain->volume[e];
     return 0.5 * sqrt(f->cube.material.young * BRC_BAR_WIDTH * BRC_BAR_WIDTH / mass);
 }
 
-static brc_status measure_bar(brc_context *context, const brc_peers_request *r, const brc_peer *peers, int n, brc_rows *rows)
+static brc_status measure_bar(brc_context *context, const brc_peers_request *r, const brc_peer *peers, int n,
+                              brc_rows *rows)
 {
     field f = {0};
     brc_peer_result ours = {0}, theirs = {0};
@@ -153,8 +173,14 @@ static brc_status measure_bar(brc_context *context, const brc_peers_request *r, 
     BRC_TRY_OR(cleanup, make_field(context, r, true, &f));
     BRC_TRY_OR(cleanup, write_inputs(context, r, &f, 0, peers, n));
     const double dt = f.work.time_step, reference = slender_frequency(&f), period = 1 / (reference * dt);
-    const int64_t every = (int64_t)fmax(1, floor(period / BAR_SAMPLES)), steps = every * (int64_t)ceil(BAR_PERIODS * period / (double)every);
-    const brc_peer_request ask = {.folder = f.folder, .steps = steps, .every = every, .time_step = dt, .longest = brc_peer_work_longest(&f.work), .n_threads = r->n_threads};
+    const int64_t every = (int64_t)fmax(1, floor(period / BAR_SAMPLES)),
+                  steps = every * (int64_t)ceil(BAR_PERIODS * period / (double)every);
+    const brc_peer_request ask = {.folder = f.folder,
+                                  .steps = steps,
+                                  .every = every,
+                                  .time_step = dt,
+                                  .longest = brc_peer_work_longest(&f.work),
+                                  .n_threads = r->n_threads};
     BRC_TRY_OR(cleanup, brc_peer_bar_follow(context, f.simulation, f.work.density, steps, every, &ours));
     const double frequency = brc_peer_bar_frequency(&ours, dt);
     for (int k = -1; k < n; ++k) {
@@ -193,7 +219,8 @@ typedef struct runner {
 } runner;
 
 /* One round of one program [s] a step; a peer that failed once is left alone. */
-static brc_status run_once(brc_context *context, const brc_peers_request *r, const brc_peer_request *ask, runner *one, double *per_step)
+static brc_status run_once(brc_context *context, const brc_peers_request *r, const brc_peer_request *ask, runner *one,
+                           double *per_step)
 {
     const bool processor = r->n_threads == 1;
     *per_step = NAN;
@@ -207,7 +234,8 @@ static brc_status run_once(brc_context *context, const brc_peers_request *r, con
     if (one->last.note[0]) return BRC_OK;
     BRC_TRY(brc_peer_run(context, one->peer, ask, &one->last));
     if (!one->last.note[0] && one->last.bonds >= 0 && one->last.bonds != one->domain->n_bonds)
-        snprintf(one->last.note, sizeof one->last.note, "it had %lld bonds, not %lld", (long long)one->last.bonds, (long long)one->domain->n_bonds);
+        snprintf(one->last.note, sizeof one->last.note, "it had %lld bonds, not %lld", (long long)one->last.bonds,
+                 (long long)one->domain->n_bonds);
     if (!one->last.note[0]) *per_step = (processor ? one->last.processor_s : one->last.wall_s) / (double)r->steps;
     return BRC_OK;
 }
@@ -218,12 +246,15 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static brc_status add_speed(const brc_peers_request *r, const brc_device *device, const runner *cbm, const runner *one, brc_rows *rows)
+static brc_status add_speed(const brc_peers_request *r, const brc_device *device, const runner *cbm, const runner *one,
+                            brc_rows *rows)
 {
-    const double bonds = (double)one->domain->n_bonds, elements = (double)one->domain->n_elements, middle = one->per_step[ROUNDS / 2];
+    const double bonds = (double)one->domain->n_bonds, elements = (double)one->domain->n_elements,
+                 middle = one->per_step[ROUNDS / 2];
     const bool failed = one->last.note[0] != 0;
     begin_row(r, "peers", "bond_updates_per_s", "1/s", one->model, one->domain, one->peer, rows);
-    brc_rows_number(rows, "ours", (one->peer ? (double)cbm->domain->n_bonds : bonds) / (one->peer ? cbm : one)->per_step[ROUNDS / 2]);
+    brc_rows_number(rows, "ours",
+                    (one->peer ? (double)cbm->domain->n_bonds : bonds) / (one->peer ? cbm : one)->per_step[ROUNDS / 2]);
     if (!failed) {
         brc_rows_number(rows, "seconds", middle);
         brc_rows_number(rows, "seconds_min", one->per_step[0]);
@@ -243,7 +274,8 @@ static brc_status add_speed(const brc_peers_request *r, const brc_device *device
     return end_row(r, device, one->peer ? &one->last : NULL, rows);
 }
 
-static brc_status measure_cube(brc_context *context, const brc_peers_request *r, const brc_peer *peers, int n, brc_rows *rows)
+static brc_status measure_cube(brc_context *context, const brc_peers_request *r, const brc_peer *peers, int n,
+                               brc_rows *rows)
 {
     field f = {0};
     brc_cube cells;
@@ -260,13 +292,19 @@ static brc_status measure_cube(brc_context *context, const brc_peers_request *r,
     BRC_TRY_OR(cleanup, brc_simulation_create(context, &cells.scene, domain, f.device, &simulation));
     BRC_TRY_OR(cleanup, brc_simulation_begin_stage(simulation, 0));
     runners[0] = (runner){.simulation = f.simulation, .model = BRC_MODEL_CBM, .domain = f.domain};
-    for (int k = 0; k < n; ++k) runners[1 + k] = (runner){.peer = &peers[k], .model = BRC_MODEL_CBM, .domain = f.domain};
+    for (int k = 0; k < n; ++k)
+        runners[1 + k] = (runner){.peer = &peers[k], .model = BRC_MODEL_CBM, .domain = f.domain};
     runners[n + 1] = (runner){.simulation = simulation, .model = BRC_MODEL_DLSM, .domain = domain};
-    const brc_peer_request ask = {.folder = f.folder, .steps = r->steps, .warm = WARM_STEPS, .time_step = f.work.time_step, .longest = brc_peer_work_longest(&f.work),
+    const brc_peer_request ask = {.folder = f.folder,
+                                  .steps = r->steps,
+                                  .warm = WARM_STEPS,
+                                  .time_step = f.work.time_step,
+                                  .longest = brc_peer_work_longest(&f.work),
                                   .n_threads = r->n_threads};
     BRC_TRY_OR(cleanup, brc_simulation_advance(f.simulation, WARM_STEPS));
     BRC_TRY_OR(cleanup, brc_simulation_advance(simulation, WARM_STEPS));
-    BRC_TRY_OR(cleanup, brc_progress_create(context, &progress, "programs in turns", (int64_t)ROUNDS * (n + 2), "samples", 0, NULL));
+    BRC_TRY_OR(cleanup, brc_progress_create(context, &progress, "programs in turns", (int64_t)ROUNDS * (n + 2),
+                                            "samples", 0, NULL));
     for (int round = 0; round < ROUNDS; ++round)
         for (int k = 0; k < n + 2; ++k) {
             BRC_TRY_OR(cleanup, run_once(context, r, &ask, &runners[k], &runners[k].per_step[round]));
@@ -278,10 +316,12 @@ static brc_status measure_cube(brc_context *context, const brc_peers_request *r,
         qsort(runners[k].per_step, ROUNDS, sizeof runners[k].per_step[0], ascending);
         qsort(runners[k].ratio, ROUNDS, sizeof runners[k].ratio[0], ascending);
     }
-    for (int k = 0; k < n + 2; ++k) BRC_TRY_OR(cleanup, add_speed(r, f.device, &runners[0], &runners[k], rows));
+    for (int k = 0; k < n + 2; ++k)
+        BRC_TRY_OR(cleanup, add_speed(r, f.device, &runners[0], &runners[k], rows));
 cleanup:
     brc_progress_finish(&progress);
-    for (int k = 0; runners && k < n + 2; ++k) brc_peer_result_free(&runners[k].last);
+    for (int k = 0; runners && k < n + 2; ++k)
+        brc_peer_result_free(&runners[k].last);
     brc_simulation_free(&simulation);
     brc_memory_free(runners);
     brc_domain_free(&domain);

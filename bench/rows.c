@@ -14,7 +14,8 @@ void brc_rows_begin(brc_rows *rows)
     if (rows->status != BRC_OK) return;
     if (rows->n_rows == rows->capacity) {
         const int64_t capacity = rows->capacity ? 2 * rows->capacity : 16;
-        rows->status = brc_memory_resize(rows->context, (void **)&rows->rows, capacity, sizeof *rows->rows, "rows of figures");
+        rows->status =
+            brc_memory_resize(rows->context, (void **)&rows->rows, capacity, sizeof *rows->rows, "rows of figures");
         if (rows->status != BRC_OK) return;
         rows->capacity = capacity;
     }
@@ -30,7 +31,8 @@ static brc_field *field_of(brc_rows *rows, const char *key, brc_field_kind kind)
     while (k < row->n_fields && strcmp(row->fields[k].key, key) != 0)
         ++k;
     if (k == BRC_FIELDS_MOST) {
-        rows->status = BRC_FAIL(rows->context, BRC_INTERNAL, "a row of figures has more than %d fields", BRC_FIELDS_MOST);
+        rows->status =
+            BRC_FAIL(rows->context, BRC_INTERNAL, "a row of figures has more than %d fields", BRC_FIELDS_MOST);
         return NULL;
     }
     brc_field *field = &row->fields[k];
@@ -69,7 +71,9 @@ const brc_field *brc_row_find(const brc_row *row, const char *key)
 double brc_row_number(const brc_row *row, const char *key)
 {
     const brc_field *field = brc_row_find(row, key);
-    return !field || field->kind == BRC_FIELD_TEXT ? NAN : field->kind == BRC_FIELD_INTEGER ? (double)field->integer : field->number;
+    return !field || field->kind == BRC_FIELD_TEXT ? NAN
+           : field->kind == BRC_FIELD_INTEGER      ? (double)field->integer
+                                                   : field->number;
 }
 
 const char *brc_row_text(const brc_row *row, const char *key)
@@ -129,7 +133,8 @@ static brc_status write_csv(const brc_rows *rows, const char *path)
             int known = 0;
             while (known < n_keys && strcmp(keys[known], rows->rows[r].fields[k].key) != 0)
                 ++known;
-            if (known == n_keys && n_keys < (int)(sizeof keys / sizeof *keys)) keys[n_keys++] = rows->rows[r].fields[k].key;
+            if (known == n_keys && n_keys < (int)(sizeof keys / sizeof *keys))
+                keys[n_keys++] = rows->rows[r].fields[k].key;
         }
     for (int k = 0; k < n_keys; ++k)
         brc_text_add(&text, "%s%s", k ? "," : "", keys[k]);

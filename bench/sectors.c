@@ -13,9 +13,12 @@ static const int group_sizes[GROUPS] = {128, 512, 1024};
 static const struct {
     const char *name, *precision;
     int numbers, bytes;
-} records[] = {{"displacement (gradient, force)", "double, mixed", 3, 8}, {"H, P or flux (flux pass, force)", "double", 9, 8},
-               {"H, P or flux (flux pass, force)", "mixed, single", 9, 4}, {"orientation (published, cbm)", "double, mixed", 4, 8},
-               {"strain (published_force)", "double", 6, 8},               {"strain (published_force)", "mixed, single", 6, 4}};
+} records[] = {{"displacement (gradient, force)", "double, mixed", 3, 8},
+               {"H, P or flux (flux pass, force)", "double", 9, 8},
+               {"H, P or flux (flux pass, force)", "mixed, single", 9, 4},
+               {"orientation (published, cbm)", "double, mixed", 4, 8},
+               {"strain (published_force)", "double", 6, 8},
+               {"strain (published_force)", "mixed, single", 6, 4}};
 enum { N_RECORDS = sizeof records / sizeof records[0] };
 
 /* Where number c of the record of a row lies [byte]: row x stride + c x bytes, or c arrays of n_rows. */
@@ -29,11 +32,13 @@ static void find_neighbours(const brc_layout *l, const brc_domain *d, int32_t *o
 {
     for (int32_t s = 0; s < l->n_slices; ++s)
         for (int64_t k = (int64_t)l->slot_start[s] * WARP; k < (int64_t)l->slot_start[s + 1] * WARP; ++k)
-            out[k] = l->half_edge[k] < 0 ? s * WARP + (int32_t)(k % WARP) : l->row_of_element[d->neighbour[l->half_edge[k]]];
+            out[k] =
+                l->half_edge[k] < 0 ? s * WARP + (int32_t)(k % WARP) : l->row_of_element[d->neighbour[l->half_edge[k]]];
 }
 
 /* Sectors that the things [n] of one fetch touch, each once: stamp [of every sector] is the last fetch that had it. */
-static int64_t touch(const storage *how, int numbers, int bytes, int64_t n, const int32_t *rows, int64_t fetch, int64_t *stamp)
+static int64_t touch(const storage *how, int numbers, int bytes, int64_t n, const int32_t *rows, int64_t fetch,
+                     int64_t *stamp)
 {
     int64_t count = 0;
     for (int64_t i = 0; i < n; ++i)
@@ -48,27 +53,31 @@ static int64_t touch(const storage *how, int numbers, int bytes, int64_t n, cons
 }
 
 /* *single: sectors where each slot of a warp is fetched for itself; grouped [GROUPS]: where groups fetch each once. */
-static brc_status count(brc_context *context, const brc_layout *l, const int32_t *neighbour, const storage *how, int numbers, int bytes, int64_t *single, int64_t grouped[GROUPS])
+static brc_status count(brc_context *context, const brc_layout *l, const int32_t *neighbour, const storage *how,
+                        int numbers, int bytes, int64_t *single, int64_t grouped[GROUPS])
 {
     const int64_t n_sectors = (l->n_rows * how->stride + (numbers - 1) * how->column) / SECTOR + 2;
     int64_t *stamp = NULL, fetch = 1;
     BRC_TRY(BRC_ALLOCATE(context, &stamp, n_sectors, "sectors"));
     *single = 0;
-    for (int64_t slot = 0; slot < l->n_slots; ++slot) *single += touch(how, numbers, bytes, WARP, neighbour + slot * WARP, fetch++, stamp);
+    for (int64_t slot = 0; slot < l->n_slots; ++slot)
+        *single += touch(how, numbers, bytes, WARP, neighbour + slot * WARP, fetch++, stamp);
     for (int g = 0; g < GROUPS; ++g) {
         const int32_t slices = group_sizes[g] / WARP;
         grouped[g] = 0;
         for (int32_t s = 0; s < l->n_slices; s += slices) {
             const int32_t end = s + slices < l->n_slices ? s + slices : l->n_slices;
             const int64_t first = (int64_t)l->slot_start[s] * WARP;
-            grouped[g] += touch(how, numbers, bytes, (int64_t)l->slot_start[end] * WARP - first, neighbour + first, fetch++, stamp);
+            grouped[g] += touch(how, numbers, bytes, (int64_t)l->slot_start[end] * WARP - first, neighbour + first,
+                                fetch++, stamp);
         }
     }
     brc_memory_free(stamp);
     return BRC_OK;
 }
 
-static brc_status add_row(brc_context *context, const brc_sectors_request *r, const brc_domain *d, const brc_layout *l, const int32_t *neighbour, int k, const storage *how, brc_rows *rows)
+static brc_status add_row(brc_context *context, const brc_sectors_request *r, const brc_domain *d, const brc_layout *l,
+                          const int32_t *neighbour, int k, const storage *how, brc_rows *rows)
 {
     int64_t single, grouped[GROUPS];
     BRC_TRY(count(context, l, neighbour, how, records[k].numbers, records[k].bytes, &single, grouped));
@@ -107,7 +116,8 @@ brc_status brc_sectors_measure(brc_context *context, const brc_sectors_request *
         const int64_t bytes = records[k].bytes, packed = records[k].numbers * bytes, padded = (packed + 15) / 16 * 16;
         const storage ways[] = {{"packed", packed, 0}, {"padded", padded, 0}, {"split", bytes, layout->n_rows * bytes}};
         for (size_t w = 0; w < sizeof ways / sizeof ways[0]; ++w)
-            if (w != 1 || padded != packed) BRC_TRY_OR(cleanup, add_row(context, request, domain, layout, neighbour, k, &ways[w], rows));
+            if (w != 1 || padded != packed)
+                BRC_TRY_OR(cleanup, add_row(context, request, domain, layout, neighbour, k, &ways[w], rows));
     }
 cleanup:
     brc_memory_free(neighbour);

@@ -9,23 +9,31 @@
 #include <string.h>
 #include <time.h>
 
-static const char head[] = "version: 1\ntitle: cost of equilibrium\nmaterials:\n  stone: {E: 20 GPa, nu: 0.3, density: 1000 kg/m^3}\nbodies:\n"
-                           "  - {name: body, shape: {box: {size: %s}}, fill: {noisy_grid: {cells: %s, spread: 90 %%, lloyd: 5, seed: 1}}, material: stone}\n"
-                           "stages:\n  - name: solve\n    solver: static\n    loads:\n%soutput: {frames: none, picture: false}\n";
-static const char bending[] = "      - face_displacement: {set: x-, x: 0, y: 0, z: 0}\n      - traction: {set: x+, z: 1 kPa}\n";
-static const char pulling[] = "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: y-, y: 0}\n      - face_displacement: {set: z-, z: 0}\n"
+static const char head[] =
+    "version: 1\ntitle: cost of equilibrium\nmaterials:\n  stone: {E: 20 GPa, nu: 0.3, density: 1000 kg/m^3}\nbodies:\n"
+    "  - {name: body, shape: {box: {size: %s}}, fill: {noisy_grid: {cells: %s, spread: 90 %%, lloyd: 5, seed: 1}}, "
+    "material: stone}\n"
+    "stages:\n  - name: solve\n    solver: static\n    loads:\n%soutput: {frames: none, picture: false}\n";
+static const char bending[] =
+    "      - face_displacement: {set: x-, x: 0, y: 0, z: 0}\n      - traction: {set: x+, z: 1 kPa}\n";
+static const char pulling[] = "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: y-, y: "
+                              "0}\n      - face_displacement: {set: z-, z: 0}\n"
                               "      - face_displacement: {set: x+, x: 1 um}\n";
 
 /* Of one body: nearest to the wanted number of elements. */
-static brc_status make(brc_context *context, const brc_statics_cost_request *r, bool cantilever, brc_scene **scene, brc_domain **domain)
+static brc_status make(brc_context *context, const brc_statics_cost_request *r, bool cantilever, brc_scene **scene,
+                       brc_domain **domain)
 {
     char text[2048], cells[64];
     const int across = (int)lround(cbrt((double)r->elements / (cantilever ? 10 : 1)));
     snprintf(cells, sizeof cells, "[%d, %d, %d]", cantilever ? 10 * across : across, across, across);
-    const int length = snprintf(text, sizeof text, head, cantilever ? "[1 m, 10 cm, 10 cm]" : "[1 m, 1 m, 1 m]", cells, cantilever ? bending : pulling);
+    const int length = snprintf(text, sizeof text, head, cantilever ? "[1 m, 10 cm, 10 cm]" : "[1 m, 1 m, 1 m]", cells,
+                                cantilever ? bending : pulling);
     BRC_TRY(brc_scene_read_text(context, "bench statics", text, (size_t)length, 0, NULL, scene));
     (*scene)->materials[0].poisson = r->poisson;
-    const brc_build_request build = {.shape = (*scene)->bodies[0].shape, .fill = (*scene)->bodies[0].fill, .tiny_face_threshold = (*scene)->bodies[0].tiny_face_threshold};
+    const brc_build_request build = {.shape = (*scene)->bodies[0].shape,
+                                     .fill = (*scene)->bodies[0].fill,
+                                     .tiny_face_threshold = (*scene)->bodies[0].tiny_face_threshold};
     return brc_domain_build(context, &build, domain);
 }
 
@@ -38,8 +46,9 @@ static double seconds_now(const brc_statics_cost_request *r, const brc_device *d
 }
 
 /* One row; *seconds of its solve. before: of diagonal blocks, NAN: unknown. */
-static brc_status solve(brc_context *context, const brc_statics_cost_request *r, brc_scene *scene, const brc_domain *domain, const char *body,
-                        brc_preconditioner_kind preconditioner, double before, double *seconds, brc_rows *rows)
+static brc_status solve(brc_context *context, const brc_statics_cost_request *r, brc_scene *scene,
+                        const brc_domain *domain, const char *body, brc_preconditioner_kind preconditioner,
+                        double before, double *seconds, brc_rows *rows)
 {
     const brc_device_request open = {.selector = r->device, .precision = r->precision, .n_threads = r->n_threads};
     const double n = (double)domain->n_elements;
@@ -94,7 +103,8 @@ brc_status brc_statics_cost_measure(brc_context *context, const brc_statics_cost
         status = make(context, r, k == 0, &scene, &domain);
         if (status == BRC_OK && domain->n_elements <= r->most_of_blocks)
             status = solve(context, r, scene, domain, body, BRC_PRECONDITIONER_BLOCKS, NAN, &before, rows);
-        if (status == BRC_OK) status = solve(context, r, scene, domain, body, BRC_PRECONDITIONER_MULTIGRID, before, &seconds, rows);
+        if (status == BRC_OK)
+            status = solve(context, r, scene, domain, body, BRC_PRECONDITIONER_MULTIGRID, before, &seconds, rows);
         brc_domain_free(&domain);
         brc_scene_free(&scene);
         BRC_TRY(status);

@@ -1,6 +1,8 @@
-/* `breccia bench statics`: what an elastic equilibrium takes as the body grows, with multigrid and with diagonal blocks. Two bodies of cells, noisy grids with five Lloyd
- * sweeps: a cantilever of 10:1 that bends under a traction, and a cube that is pulled between rollers; one row for each size, body and preconditioner. The sides of a ratio run
- * one after the other in one process; seconds are processor time of the solve, its setup included, on the cpu device with one thread, else of the clock. */
+/* `breccia bench statics`: what an elastic equilibrium takes as the body grows, with multigrid and with diagonal
+ * blocks. Two bodies of cells, noisy grids with five Lloyd sweeps: a cantilever of 10:1 that bends under a traction,
+ * and a cube that is pulled between rollers; one row for each size, body and preconditioner. The sides of a ratio run
+ * one after the other in one process; seconds are processor time of the solve, its setup included, on the cpu device
+ * with one thread, else of the clock. */
 #ifndef BRC_BENCH_STATICS_COST_H
 #define BRC_BENCH_STATICS_COST_H
 
@@ -8,11 +10,11 @@
 #include "rows.h"
 
 typedef struct brc_statics_cost_request {
-    int64_t elements;        /* wanted, of each body */
-    int64_t most_of_blocks;  /* elements up to which diagonal blocks run too */
-    bool cantilever, cube;   /* which bodies */
+    int64_t elements;       /* wanted, of each body */
+    int64_t most_of_blocks; /* elements up to which diagonal blocks run too */
+    bool cantilever, cube;  /* which bodies */
     double poisson;
-    const char *device;      /* selector */
+    const char *device; /* selector */
     brc_precision precision;
     int n_threads;
     /* Called after each row; a status other than BRC_OK stops. */

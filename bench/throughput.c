@@ -51,8 +51,8 @@ static brc_status sample_steps(brc_simulation *simulation, double least, double 
     return BRC_OK;
 }
 
-static void add_figures(brc_rows *rows, const brc_domain *domain, const brc_simulation *simulation, int64_t device_bytes,
-                        double bandwidth, const double samples[SAMPLES], int64_t n_steps)
+static void add_figures(brc_rows *rows, const brc_domain *domain, const brc_simulation *simulation,
+                        int64_t device_bytes, double bandwidth, const double samples[SAMPLES], int64_t n_steps)
 {
     const double per_step = samples[SAMPLES / 2], floor_bytes = brc_simulation_floor_bytes(simulation);
     const double bonds = (double)domain->n_bonds, elements = (double)domain->n_elements;
@@ -75,15 +75,16 @@ static void add_figures(brc_rows *rows, const brc_domain *domain, const brc_simu
 
 /* One combination, into the last row. */
 static brc_status measure(brc_context *context, const brc_throughput_request *request, const brc_domain *domain,
-                          brc_model_kind model, const char *selector, brc_precision precision, int n_threads, brc_rows *rows)
+                          brc_model_kind model, const char *selector, brc_precision precision, int n_threads,
+                          brc_rows *rows)
 {
     brc_status status = BRC_OK;
     brc_device *device = NULL;
     brc_simulation *simulation = NULL;
     brc_cube c;
     brc_cube_make(&c, model);
-    const brc_device_request open = {.selector = selector, .precision = precision, .n_threads = n_threads,
-                                     .exact = request->exact};
+    const brc_device_request open = {
+        .selector = selector, .precision = precision, .n_threads = n_threads, .exact = request->exact};
     double bandwidth, samples[SAMPLES];
     int64_t n_steps;
     BRC_TRY_OR(cleanup, brc_device_open(context, &open, &device));
@@ -104,7 +105,8 @@ cleanup:
 
 /* Measure one combination and keep going where a device is not there or too small. */
 static brc_status add_row(brc_context *context, const brc_throughput_request *request, const brc_domain *domain,
-                          brc_model_kind model, const char *selector, brc_precision precision, int n_threads, brc_rows *rows)
+                          brc_model_kind model, const char *selector, brc_precision precision, int n_threads,
+                          brc_rows *rows)
 {
     brc_rows_begin(rows);
     brc_rows_text(rows, "case", "throughput");
@@ -131,7 +133,8 @@ static brc_status add_row(brc_context *context, const brc_throughput_request *re
     return status;
 }
 
-static brc_status measure_domain(brc_context *context, const brc_throughput_request *r, const brc_domain *domain, bool spheres, brc_rows *rows)
+static brc_status measure_domain(brc_context *context, const brc_throughput_request *r, const brc_domain *domain,
+                                 bool spheres, brc_rows *rows)
 {
     for (int m = 0; m < r->n_models; ++m)
         for (int d = 0; d < r->n_devices; ++d)
@@ -151,7 +154,8 @@ brc_status brc_throughput_measure(brc_context *context, const brc_throughput_req
     for (int s = 0; s < request->n_sizes; ++s)
         for (int spheres = 0; spheres < 2; ++spheres) {
             bool wanted = false;
-            for (int m = 0; m < request->n_models; ++m) wanted |= (request->models[m] == BRC_MODEL_CBM) == (spheres == 1);
+            for (int m = 0; m < request->n_models; ++m)
+                wanted |= (request->models[m] == BRC_MODEL_CBM) == (spheres == 1);
             if (!wanted) continue;
             brc_domain *domain;
             BRC_TRY(brc_cube_build(context, request->sizes[s], spheres == 1, &domain));

@@ -1,6 +1,6 @@
 /* `breccia bench throughput`: how fast the laws go, in bond updates per second and as a fraction of what the device's
- * memory gives. Noisy-grid cubes, or packings with ten beams an element, free faces, one material, undamped (the published law with its
- * own integrator). */
+ * memory gives. Noisy-grid cubes, or packings with ten beams an element, free faces, one material, undamped (the
+ * published law with its own integrator). */
 #ifndef BRC_BENCH_THROUGHPUT_H
 #define BRC_BENCH_THROUGHPUT_H
 
@@ -18,9 +18,9 @@ typedef struct brc_throughput_request {
     const char *devices[BRC_THROUGHPUT_LIST];
     brc_precision precisions[BRC_THROUGHPUT_LIST];
     int threads[BRC_THROUGHPUT_LIST];
-    bool exact;                /* no contraction: brc_device_request */
-    double sample_s;           /* least wall time of one of the five samples [s] */
-    int64_t bandwidth_bytes;   /* array of the copy that speeds are held against [byte] */
+    bool exact;              /* no contraction: brc_device_request */
+    double sample_s;         /* least wall time of one of the five samples [s] */
+    int64_t bandwidth_bytes; /* array of the copy that speeds are held against [byte] */
     /* Called after each row was added (the last one of `rows`); a status other than BRC_OK stops. */
     brc_status (*row)(void *self, const brc_rows *rows);
     void *self;

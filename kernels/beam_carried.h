@@ -1,27 +1,33 @@
-/* What a crack leaves to a beam (docs/notebook/fracture.md "Beams beside compression"): its pushes across the crack and along it.
+/* What a crack leaves to a beam (docs/notebook/fracture.md "Beams beside compression"): its pushes across the crack and
+ * along it.
  *
- * a, p, q: axes of a crack, that across it and two along it, each turned so that the beam's initial axis e has components c_a, c_p, c_q >= 0. The ends of the beam move apart by o. As
- * springs in series with the stiffness K = k e (x) e + k_m (1 - e (x) e) of a beam, k = E S / l0 along it and k_m = 12 E I / l0^3 across it, the crack opens along a and lets go of pulls along p
- * and q, each by w >= 0:
+ * a, p, q: axes of a crack, that across it and two along it, each turned so that the beam's initial axis e has
+ * components c_a, c_p, c_q >= 0. The ends of the beam move apart by o. As springs in series with the stiffness K = k e
+ * (x) e + k_m (1 - e (x) e) of a beam, k = E S / l0 along it and k_m = 12 E I / l0^3 across it, the crack opens along a
+ * and lets go of pulls along p and q, each by w >= 0:
  *     U = min over w >= 0 of 1/2 (o - w) . K (o - w).
- * It is convex, its force F = K (o - w) is continuous, and along each axis F pushes or is 0. Moments, twist and what pulls are gone. U is not above the energy of the whole beam (of small
- * strains), so a beam loses energy by opening and gains none.
+ * It is convex, its force F = K (o - w) is continuous, and along each axis F pushes or is 0. Moments, twist and what
+ * pulls are gone. U is not above the energy of the whole beam (of small strains), so a beam loses energy by opening and
+ * gains none.
  *
- * With y = e.(o - w) <= 0 it is F_i = k_m o_i + (k - k_m) c_i y along axes that hold, those with F_i < 0; along the others w_i makes it 0, so that
- * y = (sum over held of c_i o_i) / (1 + (k / k_m - 1) sum over the others of c_i^2), which turns of y and of who holds, from y = 0 on, find within four: a Newton's method on a convex
- * function of three pieces.
+ * With y = e.(o - w) <= 0 it is F_i = k_m o_i + (k - k_m) c_i y along axes that hold, those with F_i < 0; along the
+ * others w_i makes it 0, so that y = (sum over held of c_i o_i) / (1 + (k / k_m - 1) sum over the others of c_i^2),
+ * which turns of y and of who holds, from y = 0 on, find within four: a Newton's method on a convex function of three
+ * pieces.
  *
- * o = (l - l0) n + o_m across, which turns with both elements: o_m = l (R_i^T d1 + R_j^T d2) / 2 in the undeformed body, so no rotation of the body changes U.
- * k_m counts by `keeps`: 1 where the beam leans by 30 degrees or more against the axis and what pressed along the crack as it opened was as much as what pulled, less where the beam lies along the
- * axis, since a slide along the crack is no push, and with the square of push over pull; it fades as the crack opens,
- * and where it is 0 the axial push is left: U = k/2 min(l - l0, 0)^2. */
+ * o = (l - l0) n + o_m across, which turns with both elements: o_m = l (R_i^T d1 + R_j^T d2) / 2 in the undeformed
+ * body, so no rotation of the body changes U. k_m counts by `keeps`: 1 where the beam leans by 30 degrees or more
+ * against the axis and what pressed along the crack as it opened was as much as what pulled, less where the beam lies
+ * along the axis, since a slide along the crack is no push, and with the square of push over pull; it fades as the
+ * crack opens, and where it is 0 the axial push is left: U = k/2 min(l - l0, 0)^2. */
 #ifndef BRC_KERNELS_BEAM_CARRIED_H
 #define BRC_KERNELS_BEAM_CARRIED_H
 
 #include "cbm_beam.h"
 
-/* How a crack lies to a beam. side: unit vector m1 across e in the plane of e and a, in the undeformed body, a = c_a e + s m1; from the other end -m1. m2 = e x m1. along: c_a; cosine, sine: of p
- * in p = cosine (s e - c_a m1) + sine m2, cosine >= 0; from the other end -sine. keeps: share of k_m. [-, all] */
+/* How a crack lies to a beam. side: unit vector m1 across e in the plane of e and a, in the undeformed body, a = c_a e
+ * + s m1; from the other end -m1. m2 = e x m1. along: c_a; cosine, sine: of p in p = cosine (s e - c_a m1) + sine m2,
+ * cosine >= 0; from the other end -sine. keeps: share of k_m. [-, all] */
 typedef struct {
     lane_vec3 side;
     lane along, cosine, sine, keeps;
@@ -67,7 +73,8 @@ LAW lane beam_along(lane c, lane m1, lane m2, lane elongation, lane o1, lane o2)
     return c * elongation + m1 * o1 + m2 * o2;
 }
 
-/* One of the axes at a trial y: sum: c o where it holds; free: c^2 where it does not; force: F along it [N], where it holds; rest: o - w along it but for y [m]. */
+/* One of the axes at a trial y: sum: c o where it holds; free: c^2 where it does not; force: F along it [N], where it
+ * holds; rest: o - w along it but for y [m]. */
 typedef struct {
     lane sum, free, force, rest;
 } beam_axis;
@@ -108,8 +115,9 @@ LAW beam_carry beam_carried(cbm_shape shape, lane inv_length0, cbm_stiffness sti
         REAL(0.5) * energy};
 }
 
-/* The pull of a whole beam along the axis of a crack, as that of a beam along the axis with as much energy to release [N], where its element has stretched by `lateral` [-] across what presses on it
- * along the crack: all its beams are stretched so, whether there is a crack or not. */
+/* The pull of a whole beam along the axis of a crack, as that of a beam along the axis with as much energy to release
+ * [N], where its element has stretched by `lateral` [-] across what presses on it along the crack: all its beams are
+ * stretched so, whether there is a crack or not. */
 LAW lane beam_pull(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness, lane_vec3 axis0, lane_quat q_i,
                    lane_quat q_j, beam_lean lean, lane lateral)
 {
@@ -129,7 +137,8 @@ LAW lane_vec3 beam_opening(cbm_shape shape)
                          lane_vec3_scale(REAL(0.5) * length0, lane_vec3_add(shape.bent1, shape.bent2)));
 }
 
-/* keeps of a crack that has come to this opening: none where its ends stand clear of each other, at `clear` of the beam's length (0: it does not fade). */
+/* keeps of a crack that has come to this opening: none where its ends stand clear of each other, at `clear` of the
+ * beam's length (0: it does not fade). */
 LAW lane beam_fades(lane keeps, lane along, lane_vec3 opening, lane inv_length0, coeff clear)
 {
     const lane wide =

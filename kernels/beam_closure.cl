@@ -1,8 +1,11 @@
-/* Broken beams whose ends still bear on each other (cbm; docs/notebook/fracture.md "Beams beside compression"): what a crack leaves to a beam (beam_carried.h), with the beam's
- * own geometry, until its ends stand clear of each other. Passes over all others find the bond broken; these add its force behind them, to groups that have such beams.
+/* Broken beams whose ends still bear on each other (cbm; docs/notebook/fracture.md "Beams beside compression"): what a
+ * crack leaves to a beam (beam_carried.h), with the beam's own geometry, until its ends stand clear of each other.
+ * Passes over all others find the bond broken; these add its force behind them, to groups that have such beams.
  *
- * other [slot][C]: row of the element over the bond there was, own row where there never was one. bears [slot][C]: 1 from the break until the ends stand clear.
- * lean [slot][LEAN][C]: SIDE, ALONG, COSINE, SINE, KEEPS as of the softening; of beams that broke at once ALONG 1 and zeros: the push along the axis is all. rubs [n / W]: 1 from the first such beam of the group on. */
+ * other [slot][C]: row of the element over the bond there was, own row where there never was one. bears [slot][C]: 1
+ * from the break until the ends stand clear. lean [slot][LEAN][C]: SIDE, ALONG, COSINE, SINE, KEEPS as of the
+ * softening; of beams that broke at once ALONG 1 and zeros: the push along the axis is all. rubs [n / W]: 1 from the
+ * first such beam of the group on. */
 
 #define LEAN 7
 #define LEAN_ALONG 3
@@ -24,14 +27,17 @@ typedef struct {
     lane_quat q_j;
     beam_lean lean;
 } closure_bond;
-LAW closure_bond closure_bond_at(int slot, int lane0, cbm_own own, GLOBAL const int *restrict other, GLOBAL const int *restrict bears, GLOBAL const coeff *restrict branch,
-                                 GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
-                                 GLOBAL const coeff *restrict beam_of, int leans, GLOBAL const coeff *restrict lean)
+LAW closure_bond closure_bond_at(int slot, int lane0, cbm_own own, GLOBAL const int *restrict other,
+                                 GLOBAL const int *restrict bears, GLOBAL const coeff *restrict branch,
+                                 GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                                 coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int leans,
+                                 GLOBAL const coeff *restrict lean)
 {
     closure_bond b;
     const lane_int j = int_block(other, slot, lane0), on = int_block(bears, slot, lane0);
     const lane zero = LANE_ZERO;
-    const lane_vec3 r = lane_block3(branch, slot, lane0), jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
+    const lane_vec3 r = lane_block3(branch, slot, lane0),
+                    jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
     b.bears = LANE_DIFFERENT(on, on - on);
     b.inv_length0 = b.bears / LANE_SQRT(lane_vec3_dot(r, r));
     b.stiffness = cbm_stiffness_of(beam_of, own.row, j, axial, bend, twist);
@@ -41,8 +47,11 @@ LAW closure_bond closure_bond_at(int slot, int lane0, cbm_own own, GLOBAL const 
     b.axis0 = lane_vec3_scale(b.inv_length0, r);
     b.lean = (beam_lean){{zero, zero, zero}, zero + REAL(1), zero, zero, zero};
     if (leans)
-        b.lean = (beam_lean){{lane_block(lean, slot, LEAN, 0, lane0), lane_block(lean, slot, LEAN, 1, lane0), lane_block(lean, slot, LEAN, 2, lane0)},
-                             lane_block(lean, slot, LEAN, 3, lane0), lane_block(lean, slot, LEAN, 4, lane0), lane_block(lean, slot, LEAN, 5, lane0),
+        b.lean = (beam_lean){{lane_block(lean, slot, LEAN, 0, lane0), lane_block(lean, slot, LEAN, 1, lane0),
+                              lane_block(lean, slot, LEAN, 2, lane0)},
+                             lane_block(lean, slot, LEAN, 3, lane0),
+                             lane_block(lean, slot, LEAN, 4, lane0),
+                             lane_block(lean, slot, LEAN, 5, lane0),
                              lane_block(lean, slot, LEAN, 6, lane0)};
     return b;
 }
@@ -58,9 +67,11 @@ typedef struct {
     lane_sym3 virial; /* its parts off the diagonal twice, cbm_virial_of */
     lane energy;
 } closure_sum;
-LAW closure_sum closure_group(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other, GLOBAL const int *restrict bears,
-                              GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                              coeff twist, GLOBAL const coeff *restrict beam_of, int leans, GLOBAL const coeff *restrict lean)
+LAW closure_sum closure_group(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other,
+                              GLOBAL const int *restrict bears, GLOBAL const coeff *restrict branch,
+                              GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                              coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int leans,
+                              GLOBAL const coeff *restrict lean)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
     const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
@@ -68,7 +79,8 @@ LAW closure_sum closure_group(int group, GLOBAL const int *restrict row_start, G
     closure_sum sum = {{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero, zero, zero, zero}, zero};
     for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
         if (!closure_any(bears, (brc_size)slot * C + (brc_size)lane0)) continue;
-        const closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial, bend, twist, beam_of, leans, lean);
+        const closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial,
+                                               bend, twist, beam_of, leans, lean);
         const beam_carry carry = closure_carry(b, own);
         sum.force = lane_vec3_add(sum.force, carry.end.force);
         sum.torque = lane_vec3_add(sum.torque, carry.end.torque);
@@ -84,26 +96,31 @@ LAW void closure_add(GLOBAL state *restrict to, int e, coeff x, coeff y, coeff z
 }
 
 /* After fracture_force and beam_soft_force: forces, torques and records with what broken beams bear. */
-KERNEL void closure_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other, GLOBAL const int *restrict bears,
-                          GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                          coeff twist, GLOBAL const coeff *restrict beam_of, int leans, GLOBAL const coeff *restrict lean, coeff inv_tension, coeff inv_compression,
-                          coeff inv_shear, int drucker_prager, coeff slope, GLOBAL const int *restrict rubs, GLOBAL state *restrict force, GLOBAL state *restrict torque,
-                          GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
+KERNEL void closure_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other,
+                          GLOBAL const int *restrict bears, GLOBAL const coeff *restrict branch,
+                          GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                          coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int leans,
+                          GLOBAL const coeff *restrict lean, coeff inv_tension, coeff inv_compression, coeff inv_shear,
+                          int drucker_prager, coeff slope, GLOBAL const int *restrict rubs,
+                          GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL coeff *restrict record,
+                          GLOBAL coeff *restrict reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (rubs[group]) {
             const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
-            const closure_sum sum = closure_group(group, row_start, other, bears, branch, displacement, orientation, axial, bend, twist, beam_of, leans, lean);
+            const closure_sum sum = closure_group(group, row_start, other, bears, branch, displacement, orientation,
+                                                  axial, bend, twist, beam_of, leans, lean);
             const lane_vec3 f = sum.force, t = sum.torque;
-#define ADD(l)                                                                                              \
-    closure_add(force, first + 0x##l, LANE_ITEM(f.x, l), LANE_ITEM(f.y, l), LANE_ITEM(f.z, l));             \
+#define ADD(l)                                                                                                         \
+    closure_add(force, first + 0x##l, LANE_ITEM(f.x, l), LANE_ITEM(f.y, l), LANE_ITEM(f.z, l));                        \
     closure_add(torque, first + 0x##l, LANE_ITEM(t.x, l), LANE_ITEM(t.y, l), LANE_ITEM(t.z, l));
             LANE_EACH(ADD)
 #undef ADD
             const lane_sym3 v = cbm_virial_of(sum.virial);
-            const lane_sym3 all = {lane_block(record, slice, RECORD, 0, lane0) + v.xx, lane_block(record, slice, RECORD, 1, lane0) + v.yy,
-                                   lane_block(record, slice, RECORD, 2, lane0) + v.zz, lane_block(record, slice, RECORD, 3, lane0) + v.yz,
-                                   lane_block(record, slice, RECORD, 4, lane0) + v.xz, lane_block(record, slice, RECORD, 5, lane0) + v.xy};
+            const lane_sym3 all = {
+                lane_block(record, slice, RECORD, 0, lane0) + v.xx, lane_block(record, slice, RECORD, 1, lane0) + v.yy,
+                lane_block(record, slice, RECORD, 2, lane0) + v.zz, lane_block(record, slice, RECORD, 3, lane0) + v.yz,
+                lane_block(record, slice, RECORD, 4, lane0) + v.xz, lane_block(record, slice, RECORD, 5, lane0) + v.xy};
             const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
             fracture_put_record(group, all, scale, record, reach);
         }
@@ -111,14 +128,17 @@ KERNEL void closure_force(int n_groups, GLOBAL const int *restrict row_start, GL
 }
 
 /* After cbm_energy [J] [n], half to each side. */
-KERNEL void closure_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other, GLOBAL const int *restrict bears,
-                           GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                           coeff twist, GLOBAL const coeff *restrict beam_of, int leans, GLOBAL const coeff *restrict lean, GLOBAL const int *restrict rubs,
+KERNEL void closure_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other,
+                           GLOBAL const int *restrict bears, GLOBAL const coeff *restrict branch,
+                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                           coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int leans,
+                           GLOBAL const coeff *restrict lean, GLOBAL const int *restrict rubs,
                            GLOBAL state *restrict elastic)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (rubs[group]) {
-            const closure_sum sum = closure_group(group, row_start, other, bears, branch, displacement, orientation, axial, bend, twist, beam_of, leans, lean);
+            const closure_sum sum = closure_group(group, row_start, other, bears, branch, displacement, orientation,
+                                                  axial, bend, twist, beam_of, leans, lean);
             const lane energy = REAL(0.5) * sum.energy;
 #define ADD(l) elastic[group * W + 0x##l] += (state)LANE_ITEM(energy, l);
             LANE_EACH(ADD)
@@ -128,26 +148,35 @@ KERNEL void closure_energy(int n_groups, GLOBAL const int *restrict row_start, G
 }
 
 /* After cbm_virial [J] [n][6]. */
-KERNEL void closure_virial(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other, GLOBAL const int *restrict bears,
-                           GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                           coeff twist, GLOBAL const coeff *restrict beam_of, int leans, GLOBAL const coeff *restrict lean, GLOBAL const int *restrict rubs,
+KERNEL void closure_virial(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other,
+                           GLOBAL const int *restrict bears, GLOBAL const coeff *restrict branch,
+                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                           coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int leans,
+                           GLOBAL const coeff *restrict lean, GLOBAL const int *restrict rubs,
                            GLOBAL coeff *restrict virial)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (rubs[group]) {
-            const closure_sum sum = closure_group(group, row_start, other, bears, branch, displacement, orientation, axial, bend, twist, beam_of, leans, lean);
+            const closure_sum sum = closure_group(group, row_start, other, bears, branch, displacement, orientation,
+                                                  axial, bend, twist, beam_of, leans, lean);
             const lane_sym3 v = cbm_virial_of(sum.virial), all = lane_gather6(virial, lane_own(group * W));
-            lane_store6(virial, group * W, (lane_sym3){all.xx + v.xx, all.yy + v.yy, all.zz + v.zz, all.yz + v.yz, all.xz + v.xz, all.xy + v.xy});
+            lane_store6(
+                virial, group * W,
+                (lane_sym3){all.xx + v.xx, all.yy + v.yy, all.zz + v.zz, all.yz + v.yz, all.xz + v.xz, all.xy + v.xy});
         }
     }
 }
 
-/* Between the motion of a step and its forces: pushes along cracks fade as these open (lost [n]: half of what that costs), and beams whose ends stand clear of each other bear no
- * more. Both sides of a beam find the same. gone [n]: beams that do not bear any more; mark: the step, where one is. */
-KERNEL void closure_move(int n_groups, int step, coeff clear, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other, GLOBAL int *restrict bears,
-                         GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                         coeff twist, GLOBAL const coeff *restrict beam_of, int leans, GLOBAL coeff *restrict lean, GLOBAL const int *restrict rubs, GLOBAL int *restrict mark,
-                         GLOBAL state *restrict lost, GLOBAL state *restrict gone)
+/* Between the motion of a step and its forces: pushes along cracks fade as these open (lost [n]: half of what that
+ * costs), and beams whose ends stand clear of each other bear no more. Both sides of a beam find the same. gone [n]:
+ * beams that do not bear any more; mark: the step, where one is. */
+KERNEL void closure_move(int n_groups, int step, coeff clear, GLOBAL const int *restrict row_start,
+                         GLOBAL const int *restrict other, GLOBAL int *restrict bears,
+                         GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
+                         GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
+                         GLOBAL const coeff *restrict beam_of, int leans, GLOBAL coeff *restrict lean,
+                         GLOBAL const int *restrict rubs, GLOBAL int *restrict mark, GLOBAL state *restrict lost,
+                         GLOBAL state *restrict gone)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
@@ -155,7 +184,8 @@ KERNEL void closure_move(int n_groups, int step, coeff clear, GLOBAL const int *
         for (int slot = row_start[slice]; rubs[group] && slot < row_start[slice + 1]; ++slot) {
             const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
             if (!closure_any(bears, entry)) continue;
-            closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial, bend, twist, beam_of, leans, lean);
+            closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial,
+                                             bend, twist, beam_of, leans, lean);
             const lane apart = b.shape.elongation * b.inv_length0 - clear;
             if (leans) {
                 const beam_carry before = closure_carry(b, own);
@@ -167,10 +197,10 @@ KERNEL void closure_move(int n_groups, int step, coeff clear, GLOBAL const int *
                 LANE_EACH(LOSE)
 #undef LOSE
             }
-#define PART(l)                                                          \
-    if (bears[entry + 0x##l] && LANE_ITEM(apart, l) > 0) {               \
-        bears[entry + 0x##l] = 0, gone[first + 0x##l] += 1;              \
-        mark[group] = step;                                              \
+#define PART(l)                                                                                                        \
+    if (bears[entry + 0x##l] && LANE_ITEM(apart, l) > 0) {                                                             \
+        bears[entry + 0x##l] = 0, gone[first + 0x##l] += 1;                                                            \
+        mark[group] = step;                                                                                            \
     }
             LANE_EACH(PART)
 #undef PART
@@ -178,15 +208,22 @@ KERNEL void closure_move(int n_groups, int step, coeff clear, GLOBAL const int *
     }
 }
 
-/* After the breaks of a step: those of a beam that broke in it bear from now on (closure: 1), or what was left to them is lost (closure: 0, of those that softened). What beams that broke at once
- * bear joins the forces again, but for those that an element which failed by compression chose, which bear nothing, and half_kick as in fracture_break; those that softened bore it before. open, crack: of the softening (softens: 1). */
-KERNEL void closure_begin(int n_groups, int step, int closure, int softens, state half_kick, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other,
-                          GLOBAL const int *restrict twin,
-                          GLOBAL int *restrict bears, GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                          coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL coeff *restrict lean, GLOBAL const int *restrict mark,
-                          GLOBAL const int *restrict break_step, GLOBAL const int *restrict break_mode, GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack, GLOBAL const state *restrict mass,
-                          GLOBAL const state *restrict inertia, GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL state *restrict velocity,
-                          GLOBAL state *restrict spin, GLOBAL int *restrict rubs, GLOBAL state *restrict lost, GLOBAL state *restrict gone)
+/* After the breaks of a step: those of a beam that broke in it bear from now on (closure: 1), or what was left to them
+ * is lost (closure: 0, of those that softened). What beams that broke at once bear joins the forces again, but for
+ * those that an element which failed by compression chose, which bear nothing, and half_kick as in fracture_break;
+ * those that softened bore it before. open, crack: of the softening (softens: 1). */
+KERNEL void closure_begin(int n_groups, int step, int closure, int softens, state half_kick,
+                          GLOBAL const int *restrict row_start, GLOBAL const int *restrict other,
+                          GLOBAL const int *restrict twin, GLOBAL int *restrict bears,
+                          GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
+                          GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
+                          GLOBAL const coeff *restrict beam_of, GLOBAL coeff *restrict lean,
+                          GLOBAL const int *restrict mark, GLOBAL const int *restrict break_step,
+                          GLOBAL const int *restrict break_mode, GLOBAL const int *restrict open,
+                          GLOBAL const coeff *restrict crack, GLOBAL const state *restrict mass,
+                          GLOBAL const state *restrict inertia, GLOBAL state *restrict force,
+                          GLOBAL state *restrict torque, GLOBAL state *restrict velocity, GLOBAL state *restrict spin,
+                          GLOBAL int *restrict rubs, GLOBAL state *restrict lost, GLOBAL state *restrict gone)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
@@ -201,24 +238,29 @@ KERNEL void closure_begin(int n_groups, int step, int closure, int softens, stat
                 bears[at] = 1;
                 for (int c = 0; softens && c < LEAN; ++c)
                     lean[((brc_size)slot * LEAN + (brc_size)c) * C + (brc_size)(lane0 + l)] =
-                        open[at] == BEAM_BROKEN ? crack[((brc_size)slot * BEAM_WIDTH + (brc_size)(BEAM_SIDE + c)) * C + (brc_size)(lane0 + l)] : c == LEAN_ALONG ? REAL(1) : 0;
+                        open[at] == BEAM_BROKEN ? crack[((brc_size)slot * BEAM_WIDTH + (brc_size)(BEAM_SIDE + c)) * C +
+                                                        (brc_size)(lane0 + l)]
+                        : c == LEAN_ALONG       ? REAL(1)
+                                                : 0;
             }
             if (!any) continue;
             rubs[group] = 1;
-            const closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial, bend, twist, beam_of, softens, lean);
+            const closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation,
+                                                   axial, bend, twist, beam_of, softens, lean);
             const beam_carry carry = closure_carry(b, own);
-#define JOIN(l)                                                                                                                                          \
-    if (break_step[entry + 0x##l] == step) {                                                                                                             \
-        const int softened = softens && open[entry + 0x##l] == BEAM_BROKEN, e = first + 0x##l;                                                           \
-        const int crushed = break_mode[entry + 0x##l] == FAILURE_COMPRESSION || break_mode[twin[entry + 0x##l]] == FAILURE_COMPRESSION;                  \
-        const int keeps = closure && !(crushed && !softened);                                                                                            \
-        const coeff sign = softened == keeps ? 0 : keeps ? REAL(-1) : REAL(1);                                                                           \
-        lost[e] += STATE(0.5) * (state)(sign * LANE_ITEM(carry.energy, l));                                                                              \
-        fracture_take(force, velocity, mass[e], half_kick, e, sign * LANE_ITEM(carry.end.force.x, l), sign * LANE_ITEM(carry.end.force.y, l),            \
-                      sign * LANE_ITEM(carry.end.force.z, l));                                                                                           \
-        fracture_take(torque, spin, inertia[e], half_kick, e, sign * LANE_ITEM(carry.end.torque.x, l), sign * LANE_ITEM(carry.end.torque.y, l),          \
-                      sign * LANE_ITEM(carry.end.torque.z, l));                                                                                          \
-        if (!keeps) bears[entry + 0x##l] = 0, gone[e] += 1;                                                                                            \
+#define JOIN(l)                                                                                                        \
+    if (break_step[entry + 0x##l] == step) {                                                                           \
+        const int softened = softens && open[entry + 0x##l] == BEAM_BROKEN, e = first + 0x##l;                         \
+        const int crushed = break_mode[entry + 0x##l] == FAILURE_COMPRESSION ||                                        \
+                            break_mode[twin[entry + 0x##l]] == FAILURE_COMPRESSION;                                    \
+        const int keeps = closure && !(crushed && !softened);                                                          \
+        const coeff sign = softened == keeps ? 0 : keeps ? REAL(-1) : REAL(1);                                         \
+        lost[e] += STATE(0.5) * (state)(sign * LANE_ITEM(carry.energy, l));                                            \
+        fracture_take(force, velocity, mass[e], half_kick, e, sign *LANE_ITEM(carry.end.force.x, l),                   \
+                      sign *LANE_ITEM(carry.end.force.y, l), sign *LANE_ITEM(carry.end.force.z, l));                   \
+        fracture_take(torque, spin, inertia[e], half_kick, e, sign *LANE_ITEM(carry.end.torque.x, l),                  \
+                      sign *LANE_ITEM(carry.end.torque.y, l), sign *LANE_ITEM(carry.end.torque.z, l));                 \
+        if (!keeps) bears[entry + 0x##l] = 0, gone[e] += 1;                                                            \
     }
             LANE_EACH(JOIN)
 #undef JOIN

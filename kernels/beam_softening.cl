@@ -1,16 +1,21 @@
-/* Beams that open against cohesion (cbm; docs/notebook/fracture.md "Fracture energy of beams", kernels/softening.h). A beam that its element would lose
- * (fracture.cl) keeps (1 - D) of its energy instead, but for what a crack leaves to it (beam_carried.h), which it keeps whole; and so of its force and moments: what D takes is
- * taken back here after the elastic passes, which run over whole beams as ever. At fixed D the force is the gradient of the energy, and both ends feel the same.
+/* Beams that open against cohesion (cbm; docs/notebook/fracture.md "Fracture energy of beams", kernels/softening.h). A
+ * beam that its element would lose (fracture.cl) keeps (1 - D) of its energy instead, but for what a crack leaves to it
+ * (beam_carried.h), which it keeps whole; and so of its force and moments: what D takes is taken back here after the
+ * elastic passes, which run over whole beams as ever. At fixed D the force is the gradient of the energy, and both ends
+ * feel the same.
  *
- * D follows from the one law of all softening bonds: the energy Y of the whole beam, less what a crack leaves to it, is that of a spring of stiffness k = E S / l0, stretched by
- * sqrt(2 Y / k); in series with it the beam opens, and the cohesion balances the spring (soft_opening). D is the secant to where it stood at its widest.
+ * D follows from the one law of all softening bonds: the energy Y of the whole beam, less what a crack leaves to it, is
+ * that of a spring of stiffness k = E S / l0, stretched by sqrt(2 Y / k); in series with it the beam opens, and the
+ * cohesion balances the spring (soft_opening). D is the secant to where it stood at its widest.
  *
- * crack [n_slots][BEAM_WIDTH][C], of an entry: DAMAGE D [-]; START, ENERGY: soft_face (ENERGY: G_c area, of a crack across the beam) [N] [J];
- * EXPONENTIAL: 1, else linear; WIDEST: largest opening [m]; HELD: Y as of the last step [J]; SPENT: energy that the opening took so far, BOOKED: by the
- * last step [J]; ONSET: stress of the element that failed [Pa], MODE of it; TILT: |cos| of the beam and its opening, not less than the steepest [-]; CAPACITY: strength
- * times area [N]; PER_AREA: one over the area [1/m^2]; SIDE (3 components), ALONG, COSINE, SINE, KEEPS: beam_lean; LATERAL: nu / E [1/Pa].
- * Entries: open: 0 whole, 1 opens, 2 its cohesion ended in this step, 3 broken; lead: 1 on the side with the lower id, which computes for both; twin: the
- * other entry. active [n / W], touched [n]: 1 from the first opening of the group and of the element on. */
+ * crack [n_slots][BEAM_WIDTH][C], of an entry: DAMAGE D [-]; START, ENERGY: soft_face (ENERGY: G_c area, of a crack
+ * across the beam) [N] [J]; EXPONENTIAL: 1, else linear; WIDEST: largest opening [m]; HELD: Y as of the last step [J];
+ * SPENT: energy that the opening took so far, BOOKED: by the last step [J]; ONSET: stress of the element that failed
+ * [Pa], MODE of it; TILT: |cos| of the beam and its opening, not less than the steepest [-]; CAPACITY: strength times
+ * area [N]; PER_AREA: one over the area [1/m^2]; SIDE (3 components), ALONG, COSINE, SINE, KEEPS: beam_lean; LATERAL:
+ * nu / E [1/Pa]. Entries: open: 0 whole, 1 opens, 2 its cohesion ended in this step, 3 broken; lead: 1 on the side with
+ * the lower id, which computes for both; twin: the other entry. active [n / W], touched [n]: 1 from the first opening
+ * of the group and of the element on. */
 
 #define BEAM_DAMAGE 0
 #define BEAM_START 1
@@ -42,10 +47,13 @@
 
 LAW beam_lean beam_lean_at(GLOBAL const coeff *restrict crack, int slot, int lane0)
 {
-    return (beam_lean){{lane_block(crack, slot, BEAM_WIDTH, BEAM_SIDE, lane0), lane_block(crack, slot, BEAM_WIDTH, BEAM_SIDE + 1, lane0),
+    return (beam_lean){{lane_block(crack, slot, BEAM_WIDTH, BEAM_SIDE, lane0),
+                        lane_block(crack, slot, BEAM_WIDTH, BEAM_SIDE + 1, lane0),
                         lane_block(crack, slot, BEAM_WIDTH, BEAM_SIDE + 2, lane0)},
-                       lane_block(crack, slot, BEAM_WIDTH, BEAM_ALONG, lane0), lane_block(crack, slot, BEAM_WIDTH, BEAM_COSINE, lane0),
-                       lane_block(crack, slot, BEAM_WIDTH, BEAM_SINE, lane0), lane_block(crack, slot, BEAM_WIDTH, BEAM_KEEPS, lane0)};
+                       lane_block(crack, slot, BEAM_WIDTH, BEAM_ALONG, lane0),
+                       lane_block(crack, slot, BEAM_WIDTH, BEAM_COSINE, lane0),
+                       lane_block(crack, slot, BEAM_WIDTH, BEAM_SINE, lane0),
+                       lane_block(crack, slot, BEAM_WIDTH, BEAM_KEEPS, lane0)};
 }
 
 /* What D takes a share of: all of a beam but what a crack leaves to it. */
@@ -56,7 +64,8 @@ typedef struct {
 LAW beam_part beam_part_of(cbm_bond bond, lane_vec3 axis0, cbm_own own, lane_quat q_j, beam_lean lean)
 {
     const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
-    const beam_carry left = beam_carried(bond.shape, bond.inv_length0, bond.stiffness, bond.branch, axis0, own.orientation, q_j, lean);
+    const beam_carry left =
+        beam_carried(bond.shape, bond.inv_length0, bond.stiffness, bond.branch, axis0, own.orientation, q_j, lean);
     return (beam_part){{lane_vec3_sub(end.force, left.end.force), lane_vec3_sub(end.torque, left.end.torque)},
                        cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness) - left.energy};
 }
@@ -86,9 +95,9 @@ typedef struct {
 } beam_loss;
 LAW beam_loss beam_group_loss(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                               GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                              GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                              coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict open,
-                              GLOBAL const coeff *restrict crack)
+                              GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                              coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
+                              GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
     const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
@@ -96,10 +105,11 @@ LAW beam_loss beam_group_loss(int group, GLOBAL const int *restrict row_start, G
     beam_loss sum = {{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero, zero, zero, zero}, zero};
     for (int slot = row_start[slice]; slot < last; ++slot) {
         if (!beam_any(open, (brc_size)slot * C + (brc_size)lane0, BEAM_OPENS, BEAM_ENDED)) continue;
-        const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation, axial, bend, twist,
-                                          beam_of, 1);
+        const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
+                                          orientation, axial, bend, twist, beam_of, 1);
         const lane_quat q_j = lane_gather4(orientation, int_block(neighbour, slot, lane0));
-        const beam_part part = beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, beam_lean_at(crack, slot, lane0));
+        const beam_part part = beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)),
+                                            own, q_j, beam_lean_at(crack, slot, lane0));
         const lane damage = lane_block(crack, slot, BEAM_WIDTH, BEAM_DAMAGE, lane0);
         const lane_vec3 f = lane_vec3_scale(damage, part.end.force);
         sum.force = lane_vec3_add(sum.force, f);
@@ -118,27 +128,29 @@ LAW void beam_take(GLOBAL state *restrict to, int e, coeff x, coeff y, coeff z)
 /* After fracture_force: forces, torques and records of what the beams still carry. */
 KERNEL void beam_soft_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                            coeff twist, GLOBAL const coeff *restrict beam_of, coeff inv_tension, coeff inv_compression, coeff inv_shear,
-                            int drucker_prager, coeff slope, GLOBAL const int *restrict active, GLOBAL const int *restrict open,
-                            GLOBAL const coeff *restrict crack, GLOBAL state *restrict force, GLOBAL state *restrict torque,
-                            GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
+                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                            coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
+                            coeff inv_tension, coeff inv_compression, coeff inv_shear, int drucker_prager, coeff slope,
+                            GLOBAL const int *restrict active, GLOBAL const int *restrict open,
+                            GLOBAL const coeff *restrict crack, GLOBAL state *restrict force,
+                            GLOBAL state *restrict torque, GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (active[group]) {
             const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
-            const beam_loss loss = beam_group_loss(group, row_start, neighbour, branch, inv_length, displacement, orientation, axial, bend, twist,
-                                                   beam_of, open, crack);
+            const beam_loss loss = beam_group_loss(group, row_start, neighbour, branch, inv_length, displacement,
+                                                   orientation, axial, bend, twist, beam_of, open, crack);
             const lane_vec3 f = loss.force, t = loss.torque;
-#define TAKE(l)                                                                                              \
-    beam_take(force, first + 0x##l, LANE_ITEM(f.x, l), LANE_ITEM(f.y, l), LANE_ITEM(f.z, l));                \
+#define TAKE(l)                                                                                                        \
+    beam_take(force, first + 0x##l, LANE_ITEM(f.x, l), LANE_ITEM(f.y, l), LANE_ITEM(f.z, l));                          \
     beam_take(torque, first + 0x##l, LANE_ITEM(t.x, l), LANE_ITEM(t.y, l), LANE_ITEM(t.z, l));
             LANE_EACH(TAKE)
 #undef TAKE
             const lane_sym3 v = cbm_virial_of(loss.virial);
-            const lane_sym3 left = {lane_block(record, slice, RECORD, 0, lane0) - v.xx, lane_block(record, slice, RECORD, 1, lane0) - v.yy,
-                                    lane_block(record, slice, RECORD, 2, lane0) - v.zz, lane_block(record, slice, RECORD, 3, lane0) - v.yz,
-                                    lane_block(record, slice, RECORD, 4, lane0) - v.xz, lane_block(record, slice, RECORD, 5, lane0) - v.xy};
+            const lane_sym3 left = {
+                lane_block(record, slice, RECORD, 0, lane0) - v.xx, lane_block(record, slice, RECORD, 1, lane0) - v.yy,
+                lane_block(record, slice, RECORD, 2, lane0) - v.zz, lane_block(record, slice, RECORD, 3, lane0) - v.yz,
+                lane_block(record, slice, RECORD, 4, lane0) - v.xz, lane_block(record, slice, RECORD, 5, lane0) - v.xy};
             const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
             fracture_put_record(group, left, scale, record, reach);
         }
@@ -148,14 +160,15 @@ KERNEL void beam_soft_force(int n_groups, GLOBAL const int *restrict row_start, 
 /* After cbm_energy [J] [n], half to each side. */
 KERNEL void beam_soft_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                              GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                             GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                             coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict active,
-                             GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack, GLOBAL state *restrict elastic)
+                             GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                             coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
+                             GLOBAL const int *restrict active, GLOBAL const int *restrict open,
+                             GLOBAL const coeff *restrict crack, GLOBAL state *restrict elastic)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (active[group]) {
-            const beam_loss loss = beam_group_loss(group, row_start, neighbour, branch, inv_length, displacement, orientation, axial, bend, twist,
-                                                   beam_of, open, crack);
+            const beam_loss loss = beam_group_loss(group, row_start, neighbour, branch, inv_length, displacement,
+                                                   orientation, axial, bend, twist, beam_of, open, crack);
             const lane energy = REAL(0.5) * loss.energy;
 #define TAKE(l) elastic[group * W + 0x##l] -= (state)LANE_ITEM(energy, l);
             LANE_EACH(TAKE)
@@ -167,26 +180,31 @@ KERNEL void beam_soft_energy(int n_groups, GLOBAL const int *restrict row_start,
 /* After cbm_virial [J] [n][6]. */
 KERNEL void beam_soft_virial(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                              GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                             GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                             coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict active,
-                             GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack, GLOBAL coeff *restrict virial)
+                             GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                             coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
+                             GLOBAL const int *restrict active, GLOBAL const int *restrict open,
+                             GLOBAL const coeff *restrict crack, GLOBAL coeff *restrict virial)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (active[group]) {
-            const beam_loss loss = beam_group_loss(group, row_start, neighbour, branch, inv_length, displacement, orientation, axial, bend, twist,
-                                                   beam_of, open, crack);
+            const beam_loss loss = beam_group_loss(group, row_start, neighbour, branch, inv_length, displacement,
+                                                   orientation, axial, bend, twist, beam_of, open, crack);
             const lane_sym3 v = cbm_virial_of(loss.virial), whole = lane_gather6(virial, lane_own(group * W));
-            lane_store6(virial, group * W, (lane_sym3){whole.xx - v.xx, whole.yy - v.yy, whole.zz - v.zz, whole.yz - v.yz, whole.xz - v.xz, whole.xy - v.xy});
+            lane_store6(virial, group * W,
+                        (lane_sym3){whole.xx - v.xx, whole.yy - v.yy, whole.zz - v.zz, whole.yz - v.yz, whole.xz - v.xz,
+                                    whole.xy - v.xy});
         }
     }
 }
 
-/* One beam after the motion of a step: y: Y [J], k [N/m], cosine of its opening; keeps, faded: beam_fades, and what that costs the push along the crack [J]. The work of the
- * opening is the mean of Y times what D grew by, as velocity Verlet's own work is the mean of the forces at both ends of the step. */
-ROUTINE void beam_follow(GLOBAL coeff *restrict crack, GLOBAL int *restrict open, brc_size entry, brc_size other, coeff y, coeff k, coeff cosine, coeff steepest, coeff keeps,
-                         coeff faded)
+/* One beam after the motion of a step: y: Y [J], k [N/m], cosine of its opening; keeps, faded: beam_fades, and what
+ * that costs the push along the crack [J]. The work of the opening is the mean of Y times what D grew by, as velocity
+ * Verlet's own work is the mean of the forces at both ends of the step. */
+ROUTINE void beam_follow(GLOBAL coeff *restrict crack, GLOBAL int *restrict open, brc_size entry, brc_size other,
+                         coeff y, coeff k, coeff cosine, coeff steepest, coeff keeps, coeff faded)
 {
-    const soft_face face = {BEAM_NUMBER(entry, START), BEAM_NUMBER(entry, ENERGY) * BEAM_NUMBER(entry, TILT), BEAM_NUMBER(entry, EXPONENTIAL) > 0};
+    const soft_face face = {BEAM_NUMBER(entry, START), BEAM_NUMBER(entry, ENERGY) * BEAM_NUMBER(entry, TILT),
+                            BEAM_NUMBER(entry, EXPONENTIAL) > 0};
     const coeff wide = BEAM_NUMBER(entry, WIDEST), before = BEAM_NUMBER(entry, DAMAGE), y_now = y > 0 ? y : 0;
     const coeff w = soft_opening(face, wide, SQRT(REAL(2) * k * y_now), k);
     coeff damage = before;
@@ -195,7 +213,8 @@ ROUTINE void beam_follow(GLOBAL coeff *restrict crack, GLOBAL int *restrict open
         damage = now > before ? now : before;
         if (!(left > 0)) damage = REAL(1), open[entry] = BEAM_ENDED, open[other] = BEAM_ENDED;
         BEAM_NUMBER(entry, WIDEST) = w, BEAM_NUMBER(other, WIDEST) = w;
-        BEAM_NUMBER(entry, TILT) = cosine > steepest ? cosine : steepest, BEAM_NUMBER(other, TILT) = BEAM_NUMBER(entry, TILT);
+        BEAM_NUMBER(entry, TILT) = cosine > steepest ? cosine : steepest,
+                           BEAM_NUMBER(other, TILT) = BEAM_NUMBER(entry, TILT);
     }
     const coeff booked = REAL(0.5) * (damage - before) * (y_now + BEAM_NUMBER(entry, HELD)) + before * faded;
     BEAM_NUMBER(entry, KEEPS) = keeps, BEAM_NUMBER(other, KEEPS) = keeps;
@@ -206,12 +225,13 @@ ROUTINE void beam_follow(GLOBAL coeff *restrict crack, GLOBAL int *restrict open
 }
 
 /* Between the motion of a step and its forces. */
-KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                           GLOBAL const int *restrict twin, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict branch,
+KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, GLOBAL const int *restrict row_start,
+                           GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
+                           GLOBAL const int *restrict lead, GLOBAL const coeff *restrict branch,
                            GLOBAL const coeff *restrict inv_length, GLOBAL const state *restrict displacement,
                            GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
-                           GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict active, GLOBAL int *restrict open,
-                           GLOBAL coeff *restrict crack)
+                           GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict active,
+                           GLOBAL int *restrict open, GLOBAL coeff *restrict crack)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
@@ -222,18 +242,21 @@ KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, GLOBAL con
                 int any = 0;
                 for (int l = 0; l < W; ++l) any |= lead[entry + (brc_size)l] && open[entry + (brc_size)l] == BEAM_OPENS;
                 if (!any) continue;
-                const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation, axial, bend,
-                                                  twist, beam_of, 1);
+                const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
+                                                  orientation, axial, bend, twist, beam_of, 1);
                 const lane_quat q_j = lane_gather4(orientation, int_block(neighbour, slot, lane0));
                 beam_lean lean = beam_lean_at(crack, slot, lane0);
-                const beam_part before = beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, lean);
+                const beam_part before = beam_part_of(
+                    bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, lean);
                 lean.keeps = beam_fades(lean.keeps, lean.along, beam_opening(bond.shape), bond.inv_length0, clear);
-                const beam_part part = beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, lean);
-                const lane y = part.energy, faded = part.energy - before.energy, k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond), keeps = lean.keeps;
-#define FOLLOW(l)                                                                                                                  \
-    if (lead[entry + 0x##l] && open[entry + 0x##l] == BEAM_OPENS)                                                                  \
-        beam_follow(crack, open, entry + 0x##l, (brc_size)twin[entry + 0x##l], LANE_ITEM(y, l), LANE_ITEM(k, l), LANE_ITEM(cosine, l), steepest, LANE_ITEM(keeps, l), \
-                    LANE_ITEM(faded, l));
+                const beam_part part = beam_part_of(
+                    bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, lean);
+                const lane y = part.energy, faded = part.energy - before.energy,
+                           k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond), keeps = lean.keeps;
+#define FOLLOW(l)                                                                                                      \
+    if (lead[entry + 0x##l] && open[entry + 0x##l] == BEAM_OPENS)                                                      \
+        beam_follow(crack, open, entry + 0x##l, (brc_size)twin[entry + 0x##l], LANE_ITEM(y, l), LANE_ITEM(k, l),       \
+                    LANE_ITEM(cosine, l), steepest, LANE_ITEM(keeps, l), LANE_ITEM(faded, l));
                 LANE_EACH(FOLLOW)
 #undef FOLLOW
             }
@@ -241,14 +264,19 @@ KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, GLOBAL con
     }
 }
 
-/* A beam opens where its pull (beam_pull) is above its capacity, and starts to fall there, or at what it carries where that is more. One that its element chose (mode; 0: none) is left to break at
- * once where it holds as much as its opening would take, and where the element fails by compression. */
-ROUTINE int beam_opens(GLOBAL coeff *restrict crack, brc_size entry, coeff y, coeff k, coeff pull, coeff cosine, coeff steepest, int mode)
+/* A beam opens where its pull (beam_pull) is above its capacity, and starts to fall there, or at what it carries where
+ * that is more. One that its element chose (mode; 0: none) is left to break at once where it holds as much as its
+ * opening would take, and where the element fails by compression. */
+ROUTINE int beam_opens(GLOBAL coeff *restrict crack, brc_size entry, coeff y, coeff k, coeff pull, coeff cosine,
+                       coeff steepest, int mode)
 {
-    const coeff tilt = cosine > steepest ? cosine : steepest, energy = BEAM_NUMBER(entry, ENERGY) * tilt, capacity = BEAM_NUMBER(entry, CAPACITY);
+    const coeff tilt = cosine > steepest ? cosine : steepest, energy = BEAM_NUMBER(entry, ENERGY) * tilt,
+                capacity = BEAM_NUMBER(entry, CAPACITY);
     const coeff carried = SQRT(REAL(2) * k * (y > 0 ? y : 0)), start = carried > capacity ? carried : capacity;
     if (!(energy > 0) || !(start > 0)) return 0;
-    if (mode ? mode == FAILURE_COMPRESSION || !(REAL(2) * k * energy > start * start) : !(pull > capacity && capacity > 0)) return 0;
+    if (mode ? mode == FAILURE_COMPRESSION || !(REAL(2) * k * energy > start * start)
+             : !(pull > capacity && capacity > 0))
+        return 0;
     BEAM_NUMBER(entry, START) = start;
     BEAM_NUMBER(entry, TILT) = tilt;
     BEAM_NUMBER(entry, HELD) = y > 0 ? y : 0;
@@ -265,28 +293,35 @@ LAW soft_vector beam_back(GLOBAL const state *restrict orientation, int e, failu
     return soft_add(soft_add((soft_vector){a.x, a.y, a.z}, REAL(-2) * w, once), REAL(2), twice);
 }
 
-/* How a crack across the largest principal value of the mean stress of element e (of_e), j (of_j) or both lies to the beam between them, the others along it. Returns what the body stretches
- * across the pushes along the crack, nu / E of them [-]. */
-ROUTINE coeff beam_lay(GLOBAL coeff *restrict crack, brc_size entry, int e, int j, int slot, int of_e, int of_j, int level, GLOBAL const int *restrict row_start,
-                       GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length, GLOBAL const state *restrict orientation,
-                       GLOBAL const coeff *restrict record)
+/* How a crack across the largest principal value of the mean stress of element e (of_e), j (of_j) or both lies to the
+ * beam between them, the others along it. Returns what the body stretches across the pushes along the crack, nu / E of
+ * them [-]. */
+ROUTINE coeff beam_lay(GLOBAL coeff *restrict crack, brc_size entry, int e, int j, int slot, int of_e, int of_j,
+                       int level, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                       GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
+                       GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict record)
 {
-    const failure_stress own = fracture_mean_of(e, level, row_start, neighbour, record), theirs = fracture_mean_of(j, level, row_start, neighbour, record);
+    const failure_stress own = fracture_mean_of(e, level, row_start, neighbour, record),
+                         theirs = fracture_mean_of(j, level, row_start, neighbour, record);
     const coeff part = of_e && of_j ? REAL(0.5) : REAL(1), p = of_e ? part : 0, q = of_j ? part : 0;
     const failure_stress mean = {p * own.xx + q * theirs.xx, p * own.yy + q * theirs.yy, p * own.zz + q * theirs.zz,
                                  p * own.yz + q * theirs.yz, p * own.xz + q * theirs.xz, p * own.xy + q * theirs.xy};
     const failure_principal principal = failure_principal_of(mean);
     const failure_axis first = principal.first_axis, third = principal.third_axis;
-    const coeff second_push = principal.second < 0 ? -principal.second : 0, third_push = principal.third < 0 ? -principal.third : 0;
+    const coeff second_push = principal.second < 0 ? -principal.second : 0,
+                third_push = principal.third < 0 ? -principal.third : 0;
     const soft_vector axis = beam_back(orientation, e, first), pressed = beam_back(orientation, e, third);
     GLOBAL const coeff *r = branch + (brc_size)slot * 3 * C + e % C;
     const soft_vector beam = soft_scale(inv_length[entry], (soft_vector){r[0], r[C], r[2 * C]});
     const coeff cosine = soft_dot(axis, beam), c = cosine < 0 ? -cosine : cosine;
     soft_vector side = soft_add(soft_scale(cosine < 0 ? REAL(-1) : REAL(1), axis), -c, beam);
     const coeff s = SQRT(soft_dot(side, side)), leans = REAL(4) * s * s;
-    side = s > REAL(1e-6) ? side : soft_add(pressed, -soft_dot(pressed, beam), beam); /* along the axis nothing of it is kept: any will do */
+    side = s > REAL(1e-6) ? side
+                          : soft_add(pressed, -soft_dot(pressed, beam),
+                                     beam); /* along the axis nothing of it is kept: any will do */
     side = soft_scale(REAL(1) / SQRT(soft_dot(side, side)), side);
-    const soft_vector other = {beam.y * side.z - beam.z * side.y, beam.z * side.x - beam.x * side.z, beam.x * side.y - beam.y * side.x};
+    const soft_vector other = {beam.y * side.z - beam.z * side.y, beam.z * side.x - beam.x * side.z,
+                               beam.x * side.y - beam.y * side.x};
     const soft_vector along = soft_add(soft_scale(s, beam), -c, side);
     coeff x = soft_dot(pressed, along), y = soft_dot(pressed, other);
     const coeff size = SQRT(x * x + y * y), per = (x < 0 ? REAL(-1) : REAL(1)) / (size > REAL(1e-6) ? size : REAL(1));
@@ -296,15 +331,17 @@ ROUTINE coeff beam_lay(GLOBAL coeff *restrict crack, brc_size entry, int e, int 
     crack[((entry / C) * BEAM_WIDTH + BEAM_SIDE + 2) * C + entry % C] = side.z;
     BEAM_NUMBER(entry, ALONG) = c < 1 ? c : REAL(1);
     BEAM_NUMBER(entry, COSINE) = x, BEAM_NUMBER(entry, SINE) = y;
-    /* Where nothing presses the axes of neighbouring beams scatter, and sides that only open would lean on each other: nothing is kept along the crack. */
+    /* Where nothing presses the axes of neighbouring beams scatter, and sides that only open would lean on each other:
+     * nothing is kept along the crack. */
     const coeff presses = third_push < principal.first ? third_push / principal.first : REAL(1);
     BEAM_NUMBER(entry, KEEPS) = presses * presses * (leans < 1 ? leans : REAL(1));
     return REAL(2) * BEAM_NUMBER(entry, LATERAL) * (second_push + third_push);
 }
 
-/* Which side of a whole bond looks at it: that with the lower id where its element chose it or has open beams, else the other where that has. */
-LAW int beam_looks(GLOBAL const int *restrict neighbour, GLOBAL const int *restrict lead, GLOBAL const int *restrict open,
-                   GLOBAL const int *restrict touched, int e, brc_size entry, int dies)
+/* Which side of a whole bond looks at it: that with the lower id where its element chose it or has open beams, else the
+ * other where that has. */
+LAW int beam_looks(GLOBAL const int *restrict neighbour, GLOBAL const int *restrict lead,
+                   GLOBAL const int *restrict open, GLOBAL const int *restrict touched, int e, brc_size entry, int dies)
 {
     if (open[entry] != BEAM_WHOLE || neighbour[entry] == e) return 0;
     return lead[entry] ? dies || touched[e] : !dies && touched[e] && !touched[neighbour[entry]];
@@ -313,12 +350,15 @@ LAW int beam_looks(GLOBAL const int *restrict neighbour, GLOBAL const int *restr
 /* After the elements chose: chosen beams open, as far as they can; and whole beams of elements with open ones, at their
  * capacity: what bridges a crack stands between elements whose mean stress no longer sees it. */
 KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, GLOBAL const int *restrict row_start,
-                            GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const int *restrict lead,
-                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                            coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict mark,
-                            GLOBAL const int *restrict choice, GLOBAL const coeff *restrict measure, GLOBAL const coeff *restrict record, GLOBAL const int *restrict touched,
-                            GLOBAL int *restrict active, GLOBAL int *restrict open, GLOBAL coeff *restrict crack, GLOBAL coeff *restrict factor)
+                            GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
+                            GLOBAL const int *restrict lead, GLOBAL const coeff *restrict branch,
+                            GLOBAL const coeff *restrict inv_length, GLOBAL const state *restrict displacement,
+                            GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
+                            GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict mark,
+                            GLOBAL const int *restrict choice, GLOBAL const coeff *restrict measure,
+                            GLOBAL const coeff *restrict record, GLOBAL const int *restrict touched,
+                            GLOBAL int *restrict active, GLOBAL int *restrict open, GLOBAL coeff *restrict crack,
+                            GLOBAL coeff *restrict factor)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
@@ -328,49 +368,60 @@ KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, G
                 const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
                 int any = 0;
                 for (int l = 0; l < W; ++l)
-                    any |= beam_looks(neighbour, lead, open, touched, first + l, entry + (brc_size)l, fracture_dies(neighbour, choice, first + l, entry + (brc_size)l));
+                    any |= beam_looks(neighbour, lead, open, touched, first + l, entry + (brc_size)l,
+                                      fracture_dies(neighbour, choice, first + l, entry + (brc_size)l));
                 if (!any) continue;
-                const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation, axial, bend,
-                                                  twist, beam_of, 1);
-                const lane k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond), whole = cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness);
+                const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
+                                                  orientation, axial, bend, twist, beam_of, 1);
+                const lane k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond),
+                           whole = cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness);
                 coeff lateral[W] = {0};
-#define LAY(l)                                                                                                                                \
-    {                                                                                                                                         \
-        const brc_size at = entry + 0x##l;                                                                                                    \
-        const int e = first + 0x##l, j = neighbour[at], dies = fracture_dies(neighbour, choice, e, at), own_choice = choice[e] >= 0 && choice[e] / 4 == j; \
-        const coeff capacity = BEAM_NUMBER(at, CAPACITY);                                                                                     \
-        if (beam_looks(neighbour, lead, open, touched, e, at, dies) && (dies || REAL(2) * LANE_ITEM(k, l) * LANE_ITEM(whole, l) > capacity * capacity)) \
-            lateral[0x##l] = beam_lay(crack, at, e, j, slot, !dies || own_choice, !dies || !own_choice, level, row_start, neighbour, branch, inv_length, orientation, record); \
+#define LAY(l)                                                                                                         \
+    {                                                                                                                  \
+        const brc_size at = entry + 0x##l;                                                                             \
+        const int e = first + 0x##l, j = neighbour[at], dies = fracture_dies(neighbour, choice, e, at),                \
+                  own_choice = choice[e] >= 0 && choice[e] / 4 == j;                                                   \
+        const coeff capacity = BEAM_NUMBER(at, CAPACITY);                                                              \
+        if (beam_looks(neighbour, lead, open, touched, e, at, dies) &&                                                 \
+            (dies || REAL(2) * LANE_ITEM(k, l) * LANE_ITEM(whole, l) > capacity * capacity))                           \
+            lateral[0x##l] = beam_lay(crack, at, e, j, slot, !dies || own_choice, !dies || !own_choice, level,         \
+                                      row_start, neighbour, branch, inv_length, orientation, record);                  \
     }
                 LANE_EACH(LAY)
 #undef LAY
                 const lane_quat q_j = lane_gather4(orientation, int_block(neighbour, slot, lane0));
-                const beam_part part = beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, beam_lean_at(crack, slot, lane0));
+                const beam_part part =
+                    beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j,
+                                 beam_lean_at(crack, slot, lane0));
 #define LATERAL(l) lateral[0x##l]
                 const lane stretch = LANE_MAKE(lane, LATERAL);
 #undef LATERAL
-                const lane pull = beam_pull(bond.shape, bond.inv_length0, bond.stiffness, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own.orientation, q_j,
-                                            beam_lean_at(crack, slot, lane0), stretch);
+                const lane pull = beam_pull(bond.shape, bond.inv_length0, bond.stiffness,
+                                            lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)),
+                                            own.orientation, q_j, beam_lean_at(crack, slot, lane0), stretch);
                 const lane y = part.energy;
-#define BEGIN(l)                                                                                                                             \
-    {                                                                                                                                         \
-        const brc_size at = entry + 0x##l, to = (brc_size)twin[at];                                                                           \
-        const int e = first + 0x##l, j = neighbour[at], dies = fracture_dies(neighbour, choice, e, at);                                       \
-        if (beam_looks(neighbour, lead, open, touched, e, at, dies)) {                                                                        \
-            const int by = choice[e] >= 0 && choice[e] / 4 == j ? e : j, mode = dies ? choice[by] % 4 : 0;                                    \
-            if (beam_opens(crack, at, LANE_ITEM(y, l), LANE_ITEM(k, l), LANE_ITEM(pull, l), LANE_ITEM(cosine, l), steepest, mode)) {                              \
-                open[at] = BEAM_OPENS, open[to] = BEAM_OPENS;                                                                                 \
-                factor[at] = BEAM_NEVER, factor[to] = BEAM_NEVER;                                                                             \
-                BEAM_NUMBER(at, ONSET) = dies ? measure[by] : BEAM_NUMBER(at, START) * BEAM_NUMBER(at, PER_AREA);                             \
-                BEAM_NUMBER(at, MODE) = (coeff)(dies ? mode : FAILURE_TENSION);                                                               \
-                for (int what = BEAM_START; what < BEAM_WIDTH; ++what) { /* beam_lean */                           \
-                    const coeff sign = (what >= BEAM_SIDE && what < BEAM_ALONG) || what == BEAM_SINE ? REAL(-1) : REAL(1);                                           \
-                    crack[((to / C) * BEAM_WIDTH + (brc_size)what) * C + to % C] = sign * crack[((at / C) * BEAM_WIDTH + (brc_size)what) * C + at % C]; \
-                }                                                                                                                             \
-                STORE_SAME(active + group, 1);                                                                                                \
-                STORE_SAME(active + j / W, 1);                                                                                                \
-            }                                                                                                                                 \
-        }                                                                                                                                     \
+#define BEGIN(l)                                                                                                       \
+    {                                                                                                                  \
+        const brc_size at = entry + 0x##l, to = (brc_size)twin[at];                                                    \
+        const int e = first + 0x##l, j = neighbour[at], dies = fracture_dies(neighbour, choice, e, at);                \
+        if (beam_looks(neighbour, lead, open, touched, e, at, dies)) {                                                 \
+            const int by = choice[e] >= 0 && choice[e] / 4 == j ? e : j, mode = dies ? choice[by] % 4 : 0;             \
+            if (beam_opens(crack, at, LANE_ITEM(y, l), LANE_ITEM(k, l), LANE_ITEM(pull, l), LANE_ITEM(cosine, l),      \
+                           steepest, mode)) {                                                                          \
+                open[at] = BEAM_OPENS, open[to] = BEAM_OPENS;                                                          \
+                factor[at] = BEAM_NEVER, factor[to] = BEAM_NEVER;                                                      \
+                BEAM_NUMBER(at, ONSET) = dies ? measure[by] : BEAM_NUMBER(at, START) * BEAM_NUMBER(at, PER_AREA);      \
+                BEAM_NUMBER(at, MODE) = (coeff)(dies ? mode : FAILURE_TENSION);                                        \
+                for (int what = BEAM_START; what < BEAM_WIDTH; ++what) { /* beam_lean */                               \
+                    const coeff sign =                                                                                 \
+                        (what >= BEAM_SIDE && what < BEAM_ALONG) || what == BEAM_SINE ? REAL(-1) : REAL(1);            \
+                    crack[((to / C) * BEAM_WIDTH + (brc_size)what) * C + to % C] =                                     \
+                        sign * crack[((at / C) * BEAM_WIDTH + (brc_size)what) * C + at % C];                           \
+                }                                                                                                      \
+                STORE_SAME(active + group, 1);                                                                         \
+                STORE_SAME(active + j / W, 1);                                                                         \
+            }                                                                                                          \
+        }                                                                                                              \
     }
                 LANE_EACH(BEGIN)
 #undef BEGIN
@@ -380,8 +431,9 @@ KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, G
 }
 
 /* Elements with beams that opened are touched; choices of beams that opened are no longer choices. */
-KERNEL void beam_soft_keep(int n_groups, int step, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                           GLOBAL const int *restrict mark, GLOBAL const int *restrict active, GLOBAL const int *restrict open,
+KERNEL void beam_soft_keep(int n_groups, int step, GLOBAL const int *restrict row_start,
+                           GLOBAL const int *restrict neighbour, GLOBAL const int *restrict mark,
+                           GLOBAL const int *restrict active, GLOBAL const int *restrict open,
                            GLOBAL int *restrict choice, GLOBAL int *restrict touched)
 {
     FOR_EACH_ITEM(group, n_groups) {
@@ -396,13 +448,15 @@ KERNEL void beam_soft_keep(int n_groups, int step, GLOBAL const int *restrict ro
     }
 }
 
-/* Books the step's openings, half to each side, and takes off beams at the end of their cohesion, which carry nothing any more: as fracture_break. */
-KERNEL void beam_soft_end(int n_groups, int level, int step, GLOBAL const int *restrict row_start, GLOBAL int *restrict neighbour,
-                          GLOBAL coeff *restrict inv_length, GLOBAL int *restrict mark, GLOBAL const coeff *restrict record,
-                          GLOBAL coeff *restrict weight, GLOBAL const int *restrict active, GLOBAL int *restrict open,
-                          GLOBAL coeff *restrict crack, GLOBAL int *restrict break_step, GLOBAL int *restrict break_mode,
-                          GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost,
-                          GLOBAL state *restrict broken)
+/* Books the step's openings, half to each side, and takes off beams at the end of their cohesion, which carry nothing
+ * any more: as fracture_break. */
+KERNEL void beam_soft_end(int n_groups, int level, int step, GLOBAL const int *restrict row_start,
+                          GLOBAL int *restrict neighbour, GLOBAL coeff *restrict inv_length, GLOBAL int *restrict mark,
+                          GLOBAL const coeff *restrict record, GLOBAL coeff *restrict weight,
+                          GLOBAL const int *restrict active, GLOBAL int *restrict open, GLOBAL coeff *restrict crack,
+                          GLOBAL int *restrict break_step, GLOBAL int *restrict break_mode,
+                          GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
+                          GLOBAL state *restrict lost, GLOBAL state *restrict broken)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group);

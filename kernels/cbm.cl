@@ -1,9 +1,10 @@
-/* cbm: spheres joined by beams (NAH19; docs/notebook/beams.md). One pass over elements and their bonds, each element computing its own side of
- * every beam. branch X_j - X_i [slot][3][C] (missing neighbours: any branch home), inv_length 1/|branch| [slot][C] (missing: 0).
- * beam_of [n][3]: E S, 2 E I, G J of each element's beams for several materials (a bond is two half beams in series); else the three scalars.
- * Broken bonds are as missing neighbours (fracture.cl). */
+/* cbm: spheres joined by beams (NAH19; docs/notebook/beams.md). One pass over elements and their bonds, each element
+ * computing its own side of every beam. branch X_j - X_i [slot][3][C] (missing neighbours: any branch home), inv_length
+ * 1/|branch| [slot][C] (missing: 0). beam_of [n][3]: E S, 2 E I, G J of each element's beams for several materials (a
+ * bond is two half beams in series); else the three scalars. Broken bonds are as missing neighbours (fracture.cl). */
 
-LAW cbm_stiffness cbm_stiffness_of(GLOBAL const coeff *restrict beam_of, lane_int own, lane_int j, coeff axial, coeff bend, coeff twist)
+LAW cbm_stiffness cbm_stiffness_of(GLOBAL const coeff *restrict beam_of, lane_int own, lane_int j, coeff axial,
+                                   coeff bend, coeff twist)
 {
 #if BRC_MANY_MATERIALS
     const lane_int at = own * 3, to = j * 3;
@@ -20,10 +21,11 @@ typedef struct {
     lane_int row;
     state_vec3 displacement; /* u [m] */
     lane_quat orientation;
-    lane_mat3 turn;          /* its rotation minus identity [-] */
+    lane_mat3 turn; /* its rotation minus identity [-] */
 } cbm_own;
 
-LAW cbm_own cbm_own_of(int group, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, int finite)
+LAW cbm_own cbm_own_of(int group, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                       int finite)
 {
     const lane_int row = lane_own(group * W);
     const lane_quat q = lane_gather4(orientation, row);
@@ -33,16 +35,16 @@ LAW cbm_own cbm_own_of(int group, GLOBAL const state *restrict displacement, GLO
 /* One beam as the group sees it. */
 typedef struct {
     cbm_shape shape;
-    lane inv_length0;        /* [1/m] */
+    lane inv_length0; /* [1/m] */
     cbm_stiffness stiffness;
-    lane_vec3 branch;        /* x_j - x_i now [m] */
+    lane_vec3 branch; /* x_j - x_i now [m] */
 } cbm_bond;
 
 /* The beams of a slot: gathered, and those of the slots to come asked for. Only called with a constant `finite`. */
-LAW cbm_bond cbm_bond_at(int slot, int last, int lane0, cbm_own own, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                         GLOBAL const coeff *restrict inv_length, GLOBAL const state *restrict displacement,
-                         GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
-                         GLOBAL const coeff *restrict beam_of, int finite)
+LAW cbm_bond cbm_bond_at(int slot, int last, int lane0, cbm_own own, GLOBAL const int *restrict neighbour,
+                         GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
+                         GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                         coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int finite)
 {
     const lane_int j = int_block(neighbour, slot, lane0);
     rows_ahead3(branch, slot);
@@ -53,23 +55,23 @@ LAW cbm_bond cbm_bond_at(int slot, int last, int lane0, cbm_own own, GLOBAL cons
     const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
     const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
     const cbm_stiffness k = cbm_stiffness_of(beam_of, own.row, j, axial, bend, twist);
-    const cbm_shape shape = cbm_beam_shape_turned(r, inverse, jump, own.orientation, own.turn, lane_gather4(orientation, j), finite);
+    const cbm_shape shape =
+        cbm_beam_shape_turned(r, inverse, jump, own.orientation, own.turn, lane_gather4(orientation, j), finite);
     return (cbm_bond){shape, inverse, k, lane_vec3_add(r, jump)};
 }
 
 /* Sums over the beams of a group; only called with a constant `finite`. */
 LAW cbm_end cbm_group_force(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                            GLOBAL const state *restrict displacement,
-                            GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
-                            GLOBAL const coeff *restrict beam_of, int finite)
+                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                            coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int finite)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
     const cbm_own own = cbm_own_of(group, displacement, orientation, finite);
     cbm_end sum = {{LANE_ZERO, LANE_ZERO, LANE_ZERO}, {LANE_ZERO, LANE_ZERO, LANE_ZERO}};
     for (int slot = row_start[slice]; slot < last; ++slot) {
-        const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation,
-                                          axial, bend, twist, beam_of, finite);
+        const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
+                                          orientation, axial, bend, twist, beam_of, finite);
         const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, finite);
         sum.force = lane_vec3_add(sum.force, end.force);
         sum.torque = lane_vec3_add(sum.torque, end.torque);
@@ -77,18 +79,19 @@ LAW cbm_end cbm_group_force(int group, GLOBAL const int *restrict row_start, GLO
     return sum;
 }
 
-/* Force [N] and torque about its own centre [N m] on every element [n][3]. orientation: unit quaternions (w x y z) [n][4]. */
+/* Force [N] and torque about its own centre [N m] on every element [n][3]. orientation: unit quaternions (w x y z)
+ * [n][4]. */
 KERNEL void cbm_force_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                           coeff twist, GLOBAL const coeff *restrict beam_of, int finite, GLOBAL state *restrict force,
-                           GLOBAL state *restrict torque)
+                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                           coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int finite,
+                           GLOBAL state *restrict force, GLOBAL state *restrict torque)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const cbm_end sum = finite ? cbm_group_force(group, row_start, neighbour, branch, inv_length, displacement, orientation, axial, bend,
-                                                     twist, beam_of, 1)
-                                   : cbm_group_force(group, row_start, neighbour, branch, inv_length, displacement, orientation, axial, bend,
-                                                     twist, beam_of, 0);
+        const cbm_end sum = finite ? cbm_group_force(group, row_start, neighbour, branch, inv_length, displacement,
+                                                     orientation, axial, bend, twist, beam_of, 1)
+                                   : cbm_group_force(group, row_start, neighbour, branch, inv_length, displacement,
+                                                     orientation, axial, bend, twist, beam_of, 0);
         state_store3(force, group * W, sum.force);
         state_store3(torque, group * W, sum.torque);
     }
@@ -97,36 +100,36 @@ KERNEL void cbm_force_pass(int n_groups, GLOBAL const int *restrict row_start, G
 /* Elastic energy of every element, half of each of its beams [J] [n]. */
 KERNEL void cbm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                        GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                       GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                       coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL state *restrict elastic)
+                       GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial,
+                       coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL state *restrict elastic)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
         const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
         lane sum = LANE_ZERO;
         for (int slot = row_start[slice]; slot < last; ++slot) {
-            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation,
-                                              axial, bend, twist, beam_of, 1);
+            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
+                                              orientation, axial, bend, twist, beam_of, 1);
             sum += cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness);
         }
         state_store1(elastic, group * W, REAL(0.5) * sum);
     }
 }
 
-/* Virial of every element [J] [n][6] xx yy zz yz xz xy (cbm_add_virial, summed over its beams). A stress is that over twice a volume
- * (NAH19 eq. 5). */
+/* Virial of every element [J] [n][6] xx yy zz yz xz xy (cbm_add_virial, summed over its beams). A stress is that over
+ * twice a volume (NAH19 eq. 5). */
 KERNEL void cbm_virial(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                        GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                       GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                       coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL coeff *restrict virial)
+                       GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial,
+                       coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL coeff *restrict virial)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
         const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
         lane_sym3 sum = {LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO};
         for (int slot = row_start[slice]; slot < last; ++slot) {
-            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation,
-                                              axial, bend, twist, beam_of, 1);
+            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
+                                              orientation, axial, bend, twist, beam_of, 1);
             const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
             sum = cbm_add_virial(sum, bond.branch, end.force);
         }

@@ -1,11 +1,12 @@
 /* The law of one beam in potential form (docs/notebook/beams.md; NAH19 eq. 1-4 corrected there).
  *
- * e is the initial axis from i to j, X1 = R_i e and X2 = R_j e its images in the two elements' frames, n the current axis, l its
- * length, l0 the initial one; ka = E S / l0, A = 2 E I / l0, kt = G J / l0:
+ * e is the initial axis from i to j, X1 = R_i e and X2 = R_j e its images in the two elements' frames, n the current
+ * axis, l its length, l0 the initial one; ka = E S / l0, A = 2 E I / l0, kt = G J / l0:
  *     U = ka/2 (l - l0)^2 + A [5 - 3 n.(X1 + X2) + X1.X2] + kt/2 tau^2,   tau: twist.
- * Everything is formed from the small vectors d1 = n - X1 and d2 = n - X2, so that rotations of 1e-10 keep their digits:
- * 5 - 3 n.(X1 + X2) + X1.X2 = 3/2 (d1^2 + d2^2) - 1/2 (d1 - d2)^2 for unit vectors. Seen from the other end (i and j exchanged, e reversed)
- * the law is the same, so each element computes its own side. finite: 1 as above; 0 the linearisation. */
+ * Everything is formed from the small vectors d1 = n - X1 and d2 = n - X2, so that rotations of 1e-10 keep their
+ * digits: 5 - 3 n.(X1 + X2) + X1.X2 = 3/2 (d1^2 + d2^2) - 1/2 (d1 - d2)^2 for unit vectors. Seen from the other end (i
+ * and j exchanged, e reversed) the law is the same, so each element computes its own side. finite: 1 as above; 0 the
+ * linearisation. */
 #ifndef BRC_KERNELS_CBM_BEAM_H
 #define BRC_KERNELS_CBM_BEAM_H
 
@@ -23,18 +24,20 @@ LAW lane cbm_in_series(lane a, lane b) { return REAL(2) * a * b / (a + b); }
 
 /* What the law is made of. */
 typedef struct {
-    lane_vec3 axis;           /* n [-] */
-    lane_vec3 own;            /* X1 [-] */
-    lane_vec3 bent1, bent2;   /* d1, d2 [-] */
-    lane elongation;          /* l - l0 [m] */
-    lane inv_length;          /* 1 / l [1/m] */
-    lane twist;               /* tau [-] */
-    lane_vec3 twist_axis;     /* g [-] */
+    lane_vec3 axis;         /* n [-] */
+    lane_vec3 own;          /* X1 [-] */
+    lane_vec3 bent1, bent2; /* d1, d2 [-] */
+    lane elongation;        /* l - l0 [m] */
+    lane inv_length;        /* 1 / l [1/m] */
+    lane twist;             /* tau [-] */
+    lane_vec3 twist_axis;   /* g [-] */
 } cbm_shape;
 
-/* branch: X_j - X_i, jump: u_j - u_i [m]; inv_length0: 1/|branch|, 0 for a missing neighbour, which then feels nothing [1/m]. */
+/* branch: X_j - X_i, jump: u_j - u_i [m]; inv_length0: 1/|branch|, 0 for a missing neighbour, which then feels nothing
+ * [1/m]. */
 /* turn_i: R_i - I of q_i, the same for all beams of an element. */
-LAW cbm_shape cbm_beam_shape_turned(lane_vec3 branch, lane inv_length0, lane_vec3 jump, lane_quat q_i, lane_mat3 turn_i, lane_quat q_j, int finite)
+LAW cbm_shape cbm_beam_shape_turned(lane_vec3 branch, lane inv_length0, lane_vec3 jump, lane_quat q_i, lane_mat3 turn_i,
+                                    lane_quat q_j, int finite)
 {
     cbm_shape s;
     const lane_vec3 e = lane_vec3_scale(inv_length0, branch);
@@ -51,15 +54,18 @@ LAW cbm_shape cbm_beam_shape_turned(lane_vec3 branch, lane inv_length0, lane_vec
         s.inv_length = inv_length0;
         s.axis = e;
     }
-    const lane_vec3 leaned = lane_vec3_scale(s.inv_length, lane_vec3_sub(jump, lane_vec3_scale(s.elongation, e))); /* n - e */
+    const lane_vec3 leaned =
+        lane_vec3_scale(s.inv_length, lane_vec3_sub(jump, lane_vec3_scale(s.elongation, e))); /* n - e */
     const lane_vec3 turned = lane_mat3_mul_vec(turn_i, e);
     s.bent1 = lane_vec3_sub(leaned, turned);
     s.own = finite ? lane_vec3_add(e, turned) : e;
-    if (finite) { /* the relative rotation w, V in the global frame: tau = 2 V.X1, g = w X1 + V x X1, X2 - X1 = 2 (w V x X1 + V x (V x X1)) = 2 V x g */
+    if (finite) { /* the relative rotation w, V in the global frame: tau = 2 V.X1, g = w X1 + V x X1, X2 - X1 = 2 (w V x
+                     X1 + V x (V x X1)) = 2 V x g */
         const lane_quat turn = quat_mul(q_j, quat_conjugate(q_i));
         s.twist = REAL(2) * lane_vec3_dot(quat_vector(turn), s.own);
         s.twist_axis = lane_vec3_add(lane_vec3_scale(turn.w, s.own), lane_vec3_cross(quat_vector(turn), s.own));
-        s.bent2 = lane_vec3_sub(s.bent1, lane_vec3_scale(LANE_ZERO + REAL(2), lane_vec3_cross(quat_vector(turn), s.twist_axis)));
+        s.bent2 = lane_vec3_sub(s.bent1,
+                                lane_vec3_scale(LANE_ZERO + REAL(2), lane_vec3_cross(quat_vector(turn), s.twist_axis)));
     } else {
         s.bent2 = lane_vec3_sub(leaned, quat_rotate_minus_identity(q_j, e, finite));
         s.twist = REAL(2) * lane_vec3_dot(lane_vec3_sub(quat_vector(q_j), quat_vector(q_i)), e);
@@ -68,7 +74,8 @@ LAW cbm_shape cbm_beam_shape_turned(lane_vec3 branch, lane inv_length0, lane_vec
     return s;
 }
 
-LAW cbm_shape cbm_beam_shape(lane_vec3 branch, lane inv_length0, lane_vec3 jump, lane_quat q_i, lane_quat q_j, int finite)
+LAW cbm_shape cbm_beam_shape(lane_vec3 branch, lane inv_length0, lane_vec3 jump, lane_quat q_i, lane_quat q_j,
+                             int finite)
 {
     return cbm_beam_shape_turned(branch, inv_length0, jump, q_i, quat_matrix_minus_identity(q_i, finite), q_j, finite);
 }
@@ -84,17 +91,22 @@ LAW cbm_end cbm_beam_law(cbm_shape s, lane inv_length0, cbm_stiffness k, int fin
     const lane axial = k.axial * inv_length0, bend = k.bend * inv_length0, twist = k.twist * inv_length0;
     lane_vec3 across = lane_vec3_add(s.bent1, s.bent2);
     if (finite) across = lane_vec3_sub(across, lane_vec3_scale(lane_vec3_dot(s.axis, across), s.axis));
-    const lane_vec3 f = lane_vec3_add(lane_vec3_scale(axial * s.elongation, s.axis), lane_vec3_scale(REAL(3) * bend * s.inv_length, across));
+    const lane_vec3 f = lane_vec3_add(lane_vec3_scale(axial * s.elongation, s.axis),
+                                      lane_vec3_scale(REAL(3) * bend * s.inv_length, across));
     const lane_vec3 lean = lane_vec3_scale(bend, lane_vec3_add(lane_vec3_scale(LANE_ZERO + REAL(2), s.bent1), s.bent2));
     return (cbm_end){f, lane_vec3_add(lane_vec3_cross(s.own, lean), lane_vec3_scale(twist * s.twist, s.twist_axis))};
 }
 
-/* Sum over beams of x (x) f [J], x the branch now and f the force of the beam on the element (NAH19 eq. 5), with one more; its parts off the
- * diagonal twice. */
+/* Sum over beams of x (x) f [J], x the branch now and f the force of the beam on the element (NAH19 eq. 5), with one
+ * more; its parts off the diagonal twice. */
 LAW lane_sym3 cbm_add_virial(lane_sym3 sum, lane_vec3 x, lane_vec3 f)
 {
-    return (lane_sym3){sum.xx + x.x * f.x, sum.yy + x.y * f.y, sum.zz + x.z * f.z, sum.yz + x.y * f.z + x.z * f.y,
-                       sum.xz + x.x * f.z + x.z * f.x, sum.xy + x.x * f.y + x.y * f.x};
+    return (lane_sym3){sum.xx + x.x * f.x,
+                       sum.yy + x.y * f.y,
+                       sum.zz + x.z * f.z,
+                       sum.yz + x.y * f.z + x.z * f.y,
+                       sum.xz + x.x * f.z + x.z * f.x,
+                       sum.xy + x.x * f.y + x.y * f.x};
 }
 
 /* The symmetric part of such a sum. */
@@ -107,8 +119,10 @@ LAW lane_sym3 cbm_virial_of(lane_sym3 sum)
 LAW lane cbm_beam_energy(cbm_shape s, lane inv_length0, cbm_stiffness k)
 {
     const lane_vec3 apart = lane_vec3_sub(s.bent1, s.bent2);
-    const lane bent = REAL(1.5) * (lane_vec3_dot(s.bent1, s.bent1) + lane_vec3_dot(s.bent2, s.bent2)) - REAL(0.5) * lane_vec3_dot(apart, apart);
-    return inv_length0 * (REAL(0.5) * (k.axial * s.elongation * s.elongation + k.twist * s.twist * s.twist) + k.bend * bent);
+    const lane bent = REAL(1.5) * (lane_vec3_dot(s.bent1, s.bent1) + lane_vec3_dot(s.bent2, s.bent2)) -
+                      REAL(0.5) * lane_vec3_dot(apart, apart);
+    return inv_length0 *
+           (REAL(0.5) * (k.axial * s.elongation * s.elongation + k.twist * s.twist * s.twist) + k.bend * bent);
 }
 
 #endif

@@ -1,19 +1,22 @@
-/* Fracture of cells by criteria of elements, dlsm and dlsm-published: what kernels/fracture.cl asks of an element that has a stress of its own in
- * place of the virial of beams. record holds stress times twice the volume; who fails and which bond it chooses is decided there; chosen bonds
- * become marks of kernels/cells.cl. */
+/* Fracture of cells by criteria of elements, dlsm and dlsm-published: what kernels/fracture.cl asks of an element that
+ * has a stress of its own in place of the virial of beams. record holds stress times twice the volume; who fails and
+ * which bond it chooses is decided there; chosen bonds become marks of kernels/cells.cl. */
 
-/* Cauchy stress [Pa] P F^T / det F with F = I + H (in a uniform state the element's own F; turning with the element in any). */
+/* Cauchy stress [Pa] P F^T / det F with F = I + H (in a uniform state the element's own F; turning with the element in
+ * any). */
 LAW lane_sym3 cells_cauchy(lane_mat3 gradient, lane_mat3 stress)
 {
     lane_mat3 f = gradient;
     f.xx += REAL(1), f.yy += REAL(1), f.zz += REAL(1);
-    const lane det = f.xx * (f.yy * f.zz - f.yz * f.zy) - f.xy * (f.yx * f.zz - f.yz * f.zx) + f.xz * (f.yx * f.zy - f.yy * f.zx);
+    const lane det =
+        f.xx * (f.yy * f.zz - f.yz * f.zy) - f.xy * (f.yx * f.zz - f.yz * f.zx) + f.xz * (f.yx * f.zy - f.yy * f.zx);
     const lane_sym3 pulled = lane_mat3_sym(lane_mat3_mul(stress, lane_mat3_transpose(f)));
     return lane_sym3_scale_shift(REAL(1) / det, pulled, LANE_ZERO);
 }
 
 /* The record of a group of elements of this stress [Pa]. */
-LAW void cells_put_record(int group, lane_sym3 stress, failure_scale scale, GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
+LAW void cells_put_record(int group, lane_sym3 stress, failure_scale scale, GLOBAL coeff *restrict record,
+                          GLOBAL coeff *restrict reach)
 {
     const lane volume = lane_block(record, SLICE_OF(group), RECORD, 6, FIRST_LANE_OF(group));
     const lane_sym3 virial = lane_sym3_scale_shift(volume, stress, LANE_ZERO);
@@ -21,9 +24,9 @@ LAW void cells_put_record(int group, lane_sym3 stress, failure_scale scale, GLOB
 }
 
 /* Records of dlsm, of H and P as they stand. */
-KERNEL void cells_record(int n_groups, GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, coeff inv_tension,
-                         coeff inv_compression, coeff inv_shear, int drucker_prager, coeff slope, GLOBAL coeff *restrict record,
-                         GLOBAL coeff *restrict reach)
+KERNEL void cells_record(int n_groups, GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
+                         coeff inv_tension, coeff inv_compression, coeff inv_shear, int drucker_prager, coeff slope,
+                         GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
@@ -34,9 +37,10 @@ KERNEL void cells_record(int n_groups, GLOBAL const coeff *restrict gradient, GL
 }
 
 /* Records of dlsm-published, of the strains [n][6] as they stand, in the global frame. */
-KERNEL void cells_record_published(int n_groups, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                                   GLOBAL const coeff *restrict lame_of, coeff inv_tension, coeff inv_compression, coeff inv_shear,
-                                   int drucker_prager, coeff slope, GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
+KERNEL void cells_record_published(int n_groups, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one,
+                                   coeff young_one, GLOBAL const coeff *restrict lame_of, coeff inv_tension,
+                                   coeff inv_compression, coeff inv_shear, int drucker_prager, coeff slope,
+                                   GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
@@ -50,8 +54,9 @@ KERNEL void cells_record_published(int n_groups, GLOBAL const coeff *restrict st
 
 /* The bonds that elements chose are marked; stress [n]: of the element that chose [Pa]; found [n]: 1 where one did. */
 KERNEL void cells_mark_chosen(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                              GLOBAL const int *restrict choice, GLOBAL const coeff *restrict stress, GLOBAL int *restrict mark,
-                              GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
+                              GLOBAL const int *restrict choice, GLOBAL const coeff *restrict stress,
+                              GLOBAL int *restrict mark, GLOBAL coeff *restrict measure, GLOBAL int *restrict touched,
+                              GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(e, n) {
         const int chosen = choice[e];
@@ -68,8 +73,8 @@ KERNEL void cells_mark_chosen(int n, GLOBAL const int *restrict row_start, GLOBA
 }
 
 /* Volume of record over each element and its neighbours over unbroken bonds, weight [n], after bonds broke. */
-KERNEL void cells_weigh(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict record,
-                        GLOBAL coeff *restrict weight)
+KERNEL void cells_weigh(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                        GLOBAL const coeff *restrict record, GLOBAL coeff *restrict weight)
 {
     FOR_EACH_ITEM(e, n) { weight[e] = fracture_weight(e, row_start, neighbour, record); }
 }

@@ -1,75 +1,88 @@
-/* Fracture of cells, dlsm and dlsm-published (docs/notebook/fracture.md): which bonds break, and what becomes of their elements. A broken bond
- * is stored like a missing one: its neighbour is home, its area 0, its ratio 1; the face is then a free face of both cells without any more
- * words, since the law reads intact faces only (docs/notebook/theory.md T2). So the elastic passes do not know that anything broke.
+/* Fracture of cells, dlsm and dlsm-published (docs/notebook/fracture.md): which bonds break, and what becomes of their
+ * elements. A broken bond is stored like a missing one: its neighbour is home, its area 0, its ratio 1; the face is
+ * then a free face of both cells without any more words, since the law reads intact faces only (docs/notebook/theory.md
+ * T2). So the elastic passes do not know that anything broke.
  *
- * Of the entries [n_slots][C]: limit: normal stress at which the bond breaks, CELLS_NEVER where there is none [Pa]; twin: the entry of the same
- * bond seen from the other element; alive: 1 while it holds, else 0; mark: 0, or how it breaks at the end of this step; measure: its stress
- * then [Pa]. found: of an element or group of elements, how many bonds it marked. touched [n]: 1 for the two elements of every marked
- * bond, 2 once it broke: ring 0 of rings.cl. */
+ * Of the entries [n_slots][C]: limit: normal stress at which the bond breaks, CELLS_NEVER where there is none [Pa];
+ * twin: the entry of the same bond seen from the other element; alive: 1 while it holds, else 0; mark: 0, or how it
+ * breaks at the end of this step; measure: its stress then [Pa]. found: of an element or group of elements, how many
+ * bonds it marked. touched [n]: 1 for the two elements of every marked bond, 2 once it broke: ring 0 of rings.cl. */
 
 #define CELLS_NEVER REAL(1e30)
 #define CELLS_TENSION 1
 #define CELLS_SHEAR 3
 #define CELLS_DETACHED 4
 
-/* As dlsm_force, which has what it takes at hand: and where some bond of a group has no room (cell_normal.h), look [n / W] is 1; cells_check puts it back to 0. */
-LAW void cells_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                         GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
-                         coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
-                         GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict limit,
-                         GLOBAL state *restrict force, GLOBAL int *restrict look)
+/* As dlsm_force, which has what it takes at hand: and where some bond of a group has no room (cell_normal.h), look [n /
+ * W] is 1; cells_check puts it back to 0. */
+LAW void cells_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                        GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                        GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, coeff k_one,
+                        coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
+                        GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
+                        GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL int *restrict look)
 {
     const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
-    const cell_side side = cell_side_of(lane_gather9(gradient, who.own), lane_gather9(stress, who.own), members_number(who, plane));
+    const cell_side side =
+        cell_side_of(lane_gather9(gradient, who.own), lane_gather9(stress, who.own), members_number(who, plane));
     members_records_ahead9(who, gradient);
     members_records_ahead9(who, stress);
     lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
     lane least = LANE_ZERO + CELLS_NEVER;
     for (int slot = who.begin; slot < who.end; ++slot) {
-        const dlsm_pull b = dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part, one_plus_tau, modulus);
+        const dlsm_pull b =
+            dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part, one_plus_tau, modulus);
         members_ahead1(who, limit, slot);
         f = lane_vec3_add(f, b.force);
-        least = lane_min(least, cell_room(side, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
+        least =
+            lane_min(least, cell_room(side, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
     }
     members_store3(who, force, f);
     if (LANE_ANY_SHORT(least, LANE_ZERO)) {
-#define LOOK(l) \
+#define LOOK(l)                                                                                                        \
     if (!(LANE_ITEM(least, l) >= 0)) STORE_SAME(look + LANE_ITEM(who.own, l) / W, 1);
         LANE_EACH(LOOK)
 #undef LOOK
     }
 }
-KERNEL void cells_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                         GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
-                         coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
-                         GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict limit,
-                         GLOBAL state *restrict force, GLOBAL int *restrict look)
+KERNEL void cells_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
+                        GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau,
+                        GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
+                        GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
+                        GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL int *restrict look)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        cells_force_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau, modulus, gradient, stress,
-                       plane, limit, force, look);
+        cells_force_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one,
+                       one_plus_tau, modulus, gradient, stress, plane, limit, force, look);
     }
 }
-KERNEL void cells_force_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                         GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                         GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
-                         coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
-                         GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane, GLOBAL const coeff *restrict limit,
-                         GLOBAL state *restrict force, GLOBAL int *restrict look)
+KERNEL void cells_force_listed(int n_items, int n, GLOBAL const int *restrict list,
+                               GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                               GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                               GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
+                               GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau,
+                               GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
+                               GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
+                               GLOBAL const coeff *restrict limit, GLOBAL state *restrict force,
+                               GLOBAL int *restrict look)
 {
     FOR_EACH_ITEM(item, n_items) {
-        cells_force_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau, modulus, gradient, stress,
-                       plane, limit, force, look);
+        cells_force_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, flux, bond_part,
+                       k_one, one_plus_tau, modulus, gradient, stress, plane, limit, force, look);
     }
 }
 
-/* Bonds whose normal stress is above share * limit are marked. plane [n]: lambda + 2 mu [Pa]; found [n_groups]. With share 1 only groups
- * that the force pass told to look at their bonds do. */
-KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
-                        GLOBAL int *restrict look, GLOBAL const coeff *restrict limit,
-                        GLOBAL int *restrict mark, GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
+/* Bonds whose normal stress is above share * limit are marked. plane [n]: lambda + 2 mu [Pa]; found [n_groups]. With
+ * share 1 only groups that the force pass told to look at their bonds do. */
+KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict row_start,
+                        GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                        GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
+                        GLOBAL const coeff *restrict plane, GLOBAL int *restrict look,
+                        GLOBAL const coeff *restrict limit, GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
+                        GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int first = group * W;
@@ -88,11 +101,12 @@ KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict ro
                 const lane_vec3 r = lane_vec3_scale(lane_load(ratio, entry), lane_block3(area, slot, lane0));
                 const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
                 const lane bound = share * lane_load(limit, entry), room = cell_room(side, r, jump, bound);
-                if (LANE_ANY_SHORT(room, LANE_ZERO)) { /* of the two halves of a bond above its limit one is above it too */
+                if (LANE_ANY_SHORT(room,
+                                   LANE_ZERO)) { /* of the two halves of a bond above its limit one is above it too */
                     const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse);
                     const lane tau = cell_half_stress(h, p, k, r, strain, inverse);
-                    const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j), gather_component(plane, j), r,
-                                                        strain, inverse);
+                    const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j),
+                                                        gather_component(plane, j), r, strain, inverse);
                     const lane sigma = REAL(0.5) * (tau + other);
 #define MARK(l)                                                                                                        \
     if (LANE_ITEM(sigma, l) > LANE_ITEM(bound, l)) {                                                                   \
@@ -113,8 +127,9 @@ KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict ro
 
 /* The largest sigma / limit of each element's bonds [n] [-]. */
 KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
+                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                        GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
                         GLOBAL const coeff *restrict limit, GLOBAL coeff *restrict out)
 {
     FOR_EACH_ITEM(group, n_groups) {
@@ -131,7 +146,8 @@ KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOB
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
             const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse);
             const lane tau = cell_half_stress(h, p, k, r, strain, inverse);
-            const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j), gather_component(plane, j), r, strain, inverse);
+            const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j),
+                                                gather_component(plane, j), r, strain, inverse);
             largest = cell_larger(largest, REAL(0.5) * (tau + other) / lane_load(limit, entry));
         }
 #define PUT(l) out[(brc_size)first + 0x##l] = LANE_ITEM(largest, l);
@@ -140,16 +156,19 @@ KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOB
     }
 }
 
-/* Bonds of touched elements that are marked on either side become missing ones. width: numbers a face's area has, 3 for a vector. weight [n]: gains the sum over the element's bonds
- * that break of stress^2 times volume (S L; without a ratio S^(3/2)): shares of the energy that they release, kept in break_energy until
- * cells_share, which leaves it 0. changed [n]: 1 where a bond went. gone [n]: bonds lost so far; broken [n]: bonds that broke so
- * far, those among them whose sides still bear on each other. */
-KERNEL void cells_break(int n_groups, int step, int width, GLOBAL const int *restrict row_start, GLOBAL const int *restrict twin,
-                        GLOBAL int *restrict touched, GLOBAL const int *restrict mark, GLOBAL const coeff *restrict measure,
-                        GLOBAL coeff *restrict alive, GLOBAL int *restrict neighbour, GLOBAL coeff *restrict area, GLOBAL coeff *restrict ratio,
-                        GLOBAL coeff *restrict limit, GLOBAL int *restrict break_step,
-                        GLOBAL int *restrict break_mode, GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
-                        GLOBAL state *restrict weight, GLOBAL int *restrict changed, GLOBAL state *restrict gone, GLOBAL state *restrict broken)
+/* Bonds of touched elements that are marked on either side become missing ones. width: numbers a face's area has, 3 for
+ * a vector. weight [n]: gains the sum over the element's bonds that break of stress^2 times volume (S L; without a
+ * ratio S^(3/2)): shares of the energy that they release, kept in break_energy until cells_share, which leaves it 0.
+ * changed [n]: 1 where a bond went. gone [n]: bonds lost so far; broken [n]: bonds that broke so far, those among them
+ * whose sides still bear on each other. */
+KERNEL void cells_break(int n_groups, int step, int width, GLOBAL const int *restrict row_start,
+                        GLOBAL const int *restrict twin, GLOBAL int *restrict touched, GLOBAL const int *restrict mark,
+                        GLOBAL const coeff *restrict measure, GLOBAL coeff *restrict alive,
+                        GLOBAL int *restrict neighbour, GLOBAL coeff *restrict area, GLOBAL coeff *restrict ratio,
+                        GLOBAL coeff *restrict limit, GLOBAL int *restrict break_step, GLOBAL int *restrict break_mode,
+                        GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
+                        GLOBAL state *restrict weight, GLOBAL int *restrict changed, GLOBAL state *restrict gone,
+                        GLOBAL state *restrict broken)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(touched, (brc_size)group * W);
@@ -175,7 +194,8 @@ KERNEL void cells_break(int n_groups, int step, int width, GLOBAL const int *res
                 limit[entry] = CELLS_NEVER;
                 sum += (state)part;
                 count += 1;
-                if (break_step[entry]) continue; /* broke before, and its sides have come clear of each other now (softening.cl) */
+                if (break_step[entry])
+                    continue; /* broke before, and its sides have come clear of each other now (softening.cl) */
                 break_step[entry] = step;
                 break_mode[entry] = mode;
                 break_stress[entry] = stress;
@@ -193,16 +213,23 @@ KERNEL void cells_break(int n_groups, int step, int width, GLOBAL const int *res
 }
 
 /* A symmetric matrix in state: sums of what breaks go on in the precision of the state. */
-typedef struct { state xx, yy, zz, yz, xz, xy; } cells_sym;
+typedef struct {
+    state xx, yy, zz, yz, xz, xy;
+} cells_sym;
 LAW cells_sym cells_add_square(cells_sym a, state w, state x, state y, state z)
 {
-    return (cells_sym){a.xx + w * x * x, a.yy + w * y * y, a.zz + w * z * z, a.yz + w * y * z, a.xz + w * x * z, a.xy + w * x * y};
+    return (cells_sym){a.xx + w * x * x, a.yy + w * y * y, a.zz + w * z * z,
+                       a.yz + w * y * z, a.xz + w * x * z, a.xy + w * x * y};
 }
 LAW cells_sym cells_inverse(cells_sym a)
 {
     const state xx = a.yy * a.zz - a.yz * a.yz, xy = a.xz * a.yz - a.xy * a.zz, xz = a.xy * a.yz - a.xz * a.yy;
     const state per = STATE(1) / (a.xx * xx + a.xy * xy + a.xz * xz);
-    return (cells_sym){per * xx, per * (a.xx * a.zz - a.xz * a.xz), per * (a.xx * a.yy - a.xy * a.xy), per * (a.xy * a.xz - a.xx * a.yz), per * xz,
+    return (cells_sym){per * xx,
+                       per * (a.xx * a.zz - a.xz * a.xz),
+                       per * (a.xx * a.yy - a.xy * a.xy),
+                       per * (a.xy * a.xz - a.xx * a.yz),
+                       per * xz,
                        per * xy};
 }
 LAW void cells_put(GLOBAL coeff *restrict block, int e, cells_sym a)
@@ -211,29 +238,39 @@ LAW void cells_put(GLOBAL coeff *restrict block, int e, cells_sym a)
     for (int c = 0; c < 6; ++c) block[((brc_size)(e / C) * 6 + c) * C + e % C] = six[c];
 }
 
-LAW failure_stress cells_narrow(cells_sym a) { return (failure_stress){(coeff)a.xx, (coeff)a.yy, (coeff)a.zz, (coeff)a.yz, (coeff)a.xz, (coeff)a.xy}; }
+LAW failure_stress cells_narrow(cells_sym a)
+{
+    return (failure_stress){(coeff)a.xx, (coeff)a.yy, (coeff)a.zz, (coeff)a.yz, (coeff)a.xz, (coeff)a.xy};
+}
 
-/* How stiffly an element answers its neighbours: the largest eigenvalue of A^-1 (sum s (x) s + t (x) t) A^-1, t = sum s [1/m^2]. Times
- * (lambda + 2 mu) / density it is of the order of the square of the highest frequency that the element takes part in. */
+/* How stiffly an element answers its neighbours: the largest eigenvalue of A^-1 (sum s (x) s + t (x) t) A^-1, t = sum s
+ * [1/m^2]. Times (lambda + 2 mu) / density it is of the order of the square of the highest frequency that the element
+ * takes part in. */
 LAW coeff cells_stiffness(cells_sym inverse, cells_sym squares, state x, state y, state z)
 {
     const cells_sym b = cells_add_square(squares, STATE(1), x, y, z), i = inverse;
     /* rows of A^-1 B, then (A^-1 B) A^-1, symmetric */
-    const state p = i.xx * b.xx + i.xy * b.xy + i.xz * b.xz, q = i.xx * b.xy + i.xy * b.yy + i.xz * b.yz, r = i.xx * b.xz + i.xy * b.yz + i.xz * b.zz;
-    const state k = i.xy * b.xx + i.yy * b.xy + i.yz * b.xz, l = i.xy * b.xy + i.yy * b.yy + i.yz * b.yz, m = i.xy * b.xz + i.yy * b.yz + i.yz * b.zz;
-    const state u = i.xz * b.xx + i.yz * b.xy + i.zz * b.xz, v = i.xz * b.xy + i.yz * b.yy + i.zz * b.yz, w = i.xz * b.xz + i.yz * b.yz + i.zz * b.zz;
+    const state p = i.xx * b.xx + i.xy * b.xy + i.xz * b.xz, q = i.xx * b.xy + i.xy * b.yy + i.xz * b.yz,
+                r = i.xx * b.xz + i.xy * b.yz + i.xz * b.zz;
+    const state k = i.xy * b.xx + i.yy * b.xy + i.yz * b.xz, l = i.xy * b.xy + i.yy * b.yy + i.yz * b.yz,
+                m = i.xy * b.xz + i.yy * b.yz + i.yz * b.zz;
+    const state u = i.xz * b.xx + i.yz * b.xy + i.zz * b.xz, v = i.xz * b.xy + i.yz * b.yy + i.zz * b.yz,
+                w = i.xz * b.xz + i.yz * b.yz + i.zz * b.zz;
     const failure_principal largest = failure_principal_of(
-        (failure_stress){(coeff)(p * i.xx + q * i.xy + r * i.xz), (coeff)(k * i.xy + l * i.yy + m * i.yz), (coeff)(u * i.xz + v * i.yz + w * i.zz),
-                         (coeff)(k * i.xz + l * i.yz + m * i.zz), (coeff)(p * i.xz + q * i.yz + r * i.zz), (coeff)(p * i.xy + q * i.yy + r * i.yz)});
+        (failure_stress){(coeff)(p * i.xx + q * i.xy + r * i.xz), (coeff)(k * i.xy + l * i.yy + m * i.yz),
+                         (coeff)(u * i.xz + v * i.yz + w * i.zz), (coeff)(k * i.xz + l * i.yz + m * i.zz),
+                         (coeff)(p * i.xz + q * i.yz + r * i.zz), (coeff)(p * i.xy + q * i.yy + r * i.yz)});
     return largest.first;
 }
 
-/* Elements that lost a bond: the inverse of A = sum q s (x) s, smallest limit, marks cleared. An element that its neighbours no longer hold marks
- * the bonds it has left: the smallest eigenvalue of A / (2 V) is below support [n], or it has become stiffer than stiffest [n] [1/m^2], which
- * the time step does not bear. found [n_groups]. */
-KERNEL void cells_rebuild(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                          GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict limit, GLOBAL const coeff *restrict inv_volume,
-                          GLOBAL const coeff *restrict support, GLOBAL const coeff *restrict stiffest, GLOBAL int *restrict changed,
+/* Elements that lost a bond: the inverse of A = sum q s (x) s, smallest limit, marks cleared. An element that its
+ * neighbours no longer hold marks the bonds it has left: the smallest eigenvalue of A / (2 V) is below support [n], or
+ * it has become stiffer than stiffest [n] [1/m^2], which the time step does not bear. found [n_groups]. */
+KERNEL void cells_rebuild(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                          GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                          GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict limit,
+                          GLOBAL const coeff *restrict inv_volume, GLOBAL const coeff *restrict support,
+                          GLOBAL const coeff *restrict stiffest, GLOBAL int *restrict changed,
                           GLOBAL coeff *restrict least, GLOBAL coeff *restrict inv_shape, GLOBAL int *restrict mark,
                           GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
@@ -277,10 +314,13 @@ KERNEL void cells_rebuild(int n_groups, GLOBAL const int *restrict row_start, GL
     }
 }
 
-/* The energy that the bonds of this step release, by their weights: per_weight [J/weight] is that of one side; list [n]: the elements
- * that lost some, whose weights are 0 afterwards, and which are touched no longer. lost [J]: of every element. */
-KERNEL void cells_share(int n, int step, state per_weight, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict break_step,
-                        GLOBAL int *restrict touched, GLOBAL state *restrict weight, GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost)
+/* The energy that the bonds of this step release, by their weights: per_weight [J/weight] is that of one side; list
+ * [n]: the elements that lost some, whose weights are 0 afterwards, and which are touched no longer. lost [J]: of every
+ * element. */
+KERNEL void cells_share(int n, int step, state per_weight, GLOBAL const int *restrict list,
+                        GLOBAL const int *restrict row_start, GLOBAL const int *restrict break_step,
+                        GLOBAL int *restrict touched, GLOBAL state *restrict weight,
+                        GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost)
 {
     FOR_EACH_ITEM(k, n) {
         const int e = list[k];

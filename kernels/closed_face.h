@@ -1,10 +1,12 @@
-/* The two sides of a broken face of dlsm that lie against each other (docs/notebook/fracture.md, "Closed faces"). Each side moves with its own cell, u_f = u + H (C - X); g = u_f,j - u_f,i is
- * what they have come apart by, and G = F^T g, F = I + (H_i + H_j)/2, the same seen in the undeformed body, which no rotation changes. Along the normal N of the face it is a gap, across it
- * a slide. Where the gap is below 0 the face holds
+/* The two sides of a broken face of dlsm that lie against each other (docs/notebook/fracture.md, "Closed faces"). Each
+ * side moves with its own cell, u_f = u + H (C - X); g = u_f,j - u_f,i is what they have come apart by, and G = F^T g,
+ * F = I + (H_i + H_j)/2, the same seen in the undeformed body, which no rotation changes. Along the normal N of the
+ * face it is a gap, across it a slide. Where the gap is below 0 the face holds
  *     W = kappa/2 [ (N.G)^2 + |e|^2 ],
- * e the part of the slide that friction has not let go. With P = dW/dG the sides are pulled with F P (element i; -F P element j) at the face's centroid, and W has dW/dF = g (x) P: all of it the
- * gradient of W, so that momentum and its moment hold. A cell without bonds is a mass at its place X, where it meets the other side, whose F it takes; two of them push along the line
- * between them, by what that is shorter than it was. */
+ * e the part of the slide that friction has not let go. With P = dW/dG the sides are pulled with F P (element i; -F P
+ * element j) at the face's centroid, and W has dW/dF = g (x) P: all of it the gradient of W, so that momentum and its
+ * moment hold. A cell without bonds is a mass at its place X, where it meets the other side, whose F it takes; two of
+ * them push along the line between them, by what that is shorter than it was. */
 #ifndef BRC_KERNELS_CLOSED_FACE_H
 #define BRC_KERNELS_CLOSED_FACE_H
 

@@ -1,10 +1,15 @@
-/* Closed cracks of dlsm whose bonds break at once (closed_face.h; docs/notebook/fracture.md): the faces whose two sides still lie near each other, in the entries of the bonds that broke.
+/* Closed cracks of dlsm whose bonds break at once (closed_face.h; docs/notebook/fracture.md): the faces whose two sides
+ * still lie near each other, in the entries of the bonds that broke.
  *
- * Entries [n_slots][C]: closed: CLOSED_OPEN from the break on, CLOSED_PRESSED while its sides are, CLOSED_CLEAR once they stand clear of each other, for good, and CLOSED_KIND
- * times 1 + how many of its two cells have no bonds; 0: never broke here. spring: kappa [N/m], of the bond that was; overlap: the gap, below 0, that a face had when it broke or one of its
- * cells came off, from which on it counts: nothing is pressed by a break [m]; slide [n_slots][3][C]: where along its face it sticks, in the undeformed body [m], only with friction. The lower row of a face decides for both.
- * Elements [n]: next: the step at which some face of which it is the lower row must be looked at again; presses: 1 where some face is pressed, as of the last evaluation; load [n][12]: what these
- * add to B, and their force on it [Pa] [N]; held: what they hold, half of each face [J]; rubbed: lost to friction [J]; look, near: the last step whose breaks concern the element's faces, or its force. */
+ * Entries [n_slots][C]: closed: CLOSED_OPEN from the break on, CLOSED_PRESSED while its sides are, CLOSED_CLEAR once
+ * they stand clear of each other, for good, and CLOSED_KIND times 1 + how many of its two cells have no bonds; 0: never
+ * broke here. spring: kappa [N/m], of the bond that was; overlap: the gap, below 0, that a face had when it broke or
+ * one of its cells came off, from which on it counts: nothing is pressed by a break [m]; slide [n_slots][3][C]: where
+ * along its face it sticks, in the undeformed body [m], only with friction. The lower row of a face decides for both.
+ * Elements [n]: next: the step at which some face of which it is the lower row must be looked at again; presses: 1
+ * where some face is pressed, as of the last evaluation; load [n][12]: what these add to B, and their force on it [Pa]
+ * [N]; held: what they hold, half of each face [J]; rubbed: lost to friction [J]; look, near: the last step whose
+ * breaks concern the element's faces, or its force. */
 
 #define CLOSED_OPEN 1
 #define CLOSED_PRESSED 2
@@ -12,7 +17,8 @@
 #define CLOSED_KIND 4
 #define CLOSED_LOAD 12
 #define CLOSED_NEVER 2147483647
-/* A face that stands open is looked at again when twice the speed of its cells has used up the gap, within so many steps. */
+/* A face that stands open is looked at again when twice the speed of its cells has used up the gap, within so many
+ * steps. */
 #define CLOSED_QUIET 32
 
 #define CLOSED_ENTRY ((brc_size)slot * C + (brc_size)(e % C))
@@ -42,19 +48,25 @@ LAW int closed_is_free(GLOBAL const coeff *restrict inv_shape, int e)
     GLOBAL const coeff *p = inv_shape + (brc_size)(e / C) * 6 * C + e % C;
     return !(p[0] > 0);
 }
-LAW closed_face closed_find(GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
-                            GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict overlap, int e, int j, brc_size entry)
+LAW closed_face closed_find(GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset,
+                            GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
+                            GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict overlap, int e, int j,
+                            brc_size entry)
 {
-    closed_face f = closed_face_of(closed_difference(place, e, j), closed_row(offset, entry), closed_difference(displacement, e, j), mat3_load(gradient, e), mat3_load(gradient, j),
-                                   closed_is_free(inv_shape, e), closed_is_free(inv_shape, j));
+    closed_face f = closed_face_of(closed_difference(place, e, j), closed_row(offset, entry),
+                                   closed_difference(displacement, e, j), mat3_load(gradient, e),
+                                   mat3_load(gradient, j), closed_is_free(inv_shape, e), closed_is_free(inv_shape, j));
     f.along -= overlap[entry];
     return f;
 }
 
 /* Before bonds of touched elements break: marked ones that never broke are faces that may close. */
-KERNEL void closed_keep(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const int *restrict touched,
-                        GLOBAL const int *restrict mark, GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict ratio, coeff k_one, coeff one_plus_tau,
-                        GLOBAL const coeff *restrict modulus, GLOBAL int *restrict closed, GLOBAL coeff *restrict spring)
+KERNEL void closed_keep(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                        GLOBAL const int *restrict twin, GLOBAL const int *restrict touched,
+                        GLOBAL const int *restrict mark, GLOBAL const coeff *restrict alive,
+                        GLOBAL const coeff *restrict ratio, coeff k_one, coeff one_plus_tau,
+                        GLOBAL const coeff *restrict modulus, GLOBAL int *restrict closed,
+                        GLOBAL coeff *restrict spring)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(touched, (brc_size)group * W);
@@ -76,8 +88,10 @@ KERNEL void closed_keep(int n_groups, GLOBAL const int *restrict row_start, GLOB
 }
 
 /* After bonds broke: whose faces they concern. */
-KERNEL void closed_look(int n_groups, int moment, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
-                        GLOBAL const int *restrict touched, GLOBAL const int *restrict closed, GLOBAL int *restrict look)
+KERNEL void closed_look(int n_groups, int moment, GLOBAL const int *restrict row_start,
+                        GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
+                        GLOBAL const int *restrict touched, GLOBAL const int *restrict closed,
+                        GLOBAL int *restrict look)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(touched, (brc_size)group * W);
@@ -92,12 +106,17 @@ KERNEL void closed_look(int n_groups, int moment, GLOBAL const int *restrict row
     }
 }
 
-/* Faces that are due, once H is there: which are pressed; and at the end of a step (moves) which slide or stand clear. all: whether due or not. clear: of the length of the bond [-];
- * what a pressed face holds when it is let go is lost to friction. friction [-]; dt of the step [s]. */
-KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff clear, coeff friction, state dt, GLOBAL const int *restrict row_start,
-                          GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset,
-                          GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement, GLOBAL const state *restrict velocity, GLOBAL const coeff *restrict gradient,
-                          GLOBAL const coeff *restrict spring, GLOBAL const coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide, GLOBAL int *restrict next, GLOBAL int *restrict presses,
+/* Faces that are due, once H is there: which are pressed; and at the end of a step (moves) which slide or stand clear.
+ * all: whether due or not. clear: of the length of the bond [-]; what a pressed face holds when it is let go is lost to
+ * friction. friction [-]; dt of the step [s]. */
+KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff clear, coeff friction, state dt,
+                          GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                          GLOBAL const int *restrict twin, GLOBAL const state *restrict place,
+                          GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape,
+                          GLOBAL const state *restrict displacement, GLOBAL const state *restrict velocity,
+                          GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring,
+                          GLOBAL const coeff *restrict overlap, GLOBAL int *restrict closed,
+                          GLOBAL coeff *restrict slide, GLOBAL int *restrict next, GLOBAL int *restrict presses,
                           GLOBAL state *restrict rubbed)
 {
     FOR_EACH_ITEM(group, n_groups) {
@@ -111,13 +130,15 @@ KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff cl
                 if (!CLOSED_HOLDS(entry)) continue;
                 const int j = CLOSED_OTHER(entry);
                 if (!(e < j)) continue;
-                const closed_face f = closed_find(place, offset, inv_shape, displacement, gradient, overlap, e, j, entry);
+                const closed_face f =
+                    closed_find(place, offset, inv_shape, displacement, gradient, overlap, e, j, entry);
                 const int pressed = f.along < 0, was = CLOSED_IS(entry) == CLOSED_PRESSED;
                 const brc_size other = (brc_size)twin[entry];
                 if (moves) {
                     const coeff most = clear * f.length;
                     if (f.along > most || vec3_dot(f.across, f.across) > most * most) {
-                        const vec3 held = was && friction > 0 ? vec3_sub(f.across, closed_row(slide, entry)) : (vec3){0, 0, 0};
+                        const vec3 held =
+                            was && friction > 0 ? vec3_sub(f.across, closed_row(slide, entry)) : (vec3){0, 0, 0};
                         const closed_load left = closed_load_of(f, held, spring[entry]);
                         if (pressed) rubbed[e] += (state)left.energy;
                         closed[entry] = CLOSED_CLEAR;
@@ -126,7 +147,9 @@ KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff cl
                     }
                     const vec3 away = closed_difference(velocity, e, j);
                     const coeff way = REAL(2) * SQRT(vec3_dot(away, away)) * (coeff)dt;
-                    const int rest = pressed ? 1 : f.along < way * REAL(CLOSED_QUIET) ? 1 + (int)(f.along / way) : CLOSED_QUIET;
+                    const int rest = pressed                              ? 1
+                                     : f.along < way * REAL(CLOSED_QUIET) ? 1 + (int)(f.along / way)
+                                                                          : CLOSED_QUIET;
                     soonest = moment + rest < soonest ? moment + rest : soonest;
                 }
                 if (pressed && friction > 0 && (moves || !was)) {
@@ -160,10 +183,14 @@ LAW vec3 closed_kept(vec3 held, coeff along, coeff friction)
     return size > bears ? vec3_scale(bears / size, held) : held;
 }
 
-/* What the pressed faces of one element add to it; returns whether any is pressed. broke: bonds did, so faces may be new, or of a cell that has come off. */
-LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin, GLOBAL const state *restrict place,
-                   GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                   GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide, coeff friction, int broke, GLOBAL const int *restrict touched,
+/* What the pressed faces of one element add to it; returns whether any is pressed. broke: bonds did, so faces may be
+ * new, or of a cell that has come off. */
+LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                   GLOBAL const int *restrict twin, GLOBAL const state *restrict place,
+                   GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape,
+                   GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                   GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed,
+                   GLOBAL coeff *restrict slide, coeff friction, int broke, GLOBAL const int *restrict touched,
                    coeff *sum, state *energy)
 {
     mat3 q = {0, 0, 0, 0, 0, 0, 0, 0, 0};
@@ -184,7 +211,8 @@ LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int
                 closed[entry] = CLOSED_OPEN;
             }
             if (friction > 0 && f.along < 0) { /* what a break slides is part of its energy */
-                const vec3 held = CLOSED_IS(entry) == CLOSED_OPEN ? (vec3){0, 0, 0} : vec3_sub(f.across, closed_row(slide, entry));
+                const vec3 held =
+                    CLOSED_IS(entry) == CLOSED_OPEN ? (vec3){0, 0, 0} : vec3_sub(f.across, closed_row(slide, entry));
                 closed_put_row(slide, entry, vec3_sub(f.across, closed_kept(held, f.along, friction)));
             }
             closed[entry] = (f.along < 0 ? CLOSED_PRESSED : CLOSED_OPEN) + CLOSED_KIND * kind;
@@ -199,18 +227,24 @@ LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int
     }
     GLOBAL const coeff *p = inv_shape + (brc_size)(e / C) * 6 * C + e % C;
     const coeff xx = p[0], yy = p[C], zz = p[2 * C], yz = p[3 * C], xz = p[4 * C], xy = p[5 * C];
-    sum[0] = q.xx * xx + q.xy * xy + q.xz * xz, sum[1] = q.xx * xy + q.xy * yy + q.xz * yz, sum[2] = q.xx * xz + q.xy * yz + q.xz * zz;
-    sum[3] = q.yx * xx + q.yy * xy + q.yz * xz, sum[4] = q.yx * xy + q.yy * yy + q.yz * yz, sum[5] = q.yx * xz + q.yy * yz + q.yz * zz;
-    sum[6] = q.zx * xx + q.zy * xy + q.zz * xz, sum[7] = q.zx * xy + q.zy * yy + q.zz * yz, sum[8] = q.zx * xz + q.zy * yz + q.zz * zz;
+    sum[0] = q.xx * xx + q.xy * xy + q.xz * xz, sum[1] = q.xx * xy + q.xy * yy + q.xz * yz,
+    sum[2] = q.xx * xz + q.xy * yz + q.xz * zz;
+    sum[3] = q.yx * xx + q.yy * xy + q.yz * xz, sum[4] = q.yx * xy + q.yy * yy + q.yz * yz,
+    sum[5] = q.yx * xz + q.yy * yz + q.yz * zz;
+    sum[6] = q.zx * xx + q.zy * xy + q.zz * xz, sum[7] = q.zx * xy + q.zy * yy + q.zz * yz,
+    sum[8] = q.zx * xz + q.zy * yz + q.zz * zz;
     sum[9] = push.x, sum[10] = push.y, sum[11] = push.z;
     *energy = all;
     return any;
 }
 
 /* Loads of the elements that closed_follow found pressed. */
-KERNEL void closed_press(int n_groups, coeff friction, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
-                         GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
-                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide,
+KERNEL void closed_press(int n_groups, coeff friction, GLOBAL const int *restrict row_start,
+                         GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
+                         GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset,
+                         GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
+                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring,
+                         GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide,
                          GLOBAL const int *restrict presses, GLOBAL coeff *restrict load, GLOBAL state *restrict held)
 {
     FOR_EACH_ITEM(group, n_groups) {
@@ -219,7 +253,8 @@ KERNEL void closed_press(int n_groups, coeff friction, GLOBAL const int *restric
             if (!presses[e]) continue;
             coeff sum[CLOSED_LOAD];
             state energy;
-            closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, overlap, closed, slide, friction, 0, presses, sum, &energy);
+            closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, overlap,
+                       closed, slide, friction, 0, presses, sum, &energy);
             for (int c = 0; c < CLOSED_LOAD; ++c) load[(brc_size)e * CLOSED_LOAD + (brc_size)c] = sum[c];
             held[e] = energy;
         }
@@ -235,8 +270,10 @@ LAW int closed_end(int item, int listed, GLOBAL const int *restrict list, GLOBAL
     return LANE_ANY(some) ? item * W + W : item * W;
 }
 
-/* Of all groups, or of the n elements of a list: loads go into B. fluxes above 0: and into what B gained, whose records begin there (rims.cl). */
-KERNEL void closed_flux(int n, int listed, GLOBAL const int *restrict list, int fluxes, GLOBAL const int *restrict level, GLOBAL const int *restrict presses,
+/* Of all groups, or of the n elements of a list: loads go into B. fluxes above 0: and into what B gained, whose records
+ * begin there (rims.cl). */
+KERNEL void closed_flux(int n, int listed, GLOBAL const int *restrict list, int fluxes,
+                        GLOBAL const int *restrict level, GLOBAL const int *restrict presses,
                         GLOBAL const coeff *restrict load, GLOBAL coeff *restrict flux, GLOBAL coeff *restrict gain)
 {
     FOR_EACH_ITEM(item, n) {
@@ -251,37 +288,47 @@ KERNEL void closed_flux(int n, int listed, GLOBAL const int *restrict list, int 
 }
 
 /* And the forces of their faces. */
-KERNEL void closed_force(int n, int listed, GLOBAL const int *restrict list, GLOBAL const int *restrict presses, GLOBAL const coeff *restrict load, GLOBAL state *restrict force)
+KERNEL void closed_force(int n, int listed, GLOBAL const int *restrict list, GLOBAL const int *restrict presses,
+                         GLOBAL const coeff *restrict load, GLOBAL state *restrict force)
 {
     FOR_EACH_ITEM(item, n) {
         for (int e = closed_begin(item, listed, list); e < closed_end(item, listed, list, presses); ++e)
-            for (int c = 0; presses[e] && c < 3; ++c) force[(brc_size)e * 3 + (brc_size)c] += (state)load[(brc_size)e * CLOSED_LOAD + 9 + (brc_size)c];
+            for (int c = 0; presses[e] && c < 3; ++c)
+                force[(brc_size)e * 3 + (brc_size)c] += (state)load[(brc_size)e * CLOSED_LOAD + 9 + (brc_size)c];
     }
 }
 
 /* What pressed faces hold [J], in out [n]. */
-KERNEL void closed_energy(int n, GLOBAL const int *restrict presses, GLOBAL const state *restrict held, GLOBAL state *restrict out)
+KERNEL void closed_energy(int n, GLOBAL const int *restrict presses, GLOBAL const state *restrict held,
+                          GLOBAL state *restrict out)
 {
     FOR_EACH_ITEM(e, n) { out[e] = presses[e] ? held[e] : STATE(0); }
 }
 
 /* ---- after bonds broke: the forces of the rings around them are there, with the loads of before ---- */
 
-/* Loads of the elements that the breaks concern, with their new H; gain [n][12]: what these gained. All their faces are looked at in the next step. */
-KERNEL void closed_again(int n_groups, int moment, coeff friction, GLOBAL const int *restrict touched, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
-                         GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
-                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide,
-                         GLOBAL const int *restrict look, GLOBAL int *restrict near, GLOBAL int *restrict next, GLOBAL int *restrict presses, GLOBAL coeff *restrict load,
-                         GLOBAL state *restrict held, GLOBAL coeff *restrict gain)
+/* Loads of the elements that the breaks concern, with their new H; gain [n][12]: what these gained. All their faces are
+ * looked at in the next step. */
+KERNEL void closed_again(int n_groups, int moment, coeff friction, GLOBAL const int *restrict touched,
+                         GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                         GLOBAL const int *restrict twin, GLOBAL const state *restrict place,
+                         GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape,
+                         GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                         GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap,
+                         GLOBAL int *restrict closed, GLOBAL coeff *restrict slide, GLOBAL const int *restrict look,
+                         GLOBAL int *restrict near, GLOBAL int *restrict next, GLOBAL int *restrict presses,
+                         GLOBAL coeff *restrict load, GLOBAL state *restrict held, GLOBAL coeff *restrict gain)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const lane_int fresh = ~LANE_ABOVE(moment, int_load(look, (brc_size)group * W)); /* none is above the present moment */
+        const lane_int fresh =
+            ~LANE_ABOVE(moment, int_load(look, (brc_size)group * W)); /* none is above the present moment */
         for (int e = group * W; LANE_ANY(fresh) && e < group * W + W; ++e) {
             if (look[e] != moment) continue;
             coeff sum[CLOSED_LOAD];
             state energy;
             const int before = presses[e];
-            const int now = closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, overlap, closed, slide, friction, 1, touched, sum, &energy);
+            const int now = closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient,
+                                       spring, overlap, closed, slide, friction, 1, touched, sum, &energy);
             for (int c = 0; c < CLOSED_LOAD; ++c) {
                 const brc_size at = (brc_size)e * CLOSED_LOAD + (brc_size)c;
                 gain[at] = sum[c] - (before ? load[at] : 0);
@@ -292,14 +339,18 @@ KERNEL void closed_again(int n_groups, int moment, coeff friction, GLOBAL const 
             next[e] = 0;
             if (!before && !now) continue;
             STORE_SAME(near + e, moment);
-            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) STORE_SAME(near + neighbour[CLOSED_ENTRY], moment);
+            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot)
+                STORE_SAME(near + neighbour[CLOSED_ENTRY], moment);
         }
     }
 }
 
-/* Forces gain what the loads of their elements and of those around them gained, and velocities half_kick over mass times what forces lose (ring_take). */
-KERNEL void closed_gain(int n_groups, int moment, state half_kick, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const int *restrict look, GLOBAL const int *restrict near, GLOBAL const coeff *restrict gain, GLOBAL const state *restrict mass,
+/* Forces gain what the loads of their elements and of those around them gained, and velocities half_kick over mass
+ * times what forces lose (ring_take). */
+KERNEL void closed_gain(int n_groups, int moment, state half_kick, GLOBAL const int *restrict row_start,
+                        GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                        GLOBAL const int *restrict look, GLOBAL const int *restrict near,
+                        GLOBAL const coeff *restrict gain, GLOBAL const state *restrict mass,
                         GLOBAL state *restrict force, GLOBAL state *restrict velocity)
 {
     FOR_EACH_ITEM(group, n_groups) {

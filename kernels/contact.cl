@@ -1,10 +1,12 @@
-/* Forces of touching pairs: each pair once, one work-item; results are gathered by element in the order of its entries (contact_search.cl).
- * history [n_pairs][CONTACT_HISTORY]: 0 stretch of the tangential spring; 3, 6 the point of contact of the last step in either body's own frame
- * [m]; 9 overlap (spheres: depth [m], below 0 apart; cells: volume [m^3]) and 10 its rate; 11 force of the dashpot; 12 touching, 13 sliding, 14
- * looked at before, 2: and at rest apart (contact_rests); 15 cells apart: 1 + the face of i that last stood between them, or minus that of j; 16 what rounding makes of the slip of those
- * points where nothing moves [m], or of a pair at rest apart a direction and, 19, how far along it the two reach.
- * touch [n_pairs]: 1 for pairs that touch; and of these only result [n_pairs][CONTACT_RESULT + 2 width]: 0 force on i [N]; 3 energy held, 4 lost to friction, 5 to the dashpot in this
- * step [J]; 6 normal force [N]; 7 depth [m]; then width numbers for i and for j: torque (width 3), or dW/dH in the frame of the reference (width 9).
+/* Forces of touching pairs: each pair once, one work-item; results are gathered by element in the order of its entries
+ * (contact_search.cl). history [n_pairs][CONTACT_HISTORY]: 0 stretch of the tangential spring; 3, 6 the point of
+ * contact of the last step in either body's own frame [m]; 9 overlap (spheres: depth [m], below 0 apart; cells: volume
+ * [m^3]) and 10 its rate; 11 force of the dashpot; 12 touching, 13 sliding, 14 looked at before, 2: and at rest apart
+ * (contact_rests); 15 cells apart: 1 + the face of i that last stood between them, or minus that of j; 16 what rounding
+ * makes of the slip of those points where nothing moves [m], or of a pair at rest apart a direction and, 19, how far
+ * along it the two reach. touch [n_pairs]: 1 for pairs that touch; and of these only result [n_pairs][CONTACT_RESULT +
+ * 2 width]: 0 force on i [N]; 3 energy held, 4 lost to friction, 5 to the dashpot in this step [J]; 6 normal force [N];
+ * 7 depth [m]; then width numbers for i and for j: torque (width 3), or dW/dH in the frame of the reference (width 9).
  * law [n_materials][n_materials][6]: contact_law. */
 
 #define CONTACT_RESULT 8
@@ -24,13 +26,15 @@ LAW void contact_apart(GLOBAL state *restrict history, state overlap, int face)
     history[15] = (state)face;
 }
 
-/* By how much the points own_i, own_j that met lie apart [m]. Less the same of the step before, which is nothing but rounding: a pair at rest slips by nothing at all, however long. */
+/* By how much the points own_i, own_j that met lie apart [m]. Less the same of the step before, which is nothing but
+ * rounding: a pair at rest slips by nothing at all, however long. */
 LAW svec3 contact_slip(smat3 map_i, svec3 own_i, smat3 map_j, svec3 own_j, svec3 branch)
 {
     return svec3_sub(svec3_sub(smat3_mul_vec(map_i, own_i), smat3_mul_vec(map_j, own_j)), branch);
 }
 
-/* How a sphere meets another, or a piece of a striker: unit normal out of i, depth, and the arms from both places to the point of contact. */
+/* How a sphere meets another, or a piece of a striker: unit normal out of i, depth, and the arms from both places to
+ * the point of contact. */
 typedef struct {
     svec3 branch, normal, arm_i, arm_j;
     state depth, radius; /* reduced, for Hertz's law */
@@ -40,27 +44,39 @@ LAW contact_meeting contact_of_spheres(svec3 branch, state ri, state rj, state r
 {
     const state distance = svec3_length(branch), share = ri / (ri + rj);
     const svec3 normal = distance > 0 ? svec3_scale(STATE(1) / distance, branch) : (svec3){1, 0, 0};
-    return (contact_meeting){branch, normal, svec3_scale(share, branch), svec3_scale(share - STATE(1), branch),
-                             (reference < ri + rj ? reference : ri + rj) - distance, ri * rj / (ri + rj)};
+    return (contact_meeting){branch,
+                             normal,
+                             svec3_scale(share, branch),
+                             svec3_scale(share - STATE(1), branch),
+                             (reference < ri + rj ? reference : ri + rj) - distance,
+                             ri * rj / (ri + rj)};
 }
 /* foot: on the piece, in a frame about the sphere's place; branch: to the striker's mass centre. */
 LAW contact_meeting contact_of_foot(convex_foot foot, svec3 branch, state ri, state rj)
 {
-    const svec3 normal = {-foot.normal.x, -foot.normal.y, -foot.normal.z}, arm = {foot.point.x, foot.point.y, foot.point.z};
-    return (contact_meeting){branch, normal, arm, svec3_sub(arm, branch), ri - foot.distance, rj > 0 ? ri * rj / (ri + rj) : ri};
+    const svec3 normal = {-foot.normal.x, -foot.normal.y, -foot.normal.z},
+                arm = {foot.point.x, foot.point.y, foot.point.z};
+    return (contact_meeting){
+        branch, normal, arm, svec3_sub(arm, branch), ri - foot.distance, rj > 0 ? ri * rj / (ri + rj) : ri};
 }
 
-/* Spheres. dt: the step that ended, whose friction and damping are booked; 0: the same state again, nothing is remembered. Others than elements: number n +
- * piece of a striker, as in contact_cells.cl; piece_radius: of pieces that are spheres [m]. */
-KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_linear, int n_materials, state middle_x, state middle_y, state middle_z,
-                            GLOBAL const int *restrict todo, GLOBAL const int *restrict ends, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
-                            GLOBAL const state *restrict orientation, GLOBAL const state *restrict reach, GLOBAL const state *restrict corner,
-                            GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
-                            GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
-                            GLOBAL const int *restrict id, GLOBAL const state *restrict mass, GLOBAL const int *restrict material,
-                            GLOBAL const int *restrict body, GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind,
-                            GLOBAL const state *restrict piece_radius, GLOBAL const state *restrict striker_pose, GLOBAL const state *restrict law,
-                            GLOBAL state *restrict history, GLOBAL int *restrict touch, GLOBAL state *restrict result)
+/* Spheres. dt: the step that ended, whose friction and damping are booked; 0: the same state again, nothing is
+ * remembered. Others than elements: number n + piece of a striker, as in contact_cells.cl; piece_radius: of pieces that
+ * are spheres [m]. */
+KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_linear, int n_materials, state middle_x,
+                            state middle_y, state middle_z, GLOBAL const int *restrict todo,
+                            GLOBAL const int *restrict ends, GLOBAL const state *restrict place,
+                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                            GLOBAL const state *restrict reach, GLOBAL const state *restrict corner,
+                            GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start,
+                            GLOBAL const int *restrict loop, GLOBAL const state *restrict radius,
+                            GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
+                            GLOBAL const int *restrict id, GLOBAL const state *restrict mass,
+                            GLOBAL const int *restrict material, GLOBAL const int *restrict body,
+                            GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind,
+                            GLOBAL const state *restrict piece_radius, GLOBAL const state *restrict striker_pose,
+                            GLOBAL const state *restrict law, GLOBAL state *restrict history,
+                            GLOBAL int *restrict touch, GLOBAL state *restrict result)
 {
     FOR_EACH_ITEM(item, n_items) {
         const int p = whole ? item : todo[item];
@@ -81,13 +97,17 @@ KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_line
             const brc_size at = (brc_size)piece_striker[j - n] * 12;
             const int kind = piece_kind[j - n];
             const svec3 own = svec3_add(svec3_load(place, (brc_size)i * 3), (svec3){middle_x, middle_y, middle_z});
-            const svec3 branch = svec3_sub(svec3_sub(svec3_load(striker_pose, at), own), svec3_load(displacement, (brc_size)i * 3));
+            const svec3 branch =
+                svec3_sub(svec3_sub(svec3_load(striker_pose, at), own), svec3_load(displacement, (brc_size)i * 3));
             const convex_vec here = {0, 0, 0}, origin = {branch.x, branch.y, branch.z};
-            const convex_shape shape = convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[j]);
+            const convex_shape shape =
+                convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[j]);
             convex_foot foot;
             turn_j = smat3_load(striker_pose, at + 3);
-            const convex_map map = {turn_j.xx, turn_j.xy, turn_j.xz, turn_j.yx, turn_j.yy, turn_j.yz, turn_j.zx, turn_j.zy, turn_j.zz};
-            if (kind == 1) foot = convex_foot_on_sphere(here, origin, piece_radius[j - n]);
+            const convex_map map = {turn_j.xx, turn_j.xy, turn_j.xz, turn_j.yx, turn_j.yy,
+                                    turn_j.yz, turn_j.zx, turn_j.zy, turn_j.zz};
+            if (kind == 1)
+                foot = convex_foot_on_sphere(here, origin, piece_radius[j - n]);
             else if (kind == 2) {
                 const convex_plane face = convex_own_plane(shape, 0);
                 const convex_vec normal = convex_turn(map, face.normal);
@@ -111,11 +131,14 @@ KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_line
             const state viscous = contact_dashpot(normal.force, normal.dashpot, how.damping, rate);
             svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
             if (past[12] > 0) {
-                slip = svec3_sub(contact_slip(turn_i, svec3_load(past, 3), turn_j, svec3_load(past, 6), meet.branch), svec3_load(past, 16));
+                slip = svec3_sub(contact_slip(turn_i, svec3_load(past, 3), turn_j, svec3_load(past, 6), meet.branch),
+                                 svec3_load(past, 16));
                 stretch = svec3_load(past, 0);
             }
-            const contact_stick stick = contact_friction(stretch, slip, meet.normal, normal.sticking, how.friction * (normal.force + viscous));
-            const svec3 force = svec3_add_scaled(svec3_scale(-normal.sticking, stick.stretch), -(normal.force + viscous), meet.normal);
+            const contact_stick stick =
+                contact_friction(stretch, slip, meet.normal, normal.sticking, how.friction * (normal.force + viscous));
+            const svec3 force =
+                svec3_add_scaled(svec3_scale(-normal.sticking, stick.stretch), -(normal.force + viscous), meet.normal);
             svec3_store(out, 0, force);
             out[3] = normal.energy + STATE(0.5) * normal.sticking * svec3_dot(stick.stretch, stick.stretch);
             out[4] = dt > 0 ? stick.lost : STATE(0);
@@ -141,13 +164,18 @@ KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_line
     }
 }
 
-/* Elements that turn: force += sign times those of contact, torque likewise; kick: velocities lose kick f / m, spins likewise (a pair that is new in the middle of a
- * step must not act on the step that ended). book 1: what was lost in the step is added up. stored [n] [J]. */
-KERNEL void contact_gather_turning(int n_busy, state sign, state kick, int book, GLOBAL const int *restrict busy, GLOBAL const int *restrict list, GLOBAL const int *restrict start,
-                                   GLOBAL const int *restrict used, GLOBAL const int *restrict pair, GLOBAL const int *restrict touch, GLOBAL const state *restrict result,
-                                   GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia, GLOBAL state *restrict force,
-                                   GLOBAL state *restrict torque, GLOBAL state *restrict velocity, GLOBAL state *restrict spin,
-                                   GLOBAL state *restrict stored, GLOBAL state *restrict lost_friction, GLOBAL state *restrict lost_impact)
+/* Elements that turn: force += sign times those of contact, torque likewise; kick: velocities lose kick f / m, spins
+ * likewise (a pair that is new in the middle of a step must not act on the step that ended). book 1: what was lost in
+ * the step is added up. stored [n] [J]. */
+KERNEL void contact_gather_turning(int n_busy, state sign, state kick, int book, GLOBAL const int *restrict busy,
+                                   GLOBAL const int *restrict list, GLOBAL const int *restrict start,
+                                   GLOBAL const int *restrict used, GLOBAL const int *restrict pair,
+                                   GLOBAL const int *restrict touch, GLOBAL const state *restrict result,
+                                   GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia,
+                                   GLOBAL state *restrict force, GLOBAL state *restrict torque,
+                                   GLOBAL state *restrict velocity, GLOBAL state *restrict spin,
+                                   GLOBAL state *restrict stored, GLOBAL state *restrict lost_friction,
+                                   GLOBAL state *restrict lost_impact)
 {
     FOR_EACH_ITEM(item, n_busy) {
         const int k = busy[item], e = list[k];

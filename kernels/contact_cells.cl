@@ -1,37 +1,48 @@
-/* Forces of pairs of convex cells, and of cells on strikers: history and result as in contact.cl. Energy of a pair W = k_n V^2 / (2 h^3), V the volume of
- * the overlap in the present poses, so that the pressure p = k_n V / h^3 acts on the area vector of the overlap and every force and moment is
- * a gradient of W. h: harmonic mean of the cube roots of the two volumes, that of the element alone at a striker. A dashpot p_v = 2 b sqrt(m k_n / h^3) dV/dt / |a| makes V a linear
- * oscillator whenever V is a power of the depth: b alone decides the restitution.
- * Others than elements: number n + piece. piece_kind: 0 polyhedron, 1 sphere (whose polyhedron meets cells), 2 plane. Of elements and pieces: id, the number
- * of their shape too (convex_overlap.h), size: cube root of the volume (0: a piece), mass (0: does not move), material. */
+/* Forces of pairs of convex cells, and of cells on strikers: history and result as in contact.cl. Energy of a pair W =
+ * k_n V^2 / (2 h^3), V the volume of the overlap in the present poses, so that the pressure p = k_n V / h^3 acts on the
+ * area vector of the overlap and every force and moment is a gradient of W. h: harmonic mean of the cube roots of the
+ * two volumes, that of the element alone at a striker. A dashpot p_v = 2 b sqrt(m k_n / h^3) dV/dt / |a| makes V a
+ * linear oscillator whenever V is a power of the depth: b alone decides the restitution. Others than elements: number n
+ * + piece. piece_kind: 0 polyhedron, 1 sphere (whose polyhedron meets cells), 2 plane. Of elements and pieces: id, the
+ * number of their shape too (convex_overlap.h), size: cube root of the volume (0: a piece), mass (0: does not move),
+ * material. */
 
-/* The moment of pressure (gradient dW/dH), or its torque, and that of a force f at arm (own frame) reach (frame of space). */
-LAW void contact_put_moment(GLOBAL state *restrict out, int at, int affine, state pressure, convex_map moment, smat3 map, svec3 f, svec3 own, svec3 reach)
+/* The moment of pressure (gradient dW/dH), or its torque, and that of a force f at arm (own frame) reach (frame of
+ * space). */
+LAW void contact_put_moment(GLOBAL state *restrict out, int at, int affine, state pressure, convex_map moment,
+                            smat3 map, svec3 f, svec3 own, svec3 reach)
 {
     if (affine) {
         const smat3 whole = smat3_scale(pressure, smat3_of(convex_reference_moment(moment, convex_map_of(map))));
         smat3_store(out, (brc_size)at, smat3_add_outer(whole, svec3_scale(STATE(-1), f), own));
         return;
     }
-    svec3_store(out, (brc_size)at, svec3_add(svec3_scale(pressure, svec3_of(convex_torque(moment))), svec3_cross(reach, f)));
+    svec3_store(out, (brc_size)at,
+                svec3_add(svec3_scale(pressure, svec3_of(convex_torque(moment))), svec3_cross(reach, f)));
 }
 
-/* Two rigid cells between which there is room along a direction: they rest apart, and nothing of them is looked at, until they may have used it up, coming nearer along
- * it or turning. way [n]: how far any point of a rigid cell can have come by turning, in all [m]; turned: that of both. */
+/* Two rigid cells between which there is room along a direction: they rest apart, and nothing of them is looked at,
+ * until they may have used it up, coming nearer along it or turning. way [n]: how far any point of a rigid cell can
+ * have come by turning, in all [m]; turned: that of both. */
 LAW int contact_rests(GLOBAL const state *restrict past, svec3 branch, state turned)
 {
     return svec3_dot(svec3_load(past, 16), branch) - past[19] - turned > STATE(16) * STATE_ROUNDING * turned;
 }
-/* The wider of the two gaps along the branch from a to b and across the face that stands between (history 15), where there is any to speak of beside rounding. */
-ROUTINE void contact_lay_to_rest(GLOBAL state *restrict past, contact_body a, contact_body b, convex_vec branch, int face, state turned)
+/* The wider of the two gaps along the branch from a to b and across the face that stands between (history 15), where
+ * there is any to speak of beside rounding. */
+ROUTINE void contact_lay_to_rest(GLOBAL state *restrict past, contact_body a, contact_body b, convex_vec branch,
+                                 int face, state turned)
 {
     const state margin = STATE(1e-6) * (a.radius + b.radius);
     state widest = margin;
     for (int way = face != 0 ? 0 : 1; way < 2; ++way) {
-        const convex_vec along = way == 1 ? branch : face > 0 ? convex_turn(a.map, convex_own_plane(a.shape, face - 1).normal)
-                                                          : convex_scale(STATE(-1), convex_turn(b.map, convex_own_plane(b.shape, -face - 1).normal));
+        const convex_vec along =
+            way == 1   ? branch
+            : face > 0 ? convex_turn(a.map, convex_own_plane(a.shape, face - 1).normal)
+                       : convex_scale(STATE(-1), convex_turn(b.map, convex_own_plane(b.shape, -face - 1).normal));
         const convex_vec d = convex_scale(STATE(1) / convex_length(along), along);
-        const state reach = contact_support(a, d) + contact_support(b, convex_scale(STATE(-1), d)), gap = convex_dot(d, branch) - reach;
+        const state reach = contact_support(a, d) + contact_support(b, convex_scale(STATE(-1), d)),
+                    gap = convex_dot(d, branch) - reach;
         if (gap > widest) {
             widest = gap;
             svec3_store(past, 16, svec3_of(d));
@@ -43,17 +54,23 @@ ROUTINE void contact_lay_to_rest(GLOBAL state *restrict past, contact_body a, co
 
 /* Pairs ahead whose numbers are asked for: most pairs rest, and cost what it takes to read that. */
 #define CONTACT_AHEAD 16
-/* whole: all pairs, else those of todo. broke: bonds did, so that the gradients of cells, and their surfaces with them, have jumped where nothing moved: pairs go on from how they meet
- * now, and what surfaces gained or lost by it is the break's. rigid [n], way [n]: contact_rests. */
-KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, int affine, int n_materials, state middle_x, state middle_y, state middle_z,
-                          GLOBAL const int *restrict todo, GLOBAL const int *restrict ends, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
-                          GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict orientation, GLOBAL const state *restrict corner,
-                          GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
-                          GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
-                          GLOBAL const int *restrict id, GLOBAL const state *restrict size, GLOBAL const state *restrict mass, GLOBAL const int *restrict material,
-                          GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind, GLOBAL const state *restrict striker_pose,
-                          GLOBAL const state *restrict law, GLOBAL const int *restrict rigid, GLOBAL const state *restrict way, GLOBAL state *restrict history,
-                          GLOBAL int *restrict touch, GLOBAL state *restrict result)
+/* whole: all pairs, else those of todo. broke: bonds did, so that the gradients of cells, and their surfaces with them,
+ * have jumped where nothing moved: pairs go on from how they meet now, and what surfaces gained or lost by it is the
+ * break's. rigid [n], way [n]: contact_rests. */
+KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, int affine, int n_materials,
+                          state middle_x, state middle_y, state middle_z, GLOBAL const int *restrict todo,
+                          GLOBAL const int *restrict ends, GLOBAL const state *restrict place,
+                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                          GLOBAL const state *restrict orientation, GLOBAL const state *restrict corner,
+                          GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start,
+                          GLOBAL const int *restrict loop, GLOBAL const state *restrict radius,
+                          GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
+                          GLOBAL const int *restrict id, GLOBAL const state *restrict size,
+                          GLOBAL const state *restrict mass, GLOBAL const int *restrict material,
+                          GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind,
+                          GLOBAL const state *restrict striker_pose, GLOBAL const state *restrict law,
+                          GLOBAL const int *restrict rigid, GLOBAL const state *restrict way,
+                          GLOBAL state *restrict history, GLOBAL int *restrict touch, GLOBAL state *restrict result)
 {
     FOR_EACH_ITEM(item, n_items) {
         const int p = whole ? item : todo[item];
@@ -78,11 +95,14 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
             turned = rigid[i] && rigid[j] ? way[i] + way[j] : STATE(0);
             rests = past[14] > STATE(1) && contact_rests(past, branch, turned);
         }
-        if (rests) touch[p] = 0;
+        if (rests)
+            touch[p] = 0;
         else {
             const smat3 map_i = contact_map(affine, gradient, orientation, i);
-            const convex_shape shape_i = convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[i]);
-            const convex_shape shape_j = convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[j]);
+            const convex_shape shape_i =
+                convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[i]);
+            const convex_shape shape_j =
+                convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[j]);
             const convex_pose pose_i = {{0, 0, 0}, convex_map_of(map_i)};
             smat3 map_j;
             convex_overlap over;
@@ -93,7 +113,8 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
                 const brc_size at = (brc_size)piece_striker[j - n] * 12;
                 const svec3 own = svec3_add(svec3_load(place, (brc_size)i * 3), (svec3){middle_x, middle_y, middle_z});
                 map_j = smat3_load(striker_pose, at + 3);
-                branch = svec3_sub(svec3_sub(svec3_load(striker_pose, at), own), svec3_load(displacement, (brc_size)i * 3));
+                branch =
+                    svec3_sub(svec3_sub(svec3_load(striker_pose, at), own), svec3_load(displacement, (brc_size)i * 3));
                 is_wall = piece_kind[j - n] == 2;
             }
             if (is_wall) {
@@ -107,34 +128,44 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
             }
             const svec3 area = svec3_of(over.area);
             const state surface = svec3_length(area);
-            /* an overlap that could not be taken (failed 2) divides by no area: what is not finite stops the run, in place of a force that is missing */
-            const int touching = (over.volume > 0 && surface > 0) || over.failed == 2, looked = past[14] > 0, keeps = dt > 0 || broke;
+            /* an overlap that could not be taken (failed 2) divides by no area: what is not finite stops the run, in
+             * place of a force that is missing */
+            const int touching = (over.volume > 0 && surface > 0) || over.failed == 2, looked = past[14] > 0,
+                      keeps = dt > 0 || broke;
             touch[p] = touching;
             if (!touching && keeps) {
                 contact_apart(past, STATE(0), over.apart);
                 if (j < n && over.failed == 0 && rigid[i] && rigid[j]) {
-                    const contact_body a = {shape_i, convex_map_of(map_i), shape_i.radius, 0}, b = {shape_j, convex_map_of(map_j), shape_j.radius, 0};
+                    const contact_body a = {shape_i, convex_map_of(map_i), shape_i.radius, 0},
+                                       b = {shape_j, convex_map_of(map_j), shape_j.radius, 0};
                     contact_lay_to_rest(past, a, b, convex_of(branch), over.apart, turned);
                 }
             }
             if (touching) {
                 const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
-                const state h = size[j] > 0 ? STATE(2) * size[i] * size[j] / (size[i] + size[j]) : size[i], cube = h * h * h;
+                const state h = size[j] > 0 ? STATE(2) * size[i] * size[j] / (size[i] + size[j]) : size[i],
+                            cube = h * h * h;
                 const state heavy = mass[j] > 0 ? mass[i] * mass[j] / (mass[i] + mass[j]) : mass[i];
                 const state modulus = how.stiffness > 0 ? how.stiffness / h : how.modulus, spring = modulus / cube;
                 const state rate = dt > 0 ? (looked ? (over.volume - past[9]) / dt : STATE(0)) : past[10];
                 const state elastic = spring * over.volume;
-                const state viscous = contact_dashpot(elastic, STATE(2) * SQRT_STATE(heavy * spring) / surface, how.damping, rate);
+                const state viscous =
+                    contact_dashpot(elastic, STATE(2) * SQRT_STATE(heavy * spring) / surface, how.damping, rate);
                 const state pressure = elastic + viscous, sticking = how.tangential * modulus * h;
-                const svec3 n_out = svec3_scale(STATE(-1) / surface, area), point = svec3_of(over.point), arm_j = svec3_sub(point, branch);
+                const svec3 n_out = svec3_scale(STATE(-1) / surface, area), point = svec3_of(over.point),
+                            arm_j = svec3_sub(point, branch);
                 svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
                 if (past[12] > 0) {
-                    if (!broke) slip = svec3_sub(contact_slip(map_i, svec3_load(past, 3), map_j, svec3_load(past, 6), branch), svec3_load(past, 16));
+                    if (!broke)
+                        slip = svec3_sub(contact_slip(map_i, svec3_load(past, 3), map_j, svec3_load(past, 6), branch),
+                                         svec3_load(past, 16));
                     stretch = svec3_load(past, 0);
                 }
-                const contact_stick stick = contact_friction(stretch, slip, n_out, sticking, how.friction * pressure * surface);
+                const contact_stick stick =
+                    contact_friction(stretch, slip, n_out, sticking, how.friction * pressure * surface);
                 const svec3 rub = svec3_scale(-sticking, stick.stretch), back = svec3_scale(STATE(-1), rub);
-                const svec3 own_i = smat3_mul_vec(smat3_inverse(map_i), point), own_j = smat3_mul_vec(smat3_inverse(map_j), arm_j);
+                const svec3 own_i = smat3_mul_vec(smat3_inverse(map_i), point),
+                            own_j = smat3_mul_vec(smat3_inverse(map_j), arm_j);
                 svec3_store(out, 0, svec3_add_scaled(rub, pressure, area));
                 out[3] = STATE(0.5) * (elastic * over.volume + sticking * svec3_dot(stick.stretch, stick.stretch));
                 out[4] = dt > 0 ? stick.lost : STATE(0);
@@ -142,11 +173,13 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
                 out[6] = pressure * surface;
                 out[7] = over.volume / surface;
                 if (!is_wall) {
-                    const contact_body a = {shape_i, convex_map_of(map_i), shape_i.radius, 0}, b = {shape_j, convex_map_of(map_j), shape_j.radius, 0};
+                    const contact_body a = {shape_i, convex_map_of(map_i), shape_i.radius, 0},
+                                       b = {shape_j, convex_map_of(map_j), shape_j.radius, 0};
                     out[7] = contact_depth(a, b, convex_of(branch), out[7], h);
                 }
                 contact_put_moment(out, CONTACT_RESULT, affine, pressure, over.moment_a, map_i, rub, own_i, point);
-                contact_put_moment(out, CONTACT_RESULT + width, affine && j < n, pressure, over.moment_b, map_j, back, own_j, arm_j);
+                contact_put_moment(out, CONTACT_RESULT + width, affine && j < n, pressure, over.moment_b, map_j, back,
+                                   own_j, arm_j);
                 if (keeps) {
                     svec3_store(past, 0, stick.stretch);
                     svec3_store(past, 3, own_i);
@@ -165,12 +198,16 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
     }
 }
 
-/* dlsm: moments of touching pairs, added to the element's place in held_moment; of rigid elements the torque instead. As contact_gather_turning. */
-KERNEL void contact_gather_moments(int n_busy, int book, GLOBAL const int *restrict busy, GLOBAL const int *restrict list, GLOBAL const int *restrict start, GLOBAL const int *restrict used,
-                                   GLOBAL const int *restrict pair, GLOBAL const int *restrict touch, GLOBAL const state *restrict result, GLOBAL const int *restrict boundary,
-                                   GLOBAL const int *restrict rigid, GLOBAL const coeff *restrict gradient, GLOBAL coeff *restrict held_moment,
-                                   GLOBAL state *restrict turn, GLOBAL state *restrict stored, GLOBAL state *restrict lost_friction,
-                                   GLOBAL state *restrict lost_impact)
+/* dlsm: moments of touching pairs, added to the element's place in held_moment; of rigid elements the torque instead.
+ * As contact_gather_turning. */
+KERNEL void contact_gather_moments(int n_busy, int book, GLOBAL const int *restrict busy,
+                                   GLOBAL const int *restrict list, GLOBAL const int *restrict start,
+                                   GLOBAL const int *restrict used, GLOBAL const int *restrict pair,
+                                   GLOBAL const int *restrict touch, GLOBAL const state *restrict result,
+                                   GLOBAL const int *restrict boundary, GLOBAL const int *restrict rigid,
+                                   GLOBAL const coeff *restrict gradient, GLOBAL coeff *restrict held_moment,
+                                   GLOBAL state *restrict turn, GLOBAL state *restrict stored,
+                                   GLOBAL state *restrict lost_friction, GLOBAL state *restrict lost_impact)
 {
     FOR_EACH_ITEM(item, n_busy) {
         const int k = busy[item], e = list[k];
@@ -189,12 +226,14 @@ KERNEL void contact_gather_moments(int n_busy, int book, GLOBAL const int *restr
                 damped += one[5];
             }
         }
-        if (rigid[e] && !any) svec3_store(turn, (brc_size)e * 3, (svec3){0, 0, 0});
+        if (rigid[e] && !any)
+            svec3_store(turn, (brc_size)e * 3, (svec3){0, 0, 0});
         else if (rigid[e]) {
             const smat3 turned = smat3_mul(sum, smat3_transpose(contact_map(1, gradient, turn, e)));
             svec3_store(turn, (brc_size)e * 3, svec3_scale(STATE(-1), smat3_moment(turned)));
         } else if (any) {
-            const mat3 narrow = {(coeff)sum.xx, (coeff)sum.xy, (coeff)sum.xz, (coeff)sum.yx, (coeff)sum.yy, (coeff)sum.yz, (coeff)sum.zx, (coeff)sum.zy, (coeff)sum.zz};
+            const mat3 narrow = {(coeff)sum.xx, (coeff)sum.xy, (coeff)sum.xz, (coeff)sum.yx, (coeff)sum.yy,
+                                 (coeff)sum.yz, (coeff)sum.zx, (coeff)sum.zy, (coeff)sum.zz};
             mat3_add_to_block(held_moment, boundary[e / C], e % C, narrow);
         }
         stored[e] = held;
@@ -206,8 +245,10 @@ KERNEL void contact_gather_moments(int n_busy, int book, GLOBAL const int *restr
 }
 
 /* dlsm: forces of touching pairs. */
-KERNEL void contact_gather_forces(int n_busy, GLOBAL const int *restrict busy, GLOBAL const int *restrict list, GLOBAL const int *restrict start, GLOBAL const int *restrict used,
-                                  GLOBAL const int *restrict pair, GLOBAL const int *restrict touch, GLOBAL const state *restrict result, GLOBAL state *restrict force)
+KERNEL void contact_gather_forces(int n_busy, GLOBAL const int *restrict busy, GLOBAL const int *restrict list,
+                                  GLOBAL const int *restrict start, GLOBAL const int *restrict used,
+                                  GLOBAL const int *restrict pair, GLOBAL const int *restrict touch,
+                                  GLOBAL const state *restrict result, GLOBAL state *restrict force)
 {
     FOR_EACH_ITEM(item, n_busy) {
         const int k = busy[item];
@@ -225,13 +266,17 @@ KERNEL void contact_gather_forces(int n_busy, GLOBAL const int *restrict busy, G
     }
 }
 
-/* Of every block of 256 pairs the force and torque on each striker: part [n_strikers][n_blocks][6]; then their sums: load [n_strikers][6]. */
+/* Of every block of 256 pairs the force and torque on each striker: part [n_strikers][n_blocks][6]; then their sums:
+ * load [n_strikers][6]. */
 #define CONTACT_PAIRS 256
-KERNEL void contact_striker_parts(int n_items, int n_blocks, int n_pairs, int n, int stride, int torque_at, GLOBAL const int *restrict ends,
-                                  GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict touch, GLOBAL const state *restrict result, GLOBAL state *restrict part)
+KERNEL void contact_striker_parts(int n_items, int n_blocks, int n_pairs, int n, int stride, int torque_at,
+                                  GLOBAL const int *restrict ends, GLOBAL const int *restrict piece_striker,
+                                  GLOBAL const int *restrict touch, GLOBAL const state *restrict result,
+                                  GLOBAL state *restrict part)
 {
     FOR_EACH_ITEM(k, n_items) {
-        const int striker = k / n_blocks, begin = k % n_blocks * CONTACT_PAIRS, end = begin + CONTACT_PAIRS < n_pairs ? begin + CONTACT_PAIRS : n_pairs;
+        const int striker = k / n_blocks, begin = k % n_blocks * CONTACT_PAIRS,
+                  end = begin + CONTACT_PAIRS < n_pairs ? begin + CONTACT_PAIRS : n_pairs;
         svec3 push = {0, 0, 0}, turn = {0, 0, 0};
         for (int p = begin; p < end; ++p) {
             const int j = ends[2 * (brc_size)p + 1];
@@ -244,12 +289,14 @@ KERNEL void contact_striker_parts(int n_items, int n_blocks, int n_pairs, int n,
         svec3_store(part, (brc_size)k * 6 + 3, turn);
     }
 }
-KERNEL void contact_striker_load(int n_strikers, int n_blocks, GLOBAL const state *restrict part, GLOBAL state *restrict load)
+KERNEL void contact_striker_load(int n_strikers, int n_blocks, GLOBAL const state *restrict part,
+                                 GLOBAL state *restrict load)
 {
     FOR_EACH_ITEM(k, n_strikers) {
         state sum[6] = {0, 0, 0, 0, 0, 0};
         for (int b = 0; b < n_blocks; ++b)
-            for (int c = 0; c < 6; ++c) sum[c] += part[((brc_size)k * (brc_size)n_blocks + (brc_size)b) * 6 + (brc_size)c];
+            for (int c = 0; c < 6; ++c)
+                sum[c] += part[((brc_size)k * (brc_size)n_blocks + (brc_size)b) * 6 + (brc_size)c];
         for (int c = 0; c < 6; ++c) load[(brc_size)k * 6 + (brc_size)c] = sum[c];
     }
 }

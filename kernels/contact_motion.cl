@@ -1,13 +1,16 @@
 /* Where everything was when the list of pairs was made (contact_search.cl), and how far it has moved since.
  *
- * A common motion of all brings no two together: of elements only what is left of their way counts when the mean displacement since then is taken off and, where
- * the cloud grows, growth about its middle in proportion to the distance: x -> x + a + g (x - middle) with g >= 0. Against strikers, which do not take part, it is the whole way.
+ * A common motion of all brings no two together: of elements only what is left of their way counts when the mean
+ * displacement since then is taken off and, where the cloud grows, growth about its middle in proportion to the
+ * distance: x -> x + a + g (x - middle) with g >= 0. Against strikers, which do not take part, it is the whole way.
  *
  * pose: how elements stand. 0: spheres; 1: by I + H; 2: by their rotation.
- * built [n][4]: place of each element, relative to the middle of the domain, and the radius of the ball about it that held it [m]; posed [n][9]: its map (not of spheres).
- * clear [n]: of each exposed element how far its ball was from the nearest piece of a striker that it is not listed with [m]. */
+ * built [n][4]: place of each element, relative to the middle of the domain, and the radius of the ball about it that
+ * held it [m]; posed [n][9]: its map (not of spheres). clear [n]: of each exposed element how far its ball was from the
+ * nearest piece of a striker that it is not listed with [m]. */
 
-/* Bound of how much a map I + H lengthens anything: the root of the largest row sum of F^T F, 1 for rotations; no less than 1, since the cell may come loose. */
+/* Bound of how much a map I + H lengthens anything: the root of the largest row sum of F^T F, 1 for rotations; no less
+ * than 1, since the cell may come loose. */
 LAW state contact_stretch(GLOBAL const coeff *restrict gradient, int e)
 {
     GLOBAL const coeff *restrict h = gradient + (brc_size)e * 9;
@@ -19,13 +22,16 @@ LAW state contact_stretch(GLOBAL const coeff *restrict gradient, int e)
     return most > STATE(1) ? SQRT_STATE(most) : STATE(1);
 }
 
-/* Present positions, radii and maps of all elements. reach [n]: radius about the element's place in the reference [m]. */
-KERNEL void contact_extent(int n, int pose, GLOBAL const state *restrict place, GLOBAL const state *restrict displacement,
-                           GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict orientation, GLOBAL const state *restrict reach,
+/* Present positions, radii and maps of all elements. reach [n]: radius about the element's place in the reference
+ * [m]. */
+KERNEL void contact_extent(int n, int pose, GLOBAL const state *restrict place,
+                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                           GLOBAL const state *restrict orientation, GLOBAL const state *restrict reach,
                            GLOBAL state *restrict built, GLOBAL state *restrict posed)
 {
     FOR_EACH_ITEM(e, n) {
-        for (int c = 0; c < 3; ++c) built[(brc_size)e * 4 + c] = place[(brc_size)e * 3 + c] + displacement[(brc_size)e * 3 + c];
+        for (int c = 0; c < 3; ++c)
+            built[(brc_size)e * 4 + c] = place[(brc_size)e * 3 + c] + displacement[(brc_size)e * 3 + c];
         built[(brc_size)e * 4 + 3] = pose == 1 ? reach[e] * contact_stretch(gradient, e) : reach[e];
         if (pose != 0) smat3_store(posed, (brc_size)e * 9, contact_map(pose == 1, gradient, orientation, e));
     }
@@ -39,11 +45,12 @@ LAW svec3 contact_way(GLOBAL const state *restrict place, GLOBAL const state *re
 #define CONTACT_BLOCK 256
 #define CONTACT_PART 16
 #define CONTACT_DRIFT 14
-/* Sums over the exposed elements of each block: their number, way, velocity, acceleration and place when the list was made; place . way, place . velocity, place . place.
- * part [n_blocks][CONTACT_PART]. */
+/* Sums over the exposed elements of each block: their number, way, velocity, acceleration and place when the list was
+ * made; place . way, place . velocity, place . place. part [n_blocks][CONTACT_PART]. */
 KERNEL void contact_drift(int n_blocks, int n, GLOBAL const int *restrict exposed, GLOBAL const state *restrict place,
-                          GLOBAL const state *restrict displacement, GLOBAL const state *restrict built, GLOBAL const state *restrict velocity,
-                          GLOBAL const state *restrict force, GLOBAL const state *restrict mass, GLOBAL state *restrict part)
+                          GLOBAL const state *restrict displacement, GLOBAL const state *restrict built,
+                          GLOBAL const state *restrict velocity, GLOBAL const state *restrict force,
+                          GLOBAL const state *restrict mass, GLOBAL state *restrict part)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
@@ -52,7 +59,8 @@ KERNEL void contact_drift(int n_blocks, int n, GLOBAL const int *restrict expose
         state count = 0, grown = 0, growing = 0, square = 0;
         for (int e = begin; e < end; ++e)
             if (exposed[e]) {
-                const svec3 was = svec3_load(built, (brc_size)e * 4), d = contact_way(place, displacement, was, e), v = svec3_load(velocity, (brc_size)e * 3);
+                const svec3 was = svec3_load(built, (brc_size)e * 4), d = contact_way(place, displacement, was, e),
+                            v = svec3_load(velocity, (brc_size)e * 3);
                 count += STATE(1);
                 way = svec3_add(way, d);
                 speed = svec3_add(speed, v);
@@ -72,14 +80,17 @@ KERNEL void contact_drift(int n_blocks, int n, GLOBAL const int *restrict expose
         part[to + 15] = square;
     }
 }
-/* One work-item: mean way, velocity, acceleration, middle; growth g [-] and its rate [1/s], least squares, none below 0. drift [CONTACT_DRIFT]. n_items: 1. */
-KERNEL void contact_drift_mean(int n_items, int n_blocks, GLOBAL const state *restrict part, GLOBAL state *restrict drift)
+/* One work-item: mean way, velocity, acceleration, middle; growth g [-] and its rate [1/s], least squares, none below
+ * 0. drift [CONTACT_DRIFT]. n_items: 1. */
+KERNEL void contact_drift_mean(int n_items, int n_blocks, GLOBAL const state *restrict part,
+                               GLOBAL state *restrict drift)
 {
     FOR_EACH_ITEM(k, n_items) {
         state sum[CONTACT_PART];
         for (int c = 0; c < CONTACT_PART; ++c) sum[c] = 0;
         for (int b = 0; b < n_blocks; ++b)
-            for (int c = 0; c < CONTACT_PART; ++c) sum[c] += part[((brc_size)k + (brc_size)b) * CONTACT_PART + (brc_size)c];
+            for (int c = 0; c < CONTACT_PART; ++c)
+                sum[c] += part[((brc_size)k + (brc_size)b) * CONTACT_PART + (brc_size)c];
         const state share = sum[0] > 0 ? STATE(1) / sum[0] : STATE(0);
         state along = 0, spread = sum[15], rate = 0;
         for (int c = 0; c < 12; ++c) drift[c] = share * sum[1 + c];
@@ -88,43 +99,59 @@ KERNEL void contact_drift_mean(int n_items, int n_blocks, GLOBAL const state *re
             rate += drift[9 + c] * sum[4 + c];
             spread -= drift[9 + c] * sum[10 + c];
         }
-        const state growth = spread > 0 ? (sum[13] - along) / spread : STATE(0), growing = spread > 0 ? (sum[14] - rate) / spread : STATE(0);
+        const state growth = spread > 0 ? (sum[13] - along) / spread : STATE(0),
+                    growing = spread > 0 ? (sum[14] - rate) / spread : STATE(0);
         drift[12] = growth > 0 ? growth : STATE(0);
         drift[13] = growing > 0 ? growing : STATE(0);
     }
 }
 
 #define CONTACT_MOVED 6
-/* Of each block of elements, of the exposed ones, the largest: way of any of its points since the list was made, drift taken off [m]; its speed, and the acceleration squared; way of any of
- * its points less `clear` [m]; speed and acceleration squared. spin: of elements that stand by their rotation. Points of a cell turn and strain with it: the way of its place and reach
- * times the change of its map; their speeds are taken as twice that of the place where the map follows the neighbours (pose 1). moved [n_blocks][CONTACT_MOVED]. */
-KERNEL void contact_moved(int n_blocks, int n, int pose, GLOBAL const int *restrict exposed, GLOBAL const int *restrict rigid, GLOBAL const state *restrict place,
-                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict orientation,
-                          GLOBAL const state *restrict reach, GLOBAL const state *restrict built, GLOBAL const state *restrict posed,
-                          GLOBAL const state *restrict clear, GLOBAL const state *restrict velocity, GLOBAL const state *restrict spin,
-                          GLOBAL const state *restrict force, GLOBAL const state *restrict mass, GLOBAL const state *restrict drift, GLOBAL state *restrict moved)
+/* Of each block of elements, of the exposed ones, the largest: way of any of its points since the list was made, drift
+ * taken off [m]; its speed, and the acceleration squared; way of any of its points less `clear` [m]; speed and
+ * acceleration squared. spin: of elements that stand by their rotation. Points of a cell turn and strain with it: the
+ * way of its place and reach times the change of its map; their speeds are taken as twice that of the place where the
+ * map follows the neighbours (pose 1). moved [n_blocks][CONTACT_MOVED]. */
+KERNEL void contact_moved(int n_blocks, int n, int pose, GLOBAL const int *restrict exposed,
+                          GLOBAL const int *restrict rigid, GLOBAL const state *restrict place,
+                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                          GLOBAL const state *restrict orientation, GLOBAL const state *restrict reach,
+                          GLOBAL const state *restrict built, GLOBAL const state *restrict posed,
+                          GLOBAL const state *restrict clear, GLOBAL const state *restrict velocity,
+                          GLOBAL const state *restrict spin, GLOBAL const state *restrict force,
+                          GLOBAL const state *restrict mass, GLOBAL const state *restrict drift,
+                          GLOBAL state *restrict moved)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
-        const svec3 way = svec3_load(drift, 0), speed = svec3_load(drift, 3), push = svec3_load(drift, 6), middle = svec3_load(drift, 9);
+        const svec3 way = svec3_load(drift, 0), speed = svec3_load(drift, 3), push = svec3_load(drift, 6),
+                    middle = svec3_load(drift, 9);
         state most[CONTACT_MOVED];
         for (int c = 0; c < CONTACT_MOVED; ++c) most[c] = c == 3 ? -STATE(1e30) : STATE(0);
         for (int e = begin; e < end; ++e)
             if (exposed[e]) {
-                const svec3 was = svec3_load(built, (brc_size)e * 4), d = contact_way(place, displacement, was, e), v = svec3_load(velocity, (brc_size)e * 3);
-                const svec3 a = svec3_scale(STATE(1) / mass[e], svec3_load(force, (brc_size)e * 3)), arm = svec3_sub(was, middle);
+                const svec3 was = svec3_load(built, (brc_size)e * 4), d = contact_way(place, displacement, was, e),
+                            v = svec3_load(velocity, (brc_size)e * 3);
+                const svec3 a = svec3_scale(STATE(1) / mass[e], svec3_load(force, (brc_size)e * 3)),
+                            arm = svec3_sub(was, middle);
                 state turned = 0, turning = 0, follows = STATE(1);
                 if (pose != 0 && !rigid[e]) { /* rigid cells are listed by their balls, whose turning moves nothing */
-                    const smat3 off = smat3_add(contact_map(pose == 1, gradient, orientation, e), smat3_scale(STATE(-1), smat3_load(posed, (brc_size)e * 9)));
+                    const smat3 off = smat3_add(contact_map(pose == 1, gradient, orientation, e),
+                                                smat3_scale(STATE(-1), smat3_load(posed, (brc_size)e * 9)));
                     const smat3 square = smat3_mul(smat3_transpose(off), off);
                     turned = reach[e] * SQRT_STATE(square.xx + square.yy + square.zz);
-                    if (pose == 1) follows = STATE(2);
-                    else turning = reach[e] * svec3_length(svec3_load(spin, (brc_size)e * 3));
+                    if (pose == 1)
+                        follows = STATE(2);
+                    else
+                        turning = reach[e] * svec3_length(svec3_load(spin, (brc_size)e * 3));
                 }
-                const svec3 off = svec3_sub(svec3_sub(d, way), svec3_scale(drift[12], arm)), apart = svec3_sub(svec3_sub(v, speed), svec3_scale(drift[13], arm));
+                const svec3 off = svec3_sub(svec3_sub(d, way), svec3_scale(drift[12], arm)),
+                            apart = svec3_sub(svec3_sub(v, speed), svec3_scale(drift[13], arm));
                 const svec3 pushed = svec3_sub(a, push);
-                const state now[CONTACT_MOVED] = {svec3_length(off) + turned, follows * svec3_length(apart) + turning, svec3_dot(pushed, pushed),
-                                                  svec3_length(d) + turned - clear[e], follows * svec3_length(v) + turning, svec3_dot(a, a)};
+                const state now[CONTACT_MOVED] = {
+                    svec3_length(off) + turned,          follows * svec3_length(apart) + turning,
+                    svec3_dot(pushed, pushed),           svec3_length(d) + turned - clear[e],
+                    follows * svec3_length(v) + turning, svec3_dot(a, a)};
                 for (int c = 0; c < CONTACT_MOVED; ++c) most[c] = now[c] > most[c] ? now[c] : most[c];
             }
         for (int c = 0; c < CONTACT_MOVED; ++c) moved[(brc_size)b * CONTACT_MOVED + (brc_size)c] = most[c];
@@ -132,35 +159,42 @@ KERNEL void contact_moved(int n_blocks, int n, int pose, GLOBAL const int *restr
 }
 
 /* Of each block the largest radius of an exposed element, in the first of CONTACT_MOVED columns. */
-KERNEL void contact_largest(int n_blocks, int n, GLOBAL const int *restrict exposed, GLOBAL const state *restrict built, GLOBAL state *restrict moved)
+KERNEL void contact_largest(int n_blocks, int n, GLOBAL const int *restrict exposed, GLOBAL const state *restrict built,
+                            GLOBAL state *restrict moved)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
         state most = 0;
         for (int e = begin; e < end; ++e)
             if (exposed[e] && built[(brc_size)e * 4 + 3] > most) most = built[(brc_size)e * 4 + 3];
-        for (int c = 0; c < CONTACT_MOVED; ++c) moved[(brc_size)b * CONTACT_MOVED + (brc_size)c] = c == 0 ? most : STATE(0);
+        for (int c = 0; c < CONTACT_MOVED; ++c)
+            moved[(brc_size)b * CONTACT_MOVED + (brc_size)c] = c == 0 ? most : STATE(0);
     }
 }
 
-/* Pieces of strikers: a ball about a centre (x y z, reach), or the half-space behind a plane (unit normal, height; piece_kind 2), in their striker's own frame; where they
- * are now, relative to the middle of the domain: piece [n_pieces][4]. */
-LAW svec3 contact_striker_place(GLOBAL const state *restrict striker_pose, brc_size at, state middle_x, state middle_y, state middle_z)
+/* Pieces of strikers: a ball about a centre (x y z, reach), or the half-space behind a plane (unit normal, height;
+ * piece_kind 2), in their striker's own frame; where they are now, relative to the middle of the domain: piece
+ * [n_pieces][4]. */
+LAW svec3 contact_striker_place(GLOBAL const state *restrict striker_pose, brc_size at, state middle_x, state middle_y,
+                                state middle_z)
 {
     return (svec3){striker_pose[at] - middle_x, striker_pose[at + 1] - middle_y, striker_pose[at + 2] - middle_z};
 }
 LAW svec3 contact_striker_turn(GLOBAL const state *restrict striker_pose, brc_size at, svec3 a)
 {
     GLOBAL const state *restrict r = striker_pose + at + 3;
-    return (svec3){r[0] * a.x + r[1] * a.y + r[2] * a.z, r[3] * a.x + r[4] * a.y + r[5] * a.z, r[6] * a.x + r[7] * a.y + r[8] * a.z};
+    return (svec3){r[0] * a.x + r[1] * a.y + r[2] * a.z, r[3] * a.x + r[4] * a.y + r[5] * a.z,
+                   r[6] * a.x + r[7] * a.y + r[8] * a.z};
 }
-KERNEL void contact_pieces(int n_pieces, state middle_x, state middle_y, state middle_z, GLOBAL const int *restrict piece_striker,
-                           GLOBAL const int *restrict piece_kind, GLOBAL const state *restrict piece_own, GLOBAL const state *restrict striker_pose,
+KERNEL void contact_pieces(int n_pieces, state middle_x, state middle_y, state middle_z,
+                           GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind,
+                           GLOBAL const state *restrict piece_own, GLOBAL const state *restrict striker_pose,
                            GLOBAL state *restrict piece)
 {
     FOR_EACH_ITEM(q, n_pieces) {
         const brc_size at = (brc_size)piece_striker[q] * 12, to = (brc_size)q * 4;
-        const svec3 own = {piece_own[to], piece_own[to + 1], piece_own[to + 2]}, far = contact_striker_place(striker_pose, at, middle_x, middle_y, middle_z);
+        const svec3 own = {piece_own[to], piece_own[to + 1], piece_own[to + 2]},
+                    far = contact_striker_place(striker_pose, at, middle_x, middle_y, middle_z);
         const svec3 turned = contact_striker_turn(striker_pose, at, own);
         const int wall = piece_kind[q] == 2;
         const svec3 now = wall ? turned : svec3_add(far, turned);
@@ -170,16 +204,23 @@ KERNEL void contact_pieces(int n_pieces, state middle_x, state middle_y, state m
         piece[to + 3] = wall ? piece_own[to + 3] + svec3_dot(turned, far) : piece_own[to + 3];
     }
 }
-/* How far pieces moved since `piece`, and their speed squared, in columns 0 and 1 of CONTACT_MOVED from row `first` on; span: how far from the middle anything may be that meets a plane [m]. */
-KERNEL void contact_pieces_moved(int n_pieces, int first, state middle_x, state middle_y, state middle_z, state span, GLOBAL const int *restrict piece_striker,
-                                 GLOBAL const int *restrict piece_kind, GLOBAL const state *restrict piece_own, GLOBAL const state *restrict striker_pose,
-                                 GLOBAL const state *restrict motion, GLOBAL const state *restrict piece, GLOBAL state *restrict moved)
+/* How far pieces moved since `piece`, and their speed squared, in columns 0 and 1 of CONTACT_MOVED from row `first` on;
+ * span: how far from the middle anything may be that meets a plane [m]. */
+KERNEL void contact_pieces_moved(int n_pieces, int first, state middle_x, state middle_y, state middle_z, state span,
+                                 GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind,
+                                 GLOBAL const state *restrict piece_own, GLOBAL const state *restrict striker_pose,
+                                 GLOBAL const state *restrict motion, GLOBAL const state *restrict piece,
+                                 GLOBAL state *restrict moved)
 {
     FOR_EACH_ITEM(q, n_pieces) {
-        const brc_size at = (brc_size)piece_striker[q] * 12, to = (brc_size)q * 4, way = (brc_size)(first + q) * CONTACT_MOVED, on = (brc_size)piece_striker[q] * 6;
-        const svec3 own = {piece_own[to], piece_own[to + 1], piece_own[to + 2]}, far = contact_striker_place(striker_pose, at, middle_x, middle_y, middle_z);
-        const svec3 turned = contact_striker_turn(striker_pose, at, own), was = {piece[to], piece[to + 1], piece[to + 2]};
-        const svec3 v = {motion[on], motion[on + 1], motion[on + 2]}, w = {motion[on + 3], motion[on + 4], motion[on + 5]};
+        const brc_size at = (brc_size)piece_striker[q] * 12, to = (brc_size)q * 4,
+                       way = (brc_size)(first + q) * CONTACT_MOVED, on = (brc_size)piece_striker[q] * 6;
+        const svec3 own = {piece_own[to], piece_own[to + 1], piece_own[to + 2]},
+                    far = contact_striker_place(striker_pose, at, middle_x, middle_y, middle_z);
+        const svec3 turned = contact_striker_turn(striker_pose, at, own),
+                    was = {piece[to], piece[to + 1], piece[to + 2]};
+        const svec3 v = {motion[on], motion[on + 1], motion[on + 2]},
+                    w = {motion[on + 3], motion[on + 4], motion[on + 5]};
         const int wall = piece_kind[q] == 2;
         const state lever = wall ? span : svec3_length(own) + piece_own[to + 3];
         const state rise = wall ? piece_own[to + 3] + svec3_dot(turned, far) - piece[to + 3] : STATE(0);

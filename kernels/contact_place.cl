@@ -25,7 +25,8 @@ LAW squat squat_load(GLOBAL const state *restrict p, int e)
 LAW svec3 contact_branch(GLOBAL const state *restrict place, GLOBAL const state *restrict displacement, int i, int j)
 {
     const svec3 far = svec3_sub(svec3_load(place, (brc_size)j * 3), svec3_load(place, (brc_size)i * 3));
-    return svec3_add(far, svec3_sub(svec3_load(displacement, (brc_size)j * 3), svec3_load(displacement, (brc_size)i * 3)));
+    return svec3_add(far,
+                     svec3_sub(svec3_load(displacement, (brc_size)j * 3), svec3_load(displacement, (brc_size)i * 3)));
 }
 
 LAW svec3 svec3_of(convex_vec a) { return (svec3){a.x, a.y, a.z}; }
@@ -34,9 +35,12 @@ LAW smat3 smat3_of(convex_map a) { return (smat3){a.xx, a.xy, a.xz, a.yx, a.yy, 
 LAW convex_map convex_map_of(smat3 a) { return (convex_map){a.xx, a.xy, a.xz, a.yx, a.yy, a.yz, a.zx, a.zy, a.zz}; }
 
 /* Map of an element from its reference: I + H, or its rotation. */
-LAW smat3 contact_map(int affine, GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict orientation, int e)
+LAW smat3 contact_map(int affine, GLOBAL const coeff *restrict gradient, GLOBAL const state *restrict orientation,
+                      int e)
 {
     if (!affine) return squat_matrix(squat_load(orientation, e));
     GLOBAL const coeff *restrict h = gradient + (brc_size)e * 9;
-    return (smat3){STATE(1) + (state)h[0], (state)h[1], (state)h[2], (state)h[3], STATE(1) + (state)h[4], (state)h[5], (state)h[6], (state)h[7], STATE(1) + (state)h[8]};
+    return (smat3){STATE(1) + (state)h[0], (state)h[1], (state)h[2], (state)h[3],
+                   STATE(1) + (state)h[4], (state)h[5], (state)h[6], (state)h[7],
+                   STATE(1) + (state)h[8]};
 }

@@ -1,13 +1,17 @@
-/* Which elements may touch: those that are exposed, whose balls, grown by a skin, meet, and between which no plane stands (contact_sift.h). Rebuilt when something has moved by half the
- * skin (contact_motion.cl); in between the list holds every pair that can touch. Positions are relative to the middle of the domain. Of the lists:
- * list [m]: rows of the exposed elements, ascending; slot_of [n + 1]: place of a row in it (of an exposed row; else that of the next one);
- * start [m + 1], used [m]: entries of each; entry: the other row, by ascending id, and n + piece of a striker; pair: number of the pair, seen from its lower id; below 0: -1 - pair, seen
- * from the higher one; busy: those slots of list that have entries at all. */
+/* Which elements may touch: those that are exposed, whose balls, grown by a skin, meet, and between which no plane
+ * stands (contact_sift.h). Rebuilt when something has moved by half the skin (contact_motion.cl); in between the list
+ * holds every pair that can touch. Positions are relative to the middle of the domain. Of the lists: list [m]: rows of
+ * the exposed elements, ascending; slot_of [n + 1]: place of a row in it (of an exposed row; else that of the next
+ * one); start [m + 1], used [m]: entries of each; entry: the other row, by ascending id, and n + piece of a striker;
+ * pair: number of the pair, seen from its lower id; below 0: -1 - pair, seen from the higher one; busy: those slots of
+ * list that have entries at all. */
 
 #define CONTACT_HISTORY 20
 
-/* Elements that lost a bond are exposed from then on. fresh [n]: 1 for those that lost one since this was asked last; seen [n]: what they had lost then. */
-KERNEL void contact_expose(int n, GLOBAL const state *restrict broken, GLOBAL int *restrict seen, GLOBAL int *restrict exposed, GLOBAL int *restrict fresh)
+/* Elements that lost a bond are exposed from then on. fresh [n]: 1 for those that lost one since this was asked last;
+ * seen [n]: what they had lost then. */
+KERNEL void contact_expose(int n, GLOBAL const state *restrict broken, GLOBAL int *restrict seen,
+                           GLOBAL int *restrict exposed, GLOBAL int *restrict fresh)
 {
     FOR_EACH_ITEM(e, n) {
         const int lost = (int)broken[e];
@@ -23,7 +27,8 @@ KERNEL void contact_marked(int n_groups, int step, GLOBAL const int *restrict ma
     FOR_EACH_ITEM(group, n_groups) { found[group] = mark[group] == step ? STATE(1) : STATE(0); }
 }
 
-KERNEL void contact_list(int n, GLOBAL const int *restrict exposed, GLOBAL const int *restrict slot_of, GLOBAL int *restrict list)
+KERNEL void contact_list(int n, GLOBAL const int *restrict exposed, GLOBAL const int *restrict slot_of,
+                         GLOBAL int *restrict list)
 {
     FOR_EACH_ITEM(e, n) {
         if (exposed[e]) list[slot_of[e]] = e;
@@ -32,7 +37,9 @@ KERNEL void contact_list(int n, GLOBAL const int *restrict exposed, GLOBAL const
 
 /* ---- the grid ---- */
 
-typedef struct { int x, y, z; } contact_cell;
+typedef struct {
+    int x, y, z;
+} contact_cell;
 
 LAW int contact_coordinate(state x, state per_edge)
 {
@@ -42,18 +49,20 @@ LAW int contact_coordinate(state x, state per_edge)
 }
 LAW contact_cell contact_cell_of(GLOBAL const state *restrict built, int e, state per_edge)
 {
-    const contact_cell cell = {contact_coordinate(built[(brc_size)e * 4], per_edge), contact_coordinate(built[(brc_size)e * 4 + 1], per_edge),
+    const contact_cell cell = {contact_coordinate(built[(brc_size)e * 4], per_edge),
+                               contact_coordinate(built[(brc_size)e * 4 + 1], per_edge),
                                contact_coordinate(built[(brc_size)e * 4 + 2], per_edge)};
     return cell;
 }
 LAW int contact_key(contact_cell cell, int mask)
 {
-    const unsigned int mixed = (unsigned int)cell.x * 73856093u ^ (unsigned int)cell.y * 19349663u ^ (unsigned int)cell.z * 83492791u;
+    const unsigned int mixed =
+        (unsigned int)cell.x * 73856093u ^ (unsigned int)cell.y * 19349663u ^ (unsigned int)cell.z * 83492791u;
     return (int)((mixed ^ mixed >> 15) & (unsigned int)mask);
 }
 
-KERNEL void contact_keys(int m, state per_edge, int mask, GLOBAL const int *restrict list, GLOBAL const state *restrict built, GLOBAL int *restrict key,
-                         GLOBAL int *restrict row)
+KERNEL void contact_keys(int m, state per_edge, int mask, GLOBAL const int *restrict list,
+                         GLOBAL const state *restrict built, GLOBAL int *restrict key, GLOBAL int *restrict row)
 {
     FOR_EACH_ITEM(k, m) {
         key[k] = contact_key(contact_cell_of(built, list[k], per_edge), mask);
@@ -62,7 +71,8 @@ KERNEL void contact_keys(int m, state per_edge, int mask, GLOBAL const int *rest
 }
 
 /* Where each key begins and ends among the sorted ones; keys that none has keep first = last = 0. */
-KERNEL void contact_buckets(int m, GLOBAL const int *restrict key, GLOBAL int *restrict first, GLOBAL int *restrict last)
+KERNEL void contact_buckets(int m, GLOBAL const int *restrict key, GLOBAL int *restrict first,
+                            GLOBAL int *restrict last)
 {
     FOR_EACH_ITEM(k, m) {
         const int own = key[k];
@@ -81,7 +91,8 @@ LAW int contact_near(GLOBAL const state *restrict built, int i, int j, state ski
 }
 
 /* Distance of the ball about an element from that of a piece, or from its half-space [m]. */
-LAW state contact_piece_gap(GLOBAL const state *restrict built, int e, GLOBAL const state *restrict piece, GLOBAL const int *restrict piece_kind, int q)
+LAW state contact_piece_gap(GLOBAL const state *restrict built, int e, GLOBAL const state *restrict piece,
+                            GLOBAL const int *restrict piece_kind, int q)
 {
     GLOBAL const state *restrict a = built + (brc_size)e * 4;
     GLOBAL const state *restrict b = piece + (brc_size)q * 4;
@@ -92,15 +103,18 @@ LAW state contact_piece_gap(GLOBAL const state *restrict built, int e, GLOBAL co
 
 /* ---- what a break changes of the list ----
  *
- * Who is an entry of whom depends on places and maps when the last search was made, on bonds, and on who is exposed and rigid. Of these a break changes only what belongs to the
- * elements that lost a bond (contact_allowed asks for bonds of either side, and a third one that parts from one of them is a bond less of that one). So all entries of these are looked for
- * anew, and all of those that are near one; the others keep theirs. The list is that of a search of all from the same places, and holds as long: new elements are listed where
- * they were at the last search, as old ones are, and their motion counts from there, the common motion taken off (contact_motion.cl). */
+ * Who is an entry of whom depends on places and maps when the last search was made, on bonds, and on who is exposed and
+ * rigid. Of these a break changes only what belongs to the elements that lost a bond (contact_allowed asks for bonds of
+ * either side, and a third one that parts from one of them is a bond less of that one). So all entries of these are
+ * looked for anew, and all of those that are near one; the others keep theirs. The list is that of a search of all from
+ * the same places, and holds as long: new elements are listed where they were at the last search, as old ones are, and
+ * their motion counts from there, the common motion taken off (contact_motion.cl). */
 
 /* The slots that are looked for: again [m], 0 before. whole: all of them. */
-KERNEL void contact_again(int m, int whole, state skin, state per_edge, int mask, GLOBAL const int *restrict list, GLOBAL const int *restrict slot_of,
-                          GLOBAL const int *restrict fresh, GLOBAL const state *restrict built, GLOBAL const int *restrict first, GLOBAL const int *restrict last,
-                          GLOBAL const int *restrict row, GLOBAL int *restrict again)
+KERNEL void contact_again(int m, int whole, state skin, state per_edge, int mask, GLOBAL const int *restrict list,
+                          GLOBAL const int *restrict slot_of, GLOBAL const int *restrict fresh,
+                          GLOBAL const state *restrict built, GLOBAL const int *restrict first,
+                          GLOBAL const int *restrict last, GLOBAL const int *restrict row, GLOBAL int *restrict again)
 {
     FOR_EACH_ITEM(k, m) {
         const int e = list[k];
@@ -118,17 +132,21 @@ KERNEL void contact_again(int m, int whole, state skin, state per_edge, int mask
 }
 
 /* Room for the entries that slots keep. */
-KERNEL void contact_kept(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict again, GLOBAL const int *restrict old_slot_of,
-                         GLOBAL const int *restrict old_used, GLOBAL int *restrict count)
+KERNEL void contact_kept(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict again,
+                         GLOBAL const int *restrict old_slot_of, GLOBAL const int *restrict old_used,
+                         GLOBAL int *restrict count)
 {
     FOR_EACH_ITEM(k, m) {
         if (!again[k]) count[k] = old_used[old_slot_of[list[k]]];
     }
 }
 /* The same entries; owned, any as contact_fill. */
-KERNEL void contact_keep(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict again, GLOBAL const int *restrict id, GLOBAL const int *restrict old_slot_of,
-                         GLOBAL const int *restrict old_start, GLOBAL const int *restrict old_used, GLOBAL const int *restrict old_entry,
-                         GLOBAL const int *restrict start, GLOBAL int *restrict entry, GLOBAL int *restrict used, GLOBAL int *restrict owned, GLOBAL int *restrict any)
+KERNEL void contact_keep(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict again,
+                         GLOBAL const int *restrict id, GLOBAL const int *restrict old_slot_of,
+                         GLOBAL const int *restrict old_start, GLOBAL const int *restrict old_used,
+                         GLOBAL const int *restrict old_entry, GLOBAL const int *restrict start,
+                         GLOBAL int *restrict entry, GLOBAL int *restrict used, GLOBAL int *restrict owned,
+                         GLOBAL int *restrict any)
 {
     FOR_EACH_ITEM(k, m) {
         if (!again[k]) {
@@ -146,8 +164,10 @@ KERNEL void contact_keep(int m, GLOBAL const int *restrict list, GLOBAL const in
     }
 }
 
-/* Pairs that a break may have changed: one of the two lost a bond, or is `touched` by what broke (rings.cl). flag [n_pairs]. */
-KERNEL void contact_changed(int n_pairs, int n, GLOBAL const int *restrict ends, GLOBAL const int *restrict fresh, GLOBAL const int *restrict touched, GLOBAL int *restrict flag)
+/* Pairs that a break may have changed: one of the two lost a bond, or is `touched` by what broke (rings.cl). flag
+ * [n_pairs]. */
+KERNEL void contact_changed(int n_pairs, int n, GLOBAL const int *restrict ends, GLOBAL const int *restrict fresh,
+                            GLOBAL const int *restrict touched, GLOBAL int *restrict flag)
 {
     FOR_EACH_ITEM(p, n_pairs) {
         const int i = ends[2 * (brc_size)p], j = ends[2 * (brc_size)p + 1];
@@ -155,7 +175,8 @@ KERNEL void contact_changed(int n_pairs, int n, GLOBAL const int *restrict ends,
     }
 }
 /* The elements of these pairs are given the level `to` where they have none (rings.cl). */
-KERNEL void contact_spread(int n_items, int n, int to, GLOBAL const int *restrict todo, GLOBAL const int *restrict ends, GLOBAL int *level)
+KERNEL void contact_spread(int n_items, int n, int to, GLOBAL const int *restrict todo, GLOBAL const int *restrict ends,
+                           GLOBAL int *level)
 {
     FOR_EACH_ITEM(k, n_items) {
         const int i = ends[2 * (brc_size)todo[k]], j = ends[2 * (brc_size)todo[k] + 1];
@@ -165,9 +186,11 @@ KERNEL void contact_spread(int n_items, int n, int to, GLOBAL const int *restric
 }
 
 /* How many others are near the elements in the slots redo [n_redo], bonds not asked. */
-KERNEL void contact_count(int n_redo, state skin, state per_edge, int mask, int n_pieces, GLOBAL const state *restrict piece,
-                          GLOBAL const int *restrict piece_kind, GLOBAL const int *restrict redo, GLOBAL const int *restrict list, GLOBAL const state *restrict built,
-                          GLOBAL const int *restrict first, GLOBAL const int *restrict last, GLOBAL const int *restrict row, GLOBAL int *restrict count)
+KERNEL void contact_count(int n_redo, state skin, state per_edge, int mask, int n_pieces,
+                          GLOBAL const state *restrict piece, GLOBAL const int *restrict piece_kind,
+                          GLOBAL const int *restrict redo, GLOBAL const int *restrict list,
+                          GLOBAL const state *restrict built, GLOBAL const int *restrict first,
+                          GLOBAL const int *restrict last, GLOBAL const int *restrict row, GLOBAL int *restrict count)
 {
     FOR_EACH_ITEM(item, n_redo) {
         const int k = redo[item], e = list[k];
@@ -179,7 +202,8 @@ KERNEL void contact_count(int n_redo, state skin, state per_edge, int mask, int 
             for (int at = first[key]; at < last[key]; ++at) {
                 const int j = row[at];
                 const contact_cell own = contact_cell_of(built, j, per_edge);
-                near += j != e && own.x == cell.x && own.y == cell.y && own.z == cell.z && contact_near(built, e, j, skin);
+                near +=
+                    j != e && own.x == cell.x && own.y == cell.y && own.z == cell.z && contact_near(built, e, j, skin);
             }
         }
         for (int q = 0; q < n_pieces; ++q) near += contact_piece_gap(built, e, piece, piece_kind, q) < skin;
@@ -187,8 +211,9 @@ KERNEL void contact_count(int n_redo, state skin, state per_edge, int mask, int 
     }
 }
 
-/* May two elements touch that are near each other? Not while a bond joins them, nor, if they never had one, while both are bonded to a third: those are in
- * touch at an edge or a corner in the reference, and what holds them is the third. Once bonded and broken they may. */
+/* May two elements touch that are near each other? Not while a bond joins them, nor, if they never had one, while both
+ * are bonded to a third: those are in touch at an edge or a corner in the reference, and what holds them is the third.
+ * Once bonded and broken they may. */
 LAW int contact_allowed(int i, int j, int within, GLOBAL const int *restrict body, GLOBAL const int *restrict row_start,
                         GLOBAL const int *restrict neighbour, GLOBAL const int *restrict original)
 {
@@ -201,32 +226,38 @@ LAW int contact_allowed(int i, int j, int within, GLOBAL const int *restrict bod
         bonded |= k == j;
         was |= original[at] == j;
         if (k == i || third) continue;
-        for (int other = row_start[k / C]; other < row_start[k / C + 1]; ++other) third |= neighbour[(brc_size)other * C + k % C] == j;
+        for (int other = row_start[k / C]; other < row_start[k / C + 1]; ++other)
+            third |= neighbour[(brc_size)other * C + k % C] == j;
     }
     return !bonded && (was || !third);
 }
 
 /* Polyhedra and maps of elements, and which are rigid. */
-LAW contact_body contact_body_of(GLOBAL const state *restrict corner, GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start,
-                                 GLOBAL const int *restrict loop, GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start,
-                                 GLOBAL const int *restrict face_start, GLOBAL const int *restrict id, GLOBAL const int *restrict rigid,
-                                 GLOBAL const state *restrict built, GLOBAL const state *restrict posed, int e)
+LAW contact_body contact_body_of(GLOBAL const state *restrict corner, GLOBAL const state *restrict plane,
+                                 GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
+                                 GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start,
+                                 GLOBAL const int *restrict face_start, GLOBAL const int *restrict id,
+                                 GLOBAL const int *restrict rigid, GLOBAL const state *restrict built,
+                                 GLOBAL const state *restrict posed, int e)
 {
-    return (contact_body){convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[e]), convex_map_of(smat3_load(posed, (brc_size)e * 9)),
-                          built[(brc_size)e * 4 + 3], rigid[e]};
+    return (contact_body){convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[e]),
+                          convex_map_of(smat3_load(posed, (brc_size)e * 9)), built[(brc_size)e * 4 + 3], rigid[e]};
 }
 
-/* The entries of the elements in the slots redo, sorted by id; owned [m]: pairs in which its id is the lower one; any [m]: whether there are entries. Both sides of a pair ask
- * contact_parted alike, from the lower id. clear [n]: contact_motion.cl. */
-KERNEL void contact_fill(int n_redo, int rows, int pose, state skin, state per_edge, int mask, int within, int n_pieces, GLOBAL const state *restrict piece,
-                         GLOBAL const int *restrict piece_kind, GLOBAL const int *restrict redo, GLOBAL const int *restrict list, GLOBAL const state *restrict built,
-                         GLOBAL const state *restrict posed, GLOBAL const int *restrict rigid, GLOBAL const state *restrict corner,
-                         GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
-                         GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
-                         GLOBAL const int *restrict first, GLOBAL const int *restrict last, GLOBAL const int *restrict row,
-                         GLOBAL const int *restrict id, GLOBAL const int *restrict body, GLOBAL const int *restrict row_start,
-                         GLOBAL const int *restrict neighbour, GLOBAL const int *restrict original, GLOBAL const int *restrict start,
-                         GLOBAL int *restrict entry, GLOBAL int *restrict used, GLOBAL int *restrict owned, GLOBAL int *restrict any, GLOBAL state *restrict clear)
+/* The entries of the elements in the slots redo, sorted by id; owned [m]: pairs in which its id is the lower one; any
+ * [m]: whether there are entries. Both sides of a pair ask contact_parted alike, from the lower id. clear [n]:
+ * contact_motion.cl. */
+KERNEL void contact_fill(
+    int n_redo, int rows, int pose, state skin, state per_edge, int mask, int within, int n_pieces,
+    GLOBAL const state *restrict piece, GLOBAL const int *restrict piece_kind, GLOBAL const int *restrict redo,
+    GLOBAL const int *restrict list, GLOBAL const state *restrict built, GLOBAL const state *restrict posed,
+    GLOBAL const int *restrict rigid, GLOBAL const state *restrict corner, GLOBAL const state *restrict plane,
+    GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop, GLOBAL const state *restrict radius,
+    GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start, GLOBAL const int *restrict first,
+    GLOBAL const int *restrict last, GLOBAL const int *restrict row, GLOBAL const int *restrict id,
+    GLOBAL const int *restrict body, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+    GLOBAL const int *restrict original, GLOBAL const int *restrict start, GLOBAL int *restrict entry,
+    GLOBAL int *restrict used, GLOBAL int *restrict owned, GLOBAL int *restrict any, GLOBAL state *restrict clear)
 {
     FOR_EACH_ITEM(item, n_redo) {
         const int k = redo[item], e = list[k], begin = start[k];
@@ -239,13 +270,17 @@ KERNEL void contact_fill(int n_redo, int rows, int pose, state skin, state per_e
             for (int at = first[key]; at < last[key]; ++at) {
                 const int j = row[at];
                 const contact_cell own = contact_cell_of(built, j, per_edge);
-                if (j == e || own.x != cell.x || own.y != cell.y || own.z != cell.z || !contact_near(built, e, j, skin)) continue;
+                if (j == e || own.x != cell.x || own.y != cell.y || own.z != cell.z || !contact_near(built, e, j, skin))
+                    continue;
                 if (!contact_allowed(e, j, within, body, row_start, neighbour, original)) continue;
                 if (pose != 0) {
                     const int low = id[e] < id[j] ? e : j, high = id[e] < id[j] ? j : e;
-                    const contact_body a = contact_body_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id, rigid, built, posed, low);
-                    const contact_body b = contact_body_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id, rigid, built, posed, high);
-                    const svec3 branch = svec3_sub(svec3_load(built, (brc_size)high * 4), svec3_load(built, (brc_size)low * 4));
+                    const contact_body a = contact_body_of(corner, plane, loop_start, loop, radius, corner_start,
+                                                           face_start, id, rigid, built, posed, low);
+                    const contact_body b = contact_body_of(corner, plane, loop_start, loop, radius, corner_start,
+                                                           face_start, id, rigid, built, posed, high);
+                    const svec3 branch =
+                        svec3_sub(svec3_load(built, (brc_size)high * 4), svec3_load(built, (brc_size)low * 4));
                     const convex_vec toward = convex_of(branch);
                     if (contact_parted(a, b, toward, skin)) continue;
                 }
@@ -265,7 +300,8 @@ KERNEL void contact_fill(int n_redo, int rows, int pose, state skin, state per_e
                 entry[begin + n] = rows + q; /* ids of pieces follow those of elements */
                 n += 1;
                 own_pairs += 1;
-            } else if (gap < free_way) free_way = gap;
+            } else if (gap < free_way)
+                free_way = gap;
         }
         used[k] = n;
         owned[k] = own_pairs;
@@ -275,7 +311,8 @@ KERNEL void contact_fill(int n_redo, int rows, int pose, state skin, state per_e
 }
 
 /* Slots with entries; at [m + 1]: running sums of any. */
-KERNEL void contact_busy(int m, GLOBAL const int *restrict any, GLOBAL const int *restrict at, GLOBAL int *restrict busy)
+KERNEL void contact_busy(int m, GLOBAL const int *restrict any, GLOBAL const int *restrict at,
+                         GLOBAL int *restrict busy)
 {
     FOR_EACH_ITEM(k, m) {
         if (any[k]) busy[at[k]] = k;
@@ -285,8 +322,9 @@ KERNEL void contact_busy(int m, GLOBAL const int *restrict any, GLOBAL const int
 /* ---- pairs ---- */
 
 /* Number of the pair of row i, the lower id, and row j; -1: not in the list. */
-LAW int contact_pair_of(int i, int j, GLOBAL const int *restrict slot_of, GLOBAL const int *restrict start, GLOBAL const int *restrict used,
-                        GLOBAL const int *restrict entry, GLOBAL const int *restrict pair)
+LAW int contact_pair_of(int i, int j, GLOBAL const int *restrict slot_of, GLOBAL const int *restrict start,
+                        GLOBAL const int *restrict used, GLOBAL const int *restrict entry,
+                        GLOBAL const int *restrict pair)
 {
     const int k = slot_of[i];
     if (slot_of[i + 1] == k) return -1; /* not exposed */
@@ -296,8 +334,9 @@ LAW int contact_pair_of(int i, int j, GLOBAL const int *restrict slot_of, GLOBAL
 }
 
 /* Pairs seen from their lower id: numbers in the order of rows and then of ids. pair_start [m + 1]. */
-KERNEL void contact_own_pairs(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict start, GLOBAL const int *restrict used,
-                              GLOBAL const int *restrict entry, GLOBAL const int *restrict id, GLOBAL const int *restrict pair_start,
+KERNEL void contact_own_pairs(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict start,
+                              GLOBAL const int *restrict used, GLOBAL const int *restrict entry,
+                              GLOBAL const int *restrict id, GLOBAL const int *restrict pair_start,
                               GLOBAL int *restrict pair, GLOBAL int *restrict ends)
 {
     FOR_EACH_ITEM(k, m) {
@@ -314,8 +353,9 @@ KERNEL void contact_own_pairs(int m, GLOBAL const int *restrict list, GLOBAL con
         }
     }
 }
-KERNEL void contact_other_pairs(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict slot_of, GLOBAL const int *restrict start,
-                                GLOBAL const int *restrict used, GLOBAL const int *restrict entry, GLOBAL const int *restrict id,
+KERNEL void contact_other_pairs(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict slot_of,
+                                GLOBAL const int *restrict start, GLOBAL const int *restrict used,
+                                GLOBAL const int *restrict entry, GLOBAL const int *restrict id,
                                 GLOBAL int *restrict pair)
 {
     FOR_EACH_ITEM(k, m) {
@@ -332,24 +372,33 @@ KERNEL void contact_other_pairs(int m, GLOBAL const int *restrict list, GLOBAL c
 }
 
 /* The results of pairs that touch, one after the other: at [n_pairs + 1] running sums of touch. */
-KERNEL void contact_pack(int n_pairs, int stride, GLOBAL const int *restrict touch, GLOBAL const int *restrict at, GLOBAL const state *restrict result, GLOBAL state *restrict packed)
+KERNEL void contact_pack(int n_pairs, int stride, GLOBAL const int *restrict touch, GLOBAL const int *restrict at,
+                         GLOBAL const state *restrict result, GLOBAL state *restrict packed)
 {
     FOR_EACH_ITEM(p, n_pairs) {
-        for (int c = 0; touch[p] && c < stride; ++c) packed[(brc_size)at[p] * (brc_size)stride + (brc_size)c] = result[(brc_size)p * (brc_size)stride + (brc_size)c];
+        for (int c = 0; touch[p] && c < stride; ++c)
+            packed[(brc_size)at[p] * (brc_size)stride + (brc_size)c] =
+                result[(brc_size)p * (brc_size)stride + (brc_size)c];
     }
 }
 
-/* What pairs remember goes over from the lists before, and with a stride above 0 the result of the last evaluation too (contact.cl), as contact_pack left it; new pairs have
- * touched nothing. history [n_pairs][CONTACT_HISTORY], result [n_pairs][stride]. */
-KERNEL void contact_carry(int n_pairs, int had, int stride, GLOBAL const int *restrict ends, GLOBAL const int *restrict old_slot_of,
-                          GLOBAL const int *restrict old_start, GLOBAL const int *restrict old_used, GLOBAL const int *restrict old_entry,
-                          GLOBAL const int *restrict old_pair, GLOBAL const state *restrict old_history, GLOBAL const int *restrict packed_at,
-                          GLOBAL const state *restrict packed, GLOBAL state *restrict history, GLOBAL int *restrict touch, GLOBAL state *restrict result)
+/* What pairs remember goes over from the lists before, and with a stride above 0 the result of the last evaluation too
+ * (contact.cl), as contact_pack left it; new pairs have touched nothing. history [n_pairs][CONTACT_HISTORY], result
+ * [n_pairs][stride]. */
+KERNEL void contact_carry(int n_pairs, int had, int stride, GLOBAL const int *restrict ends,
+                          GLOBAL const int *restrict old_slot_of, GLOBAL const int *restrict old_start,
+                          GLOBAL const int *restrict old_used, GLOBAL const int *restrict old_entry,
+                          GLOBAL const int *restrict old_pair, GLOBAL const state *restrict old_history,
+                          GLOBAL const int *restrict packed_at, GLOBAL const state *restrict packed,
+                          GLOBAL state *restrict history, GLOBAL int *restrict touch, GLOBAL state *restrict result)
 {
     FOR_EACH_ITEM(p, n_pairs) {
-        const int before = had ? contact_pair_of(ends[2 * (brc_size)p], ends[2 * (brc_size)p + 1], old_slot_of, old_start, old_used, old_entry, old_pair) : -1;
+        const int before = had ? contact_pair_of(ends[2 * (brc_size)p], ends[2 * (brc_size)p + 1], old_slot_of,
+                                                 old_start, old_used, old_entry, old_pair)
+                               : -1;
         for (int c = 0; c < CONTACT_HISTORY; ++c)
-            history[(brc_size)p * CONTACT_HISTORY + c] = before >= 0 ? old_history[(brc_size)before * CONTACT_HISTORY + c] : STATE(0);
+            history[(brc_size)p * CONTACT_HISTORY + c] =
+                before >= 0 ? old_history[(brc_size)before * CONTACT_HISTORY + c] : STATE(0);
         touch[p] = stride > 0 && before >= 0 && packed_at[before + 1] > packed_at[before];
         if (touch[p]) {
             GLOBAL const state *restrict from = packed + (brc_size)packed_at[before] * (brc_size)stride;

@@ -1,9 +1,11 @@
 /* Near polyhedra that a plane keeps apart are not listed as a pair.
  *
- * When the list is made all corners of either are on its side of some plane, a skin apart or more. Until it is made again no point of an element moves by half the skin but for the
- * common motion x -> x + a + g (x - middle), g >= 0 (contact_motion.cl; turning and straining of a cell included). The common motion moves the two by g (place_j - place_i) relative to each other: that
- * parts them, since each place lies on its own side. So the plane, moved with them, keeps at least its rounding between the two, and they cannot share volume. A cell that has come loose
- * turns freely; it stands for the ball about it, which its turning does not move. */
+ * When the list is made all corners of either are on its side of some plane, a skin apart or more. Until it is made
+ * again no point of an element moves by half the skin but for the common motion x -> x + a + g (x - middle), g >= 0
+ * (contact_motion.cl; turning and straining of a cell included). The common motion moves the two by g (place_j -
+ * place_i) relative to each other: that parts them, since each place lies on its own side. So the plane, moved with
+ * them, keeps at least its rounding between the two, and they cannot share volume. A cell that has come loose turns
+ * freely; it stands for the ball about it, which its turning does not move. */
 #ifndef BRC_KERNELS_CONTACT_SIFT_H
 #define BRC_KERNELS_CONTACT_SIFT_H
 
@@ -61,14 +63,16 @@ ROUTINE state contact_face_way_out(contact_body b, contact_body other, convex_ve
     for (int f = 0; f < b.shape.n_faces; ++f) {
         const convex_plane own = convex_own_plane(b.shape, f);
         const convex_vec n = convex_turn(turn, own.normal);
-        const state k = STATE(1) / convex_length(n), way = contact_support(other, convex_scale(-k, n)) - k * (convex_dot(n, branch) - own.height);
+        const state k = STATE(1) / convex_length(n),
+                    way = contact_support(other, convex_scale(-k, n)) - k * (convex_dot(n, branch) - own.height);
         least = way < least ? way : least;
     }
     return least;
 }
 
-/* Depth of two that overlap: the volume they share over its area is that of a face pressed in. It grows without bound where a thin one goes through a cell, or stands inside it, for the areas of
- * its two sides cancel; so where it is not small beside a cell of size h, it is no more than the way out of a face of either. */
+/* Depth of two that overlap: the volume they share over its area is that of a face pressed in. It grows without bound
+ * where a thin one goes through a cell, or stands inside it, for the areas of its two sides cancel; so where it is not
+ * small beside a cell of size h, it is no more than the way out of a face of either. */
 ROUTINE state contact_depth(contact_body a, contact_body b, convex_vec branch, state mean, state h)
 {
     if (!(mean > STATE(0.1) * h)) return mean;

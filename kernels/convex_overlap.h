@@ -1,55 +1,70 @@
-/* The overlap of two convex polyhedra: volume, area vector and first moments, which are its exact gradient; no cases for vertex, edge or face.
+/* The overlap of two convex polyhedra: volume, area vector and first moments, which are its exact gradient; no cases
+ * for vertex, edge or face.
  *
- * A polyhedron is given by corners and faces relative to its origin, in its own frame, and stands in the world by x = origin + map X; planes
- * stay planes and convex stays convex under any map with det > 0: I + H of a bonded cell, the rotation of a rigid piece.
- * The surface of A n B is made of the faces of A clipped by the planes of B and the faces of B clipped by those of A (Sutherland and Hodgman,
- * one polygon at a time). By the divergence theorem, with n outward of the face's own polyhedron, heights from any point c,
- *     V = 1/3 sum height area,     dV/d origin_B = area = integral of n dS over the surface of B inside A = -dV/d origin_A,
- *     dV/d map_A = moment_A map_A^-T,     moment_A = integral of n (x) (x - origin_A) dS over the surface of A inside B, likewise B.
+ * A polyhedron is given by corners and faces relative to its origin, in its own frame, and stands in the world by x =
+ * origin + map X; planes stay planes and convex stays convex under any map with det > 0: I + H of a bonded cell, the
+ * rotation of a rigid piece. The surface of A n B is made of the faces of A clipped by the planes of B and the faces of
+ * B clipped by those of A (Sutherland and Hodgman, one polygon at a time). By the divergence theorem, with n outward of
+ * the face's own polyhedron, heights from any point c,
+ *     V = 1/3 sum height area,     dV/d origin_B = area = integral of n dS over the surface of B inside A = -dV/d
+ *                                  origin_A,
+ *     dV/d map_A = moment_A map_A^-T,     moment_A = integral of n (x) (x - origin_A) dS over the surface of A inside
+ *                                         B, likewise B.
  *
- * Ties. Face i of A and face j of B may lie in one plane, to rounding or exactly (cells that shared a face, blocks side by side). Which part of
- * the plane belongs to i and which to j must be the same answer in both clippings, or a whole face counts twice or never. On plane i, the height
- * over plane j is also that height minus (normals alike) or plus (normals opposed) the height over plane i, which is zero there. Cut by this
- * difference or sum, both faces are cut by one and the same plane, whatever the rounding, and share what they cover (alike) or keep the same
- * part (opposed). On the cut itself face i counts and face j does not (alike), or neither (opposed: touching is no overlap). */
+ * Ties. Face i of A and face j of B may lie in one plane, to rounding or exactly (cells that shared a face, blocks side
+ * by side). Which part of the plane belongs to i and which to j must be the same answer in both clippings, or a whole
+ * face counts twice or never. On plane i, the height over plane j is also that height minus (normals alike) or plus
+ * (normals opposed) the height over plane i, which is zero there. Cut by this difference or sum, both faces are cut by
+ * one and the same plane, whatever the rounding, and share what they cover (alike) or keep the same part (opposed). On
+ * the cut itself face i counts and face j does not (alike), or neither (opposed: touching is no overlap). */
 #ifndef BRC_KERNELS_CONVEX_OVERLAP_H
 #define BRC_KERNELS_CONVEX_OVERLAP_H
 
 #include "portable.h"
 
-/* Corners of one face and cuts through it: a face of c corners meets a polyhedron of f faces safely while c + f is at most this. A round body of f faces
- * cuts a face larger than itself 2.5 sqrt(f) times. */
+/* Corners of one face and cuts through it: a face of c corners meets a polyhedron of f faces safely while c + f is at
+ * most this. A round body of f faces cuts a face larger than itself 2.5 sqrt(f) times. */
 #define CONVEX_POLYGON 256
 /* Planes that are kept at hand; further ones (large strikers) are mapped again for every face they may cut. */
 #define CONVEX_PLANES 64
 /* A body with more corners is large against the other: they are not asked one by one where they stand. */
 #define CONVEX_MANY 128
 
-typedef struct { state x, y, z; } convex_vec;
-typedef struct { state xx, xy, xz, yx, yy, yz, zx, zy, zz; } convex_map;
+typedef struct {
+    state x, y, z;
+} convex_vec;
+typedef struct {
+    state xx, xy, xz, yx, yy, yz, zx, zy, zz;
+} convex_map;
 /* normal . x = height, normal outward [-], height [m] */
-typedef struct { convex_vec normal; state height; } convex_plane;
+typedef struct {
+    convex_vec normal;
+    state height;
+} convex_plane;
 
 /* One polyhedron of the arrays of all (preprocess/shapes/convex.h makes them). */
 typedef struct {
     GLOBAL const state *corner;   /* [n_corners][3] from the origin [m] */
     GLOBAL const state *plane;    /* [n_faces][4] outward unit normal [-], height over the origin [m] */
     GLOBAL const int *loop_start; /* [n_faces + 1] into loop */
-    GLOBAL const int *loop;       /* corners of the faces, counter-clockwise from outside, counted within the polyhedron */
+    GLOBAL const int *loop; /* corners of the faces, counter-clockwise from outside, counted within the polyhedron */
     int n_corners, n_faces;
-    state radius;                 /* of the sphere about the origin that holds all corners [m] */
+    state radius; /* of the sphere about the origin that holds all corners [m] */
 } convex_shape;
 
 /* Origins of a pair are relative to any place near it: in single precision a far one costs digits. */
-typedef struct { convex_vec origin; convex_map map; } convex_pose;
+typedef struct {
+    convex_vec origin;
+    convex_map map;
+} convex_pose;
 
 typedef struct {
     state volume;                  /* [m^3]; 0: apart, or touching */
     convex_vec area;               /* [m^2]; A is pushed along it, B against it */
     convex_map moment_a, moment_b; /* [m^3] rows: normal, columns: place */
-    convex_vec point;              /* the centroid of the overlap's surface: where friction acts, in the frame of the origins [m] */
-    int failed;                    /* 1: a map turns a polyhedron inside out; 2: a polygon outgrew CONVEX_POLYGON */
-    int apart;                     /* 1 + a face of A that stands between the two, or minus that of B; 0: none was found */
+    convex_vec point; /* the centroid of the overlap's surface: where friction acts, in the frame of the origins [m] */
+    int failed;       /* 1: a map turns a polyhedron inside out; 2: a polygon outgrew CONVEX_POLYGON */
+    int apart;        /* 1 + a face of A that stands between the two, or minus that of B; 0: none was found */
 } convex_overlap;
 
 LAW convex_vec convex_add(convex_vec a, convex_vec b) { return (convex_vec){a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -63,9 +78,13 @@ LAW convex_vec convex_cross(convex_vec a, convex_vec b)
 LAW state convex_length(convex_vec a) { return SQRT_STATE(convex_dot(a, a)); }
 LAW convex_vec convex_turn(convex_map m, convex_vec a)
 {
-    return (convex_vec){m.xx * a.x + m.xy * a.y + m.xz * a.z, m.yx * a.x + m.yy * a.y + m.yz * a.z, m.zx * a.x + m.zy * a.y + m.zz * a.z};
+    return (convex_vec){m.xx * a.x + m.xy * a.y + m.xz * a.z, m.yx * a.x + m.yy * a.y + m.yz * a.z,
+                        m.zx * a.x + m.zy * a.y + m.zz * a.z};
 }
-LAW convex_map convex_transpose(convex_map m) { return (convex_map){m.xx, m.yx, m.zx, m.xy, m.yy, m.zy, m.xz, m.yz, m.zz}; }
+LAW convex_map convex_transpose(convex_map m)
+{
+    return (convex_map){m.xx, m.yx, m.zx, m.xy, m.yy, m.zy, m.xz, m.yz, m.zz};
+}
 /* m + a (x) b */
 LAW convex_map convex_add_outer(convex_map m, convex_vec a, convex_vec b)
 {
@@ -80,19 +99,23 @@ LAW state convex_determinant(convex_map m)
 LAW convex_map convex_inverse(convex_map m)
 {
     const state k = STATE(1) / convex_determinant(m);
-    return (convex_map){k * (m.yy * m.zz - m.yz * m.zy), k * (m.xz * m.zy - m.xy * m.zz), k * (m.xy * m.yz - m.xz * m.yy),
-                        k * (m.yz * m.zx - m.yx * m.zz), k * (m.xx * m.zz - m.xz * m.zx), k * (m.xz * m.yx - m.xx * m.yz),
-                        k * (m.yx * m.zy - m.yy * m.zx), k * (m.xy * m.zx - m.xx * m.zy), k * (m.xx * m.yy - m.xy * m.yx)};
+    return (convex_map){
+        k * (m.yy * m.zz - m.yz * m.zy), k * (m.xz * m.zy - m.xy * m.zz), k * (m.xy * m.yz - m.xz * m.yy),
+        k * (m.yz * m.zx - m.yx * m.zz), k * (m.xx * m.zz - m.xz * m.zx), k * (m.xz * m.yx - m.xx * m.yz),
+        k * (m.yx * m.zy - m.yy * m.zx), k * (m.xy * m.zx - m.xx * m.zy), k * (m.xx * m.yy - m.xy * m.yx)};
 }
 /* a b */
 LAW convex_map convex_product(convex_map a, convex_map b)
 {
-    return (convex_map){a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy, a.xx * b.xz + a.xy * b.yz + a.xz * b.zz,
-                        a.yx * b.xx + a.yy * b.yx + a.yz * b.zx, a.yx * b.xy + a.yy * b.yy + a.yz * b.zy, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
-                        a.zx * b.xx + a.zy * b.yx + a.zz * b.zx, a.zx * b.xy + a.zy * b.yy + a.zz * b.zy, a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
+    return (convex_map){a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy,
+                        a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.yx + a.yz * b.zx,
+                        a.yx * b.xy + a.yy * b.yy + a.yz * b.zy, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
+                        a.zx * b.xx + a.zy * b.yx + a.zz * b.zx, a.zx * b.xy + a.zy * b.yy + a.zz * b.zy,
+                        a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
 }
 
-/* dV/d map [m^3] from the moment about the origin: what a first moment does to the deformation of its own polyhedron. */
+/* dV/d map [m^3] from the moment about the origin: what a first moment does to the deformation of its own
+ * polyhedron. */
 LAW convex_map convex_reference_moment(convex_map moment, convex_map map)
 {
     return convex_product(moment, convex_transpose(convex_inverse(map)));
@@ -108,17 +131,19 @@ LAW state convex_stretch(convex_map m)
 {
     const convex_map c = convex_product(convex_transpose(m), m);
     const state xx = c.xx - STATE(1), yy = c.yy - STATE(1), zz = c.zz - STATE(1);
-    return SQRT_STATE(STATE(1) + SQRT_STATE(xx * xx + yy * yy + zz * zz + STATE(2) * (c.xy * c.xy + c.yz * c.yz + c.xz * c.xz)));
+    return SQRT_STATE(STATE(1) +
+                      SQRT_STATE(xx * xx + yy * yy + zz * zz + STATE(2) * (c.xy * c.xy + c.yz * c.yz + c.xz * c.xz)));
 }
 
 /* Shape s of the arrays of all shapes. */
-LAW convex_shape convex_shape_of(GLOBAL const state *restrict corner, GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start,
-                                 GLOBAL const int *restrict loop, GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start,
+LAW convex_shape convex_shape_of(GLOBAL const state *restrict corner, GLOBAL const state *restrict plane,
+                                 GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
+                                 GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start,
                                  GLOBAL const int *restrict face_start, int s)
 {
     const int c = corner_start[s], f = face_start[s];
-    return (convex_shape){corner + (brc_size)c * 3, plane + (brc_size)f * 4, loop_start + f, loop, corner_start[s + 1] - c, face_start[s + 1] - f,
-                          radius[s]};
+    return (convex_shape){corner + (brc_size)c * 3, plane + (brc_size)f * 4, loop_start + f, loop,
+                          corner_start[s + 1] - c,  face_start[s + 1] - f,   radius[s]};
 }
 
 LAW convex_vec convex_corner(convex_shape s, int k)
@@ -143,10 +168,13 @@ typedef struct {
 LAW convex_body convex_body_of(convex_shape shape, convex_pose pose, convex_vec centre)
 {
     const convex_map inverse = convex_inverse(pose.map);
-    return (convex_body){shape, (convex_pose){convex_sub(pose.origin, centre), pose.map}, inverse, shape.radius * convex_stretch(pose.map),
-                         convex_stretch(inverse)};
+    return (convex_body){shape, (convex_pose){convex_sub(pose.origin, centre), pose.map}, inverse,
+                         shape.radius * convex_stretch(pose.map), convex_stretch(inverse)};
 }
-LAW convex_vec convex_place(convex_body b, int k) { return convex_add(b.pose.origin, convex_turn(b.pose.map, convex_corner(b.shape, k))); }
+LAW convex_vec convex_place(convex_body b, int k)
+{
+    return convex_add(b.pose.origin, convex_turn(b.pose.map, convex_corner(b.shape, k)));
+}
 LAW convex_plane convex_placed(convex_body b, convex_plane own)
 {
     const convex_vec n = convex_turn(convex_transpose(b.inverse), own.normal);
@@ -157,26 +185,40 @@ LAW convex_plane convex_placed(convex_body b, convex_plane own)
 /* The plane as the body sees it in its own frame; heights stay what they are. */
 LAW convex_plane convex_seen(convex_body b, convex_plane p)
 {
-    return (convex_plane){convex_turn(convex_transpose(b.pose.map), p.normal), p.height - convex_dot(p.normal, b.pose.origin)};
+    return (convex_plane){convex_turn(convex_transpose(b.pose.map), p.normal),
+                          p.height - convex_dot(p.normal, b.pose.origin)};
 }
 
-/* Planes of one body that may cut the other, as many of them as are asked at once in blocks of W; those of faces from `rest` on are not kept. apart: 1 + the face that separates the two, or 0. */
+/* Planes of one body that may cut the other, as many of them as are asked at once in blocks of W; those of faces from
+ * `rest` on are not kept. apart: 1 + the face that separates the two, or 0. */
 typedef struct {
     state x[CONVEX_PLANES], y[CONVEX_PLANES], z[CONVEX_PLANES], height[CONVEX_PLANES];
     int n, rest, apart;
 } convex_cutters;
-LAW convex_plane convex_cutter(const convex_cutters *c, int k) { return (convex_plane){(convex_vec){c->x[k], c->y[k], c->z[k]}, c->height[k]}; }
-LAW void convex_put_cutter(convex_cutters *c, int k, convex_plane p) { c->x[k] = p.normal.x, c->y[k] = p.normal.y, c->z[k] = p.normal.z, c->height[k] = p.height; }
-
-/* Where the middle of one body lies in the other's frame, and how far from it anything of that body can be there [m]. */
-typedef struct { convex_vec centre; state reach; } convex_ball;
-LAW convex_ball convex_ball_of(convex_body body, convex_body in, state margin)
+LAW convex_plane convex_cutter(const convex_cutters *c, int k)
 {
-    return (convex_ball){convex_turn(in.inverse, convex_sub(body.pose.origin, in.pose.origin)), body.radius * in.inverse_stretch * STATE(1.0001) + margin};
+    return (convex_plane){(convex_vec){c->x[k], c->y[k], c->z[k]}, c->height[k]};
+}
+LAW void convex_put_cutter(convex_cutters *c, int k, convex_plane p)
+{
+    c->x[k] = p.normal.x, c->y[k] = p.normal.y, c->z[k] = p.normal.z, c->height[k] = p.height;
 }
 
-/* The planes of `tool` that some corner of `work` is outside of, or nearer than `margin` [m] to: those, and only those, cut its faces. The plane that
- * work is the least deep behind comes first: most faces lie outside of it. Of a body of many corners every plane within its ball counts. */
+/* Where the middle of one body lies in the other's frame, and how far from it anything of that body can be there
+ * [m]. */
+typedef struct {
+    convex_vec centre;
+    state reach;
+} convex_ball;
+LAW convex_ball convex_ball_of(convex_body body, convex_body in, state margin)
+{
+    return (convex_ball){convex_turn(in.inverse, convex_sub(body.pose.origin, in.pose.origin)),
+                         body.radius * in.inverse_stretch * STATE(1.0001) + margin};
+}
+
+/* The planes of `tool` that some corner of `work` is outside of, or nearer than `margin` [m] to: those, and only those,
+ * cut its faces. The plane that work is the least deep behind comes first: most faces lie outside of it. Of a body of
+ * many corners every plane within its ball counts. */
 ROUTINE void convex_find_cutters(convex_body tool, convex_body work, state margin, convex_cutters *c)
 {
     const convex_ball ball = convex_ball_of(work, tool, margin);
@@ -190,7 +232,8 @@ ROUTINE void convex_find_cutters(convex_body tool, convex_body work, state margi
         state near[W], low[W], high[W], x[W], y[W], z[W], height[W]; /* planes as work sees them */
         int any = 0;
         for (int l = 0; l < W; ++l) {
-            const convex_plane face = convex_own_plane(tool.shape, begin + l < tool.shape.n_faces ? begin + l : tool.shape.n_faces - 1);
+            const convex_plane face =
+                convex_own_plane(tool.shape, begin + l < tool.shape.n_faces ? begin + l : tool.shape.n_faces - 1);
             near[l] = convex_dot(face.normal, ball.centre) - face.height;
             any |= near[l] >= -ball.reach;
             convex_put_cutter(&own, l, face);
@@ -229,10 +272,12 @@ ROUTINE void convex_find_cutters(convex_body tool, convex_body work, state margi
             ++c->n;
         }
     }
-    for (int k = c->n; k % W != 0; ++k) convex_put_cutter(c, k, (convex_plane){(convex_vec){0, 0, 0}, STATE(1e30)}); /* which nothing is outside of */
+    for (int k = c->n; k % W != 0; ++k)
+        convex_put_cutter(c, k, (convex_plane){(convex_vec){0, 0, 0}, STATE(1e30)}); /* which nothing is outside of */
 }
 
-/* The plane that cuts a face in plane `own` as plane `other` does (the head of this file says why not `other` itself); alike: normals alike. */
+/* The plane that cuts a face in plane `own` as plane `other` does (the head of this file says why not `other` itself);
+ * alike: normals alike. */
 LAW convex_plane convex_cut(convex_plane own, convex_plane other, int alike)
 {
     return alike ? (convex_plane){convex_sub(other.normal, own.normal), other.height - own.height}
@@ -244,8 +289,8 @@ typedef struct {
     int n, failed;
 } convex_polygon;
 
-/* Keep the part with height < 0, closed: <= 0. Removes a corner or more and adds two: the kept ones are taken as one chain around the
- * lowest, so that rounding on a line of corners cannot add more. */
+/* Keep the part with height < 0, closed: <= 0. Removes a corner or more and adds two: the kept ones are taken as one
+ * chain around the lowest, so that rounding on a line of corners cannot add more. */
 ROUTINE void convex_clip(convex_polygon *p, convex_plane cut, int closed)
 {
     const int n = p->n;
@@ -275,7 +320,8 @@ ROUTINE void convex_clip(convex_polygon *p, convex_plane cut, int closed)
         const int next = last + 1 < n ? last + 1 : 0;
         const state outside = convex_dot(cut.normal, p->corner[next]) - cut.height;
         if (outside > 0 || (!closed && outside >= 0)) {
-            exit = convex_add(p->corner[last], convex_scale(inside / (inside - outside), convex_sub(p->corner[next], p->corner[last])));
+            exit = convex_add(p->corner[last],
+                              convex_scale(inside / (inside - outside), convex_sub(p->corner[next], p->corner[last])));
             break;
         }
         inside = outside;
@@ -286,7 +332,8 @@ ROUTINE void convex_clip(convex_polygon *p, convex_plane cut, int closed)
         const int next = first > 0 ? first - 1 : n - 1;
         const state outside = convex_dot(cut.normal, p->corner[next]) - cut.height;
         if (outside > 0 || (!closed && outside >= 0)) {
-            entry = convex_add(p->corner[first], convex_scale(inside / (inside - outside), convex_sub(p->corner[next], p->corner[first])));
+            entry = convex_add(p->corner[first], convex_scale(inside / (inside - outside),
+                                                              convex_sub(p->corner[next], p->corner[first])));
             break;
         }
         inside = outside;
@@ -308,14 +355,15 @@ ROUTINE void convex_clip(convex_polygon *p, convex_plane cut, int closed)
     p->corner[kept + 1] = entry;
 }
 
-/* Sums over clipped faces; places are relative to `centre`, a corner of the first of them: the overlap may be thin and far from both origins. */
+/* Sums over clipped faces; places are relative to `centre`, a corner of the first of them: the overlap may be thin and
+ * far from both origins. */
 typedef struct {
-    state volume;          /* 3 V */
-    convex_vec area;       /* of the side that is being summed */
+    state volume;    /* 3 V */
+    convex_vec area; /* of the side that is being summed */
     convex_map moment;
     convex_vec centre;
-    state surface;         /* of both sides [m^2] */
-    convex_vec place;      /* its first moment [m^3] */
+    state surface;    /* of both sides [m^2] */
+    convex_vec place; /* its first moment [m^3] */
     int begun;
 } convex_sums;
 
@@ -335,7 +383,8 @@ ROUTINE void convex_sum_face(const convex_polygon *p, convex_plane own, convex_s
         s->begun = 1;
         s->centre = base;
     }
-    const convex_vec place = convex_add(convex_scale(area, convex_sub(base, s->centre)), convex_scale(STATE(1) / STATE(3), first));
+    const convex_vec place =
+        convex_add(convex_scale(area, convex_sub(base, s->centre)), convex_scale(STATE(1) / STATE(3), first));
     s->volume += area * (own.height - convex_dot(own.normal, s->centre));
     s->area = convex_add(s->area, convex_scale(area, own.normal));
     s->moment = convex_add_outer(s->moment, own.normal, place);
@@ -363,8 +412,8 @@ LAW void convex_clip_by(convex_polygon *p, convex_plane own, convex_plane other,
     convex_clip(p, convex_cut(own, other, alike), first && alike);
 }
 
-/* ... by the kept planes but the first. What the first leaves of a face is small where the overlap is: most planes have all of it inside, some all of it outside, and W of them at a time are told
- * apart from those that cut it. */
+/* ... by the kept planes but the first. What the first leaves of a face is small where the overlap is: most planes have
+ * all of it inside, some all of it outside, and W of them at a time are told apart from those that cut it. */
 ROUTINE void convex_clip_by_kept(convex_polygon *p, convex_plane own, const convex_cutters *c, state margin, int first)
 {
     for (int begin = 0; begin < c->n; begin += W) {
@@ -374,7 +423,8 @@ ROUTINE void convex_clip_by_kept(convex_polygon *p, convex_plane own, const conv
         for (int k = 0; k < p->n; ++k) {
             const convex_vec corner = p->corner[k];
             FOR_LANES(l) {
-                const state h = c->x[begin + l] * corner.x + c->y[begin + l] * corner.y + c->z[begin + l] * corner.z - c->height[begin + l];
+                const state h = c->x[begin + l] * corner.x + c->y[begin + l] * corner.y + c->z[begin + l] * corner.z -
+                                c->height[begin + l];
                 low[l] = h < low[l] ? h : low[l];
                 high[l] = h > high[l] ? h : high[l];
             }
@@ -386,11 +436,14 @@ ROUTINE void convex_clip_by_kept(convex_polygon *p, convex_plane own, const conv
     }
 }
 
-/* Clip the faces of `work` by the planes of `tool` and add what is left. first: work is A, to which ties of like planes go. */
-ROUTINE int convex_clip_faces(convex_body work, convex_body tool, const convex_cutters *c, state margin, int first, convex_sums *s)
+/* Clip the faces of `work` by the planes of `tool` and add what is left. first: work is A, to which ties of like planes
+ * go. */
+ROUTINE int convex_clip_faces(convex_body work, convex_body tool, const convex_cutters *c, state margin, int first,
+                              convex_sums *s)
 {
     const convex_ball ball = convex_ball_of(tool, work, margin), back = convex_ball_of(work, tool, margin);
-    const convex_plane deepest = c->n > 0 ? convex_cutter(c, 0) : (convex_plane){(convex_vec){0, 0, 0}, 0}, seen = convex_seen(work, deepest);
+    const convex_plane deepest = c->n > 0 ? convex_cutter(c, 0) : (convex_plane){(convex_vec){0, 0, 0}, 0},
+                       seen = convex_seen(work, deepest);
     convex_polygon p;
     p.failed = 0;
     for (int f = 0; f < work.shape.n_faces; ++f) {
@@ -404,7 +457,8 @@ ROUTINE int convex_clip_faces(convex_body work, convex_body tool, const convex_c
         if (p.n > 0) convex_clip_by_kept(&p, own, c, margin, first);
         for (int k = c->rest; k < tool.shape.n_faces && p.n > 0; ++k) {
             const convex_plane other = convex_own_plane(tool.shape, k);
-            if (convex_dot(other.normal, back.centre) - other.height >= -back.reach) convex_clip_by(&p, own, convex_placed(tool, other), first);
+            if (convex_dot(other.normal, back.centre) - other.height >= -back.reach)
+                convex_clip_by(&p, own, convex_placed(tool, other), first);
         }
         if (p.n > 2) convex_sum_face(&p, own, s);
     }
@@ -427,11 +481,14 @@ ROUTINE int convex_stands_between(convex_body tool, int f, convex_body work)
     return 1;
 }
 
-/* Both in the frame of the given origins. apart: what the last call found, which is looked at first; it changes nothing of the result. */
-ROUTINE convex_overlap convex_overlap_after(convex_shape shape_a, convex_pose pose_a, convex_shape shape_b, convex_pose pose_b, int apart)
+/* Both in the frame of the given origins. apart: what the last call found, which is looked at first; it changes nothing
+ * of the result. */
+ROUTINE convex_overlap convex_overlap_after(convex_shape shape_a, convex_pose pose_a, convex_shape shape_b,
+                                            convex_pose pose_b, int apart)
 {
     const convex_vec branch = convex_sub(pose_b.origin, pose_a.origin);
-    const state radius_a = shape_a.radius * convex_stretch(pose_a.map), radius_b = shape_b.radius * convex_stretch(pose_b.map);
+    const state radius_a = shape_a.radius * convex_stretch(pose_a.map),
+                radius_b = shape_b.radius * convex_stretch(pose_b.map);
     if (convex_length(branch) > radius_a + radius_b) return convex_no_overlap(0, 0);
     if (!(convex_determinant(pose_a.map) > 0) || !(convex_determinant(pose_b.map) > 0)) return convex_no_overlap(1, 0);
     /* between the bounding spheres: near the place of contact also where one body is much larger */
@@ -459,11 +516,17 @@ ROUTINE convex_overlap convex_overlap_after(convex_shape shape_a, convex_pose po
     const convex_vec area = convex_scale(STATE(0.5), convex_sub(s.area, area_a));
     const convex_vec arm_a = convex_sub(s.centre, a.pose.origin), arm_b = convex_sub(s.centre, b.pose.origin);
     const convex_vec point = convex_add(centre, convex_add(s.centre, convex_scale(STATE(1) / s.surface, s.place)));
-    return (convex_overlap){s.volume / STATE(3), area, convex_add_outer(moment_a, convex_scale(-STATE(1), area), arm_a),
-                            convex_add_outer(s.moment, area, arm_b), point, 0, 0};
+    return (convex_overlap){s.volume / STATE(3),
+                            area,
+                            convex_add_outer(moment_a, convex_scale(-STATE(1), area), arm_a),
+                            convex_add_outer(s.moment, area, arm_b),
+                            point,
+                            0,
+                            0};
 }
 
-ROUTINE convex_overlap convex_overlap_of(convex_shape shape_a, convex_pose pose_a, convex_shape shape_b, convex_pose pose_b)
+ROUTINE convex_overlap convex_overlap_of(convex_shape shape_a, convex_pose pose_a, convex_shape shape_b,
+                                         convex_pose pose_b)
 {
     return convex_overlap_after(shape_a, pose_a, shape_b, pose_b, 0);
 }

@@ -1,5 +1,5 @@
-/* The point of a rigid surface that is nearest to the centre of a sphere: a sphere of radius R overlaps by R - distance there. One point and one normal,
- * whether it lies on a face, an edge or a corner. */
+/* The point of a rigid surface that is nearest to the centre of a sphere: a sphere of radius R overlaps by R - distance
+ * there. One point and one normal, whether it lies on a face, an edge or a corner. */
 #ifndef BRC_KERNELS_CONVEX_SPHERE_H
 #define BRC_KERNELS_CONVEX_SPHERE_H
 
@@ -36,7 +36,8 @@ LAW convex_vec convex_nearest_on_face(convex_shape s, int f, convex_plane own, c
     int within = 1;
     for (int k = begin; k < end; ++k) {
         const convex_vec b = convex_corner(s, s.loop[k]), edge = convex_sub(b, a), arm = convex_sub(foot, a);
-        if (convex_dot(convex_cross(edge, arm), own.normal) < 0) { /* beyond this edge: the nearest point lies on one such */
+        if (convex_dot(convex_cross(edge, arm), own.normal) <
+            0) { /* beyond this edge: the nearest point lies on one such */
             const state square = convex_dot(edge, edge), along = convex_dot(edge, arm);
             const state t = along <= 0 || !(square > 0) ? STATE(0) : along >= square ? STATE(1) : along / square;
             const convex_vec place = convex_add(a, convex_scale(t, edge)), off = convex_sub(x, place);
@@ -68,8 +69,9 @@ ROUTINE convex_foot convex_foot_on_polyhedron(convex_shape s, convex_pose pose, 
         if (h > reach) return (convex_foot){h, normal, centre};
     }
     if (highest <= 0) /* within: the nearest plane */
-        return (convex_foot){highest, convex_turn(pose.map, normal),
-                             convex_add(pose.origin, convex_turn(pose.map, convex_sub(x, convex_scale(highest, normal))))};
+        return (convex_foot){
+            highest, convex_turn(pose.map, normal),
+            convex_add(pose.origin, convex_turn(pose.map, convex_sub(x, convex_scale(highest, normal))))};
     for (int f = 0; f < s.n_faces; ++f) {
         const convex_plane own = convex_own_plane(s, f);
         const state h = convex_dot(own.normal, x) - own.height;
@@ -83,8 +85,10 @@ ROUTINE convex_foot convex_foot_on_polyhedron(convex_shape s, convex_pose pose, 
     }
     const convex_vec off = convex_sub(x, point);
     const state distance = SQRT_STATE(least);
-    if (distance > STATE(16) * STATE_ROUNDING * s.radius) normal = convex_scale(STATE(1) / distance, off); /* nearer, the plane knows it better */
-    return (convex_foot){distance, convex_turn(pose.map, normal), convex_add(pose.origin, convex_turn(pose.map, point))};
+    if (distance > STATE(16) * STATE_ROUNDING * s.radius)
+        normal = convex_scale(STATE(1) / distance, off); /* nearer, the plane knows it better */
+    return (convex_foot){distance, convex_turn(pose.map, normal),
+                         convex_add(pose.origin, convex_turn(pose.map, point))};
 }
 
 #endif

@@ -1,12 +1,12 @@
 /* dlsm: the four passes over elements and their bonds (docs/notebook/theory.md T2). Each gathers, calls the laws, and
- * writes its own elements; nothing is scattered. One work-item does W elements: a group of all, or in the kernels named `listed` those of
- * a list (members.cl).
- * boundary[slice]: the slice's block of the face-load arrays, -1 when none of its elements has a free face; only read in
- * scenes with face loads. */
+ * writes its own elements; nothing is scattered. One work-item does W elements: a group of all, or in the kernels named
+ * `listed` those of a list (members.cl). boundary[slice]: the slice's block of the face-load arrays, -1 when none of
+ * its elements has a free face; only read in scenes with face loads. */
 
 /* Pass 1: least-squares displacement gradient H [-] [n][9]. area [slot][3][C], inv_shape A^-1 [slice][6][C]. */
 LAW void dlsm_gradient_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient)
+                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict inv_shape,
+                          GLOBAL coeff *restrict gradient)
 {
     const state_vec3 u = state_gather3(displacement, who.own);
     lane_mat3 a = lane_mat3_zero();
@@ -21,13 +21,18 @@ KERNEL void dlsm_gradient(int n_groups, GLOBAL const int *restrict row_start, GL
                           GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
                           GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient)
 {
-    FOR_EACH_ITEM(group, n_groups) { dlsm_gradient_of(members_of_group(group, row_start), neighbour, area, displacement, inv_shape, gradient); }
+    FOR_EACH_ITEM(group, n_groups) {
+        dlsm_gradient_of(members_of_group(group, row_start), neighbour, area, displacement, inv_shape, gradient);
+    }
 }
-KERNEL void dlsm_gradient_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                                 GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
+KERNEL void dlsm_gradient_listed(int n_items, int n, GLOBAL const int *restrict list,
+                                 GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                                 GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
                                  GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient)
 {
-    FOR_EACH_ITEM(item, n_items) { dlsm_gradient_of(members_of_list(item, n, list, row_start), neighbour, area, displacement, inv_shape, gradient); }
+    FOR_EACH_ITEM(item, n_items) {
+        dlsm_gradient_of(members_of_list(item, n, list, row_start), neighbour, area, displacement, inv_shape, gradient);
+    }
 }
 
 /* G = F - I [-], from H and, where faces are held, from their part [boundary block][9][C] of V G. */
@@ -43,7 +48,8 @@ LAW lane_mat3 dlsm_deformation_of(members who, GLOBAL const int *restrict neighb
         members_ahead3(who, area, slot);
         members_ahead3(who, offset, slot);
         members_gathers_ahead9(who, gradient, neighbour, slot);
-        sum = dlsm_add_offset(sum, lane_mat3_sub(lane_gather9(gradient, j), h), members_row3(who, offset, slot), members_face3(who, area, slot));
+        sum = dlsm_add_offset(sum, lane_mat3_sub(lane_gather9(gradient, j), h), members_row3(who, offset, slot),
+                              members_face3(who, area, slot));
     }
     const lane inv_v = members_number(who, inv_volume);
     const lane_mat3 g = dlsm_divergence_gradient(h, sum, inv_v);
@@ -57,42 +63,49 @@ LAW lane_mat3 dlsm_first_piola(lane_mat3 g, lane lambda, lane mu, int finite)
 
 /* Pass 2: first Piola-Kirchhoff stress P [Pa] [n][9]. offset d [slot][3][C]. */
 LAW void dlsm_stress_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
-                        GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one,
-                        coeff mu_one, GLOBAL const coeff *restrict material, int finite, GLOBAL coeff *restrict stress)
+                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
+                        GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
+                        GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
+                        GLOBAL const coeff *restrict material, int finite, GLOBAL coeff *restrict stress)
 {
-    const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
+    const lane_mat3 g =
+        dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
     const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
     members_store9(who, stress, finite ? dlsm_first_piola(g, lambda, mu, 1) : dlsm_first_piola(g, lambda, mu, 0));
 }
-KERNEL void dlsm_stress(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
-                        GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one,
-                        coeff mu_one, GLOBAL const coeff *restrict material, int finite, GLOBAL coeff *restrict stress)
+KERNEL void dlsm_stress(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
+                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
+                        GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads,
+                        coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material, int finite,
+                        GLOBAL coeff *restrict stress)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        dlsm_stress_of(members_of_group(group, row_start), neighbour, area, offset, gradient, inv_volume, boundary, held_gradient,
-                       face_loads, lambda_one, mu_one, material, finite, stress);
+        dlsm_stress_of(members_of_group(group, row_start), neighbour, area, offset, gradient, inv_volume, boundary,
+                       held_gradient, face_loads, lambda_one, mu_one, material, finite, stress);
     }
 }
-KERNEL void dlsm_stress_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                        GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
-                        GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one,
-                        coeff mu_one, GLOBAL const coeff *restrict material, int finite, GLOBAL coeff *restrict stress)
+KERNEL void dlsm_stress_listed(int n_items, int n, GLOBAL const int *restrict list,
+                               GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                               GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
+                               GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
+                               GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient,
+                               int face_loads, coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material,
+                               int finite, GLOBAL coeff *restrict stress)
 {
     FOR_EACH_ITEM(item, n_items) {
-        dlsm_stress_of(members_of_list(item, n, list, row_start), neighbour, area, offset, gradient, inv_volume, boundary, held_gradient,
-                       face_loads, lambda_one, mu_one, material, finite, stress);
+        dlsm_stress_of(members_of_list(item, n, list, row_start), neighbour, area, offset, gradient, inv_volume,
+                       boundary, held_gradient, face_loads, lambda_one, mu_one, material, finite, stress);
     }
 }
 
 /* What the bond in one slot adds in pass 3: to the sums of gradients ... */
-LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums sums, GLOBAL const int *restrict neighbour,
-                                          GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                                          GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of,
-                                          state_vec3 u, lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite)
+LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums sums,
+                                          GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                                          GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                                          GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict modulus,
+                                          GLOBAL const coeff *restrict ell_of, state_vec3 u, lane_mat3 h, lane_mat3 m,
+                                          lane k, coeff ell_one, int finite)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, area, slot);
@@ -116,61 +129,69 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums 
     return dlsm_flux_add_bond(sums, r, mr, s);
 }
 /* ... and to that of stresses. */
-LAW dlsm_flux_sums dlsm_flux_stress_at(members who, int slot, dlsm_flux_sums sums, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                                       GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict stress, lane_mat3 p)
+LAW dlsm_flux_sums dlsm_flux_stress_at(members who, int slot, dlsm_flux_sums sums, GLOBAL const int *restrict neighbour,
+                                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
+                                       GLOBAL const coeff *restrict stress, lane_mat3 p)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, offset, slot);
     members_gathers_ahead9(who, stress, neighbour, slot);
-    return dlsm_flux_add_stress(sums, lane_mat3_add(p, lane_gather9(stress, j)), members_face3(who, area, slot), members_row3(who, offset, slot));
+    return dlsm_flux_add_stress(sums, lane_mat3_add(p, lane_gather9(stress, j)), members_face3(who, area, slot),
+                                members_row3(who, offset, slot));
 }
 
-/* Bonds of pass 3: those of gradients, and those of stresses in the same loop where rows are read once (SPLIT_LOOPS). Each sum is its own,
- * so that it has the same bits either way. */
-LAW dlsm_flux_sums dlsm_flux_sums_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                                     GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
-                                     GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                                     GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict modulus,
-                                     GLOBAL const coeff *restrict ell_of,
+/* Bonds of pass 3: those of gradients, and those of stresses in the same loop where rows are read once (SPLIT_LOOPS).
+ * Each sum is its own, so that it has the same bits either way. */
+LAW dlsm_flux_sums dlsm_flux_sums_of(members who, GLOBAL const int *restrict neighbour,
+                                     GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
+                                     GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                                     GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
+                                     GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of,
                                      lane_mat3 h, lane_mat3 p, lane_mat3 m, lane k, coeff ell_one, int finite)
 {
     dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
     const state_vec3 u = state_gather3(displacement, who.own); /* counts with many materials alone */
     for (int slot = who.begin; slot < who.end; ++slot) {
-        sums = dlsm_flux_gradients_at(who, slot, sums, neighbour, area, ratio, displacement, gradient, modulus, ell_of, u, h, m, k, ell_one, finite);
+        sums = dlsm_flux_gradients_at(who, slot, sums, neighbour, area, ratio, displacement, gradient, modulus, ell_of,
+                                      u, h, m, k, ell_one, finite);
         if (!SPLIT_LOOPS) sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
     }
     return sums;
 }
 
 /* Pass 3: B [Pa] [n][9]; with many materials the bond part [beta/(1 + tau) M - H]/2 apart. ratio q = L/S [slot][C];
- * held_moment [block][9][C]: what held faces and tractions add to Q. Where loops are split, nothing of the first is held in the second but what
- * its sums have become. */
+ * held_moment [block][9][C]: what held faces and tractions add to Q. Where loops are split, nothing of the first is
+ * held in the second but what its sums have become. */
 LAW lane_mat3 dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
                            GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
                            GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict inv_shape,
                            GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                           GLOBAL const coeff *restrict held_moment, int face_loads, coeff k_one, coeff ell_one, coeff beta,
-                           coeff one_plus_tau, GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
-                           GLOBAL const coeff *restrict ell_of, int finite, GLOBAL coeff *restrict bond_part)
+                           GLOBAL const coeff *restrict held_moment, int face_loads, coeff k_one, coeff ell_one,
+                           coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
+                           GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
+                           GLOBAL coeff *restrict bond_part)
 {
     const lane k = MEMBERS_MATERIAL(2, k_one), ell = MEMBERS_MATERIAL(3, ell_one);
-    lane_mat3 h = lane_gather9(gradient, who.own), p = SPLIT_LOOPS ? lane_mat3_zero() : lane_gather9(stress, who.own), m;
+    lane_mat3 h = lane_gather9(gradient, who.own), p = SPLIT_LOOPS ? lane_mat3_zero() : lane_gather9(stress, who.own),
+              m;
     dlsm_flux_sums sums;
     dlsm_flux_couples couples;
     if (finite) {
         m = dlsm_compaction(h, ell, 1);
-        sums = dlsm_flux_sums_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, modulus, ell_of, h, p, m, k, ell_one, 1);
+        sums = dlsm_flux_sums_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, modulus, ell_of,
+                                 h, p, m, k, ell_one, 1);
         couples = dlsm_flux_couple(h, sums, k, beta, one_plus_tau, ell, 1);
     } else {
         m = dlsm_compaction(h, ell, 0);
-        sums = dlsm_flux_sums_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, modulus, ell_of, h, p, m, k, ell_one, 0);
+        sums = dlsm_flux_sums_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, modulus, ell_of,
+                                 h, p, m, k, ell_one, 0);
         couples = dlsm_flux_couple(h, sums, k, beta, one_plus_tau, ell, 0);
     }
     if (SPLIT_LOOPS) {
         p = lane_gather9(stress, who.own);
-        for (int slot = who.begin; slot < who.end; ++slot) sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
+        for (int slot = who.begin; slot < who.end; ++slot)
+            sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
     }
     lane_mat3 moment = dlsm_flux_moment(p, REAL(1) / members_number(who, inv_volume), sums.q, couples);
     if (face_loads) moment = members_add_boundary(who, moment, LANE_ZERO + REAL(1), boundary, held_moment);
@@ -188,37 +209,42 @@ LAW lane_mat3 dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GL
     return lane_mat3_add(b, lane_mat3_scale(k * one_plus_tau, part));
 #endif
 }
-KERNEL void dlsm_flux_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                           GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
-                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                           GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict inv_shape,
-                           GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                           GLOBAL const coeff *restrict held_moment, int face_loads, coeff k_one, coeff ell_one, coeff beta,
-                           coeff one_plus_tau, GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
+KERNEL void dlsm_flux_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                           GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
+                           GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                           GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
+                           GLOBAL const coeff *restrict inv_shape, GLOBAL const coeff *restrict inv_volume,
+                           GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_moment,
+                           int face_loads, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                           GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
                            GLOBAL const coeff *restrict ell_of, int finite, GLOBAL coeff *restrict flux,
                            GLOBAL coeff *restrict bond_part)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
-        members_store9(who, flux, dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape, inv_volume, boundary, held_moment, face_loads, k_one,
-                                               ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, bond_part));
+        members_store9(who, flux,
+                       dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
+                                    inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta, one_plus_tau,
+                                    material, modulus, ell_of, finite, bond_part));
     }
 }
 KERNEL void dlsm_flux_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                           GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                           GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
-                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                           GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict inv_shape,
-                           GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                           GLOBAL const coeff *restrict held_moment, int face_loads, coeff k_one, coeff ell_one, coeff beta,
-                           coeff one_plus_tau, GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
-                           GLOBAL const coeff *restrict ell_of, int finite, GLOBAL coeff *restrict flux,
-                           GLOBAL coeff *restrict bond_part)
+                             GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                             GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
+                             GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                             GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict inv_shape,
+                             GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
+                             GLOBAL const coeff *restrict held_moment, int face_loads, coeff k_one, coeff ell_one,
+                             coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
+                             GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
+                             GLOBAL coeff *restrict flux, GLOBAL coeff *restrict bond_part)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
-        members_store9(who, flux, dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape, inv_volume, boundary, held_moment, face_loads, k_one,
-                                               ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, bond_part));
+        members_store9(who, flux,
+                       dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
+                                    inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta, one_plus_tau,
+                                    material, modulus, ell_of, finite, bond_part));
     }
 }
 
@@ -234,7 +260,8 @@ typedef struct {
 } dlsm_pull;
 
 LAW dlsm_end dlsm_end_of(members who, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                         GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus)
+                         GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau,
+                         GLOBAL const coeff *restrict modulus)
 {
     const state_vec3 u = state_gather3(displacement, who.own);
     const lane_mat3 b = lane_gather9(flux, who.own);
@@ -245,15 +272,18 @@ LAW dlsm_end dlsm_end_of(members who, GLOBAL const state *restrict displacement,
     return (dlsm_end){u, b, b, LANE_ZERO, LANE_ZERO + k_one * one_plus_tau};
 #endif
 }
-LAW dlsm_pull dlsm_pull_at(members who, int slot, dlsm_end own, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                           GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                           GLOBAL const coeff *restrict bond_part, coeff one_plus_tau, GLOBAL const coeff *restrict modulus)
+LAW dlsm_pull dlsm_pull_at(members who, int slot, dlsm_end own, GLOBAL const int *restrict neighbour,
+                           GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
+                           GLOBAL const coeff *restrict bond_part, coeff one_plus_tau,
+                           GLOBAL const coeff *restrict modulus)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, area, slot);
     members_ahead1(who, ratio, slot);
     members_gathers_ahead9(who, flux, neighbour, slot);
-    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.u), s = members_face3(who, area, slot);
+    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.u),
+                    s = members_face3(who, area, slot);
     const lane q = members_row1(who, ratio, slot);
     lane_mat3 sum = lane_mat3_add(own.b, lane_gather9(flux, j));
 #if BRC_MANY_MATERIALS
@@ -267,61 +297,70 @@ LAW dlsm_pull dlsm_pull_at(members who, int slot, dlsm_end own, GLOBAL const int
 
 /* Pass 4: force f [N] [n][3] on every element. */
 LAW void dlsm_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                       GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
-                       GLOBAL state *restrict force)
+                       GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                       GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, coeff k_one,
+                       coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL state *restrict force)
 {
     const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
     lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
     for (int slot = who.begin; slot < who.end; ++slot) {
-        const dlsm_pull b = dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part, one_plus_tau, modulus);
+        const dlsm_pull b =
+            dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part, one_plus_tau, modulus);
         f = lane_vec3_add(f, b.force);
     }
     members_store3(who, force, f);
 }
-KERNEL void dlsm_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                       GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
-                       GLOBAL state *restrict force)
+KERNEL void dlsm_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
+                       GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
+                       GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau,
+                       GLOBAL const coeff *restrict modulus, GLOBAL state *restrict force)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        dlsm_force_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau,
-                      modulus, force);
+        dlsm_force_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one,
+                      one_plus_tau, modulus, force);
     }
 }
 KERNEL void dlsm_force_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                       GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                       GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
-                       GLOBAL state *restrict force)
+                              GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                              GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                              GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, coeff k_one,
+                              coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL state *restrict force)
 {
     FOR_EACH_ITEM(item, n_items) {
-        dlsm_force_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau,
-                      modulus, force);
+        dlsm_force_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, flux, bond_part,
+                      k_one, one_plus_tau, modulus, force);
     }
 }
 
 /* V psi [J] of the elements: of G, ... */
-LAW lane dlsm_elastic_energy(members who, lane_mat3 g, lane lambda, lane mu, int finite, GLOBAL const coeff *restrict inv_volume)
+LAW lane dlsm_elastic_energy(members who, lane_mat3 g, lane lambda, lane mu, int finite,
+                             GLOBAL const coeff *restrict inv_volume)
 {
     return svk_energy(green_strain(g, finite), lambda, mu) / members_number(who, inv_volume);
 }
 /* ... and of H. */
-LAW lane dlsm_elastic_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                         GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material, int finite)
+LAW lane dlsm_elastic_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                         GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
+                         GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
+                         GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
+                         GLOBAL const coeff *restrict material, int finite)
 {
-    const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
+    const lane_mat3 g =
+        dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
     const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
     return dlsm_elastic_energy(who, g, lambda, mu, finite, inv_volume);
 }
 
-/* What of the bonds' stabilisation energies counts with the elements [J]: half. Or, around broken bonds, all of it where the neighbour is not touched, half where it is as the
- * element, and nothing where it was so before (touched [n], kernels/cells.cl): each bond of those that are touched once. */
-LAW lane dlsm_bonds_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                       GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
-                       GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
-                       int by_touch, GLOBAL const int *restrict touched)
+/* What of the bonds' stabilisation energies counts with the elements [J]: half. Or, around broken bonds, all of it
+ * where the neighbour is not touched, half where it is as the element, and nothing where it was so before (touched [n],
+ * kernels/cells.cl): each bond of those that are touched once. */
+LAW lane dlsm_bonds_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                       GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                       GLOBAL const coeff *restrict gradient, coeff k_one, coeff ell_one, coeff beta,
+                       coeff one_plus_tau, GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
+                       GLOBAL const coeff *restrict ell_of, int finite, int by_touch,
+                       GLOBAL const int *restrict touched)
 {
     const lane k = MEMBERS_MATERIAL(2, k_one), ell = MEMBERS_MATERIAL(3, ell_one);
     const lane_mat3 h = lane_gather9(gradient, who.own), m = dlsm_compaction(h, ell, finite);
@@ -337,9 +376,11 @@ LAW lane dlsm_bonds_of(members who, GLOBAL const int *restrict neighbour, GLOBAL
 #endif
         const lane q = members_row1(who, ratio, slot);
         const lane_vec3 x = lane_vec3_scale(REAL(0.5) * q, members_face3(who, area, slot)); /* R / 2 [m] */
-        const lane_vec3 h_j_x = lane_mat3_mul_vec(h_j, x), jump = state_vec3_difference(state_gather3(displacement, j), u);
+        const lane_vec3 h_j_x = lane_mat3_mul_vec(h_j, x),
+                        jump = state_vec3_difference(state_gather3(displacement, j), u);
         const lane_vec3 residual = lane_vec3_sub(jump, lane_vec3_add(lane_mat3_mul_vec(h, x), h_j_x));
-        const lane_vec3 compact = lane_vec3_add(lane_mat3_mul_vec(m, x), dlsm_compaction_along(h_j, h_j_x, x, ell_j, finite));
+        const lane_vec3 compact =
+            lane_vec3_add(lane_mat3_mul_vec(m, x), dlsm_compaction_along(h_j, h_j_x, x, ell_j, finite));
         lane counts = LANE_ZERO + REAL(0.5);
         if (by_touch) {
 #define OWN(l) touched[LANE_ITEM(who.own, l)]
@@ -356,80 +397,100 @@ LAW lane dlsm_bonds_of(members who, GLOBAL const int *restrict neighbour, GLOBAL
 
 /* Ledger: elastic energy V psi and half of the stabilisation energy of its bonds, of every element [J] [n]. */
 LAW void dlsm_energy_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
+                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
+                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                        GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
                         GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
-                        coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
-                        GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
-                        GLOBAL state *restrict elastic, GLOBAL state *restrict stabilisation)
+                        coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                        GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
+                        GLOBAL const coeff *restrict ell_of, int finite, GLOBAL state *restrict elastic,
+                        GLOBAL state *restrict stabilisation)
 {
-    members_store1(who, elastic, dlsm_elastic_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads, lambda_one, mu_one, material, finite));
-    members_store1(who, stabilisation, dlsm_bonds_of(who, neighbour, area, ratio, displacement, gradient, k_one, ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, 0,
-                                                     neighbour));
+    members_store1(who, elastic,
+                   dlsm_elastic_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient,
+                                   face_loads, lambda_one, mu_one, material, finite));
+    members_store1(who, stabilisation,
+                   dlsm_bonds_of(who, neighbour, area, ratio, displacement, gradient, k_one, ell_one, beta,
+                                 one_plus_tau, material, modulus, ell_of, finite, 0, neighbour));
 }
-KERNEL void dlsm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                        GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
-                        coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
-                        GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
-                        GLOBAL state *restrict elastic, GLOBAL state *restrict stabilisation)
+KERNEL void dlsm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
+                        GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
+                        GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads,
+                        coeff lambda_one, coeff mu_one, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                        GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
+                        GLOBAL const coeff *restrict ell_of, int finite, GLOBAL state *restrict elastic,
+                        GLOBAL state *restrict stabilisation)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        dlsm_energy_of(members_of_group(group, row_start), neighbour, area, offset, ratio, displacement, gradient, inv_volume, boundary,
-                       held_gradient, face_loads, lambda_one, mu_one, k_one, ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, elastic,
-                       stabilisation);
+        dlsm_energy_of(members_of_group(group, row_start), neighbour, area, offset, ratio, displacement, gradient,
+                       inv_volume, boundary, held_gradient, face_loads, lambda_one, mu_one, k_one, ell_one, beta,
+                       one_plus_tau, material, modulus, ell_of, finite, elastic, stabilisation);
     }
 }
-KERNEL void dlsm_energy_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                        GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                        GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
-                        coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
-                        GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
-                        GLOBAL state *restrict elastic, GLOBAL state *restrict stabilisation)
+KERNEL void dlsm_energy_listed(int n_items, int n, GLOBAL const int *restrict list,
+                               GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                               GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
+                               GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                               GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
+                               GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient,
+                               int face_loads, coeff lambda_one, coeff mu_one, coeff k_one, coeff ell_one, coeff beta,
+                               coeff one_plus_tau, GLOBAL const coeff *restrict material,
+                               GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
+                               GLOBAL state *restrict elastic, GLOBAL state *restrict stabilisation)
 {
     FOR_EACH_ITEM(item, n_items) {
-        dlsm_energy_of(members_of_list(item, n, list, row_start), neighbour, area, offset, ratio, displacement, gradient, inv_volume, boundary,
-                       held_gradient, face_loads, lambda_one, mu_one, k_one, ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, elastic,
-                       stabilisation);
+        dlsm_energy_of(members_of_list(item, n, list, row_start), neighbour, area, offset, ratio, displacement,
+                       gradient, inv_volume, boundary, held_gradient, face_loads, lambda_one, mu_one, k_one, ell_one,
+                       beta, one_plus_tau, material, modulus, ell_of, finite, elastic, stabilisation);
     }
 }
 
 /* Around broken bonds: V psi of the elements of a list alone [J] ... */
-KERNEL void dlsm_elastic_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
-                                GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads,
-                                coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material, int finite, GLOBAL state *restrict elastic)
+KERNEL void dlsm_elastic_listed(int n_items, int n, GLOBAL const int *restrict list,
+                                GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                                GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
+                                GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
+                                GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient,
+                                int face_loads, coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material,
+                                int finite, GLOBAL state *restrict elastic)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
-        members_store1(who, elastic, dlsm_elastic_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads, lambda_one, mu_one, material, finite));
+        members_store1(who, elastic,
+                       dlsm_elastic_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient,
+                                       face_loads, lambda_one, mu_one, material, finite));
     }
 }
 /* ... and the bonds of those that are touched, each once. */
-KERNEL void dlsm_bonds_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                              GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                              GLOBAL const coeff *restrict gradient, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
-                              GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite, GLOBAL const int *restrict touched,
-                              GLOBAL state *restrict stabilisation)
+KERNEL void dlsm_bonds_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
+                              GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
+                              GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
+                              GLOBAL const coeff *restrict gradient, coeff k_one, coeff ell_one, coeff beta,
+                              coeff one_plus_tau, GLOBAL const coeff *restrict material,
+                              GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
+                              GLOBAL const int *restrict touched, GLOBAL state *restrict stabilisation)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
-        members_store1(who, stabilisation, dlsm_bonds_of(who, neighbour, area, ratio, displacement, gradient, k_one, ell_one, beta, one_plus_tau, material, modulus, ell_of, finite, 1,
-                                                         touched));
+        members_store1(who, stabilisation,
+                       dlsm_bonds_of(who, neighbour, area, ratio, displacement, gradient, k_one, ell_one, beta,
+                                     one_plus_tau, material, modulus, ell_of, finite, 1, touched));
     }
 }
 
 /* Output: G = F - I [-] [n][9]. */
 KERNEL void dlsm_deformation(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                              GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                             GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                             GLOBAL const coeff *restrict held_gradient, int face_loads, GLOBAL coeff *restrict deformation)
+                             GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
+                             GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient,
+                             int face_loads, GLOBAL coeff *restrict deformation)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
-        members_store9(who, deformation, dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads));
+        members_store9(who, deformation,
+                       dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient,
+                                           face_loads));
     }
 }

@@ -1,7 +1,7 @@
 /* dlsm: held faces (prescribed displacement) and tractions. One work-item does one element that has such faces, so that
  * nothing is scattered (docs/notebook/theory.md T2, Held faces). Arrays of a held element h:
- * element[h] its row, place[2h] its boundary block, place[2h + 1] its lane in the slice, face_start[h] its faces; of a face:
- * area s_f [m^2], arm d_f = C - X_i [m], held 1 or 0 per component, spring kappa_f [N/m], value u_f [m]. */
+ * element[h] its row, place[2h] its boundary block, place[2h + 1] its lane in the slice, face_start[h] its faces; of a
+ * face: area s_f [m^2], arm d_f = C - X_i [m], held 1 or 0 per component, spring kappa_f [N/m], value u_f [m]. */
 
 /* u_f - u_i, the difference taken in state. */
 LAW vec3 held_jump(GLOBAL const state *restrict value, int face, GLOBAL const state *restrict displacement, int e)
@@ -27,7 +27,10 @@ KERNEL void held_prescribe(int n, state factor, GLOBAL const int *restrict face,
 }
 
 /* r_f = Pi (u_f - u_i - H_i d_f) [m]. */
-LAW vec3 held_residual(vec3 pi, vec3 jump, mat3 grad, vec3 arm) { return held_only(pi, vec3_sub(jump, mat3_mul_vec(grad, arm))); }
+LAW vec3 held_residual(vec3 pi, vec3 jump, mat3 grad, vec3 arm)
+{
+    return held_only(pi, vec3_sub(jump, mat3_mul_vec(grad, arm)));
+}
 
 /* Part of V G: sum r_f (x) s_f, assigned to the element's place. */
 KERNEL void held_gradient_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict place,
@@ -41,8 +44,9 @@ KERNEL void held_gradient_pass(int n, GLOBAL const int *restrict element, GLOBAL
         const mat3 grad = mat3_load(gradient, e);
         mat3 sum = {0, 0, 0, 0, 0, 0, 0, 0, 0};
         for (int f = face_start[h]; f < face_start[h + 1]; ++f)
-            sum = mat3_add_outer(sum, held_residual(vec3_load(held, f), held_jump(value, f, displacement, e), grad, vec3_load(arm, f)),
-                                 vec3_load(area, f));
+            sum = mat3_add_outer(
+                sum, held_residual(vec3_load(held, f), held_jump(value, f, displacement, e), grad, vec3_load(arm, f)),
+                vec3_load(area, f));
         mat3_put_in_block(held_gradient, place[2 * h], place[2 * h + 1], sum);
     }
 }
@@ -75,8 +79,8 @@ KERNEL void held_moment_pass(int n, GLOBAL const int *restrict element, GLOBAL c
 }
 
 /* f_i += pull, which is also the force of the load on the solid (dW/du_f), kept as reaction [N].
- * book: 0 no more; 1 adds the work of the load since the last booking by the trapezoidal rule [J]; 2 starts booking here.
- * last [n][3], last_reaction [n][3]: u_f and reaction at the last booking. */
+ * book: 0 no more; 1 adds the work of the load since the last booking by the trapezoidal rule [J]; 2 starts booking
+ * here. last [n][3], last_reaction [n][3]: u_f and reaction at the last booking. */
 KERNEL void held_force_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict face_start,
                             GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict arm,
                             GLOBAL const coeff *restrict held, GLOBAL const coeff *restrict spring,
@@ -118,15 +122,17 @@ KERNEL void held_energy(int n, GLOBAL const int *restrict element, GLOBAL const 
         const int e = element[h];
         const mat3 grad = mat3_load(gradient, e);
         for (int f = face_start[h]; f < face_start[h + 1]; ++f) {
-            const vec3 r = held_residual(vec3_load(held, f), held_jump(value, f, displacement, e), grad, vec3_load(arm, f));
+            const vec3 r =
+                held_residual(vec3_load(held, f), held_jump(value, f, displacement, e), grad, vec3_load(arm, f));
             energy[f] = (state)(REAL(0.5) * spring[f] * vec3_dot(r, r));
         }
     }
 }
 
-/* Tractions of one load, summed per element: total [N] = sum t S, moment [N m] = sum t S (x) (C - X), at unit factor. */
-KERNEL void traction_moment_pass(int n, coeff factor, GLOBAL const int *restrict place, GLOBAL const coeff *restrict moment,
-                                 GLOBAL coeff *restrict held_moment)
+/* Tractions of one load, summed per element: total [N] = sum t S, moment [N m] = sum t S (x) (C - X), at unit
+ * factor. */
+KERNEL void traction_moment_pass(int n, coeff factor, GLOBAL const int *restrict place,
+                                 GLOBAL const coeff *restrict moment, GLOBAL coeff *restrict held_moment)
 {
     FOR_EACH_ITEM(i, n) {
         const mat3 m = mat3_load(moment, i);
@@ -139,8 +145,8 @@ KERNEL void traction_moment_pass(int n, coeff factor, GLOBAL const int *restrict
 /* f_i += factor total; total.u + moment:H is what the traction works on [J]. book, reach: as book and last above. */
 KERNEL void traction_force_pass(int n, state factor, GLOBAL const int *restrict element,
                                 GLOBAL const coeff *restrict total, GLOBAL const coeff *restrict moment,
-                                GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient, int book,
-                                state last_factor, GLOBAL state *restrict force, GLOBAL state *restrict reach,
+                                GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
+                                int book, state last_factor, GLOBAL state *restrict force, GLOBAL state *restrict reach,
                                 GLOBAL state *restrict work)
 {
     FOR_EACH_ITEM(i, n) {

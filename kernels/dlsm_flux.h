@@ -1,8 +1,9 @@
 /* dlsm: the tensor B of an element whose sum over the two ends, times the area vector, is the bond force
- * (docs/notebook/theory.md T2, third pass): B = Q A^-1 [Pa], with one material plus k (1 + tau) times the bond part. The stress term of Q is
- * that of G = H + sum (H_j - H_i) d (x) s / (2 V): no face moments are stored or read (docs/notebook/theory.md T2). Several materials: a bond takes the
- * softer of its two stabilisation moduli, k_ij = min(k_i, k_j), for both terms of its energy, so that it stays bounded by
- * the elastic energy of either side at any contrast. */
+ * (docs/notebook/theory.md T2, third pass): B = Q A^-1 [Pa], with one material plus k (1 + tau) times the bond part.
+ * The stress term of Q is that of G = H + sum (H_j - H_i) d (x) s / (2 V): no face moments are stored or read
+ * (docs/notebook/theory.md T2). Several materials: a bond takes the softer of its two stabilisation moduli, k_ij =
+ * min(k_i, k_j), for both terms of its energy, so that it stays bounded by the elastic energy of either side at any
+ * contrast. */
 #ifndef BRC_KERNELS_DLSM_FLUX_H
 #define BRC_KERNELS_DLSM_FLUX_H
 
@@ -15,8 +16,8 @@ typedef struct {
     lane_mat3 q;  /* sum (P_i + P_j) s (x) d / 2 [N m] */
 } dlsm_flux_sums;
 
-/* With one material, what stands for r = (u_j - u_i) - (H_i + H_j)/2 R in sum r (x) s [m] is (H_i - H_j) R / 2: the sum of
- * (u_j - u_i) (x) s is H_i A_i = sum (H_i R) (x) s. */
+/* With one material, what stands for r = (u_j - u_i) - (H_i + H_j)/2 R in sum r (x) s [m] is (H_i - H_j) R / 2: the sum
+ * of (u_j - u_i) (x) s is H_i A_i = sum (H_i R) (x) s. */
 
 LAW dlsm_flux_sums dlsm_flux_add_bond(dlsm_flux_sums sums, lane_vec3 residual, lane_vec3 compact, lane_vec3 area)
 {
@@ -32,16 +33,18 @@ LAW dlsm_flux_sums dlsm_flux_add_stress(dlsm_flux_sums sums, lane_mat3 stress_su
     return sums;
 }
 
-/* What the stabilisation adds to Q = V P - q - direct + adjoint [N m]: (k/2) [ (1 + tau) rs + beta ms ], and the adjoint of M on
- * T = (beta k / 2) rs. What face loads add is up to the loop. k: stabilisation modulus [Pa]. */
+/* What the stabilisation adds to Q = V P - q - direct + adjoint [N m]: (k/2) [ (1 + tau) rs + beta ms ], and the
+ * adjoint of M on T = (beta k / 2) rs. What face loads add is up to the loop. k: stabilisation modulus [Pa]. */
 typedef struct {
     lane_mat3 direct, adjoint;
 } dlsm_flux_couples;
-LAW dlsm_flux_couples dlsm_flux_couple(lane_mat3 gradient, dlsm_flux_sums sums, lane k, coeff beta, coeff one_plus_tau, lane ell, int finite)
+LAW dlsm_flux_couples dlsm_flux_couple(lane_mat3 gradient, dlsm_flux_sums sums, lane k, coeff beta, coeff one_plus_tau,
+                                       lane ell, int finite)
 {
     const lane half_k = REAL(0.5) * k;
     const lane_mat3 t = lane_mat3_scale(half_k * beta, sums.rs);
-    const lane_mat3 direct = lane_mat3_add(lane_mat3_scale(half_k * one_plus_tau, sums.rs), lane_mat3_scale(half_k * beta, sums.ms));
+    const lane_mat3 direct =
+        lane_mat3_add(lane_mat3_scale(half_k * one_plus_tau, sums.rs), lane_mat3_scale(half_k * beta, sums.ms));
     return (dlsm_flux_couples){direct, dlsm_compaction_adjoint(gradient, t, ell, finite)};
 }
 LAW lane_mat3 dlsm_flux_moment(lane_mat3 stress, lane volume, lane_mat3 q, dlsm_flux_couples couples)
@@ -50,9 +53,10 @@ LAW lane_mat3 dlsm_flux_moment(lane_mat3 stress, lane volume, lane_mat3 q, dlsm_
     return lane_mat3_add(lane_mat3_sub(own, couples.direct), couples.adjoint);
 }
 
-/* [beta/(1 + tau) M - H] / 2 [-]: the bond terms of B over the spring k (1 + tau). The factor of H is exact and the spring is
- * the product that multiplies u_j - u_i too, so that the two cancel in a turned body to the rounding of each bond, not by
- * the rounding of a constant, which all bonds would share: that would turn a spinning body (docs/notebook/theory.md T8). */
+/* [beta/(1 + tau) M - H] / 2 [-]: the bond terms of B over the spring k (1 + tau). The factor of H is exact and the
+ * spring is the product that multiplies u_j - u_i too, so that the two cancel in a turned body to the rounding of each
+ * bond, not by the rounding of a constant, which all bonds would share: that would turn a spinning body
+ * (docs/notebook/theory.md T8). */
 LAW lane_mat3 dlsm_flux_bond_part(lane_mat3 gradient, lane_mat3 compaction, coeff beta, coeff one_plus_tau)
 {
     const lane for_compaction = LANE_ZERO + REAL(0.5) * (beta / one_plus_tau), for_gradient = LANE_ZERO + REAL(0.5);

@@ -1,4 +1,5 @@
-/* When a stress is too much: principal values and directions of a symmetric tensor, and limits on it. Tension is positive.
+/* When a stress is too much: principal values and directions of a symmetric tensor, and limits on it. Tension is
+ * positive.
  *
  * Every limit is a ratio of degree one in the stress, so 1 / ratio is the factor on the load at which it is reached:
  *     tension      sigma_I / tension                                      NAH19 eq. 7
@@ -15,9 +16,13 @@
 #define FAILURE_COMPRESSION 2
 #define FAILURE_SHEAR 3
 
-typedef struct { coeff xx, yy, zz, yz, xz, xy; } failure_stress; /* [Pa] */
+typedef struct {
+    coeff xx, yy, zz, yz, xz, xy;
+} failure_stress; /* [Pa] */
 
-typedef struct { coeff x, y, z; } failure_axis;
+typedef struct {
+    coeff x, y, z;
+} failure_axis;
 
 /* first >= second >= third [Pa], and their unit vectors, signs open. */
 typedef struct {
@@ -26,7 +31,9 @@ typedef struct {
 } failure_principal;
 
 /* Limits of one element; tension, compression [Pa]; shear: 2 c cos phi, or k [Pa]. */
-typedef struct { coeff tension, compression, shear; } failure_limits;
+typedef struct {
+    coeff tension, compression, shear;
+} failure_limits;
 
 /* How shear counts, one for a scene. slope: sin phi, or a; friction: sin phi, for the plane it slides on. */
 typedef struct {
@@ -35,10 +42,10 @@ typedef struct {
 } failure_shear;
 
 typedef struct {
-    coeff ratio;  /* >= 1: failed [-] */
-    coeff stress; /* the principal value that counts; shear: half the difference of the outer two [Pa] */
+    coeff ratio;                /* >= 1: failed [-] */
+    coeff stress;               /* the principal value that counts; shear: half the difference of the outer two [Pa] */
     failure_axis normal, other; /* normals of the planes it fails on, both equal unless it shears */
-    int mode; /* FAILURE_..., 0: no limit */
+    int mode;                   /* FAILURE_..., 0: no limit */
 } failure_state;
 
 LAW coeff failure_absolute(coeff x) { return x < 0 ? -x : x; }
@@ -62,8 +69,13 @@ LAW failure_pair failure_turn(failure_pair a)
     const coeff theta = (a.qq - a.pp) / (REAL(2) * a.pq);
     const coeff t = (theta < 0 ? REAL(-1) : REAL(1)) / (failure_absolute(theta) + SQRT(theta * theta + REAL(1)));
     const coeff c = REAL(1) / SQRT(t * t + REAL(1)), n = t * c;
-    return (failure_pair){a.pp - t * a.pq,         a.qq + t * a.pq,         0, c * a.rp - n * a.rq, n * a.rp + c * a.rq,
-                          failure_mix(c, a.p, -n, a.q), failure_mix(n, a.p, c, a.q)};
+    return (failure_pair){a.pp - t * a.pq,
+                          a.qq + t * a.pq,
+                          0,
+                          c * a.rp - n * a.rq,
+                          n * a.rp + c * a.rq,
+                          failure_mix(c, a.p, -n, a.q),
+                          failure_mix(n, a.p, c, a.q)};
 }
 
 /* Larger value first. */
@@ -72,8 +84,8 @@ LAW failure_pair failure_order(failure_pair a)
     return a.pp >= a.qq ? a : (failure_pair){a.qq, a.pp, a.pq, a.rq, a.rp, a.q, a.p};
 }
 
-/* Cyclic Jacobi rotations: only sums, products, quotients and roots, so all devices agree; exact for multiple values too. Values to
- * rounding of the largest, whatever their size. */
+/* Cyclic Jacobi rotations: only sums, products, quotients and roots, so all devices agree; exact for multiple values
+ * too. Values to rounding of the largest, whatever their size. */
 LAW failure_principal failure_principal_of(failure_stress s)
 {
     const coeff size = failure_larger(failure_larger(failure_larger(failure_absolute(s.xx), failure_absolute(s.yy)),
@@ -102,7 +114,8 @@ LAW int failure_all_below(failure_stress s, coeff sign, coeff limit)
 {
     const coeff a = limit - sign * s.xx, b = limit - sign * s.yy, c = limit - sign * s.zz;
     const coeff minor = a * b - s.xy * s.xy;
-    const coeff det = c * minor - sign * s.yz * (sign * a * s.yz + s.xy * s.xz) - sign * s.xz * (s.xy * s.yz + sign * s.xz * b);
+    const coeff det =
+        c * minor - sign * s.yz * (sign * a * s.yz + s.xy * s.xz) - sign * s.xz * (s.xy * s.yz + sign * s.xz * b);
     return a > 0 && minor > 0 && det > 0;
 }
 
@@ -113,27 +126,32 @@ LAW int failure_possible(failure_stress s, failure_limits limits, failure_shear 
     if (limits.tension > 0 && !failure_all_below(s, REAL(1), near * limits.tension)) return 1;
     if (limits.compression > 0 && !failure_all_below(s, REAL(-1), near * limits.compression)) return 1;
     if (limits.shear > 0) {
-        const coeff square = s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + REAL(2) * (s.yz * s.yz + s.xz * s.xz + s.xy * s.xy);
+        const coeff square =
+            s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + REAL(2) * (s.yz * s.yz + s.xz * s.xz + s.xy * s.xy);
         /* |sigma_I -+ sigma_III| <= sqrt 2 |sigma|; sqrt J2 <= |sigma| / sqrt 2, I1 <= sqrt 3 |sigma| */
-        const coeff reach = shear.drucker_prager ? REAL(0.7072) + REAL(1.7321) * shear.slope : REAL(1.4143) * (REAL(1) + shear.slope);
+        const coeff reach =
+            shear.drucker_prager ? REAL(0.7072) + REAL(1.7321) * shear.slope : REAL(1.4143) * (REAL(1) + shear.slope);
         if (reach * reach * square >= near * near * limits.shear * limits.shear) return 1;
     }
     return 0;
 }
 
-/* The largest principal value from above, and what tells how near a direction is to its axis, without principal values: A = adj(sigma - lambda 1) of sigma over its
- * size, whose principal values are a1 = (lambda - s2) (lambda - s3) along that axis and, across it, 0 to `slack`, nothing where lambda is s1. So for a unit vector x
+/* The largest principal value from above, and what tells how near a direction is to its axis, without principal values:
+ * A = adj(sigma - lambda 1) of sigma over its size, whose principal values are a1 = (lambda - s2) (lambda - s3) along
+ * that axis and, across it, 0 to `slack`, nothing where lambda is s1. So for a unit vector x
  *     a1 cos^2 <= x.A x <= a1 cos^2 + slack,
- * and quotients of x.A x of several directions need no a1. known: 0 where the largest two are so close that A says nothing. */
+ * and quotients of x.A x of several directions need no a1. known: 0 where the largest two are so close that A says
+ * nothing. */
 typedef struct {
-    coeff first; /* lambda >= s1 [Pa] */
+    coeff first;             /* lambda >= s1 [Pa] */
     failure_stress adjugate; /* A [-] */
-    coeff slack; /* [-] */
+    coeff slack;             /* [-] */
     int known;
 } failure_leading;
 
-/* Two steps of Newton from the start of failure_bound.h, all from above: off by 2e-6 of the deviator where the three values are apart. The second invariant of A is 3 mu q, of
- * which slack a1 is a part, and a1 at least a third of the trace of A, which is the slope of q. Slopes of some size alone: rounding moves mu by itself over the slope. */
+/* Two steps of Newton from the start of failure_bound.h, all from above: off by 2e-6 of the deviator where the three
+ * values are apart. The second invariant of A is 3 mu q, of which slack a1 is a part, and a1 at least a third of the
+ * trace of A, which is the slope of q. Slopes of some size alone: rounding moves mu by itself over the slope. */
 LAW failure_leading failure_leading_of(failure_stress s)
 {
     const coeff rounding = BRC_PRECISION == 0 ? REAL(1e-12) : REAL(1e-4);
@@ -143,7 +161,8 @@ LAW failure_leading failure_leading_of(failure_stress s)
                                       failure_larger(failure_absolute(s.xz), failure_absolute(s.xy)));
     if (!(size > 0)) return out;
     const coeff unit = REAL(1) / size, mean = REAL(0.33333333333333333) * unit * (s.xx + s.yy + s.zz);
-    const coeff xx = unit * s.xx - mean, yy = unit * s.yy - mean, zz = unit * s.zz - mean, yz = unit * s.yz, xz = unit * s.xz, xy = unit * s.xy;
+    const coeff xx = unit * s.xx - mean, yy = unit * s.yy - mean, zz = unit * s.zz - mean, yz = unit * s.yz,
+                xz = unit * s.xz, xy = unit * s.xy;
     const coeff j2 = REAL(0.5) * (xx * xx + yy * yy + zz * zz) + (yz * yz + xz * xz + xy * xy);
     const coeff j3 = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
     if (!(j2 > rounding)) return out;
@@ -156,7 +175,8 @@ LAW failure_leading failure_leading_of(failure_stress s)
     if (!(slope > REAL(0.01) * j2)) return out;
     const coeff a = xx - mu, b = yy - mu, c = zz - mu;
     out.first = size * (mean + mu);
-    out.adjugate = (failure_stress){b * c - yz * yz, a * c - xz * xz, a * b - xy * xy, xy * xz - a * yz, xy * yz - b * xz, xz * yz - c * xy};
+    out.adjugate = (failure_stress){b * c - yz * yz,  a * c - xz * xz,  a * b - xy * xy,
+                                    xy * xz - a * yz, xy * yz - b * xz, xz * yz - c * xy};
     out.slack = REAL(9) * mu * failure_absolute(mu * (mu * mu - j2) - j3) / slope + rounding;
     out.known = 1;
     return out;
@@ -166,7 +186,8 @@ LAW failure_leading failure_leading_of(failure_stress s)
 LAW coeff failure_leading_share(failure_leading f, failure_axis x, coeff inv_square)
 {
     const failure_stress a = f.adjugate;
-    return inv_square * (x.x * (a.xx * x.x + REAL(2) * (a.xy * x.y + a.xz * x.z)) + x.y * (a.yy * x.y + REAL(2) * a.yz * x.z) + a.zz * x.z * x.z);
+    return inv_square * (x.x * (a.xx * x.x + REAL(2) * (a.xy * x.y + a.xz * x.z)) +
+                         x.y * (a.yy * x.y + REAL(2) * a.yz * x.z) + a.zz * x.z * x.z);
 }
 
 LAW failure_state failure_worse(failure_state a, failure_state b) { return b.ratio > a.ratio ? b : a; }
@@ -175,16 +196,22 @@ LAW failure_state failure_of(failure_principal p, failure_limits limits, failure
 {
     failure_state out = {0, 0, {0, 0, 0}, {0, 0, 0}, 0};
     if (limits.tension > 0)
-        out = failure_worse(out, (failure_state){p.first / limits.tension, p.first, p.first_axis, p.first_axis, FAILURE_TENSION});
+        out = failure_worse(
+            out, (failure_state){p.first / limits.tension, p.first, p.first_axis, p.first_axis, FAILURE_TENSION});
     if (limits.compression > 0)
-        out = failure_worse(out, (failure_state){-p.third / limits.compression, p.third, p.third_axis, p.third_axis, FAILURE_COMPRESSION});
+        out = failure_worse(out, (failure_state){-p.third / limits.compression, p.third, p.third_axis, p.third_axis,
+                                                 FAILURE_COMPRESSION});
     if (limits.shear > 0) { /* planes at 45 deg + phi / 2 between the outer axes */
-        const coeff along = SQRT(REAL(0.5) * (REAL(1) + shear.friction)), across = SQRT(REAL(0.5) * (REAL(1) - shear.friction));
+        const coeff along = SQRT(REAL(0.5) * (REAL(1) + shear.friction)),
+                    across = SQRT(REAL(0.5) * (REAL(1) - shear.friction));
         const coeff a = p.first - p.second, b = p.second - p.third, c = p.first - p.third;
-        const coeff measure = shear.drucker_prager ? SQRT((a * a + b * b + c * c) / REAL(6)) + shear.slope * (p.first + p.second + p.third)
+        const coeff measure = shear.drucker_prager ? SQRT((a * a + b * b + c * c) / REAL(6)) +
+                                                         shear.slope * (p.first + p.second + p.third)
                                                    : c + shear.slope * (p.first + p.third);
-        out = failure_worse(out, (failure_state){measure / limits.shear, REAL(0.5) * c, failure_mix(along, p.first_axis, across, p.third_axis),
-                                                 failure_mix(along, p.first_axis, -across, p.third_axis), FAILURE_SHEAR});
+        out =
+            failure_worse(out, (failure_state){measure / limits.shear, REAL(0.5) * c,
+                                               failure_mix(along, p.first_axis, across, p.third_axis),
+                                               failure_mix(along, p.first_axis, -across, p.third_axis), FAILURE_SHEAR});
     }
     return out;
 }

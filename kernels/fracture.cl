@@ -1,22 +1,24 @@
-/* Fracture of cbm (NAH19 section 2.2): forces with the virial, elements that fail by its mean over neighbours and the bond each loses, and
- * what goes with a lost bond: fracture_force, fracture_check, fracture_break in every step. Each writes arrays of its own element only, but for
- * `mark`.
+/* Fracture of cbm (NAH19 section 2.2): forces with the virial, elements that fail by its mean over neighbours and the
+ * bond each loses, and what goes with a lost bond: fracture_force, fracture_check, fracture_break in every step. Each
+ * writes arrays of its own element only, but for `mark`.
  *
- * A bond that broke becomes padding: its entry points home and its inverse length is 0, so that elastic passes need to know nothing.
- * record [slice][8][C]: sum over the beams of an element of the symmetric part of x_ij (x) f_ij, xx yy zz yz xz xy [J]; twice its volume with its
- * share of the voids [m^3]; one over that. choice [n]: 4 * (row of the neighbour that loses the bond) + mode of failure, or -1.
- * mark [n / W]: the last step in which a bond of the group was chosen; the host counts steps from 1.
- * reach [n]: upper bound of the element's own ratio of failure by the smallest limits of all, times record's volume [m^3] (failure_bound.h).
- * weight [n]: volume of record over the element and its neighbours [m^3]; ease [n]: how much farther than the smallest its own limits are, times
- * its weakest factor, a little less [-]. While the sum of reach over the members is below ease times weight the element cannot fail.
- * factor [slot][C], weakest [n]: of the strength of each bond, and the smallest of an element; only read if weighted. */
+ * A bond that broke becomes padding: its entry points home and its inverse length is 0, so that elastic passes need to
+ * know nothing. record [slice][8][C]: sum over the beams of an element of the symmetric part of x_ij (x) f_ij, xx yy zz
+ * yz xz xy [J]; twice its volume with its share of the voids [m^3]; one over that. choice [n]: 4 * (row of the
+ * neighbour that loses the bond) + mode of failure, or -1. mark [n / W]: the last step in which a bond of the group was
+ * chosen; the host counts steps from 1. reach [n]: upper bound of the element's own ratio of failure by the smallest
+ * limits of all, times record's volume [m^3] (failure_bound.h). weight [n]: volume of record over the element and its
+ * neighbours [m^3]; ease [n]: how much farther than the smallest its own limits are, times its weakest factor, a little
+ * less [-]. While the sum of reach over the members is below ease times weight the element cannot fail. factor
+ * [slot][C], weakest [n]: of the strength of each bond, and the smallest of an element; only read if weighted. */
 
 #define RECORD 8
 /* Component 0 of a row or of a lane of rows; the next are C further on. */
 #define RECORD_OF(row) ((row) / C * (RECORD * C) + (row) % C)
 
 /* A group's sums of x (x) f, and how near to failure they are. */
-LAW void fracture_put_record(int group, lane_sym3 virial, failure_scale scale, GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
+LAW void fracture_put_record(int group, lane_sym3 virial, failure_scale scale, GLOBAL coeff *restrict record,
+                             GLOBAL coeff *restrict reach)
 {
     const brc_size to = (brc_size)SLICE_OF(group) * RECORD * C + (brc_size)FIRST_LANE_OF(group);
     lane_store(record, to, virial.xx);
@@ -35,10 +37,11 @@ LAW void fracture_put_record(int group, lane_sym3 virial, failure_scale scale, G
 /* As cbm_force_pass with the full law, and the records. */
 KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                           coeff twist, GLOBAL const coeff *restrict beam_of, coeff inv_tension, coeff inv_compression, coeff inv_shear,
-                           int drucker_prager, coeff slope, GLOBAL state *restrict force, GLOBAL state *restrict torque,
-                           GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
+                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                           coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
+                           coeff inv_tension, coeff inv_compression, coeff inv_shear, int drucker_prager, coeff slope,
+                           GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL coeff *restrict record,
+                           GLOBAL coeff *restrict reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
@@ -47,8 +50,8 @@ KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, G
         cbm_end sum = {{zero, zero, zero}, {zero, zero, zero}};
         lane_sym3 virial = {zero, zero, zero, zero, zero, zero};
         for (int slot = row_start[slice]; slot < last; ++slot) {
-            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement, orientation, axial, bend,
-                                              twist, beam_of, 1);
+            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
+                                              orientation, axial, bend, twist, beam_of, 1);
             const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
             sum.force = lane_vec3_add(sum.force, end.force);
             sum.torque = lane_vec3_add(sum.torque, end.torque);
@@ -62,9 +65,10 @@ KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, G
     }
 }
 
-/* Mean stress of a group's elements over themselves (level 0) or with their neighbours over unbroken bonds (level 1). */
-LAW lane_sym3 fracture_mean(int group, int level, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                            GLOBAL const coeff *restrict record)
+/* Mean stress of a group's elements over themselves (level 0) or with their neighbours over unbroken bonds (level
+ * 1). */
+LAW lane_sym3 fracture_mean(int group, int level, GLOBAL const int *restrict row_start,
+                            GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict record)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
     const lane_int own = lane_own(group * W);
@@ -77,12 +81,14 @@ LAW lane_sym3 fracture_mean(int group, int level, GLOBAL const int *restrict row
         for (int c = 0; c < 7; ++c) sum[c] += whole * gather_component(record + c * C, at);
     }
     const lane inverse = REAL(1) / sum[6];
-    return (lane_sym3){inverse * sum[0], inverse * sum[1], inverse * sum[2], inverse * sum[3], inverse * sum[4], inverse * sum[5]};
+    return (lane_sym3){inverse * sum[0], inverse * sum[1], inverse * sum[2],
+                       inverse * sum[3], inverse * sum[4], inverse * sum[5]};
 }
 
 /* Stress of every element [n][6]; level 0 or 1. */
-KERNEL void fracture_stress(int n_groups, int level, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                            GLOBAL const coeff *restrict record, GLOBAL coeff *restrict stress)
+KERNEL void fracture_stress(int n_groups, int level, GLOBAL const int *restrict row_start,
+                            GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict record,
+                            GLOBAL coeff *restrict stress)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_sym3 mean = fracture_mean(group, level, row_start, neighbour, record);
@@ -90,8 +96,8 @@ KERNEL void fracture_stress(int n_groups, int level, GLOBAL const int *restrict 
     }
 }
 
-/* Level 2: the neighbours' neighbours too, each element once. SECOND_SHELL: places of the table that knows who was counted; the host refuses
- * samples with elements that have more members. */
+/* Level 2: the neighbours' neighbours too, each element once. SECOND_SHELL: places of the table that knows who was
+ * counted; the host refuses samples with elements that have more members. */
 #define SECOND_SHELL 512
 KERNEL void fracture_stress_second(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
                                    GLOBAL const coeff *restrict record, GLOBAL coeff *restrict stress)
@@ -105,7 +111,8 @@ KERNEL void fracture_stress_second(int n, GLOBAL const int *restrict row_start, 
         for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
             const int j = neighbour[(brc_size)slot * C + e % C];
             if (j == e) continue;
-            for (int next = row_start[j / C] - 1; next < row_start[j / C + 1]; ++next) { /* first j itself, then its neighbours */
+            for (int next = row_start[j / C] - 1; next < row_start[j / C + 1];
+                 ++next) { /* first j itself, then its neighbours */
                 const int k = next < row_start[j / C] ? j : neighbour[(brc_size)next * C + j % C];
                 int place = k % SECOND_SHELL;
                 while (seen[place] != -1 && seen[place] != k) place = (place + 1) % SECOND_SHELL;
@@ -131,11 +138,13 @@ LAW failure_limits fracture_limits_of(GLOBAL const coeff *restrict limits, int e
 }
 
 /* x_j - x_i of a bond now [m]. */
-LAW failure_axis fracture_branch_of(int e, int j, int slot, GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement)
+LAW failure_axis fracture_branch_of(int e, int j, int slot, GLOBAL const coeff *restrict branch,
+                                    GLOBAL const state *restrict displacement)
 {
     GLOBAL const coeff *r = branch + (brc_size)slot * 3 * C + e % C;
     GLOBAL const state *from = displacement + (brc_size)e * 3, *to = displacement + (brc_size)j * 3;
-    return (failure_axis){r[0] + (coeff)(to[0] - from[0]), r[C] + (coeff)(to[1] - from[1]), r[2 * C] + (coeff)(to[2] - from[2])};
+    return (failure_axis){r[0] + (coeff)(to[0] - from[0]), r[C] + (coeff)(to[1] - from[1]),
+                          r[2 * C] + (coeff)(to[2] - from[2])};
 }
 
 /* The bond that an element would lose, and what the ratio of its stress counts there. */
@@ -144,9 +153,10 @@ typedef struct {
     coeff gain; /* [-] */
 } fracture_pick;
 
-/* The bond with the largest |cos| to the direction of failure over its factor, the first of equals. gain: that over the largest |cos| of all: the
- * element fails when ratio times gain is 1, so a bond of factor f in the direction of failure goes at f times the limit, and one farther
- * off at as much more as its |cos| is smaller. Without factors the nearest bond, and gain is 1. */
+/* The bond with the largest |cos| to the direction of failure over its factor, the first of equals. gain: that over the
+ * largest |cos| of all: the element fails when ratio times gain is 1, so a bond of factor f in the direction of failure
+ * goes at f times the limit, and one farther off at as much more as its |cos| is smaller. Without factors the nearest
+ * bond, and gain is 1. */
 LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, GLOBAL const int *restrict row_start,
                                    GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
                                    GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict factor)
@@ -168,11 +178,14 @@ LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, GL
     return (fracture_pick){other, nearest > 0 ? best / nearest : REAL(1)};
 }
 
-/* 1: of an element whose bonds are of different strength and which only tension can fail, none of them can go, shown without principal values; 0: they have to be asked. Ratio
- * times |cos| over factor must reach the largest |cos| of all (fracture_pick): bonds with a factor above the ratio cannot, and of the others one that lies nearer to the axis
- * than theirs allow is enough. Most elements that wait with a weak bond across the pull are let off here. Room for rounding as in failure_possible. */
-LAW int fracture_spared(int e, failure_stress s, coeff tension, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                        GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict factor)
+/* 1: of an element whose bonds are of different strength and which only tension can fail, none of them can go, shown
+ * without principal values; 0: they have to be asked. Ratio times |cos| over factor must reach the largest |cos| of all
+ * (fracture_pick): bonds with a factor above the ratio cannot, and of the others one that lies nearer to the axis than
+ * theirs allow is enough. Most elements that wait with a weak bond across the pull are let off here. Room for rounding
+ * as in failure_possible. */
+LAW int fracture_spared(int e, failure_stress s, coeff tension, GLOBAL const int *restrict row_start,
+                        GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict factor)
 {
     const failure_leading lead = failure_leading_of(s);
     const coeff most = REAL(1.001) * lead.first / tension;
@@ -184,7 +197,9 @@ LAW int fracture_spared(int e, failure_stress s, coeff tension, GLOBAL const int
         if (j == e || factor[entry] > most) continue;
         const failure_axis x = fracture_branch_of(e, j, slot, branch, displacement);
         const coeff times = most / factor[entry];
-        const coeff share = times * times * (failure_leading_share(lead, x, REAL(1) / (x.x * x.x + x.y * x.y + x.z * x.z)) + lead.slack);
+        const coeff share =
+            times * times *
+            (failure_leading_share(lead, x, REAL(1) / (x.x * x.x + x.y * x.y + x.z * x.z)) + lead.slack);
         needed = failure_larger(needed, share + lead.slack);
     }
     if (needed < 0) return 1;
@@ -198,10 +213,11 @@ LAW int fracture_spared(int e, failure_stress s, coeff tension, GLOBAL const int
 }
 
 /* An element at a limit chooses a bond; measure: its stress then [Pa]. */
-LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear shear, int weighted, GLOBAL const int *restrict row_start,
-                            GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict limits,
-                            GLOBAL const coeff *restrict factor, GLOBAL const coeff *restrict weakest, GLOBAL int *restrict choice,
+LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear shear, int weighted,
+                            GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                            GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
+                            GLOBAL const coeff *restrict limits, GLOBAL const coeff *restrict factor,
+                            GLOBAL const coeff *restrict weakest, GLOBAL int *restrict choice,
                             GLOBAL coeff *restrict measure, GLOBAL int *restrict mark)
 {
     const failure_limits limit = fracture_limits_of(limits, e);
@@ -210,12 +226,15 @@ LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear she
     if (!failure_possible(s, reachable, shear)) return;
     if (weighted && limit.tension > 0) {
         const failure_limits others = {0, reachable.compression, reachable.shear};
-        if (!failure_possible(s, others, shear) && fracture_spared(e, s, limit.tension, row_start, neighbour, branch, displacement, factor)) return;
+        if (!failure_possible(s, others, shear) &&
+            fracture_spared(e, s, limit.tension, row_start, neighbour, branch, displacement, factor))
+            return;
     }
     const failure_principal p = failure_principal_of(s);
     const failure_state failed = failure_of(p, limit, shear);
     if (!(failed.ratio >= least)) return;
-    const fracture_pick pick = fracture_pick_of(e, failed, weighted, row_start, neighbour, branch, displacement, factor);
+    const fracture_pick pick =
+        fracture_pick_of(e, failed, weighted, row_start, neighbour, branch, displacement, factor);
     if (pick.other < 0 || !(failed.ratio * pick.gain >= REAL(1))) return;
     choice[e] = 4 * pick.other + failed.mode;
     measure[e] = failed.stress;
@@ -224,8 +243,8 @@ LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear she
 }
 
 /* fracture_mean of one element, to the last bit. */
-LAW failure_stress fracture_mean_of(int e, int level, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                    GLOBAL const coeff *restrict record)
+LAW failure_stress fracture_mean_of(int e, int level, GLOBAL const int *restrict row_start,
+                                    GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict record)
 {
     coeff sum[7];
     for (int c = 0; c < 7; ++c) sum[c] = record[RECORD_OF(e) + c * C];
@@ -234,21 +253,26 @@ LAW failure_stress fracture_mean_of(int e, int level, GLOBAL const int *restrict
         for (int c = 0; j != e && c < 7; ++c) sum[c] += record[RECORD_OF(j) + c * C];
     }
     const coeff inverse = REAL(1) / sum[6];
-    return (failure_stress){inverse * sum[0], inverse * sum[1], inverse * sum[2], inverse * sum[3], inverse * sum[4], inverse * sum[5]};
+    return (failure_stress){inverse * sum[0], inverse * sum[1], inverse * sum[2],
+                            inverse * sum[3], inverse * sum[4], inverse * sum[5]};
 }
 
-/* Levels 0 and 1: what each element loses. Only elements which the bound lets fail look at stresses: few of a group do. */
-KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager, coeff slope, coeff friction, int weighted,
-                           GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict limits,
-                           GLOBAL const coeff *restrict factor, GLOBAL const coeff *restrict weakest, GLOBAL const coeff *restrict record,
-                           GLOBAL const coeff *restrict reach, GLOBAL const coeff *restrict ease, GLOBAL const coeff *restrict weight,
-                           GLOBAL int *restrict choice, GLOBAL coeff *restrict measure, GLOBAL int *restrict mark)
+/* Levels 0 and 1: what each element loses. Only elements which the bound lets fail look at stresses: few of a group
+ * do. */
+KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager, coeff slope, coeff friction,
+                           int weighted, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                           GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
+                           GLOBAL const coeff *restrict limits, GLOBAL const coeff *restrict factor,
+                           GLOBAL const coeff *restrict weakest, GLOBAL const coeff *restrict record,
+                           GLOBAL const coeff *restrict reach, GLOBAL const coeff *restrict ease,
+                           GLOBAL const coeff *restrict weight, GLOBAL int *restrict choice,
+                           GLOBAL coeff *restrict measure, GLOBAL int *restrict mark)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
         lane sum = lane_load(reach, (brc_size)first);
-        for (int slot = row_start[slice]; level > 0 && slot < last; ++slot) /* what points home adds the element's own: it is no less a bound */
+        for (int slot = row_start[slice]; level > 0 && slot < last;
+             ++slot) /* what points home adds the element's own: it is no less a bound */
             sum += gather_component(reach, int_block(neighbour, slot, lane0));
         const lane room = lane_load(ease, (brc_size)first) * lane_load(weight, (brc_size)first) - sum;
         const failure_shear shear = {drucker_prager, slope, friction};
@@ -260,33 +284,35 @@ KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager
         for (int l = 0; any && l < W; ++l) {
             if (!look[l]) continue;
             const failure_stress s = fracture_mean_of(first + l, level, row_start, neighbour, record);
-            fracture_choose_of(first + l, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits, factor, weakest, choice, measure,
-                               mark);
+            fracture_choose_of(first + l, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits,
+                               factor, weakest, choice, measure, mark);
         }
     }
 }
 
 /* The same from stresses [n][6]. */
 KERNEL void fracture_choose(int n, int step, int drucker_prager, coeff slope, coeff friction, int weighted,
-                            GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict limits,
-                            GLOBAL const coeff *restrict factor, GLOBAL const coeff *restrict weakest, GLOBAL const coeff *restrict stress,
+                            GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                            GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
+                            GLOBAL const coeff *restrict limits, GLOBAL const coeff *restrict factor,
+                            GLOBAL const coeff *restrict weakest, GLOBAL const coeff *restrict stress,
                             GLOBAL int *restrict choice, GLOBAL coeff *restrict measure, GLOBAL int *restrict mark)
 {
     FOR_EACH_ITEM(e, n) {
         const failure_shear shear = {drucker_prager, slope, friction};
         const failure_stress s = fracture_stress_of(stress, e);
         choice[e] = -1;
-        fracture_choose_of(e, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits, factor, weakest, choice, measure,
-                           mark);
+        fracture_choose_of(e, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits, factor,
+                           weakest, choice, measure, mark);
     }
 }
 
 /* How far every element is on its way to failure [n]. */
-KERNEL void fracture_ratio(int n, int drucker_prager, coeff slope, coeff friction, int weighted, GLOBAL const int *restrict row_start,
-                           GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict limits,
-                           GLOBAL const coeff *restrict factor, GLOBAL const coeff *restrict stress, GLOBAL coeff *restrict ratio)
+KERNEL void fracture_ratio(int n, int drucker_prager, coeff slope, coeff friction, int weighted,
+                           GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                           GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
+                           GLOBAL const coeff *restrict limits, GLOBAL const coeff *restrict factor,
+                           GLOBAL const coeff *restrict stress, GLOBAL coeff *restrict ratio)
 {
     FOR_EACH_ITEM(e, n) {
         const failure_shear shear = {drucker_prager, slope, friction};
@@ -296,7 +322,8 @@ KERNEL void fracture_ratio(int n, int drucker_prager, coeff slope, coeff frictio
         const failure_state failed = failure_of(p, limit, shear);
         coeff gain = REAL(1);
         if (weighted) {
-            const fracture_pick pick = fracture_pick_of(e, failed, 1, row_start, neighbour, branch, displacement, factor);
+            const fracture_pick pick =
+                fracture_pick_of(e, failed, 1, row_start, neighbour, branch, displacement, factor);
             gain = pick.gain;
         }
         ratio[e] = failed.ratio * gain; /* of names: clang's target reading cannot map a member of a call's value */
@@ -311,7 +338,8 @@ LAW int fracture_dies(GLOBAL const int *restrict neighbour, GLOBAL const int *re
 }
 
 /* x = (x, y, z) of one element: force -= f, velocity += half_kick f / m. */
-LAW void fracture_take(GLOBAL state *restrict force, GLOBAL state *restrict velocity, state mass, state half_kick, int e, coeff x, coeff y, coeff z)
+LAW void fracture_take(GLOBAL state *restrict force, GLOBAL state *restrict velocity, state mass, state half_kick,
+                       int e, coeff x, coeff y, coeff z)
 {
     const coeff part[3] = {x, y, z};
     for (int c = 0; c < 3; ++c) {
@@ -321,7 +349,8 @@ LAW void fracture_take(GLOBAL state *restrict force, GLOBAL state *restrict velo
 }
 
 /* Volume of an element and its neighbours over unbroken bonds [m^3]. */
-LAW coeff fracture_weight(int e, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict record)
+LAW coeff fracture_weight(int e, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                          GLOBAL const coeff *restrict record)
 {
     coeff sum = record[RECORD_OF(e) + 6 * C];
     for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
@@ -331,20 +360,24 @@ LAW coeff fracture_weight(int e, GLOBAL const int *restrict row_start, GLOBAL co
     return sum;
 }
 
-/* Bonds chosen by either of their elements break. What they carried leaves the forces, which then are those of the step to come; half_kick
- * dt/2 gives the step that ends its share of them back (velocity Verlet closes with the old force and opens with the new one), 0 none.
- * Of every entry that breaks: step, stress [Pa] and mode of the element that chose it (its own if both did), energy of the bond [J].
- * lost, broken [n]: half the energy and the number of bonds of each element, added up. */
+/* Bonds chosen by either of their elements break. What they carried leaves the forces, which then are those of the step
+ * to come; half_kick dt/2 gives the step that ends its share of them back (velocity Verlet closes with the old force
+ * and opens with the new one), 0 none. Of every entry that breaks: step, stress [Pa] and mode of the element that chose
+ * it (its own if both did), energy of the bond [J]. lost, broken [n]: half the energy and the number of bonds of each
+ * element, added up. */
 KERNEL void fracture_break(int n_groups, int level, int step, state half_kick, GLOBAL const int *restrict row_start,
-                           GLOBAL int *restrict neighbour, GLOBAL const coeff *restrict branch, GLOBAL coeff *restrict inv_length,
-                           GLOBAL const int *restrict mark, GLOBAL const coeff *restrict record, GLOBAL coeff *restrict weight,
+                           GLOBAL int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                           GLOBAL coeff *restrict inv_length, GLOBAL const int *restrict mark,
+                           GLOBAL const coeff *restrict record, GLOBAL coeff *restrict weight,
                            GLOBAL const int *restrict choice, GLOBAL const coeff *restrict measure,
-                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial, coeff bend,
-                           coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL const state *restrict mass,
-                           GLOBAL const state *restrict inertia, GLOBAL state *restrict force, GLOBAL state *restrict torque,
-                           GLOBAL state *restrict velocity, GLOBAL state *restrict spin, GLOBAL int *restrict break_step,
-                           GLOBAL int *restrict break_mode, GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
-                           GLOBAL state *restrict lost, GLOBAL state *restrict broken)
+                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                           coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
+                           GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia,
+                           GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL state *restrict velocity,
+                           GLOBAL state *restrict spin, GLOBAL int *restrict break_step,
+                           GLOBAL int *restrict break_mode, GLOBAL coeff *restrict break_stress,
+                           GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost,
+                           GLOBAL state *restrict broken)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
@@ -358,12 +391,12 @@ KERNEL void fracture_break(int n_groups, int level, int step, state half_kick, G
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
             const lane inverse = lane_load(inv_length, entry);
             const cbm_stiffness k = cbm_stiffness_of(beam_of, own, j, axial, bend, twist);
-            const cbm_shape shape = cbm_beam_shape(lane_block3(branch, slot, lane0), inverse, jump, lane_gather4(orientation, own),
-                                                   lane_gather4(orientation, j), 1);
+            const cbm_shape shape = cbm_beam_shape(lane_block3(branch, slot, lane0), inverse, jump,
+                                                   lane_gather4(orientation, own), lane_gather4(orientation, j), 1);
             const cbm_end end = cbm_beam_law(shape, inverse, k, 1);
             const lane energy = cbm_beam_energy(shape, inverse, k);
 #define TAKE(l)                                                                                                        \
-    if (fracture_dies(neighbour, choice, first + 0x##l, entry + 0x##l)) {                                       \
+    if (fracture_dies(neighbour, choice, first + 0x##l, entry + 0x##l)) {                                              \
         const int e = first + 0x##l, other = neighbour[entry + 0x##l];                                                 \
         const int by = choice[e] >= 0 && choice[e] / 4 == other ? e : other;                                           \
         neighbour[entry + 0x##l] = e;                                                                                  \

@@ -1,14 +1,16 @@
-/* The guard of a run: which element is the first to leave what physics allows. One work-item does one block of 1024 rows, in order, and stops at
- * its first find; nothing is reduced over blocks, so that a number that is not finite cannot be lost in a maximum. */
+/* The guard of a run: which element is the first to leave what physics allows. One work-item does one block of 1024
+ * rows, in order, and stops at its first find; nothing is reduced over blocks, so that a number that is not finite
+ * cannot be lost in a maximum. */
 
 /* x is within (-most, most); false for what is not a number. */
 LAW int guard_within(state x, state most) { return x < most && x > -most; }
 
-/* first[b]: the lowest row of block b with a velocity component beyond most_v [m/s], a displacement component beyond most_u [m], or not finite, -1
- * before there was one; when[b]: the look at which it was found. turns: spins [rad/s] are looked at too, finite below most_u. What was found stays. */
-KERNEL void guard_look(int n_blocks, int n, int look, state most_u, state most_v, int turns, GLOBAL const state *restrict displacement,
-                       GLOBAL const state *restrict velocity, GLOBAL const state *restrict spin, GLOBAL int *restrict first,
-                       GLOBAL int *restrict when)
+/* first[b]: the lowest row of block b with a velocity component beyond most_v [m/s], a displacement component beyond
+ * most_u [m], or not finite, -1 before there was one; when[b]: the look at which it was found. turns: spins [rad/s] are
+ * looked at too, finite below most_u. What was found stays. */
+KERNEL void guard_look(int n_blocks, int n, int look, state most_u, state most_v, int turns,
+                       GLOBAL const state *restrict displacement, GLOBAL const state *restrict velocity,
+                       GLOBAL const state *restrict spin, GLOBAL int *restrict first, GLOBAL int *restrict when)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * 1024, end = begin + 1024 < n ? begin + 1024 : n;

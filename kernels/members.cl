@@ -1,7 +1,8 @@
-/* The W elements that a work-item of an element pass does, and where what belongs to them is stored: a group, side by side in one slice, or
- * any W elements of a list (the rings around broken bonds, rings.cl). Passes are written once for both; `listed` is a constant where a kernel makes
- * its members, so that each kernel compiles to its own reading alone. Rows of listed elements differ in length: beyond its own a row has
- * missing bonds, whose neighbour is home and whose face has no area. */
+/* The W elements that a work-item of an element pass does, and where what belongs to them is stored: a group, side by
+ * side in one slice, or any W elements of a list (the rings around broken bonds, rings.cl). Passes are written once for
+ * both; `listed` is a constant where a kernel makes its members, so that each kernel compiles to its own reading alone.
+ * Rows of listed elements differ in length: beyond its own a row has missing bonds, whose neighbour is home and whose
+ * face has no area. */
 typedef struct {
     int listed;
     int first, slice, lane0; /* a group: row of its first element, slice, first lane */
@@ -43,7 +44,10 @@ LAW members members_of_list(int item, int n, GLOBAL const int *restrict list, GL
 /* Listed: all bits where an element has this slot, none behind the end of its row. */
 LAW lane_int members_has(members m, int slot) { return LANE_ABOVE(m.slots, slot); }
 /* Listed: where component 0 of [slot][n][C] is for each; behind the end of its row its first slot. */
-LAW lane_int members_entry(members m, int slot, int n) { return (m.start + (members_has(m, slot) & slot)) * (n * C) + m.lanes; }
+LAW lane_int members_entry(members m, int slot, int n)
+{
+    return (m.start + (members_has(m, slot) & slot)) * (n * C) + m.lanes;
+}
 /* Listed: where component 0 of [slice][n][C] is for each. */
 LAW lane_int members_record(members m, int n) { return (m.own - m.lanes) * n + m.lanes; }
 
@@ -65,7 +69,8 @@ LAW lane_int members_neighbour(members m, GLOBAL const int *restrict neighbour, 
 }
 LAW lane members_row1(members m, GLOBAL const coeff *restrict p, int slot)
 {
-    return m.listed ? gather_component(p, members_entry(m, slot, 1)) : lane_load(p, (brc_size)slot * C + (brc_size)m.lane0);
+    return m.listed ? gather_component(p, members_entry(m, slot, 1))
+                    : lane_load(p, (brc_size)slot * C + (brc_size)m.lane0);
 }
 LAW lane_vec3 members_row3(members m, GLOBAL const coeff *restrict p, int slot)
 {
@@ -103,7 +108,8 @@ LAW void members_records_ahead9(members m, GLOBAL const coeff *restrict p)
 {
     if (!m.listed) records_ahead9(p, m.first);
 }
-LAW void members_gathers_ahead9(members m, GLOBAL const coeff *restrict p, GLOBAL const int *restrict neighbour, int slot)
+LAW void members_gathers_ahead9(members m, GLOBAL const coeff *restrict p, GLOBAL const int *restrict neighbour,
+                                int slot)
 {
     if (!m.listed) gathers_ahead9(p, neighbour, slot, m.end, m.lane0);
 }
@@ -116,19 +122,25 @@ LAW lane members_number(members m, GLOBAL const coeff *restrict p)
 /* A component of [slice][n][C]. */
 LAW lane members_block(members m, GLOBAL const coeff *restrict p, int n, int component)
 {
-    return m.listed ? gather_component(p + component * C, members_record(m, n)) : lane_block(p, m.slice, n, component, m.lane0);
+    return m.listed ? gather_component(p + component * C, members_record(m, n))
+                    : lane_block(p, m.slice, n, component, m.lane0);
 }
 LAW lane_sym3 members_block6(members m, GLOBAL const coeff *restrict p)
 {
     if (!m.listed) return lane_block6(p, m.slice, m.lane0);
     const lane_int at = members_record(m, 6);
-    return (lane_sym3){gather_component(p, at),         gather_component(p + C, at),     gather_component(p + 2 * C, at),
-                       gather_component(p + 3 * C, at), gather_component(p + 4 * C, at), gather_component(p + 5 * C, at)};
+    return (lane_sym3){gather_component(p, at),         gather_component(p + C, at),
+                       gather_component(p + 2 * C, at), gather_component(p + 3 * C, at),
+                       gather_component(p + 4 * C, at), gather_component(p + 5 * C, at)};
 }
 /* sum + factor times [block][9][C] of elements whose slice has a block (boundary[slice] >= 0). */
-LAW lane_mat3 members_add_boundary(members m, lane_mat3 sum, lane factor, GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict p)
+LAW lane_mat3 members_add_boundary(members m, lane_mat3 sum, lane factor, GLOBAL const int *restrict boundary,
+                                   GLOBAL const coeff *restrict p)
 {
-    if (!m.listed) return boundary[m.slice] < 0 ? sum : lane_mat3_add(sum, lane_mat3_scale(factor, lane_block9(p, boundary[m.slice], m.lane0)));
+    if (!m.listed)
+        return boundary[m.slice] < 0
+                   ? sum
+                   : lane_mat3_add(sum, lane_mat3_scale(factor, lane_block9(p, boundary[m.slice], m.lane0)));
 #define BLOCK(l) boundary[LANE_ITEM(m.own, l) / C]
     const lane_int block = LANE_MAKE(lane_int, BLOCK);
 #undef BLOCK
@@ -138,9 +150,10 @@ LAW lane_mat3 members_add_boundary(members m, lane_mat3 sum, lane factor, GLOBAL
 #define HAS(l) (LANE_ITEM(block, l) < 0 ? REAL(0) : REAL(1))
     const lane has = LANE_MAKE(lane, HAS) * factor;
 #undef HAS
-    const lane_mat3 x = {gather_component(p, at),         gather_component(p + C, at),     gather_component(p + 2 * C, at),
-                         gather_component(p + 3 * C, at), gather_component(p + 4 * C, at), gather_component(p + 5 * C, at),
-                         gather_component(p + 6 * C, at), gather_component(p + 7 * C, at), gather_component(p + 8 * C, at)};
+    const lane_mat3 x = {
+        gather_component(p, at),         gather_component(p + C, at),     gather_component(p + 2 * C, at),
+        gather_component(p + 3 * C, at), gather_component(p + 4 * C, at), gather_component(p + 5 * C, at),
+        gather_component(p + 6 * C, at), gather_component(p + 7 * C, at), gather_component(p + 8 * C, at)};
     return lane_mat3_add(sum, lane_mat3_scale(has, x));
 }
 
@@ -151,12 +164,12 @@ LAW void members_store9(members m, GLOBAL coeff *restrict p, lane_mat3 a)
         lane_store9(p, m.first, a);
         return;
     }
-#define PUT(l)                                                                                                          \
-    {                                                                                                                   \
-        GLOBAL coeff *q = p + (brc_size)LANE_ITEM(m.own, l) * 9;                                                        \
-        q[0] = LANE_ITEM(a.xx, l), q[1] = LANE_ITEM(a.xy, l), q[2] = LANE_ITEM(a.xz, l);                                \
-        q[3] = LANE_ITEM(a.yx, l), q[4] = LANE_ITEM(a.yy, l), q[5] = LANE_ITEM(a.yz, l);                                \
-        q[6] = LANE_ITEM(a.zx, l), q[7] = LANE_ITEM(a.zy, l), q[8] = LANE_ITEM(a.zz, l);                                \
+#define PUT(l)                                                                                                         \
+    {                                                                                                                  \
+        GLOBAL coeff *q = p + (brc_size)LANE_ITEM(m.own, l) * 9;                                                       \
+        q[0] = LANE_ITEM(a.xx, l), q[1] = LANE_ITEM(a.xy, l), q[2] = LANE_ITEM(a.xz, l);                               \
+        q[3] = LANE_ITEM(a.yx, l), q[4] = LANE_ITEM(a.yy, l), q[5] = LANE_ITEM(a.yz, l);                               \
+        q[6] = LANE_ITEM(a.zx, l), q[7] = LANE_ITEM(a.zy, l), q[8] = LANE_ITEM(a.zz, l);                               \
     }
     LANE_EACH(PUT)
 #undef PUT
@@ -167,11 +180,11 @@ LAW void members_store6(members m, GLOBAL coeff *restrict p, lane_sym3 a)
         lane_store6(p, m.first, a);
         return;
     }
-#define PUT(l)                                                                                                          \
-    {                                                                                                                   \
-        GLOBAL coeff *q = p + (brc_size)LANE_ITEM(m.own, l) * 6;                                                        \
-        q[0] = LANE_ITEM(a.xx, l), q[1] = LANE_ITEM(a.yy, l), q[2] = LANE_ITEM(a.zz, l);                                \
-        q[3] = LANE_ITEM(a.yz, l), q[4] = LANE_ITEM(a.xz, l), q[5] = LANE_ITEM(a.xy, l);                                \
+#define PUT(l)                                                                                                         \
+    {                                                                                                                  \
+        GLOBAL coeff *q = p + (brc_size)LANE_ITEM(m.own, l) * 6;                                                       \
+        q[0] = LANE_ITEM(a.xx, l), q[1] = LANE_ITEM(a.yy, l), q[2] = LANE_ITEM(a.zz, l);                               \
+        q[3] = LANE_ITEM(a.yz, l), q[4] = LANE_ITEM(a.xz, l), q[5] = LANE_ITEM(a.xy, l);                               \
     }
     LANE_EACH(PUT)
 #undef PUT
@@ -182,10 +195,10 @@ LAW void members_store3(members m, GLOBAL state *restrict p, lane_vec3 a)
         state_store3(p, m.first, a);
         return;
     }
-#define PUT(l)                                                                                                          \
-    {                                                                                                                   \
-        GLOBAL state *q = p + (brc_size)LANE_ITEM(m.own, l) * 3;                                                        \
-        q[0] = (state)LANE_ITEM(a.x, l), q[1] = (state)LANE_ITEM(a.y, l), q[2] = (state)LANE_ITEM(a.z, l);              \
+#define PUT(l)                                                                                                         \
+    {                                                                                                                  \
+        GLOBAL state *q = p + (brc_size)LANE_ITEM(m.own, l) * 3;                                                       \
+        q[0] = (state)LANE_ITEM(a.x, l), q[1] = (state)LANE_ITEM(a.y, l), q[2] = (state)LANE_ITEM(a.z, l);             \
     }
     LANE_EACH(PUT)
 #undef PUT

@@ -1,8 +1,10 @@
 /* Time stepping and single-element loads, common to all models. One work-item does one element; arrays are [n][3]. */
 
-/* v += kick f / m, u += drift v. A full Verlet or symplectic Euler step has kick = drift = dt; a half kick has drift 0. */
-KERNEL void advance(int n, state kick, state drift, GLOBAL const state *restrict mass, GLOBAL const state *restrict force,
-                    GLOBAL state *restrict velocity, GLOBAL state *restrict displacement)
+/* v += kick f / m, u += drift v. A full Verlet or symplectic Euler step has kick = drift = dt; a half kick has drift
+ * 0. */
+KERNEL void advance(int n, state kick, state drift, GLOBAL const state *restrict mass,
+                    GLOBAL const state *restrict force, GLOBAL state *restrict velocity,
+                    GLOBAL state *restrict displacement)
 {
     FOR_EACH_ITEM(e, n) {
         const state per_mass = kick / mass[e];
@@ -15,11 +17,13 @@ KERNEL void advance(int n, state kick, state drift, GLOBAL const state *restrict
     }
 }
 
-/* Tchamwa-Wielgosz: u += dt v + phi dt^2 a; v += dt a (docs/notebook/theory.md T3). lost accumulates, per element, the part
- * (phi - 1/2) dt^2 m a^2 - (dt v + phi dt^2 a).f_old / 2 of the scheme's own dissipation; numerical_close adds the rest. */
-KERNEL void advance_tchamwa(int n, state dt, state phi, GLOBAL const state *restrict mass, GLOBAL const state *restrict force,
-                            GLOBAL state *restrict velocity, GLOBAL state *restrict displacement,
-                            GLOBAL state *restrict moved, GLOBAL state *restrict lost)
+/* Tchamwa-Wielgosz: u += dt v + phi dt^2 a; v += dt a (docs/notebook/theory.md T3). lost accumulates, per element, the
+ * part (phi - 1/2) dt^2 m a^2 - (dt v + phi dt^2 a).f_old / 2 of the scheme's own dissipation; numerical_close adds the
+ * rest. */
+KERNEL void advance_tchamwa(int n, state dt, state phi, GLOBAL const state *restrict mass,
+                            GLOBAL const state *restrict force, GLOBAL state *restrict velocity,
+                            GLOBAL state *restrict displacement, GLOBAL state *restrict moved,
+                            GLOBAL state *restrict lost)
 {
     FOR_EACH_ITEM(e, n) {
         state sum = 0;
@@ -62,7 +66,8 @@ KERNEL void damp_mass(int n, state factor, GLOBAL const state *restrict mass, GL
     }
 }
 
-/* v += factor f / m with f the drag on noise of velocities v [N/s of stiffness times velocity]; lost gains the energy [J]. */
+/* v += factor f / m with f the drag on noise of velocities v [N/s of stiffness times velocity]; lost gains the energy
+ * [J]. */
 KERNEL void damp_noise(int n, state factor, GLOBAL const state *restrict mass, GLOBAL const state *restrict drag,
                        GLOBAL state *restrict velocity, GLOBAL state *restrict lost)
 {
@@ -80,7 +85,8 @@ KERNEL void damp_noise(int n, state factor, GLOBAL const state *restrict mass, G
 }
 
 /* f += m g. */
-KERNEL void gravity(int n, state gx, state gy, state gz, GLOBAL const state *restrict mass, GLOBAL state *restrict force)
+KERNEL void gravity(int n, state gx, state gy, state gz, GLOBAL const state *restrict mass,
+                    GLOBAL state *restrict force)
 {
     FOR_EACH_ITEM(e, n) {
         force[(brc_size)e * 3] += mass[e] * gx;
@@ -116,14 +122,14 @@ KERNEL void impose_motion(int n, state factor, state rate, int set_displacement,
     }
 }
 
-/* Reaction of imposed elements, minus the internal force [N] [n][3]. book: 0 no more; 1 adds the work of the load since the
- * last booking: reaction over the path by the trapezoidal rule plus the change of the imposed components' own kinetic
- * energy [J]; 2 starts booking here. last, last_reaction [n][3]: u and reaction at the last booking. */
+/* Reaction of imposed elements, minus the internal force [N] [n][3]. book: 0 no more; 1 adds the work of the load since
+ * the last booking: reaction over the path by the trapezoidal rule plus the change of the imposed components' own
+ * kinetic energy [J]; 2 starts booking here. last, last_reaction [n][3]: u and reaction at the last booking. */
 KERNEL void impose_book(int n, state rate, state last_rate, int book, GLOBAL const int *restrict element,
                         GLOBAL const coeff *restrict component, GLOBAL const state *restrict direction,
                         GLOBAL const state *restrict mass, GLOBAL const state *restrict displacement,
-                        GLOBAL const state *restrict force, GLOBAL state *restrict reaction, GLOBAL state *restrict last,
-                        GLOBAL state *restrict last_reaction, GLOBAL state *restrict work)
+                        GLOBAL const state *restrict force, GLOBAL state *restrict reaction,
+                        GLOBAL state *restrict last, GLOBAL state *restrict last_reaction, GLOBAL state *restrict work)
 {
     FOR_EACH_ITEM(i, n) {
         for (int c = 0; c < 3; ++c) {
@@ -155,11 +161,12 @@ KERNEL void impose_zero(int n, GLOBAL const int *restrict element, GLOBAL const 
     }
 }
 
-/* Dead forces of one load on elements: f += factor total. total [n][3]: force per element at factor 1 [N]; book, last_factor, reach,
- * work: the work of the load by the trapezoidal rule, as impose_book; reach [n]: total.u at the last booking. */
+/* Dead forces of one load on elements: f += factor total. total [n][3]: force per element at factor 1 [N]; book,
+ * last_factor, reach, work: the work of the load by the trapezoidal rule, as impose_book; reach [n]: total.u at the
+ * last booking. */
 KERNEL void push_elements(int n, state factor, state last_factor, int book, GLOBAL const int *restrict element,
-                          GLOBAL const state *restrict total, GLOBAL const state *restrict displacement, GLOBAL state *restrict force,
-                          GLOBAL state *restrict reach, GLOBAL state *restrict work)
+                          GLOBAL const state *restrict total, GLOBAL const state *restrict displacement,
+                          GLOBAL state *restrict force, GLOBAL state *restrict reach, GLOBAL state *restrict work)
 {
     FOR_EACH_ITEM(i, n) {
         state sum = 0;

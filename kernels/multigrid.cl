@@ -1,12 +1,16 @@
-/* Multigrid as preconditioner of static solves (host/solver/multigrid): residuals, steps and transfers between levels. A node of a level has a displacement
- * move [n][3] and a rotation turn [n][3], forces and torques likewise. Each work-item gathers and writes its own node. */
+/* Multigrid as preconditioner of static solves (host/solver/multigrid): residuals, steps and transfers between levels.
+ * A node of a level has a displacement move [n][3] and a rotation turn [n][3], forces and torques likewise. Each
+ * work-item gathers and writes its own node. */
 
-/* out = right - A x of the finest level of cells: its bonds from area vectors and L/S, or from branches and areas (by_branch). moduli_of [n][3]: with several materials.
- * n_right: right sides there are: 0 none, 1 forces, 2 forces and torques. */
-KERNEL void multigrid_cells(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict vector,
-                            GLOBAL const coeff *restrict number, int by_branch, coeff axial, coeff shear, coeff frame, GLOBAL const coeff *restrict moduli_of,
-                            GLOBAL const state *restrict move, GLOBAL const state *restrict turn, int n_right, GLOBAL const state *restrict right_force,
-                            GLOBAL const state *restrict right_torque, GLOBAL state *restrict force, GLOBAL state *restrict torque)
+/* out = right - A x of the finest level of cells: its bonds from area vectors and L/S, or from branches and areas
+ * (by_branch). moduli_of [n][3]: with several materials. n_right: right sides there are: 0 none, 1 forces, 2 forces and
+ * torques. */
+KERNEL void multigrid_cells(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                            GLOBAL const coeff *restrict vector, GLOBAL const coeff *restrict number, int by_branch,
+                            coeff axial, coeff shear, coeff frame, GLOBAL const coeff *restrict moduli_of,
+                            GLOBAL const state *restrict move, GLOBAL const state *restrict turn, int n_right,
+                            GLOBAL const state *restrict right_force, GLOBAL const state *restrict right_torque,
+                            GLOBAL state *restrict force, GLOBAL state *restrict torque)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
@@ -29,13 +33,15 @@ KERNEL void multigrid_cells(int n_groups, GLOBAL const int *restrict row_start, 
             const lane_vec3 turn_sum = lane_vec3_add(turn_jump, lane_vec3_scale(LANE_ZERO + REAL(2), own_turn));
 #if BRC_MANY_MATERIALS
             const lane_int a = who.own * 3, b = j * 3;
-            const multigrid_moduli m = {multigrid_in_series(gather_component(moduli_of, a), gather_component(moduli_of, b)),
-                                        multigrid_in_series(gather_component(moduli_of + 1, a), gather_component(moduli_of + 1, b)),
-                                        multigrid_in_series(gather_component(moduli_of + 2, a), gather_component(moduli_of + 2, b))};
+            const multigrid_moduli m = {
+                multigrid_in_series(gather_component(moduli_of, a), gather_component(moduli_of, b)),
+                multigrid_in_series(gather_component(moduli_of + 1, a), gather_component(moduli_of + 1, b)),
+                multigrid_in_series(gather_component(moduli_of + 2, a), gather_component(moduli_of + 2, b))};
 #else
             const multigrid_moduli m = {LANE_ZERO + axial, LANE_ZERO + shear, LANE_ZERO + frame};
 #endif
-            const multigrid_pull pull = multigrid_bond(at, m, state_vec3_difference(state_gather3(move, j), u), turn_sum, turn_jump);
+            const multigrid_pull pull =
+                multigrid_bond(at, m, state_vec3_difference(state_gather3(move, j), u), turn_sum, turn_jump);
             f = lane_vec3_add(f, pull.force);
             t = lane_vec3_add(t, pull.torque);
         }
@@ -45,7 +51,9 @@ KERNEL void multigrid_cells(int n_groups, GLOBAL const int *restrict row_start, 
 }
 
 /* y[6] of a node. */
-typedef struct { state v[6]; } multigrid_node;
+typedef struct {
+    state v[6];
+} multigrid_node;
 LAW multigrid_node multigrid_load(GLOBAL const state *restrict move, GLOBAL const state *restrict turn, int i)
 {
     const brc_size at = (brc_size)i * 3;
@@ -76,8 +84,9 @@ LAW multigrid_node multigrid_add_transposed(multigrid_node y, GLOBAL const state
 }
 
 /* Held faces add blocks [n][36] to the stiffness of their elements: out -= block x. element [n] rows. */
-KERNEL void multigrid_ground(int n, GLOBAL const int *restrict element, GLOBAL const state *restrict block, GLOBAL const state *restrict move,
-                             GLOBAL const state *restrict turn, GLOBAL state *restrict force, GLOBAL state *restrict torque)
+KERNEL void multigrid_ground(int n, GLOBAL const int *restrict element, GLOBAL const state *restrict block,
+                             GLOBAL const state *restrict move, GLOBAL const state *restrict turn,
+                             GLOBAL state *restrict force, GLOBAL state *restrict torque)
 {
     FOR_EACH_ITEM(i, n) {
         const multigrid_node x = multigrid_load(move, turn, element[i]), y = multigrid_load(force, torque, element[i]);
@@ -87,9 +96,11 @@ KERNEL void multigrid_ground(int n, GLOBAL const int *restrict element, GLOBAL c
 }
 
 /* out = right - A x of a coarser level: rows of blocks [start[n]][36]; right only if n_right > 0. */
-KERNEL void multigrid_matrix(int n, GLOBAL const int *restrict start, GLOBAL const int *restrict column, GLOBAL const state *restrict block,
-                             GLOBAL const state *restrict move, GLOBAL const state *restrict turn, int n_right, GLOBAL const state *restrict right_force,
-                             GLOBAL const state *restrict right_torque, GLOBAL state *restrict force, GLOBAL state *restrict torque)
+KERNEL void multigrid_matrix(int n, GLOBAL const int *restrict start, GLOBAL const int *restrict column,
+                             GLOBAL const state *restrict block, GLOBAL const state *restrict move,
+                             GLOBAL const state *restrict turn, int n_right, GLOBAL const state *restrict right_force,
+                             GLOBAL const state *restrict right_torque, GLOBAL state *restrict force,
+                             GLOBAL state *restrict torque)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
@@ -103,8 +114,9 @@ KERNEL void multigrid_matrix(int n, GLOBAL const int *restrict start, GLOBAL con
 }
 
 /* x = [x +] weight D^-1 f, D^-1 as upper triangles [n][21]. n_right as above: a missing torque is zero. */
-KERNEL void multigrid_step(int n, state weight, int add, GLOBAL const state *restrict inverse, int n_right, GLOBAL const state *restrict force,
-                           GLOBAL const state *restrict torque, GLOBAL state *restrict move, GLOBAL state *restrict turn)
+KERNEL void multigrid_step(int n, state weight, int add, GLOBAL const state *restrict inverse, int n_right,
+                           GLOBAL const state *restrict force, GLOBAL const state *restrict torque,
+                           GLOBAL state *restrict move, GLOBAL state *restrict turn)
 {
     FOR_EACH_ITEM(e, n) {
         GLOBAL const state *p = inverse + (brc_size)e * 21;
@@ -123,10 +135,12 @@ KERNEL void multigrid_step(int n, state weight, int add, GLOBAL const state *res
     }
 }
 
-/* Rigid motions of aggregates, the finest level: force and torque about the aggregate's centre of what acts on its members' free components (bits 1 2 4 of
- * displacements, 8 16 32 of rotations). member [start[n]] rows, arm [n_rows][3] from the centre [m]. */
-KERNEL void multigrid_collect(int n, GLOBAL const int *restrict start, GLOBAL const int *restrict member, GLOBAL const coeff *restrict arm,
-                              GLOBAL const int *restrict free_bits, GLOBAL const state *restrict force, GLOBAL const state *restrict torque,
+/* Rigid motions of aggregates, the finest level: force and torque about the aggregate's centre of what acts on its
+ * members' free components (bits 1 2 4 of displacements, 8 16 32 of rotations). member [start[n]] rows, arm [n_rows][3]
+ * from the centre [m]. */
+KERNEL void multigrid_collect(int n, GLOBAL const int *restrict start, GLOBAL const int *restrict member,
+                              GLOBAL const coeff *restrict arm, GLOBAL const int *restrict free_bits,
+                              GLOBAL const state *restrict force, GLOBAL const state *restrict torque,
                               GLOBAL state *restrict whole_force, GLOBAL state *restrict whole_torque)
 {
     FOR_EACH_ITEM(i, n) {
@@ -135,7 +149,8 @@ KERNEL void multigrid_collect(int n, GLOBAL const int *restrict start, GLOBAL co
             const int e = member[k], bits = free_bits[e];
             multigrid_node r = multigrid_load(force, torque, e);
             for (int c = 0; c < 6; ++c) r.v[c] = bits >> c & 1 ? r.v[c] : 0;
-            const state x = (state)arm[(brc_size)e * 3], z = (state)arm[(brc_size)e * 3 + 2], w = (state)arm[(brc_size)e * 3 + 1];
+            const state x = (state)arm[(brc_size)e * 3], z = (state)arm[(brc_size)e * 3 + 2],
+                        w = (state)arm[(brc_size)e * 3 + 1];
             for (int c = 0; c < 6; ++c) y.v[c] += r.v[c];
             y.v[3] += w * r.v[2] - z * r.v[1];
             y.v[4] += z * r.v[0] - x * r.v[2];
@@ -146,15 +161,17 @@ KERNEL void multigrid_collect(int n, GLOBAL const int *restrict start, GLOBAL co
 }
 
 /* Members move with their aggregate in their free components. aggregate [n], -1: none. */
-KERNEL void multigrid_spread(int n, GLOBAL const int *restrict aggregate, GLOBAL const coeff *restrict arm, GLOBAL const int *restrict free_bits,
-                             GLOBAL const state *restrict whole_move, GLOBAL const state *restrict whole_turn, GLOBAL state *restrict move,
+KERNEL void multigrid_spread(int n, GLOBAL const int *restrict aggregate, GLOBAL const coeff *restrict arm,
+                             GLOBAL const int *restrict free_bits, GLOBAL const state *restrict whole_move,
+                             GLOBAL const state *restrict whole_turn, GLOBAL state *restrict move,
                              GLOBAL state *restrict turn)
 {
     FOR_EACH_ITEM(e, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
         if (aggregate[e] >= 0) {
             const int bits = free_bits[e];
-            const state x = (state)arm[(brc_size)e * 3], z = (state)arm[(brc_size)e * 3 + 2], w = (state)arm[(brc_size)e * 3 + 1];
+            const state x = (state)arm[(brc_size)e * 3], z = (state)arm[(brc_size)e * 3 + 2],
+                        w = (state)arm[(brc_size)e * 3 + 1];
             y = multigrid_load(whole_move, whole_turn, aggregate[e]);
             y.v[0] += y.v[4] * z - y.v[5] * w;
             y.v[1] += y.v[5] * x - y.v[3] * z;
@@ -166,8 +183,9 @@ KERNEL void multigrid_spread(int n, GLOBAL const int *restrict aggregate, GLOBAL
 }
 
 /* x += P e with rows of blocks [start[n]][36]. */
-KERNEL void multigrid_prolong(int n, GLOBAL const int *restrict start, GLOBAL const int *restrict column, GLOBAL const state *restrict block,
-                              GLOBAL const state *restrict coarse_move, GLOBAL const state *restrict coarse_turn, GLOBAL state *restrict move,
+KERNEL void multigrid_prolong(int n, GLOBAL const int *restrict start, GLOBAL const int *restrict column,
+                              GLOBAL const state *restrict block, GLOBAL const state *restrict coarse_move,
+                              GLOBAL const state *restrict coarse_turn, GLOBAL state *restrict move,
                               GLOBAL state *restrict turn)
 {
     FOR_EACH_ITEM(i, n) {
@@ -181,8 +199,9 @@ KERNEL void multigrid_prolong(int n, GLOBAL const int *restrict start, GLOBAL co
 }
 
 /* P^T r: column_start [n + 1] of the places (block, row) [.][2] of each column of P. */
-KERNEL void multigrid_restrict(int n, GLOBAL const int *restrict column_start, GLOBAL const int *restrict place, GLOBAL const state *restrict block,
-                               GLOBAL const state *restrict force, GLOBAL const state *restrict torque, GLOBAL state *restrict coarse_force,
+KERNEL void multigrid_restrict(int n, GLOBAL const int *restrict column_start, GLOBAL const int *restrict place,
+                               GLOBAL const state *restrict block, GLOBAL const state *restrict force,
+                               GLOBAL const state *restrict torque, GLOBAL state *restrict coarse_force,
                                GLOBAL state *restrict coarse_torque)
 {
     FOR_EACH_ITEM(i, n) {
@@ -196,15 +215,17 @@ KERNEL void multigrid_restrict(int n, GLOBAL const int *restrict column_start, G
 }
 
 /* The coarsest level, solved: the inverse [6 n][6 n], a node's displacement before its rotation. */
-KERNEL void multigrid_coarsest(int n, GLOBAL const state *restrict inverse, GLOBAL const state *restrict force, GLOBAL const state *restrict torque,
-                               GLOBAL state *restrict move, GLOBAL state *restrict turn)
+KERNEL void multigrid_coarsest(int n, GLOBAL const state *restrict inverse, GLOBAL const state *restrict force,
+                               GLOBAL const state *restrict torque, GLOBAL state *restrict move,
+                               GLOBAL state *restrict turn)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
         for (int j = 0; j < n; ++j) {
             const multigrid_node r = multigrid_load(force, torque, j);
             for (int a = 0; a < 6; ++a) {
-                GLOBAL const state *row = inverse + ((brc_size)i * 6 + (brc_size)a) * ((brc_size)n * 6) + (brc_size)j * 6;
+                GLOBAL const state *row =
+                    inverse + ((brc_size)i * 6 + (brc_size)a) * ((brc_size)n * 6) + (brc_size)j * 6;
                 for (int b = 0; b < 6; ++b) y.v[a] += row[b] * r.v[b];
             }
         }

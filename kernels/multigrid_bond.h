@@ -1,5 +1,6 @@
-/* The bond of the operator that multigrid takes for the stiffness of cells (docs/notebook/theory.md T6): a spring along the bond and one across it, seen from
- * frames that turn with its two ends, and one between these frames. It has no energy under rigid motions. */
+/* The bond of the operator that multigrid takes for the stiffness of cells (docs/notebook/theory.md T6): a spring along
+ * the bond and one across it, seen from frames that turn with its two ends, and one between these frames. It has no
+ * energy under rigid motions. */
 #ifndef BRC_KERNELS_MULTIGRID_BOND_H
 #define BRC_KERNELS_MULTIGRID_BOND_H
 
@@ -24,7 +25,8 @@ LAW multigrid_place multigrid_place_of_face(lane_vec3 area, lane ratio)
 {
     const lane_vec3 branch = lane_vec3_scale(ratio, area);
     const lane inverse = REAL(1) / (lane_vec3_dot(branch, branch) + multigrid_nothing());
-    return (multigrid_place){branch, inverse, lane_vec3_dot(branch, area) * inverse}; /* (q s).s / (q s)^2 = 1/q, without another division */
+    return (multigrid_place){
+        branch, inverse, lane_vec3_dot(branch, area) * inverse}; /* (q s).s / (q s)^2 = 1/q, without another division */
 }
 
 LAW multigrid_place multigrid_place_of_branch(lane_vec3 branch, lane area)
@@ -39,7 +41,8 @@ typedef struct {
 } multigrid_pull;
 
 /* jump: u_j - u_i [m]; turn_sum, turn_jump: theta_j + theta_i, theta_j - theta_i [-]. */
-LAW multigrid_pull multigrid_bond(multigrid_place at, multigrid_moduli k, lane_vec3 jump, lane_vec3 turn_sum, lane_vec3 turn_jump)
+LAW multigrid_pull multigrid_bond(multigrid_place at, multigrid_moduli k, lane_vec3 jump, lane_vec3 turn_sum,
+                                  lane_vec3 turn_jump)
 {
     const lane_vec3 r = at.branch, turned = lane_vec3_scale(LANE_ZERO + REAL(0.5), lane_vec3_cross(turn_sum, r));
     const lane_vec3 stretch = lane_vec3_sub(jump, turned);

@@ -8,7 +8,8 @@
  *   BRC_TARGET          defined for the OpenMP target reading of the C build
  *   BRC_EXACT           defined where a product and a sum must not be contracted into one rounding (OpenCL; C by flag)
  *
- * Vocabulary (docs/reference/portable.md): KERNEL, GLOBAL, LAW, ROUTINE, FOR_EACH_ITEM, FOR_LANES, coeff, state, lane, lane_state, lane_int, REAL. */
+ * Vocabulary (docs/reference/portable.md): KERNEL, GLOBAL, LAW, ROUTINE, FOR_EACH_ITEM, FOR_LANES, coeff, state, lane,
+ * lane_state, lane_int, REAL. */
 #ifndef BRC_KERNELS_PORTABLE_H
 #define BRC_KERNELS_PORTABLE_H
 
@@ -62,7 +63,9 @@ typedef float coeff;
 #define LAW static inline __attribute__((always_inline))
 #define ROUTINE static inline
 typedef ulong brc_size;
-#define FOR_EACH_ITEM(i, n) const int i = (int)get_global_id(0); if (i < (n))
+#define FOR_EACH_ITEM(i, n)                                                                                            \
+    const int i = (int)get_global_id(0);                                                                               \
+    if (i < (n))
 #define FOR_LANES(l) for (int l = 0; l < W; ++l)
 #define FOR_LANES_ANY(l, any) FOR_LANES(l)
 #if W == 1
@@ -107,7 +110,8 @@ typedef BRC_JOIN(int, BRC_LANES) lane_int;
 typedef size_t brc_size;
 #define STORE_SAME(place, value) __atomic_store_n((place), (value), __ATOMIC_RELAXED)
 #define BRC_PRAGMA(x) _Pragma(#x)
-/* Single numbers of W things in arrays, where laws of single numbers (svec.h) are worth more than lanes of their own. */
+/* Single numbers of W things in arrays, where laws of single numbers (svec.h) are worth more than lanes of their
+ * own. */
 #define FOR_LANES(l) BRC_PRAGMA(omp simd) for (int l = 0; l < W; ++l)
 #define FOR_LANES_ANY(l, any) BRC_PRAGMA(omp simd reduction(| : any)) for (int l = 0; l < W; ++l)
 #ifdef BRC_TARGET
@@ -116,7 +120,8 @@ typedef size_t brc_size;
     for (int i = 0; i < (n); ++i)
 #else
 /* Numbers too small for their exponent cost a hundred times an ordinary one on a CPU, and the tail ahead of every wave
- * front is made of them: each thread sets them to zero (as -cl-denorms-are-zero does in OpenCL) and puts its mode back. */
+ * front is made of them: each thread sets them to zero (as -cl-denorms-are-zero does in OpenCL) and puts its mode
+ * back. */
 #if defined(__x86_64__)
 #define BRC_FLOAT_MODE() __builtin_ia32_stmxcsr()
 #define BRC_SET_FLOAT_MODE(mode) __builtin_ia32_ldmxcsr(mode)
@@ -131,7 +136,7 @@ typedef size_t brc_size;
     for (unsigned brc_mode = BRC_FLOAT_MODE(), brc_pass = 0; brc_pass < 2; ++brc_pass)                                 \
         if (BRC_SET_FLOAT_MODE(brc_pass ? brc_mode : BRC_FLUSHED(brc_mode)), !brc_pass)                                \
             BRC_PRAGMA(omp for schedule(static) nowait)                                                                \
-            for (int i = 0; i < (n); ++i)
+    for (int i = 0; i < (n); ++i)
 #endif
 #if BRC_PRECISION == 0
 #define SQRT(x) __builtin_sqrt(x)
@@ -195,8 +200,8 @@ LAW int brc_lane_any_short(lane a, lane b)
 
 #endif
 
-/* Ask for a row entry `ahead` slots further on: rows are read once, in order, and the hardware's own prefetch stops at every
- * page of 4 KiB (measured in docs/notebook/performance.md). GPUs hide the wait by their many work-items. */
+/* Ask for a row entry `ahead` slots further on: rows are read once, in order, and the hardware's own prefetch stops at
+ * every page of 4 KiB (measured in docs/notebook/performance.md). GPUs hide the wait by their many work-items. */
 #if !defined(__OPENCL_VERSION__) && W > 1
 #define ROWS_AHEAD 12
 #define GATHERS_AHEAD 2
@@ -235,8 +240,8 @@ LAW int brc_lane_any_short(lane a, lane b)
 #endif
 
 /* Eight lanes: gathers read whole records and transpose them (vec.h). The last record's vector reaches up to LANE_SPARE
- * numbers beyond the array, which the host allocates. Only with vectors of eight doubles: without AVX-512 each shuffle becomes
- * several (measured: a third slower on AVX2), so there and elsewhere numbers are gathered one by one. */
+ * numbers beyond the array, which the host allocates. Only with vectors of eight doubles: without AVX-512 each shuffle
+ * becomes several (measured: a third slower on AVX2), so there and elsewhere numbers are gathered one by one. */
 #if W == 8 && defined(__AVX512F__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12))
 #define LANE_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #endif
@@ -244,16 +249,20 @@ LAW int brc_lane_any_short(lane a, lane b)
 /* Numbers from anywhere: one instruction in place of a load, a shuffle and the arithmetic of a place for each lane. */
 #if !defined(__OPENCL_VERSION__) && !defined(BRC_TARGET) && W == 8 && defined(__AVX512F__)
 #include <immintrin.h>
-#define LANE_PACK(to, keep, x) _mm256_mask_compressstoreu_epi32((to), _mm256_movepi32_mask((__m256i)(keep)), (__m256i)(x))
+#define LANE_PACK(to, keep, x)                                                                                         \
+    _mm256_mask_compressstoreu_epi32((to), _mm256_movepi32_mask((__m256i)(keep)), (__m256i)(x))
 #define LANE_COUNT(keep) __builtin_popcount(_mm256_movepi32_mask((__m256i)(keep)))
-#define LANE_RANK(keep) ((lane_int)_mm256_maskz_expand_epi32(_mm256_movepi32_mask((__m256i)(keep)), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)))
+#define LANE_RANK(keep)                                                                                                \
+    ((lane_int)_mm256_maskz_expand_epi32(_mm256_movepi32_mask((__m256i)(keep)),                                        \
+                                         _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)))
 #if BRC_PRECISION == 0
 #define LANE_GATHER(p, at) ((lane)_mm512_i32gather_pd((__m256i)(at), (p), 8))
 #else
 #define LANE_GATHER(p, at) ((lane)_mm256_i32gather_ps((p), (__m256i)(at), 4))
 #endif
 #endif
-/* Whether any number is not 0, or any of a is not at least that of b: gcc compares the lanes one by one where no instruction is named. */
+/* Whether any number is not 0, or any of a is not at least that of b: gcc compares the lanes one by one where no
+ * instruction is named. */
 #if !defined(LANE_ANY) && defined(LANE_GATHER)
 #define LANE_ANY(x) (!_mm256_testz_si256((__m256i)(x), (__m256i)(x)))
 #if BRC_PRECISION == 0

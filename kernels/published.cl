@@ -9,8 +9,8 @@
 
 /* a = sum (u_j - u_i) (x) w R [m^2], times inv_shape. */
 LAW lane_mat3 published_fit(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                            GLOBAL const coeff *restrict area, int area_weights, GLOBAL const state *restrict displacement,
-                            GLOBAL const coeff *restrict inv_shape)
+                            GLOBAL const coeff *restrict area, int area_weights,
+                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict inv_shape)
 {
     const state_vec3 u = state_gather3(displacement, who.own);
     lane_mat3 a = lane_mat3_zero();
@@ -19,8 +19,7 @@ LAW lane_mat3 published_fit(members who, GLOBAL const int *restrict neighbour, G
         members_ahead3(who, branch, slot);
         lane_vec3 r = members_row3(who, branch, slot);
         const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
-        if (area_weights)
-            r = lane_vec3_scale(members_face1(who, area, slot) / LANE_SQRT(lane_vec3_dot(r, r)), r);
+        if (area_weights) r = lane_vec3_scale(members_face1(who, area, slot) / LANE_SQRT(lane_vec3_dot(r, r)), r);
         a = lane_add_outer(a, jump, r);
     }
     return lane_mat3_mul_sym(a, members_block6(who, inv_shape));
@@ -28,8 +27,9 @@ LAW lane_mat3 published_fit(members who, GLOBAL const int *restrict neighbour, G
 
 /* Strain of every element in the global frame [-] [n][6] (xx yy zz yz xz xy). inv_shape: (sum w R (x) R)^-1
  * [slice][6][C]; area_weights: w = S/|R| instead of 1; orientation: unit quaternions (w x y z) [n][4]. */
-KERNEL void published_strain_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                  GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area, int area_weights,
+KERNEL void published_strain_pass(int n_groups, GLOBAL const int *restrict row_start,
+                                  GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                  GLOBAL const coeff *restrict area, int area_weights,
                                   GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
                                   GLOBAL const coeff *restrict inv_shape, int finite, GLOBAL coeff *restrict strain)
 {
@@ -42,24 +42,30 @@ KERNEL void published_strain_pass(int n_groups, GLOBAL const int *restrict row_s
 }
 
 /* One bond's part of the force pass; only called with a constant `finite`. */
-LAW published_bond published_one_bond(lane_vec3 r, lane_vec3 jump, lane area, lane_sym3 e_i, lane_sym3 e_j, lane_quat q_i,
-                                      lane_quat q_j, lane lambda, lane mu, lane young, coeff rotation_factor, coeff couple, int finite)
+LAW published_bond published_one_bond(lane_vec3 r, lane_vec3 jump, lane area, lane_sym3 e_i, lane_sym3 e_j,
+                                      lane_quat q_i, lane_quat q_j, lane lambda, lane mu, lane young,
+                                      coeff rotation_factor, coeff couple, int finite)
 {
     const lane_sym3 sum = lane_sym3_add(e_i, e_j);
     const lane_sym3 mean = lane_sym3_scale_shift(LANE_ZERO + REAL(0.5), sum, LANE_ZERO);
     lane_quat turn;
-    if (finite) turn = quat_mul(q_j, quat_conjugate(q_i));
-    else turn = (lane_quat){LANE_ZERO, q_j.x - q_i.x, q_j.y - q_i.y, q_j.z - q_i.z};
-    const published_bond b = published_bond_law(r, jump, area, mean, quat_rotation_vector(turn, finite), lambda, mu, young, rotation_factor, finite);
+    if (finite)
+        turn = quat_mul(q_j, quat_conjugate(q_i));
+    else
+        turn = (lane_quat){LANE_ZERO, q_j.x - q_i.x, q_j.y - q_i.y, q_j.z - q_i.z};
+    const published_bond b = published_bond_law(r, jump, area, mean, quat_rotation_vector(turn, finite), lambda, mu,
+                                                young, rotation_factor, finite);
     if (couple == REAL(0)) return b;
     return published_coupled(b, r, jump, couple * mu * area, mean, q_i, q_j, finite);
 }
 
-/* Moduli of a bond: the mean of its two ends. lame_of [n][3]: lambda, mu, E of each element; only read with several materials. */
+/* Moduli of a bond: the mean of its two ends. lame_of [n][3]: lambda, mu, E of each element; only read with several
+ * materials. */
 typedef struct {
     lane lambda, mu, young;
 } published_moduli;
-LAW published_moduli published_moduli_of(lane_int own, lane_int j, coeff lambda_one, coeff mu_one, coeff young_one, GLOBAL const coeff *restrict lame_of)
+LAW published_moduli published_moduli_of(lane_int own, lane_int j, coeff lambda_one, coeff mu_one, coeff young_one,
+                                         GLOBAL const coeff *restrict lame_of)
 {
 #if BRC_MANY_MATERIALS
     const lane_int at = j * 3, at_own = own * 3;
@@ -78,18 +84,20 @@ typedef struct {
     lane_sym3 strain;
     lane_quat orientation;
 } published_own;
-LAW published_own published_own_of(lane_int own, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                                   GLOBAL const coeff *restrict strain)
+LAW published_own published_own_of(lane_int own, GLOBAL const state *restrict displacement,
+                                   GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain)
 {
-    return (published_own){own, state_gather3(displacement, own), lane_gather6(strain, own), lane_gather4(orientation, own)};
+    return (published_own){own, state_gather3(displacement, own), lane_gather6(strain, own),
+                           lane_gather4(orientation, own)};
 }
 
 /* The bonds in one slot of the rows. */
 LAW published_bond published_bond_at(members who, int slot, published_own own, GLOBAL const int *restrict neighbour,
                                      GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
-                                     GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                                     GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                                     coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of, int finite)
+                                     GLOBAL const state *restrict displacement,
+                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
+                                     coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor,
+                                     coeff couple, GLOBAL const coeff *restrict lame_of, int finite)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, branch, slot);
@@ -100,56 +108,65 @@ LAW published_bond published_bond_at(members who, int slot, published_own own, G
     const lane_sym3 e_j = lane_gather6(strain, j);
     const lane_quat q_j = lane_gather4(orientation, j);
     const published_moduli m = published_moduli_of(own.row, j, lambda_one, mu_one, young_one, lame_of);
-    return finite ? published_one_bond(r, jump, s, own.strain, e_j, own.orientation, q_j, m.lambda, m.mu, m.young, rotation_factor, couple, 1)
-                  : published_one_bond(r, jump, s, own.strain, e_j, own.orientation, q_j, m.lambda, m.mu, m.young, rotation_factor, couple, 0);
+    return finite ? published_one_bond(r, jump, s, own.strain, e_j, own.orientation, q_j, m.lambda, m.mu, m.young,
+                                       rotation_factor, couple, 1)
+                  : published_one_bond(r, jump, s, own.strain, e_j, own.orientation, q_j, m.lambda, m.mu, m.young,
+                                       rotation_factor, couple, 0);
 }
 
 /* Force [N] and torque about its own centre [N m] on every element [n][3]. */
 LAW void published_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                 GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                                 GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one,
-                                 coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of, int finite,
-                                 GLOBAL state *restrict force, GLOBAL state *restrict torque)
+                            GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
+                            GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
+                            coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple,
+                            GLOBAL const coeff *restrict lame_of, int finite, GLOBAL state *restrict force,
+                            GLOBAL state *restrict torque)
 {
     const published_own own = published_own_of(who.own, displacement, orientation, strain);
     lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
     for (int slot = who.begin; slot < who.end; ++slot) {
-        const published_bond b = published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                                                   mu_one, young_one, rotation_factor, couple, lame_of, finite);
+        const published_bond b =
+            published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                              mu_one, young_one, rotation_factor, couple, lame_of, finite);
         f = lane_vec3_add(f, b.force);
         t = lane_vec3_add(t, b.torque);
     }
     members_store3(who, force, f);
     members_store3(who, torque, t);
 }
-KERNEL void published_force_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                 GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                                 GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one,
-                                 coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of, int finite,
-                                 GLOBAL state *restrict force, GLOBAL state *restrict torque)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        published_force_of(members_of_group(group, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                           mu_one, young_one, rotation_factor, couple, lame_of, finite, force, torque);
-    }
-}
-KERNEL void published_force_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
+KERNEL void published_force_pass(int n_groups, GLOBAL const int *restrict row_start,
                                  GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
                                  GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                                 GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one,
-                                 coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of, int finite,
-                                 GLOBAL state *restrict force, GLOBAL state *restrict torque)
+                                 GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
+                                 coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple,
+                                 GLOBAL const coeff *restrict lame_of, int finite, GLOBAL state *restrict force,
+                                 GLOBAL state *restrict torque)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        published_force_of(members_of_group(group, row_start), neighbour, branch, area, displacement, orientation,
+                           strain, lambda_one, mu_one, young_one, rotation_factor, couple, lame_of, finite, force,
+                           torque);
+    }
+}
+KERNEL void published_force_listed(int n_items, int n, GLOBAL const int *restrict list,
+                                   GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                                   GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
+                                   GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                                   GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
+                                   coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of,
+                                   int finite, GLOBAL state *restrict force, GLOBAL state *restrict torque)
 {
     FOR_EACH_ITEM(item, n_items) {
-        published_force_of(members_of_list(item, n, list, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                           mu_one, young_one, rotation_factor, couple, lame_of, finite, force, torque);
+        published_force_of(members_of_list(item, n, list, row_start), neighbour, branch, area, displacement,
+                           orientation, strain, lambda_one, mu_one, young_one, rotation_factor, couple, lame_of, finite,
+                           force, torque);
     }
 }
 #undef MATERIAL
 
 /* Strain energy V sigma:e / 2 of the least-squares strain [J] [n]. Not the potential of the forces (there is none). */
-LAW state published_energy_of(int e, GLOBAL const coeff *restrict strain, GLOBAL const state *restrict volume, coeff lambda_one, coeff mu_one,
-                              GLOBAL const coeff *restrict lame_of)
+LAW state published_energy_of(int e, GLOBAL const coeff *restrict strain, GLOBAL const state *restrict volume,
+                              coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict lame_of)
 {
     GLOBAL const coeff *s = strain + (brc_size)e * 6;
 #if BRC_MANY_MATERIALS
@@ -162,36 +179,46 @@ LAW state published_energy_of(int e, GLOBAL const coeff *restrict strain, GLOBAL
     return volume[e] * (state)(REAL(0.5) * lambda * trace * trace + mu * square);
 }
 KERNEL void published_energy(int n, GLOBAL const coeff *restrict strain, GLOBAL const state *restrict volume,
-                             coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict lame_of, GLOBAL state *restrict elastic)
+                             coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict lame_of,
+                             GLOBAL state *restrict elastic)
 {
     FOR_EACH_ITEM(e, n) { elastic[e] = published_energy_of(e, strain, volume, lambda_one, mu_one, lame_of); }
 }
-KERNEL void published_energy_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const coeff *restrict strain,
-                                    GLOBAL const state *restrict volume, coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict lame_of,
+KERNEL void published_energy_listed(int n_items, int n, GLOBAL const int *restrict list,
+                                    GLOBAL const coeff *restrict strain, GLOBAL const state *restrict volume,
+                                    coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict lame_of,
                                     GLOBAL state *restrict elastic)
 {
     FOR_EACH_ITEM(item, n_items) {
         const int end = (item + 1) * W < n ? (item + 1) * W : n;
-        for (int k = item * W; k < end; ++k) elastic[list[k]] = published_energy_of(list[k], strain, volume, lambda_one, mu_one, lame_of);
+        for (int k = item * W; k < end; ++k)
+            elastic[list[k]] = published_energy_of(list[k], strain, volume, lambda_one, mu_one, lame_of);
     }
 }
 
 /* R - I of an orientation (finite), or of the rotation vector it stands for: twice its vector part. out [9] by rows. */
 LAW void published_turn(GLOBAL const state *restrict orientation, int e, int finite, state out[9])
 {
-    const state w = finite ? orientation[(brc_size)e * 4] : STATE(1), x = orientation[(brc_size)e * 4 + 1], y = orientation[(brc_size)e * 4 + 2],
-                z = orientation[(brc_size)e * 4 + 3], square = finite ? STATE(2) : STATE(0);
-    out[0] = -square * (y * y + z * z), out[1] = square * x * y - STATE(2) * w * z, out[2] = square * x * z + STATE(2) * w * y;
-    out[3] = square * x * y + STATE(2) * w * z, out[4] = -square * (x * x + z * z), out[5] = square * y * z - STATE(2) * w * x;
-    out[6] = square * x * z - STATE(2) * w * y, out[7] = square * y * z + STATE(2) * w * x, out[8] = -square * (x * x + y * y);
+    const state w = finite ? orientation[(brc_size)e * 4] : STATE(1), x = orientation[(brc_size)e * 4 + 1],
+                y = orientation[(brc_size)e * 4 + 2], z = orientation[(brc_size)e * 4 + 3],
+                square = finite ? STATE(2) : STATE(0);
+    out[0] = -square * (y * y + z * z), out[1] = square * x * y - STATE(2) * w * z,
+    out[2] = square * x * z + STATE(2) * w * y;
+    out[3] = square * x * y + STATE(2) * w * z, out[4] = -square * (x * x + z * z),
+    out[5] = square * y * z - STATE(2) * w * x;
+    out[6] = square * x * z - STATE(2) * w * y, out[7] = square * y * z + STATE(2) * w * x,
+    out[8] = -square * (x * x + y * y);
 }
 
-/* Dead tractions of one load on cells that turn: total [N] = sum t S, moment [N m] = sum t S (x) (C - X), at unit factor. f_i += factor total, torque_i += what it
- * turns the cell by, at the arms R (C - X) (small rotations: C - X). total.u + moment:(R - I) is what the traction works on [J]. book, reach: as in traction_force_pass. */
-KERNEL void traction_turned_pass(int n, state factor, GLOBAL const int *restrict element, GLOBAL const coeff *restrict total,
-                                 GLOBAL const coeff *restrict moment, GLOBAL const state *restrict displacement,
-                                 GLOBAL const state *restrict orientation, int finite, int book, state last_factor,
-                                 GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL state *restrict reach, GLOBAL state *restrict work)
+/* Dead tractions of one load on cells that turn: total [N] = sum t S, moment [N m] = sum t S (x) (C - X), at unit
+ * factor. f_i += factor total, torque_i += what it turns the cell by, at the arms R (C - X) (small rotations: C - X).
+ * total.u + moment:(R - I) is what the traction works on [J]. book, reach: as in traction_force_pass. */
+KERNEL void traction_turned_pass(int n, state factor, GLOBAL const int *restrict element,
+                                 GLOBAL const coeff *restrict total, GLOBAL const coeff *restrict moment,
+                                 GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+                                 int finite, int book, state last_factor, GLOBAL state *restrict force,
+                                 GLOBAL state *restrict torque, GLOBAL state *restrict reach,
+                                 GLOBAL state *restrict work)
 {
     FOR_EACH_ITEM(i, n) {
         const int e = element[i];

@@ -1,9 +1,12 @@
-/* Fracture of dlsm-published (AGH19 section 5.3): the forces with how far each element's bonds are, the bonds that break, and the least squares
- * that are left. Arrays of entries as in kernels/cells.cl, whose cells_break removes the bonds. */
+/* Fracture of dlsm-published (AGH19 section 5.3): the forces with how far each element's bonds are, the bonds that
+ * break, and the least squares that are left. Arrays of entries as in kernels/cells.cl, whose cells_break removes the
+ * bonds. */
 
-/* As published_strain_pass where bonds may be missing. spanned: projector on the directions that an element's bonds span [slice][6][C]. */
-LAW void published_breaking_strain_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                      GLOBAL const coeff *restrict area, int area_weights, GLOBAL const state *restrict displacement,
+/* As published_strain_pass where bonds may be missing. spanned: projector on the directions that an element's bonds
+ * span [slice][6][C]. */
+LAW void published_breaking_strain_of(members who, GLOBAL const int *restrict neighbour,
+                                      GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
+                                      int area_weights, GLOBAL const state *restrict displacement,
                                       GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict inv_shape,
                                       GLOBAL const coeff *restrict spanned, int finite, GLOBAL coeff *restrict strain)
 {
@@ -11,44 +14,55 @@ LAW void published_breaking_strain_of(members who, GLOBAL const int *restrict ne
     const lane_quat q = quat_conjugate(lane_gather4(orientation, who.own));
     const lane_mat3 turn = finite ? quat_matrix_minus_identity(q, 1) : quat_matrix_minus_identity(q, 0);
     const lane_mat3 seen = lane_mat3_mul_sym(turn, members_block6(who, spanned));
-    members_store6(who, strain, finite ? published_strain_seen(fitted, turn, seen, 1) : published_strain_seen(fitted, turn, seen, 0));
+    members_store6(who, strain,
+                   finite ? published_strain_seen(fitted, turn, seen, 1)
+                          : published_strain_seen(fitted, turn, seen, 0));
 }
-KERNEL void published_breaking_strain(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                      GLOBAL const coeff *restrict area, int area_weights, GLOBAL const state *restrict displacement,
+KERNEL void published_breaking_strain(int n_groups, GLOBAL const int *restrict row_start,
+                                      GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                                      GLOBAL const coeff *restrict area, int area_weights,
+                                      GLOBAL const state *restrict displacement,
                                       GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict inv_shape,
                                       GLOBAL const coeff *restrict spanned, int finite, GLOBAL coeff *restrict strain)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        published_breaking_strain_of(members_of_group(group, row_start), neighbour, branch, area, area_weights, displacement, orientation,
-                                     inv_shape, spanned, finite, strain);
+        published_breaking_strain_of(members_of_group(group, row_start), neighbour, branch, area, area_weights,
+                                     displacement, orientation, inv_shape, spanned, finite, strain);
     }
 }
-KERNEL void published_breaking_strain_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                                      GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                      GLOBAL const coeff *restrict area, int area_weights, GLOBAL const state *restrict displacement,
-                                      GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict inv_shape,
-                                      GLOBAL const coeff *restrict spanned, int finite, GLOBAL coeff *restrict strain)
+KERNEL void published_breaking_strain_listed(int n_items, int n, GLOBAL const int *restrict list,
+                                             GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
+                                             int area_weights, GLOBAL const state *restrict displacement,
+                                             GLOBAL const state *restrict orientation,
+                                             GLOBAL const coeff *restrict inv_shape,
+                                             GLOBAL const coeff *restrict spanned, int finite,
+                                             GLOBAL coeff *restrict strain)
 {
     FOR_EACH_ITEM(item, n_items) {
-        published_breaking_strain_of(members_of_list(item, n, list, row_start), neighbour, branch, area, area_weights, displacement, orientation,
-                                     inv_shape, spanned, finite, strain);
+        published_breaking_strain_of(members_of_list(item, n, list, row_start), neighbour, branch, area, area_weights,
+                                     displacement, orientation, inv_shape, spanned, finite, strain);
     }
 }
 
-/* As published_force_pass with the full law; reach [n]: the largest normal stress over limit of each element's bonds [-]. */
-LAW void published_breaking_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                     GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one,
-                                     coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of,
-                                     GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL state *restrict torque,
-                                     GLOBAL coeff *restrict reach)
+/* As published_force_pass with the full law; reach [n]: the largest normal stress over limit of each element's bonds
+ * [-]. */
+LAW void published_breaking_force_of(members who, GLOBAL const int *restrict neighbour,
+                                     GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
+                                     GLOBAL const state *restrict displacement,
+                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
+                                     coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor,
+                                     coeff couple, GLOBAL const coeff *restrict lame_of,
+                                     GLOBAL const coeff *restrict limit, GLOBAL state *restrict force,
+                                     GLOBAL state *restrict torque, GLOBAL coeff *restrict reach)
 {
     const published_own own = published_own_of(who.own, displacement, orientation, strain);
     lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
     lane largest = LANE_ZERO;
     for (int slot = who.begin; slot < who.end; ++slot) {
-        const published_bond b = published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                                                   mu_one, young_one, rotation_factor, couple, lame_of, 1);
+        const published_bond b =
+            published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                              mu_one, young_one, rotation_factor, couple, lame_of, 1);
         f = lane_vec3_add(f, b.force);
         t = lane_vec3_add(t, b.torque);
         const lane ratio = b.stress / members_row1(who, limit, slot);
@@ -58,41 +72,46 @@ LAW void published_breaking_force_of(members who, GLOBAL const int *restrict nei
     members_store3(who, torque, t);
     members_put1(who, reach, largest);
 }
-KERNEL void published_breaking_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                     GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one,
-                                     coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of,
-                                     GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL state *restrict torque,
-                                     GLOBAL coeff *restrict reach)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        published_breaking_force_of(members_of_group(group, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                                    mu_one, young_one, rotation_factor, couple, lame_of, limit, force, torque, reach);
-    }
-}
-KERNEL void published_breaking_force_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
+KERNEL void published_breaking_force(int n_groups, GLOBAL const int *restrict row_start,
                                      GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
                                      GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain, coeff lambda_one,
-                                     coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of,
-                                     GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL state *restrict torque,
-                                     GLOBAL coeff *restrict reach)
+                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
+                                     coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor,
+                                     coeff couple, GLOBAL const coeff *restrict lame_of,
+                                     GLOBAL const coeff *restrict limit, GLOBAL state *restrict force,
+                                     GLOBAL state *restrict torque, GLOBAL coeff *restrict reach)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        published_breaking_force_of(members_of_group(group, row_start), neighbour, branch, area, displacement,
+                                    orientation, strain, lambda_one, mu_one, young_one, rotation_factor, couple,
+                                    lame_of, limit, force, torque, reach);
+    }
+}
+KERNEL void published_breaking_force_listed(
+    int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
+    GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
+    GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
+    GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor,
+    coeff couple, GLOBAL const coeff *restrict lame_of, GLOBAL const coeff *restrict limit,
+    GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL coeff *restrict reach)
 {
     FOR_EACH_ITEM(item, n_items) {
-        published_breaking_force_of(members_of_list(item, n, list, row_start), neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                                    mu_one, young_one, rotation_factor, couple, lame_of, limit, force, torque, reach);
+        published_breaking_force_of(members_of_list(item, n, list, row_start), neighbour, branch, area, displacement,
+                                    orientation, strain, lambda_one, mu_one, young_one, rotation_factor, couple,
+                                    lame_of, limit, force, torque, reach);
     }
 }
 
-/* Bonds whose normal stress is above share * limit are marked; measure: that stress [Pa]; found [n_groups]: how many. Only groups of elements
- * where one may be look. */
-KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
-                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                            GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                            coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of, GLOBAL const coeff *restrict limit,
-                            GLOBAL const coeff *restrict reach, GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
-                            GLOBAL int *restrict touched, GLOBAL state *restrict found)
+/* Bonds whose normal stress is above share * limit are marked; measure: that stress [Pa]; found [n_groups]: how many.
+ * Only groups of elements where one may be look. */
+KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restrict row_start,
+                            GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
+                            GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
+                            GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
+                            coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple,
+                            GLOBAL const coeff *restrict lame_of, GLOBAL const coeff *restrict limit,
+                            GLOBAL const coeff *restrict reach, GLOBAL int *restrict mark,
+                            GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
@@ -103,8 +122,9 @@ KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restric
             const published_own own = published_own_of(who.own, displacement, orientation, strain);
             for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
                 const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
-                const published_bond b = published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain,
-                                                           lambda_one, mu_one, young_one, rotation_factor, couple, lame_of, 1);
+                const published_bond b =
+                    published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain,
+                                      lambda_one, mu_one, young_one, rotation_factor, couple, lame_of, 1);
                 const lane bound = share * lane_load(limit, entry);
 #define MARK(l)                                                                                                        \
     if (LANE_ITEM(b.stress, l) > LANE_ITEM(bound, l)) {                                                                \
@@ -122,13 +142,15 @@ KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restric
     }
 }
 
-/* Elements that lost a bond: the inverse of their least-squares matrix sum w R (x) R over the bonds that are left. Where its smallest eigenvalue
- * is not above support [n] the element has no strain any more (AGH19 section 2.2: fewer than three contacts); keeping the directions that are
- * spanned makes what is left run away. Marks are cleared. area_weights: w = S/|R| instead of 1. */
-KERNEL void published_rebuild(int n, int area_weights, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict branch,
-                              GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict support,
-                              GLOBAL int *restrict changed, GLOBAL coeff *restrict inv_shape, GLOBAL coeff *restrict spanned,
-                              GLOBAL int *restrict mark)
+/* Elements that lost a bond: the inverse of their least-squares matrix sum w R (x) R over the bonds that are left.
+ * Where its smallest eigenvalue is not above support [n] the element has no strain any more (AGH19 section 2.2: fewer
+ * than three contacts); keeping the directions that are spanned makes what is left run away. Marks are cleared.
+ * area_weights: w = S/|R| instead of 1. */
+KERNEL void published_rebuild(int n, int area_weights, GLOBAL const int *restrict row_start,
+                              GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
+                              GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict support,
+                              GLOBAL int *restrict changed, GLOBAL coeff *restrict inv_shape,
+                              GLOBAL coeff *restrict spanned, GLOBAL int *restrict mark)
 {
     FOR_EACH_ITEM(e, n) {
         if (changed[e]) {
@@ -139,11 +161,14 @@ KERNEL void published_rebuild(int n, int area_weights, GLOBAL const int *restric
                 mark[entry] = 0;
                 if (!(alive[entry] > 0)) continue;
                 const state x = (state)branch[at], y = (state)branch[at + C], z = (state)branch[at + 2 * C];
-                a = cells_add_square(a, area_weights ? (state)area[entry] / SQRT_STATE(x * x + y * y + z * z) : STATE(1), x, y, z);
+                a = cells_add_square(
+                    a, area_weights ? (state)area[entry] / SQRT_STATE(x * x + y * y + z * z) : STATE(1), x, y, z);
             }
             const failure_principal spans = failure_principal_of(cells_narrow(a));
-            if (spans.third > support[e]) inverse = cells_inverse(a);
-            else projector = inverse;
+            if (spans.third > support[e])
+                inverse = cells_inverse(a);
+            else
+                projector = inverse;
             cells_put(spanned, e, projector);
             cells_put(inv_shape, e, inverse);
         }

@@ -1,4 +1,5 @@
-/* Unit quaternions (w, x, y, z) on lanes. finite: 1 full rotations; 0 small ones, where the vector part is half a rotation vector. */
+/* Unit quaternions (w, x, y, z) on lanes. finite: 1 full rotations; 0 small ones, where the vector part is half a
+ * rotation vector. */
 #ifndef BRC_KERNELS_QUATERNION_H
 #define BRC_KERNELS_QUATERNION_H
 

@@ -1,9 +1,12 @@
-/* Rings of elements around others, by bonds: those that a broken bond or an open face changes, ring 0, their neighbours, ring 1, and so on. Passes over
- * lists of them (members.cl) do what a pass over the whole body would change.
+/* Rings of elements around others, by bonds: those that a broken bond or an open face changes, ring 0, their
+ * neighbours, ring 1, and so on. Passes over lists of them (members.cl) do what a pass over the whole body would
+ * change.
  *
- * touched [n]: 1 for elements of ring 0, set by whoever marks bonds, 2 when these broke. level [n]: 0, or the ring that an element was found to be in: RING_FOUND in ring 0
- * or 1 and not listed yet, then 1 + its ring. Both are 0 again when the last list is made; touched, where that list is kept, by who uses it up (cells_share). Where places are wanted
- * level holds, until ring_forget, the ring, 0 to 3, and four times 1 + the place in the list of the rings 0 to 2; in ring 3 the ring alone. */
+ * touched [n]: 1 for elements of ring 0, set by whoever marks bonds, 2 when these broke. level [n]: 0, or the ring that
+ * an element was found to be in: RING_FOUND in ring 0 or 1 and not listed yet, then 1 + its ring. Both are 0 again when
+ * the last list is made; touched, where that list is kept, by who uses it up (cells_share). Where places are wanted
+ * level holds, until ring_forget, the ring, 0 to 3, and four times 1 + the place in the list of the rings 0 to 2; in
+ * ring 3 the ring alone. */
 
 #define RING_FOUND 1
 #define RING_KINDS 4
@@ -12,8 +15,8 @@
 #define RING_IS_OUTER(level) (((level) >> 1) & 1)
 
 /* Elements whose origin is `from` and their neighbours are given the level `to` where they have none. */
-KERNEL void ring_spread(int n_groups, int from, int to, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                        GLOBAL const int *origin, GLOBAL int *level)
+KERNEL void ring_spread(int n_groups, int from, int to, GLOBAL const int *restrict row_start,
+                        GLOBAL const int *restrict neighbour, GLOBAL const int *origin, GLOBAL int *level)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int is_from = int_load(origin, (brc_size)group * W) == from;
@@ -21,7 +24,10 @@ KERNEL void ring_spread(int n_groups, int from, int to, GLOBAL const int *restri
             if (origin[e] != from) continue;
             if (level[e] == 0) STORE_SAME(level + e, to);
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
-                const int j = neighbour[(brc_size)slot * C + e % C], was = level[j]; /* kept where there is one, by a store all the same: whether there is is a toss-up */
+                const int
+                    j = neighbour[(brc_size)slot * C + e % C],
+                    was =
+                        level[j]; /* kept where there is one, by a store all the same: whether there is is a toss-up */
                 STORE_SAME(level + j, was ? was : to);
             }
         }
@@ -34,11 +40,13 @@ KERNEL void ring_seed(int n, int above, GLOBAL const int *restrict number, GLOBA
     FOR_EACH_ITEM(e, n) { touched[e] = (number[e] > 0) == above; }
 }
 
-/* All bits where an element belongs to one of the lists 0 to k. which 0: what is new, in list 0 those touched that were found before, in 1 those both touched and found, in 2 those only
- * found; 1: all, by ring, for the last time; 2: those touched, in list 0; 3: as 1, and touched stays; 4: as 3, and level holds places. */
+/* All bits where an element belongs to one of the lists 0 to k. which 0: what is new, in list 0 those touched that were
+ * found before, in 1 those both touched and found, in 2 those only found; 1: all, by ring, for the last time; 2: those
+ * touched, in list 0; 3: as 1, and touched stays; 4: as 3, and level holds places. */
 LAW lane_int ring_is_upto(int which, int k, lane_int touched, lane_int level)
 {
-    const lane_int found = LANE_ABOVE(level, 0) & ~LANE_ABOVE(level, RING_FOUND), any = LANE_ABOVE(touched, 0), fresh = any & ~LANE_ABOVE(touched, 1);
+    const lane_int found = LANE_ABOVE(level, 0) & ~LANE_ABOVE(level, RING_FOUND), any = LANE_ABOVE(touched, 0),
+                   fresh = any & ~LANE_ABOVE(touched, 1);
     if (which == 0) return k == 0 ? fresh & ~found : k == 1 ? fresh : fresh | found;
     return which == 2 ? any : any | (LANE_ABOVE(level, RING_FOUND) & ~LANE_ABOVE(level, k + 1));
 }
@@ -50,8 +58,10 @@ LAW int rings_reach(lane_int touched, lane_int level)
     return LANE_ANY(some);
 }
 
-/* count[list][block]: how many of the lists 0 to `list`, in fixed blocks; one number more a list is room for their sum. n and SCAN_BLOCK are multiples of W. */
-KERNEL void ring_count(int n_blocks, int n, int which, GLOBAL const int *restrict touched, GLOBAL const int *restrict level, GLOBAL int *restrict count)
+/* count[list][block]: how many of the lists 0 to `list`, in fixed blocks; one number more a list is room for their sum.
+ * n and SCAN_BLOCK are multiples of W. */
+KERNEL void ring_count(int n_blocks, int n, int which, GLOBAL const int *restrict touched,
+                       GLOBAL const int *restrict level, GLOBAL int *restrict count)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
@@ -88,10 +98,11 @@ KERNEL void ring_tops(int n_lists, int n_blocks, GLOBAL int *restrict count)
     }
 }
 
-/* What each list and those before it hold, in the order of the rows: neighbours in the body, whose numbers share places in memory, are done together whatever their ring.
- * next: running sums of count. */
-KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touched, GLOBAL int *restrict level, GLOBAL const int *restrict next,
-                      GLOBAL int *restrict upto_0, GLOBAL int *restrict upto_1, GLOBAL int *restrict upto_2, GLOBAL int *restrict upto_3)
+/* What each list and those before it hold, in the order of the rows: neighbours in the body, whose numbers share places
+ * in memory, are done together whatever their ring. next: running sums of count. */
+KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touched, GLOBAL int *restrict level,
+                      GLOBAL const int *restrict next, GLOBAL int *restrict upto_0, GLOBAL int *restrict upto_1,
+                      GLOBAL int *restrict upto_2, GLOBAL int *restrict upto_3)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
@@ -101,11 +112,17 @@ KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touch
             const brc_size at = (brc_size)first;
             const lane_int own = lane_own(first), t = int_load(touched, at), l = int_load(level, at);
             if (!rings_reach(t, l)) continue;
-            const lane_int none = t ^ t, is_0 = ring_is_upto(which, 0, t, l), is_1 = ring_is_upto(which, 1, t, l), is_2 = ring_is_upto(which, 2, t, l), is_3 = ring_is_upto(which, 3, t, l);
-            if (which == 4) int_store(level, at, is_3 & ((is_0 + is_1 + is_2 + RING_KINDS - 1) | (is_2 & (4 * (lane_rank(is_2) + (to_2 + 1))))));
-            else if (which != 2) int_store(level, at, which == 0 ? (is_3 & (RING_FOUND + 1)) | (~is_3 & l) : none);
+            const lane_int none = t ^ t, is_0 = ring_is_upto(which, 0, t, l), is_1 = ring_is_upto(which, 1, t, l),
+                           is_2 = ring_is_upto(which, 2, t, l), is_3 = ring_is_upto(which, 3, t, l);
+            if (which == 4)
+                int_store(level, at,
+                          is_3 &
+                              ((is_0 + is_1 + is_2 + RING_KINDS - 1) | (is_2 & (4 * (lane_rank(is_2) + (to_2 + 1))))));
+            else if (which != 2)
+                int_store(level, at, which == 0 ? (is_3 & (RING_FOUND + 1)) | (~is_3 & l) : none);
             if (which == 1) int_store(touched, at, none);
-            lane_pack(upto_0 + to_0, is_0, own), lane_pack(upto_1 + to_1, is_1, own), lane_pack(upto_2 + to_2, is_2, own), lane_pack(upto_3 + to_3, is_3, own);
+            lane_pack(upto_0 + to_0, is_0, own), lane_pack(upto_1 + to_1, is_1, own),
+                lane_pack(upto_2 + to_2, is_2, own), lane_pack(upto_3 + to_3, is_3, own);
             to_0 += lane_count(is_0), to_1 += lane_count(is_1), to_2 += lane_count(is_2), to_3 += lane_count(is_3);
         }
     }
@@ -116,8 +133,10 @@ KERNEL void ring_forget(int n, GLOBAL const int *restrict list, GLOBAL int *rest
     FOR_EACH_ITEM(k, n) { level[list[k]] = 0; }
 }
 
-/* The force of an element becomes `now` [N], and its velocity gains half_kick over mass times what the force loses. gain: what force^2 / mass gained, by components. */
-LAW void ring_take(brc_size at, state half_kick, state per_mass, state now, GLOBAL state *restrict force, GLOBAL state *restrict velocity, GLOBAL state *restrict gain)
+/* The force of an element becomes `now` [N], and its velocity gains half_kick over mass times what the force loses.
+ * gain: what force^2 / mass gained, by components. */
+LAW void ring_take(brc_size at, state half_kick, state per_mass, state now, GLOBAL state *restrict force,
+                   GLOBAL state *restrict velocity, GLOBAL state *restrict gain)
 {
     const state was = force[at];
     velocity[at] += half_kick * (was - now) * per_mass;
@@ -126,8 +145,8 @@ LAW void ring_take(brc_size at, state half_kick, state per_mass, state now, GLOB
 }
 
 /* fresh [n][3] takes the place of the force of the listed elements. Afterwards fresh holds the gain. */
-KERNEL void ring_replace(int n, state half_kick, GLOBAL const int *restrict list, GLOBAL const state *restrict mass, GLOBAL state *restrict fresh,
-                         GLOBAL state *restrict force, GLOBAL state *restrict velocity)
+KERNEL void ring_replace(int n, state half_kick, GLOBAL const int *restrict list, GLOBAL const state *restrict mass,
+                         GLOBAL state *restrict fresh, GLOBAL state *restrict force, GLOBAL state *restrict velocity)
 {
     FOR_EACH_ITEM(k, n) {
         const brc_size e = (brc_size)list[k];
@@ -136,8 +155,10 @@ KERNEL void ring_replace(int n, state half_kick, GLOBAL const int *restrict list
     }
 }
 
-/* The same gain of all elements, whose forces were evaluated in their place: was [n][3] holds the forces from before, then the gain. */
-KERNEL void ring_gain(int n, GLOBAL const state *restrict mass, GLOBAL const state *restrict force, GLOBAL state *restrict was)
+/* The same gain of all elements, whose forces were evaluated in their place: was [n][3] holds the forces from before,
+ * then the gain. */
+KERNEL void ring_gain(int n, GLOBAL const state *restrict mass, GLOBAL const state *restrict force,
+                      GLOBAL state *restrict was)
 {
     FOR_EACH_ITEM(e, n) {
         for (int c = 0; c < 3; ++c) {
@@ -147,10 +168,12 @@ KERNEL void ring_gain(int n, GLOBAL const state *restrict mass, GLOBAL const sta
     }
 }
 
-/* What velocity Verlet loses where forces jump. Of a linear system it keeps K + W - dt^2/8 f.M^-1 f, so K + W swings about a mean that lies
- * dt^2/16 (v.K v - f.M^-1 f) above it; where f jumps at rest, that mean falls by dt^2/16 times the gain of f.M^-1 f. per: dt^2/16;
- * gain [n][3] [N^2/kg]; lost [n] [J]. listed: of the n elements of the list, else of all. */
-KERNEL void ring_book(int n, int listed, state per, GLOBAL const int *restrict list, GLOBAL const state *restrict gain, GLOBAL state *restrict lost)
+/* What velocity Verlet loses where forces jump. Of a linear system it keeps K + W - dt^2/8 f.M^-1 f, so K + W swings
+ * about a mean that lies dt^2/16 (v.K v - f.M^-1 f) above it; where f jumps at rest, that mean falls by dt^2/16 times
+ * the gain of f.M^-1 f. per: dt^2/16; gain [n][3] [N^2/kg]; lost [n] [J]. listed: of the n elements of the list, else
+ * of all. */
+KERNEL void ring_book(int n, int listed, state per, GLOBAL const int *restrict list, GLOBAL const state *restrict gain,
+                      GLOBAL state *restrict lost)
 {
     FOR_EACH_ITEM(k, n) {
         const brc_size e = (brc_size)(listed ? list[k] : k);

@@ -1,5 +1,5 @@
-/* Elements that turn: motion of orientations (unit quaternions w x y z [n][4]) and spins, for models whose elements have rotations of
- * their own. One work-item does one element. */
+/* Elements that turn: motion of orientations (unit quaternions w x y z [n][4]) and spins, for models whose elements
+ * have rotations of their own. One work-item does one element. */
 
 /* q <- exp(h) q, normalised; |h|, the half turn, is far below 1: cos and sin(|h|)/|h| by their series. */
 LAW void orientation_turn(GLOBAL state *restrict q, state hx, state hy, state hz)
@@ -17,7 +17,8 @@ LAW void orientation_turn(GLOBAL state *restrict q, state hx, state hy, state hz
 /* Rotation: w += kick T / I [rad/s], then q <- exp(turn/2) q with turn = drift w_new + extra T / I [rad]; extra is
  * (phi - 1) dt^2 for Tchamwa-Wielgosz, else 0. inertia: mean moment of inertia of each cell [kg m^2]. */
 KERNEL void advance_rotation(int n, state kick, state drift, state extra, GLOBAL const state *restrict inertia,
-                             GLOBAL const state *restrict torque, GLOBAL state *restrict spin, GLOBAL state *restrict orientation)
+                             GLOBAL const state *restrict torque, GLOBAL state *restrict spin,
+                             GLOBAL state *restrict orientation)
 {
     FOR_EACH_ITEM(e, n) {
         state half_turn[3];
@@ -32,7 +33,8 @@ KERNEL void advance_rotation(int n, state kick, state drift, state extra, GLOBAL
 }
 
 /* Rotational kinetic energy I w^2 / 2, added [J] [n]. */
-KERNEL void add_spin_energy(int n, GLOBAL const state *restrict inertia, GLOBAL const state *restrict spin, GLOBAL state *restrict out)
+KERNEL void add_spin_energy(int n, GLOBAL const state *restrict inertia, GLOBAL const state *restrict spin,
+                            GLOBAL state *restrict out)
 {
     FOR_EACH_ITEM(e, n) {
         const state x = spin[(brc_size)e * 3], y = spin[(brc_size)e * 3 + 1], z = spin[(brc_size)e * 3 + 2];
@@ -59,10 +61,12 @@ KERNEL void turn_orientation(int n, GLOBAL const state *restrict theta, GLOBAL s
     }
 }
 
-/* Turned elements of one load: turn the orientations by the chosen components of angle direction [rad] (finite: 1 q <- exp(turn/2) q; 0 the
- * small rotations of a linear solve are added) unless the angle is 0, and set their spin to rate direction [rad/s]. */
-KERNEL void impose_turn(int n, state angle, int finite, state rate, GLOBAL const int *restrict element, GLOBAL const coeff *restrict component,
-                        GLOBAL const state *restrict direction, GLOBAL state *restrict spin, GLOBAL state *restrict orientation)
+/* Turned elements of one load: turn the orientations by the chosen components of angle direction [rad] (finite: 1 q <-
+ * exp(turn/2) q; 0 the small rotations of a linear solve are added) unless the angle is 0, and set their spin to rate
+ * direction [rad/s]. */
+KERNEL void impose_turn(int n, state angle, int finite, state rate, GLOBAL const int *restrict element,
+                        GLOBAL const coeff *restrict component, GLOBAL const state *restrict direction,
+                        GLOBAL state *restrict spin, GLOBAL state *restrict orientation)
 {
     FOR_EACH_ITEM(i, n) {
         GLOBAL state *q = orientation + (brc_size)element[i] * 4;
@@ -73,17 +77,19 @@ KERNEL void impose_turn(int n, state angle, int finite, state rate, GLOBAL const
             half_turn[c] = chosen ? STATE(0.5) * angle * direction[at] : STATE(0);
             if (chosen) spin[(brc_size)element[i] * 3 + c] = rate * direction[at];
         }
-        if (angle != 0 && finite) orientation_turn(q, half_turn[0], half_turn[1], half_turn[2]);
+        if (angle != 0 && finite)
+            orientation_turn(q, half_turn[0], half_turn[1], half_turn[2]);
         else
             for (int c = 0; c < 3; ++c) q[c + 1] += half_turn[c];
     }
 }
 
-/* Moment of the load that turns elements, minus the internal torque [N m] [n][3]; the torque it balances becomes zero. step: what the angle's
- * factor grew by since the last booking; book, rate, last_rate, work: as impose_book. */
+/* Moment of the load that turns elements, minus the internal torque [N m] [n][3]; the torque it balances becomes zero.
+ * step: what the angle's factor grew by since the last booking; book, rate, last_rate, work: as impose_book. */
 KERNEL void turn_book(int n, state step, state rate, state last_rate, int book, GLOBAL const int *restrict element,
-                      GLOBAL const coeff *restrict component, GLOBAL const state *restrict direction, GLOBAL const state *restrict inertia,
-                      GLOBAL state *restrict torque, GLOBAL state *restrict reaction, GLOBAL state *restrict last_reaction,
+                      GLOBAL const coeff *restrict component, GLOBAL const state *restrict direction,
+                      GLOBAL const state *restrict inertia, GLOBAL state *restrict torque,
+                      GLOBAL state *restrict reaction, GLOBAL state *restrict last_reaction,
                       GLOBAL state *restrict work)
 {
     FOR_EACH_ITEM(i, n) {
@@ -104,10 +110,11 @@ KERNEL void turn_book(int n, state step, state rate, state last_rate, int book, 
     }
 }
 
-/* z = P r with a symmetric 6 x 6 block per element, upper triangle by rows [n][21]; r and z are split into forces or displacements [n][3]
- * and torques or rotations [n][3]. */
+/* z = P r with a symmetric 6 x 6 block per element, upper triangle by rows [n][21]; r and z are split into forces or
+ * displacements [n][3] and torques or rotations [n][3]. */
 KERNEL void block6_precondition(int n, GLOBAL const state *restrict block, GLOBAL const state *restrict force,
-                                GLOBAL const state *restrict torque, GLOBAL state *restrict move, GLOBAL state *restrict turn)
+                                GLOBAL const state *restrict torque, GLOBAL state *restrict move,
+                                GLOBAL state *restrict turn)
 {
     FOR_EACH_ITEM(e, n) {
         GLOBAL const state *p = block + (brc_size)e * 21;

@@ -1,4 +1,5 @@
-/* Running sums and a stable sort of integers, in fixed blocks of 1024 in order, so that neither device nor threads change a bit. */
+/* Running sums and a stable sort of integers, in fixed blocks of 1024 in order, so that neither device nor threads
+ * change a bit. */
 
 #define SCAN_BLOCK 1024
 #define SORT_BINS 256
@@ -29,7 +30,8 @@ KERNEL void scan_tops(int n_items, int n_blocks, GLOBAL int *restrict sum)
 }
 
 /* start[i] = sum of x before i; start[n] that of all. */
-KERNEL void scan_fill(int n_blocks, int n, GLOBAL const int *restrict x, GLOBAL const int *restrict sum, GLOBAL int *restrict start)
+KERNEL void scan_fill(int n_blocks, int n, GLOBAL const int *restrict x, GLOBAL const int *restrict sum,
+                      GLOBAL int *restrict start)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
@@ -48,13 +50,14 @@ KERNEL void sort_count(int n_blocks, int n, int shift, GLOBAL const int *restric
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
         for (int bin = 0; bin < SORT_BINS; ++bin) count[(brc_size)bin * (brc_size)n_blocks + (brc_size)b] = 0;
-        for (int i = begin; i < end; ++i) count[(brc_size)(key[i] >> shift & (SORT_BINS - 1)) * (brc_size)n_blocks + (brc_size)b] += 1;
+        for (int i = begin; i < end; ++i)
+            count[(brc_size)(key[i] >> shift & (SORT_BINS - 1)) * (brc_size)n_blocks + (brc_size)b] += 1;
     }
 }
 
 /* Keys with their values to where the running sums of count say; next is used up. */
-KERNEL void sort_move(int n_blocks, int n, int shift, GLOBAL const int *restrict key, GLOBAL const int *restrict value, GLOBAL int *restrict next,
-                      GLOBAL int *restrict key_out, GLOBAL int *restrict value_out)
+KERNEL void sort_move(int n_blocks, int n, int shift, GLOBAL const int *restrict key, GLOBAL const int *restrict value,
+                      GLOBAL int *restrict next, GLOBAL int *restrict key_out, GLOBAL int *restrict value_out)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;

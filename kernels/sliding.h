@@ -1,18 +1,21 @@
-/* Faces of cells that a crack in shear opens (docs/notebook/theory.md T11): when, along which plane, and what they carry beside the cohesion of softening.h. */
+/* Faces of cells that a crack in shear opens (docs/notebook/theory.md T11): when, along which plane, and what they
+ * carry beside the cohesion of softening.h. */
 #ifndef BRC_KERNELS_SLIDING_H
 #define BRC_KERNELS_SLIDING_H
 
 #include "softening.h"
 
-/* What of the stress m goes on through a face beside what acts on the plane across `axis`: m (area - (area.axis) axis) [N]. Over the faces of a zig-zag along that plane it sums to nothing
- * (docs/notebook/theory.md T11). */
+/* What of the stress m goes on through a face beside what acts on the plane across `axis`: m (area - (area.axis) axis)
+ * [N]. Over the faces of a zig-zag along that plane it sums to nothing (docs/notebook/theory.md T11). */
 LAW soft_vector soft_passed(failure_stress m, soft_vector axis, soft_vector area)
 {
     const soft_vector p = soft_add(area, -soft_dot(area, axis), axis);
-    return (soft_vector){m.xx * p.x + m.xy * p.y + m.xz * p.z, m.xy * p.x + m.yy * p.y + m.yz * p.z, m.xz * p.x + m.yz * p.y + m.zz * p.z};
+    return (soft_vector){m.xx * p.x + m.xy * p.y + m.xz * p.z, m.xy * p.x + m.yy * p.y + m.yz * p.z,
+                         m.xz * p.x + m.yz * p.y + m.zz * p.z};
 }
 
-/* The force [N] that the cohesion of a face which slides falls from: what it carries across `axis`, less the friction of the push on it, which stays; a hundredth of the shear at least, as C(0) is divided by. */
+/* The force [N] that the cohesion of a face which slides falls from: what it carries across `axis`, less the friction
+ * of the push on it, which stays; a hundredth of the shear at least, as C(0) is divided by. */
 LAW coeff soft_slide_start(soft_vector released, soft_vector axis, coeff friction)
 {
     const coeff across = soft_dot(released, axis);
@@ -22,7 +25,8 @@ LAW coeff soft_slide_start(soft_vector released, soft_vector axis, coeff frictio
     return shear + friction * across > least ? shear + friction * across : least;
 }
 
-/* How near a face is to sliding, and the normals of the planes it may slide on: by all of the stress or, along an interface (limit < 0), by what acts on the face itself. slope: sin phi. */
+/* How near a face is to sliding, and the normals of the planes it may slide on: by all of the stress or, along an
+ * interface (limit < 0), by what acts on the face itself. slope: sin phi. */
 LAW failure_state soft_slip(failure_principal p, soft_vector traction, soft_vector n, coeff limit, coeff slope)
 {
     if (!(limit < 0)) return failure_of(p, (failure_limits){0, 0, limit}, (failure_shear){0, slope, slope});
@@ -33,7 +37,8 @@ LAW failure_state soft_slip(failure_principal p, soft_vector traction, soft_vect
     return (failure_state){REAL(-2) * (cosine * shear + slope * across) / limit, shear, own, own, FAILURE_SHEAR};
 }
 
-/* The slip plane that a face stands for: the one of the two whose normal is nearer to that of the face, turned along it. */
+/* The slip plane that a face stands for: the one of the two whose normal is nearer to that of the face, turned along
+ * it. */
 LAW soft_vector soft_slip_plane(failure_state slip, soft_vector normal)
 {
     const soft_vector a = {slip.normal.x, slip.normal.y, slip.normal.z}, b = {slip.other.x, slip.other.y, slip.other.z};

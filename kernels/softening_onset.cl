@@ -1,35 +1,47 @@
-/* Which faces open, and how: what a face bears before it softens (softening.cl). A face opens by tension, by a moment about its edge, or, where there are limits of shear, by sliding along the plane it stands for
- * (docs/notebook/theory.md T10, T11). shear_limit [n_slots][C]: 2 c cos phi of the bond, below 0 along an interface, whose faces slide on their own planes [Pa]; shear_energy: G_II S [J]; both are read only where `shears`. */
+/* Which faces open, and how: what a face bears before it softens (softening.cl). A face opens by tension, by a moment
+ * about its edge, or, where there are limits of shear, by sliding along the plane it stands for
+ * (docs/notebook/theory.md T10, T11). shear_limit [n_slots][C]: 2 c cos phi of the bond, below 0 along an interface,
+ * whose faces slide on their own planes [Pa]; shear_energy: G_II S [J]; both are read only where `shears`. */
 
-/* The stress at a bond [Pa]: the mean of its cells, but with the traction that the bond itself carries: mean + t (x) n + n (x) t - (t.n) n (x) n, t that
- * traction less that of the mean. So a bond that bridges an open crack, between cells without stress, is seen to be pulled. n: unit normal. */
+/* The stress at a bond [Pa]: the mean of its cells, but with the traction that the bond itself carries: mean + t (x) n
+ * + n (x) t - (t.n) n (x) n, t that traction less that of the mean. So a bond that bridges an open crack, between cells
+ * without stress, is seen to be pulled. n: unit normal. */
 LAW failure_stress soft_stress(failure_stress mean, soft_vector traction, soft_vector n)
 {
-    const soft_vector t = {traction.x - (mean.xx * n.x + mean.xy * n.y + mean.xz * n.z), traction.y - (mean.xy * n.x + mean.yy * n.y + mean.yz * n.z),
+    const soft_vector t = {traction.x - (mean.xx * n.x + mean.xy * n.y + mean.xz * n.z),
+                           traction.y - (mean.xy * n.x + mean.yy * n.y + mean.yz * n.z),
                            traction.z - (mean.xz * n.x + mean.yz * n.y + mean.zz * n.z)};
     const soft_vector m = soft_add(t, REAL(-0.5) * soft_dot(t, n), n);
-    return (failure_stress){mean.xx + REAL(2) * m.x * n.x,         mean.yy + REAL(2) * m.y * n.y,         mean.zz + REAL(2) * m.z * n.z,
-                            mean.yz + m.y * n.z + m.z * n.y, mean.xz + m.x * n.z + m.z * n.x, mean.xy + m.x * n.y + m.y * n.x};
+    return (failure_stress){mean.xx + REAL(2) * m.x * n.x,   mean.yy + REAL(2) * m.y * n.y,
+                            mean.zz + REAL(2) * m.z * n.z,   mean.yz + m.y * n.z + m.z * n.y,
+                            mean.xz + m.x * n.z + m.z * n.x, mean.xy + m.x * n.y + m.y * n.x};
 }
 
-/* Stress at the edge of a face that turns about the other edge [Pa], its traction even: of the moment that the uneven pulls of the two cells make over the length of the bond, and of the force across it; a push on
- * the solid there holds it. Nothing in the middle of a face shows that a crack, which has come to one side of it, bends it. least: smallest principal stress [Pa]; n: unit normal. */
+/* Stress at the edge of a face that turns about the other edge [Pa], its traction even: of the moment that the uneven
+ * pulls of the two cells make over the length of the bond, and of the force across it; a push on the solid there holds
+ * it. Nothing in the middle of a face shows that a crack, which has come to one side of it, bends it. least: smallest
+ * principal stress [Pa]; n: unit normal. */
 LAW coeff soft_edge(coeff least, soft_vector uneven, soft_vector force, soft_vector n, soft_vector s, coeff ratio)
 {
     const coeff area = SQRT(soft_dot(s, s)), across = soft_dot(force, n) / area;
     const soft_vector along = soft_add(uneven, -soft_dot(uneven, n), n);
-    return SQRT(soft_dot(along, along)) * ratio / SQRT(area) + SOFT_EDGE_HELD * (least < 0 ? least : REAL(0)) + (across > 0 ? across : REAL(0));
+    return SQRT(soft_dot(along, along)) * ratio / SQRT(area) + SOFT_EDGE_HELD * (least < 0 ? least : REAL(0)) +
+           (across > 0 ? across : REAL(0));
 }
 
-/* Whole bonds whose largest principal stress is above share * limit and that stand across it (the cosine of normal and axis is at least steepest)
- * are marked SOFT_WISH, measure: that stress. Elements without open faces whose own stress is below screen * limit of their weakest bond do not look:
- * the largest principal value is not above the Frobenius norm; shear_least: norm below which no face slides [Pa]. found [n]. */
-KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, int shears, coeff slope, coeff shear_least, GLOBAL const int *restrict row_start,
-                       GLOBAL const int *restrict neighbour, GLOBAL const int *restrict n_open, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
-                       GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                       GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
-                       GLOBAL const coeff *restrict least, GLOBAL const coeff *restrict limit, GLOBAL const coeff *restrict shear_limit, GLOBAL int *restrict mark,
+/* Whole bonds whose largest principal stress is above share * limit and that stand across it (the cosine of normal and
+ * axis is at least steepest) are marked SOFT_WISH, measure: that stress. Elements without open faces whose own stress
+ * is below screen * limit of their weakest bond do not look: the largest principal value is not above the Frobenius
+ * norm; shear_least: norm below which no face slides [Pa]. found [n]. */
+KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, int shears, coeff slope, coeff shear_least,
+                       GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
+                       GLOBAL const int *restrict n_open, GLOBAL const coeff *restrict area,
+                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                       GLOBAL const coeff *restrict modulus, GLOBAL const state *restrict displacement,
+                       GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
+                       GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
+                       GLOBAL const coeff *restrict least, GLOBAL const coeff *restrict limit,
+                       GLOBAL const coeff *restrict shear_limit, GLOBAL int *restrict mark,
                        GLOBAL coeff *restrict measure, GLOBAL coeff *restrict crack, GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(e, n) {
@@ -45,14 +57,19 @@ KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, int she
             if (!(limit[entry] < CELLS_NEVER)) continue;
             const int j = neighbour[entry];
             const soft_vector s = soft_area(area, entry);
-            const soft_vector force = soft_bond_force(flux, bond_part, e, j, s, SOFT_BOND_MODULUS(e, j) * one_plus_tau, ratio[entry], soft_jump(displacement, e, j));
+            const soft_vector force = soft_bond_force(flux, bond_part, e, j, s, SOFT_BOND_MODULUS(e, j) * one_plus_tau,
+                                                      ratio[entry], soft_jump(displacement, e, j));
             const soft_vector normal = soft_unit(soft_turned(gradient, e, j, s));
             const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
             const failure_stress mean = soft_mean_stress(gradient, stress, e, j);
             const failure_principal largest = failure_principal_of(soft_stress(mean, traction, normal));
             const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
             const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
-            const coeff edge = n_open[e] && n_open[j] ? soft_edge(largest.third, soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau), force, normal, s, ratio[entry]) : REAL(0);
+            const coeff edge =
+                n_open[e] && n_open[j]
+                    ? soft_edge(largest.third, soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau),
+                                force, normal, s, ratio[entry])
+                    : REAL(0);
             const int bends = edge > largest.first;
             const coeff worst = bends ? edge : largest.first;
             if (shears) {
@@ -83,15 +100,18 @@ KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, int she
     }
 }
 
-/* Wishes of either side come true: the bond opens at the force it carries; without a fracture energy it is marked to break. */
+/* Wishes of either side come true: the bond opens at the force it carries; without a fracture energy it is marked to
+ * break. */
 KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                       GLOBAL const int *restrict twin, GLOBAL const int *restrict lead, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
+                       GLOBAL const int *restrict twin, GLOBAL const int *restrict lead,
+                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, coeff k_one,
+                       coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                       GLOBAL const coeff *restrict bond_part, GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
-                       coeff friction, GLOBAL const coeff *restrict shear_energy, GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
-                       GLOBAL coeff *restrict crack, GLOBAL coeff *restrict limit, GLOBAL int *restrict open,
-                       GLOBAL int *restrict touched, GLOBAL state *restrict found)
+                       GLOBAL const coeff *restrict bond_part, GLOBAL const coeff *restrict gradient,
+                       GLOBAL const coeff *restrict stress, coeff friction, GLOBAL const coeff *restrict shear_energy,
+                       GLOBAL int *restrict mark, GLOBAL coeff *restrict measure, GLOBAL coeff *restrict crack,
+                       GLOBAL coeff *restrict limit, GLOBAL int *restrict open, GLOBAL int *restrict touched,
+                       GLOBAL state *restrict found)
 {
     FOR_EACH_ITEM(e, n) {
         int breaks = 0;
@@ -113,16 +133,21 @@ KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const
                 continue;
             }
             const soft_vector jump = soft_jump(displacement, e, j);
-            const soft_vector force = soft_bond_force(flux, bond_part, e, j, soft_area(area, entry), SOFT_BOND_MODULUS(e, j) * one_plus_tau, ratio[entry], jump);
-            const soft_vector now = soft_scale(from == entry ? REAL(1) : REAL(-1), soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
+            const soft_vector force = soft_bond_force(flux, bond_part, e, j, soft_area(area, entry),
+                                                      SOFT_BOND_MODULUS(e, j) * one_plus_tau, ratio[entry], jump);
+            const soft_vector now = soft_scale(from == entry ? REAL(1) : REAL(-1),
+                                               soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
             const failure_stress mean = soft_mean_stress(gradient, stress, e, j);
             const soft_vector normal = soft_turned(gradient, e, j, soft_area(area, entry));
-            const soft_vector released = soft_add(force, REAL(-1), slides ? soft_passed(mean, now, normal) : soft_carried(mean, now, normal));
+            const soft_vector released =
+                soft_add(force, REAL(-1), slides ? soft_passed(mean, now, normal) : soft_carried(mean, now, normal));
             const soft_vector axis = soft_unit(soft_turned_back(gradient, e, j, now));
-            const soft_vector uneven = soft_uneven(flux, gradient, e, j, soft_area(area, entry), k_one, ell_one, beta, one_plus_tau);
+            const soft_vector uneven =
+                soft_uneven(flux, gradient, e, j, soft_area(area, entry), k_one, ell_one, beta, one_plus_tau);
             const coeff across = soft_dot(released, now), pulled = across > 0 ? across : 0;
             const coeff size = slides ? soft_slide_start(released, now, friction)
-                                      : SQRT(SOFT_NUMBER(from, TURNS) > 0 ? pulled * pulled + soft_dot(uneven, uneven) : soft_dot(released, released));
+                                      : SQRT(SOFT_NUMBER(from, TURNS) > 0 ? pulled * pulled + soft_dot(uneven, uneven)
+                                                                          : soft_dot(released, released));
             const coeff whole = slides ? shear_energy[entry] : SOFT_NUMBER(entry, ENERGY);
             const coeff turns = SOFT_NUMBER(from, TURNS);
             open[entry] = SOFT_OPENS, open[other] = SOFT_OPENS;
@@ -143,9 +168,9 @@ KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const
 
 /* Open faces of every element, and their reach; and the weakest limit of those still whole. */
 KERNEL void soft_count(int n, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict alive,
-                       GLOBAL const int *restrict open, GLOBAL const coeff *restrict limit, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict inv_shape, GLOBAL int *restrict n_open, GLOBAL coeff *restrict reach,
-                       GLOBAL coeff *restrict least)
+                       GLOBAL const int *restrict open, GLOBAL const coeff *restrict limit,
+                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict inv_shape,
+                       GLOBAL int *restrict n_open, GLOBAL coeff *restrict reach, GLOBAL coeff *restrict least)
 {
     FOR_EACH_ITEM(e, n) {
         int count = 0;

@@ -5,10 +5,18 @@
 
 #include "portable.h"
 
-typedef struct { lane x, y, z; } lane_vec3;
-typedef struct { lane xx, xy, xz, yx, yy, yz, zx, zy, zz; } lane_mat3;
-typedef struct { lane xx, yy, zz, yz, xz, xy; } lane_sym3;
-typedef struct { lane w, x, y, z; } lane_quat;
+typedef struct {
+    lane x, y, z;
+} lane_vec3;
+typedef struct {
+    lane xx, xy, xz, yx, yy, yz, zx, zy, zz;
+} lane_mat3;
+typedef struct {
+    lane xx, yy, zz, yz, xz, xy;
+} lane_sym3;
+typedef struct {
+    lane w, x, y, z;
+} lane_quat;
 
 /* ---- vectors ---- */
 LAW lane_vec3 lane_vec3_add(lane_vec3 a, lane_vec3 b) { return (lane_vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -47,12 +55,11 @@ LAW lane_mat3 lane_mat3_transpose(lane_mat3 a)
 /* a b */
 LAW lane_mat3 lane_mat3_mul(lane_mat3 a, lane_mat3 b)
 {
-    return (lane_mat3){
-        a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy,
-        a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.yx + a.yz * b.zx,
-        a.yx * b.xy + a.yy * b.yy + a.yz * b.zy, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
-        a.zx * b.xx + a.zy * b.yx + a.zz * b.zx, a.zx * b.xy + a.zy * b.yy + a.zz * b.zy,
-        a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
+    return (lane_mat3){a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy,
+                       a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.yx + a.yz * b.zx,
+                       a.yx * b.xy + a.yy * b.yy + a.yz * b.zy, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
+                       a.zx * b.xx + a.zy * b.yx + a.zz * b.zx, a.zx * b.xy + a.zy * b.yy + a.zz * b.zy,
+                       a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
 }
 /* a b with b symmetric */
 LAW lane_mat3 lane_mat3_mul_sym(lane_mat3 a, lane_sym3 b)
@@ -69,12 +76,14 @@ LAW lane_vec3 lane_mat3_mul_vec(lane_mat3 a, lane_vec3 b)
 /* sum + a (x) b */
 LAW lane_mat3 lane_add_outer(lane_mat3 sum, lane_vec3 a, lane_vec3 b)
 {
-    return (lane_mat3){sum.xx + a.x * b.x, sum.xy + a.x * b.y, sum.xz + a.x * b.z, sum.yx + a.y * b.x, sum.yy + a.y * b.y,
-                       sum.yz + a.y * b.z, sum.zx + a.z * b.x, sum.zy + a.z * b.y, sum.zz + a.z * b.z};
+    return (lane_mat3){sum.xx + a.x * b.x, sum.xy + a.x * b.y, sum.xz + a.x * b.z,
+                       sum.yx + a.y * b.x, sum.yy + a.y * b.y, sum.yz + a.y * b.z,
+                       sum.zx + a.z * b.x, sum.zy + a.z * b.y, sum.zz + a.z * b.z};
 }
 LAW lane_sym3 lane_mat3_sym(lane_mat3 a)
 {
-    return (lane_sym3){a.xx, a.yy, a.zz, REAL(0.5) * (a.yz + a.zy), REAL(0.5) * (a.xz + a.zx), REAL(0.5) * (a.xy + a.yx)};
+    return (lane_sym3){
+        a.xx, a.yy, a.zz, REAL(0.5) * (a.yz + a.zy), REAL(0.5) * (a.xz + a.zx), REAL(0.5) * (a.xy + a.yx)};
 }
 LAW lane lane_sym3_trace(lane_sym3 a) { return a.xx + a.yy + a.zz; }
 /* a : b */
@@ -148,7 +157,8 @@ LAW lane_int lane_own(int first)
 #undef OWN_ITEM
 }
 
-/* Of the lanes whose bits `keep` are all set (0 in the others): x side by side from `to` on, and nothing behind; how many; how many before each of them, 0 or whatever in the others. */
+/* Of the lanes whose bits `keep` are all set (0 in the others): x side by side from `to` on, and nothing behind; how
+ * many; how many before each of them, 0 or whatever in the others. */
 LAW void lane_pack(GLOBAL int *restrict to, lane_int keep, lane_int x)
 {
 #ifdef LANE_PACK
@@ -156,7 +166,8 @@ LAW void lane_pack(GLOBAL int *restrict to, lane_int keep, lane_int x)
 #else
     int n = 0;
     if (!LANE_ANY(keep)) return;
-#define PUT(l) if (LANE_ITEM(keep, l)) to[n++] = LANE_ITEM(x, l);
+#define PUT(l)                                                                                                         \
+    if (LANE_ITEM(keep, l)) to[n++] = LANE_ITEM(x, l);
     LANE_EACH(PUT)
 #undef PUT
 #endif
@@ -187,9 +198,10 @@ LAW lane_int lane_rank(lane_int keep)
 #endif
 }
 
-/* Gathers of [element][n]: row holds the element of each lane. Eight lanes of one record each are read as eight vectors and
- * transposed, which takes a third of the shuffles of filling vectors number by number (measured: dlsm +35 %, docs/
- * performance.md). A record shorter than its vector reads into the next one: arrays end with spare room (LANE_SPARE). */
+/* Gathers of [element][n]: row holds the element of each lane. Eight lanes of one record each are read as eight vectors
+ * and transposed, which takes a third of the shuffles of filling vectors number by number (measured: dlsm +35 %, docs/
+ * performance.md). A record shorter than its vector reads into the next one: arrays end with spare room
+ * (LANE_SPARE). */
 LAW lane gather_component(GLOBAL const coeff *restrict p, lane_int at)
 {
 #ifdef LANE_GATHER
@@ -206,7 +218,9 @@ LAW lane_state gather_state_component(GLOBAL const state *restrict p, lane_int a
     return LANE_MAKE(lane_state, ITEM);
 #undef ITEM
 }
-typedef struct { lane_state x, y, z; } state_vec3;
+typedef struct {
+    lane_state x, y, z;
+} state_vec3;
 #ifdef LANE_SHUFFLE
 /* Stages of the 8 x 8 transposition: numbers, pairs, quads of two vectors. */
 #define LANE_ZIP_LOW(a, b) LANE_SHUFFLE(a, b, 0, 8, 2, 10, 4, 12, 6, 14)
@@ -215,21 +229,32 @@ typedef struct { lane_state x, y, z; } state_vec3;
 #define LANE_PAIRS_HIGH(a, b) LANE_SHUFFLE(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
 #define LANE_QUADS_LOW(a, b) LANE_SHUFFLE(a, b, 0, 1, 2, 3, 8, 9, 10, 11)
 #define LANE_QUADS_HIGH(a, b) LANE_SHUFFLE(a, b, 4, 5, 6, 7, 12, 13, 14, 15)
-typedef struct { lane c0, c1, c2, c3, c4, c5, c6, c7; } lane_columns;
+typedef struct {
+    lane c0, c1, c2, c3, c4, c5, c6, c7;
+} lane_columns;
 LAW lane_columns lane_gather_columns(GLOBAL const coeff *restrict p, lane_int at)
 {
-    const lane r0 = lane_load(p, (brc_size)LANE_ITEM(at, 0)), r1 = lane_load(p, (brc_size)LANE_ITEM(at, 1)), r2 = lane_load(p, (brc_size)LANE_ITEM(at, 2));
-    const lane r3 = lane_load(p, (brc_size)LANE_ITEM(at, 3)), r4 = lane_load(p, (brc_size)LANE_ITEM(at, 4)), r5 = lane_load(p, (brc_size)LANE_ITEM(at, 5));
+    const lane r0 = lane_load(p, (brc_size)LANE_ITEM(at, 0)), r1 = lane_load(p, (brc_size)LANE_ITEM(at, 1)),
+               r2 = lane_load(p, (brc_size)LANE_ITEM(at, 2));
+    const lane r3 = lane_load(p, (brc_size)LANE_ITEM(at, 3)), r4 = lane_load(p, (brc_size)LANE_ITEM(at, 4)),
+               r5 = lane_load(p, (brc_size)LANE_ITEM(at, 5));
     const lane r6 = lane_load(p, (brc_size)LANE_ITEM(at, 6)), r7 = lane_load(p, (brc_size)LANE_ITEM(at, 7));
-    const lane a0 = LANE_ZIP_LOW(r0, r1), a1 = LANE_ZIP_HIGH(r0, r1), a2 = LANE_ZIP_LOW(r2, r3), a3 = LANE_ZIP_HIGH(r2, r3);
-    const lane a4 = LANE_ZIP_LOW(r4, r5), a5 = LANE_ZIP_HIGH(r4, r5), a6 = LANE_ZIP_LOW(r6, r7), a7 = LANE_ZIP_HIGH(r6, r7);
-    const lane b0 = LANE_PAIRS_LOW(a0, a2), b1 = LANE_PAIRS_LOW(a1, a3), b2 = LANE_PAIRS_HIGH(a0, a2), b3 = LANE_PAIRS_HIGH(a1, a3);
-    const lane b4 = LANE_PAIRS_LOW(a4, a6), b5 = LANE_PAIRS_LOW(a5, a7), b6 = LANE_PAIRS_HIGH(a4, a6), b7 = LANE_PAIRS_HIGH(a5, a7);
-    return (lane_columns){LANE_QUADS_LOW(b0, b4), LANE_QUADS_LOW(b1, b5), LANE_QUADS_LOW(b2, b6), LANE_QUADS_LOW(b3, b7),
-                          LANE_QUADS_HIGH(b0, b4), LANE_QUADS_HIGH(b1, b5), LANE_QUADS_HIGH(b2, b6), LANE_QUADS_HIGH(b3, b7)};
+    const lane a0 = LANE_ZIP_LOW(r0, r1), a1 = LANE_ZIP_HIGH(r0, r1), a2 = LANE_ZIP_LOW(r2, r3),
+               a3 = LANE_ZIP_HIGH(r2, r3);
+    const lane a4 = LANE_ZIP_LOW(r4, r5), a5 = LANE_ZIP_HIGH(r4, r5), a6 = LANE_ZIP_LOW(r6, r7),
+               a7 = LANE_ZIP_HIGH(r6, r7);
+    const lane b0 = LANE_PAIRS_LOW(a0, a2), b1 = LANE_PAIRS_LOW(a1, a3), b2 = LANE_PAIRS_HIGH(a0, a2),
+               b3 = LANE_PAIRS_HIGH(a1, a3);
+    const lane b4 = LANE_PAIRS_LOW(a4, a6), b5 = LANE_PAIRS_LOW(a5, a7), b6 = LANE_PAIRS_HIGH(a4, a6),
+               b7 = LANE_PAIRS_HIGH(a5, a7);
+    return (lane_columns){LANE_QUADS_LOW(b0, b4),  LANE_QUADS_LOW(b1, b5),  LANE_QUADS_LOW(b2, b6),
+                          LANE_QUADS_LOW(b3, b7),  LANE_QUADS_HIGH(b0, b4), LANE_QUADS_HIGH(b1, b5),
+                          LANE_QUADS_HIGH(b2, b6), LANE_QUADS_HIGH(b3, b7)};
 }
 /* Four numbers of the state of each lane: two lanes' records in one vector, then transposed. */
-typedef struct { lane_state c0, c1, c2, c3; } state_columns;
+typedef struct {
+    lane_state c0, c1, c2, c3;
+} state_columns;
 LAW state_columns state_gather_columns(GLOBAL const state *restrict p, lane_int at)
 {
     const lane_state r04 = state_load_pair(p, (brc_size)LANE_ITEM(at, 0), (brc_size)LANE_ITEM(at, 4));
@@ -238,7 +263,8 @@ LAW state_columns state_gather_columns(GLOBAL const state *restrict p, lane_int 
     const lane_state r37 = state_load_pair(p, (brc_size)LANE_ITEM(at, 3), (brc_size)LANE_ITEM(at, 7));
     const lane_state a0 = LANE_ZIP_LOW(r04, r15), a1 = LANE_ZIP_HIGH(r04, r15);
     const lane_state a2 = LANE_ZIP_LOW(r26, r37), a3 = LANE_ZIP_HIGH(r26, r37);
-    return (state_columns){LANE_PAIRS_LOW(a0, a2), LANE_PAIRS_LOW(a1, a3), LANE_PAIRS_HIGH(a0, a2), LANE_PAIRS_HIGH(a1, a3)};
+    return (state_columns){LANE_PAIRS_LOW(a0, a2), LANE_PAIRS_LOW(a1, a3), LANE_PAIRS_HIGH(a0, a2),
+                           LANE_PAIRS_HIGH(a1, a3)};
 }
 LAW state_vec3 state_gather3(GLOBAL const state *restrict p, lane_int row)
 {
@@ -265,7 +291,8 @@ LAW lane_quat lane_gather4(GLOBAL const state *restrict p, lane_int row)
 LAW state_vec3 state_gather3(GLOBAL const state *restrict p, lane_int row)
 {
     const lane_int at = row * 3;
-    return (state_vec3){gather_state_component(p, at), gather_state_component(p + 1, at), gather_state_component(p + 2, at)};
+    return (state_vec3){gather_state_component(p, at), gather_state_component(p + 1, at),
+                        gather_state_component(p + 2, at)};
 }
 LAW lane_mat3 lane_gather9(GLOBAL const coeff *restrict p, lane_int row)
 {
@@ -308,7 +335,7 @@ LAW void lane_store9(GLOBAL coeff *restrict p, int first, lane_mat3 a)
 {
     GLOBAL coeff *q = p + (brc_size)first * 9;
 #define PUT(l)                                                                                                         \
-    q[0x##l * 9] = LANE_ITEM(a.xx, l), q[0x##l * 9 + 1] = LANE_ITEM(a.xy, l), q[0x##l * 9 + 2] = LANE_ITEM(a.xz, l),    \
+    q[0x##l * 9] = LANE_ITEM(a.xx, l), q[0x##l * 9 + 1] = LANE_ITEM(a.xy, l), q[0x##l * 9 + 2] = LANE_ITEM(a.xz, l),   \
               q[0x##l * 9 + 3] = LANE_ITEM(a.yx, l), q[0x##l * 9 + 4] = LANE_ITEM(a.yy, l),                            \
               q[0x##l * 9 + 5] = LANE_ITEM(a.yz, l), q[0x##l * 9 + 6] = LANE_ITEM(a.zx, l),                            \
               q[0x##l * 9 + 7] = LANE_ITEM(a.zy, l), q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
@@ -319,7 +346,7 @@ LAW void lane_store6(GLOBAL coeff *restrict p, int first, lane_sym3 a)
 {
     GLOBAL coeff *q = p + (brc_size)first * 6;
 #define PUT(l)                                                                                                         \
-    q[0x##l * 6] = LANE_ITEM(a.xx, l), q[0x##l * 6 + 1] = LANE_ITEM(a.yy, l), q[0x##l * 6 + 2] = LANE_ITEM(a.zz, l),    \
+    q[0x##l * 6] = LANE_ITEM(a.xx, l), q[0x##l * 6 + 1] = LANE_ITEM(a.yy, l), q[0x##l * 6 + 2] = LANE_ITEM(a.zz, l),   \
               q[0x##l * 6 + 3] = LANE_ITEM(a.yz, l), q[0x##l * 6 + 4] = LANE_ITEM(a.xz, l),                            \
               q[0x##l * 6 + 5] = LANE_ITEM(a.xy, l);
     LANE_EACH(PUT)
@@ -407,7 +434,8 @@ LAW void records_ahead9(GLOBAL const coeff *restrict p, int first)
 }
 
 /* Prefetch of the [element][9] records that the row entry GATHERS_AHEAD slots further on will gather. */
-LAW void gathers_ahead9(GLOBAL const coeff *restrict p, GLOBAL const int *restrict neighbour, int slot, int last, int first_lane)
+LAW void gathers_ahead9(GLOBAL const coeff *restrict p, GLOBAL const int *restrict neighbour, int slot, int last,
+                        int first_lane)
 {
 #ifdef ROWS_AHEAD
     const int next = slot + GATHERS_AHEAD < last ? slot + GATHERS_AHEAD : slot;
@@ -422,7 +450,8 @@ LAW void gathers_ahead9(GLOBAL const coeff *restrict p, GLOBAL const int *restri
 }
 
 /* The same for short records of the state, [element][width]. */
-LAW void gathers_ahead(GLOBAL const state *restrict p, int width, GLOBAL const int *restrict neighbour, int slot, int last, int first_lane)
+LAW void gathers_ahead(GLOBAL const state *restrict p, int width, GLOBAL const int *restrict neighbour, int slot,
+                       int last, int first_lane)
 {
 #ifdef ROWS_AHEAD
     const int next = slot + GATHERS_AHEAD < last ? slot + GATHERS_AHEAD : slot;
@@ -434,8 +463,12 @@ LAW void gathers_ahead(GLOBAL const state *restrict p, int width, GLOBAL const i
 }
 
 /* ---- scalars, for kernels over short lists of faces or special elements ---- */
-typedef struct { coeff x, y, z; } vec3;
-typedef struct { coeff xx, xy, xz, yx, yy, yz, zx, zy, zz; } mat3;
+typedef struct {
+    coeff x, y, z;
+} vec3;
+typedef struct {
+    coeff xx, xy, xz, yx, yy, yz, zx, zy, zz;
+} mat3;
 
 LAW vec3 vec3_load(GLOBAL const coeff *restrict p, int i)
 {

@@ -1,21 +1,25 @@
 #include "csv.h"
 #include <string.h>
 
-/* The next field of a line at or after *at, which is NULL once the last one was given. Blanks and a pair of quotes around a
- * field are no part of it; a separator within quotes separates nothing. */
+/* The next field of a line at or after *at, which is NULL once the last one was given. Blanks and a pair of quotes
+ * around a field are no part of it; a separator within quotes separates nothing. */
 static bool next_field(char separator, const char **at, const char *end, const char **first, const char **last)
 {
     if (!*at) return false;
     if (separator == ' ') return brc_lines_token(at, end, first, last);
     const char *c = *at;
-    while (c < end && *c == ' ') ++c;
+    while (c < end && *c == ' ')
+        ++c;
     const bool quoted = c < end && *c == '"';
     *first = c;
     if (quoted)
-        for (++c; c < end && *c != '"';) ++c;
-    while (c < end && *c != separator) ++c;
+        for (++c; c < end && *c != '"';)
+            ++c;
+    while (c < end && *c != separator)
+        ++c;
     *at = c < end ? c + 1 : NULL;
-    while (c > *first && c[-1] == ' ') --c;
+    while (c > *first && c[-1] == ' ')
+        --c;
     *last = c;
     if (quoted && c - *first >= 2 && c[-1] == '"') {
         ++*first;
@@ -49,7 +53,8 @@ static bool has_any_required(const brc_csv *csv)
 
 bool brc_csv_header(brc_lines *lines, brc_csv *csv)
 {
-    for (int k = 0; k < csv->n_roles; ++k) csv->column[k] = -1;
+    for (int k = 0; k < csv->n_roles; ++k)
+        csv->column[k] = -1;
     csv->n_columns = 0;
     if (!brc_csv_next(lines)) {
         brc_lines_bad(lines, lines->line_start, "no row found, expected %s", csv->wanted);
@@ -69,11 +74,13 @@ bool brc_csv_header(brc_lines *lines, brc_csv *csv)
     if (lines->n_bad > bad_before) return false;
     if (!has_any_required(csv)) {
         brc_lines_bad(lines, lines->line, "'%.*s' names no %s, expected %s (a row behind '#' is a comment)",
-                      (int)(lines->line_end - lines->line < 60 ? lines->line_end - lines->line : 60), lines->line, csv->what, csv->wanted);
+                      (int)(lines->line_end - lines->line < 60 ? lines->line_end - lines->line : 60), lines->line,
+                      csv->what, csv->wanted);
         return false;
     }
     for (int k = 0; k < csv->n_required; ++k)
-        if (csv->column[k] < 0) brc_lines_bad(lines, lines->line, "no column '%s', expected %s", csv->role[k], csv->wanted);
+        if (csv->column[k] < 0)
+            brc_lines_bad(lines, lines->line, "no column '%s', expected %s", csv->role[k], csv->wanted);
     return lines->n_bad == bad_before;
 }
 
@@ -95,6 +102,7 @@ bool brc_csv_row(brc_lines *lines, const brc_csv *csv, double *value, const char
         }
     }
     if (column >= csv->n_columns) return true;
-    brc_lines_bad(lines, lines->line_end, "%lld fields, expected the %lld of the header", (long long)column, (long long)csv->n_columns);
+    brc_lines_bad(lines, lines->line_end, "%lld fields, expected the %lld of the header", (long long)column,
+                  (long long)csv->n_columns);
     return false;
 }

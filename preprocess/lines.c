@@ -1,4 +1,5 @@
-/* A number is taken only where the whole token is one: "1,5", "0x10", "nan" and "3 m" are faults, not 1, 16, nan and 3. */
+/* A number is taken only where the whole token is one: "1,5", "0x10", "nan" and "3 m" are faults, not 1, 16, nan and
+ * 3. */
 #include "lines.h"
 
 #include <math.h>
@@ -22,7 +23,8 @@ static bool is_digit(char c)
 brc_status brc_lines_begin(brc_context *context, const char *path, const char *text, size_t bytes, brc_lines *lines)
 {
     *lines = (brc_lines){.context = context, .path = path, .next = text, .end = text + bytes};
-    if (bytes >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) lines->next += 3; /* spreadsheets write this mark of UTF-8 */
+    if (bytes >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
+        lines->next += 3; /* spreadsheets write this mark of UTF-8 */
     lines->line = lines->line_end = lines->line_start = lines->next;
     lines->plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     if (!lines->plain) return BRC_FAIL(context, BRC_NO_MEMORY, "%s: no memory to read numbers", path);
@@ -44,7 +46,8 @@ bool brc_lines_next(brc_lines *lines)
     lines->next = stop ? stop + 1 : lines->end;
     lines->number++;
     if (lines->line_end > lines->line && lines->line_end[-1] == '\r') --lines->line_end;
-    while (lines->line < lines->line_end && is_blank(*lines->line)) ++lines->line;
+    while (lines->line < lines->line_end && is_blank(*lines->line))
+        ++lines->line;
     return true;
 }
 
@@ -60,10 +63,12 @@ int64_t brc_lines_left(const brc_lines *lines)
 
 bool brc_lines_token(const char **at, const char *end, const char **first, const char **last)
 {
-    while (*at < end && is_blank(**at)) ++*at;
+    while (*at < end && is_blank(**at))
+        ++*at;
     if (*at >= end) return false;
     *first = *at;
-    while (*at < end && !is_blank(**at)) ++*at;
+    while (*at < end && !is_blank(**at))
+        ++*at;
     *last = *at;
     return true;
 }
@@ -84,8 +89,8 @@ void brc_lines_bad(brc_lines *lines, const char *place, const char *format, ...)
     va_end(arguments);
     for (char *c = sentence; *c; ++c) /* what is quoted from a binary file must not reach a terminal */
         if ((unsigned char)*c < ' ' || (unsigned char)*c > '~') *c = '?';
-    BRC_FAIL(lines->context, BRC_BAD_INPUT, "%s:%lld:%lld: %s", lines->path, (long long)(lines->number > 0 ? lines->number : 1),
-             (long long)(place - lines->line_start) + 1, sentence);
+    BRC_FAIL(lines->context, BRC_BAD_INPUT, "%s:%lld:%lld: %s", lines->path,
+             (long long)(lines->number > 0 ? lines->number : 1), (long long)(place - lines->line_start) + 1, sentence);
 }
 
 static int shown(const char *first, const char *last)
@@ -110,7 +115,8 @@ bool brc_lines_number(brc_lines *lines, const char *first, const char *last, con
         return false;
     }
     if (!isfinite(value)) {
-        brc_lines_bad(lines, first, "%s is '%.*s', expected a number that a double holds", what, shown(first, last), first);
+        brc_lines_bad(lines, first, "%s is '%.*s', expected a number that a double holds", what, shown(first, last),
+                      first);
         return false;
     }
     *out = value;

@@ -1,4 +1,5 @@
-/* Text read line by line: lines, fields and numbers, with faults that name their place. What readers of tables share. */
+/* Text read line by line: lines, fields and numbers, with faults that name their place. What readers of tables
+ * share. */
 #ifndef BRC_PREPROCESS_LINES_H
 #define BRC_PREPROCESS_LINES_H
 
@@ -24,11 +25,13 @@ void brc_lines_end(brc_lines *lines);
 bool brc_lines_next(brc_lines *lines);
 /* Lines that are still to come; the last one needs no end. */
 int64_t brc_lines_left(const brc_lines *lines);
-/* The next token between blanks at or after *at within [*at, end): *first .. *last; moves *at behind it. False: none left. */
+/* The next token between blanks at or after *at within [*at, end): *first .. *last; moves *at behind it. False: none
+ * left. */
 bool brc_lines_token(const char **at, const char *end, const char **first, const char **last);
 /* Is the token this word, whatever its case? */
 bool brc_lines_is(const char *first, const char *last, const char *word);
-/* Read the whole token as a decimal number, finite, without trailing garbage. False: a fault is recorded; `what` names the number. */
+/* Read the whole token as a decimal number, finite, without trailing garbage. False: a fault is recorded; `what` names
+ * the number. */
 bool brc_lines_number(brc_lines *lines, const char *first, const char *last, const char *what, double *out);
 /* The same for a whole number of at most 18 digits. */
 bool brc_lines_integer(brc_lines *lines, const char *first, const char *last, const char *what, int64_t *out);

@@ -1,5 +1,6 @@
-/* Boxes are visited in shells round the one that holds x. After shell r everything nearer than r edges has been seen, also
- * where x or points lie beyond the bounds: they count to the outermost boxes, which only makes them appear nearer. */
+/* Boxes are visited in shells round the one that holds x. After shell r everything nearer than r edges has been seen,
+ * also where x or points lie beyond the bounds: they count to the outermost boxes, which only makes them appear
+ * nearer. */
 #include "point_grid.h"
 
 #include "../host/base/memory.h"
@@ -15,7 +16,8 @@ struct brc_point_grid {
     int64_t n;
 };
 
-brc_status brc_point_grid_create(brc_context *context, const double bounds[2][3], double edge, int64_t room, brc_point_grid **out)
+brc_status brc_point_grid_create(brc_context *context, const double bounds[2][3], double edge, int64_t room,
+                                 brc_point_grid **out)
 {
     *out = NULL;
     brc_point_grid *grid = NULL;
@@ -38,7 +40,8 @@ brc_status brc_point_grid_create(brc_context *context, const double bounds[2][3]
         if (count <= 4.0 * (double)room + 64.0) break;
         grid->edge *= 1.25;
     }
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &grid->first, grid->cells[0] * grid->cells[1] * grid->cells[2], "boxes of a search grid"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &grid->first, grid->cells[0] * grid->cells[1] * grid->cells[2],
+                                     "boxes of a search grid"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &grid->next, room, "points of a search grid"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &grid->position, 3 * room, "points of a search grid"));
     *out = grid;
@@ -71,7 +74,8 @@ void brc_point_grid_add(brc_point_grid *grid, const double x[3])
     int64_t box[3];
     box_of(grid, x, box);
     int32_t *first = grid->first + box[0] + grid->cells[0] * (box[1] + grid->cells[1] * box[2]);
-    for (int k = 0; k < 3; ++k) grid->position[3 * grid->n + k] = x[k];
+    for (int k = 0; k < 3; ++k)
+        grid->position[3 * grid->n + k] = x[k];
     grid->next[grid->n] = *first;
     *first = (int32_t)++grid->n;
 }
@@ -90,7 +94,8 @@ static void look(const brc_point_grid *grid, int64_t box, const double x[3], dou
 }
 
 /* Look at the boxes r away from `box` (in the largest coordinate). */
-static void look_at_shell(const brc_point_grid *grid, const int64_t box[3], int64_t r, const double x[3], double *best, int64_t *index)
+static void look_at_shell(const brc_point_grid *grid, const int64_t box[3], int64_t r, const double x[3], double *best,
+                          int64_t *index)
 {
     int64_t low[3], high[3];
     for (int k = 0; k < 3; ++k) {
@@ -101,7 +106,8 @@ static void look_at_shell(const brc_point_grid *grid, const int64_t box[3], int6
         for (int64_t j = low[1]; j <= high[1]; ++j) {
             const int64_t row = grid->cells[0] * (j + grid->cells[1] * k);
             if (k - box[2] == r || box[2] - k == r || j - box[1] == r || box[1] - j == r) {
-                for (int64_t i = low[0]; i <= high[0]; ++i) look(grid, row + i, x, best, index);
+                for (int64_t i = low[0]; i <= high[0]; ++i)
+                    look(grid, row + i, x, best, index);
                 continue;
             }
             if (box[0] - r >= 0) look(grid, row + box[0] - r, x, best, index);
@@ -115,7 +121,8 @@ static int64_t search(const brc_point_grid *grid, const double x[3], double limi
     int64_t box[3], index = -1, shells = 0;
     double best = limit;
     box_of(grid, x, box);
-    for (int k = 0; k < 3; ++k) shells = grid->cells[k] > shells ? grid->cells[k] : shells;
+    for (int k = 0; k < 3; ++k)
+        shells = grid->cells[k] > shells ? grid->cells[k] : shells;
     for (int64_t r = 0; r < shells; ++r) {
         const double seen = (double)(r - 1) * grid->edge * (1.0 - 1e-9); /* rounding in box_of */
         if (r > 0 && best < seen * seen) break;

@@ -1,5 +1,5 @@
-/* Points sorted into boxes of space as they come, and the nearest of them. For searches whose reach is not known before, and for
- * points that are added while searching. Adding is for one thread; any number may search. */
+/* Points sorted into boxes of space as they come, and the nearest of them. For searches whose reach is not known
+ * before, and for points that are added while searching. Adding is for one thread; any number may search. */
 #ifndef BRC_PREPROCESS_POINT_GRID_H
 #define BRC_PREPROCESS_POINT_GRID_H
 
@@ -8,9 +8,10 @@
 
 typedef struct brc_point_grid brc_point_grid;
 
-/* Boxes about `edge` wide over `bounds` [m] (wider where there would be far more boxes than points); room for `room` points. Points
- * beyond the bounds are found too, only slower. BRC_NO_MEMORY. Caller frees with brc_point_grid_free. */
-brc_status brc_point_grid_create(brc_context *context, const double bounds[2][3], double edge, int64_t room, brc_point_grid **out);
+/* Boxes about `edge` wide over `bounds` [m] (wider where there would be far more boxes than points); room for `room`
+ * points. Points beyond the bounds are found too, only slower. BRC_NO_MEMORY. Caller frees with brc_point_grid_free. */
+brc_status brc_point_grid_create(brc_context *context, const double bounds[2][3], double edge, int64_t room,
+                                 brc_point_grid **out);
 void brc_point_grid_free(brc_point_grid **grid);
 /* Add a point; its index is the number of points before. There must be room. */
 void brc_point_grid_add(brc_point_grid *grid, const double x[3]);

@@ -1,5 +1,5 @@
-/* CSV here; LAMMPS data files in points_lammps.c. The two are told apart by content: only LAMMPS says "1000 atoms" before its
- * sections. */
+/* CSV here; LAMMPS data files in points_lammps.c. The two are told apart by content: only LAMMPS says "1000 atoms"
+ * before its sections. */
 #include "points.h"
 
 #include "../host/base/file.h"
@@ -55,8 +55,12 @@ static bool read_header(brc_lines *lines, brc_csv *csv)
 
 static brc_status read_csv(brc_lines *lines, double **position, double **radius, int64_t *n)
 {
-    brc_csv header = {.n_roles = N_ROLES, .n_required = 3, .role = role_name, .what = "coordinate",
-                      .wanted = "a row of names: x, y, z and, for spheres, radius or diameter, then a row for each point"};
+    brc_csv header = {.n_roles = N_ROLES,
+                      .n_required = 3,
+                      .role = role_name,
+                      .what = "coordinate",
+                      .wanted =
+                          "a row of names: x, y, z and, for spheres, radius or diameter, then a row for each point"};
     if (!read_header(lines, &header)) return brc_lines_verdict(lines);
     const int64_t room = brc_lines_left(lines);
     const int role = header.column[RADIUS] >= 0 ? RADIUS : DIAMETER;
@@ -70,22 +74,28 @@ static brc_status read_csv(brc_lines *lines, double **position, double **radius,
         if (spheres) (*radius)[*n] = role == DIAMETER ? 0.5 * value[role] : value[role];
         ++*n;
     }
-    if (*n == 0 && lines->n_bad == 0) brc_lines_bad(lines, lines->line_start, "no point follows the header, expected a row for each point");
+    if (*n == 0 && lines->n_bad == 0)
+        brc_lines_bad(lines, lines->line_start, "no point follows the header, expected a row for each point");
     return brc_lines_verdict(lines);
 }
 
 /* Into metres; what overflows is refused. */
-static brc_status apply_scale(brc_context *context, const char *path, double scale, double *position, double *radius, int64_t n)
+static brc_status apply_scale(brc_context *context, const char *path, double scale, double *position, double *radius,
+                              int64_t n)
 {
     bool finite = true;
-    for (int64_t k = 0; k < 3 * n; ++k) finite = isfinite(position[k] *= scale) && finite;
-    for (int64_t k = 0; radius && k < n; ++k) finite = isfinite(radius[k] *= scale) && radius[k] > 0.0 && finite;
+    for (int64_t k = 0; k < 3 * n; ++k)
+        finite = isfinite(position[k] *= scale) && finite;
+    for (int64_t k = 0; radius && k < n; ++k)
+        finite = isfinite(radius[k] *= scale) && radius[k] > 0.0 && finite;
     if (finite) return BRC_OK;
-    return BRC_FAIL(context, BRC_BAD_INPUT, "%s: coordinates times the scale %g m are beyond what a double holds; use another scale",
-                    path, scale);
+    return BRC_FAIL(context, BRC_BAD_INPUT,
+                    "%s: coordinates times the scale %g m are beyond what a double holds; use another scale", path,
+                    scale);
 }
 
-brc_status brc_points_read(brc_context *context, const char *path, double scale, double **position, double **radius, int64_t *n)
+brc_status brc_points_read(brc_context *context, const char *path, double scale, double **position, double **radius,
+                           int64_t *n)
 {
     *position = *radius = NULL;
     *n = 0;
@@ -98,7 +108,8 @@ brc_status brc_points_read(brc_context *context, const char *path, double scale,
     BRC_TRY_OR(cleanup, brc_file_read_whole(context, path, (size_t)1 << 40, &text, &bytes));
     BRC_TRY_OR(cleanup, brc_lines_begin(context, path, text, bytes, &lines));
     const bool lammps = is_lammps(lines);
-    BRC_TRY_OR(cleanup, lammps ? brc_points_read_lammps(&lines, position, radius, n) : read_csv(&lines, position, radius, n));
+    BRC_TRY_OR(cleanup,
+               lammps ? brc_points_read_lammps(&lines, position, radius, n) : read_csv(&lines, position, radius, n));
     if (*n > INT32_MAX)
         status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: %lld points, must be below 2^31", path, (long long)*n);
     else
@@ -130,7 +141,8 @@ static void print_elements(FILE *file, const brc_domain *d)
     fprintf(file, "id,x,y,z%s,volume,region,body%s\n", d->radius ? ",radius" : "", d->grain ? ",grain" : "");
     for (int64_t e = 0; e < d->n_elements; ++e) {
         fprintf(file, "%lld", (long long)e);
-        for (int k = 0; k < 3; ++k) print_number(file, d->position[3 * e + k]);
+        for (int k = 0; k < 3; ++k)
+            print_number(file, d->position[3 * e + k]);
         if (d->radius) print_number(file, d->radius[e]);
         print_number(file, d->volume[e]);
         fprintf(file, ",%d,%d", d->region[e], d->body[e]);

@@ -1,5 +1,6 @@
-/* The data files of LAMMPS's read_data: a comment line, a header of "number keyword" lines, then sections, each a name, a blank
- * line and rows. Only the number of atoms and the section "Atoms" matter here; everything else is stepped over. */
+/* The data files of LAMMPS's read_data: a comment line, a header of "number keyword" lines, then sections, each a name,
+ * a blank line and rows. Only the number of atoms and the section "Atoms" matter here; everything else is stepped
+ * over. */
 #include "points_lammps.h"
 
 #include "../host/base/log.h"
@@ -16,8 +17,8 @@ typedef struct atom_style {
     int x;        /* first of three columns */
 } atom_style;
 static const atom_style styles[] = {
-    {"atomic", 5, -1, 2},    {"sphere", 7, 2, 4}, {"bond", 6, -1, 3}, {"molecular", 6, -1, 3},
-    {"angle", 6, -1, 3},     {"bpm/sphere", 8, 3, 5},
+    {"atomic", 5, -1, 2},    {"sphere", 7, 2, 4}, {"bond", 6, -1, 3},
+    {"molecular", 6, -1, 3}, {"angle", 6, -1, 3}, {"bpm/sphere", 8, 3, 5},
 };
 enum { N_STYLES = sizeof styles / sizeof *styles, MOST_COLUMNS = 11, N_FLAGS = 3 };
 
@@ -51,10 +52,12 @@ static void split(const brc_lines *lines, columns *row)
 {
     const char *at = lines->line;
     row->n = 0;
-    while (row->n <= MOST_COLUMNS && brc_lines_token(&at, lines->line_end, &row->first[row->n], &row->last[row->n])) row->n++;
+    while (row->n <= MOST_COLUMNS && brc_lines_token(&at, lines->line_end, &row->first[row->n], &row->last[row->n]))
+        row->n++;
 }
 
-/* The style named behind "Atoms #". False when the name is none that is known; *style stays NULL when there is no name. */
+/* The style named behind "Atoms #". False when the name is none that is known; *style stays NULL when there is no
+ * name. */
 static bool named_style(brc_lines *lines, const atom_style **style)
 {
     const char *end = lines->next, *at = memchr(lines->line_end, '#', (size_t)(end - lines->line_end));
@@ -62,7 +65,8 @@ static bool named_style(brc_lines *lines, const atom_style **style)
     *style = NULL;
     if (!at) return true;
     ++at;
-    while (end > at && (end[-1] == '\n' || end[-1] == '\r')) --end;
+    while (end > at && (end[-1] == '\n' || end[-1] == '\r'))
+        --end;
     if (!brc_lines_token(&at, end, &first, &last)) return true;
     for (int k = 0; k < N_STYLES; ++k)
         if (brc_lines_is(first, last, styles[k].name)) *style = &styles[k];
@@ -81,8 +85,8 @@ static bool is_whole(const char *first, const char *last)
     return true;
 }
 
-/* Do all rows from here to the end of the section end in three whole numbers? Eight columns are atomic with image flags, or
- * bpm/sphere without. */
+/* Do all rows from here to the end of the section end in three whole numbers? Eight columns are atomic with image
+ * flags, or bpm/sphere without. */
 static bool ends_in_flags(brc_lines lines)
 {
     columns row;
@@ -109,13 +113,14 @@ static const atom_style *guessed_style(brc_lines *lines)
     }
     if (!style) {
         ahead.n_bad = lines->n_bad;
-        brc_lines_bad(&ahead, ahead.line, "%d columns belong to no atom style that is read; name it behind the section: 'Atoms # sphere'",
+        brc_lines_bad(&ahead, ahead.line,
+                      "%d columns belong to no atom style that is read; name it behind the section: 'Atoms # sphere'",
                       row.n);
         lines->n_bad = ahead.n_bad;
         return NULL;
     }
-    brc_log(lines->context, BRC_LOG_WARNING, "%s: the section 'Atoms' names no style; %d columns are read as '%s'", lines->path, row.n,
-            style->name);
+    brc_log(lines->context, BRC_LOG_WARNING, "%s: the section 'Atoms' names no style; %d columns are read as '%s'",
+            lines->path, row.n, style->name);
     return style;
 }
 
@@ -126,14 +131,16 @@ static bool read_atom(brc_lines *lines, const atom_style *style, atom *out, int6
     split(lines, &row);
     if (row.n != style->n_columns && row.n != style->n_columns + N_FLAGS) {
         brc_lines_bad(lines, lines->line, "%d%s columns, expected the %d of style '%s', or %d with image flags", row.n,
-                      row.n > MOST_COLUMNS ? " or more" : "", style->n_columns, style->name, style->n_columns + N_FLAGS);
+                      row.n > MOST_COLUMNS ? " or more" : "", style->n_columns, style->name,
+                      style->n_columns + N_FLAGS);
         return false;
     }
     out->line = lines->number;
     if (!brc_lines_integer(lines, row.first[0], row.last[0], "the atom's id", &out->id)) return false;
     for (int k = 0; k < 3; ++k) {
         static const char *const name[3] = {"x", "y", "z"};
-        if (!brc_lines_number(lines, row.first[style->x + k], row.last[style->x + k], name[k], &out->x[k])) return false;
+        if (!brc_lines_number(lines, row.first[style->x + k], row.last[style->x + k], name[k], &out->x[k]))
+            return false;
     }
     bool moved = false;
     for (int k = style->n_columns; k < row.n; ++k) {
@@ -161,19 +168,21 @@ static int compare_atoms(const void *a, const void *b)
 static void sort_atoms(brc_lines *lines, atom *atoms, int64_t n)
 {
     bool sorted = true;
-    for (int64_t k = 1; k < n && sorted; ++k) sorted = atoms[k - 1].id < atoms[k].id;
+    for (int64_t k = 1; k < n && sorted; ++k)
+        sorted = atoms[k - 1].id < atoms[k].id;
     if (sorted) return;
     qsort(atoms, (size_t)n, sizeof *atoms, compare_atoms);
     const char *start = lines->line_start;
     for (int64_t k = 1; k < n; ++k) {
         if (atoms[k - 1].id != atoms[k].id) continue;
         lines->number = atoms[k].line; /* the place of the fault, which is not where reading stands */
-        brc_lines_bad(lines, start, "a second atom %lld, the first is on line %lld; ids must differ", (long long)atoms[k].id,
-                      (long long)atoms[k - 1].line);
+        brc_lines_bad(lines, start, "a second atom %lld, the first is on line %lld; ids must differ",
+                      (long long)atoms[k].id, (long long)atoms[k - 1].line);
     }
 }
 
-/* Header lines up to the first section: the number of atoms. `lines` stands on the section afterwards; false at the end of the file. */
+/* Header lines up to the first section: the number of atoms. `lines` stands on the section afterwards; false at the end
+ * of the file. */
 static bool read_header(brc_lines *lines, int64_t *n_atoms)
 {
     if (!brc_lines_next(lines)) return false; /* LAMMPS never reads the first line */
@@ -188,7 +197,8 @@ static bool read_header(brc_lines *lines, int64_t *n_atoms)
     return false;
 }
 
-static brc_status read_section(brc_lines *lines, const atom_style *style, int64_t n_atoms, atom *atoms, int64_t *flagged)
+static brc_status read_section(brc_lines *lines, const atom_style *style, int64_t n_atoms, atom *atoms,
+                               int64_t *flagged)
 {
     int64_t found = 0;
     bool more = false;
@@ -199,15 +209,17 @@ static brc_status read_section(brc_lines *lines, const atom_style *style, int64_
         ++found;
     }
     if (found != n_atoms) {
-        brc_lines_bad(lines, more ? lines->line : lines->line_start, "the section 'Atoms' ends after %lld rows, the header says %lld atoms",
-                      (long long)found, (long long)n_atoms);
+        brc_lines_bad(lines, more ? lines->line : lines->line_start,
+                      "the section 'Atoms' ends after %lld rows, the header says %lld atoms", (long long)found,
+                      (long long)n_atoms);
     } else if (lines->n_bad == 0) {
         sort_atoms(lines, atoms, n_atoms);
     }
     return brc_lines_verdict(lines);
 }
 
-static brc_status copy_out(brc_lines *lines, const atom_style *style, const atom *atoms, int64_t n, double **position, double **radius)
+static brc_status copy_out(brc_lines *lines, const atom_style *style, const atom *atoms, int64_t n, double **position,
+                           double **radius)
 {
     BRC_TRY(BRC_ALLOCATE(lines->context, position, 3 * n, "points"));
     if (style->diameter >= 0) BRC_TRY(BRC_ALLOCATE(lines->context, radius, n, "radii of points"));
@@ -223,14 +235,16 @@ brc_status brc_points_read_lammps(brc_lines *lines, double **position, double **
     int64_t n_atoms = -1, flagged = 0;
     bool section = read_header(lines, &n_atoms);
     if (lines->n_bad == 0 && n_atoms < 0)
-        brc_lines_bad(lines, lines->line_start, "no 'N atoms' between the first line, which LAMMPS takes as a comment, and the first section");
+        brc_lines_bad(lines, lines->line_start,
+                      "no 'N atoms' between the first line, which LAMMPS takes as a comment, and the first section");
     if (n_atoms == 0) brc_lines_bad(lines, lines->line_start, "the header says 0 atoms, must be at least 1");
     columns row = {.n = 0};
     for (; section; section = next_line(lines)) {
         split(lines, &row);
         if (row.n == 1 && brc_lines_is(row.first[0], row.last[0], "Atoms")) break;
     }
-    if (!section && lines->n_bad == 0) brc_lines_bad(lines, lines->line_start, "the file ends without a section 'Atoms'");
+    if (!section && lines->n_bad == 0)
+        brc_lines_bad(lines, lines->line_start, "the file ends without a section 'Atoms'");
     if (section && lines->n_bad == 0 && n_atoms > brc_lines_left(lines))
         brc_lines_bad(lines, lines->line, "the header says %lld atoms, only %lld lines follow here", (long long)n_atoms,
                       (long long)brc_lines_left(lines));
@@ -246,10 +260,12 @@ brc_status brc_points_read_lammps(brc_lines *lines, double **position, double **
         *n = n_atoms;
         if (flagged > 0)
             brc_log(lines->context, BRC_LOG_WARNING,
-                    "%s: %lld atoms have image flags; positions are taken as they are written, nothing is wrapped or unwrapped",
+                    "%s: %lld atoms have image flags; positions are taken as they are written, nothing is wrapped or "
+                    "unwrapped",
                     lines->path, (long long)flagged);
         else
-            brc_log(lines->context, BRC_LOG_INFO, "%s: %lld atoms of style '%s'; the box is not used, nothing is wrapped", lines->path,
+            brc_log(lines->context, BRC_LOG_INFO,
+                    "%s: %lld atoms of style '%s'; the box is not used, nothing is wrapped", lines->path,
                     (long long)n_atoms, style->name);
     }
     brc_memory_free(atoms);

@@ -4,8 +4,9 @@
 
 #include "lines.h"
 
-/* Read the section "Atoms" into *position [*n][3] and, for styles with a diameter, *radius [*n], by ascending atom id, in units of the
- * file. Arrays as brc_points_read, also left to the caller after a failure. BRC_BAD_INPUT with the faults of `lines`; BRC_NO_MEMORY. */
+/* Read the section "Atoms" into *position [*n][3] and, for styles with a diameter, *radius [*n], by ascending atom id,
+ * in units of the file. Arrays as brc_points_read, also left to the caller after a failure. BRC_BAD_INPUT with the
+ * faults of `lines`; BRC_NO_MEMORY. */
 brc_status brc_points_read_lammps(brc_lines *lines, double **position, double **radius, int64_t *n);
 
 #endif

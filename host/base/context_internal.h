@@ -7,8 +7,8 @@
 
 struct brc_context {
     brc_log_level level;
-    brc_log_sink sink; /* NULL: stderr */
-    void *sink_self;   /* borrowed */
+    brc_log_sink sink;       /* NULL: stderr */
+    void *sink_self;         /* borrowed */
     char *message;           /* sentences of the failures, '\n' between them; NULL: none */
     size_t message_length;   /* without the NUL [byte] */
     size_t message_capacity; /* [byte] */

@@ -159,11 +159,14 @@ brc_status brc_file_check_place(brc_context *context, const char *path)
     BRC_TRY(BRC_ALLOCATE(context, &folder, (int64_t)strlen(path) + 2, "path"));
     strcpy(folder, path);
     char *const slash = strrchr(folder, '/');
-    if (!slash) strcpy(folder, ".");
-    else slash[slash == folder] = '\0'; /* "/" stays */
+    if (!slash)
+        strcpy(folder, ".");
+    else
+        slash[slash == folder] = '\0'; /* "/" stays */
     if (access(folder, W_OK | X_OK) != 0)
-        status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot be written to %s: %s; name a folder that is there and may be written to", path, folder,
-                          strerror(errno));
+        status = BRC_FAIL(context, BRC_FILE_FAILED,
+                          "%s: cannot be written to %s: %s; name a folder that is there and may be written to", path,
+                          folder, strerror(errno));
     brc_memory_free(folder);
     return status;
 }

@@ -17,8 +17,8 @@ brc_status brc_file_read_whole(brc_context *context, const char *path, size_t li
 brc_status brc_file_aside(brc_context *context, const char *path, char **aside);
 brc_status brc_file_commit(brc_context *context, const char *aside, const char *path);
 void brc_file_discard(const char *aside);
-/* Can a file be written at `path`? Asked before long work: BRC_FILE_FAILED where its folder is missing or may not be written to, or a folder is
- * in its place. */
+/* Can a file be written at `path`? Asked before long work: BRC_FILE_FAILED where its folder is missing or may not be
+ * written to, or a folder is in its place. */
 brc_status brc_file_check_place(brc_context *context, const char *path);
 /* folder + "/" + name, freed by brc_memory_free. */
 brc_status brc_file_join(brc_context *context, const char *folder, const char *name, char **out);

@@ -34,9 +34,15 @@ static double read_clock(clockid_t clock)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-double brc_clock_s(void) { return read_clock(CLOCK_MONOTONIC); }
+double brc_clock_s(void)
+{
+    return read_clock(CLOCK_MONOTONIC);
+}
 
-double brc_processor_s(void) { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
+double brc_processor_s(void)
+{
+    return read_clock(CLOCK_PROCESS_CPUTIME_ID);
+}
 
 void brc_log_set_level(brc_context *context, brc_log_level level)
 {

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* "All errors in one pass" over a hostile file must not eat the memory: sentences beyond this many bytes are dropped.
- */
+/* "All errors in one pass" over a hostile file must not eat the memory: sentences beyond this many bytes are
+ * dropped. */
 #define MESSAGE_LIMIT ((size_t)1 << 20)
 
 const char *brc_status_text(brc_status status)

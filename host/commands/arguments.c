@@ -31,13 +31,13 @@ static brc_status unknown_option(brc_context *context, const brc_command *comman
     word[strcspn(word, "=")] = '\0';
     const char *nearest = brc_nearest_word(word, n, names);
     return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: no option '%s'%s%s%s; `breccia %s --help` lists them",
-                    command->name, found, nearest ? ", did you mean '--" : "", nearest ? nearest : "", nearest ? "'?" : "",
-                    command->name);
+                    command->name, found, nearest ? ", did you mean '--" : "", nearest ? nearest : "",
+                    nearest ? "'?" : "", command->name);
 }
 
 /* Take one option at argv[*k]; *k moves on when its value is the next word. */
-static brc_status take_option(brc_context *context, const brc_command *command, int argc, const char *const *argv, int *k,
-                              brc_arguments *out)
+static brc_status take_option(brc_context *context, const brc_command *command, int argc, const char *const *argv,
+                              int *k, brc_arguments *out)
 {
     const char *word = argv[*k];
     const char *value = NULL;
@@ -53,8 +53,8 @@ static brc_status take_option(brc_context *context, const brc_command *command, 
     if (index < 0) return unknown_option(context, command, word);
     const brc_option *option = &command->options[index];
     if (!option->value && value)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: --%s takes no value, found '%s'", command->name, option->name,
-                        value);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: --%s takes no value, found '%s'", command->name,
+                        option->name, value);
     if (option->value && !value) {
         if (*k + 1 >= argc)
             return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: --%s needs a value %s after it", command->name,
@@ -62,7 +62,8 @@ static brc_status take_option(brc_context *context, const brc_command *command, 
         value = argv[++*k];
     }
     if (out->count[index] > 0 && !option->repeats)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: --%s is given twice; leave one", command->name, option->name);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: --%s is given twice; leave one", command->name,
+                        option->name);
     if (out->count[index] == BRC_OPTION_REPEATS)
         return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: --%s is given more than %d times", command->name,
                         option->name, BRC_OPTION_REPEATS);
@@ -93,8 +94,8 @@ brc_status brc_arguments_parse(brc_context *context, const brc_command *command,
             out->positional[out->n_positional++] = word;
     }
     if (out->n_positional < command->least)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: %s is missing; usage: breccia %s %s [OPTIONS]", command->name,
-                        command->operands, command->name, command->operands);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: %s is missing; usage: breccia %s %s [OPTIONS]",
+                        command->name, command->operands, command->name, command->operands);
     return BRC_OK;
 }
 
@@ -147,7 +148,7 @@ brc_status brc_arguments_precision(brc_context *context, const brc_arguments *ar
 int brc_text_split(char *text, int most, const char **pieces)
 {
     int n = 0;
-    for (char *piece = text;; ) {
+    for (char *piece = text;;) {
         char *comma = strchr(piece, ',');
         if (comma) *comma = '\0';
         if (!*piece || n == most) return -1;

@@ -13,10 +13,10 @@ typedef struct brc_session {
 } brc_session;
 
 typedef struct brc_option {
-    const char *name;    /* without its dashes */
-    char letter;         /* short form, 0: none */
-    const char *value;   /* what stands for the value in the help, "a|b|c" where it is one of these words; NULL: a flag */
-    bool repeats;        /* may be given more than once */
+    const char *name;  /* without its dashes */
+    char letter;       /* short form, 0: none */
+    const char *value; /* what stands for the value in the help, "a|b|c" where it is one of these words; NULL: a flag */
+    bool repeats;      /* may be given more than once */
     const char *meaning; /* one line */
 } brc_option;
 
@@ -45,8 +45,9 @@ typedef struct brc_command {
 } brc_command;
 
 /* The commands of the program. */
-extern const brc_command brc_command_new, brc_command_check, brc_command_build, brc_command_run, brc_command_study, brc_command_devices, brc_command_bench,
-    brc_command_reproduce, brc_command_report, brc_command_export, brc_command_calibrate, brc_command_schema, brc_command_completion, brc_command_help;
+extern const brc_command brc_command_new, brc_command_check, brc_command_build, brc_command_run, brc_command_study,
+    brc_command_devices, brc_command_bench, brc_command_reproduce, brc_command_report, brc_command_export,
+    brc_command_calibrate, brc_command_schema, brc_command_completion, brc_command_help;
 
 /* Parse what follows the command's name. BRC_BAD_INPUT: unknown option (with the nearest one), missing or surplus
  * values and operands, an option given twice. --help and -h end the parsing. */
@@ -56,7 +57,8 @@ brc_status brc_arguments_parse(brc_context *context, const brc_command *command,
 const char *brc_arguments_value(const brc_arguments *arguments, const char *name);
 /* All values of an option; *n is how often it was given. */
 const char *const *brc_arguments_values(const brc_arguments *arguments, const char *name, int *n);
-/* A whole number of an option within [low, high]; `otherwise` when it was not given. BRC_BAD_INPUT with the option's name. */
+/* A whole number of an option within [low, high]; `otherwise` when it was not given. BRC_BAD_INPUT with the option's
+ * name. */
 brc_status brc_arguments_integer(brc_context *context, const brc_arguments *arguments, const char *name, int64_t low,
                                  int64_t high, int64_t otherwise, int64_t *out);
 /* --precision: double when it was not given. */
@@ -76,12 +78,29 @@ const brc_command *brc_command_at(int index);
 const brc_command *brc_command_find(brc_context *context, const char *name);
 
 /* Options that several commands share, for their tables. */
-#define BRC_OPTION_DEVICE {"device", 'd', "DEVICE", false, "auto, cpu, opencl:N or target:N (default auto)"}
-#define BRC_OPTION_PRECISION {"precision", 'p', "double|mixed|single", false, "numbers of the device (default double)"}
-#define BRC_OPTION_THREADS {"threads", 't', "N", false, "threads of the cpu device and of building (default: all)"}
+#define BRC_OPTION_DEVICE                                                                                              \
+    {                                                                                                                  \
+        "device", 'd', "DEVICE", false, "auto, cpu, opencl:N or target:N (default auto)"                               \
+    }
+#define BRC_OPTION_PRECISION                                                                                           \
+    {                                                                                                                  \
+        "precision", 'p', "double|mixed|single", false, "numbers of the device (default double)"                       \
+    }
+#define BRC_OPTION_THREADS                                                                                             \
+    {                                                                                                                  \
+        "threads", 't', "N", false, "threads of the cpu device and of building (default: all)"                         \
+    }
 #define BRC_OPTION_EXACT                                                                                               \
-    {"exact", 'x', NULL, false, "round every product and sum by itself: equal bits on every device, slower"}
-#define BRC_OPTION_SET {"set", 's', "KEY=VALUE", true, "replace a value of the scene, e.g. materials.glass.nu=0.3"}
-#define BRC_OPTION_OUTPUT(meaning) {"output", 'o', "DIR", false, (meaning)}
+    {                                                                                                                  \
+        "exact", 'x', NULL, false, "round every product and sum by itself: equal bits on every device, slower"         \
+    }
+#define BRC_OPTION_SET                                                                                                 \
+    {                                                                                                                  \
+        "set", 's', "KEY=VALUE", true, "replace a value of the scene, e.g. materials.glass.nu=0.3"                     \
+    }
+#define BRC_OPTION_OUTPUT(meaning)                                                                                     \
+    {                                                                                                                  \
+        "output", 'o', "DIR", false, (meaning)                                                                         \
+    }
 
 #endif

@@ -92,13 +92,19 @@ cleanup:
 static brc_status only_shape(brc_context *context, const brc_scene *scene, int n_threads, brc_solid **out)
 {
     if (scene->n_bodies != 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "--skin: the scene has %d bodies; give a scene of one", scene->n_bodies);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "--skin: the scene has %d bodies; give a scene of one",
+                        scene->n_bodies);
     const brc_body *body = &scene->bodies[0];
     bool posed = false;
-    for (int c = 0; c < 3; ++c) posed |= body->translation[c] != 0 || body->rotation[c] != 0;
+    for (int c = 0; c < 3; ++c)
+        posed |= body->translation[c] != 0 || body->rotation[c] != 0;
     if (body->domain_file[0] || posed || !(body->beams > 0))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "--skin: body '%s' %s; expected spheres joined by beams, packed into a shape where it stands", body->name,
-                        body->domain_file[0] ? "comes from a file" : posed ? "is moved or turned" : "is made of cells");
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "--skin: body '%s' %s; expected spheres joined by beams, packed into a shape where it stands",
+                        body->name,
+                        body->domain_file[0] ? "comes from a file"
+                        : posed              ? "is moved or turned"
+                                             : "is made of cells");
     brc_scene_request request = {.regions = NULL};
     brc_status status = brc_scene_request_make(context, scene, 0, n_threads, &request);
     if (status == BRC_OK) status = brc_solid_create(context, &request.build.shape, n_threads, out);
@@ -110,8 +116,10 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
 {
     brc_context *context = session->context;
     const double start = brc_clock_s();
-    const targets to = {.path = brc_arguments_value(arguments, "output"), .vtu = brc_arguments_value(arguments, "vtu"),
-                        .csv = brc_arguments_value(arguments, "csv"), .isotropy = brc_arguments_value(arguments, "isotropy")};
+    const targets to = {.path = brc_arguments_value(arguments, "output"),
+                        .vtu = brc_arguments_value(arguments, "vtu"),
+                        .csv = brc_arguments_value(arguments, "csv"),
+                        .isotropy = brc_arguments_value(arguments, "isotropy")};
     if (!to.path) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia build: say where the domain goes with -o FILE");
     const char *skin_path = brc_arguments_value(arguments, "skin");
     const char *const files[] = {to.path, to.vtu, to.csv, skin_path};
@@ -142,7 +150,8 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     }
     printf("seconds: build %.3g, write %.3g\n", built - start, brc_clock_s() - built);
 cleanup:
-    for (int32_t k = 0; domain && k < split->n; ++k) brc_domain_free(&domain[k]);
+    for (int32_t k = 0; domain && k < split->n; ++k)
+        brc_domain_free(&domain[k]);
     brc_memory_free(domain);
     brc_solid_free(&solid);
     brc_split_free(&split);
@@ -150,13 +159,14 @@ cleanup:
     return status;
 }
 
-const brc_command brc_command_build = {.name = "build",
-                                       .operands = "SCENE",
-                                       .least = 1,
-                                       .most = 1,
-                                       .summary = "build the domain of a scene (seeds, cells, bonds, sets) and write it",
-                                       .details = "A scene uses the file with `domain: FILE` in place of shape and fill. Bodies of several models are "
-                                                  "written model by model, each file's name with the model's before its ending.",
-                                       .options = options,
-                                       .n_options = sizeof options / sizeof *options,
-                                       .run = run};
+const brc_command brc_command_build = {
+    .name = "build",
+    .operands = "SCENE",
+    .least = 1,
+    .most = 1,
+    .summary = "build the domain of a scene (seeds, cells, bonds, sets) and write it",
+    .details = "A scene uses the file with `domain: FILE` in place of shape and fill. Bodies of several models are "
+               "written model by model, each file's name with the model's before its ending.",
+    .options = options,
+    .n_options = sizeof options / sizeof *options,
+    .run = run};

@@ -20,10 +20,15 @@ static const brc_option options[] = {
     BRC_OPTION_PRECISION,
     BRC_OPTION_THREADS,
     BRC_OPTION_SET,
-    {"output", 'o', "DIR", false, "also write the price into DIR/price.json, with which `breccia run SCENE -o DIR` compares what it took"},
-    {"all", 'a', NULL, false, "all of it: the scene with its defaults, effects in and out, every error the class rests on"},
-    {"brief", 'b', NULL, false, "cut every stage after about a second, also where bonds break or surfaces meet and some seconds more would see its end"},
-    {"effects", 'E', NULL, false, "also name the kernels that the trial launched and the arrays on the device, with launches and bytes"},
+    {"output", 'o', "DIR", false,
+     "also write the price into DIR/price.json, with which `breccia run SCENE -o DIR` compares what it took"},
+    {"all", 'a', NULL, false,
+     "all of it: the scene with its defaults, effects in and out, every error the class rests on"},
+    {"brief", 'b', NULL, false,
+     "cut every stage after about a second, also where bonds break or surfaces meet and some seconds more would see "
+     "its end"},
+    {"effects", 'E', NULL, false,
+     "also name the kernels that the trial launched and the arrays on the device, with launches and bytes"},
     {"estimate", 'e', NULL, false, "build no domain: counts and memory of it only, no time step and no seconds"},
 };
 
@@ -59,7 +64,8 @@ static brc_status print_estimate(brc_context *context, const brc_scene *scene)
         const brc_status status = brc_domain_estimate(context, &request.build, &n_elements, &bytes);
         brc_scene_request_free(&request);
         BRC_TRY(status);
-        printf("body %s: about %lld elements, %.3g MB as a domain\n", body->name, (long long)n_elements, (double)bytes / 1e6);
+        printf("body %s: about %lld elements, %.3g MB as a domain\n", body->name, (long long)n_elements,
+               (double)bytes / 1e6);
     }
     return BRC_OK;
 }
@@ -73,26 +79,31 @@ static void print_counts(FILE *details, const brc_setup *setup, double build_s)
         char bodies[256];
         n_free += domain->n_free_faces;
         if (setup->n > 1)
-            fprintf(details, "model %s: %lld elements, %lld bonds, bodies %s\n", setup->split->part[k].name, (long long)domain->n_elements,
-                   (long long)domain->n_bonds, brc_split_bodies(setup->split, k, bodies, sizeof bodies));
+            fprintf(details, "model %s: %lld elements, %lld bonds, bodies %s\n", setup->split->part[k].name,
+                    (long long)domain->n_elements, (long long)domain->n_bonds,
+                    brc_split_bodies(setup->split, k, bodies, sizeof bodies));
     }
-    fprintf(details, "counts: %lld elements, %lld bonds, %lld free faces (built in %.3g s)\n", (long long)brc_setup_n_elements(setup),
-           (long long)brc_setup_n_bonds(setup), (long long)n_free, build_s);
+    fprintf(details, "counts: %lld elements, %lld bonds, %lld free faces (built in %.3g s)\n",
+            (long long)brc_setup_n_elements(setup), (long long)brc_setup_n_bonds(setup), (long long)n_free, build_s);
 }
 
 /* A line for each wall and striker. */
 static void print_strikers(FILE *details, const brc_assembly *a)
 {
-    static const char *const motion[] = {[BRC_STRIKER_FIXED] = "fixed", [BRC_STRIKER_DRIVEN] = "driven", [BRC_STRIKER_FREE] = "free"};
+    static const char *const motion[] = {
+        [BRC_STRIKER_FIXED] = "fixed", [BRC_STRIKER_DRIVEN] = "driven", [BRC_STRIKER_FREE] = "free"};
     for (int32_t k = 0; k < brc_simulation_n_strikers(a->part[0]); ++k) {
         const brc_striker *striker = &a->scene->strikers[k];
         const brc_striker_body *body = brc_simulation_striker_body(a->part[0], k);
-        fprintf(details, "striker %s: %s, %s %.6g %.6g %.6g m", striker->name, motion[striker->motion], striker->is_plane ? "plane through" : "mass centre at", body->centre[0],
-               body->centre[1], body->centre[2]);
+        fprintf(details, "striker %s: %s, %s %.6g %.6g %.6g m", striker->name, motion[striker->motion],
+                striker->is_plane ? "plane through" : "mass centre at", body->centre[0], body->centre[1],
+                body->centre[2]);
         if (!striker->is_plane) fprintf(details, ", %d flat faces", (int)body->surface.n_faces);
         if (striker->motion == BRC_STRIKER_FREE)
-            fprintf(details, ", mass %.6g kg, moments of inertia %.4g %.4g %.4g kg m^2", body->mass, body->inertia[0], body->inertia[1], body->inertia[2]);
-        if (striker->pushed) fprintf(details, ", pushed by %.4g %.4g %.4g N", striker->force[0], striker->force[1], striker->force[2]);
+            fprintf(details, ", mass %.6g kg, moments of inertia %.4g %.4g %.4g kg m^2", body->mass, body->inertia[0],
+                    body->inertia[1], body->inertia[2]);
+        if (striker->pushed)
+            fprintf(details, ", pushed by %.4g %.4g %.4g N", striker->force[0], striker->force[1], striker->force[2]);
         fprintf(details, "\n");
     }
 }
@@ -111,10 +122,14 @@ static void print_setup(FILE *details, const brc_setup *setup, brc_precision pre
     }
     print_strikers(details, a);
     fprintf(details, "memory: %.4g MB on the device (%.0f bytes an element), %.4g MB on the host so far\n", bytes / 1e6,
-           bytes / (double)brc_setup_n_elements(setup), (double)brc_memory_peak() / 1e6);
+            bytes / (double)brc_setup_n_elements(setup), (double)brc_memory_peak() / 1e6);
     for (int32_t k = 0; k < a->n; ++k) {
         const double each = (double)brc_simulation_pair_bytes(a->part[k]), bonds = (double)setup->domain[k]->n_bonds;
-        if (each > 0) fprintf(details, "        and at most %.0f bytes for each pair of surfaces near each other: %.4g MB for as many as there are bonds\n", each, each * bonds / 1e6);
+        if (each > 0)
+            fprintf(details,
+                    "        and at most %.0f bytes for each pair of surfaces near each other: %.4g MB for as many as "
+                    "there are bonds\n",
+                    each, each * bonds / 1e6);
     }
 }
 
@@ -126,20 +141,25 @@ static void print_parts(const brc_setup *setup)
     for (int32_t k = 0; k < setup->assembly.n; ++k) {
         const char *of = setup->assembly.split ? brc_assembly_part_name(&setup->assembly, k) : "";
         int n = brc_device_launched(setup->device[k], MOST, item);
-        for (int i = 0; i < n && i < MOST; ++i) printf("kernel %s%s%s: %lld launches\n", of, of[0] ? "." : "", item[i].name, (long long)item[i].number);
+        for (int i = 0; i < n && i < MOST; ++i)
+            printf("kernel %s%s%s: %lld launches\n", of, of[0] ? "." : "", item[i].name, (long long)item[i].number);
         n = brc_device_buffers(setup->device[k], MOST, item);
-        for (int i = 0; i < n && i < MOST; ++i) printf("array %s%s%s: %lld bytes\n", of, of[0] ? "." : "", item[i].name, (long long)item[i].number);
+        for (int i = 0; i < n && i < MOST; ++i)
+            printf("array %s%s%s: %lld bytes\n", of, of[0] ? "." : "", item[i].name, (long long)item[i].number);
     }
 }
 
-/* What the last static stage of each model added for its solves: memory that the price, of the end of a run, does not have. */
+/* What the last static stage of each model added for its solves: memory that the price, of the end of a run, does not
+ * have. */
 static void print_multigrid(const brc_setup *setup)
 {
     for (int32_t k = 0; k < setup->n; ++k) {
         const brc_static_report r = brc_simulation_static_report(setup->assembly.part[k]);
         if (r.multigrid_levels > 0)
-            printf("multigrid: %d levels made in %.3g s, %.4g MB more on the device while a static stage solves (%.0f bytes an element)\n", r.multigrid_levels,
-                   r.multigrid_seconds, (double)r.multigrid_bytes / 1e6, (double)r.multigrid_bytes / (double)setup->domain[k]->n_elements);
+            printf("multigrid: %d levels made in %.3g s, %.4g MB more on the device while a static stage solves (%.0f "
+                   "bytes an element)\n",
+                   r.multigrid_levels, r.multigrid_seconds, (double)r.multigrid_bytes / 1e6,
+                   (double)r.multigrid_bytes / (double)setup->domain[k]->n_elements);
     }
 }
 
@@ -163,16 +183,19 @@ static brc_status price(brc_context *context, const asked *a, brc_scene *scene, 
     BRC_TRY_OR(cleanup, brc_check_build(context, scene, request, brc_pace_start_s(request), &check));
     print_setup(a->details, setup, request->precision);
     if (!a->all) brc_check_brief_setup(stdout, scene, setup, request->precision);
-    for (int32_t k = 0; k < setup->n; ++k) BRC_TRY_OR(cleanup, brc_free_bodies_tell(context, setup->split->part[k].scene, setup->domain[k], true));
+    for (int32_t k = 0; k < setup->n; ++k)
+        BRC_TRY_OR(cleanup, brc_free_bodies_tell(context, setup->split->part[k].scene, setup->domain[k], true));
     BRC_TRY_OR(cleanup, brc_check_try(context, request, a->brief, &check));
     print_multigrid(setup);
     if (a->effects) print_parts(setup);
     BRC_TRY_OR(cleanup, brc_check_price(context, scene, request, &check));
     if (!a->all) brc_check_brief_trial(stdout, scene, setup, &check.trial, &check.told);
-    const brc_price_of of = {yaml, brc_device_get_info(setup->device[0])->selector, request->precision, request->n_threads};
+    const brc_price_of of = {yaml, brc_device_get_info(setup->device[0])->selector, request->precision,
+                             request->n_threads};
     if (a->folder && check.told.known) BRC_TRY_OR(cleanup, brc_price_file_write(context, a->folder, &of, &check.told));
     BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &check.setup, request, &check.trial, &own));
-    BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, setup, request->precision, check.told.seconds, &own, a->details));
+    BRC_TRY_OR(cleanup, brc_price_tell_accuracy(context, scene, setup, request->precision, check.told.seconds, &own,
+                                                a->details));
     if (!a->all) printf("more: breccia check --all; warnings, where there are any, are above\n");
 cleanup:
     brc_price_error_free(&own);
@@ -202,12 +225,13 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     }
     BRC_TRY_OR(cleanup, brc_checkpoint_scene(context, scene, &yaml));
     const char *selector = brc_arguments_value(arguments, "device"), *folder = brc_arguments_value(arguments, "output");
-    const asked a = {.request = {.selector = selector ? selector : "auto", .precision = precision, .n_threads = (int)n_threads},
-                     .folder = folder,
-                     .brief = brc_arguments_value(arguments, "brief") != NULL,
-                     .effects = brc_arguments_value(arguments, "effects") != NULL,
-                     .details = details,
-                     .all = all};
+    const asked a = {
+        .request = {.selector = selector ? selector : "auto", .precision = precision, .n_threads = (int)n_threads},
+        .folder = folder,
+        .brief = brc_arguments_value(arguments, "brief") != NULL,
+        .effects = brc_arguments_value(arguments, "effects") != NULL,
+        .details = details,
+        .all = all};
     if (folder) BRC_TRY_OR(cleanup, brc_file_make_folder(context, folder)); /* before the trial: it may take minutes */
     status = price(context, &a, scene, yaml);
 cleanup:
@@ -217,12 +241,16 @@ cleanup:
     return status;
 }
 
-const brc_command brc_command_check = {.name = "check",
-                                       .operands = "SCENE",
-                                       .least = 1,
-                                       .most = 1,
-                                       .summary = "validate a scene and price it: effects, counts, time step, memory, seconds",
-                                       .details = "Ten lines of what matters; --all prints the scene with its defaults and every number. Seconds, memory and disk come from a trial: the run itself in a folder\nthat is removed (below TMPDIR), each stage cut after about a second (where bonds break, surfaces meet or a condition ends it: only if\nmore than some seconds of it are left).",
-                                       .options = options,
-                                       .n_options = sizeof options / sizeof *options,
-                                       .run = run};
+const brc_command brc_command_check = {
+    .name = "check",
+    .operands = "SCENE",
+    .least = 1,
+    .most = 1,
+    .summary = "validate a scene and price it: effects, counts, time step, memory, seconds",
+    .details = "Ten lines of what matters; --all prints the scene with its defaults and every number. Seconds, memory "
+               "and disk come from a trial: the run itself in a folder\nthat is removed (below TMPDIR), each stage cut "
+               "after about a second (where bonds break, surfaces meet or a condition ends it: only if\nmore than some "
+               "seconds of it are left).",
+    .options = options,
+    .n_options = sizeof options / sizeof *options,
+    .run = run};

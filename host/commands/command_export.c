@@ -11,7 +11,8 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
 {
     const char *format = brc_arguments_value(arguments, "format");
     if (!format)
-        return BRC_FAIL(session->context, BRC_BAD_INPUT, "breccia export: say the format with --format vtu, vtkhdf or csv");
+        return BRC_FAIL(session->context, BRC_BAD_INPUT,
+                        "breccia export: say the format with --format vtu, vtkhdf or csv");
     const char *folder = arguments->positional[0], *out = brc_arguments_value(arguments, "output");
     int64_t n_files;
     BRC_TRY(brc_export(session->context, folder, format, out, &n_files));

@@ -10,18 +10,25 @@ static void print_roff(FILE *file, const char *text)
     bool begins = true;
     for (const char *c = text; *c; ++c) {
         if (begins && (*c == '.' || *c == '\'')) fputs("\\&", file);
-        if (*c == '\\') fputs("\\e", file);
-        else if (*c == '-') fputs("\\-", file);
-        else fputc(*c, file);
+        if (*c == '\\')
+            fputs("\\e", file);
+        else if (*c == '-')
+            fputs("\\-", file);
+        else
+            fputc(*c, file);
         begins = *c == '\n';
     }
 }
 
 static void print_manual(FILE *file)
 {
-    fprintf(file, ".TH BRECCIA 1 \"\" \"breccia %s\" \"User Commands\"\n.SH NAME\nbreccia \\- fracture of brittle solids by discrete elements\n"
-                  ".SH SYNOPSIS\n.B breccia\n.I COMMAND\n[OPERANDS] [OPTIONS]\n.SH DESCRIPTION\nBrittle solids of Voronoi cells or of spheres joined by beams, on the CPU and through "
-                  "OpenCL.\nA scene is a YAML file; \\fBbreccia schema\\fR and docs/reference/scene/README.md tell its keys.\n.SH COMMANDS\n",
+    fprintf(file,
+            ".TH BRECCIA 1 \"\" \"breccia %s\" \"User Commands\"\n.SH NAME\nbreccia \\- fracture of brittle solids by "
+            "discrete elements\n"
+            ".SH SYNOPSIS\n.B breccia\n.I COMMAND\n[OPERANDS] [OPTIONS]\n.SH DESCRIPTION\nBrittle solids of Voronoi "
+            "cells or of spheres joined by beams, on the CPU and through "
+            "OpenCL.\nA scene is a YAML file; \\fBbreccia schema\\fR and docs/reference/scene/README.md tell its "
+            "keys.\n.SH COMMANDS\n",
             brc_version());
     for (int k = 0; k < brc_command_count(); ++k) {
         const brc_command *command = brc_command_at(k);
@@ -39,12 +46,15 @@ static void print_manual(FILE *file)
             if (option->letter) fprintf(file, "\\fB\\-%c\\fR, ", option->letter);
             fputs("\\fB\\-\\-", file);
             print_roff(file, option->name);
-            fprintf(file, "\\fR%s%s%s\n", option->value ? " \\fI" : "", option->value ? option->value : "", option->value ? "\\fR" : "");
+            fprintf(file, "\\fR%s%s%s\n", option->value ? " \\fI" : "", option->value ? option->value : "",
+                    option->value ? "\\fR" : "");
             print_roff(file, option->meaning);
             fputs(option->repeats ? " (may be repeated)\n" : "\n", file);
         }
     }
-    fputs(".SH EXIT STATUS\n0 done, 1 the physics was stopped or a bound missed, 2 wrong input, 3 device or file trouble.\n", file);
+    fputs(".SH EXIT STATUS\n0 done, 1 the physics was stopped or a bound missed, 2 wrong input, 3 device or file "
+          "trouble.\n",
+          file);
 }
 
 static brc_status run(const brc_session *session, const brc_arguments *arguments)

@@ -14,13 +14,14 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     return BRC_OK;
 }
 
-const brc_command brc_command_report = {.name = "report",
-                                        .operands = "DIR",
-                                        .least = 1,
-                                        .most = 1,
-                                        .summary = "one HTML page of a run: measures, view in 3D over time, curves, cracks, cost",
-                                        .details = "DIR is a folder of `breccia run`, `reproduce` or `bench`. The page needs no other file and no\n"
-                                                   "network; any browser of today shows it (WebGL, JavaScript).",
-                                        .options = options,
-                                        .n_options = sizeof options / sizeof *options,
-                                        .run = run};
+const brc_command brc_command_report = {
+    .name = "report",
+    .operands = "DIR",
+    .least = 1,
+    .most = 1,
+    .summary = "one HTML page of a run: measures, view in 3D over time, curves, cracks, cost",
+    .details = "DIR is a folder of `breccia run`, `reproduce` or `bench`. The page needs no other file and no\n"
+               "network; any browser of today shows it (WebGL, JavaScript).",
+    .options = options,
+    .n_options = sizeof options / sizeof *options,
+    .run = run};

@@ -37,7 +37,10 @@ static brc_status print_cases(brc_context *context)
 
 static const char *rule_sign(brc_case_rule rule)
 {
-    return rule == BRC_CASE_AT_MOST ? "<=" : rule == BRC_CASE_AT_LEAST ? ">=" : rule == BRC_CASE_ERROR_BOUND ? "+-" : "";
+    return rule == BRC_CASE_AT_MOST       ? "<="
+           : rule == BRC_CASE_AT_LEAST    ? ">="
+           : rule == BRC_CASE_ERROR_BOUND ? "+-"
+                                          : "";
 }
 
 /* Fields of a row that may hold numbers or words. */
@@ -64,12 +67,15 @@ static void put_row(brc_campaign *campaign, const brc_case_row *row, int n_label
                     const brc_outcome *outcome, double ours, double reference, const char *unit, const char *note)
 {
     brc_rows *rows = &campaign->rows;
-    const double error = isnan(reference) ? NAN : row->absolute || reference == 0 ? ours - reference : ours / reference - 1;
+    const double error = isnan(reference)                  ? NAN
+                         : row->absolute || reference == 0 ? ours - reference
+                                                           : ours / reference - 1;
     bool within = true;
     if (row->rule == BRC_CASE_ERROR_BOUND) within = fabs(error) <= row->bound; /* false for NAN */
     if (row->rule == BRC_CASE_AT_MOST) within = ours <= row->bound;
     if (row->rule == BRC_CASE_AT_LEAST) within = ours >= row->bound;
-    if (row->rule == BRC_CASE_INFORMATION) within = !isnan(ours) || (outcome && outcome->run->may_stop && outcome->done);
+    if (row->rule == BRC_CASE_INFORMATION)
+        within = !isnan(ours) || (outcome && outcome->run->may_stop && outcome->done);
     const bool skipped = strncmp(note, "skipped", 7) == 0;
     brc_rows_begin(rows);
     brc_rows_text(rows, "case", campaign->what->name);
@@ -87,7 +93,11 @@ static void put_row(brc_campaign *campaign, const brc_case_row *row, int n_label
     brc_rows_number(rows, "error", error);
     brc_rows_text(rows, "rule", rule_sign(row->rule));
     brc_rows_number(rows, "bound", row->rule == BRC_CASE_INFORMATION ? NAN : row->bound);
-    brc_rows_text(rows, "verdict", skipped ? "skipped" : row->rule == BRC_CASE_INFORMATION && within ? "information" : within ? "within" : "missed");
+    brc_rows_text(rows, "verdict",
+                  skipped                                       ? "skipped"
+                  : row->rule == BRC_CASE_INFORMATION && within ? "information"
+                  : within                                      ? "within"
+                                                                : "missed");
     if (outcome) {
         brc_rows_number(rows, "seconds", outcome->seconds);
         brc_rows_integer(rows, "elements", outcome->n_elements);
@@ -182,7 +192,8 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     brc_context *context = session->context;
     if (brc_arguments_value(arguments, "list")) return print_cases(context);
     if (arguments->n_positional == 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia reproduce: name a case; `breccia reproduce --list` names them");
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "breccia reproduce: name a case; `breccia reproduce --list` names them");
     brc_status status = BRC_OK;
     brc_case *what = NULL;
     char folder[512];
@@ -213,13 +224,14 @@ cleanup:
     return status;
 }
 
-const brc_command brc_command_reproduce = {.name = "reproduce",
-                                           .operands = "[CASE]",
-                                           .least = 0,
-                                           .most = 1,
-                                           .summary = "a table or figure of the papers, side by side with ours",
-                                           .details = "Exit code 0 only if every row is within the bound printed beside it; rows.json and "
-                                                      "rows.csv hold the rows.",
-                                           .options = options,
-                                           .n_options = sizeof options / sizeof *options,
-                                           .run = run};
+const brc_command brc_command_reproduce = {
+    .name = "reproduce",
+    .operands = "[CASE]",
+    .least = 0,
+    .most = 1,
+    .summary = "a table or figure of the papers, side by side with ours",
+    .details = "Exit code 0 only if every row is within the bound printed beside it; rows.json and "
+               "rows.csv hold the rows.",
+    .options = options,
+    .n_options = sizeof options / sizeof *options,
+    .run = run};

@@ -4,7 +4,10 @@
 #include <math.h>
 
 static const brc_option options[] = {
-    BRC_OPTION_OUTPUT("folder of the results (needed)"), BRC_OPTION_DEVICE, BRC_OPTION_PRECISION, BRC_OPTION_THREADS,
+    BRC_OPTION_OUTPUT("folder of the results (needed)"),
+    BRC_OPTION_DEVICE,
+    BRC_OPTION_PRECISION,
+    BRC_OPTION_THREADS,
     BRC_OPTION_EXACT,
     {"resume", 'r', NULL, false, "go on from the last checkpoint in DIR (docs/reference/checkpoint.md)"},
     BRC_OPTION_SET,
@@ -30,7 +33,8 @@ static void print_phases(const brc_run_results *results)
 {
     double all = 0;
     const char *comma = "";
-    for (int phase = 0; phase < BRC_N_PHASES; ++phase) all += results->phase_s[phase];
+    for (int phase = 0; phase < BRC_N_PHASES; ++phase)
+        all += results->phase_s[phase];
     if (results->steps == 0 || !(all > 0)) return;
     printf("of the steps:");
     for (int phase = 0; phase < BRC_N_PHASES; ++phase)
@@ -76,13 +80,14 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     return status;
 }
 
-const brc_command brc_command_run = {.name = "run",
-                                     .operands = "SCENE",
-                                     .least = 1,
-                                     .most = 1,
-                                     .summary = "simulate a scene and write its results into a folder",
-                                     .details = "DIR/summary.json is written by every run, also a failed one; an interrupted run "
-                                                "keeps its results so far\nand a checkpoint, from which --resume goes on.",
-                                     .options = options,
-                                     .n_options = sizeof options / sizeof *options,
-                                     .run = run};
+const brc_command brc_command_run = {
+    .name = "run",
+    .operands = "SCENE",
+    .least = 1,
+    .most = 1,
+    .summary = "simulate a scene and write its results into a folder",
+    .details = "DIR/summary.json is written by every run, also a failed one; an interrupted run "
+               "keeps its results so far\nand a checkpoint, from which --resume goes on.",
+    .options = options,
+    .n_options = sizeof options / sizeof *options,
+    .run = run};

@@ -26,10 +26,14 @@ static void name_of(const writing *w, int index, char *name, size_t size)
     const brc_section *section = w->section[index];
     int same = 0;
     size_t at = 0;
-    for (int k = 0; k < index; ++k) same += strcmp(w->section[k]->title, section->title) == 0;
-    for (const char *c = section->title; *c && at + 16 < size; ++c) name[at++] = (char)(isalnum((unsigned char)*c) ? *c : '-');
-    if (same) snprintf(name + at, size - at, "-%d", same + 1);
-    else name[at] = '\0';
+    for (int k = 0; k < index; ++k)
+        same += strcmp(w->section[k]->title, section->title) == 0;
+    for (const char *c = section->title; *c && at + 16 < size; ++c)
+        name[at++] = (char)(isalnum((unsigned char)*c) ? *c : '-');
+    if (same)
+        snprintf(name + at, size - at, "-%d", same + 1);
+    else
+        name[at] = '\0';
 }
 
 /* A section by its definition, which is written later where it was not met before. */
@@ -38,7 +42,8 @@ static void refer(writing *w, const brc_section *section)
     static const char place[] = "#/$defs/";
     char name[160];
     int k = 0;
-    while (k < w->n && w->section[k] != section) ++k;
+    while (k < w->n && w->section[k] != section)
+        ++k;
     if (k == MANY_SECTIONS) return;
     if (k == w->n) w->section[w->n++] = section;
     memcpy(name, place, sizeof place);
@@ -65,8 +70,10 @@ static void pattern(writing *w, const char *key, const char *text)
 static void range(writing *w, const brc_entry *entry)
 {
     if (!brc_entry_has_range(entry)) return;
-    if (isfinite(entry->range.low)) brc_json_number(&w->json, entry->range.low_open ? "exclusiveMinimum" : "minimum", entry->range.low);
-    if (isfinite(entry->range.high)) brc_json_number(&w->json, entry->range.high_open ? "exclusiveMaximum" : "maximum", entry->range.high);
+    if (isfinite(entry->range.low))
+        brc_json_number(&w->json, entry->range.low_open ? "exclusiveMinimum" : "minimum", entry->range.low);
+    if (isfinite(entry->range.high))
+        brc_json_number(&w->json, entry->range.high_open ? "exclusiveMaximum" : "maximum", entry->range.high);
 }
 
 /* Alternatives of a quantity: a number where its unit allows one, else 0; a text; the entry's word. */
@@ -76,7 +83,8 @@ static void quantity(writing *w, const brc_entry *entry, const char *unit)
     brc_json_begin_array(&w->json, "anyOf");
     brc_json_begin_object(&w->json, NULL);
     if (pure || either) {
-        brc_json_string(&w->json, "type", entry->type == BRC_TYPE_INTEGER || entry->type == BRC_TYPE_INTEGERS ? "integer" : "number");
+        brc_json_string(&w->json, "type",
+                        entry->type == BRC_TYPE_INTEGER || entry->type == BRC_TYPE_INTEGERS ? "integer" : "number");
         if (pure) range(w, entry);
     } else {
         brc_json_integer(&w->json, "const", 0);
@@ -124,7 +132,8 @@ static void table(writing *w, const brc_entry *entry)
 static void words(writing *w, const char *const *choices)
 {
     brc_json_begin_array(&w->json, "enum");
-    for (int k = 0; choices[k]; ++k) brc_json_string(&w->json, NULL, choices[k]);
+    for (int k = 0; choices[k]; ++k)
+        brc_json_string(&w->json, NULL, choices[k]);
     brc_json_end(&w->json);
 }
 
@@ -181,8 +190,9 @@ static void description(writing *w, const brc_entry *entry)
     char text[1024], limits[96];
     const char *unit = entry->unit && entry->unit[0] && entry->unit[0] != '@' ? entry->unit : NULL;
     brc_range_text(entry, limits, sizeof limits);
-    snprintf(text, sizeof text, "%s%s%s%s%s%s%s%s%s%s", entry->meaning ? entry->meaning : "", unit ? " [" : "", unit ? unit : "", unit ? "]" : "", limits[0] ? ", " : "", limits,
-             entry->why ? "; " : "", entry->why ? entry->why : "", entry->sample ? "; as in " : "", entry->sample ? entry->sample : "");
+    snprintf(text, sizeof text, "%s%s%s%s%s%s%s%s%s%s", entry->meaning ? entry->meaning : "", unit ? " [" : "",
+             unit ? unit : "", unit ? "]" : "", limits[0] ? ", " : "", limits, entry->why ? "; " : "",
+             entry->why ? entry->why : "", entry->sample ? "; as in " : "", entry->sample ? entry->sample : "");
     brc_json_string(&w->json, "description", text);
     if (entry->given && strcmp(entry->given, "{}") != 0) brc_json_string(&w->json, "default", entry->given);
 }
@@ -236,7 +246,8 @@ static void groups(writing *w, const brc_section *section)
         brc_json_begin_array(&w->json, group->rule == BRC_GROUP_EXACTLY_ONE ? "oneOf" : "anyOf");
         for (int k = 0; group->keys[k]; ++k) {
             if (!none) require(w, group->keys[k], NULL);
-            for (int m = 0; none && m < k; ++m) require(w, group->keys[m], group->keys[k]);
+            for (int m = 0; none && m < k; ++m)
+                require(w, group->keys[m], group->keys[k]);
         }
         brc_json_end(&w->json);
         if (none) brc_json_end(&w->json);
@@ -254,7 +265,9 @@ static bool stands_alone(const brc_entry *variant)
     for (int k = 0; k < variant->section->n_entries; ++k)
         if (variant->section->entries[k].required) return false;
     for (size_t g = 0; g < sizeof variant->section->groups / sizeof *variant->section->groups; ++g)
-        if (variant->section->groups[g].rule == BRC_GROUP_EXACTLY_ONE || variant->section->groups[g].rule == BRC_GROUP_AT_LEAST_ONE) return false;
+        if (variant->section->groups[g].rule == BRC_GROUP_EXACTLY_ONE ||
+            variant->section->groups[g].rule == BRC_GROUP_AT_LEAST_ONE)
+            return false;
     return true;
 }
 
@@ -296,8 +309,11 @@ brc_status brc_json_schema_write(brc_context *context, FILE *file)
     brc_json_end(&w.json);
     brc_json_end(&w.json);
     status = w.json.text.status;
-    if (status == BRC_OK && w.n == MANY_SECTIONS) status = BRC_FAIL(context, BRC_INTERNAL, "the schema has more sections than its JSON form has room for; raise MANY_SECTIONS");
-    if (status == BRC_OK && (fwrite(w.json.text.data, 1, w.json.text.length, file) != w.json.text.length || fputc('\n', file) == EOF))
+    if (status == BRC_OK && w.n == MANY_SECTIONS)
+        status = BRC_FAIL(context, BRC_INTERNAL,
+                          "the schema has more sections than its JSON form has room for; raise MANY_SECTIONS");
+    if (status == BRC_OK &&
+        (fwrite(w.json.text.data, 1, w.json.text.length, file) != w.json.text.length || fputc('\n', file) == EOF))
         status = BRC_FAIL(context, BRC_FILE_FAILED, "the schema cannot be written");
     brc_text_free(&w.json.text);
     return status;

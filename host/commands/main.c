@@ -49,12 +49,15 @@ static brc_status dispatch(const brc_session *session, int argc, const char *con
     return command->run(session, &arguments);
 }
 
-/* Threads that wait, and those of the BLAS, are chosen before a program begins; so the program starts itself once more with what suits it, unless the user has chosen. If that fails, it goes on as it is
- * (figures: docs/notebook/devices.md, "Waiting threads").
- * GNU OpenMP lets waiting threads spin for milliseconds. When another program wants the same core, each launch of a step then loses a time slice; but a core that falls asleep between launches takes
- * longer to wake, on virtual machines, than a launch of 10 000 elements takes. A spin of some ten microseconds is within a tenth of the best there is on a quiet machine (without: 1.3 to 3.5 times the
- * seconds of steps) and within a third of it beside other programs. Other OpenMP libraries do not know the count and do not spin.
- * OpenBLAS keeps threads of its own, which get in the way of ours: our matrices are small, and static stages took 1.03 to 1.9 times the seconds. */
+/* Threads that wait, and those of the BLAS, are chosen before a program begins; so the program starts itself once more
+ * with what suits it, unless the user has chosen. If that fails, it goes on as it is (figures:
+ * docs/notebook/devices.md, "Waiting threads"). GNU OpenMP lets waiting threads spin for milliseconds. When another
+ * program wants the same core, each launch of a step then loses a time slice; but a core that falls asleep between
+ * launches takes longer to wake, on virtual machines, than a launch of 10 000 elements takes. A spin of some ten
+ * microseconds is within a tenth of the best there is on a quiet machine (without: 1.3 to 3.5 times the seconds of
+ * steps) and within a third of it beside other programs. Other OpenMP libraries do not know the count and do not spin.
+ * OpenBLAS keeps threads of its own, which get in the way of ours: our matrices are small, and static stages took 1.03
+ * to 1.9 times the seconds. */
 static void choose_threads(char **argv)
 {
     const bool waiting = getenv("GOMP_SPINCOUNT") || getenv("OMP_WAIT_POLICY"), blas = getenv("OPENBLAS_NUM_THREADS");
@@ -64,8 +67,8 @@ static void choose_threads(char **argv)
     execv("/proc/self/exe", argv);
 }
 
-/* Once a large block was freed, glibc keeps all that are smaller, up to 32 MB each, and lists of pairs that grow leave holes: a plate under impact held 262 MB for 222.
- * So large blocks go back to the system at once. */
+/* Once a large block was freed, glibc keeps all that are smaller, up to 32 MB each, and lists of pairs that grow leave
+ * holes: a plate under impact held 262 MB for 222. So large blocks go back to the system at once. */
 static void return_large_blocks(void)
 {
     enum { LARGE = 1 << 20 };

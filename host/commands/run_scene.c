@@ -12,9 +12,9 @@
 #include "../solver/lockstep.h"
 #include <string.h>
 
-static const char *const file_names[BRC_RUN_FILES] = {"summary.json",         "result.h5",   "histories.csv",
-                                                      "frames.vtkhdf.series", "picture.png", "curve.png", "cracks.csv",
-                                                      "fragments.csv",        "cracks.vtu.series"};
+static const char *const file_names[BRC_RUN_FILES] = {"summary.json",         "result.h5",     "histories.csv",
+                                                      "frames.vtkhdf.series", "picture.png",   "curve.png",
+                                                      "cracks.csv",           "fragments.csv", "cracks.vtu.series"};
 
 const char *brc_run_file_name(int k)
 {
@@ -74,7 +74,8 @@ static brc_status take_results(brc_context *context, const run *now, brc_run_res
         out->steps = brc_simulation_total_steps(assembly->part[0]);
         out->setup_s = brc_assembly_setup_seconds(assembly);
         out->steps_s = brc_simulation_step_seconds(assembly->part[0]);
-        for (int phase = 0; phase < BRC_N_PHASES; ++phase) out->phase_s[phase] = brc_assembly_phase_seconds(assembly, (brc_step_phase)phase);
+        for (int phase = 0; phase < BRC_N_PHASES; ++phase)
+            out->phase_s[phase] = brc_assembly_phase_seconds(assembly, (brc_step_phase)phase);
         out->time_step = brc_assembly_time_step(assembly);
     }
     out->output_s = now->recorder ? brc_recorder_seconds(now->recorder) : 0;
@@ -91,7 +92,8 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
         BRC_TRY(brc_scene_read(context, request->path, request->n_overrides, request->overrides, &now->scene));
     if (now->recorder) brc_recorder_set_scene(now->recorder, now->scene);
     if (now->recorder) brc_recorder_set_threads(now->recorder, request->n_threads);
-    if (now->recorder) BRC_TRY(brc_checkpoints_create(context, request->folder, now->scene, request->resume, &now->checkpoints));
+    if (now->recorder)
+        BRC_TRY(brc_checkpoints_create(context, request->folder, now->scene, request->resume, &now->checkpoints));
     if (now->recorder) BRC_TRY(brc_checkpoint_scene(context, now->scene, &now->yaml));
     const double build_start = brc_clock_s();
     BRC_TRY(brc_setup_domains(context, now->scene, request->domain, request->n_threads, &now->setup));
@@ -103,11 +105,13 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
                                        .n_threads = request->n_threads,
                                        .exact = request->exact};
     BRC_TRY(brc_setup_simulations(context, &device, &now->setup));
-    for (int32_t k = 0; k < now->setup.n; ++k) BRC_TRY(brc_free_bodies_tell(context, now->setup.split->part[k].scene, now->setup.domain[k], false));
+    for (int32_t k = 0; k < now->setup.n; ++k)
+        BRC_TRY(brc_free_bodies_tell(context, now->setup.split->part[k].scene, now->setup.domain[k], false));
     brc_assembly *assembly = &now->setup.assembly;
     brc_simulation *first = assembly->part[0]; /* hears, and is told, for all */
     if (now->recorder) {
-        const brc_price_of of = {now->yaml, brc_device_get_info(now->setup.device[0])->selector, request->precision, request->n_threads};
+        const brc_price_of of = {now->yaml, brc_device_get_info(now->setup.device[0])->selector, request->precision,
+                                 request->n_threads};
         BRC_TRY(brc_price_watch_output(context, &now->setup, &now->price));
         BRC_TRY(brc_price_file_read(context, request->folder, &of, &now->price.prediction.told));
         BRC_TRY(brc_checkpoints_observe(now->checkpoints, assembly, now->recorder));
@@ -118,7 +122,8 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     if (request->observer) BRC_TRY(brc_simulation_observe(first, request->observer));
     if (request->created) BRC_TRY(request->created(request->self, first));
     if (request->running) request->running(first);
-    const brc_status status = now->checkpoints ? brc_checkpoints_run(now->checkpoints) : brc_lockstep_run(assembly->n, assembly->part);
+    const brc_status status =
+        now->checkpoints ? brc_checkpoints_run(now->checkpoints) : brc_lockstep_run(assembly->n, assembly->part);
     if (request->running) request->running(NULL);
     BRC_TRY(status);
     BRC_TRY(brc_assembly_ledger(assembly, &out->ledger));
@@ -132,7 +137,8 @@ brc_status brc_run_scene(brc_context *context, const brc_run_request *request, b
     memset(out, 0, sizeof *out);
     /* First of all, so that also a run that fails at once leaves a summary. */
     if (request->folder)
-        BRC_TRY(request->resume ? brc_recorder_reopen(context, request->folder, start, &now.recorder) : brc_recorder_create(context, request->folder, start, &now.recorder));
+        BRC_TRY(request->resume ? brc_recorder_reopen(context, request->folder, start, &now.recorder)
+                                : brc_recorder_create(context, request->folder, start, &now.recorder));
     brc_status status = simulate(context, request, &now, out);
     if (now.checkpoints) {
         const brc_checkpoint_report report = brc_checkpoints_report(now.checkpoints);
@@ -143,7 +149,8 @@ brc_status brc_run_scene(brc_context *context, const brc_run_request *request, b
     if (status == BRC_OK) status = taken;
     if (status == BRC_OK && now.recorder) brc_price_compare(&now.price);
     if (status == BRC_OK && now.price.prediction.told.known)
-        brc_price_file_compare(context, request->folder, &now.price.prediction.told, brc_clock_s() - start, out->device_bytes);
+        brc_price_file_compare(context, request->folder, &now.price.prediction.told, brc_clock_s() - start,
+                               out->device_bytes);
     if (request->released) request->released(request->self);
     brc_checkpoints_free(&now.checkpoints);
     brc_recorder_free(&now.recorder);

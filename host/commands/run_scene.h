@@ -19,10 +19,11 @@ typedef struct brc_run_request {
     const char *device;           /* NULL: "auto" */
     brc_precision precision;
     int n_threads;
-    bool exact; /* as in brc_device_request */
-    bool resume; /* go on from the last checkpoint in the folder */
+    bool exact;                   /* as in brc_device_request */
+    bool resume;                  /* go on from the last checkpoint in the folder */
     const brc_observer *observer; /* besides the recorder; its self may be filled in `created` */
-    /* Called first when all simulations exist; the assembly is borrowed until the call returns that runs the scene. May be NULL. */
+    /* Called first when all simulations exist; the assembly is borrowed until the call returns that runs the scene. May
+     * be NULL. */
     brc_status (*assembled)(void *self, const brc_assembly *assembly);
     /* Called when the simulation exists (of several models: the first), before it runs; may be NULL. */
     brc_status (*created)(void *self, brc_simulation *simulation);
@@ -47,13 +48,13 @@ typedef struct brc_run_measure {
 
 typedef struct brc_run_results {
     int32_t n_measures;
-    brc_run_measure *measures;     /* owned */
-    char *file[BRC_RUN_FILES];     /* paths of what was written, NULL: not there; owned. Names: brc_run_file_name */
+    brc_run_measure *measures; /* owned */
+    char *file[BRC_RUN_FILES]; /* paths of what was written, NULL: not there; owned. Names: brc_run_file_name */
     char device[32], device_name[128];
     int64_t n_elements, n_bonds, steps, device_bytes;
     double build_s, setup_s, steps_s, output_s, total_s;
     double phase_s[BRC_N_PHASES]; /* of the steps (phases.h) */
-    brc_time_step time_step; /* of the last dynamic stage */
+    brc_time_step time_step;      /* of the last dynamic stage */
     brc_ledger ledger;
 } brc_run_results;
 

@@ -22,9 +22,11 @@ static brc_status read_body(brc_context *context, const brc_scene *scene, int32_
         (*out)->body[e] = index;
     for (int64_t e = 0; e < (*out)->n_elements; ++e)
         if ((*out)->region[e] < 0 || (*out)->region[e] > brc_body_n_regions(body))
-            return BRC_FAIL(context, BRC_BAD_INPUT,
-                            "body '%s': %s holds region %d, the scene gives the body %d region(s); state them as when the "
-                            "file was built", body->name, body->domain_file, (*out)->region[e], brc_body_n_regions(body));
+            return BRC_FAIL(
+                context, BRC_BAD_INPUT,
+                "body '%s': %s holds region %d, the scene gives the body %d region(s); state them as when the "
+                "file was built",
+                body->name, body->domain_file, (*out)->region[e], brc_body_n_regions(body));
     brc_pose_apply(body->shape.origin, body->rotation, body->translation, *out);
     return brc_quality_judge(context, *out, scene->n_limits, scene->limits);
 }
@@ -37,8 +39,8 @@ static brc_status resolve(brc_context *context, const brc_scene *scene, char *pa
     BRC_TRY(brc_file_join(context, scene->folder, path, &joined));
     brc_status status = BRC_OK;
     if (strlen(joined) >= room)
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: the path has %zu bytes, at most %zu are kept; use a shorter one", joined,
-                          strlen(joined), room - 1);
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: the path has %zu bytes, at most %zu are kept; use a shorter one",
+                          joined, strlen(joined), room - 1);
     else
         memcpy(path, joined, strlen(joined) + 1);
     brc_memory_free(joined);
@@ -53,7 +55,8 @@ void brc_scene_request_free(brc_scene_request *request)
     memset(request, 0, sizeof *request);
 }
 
-brc_status brc_scene_request_make(brc_context *context, const brc_scene *scene, int32_t index, int n_threads, brc_scene_request *out)
+brc_status brc_scene_request_make(brc_context *context, const brc_scene *scene, int32_t index, int n_threads,
+                                  brc_scene_request *out)
 {
     const brc_body *body = &scene->bodies[index];
     brc_status status = BRC_OK;
@@ -66,18 +69,28 @@ brc_status brc_scene_request_make(brc_context *context, const brc_scene *scene, 
     for (int32_t p = 0; p < body->n_phases; ++p)
         out->fractions[p] = body->phases[p].fraction;
     brc_build_request *build = &out->build;
-    *build = (brc_build_request){.shape = body->shape, .fill = body->fill, .beams = body->beams, .balanced = scene->model.polish,
-                                 .n_cracks = body->n_cracks, .cracks = body->cracks, .grains = body->grains,
-                                 .n_limits = scene->n_limits, .limits = scene->limits, .n_regions = body->n_regions,
-                                 .regions = out->regions, .tiny_face_threshold = body->tiny_face_threshold,
-                                 .n_threads = n_threads, .body = index};
+    *build = (brc_build_request){.shape = body->shape,
+                                 .fill = body->fill,
+                                 .beams = body->beams,
+                                 .balanced = scene->model.polish,
+                                 .n_cracks = body->n_cracks,
+                                 .cracks = body->cracks,
+                                 .grains = body->grains,
+                                 .n_limits = scene->n_limits,
+                                 .limits = scene->limits,
+                                 .n_regions = body->n_regions,
+                                 .regions = out->regions,
+                                 .tiny_face_threshold = body->tiny_face_threshold,
+                                 .n_threads = n_threads,
+                                 .body = index};
     memcpy(build->translation, body->translation, sizeof build->translation);
     memcpy(build->rotation, body->rotation, sizeof build->rotation);
     build->grains.n_phases = body->n_phases;
     build->grains.fraction = out->fractions;
     BRC_TRY_OR(cleanup, resolve(context, scene, build->fill.file, sizeof build->fill.file));
     BRC_TRY_OR(cleanup, resolve(context, scene, build->shape.file, sizeof build->shape.file));
-    if (body->shape.n_parts > 0) memcpy(out->parts, body->shape.parts, (size_t)body->shape.n_parts * sizeof *out->parts);
+    if (body->shape.n_parts > 0)
+        memcpy(out->parts, body->shape.parts, (size_t)body->shape.n_parts * sizeof *out->parts);
     for (int32_t p = 0; p < body->shape.n_parts; ++p)
         BRC_TRY_OR(cleanup, resolve(context, scene, out->parts[p].shape.file, sizeof out->parts[p].shape.file));
     build->shape.parts = out->parts;
@@ -86,7 +99,8 @@ cleanup:
     return status;
 }
 
-static brc_status make_body(brc_context *context, const brc_scene *scene, int32_t index, int n_threads, brc_domain **out)
+static brc_status make_body(brc_context *context, const brc_scene *scene, int32_t index, int n_threads,
+                            brc_domain **out)
 {
     if (scene->bodies[index].domain_file[0]) return read_body(context, scene, index, out);
     brc_scene_request request;
@@ -105,7 +119,8 @@ typedef struct bodies {
 
 static void free_bodies(bodies *b)
 {
-    for (int32_t k = 0; b->domain && k < b->n; ++k) brc_domain_free(&b->domain[k]);
+    for (int32_t k = 0; b->domain && k < b->n; ++k)
+        brc_domain_free(&b->domain[k]);
     brc_memory_free(b->domain);
     brc_memory_free(b->name);
     *b = (bodies){0};
@@ -116,8 +131,10 @@ static brc_status make_bodies(brc_context *context, const brc_scene *scene, int 
     *out = (bodies){.n = scene->n_bodies};
     BRC_TRY(BRC_ALLOCATE(context, &out->domain, scene->n_bodies, "bodies of a scene"));
     BRC_TRY(BRC_ALLOCATE(context, &out->name, scene->n_bodies, "bodies of a scene"));
-    for (int32_t b = 0; b < scene->n_bodies; ++b) out->name[b] = scene->bodies[b].name;
-    for (int32_t b = 0; b < scene->n_bodies; ++b) BRC_TRY(make_body(context, scene, b, n_threads, &out->domain[b]));
+    for (int32_t b = 0; b < scene->n_bodies; ++b)
+        out->name[b] = scene->bodies[b].name;
+    for (int32_t b = 0; b < scene->n_bodies; ++b)
+        BRC_TRY(make_body(context, scene, b, n_threads, &out->domain[b]));
     return BRC_OK;
 }
 
@@ -158,7 +175,8 @@ static brc_status check_overlaps(brc_context *context, int32_t n, const bodies *
     return status;
 }
 
-/* What a domain has of a set: members, or only faces that the set's region cuts, which loads per area act on in part. */
+/* What a domain has of a set: members, or only faces that the set's region cuts, which loads per area act on in
+ * part. */
 typedef enum presence { ABSENT, CUT_ONLY, WITH_MEMBERS } presence;
 
 static brc_status look_for(brc_context *context, const brc_set_request *set, const brc_domain *domain, presence *out)
@@ -168,16 +186,20 @@ static brc_status look_for(brc_context *context, const brc_set_request *set, con
     *out = ABSENT;
     if (!quiet) return BRC_FAIL(context, BRC_NO_MEMORY, "no memory for the sets of a model");
     const int64_t n = set->kind == BRC_SET_FACES ? domain->n_free_faces : domain->n_elements;
-    const bool fits = brc_predicate_check(quiet, &set->where, set->kind, domain, set->name) == BRC_OK, cuts = set->kind == BRC_SET_FACES && brc_predicate_cuts(&set->where);
+    const bool fits = brc_predicate_check(quiet, &set->where, set->kind, domain, set->name) == BRC_OK,
+               cuts = set->kind == BRC_SET_FACES && brc_predicate_cuts(&set->where);
     for (int64_t k = 0; fits && *out != WITH_MEMBERS && k < n; ++k) {
-        if (brc_predicate_holds(&set->where, set->kind, domain, k)) *out = WITH_MEMBERS;
-        else if (cuts && *out == ABSENT && brc_predicate_share(&set->where, domain, k, area, centroid) > 0) *out = CUT_ONLY;
+        if (brc_predicate_holds(&set->where, set->kind, domain, k))
+            *out = WITH_MEMBERS;
+        else if (cuts && *out == ABSENT && brc_predicate_share(&set->where, domain, k, area, centroid) > 0)
+            *out = CUT_ONLY;
     }
     brc_context_free(&quiet);
     return BRC_OK;
 }
 
-/* Sets go to the parts in which they have members, and without members to those whose faces they cut; what has members nowhere goes to the first, which refuses it. */
+/* Sets go to the parts in which they have members, and without members to those whose faces they cut; what has members
+ * nowhere goes to the first, which refuses it. */
 static brc_status build_sets(brc_context *context, const brc_split *split, brc_domain *const *domain)
 {
     const brc_scene *scene = split->scene;
@@ -202,7 +224,8 @@ static brc_status build_sets(brc_context *context, const brc_split *split, brc_d
             if (has[s] == WITH_MEMBERS) given[n++] = split->part[k].scene->sets[s];
         BRC_TRY_OR(cleanup, brc_sets_build(context, n, given, domain[k]));
         for (int32_t s = 0; s < scene->n_sets; ++s)
-            if (has[s] == CUT_ONLY) BRC_TRY_OR(cleanup, brc_sets_add_empty(context, domain[k], scene->sets[s].name, scene->sets[s].kind));
+            if (has[s] == CUT_ONLY)
+                BRC_TRY_OR(cleanup, brc_sets_add_empty(context, domain[k], scene->sets[s].name, scene->sets[s].kind));
     }
 cleanup:
     brc_memory_free(given);
@@ -214,16 +237,21 @@ brc_status brc_split_domains_build(brc_context *context, const brc_split *split,
 {
     bodies *part = NULL;
     brc_status status = BRC_OK;
-    for (int32_t k = 0; k < split->n; ++k) out[k] = NULL;
+    for (int32_t k = 0; k < split->n; ++k)
+        out[k] = NULL;
     if (split->n == 1) return brc_scene_domain_build(context, split->scene, n_threads, out);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &part, split->n, "parts of a scene"));
-    for (int32_t k = 0; k < split->n; ++k) BRC_TRY_OR(cleanup, make_bodies(context, split->part[k].scene, n_threads, &part[k]));
+    for (int32_t k = 0; k < split->n; ++k)
+        BRC_TRY_OR(cleanup, make_bodies(context, split->part[k].scene, n_threads, &part[k]));
     BRC_TRY_OR(cleanup, check_overlaps(context, split->n, part));
-    for (int32_t k = 0; k < split->n; ++k) BRC_TRY_OR(cleanup, join_bodies(context, &part[k], &out[k]));
+    for (int32_t k = 0; k < split->n; ++k)
+        BRC_TRY_OR(cleanup, join_bodies(context, &part[k], &out[k]));
     status = build_sets(context, split, out);
 cleanup:
-    for (int32_t k = 0; part && k < split->n; ++k) free_bodies(&part[k]);
+    for (int32_t k = 0; part && k < split->n; ++k)
+        free_bodies(&part[k]);
     brc_memory_free(part);
-    for (int32_t k = 0; status != BRC_OK && k < split->n; ++k) brc_domain_free(&out[k]);
+    for (int32_t k = 0; status != BRC_OK && k < split->n; ++k)
+        brc_domain_free(&out[k]);
     return status;
 }

@@ -12,7 +12,10 @@ brc_status brc_scratch_create(brc_context *context, char folder[BRC_SCRATCH])
 {
     const char *place = getenv("TMPDIR");
     snprintf(folder, BRC_SCRATCH, "%s/breccia-XXXXXX", place && place[0] ? place : "/tmp");
-    return mkdtemp(folder) ? BRC_OK : BRC_FAIL(context, BRC_FILE_FAILED, "%s: no folder can be made for a trial; set TMPDIR to one that can be written", folder);
+    return mkdtemp(folder)
+               ? BRC_OK
+               : BRC_FAIL(context, BRC_FILE_FAILED,
+                          "%s: no folder can be made for a trial; set TMPDIR to one that can be written", folder);
 }
 
 /* Bytes of the files in a folder and the folders in it; removed where asked. */
@@ -47,4 +50,7 @@ int64_t brc_scratch_bytes(brc_context *context, const char *folder, const char *
     return bytes;
 }
 
-void brc_scratch_remove(brc_context *context, const char *folder) { folder_bytes(context, folder, true); }
+void brc_scratch_remove(brc_context *context, const char *folder)
+{
+    folder_bytes(context, folder, true);
+}

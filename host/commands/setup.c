@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads, brc_setup *setup)
+brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads,
+                             brc_setup *setup)
 {
     BRC_TRY(brc_split_create(context, scene, &setup->split));
     const int32_t n = setup->split->n;
@@ -17,7 +18,8 @@ brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_d
     setup->n = n;
     if (given && n > 1) return BRC_FAIL(context, BRC_INTERNAL, "one domain was given for bodies of %d models", (int)n);
     if (!given) BRC_TRY(brc_split_domains_build(context, setup->split, n_threads, setup->built));
-    for (int32_t k = 0; k < n; ++k) setup->domain[k] = given ? given : setup->built[k];
+    for (int32_t k = 0; k < n; ++k)
+        setup->domain[k] = given ? given : setup->built[k];
     return brc_split_share(context, setup->split, setup->domain);
 }
 
@@ -34,7 +36,9 @@ brc_status brc_setup_polish(brc_context *context, int n_threads, brc_setup *setu
 brc_status brc_setup_simulations(brc_context *context, const brc_device_request *request, brc_setup *setup)
 {
     if (setup->split->scene->has_contact && setup->n > 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "contact: bodies of %d models are in the scene, whose surfaces and strikers do not meet across models; give all bodies one model, or leave contact out",
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "contact: bodies of %d models are in the scene, whose surfaces and strikers do not meet across "
+                        "models; give all bodies one model, or leave contact out",
                         (int)setup->n);
     for (int32_t k = 0; k < setup->n; ++k) {
         const brc_scene *scene = setup->split->part[k].scene;
@@ -49,7 +53,8 @@ brc_status brc_setup_simulations(brc_context *context, const brc_device_request 
 
 void brc_setup_free_simulations(brc_setup *setup)
 {
-    for (int32_t k = 0; k < setup->n; ++k) brc_simulation_free(&setup->simulation[k]);
+    for (int32_t k = 0; k < setup->n; ++k)
+        brc_simulation_free(&setup->simulation[k]);
     setup->assembly = (brc_assembly){0};
 }
 
@@ -71,14 +76,16 @@ void brc_setup_free(brc_setup *setup)
 int64_t brc_setup_n_elements(const brc_setup *setup)
 {
     int64_t n = 0;
-    for (int32_t k = 0; k < setup->n; ++k) n += setup->domain[k] ? setup->domain[k]->n_elements : 0;
+    for (int32_t k = 0; k < setup->n; ++k)
+        n += setup->domain[k] ? setup->domain[k]->n_elements : 0;
     return n;
 }
 
 int64_t brc_setup_n_bonds(const brc_setup *setup)
 {
     int64_t n = 0;
-    for (int32_t k = 0; k < setup->n; ++k) n += setup->domain[k] ? setup->domain[k]->n_bonds : 0;
+    for (int32_t k = 0; k < setup->n; ++k)
+        n += setup->domain[k] ? setup->domain[k]->n_bonds : 0;
     return n;
 }
 
@@ -86,6 +93,8 @@ double brc_setup_across(const brc_setup *setup)
 {
     double most = 0;
     for (int32_t k = 0; k < setup->n; ++k)
-        for (int d = 0; d < 3; ++d) most = fmax(most, (setup->domain[k]->bounds[1][d] - setup->domain[k]->bounds[0][d]) / setup->domain[k]->quality.mean_spacing);
+        for (int d = 0; d < 3; ++d)
+            most = fmax(most, (setup->domain[k]->bounds[1][d] - setup->domain[k]->bounds[0][d]) /
+                                  setup->domain[k]->quality.mean_spacing);
     return most;
 }

@@ -1,4 +1,5 @@
-/* From a scene to simulations that are ready to run: its parts, a domain, a device and a simulation for each, and the assembly of all. */
+/* From a scene to simulations that are ready to run: its parts, a domain, a device and a simulation for each, and the
+ * assembly of all. */
 #ifndef BRC_COMMANDS_SETUP_H
 #define BRC_COMMANDS_SETUP_H
 
@@ -14,9 +15,10 @@ typedef struct brc_setup {
     brc_assembly assembly;       /* of them; n = 0 until they are there */
 } brc_setup;
 
-/* Split the scene and build its domains, or take the one given (of a scene of one model; NULL: built), and hand out what the stages ask. scene and
- * given are borrowed until the setup is freed. */
-brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads, brc_setup *setup);
+/* Split the scene and build its domains, or take the one given (of a scene of one model; NULL: built), and hand out
+ * what the stages ask. scene and given are borrowed until the setup is freed. */
+brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads,
+                             brc_setup *setup);
 /* Correct the laws of the beams that ask for it (beam_polish.h): seconds of tests. */
 brc_status brc_setup_polish(brc_context *context, int n_threads, brc_setup *setup);
 /* A device for every part, as asked but for many_materials, and the simulations on them. */

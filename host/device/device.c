@@ -203,17 +203,20 @@ int64_t brc_device_bytes(const brc_device *device)
     return device->bytes;
 }
 
-/* Into a list ordered by name, whose first n are there; equal names share a place. Returns the new n, which may be above `most`. */
+/* Into a list ordered by name, whose first n are there; equal names share a place. Returns the new n, which may be
+ * above `most`. */
 static int add_item(brc_device_item *items, int n, int most, const char *name, int64_t number)
 {
     int k = 0;
     const int kept = n < most ? n : most;
-    while (k < kept && strcmp(items[k].name, name) < 0) ++k;
+    while (k < kept && strcmp(items[k].name, name) < 0)
+        ++k;
     if (k < kept && strcmp(items[k].name, name) == 0) {
         items[k].number += number;
         return n;
     }
-    for (int i = kept < most ? kept : most - 1; i > k; --i) items[i] = items[i - 1];
+    for (int i = kept < most ? kept : most - 1; i > k; --i)
+        items[i] = items[i - 1];
     if (k < most) items[k] = (brc_device_item){name, number};
     return n + 1;
 }
@@ -229,14 +232,16 @@ int brc_device_launched(const brc_device *device, int most, brc_device_item *out
 int brc_device_buffers(const brc_device *device, int most, brc_device_item *out)
 {
     int n = 0;
-    for (const brc_buffer *buffer = device->buffers; buffer; buffer = buffer->older) n = add_item(out, n, most, buffer->what, buffer->bytes);
+    for (const brc_buffer *buffer = device->buffers; buffer; buffer = buffer->older)
+        n = add_item(out, n, most, buffer->what, buffer->bytes);
     return n;
 }
 
 brc_device_counts brc_device_counted(const brc_device *device)
 {
     brc_device_counts counts = device->counts;
-    for (const brc_kernel *kernel = device->kernels; kernel; kernel = kernel->next) counts.launches += kernel->launches;
+    for (const brc_kernel *kernel = device->kernels; kernel; kernel = kernel->next)
+        counts.launches += kernel->launches;
     return counts;
 }
 
@@ -297,8 +302,10 @@ void brc_buffer_free(brc_buffer **handle)
     buffer->device->backend->release(buffer->device, buffer->memory, buffer->held);
     buffer->device->bytes -= buffer->bytes;
     if (buffer->older) buffer->older->younger = buffer->younger;
-    if (buffer->younger) buffer->younger->older = buffer->older;
-    else buffer->device->buffers = buffer->older;
+    if (buffer->younger)
+        buffer->younger->older = buffer->older;
+    else
+        buffer->device->buffers = buffer->older;
     brc_memory_free(buffer);
     *handle = NULL;
 }
@@ -308,7 +315,10 @@ int64_t brc_buffer_bytes(const brc_buffer *buffer)
     return buffer->bytes;
 }
 
-void *brc_buffer_host(const brc_buffer *buffer) { return buffer->device->info.kind == BRC_DEVICE_CPU ? buffer->memory : NULL; }
+void *brc_buffer_host(const brc_buffer *buffer)
+{
+    return buffer->device->info.kind == BRC_DEVICE_CPU ? buffer->memory : NULL;
+}
 
 /* Is [offset, offset + bytes) inside? Programmers' mistakes, but cheap to catch beside a blocking copy. */
 static brc_status check_range(const brc_buffer *buffer, int64_t offset, int64_t bytes, const char *verb)

@@ -21,17 +21,17 @@ typedef enum brc_device_kind { BRC_DEVICE_CPU, BRC_DEVICE_OPENCL, BRC_DEVICE_TAR
 /* What one device is. Strings are owned by the list. */
 typedef struct brc_device_info {
     brc_device_kind kind;
-    int index;             /* N of "opencl:N", "target:N"; 0 for the cpu */
-    char selector[32];     /* "cpu", "opencl:0", ... */
-    char name[128];        /* e.g. "Intel Xeon, 2 threads, avx512" */
-    char driver[128];      /* platform and driver version */
+    int index;         /* N of "opencl:N", "target:N"; 0 for the cpu */
+    char selector[32]; /* "cpu", "opencl:0", ... */
+    char name[128];    /* e.g. "Intel Xeon, 2 threads, avx512" */
+    char driver[128];  /* platform and driver version */
     bool is_gpu;
     bool has_double;
-    int compute_units;     /* threads on the cpu */
-    int64_t memory_bytes;  /* 0: unknown */
+    int compute_units;            /* threads on the cpu */
+    int64_t memory_bytes;         /* 0: unknown */
     int64_t largest_buffer_bytes; /* 0: no limit beyond memory (PoCL: 2 GiB was seen) */
     bool usable;
-    char why_not[256];     /* when not usable: the reason and the cure */
+    char why_not[256]; /* when not usable: the reason and the cure */
 } brc_device_info;
 
 typedef struct brc_device_list {
@@ -50,14 +50,14 @@ typedef struct brc_buffer brc_buffer;
 
 /* What is compiled or chosen for a run. */
 typedef struct brc_device_request {
-    const char *selector;    /* "auto", "cpu", "opencl:N", "target:N"; borrowed during the call */
+    const char *selector; /* "auto", "cpu", "opencl:N", "target:N"; borrowed during the call */
     brc_precision precision;
-    bool many_materials;     /* kernels gather material constants per element instead of taking them as scalars */
-    int n_threads;           /* cpu: 0 = as OpenMP decides */
+    bool many_materials;       /* kernels gather material constants per element instead of taking them as scalars */
+    int n_threads;             /* cpu: 0 = as OpenMP decides */
     const char *kernel_folder; /* NULL: embedded sources; else read them from there (OpenCL only) */
-    int lanes;               /* 0: the device's own choice; otherwise W, for tests */
-    bool exact;              /* round every product and every sum by itself (no fused multiply-add), so that all devices
-                                give the same bits; slower: the cpu then uses its baseline instruction set */
+    int lanes;                 /* 0: the device's own choice; otherwise W, for tests */
+    bool exact; /* round every product and every sum by itself (no fused multiply-add), so that all devices
+                   give the same bits; slower: the cpu then uses its baseline instruction set */
 } brc_device_request;
 
 /* Open. BRC_BAD_INPUT for a selector that does not parse or names a device that is not there (the sentence lists the
@@ -74,8 +74,9 @@ int brc_device_lanes(const brc_device *device);
 int brc_device_slice(const brc_device *device);
 /* Bytes now held in buffers. */
 int64_t brc_device_bytes(const brc_device *device);
-/* What a run is made of, by name: kernels that were launched, with how often; buffers held now, those of one name together, with their bytes. At most
- * `most` of them go to out; returns how many there are. Names are borrowed until the device closes, or the buffer is freed. */
+/* What a run is made of, by name: kernels that were launched, with how often; buffers held now, those of one name
+ * together, with their bytes. At most `most` of them go to out; returns how many there are. Names are borrowed until
+ * the device closes, or the buffer is freed. */
 typedef struct brc_device_item {
     const char *name;
     int64_t number; /* launches, or bytes */
@@ -83,8 +84,8 @@ typedef struct brc_device_item {
 int brc_device_launched(const brc_device *device, int most, brc_device_item *out);
 int brc_device_buffers(const brc_device *device, int most, brc_device_item *out);
 
-/* What the host asked of the device so far. waits: times it stood still until all that was asked before was done: reads, writes, brc_device_wait, buffers (which are
- * cleared before they are given). */
+/* What the host asked of the device so far. waits: times it stood still until all that was asked before was done:
+ * reads, writes, brc_device_wait, buffers (which are cleared before they are given). */
 typedef struct brc_device_counts {
     int64_t launches, waits, read_bytes, written_bytes, copied_bytes;
 } brc_device_counts;
@@ -95,7 +96,8 @@ brc_device_counts brc_device_counted(const brc_device *device);
 brc_status brc_buffer_create(brc_device *device, brc_buffer **out, int64_t bytes, const char *what);
 void brc_buffer_free(brc_buffer **buffer);
 int64_t brc_buffer_bytes(const brc_buffer *buffer);
-/* The memory itself, where the device is the cpu and works in the host's; NULL: it must be read. Kernels that were launched may still write it (brc_device_wait). */
+/* The memory itself, where the device is the cpu and works in the host's; NULL: it must be read. Kernels that were
+ * launched may still write it (brc_device_wait). */
 void *brc_buffer_host(const brc_buffer *buffer);
 /* Blocking copies, ordered after all launches so far. */
 brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data, int64_t bytes);
@@ -124,11 +126,12 @@ typedef struct brc_arg {
 typedef struct brc_kernel brc_kernel;
 brc_status brc_kernel_find(brc_device *device, const char *name, brc_kernel **out);
 const char *brc_kernel_name(const brc_kernel *kernel);
-/* Its parameters, as the text in kernels/ has them: how many (0: they cannot be read), and name and kind of the k-th. */
+/* Its parameters, as the text in kernels/ has them: how many (0: they cannot be read), and name and kind of the
+ * k-th. */
 int brc_kernel_parameters(const brc_kernel *kernel);
 brc_arg_kind brc_kernel_parameter(const brc_kernel *kernel, int k, char *name, size_t bytes);
-/* Enqueue over `n_items` work-items (FOR_EACH_ITEM: one each; FOR_EACH_SLICE: n_items = slices * C / W). Launches run in
- * order; nothing waits. The number and kinds of arguments are checked against the kernel's own in debug builds. */
+/* Enqueue over `n_items` work-items (FOR_EACH_ITEM: one each; FOR_EACH_SLICE: n_items = slices * C / W). Launches run
+ * in order; nothing waits. The number and kinds of arguments are checked against the kernel's own in debug builds. */
 brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args);
 #define BRC_LAUNCH(kernel, n_items, ...)                                                                               \
     brc_kernel_launch((kernel), (n_items), (int)(sizeof((brc_arg[]){__VA_ARGS__}) / sizeof(brc_arg)),                  \

@@ -34,14 +34,14 @@ struct brc_device {
     brc_device_info info;
     brc_precision precision;
     bool many_materials, exact;
-    int lanes;           /* W */
-    int slice;           /* C */
-    int64_t bytes;       /* held in buffers */
+    int lanes;                /* W */
+    int slice;                /* C */
+    int64_t bytes;            /* held in buffers */
     brc_device_counts counts; /* but for launches, which kernels count */
-    void *dummy;         /* memory of 64 bytes for arguments that are NULL; not counted */
-    brc_kernel *kernels; /* found so far, a list */
-    brc_buffer *buffers; /* held now, a list, the youngest first */
-    void *inside;        /* the backend's own */
+    void *dummy;              /* memory of 64 bytes for arguments that are NULL; not counted */
+    brc_kernel *kernels;      /* found so far, a list */
+    brc_buffer *buffers;      /* held now, a list, the youngest first */
+    void *inside;             /* the backend's own */
 };
 
 struct brc_buffer {

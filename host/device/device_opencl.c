@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Work-items a group; docs/notebook/devices.md has the measurements. Never left to the driver: PoCL's own choice crashed with
- * wide types. */
+/* Work-items a group; docs/notebook/devices.md has the measurements. Never left to the driver: PoCL's own choice
+ * crashed with wide types. */
 enum { GROUP_GPU = 128, GROUP_CPU = 64 };
 /* Elements a slice of the storage holds on a GPU; on a CPU as many as a work-item, and at least SLICE_CPU. */
 enum { SLICE_GPU = 32, SLICE_CPU = 8 };
@@ -27,7 +27,8 @@ typedef struct opencl_inside {
     brc_opencl_profile *profile; /* NULL: none is asked for */
     size_t group;
     int launches; /* since the last flush */
-    int releases; /* of buffers so far: a handle may come back for another buffer, so set arguments are then sent again */
+    int releases; /* of buffers so far: a handle may come back for another buffer, so set arguments are then sent
+                     again */
 } opencl_inside;
 
 typedef struct opencl_kernel {
@@ -49,8 +50,8 @@ static void release_inside(opencl_inside *inside)
     brc_memory_free(inside);
 }
 
-/* W, C and work-items a group: those of a GPU or of a CPU by the kind of the device, or as BRECCIA_OPENCL_LAYOUT says (tests
- * run the layout of a GPU on PoCL); the group also as BRECCIA_OPENCL_GROUP says (to tune for a new device). */
+/* W, C and work-items a group: those of a GPU or of a CPU by the kind of the device, or as BRECCIA_OPENCL_LAYOUT says
+ * (tests run the layout of a GPU on PoCL); the group also as BRECCIA_OPENCL_GROUP says (to tune for a new device). */
 static brc_status choose_layout(brc_device *device, int lanes, size_t *group)
 {
     const char *const layout = getenv("BRECCIA_OPENCL_LAYOUT"), *const asked = getenv("BRECCIA_OPENCL_GROUP");
@@ -58,7 +59,8 @@ static brc_status choose_layout(brc_device *device, int lanes, size_t *group)
     if (layout && layout[0]) {
         gpu = strcmp(layout, "gpu") == 0;
         if (!gpu && strcmp(layout, "cpu") != 0)
-            return BRC_FAIL(device->context, BRC_BAD_INPUT, "BRECCIA_OPENCL_LAYOUT is '%.32s': expected gpu or cpu", layout);
+            return BRC_FAIL(device->context, BRC_BAD_INPUT, "BRECCIA_OPENCL_LAYOUT is '%.32s': expected gpu or cpu",
+                            layout);
     }
     if (!lanes) lanes = gpu ? 1 : 8;
     if (lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
@@ -92,9 +94,11 @@ static brc_status opencl_open(brc_device *device, const brc_device_request *requ
     inside->context = clCreateContext(NULL, 1, &inside->id, NULL, NULL, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a context"));
     BRC_TRY_OR(cleanup, brc_opencl_profile_create(device->context, &inside->profile));
-    inside->queue = clCreateCommandQueue(inside->context, inside->id, inside->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
+    inside->queue =
+        clCreateCommandQueue(inside->context, inside->id, inside->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a queue"));
-    BRC_TRY_OR(cleanup, brc_opencl_build(device, inside->context, inside->id, request->kernel_folder, request->exact, &inside->program));
+    BRC_TRY_OR(cleanup, brc_opencl_build(device, inside->context, inside->id, request->kernel_folder, request->exact,
+                                         &inside->program));
     device->inside = inside;
     inside = NULL;
 cleanup:

@@ -1,5 +1,6 @@
-/* OpenMP target devices, through a plug-in library built by clang or by gcc. It is opened so that nothing of it is seen by the
- * rest and its own OpenMP runtime is found first: gcc's runtime in the program and clang's in the plug-in share names. */
+/* OpenMP target devices, through a plug-in library built by clang or by gcc. It is opened so that nothing of it is seen
+ * by the rest and its own OpenMP runtime is found first: gcc's runtime in the program and clang's in the plug-in share
+ * names. */
 #include "device_internal.h"
 #include "instance_call.h"
 #include "target_plugin.h"
@@ -29,8 +30,8 @@ typedef struct target_inside {
 } target_inside;
 
 #ifndef BRC_UNDER_SANITIZER
-/* Programs that name `environ` (Python) have it in a copy of their own; a library that finds its own names first then meets the C library's, which is NULL, and
- * clang's OpenMP runtime reads the environment as it is loaded. */
+/* Programs that name `environ` (Python) have it in a copy of their own; a library that finds its own names first then
+ * meets the C library's, which is NULL, and clang's OpenMP runtime reads the environment as it is loaded. */
 static void show_environment(void)
 {
     void *const library = dlopen("libc.so.6", RTLD_LAZY | RTLD_NOLOAD);
@@ -85,7 +86,8 @@ static void program_folder(char *folder, size_t bytes)
 static void own_folder(char *folder, size_t bytes)
 {
     Dl_info information;
-    snprintf(folder, bytes, "%s", dladdr(&brc_backend_target, &information) && information.dli_fname ? information.dli_fname : "");
+    snprintf(folder, bytes, "%s",
+             dladdr(&brc_backend_target, &information) && information.dli_fname ? information.dli_fname : "");
     keep_folder(folder);
 }
 
@@ -105,7 +107,8 @@ static const brc_target_plugin *find_plugin(char *why, size_t bytes)
         }
     snprintf(why, bytes,
              "the plug-in %s is not there: it is built when clang with libomptarget is found (Debian: "
-             "clang-14 libomp-14-dev), or name it in BRECCIA_TARGET_LIBRARY", plugin_files[0]);
+             "clang-14 libomp-14-dev), or name it in BRECCIA_TARGET_LIBRARY",
+             plugin_files[0]);
     return NULL;
 }
 
@@ -126,12 +129,15 @@ brc_status brc_device_target_list(brc_context *context, brc_device_list *list)
     /* libomp presents one processor as four devices; they are the same, and one is enough. */
     info.usable = on_host || plugin->runs_on_device(0) == 1;
     info.is_gpu = plugin->falls_back && !on_host;
-    if (!info.usable) snprintf(info.why_not, sizeof info.why_not, "a test region fell back to the host");
-    else info.why_not[0] = '\0';
+    if (!info.usable)
+        snprintf(info.why_not, sizeof info.why_not, "a test region fell back to the host");
+    else
+        info.why_not[0] = '\0';
     info.has_double = true;
     info.compute_units = info.is_gpu ? 0 : (int)sysconf(_SC_NPROCESSORS_ONLN);
     snprintf(info.selector, sizeof info.selector, "target:0");
-    snprintf(info.name, sizeof info.name, "OpenMP target device (%.48s)%s", plugin->architecture, on_host ? ": there is none, the host stands in" : "");
+    snprintf(info.name, sizeof info.name, "OpenMP target device (%.48s)%s", plugin->architecture,
+             on_host ? ": there is none, the host stands in" : "");
     snprintf(info.driver, sizeof info.driver, "%.96s", plugin->compiler);
     return brc_device_list_add(context, list, &info);
 }
@@ -158,8 +164,9 @@ static brc_status target_open(brc_device *device, const brc_device_request *requ
                         "the target kernels are compiled already: a kernel folder (%.128s) needs an OpenCL device",
                         request->kernel_folder);
     if (plugin->falls_back && plugin->devices() == 0)
-        brc_log(device->context, BRC_LOG_WARNING, "device %s: no device for %s is here, its kernels run on the host (slowly, the same numbers)", device->info.selector,
-                plugin->architecture);
+        brc_log(device->context, BRC_LOG_WARNING,
+                "device %s: no device for %s is here, its kernels run on the host (slowly, the same numbers)",
+                device->info.selector, plugin->architecture);
     target_inside *inside = NULL;
     BRC_TRY(BRC_ALLOCATE(device->context, &inside, 1, "target device"));
     inside->plugin = plugin;

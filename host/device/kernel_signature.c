@@ -75,14 +75,15 @@ void brc_kernel_parameter_name(const char *parameters, int k, char *name, size_t
 
 const char *brc_kernel_signature(const char *name, char kinds[2][BRC_KERNEL_MOST_ARGS + 1])
 {
-    static const char head[] = "KERNEL void ";
+    static const char head[] = "KERNEL void";
     const size_t length = strlen(name);
     const char *parameters = NULL;
     int n = 0;
     kinds[0][0] = kinds[1][0] = '\0';
     for (int f = 0; f < brc_kernel_file_count; ++f)
         for (const char *at = strstr(brc_kernel_files[f].text, head); at; at = strstr(at + 1, head)) {
-            const char *const word = at + sizeof head - 1;
+            const char *word = at + sizeof head - 1;
+            word += strspn(word, " \n");
             if (strncmp(word, name, length) != 0 || word[length] != '(') continue;
             if (n == 2 || !read_list(word + length + 1, kinds[n])) { /* more than can be told apart: check nothing */
                 kinds[0][0] = kinds[1][0] = '\0';

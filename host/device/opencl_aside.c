@@ -1,6 +1,6 @@
 /* OpenCL drivers are foreign code that the loader starts all at once, and some end or stop the process they are loaded
- * into: PoCL aborts where /sys is missing. So devices are listed by a fork of this process, which answers through a pipe;
- * a driver is loaded into the process itself only when one of its devices is opened.
+ * into: PoCL aborts where /sys is missing. So devices are listed by a fork of this process, which answers through a
+ * pipe; a driver is loaded into the process itself only when one of its devices is opened.
  *
  * A fork holds one thread only, whatever OpenMP had. That is enough: the child runs the loader and the drivers, which
  * start threads of their own, and glibc sees to it that memory and the dynamic loader work there. */
@@ -41,8 +41,8 @@ static void write_all(int pipe_end, const void *data, size_t bytes)
 static void be_the_child(brc_opencl_lister *lister, int pipe_end, brc_device_info *rows, int most)
 {
     sigset_t none;
-    (void)prctl(PR_SET_PDEATHSIG, SIGKILL);                   /* nobody waits when the parent is gone */
-    (void)setrlimit(RLIMIT_CORE, &(struct rlimit){0});        /* a crash here is foreseen */
+    (void)prctl(PR_SET_PDEATHSIG, SIGKILL);            /* nobody waits when the parent is gone */
+    (void)setrlimit(RLIMIT_CORE, &(struct rlimit){0}); /* a crash here is foreseen */
     for (int number = 1; number < 32; ++number)
         (void)signal(number, SIG_DFL); /* the parent's handlers are about the parent */
     sigemptyset(&none);

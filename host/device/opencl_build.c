@@ -13,17 +13,15 @@ static char *build_log(brc_device *device, cl_program program, cl_device_id id)
 {
     size_t bytes = 0;
     char *log = NULL;
-    if (clGetProgramBuildInfo(program, id, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes) != CL_SUCCESS)
-        return NULL;
+    if (clGetProgramBuildInfo(program, id, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes) != CL_SUCCESS) return NULL;
     if (brc_memory_allocate(device->context, (void **)&log, (int64_t)bytes + 1, 1, "compiler log") != BRC_OK)
         return NULL;
-    if (clGetProgramBuildInfo(program, id, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) != CL_SUCCESS)
-        log[0] = '\0';
+    if (clGetProgramBuildInfo(program, id, CL_PROGRAM_BUILD_LOG, bytes, log, NULL) != CL_SUCCESS) log[0] = '\0';
     return log;
 }
 
-/* What makes a device round every operation by itself. Divisions and roots of single numbers may be off by 2.5 and 3 last
- * places unless the device is asked, which it can be where it offers it (OpenCL 1.2, 5.6.4.2). */
+/* What makes a device round every operation by itself. Divisions and roots of single numbers may be off by 2.5 and 3
+ * last places unless the device is asked, which it can be where it offers it (OpenCL 1.2, 5.6.4.2). */
 static const char *exact_options(brc_device *device, cl_device_id id)
 {
     cl_device_fp_config single = 0;
@@ -33,15 +31,17 @@ static const char *exact_options(brc_device *device, cl_device_id id)
         return " -D BRC_EXACT -cl-fp32-correctly-rounded-divide-sqrt";
     brc_log(device->context, BRC_LOG_WARNING,
             "device %s does not round divisions and roots of single numbers correctly: its results in precision %s may "
-            "differ from those of other devices in spite of exact", device->info.selector,
-            brc_precision_name(device->precision));
+            "differ from those of other devices in spite of exact",
+            device->info.selector, brc_precision_name(device->precision));
     return " -D BRC_EXACT";
 }
 
-/* What a compiled program depends on, as text: platform, device and driver with their versions, options, source. Freed with brc_memory_free. */
+/* What a compiled program depends on, as text: platform, device and driver with their versions, options, source. Freed
+ * with brc_memory_free. */
 static brc_status make_key(brc_device *device, cl_device_id id, const char *options, const char *source, char **out)
 {
-    static const cl_device_info of_device[] = {CL_DEVICE_VENDOR, CL_DEVICE_NAME, CL_DEVICE_VERSION, CL_DRIVER_VERSION, CL_DEVICE_EXTENSIONS};
+    static const cl_device_info of_device[] = {CL_DEVICE_VENDOR, CL_DEVICE_NAME, CL_DEVICE_VERSION, CL_DRIVER_VERSION,
+                                               CL_DEVICE_EXTENSIONS};
     static const cl_platform_info of_platform[] = {CL_PLATFORM_NAME, CL_PLATFORM_VERSION};
     enum { LINE_BYTES = 2048, LINES = 8 };
     const size_t most = LINES * LINE_BYTES + strlen(options) + strlen(source) + 1;
@@ -54,15 +54,18 @@ static brc_status make_key(brc_device *device, cl_device_id id, const char *opti
     for (size_t k = 0; k < sizeof of_device / sizeof of_device[0] + sizeof of_platform / sizeof of_platform[0]; ++k) {
         const size_t p = k - sizeof of_device / sizeof of_device[0];
         memset(line, 0, sizeof line);
-        if (k < sizeof of_device / sizeof of_device[0]) (void)clGetDeviceInfo(id, of_device[k], sizeof line - 1, line, NULL);
-        else (void)clGetPlatformInfo(platform, of_platform[p], sizeof line - 1, line, NULL);
+        if (k < sizeof of_device / sizeof of_device[0])
+            (void)clGetDeviceInfo(id, of_device[k], sizeof line - 1, line, NULL);
+        else
+            (void)clGetPlatformInfo(platform, of_platform[p], sizeof line - 1, line, NULL);
         used += (size_t)snprintf(*out + used, most - used, "%s\n", line);
     }
     snprintf(*out + used, most - used, "%s\n%s", options, source);
     return BRC_OK;
 }
 
-/* Drivers that run on the CPU (PoCL) keep kernels themselves, and to hand a program out compile every kernel of it: there only where a folder is named. */
+/* Drivers that run on the CPU (PoCL) keep kernels themselves, and to hand a program out compile every kernel of it:
+ * there only where a folder is named. */
 static bool is_kept(const brc_device *device)
 {
     const char *const folder = getenv("BRECCIA_OPENCL_CACHE");
@@ -71,16 +74,19 @@ static bool is_kept(const brc_device *device)
 }
 
 /* The program kept under a key, ready to run; NULL: there is none, or the driver does not take it. */
-static cl_program kept_program(brc_device *device, cl_context context, cl_device_id id, const char *options, const char *key)
+static cl_program kept_program(brc_device *device, cl_context context, cl_device_id id, const char *options,
+                               const char *key)
 {
     size_t bytes;
     cl_int code, taken;
     unsigned char *const binary = brc_program_cache_find(device->context, key, &bytes);
     if (!binary) return NULL;
     const unsigned char *const binaries[] = {binary};
-    cl_program program = clCreateProgramWithBinary(context, 1, &id, &bytes, (const unsigned char **)(uintptr_t)binaries, &taken, &code);
+    cl_program program =
+        clCreateProgramWithBinary(context, 1, &id, &bytes, (const unsigned char **)(uintptr_t)binaries, &taken, &code);
     brc_memory_free(binary);
-    if (code != CL_SUCCESS || taken != CL_SUCCESS || clBuildProgram(program, 1, &id, options, NULL, NULL) != CL_SUCCESS) {
+    if (code != CL_SUCCESS || taken != CL_SUCCESS ||
+        clBuildProgram(program, 1, &id, options, NULL, NULL) != CL_SUCCESS) {
         if (program) (void)clReleaseProgram(program);
         return NULL;
     }
@@ -92,14 +98,17 @@ static void keep_program(brc_device *device, cl_program program, const char *key
 {
     size_t bytes = 0;
     unsigned char *binary = NULL;
-    if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof bytes, &bytes, NULL) != CL_SUCCESS || bytes == 0) return;
+    if (clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof bytes, &bytes, NULL) != CL_SUCCESS || bytes == 0)
+        return;
     if (brc_memory_allocate(device->context, (void **)&binary, (int64_t)bytes, 1, "OpenCL program") != BRC_OK) return;
-    if (clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL) == CL_SUCCESS) brc_program_cache_keep(device->context, key, binary, bytes);
+    if (clGetProgramInfo(program, CL_PROGRAM_BINARIES, sizeof binary, &binary, NULL) == CL_SUCCESS)
+        brc_program_cache_keep(device->context, key, binary, bytes);
     brc_memory_free(binary);
 }
 
 /* folder: for the sentence. */
-static brc_status compile(brc_device *device, cl_context context, cl_device_id id, const char *options, const char *source, const char *folder, cl_program *out)
+static brc_status compile(brc_device *device, cl_context context, cl_device_id id, const char *options,
+                          const char *source, const char *folder, cl_program *out)
 {
     brc_status status = BRC_OK;
     const char *const sources[] = {source};
@@ -116,18 +125,21 @@ static brc_status compile(brc_device *device, cl_context context, cl_device_id i
                           device->info.driver, folder ? " in " : "", folder ? folder : "", brc_opencl_status_text(code),
                           options, log && log[0] ? log : "(empty)");
     else if (brc_log_get_level(device->context) >= BRC_LOG_DEBUG)
-        brc_log(device->context, BRC_LOG_DEBUG, "device %s, options %s, compiler log:\n%s", text, options, log && log[0] ? log : "(empty)");
+        brc_log(device->context, BRC_LOG_DEBUG, "device %s, options %s, compiler log:\n%s", text, options,
+                log && log[0] ? log : "(empty)");
     brc_memory_free(log);
     return status;
 }
 
-brc_status brc_opencl_build(brc_device *device, cl_context context, cl_device_id id, const char *folder, bool exact, cl_program *out)
+brc_status brc_opencl_build(brc_device *device, cl_context context, cl_device_id id, const char *folder, bool exact,
+                            cl_program *out)
 {
     brc_status status = BRC_OK;
     char *source = NULL, *key = NULL, options[256];
     *out = NULL;
     snprintf(options, sizeof options,
-             "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D BRC_MANY_MATERIALS=%d%s",
+             "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D "
+             "BRC_MANY_MATERIALS=%d%s",
              (int)device->precision, device->lanes, device->slice, (int)device->many_materials,
              exact ? exact_options(device, id) : "");
     BRC_TRY_OR(cleanup, brc_program_source(device->context, folder, &source));

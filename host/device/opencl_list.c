@@ -83,19 +83,23 @@ static brc_device_info describe(cl_device_id device, int index)
     return info;
 }
 
-/* A platform whose driver lists no device, as a row: its card may be missing, or hidden from this machine or container. */
+/* A platform whose driver lists no device, as a row: its card may be missing, or hidden from this machine or
+ * container. */
 static brc_device_info describe_empty(cl_platform_id platform, int n_devices)
 {
     brc_device_info row = {.kind = BRC_DEVICE_OPENCL, .index = n_devices, .name = "no device"};
     char name[64] = "";
     (void)clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof name, name, NULL);
     name[sizeof name - 1] = '\0';
-    /* opencl:0 where there is no device at all, so that who asks for it is told; otherwise a name that is no selector */
+    /* opencl:0 where there is no device at all, so that who asks for it is told; otherwise a name that is no
+     * selector */
     snprintf(row.selector, sizeof row.selector, n_devices ? "opencl:-" : "opencl:0");
     snprintf(row.driver, sizeof row.driver, "OpenCL platform %s", name);
-    snprintf(row.why_not, sizeof row.why_not,
-             "the driver of platform %.60s is there and lists no device: see whether the driver's own tools (nvidia-smi, "
-             "rocm-smi) find the card, and in a container whether it is passed in", name);
+    snprintf(
+        row.why_not, sizeof row.why_not,
+        "the driver of platform %.60s is there and lists no device: see whether the driver's own tools (nvidia-smi, "
+        "rocm-smi) find the card, and in a container whether it is passed in",
+        name);
     return row;
 }
 
@@ -124,7 +128,8 @@ static const void *object_of(const void *address)
     return address && dladdr(address, &where) ? where.dli_fbase : NULL;
 }
 
-/* Asked of the dynamic loader, since a program around this library may use OpenCL for itself. Drivers have this symbol. */
+/* Asked of the dynamic loader, since a program around this library may use OpenCL for itself. Drivers have this
+ * symbol. */
 bool brc_opencl_driver_is_loaded(void)
 {
     static const char symbol[] = "clGetExtensionFunctionAddress";
@@ -195,9 +200,11 @@ brc_status brc_opencl_list_within(brc_context *context, brc_device_list *list, d
     char drivers[96];
     name_drivers(drivers, sizeof drivers);
     if (n == 0 && drivers[0])
-        snprintf(none.why_not, sizeof none.why_not,
-                 "a driver is installed (%s) and gives no platform: its library is missing, or it finds no device; see the "
-                 "driver's own tools (nvidia-smi)", drivers);
+        snprintf(
+            none.why_not, sizeof none.why_not,
+            "a driver is installed (%s) and gives no platform: its library is missing, or it finds no device; see the "
+            "driver's own tools (nvidia-smi)",
+            drivers);
     return brc_device_list_add(context, list, &none);
 }
 

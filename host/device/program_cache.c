@@ -23,21 +23,30 @@ static const char mark[8] = "brcocl1";
 static uint64_t digest_of(uint64_t start, const void *data, size_t bytes)
 {
     const unsigned char *const p = data;
-    for (size_t k = 0; k < bytes; ++k) start = (start ^ p[k]) * 1099511628211u; /* FNV-1a */
+    for (size_t k = 0; k < bytes; ++k)
+        start = (start ^ p[k]) * 1099511628211u; /* FNV-1a */
     return start;
 }
 
-static uint64_t digest_of_key(const char *key) { return digest_of(14695981039346656037u, key, strlen(key)); }
+static uint64_t digest_of_key(const char *key)
+{
+    return digest_of(14695981039346656037u, key, strlen(key));
+}
 
 /* The folder, "" for none. */
 static void find_folder(char folder[MOST_PATH])
 {
-    const char *const asked = getenv("BRECCIA_OPENCL_CACHE"), *const cache = getenv("XDG_CACHE_HOME"), *const home = getenv("HOME");
+    const char *const asked = getenv("BRECCIA_OPENCL_CACHE"), *const cache = getenv("XDG_CACHE_HOME"),
+                      *const home = getenv("HOME");
     folder[0] = '\0';
     if (asked && strcmp(asked, "off") == 0) return;
-    if (asked && asked[0]) snprintf(folder, MOST_PATH, "%s", asked);
-    else if (cache && cache[0] == '/') snprintf(folder, MOST_PATH, "%s/breccia/opencl", cache); /* relative ones are to be ignored (XDG Base Directory) */
-    else if (home && home[0]) snprintf(folder, MOST_PATH, "%s/.cache/breccia/opencl", home);
+    if (asked && asked[0])
+        snprintf(folder, MOST_PATH, "%s", asked);
+    else if (cache && cache[0] == '/')
+        snprintf(folder, MOST_PATH, "%s/breccia/opencl",
+                 cache); /* relative ones are to be ignored (XDG Base Directory) */
+    else if (home && home[0])
+        snprintf(folder, MOST_PATH, "%s/.cache/breccia/opencl", home);
 }
 
 static void entry_path(const char *folder, const char *key, char *path, size_t bytes)
@@ -56,7 +65,9 @@ static bool is_entry(const char *data, size_t bytes, const char *key, const char
     if (memcmp(head.what, mark, sizeof mark) != 0 || head.key_bytes != key_bytes || head.binary_bytes == 0 ||
         head.binary_bytes != bytes - sizeof head - key_bytes || bytes - sizeof head < key_bytes)
         return false;
-    if (memcmp(rest, key, key_bytes) != 0 || digest_of(digest_of_key(key), rest + key_bytes, head.binary_bytes) != head.digest) return false;
+    if (memcmp(rest, key, key_bytes) != 0 ||
+        digest_of(digest_of_key(key), rest + key_bytes, head.binary_bytes) != head.digest)
+        return false;
     *binary = rest + key_bytes;
     *binary_bytes = head.binary_bytes;
     return true;
@@ -72,12 +83,15 @@ unsigned char *brc_program_cache_find(brc_context *context, const char *key, siz
     entry_path(folder, key, path, sizeof path);
     if (!folder[0] || access(path, R_OK) != 0) return NULL;
     brc_context *aside = brc_context_create(); /* its failures are nobody's */
-    if (aside && brc_file_read_whole(aside, path, MOST_BINARY, &data, &read) == BRC_OK && is_entry(data, read, key, &binary, bytes) &&
+    if (aside && brc_file_read_whole(aside, path, MOST_BINARY, &data, &read) == BRC_OK &&
+        is_entry(data, read, key, &binary, bytes) &&
         brc_memory_allocate(aside, (void **)&out, (int64_t)*bytes, 1, "OpenCL program") == BRC_OK) {
         memcpy(out, binary, *bytes);
         (void)utimensat(AT_FDCWD, path, NULL, 0); /* used now */
     }
-    if (aside && !out) brc_log(context, BRC_LOG_DEBUG, "%s is not a whole program of this text, options and driver: it is compiled again", path);
+    if (aside && !out)
+        brc_log(context, BRC_LOG_DEBUG,
+                "%s is not a whole program of this text, options and driver: it is compiled again", path);
     brc_memory_free(data);
     brc_context_free(&aside);
     return out;
@@ -111,14 +125,17 @@ static void drop_oldest(const char *folder)
     }
 }
 
-static brc_status write_entry(brc_context *context, const char *folder, const char *key, const unsigned char *binary, size_t bytes)
+static brc_status write_entry(brc_context *context, const char *folder, const char *key, const unsigned char *binary,
+                              size_t bytes)
 {
     char path[MOST_PATH + 64], own[sizeof path + 32], *data = NULL;
     const size_t key_bytes = strlen(key);
-    entry_head head = {.key_bytes = key_bytes, .binary_bytes = bytes, .digest = digest_of(digest_of_key(key), binary, bytes)};
+    entry_head head = {
+        .key_bytes = key_bytes, .binary_bytes = bytes, .digest = digest_of(digest_of_key(key), binary, bytes)};
     memcpy(head.what, mark, sizeof mark);
     BRC_TRY(brc_file_make_folder(context, folder));
-    BRC_TRY(brc_memory_allocate(context, (void **)&data, (int64_t)(sizeof head + key_bytes + bytes), 1, "OpenCL program"));
+    BRC_TRY(
+        brc_memory_allocate(context, (void **)&data, (int64_t)(sizeof head + key_bytes + bytes), 1, "OpenCL program"));
     memcpy(data, &head, sizeof head);
     memcpy(data + sizeof head, key, key_bytes);
     memcpy(data + sizeof head + key_bytes, binary, bytes);
@@ -139,7 +156,9 @@ void brc_program_cache_keep(brc_context *context, const char *key, const unsigne
     if (!folder[0] || bytes == 0 || bytes > MOST_BINARY / 2) return;
     brc_context *aside = brc_context_create();
     if (!aside) return;
-    if (write_entry(aside, folder, key, binary, bytes) == BRC_OK) drop_oldest(folder);
-    else brc_log(context, BRC_LOG_DEBUG, "the OpenCL program is not kept: %s", brc_context_message(aside));
+    if (write_entry(aside, folder, key, binary, bytes) == BRC_OK)
+        drop_oldest(folder);
+    else
+        brc_log(context, BRC_LOG_DEBUG, "the OpenCL program is not kept: %s", brc_context_message(aside));
     brc_context_free(&aside);
 }

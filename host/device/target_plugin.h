@@ -1,6 +1,6 @@
-/* What a plug-in library offers, libbreccia_target (clang's, whose device is the host once more) or libbreccia_target_nvptx (gcc's, for
- * NVIDIA cards): plain C types only, since clang's OpenMP runtime and the program's own (mostly gcc's) must not meet.
- * target/target_plugin.c defines it, device_target.c calls it. */
+/* What a plug-in library offers, libbreccia_target (clang's, whose device is the host once more) or
+ * libbreccia_target_nvptx (gcc's, for NVIDIA cards): plain C types only, since clang's OpenMP runtime and the program's
+ * own (mostly gcc's) must not meet. target/target_plugin.c defines it, device_target.c calls it. */
 #ifndef BRC_TARGET_PLUGIN_H
 #define BRC_TARGET_PLUGIN_H
 

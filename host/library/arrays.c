@@ -10,10 +10,16 @@ typedef enum derived { REFERENCE, POSITION, STRAIN, STRESS, DAMAGE, N_DERIVED } 
 static const struct {
     const char *name, *unit;
     int32_t width;
-} derivations[N_DERIVED] = {[REFERENCE] = {"reference", "m", 3}, [POSITION] = {"position", "m", 3}, [STRAIN] = {"strain", "-", 6}, [STRESS] = {"stress", "Pa", 6},
+} derivations[N_DERIVED] = {[REFERENCE] = {"reference", "m", 3},
+                            [POSITION] = {"position", "m", 3},
+                            [STRAIN] = {"strain", "-", 6},
+                            [STRESS] = {"stress", "Pa", 6},
                             [DAMAGE] = {"damage", "-", 1}};
 
-int breccia_run_parts(const breccia_run *run) { return run ? run->assembly.n : 0; }
+int breccia_run_parts(const breccia_run *run)
+{
+    return run ? run->assembly.n : 0;
+}
 
 int breccia_run_array_names(const breccia_run *run, int part, int most, const char **names)
 {
@@ -39,7 +45,8 @@ static brc_status room_for(breccia_run *run, const char *name, int part, int64_t
             *out = run->copies[k].data;
             return BRC_OK;
         }
-    if (run->n_copies == BRC_LIBRARY_COPIES) return BRC_FAIL(run->context, BRC_INTERNAL, "more than %d arrays were worked out", BRC_LIBRARY_COPIES);
+    if (run->n_copies == BRC_LIBRARY_COPIES)
+        return BRC_FAIL(run->context, BRC_INTERNAL, "more than %d arrays were worked out", BRC_LIBRARY_COPIES);
     brc_copy *fresh = &run->copies[run->n_copies];
     BRC_TRY(brc_memory_allocate(run->context, &fresh->data, bytes, 1, "array for a caller"));
     snprintf(fresh->name, sizeof fresh->name, "%s", name);
@@ -53,7 +60,12 @@ static brc_status show_live(breccia_run *run, int part, const brc_live_array *li
 {
     brc_simulation *s = run->assembly.part[part];
     const int bytes_each = brc_precision_state_bytes(brc_device_get_precision(brc_simulation_device(s)));
-    *out = (breccia_array){.name = live->name, .unit = live->unit, .precision = bytes_each, .width = live->width, .data = brc_buffer_host(live->buffer), .is_live = true};
+    *out = (breccia_array){.name = live->name,
+                           .unit = live->unit,
+                           .precision = bytes_each,
+                           .width = live->width,
+                           .data = brc_buffer_host(live->buffer),
+                           .is_live = true};
     out->n_rows = brc_simulation_rows(s, &out->element);
     if (out->data) return brc_simulation_wait(s);
     const int64_t bytes = out->n_rows * live->width * bytes_each;
@@ -66,7 +78,11 @@ static brc_status derive(breccia_run *run, int part, derived what, breccia_array
 {
     brc_simulation *s = run->assembly.part[part];
     const brc_domain *d = brc_simulation_domain(s);
-    *out = (breccia_array){.name = derivations[what].name, .unit = derivations[what].unit, .precision = sizeof(double), .n_rows = d->n_elements, .width = derivations[what].width};
+    *out = (breccia_array){.name = derivations[what].name,
+                           .unit = derivations[what].unit,
+                           .precision = sizeof(double),
+                           .n_rows = d->n_elements,
+                           .width = derivations[what].width};
     if (what == REFERENCE) {
         out->data = d->position;
         out->is_live = true;
@@ -81,7 +97,8 @@ static brc_status derive(breccia_run *run, int part, derived what, breccia_array
     default: break;
     }
     BRC_TRY(brc_simulation_displacement(s, to));
-    for (int64_t k = 0; k < 3 * d->n_elements; ++k) to[k] += d->position[k];
+    for (int64_t k = 0; k < 3 * d->n_elements; ++k)
+        to[k] += d->position[k];
     return BRC_OK;
 }
 
@@ -89,14 +106,17 @@ static brc_status find(breccia_run *run, const char *name, int part, breccia_arr
 {
     brc_live_array live[BRC_LIVE_ARRAYS_MOST];
     if (part < 0 || part >= run->assembly.n)
-        return run->assembly.n == 0 ? BRC_FAIL(run->context, BRC_BAD_INPUT, "the state is not there: arrays are inside callbacks and between steps")
-                                    : BRC_FAIL(run->context, BRC_BAD_INPUT, "part %d of %d; count from 0", part, (int)run->assembly.n);
+        return run->assembly.n == 0
+                   ? BRC_FAIL(run->context, BRC_BAD_INPUT,
+                              "the state is not there: arrays are inside callbacks and between steps")
+                   : BRC_FAIL(run->context, BRC_BAD_INPUT, "part %d of %d; count from 0", part, (int)run->assembly.n);
     const int n = brc_simulation_live_arrays(run->assembly.part[part], live);
     for (int k = 0; k < n; ++k)
         if (strcmp(live[k].name, name) == 0) return show_live(run, part, &live[k], out);
     for (int k = 0; k < N_DERIVED; ++k)
         if (strcmp(derivations[k].name, name) == 0) return derive(run, part, (derived)k, out);
-    return BRC_FAIL(run->context, BRC_BAD_INPUT, "there is no array '%s' in this run; breccia_run_array_names lists those that are", name);
+    return BRC_FAIL(run->context, BRC_BAD_INPUT,
+                    "there is no array '%s' in this run; breccia_run_array_names lists those that are", name);
 }
 
 breccia_status breccia_run_array(breccia_run *run, const char *name, int part, breccia_array *out)
@@ -128,10 +148,15 @@ breccia_status breccia_run_bonds(breccia_run *run, int64_t *n_bonds, int64_t *n_
 
 static const brc_sensor *sensor_of(const breccia_run *run, int sensor)
 {
-    return run && run->assembly.n > 0 && sensor >= 0 && sensor < run->assembly.scene->n_sensors ? &run->assembly.scene->sensors[sensor] : NULL;
+    return run && run->assembly.n > 0 && sensor >= 0 && sensor < run->assembly.scene->n_sensors
+               ? &run->assembly.scene->sensors[sensor]
+               : NULL;
 }
 
-int breccia_run_sensor_count(const breccia_run *run) { return run && run->assembly.n > 0 ? run->assembly.scene->n_sensors : 0; }
+int breccia_run_sensor_count(const breccia_run *run)
+{
+    return run && run->assembly.n > 0 ? run->assembly.scene->n_sensors : 0;
+}
 
 const char *breccia_run_sensor_name(const breccia_run *run, int sensor)
 {

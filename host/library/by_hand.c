@@ -1,5 +1,5 @@
-/* Stepping by hand: the run of the program in a thread that waits where its caller wants it to. Only one of the two ever works on the simulation: the caller
- * while the run stands, the run while the caller waits for it. */
+/* Stepping by hand: the run of the program in a thread that waits where its caller wants it to. Only one of the two
+ * ever works on the simulation: the caller while the run stands, the run while the caller waits for it. */
 #include "library_internal.h"
 #include "../base/log.h"
 #include <math.h>
@@ -16,13 +16,15 @@ static brc_status stand(breccia_run *run)
     pthread_mutex_lock(&h->mutex);
     h->standing = true;
     pthread_cond_broadcast(&h->changed);
-    while (h->left == 0 && !h->leave) pthread_cond_wait(&h->changed, &h->mutex);
+    while (h->left == 0 && !h->leave)
+        pthread_cond_wait(&h->changed, &h->mutex);
     h->standing = false;
     const bool leave = h->leave;
     pthread_mutex_unlock(&h->mutex);
     const breccia_moment now = brc_library_moment(run);
     if (!leave || (now.stage + 1 == now.n_stages && now.step >= now.planned)) return BRC_OK; /* nothing is left to do */
-    return BRC_FAIL(run->context, BRC_INTERRUPTED, "the run was ended at step %lld of stage '%s'", (long long)now.step, now.stage_name);
+    return BRC_FAIL(run->context, BRC_INTERRUPTED, "the run was ended at step %lld of stage '%s'", (long long)now.step,
+                    now.stage_name);
 }
 
 /* So many of the steps that were granted are done. */
@@ -71,7 +73,8 @@ void brc_hand_finished(breccia_run *run)
     pthread_mutex_lock(&h->mutex);
     h->all_done = true;
     pthread_cond_broadcast(&h->changed);
-    while (!h->leave) pthread_cond_wait(&h->changed, &h->mutex);
+    while (!h->leave)
+        pthread_cond_wait(&h->changed, &h->mutex);
     pthread_mutex_unlock(&h->mutex);
 }
 
@@ -105,7 +108,8 @@ static bool begin(breccia_run *run)
     return there;
 }
 
-/* With the mutex held, which is let go while the caller is told. What is read of a run that goes on may be a step old. */
+/* With the mutex held, which is let go while the caller is told. What is read of a run that goes on may be a step
+ * old. */
 static void tell(breccia_run *run)
 {
     breccia_moment moment;
@@ -143,7 +147,10 @@ static breccia_status join(breccia_run *run)
     return brc_public_status(run->hand.status);
 }
 
-static breccia_status refuse(breccia_run *run, const char *what) { return brc_public_status(BRC_FAIL(run->context, BRC_BAD_INPUT, "%s", what)); }
+static breccia_status refuse(breccia_run *run, const char *what)
+{
+    return brc_public_status(BRC_FAIL(run->context, BRC_BAD_INPUT, "%s", what));
+}
 
 breccia_status breccia_run_step(breccia_run *run, int64_t n, int64_t *done)
 {
@@ -156,7 +163,8 @@ breccia_status breccia_run_step(breccia_run *run, int64_t n, int64_t *done)
     if (n < 0) return refuse(run, "the number of steps is below 0");
     if (run->scene->status != BRC_OK) return refuse(run, "the scene has errors; see breccia_scene_problems");
     if (h->all_done || (h->begun && n == 0)) return BRECCIA_OK;
-    if (h->begun && pthread_equal(h->thread, pthread_self())) return refuse(run, "an observer cannot step the run that it looks at");
+    if (h->begun && pthread_equal(h->thread, pthread_self()))
+        return refuse(run, "an observer cannot step the run that it looks at");
     pthread_mutex_lock(&h->mutex);
     h->left = n;
     h->made = 0;
@@ -178,7 +186,8 @@ breccia_status breccia_run_end(breccia_run *run)
     if (!run) return BRECCIA_NO_MEMORY;
     brc_by_hand *h = &run->hand;
     if (run->ended || !h->begun) return refuse(run, "only a run that is stepped by hand can be ended");
-    if (pthread_equal(h->thread, pthread_self())) return refuse(run, "an observer ends the run that it looks at by its answer");
+    if (pthread_equal(h->thread, pthread_self()))
+        return refuse(run, "an observer ends the run that it looks at by its answer");
     pthread_mutex_lock(&h->mutex);
     h->leave = true;
     pthread_cond_broadcast(&h->changed);

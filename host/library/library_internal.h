@@ -21,9 +21,9 @@ struct breccia_scene {
     char *name, *text; /* owned; text NULL: the file could not be read */
     size_t bytes;
     int n_set;
-    char **set;          /* [n_set] owned */
-    char *yaml;          /* owned; NULL: errors */
-    char *said;          /* sentences that the problems point into; owned */
+    char **set; /* [n_set] owned */
+    char *yaml; /* owned; NULL: errors */
+    char *said; /* sentences that the problems point into; owned */
     int n_problems;
     breccia_problem *problems; /* [n_problems] owned */
 };
@@ -34,18 +34,18 @@ enum { BRC_LIBRARY_OBSERVERS = 32, BRC_LIBRARY_COPIES = 24 };
 
 /* Stepping by hand (by_hand.c). All but the thread is guarded by the mutex. */
 typedef struct brc_by_hand {
-    bool begun;            /* the thread is there */
+    bool begun; /* the thread is there */
     pthread_t thread;
     pthread_mutex_t mutex;
     pthread_cond_t changed;
-    bool standing;         /* the run waits */
-    bool over;             /* the run has returned */
-    bool all_done;         /* it waits behind its last stage */
-    bool leave;            /* it shall end where it is */
-    int64_t left;          /* steps it may still make */
-    int64_t from;          /* step of the stage from which `left` counts */
-    int64_t made;          /* steps of the present call */
-    brc_status status;     /* once it is over */
+    bool standing;     /* the run waits */
+    bool over;         /* the run has returned */
+    bool all_done;     /* it waits behind its last stage */
+    bool leave;        /* it shall end where it is */
+    int64_t left;      /* steps it may still make */
+    int64_t from;      /* step of the stage from which `left` counts */
+    int64_t made;      /* steps of the present call */
+    brc_status status; /* once it is over */
 } brc_by_hand;
 
 /* What was worked out or read back for breccia_run_array. */
@@ -65,7 +65,7 @@ struct breccia_run {
 
     int n_observers;
     breccia_observer observers[BRC_LIBRARY_OBSERVERS];
-    int32_t told_stage;  /* moment at which they were last told */
+    int32_t told_stage; /* moment at which they were last told */
     int64_t told_step;
     breccia_answer (*told)(void *self, const breccia_moment *moment);
     void *told_self;
@@ -75,11 +75,11 @@ struct breccia_run {
 
     bool begun, ended;
     volatile bool asked_to_stop;
-    double begin, stage_begin;  /* brc_clock_s */
-    int64_t stage_first;        /* step at which the stage was begun, or taken up */
-    brc_patience patience;      /* hears of iterations */
-    brc_assembly assembly;      /* of its own, for reading; n = 0: the state is not there */
-    brc_simulation *running;    /* the first part; NULL: the state is not there */
+    double begin, stage_begin;     /* brc_clock_s */
+    int64_t stage_first;           /* step at which the stage was begun, or taken up */
+    brc_patience patience;         /* hears of iterations */
+    brc_assembly assembly;         /* of its own, for reading; n = 0: the state is not there */
+    brc_simulation *running;       /* the first part; NULL: the state is not there */
     brc_assembly_sensors *sensors; /* made when they are first asked for */
     int n_copies;
     brc_copy copies[BRC_LIBRARY_COPIES];

@@ -21,15 +21,24 @@ static void pass_line(void *self, brc_log_level level, const char *line)
     if (run->line) run->line(run->line_self, (int)level, line);
 }
 
-static char *copy_of(const char *text) { return text ? strdup(text) : NULL; }
+static char *copy_of(const char *text)
+{
+    return text ? strdup(text) : NULL;
+}
 
 breccia_run *breccia_run_create(const breccia_scene *scene, const breccia_options *options)
 {
     const breccia_options none = {0}, *o = options ? options : &none;
     breccia_run *run = scene ? calloc(1, sizeof *run) : NULL;
     if (!run) return NULL;
-    *run = (breccia_run){.context = brc_context_create(), .scene = scene, .device = copy_of(o->device), .folder = copy_of(o->folder), .threads = o->threads,
-                         .exact = o->exact, .resume = o->resume, .told_stage = -1};
+    *run = (breccia_run){.context = brc_context_create(),
+                         .scene = scene,
+                         .device = copy_of(o->device),
+                         .folder = copy_of(o->folder),
+                         .threads = o->threads,
+                         .exact = o->exact,
+                         .resume = o->resume,
+                         .told_stage = -1};
     snprintf(run->precision, sizeof run->precision, "%s", o->precision ? o->precision : "double");
     if (run->context && (run->device || !o->device) && (run->folder || !o->folder)) {
         brc_log_set_level(run->context, BRC_LOG_WARNING);
@@ -62,13 +71,16 @@ breccia_status breccia_run_observe(breccia_run *run, const breccia_observer *obs
 {
     if (!run) return BRECCIA_NO_MEMORY;
     if (run->begun) return refuse(run, "the run has begun; observers come before");
-    if (run->n_observers == BRC_LIBRARY_OBSERVERS) return refuse(run, "there are 32 observers already; let one of them do the work of several");
-    if (!observer->look || observer->every_steps < 0 || !(observer->every_seconds >= 0)) return refuse(run, "an observer needs `look`, and steps and seconds that are not below 0");
+    if (run->n_observers == BRC_LIBRARY_OBSERVERS)
+        return refuse(run, "there are 32 observers already; let one of them do the work of several");
+    if (!observer->look || observer->every_steps < 0 || !(observer->every_seconds >= 0))
+        return refuse(run, "an observer needs `look`, and steps and seconds that are not below 0");
     run->observers[run->n_observers++] = *observer;
     return BRECCIA_OK;
 }
 
-breccia_status breccia_run_progress(breccia_run *run, double every, breccia_answer (*told)(void *self, const breccia_moment *moment), void *self)
+breccia_status breccia_run_progress(breccia_run *run, double every,
+                                    breccia_answer (*told)(void *self, const breccia_moment *moment), void *self)
 {
     if (!run) return BRECCIA_NO_MEMORY;
     if (run->begun) return refuse(run, "the run has begun; ask for its progress before");
@@ -78,10 +90,12 @@ breccia_status breccia_run_progress(breccia_run *run, double every, breccia_answ
     return BRECCIA_OK;
 }
 
-breccia_status breccia_run_log(breccia_run *run, int level, void (*line)(void *self, int level, const char *text), void *self)
+breccia_status breccia_run_log(breccia_run *run, int level, void (*line)(void *self, int level, const char *text),
+                               void *self)
 {
     if (!run) return BRECCIA_NO_MEMORY;
-    if (level < BRC_LOG_ERROR || level > BRC_LOG_DEBUG) return refuse(run, "levels of the log are 0 (errors) to 3 (all)");
+    if (level < BRC_LOG_ERROR || level > BRC_LOG_DEBUG)
+        return refuse(run, "levels of the log are 0 (errors) to 3 (all)");
     run->line = line;
     run->line_self = self;
     brc_log_set_level(run->context, (brc_log_level)level);
@@ -93,7 +107,10 @@ void breccia_run_interrupt(breccia_run *run)
     if (run) run->asked_to_stop = true; /* heard at every pause and iteration */
 }
 
-const char *breccia_run_message(const breccia_run *run) { return run ? brc_context_message(run->context) : "out of memory"; }
+const char *breccia_run_message(const breccia_run *run)
+{
+    return run ? brc_context_message(run->context) : "out of memory";
+}
 
 /* ---- where it stands ---- */
 
@@ -104,10 +121,18 @@ breccia_moment brc_library_moment(const breccia_run *run)
     const int32_t at = brc_simulation_stage(s), stage = at < 0 ? 0 : at;
     const bool dynamic = scene->stages[stage].solver == BRC_SOLVER_DYNAMIC;
     const double dt = dynamic ? brc_simulation_time_step(s).value : 0, now = brc_clock_s();
-    breccia_moment m = {.stage = stage, .n_stages = scene->n_stages, .stage_name = scene->stages[stage].name, .step = brc_simulation_step(s),
-                        .total_steps = brc_simulation_total_steps(s), .time = brc_simulation_time(s), .total_time = brc_simulation_total_time(s), .time_step = dt,
-                        .seconds = now - run->begin, .seconds_left = NAN};
-    m.planned = scene->stages[stage].most_events > 0 ? scene->stages[stage].most_events : brc_simulation_planned_steps(s, stage, dt);
+    breccia_moment m = {.stage = stage,
+                        .n_stages = scene->n_stages,
+                        .stage_name = scene->stages[stage].name,
+                        .step = brc_simulation_step(s),
+                        .total_steps = brc_simulation_total_steps(s),
+                        .time = brc_simulation_time(s),
+                        .total_time = brc_simulation_total_time(s),
+                        .time_step = dt,
+                        .seconds = now - run->begin,
+                        .seconds_left = NAN};
+    m.planned = scene->stages[stage].most_events > 0 ? scene->stages[stage].most_events
+                                                     : brc_simulation_planned_steps(s, stage, dt);
     const int64_t made = m.step - run->stage_first;
     if (made > 0) m.seconds_left = (now - run->stage_begin) * (double)(m.planned - m.step) / (double)made;
     return m;
@@ -172,7 +197,10 @@ static void obey(breccia_run *run, brc_simulation *s, breccia_answer answer)
     if (run->asked_to_stop) brc_simulation_interrupt(s);
 }
 
-static bool looks_at(const breccia_observer *o, const brc_simulation *s, int64_t step) { return next_of(o, step_of(s), step - 1) == step; }
+static bool looks_at(const breccia_observer *o, const brc_simulation *s, int64_t step)
+{
+    return next_of(o, step_of(s), step - 1) == step;
+}
 
 /* Those who wanted this step, unless they have looked at it; at_end: those who look at the end of a stage. */
 static void ask_observers(breccia_run *run, brc_simulation *s, bool at_end)
@@ -184,7 +212,8 @@ static void ask_observers(breccia_run *run, brc_simulation *s, bool at_end)
     for (int k = 0; k < run->n_observers; ++k) {
         const breccia_observer *o = &run->observers[k];
         const bool by_step = looks_at(o, s, step);
-        if (at_end ? o->stage_ends && !(told && by_step) : by_step && !told) obey(run, s, o->look(o->self, run, &moment));
+        if (at_end ? o->stage_ends && !(told && by_step) : by_step && !told)
+            obey(run, s, o->look(o->self, run, &moment));
     }
     run->told_stage = stage;
     run->told_step = step;
@@ -222,7 +251,9 @@ static brc_status stage_end(void *self, brc_simulation *s, int32_t stage)
     (void)stage;
     ask_observers(run, s, true);
     brc_hand_stage_end(run, brc_simulation_step(s));
-    if (run->asked_to_stop) return BRC_FAIL(run->context, BRC_INTERRUPTED, "the run was asked to stop as stage '%s' ended", brc_simulation_scene(s)->stages[stage].name);
+    if (run->asked_to_stop)
+        return BRC_FAIL(run->context, BRC_INTERRUPTED, "the run was asked to stop as stage '%s' ended",
+                        brc_simulation_scene(s)->stages[stage].name);
     return BRC_OK;
 }
 
@@ -230,7 +261,8 @@ static brc_status stage_end(void *self, brc_simulation *s, int32_t stage)
 static bool hear_iteration(void *self)
 {
     breccia_run *run = self;
-    if ((run->hand.begun ? run->asked_to_stop : brc_library_tell(run)) && run->running) brc_simulation_interrupt(run->running);
+    if ((run->hand.begun ? run->asked_to_stop : brc_library_tell(run)) && run->running)
+        brc_simulation_interrupt(run->running);
     return false;
 }
 
@@ -240,7 +272,8 @@ static brc_status assembled(void *self, const brc_assembly *assembly)
     breccia_run *run = self;
     run->assembly = *assembly;
     run->patience = (brc_patience){.self = run, .over = hear_iteration, .batch = BATCH};
-    for (int32_t k = 0; k < assembly->n; ++k) brc_simulation_set_patience(assembly->part[k], &run->patience);
+    for (int32_t k = 0; k < assembly->n; ++k)
+        brc_simulation_set_patience(assembly->part[k], &run->patience);
     return BRC_OK;
 }
 
@@ -266,7 +299,8 @@ static void released(void *self)
 {
     breccia_run *run = self;
     brc_assembly_sensors_free(&run->sensors);
-    for (int k = 0; k < run->n_copies; ++k) brc_memory_free(run->copies[k].data);
+    for (int k = 0; k < run->n_copies; ++k)
+        brc_memory_free(run->copies[k].data);
     run->n_copies = 0;
     pthread_mutex_lock(&run->hand.mutex); /* the caller may be looking where it stands */
     run->running = NULL;
@@ -277,11 +311,28 @@ static void released(void *self)
 brc_status brc_library_run(breccia_run *run)
 {
     const breccia_scene *scene = run->scene;
-    const brc_observer own = {.self = run, .stage_begin = stage_begin, .stage_end = stage_end, .pause = pause, .next_look = next_look, .look = look};
-    brc_run_request request = {.path = scene->name, .text = scene->text, .text_bytes = scene->bytes, .n_overrides = scene->n_set,
-                               .overrides = (const char *const *)scene->set, .folder = run->folder, .device = run->device, .n_threads = run->threads,
-                               .exact = run->exact, .resume = run->resume, .observer = &own, .assembled = assembled, .created = created, .finished = finished,
-                               .released = released, .self = run};
+    const brc_observer own = {.self = run,
+                              .stage_begin = stage_begin,
+                              .stage_end = stage_end,
+                              .pause = pause,
+                              .next_look = next_look,
+                              .look = look};
+    brc_run_request request = {.path = scene->name,
+                               .text = scene->text,
+                               .text_bytes = scene->bytes,
+                               .n_overrides = scene->n_set,
+                               .overrides = (const char *const *)scene->set,
+                               .folder = run->folder,
+                               .device = run->device,
+                               .n_threads = run->threads,
+                               .exact = run->exact,
+                               .resume = run->resume,
+                               .observer = &own,
+                               .assembled = assembled,
+                               .created = created,
+                               .finished = finished,
+                               .released = released,
+                               .self = run};
     run->begin = brc_clock_s();
     BRC_TRY(brc_library_precision(run->context, run->precision, &request.precision));
     return brc_run_scene(run->context, &request, &run->results);
@@ -313,13 +364,22 @@ const char *breccia_run_file(const breccia_run *run, const char *name)
     return NULL;
 }
 
-int breccia_run_measure_count(const breccia_run *run) { return run ? run->results.n_measures : 0; }
+int breccia_run_measure_count(const breccia_run *run)
+{
+    return run ? run->results.n_measures : 0;
+}
 
 breccia_status breccia_run_measure(const breccia_run *run, int k, breccia_measure *out)
 {
     if (!run || k < 0 || k >= run->results.n_measures) return BRECCIA_BAD_INPUT;
     const brc_run_measure *m = &run->results.measures[k];
-    *out = (breccia_measure){.name = m->name, .unit = m->unit, .why_not = m->why_not, .value = m->value, .has_target = m->has_target, .target = m->target, .error = m->error};
+    *out = (breccia_measure){.name = m->name,
+                             .unit = m->unit,
+                             .why_not = m->why_not,
+                             .value = m->value,
+                             .has_target = m->has_target,
+                             .target = m->target,
+                             .error = m->error};
     return BRECCIA_OK;
 }
 
@@ -327,8 +387,16 @@ breccia_status breccia_run_report(const breccia_run *run, breccia_report *out)
 {
     if (!run || !run->ended) return BRECCIA_BAD_INPUT;
     const brc_run_results *r = &run->results;
-    *out = (breccia_report){.n_elements = r->n_elements, .n_bonds = r->n_bonds, .steps = r->steps, .device_bytes = r->device_bytes, .build_seconds = r->build_s,
-                            .setup_seconds = r->setup_s, .steps_seconds = r->steps_s, .output_seconds = r->output_s, .total_seconds = r->total_s,
-                            .device = r->device, .device_name = r->device_name};
+    *out = (breccia_report){.n_elements = r->n_elements,
+                            .n_bonds = r->n_bonds,
+                            .steps = r->steps,
+                            .device_bytes = r->device_bytes,
+                            .build_seconds = r->build_s,
+                            .setup_seconds = r->setup_s,
+                            .steps_seconds = r->steps_s,
+                            .output_seconds = r->output_s,
+                            .total_seconds = r->total_s,
+                            .device = r->device,
+                            .device_name = r->device_name};
     return BRECCIA_OK;
 }

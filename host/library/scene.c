@@ -1,4 +1,5 @@
-/* Scenes: read once to find their errors; every run reads the kept text anew, since what is derived from a scene goes into it. */
+/* Scenes: read once to find their errors; every run reads the kept text anew, since what is derived from a scene goes
+ * into it. */
 #include "library_internal.h"
 #include "../base/file.h"
 #include "../base/log.h"
@@ -28,9 +29,18 @@ breccia_status brc_public_status(brc_status status)
     return BRECCIA_INTERNAL;
 }
 
-const char *breccia_version(void) { return brc_version(); }
-const char *breccia_commit(void) { return brc_version_commit(); }
-int breccia_interface(void) { return BRECCIA_INTERFACE; }
+const char *breccia_version(void)
+{
+    return brc_version();
+}
+const char *breccia_commit(void)
+{
+    return brc_version_commit();
+}
+int breccia_interface(void)
+{
+    return BRECCIA_INTERFACE;
+}
 
 const char *breccia_status_text(breccia_status status)
 {
@@ -76,28 +86,32 @@ static size_t begins(const char *text, const char *words)
     return strncmp(text, words, n) == 0 ? n : 0;
 }
 
-/* "NAME:LINE:COLUMN: message" or "NAME: in the override 'SET': message", as host/scene/problem.c writes; else all is message. */
+/* "NAME:LINE:COLUMN: message" or "NAME: in the override 'SET': message", as host/scene/problem.c writes; else all is
+ * message. */
 static void read_problem(const breccia_scene *scene, char *sentence, breccia_problem *out)
 {
     static const char in_override[] = " in the override '";
     const size_t named = begins(sentence, scene->name);
     char *const place = named && sentence[named] == ':' ? sentence + named + 1 : NULL, *rest = NULL, *end = NULL;
     *out = (breccia_problem){.file = scene->name, .set = "", .message = sentence, .cure = ""};
-    if (place && (rest = take_number(place, ':', &out->line)) && (rest = take_number(rest, ':', &out->column))) out->message = rest + 1;
+    if (place && (rest = take_number(place, ':', &out->line)) && (rest = take_number(rest, ':', &out->column)))
+        out->message = rest + 1;
     else if (place && begins(place, in_override) && (end = strstr(place, "': "))) {
         *end = '\0';
         out->set = place + begins(place, in_override);
         out->message = end + 3;
     }
     out->message += begins(out->message, "error: ");
-    for (const char *at = strstr(out->message, "; "); at; at = strstr(out->cure, "; ")) out->cure = at + 2;
+    for (const char *at = strstr(out->message, "; "); at; at = strstr(out->cure, "; "))
+        out->cure = at + 2;
 }
 
 /* The sentences of `said`, a line each. */
 static brc_status read_problems(breccia_scene *scene, bool are_warnings)
 {
     int n = 0;
-    for (const char *at = scene->said; at && *at; ++at) n += *at == '\n';
+    for (const char *at = scene->said; at && *at; ++at)
+        n += *at == '\n';
     BRC_TRY(BRC_ALLOCATE(scene->context, &scene->problems, n + 1, "problems of a scene"));
     for (char *at = scene->said, *next; at && *at; at = next) {
         next = at + strcspn(at, "\n");
@@ -135,7 +149,8 @@ static brc_status parse(breccia_scene *s)
 {
     brc_scene *scene = NULL;
     brc_log_set_sink(s->context, keep_warning, s);
-    brc_status status = brc_scene_read_text(s->context, s->name, s->text, s->bytes, s->n_set, (const char *const *)s->set, &scene);
+    brc_status status =
+        brc_scene_read_text(s->context, s->name, s->text, s->bytes, s->n_set, (const char *const *)s->set, &scene);
     if (status == BRC_OK) status = brc_scene_to_yaml(s->context, scene, &s->yaml);
     brc_scene_free(&scene);
     return status;
@@ -155,7 +170,8 @@ static breccia_scene *load(const char *name, const char *text, size_t bytes, int
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, copy_text(s->context, name, &s->name));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->set, n_set, "overrides"));
-    for (; s->n_set < n_set; ++s->n_set) BRC_TRY_OR(cleanup, copy_text(s->context, set[s->n_set], &s->set[s->n_set]));
+    for (; s->n_set < n_set; ++s->n_set)
+        BRC_TRY_OR(cleanup, copy_text(s->context, set[s->n_set], &s->set[s->n_set]));
     if (text) {
         BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->text, (int64_t)bytes + 1, "text of a scene"));
         memcpy(s->text, text, bytes);
@@ -177,7 +193,10 @@ cleanup:
     return NULL;
 }
 
-breccia_scene *breccia_scene_load(const char *path, int n_set, const char *const *set) { return load(path, NULL, 0, n_set, set); }
+breccia_scene *breccia_scene_load(const char *path, int n_set, const char *const *set)
+{
+    return load(path, NULL, 0, n_set, set);
+}
 
 breccia_scene *breccia_scene_text(const char *name, const char *text, size_t bytes, int n_set, const char *const *set)
 {
@@ -187,7 +206,8 @@ breccia_scene *breccia_scene_text(const char *name, const char *text, size_t byt
 void breccia_scene_free(breccia_scene *s)
 {
     if (!s) return;
-    for (int k = 0; k < s->n_set; ++k) brc_memory_free(s->set[k]);
+    for (int k = 0; k < s->n_set; ++k)
+        brc_memory_free(s->set[k]);
     brc_memory_free(s->set);
     brc_memory_free(s->name);
     brc_memory_free(s->text);
@@ -198,7 +218,10 @@ void breccia_scene_free(breccia_scene *s)
     free(s);
 }
 
-breccia_status breccia_scene_status(const breccia_scene *scene) { return scene ? brc_public_status(scene->status) : BRECCIA_NO_MEMORY; }
+breccia_status breccia_scene_status(const breccia_scene *scene)
+{
+    return scene ? brc_public_status(scene->status) : BRECCIA_NO_MEMORY;
+}
 
 const breccia_problem *breccia_scene_problems(const breccia_scene *scene, int *n)
 {
@@ -206,8 +229,14 @@ const breccia_problem *breccia_scene_problems(const breccia_scene *scene, int *n
     return scene ? scene->problems : NULL;
 }
 
-const char *breccia_scene_yaml(const breccia_scene *scene) { return scene ? scene->yaml : NULL; }
-const char *breccia_scene_message(const breccia_scene *scene) { return scene ? brc_context_message(scene->context) : "out of memory"; }
+const char *breccia_scene_yaml(const breccia_scene *scene)
+{
+    return scene ? scene->yaml : NULL;
+}
+const char *breccia_scene_message(const breccia_scene *scene)
+{
+    return scene ? brc_context_message(scene->context) : "out of memory";
+}
 
 /* ---- checking ---- */
 
@@ -223,13 +252,22 @@ brc_status brc_library_precision(brc_context *context, const char *name, brc_pre
 
 static void take_price(const brc_check *check, breccia_price *out)
 {
-    *out = (breccia_price){.n_elements = brc_setup_n_elements(&check->setup), .n_bonds = brc_setup_n_bonds(&check->setup), .n_models = check->setup.n,
-                           .build_seconds = check->build_s, .seconds = NAN, .least_seconds = NAN, .most_seconds = NAN, .most_device_bytes = NAN,
-                           .host_bytes = NAN, .disk_bytes = NAN};
-    for (int32_t k = 0; k < check->setup.n; ++k) out->device_bytes += brc_device_bytes(check->setup.device[k]);
+    *out = (breccia_price){.n_elements = brc_setup_n_elements(&check->setup),
+                           .n_bonds = brc_setup_n_bonds(&check->setup),
+                           .n_models = check->setup.n,
+                           .build_seconds = check->build_s,
+                           .seconds = NAN,
+                           .least_seconds = NAN,
+                           .most_seconds = NAN,
+                           .most_device_bytes = NAN,
+                           .host_bytes = NAN,
+                           .disk_bytes = NAN};
+    for (int32_t k = 0; k < check->setup.n; ++k)
+        out->device_bytes += brc_device_bytes(check->setup.device[k]);
 }
 
-static brc_status price(breccia_scene *s, brc_scene *scene, const brc_device_request *request, brc_check *check, breccia_price *out)
+static brc_status price(breccia_scene *s, brc_scene *scene, const brc_device_request *request, brc_check *check,
+                        breccia_price *out)
 {
     brc_status status = brc_check_try(s->context, request, false, check);
     if (status == BRC_OK) status = brc_check_price(s->context, scene, request, check);
@@ -255,7 +293,8 @@ breccia_status breccia_scene_check(breccia_scene *s, const breccia_options *opti
     brc_device_request request = {.selector = o->device ? o->device : "auto", .n_threads = o->threads};
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, brc_library_precision(s->context, o->precision, &request.precision));
-    BRC_TRY_OR(cleanup, brc_scene_read_text(s->context, s->name, s->text, s->bytes, s->n_set, (const char *const *)s->set, &scene));
+    BRC_TRY_OR(cleanup, brc_scene_read_text(s->context, s->name, s->text, s->bytes, s->n_set,
+                                            (const char *const *)s->set, &scene));
     BRC_TRY_OR(cleanup, brc_check_build(s->context, scene, &request, brc_pace_clock_s(&request), &check));
     take_price(&check, out);
     if (trial) status = price(s, scene, &request, &check, out);

@@ -58,7 +58,8 @@ brc_status brc_append_reopen(brc_context *context, const char *path, int64_t byt
     if (a->file < 0 || fstat(a->file, &information) != 0)
         status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: cannot be opened to go on: %s", path, strerror(errno));
     else if (bytes < 0 || (int64_t)information.st_size < bytes)
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: has %lld bytes, the run goes on behind %lld: it was changed", path, (long long)information.st_size, (long long)bytes);
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: has %lld bytes, the run goes on behind %lld: it was changed",
+                          path, (long long)information.st_size, (long long)bytes);
     else if (ftruncate(a->file, bytes) != 0 || lseek(a->file, bytes, SEEK_SET) != bytes)
         status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write: %s", path, strerror(errno));
     if (status != BRC_OK) goto cleanup;
@@ -69,7 +70,10 @@ cleanup:
     return status;
 }
 
-int64_t brc_append_bytes(const brc_append *a) { return a->bytes; }
+int64_t brc_append_bytes(const brc_append *a)
+{
+    return a->bytes;
+}
 
 brc_status brc_append_add(brc_context *context, brc_append *a, const brc_text *text)
 {

@@ -8,10 +8,12 @@
 #include <string.h>
 #include <unistd.h>
 
-/* "NNNNNN.vtkhdf", "NNNNNN.cracks.vtu", "NNNNNN.strikers.vtu", "NNNNNN.png", or what a killed run left of one; numbers from `first` on. */
+/* "NNNNNN.vtkhdf", "NNNNNN.cracks.vtu", "NNNNNN.strikers.vtu", "NNNNNN.png", or what a killed run left of one; numbers
+ * from `first` on. */
 static bool is_frame(const char *name, int64_t first)
 {
-    static const char *const suffix[] = {".vtkhdf", ".vtkhdf.part", ".cracks.vtu", ".cracks.vtu.part", ".strikers.vtu", ".strikers.vtu.part", ".png", ".png.part"};
+    static const char *const suffix[] = {".vtkhdf",       ".vtkhdf.part",       ".cracks.vtu", ".cracks.vtu.part",
+                                         ".strikers.vtu", ".strikers.vtu.part", ".png",        ".png.part"};
     const size_t digits = strspn(name, "0123456789");
     for (size_t k = 0; digits >= 6 && k < sizeof suffix / sizeof suffix[0]; ++k)
         if (strcmp(name + digits, suffix[k]) == 0) return strtoll(name, NULL, 10) >= first;

@@ -40,7 +40,10 @@ static brc_status open_file(brc_context *context, const char *path, bool in_memo
     const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
     H5Pset_obj_track_times(creation, false);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    if (!in_memory) H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110); /* a packed dataset of one block needs no index: 2 kB less; an image says it is open for writing */
+    if (!in_memory)
+        H5Pset_libver_bounds(access, H5F_LIBVER_V110,
+                             H5F_LIBVER_V110); /* a packed dataset of one block needs no index: 2 kB less; an image says
+                                                  it is open for writing */
     if (in_memory) H5Pset_fapl_core(access, (size_t)1 << 20, false);
     out->file = H5Fcreate(in_memory ? path : out->aside, H5F_ACC_TRUNC, creation, access);
     if (out->file < 0) fail(out, "the file");
@@ -125,8 +128,14 @@ static brc_status commit(brc_h5 *h5, bool seal)
     return h5->status;
 }
 
-brc_status brc_h5_commit(brc_h5 *h5) { return commit(h5, false); }
-brc_status brc_h5_commit_sealed(brc_h5 *h5) { return commit(h5, h5->aside != NULL); }
+brc_status brc_h5_commit(brc_h5 *h5)
+{
+    return commit(h5, false);
+}
+brc_status brc_h5_commit_sealed(brc_h5 *h5)
+{
+    return commit(h5, h5->aside != NULL);
+}
 
 void brc_h5_group(brc_h5 *h5, const char *name)
 {
@@ -139,7 +148,8 @@ void brc_h5_group(brc_h5 *h5, const char *name)
 }
 
 /* block: rows and columns of what is packed together; NULL: nothing is. */
-static void create_dataset(brc_h5 *h5, const char *name, hid_t type, hid_t space, const hsize_t *block, const void *data)
+static void create_dataset(brc_h5 *h5, const char *name, hid_t type, hid_t space, const hsize_t *block,
+                           const void *data)
 {
     const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
     if (block) {
@@ -150,7 +160,8 @@ static void create_dataset(brc_h5 *h5, const char *name, hid_t type, hid_t space
     H5Pset_obj_track_times(creation, false);
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
     const hid_t dataset = H5Dcreate2(h5->file, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
-    brc_h5_check(h5, dataset >= 0 && (!data || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0), name);
+    brc_h5_check(h5, dataset >= 0 && (!data || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0),
+                 name);
     if (dataset >= 0) brc_h5_check(h5, H5Dclose(dataset) >= 0, name);
     H5Pclose(creation);
     const brc_meaning *meaning = brc_meaning_of(name);
@@ -169,7 +180,8 @@ void brc_h5_dataset(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int6
 void brc_h5_packed(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int64_t columns)
 {
     if (h5->status != BRC_OK) return;
-    const hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns}, block[2] = {(hsize_t)(rows < BRC_H5_BLOCK ? rows : BRC_H5_BLOCK), (hsize_t)columns};
+    const hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns},
+                  block[2] = {(hsize_t)(rows < BRC_H5_BLOCK ? rows : BRC_H5_BLOCK), (hsize_t)columns};
     const hid_t space = H5Screate_simple(columns > 0 ? 2 : 1, size, NULL);
     create_dataset(h5, name, type, space, rows > 0 ? block : NULL, NULL);
     H5Sclose(space);
@@ -185,9 +197,9 @@ void brc_h5_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_
     const hsize_t start[2] = {(hsize_t)first, 0}, count[2] = {(hsize_t)n, size[1]};
     const hid_t memory = H5Screate_simple(rank, count, NULL);
     brc_h5_check(h5,
-          rank >= 1 && H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) >= 0 &&
-              H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, data) >= 0,
-          name);
+                 rank >= 1 && H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) >= 0 &&
+                     H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, data) >= 0,
+                 name);
     H5Sclose(memory);
     H5Sclose(space);
     brc_h5_check(h5, H5Dclose(dataset) >= 0, name);

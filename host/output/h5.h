@@ -37,7 +37,8 @@ void brc_h5_group(brc_h5 *h5, const char *name);
 /* Dataset of `rows` x `columns` (columns 0: one dimension), contiguous. data: [rows][columns] of `type`; NULL: to be
  * filled by brc_h5_rows. */
 void brc_h5_dataset(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int64_t columns, const void *data);
-/* The same, packed (shuffled and deflated) in blocks of BRC_H5_BLOCK rows: to be filled by brc_h5_pack_rows (h5_pack.h), or by brc_h5_rows in order. */
+/* The same, packed (shuffled and deflated) in blocks of BRC_H5_BLOCK rows: to be filled by brc_h5_pack_rows
+ * (h5_pack.h), or by brc_h5_rows in order. */
 void brc_h5_packed(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int64_t columns);
 #define BRC_H5_BLOCK ((int64_t)1 << 14)
 /* Fill rows first .. first + n - 1 of a dataset. type: of data in memory, converted where the file's differs. */
@@ -46,7 +47,8 @@ void brc_h5_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_
 void brc_h5_text(brc_h5 *h5, const char *name, const char *text);
 /* Attributes of a group or dataset. Strings are of fixed length, ASCII (what VTK's reader asks for). */
 void brc_h5_attribute_text(brc_h5 *h5, const char *object, const char *name, const char *text);
-/* Unit and one line of meaning of a dataset that meaning.h does not know by its path; the others get theirs when made. */
+/* Unit and one line of meaning of a dataset that meaning.h does not know by its path; the others get theirs when
+ * made. */
 void brc_h5_describe(brc_h5 *h5, const char *object, const char *unit, const char *meaning);
 void brc_h5_attribute_integers(brc_h5 *h5, const char *object, const char *name, int64_t n, const int64_t *values);
 void brc_h5_attribute_number(brc_h5 *h5, const char *object, const char *name, double value);

@@ -6,9 +6,9 @@
 #include <zlib.h>
 
 enum { AT_ONCE = 64, SAMPLES = 256 }; /* blocks packed before they are written; numbers of a block that are looked at */
-/* Blocks of 8 bytes a number are packed where this part of their bytes or more equals the byte of the number before: doubles that differ have a sixth (signs
- * and exponents), which is not worth the time, counts and zeros most. Others always are: floats shrink by a twelfth to a seventh. A last block that is not
- * full is packed for what fills it up. */
+/* Blocks of 8 bytes a number are packed where this part of their bytes or more equals the byte of the number before:
+ * doubles that differ have a sixth (signs and exponents), which is not worth the time, counts and zeros most. Others
+ * always are: floats shrink by a twelfth to a seventh. A last block that is not full is packed for what fills it up. */
 #define WORTH_PACKING 0.2
 
 /* What is packed: rows of `width` bytes in all, numbers of `bytes` bytes. */
@@ -20,28 +20,33 @@ typedef struct packing {
 /* Block k with bytes of equal place together; behind the last row zeros. */
 static void shuffle(const packing *p, int64_t k, unsigned char *out)
 {
-    const int64_t rows = p->rows - k * p->block < p->block ? p->rows - k * p->block : p->block, numbers = p->block * p->width / p->bytes;
+    const int64_t rows = p->rows - k * p->block < p->block ? p->rows - k * p->block : p->block,
+                  numbers = p->block * p->width / p->bytes;
     const unsigned char *in = (const unsigned char *)p->data + k * p->block * p->width;
     memset(out, 0, (size_t)(p->block * p->width));
     for (int64_t m = 0; m < rows * p->width / p->bytes; ++m)
-        for (int64_t b = 0; b < p->bytes; ++b) out[b * numbers + m] = in[m * p->bytes + b];
+        for (int64_t b = 0; b < p->bytes; ++b)
+            out[b * numbers + m] = in[m * p->bytes + b];
 }
 
 static bool is_worth_packing(const packing *p, int64_t k)
 {
-    const int64_t rows = p->rows - k * p->block < p->block ? p->rows - k * p->block : p->block, n = rows * p->width / p->bytes;
+    const int64_t rows = p->rows - k * p->block < p->block ? p->rows - k * p->block : p->block,
+                  n = rows * p->width / p->bytes;
     const char *in = p->data + k * p->block * p->width;
     int64_t equal = 0, seen = 0;
     if (rows < p->block || p->bytes < 8) return true;
     for (int64_t m = 1; m < n; m += 1 + n / SAMPLES, ++seen)
-        for (int64_t b = 0; b < p->bytes; ++b) equal += in[m * p->bytes + b] == in[(m - 1) * p->bytes + b];
+        for (int64_t b = 0; b < p->bytes; ++b)
+            equal += in[m * p->bytes + b] == in[(m - 1) * p->bytes + b];
     return (double)equal >= WORTH_PACKING * (double)(seen * p->bytes);
 }
 
 /* Bytes of block k packed into out, which has room for `room`; 0: memory is exhausted. */
 static int64_t pack(const packing *p, int64_t k, unsigned char *scratch, unsigned char *out, int64_t room)
 {
-    z_stream z = {.next_in = scratch, .avail_in = (uInt)(p->block * p->width), .next_out = out, .avail_out = (uInt)room};
+    z_stream z = {
+        .next_in = scratch, .avail_in = (uInt)(p->block * p->width), .next_out = out, .avail_out = (uInt)room};
     shuffle(p, k, scratch);
     if (deflateInit2(&z, 1, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, Z_RLE) != Z_OK) return 0;
     const bool done = deflate(&z, Z_FINISH) == Z_STREAM_END;
@@ -52,7 +57,8 @@ static int64_t pack(const packing *p, int64_t k, unsigned char *scratch, unsigne
 
 static void write_blocks(brc_h5 *h5, const char *name, int64_t first, const packing *p, int n_threads)
 {
-    const int64_t n = (p->rows + p->block - 1) / p->block, raw = p->block * p->width, room = (int64_t)compressBound((uLong)raw) + 64;
+    const int64_t n = (p->rows + p->block - 1) / p->block, raw = p->block * p->width,
+                  room = (int64_t)compressBound((uLong)raw) + 64;
     const int64_t at_once = n < AT_ONCE ? n : AT_ONCE;
     const int threads = n_threads > 0 ? n_threads : omp_get_max_threads();
     unsigned char *scratch = NULL, *out = NULL;
@@ -67,12 +73,16 @@ static void write_blocks(brc_h5 *h5, const char *name, int64_t first, const pack
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
         for (int64_t k = 0; k < some; ++k) {
             skipped[k] = is_worth_packing(p, begin + k) ? 0 : 3;
-            bytes[k] = skipped[k] ? raw : pack(p, begin + k, scratch + raw * omp_get_thread_num(), out + room * k, room);
+            bytes[k] =
+                skipped[k] ? raw : pack(p, begin + k, scratch + raw * omp_get_thread_num(), out + room * k, room);
         }
         for (int64_t k = 0; k < some; ++k) {
             const hsize_t at[2] = {(hsize_t)(first + (begin + k) * p->block), 0};
             const void *block = skipped[k] ? (const void *)(p->data + (begin + k) * raw) : out + room * k;
-            brc_h5_check(h5, dataset >= 0 && bytes[k] > 0 && H5Dwrite_chunk(dataset, H5P_DEFAULT, skipped[k], at, (size_t)bytes[k], block) >= 0, name);
+            brc_h5_check(h5,
+                         dataset >= 0 && bytes[k] > 0 &&
+                             H5Dwrite_chunk(dataset, H5P_DEFAULT, skipped[k], at, (size_t)bytes[k], block) >= 0,
+                         name);
         }
     }
 cleanup:
@@ -82,7 +92,8 @@ cleanup:
     brc_memory_free(out);
 }
 
-void brc_h5_pack_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_t n, const void *data, int n_threads)
+void brc_h5_pack_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_t n, const void *data,
+                      int n_threads)
 {
     if (h5->status != BRC_OK || n == 0) return;
     const hid_t dataset = H5Dopen2(h5->file, name, H5P_DEFAULT), space = H5Dget_space(dataset);
@@ -90,8 +101,11 @@ void brc_h5_pack_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, i
     H5Sget_simple_extent_dims(space, size, NULL);
     H5Sclose(space);
     H5Dclose(dataset);
-    const int64_t rows = (int64_t)size[0], block = rows < BRC_H5_BLOCK ? rows : BRC_H5_BLOCK, bytes = (int64_t)H5Tget_size(type);
+    const int64_t rows = (int64_t)size[0], block = rows < BRC_H5_BLOCK ? rows : BRC_H5_BLOCK,
+                  bytes = (int64_t)H5Tget_size(type);
     const packing p = {.data = data, .rows = n, .block = block, .width = bytes * (int64_t)size[1], .bytes = bytes};
-    if (first % block == 0 && (n % block == 0 || first + n == rows)) write_blocks(h5, name, first, &p, n_threads);
-    else brc_h5_rows(h5, name, type, first, n, data);
+    if (first % block == 0 && (n % block == 0 || first + n == rows))
+        write_blocks(h5, name, first, &p, n_threads);
+    else
+        brc_h5_rows(h5, name, type, first, n, data);
 }

@@ -68,7 +68,8 @@ brc_status brc_h5_read_rows(const brc_h5_read *h5, const char *name, hid_t type,
 
 brc_status brc_h5_read_string(const brc_h5_read *h5, const char *name, char **out)
 {
-    const hid_t dataset = H5Dopen2(h5->file, name, H5P_DEFAULT), type = dataset >= 0 ? H5Dget_type(dataset) : H5I_INVALID_HID;
+    const hid_t dataset = H5Dopen2(h5->file, name, H5P_DEFAULT),
+                type = dataset >= 0 ? H5Dget_type(dataset) : H5I_INVALID_HID;
     const bool is_text = type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
     brc_status status = BRC_OK;
     *out = NULL;
@@ -76,7 +77,8 @@ brc_status brc_h5_read_string(const brc_h5_read *h5, const char *name, char **ou
     if (status == BRC_OK && (!is_text || H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, *out) < 0)) {
         brc_memory_free(*out);
         *out = NULL;
-        status = BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %s is %s; the file is damaged or of another kind", h5->path, name, dataset < 0 ? "missing" : "no text");
+        status = BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %s is %s; the file is damaged or of another kind", h5->path,
+                          name, dataset < 0 ? "missing" : "no text");
     }
     if (type >= 0) H5Tclose(type);
     if (dataset >= 0) H5Dclose(dataset);

@@ -1,5 +1,6 @@
-/* The recorder. While the simulation runs it samples the sensors, adds the samples to histories.csv and writes frames, each
- * with the index and the histories so far, so that a killed run keeps all but its last interval. Nothing here draws: see picture.c, curve.c. */
+/* The recorder. While the simulation runs it samples the sensors, adds the samples to histories.csv and writes frames,
+ * each with the index and the histories so far, so that a killed run keeps all but its last interval. Nothing here
+ * draws: see picture.c, curve.c. */
 #include "recorder.h"
 #include "sensors/assembly_sensors.h"
 #include "cracks/crack_records.h"
@@ -21,10 +22,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SUMMARY, RESULT, HISTORIES, CRACKS, FRAGMENTS, PICTURE, CURVE, SERIES, CRACK_SERIES, STRIKER_SERIES, FRAMES, PICTURES, N_FILES };
+enum {
+    SUMMARY,
+    RESULT,
+    HISTORIES,
+    CRACKS,
+    FRAGMENTS,
+    PICTURE,
+    CURVE,
+    SERIES,
+    CRACK_SERIES,
+    STRIKER_SERIES,
+    FRAMES,
+    PICTURES,
+    N_FILES
+};
 static const char *const FILE_NAME[N_FILES] = {
-    "summary.json", "result.h5", "histories.csv", "cracks.csv", "fragments.csv", "picture.png", "curve.png", "frames.vtkhdf.series",
-    "cracks.vtu.series", "strikers.vtu.series", "frames", "pictures"};
+    "summary.json",      "result.h5",           "histories.csv", "cracks.csv",
+    "fragments.csv",     "picture.png",         "curve.png",     "frames.vtkhdf.series",
+    "cracks.vtu.series", "strikers.vtu.series", "frames",        "pictures"};
 
 struct brc_recorder {
     brc_context *context;
@@ -139,9 +155,15 @@ void brc_recorder_free(brc_recorder **recorder)
     *recorder = NULL;
 }
 
-void brc_recorder_set_prediction(brc_recorder *recorder, const brc_prediction *prediction) { recorder->prediction = prediction; }
+void brc_recorder_set_prediction(brc_recorder *recorder, const brc_prediction *prediction)
+{
+    recorder->prediction = prediction;
+}
 
-void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene) { recorder->scene = scene; }
+void brc_recorder_set_scene(brc_recorder *recorder, const brc_scene *scene)
+{
+    recorder->scene = scene;
+}
 
 void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domain *const *domains, double build_seconds)
 {
@@ -150,9 +172,15 @@ void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domai
     recorder->build_s = build_seconds;
 }
 
-void brc_recorder_set_threads(brc_recorder *recorder, int n_threads) { recorder->n_threads = n_threads; }
+void brc_recorder_set_threads(brc_recorder *recorder, int n_threads)
+{
+    recorder->n_threads = n_threads;
+}
 
-void brc_recorder_set_checkpoints(brc_recorder *recorder, const brc_checkpoint_report *report) { recorder->checkpoints = *report; }
+void brc_recorder_set_checkpoints(brc_recorder *recorder, const brc_checkpoint_report *report)
+{
+    recorder->checkpoints = *report;
+}
 
 /* ---- while the simulation runs ---- */
 
@@ -162,7 +190,8 @@ static brc_status stop_if_asked(brc_recorder *r, brc_simulation *simulation)
     char reason[192];
     int64_t broken = 0;
     if (r->scene->stages[brc_simulation_stage(simulation)].stop_sensor[0] == '\0') return BRC_OK;
-    for (int32_t k = 0; k < r->assembly->n && broken == 0; ++k) BRC_TRY(brc_simulation_broken(r->assembly->part[k], &broken));
+    for (int32_t k = 0; k < r->assembly->n && broken == 0; ++k)
+        BRC_TRY(brc_simulation_broken(r->assembly->part[k], &broken));
     if (brc_stop_after_peak(r->scene, r->history, broken > 0 || !r->scene->has_fracture, reason, sizeof reason))
         brc_simulation_end_stage(simulation, reason);
     return BRC_OK;
@@ -252,7 +281,10 @@ static brc_status draw_frame(brc_recorder *r)
     return status;
 }
 
-static bool has_strikers(const brc_recorder *r) { return brc_simulation_n_strikers(r->assembly->part[0]) > 0; }
+static bool has_strikers(const brc_recorder *r)
+{
+    return brc_simulation_n_strikers(r->assembly->part[0]) > 0;
+}
 
 /* Indices of the frames and of what lies beside them. */
 static brc_status write_series(brc_recorder *r)
@@ -261,10 +293,13 @@ static brc_status write_series(brc_recorder *r)
         bool wanted;
         const char *suffix;
         int path;
-    } all[] = {{true, ".vtkhdf", SERIES}, {r->cracks && r->scene->output.crack_surface, ".cracks.vtu", CRACK_SERIES},
+    } all[] = {{true, ".vtkhdf", SERIES},
+               {r->cracks && r->scene->output.crack_surface, ".cracks.vtu", CRACK_SERIES},
                {has_strikers(r), ".strikers.vtu", STRIKER_SERIES}};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
-        if (all[k].wanted) BRC_TRY(brc_frame_write_series(r->context, r->n_frames, r->frame_time, all[k].suffix, r->path[all[k].path]));
+        if (all[k].wanted)
+            BRC_TRY(
+                brc_frame_write_series(r->context, r->n_frames, r->frame_time, all[k].suffix, r->path[all[k].path]));
     return BRC_OK;
 }
 
@@ -301,7 +336,8 @@ static brc_status prepare(brc_recorder *recorder, brc_assembly *assembly)
     BRC_TRY(brc_assembly_sensors_create(recorder->context, assembly, &recorder->sensors));
     BRC_TRY(brc_history_create(recorder->context, n, &recorder->history));
     const double begin = brc_clock_s();
-    if (recorder->scene->output.n_frames >= 0) BRC_TRY(brc_frames_create(recorder->context, assembly, recorder->n_threads, &recorder->frames));
+    if (recorder->scene->output.n_frames >= 0)
+        BRC_TRY(brc_frames_create(recorder->context, assembly, recorder->n_threads, &recorder->frames));
     recorder->output_s += brc_clock_s() - begin;
     return BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample");
 }
@@ -317,7 +353,8 @@ brc_status brc_recorder_observe(brc_recorder *recorder, brc_assembly *assembly)
     BRC_TRY(prepare(recorder, assembly));
     BRC_TRY(brc_history_csv_create(recorder->context, recorder->scene, recorder->path[HISTORIES], &recorder->csv));
     if (brc_simulation_has_fracture(assembly->part[0]))
-        BRC_TRY(brc_crack_records_create(recorder->context, assembly, recorder->path[CRACKS], recorder->path[FRAGMENTS], &recorder->cracks));
+        BRC_TRY(brc_crack_records_create(recorder->context, assembly, recorder->path[CRACKS], recorder->path[FRAGMENTS],
+                                         &recorder->cracks));
     return observe(recorder);
 }
 
@@ -327,7 +364,8 @@ brc_status brc_recorder_observe(brc_recorder *recorder, brc_assembly *assembly)
 static brc_status store_position(brc_recorder *r, brc_state_store *store)
 {
     BRC_TRY(brc_history_store(r->context, r->history, store));
-    BRC_TRY(brc_store_array(r->context, store, "frame_time", BRC_STORED_DOUBLE, 1, &r->n_frames, (void **)&r->frame_time));
+    BRC_TRY(
+        brc_store_array(r->context, store, "frame_time", BRC_STORED_DOUBLE, 1, &r->n_frames, (void **)&r->frame_time));
     if (r->frames) BRC_TRY(brc_frames_store(r->frames, store));
     BRC_TRY(brc_store_double(store, "peak_elastic", &r->assembly->peak_elastic));
     return brc_store_double(store, "peak_kinetic", &r->assembly->peak_kinetic);
@@ -349,7 +387,9 @@ static void look_for_frames(const brc_recorder *r)
         if (brc_file_join(r->context, r->path[FRAMES], name, &path) == BRC_OK) missing += !brc_file_exists(path);
         brc_memory_free(path);
     }
-    if (missing) brc_log(r->context, BRC_LOG_WARNING, "%s: %lld of the %lld frames before the checkpoint are not there", r->path[FRAMES], (long long)missing, (long long)r->n_frames);
+    if (missing)
+        brc_log(r->context, BRC_LOG_WARNING, "%s: %lld of the %lld frames before the checkpoint are not there",
+                r->path[FRAMES], (long long)missing, (long long)r->n_frames);
 }
 
 /* The folder as it was at the last frame before the checkpoint. */
@@ -404,8 +444,9 @@ static brc_status evaluate_measures(brc_recorder *r, brc_context *quiet)
     const brc_crack_state *cracks = brc_crack_records_state(r->cracks);
     BRC_TRY(BRC_ALLOCATE(quiet, &r->measures, n, "measures"));
     for (r->n_measures = 0; r->n_measures < n; ++r->n_measures)
-        BRC_TRY(brc_measure_evaluate(quiet, r->scene, domain_of(r, r->scene->measures[r->n_measures].area_set), r->history,
-                                     cracks ? &cracks->cracks : NULL, r->n_measures, &r->measures[r->n_measures]));
+        BRC_TRY(brc_measure_evaluate(quiet, r->scene, domain_of(r, r->scene->measures[r->n_measures].area_set),
+                                     r->history, cracks ? &cracks->cracks : NULL, r->n_measures,
+                                     &r->measures[r->n_measures]));
     return BRC_OK;
 }
 
@@ -426,8 +467,7 @@ static void write_results(brc_recorder *r, brc_context *quiet, brc_status *statu
     if (*status == BRC_FILE_FAILED) return; /* no room for pictures */
     if (r->scene->output.picture && ledger) /* a simulation that gives no ledger has no state to show */
         warn(r, quiet, brc_picture_write(quiet, r->assembly, r->path[PICTURE]), "picture");
-    if (r->scene->output.curve_x[0] && r->scene->output.curve_y[0])
-        warn(r, quiet, write_curve(r, quiet), "curve");
+    if (r->scene->output.curve_x[0] && r->scene->output.curve_y[0]) warn(r, quiet, write_curve(r, quiet), "curve");
 }
 
 /* Whether the device can still be asked. */
@@ -461,8 +501,7 @@ brc_status brc_recorder_finish(brc_recorder *recorder, brc_status end)
     if (!quiet) return end != BRC_OK ? end : BRC_FAIL(r->context, BRC_NO_MEMORY, "no memory for a context");
     brc_log_follow(quiet, r->context);
     if (r->assembly && r->csv) {
-        if (is_alive(end) && has_begun(r->assembly))
-            has_ledger = brc_assembly_ledger(r->assembly, &ledger) == BRC_OK;
+        if (is_alive(end) && has_begun(r->assembly)) has_ledger = brc_assembly_ledger(r->assembly, &ledger) == BRC_OK;
         write_results(r, quiet, &status, has_ledger ? &ledger : NULL);
     }
     r->output_s += brc_clock_s() - begin;

@@ -1,9 +1,10 @@
-/* The recorder: writes down everything a run shows, into one folder, of all models of the scene together. It observes simulations and never
- * changes them.
+/* The recorder: writes down everything a run shows, into one folder, of all models of the scene together. It observes
+ * simulations and never changes them.
  *
  *     DIR/frames/NNNNNN.vtkhdf   deformed cells with their fields, one file a frame; index DIR/frames.vtkhdf.series
  *     DIR/histories.csv          the sensors, one column each; rows are added while the run goes on
- *     DIR/cracks.csv             with fracture: a row for each broken bond; fragments.csv: the fragments at every frame; both grow with the frames
+ *     DIR/cracks.csv             with fracture: a row for each broken bond; fragments.csv: the fragments at every
+ *                                frame; both grow with the frames
  *     DIR/frames/NNNNNN.cracks.vtu  with fracture: broken faces as polygons; index DIR/cracks.vtu.series
  *     DIR/frames/NNNNNN.strikers.vtu  with walls and strikers: their faces as polygons; index DIR/strikers.vtu.series
  *     DIR/result.h5              the index: histories, sensors, measures, ledger, resolved scene, provenance
@@ -51,14 +52,16 @@ void brc_recorder_set_threads(brc_recorder *recorder, int n_threads);
 /* Read whenever a summary is written. */
 void brc_recorder_set_prediction(brc_recorder *recorder, const brc_prediction *prediction);
 /* domains [n]: of the parts. build_seconds: wall time of making or reading them. */
-void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domain *const *domains, double build_seconds);
+void brc_recorder_set_domains(brc_recorder *recorder, int32_t n, const brc_domain *const *domains,
+                              double build_seconds);
 /* Register as an observer of the assembly's first part, which hears of all of them. Sensors are checked
  * against the domain here: unknown or empty sets, faces where elements are needed and the like give BRC_BAD_INPUT with
  * one sentence each. */
 brc_status brc_recorder_observe(brc_recorder *recorder, brc_assembly *assembly);
 
-/* Going on later (checkpoint.h): its part of a checkpoint; and, instead of observe, as it was then, once the parts have their states again: samples and
- * files go on behind it, what was written after it goes. `part` of the store is the run (-1). */
+/* Going on later (checkpoint.h): its part of a checkpoint; and, instead of observe, as it was then, once the parts have
+ * their states again: samples and files go on behind it, what was written after it goes. `part` of the store is the run
+ * (-1). */
 brc_status brc_recorder_save(brc_recorder *recorder, brc_state_store *store);
 brc_status brc_recorder_resume(brc_recorder *recorder, brc_assembly *assembly, brc_state_store *store);
 

@@ -106,7 +106,8 @@ static brc_status write_provenance(brc_context *context, brc_h5 *h5, const brc_r
 {
     brc_text made = {.context = context};
     for (int32_t k = 0; k < result->n_domains; ++k)
-        if (result->domains[k]->provenance) brc_text_add(&made, "%s%s", k > 0 ? " | " : "", result->domains[k]->provenance);
+        if (result->domains[k]->provenance)
+            brc_text_add(&made, "%s%s", k > 0 ? " | " : "", result->domains[k]->provenance);
     brc_h5_group(h5, "provenance");
     if (made.status == BRC_OK && made.length > 0) brc_h5_attribute_text(h5, "provenance", "domain", made.data);
     const brc_status status = made.status;
@@ -129,7 +130,8 @@ static brc_status write_content(brc_context *context, brc_h5 *h5, const brc_resu
     brc_h5_attribute_text(h5, "/", "version", brc_version());
     brc_h5_attribute_text(h5, "/", "commit", brc_version_commit());
     brc_h5_attribute_text(h5, "/", "compiler", brc_version_compiler());
-    if (result->assembly) brc_h5_attribute_text(h5, "/", "model", brc_assembly_models(result->assembly, models, sizeof models));
+    if (result->assembly)
+        brc_h5_attribute_text(h5, "/", "model", brc_assembly_models(result->assembly, models, sizeof models));
     brc_h5_attribute_text(h5, "/", "title", result->scene->title);
     brc_h5_text(h5, "scene", yaml);
     brc_memory_free(yaml);

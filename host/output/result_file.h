@@ -24,15 +24,16 @@ typedef struct brc_result {
     const double *frame_time; /* [n_frames] [s] */
 } brc_result;
 
-/*   /              attributes format_version, version, commit, compiler, model (all, in the order of CellData/model of frames), title
+/*   /              attributes format_version, version, commit, compiler, model (all, in the order of CellData/model of
+ *                  frames), title
  *   /scene         the resolved scene with all defaults, YAML
  *   /histories     stage, step, stage_time, time; sensors/<name> with attributes unit, last, min, max
  *   /measures      <name> with attributes unit, target, error
  *   /ledger        <term> [J]; closure [-]
- *   /cracks        time, step, stage, mode, bond, element_i, element_j, position, normal, stress, energy, area, load of every broken bond; attribute
- *                  fragments; only of scenes with fracture
- *   /fragments     first_element, elements, mass, centre, velocity, spin, inertia, translation, rotation, internal, share_below of every fragment at
- *                  the last frame or the end (fragments.h); attribute time; likewise
+ *   /cracks        time, step, stage, mode, bond, element_i, element_j, position, normal, stress, energy, area, load of
+ *                  every broken bond; attribute fragments; only of scenes with fracture
+ *   /fragments     first_element, elements, mass, centre, velocity, spin, inertia, translation, rotation, internal,
+ *                  share_below of every fragment at the last frame or the end (fragments.h); attribute time; likewise
  *   /frames        NNNNNN: external links to frames/NNNNNN.vtkhdf; time
  *   /provenance    attributes domain (of every part, between bars), device, driver, precision
  * Made in memory, written aside, renamed. BRC_FILE_FAILED, BRC_NO_MEMORY. */

@@ -50,7 +50,8 @@ brc_status brc_seal_add(brc_context *context, const char *path)
     if (!ok || fseeko(file, 0, SEEK_END) != 0 || fwrite(seal, 1, SEAL_BYTES, file) != SEAL_BYTES)
         status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write its seal: %s", path, strerror(errno));
 cleanup:
-    if (fclose(file) != 0 && status == BRC_OK) status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write its seal: %s", path, strerror(errno));
+    if (fclose(file) != 0 && status == BRC_OK)
+        status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot write its seal: %s", path, strerror(errno));
     brc_memory_free(block);
     return status;
 }
@@ -68,7 +69,8 @@ brc_status brc_seal_check(brc_context *context, const char *path, bool *whole, c
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &block, BLOCK, "block of a file"));
     seal[SEAL_BYTES] = '\0';
     bytes = fseeko(file, -SEAL_BYTES, SEEK_END) == 0 ? (int64_t)ftello(file) : -1;
-    if (bytes < 0 || fread(seal, 1, SEAL_BYTES, file) != SEAL_BYTES || memcmp(seal, FORM, sizeof "\nbreccia seal: " - 1) != 0) {
+    if (bytes < 0 || fread(seal, 1, SEAL_BYTES, file) != SEAL_BYTES ||
+        memcmp(seal, FORM, sizeof "\nbreccia seal: " - 1) != 0) {
         snprintf(why, room, "it has no seal: it was cut short, or is no checkpoint");
         goto cleanup;
     }
@@ -79,8 +81,11 @@ brc_status brc_seal_check(brc_context *context, const char *path, bool *whole, c
     }
     make_seal(expected, bytes, sum);
     *whole = memcmp(seal, expected, SEAL_BYTES) == 0;
-    if (!*whole) snprintf(why, room, "it was changed after it was written: its length and checksum are %lld, %08" PRIx32 ", its seal says '%.*s'", (long long)bytes, sum,
-                          (int)strcspn(seal + 1, "\n"), seal + 1);
+    if (!*whole)
+        snprintf(why, room,
+                 "it was changed after it was written: its length and checksum are %lld, %08" PRIx32
+                 ", its seal says '%.*s'",
+                 (long long)bytes, sum, (int)strcspn(seal + 1, "\n"), seal + 1);
 cleanup:
     fclose(file);
     brc_memory_free(block);

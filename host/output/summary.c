@@ -1,4 +1,5 @@
-/* summary.json. Keys appear in every file, with null where a run did not come that far, so that scripts need no guards. */
+/* summary.json. Keys appear in every file, with null where a run did not come that far, so that scripts need no
+ * guards. */
 #include "summary.h"
 #include "text.h"
 #include "../base/log.h"
@@ -53,7 +54,10 @@ static void add_identity(brc_json *json, const brc_summary *s)
     brc_json_string(json, "version", brc_version());
     brc_json_string(json, "commit", brc_version_commit());
     brc_json_string(json, "title", s->scene ? s->scene->title : NULL);
-    brc_json_string(json, "model", s->assembly ? brc_assembly_models(s->assembly, models, sizeof models) : s->scene ? asked_models(s->scene, models, sizeof models) : NULL);
+    brc_json_string(json, "model",
+                    s->assembly ? brc_assembly_models(s->assembly, models, sizeof models)
+                    : s->scene  ? asked_models(s->scene, models, sizeof models)
+                                : NULL);
     brc_json_string(json, "precision", device ? brc_precision_name(brc_device_get_precision(device)) : NULL);
     brc_json_string(json, "device", device ? name : NULL);
 }
@@ -122,7 +126,8 @@ static void add_cost(brc_json *json, const brc_summary *s)
         const brc_assembly *a = s->assembly;
         setup = brc_assembly_setup_seconds(a);
         steps = brc_simulation_step_seconds(a->part[0]);
-        const double updates = (double)brc_simulation_total_steps(a->part[0]) * (double)brc_assembly_first_bond(a, a->n);
+        const double updates =
+            (double)brc_simulation_total_steps(a->part[0]) * (double)brc_assembly_first_bond(a, a->n);
         if (updates > 0 && steps > 0) rate = updates / steps;
     }
     brc_json_begin_object(json, "timing");
@@ -174,7 +179,8 @@ static void add_prediction(brc_json *json, const brc_summary *s)
     brc_json_number(json, "host_bytes", s->prediction ? (double)p->host_bytes : NAN);
     brc_json_number(json, "actual_host_bytes", s->prediction ? (double)brc_memory_peak() : NAN);
     brc_json_number(json, "device_bytes", s->prediction ? (double)p->device_bytes : NAN);
-    brc_json_number(json, "actual_device_bytes", s->prediction && s->assembly ? (double)brc_assembly_device_bytes(s->assembly) : NAN);
+    brc_json_number(json, "actual_device_bytes",
+                    s->prediction && s->assembly ? (double)brc_assembly_device_bytes(s->assembly) : NAN);
     if (p->told.known) add_told(json, s, &p->told);
     brc_json_end(json);
 }
@@ -258,7 +264,8 @@ static void add_effects(brc_json *json, const brc_assembly *a)
     brc_json_end(json);
 }
 
-/* One object a model, where there are several. The ledgers are left out where the whole's is: the device cannot be asked any more. */
+/* One object a model, where there are several. The ledgers are left out where the whole's is: the device cannot be
+ * asked any more. */
 static void add_parts(brc_json *json, const brc_summary *s)
 {
     const brc_assembly *a = s->assembly;
@@ -277,7 +284,8 @@ static void add_parts(brc_json *json, const brc_summary *s)
         brc_json_begin_object(json, NULL);
         brc_json_string(json, "model", part->name);
         brc_json_begin_array(json, "bodies");
-        for (int32_t b = 0; b < part->n_bodies; ++b) brc_json_string(json, NULL, s->scene->bodies[part->body[b]].name);
+        for (int32_t b = 0; b < part->n_bodies; ++b)
+            brc_json_string(json, NULL, s->scene->bodies[part->body[b]].name);
         brc_json_end(json);
         add_counts(json, 1, &domain, n_broken);
         add_time_step(json, &step);
@@ -327,7 +335,8 @@ static void add_sensors(brc_json *json, const brc_summary *s)
 static void add_vector(brc_json *json, const char *key, const double v[3])
 {
     brc_json_begin_array(json, key);
-    for (int c = 0; c < 3; ++c) brc_json_number(json, NULL, v[c]);
+    for (int c = 0; c < 3; ++c)
+        brc_json_number(json, NULL, v[c]);
     brc_json_end(json);
 }
 
@@ -397,8 +406,10 @@ static void add_checkpoints(brc_json *json, const brc_checkpoint_report *c)
     brc_json_integer(json, "bytes", c->bytes);
     brc_json_string(json, "last", c->last && c->last[0] ? c->last : NULL);
     brc_json_string(json, "from", resumed ? c->from : NULL);
-    if (resumed) brc_json_integer(json, "from_step", c->from_step);
-    else brc_json_null(json, "from_step");
+    if (resumed)
+        brc_json_integer(json, "from_step", c->from_step);
+    else
+        brc_json_null(json, "from_step");
     brc_json_end(json);
 }
 
@@ -412,7 +423,8 @@ brc_status brc_summary_write(brc_context *context, const brc_summary *summary, c
     add_prediction(&json, summary);
     add_guard(&json, summary->assembly);
     add_ledger(&json, summary->ledger);
-    if (summary->cracks) brc_crack_report_add(&json, summary->scene, &summary->cracks->cracks, &summary->cracks->report);
+    if (summary->cracks)
+        brc_crack_report_add(&json, summary->scene, &summary->cracks->cracks, &summary->cracks->report);
     add_effects(&json, summary->assembly);
     add_measures(&json, summary);
     add_sensors(&json, summary);

@@ -29,10 +29,11 @@ typedef struct brc_summary {
     const char *reason;                /* sentences of the failure; why the last stage ended early; "" : none */
 } brc_summary;
 
-/* Written aside and renamed. With several models `model` names all of them, counts, energies and memory are sums, effects.in is what some part
- * contains and effects.out what none does; `parts` then has one object a model: model, bodies, counts, time_step (its own critical one), ledger,
- * memory, effects. Numbers that are not finite are null. end.status is "running", "done", "physics_stopped",
- * "bound_missed", "bad_input", "no_memory", "device_failed", "file_failed", "interrupted" or "internal". */
+/* Written aside and renamed. With several models `model` names all of them, counts, energies and memory are sums,
+ * effects.in is what some part contains and effects.out what none does; `parts` then has one object a model: model,
+ * bodies, counts, time_step (its own critical one), ledger, memory, effects. Numbers that are not finite are null.
+ * end.status is "running", "done", "physics_stopped", "bound_missed", "bad_input", "no_memory", "device_failed",
+ * "file_failed", "interrupted" or "internal". */
 brc_status brc_summary_write(brc_context *context, const brc_summary *summary, const char *path);
 
 #endif

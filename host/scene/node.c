@@ -347,12 +347,16 @@ static bool bytes_are_text(builder *b, const char *text, size_t bytes)
 static const char *cure_of(const yaml_parser_t *parser, const char *text, size_t bytes)
 {
     const char *problem = parser->problem ? parser->problem : "";
-    if (parser->problem_mark.index < bytes && text[parser->problem_mark.index] == '\t') return "; indent with blanks, not with tabs";
+    if (parser->problem_mark.index < bytes && text[parser->problem_mark.index] == '\t')
+        return "; indent with blanks, not with tabs";
     if (strstr(problem, "expected ':'")) return "; write `key: value`, with a blank behind the colon";
     if (strstr(problem, "expected ',' or '}'")) return "; separate entries by commas, and close every { with }";
-    if (strstr(problem, "expected ',' or ']'")) return "; separate items by commas, and close every [ with ]; each item has its own unit";
-    if (strstr(problem, "mapping values are not allowed")) return "; begin a new line for the next key, and put blanks behind colons only";
-    if (strstr(problem, "did not find expected key") || strstr(problem, "block")) return "; keys of one map begin in the same column";
+    if (strstr(problem, "expected ',' or ']'"))
+        return "; separate items by commas, and close every [ with ]; each item has its own unit";
+    if (strstr(problem, "mapping values are not allowed"))
+        return "; begin a new line for the next key, and put blanks behind colons only";
+    if (strstr(problem, "did not find expected key") || strstr(problem, "block"))
+        return "; keys of one map begin in the same column";
     return "";
 }
 

@@ -16,8 +16,8 @@ typedef enum brc_node_kind { BRC_NODE_SCALAR, BRC_NODE_LIST, BRC_NODE_MAP } brc_
 /* Children are a linked list in the order of the text; in a map each child has its key. */
 typedef struct brc_node {
     brc_node_kind kind;
-    bool quoted;      /* scalar in quotation marks */
-    brc_mark mark;    /* of the value */
+    bool quoted;   /* scalar in quotation marks */
+    brc_mark mark; /* of the value */
     brc_mark key_mark;
     const char *key;  /* "" outside maps */
     const char *text; /* scalar: its text, NUL-terminated without inner NUL; else "" */

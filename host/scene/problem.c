@@ -90,8 +90,11 @@ static int by_place(const void *left, const void *right)
 /* "file:line:col: ", or the override in its place. */
 static const char *place_of(const brc_problems *problems, const problem *item, char *out, size_t room)
 {
-    if (item->mark.source == 0) snprintf(out, room, "%s:%d:%d: ", problems->name, item->mark.line, item->mark.column);
-    else snprintf(out, room, "%s: in the override '%.200s': ", problems->name, problems->overrides[item->mark.source - 1]);
+    if (item->mark.source == 0)
+        snprintf(out, room, "%s:%d:%d: ", problems->name, item->mark.line, item->mark.column);
+    else
+        snprintf(out, room, "%s: in the override '%.200s': ", problems->name,
+                 problems->overrides[item->mark.source - 1]);
     return out;
 }
 
@@ -102,22 +105,29 @@ brc_status brc_problems_report(brc_problems *problems)
     qsort(list->items, (size_t)list->n, sizeof list->items[0], by_place);
     for (int i = 0; i < list->n; ++i) {
         place_of(problems, &list->items[i], place, sizeof place);
-        if (list == &problems->errors) BRC_FAIL(problems->context, BRC_BAD_INPUT, "%serror: %s", place, list->items[i].text);
-        else brc_log(problems->context, BRC_LOG_WARNING, "%s%s", place, list->items[i].text);
+        if (list == &problems->errors)
+            BRC_FAIL(problems->context, BRC_BAD_INPUT, "%serror: %s", place, list->items[i].text);
+        else
+            brc_log(problems->context, BRC_LOG_WARNING, "%s%s", place, list->items[i].text);
     }
     if (list == &problems->warnings) return BRC_OK;
-    if (list->n_all > list->n) BRC_FAIL(problems->context, BRC_BAD_INPUT, "%s: and %d more errors", problems->name, list->n_all - list->n);
+    if (list->n_all > list->n)
+        BRC_FAIL(problems->context, BRC_BAD_INPUT, "%s: and %d more errors", problems->name, list->n_all - list->n);
     return BRC_BAD_INPUT;
 }
 
-static int least(int a, int b) { return a < b ? a : b; }
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
 
 /* Slips (insert, delete, replace a byte, swap two neighbours) from a to b, both shorter than WORD_LENGTH. */
 static int edit_distance(const char *a, const char *b)
 {
     int rows[3][WORD_LENGTH + 1]; /* of the first i bytes of a, in turn */
     const int n = (int)strlen(b);
-    for (int j = 0; j <= n; ++j) rows[0][j] = j;
+    for (int j = 0; j <= n; ++j)
+        rows[0][j] = j;
     int i = 0;
     for (; a[i] != '\0'; ++i) {
         const int *before = rows[(i + 2) % 3], *last = rows[i % 3];
@@ -125,7 +135,8 @@ static int edit_distance(const char *a, const char *b)
         row[0] = i + 1;
         for (int j = 0; j < n; ++j) {
             row[j + 1] = least(last[j] + (a[i] != b[j]), 1 + least(last[j + 1], row[j]));
-            if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j]) row[j + 1] = least(row[j + 1], 1 + before[j - 1]);
+            if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j])
+                row[j + 1] = least(row[j + 1], 1 + before[j - 1]);
         }
     }
     return rows[i % 3][n];
@@ -137,7 +148,7 @@ const char *brc_nearest_word(const char *found, int n, const char *const *known)
     const size_t length = strnlen(found, WORD_LENGTH);
     if (length == WORD_LENGTH) return NULL;
     int best = 1 + (length > 4 ? (int)length / 3 : length > 1); /* a slip changes up to a third of the word */
-    for (int i = 0; i < n; ++i) /* capitals are the smallest slip */
+    for (int i = 0; i < n; ++i)                                 /* capitals are the smallest slip */
         if (strcasecmp(found, known[i]) == 0) return known[i];
     for (int i = 0; i < n; ++i) {
         if (strnlen(known[i], WORD_LENGTH) == WORD_LENGTH) continue;

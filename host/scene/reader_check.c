@@ -58,7 +58,8 @@ static void check_predicate(brc_reader *reader, const brc_predicate *where, bool
 static void check_leaf(brc_reader *reader, const brc_shape *shape)
 {
     if (shape->kind == BRC_SHAPE_TORUS && shape->radius2 >= shape->radius && shape->radius > 0)
-        COMPLAIN(reader, &shape->radius2, shape, "tube: is not below the radius of the centre line, the ring would meet itself; expected less");
+        COMPLAIN(reader, &shape->radius2, shape,
+                 "tube: is not below the radius of the centre line, the ring would meet itself; expected less");
     if (shape->kind == BRC_SHAPE_CONE && shape->radius == 0 && shape->radius2 == 0)
         COMPLAIN(reader, &shape->radius, shape, "radius: both ends of the cone are tips; expected one radius above 0");
 }
@@ -69,9 +70,12 @@ static void check_shape(brc_reader *reader, const brc_shape *shape)
     for (int p = 0; p < shape->n_parts; ++p) {
         check_leaf(reader, &shape->parts[p].shape);
         const bool first_cuts = p == 0 && shape->parts[p].role != BRC_PART_ADD;
-        if (first_cuts) COMPLAIN(reader, &shape->parts[p].role, &shape->parts[p], "role: the first part has nothing before it; expected add");
+        if (first_cuts)
+            COMPLAIN(reader, &shape->parts[p].role, &shape->parts[p],
+                     "role: the first part has nothing before it; expected add");
         if (shape->parts[p].role == BRC_PART_ADD && shape->parts[p].shape.kind == BRC_SHAPE_HALF_SPACE)
-            COMPLAIN(reader, &shape->parts[p].role, &shape->parts[p], "role: a half-space has no end; expected keep or remove");
+            COMPLAIN(reader, &shape->parts[p].role, &shape->parts[p],
+                     "role: a half-space has no end; expected keep or remove");
     }
 }
 
@@ -83,14 +87,21 @@ static void check_fill(brc_reader *reader, const brc_body *body)
         const bool last = r == fill->n_radii - 1;
         if (before && !(now->radius > before->radius))
             COMPLAIN(reader, &now->radius, now, "radius: does not come after the one before; expected radii that grow");
-        if ((r == 0 && now->fraction != 0) || (last && now->fraction != 1) || (before && now->fraction < before->fraction))
-            COMPLAIN(reader, &now->fraction, now, "below: expected shares that grow from 0 at the first radius to 1 at the last");
+        if ((r == 0 && now->fraction != 0) || (last && now->fraction != 1) ||
+            (before && now->fraction < before->fraction))
+            COMPLAIN(reader, &now->fraction, now,
+                     "below: expected shares that grow from 0 at the first radius to 1 at the last");
     }
-    if (fill->n_radii == 1) COMPLAIN(reader, &fill->radii->radius, fill->radii, "radii: has one entry; expected two or more, or radius_spread: 0");
+    if (fill->n_radii == 1)
+        COMPLAIN(reader, &fill->radii->radius, fill->radii,
+                 "radii: has one entry; expected two or more, or radius_spread: 0");
     if (body->beams > 0 && fill->kind == BRC_FILL_NOISY_GRID)
-        COMPLAIN(reader, &body->beams, body, "beams: a noisy grid has no spheres; expected a fill with radii (packing, or points with a radius column)");
+        COMPLAIN(
+            reader, &body->beams, body,
+            "beams: a noisy grid has no spheres; expected a fill with radii (packing, or points with a radius column)");
     if (body->beams > 0 && fill->cut)
-        COMPLAIN(reader, &fill->cut, body, "walls: a packing cut by its walls touches none of them; expected contact with beams");
+        COMPLAIN(reader, &fill->cut, body,
+                 "walls: a packing cut by its walls touches none of them; expected contact with beams");
     if (body->beams > 0 && fill->lloyd_sweeps > 0)
         COMPLAIN(reader, &fill->lloyd_sweeps, body, "lloyd: moves the seeds of cells; expected 0 with beams");
 }
@@ -108,7 +119,8 @@ static void check_crack(brc_reader *reader, const brc_body *body, int c)
         COMPLAIN(reader, crack->edge[1], crack, "other_edge: spans no area with `edge`; expected another direction");
     for (int other = 0; other < c; ++other)
         if (strcmp(body->cracks[other].name, crack->name) == 0) {
-            COMPLAIN(reader, crack->name, crack, "name: another crack is called '%s' too; give each its own", crack->name);
+            COMPLAIN(reader, crack->name, crack, "name: another crack is called '%s' too; give each its own",
+                     crack->name);
             return;
         }
 }
@@ -119,8 +131,10 @@ static void check_body(brc_reader *reader, int b)
     const brc_body *body = &scene->bodies[b];
     const brc_shape *shape = &body->shape;
     const brc_fill *fill = &body->fill;
-    const bool shaped = shape->size[0] > 0 || shape->radius > 0 || shape->radius2 > 0 || shape->file[0] || shape->n_parts > 0;
-    const bool filled = fill->spread > 0 || fill->n_elements || fill->spacing > 0 || fill->cells[0] || fill->radius > 0 || fill->file[0];
+    const bool shaped =
+        shape->size[0] > 0 || shape->radius > 0 || shape->radius2 > 0 || shape->file[0] || shape->n_parts > 0;
+    const bool filled = fill->spread > 0 || fill->n_elements || fill->spacing > 0 || fill->cells[0] ||
+                        fill->radius > 0 || fill->file[0];
     if (shaped && !filled)
         COMPLAIN(reader, NULL, body,
                  "the key 'fill' is missing in this body: a shape must be cut, as in "
@@ -140,7 +154,9 @@ static void check_body(brc_reader *reader, int b)
         }
     for (int r = 0; r < body->n_regions; ++r) {
         check_predicate(reader, &body->regions[r].where, true);
-        if (body->regions[r].where.has_body) COMPLAIN(reader, body->regions[r].where.body_name, &body->regions[r], "body: a region is a part of the body that it stands in; leave it out");
+        if (body->regions[r].where.has_body)
+            COMPLAIN(reader, body->regions[r].where.body_name, &body->regions[r],
+                     "body: a region is a part of the body that it stands in; leave it out");
     }
     check_shape(reader, shape);
     check_fill(reader, body);
@@ -168,8 +184,8 @@ static void check_limits(brc_reader *reader)
         }
         if (found) continue;
         nearest = brc_problems_nearest(reader->problems, limit->number, n < 64 ? n : 64, names);
-        COMPLAIN(reader, NULL, limit, "quality: there is no number '%s'%s%s%s; docs/reference/domain.md lists them", limit->number,
-                 nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
+        COMPLAIN(reader, NULL, limit, "quality: there is no number '%s'%s%s%s; docs/reference/domain.md lists them",
+                 limit->number, nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
     }
 }
 
@@ -182,7 +198,8 @@ static void check_bodies(brc_reader *reader, const brc_wall_names *walls)
         const brc_set_request *set = &scene->sets[s];
         check_predicate(reader, &set->where, set->kind == BRC_SET_ELEMENTS);
         if (brc_wall_names_has(walls, set->name))
-            COMPLAIN(reader, NULL, set, "the set '%s' has the name of a wall; walls are sets already, choose another name", set->name);
+            COMPLAIN(reader, NULL, set,
+                     "the set '%s' has the name of a wall; walls are sets already, choose another name", set->name);
     }
 }
 
@@ -201,18 +218,23 @@ static void complete(brc_scene *scene)
     }
 }
 
-/* Static stages find displacements before rotations, as forces of the published law do not depend on these to first order; with a couple modulus they do. */
+/* Static stages find displacements before rotations, as forces of the published law do not depend on these to first
+ * order; with a couple modulus they do. */
 static void check_couples(brc_reader *reader)
 {
     const brc_scene *scene = reader->scene;
     for (int b = -1; b < scene->n_bodies; ++b) {
         const brc_model *model = b < 0 ? &scene->model : &scene->bodies[b].model;
-        if ((b >= 0 && !scene->bodies[b].has_model) || model->kind != BRC_MODEL_DLSM_PUBLISHED || !(model->couple_modulus > 0)) continue;
+        if ((b >= 0 && !scene->bodies[b].has_model) || model->kind != BRC_MODEL_DLSM_PUBLISHED ||
+            !(model->couple_modulus > 0))
+            continue;
         for (int k = 0; k < scene->n_stages; ++k)
             if (scene->stages[k].solver != BRC_SOLVER_DYNAMIC)
                 COMPLAIN(reader, &model->couple_modulus, model,
-                         "couple_modulus: ties forces to the rotations of elements, which static stages and modes do not know ('%s' is one); leave it out, or use "
-                         "dynamic stages only", scene->stages[k].name);
+                         "couple_modulus: ties forces to the rotations of elements, which static stages and modes do "
+                         "not know ('%s' is one); leave it out, or use "
+                         "dynamic stages only",
+                         scene->stages[k].name);
     }
 }
 
@@ -240,9 +262,10 @@ static void check_pair(brc_reader *reader, const brc_load *before, const brc_loa
                      "xyz"[k], load -> set);
             return;
         }
-        const brc_load *push = brc_load_is_motion(before) ? load : before, *move = brc_load_is_motion(before) ? before : load;
-        if (push->kind == BRC_LOAD_TRACTION && brc_load_is_motion(move) && !moves_elements(move) && move->component[k] &&
-            push->value[k] != 0) {
+        const brc_load *push = brc_load_is_motion(before) ? load : before,
+                       *move = brc_load_is_motion(before) ? before : load;
+        if (push->kind == BRC_LOAD_TRACTION && brc_load_is_motion(move) && !moves_elements(move) &&
+            move->component[k] && push->value[k] != 0) {
             COMPLAIN(reader, load->set, load,
                      "set: a traction along %c has no effect where the %c component of '%s' is "
                      "prescribed; keep one",
@@ -267,7 +290,8 @@ static brc_status check_stage(brc_reader *reader, brc_stage *stage)
     for (int l = 0; l < stage->n_loads; ++l) {
         brc_load *load = &stage->loads[l];
         if (load->radial && (load->value[0] != 0 || load->value[1] != 0 || load->value[2] != 0))
-            COMPLAIN(reader, NULL, load, "element_force: radial forces take no x, y, z; give those in a load of their own");
+            COMPLAIN(reader, NULL, load,
+                     "element_force: radial forces take no x, y, z; give those in a load of their own");
         if (load->kind == BRC_LOAD_TRACTION) load->component[0] = load->component[1] = load->component[2] = true;
         const bool velocity = load->kind == BRC_LOAD_FACE_VELOCITY || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
         if (stage->solver != BRC_SOLVER_DYNAMIC && velocity)
@@ -326,7 +350,8 @@ brc_status brc_reader_check(brc_reader *reader)
     brc_wall_names *walls = NULL;
     brc_status status = check_names(reader, &walls);
     if (status == BRC_OK) status = check_rest(reader);
-    if (status == BRC_OK) status = brc_names_add_body_sets(reader, walls); /* sets move, so that their places are gone */
+    if (status == BRC_OK)
+        status = brc_names_add_body_sets(reader, walls); /* sets move, so that their places are gone */
     brc_wall_names_free(walls);
     if (status == BRC_OK) status = brc_reader_finish_fixtures(reader);
     return status;

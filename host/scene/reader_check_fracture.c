@@ -1,4 +1,5 @@
-/* Scenes that break: strengths that fit together, models and stages that know them, and scenes in which nothing can break. */
+/* Scenes that break: strengths that fit together, models and stages that know them, and scenes in which nothing can
+ * break. */
 #include "reader_internal.h"
 #include "schema_internal.h"
 #include <math.h>
@@ -133,7 +134,8 @@ static void check_models(brc_reader *reader)
 static void check_criterion(brc_reader *reader)
 {
     const brc_scene *scene = reader->scene;
-    static const char *const CURE = "bonds soften with model cbm, and with model dlsm by the criteria bond-normal and mohr-coulomb";
+    static const char *const CURE =
+        "bonds soften with model cbm, and with model dlsm by the criteria bond-normal and mohr-coulomb";
     for (int b = 0; b < scene->n_bodies; ++b) {
         const brc_body *body = &scene->bodies[b];
         const brc_model *model = brc_body_model(scene, b);
@@ -167,7 +169,8 @@ static void check_criterion(brc_reader *reader)
     }
 }
 
-/* Criteria of elements know limits of elements alone: an interface's own tension counts as a share of the weaker side's. */
+/* Criteria of elements know limits of elements alone: an interface's own tension counts as a share of the weaker
+ * side's. */
 static void check_interfaces(brc_reader *reader)
 {
     const brc_scene *scene = reader->scene;
@@ -204,7 +207,8 @@ static void check_sides(brc_reader *reader)
                  "friction: with `closure: false` the sides of broken faces do not touch; remove friction, or closure");
 }
 
-/* Limits that nothing looks at: of compression where bonds break by tension alone or slide, of shear where none slides. */
+/* Limits that nothing looks at: of compression where bonds break by tension alone or slide, of shear where none
+ * slides. */
 static void check_limits_of(brc_reader *reader, const brc_body *body, const brc_model *model,
                             const brc_material *material)
 {

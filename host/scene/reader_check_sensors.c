@@ -24,21 +24,29 @@ static void check_opening(brc_reader *reader, const brc_sensor *sensor)
     if (sensor->of_sets && sensor->set2[0] == '\0')
         COMPLAIN(reader, sensor->set, sensor, "opening: has one side; expected the other one too, as in against: x-");
     if (sensor->of_sets && !directed)
-        COMPLAIN(reader, sensor->set, sensor, "opening: between two sets needs a direction, as in direction: [1, 0, 0]");
+        COMPLAIN(reader, sensor->set, sensor,
+                 "opening: between two sets needs a direction, as in direction: [1, 0, 0]");
     if (!sensor->of_sets && sensor->set2[0])
         COMPLAIN(reader, sensor->set2, sensor, "against: is the other side of a set; give `set` too, or leave it out");
     if (sensor->of_points && !ended)
-        COMPLAIN(reader, sensor->point, sensor, "opening: a gauge has two ends; expected `to` beside `from`, as in to: [235 mm, 0, 0]");
+        COMPLAIN(reader, sensor->point, sensor,
+                 "opening: a gauge has two ends; expected `to` beside `from`, as in to: [235 mm, 0, 0]");
     if (sensor->of_points && ended && memcmp(sensor->point, sensor->point2, sizeof sensor->point) == 0)
-        COMPLAIN(reader, sensor->point2, sensor, "to: is the same point as `from`; expected the other end of the gauge");
+        COMPLAIN(reader, sensor->point2, sensor,
+                 "to: is the same point as `from`; expected the other end of the gauge");
     if (!sensor->of_points && ended)
         COMPLAIN(reader, sensor->point2, sensor, "to: is the other end of a gauge; give `from` too, or leave it out");
     if (sensor->of_crack && !has_crack(reader->scene, sensor->set) && !brc_reader_is_broken(reader, "bodies"))
-        COMPLAIN(reader, sensor->set, sensor, "crack: '%s' is a wall, not a crack, and has one side; name a crack of a body, or two sets by `set` and `against`", sensor->set);
+        COMPLAIN(reader, sensor->set, sensor,
+                 "crack: '%s' is a wall, not a crack, and has one side; name a crack of a body, or two sets by `set` "
+                 "and `against`",
+                 sensor->set);
     if (!sensor->of_crack && (sensor->is_near || sensor->within > 0))
-        COMPLAIN(reader, &sensor->within, sensor, "opening: `at` and `within` choose faces of a crack; give `crack` too, or leave them out");
+        COMPLAIN(reader, &sensor->within, sensor,
+                 "opening: `at` and `within` choose faces of a crack; give `crack` too, or leave them out");
     if (sensor->of_crack && sensor->is_near != (sensor->within > 0))
-        COMPLAIN(reader, sensor->is_near ? sensor->point : (const void *)&sensor->within, sensor, "opening: `at` and `within` go together; expected both, as in at: [225 mm, 0, 0], within: 1 cm");
+        COMPLAIN(reader, sensor->is_near ? sensor->point : (const void *)&sensor->within, sensor,
+                 "opening: `at` and `within` go together; expected both, as in at: [225 mm, 0, 0], within: 1 cm");
 }
 
 /* Forces of prescribed motion where no motion is prescribed. */
@@ -47,11 +55,15 @@ static void check_reactions(brc_reader *reader)
     const brc_scene *scene = reader->scene;
     for (int k = 0; k < scene->n_stages; ++k)
         for (int l = 0; l < scene->stages[k].n_loads; ++l)
-            if (brc_load_is_motion(&scene->stages[k].loads[l]) || scene->stages[k].loads[l].kind == BRC_LOAD_ELEMENT_ROTATION) return;
+            if (brc_load_is_motion(&scene->stages[k].loads[l]) ||
+                scene->stages[k].loads[l].kind == BRC_LOAD_ELEMENT_ROTATION)
+                return;
     if (brc_reader_is_broken(reader, "stages")) return;
     for (int i = 0; i < scene->n_sensors; ++i)
         if (scene->sensors[i].kind == BRC_SENSOR_REACTION || scene->sensors[i].kind == BRC_SENSOR_MOMENT)
-            WARN(reader, scene->sensors[i].set, &scene->sensors[i], "sensor %s: stays 0, as no stage prescribes the motion of a set; forces of strikers and platens are sensors `striker`",
+            WARN(reader, scene->sensors[i].set, &scene->sensors[i],
+                 "sensor %s: stays 0, as no stage prescribes the motion of a set; forces of strikers and platens are "
+                 "sensors `striker`",
                  scene->sensors[i].name);
 }
 
@@ -59,9 +71,13 @@ static void check_sign(brc_reader *reader, const brc_sensor *sensor)
 {
     static const char *const SIGNED[] = {"force", "displacement", "velocity"};
     bool known = sensor->kind != BRC_SENSOR_STRIKER || sensor->sign == BRC_SIGN_AXIS;
-    for (size_t k = 0; k < sizeof SIGNED / sizeof *SIGNED; ++k) known |= strcmp(sensor->term, SIGNED[k]) == 0;
+    for (size_t k = 0; k < sizeof SIGNED / sizeof *SIGNED; ++k)
+        known |= strcmp(sensor->term, SIGNED[k]) == 0;
     if (!known)
-        COMPLAIN(reader, &sensor->sign, sensor, "sign: %s of a striker is neither compression nor tension; leave `sign` out (it is for force, displacement and velocity)", sensor->term);
+        COMPLAIN(reader, &sensor->sign, sensor,
+                 "sign: %s of a striker is neither compression nor tension; leave `sign` out (it is for force, "
+                 "displacement and velocity)",
+                 sensor->term);
     if (sensor->kind == BRC_SENSOR_STRIKER && sensor->set2[0] && strcmp(sensor->set, sensor->set2) == 0)
         COMPLAIN(reader, sensor->set2, sensor, "against: is the same striker; expected another one");
 }
@@ -128,9 +144,13 @@ static void check_measure(brc_reader *reader, const brc_measure *measure)
     case BRC_MEASURE_AT_FIRST_BREAK:
     case BRC_MEASURE_MEAN: break;
     }
-    if (measure->area_set[0] && !brc_reader_is_broken(reader, "bodies") && brc_names_is_closed(scene, measure->area_set))
-        COMPLAIN(reader, measure->area_set, measure, "area: '%s' goes all the way round, so that no area of it stands across a load; expected faces of one side, as `sets: {NAME: {faces: {wall: %s, normal: ...}}}`, or "
-                 "`scale` with one over the area that is meant", measure->area_set, measure->area_set);
+    if (measure->area_set[0] && !brc_reader_is_broken(reader, "bodies") &&
+        brc_names_is_closed(scene, measure->area_set))
+        COMPLAIN(reader, measure->area_set, measure,
+                 "area: '%s' goes all the way round, so that no area of it stands across a load; expected faces of one "
+                 "side, as `sets: {NAME: {faces: {wall: %s, normal: ...}}}`, or "
+                 "`scale` with one over the area that is meant",
+                 measure->area_set, measure->area_set);
     if (measure->window[1] <= measure->window[0] && (measure->window[0] != 0 || measure->window[1] != 0))
         COMPLAIN(reader, measure->window, measure, "window: ends before it begins; expected [from, to]");
     const char *const in_time = measure->kind == BRC_MEASURE_FREQUENCY  ? "frequency"
@@ -143,7 +163,8 @@ static void check_measure(brc_reader *reader, const brc_measure *measure)
     for (int k = 0; k < scene->n_stages; ++k)
         if (measure->stage[0] && strcmp(scene->stages[k].name, measure->stage) == 0) stage = &scene->stages[k];
     if (stage->solver != BRC_SOLVER_DYNAMIC)
-        COMPLAIN(reader, measure->stage, measure, "%s: the stage '%s' is not dynamic and has no history in time", in_time, stage->name);
+        COMPLAIN(reader, measure->stage, measure, "%s: the stage '%s' is not dynamic and has no history in time",
+                 in_time, stage->name);
 }
 
 void brc_reader_check_sensors(brc_reader *reader)

@@ -17,15 +17,17 @@ typedef struct fixture {
     const brc_fixture *as;
     const char *name, *tool; /* "platens", "platen" */
     const brc_body *body;
-    double bounds[2][3]; /* of the posed body, smallest and largest corner [m] */
-    double gap;          /* [m] */
+    double bounds[2][3];     /* of the posed body, smallest and largest corner [m] */
+    double gap;              /* [m] */
     int axis, along, across; /* of the load; of the span or the jaws' width; the third */
 } fixture;
 
 static const struct {
     const char *name, *tool;
     size_t offset;
-} FIXTURE[3] = {{"platens", "platen", offsetof(brc_scene, platens)}, {"jaws", "jaw", offsetof(brc_scene, jaws)}, {"rollers", "roller", offsetof(brc_scene, rollers)}};
+} FIXTURE[3] = {{"platens", "platen", offsetof(brc_scene, platens)},
+                {"jaws", "jaw", offsetof(brc_scene, jaws)},
+                {"rollers", "roller", offsetof(brc_scene, rollers)}};
 
 static const brc_fixture *fixture_of(const brc_scene *scene, int k)
 {
@@ -42,19 +44,22 @@ static brc_mark place_of(const brc_reader *reader, const brc_fixture *of, const 
     }
     return mark;
 }
-#define REFUSE(reader, f, field, ...) brc_problems_add((reader)->problems, place_of((reader), (f)->as, (field)), __VA_ARGS__)
+#define REFUSE(reader, f, field, ...)                                                                                  \
+    brc_problems_add((reader)->problems, place_of((reader), (f)->as, (field)), __VA_ARGS__)
 
 /* Mean size of the elements that a fill makes of the bounds, from above [m]; 0: not known. */
 static double size_of_elements(const brc_fill *fill, double bounds[2][3])
 {
     const double e[3] = {bounds[1][0] - bounds[0][0], bounds[1][1] - bounds[0][1], bounds[1][2] - bounds[0][2]};
     if (fill->spacing > 0) return fill->spacing;
-    if (fill->cells[0] > 0) return fmax(e[0] / (double)fill->cells[0], fmax(e[1] / (double)fill->cells[1], e[2] / (double)fill->cells[2]));
+    if (fill->cells[0] > 0)
+        return fmax(e[0] / (double)fill->cells[0], fmax(e[1] / (double)fill->cells[1], e[2] / (double)fill->cells[2]));
     if (fill->radius > 0) return 2 * fill->radius;
     return fill->n_elements > 0 ? cbrt(e[0] * e[1] * e[2] / (double)fill->n_elements) : 0;
 }
 
-/* How far the corners of cells stand out of a round wall of radius R, which has as many flat faces as hold its volume: h^2 / (12 R) around a cylinder, twice that on a sphere. */
+/* How far the corners of cells stand out of a round wall of radius R, which has as many flat faces as hold its volume:
+ * h^2 / (12 R) around a cylinder, twice that on a sphere. */
 static double stand_out(const brc_body *body, double bounds[2][3], int axis)
 {
     const brc_shape_kind kind = body->shape.kind;
@@ -67,7 +72,9 @@ static double stand_out(const brc_body *body, double bounds[2][3], int axis)
 /* Bounds of a single shape; false: they are not known here. */
 static bool bounds_of_leaf(const brc_shape *shape, double bounds[2][3])
 {
-    const double widest = shape->kind == BRC_SHAPE_CONE ? fmax(shape->radius, shape->radius2) : shape->kind == BRC_SHAPE_TORUS ? shape->radius + shape->radius2 : shape->radius;
+    const double widest = shape->kind == BRC_SHAPE_CONE    ? fmax(shape->radius, shape->radius2)
+                          : shape->kind == BRC_SHAPE_TORUS ? shape->radius + shape->radius2
+                                                           : shape->radius;
     for (int c = 0; c < 3; ++c) {
         const bool along = c == shape->axis;
         double low = -widest, high = widest;
@@ -106,8 +113,10 @@ static bool bounds_of(const brc_shape *shape, double bounds[2][3])
         if (part->role == BRC_PART_REMOVE && part->shape.kind != BRC_SHAPE_HALF_SPACE) continue;
         if (part->role != BRC_PART_ADD || is_turned(part->rotation) || !bounds_of_leaf(&part->shape, own)) return false;
         for (int c = 0; c < 3; ++c) {
-            bounds[0][c] = p == 0 ? own[0][c] + part->translation[c] : fmin(bounds[0][c], own[0][c] + part->translation[c]);
-            bounds[1][c] = p == 0 ? own[1][c] + part->translation[c] : fmax(bounds[1][c], own[1][c] + part->translation[c]);
+            bounds[0][c] =
+                p == 0 ? own[0][c] + part->translation[c] : fmin(bounds[0][c], own[0][c] + part->translation[c]);
+            bounds[1][c] =
+                p == 0 ? own[1][c] + part->translation[c] : fmax(bounds[1][c], own[1][c] + part->translation[c]);
         }
     }
     return shape->n_parts > 0;
@@ -120,16 +129,21 @@ static bool find_body(brc_reader *reader, fixture *f)
     for (int b = 0; b < scene->n_bodies; ++b)
         if (f->as->body[0] == '\0' || strcmp(scene->bodies[b].name, f->as->body) == 0) f->body = &scene->bodies[b];
     if (f->as->body[0] == '\0' && scene->n_bodies > 1) {
-        REFUSE(reader, f, &f->as->given, "%s: the scene has %d bodies; expected the one that is pressed, as in body: %s", f->name, scene->n_bodies, scene->bodies[0].name);
+        REFUSE(reader, f, &f->as->given,
+               "%s: the scene has %d bodies; expected the one that is pressed, as in body: %s", f->name,
+               scene->n_bodies, scene->bodies[0].name);
         return false;
     }
     if (!f->body) return false; /* the name is refused with all others */
     if (f->body->domain_file[0] || is_turned(f->body->rotation) || !bounds_of(&f->body->shape, f->bounds)) {
-        REFUSE(reader, f, &f->as->given, "%s: the bounds of body '%s' are not known here, as it comes from a file, is turned, or is cut by planes; place strikers of your own (docs/notebook/strikers.md)", f->name,
-               f->body->name);
+        REFUSE(reader, f, &f->as->given,
+               "%s: the bounds of body '%s' are not known here, as it comes from a file, is turned, or is cut by "
+               "planes; place strikers of your own (docs/notebook/strikers.md)",
+               f->name, f->body->name);
         return false;
     }
-    for (int c = 0; c < 6; ++c) f->bounds[c / 3][c % 3] += f->body->translation[c % 3];
+    for (int c = 0; c < 6; ++c)
+        f->bounds[c / 3][c % 3] += f->body->translation[c % 3];
     return true;
 }
 
@@ -157,13 +171,15 @@ static int32_t tool_material(brc_reader *reader, const fixture *f)
     if (f->as->has_material) return f->as->material;
     for (int m = 0; m < scene->n_materials; ++m)
         if (strcmp(scene->materials[m].name, "steel") == 0) return m;
-    scene->materials[scene->n_materials] = (brc_material){.name = "steel", .young = 210e9, .poisson = 0.3, .density = 7850};
+    scene->materials[scene->n_materials] =
+        (brc_material){.name = "steel", .young = 210e9, .poisson = 0.3, .density = 7850};
     reader->own_material = true;
     return scene->n_materials++;
 }
 
 /* A tool that moves the way of `way` along the axis, with this share of the speed; 0: it stays. */
-static brc_status add_striker(brc_reader *reader, const fixture *f, const char *which, int way, double share, brc_striker **out)
+static brc_status add_striker(brc_reader *reader, const fixture *f, const char *which, int way, double share,
+                              brc_striker **out)
 {
     brc_scene *scene = reader->scene;
     if (!scene->strikers) BRC_TRY(BRC_ALLOCATE(reader->context, &scene->strikers, BRC_FIXTURE_STRIKERS, "strikers"));
@@ -172,7 +188,9 @@ static brc_status add_striker(brc_reader *reader, const fixture *f, const char *
     snprintf(striker->name, sizeof striker->name, "%s_%s", f->tool, which);
     for (int k = 0; k < scene->n_strikers; ++k)
         if (strcmp(scene->strikers[k].name, striker->name) == 0)
-            REFUSE(reader, f, &f->as->given, "%s: they make a striker '%s', and the scene has one of this name; give that another name", f->name, striker->name);
+            REFUSE(reader, f, &f->as->given,
+                   "%s: they make a striker '%s', and the scene has one of this name; give that another name", f->name,
+                   striker->name);
     ++scene->n_strikers;
     if (way == 0) return BRC_OK;
     striker->pushed = f->as->force > 0;
@@ -180,7 +198,8 @@ static brc_status add_striker(brc_reader *reader, const fixture *f, const char *
     striker->velocity[f->axis] = striker->pushed ? 0 : way * share * f->as->speed;
     striker->force[f->axis] = way * f->as->force;
     striker->held_rotation = striker->pushed; /* a free one is led along the axis */
-    for (int c = 0; c < 3; ++c) striker->held[c] = striker->pushed && c != f->axis;
+    for (int c = 0; c < 3; ++c)
+        striker->held[c] = striker->pushed && c != f->axis;
     if (!(f->as->ramp > 0)) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(reader->context, &striker->table.time, 2, "table"));
     BRC_TRY(BRC_ALLOCATE(reader->context, &striker->table.value, 2, "table"));
@@ -193,13 +212,15 @@ static brc_status add_striker(brc_reader *reader, const fixture *f, const char *
 /* The tool on a side (0 low, 1 high). */
 static brc_status add_side(brc_reader *reader, const fixture *f, int side, brc_striker **out)
 {
-    const bool both = f->as->moves == BRC_FIXTURE_BOTH, moves = both || (f->as->moves == BRC_FIXTURE_HIGH) == (side == 1);
+    const bool both = f->as->moves == BRC_FIXTURE_BOTH,
+               moves = both || (f->as->moves == BRC_FIXTURE_HIGH) == (side == 1);
     return add_striker(reader, f, side ? "high" : "low", !moves ? 0 : side ? -1 : 1, both ? 0.5 : 1, out);
 }
 
 static brc_status add_platens(brc_reader *reader, const fixture *f)
 {
-    const double thick = THICKNESS * extent(f, f->axis), out = OVERHANG * fmax(extent(f, f->along), extent(f, f->across));
+    const double thick = THICKNESS * extent(f, f->axis),
+                 out = OVERHANG * fmax(extent(f, f->along), extent(f, f->across));
     for (int side = 0; side < 2; ++side) {
         brc_striker *striker;
         BRC_TRY(add_side(reader, f, side, &striker));
@@ -218,17 +239,25 @@ static brc_status add_platens(brc_reader *reader, const fixture *f)
 /* A block less a cylinder. */
 static brc_status add_jaws(brc_reader *reader, const fixture *f)
 {
-    const double width = f->as->width > 0 ? f->as->width : 0.5 * extent(f, f->along), thick = THICKNESS * extent(f, f->axis), radius = f->as->radius;
-    const double middle = 0.5 * (f->bounds[0][f->along] + f->bounds[1][f->along]), out = OVERHANG * extent(f, f->across);
+    const double width = f->as->width > 0 ? f->as->width : 0.5 * extent(f, f->along),
+                 thick = THICKNESS * extent(f, f->axis), radius = f->as->radius;
+    const double middle = 0.5 * (f->bounds[0][f->along] + f->bounds[1][f->along]),
+                 out = OVERHANG * extent(f, f->across);
     if (2 * radius < extent(f, f->along) * (1 - 1e-9)) {
-        REFUSE(reader, f, &f->as->radius, "radius: the hollow of %.4g m is narrower than the body, which is %.4g m across; expected a radius of %.4g m or more", radius, extent(f, f->along), 0.5 * extent(f, f->along));
+        REFUSE(reader, f, &f->as->radius,
+               "radius: the hollow of %.4g m is narrower than the body, which is %.4g m across; expected a radius of "
+               "%.4g m or more",
+               radius, extent(f, f->along), 0.5 * extent(f, f->along));
         return BRC_OK;
     }
     if (!(width < 2 * radius)) {
-        REFUSE(reader, f, &f->as->width, "width: jaws %.4g m wide reach round their hollow of radius %.4g m; expected less than its diameter", width, radius);
+        REFUSE(reader, f, &f->as->width,
+               "width: jaws %.4g m wide reach round their hollow of radius %.4g m; expected less than its diameter",
+               width, radius);
         return BRC_OK;
     }
-    const double cell = cbrt(width * thick * (extent(f, f->across) + 2 * out) / (10 * FACETS)), stands_out = cell * cell / (24 * radius); /* the hollow is filled with convex cells */
+    const double cell = cbrt(width * thick * (extent(f, f->across) + 2 * out) / (10 * FACETS)),
+                 stands_out = cell * cell / (24 * radius); /* the hollow is filled with convex cells */
     const double sag = radius - sqrt(radius * radius - 0.25 * width * width);
     for (int side = 0; side < 2; ++side) {
         brc_striker *striker;
@@ -237,7 +266,8 @@ static brc_status add_jaws(brc_reader *reader, const fixture *f)
         BRC_TRY(BRC_ALLOCATE(reader->context, &striker->shape.parts, 2, "parts of a jaw"));
         striker->shape.n_parts = 2;
         brc_shape *block = &striker->shape.parts[0].shape, *hollow = &striker->shape.parts[1].shape;
-        const double sign = side ? 1 : -1, apex = f->bounds[side][f->axis] + sign * (f->as->gap > 0 ? f->gap : f->gap + stands_out);
+        const double sign = side ? 1 : -1,
+                     apex = f->bounds[side][f->axis] + sign * (f->as->gap > 0 ? f->gap : f->gap + stands_out);
         block->kind = BRC_SHAPE_BOX;
         block->origin[f->across] = f->bounds[0][f->across] - out;
         block->size[f->across] = extent(f, f->across) + 2 * out;
@@ -246,7 +276,8 @@ static brc_status add_jaws(brc_reader *reader, const fixture *f)
         block->origin[f->axis] = side ? apex - sag : apex - thick;
         block->size[f->axis] = thick + sag;
         striker->shape.parts[1].role = BRC_PART_REMOVE;
-        *hollow = (brc_shape){.kind = BRC_SHAPE_CYLINDER, .axis = f->across, .radius = radius, .length = extent(f, f->across) + 4 * out};
+        *hollow = (brc_shape){
+            .kind = BRC_SHAPE_CYLINDER, .axis = f->across, .radius = radius, .length = extent(f, f->across) + 4 * out};
         hollow->origin[f->across] = f->bounds[0][f->across] - 2 * out;
         hollow->origin[f->along] = middle;
         hollow->origin[f->axis] = apex - sign * radius;
@@ -258,22 +289,32 @@ static brc_status add_rollers(brc_reader *reader, const fixture *f)
 {
     static const char *const WHICH[3] = {"left", "right", "load"};
     const int high = f->as->moves == BRC_FIXTURE_HIGH;
-    const double middle = 0.5 * (f->bounds[0][f->along] + f->bounds[1][f->along]), out = OVERHANG * extent(f, f->across);
+    const double middle = 0.5 * (f->bounds[0][f->along] + f->bounds[1][f->along]),
+                 out = OVERHANG * extent(f, f->across);
     /* flat faces that hold the cylinder's volume have corners outside of it */
     const double corner = f->as->radius * sqrt(2 * M_PI / FACETS / sin(2 * M_PI / FACETS));
     if (f->along == f->axis) {
-        REFUSE(reader, f, &f->as->along, "along: the span runs across the load, which is along %c; expected another direction", 'x' + f->axis);
+        REFUSE(reader, f, &f->as->along,
+               "along: the span runs across the load, which is along %c; expected another direction", 'x' + f->axis);
         return BRC_OK;
     }
     if (!(f->as->span < extent(f, f->along)))
-        REFUSE(reader, f, &f->as->span, "span: %.4g m is no less than the body's length, %.4g m along %c, so that supports are not below it; expected less", f->as->span, extent(f, f->along), 'x' + f->along);
+        REFUSE(reader, f, &f->as->span,
+               "span: %.4g m is no less than the body's length, %.4g m along %c, so that supports are not below it; "
+               "expected less",
+               f->as->span, extent(f, f->along), 'x' + f->along);
     if (!(f->as->span > 2 * f->as->radius))
-        REFUSE(reader, f, &f->as->span, "span: supports of radius %.4g m meet within %.4g m; expected a longer span or thinner rollers", f->as->radius, f->as->span);
+        REFUSE(reader, f, &f->as->span,
+               "span: supports of radius %.4g m meet within %.4g m; expected a longer span or thinner rollers",
+               f->as->radius, f->as->span);
     for (int k = 0; k < 3; ++k) {
         brc_striker *striker;
         const int side = k == 2 ? high : !high;
         BRC_TRY(add_striker(reader, f, WHICH[k], k != 2 ? 0 : high ? -1 : 1, 1, &striker));
-        striker->shape = (brc_shape){.kind = BRC_SHAPE_CYLINDER, .axis = f->across, .radius = f->as->radius, .length = extent(f, f->across) + 2 * out};
+        striker->shape = (brc_shape){.kind = BRC_SHAPE_CYLINDER,
+                                     .axis = f->across,
+                                     .radius = f->as->radius,
+                                     .length = extent(f, f->across) + 2 * out};
         striker->shape.origin[f->across] = f->bounds[0][f->across] - out;
         striker->shape.origin[f->along] = middle + (k == 2 ? 0 : k == 0 ? -0.5 : 0.5) * f->as->span;
         striker->shape.origin[f->axis] = f->bounds[side][f->axis] + (side ? 1 : -1) * (f->gap + corner * (1 + 1e-9));
@@ -282,7 +323,8 @@ static brc_status add_rollers(brc_reader *reader, const fixture *f)
 }
 
 /* A sensor of a tool, positive in compression, unless the scene has one of the name. */
-static brc_status add_sensor(brc_reader *reader, const fixture *f, const char *what, const char *striker, const char *against, const char *term)
+static brc_status add_sensor(brc_reader *reader, const fixture *f, const char *what, const char *striker,
+                             const char *against, const char *term)
 {
     brc_scene *scene = reader->scene;
     if (!scene->sensors) BRC_TRY(BRC_ALLOCATE(reader->context, &scene->sensors, BRC_FIXTURE_SENSORS, "sensors"));
@@ -320,7 +362,9 @@ brc_status brc_reader_expand_fixtures(brc_reader *reader)
         }
         BRC_TRY(add_sensors(reader, &f)); /* others may name them, whatever is wrong here */
         if (f.as->mass > 0 && !(f.as->force > 0))
-            REFUSE(reader, &f, &f.as->mass, "mass: tools that move with a prescribed speed need none; leave it out, or press them by `force` in place of `speed`");
+            REFUSE(reader, &f, &f.as->mass,
+                   "mass: tools that move with a prescribed speed need none; leave it out, or press them by `force` in "
+                   "place of `speed`");
         if (brc_problems_count(reader->problems) > 0 || !find_body(reader, &f)) continue;
         find_directions(&f);
         BRC_TRY(k == 0 ? add_platens(reader, &f) : k == 1 ? add_jaws(reader, &f) : add_rollers(reader, &f));
@@ -336,7 +380,9 @@ static brc_status add_friction(brc_reader *reader, const brc_fixture *as, int32_
     for (int b = 0; b < scene->n_bodies; ++b)
         if (as->body[0] == '\0' || strcmp(scene->bodies[b].name, as->body) == 0) body = &scene->bodies[b];
     if (!as->has_friction || !body) return BRC_OK;
-    BRC_TRY(brc_memory_resize(reader->context, (void **)&scene->contact.pairs, (int64_t)scene->contact.n_pairs + scene->n_materials, sizeof *scene->contact.pairs, "laws of contact"));
+    BRC_TRY(brc_memory_resize(reader->context, (void **)&scene->contact.pairs,
+                              (int64_t)scene->contact.n_pairs + scene->n_materials, sizeof *scene->contact.pairs,
+                              "laws of contact"));
     for (int32_t m = 0; m < scene->n_materials; ++m) {
         if (!brc_body_uses(body, m)) continue;
         brc_contact_law *law = &scene->contact.pairs[scene->contact.n_pairs++];
@@ -348,7 +394,8 @@ static brc_status add_friction(brc_reader *reader, const brc_fixture *as, int32_
     return BRC_OK;
 }
 
-/* The largest force, unless the scene has a measure of the name; and the curve of force over displacement, where there is none. */
+/* The largest force, unless the scene has a measure of the name; and the curve of force over displacement, where there
+ * is none. */
 static brc_status add_measure(brc_reader *reader, const char *name)
 {
     brc_scene *scene = reader->scene;
@@ -361,7 +408,8 @@ static brc_status add_measure(brc_reader *reader, const char *name)
     }
     for (int k = 0; k < scene->n_measures; ++k)
         if (strcmp(scene->measures[k].name, measure.name) == 0) return BRC_OK;
-    BRC_TRY(brc_memory_resize(reader->context, (void **)&scene->measures, (int64_t)scene->n_measures + 1, sizeof *scene->measures, "measures"));
+    BRC_TRY(brc_memory_resize(reader->context, (void **)&scene->measures, (int64_t)scene->n_measures + 1,
+                              sizeof *scene->measures, "measures"));
     scene->measures[scene->n_measures++] = measure;
     return BRC_OK;
 }
@@ -374,7 +422,8 @@ brc_status brc_reader_finish_fixtures(brc_reader *reader)
         char first[BRC_NAME];
         snprintf(first, sizeof first, "%s_%s", FIXTURE[k].tool, k == 2 ? "load" : "high");
         for (int s = 0; s < scene->n_strikers && as->given; ++s)
-            if (strcmp(scene->strikers[s].name, first) == 0) BRC_TRY(add_friction(reader, as, scene->strikers[s].material));
+            if (strcmp(scene->strikers[s].name, first) == 0)
+                BRC_TRY(add_friction(reader, as, scene->strikers[s].material));
         if (as->given) BRC_TRY(add_measure(reader, FIXTURE[k].name));
     }
     return BRC_OK;

@@ -23,13 +23,14 @@ typedef struct brc_reader {
     int64_t n_places, n_places_held;
     brc_place *places;
     bool own_material; /* the last material is the reader's own, not the scene's */
-    bool broken[32]; /* by entry of the top section: something in it was wrong */
+    bool broken[32];   /* by entry of the top section: something in it was wrong */
 } brc_reader;
 
 /* reader_values.c: read one value (anything but structs and lists) into its field. Problems are added; the status is
  * BRC_OK unless memory ran out. */
 brc_status brc_reader_value(brc_reader *reader, const brc_entry *entry, const brc_node *node, void *field);
-/* Is this text a name (letters, digits, _ + -, at most BRC_NAME - 1 bytes)? Adds a problem if not, which names the key whose value it is; node NULL: it is a key itself, "key". */
+/* Is this text a name (letters, digits, _ + -, at most BRC_NAME - 1 bytes)? Adds a problem if not, which names the key
+ * whose value it is; node NULL: it is a key itself, "key". */
 bool brc_reader_name(brc_reader *reader, const char *key, const brc_node *node, const char *text, brc_mark mark);
 /* "a quantity in Pa such as 72 GPa". Written into `out`, which is returned. */
 const char *brc_entry_expects(const brc_entry *entry, const char *unit, char *out, size_t size);
@@ -39,7 +40,8 @@ const char *brc_entry_unit(const brc_entry *entry, const brc_scene *scene, const
 /* Remember where a field (or, entry NULL, a struct) was given. */
 brc_status brc_reader_remember(brc_reader *reader, const void *address, const brc_entry *entry, brc_mark mark);
 
-/* reader_check.c: where a field was given (a flag: its key; a kind: the variant); where its struct `item` begins when it was left out. For checks, which follow when all is read. */
+/* reader_check.c: where a field was given (a flag: its key; a kind: the variant); where its struct `item` begins when
+ * it was left out. For checks, which follow when all is read. */
 brc_mark brc_reader_place(const brc_reader *reader, const void *field, const void *item);
 /* Was there a problem in this top-level key? What refers to it is then not judged. */
 bool brc_reader_is_broken(const brc_reader *reader, const char *key);
@@ -49,7 +51,8 @@ bool brc_reader_is_broken(const brc_reader *reader, const char *key);
     brc_problems_warn((reader)->problems, brc_reader_place((reader), (field), (item)), __VA_ARGS__)
 /* scene_reader.c: fill in the defaults of a section's keys, as of an empty map. */
 brc_status brc_reader_defaults(brc_reader *reader, const brc_section *section, brc_mark mark, void *base);
-/* reader_fixtures.c: strikers, sensors and contact of platens, jaws and rollers. Before the measures are read, whose units depend on sensors; the lists have room (brc_entry.spare). */
+/* reader_fixtures.c: strikers, sensors and contact of platens, jaws and rollers. Before the measures are read, whose
+ * units depend on sensors; the lists have room (brc_entry.spare). */
 brc_status brc_reader_expand_fixtures(brc_reader *reader);
 /* Their laws of contact, measures and curve. After all checks, as it moves lists of the scene. */
 brc_status brc_reader_finish_fixtures(brc_reader *reader);
@@ -64,7 +67,8 @@ brc_status brc_names_check(brc_reader *reader, const brc_wall_names *walls);
 bool brc_names_is_closed(const brc_scene *scene, const char *name);
 /* Numbers of the bodies that sets name, and warnings about sets that are named as bodies. */
 void brc_names_find_bodies(brc_reader *reader);
-/* A set of elements for each body that is named as one, and one of its faces where it is named as that, unless a wall or a set has the name. Last of all, as it moves the scene's sets. */
+/* A set of elements for each body that is named as one, and one of its faces where it is named as that, unless a wall
+ * or a set has the name. Last of all, as it moves the scene's sets. */
 brc_status brc_names_add_body_sets(brc_reader *reader, const brc_wall_names *walls);
 /* reader_check_fracture.c: what breaks, and what scenes that break cannot have. */
 void brc_reader_check_fracture(brc_reader *reader);

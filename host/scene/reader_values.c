@@ -91,7 +91,8 @@ static void complain_of_range(brc_reader *reader, const brc_entry *entry, const 
     char found[128], range[96], hint[BRC_HINT];
     brc_problems_add(reader->problems, node->mark, "%s: %s is out of range, it must be %s%s%s%s", entry->key,
                      brc_node_describe(node, found, sizeof found), brc_range_text(entry, range, sizeof range),
-                     entry->why ? ": " : "", entry->why ? entry->why : "", brc_hint_range(entry, node->text, value, hint));
+                     entry->why ? ": " : "", entry->why ? entry->why : "",
+                     brc_hint_range(entry, node->text, value, hint));
 }
 
 static bool read_quantity(brc_reader *reader, const brc_entry *entry, const char *unit, const brc_node *node,
@@ -108,8 +109,10 @@ static bool read_quantity(brc_reader *reader, const brc_entry *entry, const char
     const brc_quantity_result result = brc_quantity_read(node->text, unit, out);
     if (result != BRC_QUANTITY_OK) {
         char found[128], expected[SENTENCE], hint[BRC_HINT];
-        brc_problems_add(reader->problems, node->mark, "%s: %s %s; expected %s%s", entry->key, brc_node_describe(node, found, sizeof found), brc_quantity_problem(result),
-                         brc_entry_expects(entry, unit, expected, sizeof expected), brc_hint_quantity(node->text, unit, hint));
+        brc_problems_add(reader->problems, node->mark, "%s: %s %s; expected %s%s", entry->key,
+                         brc_node_describe(node, found, sizeof found), brc_quantity_problem(result),
+                         brc_entry_expects(entry, unit, expected, sizeof expected),
+                         brc_hint_quantity(node->text, unit, hint));
         return false;
     }
     if (*out == 0) *out = 0; /* no minus zero, which would be written differently */

@@ -28,7 +28,8 @@ void brc_scene_free(brc_scene **scene)
     }
     brc_memory_free(s->strikers);
     brc_memory_free(s->contact.pairs);
-    for (int m = 0; m < s->n_materials; ++m) brc_memory_free(s->materials[m].scatter.quantiles);
+    for (int m = 0; m < s->n_materials; ++m)
+        brc_memory_free(s->materials[m].scatter.quantiles);
     brc_memory_free(s->materials);
     brc_memory_free(s->interfaces);
     brc_memory_free(s->bodies);
@@ -49,7 +50,8 @@ int32_t brc_body_n_regions(const brc_body *body)
 int32_t brc_body_material(const brc_body *body, int32_t region)
 {
     if (region < 1 || region > brc_body_n_regions(body)) return body->material;
-    return region <= body->n_regions ? body->regions[region - 1].material : body->phases[region - body->n_regions - 1].material;
+    return region <= body->n_regions ? body->regions[region - 1].material
+                                     : body->phases[region - body->n_regions - 1].material;
 }
 
 bool brc_body_uses(const brc_body *body, int32_t material)
@@ -67,7 +69,8 @@ const brc_model *brc_body_model(const brc_scene *scene, int32_t body)
 bool brc_material_breaks(const brc_scene *scene, brc_model_kind model, const brc_material *m)
 {
     if (brc_scene_breaks_by_bond(scene, model)) return m->tension > 0;
-    return m->tension > 0 || m->compression > 0 || scene->fracture.cohesion > 0 || (model == BRC_MODEL_CBM && (m->beam_strength > 0 || m->beam_compression > 0));
+    return m->tension > 0 || m->compression > 0 || scene->fracture.cohesion > 0 ||
+           (model == BRC_MODEL_CBM && (m->beam_strength > 0 || m->beam_compression > 0));
 }
 
 bool brc_scene_softens(const brc_scene *scene)
@@ -81,7 +84,8 @@ bool brc_scene_softens(const brc_scene *scene)
 
 bool brc_scene_slides(const brc_scene *scene, brc_model_kind model)
 {
-    return scene->has_fracture && model == BRC_MODEL_DLSM && scene->fracture.kind == BRC_CRITERION_MOHR_COULOMB && brc_scene_softens(scene);
+    return scene->has_fracture && model == BRC_MODEL_DLSM && scene->fracture.kind == BRC_CRITERION_MOHR_COULOMB &&
+           brc_scene_softens(scene);
 }
 
 bool brc_scene_breaks_by_bond(const brc_scene *scene, brc_model_kind model)
@@ -96,7 +100,8 @@ bool brc_scene_shuts(const brc_scene *scene)
 
 double brc_scene_side_friction(const brc_scene *scene)
 {
-    const double usual = 0.3; /* a block in compression is carried from here on (docs/notebook/fracture.md, "Closed faces") */
+    const double usual =
+        0.3; /* a block in compression is carried from here on (docs/notebook/fracture.md, "Closed faces") */
     return scene->fracture.side_friction < 0 ? usual : scene->fracture.side_friction;
 }
 
@@ -134,10 +139,25 @@ double brc_table_value(const brc_table *table, double t)
 }
 
 /* Units of sensors, and of the slope of one against another: [numerator][denominator]. */
-enum { NEWTON, METRE, PURE, RADIAN, PASCAL, JOULE, METRE_PER_SECOND, HERTZ, NEWTON_METRE, SQUARE_METRE, RADIAN_PER_SECOND, N_UNITS };
+enum {
+    NEWTON,
+    METRE,
+    PURE,
+    RADIAN,
+    PASCAL,
+    JOULE,
+    METRE_PER_SECOND,
+    HERTZ,
+    NEWTON_METRE,
+    SQUARE_METRE,
+    RADIAN_PER_SECOND,
+    N_UNITS
+};
 static const char *const UNIT[N_UNITS] = {"N", "m", "-", "rad", "Pa", "J", "m/s", "Hz", "N m", "m^2", "rad/s"};
-static const char *const RATE_UNIT[N_UNITS] = {"N/s", "m/s", "1/s", "rad/s", "Pa/s", "W", "m/s^2", "Hz/s", "N m/s", "m^2/s", "rad/s^2"};
-static const char *const INTEGRAL_UNIT[N_UNITS] = {"N s", "m s", "s", "rad s", "Pa s", "J s", "m", "-", "N m s", "m^2 s", "rad"};
+static const char *const RATE_UNIT[N_UNITS] = {"N/s",   "m/s",  "1/s",   "rad/s", "Pa/s",   "W",
+                                               "m/s^2", "Hz/s", "N m/s", "m^2/s", "rad/s^2"};
+static const char *const INTEGRAL_UNIT[N_UNITS] = {"N s", "m s", "s",     "rad s", "Pa s", "J s",
+                                                   "m",   "-",   "N m s", "m^2 s", "rad"};
 static const char *const SLOPE_UNIT[N_UNITS][N_UNITS] = {
     {"-", "N/m", "N", "N/rad", "N/Pa", "N/J", "N s/m", "N/Hz", "1/m", "N/m^2", "N s/rad"},
     {"m/N", "-", "m", "m/rad", "m/Pa", "m/J", "s", "m/Hz", "1/N", "1/m", "m s/rad"},
@@ -157,9 +177,9 @@ static int unit_of_striker(const char *term)
     static const struct {
         const char *term;
         int unit;
-    } TERM[] = {{"position", METRE},         {"displacement", METRE}, {"velocity", METRE_PER_SECOND}, {"rotation", RADIAN},
-                {"spin", RADIAN_PER_SECOND}, {"force", NEWTON},       {"torque", NEWTON_METRE},       {"energy", JOULE},
-                {"applied", NEWTON}};
+    } TERM[] = {{"position", METRE},      {"displacement", METRE},     {"velocity", METRE_PER_SECOND},
+                {"rotation", RADIAN},     {"spin", RADIAN_PER_SECOND}, {"force", NEWTON},
+                {"torque", NEWTON_METRE}, {"energy", JOULE},           {"applied", NEWTON}};
     for (size_t k = 0; k < sizeof TERM / sizeof *TERM; ++k)
         if (strcmp(term, TERM[k].term) == 0) return TERM[k].unit;
     return PURE;

@@ -13,9 +13,10 @@
 /* Strength of bonds around that of their material: factors with which it is multiplied, drawn by bond. */
 typedef enum brc_scatter_kind {
     BRC_SCATTER_NONE,
-    BRC_SCATTER_WEIBULL, /* factor (-ln(1 - p) V_0 / V)^(1/m), p uniform, V the volume of the bond (S L / 3 of a cell's face, its share of a sphere) */
+    BRC_SCATTER_WEIBULL, /* factor (-ln(1 - p) V_0 / V)^(1/m), p uniform, V the volume of the bond (S L / 3 of a cell's
+                            face, its share of a sphere) */
     BRC_SCATTER_TABLE,   /* quantiles: the factor at probability p, linear between them */
-    BRC_SCATTER_FILE     /* a factor a bond, from a CSV with columns element_i, element_j, factor; 1 for a bond not in it */
+    BRC_SCATTER_FILE /* a factor a bond, from a CSV with columns element_i, element_j, factor; 1 for a bond not in it */
 } brc_scatter_kind;
 typedef struct brc_quantile {
     double below;  /* share of the bonds with a smaller factor: 0 at the first, 1 at the last [-] */
@@ -30,8 +31,13 @@ typedef struct brc_scatter {
     char file[512];          /* relative to the scene */
 } brc_scatter;
 
-/* The test that gave a strength in tension: a body pulled apart, or a disc pressed across (NAH19 eq. 27), which nominally fails at another load; or either, the error shared by both tests. */
-typedef enum brc_strength_origin { BRC_STRENGTH_BY_TENSION, BRC_STRENGTH_BY_BRAZILIAN, BRC_STRENGTH_BY_EITHER } brc_strength_origin;
+/* The test that gave a strength in tension: a body pulled apart, or a disc pressed across (NAH19 eq. 27), which
+ * nominally fails at another load; or either, the error shared by both tests. */
+typedef enum brc_strength_origin {
+    BRC_STRENGTH_BY_TENSION,
+    BRC_STRENGTH_BY_BRAZILIAN,
+    BRC_STRENGTH_BY_EITHER
+} brc_strength_origin;
 
 /* How the traction of a bond falls from the strength to nothing while its crack opens; G_c is the area below. */
 typedef enum brc_softening { BRC_SOFTENING_LINEAR, BRC_SOFTENING_EXPONENTIAL } brc_softening;
@@ -45,14 +51,15 @@ typedef struct brc_material {
     double beam_radius; /* r_m: beam radius over the mean radius of the packed spheres [-] */
     double beam_young;  /* E_m of the beams [Pa] */
     /* only read in scenes with fracture; 0: no limit */
-    double tension, compression; /* strengths of the solid, positive [Pa] */
+    double tension, compression;     /* strengths of the solid, positive [Pa] */
     brc_strength_origin measured_by; /* cbm: what `tension` is the result of */
-    double beam_strength;        /* cbm: sigma_m, tensile limit of the virial stress; 0: from tension by the calibrated law [Pa] */
-    double beam_compression;     /* cbm: its limit of compression, positive; 0: from compression by the law [Pa] */
-    double fracture_energy;      /* G_c, energy per area of a crack [J/m^2]; 0: bonds break at once */
+    double beam_strength;    /* cbm: sigma_m, tensile limit of the virial stress; 0: from tension by the calibrated law
+                                [Pa] */
+    double beam_compression; /* cbm: its limit of compression, positive; 0: from compression by the law [Pa] */
+    double fracture_energy;  /* G_c, energy per area of a crack [J/m^2]; 0: bonds break at once */
     double shear_fracture_energy; /* G_II, of a crack whose sides slide, beside what they rub off [J/m^2]; 0: G_c */
-    brc_softening softening;     /* with a fracture energy: how cohesion falls with the opening */
-    brc_scatter scatter;         /* of the strength between bonds */
+    brc_softening softening;      /* with a fracture energy: how cohesion falls with the opening */
+    brc_scatter scatter;          /* of the strength between bonds */
 } brc_material;
 
 typedef enum brc_criterion_kind {
@@ -67,9 +74,9 @@ typedef enum brc_criterion_kind {
 typedef enum brc_interface_kind { BRC_INTERFACE_GRAINS, BRC_INTERFACE_MATERIALS } brc_interface_kind;
 typedef struct brc_interface {
     brc_interface_kind kind;
-    int32_t material[2];    /* materials: indices into scene.materials, in any order */
-    double factor;          /* on the strength and the fracture energy of the weaker side [-]; 0: left out, which means 1 */
-    double tension;         /* in place of the factor's strength; 0: by the factor [Pa] */
+    int32_t material[2]; /* materials: indices into scene.materials, in any order */
+    double factor;  /* on the strength and the fracture energy of the weaker side [-]; 0: left out, which means 1 */
+    double tension; /* in place of the factor's strength; 0: by the factor [Pa] */
     double fracture_energy; /* in place of the factor's; 0: by the factor [J/m^2] */
 } brc_interface;
 
@@ -77,13 +84,15 @@ typedef struct brc_fracture {
     brc_criterion_kind kind;
     int32_t level;             /* shells of neighbours the stress is averaged over: 0, 1, 2; not for bond-normal */
     double cohesion, friction; /* the last two kinds: [Pa], [rad] */
-    bool closure;              /* sides of a broken face bear on each other until they stand clear (docs/notebook/fracture.md "Closed faces") */
-    double side_friction;      /* Coulomb friction of those sides where the scene has no contact [-]; -1: 0.3 (brc_scene_side_friction) */
-    uint64_t seed;             /* of the draws of strengths, keyed by the ids of a bond's elements */
+    bool closure; /* sides of a broken face bear on each other until they stand clear (docs/notebook/fracture.md "Closed
+                     faces") */
+    double side_friction; /* Coulomb friction of those sides where the scene has no contact [-]; -1: 0.3
+                             (brc_scene_side_friction) */
+    uint64_t seed;        /* of the draws of strengths, keyed by the ids of a bond's elements */
 } brc_fracture;
 
 typedef enum brc_model_kind {
-    BRC_MODEL_DLSM,          /* the conservative law, docs/notebook/theory.md T2 */
+    BRC_MODEL_DLSM,           /* the conservative law, docs/notebook/theory.md T2 */
     BRC_MODEL_DLSM_PUBLISHED, /* the published law, AGH19, docs/notebook/theory.md T3 */
     BRC_MODEL_CBM             /* spheres joined by beams, NAH19, docs/notebook/beams.md */
 } brc_model_kind;
@@ -95,10 +104,12 @@ typedef struct brc_model {
     double beta;     /* [-] cross term, default 1.06 (docs/notebook/theory.md T2) */
     double tau;      /* [-] stabilisation, default 0.15; beta^2 <= 1 + tau keeps W positive */
     /* dlsm-published */
-    bool small_rotations; /* dlsm and published: the law linearised about the reference: a body that turns grows and strains; for comparison */
-    bool area_weights;         /* least squares with weights S/L instead of 1 (default false, as printed) */
+    bool small_rotations; /* dlsm and published: the law linearised about the reference: a body that turns grows and
+                             strains; for comparison */
+    bool area_weights;    /* least squares with weights S/L instead of 1 (default false, as printed) */
     double rotation_stiffness; /* [-] factor on K = E S^2 / (4 pi L0), default 1 */
-    double couple_modulus;     /* [-] over mu: holds the frames of elements to the turning solid; 0, as printed, by default (docs/notebook/theory.md T3) */
+    double couple_modulus; /* [-] over mu: holds the frames of elements to the turning solid; 0, as printed, by default
+                              (docs/notebook/theory.md T3) */
     /* cbm */
     double beam_poisson; /* nu_m of the beams, default 0.3: hardly matters (docs/notebook/beams.md) [-] */
     bool keep_isolated;  /* hold elements without bonds still instead of refusing them */
@@ -109,10 +120,13 @@ typedef struct brc_model {
 typedef struct brc_contact_law {
     int32_t material[2]; /* of a pair: indices into scene.materials, in any order */
     double friction;     /* Coulomb mu [-] */
-    double restitution;  /* of a central blow between rigid bodies, in (0, 1]; 0: left out, which means 1: no damping [-] */
-    double damping;      /* viscous, as a share of the critical one, in place of the restitution; 0: by the restitution [-] */
-    double stiffness;    /* K_s of a touching pair [N/m]; 0: from the materials */
-    double tangential;   /* tangential over normal stiffness, of sticking surfaces [-]; 0: from Poisson's ratios, 2 (1 - nu) / (2 - nu) */
+    double
+        restitution; /* of a central blow between rigid bodies, in (0, 1]; 0: left out, which means 1: no damping [-] */
+    double
+        damping; /* viscous, as a share of the critical one, in place of the restitution; 0: by the restitution [-] */
+    double stiffness;  /* K_s of a touching pair [N/m]; 0: from the materials */
+    double tangential; /* tangential over normal stiffness, of sticking surfaces [-]; 0: from Poisson's ratios, 2 (1 -
+                          nu) / (2 - nu) */
 } brc_contact_law;
 
 typedef enum brc_sphere_law { BRC_SPHERES_HERTZ, BRC_SPHERES_LINEAR } brc_sphere_law;
@@ -139,23 +153,25 @@ typedef struct brc_table {
 typedef enum brc_striker_motion { BRC_STRIKER_FIXED, BRC_STRIKER_DRIVEN, BRC_STRIKER_FREE } brc_striker_motion;
 typedef struct brc_striker {
     char name[BRC_NAME];
-    bool is_plane;             /* the half-space behind a plane, in place of a shape */
+    bool is_plane;              /* the half-space behind a plane, in place of a shape */
     double point[3], normal[3]; /* plane: a point of it, and the unit vector out of the wall */
     brc_shape shape;
-    int32_t facets;            /* curved shapes: flat faces around a full turn */
+    int32_t facets;                     /* curved shapes: flat faces around a full turn */
     double translation[3], rotation[3]; /* pose of the shape, as of a body */
-    int32_t material;          /* index into scene.materials */
+    int32_t material;                   /* index into scene.materials */
     brc_striker_motion motion;
-    double velocity[3], spin[3]; /* driven: times the table; free: at the start of the run [m/s], [rad/s] about the mass centre */
-    bool pushed;               /* free: a prescribed force acts on its mass centre */
-    double force[3];           /* that, times the table [N] */
-    brc_table table;           /* factor of velocity and spin, or of force, over the time since the start of the run; n = 0: 1 */
-    double mass;               /* free: [kg]; 0: volume times density */
-    bool held[3];              /* free: components of its motion that stay zero */
-    bool held_rotation;        /* free: it does not turn */
+    double velocity[3],
+        spin[3];     /* driven: times the table; free: at the start of the run [m/s], [rad/s] about the mass centre */
+    bool pushed;     /* free: a prescribed force acts on its mass centre */
+    double force[3]; /* that, times the table [N] */
+    brc_table table; /* factor of velocity and spin, or of force, over the time since the start of the run; n = 0: 1 */
+    double mass;     /* free: [kg]; 0: volume times density */
+    bool held[3];    /* free: components of its motion that stay zero */
+    bool held_rotation; /* free: it does not turn */
 } brc_striker;
 
-/* Tools of a testing machine: platens, jaws, rollers. The reader turns them into strikers, sensors and a law of contact; nothing else reads them but for reports. */
+/* Tools of a testing machine: platens, jaws, rollers. The reader turns them into strikers, sensors and a law of
+ * contact; nothing else reads them but for reports. */
 typedef enum brc_fixture_moves { BRC_FIXTURE_HIGH, BRC_FIXTURE_LOW, BRC_FIXTURE_BOTH } brc_fixture_moves;
 typedef struct brc_fixture {
     bool given;
@@ -166,15 +182,15 @@ typedef struct brc_fixture {
     double mass;         /* of each of these [kg]; 0: volume times density */
     double ramp;         /* time in which speed or force rises to that [s]; 0: at once */
     bool has_friction;
-    double friction;     /* between tools and body [-]; without: that of the scene's contact */
+    double friction; /* between tools and body [-]; without: that of the scene's contact */
     bool has_material;
-    int32_t material;    /* index into scene.materials */
+    int32_t material; /* index into scene.materials */
     brc_fixture_moves moves;
-    double gap;          /* between tool and body [m]; 0: automatic */
-    double radius;       /* of the jaws' hollow, of the rollers [m] */
-    double width;        /* of jaws [m]; 0: half the body's */
-    double span;         /* of the supports [m] */
-    int32_t along;       /* direction of the span: 0 automatic, else 1 + axis */
+    double gap;    /* between tool and body [m]; 0: automatic */
+    double radius; /* of the jaws' hollow, of the rollers [m] */
+    double width;  /* of jaws [m]; 0: half the body's */
+    double span;   /* of the supports [m] */
+    int32_t along; /* direction of the span: 0 automatic, else 1 + axis */
 } brc_fixture;
 
 typedef struct brc_region {
@@ -195,27 +211,28 @@ typedef struct brc_body {
     double translation[3], rotation[3]; /* pose, as in brc_build_request */
     double tiny_face_threshold;         /* as in brc_build_request; 0: default */
     bool has_model;
-    brc_model model;                    /* its own, in place of the scene's */
-    int32_t material;                   /* index into scene.materials */
+    brc_model model;  /* its own, in place of the scene's */
+    int32_t material; /* index into scene.materials */
     int32_t n_regions;
     brc_region *regions; /* [n_regions] later ones win */
     double beams;        /* spheres joined by beams: their mean coordination number; 0: cells */
     int32_t n_cracks;
-    brc_crack *cracks;   /* [n_cracks] */
-    brc_grains grains;   /* its phases are the body's: n_phases and fraction stay 0 here */
+    brc_crack *cracks; /* [n_cracks] */
+    brc_grains grains; /* its phases are the body's: n_phases and fraction stay 0 here */
     int32_t n_phases;
-    brc_phase *phases;   /* [n_phases] phase p is region n_regions + 1 + p */
+    brc_phase *phases; /* [n_phases] phase p is region n_regions + 1 + p */
 } brc_body;
 
 typedef enum brc_load_kind {
-    BRC_LOAD_FACE_DISPLACEMENT, /* u_f = a(t) (value + gradient (C - origin)) on boundary faces, per component [m] */
-    BRC_LOAD_FACE_VELOCITY,     /* the same for the velocity [m/s]; the displacement starts from the stage's start */
+    BRC_LOAD_FACE_DISPLACEMENT,    /* u_f = a(t) (value + gradient (C - origin)) on boundary faces, per component [m] */
+    BRC_LOAD_FACE_VELOCITY,        /* the same for the velocity [m/s]; the displacement starts from the stage's start */
     BRC_LOAD_ELEMENT_DISPLACEMENT, /* imposed elements, as the papers do it: u of whole elements */
     BRC_LOAD_ELEMENT_VELOCITY,
-    BRC_LOAD_TRACTION, /* force per reference area, dead: t = a(t) value [Pa] */
-    BRC_LOAD_PRESSURE, /* dead pressure: t = -a(t) value[0] N [Pa] */
-    BRC_LOAD_ELEMENT_FORCE,   /* dead: a(t) times value, a total over the set, shared out; or radial_force (below) [N] */
-    BRC_LOAD_ELEMENT_ROTATION /* rotation of elements since the start of the stage, a(t) value per component [rad]; models with rotations */
+    BRC_LOAD_TRACTION,      /* force per reference area, dead: t = a(t) value [Pa] */
+    BRC_LOAD_PRESSURE,      /* dead pressure: t = -a(t) value[0] N [Pa] */
+    BRC_LOAD_ELEMENT_FORCE, /* dead: a(t) times value, a total over the set, shared out; or radial_force (below) [N] */
+    BRC_LOAD_ELEMENT_ROTATION /* rotation of elements since the start of the stage, a(t) value per component [rad];
+                                 models with rotations */
 } brc_load_kind;
 
 typedef enum brc_share { BRC_SHARE_NUMBER, BRC_SHARE_MASS } brc_share; /* of a total: equal parts, or by mass */
@@ -286,53 +303,61 @@ typedef struct brc_stage {
     brc_integrator integrator;
     double phi; /* Tchamwa-Wielgosz parameter, >= 1 */
     brc_time_step_rule time_step_rule;
-    double time_step; /* fixed [s] */
-    double safety;    /* auto: fraction of the critical step, default 0.8 */
-    double duration;  /* [s]; 0: by steps */
-    int64_t steps;    /* 0: by duration */
-    double mass_damping; /* force -c m v, c [1/s] >= 0: drag of a surrounding fluid on every element; 0: none */
-    double noise_damping; /* share in [0, 0.1] of the critical damping of the fastest oscillation, on motion not linear over the neighbours; 0: none */
-    double stop_kinetic; /* stop when kinetic <= this fraction of elastic energy for 100 steps; 0: off */
-    double stop_broken;  /* stop when more than this fraction of the bonds is broken; 0: off */
-    char stop_sensor[BRC_NAME]; /* stop when this sensor fell below stop_share of its largest magnitude in the stage; "" : off */
-    double stop_share;   /* [-] */
+    double time_step;     /* fixed [s] */
+    double safety;        /* auto: fraction of the critical step, default 0.8 */
+    double duration;      /* [s]; 0: by steps */
+    int64_t steps;        /* 0: by duration */
+    double mass_damping;  /* force -c m v, c [1/s] >= 0: drag of a surrounding fluid on every element; 0: none */
+    double noise_damping; /* share in [0, 0.1] of the critical damping of the fastest oscillation, on motion not linear
+                             over the neighbours; 0: none */
+    double stop_kinetic;  /* stop when kinetic <= this fraction of elastic energy for 100 steps; 0: off */
+    double stop_broken;   /* stop when more than this fraction of the bonds is broken; 0: off */
+    char stop_sensor[BRC_NAME]; /* stop when this sensor fell below stop_share of its largest magnitude in the stage; ""
+                                   : off */
+    double stop_share;          /* [-] */
     /* static */
-    double tolerance;     /* residual over load [-]; 0: by precision (1e-10, 1e-6, 1e-5) */
-    int32_t increments;   /* load increments, default 1 */
+    double tolerance;       /* residual over load [-]; 0: by precision (1e-10, 1e-6, 1e-5) */
+    int32_t increments;     /* load increments, default 1 */
     int32_t max_iterations; /* per linear solve; 0: automatic */
     brc_preconditioner_kind preconditioner;
-    double to_failure;    /* scale the load so that the worst element is at this fraction of its limit; 0: the load as given [-] */
-    int32_t most_events;  /* quasi-static fracture: the load is scaled to the next failing bond, most_events times; 0: nothing breaks */
-    double stop_load;     /* events end when the load that breaks falls below this share of the largest so far [-] */
-    bool finite_strain;   /* true (default): the full law, by modified Newton; false: the linearised operator alone */
+    double to_failure;   /* scale the load so that the worst element is at this fraction of its limit; 0: the load as
+                            given [-] */
+    int32_t most_events; /* quasi-static fracture: the load is scaled to the next failing bond, most_events times; 0:
+                            nothing breaks */
+    double stop_load;    /* events end when the load that breaks falls below this share of the largest so far [-] */
+    bool finite_strain;  /* true (default): the full law, by modified Newton; false: the linearised operator alone */
     /* modes */
     int32_t n_modes;
 } brc_stage;
 
 typedef enum brc_sensor_kind {
-    BRC_SENSOR_REACTION,     /* force of the loads on the solid, summed over a face or element set with a prescribed motion [N] */
-    BRC_SENSOR_FACE_MEAN,    /* area mean of u_f over a face set, or mean of u over an element set [m] */
-    BRC_SENSOR_FACE_STRAIN,  /* (mean u of set - mean u of set2).component over their reference distance along it [-] */
-    BRC_SENSOR_FACE_TWIST,   /* area mean rotation angle of a face set about an axis [rad] */
-    BRC_SENSOR_STRESS,       /* volume mean of the second Piola-Kirchhoff stress over an element set [Pa] */
-    BRC_SENSOR_STRAIN,       /* volume mean of the Green strain over an element set [-] */
-    BRC_SENSOR_ENERGY,       /* a term of the ledger by name [J] */
-    BRC_SENSOR_POINT,        /* displacement of the element nearest to a point [m] */
+    BRC_SENSOR_REACTION,  /* force of the loads on the solid, summed over a face or element set with a prescribed motion
+                             [N] */
+    BRC_SENSOR_FACE_MEAN, /* area mean of u_f over a face set, or mean of u over an element set [m] */
+    BRC_SENSOR_FACE_STRAIN, /* (mean u of set - mean u of set2).component over their reference distance along it [-] */
+    BRC_SENSOR_FACE_TWIST,  /* area mean rotation angle of a face set about an axis [rad] */
+    BRC_SENSOR_STRESS,      /* volume mean of the second Piola-Kirchhoff stress over an element set [Pa] */
+    BRC_SENSOR_STRAIN,      /* volume mean of the Green strain over an element set [-] */
+    BRC_SENSOR_ENERGY,      /* a term of the ledger by name [J] */
+    BRC_SENSOR_POINT,       /* displacement of the element nearest to a point [m] */
     BRC_SENSOR_POINT_VELOCITY, /* its velocity [m/s] */
-    BRC_SENSOR_MOMENT,       /* moment of the loads on the solid about a point, over a set with a prescribed motion [N m] */
-    BRC_SENSOR_TURN,         /* rotation vector of the element nearest to a point; models with rotations [rad] */
+    BRC_SENSOR_MOMENT, /* moment of the loads on the solid about a point, over a set with a prescribed motion [N m] */
+    BRC_SENSOR_TURN,   /* rotation vector of the element nearest to a point; models with rotations [rad] */
     BRC_SENSOR_RADIAL_STRESS, /* element forces of a set along the radius from a point, over the sphere 4 pi R^2 [Pa] */
     BRC_SENSOR_VOLUME_STRAIN, /* 3 times the mean radial displacement of a set over R [-] */
-    BRC_SENSOR_FRACTURE,     /* `term`: broken (bonds) [-], crack_area [m^2], fragments [-], largest_fragment (share of the mass) [-],
-                              * failure_ratio (largest stress over limit) [-] */
-    BRC_SENSOR_CRACK_TIP,    /* farthest broken bond along `axis` from `point` [m]; 0 before the first */
-    BRC_SENSOR_SPIN,         /* angular velocity of an element set: inverse of its inertia times its angular momentum about its mass centre [rad/s] */
-    BRC_SENSOR_STRIKER,      /* striker `set`, `term`: position, displacement [m], velocity [m/s], rotation [rad], spin [rad/s], force and applied [N] and
-                              * torque [N m] of the elements on it, energy (kinetic) [J]; `component` of the vectors */
-    BRC_SENSOR_CONTACT,      /* `term`: pairs (touching), sliding (of them) [-], penetration (deepest) [m], force (sum of the magnitudes of normal forces) [N] */
-    BRC_SENSOR_OPENING,      /* how far two places have moved apart along `axis`: of sets `set` and `set2`, of the elements nearest to `point` and `point2`, or of the two
-                              * sides of the crack `set` [m] */
-    BRC_SENSOR_MODE          /* frequency of mode `index` (0: lowest elastic) of the last modes stage [Hz] */
+    BRC_SENSOR_FRACTURE,  /* `term`: broken (bonds) [-], crack_area [m^2], fragments [-], largest_fragment (share of the
+                           * mass) [-],  failure_ratio (largest stress over limit) [-] */
+    BRC_SENSOR_CRACK_TIP, /* farthest broken bond along `axis` from `point` [m]; 0 before the first */
+    BRC_SENSOR_SPIN, /* angular velocity of an element set: inverse of its inertia times its angular momentum about its
+                        mass centre [rad/s] */
+    BRC_SENSOR_STRIKER, /* striker `set`, `term`: position, displacement [m], velocity [m/s], rotation [rad], spin
+                         * [rad/s], force and applied [N] and torque [N m] of the elements on it, energy (kinetic) [J];
+                         * `component` of the vectors */
+    BRC_SENSOR_CONTACT, /* `term`: pairs (touching), sliding (of them) [-], penetration (deepest) [m], force (sum of the
+                           magnitudes of normal forces) [N] */
+    BRC_SENSOR_OPENING, /* how far two places have moved apart along `axis`: of sets `set` and `set2`, of the elements
+                         * nearest to `point` and `point2`, or of the two sides of the crack `set` [m] */
+    BRC_SENSOR_MODE     /* frequency of mode `index` (0: lowest elastic) of the last modes stage [Hz] */
 } brc_sensor_kind;
 
 /* What is positive: the component along its axis, of stress and strain tension; or what pushes into the solid. */
@@ -341,15 +366,17 @@ typedef enum brc_sign { BRC_SIGN_AXIS, BRC_SIGN_COMPRESSION } brc_sign;
 typedef struct brc_sensor {
     char name[BRC_NAME];
     brc_sensor_kind kind;
-    char set[BRC_NAME], set2[BRC_NAME]; /* "" : all elements; of a striker: its name, and of another whose value is taken off */
+    char set[BRC_NAME],
+        set2[BRC_NAME]; /* "" : all elements; of a striker: its name, and of another whose value is taken off */
     int32_t component;  /* vectors: 0 x 1 y 2 z; tensors: 0 xx 1 yy 2 zz 3 yz 4 xz 5 xy */
     double point[3], axis[3];
     brc_sign sign;
     bool of_sets, of_points, of_crack; /* opening: one of them */
-    double point2[3]; /* opening of points: the other end [m] */
-    bool is_near;     /* opening of a crack: only its faces within `within` [m] of `point` */
+    double point2[3];                  /* opening of points: the other end [m] */
+    bool is_near;                      /* opening of a crack: only its faces within `within` [m] of `point` */
     double within;
-    char term[BRC_NAME]; /* energy: "kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture", "contact", "friction", "impact", "potential", "total", "closure" */
+    char term[BRC_NAME]; /* energy: "kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture",
+                            "contact", "friction", "impact", "potential", "total", "closure" */
     int32_t index;
 } brc_sensor;
 
@@ -363,18 +390,20 @@ typedef enum brc_measure_kind {
     BRC_MEASURE_SLOPE,     /* slope at zero of sensor y against sensor x, polynomial fit through the window */
     BRC_MEASURE_MEAN,      /* time mean over the window */
     BRC_MEASURE_RATE,      /* slope of a sensor against time, straight line through the window [sensor's unit/s] */
-    BRC_MEASURE_INTEGRAL, /* of a sensor over time, by trapezoids [sensor's unit s] */
-    BRC_MEASURE_DURATION, /* time during which a sensor's magnitude is above a share of its largest, straight lines between samples [s] */
-    BRC_MEASURE_AT_FIRST_BREAK /* value of a sensor when the first bond of the window breaks, between samples by a straight line */
+    BRC_MEASURE_INTEGRAL,  /* of a sensor over time, by trapezoids [sensor's unit s] */
+    BRC_MEASURE_DURATION,  /* time during which a sensor's magnitude is above a share of its largest, straight lines
+                              between samples [s] */
+    BRC_MEASURE_AT_FIRST_BREAK /* value of a sensor when the first bond of the window breaks, between samples by a
+                                  straight line */
 } brc_measure_kind;
 
 typedef struct brc_measure {
     char name[BRC_NAME];
     brc_measure_kind kind;
     char y[BRC_NAME], x[BRC_NAME]; /* sensor names; x "" where the operator needs none */
-    char area_set[BRC_NAME];       /* E, K, G, peak: face set whose reference area divides y; "" : y is a stress already */
-    char stage[BRC_NAME];          /* "" : the last stage */
-    double window[2];              /* [s] of the stage; 0 0: all of it */
+    char area_set[BRC_NAME]; /* E, K, G, peak: face set whose reference area divides y; "" : y is a stress already */
+    char stage[BRC_NAME];    /* "" : the last stage */
+    double window[2];        /* [s] of the stage; 0 0: all of it */
     bool has_target;
     double target; /* in the unit of the result */
     double above;  /* duration: share of the largest magnitude, in [0, 1) */
@@ -384,23 +413,24 @@ typedef struct brc_measure {
 /* Of the fields of frames. */
 typedef enum brc_frame_numbers { BRC_FRAME_SINGLE, BRC_FRAME_DOUBLE } brc_frame_numbers;
 typedef struct brc_output {
-    double frame_interval;   /* [s]; 0: frames at the start and end of each stage only */
-    int32_t n_frames;        /* number of equal intervals over each stage; 0: by frame_interval; -1: no frames at all */
+    double frame_interval; /* [s]; 0: frames at the start and end of each stage only */
+    int32_t n_frames;      /* number of equal intervals over each stage; 0: by frame_interval; -1: no frames at all */
     brc_frame_numbers frame_numbers; /* of the fields of frames, default single */
-    int32_t history_every;   /* dynamic: steps between sensor samples, default 1/500 of the stage; static: every increment */
-    bool picture;            /* render picture.png at the end, default true */
-    char picture_colour[BRC_NAME];  /* "stress_xx", "von_mises", "displacement", ... default "von_mises" */
-    double picture_scale;    /* factor on the displacement; 0: automatic */
-    bool picture_frames;     /* draw every frame too, pictures/NNNNNN.png */
-    bool has_picture_cut;    /* elements in front of the plane are not drawn */
+    int32_t
+        history_every; /* dynamic: steps between sensor samples, default 1/500 of the stage; static: every increment */
+    bool picture;      /* render picture.png at the end, default true */
+    char picture_colour[BRC_NAME]; /* "stress_xx", "von_mises", "displacement", ... default "von_mises" */
+    double picture_scale;          /* factor on the displacement; 0: automatic */
+    bool picture_frames;           /* draw every frame too, pictures/NNNNNN.png */
+    bool has_picture_cut;          /* elements in front of the plane are not drawn */
     double picture_cut_point[3], picture_cut_normal[3]; /* [m] of the undeformed solid; unit vector */
-    char picture_view[BRC_NAME]; /* seen from: "x", "-x", "y", "-y", "z", "-z", or "corner", default */
-    bool has_picture_camera;     /* seen from one point towards another */
+    char picture_view[BRC_NAME];                /* seen from: "x", "-x", "y", "-y", "z", "-z", or "corner", default */
+    bool has_picture_camera;                    /* seen from one point towards another */
     double picture_from[3], picture_towards[3]; /* [m] */
     bool crack_surface;      /* with fracture: broken faces as polygons beside every frame, default true */
-    bool has_checkpoint;       /* checkpoints by interval; on a signal and before a stop there is one in any case */
-    double checkpoint_every;   /* simulated time between them [s]; 0: off */
-    double checkpoint_wall;    /* time of the clock between them [s]; 0: off */
+    bool has_checkpoint;     /* checkpoints by interval; on a signal and before a stop there is one in any case */
+    double checkpoint_every; /* simulated time between them [s]; 0: off */
+    double checkpoint_wall;  /* time of the clock between them [s]; 0: off */
     char curve_x[BRC_NAME], curve_y[BRC_NAME]; /* sensors of curve.png; "" : none */
 } brc_output;
 
@@ -464,7 +494,8 @@ brc_criterion_kind brc_criterion_of(const brc_fracture *fracture, brc_model_kind
 bool brc_material_breaks(const brc_scene *scene, brc_model_kind model, const brc_material *material);
 /* Does some material or interface have a fracture energy? */
 bool brc_scene_softens(const brc_scene *scene);
-/* Do the bonds of this model break by what they carry themselves, rather than by the stress of elements: cells by bond-normal, and faces that soften in shear too (dlsm by mohr-coulomb with a fracture energy)? */
+/* Do the bonds of this model break by what they carry themselves, rather than by the stress of elements: cells by
+ * bond-normal, and faces that soften in shear too (dlsm by mohr-coulomb with a fracture energy)? */
 bool brc_scene_breaks_by_bond(const brc_scene *scene, brc_model_kind model);
 /* The latter alone. */
 bool brc_scene_slides(const brc_scene *scene, brc_model_kind model);

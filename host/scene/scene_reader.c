@@ -11,7 +11,8 @@
 #define FILE_LIMIT ((size_t)16 << 20) /* a scene is a text; big data come from files of their own */
 #define MANY_KEYS 64
 
-/* In the places of keys that have no field of their own: of flags, where their key stands; of kinds, where the variant is named. */
+/* In the places of keys that have no field of their own: of flags, where their key stands; of kinds, where the variant
+ * is named. */
 static const brc_entry KEY = {.key = ""};
 
 static brc_status read_section(brc_reader *reader, const brc_section *section, const brc_node *node, char *base);
@@ -78,10 +79,12 @@ static brc_status read_entry(brc_reader *reader, const brc_entry *entry, const b
     char found[128];
     if (given && strcmp(node->text, "false") == 0) return BRC_OK;
     if (given && strcmp(node->text, "true") != 0) {
-        brc_problems_add(reader->problems, node->mark, "%s: expected a map of keys, or true or false; found %s", entry->key, brc_node_describe(node, found, sizeof found));
+        brc_problems_add(reader->problems, node->mark, "%s: expected a map of keys, or true or false; found %s",
+                         entry->key, brc_node_describe(node, found, sizeof found));
         return BRC_OK;
     }
-    const brc_node nothing = {.kind = BRC_NODE_MAP, .mark = node->mark, .key_mark = node->key_mark, .key = "", .text = ""};
+    const brc_node nothing = {
+        .kind = BRC_NODE_MAP, .mark = node->mark, .key_mark = node->key_mark, .key = "", .text = ""};
     if (given) node = &nothing;
     if (entry->has_flag) {
         base[entry->has_offset] = true;
@@ -126,8 +129,9 @@ static void complain_of_key(brc_reader *reader, const brc_section *section, cons
     int n;
     known_keys(section, words, &n, list, sizeof list);
     char hint[BRC_HINT];
-    brc_problems_add(reader->problems, node->key_mark, "unknown key '%.60s' in %s%s%s; known: %s", node->key, article(section->title), section->title,
-                     brc_hint_key(reader->problems, section, node->key, hint), list);
+    brc_problems_add(reader->problems, node->key_mark, "unknown key '%.60s' in %s%s%s; known: %s", node->key,
+                     article(section->title), section->title, brc_hint_key(reader->problems, section, node->key, hint),
+                     list);
 }
 
 static brc_status read_one_of(brc_reader *reader, const brc_section *section, const brc_node *node, char *base)
@@ -156,9 +160,11 @@ static brc_status read_one_of(brc_reader *reader, const brc_section *section, co
     if (!variant) {
         char hint[BRC_HINT] = "";
         if (node->kind == BRC_NODE_SCALAR) brc_hint_key(reader->problems, section, node->text, hint);
-        brc_problems_add(reader->problems, node->mark, "%s: expected exactly one of %s; found %s%s%s",
-                         section->title, list, brc_node_describe(node, found, sizeof found),
-                         node->kind == BRC_NODE_MAP ? (node->n_children ? " of several keys, keep one" : " without a key") : "", hint);
+        brc_problems_add(
+            reader->problems, node->mark, "%s: expected exactly one of %s; found %s%s%s", section->title, list,
+            brc_node_describe(node, found, sizeof found),
+            node->kind == BRC_NODE_MAP ? (node->n_children ? " of several keys, keep one" : " without a key") : "",
+            hint);
         return BRC_OK;
     }
     if (section->has_kind) {

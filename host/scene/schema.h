@@ -1,4 +1,5 @@
-/* The schema: one table that drives reading, checking, writing, docs/reference/scene/README.md and the tests of the scene format.
+/* The schema: one table that drives reading, checking, writing, docs/reference/scene/README.md and the tests of the
+ * scene format.
  *
  * A section describes one struct; its entries describe the keys. Reading follows the order of the table, not that of
  * the text, so an entry may rely on those before it (materials before bodies, sensors before measures). */
@@ -54,31 +55,36 @@ typedef struct brc_entry {
     const char *key;
     brc_type type;
     const char *unit;
-    brc_range range;          /* of every number in the entry; all zero: none */
+    brc_range range; /* of every number in the entry; all zero: none */
     bool required;
-    bool another;             /* another way to give a field that has a key already: read, never written */
-    double factor;            /* quantities: what is kept over what is written; 0: 1 */
-    const char *given;        /* the default, as a user would write it (a scalar, or "{}" for a map of defaults);
-                               * NULL and not required: left out means zero, empty, absent */
-    const char *word;         /* a word allowed in place of the number, e.g. "auto"; it stands for word_value */
+    bool another;      /* another way to give a field that has a key already: read, never written */
+    double factor;     /* quantities: what is kept over what is written; 0: 1 */
+    const char *given; /* the default, as a user would write it (a scalar, or "{}" for a map of defaults);
+                        * NULL and not required: left out means zero, empty, absent */
+    const char *word;  /* a word allowed in place of the number, e.g. "auto"; it stands for word_value */
     double word_value;
     const char *const *choices; /* NULL-terminated */
     brc_reference refers;       /* names */
     const brc_section *section;
-    size_t offset, size;      /* of the field in its struct */
-    size_t count_offset;      /* lists */
-    int spare;                /* lists and maps of names: room for items that the reader adds itself */
-    bool has_flag;            /* a bool at has_offset becomes true when the key is there */
+    size_t offset, size; /* of the field in its struct */
+    size_t count_offset; /* lists */
+    int spare;           /* lists and maps of names: room for items that the reader adds itself */
+    bool has_flag;       /* a bool at has_offset becomes true when the key is there */
     size_t has_offset;
-    int length;               /* of vectors */
-    int value;                /* variants of a one-of: what its kind field becomes */
-    const char *why;          /* the reason for the range, one sentence */
-    const char *sample;       /* a valid value for documents and tests; NULL: `given` or the section's own samples */
+    int length;         /* of vectors */
+    int value;          /* variants of a one-of: what its kind field becomes */
+    const char *why;    /* the reason for the range, one sentence */
+    const char *sample; /* a valid value for documents and tests; NULL: `given` or the section's own samples */
     const char *meaning;
 } brc_entry;
 
 /* How many of some keys must be there. */
-typedef enum brc_group_rule { BRC_GROUP_NONE, BRC_GROUP_EXACTLY_ONE, BRC_GROUP_AT_LEAST_ONE, BRC_GROUP_AT_MOST_ONE } brc_group_rule;
+typedef enum brc_group_rule {
+    BRC_GROUP_NONE,
+    BRC_GROUP_EXACTLY_ONE,
+    BRC_GROUP_AT_LEAST_ONE,
+    BRC_GROUP_AT_MOST_ONE
+} brc_group_rule;
 
 typedef struct brc_group {
     brc_group_rule rule;
@@ -90,9 +96,9 @@ struct brc_section {
     const char *meaning;
     const brc_entry *entries;
     int n_entries;
-    size_t size;             /* of the struct; list items */
-    bool one_of;             /* exactly one entry, named by the key; its `value` goes to the kind field */
-    bool has_kind;           /* one-of: an enum at kind_offset */
+    size_t size;   /* of the struct; list items */
+    bool one_of;   /* exactly one entry, named by the key; its `value` goes to the kind field */
+    bool has_kind; /* one-of: an enum at kind_offset */
     size_t kind_offset;
     const char *short_key;   /* a scalar in place of the map is the value of this key (one-of: of this variant) */
     const char *sample_name; /* of a named item */
@@ -108,7 +114,8 @@ const char *brc_range_text(const brc_entry *entry, char *out, size_t size);
 /* Does the entry state a range? */
 bool brc_entry_has_range(const brc_entry *entry);
 bool brc_range_contains(const brc_entry *entry, double value);
-/* May `true` stand for a map of defaults, and `false` for the key being left out? So it is for keys whose absence switches something off and whose map may be empty. */
+/* May `true` stand for a map of defaults, and `false` for the key being left out? So it is for keys whose absence
+ * switches something off and whose map may be empty. */
 bool brc_entry_is_switch(const brc_entry *entry);
 
 #endif

@@ -12,7 +12,9 @@ static const brc_entry MICRO[] = {
      .meaning = "compressive limit of the virial stress, a positive number, in place of the law for it"},
 };
 static const brc_section MICRO_SECTION = {
-    .title = "beam", .meaning = "Micro-parameters of model cbm, given directly in place of the calibrated laws.", ENTRIES(MICRO)};
+    .title = "beam",
+    .meaning = "Micro-parameters of model cbm, given directly in place of the calibrated laws.",
+    ENTRIES(MICRO)};
 static const brc_entry MATERIAL[] = {
     {"E", BRC_TYPE_QUANTITY, "Pa", POSITIVE, FIELD(brc_material, young), .required = true, .sample = "72 GPa",
      .meaning = "Young's modulus"},
@@ -22,8 +24,11 @@ static const brc_entry MATERIAL[] = {
             "moduli are infinite"},
     {"density", BRC_TYPE_QUANTITY, "kg/m^3", POSITIVE, FIELD(brc_material, density), .required = true,
      .sample = "2500 kg/m^3", .meaning = "mass per volume"},
-    {"strength", BRC_TYPE_STRUCT, .section = &brc_schema_strength, .meaning = "what it bears, `strength: 8 MPa` in tension; for scenes with `fracture`, where it does not break if this is left out"},
-    {"beam", BRC_TYPE_STRUCT, .section = &MICRO_SECTION, .meaning = "micro-parameters of model cbm; from the calibrated laws when left out"},
+    {"strength", BRC_TYPE_STRUCT, .section = &brc_schema_strength,
+     .meaning = "what it bears, `strength: 8 MPa` in tension; for scenes with `fracture`, where it does not break if "
+                "this is left out"},
+    {"beam", BRC_TYPE_STRUCT, .section = &MICRO_SECTION,
+     .meaning = "micro-parameters of model cbm; from the calibrated laws when left out"},
 };
 const brc_section brc_schema_material = {.title = "material",
                                          .meaning = "An isotropic elastic material.",
@@ -33,8 +38,10 @@ const brc_section brc_schema_material = {.title = "material",
 
 #define SMALL_ROTATIONS                                                                                                \
     {                                                                                                                  \
-        "small_rotations", BRC_TYPE_BOOL, FIELD(brc_model, small_rotations), .given = "false",                         \
-            .meaning = "true: the law linearised about the reference: a body that turns grows and strains; for comparison" \
+        "small_rotations", BRC_TYPE_BOOL, FIELD(brc_model, small_rotations),                                           \
+            .given = "false",                                                                                          \
+            .meaning =                                                                                                 \
+                "true: the law linearised about the reference: a body that turns grows and strains; for comparison"    \
     }
 
 static const brc_entry DLSM[] = {
@@ -53,7 +60,8 @@ static const brc_entry PUBLISHED[] = {
     {"rotation_stiffness", BRC_TYPE_QUANTITY, "", NOT_NEGATIVE, FIELD(brc_model, rotation_stiffness), .given = "1",
      .meaning = "factor on the published stiffness against spurious rotation"},
     {"couple_modulus", BRC_TYPE_QUANTITY, "", NOT_NEGATIVE, FIELD(brc_model, couple_modulus), .given = "0",
-     .meaning = "of mu: holds the frames of elements to the solid as it turns, which the published law (0) does not; 0.5 is enough at strains of 20 %; dynamic stages only"},
+     .meaning = "of mu: holds the frames of elements to the solid as it turns, which the published law (0) does not; "
+                "0.5 is enough at strains of 20 %; dynamic stages only"},
     SMALL_ROTATIONS,
 };
 static const brc_section PUBLISHED_SECTION = {.title = "model dlsm-published",
@@ -65,10 +73,13 @@ static const brc_entry CBM[] = {
     {"keep_isolated", BRC_TYPE_BOOL, FIELD(brc_model, keep_isolated), .given = "false",
      .meaning = "hold elements without bonds still instead of refusing the body"},
     {"polish", BRC_TYPE_BOOL, FIELD(brc_model, polish), .given = "false",
-     .meaning = "correct what the laws give on the sample itself (a box) or on a cube packed like the body, by a few static solves"},
+     .meaning = "correct what the laws give on the sample itself (a box) or on a cube packed like the body, by a few "
+                "static solves"},
 };
 static const brc_section CBM_SECTION = {
-    .title = "model cbm", .meaning = "The cohesive beam model of Nguyen, Andre and Huger 2019, in potential form.", ENTRIES(CBM)};
+    .title = "model cbm",
+    .meaning = "The cohesive beam model of Nguyen, Andre and Huger 2019, in potential form.",
+    ENTRIES(CBM)};
 static const brc_entry MODEL[] = {
     {"dlsm", BRC_TYPE_STRUCT, .section = &DLSM_SECTION, .value = BRC_MODEL_DLSM,
      .meaning = "conservative distinct lattice spring model on Voronoi cells"},
@@ -95,25 +106,29 @@ static const brc_section PREDICATE_BOX_SECTION = {
 static const brc_entry PREDICATE_SPHERE[] = {
     {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, sphere_centre), .length = 3, .required = true,
      .sample = "[50 cm, 50 cm, 50 cm]", .meaning = "centre"},
-    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, sphere_radius),
-     .sample = "20 cm", .meaning = "radius, inclusive"},
-    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, sphere_radius), .another = true, .factor = 0.5, .sample = "40 cm",
-     .meaning = "twice the radius, in its place"},
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, sphere_radius), .sample = "20 cm",
+     .meaning = "radius, inclusive"},
+    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, sphere_radius), .another = true, .factor = 0.5,
+     .sample = "40 cm", .meaning = "twice the radius, in its place"},
 };
-static const brc_section PREDICATE_SPHERE_SECTION = {
-    .title = "where sphere", .meaning = "Inside a sphere.", ENTRIES(PREDICATE_SPHERE), .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}}};
+static const brc_section PREDICATE_SPHERE_SECTION = {.title = "where sphere",
+                                                     .meaning = "Inside a sphere.",
+                                                     ENTRIES(PREDICATE_SPHERE),
+                                                     .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}}};
 static const brc_entry PREDICATE_CYLINDER[] = {
     {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, cylinder_point), .length = 3, .required = true,
      .sample = "[0, 0, 0]", .meaning = "a point of the axis"},
     {"axis", BRC_TYPE_DIRECTION, "", FIELD(brc_predicate, cylinder_axis), .length = 3, .required = true,
      .sample = "[1, 0, 0]", .meaning = "its direction"},
-    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, cylinder_radius),
-     .sample = "20 cm", .meaning = "radius, inclusive"},
-    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, cylinder_radius), .another = true, .factor = 0.5, .sample = "40 cm",
-     .meaning = "twice the radius, in its place"},
+    {"radius", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, cylinder_radius), .sample = "20 cm",
+     .meaning = "radius, inclusive"},
+    {"diameter", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_predicate, cylinder_radius), .another = true,
+     .factor = 0.5, .sample = "40 cm", .meaning = "twice the radius, in its place"},
 };
-static const brc_section PREDICATE_CYLINDER_SECTION = {
-    .title = "where cylinder", .meaning = "Inside an endless cylinder.", ENTRIES(PREDICATE_CYLINDER), .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}}};
+static const brc_section PREDICATE_CYLINDER_SECTION = {.title = "where cylinder",
+                                                       .meaning = "Inside an endless cylinder.",
+                                                       ENTRIES(PREDICATE_CYLINDER),
+                                                       .groups = {{BRC_GROUP_EXACTLY_ONE, {"radius", "diameter"}}}};
 static const brc_entry HALF_SPACE[] = {
     {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_predicate, half_space_point), .length = 3, .required = true,
      .sample = "[50 cm, 0, 0]", .meaning = "a point of the plane"},
@@ -170,10 +185,13 @@ static const brc_entry BEAMS[] = {
     {"coordination", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 40), FIELD(brc_body, beams), .required = true, .sample = "8",
      .meaning = "mean number of bonds of an element, 2 bonds / elements; the papers use 6 to 13"},
 };
-static const brc_section BEAMS_SECTION = {
-    .title = "beams", .meaning = "Spheres joined by beams: bonds between the nearest spheres.", ENTRIES(BEAMS), .short_key = "coordination"};
+static const brc_section BEAMS_SECTION = {.title = "beams",
+                                          .meaning = "Spheres joined by beams: bonds between the nearest spheres.",
+                                          ENTRIES(BEAMS),
+                                          .short_key = "coordination"};
 static const brc_entry BODY[] = {
-    {"name", BRC_TYPE_NAME, FIELD(brc_body, name), .given = "body", .meaning = "for messages and overrides, and of the set of all its elements"},
+    {"name", BRC_TYPE_NAME, FIELD(brc_body, name), .given = "body",
+     .meaning = "for messages and overrides, and of the set of all its elements"},
     {"domain", BRC_TYPE_STRING, FIELD(brc_body, domain_file), .sample = "domain.h5",
      .meaning = "domain file written by `breccia build`, relative to the scene; in place of shape and fill"},
     {"shape", BRC_TYPE_STRUCT, .section = &brc_schema_shape, .offset = offsetof(brc_body, shape),
@@ -190,8 +208,8 @@ static const brc_entry BODY[] = {
     {"beams", BRC_TYPE_STRUCT, .section = &BEAMS_SECTION,
      .meaning = "spheres joined by beams in place of cells; needs a fill with radii (`breccia build`; for model cbm)"},
     {"pose", BRC_TYPE_STRUCT, .section = &POSE_SECTION, .meaning = "where it stands; sets and regions see it posed"},
-    {"model", BRC_TYPE_STRUCT, .section = &brc_schema_model, .offset = offsetof(brc_body, model), FLAG(brc_body, has_model),
-     .meaning = "the law between its elements; left out: the scene's"},
+    {"model", BRC_TYPE_STRUCT, .section = &brc_schema_model, .offset = offsetof(brc_body, model),
+     FLAG(brc_body, has_model), .meaning = "the law between its elements; left out: the scene's"},
     {"tiny_face_threshold", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 0.01), FIELD(brc_body, tiny_face_threshold),
      .given = "auto", .word = "auto", .sample = "1e-7",
      .meaning = "faces below this part of the mean face area are dropped; auto: 1e-12"},
@@ -209,8 +227,9 @@ static const brc_entry SET[] = {
      .value = BRC_SET_FACES, .meaning = "a set of boundary faces"},
 };
 const brc_section brc_schema_set = {.title = "set",
-                                    .meaning = "A named part of the solid. Each wall is a set of faces and each body a set of "
-                                               "elements without being asked for.",
+                                    .meaning =
+                                        "A named part of the solid. Each wall is a set of faces and each body a set of "
+                                        "elements without being asked for.",
                                     ENTRIES(SET),
                                     .size = sizeof(brc_set_request),
                                     .one_of = true,

@@ -10,7 +10,11 @@
 #define COUNTED(type, field, n) .offset = offsetof(type, field), .count_offset = offsetof(type, n)
 #define FLAG(type, field) .has_flag = true, .has_offset = offsetof(type, field)
 #define ENTRIES(array) .entries = (array), .n_entries = (int)(sizeof(array) / sizeof((array)[0]))
-#define CHOICES(...) .choices = (const char *const[]){__VA_ARGS__, NULL}
+#define CHOICES(...)                                                                                                   \
+    .choices = (const char *const[])                                                                                   \
+    {                                                                                                                  \
+        __VA_ARGS__, NULL                                                                                              \
+    }
 
 /* What platens, jaws and rollers of a scene add at most. */
 enum { BRC_FIXTURE_STRIKERS = 7, BRC_FIXTURE_SENSORS = 8 };
@@ -24,10 +28,18 @@ enum { BRC_FIXTURE_STRIKERS = 7, BRC_FIXTURE_SENSORS = 8 };
 
 /* The pose of a body or a part: the fields translation and rotation of `type`. */
 #define POSE_ENTRIES(type)                                                                                             \
-    {"translation", BRC_TYPE_VECTOR, "m", FIELD(type, translation), .length = 3, .sample = "[0, 1 m, 0]",              \
+    {"translation",                                                                                                    \
+     BRC_TYPE_VECTOR,                                                                                                  \
+     "m",                                                                                                              \
+     FIELD(type, translation),                                                                                         \
+     .length = 3,                                                                                                      \
+     .sample = "[0, 1 m, 0]",                                                                                          \
      .meaning = "applied after the rotation"},                                                                         \
-    {"rotation", BRC_TYPE_VECTOR, "rad", FIELD(type, rotation), .length = 3, .sample = "[0, 0, 30 deg]",               \
-     .meaning = "rotation vector (axis times angle) about the shape's origin"}
+    {                                                                                                                  \
+        "rotation", BRC_TYPE_VECTOR, "rad", FIELD(type, rotation),                                                     \
+            .length = 3, .sample = "[0, 0, 30 deg]",                                                                   \
+            .meaning = "rotation vector (axis times angle) about the shape's origin"                                   \
+    }
 
 extern const brc_section brc_schema_material;
 extern const brc_section brc_schema_model;

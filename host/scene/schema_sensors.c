@@ -17,26 +17,28 @@
                                                       .meaning = "elements; left out: all"                             \
     }
 
-#define AXIS_SIGN(compression)                                                                                          \
+#define AXIS_SIGN(compression)                                                                                         \
     {                                                                                                                  \
-        "sign", BRC_TYPE_CHOICE, FIELD(brc_sensor, sign), CHOICES("axis", "compression"), .given = "axis",             \
-            .meaning = "what is positive; axis: along the component; compression: " compression                        \
+        "sign", BRC_TYPE_CHOICE, FIELD(brc_sensor, sign), CHOICES("axis", "compression"),                              \
+            .given = "axis", .meaning = "what is positive; axis: along the component; compression: " compression       \
     }
 #define TENSION_SIGN                                                                                                   \
     {                                                                                                                  \
-        "sign", BRC_TYPE_CHOICE, FIELD(brc_sensor, sign), CHOICES("tension", "compression"), .given = "tension",       \
-            .meaning = "what is positive"                                                                              \
+        "sign", BRC_TYPE_CHOICE, FIELD(brc_sensor, sign), CHOICES("tension", "compression"),                           \
+            .given = "tension", .meaning = "what is positive"                                                          \
     }
 
 static const brc_entry ON_SET[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_SET, .sample = "x+",
      .meaning = "faces or elements"},
     COMPONENT,
-    AXIS_SIGN("what pushes or moves into the solid, against the mean normal of the faces (of elements: towards the middle of the bodies)"),
+    AXIS_SIGN("what pushes or moves into the solid, against the mean normal of the faces (of elements: towards the "
+              "middle of the bodies)"),
 };
 static const brc_section REACTION_SECTION = {
     .title = "reaction",
-    .meaning = "Force of the loads on the solid, summed over a set with prescribed motion [N]. Along the axes: a wall x+ that is pulled reads positive, one that is pushed negative; the wall x- the other way round.",
+    .meaning = "Force of the loads on the solid, summed over a set with prescribed motion [N]. Along the axes: a wall "
+               "x+ that is pulled reads positive, one that is pushed negative; the wall x- the other way round.",
     ENTRIES(ON_SET)};
 static const brc_entry MOMENT[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_SET, .sample = "x+",
@@ -47,7 +49,8 @@ static const brc_entry MOMENT[] = {
 };
 static const brc_section MOMENT_SECTION = {
     .title = "moment",
-    .meaning = "Moment about a point of the forces (and of prescribed rotations) on a set with prescribed motion [N m].",
+    .meaning =
+        "Moment about a point of the forces (and of prescribed rotations) on a set with prescribed motion [N m].",
     ENTRIES(MOMENT)};
 static const brc_entry ROUND[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_ELEMENTS, .sample = "core",
@@ -55,13 +58,16 @@ static const brc_entry ROUND[] = {
     {"centre", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), .length = 3, .required = true, .sample = "[0, 0, 0]",
      .meaning = "of the sphere"},
 };
-static const brc_section RADIAL_STRESS_SECTION = {
-    .title = "radial_stress",
-    .meaning = "Element forces of a set along the radii, over 4 pi R^2; R: mean distance of the set from the centre plus the mean radius of "
-               "all spheres. Positive outward [Pa].",
-    ENTRIES(ROUND)};
+static const brc_section RADIAL_STRESS_SECTION = {.title = "radial_stress",
+                                                  .meaning =
+                                                      "Element forces of a set along the radii, over 4 pi R^2; R: mean "
+                                                      "distance of the set from the centre plus the mean radius of "
+                                                      "all spheres. Positive outward [Pa].",
+                                                  ENTRIES(ROUND)};
 static const brc_section VOLUME_STRAIN_SECTION = {
-    .title = "volume_strain", .meaning = "3 times the mean radial displacement of a set over R, as in radial_stress [-].", ENTRIES(ROUND)};
+    .title = "volume_strain",
+    .meaning = "3 times the mean radial displacement of a set over R, as in radial_stress [-].",
+    ENTRIES(ROUND)};
 static const brc_section FACE_MEAN_SECTION = {
     .title = "face_mean",
     .meaning = "Area mean of the displacement of faces, or mean of that of elements, along the axes [m].",
@@ -74,11 +80,12 @@ static const brc_entry FACE_STRAIN[] = {
     COMPONENT,
     TENSION_SIGN,
 };
-static const brc_section FACE_STRAIN_SECTION = {
-    .title = "face_strain",
-    .meaning = "Difference of two mean displacements over the distance of the two sets, along the component; for spheres a mean diameter is "
-               "added to the distance of their centres [-].",
-    ENTRIES(FACE_STRAIN)};
+static const brc_section FACE_STRAIN_SECTION = {.title = "face_strain",
+                                                .meaning =
+                                                    "Difference of two mean displacements over the distance of the two "
+                                                    "sets, along the component; for spheres a mean diameter is "
+                                                    "added to the distance of their centres [-].",
+                                                ENTRIES(FACE_STRAIN)};
 static const brc_entry FACE_TWIST[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_SET, .sample = "x+",
      .meaning = "faces or elements"},
@@ -86,11 +93,14 @@ static const brc_entry FACE_TWIST[] = {
      .meaning = "of the rotation"},
 };
 static const brc_section FACE_TWIST_SECTION = {
-    .title = "face_twist", .meaning = "Area mean of the rotation of faces about an axis, or mean of that of elements [rad].", ENTRIES(FACE_TWIST)};
+    .title = "face_twist",
+    .meaning = "Area mean of the rotation of faces about an axis, or mean of that of elements [rad].",
+    ENTRIES(FACE_TWIST)};
 static const brc_entry TENSOR[] = {ELEMENT_SET, TENSOR_COMPONENT, TENSION_SIGN};
 static const brc_section STRESS_SECTION = {
     .title = "stress",
-    .meaning = "Volume mean of the second Piola-Kirchhoff stress; tension is positive unless `sign` says otherwise [Pa].",
+    .meaning =
+        "Volume mean of the second Piola-Kirchhoff stress; tension is positive unless `sign` says otherwise [Pa].",
     ENTRIES(TENSOR)};
 static const brc_section STRAIN_SECTION = {
     .title = "strain", .meaning = "Volume mean of the Green strain; positive where it is longer [-].", ENTRIES(TENSOR)};
@@ -104,51 +114,67 @@ static const brc_section POINT_SECTION = {
 static const brc_section POINT_VELOCITY_SECTION = {
     .title = "point_velocity", .meaning = "Velocity of an element [m/s].", ENTRIES(POINT)};
 static const brc_section TURN_SECTION = {
-    .title = "turn", .meaning = "Rotation vector of an element; for models whose elements have rotations [rad].", ENTRIES(POINT)};
+    .title = "turn",
+    .meaning = "Rotation vector of an element; for models whose elements have rotations [rad].",
+    ENTRIES(POINT)};
 static const brc_entry TIP[] = {
     {"direction", BRC_TYPE_DIRECTION, "", FIELD(brc_sensor, axis), .length = 3, .required = true, .sample = "[1, 0, 0]",
      .meaning = "where the crack runs"},
-    {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), .length = 3, .sample = "[0, 0, 0]", .meaning = "where lengths count from"},
+    {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), .length = 3, .sample = "[0, 0, 0]",
+     .meaning = "where lengths count from"},
 };
 static const brc_section TIP_SECTION = {
     .title = "crack_tip",
-    .meaning = "How far broken bonds reach along a direction; 0 before the first. `rate` of it is the speed of the tip [m].",
+    .meaning =
+        "How far broken bonds reach along a direction; 0 before the first. `rate` of it is the speed of the tip [m].",
     ENTRIES(TIP)};
 static const brc_entry OPENING[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_sensor, set), FLAG(brc_sensor, of_sets), .refers = BRC_REFERS_SET, .sample = "x+",
      .meaning = "one side: faces or elements; with `against` and `direction`"},
-    {"against", BRC_TYPE_NAME, FIELD(brc_sensor, set2), .refers = BRC_REFERS_SET, .sample = "x-", .meaning = "the other side"},
-    {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), FLAG(brc_sensor, of_points), .length = 3, .sample = "[215 mm, 0, 0]",
-     .meaning = "one end of a gauge, the element nearest to it; with `to`"},
-    {"to", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point2), .length = 3, .sample = "[235 mm, 0, 0]", .meaning = "the other end"},
-    {"crack", BRC_TYPE_NAME, FIELD(brc_sensor, set), FLAG(brc_sensor, of_crack), .refers = BRC_REFERS_WALL, .sample = "notch",
-     .meaning = "a crack of a body of cells that was there from the start: mean over its two sides"},
-    {"at", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), FLAG(brc_sensor, is_near), .length = 3, .sample = "[225 mm, 0, 0]",
+    {"against", BRC_TYPE_NAME, FIELD(brc_sensor, set2), .refers = BRC_REFERS_SET, .sample = "x-",
+     .meaning = "the other side"},
+    {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), FLAG(brc_sensor, of_points), .length = 3,
+     .sample = "[215 mm, 0, 0]", .meaning = "one end of a gauge, the element nearest to it; with `to`"},
+    {"to", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point2), .length = 3, .sample = "[235 mm, 0, 0]",
+     .meaning = "the other end"},
+    {"crack", BRC_TYPE_NAME, FIELD(brc_sensor, set), FLAG(brc_sensor, of_crack), .refers = BRC_REFERS_WALL,
+     .sample = "notch", .meaning = "a crack of a body of cells that was there from the start: mean over its two sides"},
+    {"at", BRC_TYPE_VECTOR, "m", FIELD(brc_sensor, point), FLAG(brc_sensor, is_near), .length = 3,
+     .sample = "[225 mm, 0, 0]",
      .meaning = "of a crack: only its faces near this point, as at its mouth; left out: all of them"},
-    {"within", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_sensor, within), .sample = "1 cm", .meaning = "of `at`: how near the middle of a face must be"},
+    {"within", BRC_TYPE_QUANTITY, "m", POSITIVE, FIELD(brc_sensor, within), .sample = "1 cm",
+     .meaning = "of `at`: how near the middle of a face must be"},
     {"direction", BRC_TYPE_DIRECTION, "", FIELD(brc_sensor, axis), .length = 3, .sample = "[1, 0, 0]",
-     .meaning = "along which the opening is measured; its sign does not matter. Left out: from one point to the other, or across the crack"},
+     .meaning = "along which the opening is measured; its sign does not matter. Left out: from one point to the other, "
+                "or across the crack"},
 };
 static const brc_section OPENING_SECTION = {
     .title = "opening",
-    .meaning = "How far two places have moved apart, from how the scene starts [m]: of a notch, the crack mouth opening displacement (CMOD). Positive: they opened.",
+    .meaning = "How far two places have moved apart, from how the scene starts [m]: of a notch, the crack mouth "
+               "opening displacement (CMOD). Positive: they opened.",
     ENTRIES(OPENING),
     .groups = {{BRC_GROUP_EXACTLY_ONE, {"set", "from", "crack"}}}};
 static const brc_entry SPIN[] = {ELEMENT_SET, COMPONENT};
 static const brc_section SPIN_SECTION = {
     .title = "spin", .meaning = "Angular velocity of a set of elements about its mass centre [rad/s].", ENTRIES(SPIN)};
 static const brc_entry OF_STRIKER[] = {
-    {"name", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_STRIKER, .sample = "anvil", .meaning = "of the striker"},
+    {"name", BRC_TYPE_NAME, FIELD(brc_sensor, set), .required = true, .refers = BRC_REFERS_STRIKER, .sample = "anvil",
+     .meaning = "of the striker"},
     {"quantity", BRC_TYPE_WORD, FIELD(brc_sensor, term),
-     CHOICES("position", "displacement", "velocity", "rotation", "spin", "force", "torque", "energy", "applied"), .required = true, .sample = "force",
-     .meaning = "of its mass centre (a plane: its point) [m], [m/s], [rad], [rad/s]; force and torque of the elements on it [N], [N m]; its "
+     CHOICES("position", "displacement", "velocity", "rotation", "spin", "force", "torque", "energy", "applied"),
+     .required = true, .sample = "force",
+     .meaning = "of its mass centre (a plane: its point) [m], [m/s], [rad], [rad/s]; force and torque of the elements "
+                "on it [N], [N m]; its "
                 "kinetic energy [J]; applied: the prescribed force on it [N]"},
-    {"component", BRC_TYPE_CHOICE, FIELD(brc_sensor, component), CHOICES("x", "y", "z"), .given = "x", .meaning = "of the vector"},
+    {"component", BRC_TYPE_CHOICE, FIELD(brc_sensor, component), CHOICES("x", "y", "z"), .given = "x",
+     .meaning = "of the vector"},
     {"against", BRC_TYPE_NAME, FIELD(brc_sensor, set2), .refers = BRC_REFERS_STRIKER, .sample = "anvil",
      .meaning = "another striker, whose value is taken off: how far two platens have come together"},
-    AXIS_SIGN("a force that pushes the striker away from the bodies, a motion towards them; for force, displacement and velocity"),
+    AXIS_SIGN("a force that pushes the striker away from the bodies, a motion towards them; for force, displacement "
+              "and velocity"),
 };
-static const brc_section OF_STRIKER_SECTION = {.title = "sensor striker", .meaning = "Motion of a striker, or what acts on it.", ENTRIES(OF_STRIKER)};
+static const brc_section OF_STRIKER_SECTION = {
+    .title = "sensor striker", .meaning = "Motion of a striker, or what acts on it.", ENTRIES(OF_STRIKER)};
 static const brc_entry SENSOR[] = {
     {"reaction", BRC_TYPE_STRUCT, .section = &REACTION_SECTION, .value = BRC_SENSOR_REACTION,
      .meaning = "force on a set with prescribed motion [N]"},
@@ -161,8 +187,8 @@ static const brc_entry SENSOR[] = {
     {"stress", BRC_TYPE_STRUCT, .section = &STRESS_SECTION, .value = BRC_SENSOR_STRESS, .meaning = "mean stress [Pa]"},
     {"strain", BRC_TYPE_STRUCT, .section = &STRAIN_SECTION, .value = BRC_SENSOR_STRAIN, .meaning = "mean strain [-]"},
     {"energy", BRC_TYPE_WORD, FIELD(brc_sensor, term),
-     CHOICES("kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture", "contact", "friction", "impact", "potential",
-             "total", "closure"),
+     CHOICES("kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture", "contact", "friction",
+             "impact", "potential", "total", "closure"),
      .value = BRC_SENSOR_ENERGY, .sample = "kinetic", .meaning = "a term of the energy ledger [J]"},
     {"point", BRC_TYPE_STRUCT, .section = &POINT_SECTION, .value = BRC_SENSOR_POINT,
      .meaning = "displacement of the element nearest to a point [m]"},
@@ -177,15 +203,22 @@ static const brc_entry SENSOR[] = {
     {"volume_strain", BRC_TYPE_STRUCT, .section = &VOLUME_STRAIN_SECTION, .value = BRC_SENSOR_VOLUME_STRAIN,
      .meaning = "change of volume of a sphere [-]"},
     {"fracture", BRC_TYPE_WORD, FIELD(brc_sensor, term),
-     CHOICES("broken", "crack_area", "fragments", "largest_fragment", "failure_ratio"), .value = BRC_SENSOR_FRACTURE, .sample = "broken",
-     .meaning = "broken bonds [-], their area [m^2], number of fragments [-], share of the mass in the largest [-], largest stress over its "
+     CHOICES("broken", "crack_area", "fragments", "largest_fragment", "failure_ratio"), .value = BRC_SENSOR_FRACTURE,
+     .sample = "broken",
+     .meaning = "broken bonds [-], their area [m^2], number of fragments [-], share of the mass in the largest [-], "
+                "largest stress over its "
                 "limit [-]"},
-    {"crack_tip", BRC_TYPE_STRUCT, .section = &TIP_SECTION, .value = BRC_SENSOR_CRACK_TIP, .meaning = "how far a crack has come [m]"},
-    {"spin", BRC_TYPE_STRUCT, .section = &SPIN_SECTION, .value = BRC_SENSOR_SPIN, .meaning = "angular velocity of a set [rad/s]"},
-    {"striker", BRC_TYPE_STRUCT, .section = &OF_STRIKER_SECTION, .value = BRC_SENSOR_STRIKER, .meaning = "of a striker"},
-    {"contact", BRC_TYPE_WORD, FIELD(brc_sensor, term), CHOICES("pairs", "sliding", "penetration", "force"), .value = BRC_SENSOR_CONTACT,
-     .sample = "pairs", .meaning = "touching pairs [-], those that slide [-], deepest overlap [m], sum of normal forces [N]"},
-    {"opening", BRC_TYPE_STRUCT, .section = &OPENING_SECTION, .value = BRC_SENSOR_OPENING, .meaning = "of a crack, or between two places [m]"},
+    {"crack_tip", BRC_TYPE_STRUCT, .section = &TIP_SECTION, .value = BRC_SENSOR_CRACK_TIP,
+     .meaning = "how far a crack has come [m]"},
+    {"spin", BRC_TYPE_STRUCT, .section = &SPIN_SECTION, .value = BRC_SENSOR_SPIN,
+     .meaning = "angular velocity of a set [rad/s]"},
+    {"striker", BRC_TYPE_STRUCT, .section = &OF_STRIKER_SECTION, .value = BRC_SENSOR_STRIKER,
+     .meaning = "of a striker"},
+    {"contact", BRC_TYPE_WORD, FIELD(brc_sensor, term), CHOICES("pairs", "sliding", "penetration", "force"),
+     .value = BRC_SENSOR_CONTACT, .sample = "pairs",
+     .meaning = "touching pairs [-], those that slide [-], deepest overlap [m], sum of normal forces [N]"},
+    {"opening", BRC_TYPE_STRUCT, .section = &OPENING_SECTION, .value = BRC_SENSOR_OPENING,
+     .meaning = "of a crack, or between two places [m]"},
     {"mode", BRC_TYPE_INTEGER, WITHIN(0, 999), FIELD(brc_sensor, index), .value = BRC_SENSOR_MODE, .sample = "0",
      .meaning = "frequency of a mode of the last modes stage, 0 the lowest elastic one [Hz]"},
 };
@@ -273,30 +306,36 @@ static const brc_section FREQUENCY_SECTION = {
 static const brc_entry OF_SENSOR[] = {SENSOR_ENTRY("of", y, "force", "sensor"), COMMON_ENTRIES("1 N")};
 static const brc_entry OF_RATE[] = {SENSOR_ENTRY("of", y, "force", "sensor"), COMMON_ENTRIES("1 N/s")};
 static const brc_entry OF_PEAK[] = {SENSOR_ENTRY("of", y, "force", "sensor"), AREA_ENTRY, COMMON_ENTRIES("1 N")};
-static const brc_section PEAK_SECTION = {
-    .title = "peak", .meaning = "The value of largest magnitude; of a load over an area, the strength.", ENTRIES(OF_PEAK)};
+static const brc_section PEAK_SECTION = {.title = "peak",
+                                         .meaning =
+                                             "The value of largest magnitude; of a load over an area, the strength.",
+                                         ENTRIES(OF_PEAK)};
 static const brc_section MEAN_SECTION = {.title = "mean", .meaning = "Mean over time.", ENTRIES(OF_SENSOR)};
 static const brc_entry OF_TWO[] = {SENSOR_ENTRY("of", y, "force", "sensor"),
                                    SENSOR_ENTRY("against", x, "force", "sensor it depends on"), COMMON_ENTRIES("1")};
-static const brc_section RATE_SECTION = {
-    .title = "rate", .meaning = "Slope of a sensor against time, by a straight line through the window.", ENTRIES(OF_RATE)};
+static const brc_section RATE_SECTION = {.title = "rate",
+                                         .meaning =
+                                             "Slope of a sensor against time, by a straight line through the window.",
+                                         ENTRIES(OF_RATE)};
 static const brc_entry OF_INTEGRAL[] = {SENSOR_ENTRY("of", y, "force", "sensor"), COMMON_ENTRIES("1 N s")};
 static const brc_section INTEGRAL_SECTION = {
     .title = "integral", .meaning = "Of a sensor over time, by trapezoids between samples.", ENTRIES(OF_INTEGRAL)};
 static const brc_entry OF_DURATION[] = {
     SENSOR_ENTRY("of", y, "force", "sensor"),
-    {"above", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_measure, above), .given = "0.1 %", .sample = "0.1 %",
-     .meaning = "share of its largest magnitude in the window"},
+    {"above", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_measure, above), .given = "0.1 %",
+     .sample = "0.1 %", .meaning = "share of its largest magnitude in the window"},
     COMMON_ENTRIES("1 ms"),
 };
 static const brc_section DURATION_SECTION = {
     .title = "duration",
-    .meaning = "How long the magnitude of a sensor is above a share of its largest, all times together, between samples by a straight line: of a force, the time of contact.",
+    .meaning = "How long the magnitude of a sensor is above a share of its largest, all times together, between "
+               "samples by a straight line: of a force, the time of contact.",
     ENTRIES(OF_DURATION)};
-static const brc_section AT_FIRST_BREAK_SECTION = {
-    .title = "at_first_break",
-    .meaning = "The value when the first bond breaks, between samples by a straight line; of a load over an area, the stress at failure.",
-    ENTRIES(OF_PEAK)};
+static const brc_section AT_FIRST_BREAK_SECTION = {.title = "at_first_break",
+                                                   .meaning =
+                                                       "The value when the first bond breaks, between samples by a "
+                                                       "straight line; of a load over an area, the stress at failure.",
+                                                   ENTRIES(OF_PEAK)};
 static const brc_section SLOPE_SECTION = {
     .title = "slope", .meaning = "Slope at zero of one sensor against another.", ENTRIES(OF_TWO)};
 static const brc_entry MEASURE[] = {
@@ -310,9 +349,12 @@ static const brc_entry MEASURE[] = {
     {"slope", BRC_TYPE_STRUCT, .section = &SLOPE_SECTION, .value = BRC_MEASURE_SLOPE,
      .meaning = "slope of one sensor against another"},
     {"mean", BRC_TYPE_STRUCT, .section = &MEAN_SECTION, .value = BRC_MEASURE_MEAN, .meaning = "mean of a sensor"},
-    {"rate", BRC_TYPE_STRUCT, .section = &RATE_SECTION, .value = BRC_MEASURE_RATE, .meaning = "change of a sensor per time"},
-    {"integral", BRC_TYPE_STRUCT, .section = &INTEGRAL_SECTION, .value = BRC_MEASURE_INTEGRAL, .meaning = "a sensor summed over time"},
-    {"duration", BRC_TYPE_STRUCT, .section = &DURATION_SECTION, .value = BRC_MEASURE_DURATION, .meaning = "how long a sensor is up"},
+    {"rate", BRC_TYPE_STRUCT, .section = &RATE_SECTION, .value = BRC_MEASURE_RATE,
+     .meaning = "change of a sensor per time"},
+    {"integral", BRC_TYPE_STRUCT, .section = &INTEGRAL_SECTION, .value = BRC_MEASURE_INTEGRAL,
+     .meaning = "a sensor summed over time"},
+    {"duration", BRC_TYPE_STRUCT, .section = &DURATION_SECTION, .value = BRC_MEASURE_DURATION,
+     .meaning = "how long a sensor is up"},
     {"at_first_break", BRC_TYPE_STRUCT, .section = &AT_FIRST_BREAK_SECTION, .value = BRC_MEASURE_AT_FIRST_BREAK,
      .meaning = "a sensor when the first bond breaks"},
 };
@@ -326,18 +368,20 @@ const brc_section brc_schema_measure = {.title = "measure",
                                         .sample_name = "result"};
 
 static const brc_entry PICTURE_CUT[] = {
-    {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_output, picture_cut_point), .length = 3, .required = true, .sample = "[0, 0, 0]",
-     .meaning = "a point of the plane"},
-    {"normal", BRC_TYPE_DIRECTION, "", FIELD(brc_output, picture_cut_normal), .length = 3, .required = true, .sample = "[1, 0, 0]",
-     .meaning = "towards what is left out"},
+    {"point", BRC_TYPE_VECTOR, "m", FIELD(brc_output, picture_cut_point), .length = 3, .required = true,
+     .sample = "[0, 0, 0]", .meaning = "a point of the plane"},
+    {"normal", BRC_TYPE_DIRECTION, "", FIELD(brc_output, picture_cut_normal), .length = 3, .required = true,
+     .sample = "[1, 0, 0]", .meaning = "towards what is left out"},
 };
 static const brc_section PICTURE_CUT_SECTION = {
-    .title = "cut of pictures", .meaning = "Elements placed in front of a plane in the undeformed solid are not drawn, so that one sees inside.", ENTRIES(PICTURE_CUT)};
+    .title = "cut of pictures",
+    .meaning = "Elements placed in front of a plane in the undeformed solid are not drawn, so that one sees inside.",
+    ENTRIES(PICTURE_CUT)};
 static const brc_entry CAMERA[] = {
     {"from", BRC_TYPE_VECTOR, "m", FIELD(brc_output, picture_from), .length = 3, .required = true,
      .sample = "[3 m, -2 m, 1 m]", .meaning = "where the viewer stands"},
-    {"towards", BRC_TYPE_VECTOR, "m", FIELD(brc_output, picture_towards), .length = 3,
-     .sample = "[1 m, 0, 0]", .meaning = "the point looked at; left out: the origin"},
+    {"towards", BRC_TYPE_VECTOR, "m", FIELD(brc_output, picture_towards), .length = 3, .sample = "[1 m, 0, 0]",
+     .meaning = "the point looked at; left out: the origin"},
 };
 static const brc_section CAMERA_SECTION = {
     .title = "camera",
@@ -345,11 +389,12 @@ static const brc_section CAMERA_SECTION = {
     ENTRIES(CAMERA)};
 static const brc_entry PICTURE[] = {
     {"draw", BRC_TYPE_BOOL, FIELD(brc_output, picture), .given = "true", .meaning = "draw picture.png at the end"},
-    {"frames", BRC_TYPE_BOOL, FIELD(brc_output, picture_frames), .given = "false", .meaning = "draw every frame too, pictures/NNNNNN.png"},
-    {"cut", BRC_TYPE_STRUCT, .section = &PICTURE_CUT_SECTION, FLAG(brc_output, has_picture_cut), .meaning = "left out: the whole solid is drawn"},
+    {"frames", BRC_TYPE_BOOL, FIELD(brc_output, picture_frames), .given = "false",
+     .meaning = "draw every frame too, pictures/NNNNNN.png"},
+    {"cut", BRC_TYPE_STRUCT, .section = &PICTURE_CUT_SECTION, FLAG(brc_output, has_picture_cut),
+     .meaning = "left out: the whole solid is drawn"},
     {"view", BRC_TYPE_WORD, FIELD(brc_output, picture_view), CHOICES("corner", "x", "-x", "y", "-y", "z", "-z"),
-     .given = "corner",
-     .meaning = "the side it is seen from; z: from above; corner: from above, between x and -y"},
+     .given = "corner", .meaning = "the side it is seen from; z: from above; corner: from above, between x and -y"},
     {"camera", BRC_TYPE_STRUCT, .section = &CAMERA_SECTION, FLAG(brc_output, has_picture_camera),
      .meaning = "in place of `view`"},
     {"colour", BRC_TYPE_WORD, FIELD(brc_output, picture_colour),
@@ -358,7 +403,8 @@ static const brc_entry PICTURE[] = {
              "stress_xy", "strain_xx", "strain_yy", "strain_zz", "strain_yz", "strain_xz", "strain_xy"),
      .given = "von_mises", .meaning = "what the colours show"},
     {"scale", BRC_TYPE_QUANTITY, "", POSITIVE, FIELD(brc_output, picture_scale), .given = "auto", .word = "auto",
-     .sample = "100", .meaning = "factor on the displacement; auto: 1 with contact or strikers, else what makes it visible"},
+     .sample = "100",
+     .meaning = "factor on the displacement; auto: 1 with contact or strikers, else what makes it visible"},
 };
 static const brc_section PICTURE_SECTION = {.title = "picture",
                                             .meaning = "The deformed solid. true or false alone is "
@@ -374,15 +420,16 @@ static const brc_entry CURVE[] = {
 static const brc_section CURVE_SECTION = {
     .title = "curve", .meaning = "One sensor against another, in curve.png.", ENTRIES(CURVE)};
 static const brc_entry CHECKPOINT[] = {
-    {"every", BRC_TYPE_QUANTITY, "s", POSITIVE, FIELD(brc_output, checkpoint_every), .given = "off", .word = "off", .sample = "1 ms",
-     .meaning = "simulated time between checkpoints"},
-    {"wall", BRC_TYPE_QUANTITY, "s", POSITIVE, FIELD(brc_output, checkpoint_wall), .given = "off", .word = "off", .sample = "10 min",
-     .meaning = "time of the clock between checkpoints"},
+    {"every", BRC_TYPE_QUANTITY, "s", POSITIVE, FIELD(brc_output, checkpoint_every), .given = "off", .word = "off",
+     .sample = "1 ms", .meaning = "simulated time between checkpoints"},
+    {"wall", BRC_TYPE_QUANTITY, "s", POSITIVE, FIELD(brc_output, checkpoint_wall), .given = "off", .word = "off",
+     .sample = "10 min", .meaning = "time of the clock between checkpoints"},
 };
-static const brc_section CHECKPOINT_SECTION = {.title = "checkpoint",
-                                               .meaning = "Files from which `breccia run --resume` goes on; the last two are kept.",
-                                               ENTRIES(CHECKPOINT),
-                                               .short_key = "wall"};
+static const brc_section CHECKPOINT_SECTION = {
+    .title = "checkpoint",
+    .meaning = "Files from which `breccia run --resume` goes on; the last two are kept.",
+    ENTRIES(CHECKPOINT),
+    .short_key = "wall"};
 static const brc_entry OUTPUT[] = {
     {"frames", BRC_TYPE_INTEGER, WITHIN(0, 1e6), FIELD(brc_output, n_frames), .given = "0", .word = "none",
      .word_value = -1, .sample = "10",

@@ -130,13 +130,18 @@ static const brc_entry RADIAL[] = {
      .meaning = "the forces point away from it"},
 };
 static const brc_section RADIAL_SECTION = {
-    .title = "radial", .meaning = "Equal forces along the radii, minus what would move or turn the set as a rigid body.", ENTRIES(RADIAL)};
+    .title = "radial",
+    .meaning = "Equal forces along the radii, minus what would move or turn the set as a rigid body.",
+    ENTRIES(RADIAL)};
 static const brc_entry ELEMENT_FORCE[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_load, set), .required = true, .refers = BRC_REFERS_ELEMENTS, .sample = "core",
      .meaning = "elements it acts on"},
-    {"x", BRC_TYPE_QUANTITY, "N", FIELD(brc_load, value[0]), .sample = "1 kN", .meaning = "x component of the total, 0 if left out"},
-    {"y", BRC_TYPE_QUANTITY, "N", FIELD(brc_load, value[1]), .sample = "1 kN", .meaning = "y component of the total, 0 if left out"},
-    {"z", BRC_TYPE_QUANTITY, "N", FIELD(brc_load, value[2]), .sample = "1 kN", .meaning = "z component of the total, 0 if left out"},
+    {"x", BRC_TYPE_QUANTITY, "N", FIELD(brc_load, value[0]), .sample = "1 kN",
+     .meaning = "x component of the total, 0 if left out"},
+    {"y", BRC_TYPE_QUANTITY, "N", FIELD(brc_load, value[1]), .sample = "1 kN",
+     .meaning = "y component of the total, 0 if left out"},
+    {"z", BRC_TYPE_QUANTITY, "N", FIELD(brc_load, value[2]), .sample = "1 kN",
+     .meaning = "z component of the total, 0 if left out"},
     {"share", BRC_TYPE_CHOICE, FIELD(brc_load, share), CHOICES("number", "mass"), .given = "number",
      .meaning = "of x, y, z: equal parts for all, or by mass"},
     {"radial", BRC_TYPE_STRUCT, .section = &RADIAL_SECTION, FLAG(brc_load, radial),
@@ -150,8 +155,8 @@ static const brc_section ELEMENT_FORCE_SECTION = {
     .groups = {{BRC_GROUP_AT_LEAST_ONE, {"x", "y", "z", "radial"}}}};
 #define TURN(key_, i)                                                                                                  \
     {                                                                                                                  \
-        key_, BRC_TYPE_QUANTITY, "rad", FIELD(brc_load, value[i]), FLAG(brc_load, component[i]), .sample = "0",        \
-            .meaning = "prescribed " key_ " component; 0 clamps, a component left out stays free"                      \
+        key_, BRC_TYPE_QUANTITY, "rad", FIELD(brc_load, value[i]), FLAG(brc_load, component[i]),                       \
+            .sample = "0", .meaning = "prescribed " key_ " component; 0 clamps, a component left out stays free"       \
     }
 static const brc_entry ELEMENT_ROTATION[] = {
     {"set", BRC_TYPE_NAME, FIELD(brc_load, set), .required = true, .refers = BRC_REFERS_ELEMENTS, .sample = "core",
@@ -163,7 +168,8 @@ static const brc_entry ELEMENT_ROTATION[] = {
 };
 static const brc_section ELEMENT_ROTATION_SECTION = {
     .title = "element_rotation",
-    .meaning = "Prescribed rotation of elements since the start of the stage, about axes through their own centres; for models whose "
+    .meaning = "Prescribed rotation of elements since the start of the stage, about axes through their own centres; "
+               "for models whose "
                "elements have rotations (cbm; dlsm-published in dynamic stages).",
     ENTRIES(ELEMENT_ROTATION),
     .groups = {{BRC_GROUP_AT_LEAST_ONE, {"x", "y", "z"}}}};
@@ -320,15 +326,16 @@ static const brc_section TIME_STEP_SECTION = {.title = "time_step",
                                               .kind_offset = offsetof(brc_stage, time_step_rule),
                                               .short_key = "fixed"};
 static const brc_entry STOP[] = {
-    {"sensor", BRC_TYPE_NAME, FIELD(brc_stage, stop_sensor), .required = true, .refers = BRC_REFERS_SENSOR, .sample = "force",
-     .meaning = "what is watched"},
+    {"sensor", BRC_TYPE_NAME, FIELD(brc_stage, stop_sensor), .required = true, .refers = BRC_REFERS_SENSOR,
+     .sample = "force", .meaning = "what is watched"},
     {"below", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_stage, stop_share), .given = "50 %",
      .meaning = "share of its largest magnitude in the stage"},
 };
-static const brc_section STOP_SECTION = {.title = "stop_after_peak",
-                                         .meaning = "Ends the stage when a sensor has fallen from its peak; judged when sensors are sampled.",
-                                         ENTRIES(STOP),
-                                         .short_key = "sensor"};
+static const brc_section STOP_SECTION = {
+    .title = "stop_after_peak",
+    .meaning = "Ends the stage when a sensor has fallen from its peak; judged when sensors are sampled.",
+    ENTRIES(STOP),
+    .short_key = "sensor"};
 static const brc_entry DYNAMIC[] = {
     {"duration", BRC_TYPE_QUANTITY, "s", POSITIVE, FIELD(brc_stage, duration), .sample = "1 ms",
      .meaning = "time simulated"},
@@ -338,14 +345,18 @@ static const brc_entry DYNAMIC[] = {
     {"time_step", BRC_TYPE_STRUCT, .section = &TIME_STEP_SECTION, .given = "auto", .meaning = "the step"},
     {"mass_damping", BRC_TYPE_QUANTITY, "1/s", NOT_NEGATIVE, FIELD(brc_stage, mass_damping), .given = "0",
      .sample = "10 1/s", .meaning = "force -c m v on every element: the drag of a surrounding fluid"},
-    {"noise_damping", BRC_TYPE_QUANTITY, "", WITHIN(0, 0.1), FIELD(brc_stage, noise_damping), .given = "0", .sample = "2 %",
-     .meaning = "model dlsm: drag on what an element moves otherwise than its neighbours do, as a share of the critical damping of the fastest oscillation; long waves pass; not with a fracture energy"},
+    {"noise_damping", BRC_TYPE_QUANTITY, "", WITHIN(0, 0.1), FIELD(brc_stage, noise_damping), .given = "0",
+     .sample = "2 %",
+     .meaning = "model dlsm: drag on what an element moves otherwise than its neighbours do, as a share of the "
+                "critical damping of the fastest oscillation; long waves pass; not with a fracture energy"},
     {"stop_when_kinetic_below", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_stage, stop_kinetic),
      .given = "off", .word = "off", .sample = "1e-6",
      .meaning = "ends the stage when the kinetic energy was below this part of the elastic energy for 100 steps"},
-    {"stop_when_broken", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_stage, stop_broken), .given = "off", .word = "off",
-     .sample = "10 %", .meaning = "ends the stage when more than this share of all bonds is broken; needs `fracture`"},
-    {"stop_after_peak", BRC_TYPE_STRUCT, .section = &STOP_SECTION, .meaning = "ends the stage when a load has dropped; left out: it runs on"},
+    {"stop_when_broken", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_stage, stop_broken), .given = "off",
+     .word = "off", .sample = "10 %",
+     .meaning = "ends the stage when more than this share of all bonds is broken; needs `fracture`"},
+    {"stop_after_peak", BRC_TYPE_STRUCT, .section = &STOP_SECTION,
+     .meaning = "ends the stage when a load has dropped; left out: it runs on"},
 };
 static const brc_section DYNAMIC_SECTION = {.title = "solver dynamic",
                                             .meaning = "Explicit steps through time.",
@@ -357,12 +368,13 @@ static const brc_entry EVENTS[] = {
     {"below", BRC_TYPE_QUANTITY, "", WITHIN(0, 1), FIELD(brc_stage, stop_load), .given = "0",
      .meaning = "ends the stage when the load of an event falls below this share of the largest so far"},
 };
-static const brc_section EVENTS_SECTION = {
-    .title = "events",
-    .meaning = "Quasi-static fracture: the load is scaled to where the next bond fails, that bond breaks, and the body is solved anew. Needs "
-               "`fracture`; for small damage, a dynamic stage is cheaper for much.",
-    ENTRIES(EVENTS),
-    .short_key = "most"};
+static const brc_section EVENTS_SECTION = {.title = "events",
+                                           .meaning =
+                                               "Quasi-static fracture: the load is scaled to where the next bond "
+                                               "fails, that bond breaks, and the body is solved anew. Needs "
+                                               "`fracture`; for small damage, a dynamic stage is cheaper for much.",
+                                           ENTRIES(EVENTS),
+                                           .short_key = "most"};
 static const brc_entry STATIC[] = {
     {"increments", BRC_TYPE_INTEGER, WITHIN(1, 100000), FIELD(brc_stage, increments), .given = "1",
      .meaning = "steps from no load to the whole load"},
@@ -371,12 +383,16 @@ static const brc_entry STATIC[] = {
      .meaning = "residual over load; auto: 1e-10 in double, 1e-6 in mixed, 1e-5 in single precision"},
     {"max_iterations", BRC_TYPE_INTEGER, WITHIN(1, 1e9), FIELD(brc_stage, max_iterations), .given = "auto",
      .word = "auto", .sample = "5000", .meaning = "of each linear solve"},
-    {"preconditioner", BRC_TYPE_CHOICE, FIELD(brc_stage, preconditioner), CHOICES("auto", "multigrid", "blocks"), .given = "auto",
-     .meaning = "what makes iterations few: multigrid, their number hardly growing with the body, or the elements' own stiffness; auto: multigrid from 500 elements on"},
-    {"to_failure", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 1), FIELD(brc_stage, to_failure), .given = "off", .word = "off",
-     .sample = "80 %",
-     .meaning = "scale the whole load so that the element nearest to failure is at this fraction of its limit; needs `fracture`"},
-    {"events", BRC_TYPE_STRUCT, .section = &EVENTS_SECTION, .meaning = "bonds break one event after the other; left out: none breaks"},
+    {"preconditioner", BRC_TYPE_CHOICE, FIELD(brc_stage, preconditioner), CHOICES("auto", "multigrid", "blocks"),
+     .given = "auto",
+     .meaning = "what makes iterations few: multigrid, their number hardly growing with the body, or the elements' own "
+                "stiffness; auto: multigrid from 500 elements on"},
+    {"to_failure", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 1), FIELD(brc_stage, to_failure), .given = "off",
+     .word = "off", .sample = "80 %",
+     .meaning = "scale the whole load so that the element nearest to failure is at this fraction of its limit; needs "
+                "`fracture`"},
+    {"events", BRC_TYPE_STRUCT, .section = &EVENTS_SECTION,
+     .meaning = "bonds break one event after the other; left out: none breaks"},
     {"finite_strain", BRC_TYPE_BOOL, FIELD(brc_stage, finite_strain), .given = "true",
      .meaning = "false: only the law linearised about the reference"},
 };
@@ -404,7 +420,8 @@ static const brc_section SOLVER_SECTION = {.title = "solver",
 static const brc_entry STAGE[] = {
     {"name", BRC_TYPE_NAME, FIELD(brc_stage, name), .required = true, .sample = "pull",
      .meaning = "for messages, results and measures"},
-    {"solver", BRC_TYPE_STRUCT, .section = &SOLVER_SECTION, .required = true, .sample = "{dynamic: {duration: 1 ms}}", .meaning = "what the stage computes"},
+    {"solver", BRC_TYPE_STRUCT, .section = &SOLVER_SECTION, .required = true, .sample = "{dynamic: {duration: 1 ms}}",
+     .meaning = "what the stage computes"},
     {"initial", BRC_TYPE_LIST, .section = &brc_schema_initial, COUNTED(brc_stage, initials, n_initials),
      .meaning = "fields added to the state at its start"},
     {"loads", BRC_TYPE_LIST, .section = &brc_schema_load, COUNTED(brc_stage, loads, n_loads),

@@ -22,8 +22,8 @@ typedef enum brc_quantity_result {
     BRC_QUANTITY_NO_NUMBER,    /* does not start with a decimal number */
     BRC_QUANTITY_OVERFLOW,     /* beyond the range of double precision, to either side */
     BRC_QUANTITY_UNKNOWN_UNIT, /* what follows the number is no unit */
-    BRC_QUANTITY_BARE          /* a number without unit that is not 0, where a dimension is due (brc_quantity_read) */,
-    BRC_QUANTITY_WRONG_UNIT    /* a unit of another dimension (brc_quantity_read) */
+    BRC_QUANTITY_BARE /* a number without unit that is not 0, where a dimension is due (brc_quantity_read) */,
+    BRC_QUANTITY_WRONG_UNIT /* a unit of another dimension (brc_quantity_read) */
 } brc_quantity_result;
 
 /* Parse a unit: *factor is its size in SI, *dimension its exponents. "" and "-" are dimensionless. False: no unit. */

@@ -9,21 +9,25 @@ enum { MOST_KEPT = 64 };
 
 struct brc_ahead {
     brc_state_store store;
-    brc_simulation *simulation;     /* borrowed */
-    brc_buffer *found;              /* [n_rows] marks of the stretch so far */
-    int n;                          /* arrays */
+    brc_simulation *simulation; /* borrowed */
+    brc_buffer *found;          /* [n_rows] marks of the stretch so far */
+    int n;                      /* arrays */
     brc_buffer *of[MOST_KEPT], *copy[MOST_KEPT];
-    char *numbers;                  /* of the host, one after another, each list behind its number of rows */
+    char *numbers; /* of the host, one after another, each list behind its number of rows */
     int64_t used, at;
-    int64_t calm;                   /* steps since the last break */
-    bool on, open;                  /* a stretch is being taken; the simulation's `open` at its start */
+    int64_t calm;  /* steps since the last break */
+    bool on, open; /* a stretch is being taken; the simulation's `open` at its start */
 };
 
 /* ---- what is kept: the store of checkpoints (state_store.h), in memory ---- */
 
-static struct brc_ahead *ahead_of(brc_state_store *store) { return store->self; }
+static struct brc_ahead *ahead_of(brc_state_store *store)
+{
+    return store->self;
+}
 
-static brc_status keep_numbers(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows, int32_t columns, void *data)
+static brc_status keep_numbers(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows,
+                               int32_t columns, void *data)
 {
     struct brc_ahead *a = ahead_of(store);
     const int64_t bytes = rows * columns * brc_stored_type_bytes(type), whole = bytes + (int64_t)sizeof rows;
@@ -50,11 +54,15 @@ static brc_status keep_field(brc_state_store *store, brc_buffer *buffer)
 {
     struct brc_ahead *a = ahead_of(store);
     int k = 0;
-    while (k < a->n && a->of[k] != buffer) ++k;
+    while (k < a->n && a->of[k] != buffer)
+        ++k;
     if (store->loading) return brc_buffer_copy(buffer, a->copy[k], brc_buffer_bytes(buffer));
-    if (k == MOST_KEPT) return BRC_FAIL(a->simulation->context, BRC_INTERNAL, "more than %d arrays are kept for steps ahead", (int)MOST_KEPT);
+    if (k == MOST_KEPT)
+        return BRC_FAIL(a->simulation->context, BRC_INTERNAL, "more than %d arrays are kept for steps ahead",
+                        (int)MOST_KEPT);
     if (k == a->n) {
-        BRC_TRY(brc_buffer_create(a->simulation->device, &a->copy[k], brc_buffer_bytes(buffer), "copies for steps ahead"));
+        BRC_TRY(
+            brc_buffer_create(a->simulation->device, &a->copy[k], brc_buffer_bytes(buffer), "copies for steps ahead"));
         a->of[a->n++] = buffer;
     }
     return brc_buffer_copy(a->copy[k], buffer, brc_buffer_bytes(buffer));
@@ -63,7 +71,8 @@ static brc_status keep_field(brc_state_store *store, brc_buffer *buffer)
 static brc_status walk(brc_simulation *s, bool loading)
 {
     struct brc_ahead *a = s->ahead;
-    a->store = (brc_state_store){.self = a, .loading = loading, .numbers = keep_numbers, .count = count_rows, .field = keep_field};
+    a->store = (brc_state_store){
+        .self = a, .loading = loading, .numbers = keep_numbers, .count = count_rows, .field = keep_field};
     if (!loading) a->used = 0;
     a->at = 0;
     BRC_TRY(brc_simulation_walk_motion(s, &a->store));
@@ -74,13 +83,16 @@ static brc_status walk(brc_simulation *s, bool loading)
 /* ---- stretches ---- */
 
 /* The cpu and OpenMP target do what they are told at once: there is nobody to wait for. */
-static bool works_beside(const brc_simulation *s) { return brc_device_get_info(s->device)->kind == BRC_DEVICE_OPENCL; }
+static bool works_beside(const brc_simulation *s)
+{
+    return brc_device_get_info(s->device)->kind == BRC_DEVICE_OPENCL;
+}
 
 /* Contact looks for its pairs from the host, softening and noise damping ask in every step. */
 static bool may(const brc_simulation *s)
 {
-    return s->fracture && s->fracture->cells && !s->contact && !s->strikers && !brc_softening_is_on(s) && brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC &&
-           !s->wants.noise && works_beside(s);
+    return s->fracture && s->fracture->cells && !s->contact && !s->strikers && !brc_softening_is_on(s) &&
+           brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && !s->wants.noise && works_beside(s);
 }
 
 int64_t brc_ahead_steps(const brc_simulation *s, int64_t n)
@@ -116,7 +128,8 @@ brc_status brc_ahead_end(brc_simulation *s, bool *stands)
     a->calm = 0;
     BRC_TRY(brc_buffer_fill_zero(c->mark));
     BRC_TRY(brc_buffer_fill_zero(c->rings->touched));
-    brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: bonds break in them", (long long)s->step + 1, (long long)first);
+    brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: bonds break in them",
+            (long long)s->step + 1, (long long)first);
     return BRC_OK;
 }
 
@@ -139,7 +152,8 @@ void brc_ahead_free(brc_simulation *s)
 {
     struct brc_ahead *a = s->ahead;
     if (!a) return;
-    for (int k = 0; k < a->n; ++k) brc_buffer_free(&a->copy[k]);
+    for (int k = 0; k < a->n; ++k)
+        brc_buffer_free(&a->copy[k]);
     brc_buffer_free(&a->found);
     brc_memory_free(a->numbers);
     brc_memory_free(a);

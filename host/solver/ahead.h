@@ -1,7 +1,9 @@
-/* Steps ahead of what is known. Whether bonds of cells are to break in a step is decided on the device; the host acts on it, so it would have to wait in every step. On a
- * device that works beside the host, stretches of steps in which nothing seems to break are taken as if nothing did, and counted; the host asks once, at their end. Where
- * bonds were to break after all, everything is put back to the start of the stretch and its steps are taken again with a question each: the same bits in either case. A
- * stretch is no longer than the steps before it in which nothing broke, so at most half of all steps are taken in vain. */
+/* Steps ahead of what is known. Whether bonds of cells are to break in a step is decided on the device; the host acts
+ * on it, so it would have to wait in every step. On a device that works beside the host, stretches of steps in which
+ * nothing seems to break are taken as if nothing did, and counted; the host asks once, at their end. Where bonds were
+ * to break after all, everything is put back to the start of the stretch and its steps are taken again with a question
+ * each: the same bits in either case. A stretch is no longer than the steps before it in which nothing broke, so at
+ * most half of all steps are taken in vain. */
 #ifndef BRC_SOLVER_AHEAD_H
 #define BRC_SOLVER_AHEAD_H
 

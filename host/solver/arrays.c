@@ -9,7 +9,8 @@ static brc_status upload(brc_simulation *s, brc_buffer *buffer, const double *va
     if (bytes_each == 8) return brc_buffer_write(buffer, 0, values, count * 8);
     float *narrow = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &narrow, count, "narrowed values"));
-    for (int64_t i = 0; i < count; ++i) narrow[i] = (float)values[i];
+    for (int64_t i = 0; i < count; ++i)
+        narrow[i] = (float)values[i];
     const brc_status status = brc_buffer_write(buffer, 0, narrow, count * 4);
     brc_memory_free(narrow);
     return status;
@@ -33,7 +34,8 @@ brc_status brc_download(brc_simulation *s, brc_buffer *buffer, int bytes_each, d
     BRC_TRY(BRC_ALLOCATE(s->context, &narrow, count, "narrow values"));
     const brc_status status = brc_buffer_read(buffer, 0, narrow, count * 4);
     if (status == BRC_OK)
-        for (int64_t i = 0; i < count; ++i) values[i] = narrow[i];
+        for (int64_t i = 0; i < count; ++i)
+            values[i] = narrow[i];
     brc_memory_free(narrow);
     return status;
 }
@@ -45,7 +47,8 @@ brc_status brc_state_to_rows(brc_simulation *s, brc_buffer *buffer, const double
     BRC_TRY(BRC_ALLOCATE(s->context, &rows, (int64_t)layout->n_rows * width, "rows"));
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         const int64_t e = layout->element_of_row[r];
-        for (int c = 0; c < width; ++c) rows[(int64_t)r * width + c] = e < 0 ? fill : values[e * width + c];
+        for (int c = 0; c < width; ++c)
+            rows[(int64_t)r * width + c] = e < 0 ? fill : values[e * width + c];
     }
     const brc_status status = brc_upload_state(s, buffer, rows, (int64_t)layout->n_rows * width);
     brc_memory_free(rows);
@@ -60,7 +63,8 @@ static brc_status from_rows(brc_simulation *s, brc_buffer *buffer, double *value
     const brc_status status = brc_download(s, buffer, bytes_each, rows, (int64_t)layout->n_rows * width);
     if (status == BRC_OK)
         for (int64_t e = 0; e < s->domain->n_elements; ++e)
-            for (int c = 0; c < width; ++c) values[e * width + c] = rows[(int64_t)layout->row_of_element[e] * width + c];
+            for (int c = 0; c < width; ++c)
+                values[e * width + c] = rows[(int64_t)layout->row_of_element[e] * width + c];
     brc_memory_free(rows);
     return status;
 }
@@ -80,15 +84,20 @@ enum { SPARE = 8 };
 
 brc_status brc_new_state(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
 {
-    return brc_buffer_create(s->device, out, (count + SPARE) * brc_precision_state_bytes(brc_device_get_precision(s->device)), what);
+    return brc_buffer_create(s->device, out,
+                             (count + SPARE) * brc_precision_state_bytes(brc_device_get_precision(s->device)), what);
 }
 
 brc_status brc_new_coeff(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
 {
-    return brc_buffer_create(s->device, out, (count + SPARE) * brc_precision_coeff_bytes(brc_device_get_precision(s->device)), what);
+    return brc_buffer_create(s->device, out,
+                             (count + SPARE) * brc_precision_coeff_bytes(brc_device_get_precision(s->device)), what);
 }
 
-brc_status brc_upload_int(brc_buffer *buffer, const int32_t *values, int64_t count) { return count ? brc_buffer_write(buffer, 0, values, count * 4) : BRC_OK; }
+brc_status brc_upload_int(brc_buffer *buffer, const int32_t *values, int64_t count)
+{
+    return count ? brc_buffer_write(buffer, 0, values, count * 4) : BRC_OK;
+}
 
 brc_status brc_new_int(brc_simulation *s, brc_buffer **out, const int32_t *values, int64_t count, const char *what)
 {

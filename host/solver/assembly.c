@@ -27,14 +27,16 @@ const char *brc_assembly_models(const brc_assembly *a, char *words, size_t room)
 int64_t brc_assembly_first_element(const brc_assembly *a, int32_t part)
 {
     int64_t n = 0;
-    for (int32_t k = 0; k < part; ++k) n += brc_simulation_domain(a->part[k])->n_elements;
+    for (int32_t k = 0; k < part; ++k)
+        n += brc_simulation_domain(a->part[k])->n_elements;
     return n;
 }
 
 int64_t brc_assembly_first_bond(const brc_assembly *a, int32_t part)
 {
     int64_t n = 0;
-    for (int32_t k = 0; k < part; ++k) n += brc_simulation_domain(a->part[k])->n_bonds;
+    for (int32_t k = 0; k < part; ++k)
+        n += brc_simulation_domain(a->part[k])->n_bonds;
     return n;
 }
 
@@ -74,7 +76,10 @@ brc_status brc_assembly_ledger(brc_assembly *a, brc_ledger *out)
 }
 
 /* The smaller of two that are known (above 0). */
-static double least(double a, double b) { return !(a > 0) ? b : !(b > 0) ? a : fmin(a, b); }
+static double least(double a, double b)
+{
+    return !(a > 0) ? b : !(b > 0) ? a : fmin(a, b);
+}
 
 brc_time_step brc_assembly_time_step(const brc_assembly *a)
 {
@@ -99,7 +104,8 @@ double brc_assembly_mode(const brc_assembly *a, int32_t index)
             for (int32_t other = 0; other < a->n; ++other) {
                 int32_t m;
                 const double *others = brc_simulation_modes(a->part[other], &m);
-                for (int32_t j = 0; other != k && others && j < m; ++j) before += others[j] < omega[i] || (others[j] == omega[i] && other < k);
+                for (int32_t j = 0; other != k && others && j < m; ++j)
+                    before += others[j] < omega[i] || (others[j] == omega[i] && other < k);
             }
             if (before == index) return omega[i];
         }
@@ -110,20 +116,23 @@ double brc_assembly_mode(const brc_assembly *a, int32_t index)
 double brc_assembly_phase_seconds(const brc_assembly *a, brc_step_phase phase)
 {
     double sum = 0;
-    for (int32_t k = 0; k < a->n; ++k) sum += brc_simulation_phase_seconds(a->part[k], phase);
+    for (int32_t k = 0; k < a->n; ++k)
+        sum += brc_simulation_phase_seconds(a->part[k], phase);
     return sum;
 }
 
 double brc_assembly_setup_seconds(const brc_assembly *a)
 {
     double sum = 0;
-    for (int32_t k = 0; k < a->n; ++k) sum += brc_simulation_setup_seconds(a->part[k]);
+    for (int32_t k = 0; k < a->n; ++k)
+        sum += brc_simulation_setup_seconds(a->part[k]);
     return sum;
 }
 
 int64_t brc_assembly_device_bytes(const brc_assembly *a)
 {
     int64_t sum = 0;
-    for (int32_t k = 0; k < a->n; ++k) sum += brc_device_bytes(brc_simulation_device(a->part[k]));
+    for (int32_t k = 0; k < a->n; ++k)
+        sum += brc_device_bytes(brc_simulation_device(a->part[k]));
     return sum;
 }

@@ -1,6 +1,7 @@
-/* The whole of a scene for those who look at it or act between its bodies: the simulations of all its parts, which stand at the same moment (lockstep.h).
- * What has one value for all (scene, stage, step, times) is that of the first part. Elements and bonds of the whole are numbered part after part.
- * Contact between bodies of different models will find positions, velocities and forces of all parts here. */
+/* The whole of a scene for those who look at it or act between its bodies: the simulations of all its parts, which
+ * stand at the same moment (lockstep.h). What has one value for all (scene, stage, step, times) is that of the first
+ * part. Elements and bonds of the whole are numbered part after part. Contact between bodies of different models will
+ * find positions, velocities and forces of all parts here. */
 #ifndef BRC_SOLVER_ASSEMBLY_H
 #define BRC_SOLVER_ASSEMBLY_H
 
@@ -8,10 +9,10 @@
 #include "split.h"
 
 typedef struct brc_assembly {
-    const brc_scene *scene;      /* the whole */
-    const brc_split *split;      /* NULL where there is one part */
-    int32_t n;                   /* parts */
-    brc_simulation *const *part; /* [n] */
+    const brc_scene *scene;            /* the whole */
+    const brc_split *split;            /* NULL where there is one part */
+    int32_t n;                         /* parts */
+    brc_simulation *const *part;       /* [n] */
     double peak_elastic, peak_kinetic; /* several parts: of their sums, whenever the ledger was asked for [J] */
 } brc_assembly;
 

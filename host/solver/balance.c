@@ -37,15 +37,18 @@ void brc_balance(int64_t n, const double *place, const double *torque, double *f
 void brc_free_motions_begin(brc_free_motions *free, int64_t n, const double *place)
 {
     memset(free, 0, sizeof *free);
-    for (int64_t k = 0; k < 3 * n; ++k) free->centre[k % 3] += place[k] / (double)n;
-    for (int64_t k = 0; k < 3 * n; ++k) free->arm += pow(place[k] - free->centre[k % 3], 2) / (double)n;
+    for (int64_t k = 0; k < 3 * n; ++k)
+        free->centre[k % 3] += place[k] / (double)n;
+    for (int64_t k = 0; k < 3 * n; ++k)
+        free->arm += pow(place[k] - free->centre[k % 3], 2) / (double)n;
     free->arm = free->arm > 0 ? sqrt(free->arm) : 1;
 }
 
 static void add_row(brc_free_motions *free, const double row[6])
 {
     for (int p = 0; p < 6; ++p)
-        for (int q = 0; q < 6; ++q) free->held[p][q] += row[p] * row[q];
+        for (int q = 0; q < 6; ++q)
+            free->held[p][q] += row[p] * row[q];
 }
 
 void brc_free_motions_hold(brc_free_motions *free, const double place[3], int component)
@@ -67,7 +70,8 @@ void brc_free_motions_clamp(brc_free_motions *free, int component)
 
 bool brc_free_motions_find(brc_free_motions *free)
 {
-    /* what a support does not hold is zero to rounding; what it holds badly is some (size of the support / arm)^2 of the largest */
+    /* what a support does not hold is zero to rounding; what it holds badly is some (size of the support / arm)^2 of
+     * the largest */
     static const double held_least = 1e-10;
     double values[6], work[64], vectors[6][6];
     memcpy(vectors, free->held, sizeof vectors);
@@ -75,7 +79,8 @@ bool brc_free_motions_find(brc_free_motions *free)
     free->n = 0;
     for (int m = 0; m < 6; ++m) {
         if (values[m] > held_least * values[5]) continue;
-        for (int c = 0; c < 6; ++c) free->motion[free->n][c] = vectors[c][m] / (c < 3 ? 1 : free->arm);
+        for (int c = 0; c < 6; ++c)
+            free->motion[free->n][c] = vectors[c][m] / (c < 3 ? 1 : free->arm);
         ++free->n;
     }
     return true;
@@ -90,20 +95,24 @@ static void motion_at(const brc_free_motions *free, int m, const double *place, 
     }
 }
 
-void brc_free_motions_project(const brc_free_motions *free, int64_t n, const double *place, double *force, double *torque)
+void brc_free_motions_project(const brc_free_motions *free, int64_t n, const double *place, double *force,
+                              double *torque)
 {
     double done[6] = {0}, gram[6][6] = {{0}}, u[6][3];
     for (int64_t i = 0; i < n; ++i) {
-        for (int m = 0; m < free->n; ++m) motion_at(free, m, place + 3 * i, u[m]);
+        for (int m = 0; m < free->n; ++m)
+            motion_at(free, m, place + 3 * i, u[m]);
         for (int m = 0; m < free->n; ++m)
             for (int c = 0; c < 3; ++c) {
                 done[m] += u[m][c] * force[3 * i + c] + (torque ? free->motion[m][3 + c] * torque[3 * i + c] : 0);
-                for (int k = 0; k < free->n; ++k) gram[m][k] += u[m][c] * u[k][c] + (torque ? free->motion[m][3 + c] * free->motion[k][3 + c] : 0);
+                for (int k = 0; k < free->n; ++k)
+                    gram[m][k] += u[m][c] * u[k][c] + (torque ? free->motion[m][3 + c] * free->motion[k][3 + c] : 0);
             }
     }
     if (free->n == 0 || LAPACKE_dposv(LAPACK_ROW_MAJOR, 'U', free->n, 1, &gram[0][0], 6, done, 1) != 0) return;
     for (int64_t i = 0; i < n; ++i) {
-        for (int m = 0; m < free->n; ++m) motion_at(free, m, place + 3 * i, u[m]);
+        for (int m = 0; m < free->n; ++m)
+            motion_at(free, m, place + 3 * i, u[m]);
         for (int m = 0; m < free->n; ++m)
             for (int c = 0; c < 3; ++c) {
                 force[3 * i + c] -= done[m] * u[m][c];

@@ -18,7 +18,8 @@ static bool mark_layers(const brc_domain *d, uint8_t *at_wall)
         const int32_t s = brc_domain_find_set(d, layer);
         if (s < 0 || d->sets[s].kind != BRC_SET_ELEMENTS) continue;
         found |= d->sets[s].n_members > 0;
-        for (int64_t k = 0; k < d->sets[s].n_members; ++k) at_wall[d->sets[s].members[k]] = 1;
+        for (int64_t k = 0; k < d->sets[s].n_members; ++k)
+            at_wall[d->sets[s].members[k]] = 1;
     }
     return found;
 }
@@ -31,17 +32,21 @@ static bool mean_place(const brc_domain *d, int32_t body, const char *ending, do
     for (int32_t w = 0; w < d->n_walls; ++w) {
         const int64_t before = n;
         const size_t length = strlen(d->wall_name[w]), tail = strlen(ending);
-        const int32_t s = length >= tail && strcmp(d->wall_name[w] + length - tail, ending) == 0 ? brc_domain_find_set(d, d->wall_name[w]) : -1;
+        const int32_t s = length >= tail && strcmp(d->wall_name[w] + length - tail, ending) == 0
+                              ? brc_domain_find_set(d, d->wall_name[w])
+                              : -1;
         if (s < 0 || d->sets[s].kind != BRC_SET_ELEMENTS) continue;
         for (int64_t k = 0; k < d->sets[s].n_members; ++k) {
             const int64_t e = d->sets[s].members[k];
             if ((body >= 0 && d->body[e] != body) || d->row_start[e + 1] == d->row_start[e]) continue;
-            for (int c = 0; c < 3; ++c) out[c] += d->position[3 * e + c];
+            for (int c = 0; c < 3; ++c)
+                out[c] += d->position[3 * e + c];
             ++n;
         }
         n_walls += n > before;
     }
-    for (int c = 0; c < 3; ++c) out[c] /= n > 0 ? (double)n : 1;
+    for (int c = 0; c < 3; ++c)
+        out[c] /= n > 0 ? (double)n : 1;
     return n_walls == 1;
 }
 
@@ -50,12 +55,15 @@ static double mean_distance(const brc_domain *d, int32_t body, const double a[3]
 {
     double axis[3], length = 0, sum = 0;
     int64_t n = 0;
-    for (int c = 0; c < 3; ++c) length += (b[c] - a[c]) * (b[c] - a[c]);
+    for (int c = 0; c < 3; ++c)
+        length += (b[c] - a[c]) * (b[c] - a[c]);
     length = sqrt(length);
-    for (int c = 0; c < 3; ++c) axis[c] = (b[c] - a[c]) / length;
+    for (int c = 0; c < 3; ++c)
+        axis[c] = (b[c] - a[c]) / length;
     for (int32_t w = 0; w < d->n_walls; ++w) {
         const size_t name = strlen(d->wall_name[w]);
-        const int32_t s = name >= 4 && strcmp(d->wall_name[w] + name - 4, "side") == 0 ? brc_domain_find_set(d, d->wall_name[w]) : -1;
+        const int32_t s =
+            name >= 4 && strcmp(d->wall_name[w] + name - 4, "side") == 0 ? brc_domain_find_set(d, d->wall_name[w]) : -1;
         for (int64_t k = 0; s >= 0 && k < d->sets[s].n_members; ++k) {
             const int64_t e = d->sets[s].members[k];
             double along = 0, square = 0;
@@ -81,7 +89,8 @@ static bool measure_edges(const brc_domain *d, int32_t body, double diameter, do
     for (int c = 0; c < 3; ++c) {
         double square = 0;
         if (!mean_place(d, body, ends[c][0], low[c]) || !mean_place(d, body, ends[c][1], high[c])) continue;
-        for (int k = 0; k < 3; ++k) square += (high[c][k] - low[c][k]) * (high[c][k] - low[c][k]);
+        for (int k = 0; k < 3; ++k)
+            square += (high[c][k] - low[c][k]) * (high[c][k] - low[c][k]);
         edges[n++] = sqrt(square) / diameter + 1;
         axis = c;
     }

@@ -47,7 +47,8 @@ static bool acts(const brc_simulation *s)
     return closure_of(s) && bears_now(s);
 }
 
-/* Rows of the neighbours over all bonds there ever were, and the other entry of each; entries without one point home. */
+/* Rows of the neighbours over all bonds there ever were, and the other entry of each; entries without one point
+ * home. */
 static brc_status upload_bonds(brc_simulation *s, beam_closure *f)
 {
     const brc_layout *layout = s->layout;

@@ -1,5 +1,6 @@
-/* Broken beams whose ends still bear on each other (kernels/beam_closure.cl; docs/notebook/fracture.md "Beams beside compression"). In dynamic stages of scenes with `fracture: {closure: true}`; without it, what
- * is left of beams that softened is taken off here as they end. Where beams neither soften nor shut every function here does nothing. */
+/* Broken beams whose ends still bear on each other (kernels/beam_closure.cl; docs/notebook/fracture.md "Beams beside
+ * compression"). In dynamic stages of scenes with `fracture: {closure: true}`; without it, what is left of beams that
+ * softened is taken off here as they end. Where beams neither soften nor shut every function here does nothing. */
 #ifndef BRC_SOLVER_BEAM_CLOSURE_H
 #define BRC_SOLVER_BEAM_CLOSURE_H
 
@@ -9,7 +10,8 @@
 brc_status brc_beam_closure_create(brc_simulation *s);
 void brc_beam_closure_free(brc_simulation *s);
 
-/* What broken beams bear of an evaluation: after fracture_force, after cbm_energy, after cbm_virial (virial [n_rows][6]), each after what softening takes off. */
+/* What broken beams bear of an evaluation: after fracture_force, after cbm_energy, after cbm_virial (virial
+ * [n_rows][6]), each after what softening takes off. */
 brc_status brc_beam_closure_force(brc_simulation *s, const brc_force_request *r);
 brc_status brc_beam_closure_energy(brc_simulation *s);
 brc_status brc_beam_closure_virial(brc_simulation *s, brc_buffer *virial);

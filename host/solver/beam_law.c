@@ -1,4 +1,5 @@
-/* Coefficients: written by `breccia calibrate` as law.h (docs/notebook/beams-calibration.md has its command, the solves behind it and what is left). */
+/* Coefficients: written by `breccia calibrate` as law.h (docs/notebook/beams-calibration.md has its command, the solves
+ * behind it and what is left). */
 #include "beam_law.h"
 #include "chebyshev.h"
 #include "../base/log.h"
@@ -20,42 +21,57 @@ const brc_beam_law *brc_beam_law_for(double radius_spread)
     return best;
 }
 
-static double cubic(const double c[4], double x) { return c[0] + x * (c[1] + x * (c[2] + x * c[3])); }
+static double cubic(const double c[4], double x)
+{
+    return c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+}
 
-void brc_beam_law_terms(const brc_beam_law *law, double coordination, double radius, double out[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS])
+void brc_beam_law_terms(const brc_beam_law *law, double coordination, double radius,
+                        double out[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS])
 {
     const double logarithms[2] = {log(law->radius[0]), log(law->radius[1])};
     double of_radius[BRC_BEAM_LAW_ROWS], of_coordination[BRC_BEAM_LAW_COLUMNS];
     brc_chebyshev(brc_chebyshev_place(logarithms, log(radius)), BRC_BEAM_LAW_ROWS, of_radius);
     brc_chebyshev(brc_chebyshev_place(law->coordination, coordination), BRC_BEAM_LAW_COLUMNS, of_coordination);
     for (int i = 0; i < BRC_BEAM_LAW_ROWS; ++i)
-        for (int j = 0; j < BRC_BEAM_LAW_COLUMNS; ++j) out[i][j] = of_radius[i] * of_coordination[j];
+        for (int j = 0; j < BRC_BEAM_LAW_COLUMNS; ++j)
+            out[i][j] = of_radius[i] * of_coordination[j];
 }
 
-static double surface(const brc_beam_law *law, const double c[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS], double coordination, double radius)
+static double surface(const brc_beam_law *law, const double c[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS],
+                      double coordination, double radius)
 {
     double terms[BRC_BEAM_LAW_ROWS][BRC_BEAM_LAW_COLUMNS], sum = 0;
     brc_beam_law_terms(law, coordination, radius, terms);
     for (int i = 0; i < BRC_BEAM_LAW_ROWS; ++i)
-        for (int j = 0; j < BRC_BEAM_LAW_COLUMNS; ++j) sum += c[i][j] * terms[i][j];
+        for (int j = 0; j < BRC_BEAM_LAW_COLUMNS; ++j)
+            sum += c[i][j] * terms[i][j];
     return sum;
 }
 
-double brc_beam_law_poisson(const brc_beam_law *law, double coordination, double radius) { return surface(law, law->poisson, coordination, radius); }
+double brc_beam_law_poisson(const brc_beam_law *law, double coordination, double radius)
+{
+    return surface(law, law->poisson, coordination, radius);
+}
 
-double brc_beam_law_young(const brc_beam_law *law, double coordination, double radius) { return exp(surface(law, law->young, coordination, radius)); }
+double brc_beam_law_young(const brc_beam_law *law, double coordination, double radius)
+{
+    return exp(surface(law, law->young, coordination, radius));
+}
 
 double brc_beam_law_paper_poisson(const double c[4][4], double coordination, double radius)
 {
     double k[4];
-    for (int i = 0; i < 4; ++i) k[i] = c[i][0] + c[i][1] * tanh(c[i][2] * (coordination - 7) + c[i][3]);
+    for (int i = 0; i < 4; ++i)
+        k[i] = c[i][0] + c[i][1] * tanh(c[i][2] * (coordination - 7) + c[i][3]);
     return cubic(k, radius);
 }
 
 double brc_beam_law_paper_young(const double c[4][4], double coordination, double radius)
 {
     double k[4];
-    for (int i = 0; i < 4; ++i) k[i] = cubic(c[i], coordination);
+    for (int i = 0; i < 4; ++i)
+        k[i] = cubic(c[i], coordination);
     return cubic(k, radius);
 }
 
@@ -63,7 +79,8 @@ double brc_beam_law_inner(const brc_beam_law *law, double coordination)
 {
     double terms[BRC_BEAM_LAW_INNER], sum = 0;
     brc_chebyshev(brc_chebyshev_place(law->coordination, coordination), BRC_BEAM_LAW_INNER, terms);
-    for (int j = 0; j < BRC_BEAM_LAW_INNER; ++j) sum += law->inner[j] * terms[j];
+    for (int j = 0; j < BRC_BEAM_LAW_INNER; ++j)
+        sum += law->inner[j] * terms[j];
     return sum;
 }
 
@@ -73,8 +90,10 @@ double brc_beam_law_coordination(const brc_beam_law *law, const brc_beam_body *b
     if (!(body->inner > 0 && law->inner[0] > 0)) return body->coordination;
     for (int i = 0; i < 60; ++i) { /* bonds inside grow with bonds in all */
         const double middle = 0.5 * (low + high);
-        if (middle * brc_beam_law_inner(law, middle) < body->inner) low = middle;
-        else high = middle;
+        if (middle * brc_beam_law_inner(law, middle) < body->inner)
+            low = middle;
+        else
+            high = middle;
     }
     return 0.5 * (low + high);
 }
@@ -85,31 +104,38 @@ double brc_beam_law_reading(const brc_beam_body *body)
     return body->reading > 0 ? body->reading / brc_beam_body_reading(edges) : 1;
 }
 
-brc_status brc_beam_law_invert(brc_context *context, const brc_beam_law *law, const brc_beam_body *body, double nu, double young, double *radius,
-                               double *beam_young, bool *warning)
+brc_status brc_beam_law_invert(brc_context *context, const brc_beam_law *law, const brc_beam_body *body, double nu,
+                               double young, double *radius, double *beam_young, bool *warning)
 {
     if (!(body->coordination >= law->coordination[0] - 0.1 && body->coordination <= law->coordination[1] + 0.1))
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "model cbm: the coordination number %.4g lies outside the calibrated laws (%.4g to %.4g); choose another one under "
+                        "model cbm: the coordination number %.4g lies outside the calibrated laws (%.4g to %.4g); "
+                        "choose another one under "
                         "`beams`, or give the material's `beam` parameters",
                         body->coordination, law->coordination[0], law->coordination[1]);
     const double coordination = brc_beam_law_coordination(law, body);
-    if (body->inner > 0 && law->inner[0] > 0 && fabs(coordination * brc_beam_law_inner(law, coordination) / body->inner - 1) > FAR_OUT)
+    if (body->inner > 0 && law->inner[0] > 0 &&
+        fabs(coordination * brc_beam_law_inner(law, coordination) / body->inner - 1) > FAR_OUT)
         brc_log(context, BRC_LOG_WARNING,
-                "model cbm: a body of its size and shape with %.4g bonds an element has %.4g inside, beyond the calibrated laws (%.4g to %.4g): they are taken as there",
+                "model cbm: a body of its size and shape with %.4g bonds an element has %.4g inside, beyond the "
+                "calibrated laws (%.4g to %.4g): they are taken as there",
                 body->coordination, body->inner, law->coordination[0] * brc_beam_law_inner(law, law->coordination[0]),
                 law->coordination[1] * brc_beam_law_inner(law, law->coordination[1]));
     double low = law->radius[0], high = law->radius[1]; /* nu falls with r_m */
-    const double most = brc_beam_law_poisson(law, coordination, low), least = brc_beam_law_poisson(law, coordination, high);
+    const double most = brc_beam_law_poisson(law, coordination, low),
+                 least = brc_beam_law_poisson(law, coordination, high);
     if (!(nu <= most && nu >= least))
-        return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "model cbm: beams cannot give nu = %.4g at the coordination number %.4g, only %.3f to %.3f; choose another "
-                        "coordination number, or give the material's `beam` parameters",
-                        nu, body->coordination, least, most);
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "model cbm: beams cannot give nu = %.4g at the coordination number %.4g, only %.3f to %.3f; choose another "
+            "coordination number, or give the material's `beam` parameters",
+            nu, body->coordination, least, most);
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
-        if (brc_beam_law_poisson(law, coordination, middle) > nu) low = middle;
-        else high = middle;
+        if (brc_beam_law_poisson(law, coordination, middle) > nu)
+            low = middle;
+        else
+            high = middle;
     }
     *radius = 0.5 * (low + high);
     *beam_young = young / (brc_beam_law_young(law, coordination, *radius) * brc_beam_law_reading(body));

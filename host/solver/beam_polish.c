@@ -16,8 +16,8 @@ typedef struct work {
     brc_device *device;
     const brc_polish_request *request;
     const brc_beam_law *law;
-    double body, reading;              /* of the body; its brc_beam_law_reading */
-    double *sample, *sample_reading;   /* [n_samples] */
+    double body, reading;            /* of the body; its brc_beam_law_reading */
+    double *sample, *sample_reading; /* [n_samples] */
 } work;
 
 /* nu and E / E_m of the body, from those of the samples. */
@@ -58,7 +58,8 @@ static brc_status prepare(work *w, brc_beam_body *body)
     for (int k = 0; k < request->n_samples; ++k) {
         brc_beam_body own;
         if (!request->samples[k]->radius)
-            return BRC_FAIL(w->context, BRC_BAD_INPUT, "polish: the sample is made of cells; expected spheres joined by beams");
+            return BRC_FAIL(w->context, BRC_BAD_INPUT,
+                            "polish: the sample is made of cells; expected spheres joined by beams");
         if (k == 0) w->law = brc_beam_law_for(spread_of(request->samples[0]));
         BRC_TRY(brc_beam_body_of(w->context, request->samples[k], -1, &own));
         w->sample[k] = brc_beam_law_coordination(w->law, &own);
@@ -81,10 +82,13 @@ brc_status brc_beam_polish(brc_context *context, brc_device *device, const brc_p
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &w.sample, request->n_samples, "samples of a polish"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &w.sample_reading, request->n_samples, "samples of a polish"));
     BRC_TRY_OR(cleanup, prepare(&w, &body));
-    BRC_TRY_OR(cleanup, brc_beam_law_invert(context, w.law, &body, poisson, request->young, &out->law_radius, &out->law_beam_young, NULL));
+    BRC_TRY_OR(cleanup, brc_beam_law_invert(context, w.law, &body, poisson, request->young, &out->law_radius,
+                                            &out->law_beam_young, NULL));
     const double step = 1e-3 * out->law_radius;
     double radius = out->law_radius, last_radius = 0, last_nu = 0, nu, ratio;
-    double slope = (brc_beam_law_poisson(w.law, w.body, radius + step) - brc_beam_law_poisson(w.law, w.body, radius - step)) / (2 * step);
+    double slope =
+        (brc_beam_law_poisson(w.law, w.body, radius + step) - brc_beam_law_poisson(w.law, w.body, radius - step)) /
+        (2 * step);
     for (;;) {
         BRC_TRY_OR(cleanup, test(&w, radius, &nu, &ratio));
         if (out->n_tests == 0) {
@@ -103,7 +107,8 @@ brc_status brc_beam_polish(brc_context *context, brc_device *device, const brc_p
     out->poisson = nu;
     out->seconds = brc_clock_s() - start;
     if (fabs(nu / poisson - 1) > 2 * CLOSE_ENOUGH)
-        brc_log(context, BRC_LOG_WARNING, "polish: nu = %.5g after %d tests, asked %.5g: the sample hardly reaches it", nu, out->n_tests, poisson);
+        brc_log(context, BRC_LOG_WARNING, "polish: nu = %.5g after %d tests, asked %.5g: the sample hardly reaches it",
+                nu, out->n_tests, poisson);
 cleanup:
     brc_memory_free(w.sample);
     brc_memory_free(w.sample_reading);
@@ -121,19 +126,23 @@ static bool uses(const brc_body *body, int32_t material)
 static bool is_plain_box(const brc_scene *scene)
 {
     const brc_body *b = &scene->bodies[0];
-    return scene->n_bodies == 1 && b->shape.kind == BRC_SHAPE_BOX && b->fill.kind == BRC_FILL_PACKING && !b->domain_file[0] && b->n_cracks == 0 &&
-           brc_body_n_regions(b) == 0 && b->rotation[0] == 0 && b->rotation[1] == 0 && b->rotation[2] == 0;
+    return scene->n_bodies == 1 && b->shape.kind == BRC_SHAPE_BOX && b->fill.kind == BRC_FILL_PACKING &&
+           !b->domain_file[0] && b->n_cracks == 0 && brc_body_n_regions(b) == 0 && b->rotation[0] == 0 &&
+           b->rotation[1] == 0 && b->rotation[2] == 0;
 }
 
 /* Cubes packed as the body is. */
-static brc_status make_references(brc_context *context, const brc_body *body, int n_threads, brc_domain *out[REFERENCES])
+static brc_status make_references(brc_context *context, const brc_body *body, int n_threads,
+                                  brc_domain *out[REFERENCES])
 {
     const brc_shape cube = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}};
     brc_fill fill = body->fill;
     if (fill.kind != BRC_FILL_PACKING || body->domain_file[0])
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "polish: body '%s' is not packed by its scene, so no reference sample can be packed like it; give the material's `beam` parameters, or "
-                        "leave `polish` out", body->name);
+                        "polish: body '%s' is not packed by its scene, so no reference sample can be packed like it; "
+                        "give the material's `beam` parameters, or "
+                        "leave `polish` out",
+                        body->name);
     if (fill.n_elements == 0 || fill.n_elements > REFERENCE_SPHERES) fill.n_elements = REFERENCE_SPHERES;
     fill.radius = 0;
     for (int k = 0; k < REFERENCES; ++k, ++fill.seed) {
@@ -146,7 +155,8 @@ static brc_status make_references(brc_context *context, const brc_body *body, in
     return BRC_OK;
 }
 
-static brc_status polish_material(brc_context *context, brc_scene *scene, int32_t m, const brc_domain *domain, brc_device *device, int n_threads)
+static brc_status polish_material(brc_context *context, brc_scene *scene, int32_t m, const brc_domain *domain,
+                                  brc_device *device, int n_threads)
 {
     brc_material *material = &scene->materials[m];
     const brc_body *first = NULL;
@@ -159,34 +169,48 @@ static brc_status polish_material(brc_context *context, brc_scene *scene, int32_
     for (int32_t b = 0; b < scene->n_bodies; ++b) {
         const brc_body *body = &scene->bodies[b];
         if (!uses(body, m)) continue;
-        if (first && (body->beams != first->beams || body->fill.radius_spread != first->fill.radius_spread || body->fill.n_radii != first->fill.n_radii))
-            return BRC_FAIL(context, BRC_BAD_INPUT, "polish: bodies '%s' and '%s' are packed differently and share the material '%s'; give each its own", first->name,
-                            body->name, material->name);
+        if (first && (body->beams != first->beams || body->fill.radius_spread != first->fill.radius_spread ||
+                      body->fill.n_radii != first->fill.n_radii))
+            return BRC_FAIL(
+                context, BRC_BAD_INPUT,
+                "polish: bodies '%s' and '%s' are packed differently and share the material '%s'; give each its own",
+                first->name, body->name, material->name);
         if (!first) first = body;
     }
     if (!first || material->beam_radius > 0) return BRC_OK;
     BRC_TRY(brc_beam_body_of(context, domain, (int32_t)(first - scene->bodies), &bonds));
     if (!plain) BRC_TRY_OR(cleanup, make_references(context, first, n_threads, reference));
-    for (int k = 0; !plain && k < REFERENCES; ++k) samples[k] = reference[k];
-    const brc_polish_request request = {.n_samples = plain ? 1 : REFERENCES, .samples = samples, .n_axes = 3, .body = &bonds, .poisson = material->poisson,
-                                        .young = material->young, .beam_poisson = scene->model.beam_poisson};
+    for (int k = 0; !plain && k < REFERENCES; ++k)
+        samples[k] = reference[k];
+    const brc_polish_request request = {.n_samples = plain ? 1 : REFERENCES,
+                                        .samples = samples,
+                                        .n_axes = 3,
+                                        .body = &bonds,
+                                        .poisson = material->poisson,
+                                        .young = material->young,
+                                        .beam_poisson = scene->model.beam_poisson};
     BRC_TRY_OR(cleanup, brc_beam_polish(context, device, &request, &polish));
     material->beam_radius = polish.radius;
     material->beam_young = polish.beam_young;
     brc_log(context, BRC_LOG_INFO,
-            "material '%s': r_m = %.4f, E_m = %.5g Pa, polished on %s in %d tests, %.1f s; by the law r_m = %.4f, E_m = %.5g Pa, which would give nu = %.4f, E = %.5g Pa; now nu = %.4f",
-            material->name, polish.radius, polish.beam_young, plain ? "the sample itself" : "four reference cubes", polish.n_tests, polish.seconds,
-            polish.law_radius, polish.law_beam_young, polish.law_poisson, polish.law_young, polish.poisson);
+            "material '%s': r_m = %.4f, E_m = %.5g Pa, polished on %s in %d tests, %.1f s; by the law r_m = %.4f, E_m "
+            "= %.5g Pa, which would give nu = %.4f, E = %.5g Pa; now nu = %.4f",
+            material->name, polish.radius, polish.beam_young, plain ? "the sample itself" : "four reference cubes",
+            polish.n_tests, polish.seconds, polish.law_radius, polish.law_beam_young, polish.law_poisson,
+            polish.law_young, polish.poisson);
 cleanup:
-    for (int k = 0; k < REFERENCES; ++k) brc_domain_free(&reference[k]);
+    for (int k = 0; k < REFERENCES; ++k)
+        brc_domain_free(&reference[k]);
     return status;
 }
 
 brc_status brc_beam_polish_scene(brc_context *context, brc_scene *scene, const brc_domain *domain, int n_threads)
 {
     brc_device *device = NULL;
-    brc_status status = brc_device_open(context, &(brc_device_request){.selector = "cpu", .n_threads = n_threads}, &device);
-    for (int32_t m = 0; status == BRC_OK && m < scene->n_materials; ++m) status = polish_material(context, scene, m, domain, device, n_threads);
+    brc_status status =
+        brc_device_open(context, &(brc_device_request){.selector = "cpu", .n_threads = n_threads}, &device);
+    for (int32_t m = 0; status == BRC_OK && m < scene->n_materials; ++m)
+        status = polish_material(context, scene, m, domain, device, n_threads);
     brc_device_close(&device);
     return status;
 }

@@ -18,12 +18,17 @@ struct brc_beam_softening {
 };
 typedef struct brc_beam_softening beam_softening;
 
-static bool softens(const brc_wants *w) { return w->scene->has_fracture && brc_wants_beams(w) && w->softens; }
+static bool softens(const brc_wants *w)
+{
+    return w->scene->has_fracture && brc_wants_beams(w) && w->softens;
+}
 
 #define AT(member) BRC_FIELD_AT(beam_softening, member)
 static const brc_field_row rows[] = {
-    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of beams", "-", BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
-    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open beams", "-", BRC_KEPT("softening.open", BRC_KEEP_ALL)},
+    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of beams", "-",
+     BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
+    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open beams", "-",
+     BRC_KEPT("softening.open", BRC_KEEP_ALL)},
     {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of beams", "-", BRC_NOT_KEPT},
     {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "cohesion of beams", "-", BRC_NOT_KEPT},
     {"active", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(active), "open beams", "-", BRC_NOT_KEPT},
@@ -31,8 +36,14 @@ static const brc_field_row rows[] = {
 };
 BRC_FIELD_TABLE(brc_beam_softening_fields, "cohesion of beams", BRC_LIFE_RUN, softens, rows);
 
-static beam_softening *softening_of(const brc_simulation *s) { return s->fracture ? s->fracture->beam_softening : NULL; }
-bool brc_beam_softening_is_on(const brc_simulation *s) { return softening_of(s) != NULL; }
+static beam_softening *softening_of(const brc_simulation *s)
+{
+    return s->fracture ? s->fracture->beam_softening : NULL;
+}
+bool brc_beam_softening_is_on(const brc_simulation *s)
+{
+    return softening_of(s) != NULL;
+}
 
 static brc_status make_passes(brc_simulation *s, beam_softening *f)
 {
@@ -59,8 +70,10 @@ static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths
     BRC_TRY(brc_crack_lengths_find(s, strengths, least_diameters, &l));
     if (2 * l.n_below[0] > l.n) /* strengths scatter: half of the bonds lie on either side */
         brc_log(s->context, BRC_LOG_WARNING,
-                "fracture_energy: E G_c / sigma_f^2 is less than %g diameters at %lld of %lld bonds (%.2g at least): a crack costs about G_c per area only above; "
-                "use spheres of %.3g mm in diameter (they are of %.3g mm) or a lower strength", least_diameters, (long long)l.n_below[0], (long long)l.n, l.ratio[0],
+                "fracture_energy: E G_c / sigma_f^2 is less than %g diameters at %lld of %lld bonds (%.2g at least): a "
+                "crack costs about G_c per area only above; "
+                "use spheres of %.3g mm in diameter (they are of %.3g mm) or a lower strength",
+                least_diameters, (long long)l.n_below[0], (long long)l.n, l.ratio[0],
                 1e3 * brc_crack_lengths_size(&l, least_diameters), 1e3 * l.size);
     brc_crack_lengths_free(&l);
     brc_crack_range_tell(s, "spheres");
@@ -70,14 +83,16 @@ static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths
 /* Where only that of the virial stress is given: the limit of the weaker of its elements [Pa]. */
 static double beam_strength(const brc_simulation *s, int64_t h)
 {
-    const double i = brc_simulation_element_strength(s, s->domain->neighbour[s->domain->twin[h]]), j = brc_simulation_element_strength(s, s->domain->neighbour[h]);
+    const double i = brc_simulation_element_strength(s, s->domain->neighbour[s->domain->twin[h]]),
+                 j = brc_simulation_element_strength(s, s->domain->neighbour[h]);
     return i > 0 && j > 0 ? fmin(i, j) : fmax(i, j);
 }
 
 /* nu / E of the weaker effect of its elements [1/Pa]. */
 static double lateral_of(const brc_simulation *s, int64_t h)
 {
-    const brc_material *i = &s->scene->materials[s->material_of_element[s->domain->neighbour[s->domain->twin[h]]]], *j = &s->scene->materials[s->material_of_element[s->domain->neighbour[h]]];
+    const brc_material *i = &s->scene->materials[s->material_of_element[s->domain->neighbour[s->domain->twin[h]]]],
+                       *j = &s->scene->materials[s->material_of_element[s->domain->neighbour[h]]];
     return fmax(0, fmin(i->poisson / i->young, j->poisson / j->young));
 }
 
@@ -99,7 +114,9 @@ static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_s
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
         double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
-        const double strength = strengths->tension[d->bond[h]] > 0 ? strengths->tension[d->bond[h]] : beam_strength(s, h) * strengths->factor[d->bond[h]];
+        const double strength = strengths->tension[d->bond[h]] > 0
+                                    ? strengths->tension[d->bond[h]]
+                                    : beam_strength(s, h) * strengths->factor[d->bond[h]];
         own[ENERGY * layout->slice] = strengths->energy[d->bond[h]] * area[d->bond[h]];
         own[CAPACITY * layout->slice] = strength * area[d->bond[h]];
         own[PER_AREA * layout->slice] = 1 / area[d->bond[h]];
@@ -194,7 +211,8 @@ void brc_beam_softening_cracks(const brc_simulation *s, brc_buffer **open, brc_b
 /* Groups and elements with beams that opened follow from the entries. */
 static brc_status find_touched(brc_simulation *s, const beam_softening *f)
 {
-    const int64_t slice = s->layout->slice, n_rows = s->layout->n_rows, n_entries = s->layout->n_slots * slice, width = n_rows / s->n_groups;
+    const int64_t slice = s->layout->slice, n_rows = s->layout->n_rows, n_entries = s->layout->n_slots * slice,
+                  width = n_rows / s->n_groups;
     int32_t *open = NULL, *active = NULL, *touched = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "open beams"));
@@ -202,7 +220,8 @@ static brc_status find_touched(brc_simulation *s, const beam_softening *f)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &touched, n_rows, "open beams"));
     BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
     for (int32_t block = 0; block < s->layout->n_slices; ++block)
-        for (int64_t k = (int64_t)s->layout->slot_start[block] * slice; k < (int64_t)s->layout->slot_start[block + 1] * slice; ++k)
+        for (int64_t k = (int64_t)s->layout->slot_start[block] * slice;
+             k < (int64_t)s->layout->slot_start[block + 1] * slice; ++k)
             if (open[k] != WHOLE) touched[block * slice + k % slice] = active[(block * slice + k % slice) / width] = 1;
     BRC_TRY_OR(cleanup, brc_buffer_write(f->touched, 0, touched, 4 * n_rows));
     status = brc_buffer_write(f->active, 0, active, 4 * (int64_t)s->n_groups);
@@ -218,7 +237,8 @@ brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *st
     const beam_softening *f = softening_of(s);
     if (!f) return BRC_OK;
     BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_beam_softening_fields, .owner = f}));
-    BRC_TRY(brc_store_entry(s, store, &(brc_state_entry){"softening.factor", s->fracture->factor, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL}));
+    BRC_TRY(brc_store_entry(
+        s, store, &(brc_state_entry){"softening.factor", s->fracture->factor, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL}));
     return store->loading ? find_touched(s, f) : BRC_OK;
 }
 
@@ -234,12 +254,14 @@ brc_status brc_beam_softening_report(brc_simulation *s, brc_softening_report *ou
     if (!f) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of beams"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "cohesion of beams"));
-    BRC_TRY_OR(cleanup, brc_download(s, f->crack, brc_precision_coeff_bytes(brc_device_get_precision(s->device)), crack, WIDTH * n_entries));
+    BRC_TRY_OR(cleanup, brc_download(s, f->crack, brc_precision_coeff_bytes(brc_device_get_precision(s->device)), crack,
+                                     WIDTH * n_entries));
     BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         const double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
-        if (h < 0 || open[k] == WHOLE || s->domain->bond_half_edge[s->domain->bond[h]] != h) continue; /* each bond once */
+        if (h < 0 || open[k] == WHOLE || s->domain->bond_half_edge[s->domain->bond[h]] != h)
+            continue; /* each bond once */
         out->n_opened += 1;
         out->spent += own[SPENT * layout->slice];
         if (open[k] != BROKEN) {

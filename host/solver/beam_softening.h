@@ -1,5 +1,6 @@
-/* Beams that open against cohesion, for a fracture energy (kernels/softening.h, beam_softening.cl; docs/notebook/fracture.md "Fracture energy of beams"). All of it
- * exists only where some bond of model cbm has a fracture energy; without it every function here does nothing. */
+/* Beams that open against cohesion, for a fracture energy (kernels/softening.h, beam_softening.cl;
+ * docs/notebook/fracture.md "Fracture energy of beams"). All of it exists only where some bond of model cbm has a
+ * fracture energy; without it every function here does nothing. */
 #ifndef BRC_SOLVER_BEAM_SOFTENING_H
 #define BRC_SOLVER_BEAM_SOFTENING_H
 
@@ -14,7 +15,8 @@ brc_status brc_beam_softening_create(brc_simulation *s, const brc_strengths *str
 void brc_beam_softening_free(brc_simulation *s);
 bool brc_beam_softening_is_on(const brc_simulation *s);
 
-/* What the openings take of an evaluation: after fracture_force; after cbm_energy; after cbm_virial (virial [n_rows][6]). */
+/* What the openings take of an evaluation: after fracture_force; after cbm_energy; after cbm_virial (virial
+ * [n_rows][6]). */
 brc_status brc_beam_softening_force(brc_simulation *s, const brc_force_request *r);
 brc_status brc_beam_softening_energy(brc_simulation *s);
 brc_status brc_beam_softening_virial(brc_simulation *s, brc_buffer *virial);

@@ -1,4 +1,5 @@
-/* Model cbm on the host: beams of each material and body, their diagonal blocks, and the time step that follows from them. */
+/* Model cbm on the host: beams of each material and body, their diagonal blocks, and the time step that follows from
+ * them. */
 #include "beam_law.h"
 #include "beam_closure.h"
 #include "beam_softening.h"
@@ -17,7 +18,8 @@ typedef struct body_radii {
 static brc_status find_radii(brc_simulation *s, body_radii *radii)
 {
     const brc_domain *d = s->domain;
-    for (int32_t b = 0; b < s->scene->n_bodies; ++b) radii[b] = (body_radii){.least = INFINITY};
+    for (int32_t b = 0; b < s->scene->n_bodies; ++b)
+        radii[b] = (body_radii){.least = INFINITY};
     for (int64_t e = 0; e < d->n_elements; ++e) {
         body_radii *r = &radii[d->body[e] < s->scene->n_bodies ? d->body[e] : 0];
         r->sum += d->radius[e];
@@ -29,7 +31,8 @@ static brc_status find_radii(brc_simulation *s, body_radii *radii)
 }
 
 /* r_m and E_m of a material: as given, or by the law for the sample. */
-static brc_status micro_parameters(brc_simulation *s, const brc_material *material, int32_t body, const body_radii *r, double *ratio, double *young)
+static brc_status micro_parameters(brc_simulation *s, const brc_material *material, int32_t body, const body_radii *r,
+                                   double *ratio, double *young)
 {
     brc_beam_body bonds;
     *ratio = material->beam_radius;
@@ -41,7 +44,8 @@ static brc_status micro_parameters(brc_simulation *s, const brc_material *materi
     BRC_TRY(brc_beam_body_of(s->context, s->domain, body, &bonds));
     BRC_TRY(brc_beam_law_invert(s->context, law, &bonds, material->poisson, material->young, ratio, young, &outside));
     brc_log(s->context, outside ? BRC_LOG_WARNING : BRC_LOG_INFO,
-            "material '%s': r_m = %.4f, E_m = %.5g Pa by the law for %s at coordination number %.4g, as of cubes of 10 000 spheres with %.4g%s",
+            "material '%s': r_m = %.4f, E_m = %.5g Pa by the law for %s at coordination number %.4g, as of cubes of 10 "
+            "000 spheres with %.4g%s",
             material->name, *ratio, *young, law->name, bonds.coordination, brc_beam_law_coordination(law, &bonds),
             outside ? "; r_m is outside the range the law was fitted in" : "");
     return BRC_OK;
@@ -59,15 +63,18 @@ static brc_status refuse_isolated(brc_simulation *s)
     }
     if (n == 0) return BRC_OK;
     if (s->scene->has_contact && !s->scene->model.keep_isolated) {
-        brc_log(s->context, BRC_LOG_INFO, "%lld elements have no bond: they are loose, and meet the others by contact alone", (long long)n);
+        brc_log(s->context, BRC_LOG_INFO,
+                "%lld elements have no bond: they are loose, and meet the others by contact alone", (long long)n);
         return BRC_OK;
     }
     if (!s->scene->model.keep_isolated)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                        "model cbm: %lld elements have no bond (%s%s); raise the coordination number under `beams`, or set "
-                        "model: {cbm: {keep_isolated: true}} to hold them still",
-                        (long long)n, ids, n > 8 ? ", ..." : "");
-    brc_log(s->context, BRC_LOG_WARNING, "%lld elements have no bond and stay where they are (%s%s)", (long long)n, ids, n > 8 ? ", ..." : "");
+        return BRC_FAIL(
+            s->context, BRC_BAD_INPUT,
+            "model cbm: %lld elements have no bond (%s%s); raise the coordination number under `beams`, or set "
+            "model: {cbm: {keep_isolated: true}} to hold them still",
+            (long long)n, ids, n > 8 ? ", ..." : "");
+    brc_log(s->context, BRC_LOG_WARNING, "%lld elements have no bond and stay where they are (%s%s)", (long long)n, ids,
+            n > 8 ? ", ..." : "");
     return BRC_OK;
 }
 
@@ -78,7 +85,8 @@ brc_status brc_beams_create(brc_simulation *s)
     body_radii *radii = NULL;
     if (s->domain->element_kind != BRC_ELEMENT_SPHERE)
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                        "model cbm needs spheres joined by beams, the bodies are cells; add `beams: {coordination: 8}` and a fill with radii "
+                        "model cbm needs spheres joined by beams, the bodies are cells; add `beams: {coordination: 8}` "
+                        "and a fill with radii "
                         "to each body");
     BRC_TRY(refuse_isolated(s));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &radii, scene->n_bodies, "radii of bodies"));
@@ -88,7 +96,8 @@ brc_status brc_beams_create(brc_simulation *s)
         for (int32_t m = 0; m < scene->n_materials; ++m) {
             brc_beam *beam = &s->beam[b * scene->n_materials + m];
             double ratio, young;
-            if (!brc_body_uses(&scene->bodies[b], m) || radii[b].n == 0) continue; /* a material that the body lacks may be out of reach of its law */
+            if (!brc_body_uses(&scene->bodies[b], m) || radii[b].n == 0)
+                continue; /* a material that the body lacks may be out of reach of its law */
             BRC_TRY_OR(cleanup, micro_parameters(s, &scene->materials[m], b, &radii[b], &ratio, &young));
             beam->radius = ratio * radii[b].sum / (double)radii[b].n;
             const double square = beam->radius * beam->radius, bending = M_PI * square * square / 4;
@@ -125,7 +134,10 @@ brc_status brc_beams_upload(brc_simulation *s)
     return status;
 }
 
-static double in_series(double a, double b) { return 2 * a * b / (a + b); }
+static double in_series(double a, double b)
+{
+    return 2 * a * b / (a + b);
+}
 
 /* Diagonal block of element e (docs/notebook/beams.md), full, u before theta: sum over its beams of
  * translation ka n n^T + (6 A / l^2)(1 - n n^T), rotation 2 A (1 - n n^T) + kt n n^T, coupling (3 A / l) [n]x. */
@@ -142,9 +154,11 @@ static void diagonal_block(const brc_simulation *s, int64_t e, double k[6][6])
             square += n[c] * n[c];
         }
         const double length = sqrt(square);
-        for (int c = 0; c < 3; ++c) n[c] /= length;
+        for (int c = 0; c < 3; ++c)
+            n[c] /= length;
         const double ka = in_series(own->axial, other->axial) / length, a = in_series(own->bend, other->bend) / length;
-        const double kt = in_series(own->twist, other->twist) / length, across = 6 * a / square, couple = 3 * a / length;
+        const double kt = in_series(own->twist, other->twist) / length, across = 6 * a / square,
+                     couple = 3 * a / length;
         for (int p = 0; p < 3; ++p) {
             for (int q = 0; q < 3; ++q) {
                 const double nn = n[p] * n[q], rest = (p == q) - nn;
@@ -172,12 +186,14 @@ brc_status brc_beams_precondition_blocks(brc_simulation *s, double *out)
         memset(to, 0, 21 * sizeof *to);
         if (e < 0 || s->domain->row_start[e + 1] == s->domain->row_start[e]) continue;
         diagonal_block(s, e, k);
-        if (LAPACKE_dpotrf_work(LAPACK_ROW_MAJOR, 'U', 6, &k[0][0], 6) != 0 || LAPACKE_dpotri_work(LAPACK_ROW_MAJOR, 'U', 6, &k[0][0], 6) != 0) {
+        if (LAPACKE_dpotrf_work(LAPACK_ROW_MAJOR, 'U', 6, &k[0][0], 6) != 0 ||
+            LAPACKE_dpotri_work(LAPACK_ROW_MAJOR, 'U', 6, &k[0][0], 6) != 0) {
             ++failed;
             continue;
         }
         for (int a = 0, at = 0; a < 6; ++a)
-            for (int b = a; b < 6; ++b) to[at++] = k[a][b];
+            for (int b = a; b < 6; ++b)
+                to[at++] = k[a][b];
     }
     if (failed) return BRC_FAIL(s->context, BRC_INTERNAL, "%d elements have a singular beam stiffness", failed);
     return BRC_OK;
@@ -196,7 +212,8 @@ brc_status brc_beams_node_bound(brc_simulation *s, double *out)
         if (d->row_start[e + 1] == d->row_start[e]) continue;
         diagonal_block(s, e, k);
         for (int a = 0; a < 6; ++a)
-            for (int b = 0; b < 6; ++b) k[a][b] /= sqrt((a < 3 ? mass : inertia) * (b < 3 ? mass : inertia));
+            for (int b = 0; b < 6; ++b)
+                k[a][b] /= sqrt((a < 3 ? mass : inertia) * (b < 3 ? mass : inertia));
         failed += LAPACKE_dsyev_work(LAPACK_ROW_MAJOR, 'N', 'U', 6, &k[0][0], 6, values, work, 64) != 0;
         if (values[5] > largest) largest = values[5];
     }
@@ -217,8 +234,8 @@ static brc_status virial(brc_simulation *s, double *out)
     return status;
 }
 
-/* Members of the average around element e: itself and `level` shells of neighbours, each once. mark[k] == e + 1: already in. whole: unbroken
- * half-edges, NULL: all. */
+/* Members of the average around element e: itself and `level` shells of neighbours, each once. mark[k] == e + 1:
+ * already in. whole: unbroken half-edges, NULL: all. */
 static int64_t collect(const brc_domain *d, const uint8_t *whole, int64_t e, int level, int32_t *mark, int32_t *member)
 {
     int64_t n = 1, begin = 0;
@@ -254,9 +271,11 @@ brc_status brc_beams_stress(brc_simulation *s, int level, double *out)
         double total[6] = {0}, volume = 0;
         for (int64_t k = 0; k < n; ++k) {
             volume += d->volume[member[k]] / d->quality.volume_fraction;
-            for (int c = 0; c < 6; ++c) total[c] += sum[6 * (int64_t)member[k] + c];
+            for (int c = 0; c < 6; ++c)
+                total[c] += sum[6 * (int64_t)member[k] + c];
         }
-        for (int c = 0; c < 6; ++c) out[6 * e + c] = total[c] / (2 * volume);
+        for (int c = 0; c < 6; ++c)
+            out[6 * e + c] = total[c] / (2 * volume);
     }
 cleanup:
     brc_memory_free(sum);

@@ -5,7 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-bool brc_simulation_has_fracture(const brc_simulation *s) { return s->fracture != NULL; }
+bool brc_simulation_has_fracture(const brc_simulation *s)
+{
+    return s->fracture != NULL;
+}
 
 static brc_status refuse(const brc_simulation *s)
 {
@@ -50,15 +53,20 @@ static brc_status read_entries(brc_simulation *s, entries *e)
 
 /* ---- moments ---- */
 
-int64_t brc_fracture_moment(const brc_simulation *s) { return s->total_steps + s->fracture->n_loads; }
+int64_t brc_fracture_moment(const brc_simulation *s)
+{
+    return s->total_steps + s->fracture->n_loads;
+}
 
 brc_status brc_fracture_begin_stage(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
     const bool dynamic = brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC;
     BRC_TRY(brc_softening_begin_stage(s));
-    BRC_TRY(brc_memory_resize(s->context, (void **)&f->spans, f->n_spans + 1, sizeof *f->spans, "stages with fracture"));
-    f->spans[f->n_spans++] = (brc_break_span){brc_fracture_moment(s), f->n_loads, s->total_time_before, dynamic ? s->time_step.value : 0, s->stage};
+    BRC_TRY(
+        brc_memory_resize(s->context, (void **)&f->spans, f->n_spans + 1, sizeof *f->spans, "stages with fracture"));
+    f->spans[f->n_spans++] = (brc_break_span){brc_fracture_moment(s), f->n_loads, s->total_time_before,
+                                              dynamic ? s->time_step.value : 0, s->stage};
     return BRC_OK;
 }
 
@@ -74,7 +82,8 @@ brc_status brc_fracture_begin_event(brc_simulation *s)
 static void place_in_time(const brc_breaking *f, brc_break *event)
 {
     int at = f->n_spans - 1;
-    while (at > 0 && f->spans[at].first_step >= event->step) --at;
+    while (at > 0 && f->spans[at].first_step >= event->step)
+        --at;
     const brc_break_span *span = &f->spans[at];
     const int64_t steps = event->step - span->first_step;
     event->stage = span->stage;
@@ -92,11 +101,14 @@ static void describe(const brc_simulation *s, int64_t h, brc_break *event)
     event->element_i = (int32_t)i;
     event->element_j = (int32_t)j;
     for (int c = 0; c < 3; ++c) {
-        event->position[c] = d->element_kind == BRC_ELEMENT_CELL ? d->face_centroid[3 * h + c] : 0.5 * (d->position[3 * i + c] + d->position[3 * j + c]);
+        event->position[c] = d->element_kind == BRC_ELEMENT_CELL
+                                 ? d->face_centroid[3 * h + c]
+                                 : 0.5 * (d->position[3 * i + c] + d->position[3 * j + c]);
         event->normal[c] = d->position[3 * j + c] - d->position[3 * i + c];
         length += event->normal[c] * event->normal[c];
     }
-    for (int c = 0; c < 3; ++c) event->normal[c] /= sqrt(length);
+    for (int c = 0; c < 3; ++c)
+        event->normal[c] /= sqrt(length);
     event->area = brc_bond_area(d, event->bond);
     place_in_time(s->fracture, event);
 }
@@ -118,7 +130,8 @@ static brc_status collect(brc_simulation *s, int64_t n)
         const int32_t h = s->layout->half_edge[k];
         if (h < 0 || e.step[k] == 0 || d->bond_half_edge[d->bond[h]] != h) continue; /* each bond once */
         brc_break *event = &f->events[at++];
-        *event = (brc_break){.step = e.step[k], .mode = e.mode[k], .bond = d->bond[h], .stress = e.stress[k], .energy = e.energy[k]};
+        *event = (brc_break){
+            .step = e.step[k], .mode = e.mode[k], .bond = d->bond[h], .stress = e.stress[k], .energy = e.energy[k]};
         describe(s, h, event);
     }
     f->n_events = at;
@@ -153,7 +166,10 @@ brc_status brc_simulation_damage(brc_simulation *s, double *out)
     return BRC_OK;
 }
 
-brc_status brc_fracture_whole(brc_simulation *s, uint8_t **out) { return brc_fracture_whole_at(s, INT32_MAX, out); }
+brc_status brc_fracture_whole(brc_simulation *s, uint8_t **out)
+{
+    return brc_fracture_whole_at(s, INT32_MAX, out);
+}
 
 brc_status brc_fracture_whole_at(brc_simulation *s, int64_t moment, uint8_t **out)
 {
@@ -176,7 +192,10 @@ cleanup:
     return status;
 }
 
-brc_regime brc_simulation_regime(const brc_simulation *s) { return s->regime; }
+brc_regime brc_simulation_regime(const brc_simulation *s)
+{
+    return s->regime;
+}
 
 brc_status brc_simulation_whole(brc_simulation *s, uint8_t **out)
 {
@@ -184,12 +203,16 @@ brc_status brc_simulation_whole(brc_simulation *s, uint8_t **out)
     return s->fracture ? brc_fracture_whole(s, out) : BRC_OK;
 }
 
-double brc_simulation_beam_radius(const brc_simulation *s, int64_t e) { return brc_is_beams(s) ? brc_beam_of_element(s, e)->radius : 0; }
+double brc_simulation_beam_radius(const brc_simulation *s, int64_t e)
+{
+    return brc_is_beams(s) ? brc_beam_of_element(s, e)->radius : 0;
+}
 
 /* Lowest element id of the fragment of e, with halved paths. */
 static int32_t root_of(int32_t *parent, int32_t e)
 {
-    while (parent[e] != e) e = parent[e] = parent[parent[e]];
+    while (parent[e] != e)
+        e = parent[e] = parent[parent[e]];
     return e;
 }
 
@@ -199,16 +222,20 @@ brc_status brc_simulation_fragments(brc_simulation *s, int32_t *fragment, int64_
     uint8_t *whole = NULL;
     BRC_TRY(refuse(s));
     BRC_TRY(brc_fracture_whole(s, &whole));
-    for (int32_t e = 0; e < d->n_elements; ++e) fragment[e] = e;
+    for (int32_t e = 0; e < d->n_elements; ++e)
+        fragment[e] = e;
     for (int64_t b = 0; b < d->n_bonds; ++b) {
         const int64_t h = d->bond_half_edge[b];
         if (!whole[h]) continue;
         const int32_t i = root_of(fragment, d->neighbour[h]), j = root_of(fragment, d->neighbour[d->twin[h]]);
-        if (i < j) fragment[j] = i;
-        else fragment[i] = j;
+        if (i < j)
+            fragment[j] = i;
+        else
+            fragment[i] = j;
     }
     brc_memory_free(whole);
-    for (int32_t e = 0; e < d->n_elements; ++e) fragment[e] = root_of(fragment, e);
+    for (int32_t e = 0; e < d->n_elements; ++e)
+        fragment[e] = root_of(fragment, e);
     *n_fragments = 0;
     for (int32_t e = 0; e < d->n_elements; ++e) /* roots come before their members */
         fragment[e] = fragment[e] == e ? (int32_t)(*n_fragments)++ : fragment[fragment[e]];

@@ -10,8 +10,9 @@
 #include "sym3.h"
 #include <math.h>
 
-/* An element is held while the smallest eigenvalue of A / (2 V) is above this share of its value in the whole body, and above `support_least`
- * (docs/notebook/fracture.md, Fracture of cells; 0.57 or more inside a body, 0.07 to 0.5 at its boundary). */
+/* An element is held while the smallest eigenvalue of A / (2 V) is above this share of its value in the whole body, and
+ * above `support_least` (docs/notebook/fracture.md, Fracture of cells; 0.57 or more inside a body, 0.07 to 0.5 at its
+ * boundary). */
 static const double support_share = 0.2, support_least = 0.05;
 static const double never = 1e30; /* CELLS_NEVER of kernels/cells.cl */
 
@@ -31,7 +32,8 @@ static brc_status upload_bonds(brc_simulation *s, const double *strength)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &whole, n_entries, "unbroken bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &least, layout->n_rows, "smallest limits"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &twin, n_entries, "twins"));
-    for (int32_t r = 0; r < layout->n_rows; ++r) least[r] = never;
+    for (int32_t r = 0; r < layout->n_rows; ++r)
+        least[r] = never;
     BRC_TRY_OR(cleanup, brc_layout_twins(s->context, layout, d, twin));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
@@ -54,8 +56,8 @@ cleanup:
     return status;
 }
 
-/* What holds an element in the whole body, from the coefficients that the device has: *least: smallest eigenvalue of A / (2 V) [-]; *stiff: largest
- * eigenvalue of A^-1 (sum s (x) s + t (x) t) A^-1, t = sum s (cells_stiffness) [1/m^2]. */
+/* What holds an element in the whole body, from the coefficients that the device has: *least: smallest eigenvalue of A
+ * / (2 V) [-]; *stiff: largest eigenvalue of A^-1 (sum s (x) s + t (x) t) A^-1, t = sum s (cells_stiffness) [1/m^2]. */
 static void support_of(const brc_simulation *s, int64_t e, double *least, double *stiff)
 {
     double a[6] = {0}, b[6] = {0}, total[3] = {0}, value[3], axis[3][3], root[3][3] = {{0}}, whole[6] = {0};
@@ -65,11 +67,14 @@ static void support_of(const brc_simulation *s, int64_t e, double *least, double
         double x[3], ratio = 0;
         if (!is_sum) brc_consistent_bond(s, e, h, x, &ratio);
         for (int c = 0; c < 3; ++c) {
-            if (is_sum) x[c] = total[c];
-            else total[c] += x[c];
+            if (is_sum)
+                x[c] = total[c];
+            else
+                total[c] += x[c];
         }
         const double six[6] = {x[0] * x[0], x[1] * x[1], x[2] * x[2], x[1] * x[2], x[0] * x[2], x[0] * x[1]};
-        for (int c = 0; c < 6; ++c) a[c] += ratio * six[c], b[c] += six[c];
+        for (int c = 0; c < 6; ++c)
+            a[c] += ratio * six[c], b[c] += six[c];
     }
     brc_sym3_eigen(a, value, axis);
     *least = 0.5 * value[0] / s->domain->volume[e];
@@ -77,17 +82,19 @@ static void support_of(const brc_simulation *s, int64_t e, double *least, double
     if (!(value[0] > 1e-12 * value[2])) return;
     for (int i = 0; i < 3; ++i) /* A^-1 */
         for (int j = 0; j < 3; ++j)
-            for (int k = 0; k < 3; ++k) root[i][j] += axis[k][i] * axis[k][j] / value[k];
+            for (int k = 0; k < 3; ++k)
+                root[i][j] += axis[k][i] * axis[k][j] / value[k];
     for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j)
             for (int k = 0; k < 3; ++k)
-                for (int l = 0; l < 3; ++l) whole[at[i][j]] += root[i][k] * b[at[k][l]] * root[l][j];
+                for (int l = 0; l < 3; ++l)
+                    whole[at[i][j]] += root[i][k] * b[at[k][l]] * root[l][j];
     brc_sym3_eigen(whole, value, NULL);
     *stiff = value[2];
 }
 
-/* Per element: lambda + 2 mu, what it must keep of its support, and how stiff it may become: as the stiffest of the whole body, whose frequency the
- * time step bears. */
+/* Per element: lambda + 2 mu, what it must keep of its support, and how stiff it may become: as the stiffest of the
+ * whole body, whose frequency the time step bears. */
 static brc_status upload_elements(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
@@ -116,7 +123,8 @@ static brc_status upload_elements(brc_simulation *s)
     }
     if (weak)
         brc_log(s->context, BRC_LOG_WARNING,
-                "fracture: %lld of %lld elements are held by their neighbours so weakly (smallest eigenvalue of A/2V up to %.2g) that they come off with "
+                "fracture: %lld of %lld elements are held by their neighbours so weakly (smallest eigenvalue of A/2V "
+                "up to %.2g) that they come off with "
                 "their first broken bond; a relaxed grid (`lloyd`) has fewer",
                 (long long)weak, (long long)s->domain->n_elements, support_least);
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->modulus, modulus, layout->n_rows));
@@ -129,10 +137,22 @@ cleanup:
     return status;
 }
 
-static bool breaks(const brc_wants *w) { return w->scene->has_fracture && !brc_wants_beams(w); }
-static bool dlsm_by_bond(const brc_wants *w) { return brc_wants_dlsm(w) && !w->by_element; }
-static bool dlsm_by_element(const brc_wants *w) { return brc_wants_dlsm(w) && w->by_element; }
-static bool published_by_bond(const brc_wants *w) { return brc_wants_published(w) && !w->by_element; }
+static bool breaks(const brc_wants *w)
+{
+    return w->scene->has_fracture && !brc_wants_beams(w);
+}
+static bool dlsm_by_bond(const brc_wants *w)
+{
+    return brc_wants_dlsm(w) && !w->by_element;
+}
+static bool dlsm_by_element(const brc_wants *w)
+{
+    return brc_wants_dlsm(w) && w->by_element;
+}
+static bool published_by_bond(const brc_wants *w)
+{
+    return brc_wants_published(w) && !w->by_element;
+}
 
 #define AT(member) BRC_FIELD_AT(brc_cell_breaks, member)
 static const brc_field_row rows[] = {
@@ -227,9 +247,15 @@ void brc_cell_breaks_free(brc_simulation *s)
 
 /* ---- the step ---- */
 
-bool brc_cell_breaks_by_bond(const brc_simulation *s) { return s->fracture && s->fracture->cells && !s->fracture->cells->by_element; }
+bool brc_cell_breaks_by_bond(const brc_simulation *s)
+{
+    return s->fracture && s->fracture->cells && !s->fracture->cells->by_element;
+}
 
-bool brc_cell_breaks_screens(const brc_simulation *s) { return brc_cell_breaks_by_bond(s) && brc_is_dlsm(s) && !brc_softening_is_on(s); }
+bool brc_cell_breaks_screens(const brc_simulation *s)
+{
+    return brc_cell_breaks_by_bond(s) && brc_is_dlsm(s) && !brc_softening_is_on(s);
+}
 
 brc_status brc_cell_breaks_forces(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
 {
@@ -247,8 +273,8 @@ static brc_status mark_bonds(brc_simulation *s, double share, double *n)
     return brc_ahead_count(s, c->found, s->n_groups, n);
 }
 
-/* Marked bonds go, then the bonds of elements that the others no longer hold, until all that are left are held. *energy: what the elements whose energy
- * that changes held before, each looked at before a bond near it goes [J]. */
+/* Marked bonds go, then the bonds of elements that the others no longer hold, until all that are left are held.
+ * *energy: what the elements whose energy that changes held before, each looked at before a bond near it goes [J]. */
 static brc_status break_marked(brc_simulation *s, double *energy)
 {
     brc_breaking *f = s->fracture;
@@ -289,7 +315,8 @@ static brc_status kick_others(brc_simulation *s, double by)
     return s->strikers ? brc_strikers_advance(s, by, 0, 0, false) : BRC_OK;
 }
 
-/* The rings around the bonds that broke. Pairs of surfaces that the breaks changed act on elements of ring 2 or make them so: their fluxes change as those of ring 2 do, their energy does not. */
+/* The rings around the bonds that broke. Pairs of surfaces that the breaks changed act on elements of ring 2 or make
+ * them so: their fluxes change as those of ring 2 do, their energy does not. */
 static brc_status find_rings(brc_simulation *s)
 {
     brc_rings *rings = s->fracture->cells->rings;
@@ -308,7 +335,8 @@ static brc_status find_rings(brc_simulation *s)
     return brc_rings_close(s, rings, brc_rims_may_gain(s, rings) ? BRC_RINGS_PLACE : BRC_RINGS_KEEP, &rings->around);
 }
 
-/* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in elements. */
+/* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in
+ * elements. */
 static brc_status outside_energy(brc_simulation *s, double *out)
 {
     double touching, closed;
@@ -324,11 +352,13 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     brc_breaking *f = s->fracture;
     brc_rings *rings = f->cells->rings;
     double marked, before, outside_before, after, outside, weight;
-    if (brc_softening_is_on(s)) BRC_TRY(brc_softening_step(s, share, &marked));
-    else BRC_TRY(mark_bonds(s, share, &marked));
+    if (brc_softening_is_on(s))
+        BRC_TRY(brc_softening_step(s, share, &marked));
+    else
+        BRC_TRY(mark_bonds(s, share, &marked));
     if (!(marked > 0)) return BRC_OK;
-    /* The step closes with the force of the whole bonds, and the next one opens with that of those that are left: velocities gain half a kick of the
-     * one and lose half a kick of the other, in the rings where they differ. */
+    /* The step closes with the force of the whole bonds, and the next one opens with that of those that are left:
+     * velocities gain half a kick of the one and lose half a kick of the other, in the rings where they differ. */
     rings->half_kick = half_kick;
     BRC_TRY(outside_energy(s, &outside_before));
     BRC_TRY(kick_others(s, half_kick));
@@ -371,7 +401,8 @@ brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
     BRC_TRY_OR(cleanup, BRC_RUN(c->ratio, s->n_groups, {"out", BRC_BUF(ratio)}));
     BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
-    for (int64_t e = 0; e < s->domain->n_elements; ++e) *out = fmax(*out, value[e]);
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        *out = fmax(*out, value[e]);
 cleanup:
     brc_buffer_free(&ratio);
     brc_memory_free(value);

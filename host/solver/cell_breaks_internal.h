@@ -1,5 +1,5 @@
-/* Fracture of cells, shared by its files: bonds by their normal stress in dlsm (cell_breaks.c) and dlsm-published (published_breaks.c), elements by
- * their own stress in both (cell_criteria.c). */
+/* Fracture of cells, shared by its files: bonds by their normal stress in dlsm (cell_breaks.c) and dlsm-published
+ * (published_breaks.c), elements by their own stress in both (cell_criteria.c). */
 #ifndef BRC_SOLVER_CELL_BREAKS_INTERNAL_H
 #define BRC_SOLVER_CELL_BREAKS_INTERNAL_H
 
@@ -9,23 +9,24 @@
 
 struct brc_cell_breaks {
     brc_pass *force, *force_listed, *check, *ratio, *break_pass, *rebuild, *share, *elastic, *bonds;
-    brc_pass *rim_stress, *rim_inner_flux, *rim_flux, *rim_force;   /* kernels/rims.cl */
-    brc_rings *rings;                                               /* around the bonds that break */
-    brc_buffer *limit, *twin, *alive, *mark, *measure;              /* [n_slots][C] */
-    brc_buffer *modulus, *least, *support, *stiffest, *changed;     /* [n_rows] */
-    brc_buffer *look;                                               /* [n_groups] */
-    brc_buffer *weight, *found;                                     /* [n_rows] */
-    struct brc_softening_faces *softening;    /* faces that open against cohesion (cell_softening.c); NULL: none does */
-    struct brc_closed_faces *closed;          /* sides of broken faces that bear on each other (closed_faces.c); NULL: none do */
-    bool by_element;                          /* criteria of elements: what follows, and the arrays of kernels/fracture.cl */
-    brc_pass *record, *mark_chosen, *weigh;   /* kernels/cell_criteria.cl */
-    brc_buffer *branch;                       /* dlsm: [n_slots][3][C], owned */
+    brc_pass *rim_stress, *rim_inner_flux, *rim_flux, *rim_force; /* kernels/rims.cl */
+    brc_rings *rings;                                             /* around the bonds that break */
+    brc_buffer *limit, *twin, *alive, *mark, *measure;            /* [n_slots][C] */
+    brc_buffer *modulus, *least, *support, *stiffest, *changed;   /* [n_rows] */
+    brc_buffer *look;                                             /* [n_groups] */
+    brc_buffer *weight, *found;                                   /* [n_rows] */
+    struct brc_softening_faces *softening; /* faces that open against cohesion (cell_softening.c); NULL: none does */
+    struct brc_closed_faces *closed; /* sides of broken faces that bear on each other (closed_faces.c); NULL: none do */
+    bool by_element;                 /* criteria of elements: what follows, and the arrays of kernels/fracture.cl */
+    brc_pass *record, *mark_chosen, *weigh; /* kernels/cell_criteria.cl */
+    brc_buffer *branch;                     /* dlsm: [n_slots][3][C], owned */
     brc_pass *breaking_strain, *breaking_force, *breaking_strain_listed,
-        *breaking_force_listed;                   /* dlsm-published: kernels/published_breaks.cl */
-    brc_buffer *spanned, *reach;                  /* [n_slices][6][C], [n_rows] */
+        *breaking_force_listed;  /* dlsm-published: kernels/published_breaks.cl */
+    brc_buffer *spanned, *reach; /* [n_slices][6][C], [n_rows] */
 };
 
-/* Arrays of the cells' bonds, then of the rings around breaks, then what broken bonds keep. Three scopes, which must stay where they are. */
+/* Arrays of the cells' bonds, then of the rings around breaks, then what broken bonds keep. Three scopes, which must
+ * stay where they are. */
 typedef struct brc_cell_scopes {
     brc_scope breaks, rings, cells;
 } brc_cell_scopes;

@@ -1,5 +1,6 @@
-/* Cells that fail by criteria of elements (NAH19 section 2.2 and the limits on shear that it proposes), with a cell's own stress in place of the virial of
- * beams: passes of kernels/cell_criteria.cl before and after those of kernels/fracture.cl. */
+/* Cells that fail by criteria of elements (NAH19 section 2.2 and the limits on shear that it proposes), with a cell's
+ * own stress in place of the virial of beams: passes of kernels/cell_criteria.cl before and after those of
+ * kernels/fracture.cl. */
 #include "ahead.h"
 #include "cell_breaks_internal.h"
 
@@ -15,7 +16,9 @@ static brc_status upload_branches(brc_simulation *s, brc_buffer *branch)
         const int32_t h = layout->half_edge[k];
         for (int c = 0; c < 3; ++c)
             rows[(k / slice * 3 + c) * slice + k % slice] =
-                h < 0 ? c == 0 : d->position[3 * (int64_t)d->neighbour[h] + c] - d->position[3 * (int64_t)d->neighbour[d->twin[h]] + c];
+                h < 0 ? c == 0
+                      : d->position[3 * (int64_t)d->neighbour[h] + c] -
+                            d->position[3 * (int64_t)d->neighbour[d->twin[h]] + c];
     }
     const brc_status status = brc_upload_coeff(s, branch, rows, 3 * layout->n_slots * slice);
     brc_memory_free(rows);

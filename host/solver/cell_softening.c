@@ -5,20 +5,23 @@
 #include "crack_range.h"
 #include <math.h>
 
-/* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open (docs/notebook/fracture.md). */
+/* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open
+ * (docs/notebook/fracture.md). */
 static const double steepest = 0.5;
-/* Faces look at their own traction where the stress of a cell is above this share of the limit (kernels/softening.cl, soft_check): the two agree within a
- * few percent where nothing is open. */
+/* Faces look at their own traction where the stress of a cell is above this share of the limit (kernels/softening.cl,
+ * soft_check): the two agree within a few percent where nothing is open. */
 static const double screen = 0.7;
-/* Sweeps over the open faces a step, each with the forces at its openings; and the part of the stiffness, estimated from above, that they take: less than a
- * half would let them overshoot. What they leave of the balance costs energy in quick cracks (docs/notebook/fracture.md). */
+/* Sweeps over the open faces a step, each with the forces at its openings; and the part of the stiffness, estimated
+ * from above, that they take: less than a half would let them overshoot. What they leave of the balance costs energy in
+ * quick cracks (docs/notebook/fracture.md). */
 enum { N_SWEEPS = 3 };
 static const double stiffen = 0.6;
 /* Openings over the length of the bond from which on the sides of a broken face stand clear of each other. */
 static const double clear = 0.05;
 /* Shear that the sides of a crack bear, over the push along it that a face carries (docs/notebook/theory.md T10). */
 static const double retention = 0.3;
-/* E G_c / sigma_f^2 below this many cells: the crack is not resolved; below twice as many uneven cells bear more at notches (docs/notebook/fracture.md, "Notched specimens"). */
+/* E G_c / sigma_f^2 below this many cells: the crack is not resolved; below twice as many uneven cells bear more at
+ * notches (docs/notebook/fracture.md, "Notched specimens"). */
 static const double least_cells = 4;
 
 /* Components of `crack` (kernels/softening.cl). */
@@ -27,39 +30,57 @@ enum { APART = 2 }; /* SOFT_APART, of `open` */
 
 struct brc_softening_faces {
     brc_pass *gradient, *flux, *take_force, *coast, *move, *measure, *book, *check, *begin, *count, *energy, *settle;
-    brc_buffer *crack, *open, *lead;     /* [n_slots][WIDTH][C], [n_slots][C] */
-    brc_buffer *n_open, *reach, *shear;  /* [n_rows] */
-    brc_buffer *shear_limit;             /* [n_slots][C] scenes whose faces slide: 2 c cos phi of the bond [Pa] */
-    brc_buffer *shear_energy;            /* [n_slots][C] and G_II S [J] */
-    double shear_least;                  /* no face slides where the norm of the stress is below [Pa] */
-    brc_buffer *rubbed;                  /* [n_rows] energy lost to friction between the sides of broken faces [J] */
-    brc_ring_list around;                /* cells with open faces, for the sweeps */
-    bool any;                            /* some face has opened */
-    bool is_listed;                      /* around is of the faces that are open now, and, with contact, of the pairs there are */
-    int64_t lists;                       /* brc_contact_lists of these */
+    brc_buffer *crack, *open, *lead;    /* [n_slots][WIDTH][C], [n_slots][C] */
+    brc_buffer *n_open, *reach, *shear; /* [n_rows] */
+    brc_buffer *shear_limit;            /* [n_slots][C] scenes whose faces slide: 2 c cos phi of the bond [Pa] */
+    brc_buffer *shear_energy;           /* [n_slots][C] and G_II S [J] */
+    double shear_least;                 /* no face slides where the norm of the stress is below [Pa] */
+    brc_buffer *rubbed;                 /* [n_rows] energy lost to friction between the sides of broken faces [J] */
+    brc_ring_list around;               /* cells with open faces, for the sweeps */
+    bool any;                           /* some face has opened */
+    bool is_listed; /* around is of the faces that are open now, and, with contact, of the pairs there are */
+    int64_t lists;  /* brc_contact_lists of these */
 };
 typedef struct brc_softening_faces softening_faces;
 
-static bool softens(const brc_wants *w) { return w->scene->has_fracture && !brc_wants_beams(w) && w->softens; }
+static bool softens(const brc_wants *w)
+{
+    return w->scene->has_fracture && !brc_wants_beams(w) && w->softens;
+}
 
-static bool slides(const brc_wants *w) { return brc_scene_slides(w->scene, w->scene->model.kind); }
+static bool slides(const brc_wants *w)
+{
+    return brc_scene_slides(w->scene, w->scene->model.kind);
+}
 
 #define AT(member) BRC_FIELD_AT(softening_faces, member)
 static const brc_field_row rows[] = {
-    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of faces", "-", BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
-    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open faces", "-", BRC_KEPT("softening.open", BRC_KEEP_ALL)},
+    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of faces", "-",
+     BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
+    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open faces", "-",
+     BRC_KEPT("softening.open", BRC_KEEP_ALL)},
     {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of faces", "-", BRC_NOT_KEPT},
-    {"n_open", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(n_open), "open faces", "-", BRC_KEPT("softening.n_open", BRC_KEEP_ALL)},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "reach of open faces", "-", BRC_KEPT("softening.reach", BRC_KEEP_ALL)},
+    {"n_open", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(n_open), "open faces", "-",
+     BRC_KEPT("softening.n_open", BRC_KEEP_ALL)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "reach of open faces", "-",
+     BRC_KEPT("softening.reach", BRC_KEEP_ALL)},
     {"shear_limit", brc_each_entry, 1, BRC_FIELD_COEFF, slides, AT(shear_limit), "limits of shear", "Pa", BRC_NOT_KEPT},
-    {"shear_energy", brc_each_entry, 1, BRC_FIELD_COEFF, slides, AT(shear_energy), "fracture energies in shear", "J", BRC_NOT_KEPT},
+    {"shear_energy", brc_each_entry, 1, BRC_FIELD_COEFF, slides, AT(shear_energy), "fracture energies in shear", "J",
+     BRC_NOT_KEPT},
     {"shear", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(shear), "shear moduli", "Pa", BRC_NOT_KEPT},
-    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J", BRC_KEPT("softening.rubbed", BRC_KEEP_ALL)},
+    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J",
+     BRC_KEPT("softening.rubbed", BRC_KEEP_ALL)},
 };
 BRC_FIELD_TABLE(brc_softening_fields, "cohesion of faces", BRC_LIFE_RUN, softens, rows);
 
-static softening_faces *faces_of(const brc_simulation *s) { return s->fracture && s->fracture->cells ? s->fracture->cells->softening : NULL; }
-bool brc_softening_is_on(const brc_simulation *s) { return faces_of(s) != NULL; }
+static softening_faces *faces_of(const brc_simulation *s)
+{
+    return s->fracture && s->fracture->cells ? s->fracture->cells->softening : NULL;
+}
+bool brc_softening_is_on(const brc_simulation *s)
+{
+    return faces_of(s) != NULL;
+}
 
 static brc_status make_passes(brc_simulation *s, softening_faces *f)
 {
@@ -85,7 +106,10 @@ static brc_status make_passes(brc_simulation *s, softening_faces *f)
     return BRC_PASSES_MAKE(s, &faces, wanted);
 }
 
-static double norm3(const double *x) { return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
+static double norm3(const double *x)
+{
+    return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+}
 
 /* Bonds that break at once take what their strength and length hold. */
 static void tell_implied(brc_simulation *s, const brc_strengths *strengths)
@@ -97,7 +121,8 @@ static void tell_implied(brc_simulation *s, const brc_strengths *strengths)
         if (strengths->energy[b] > 0 || !(strengths->tension[b] > 0)) continue;
         const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
         double branch[3];
-        for (int c = 0; c < 3; ++c) branch[c] = d->position[3 * j + c] - d->position[3 * i + c];
+        for (int c = 0; c < 3; ++c)
+            branch[c] = d->position[3 * j + c] - d->position[3 * i + c];
         sum += strengths->tension[b] * strengths->tension[b] * norm3(branch) /
                (s->elastic[s->material_of_element[i]].young + s->elastic[s->material_of_element[j]].young);
         ++n;
@@ -105,24 +130,34 @@ static void tell_implied(brc_simulation *s, const brc_strengths *strengths)
     if (n == 0) return;
     s->fracture->implied_energy = sum / (double)n;
     brc_log(s->context, BRC_LOG_INFO,
-            "fracture: bonds break at once; strength and cells imply a fracture energy of about sigma_f^2 L / (2 E) = %.3g J/m^2, which changes with the cells "
-            "(`fracture_energy` of a strength gives one that does not)", s->fracture->implied_energy);
+            "fracture: bonds break at once; strength and cells imply a fracture energy of about sigma_f^2 L / (2 E) = "
+            "%.3g J/m^2, which changes with the cells "
+            "(`fracture_energy` of a strength gives one that does not)",
+            s->fracture->implied_energy);
 }
 
-/* Warns where E G_c / sigma_f^2 is too few cells, and of bonds whose cells give way less than the cohesion falls: those snap open; tells where loads at notches want more cells. */
+/* Warns where E G_c / sigma_f^2 is too few cells, and of bonds whose cells give way less than the cohesion falls: those
+ * snap open; tells where loads at notches want more cells. */
 static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths)
 {
     brc_crack_lengths l;
     BRC_TRY(brc_crack_lengths_find(s, strengths, least_cells, &l));
-    if (2 * l.n_below[0] > l.n || 100 * l.n_below[2] > l.n) /* strengths scatter: half of the bonds lie on either side */
+    if (2 * l.n_below[0] > l.n ||
+        100 * l.n_below[2] > l.n) /* strengths scatter: half of the bonds lie on either side */
         brc_log(s->context, BRC_LOG_WARNING,
-                "fracture_energy: E G_c / sigma_f^2 is less than %g cells at %lld of %lld bonds (%.2g at least), below 1 at %lld, which open at once: a crack "
-                "costs about G_c per area only above; use cells of %.3g mm (they are of %.3g mm; notched parts: %.3g mm) or a lower strength", least_cells, (long long)l.n_below[0], (long long)l.n, l.ratio[0],
-                (long long)l.n_below[2], 1e3 * brc_crack_lengths_size(&l, least_cells), 1e3 * l.size, 1e3 * brc_crack_lengths_size(&l, 2 * least_cells));
+                "fracture_energy: E G_c / sigma_f^2 is less than %g cells at %lld of %lld bonds (%.2g at least), below "
+                "1 at %lld, which open at once: a crack "
+                "costs about G_c per area only above; use cells of %.3g mm (they are of %.3g mm; notched parts: %.3g "
+                "mm) or a lower strength",
+                least_cells, (long long)l.n_below[0], (long long)l.n, l.ratio[0], (long long)l.n_below[2],
+                1e3 * brc_crack_lengths_size(&l, least_cells), 1e3 * l.size,
+                1e3 * brc_crack_lengths_size(&l, 2 * least_cells));
     else if (2 * l.n_below[1] > l.n)
         brc_log(s->context, BRC_LOG_INFO,
-                "fracture_energy: E G_c / sigma_f^2 is less than %g cells at %lld of %lld bonds: a crack costs G_c per area, but a part with a notch, of cells that are not regular, "
-                "bears some 6 to 17 %% too much; use cells of %.3g mm where that matters (they are of %.3g mm)", 2 * least_cells, (long long)l.n_below[1], (long long)l.n,
+                "fracture_energy: E G_c / sigma_f^2 is less than %g cells at %lld of %lld bonds: a crack costs G_c per "
+                "area, but a part with a notch, of cells that are not regular, "
+                "bears some 6 to 17 %% too much; use cells of %.3g mm where that matters (they are of %.3g mm)",
+                2 * least_cells, (long long)l.n_below[1], (long long)l.n,
                 1e3 * brc_crack_lengths_size(&l, 2 * least_cells), 1e3 * l.size);
     brc_crack_lengths_free(&l);
     brc_crack_range_tell(s, "cells");
@@ -167,7 +202,8 @@ static brc_status upload_shear(brc_simulation *s, softening_faces *f, const brc_
     const brc_domain *d = s->domain;
     const int64_t n_entries = layout->n_slots * layout->slice;
     const double whole = 2 * s->scene->fracture.cohesion * cos(s->scene->fracture.friction);
-    const double reach = 2 * (1 + sin(s->scene->fracture.friction)); /* 2 cos |tau| + 2 sin sigma_n, and Mohr-Coulomb's sum, are at most this times the norm */
+    const double reach = 2 * (1 + sin(s->scene->fracture.friction)); /* 2 cos |tau| + 2 sin sigma_n, and Mohr-Coulomb's
+                                                                        sum, are at most this times the norm */
     double *limit = NULL, *energy = NULL;
     brc_status status = BRC_OK;
     if (!f->shear_limit) return BRC_OK;
@@ -194,8 +230,10 @@ brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strength
     if (!s->fracture->cells->by_element) tell_implied(s, strengths);
     if (!strengths->softens) return BRC_OK;
     if (!brc_is_dlsm(s) || s->fracture->cells->by_element)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture_energy: bonds soften with model dlsm and criterion bond-normal; here they break at once: use "
-                        "those, or remove it from the strengths and interfaces");
+        return BRC_FAIL(
+            s->context, BRC_BAD_INPUT,
+            "fracture_energy: bonds soften with model dlsm and criterion bond-normal; here they break at once: use "
+            "those, or remove it from the strengths and interfaces");
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->softening, 1, "cohesion of faces"));
     BRC_TRY(make_passes(s, s->fracture->cells->softening));
     BRC_TRY(warn_of_size(s, strengths));
@@ -253,7 +291,10 @@ brc_status brc_softening_energy(brc_simulation *s)
 
 /* ---- a step ---- */
 
-static double release_of(const brc_simulation *s) { return s->scene->fracture.closure ? clear : 0; }
+static double release_of(const brc_simulation *s)
+{
+    return s->scene->fracture.closure ? clear : 0;
+}
 /* Faces that slide rub in scenes without contact too. */
 static double friction_of(const brc_simulation *s)
 {
@@ -270,8 +311,8 @@ static brc_status sweep(brc_simulation *s, int k)
                    {"retention", BRC_COEFF(retention)}, {"release", BRC_COEFF(release_of(s))});
 }
 
-/* Cells with open faces, whose fluxes are wanted, and around them those whose stresses, and those whose gradients go into them; what touches one of them presses on it as its own
- * gradient says. */
+/* Cells with open faces, whose fluxes are wanted, and around them those whose stresses, and those whose gradients go
+ * into them; what touches one of them presses on it as its own gradient says. */
 static brc_status list_around(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
@@ -317,7 +358,10 @@ brc_status brc_softening_recount(brc_simulation *s)
     return brc_pass_run(f->count, n);
 }
 
-brc_status brc_softening_refresh(brc_simulation *s) { return brc_softening_is_on(s) ? measure(s, 0) : BRC_OK; }
+brc_status brc_softening_refresh(brc_simulation *s)
+{
+    return brc_softening_is_on(s) ? measure(s, 0) : BRC_OK;
+}
 
 brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
 {
@@ -333,7 +377,8 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
     }
     BRC_TRY(BRC_RUN(f->check, n, {"share", BRC_COEFF(share)}, {"steepest", BRC_COEFF(steepest)},
                     {"screen", BRC_COEFF(screen)}, {"shears", BRC_INT(f->shear_limit != NULL)},
-                    {"slope", BRC_COEFF(sin(s->scene->fracture.friction))}, {"shear_least", BRC_COEFF(f->shear_least)}));
+                    {"slope", BRC_COEFF(sin(s->scene->fracture.friction))},
+                    {"shear_least", BRC_COEFF(f->shear_least)}));
     BRC_TRY(brc_vector_sum(s, c->found, n, &wished));
     if (wished > 0) {
         f->any = true;
@@ -360,12 +405,16 @@ brc_status brc_softening_begin_stage(brc_simulation *s)
     if ((!faces_of(s) && !brc_beam_softening_is_on(s)) || stage->solver == BRC_SOLVER_DYNAMIC) return BRC_OK;
     BRC_TRY(brc_simulation_softening(s, &report));
     if (report.n_opened > 0)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': bonds have opened against their cohesion in an earlier stage, and openings follow in dynamic "
-                        "stages only; use a dynamic stage with mass damping", stage->name);
+        return BRC_FAIL(
+            s->context, BRC_BAD_INPUT,
+            "stage '%s': bonds have opened against their cohesion in an earlier stage, and openings follow in dynamic "
+            "stages only; use a dynamic stage with mass damping",
+            stage->name);
     return BRC_OK;
 }
 
-/* Broken faces whose sides still bear on each other are broken bonds that have a neighbour (stored_breaks.c points all broken ones home). */
+/* Broken faces whose sides still bear on each other are broken bonds that have a neighbour (stored_breaks.c points all
+ * broken ones home). */
 static brc_status rejoin(brc_simulation *s, softening_faces *f)
 {
     const brc_layout *layout = s->layout;
@@ -378,9 +427,11 @@ static brc_status rejoin(brc_simulation *s, softening_faces *f)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n, "unbroken bonds"));
     BRC_TRY_OR(cleanup, brc_buffer_read(s->neighbour, 0, neighbour, 4 * n));
     BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n));
-    BRC_TRY_OR(cleanup, brc_download(s, s->fracture->cells->alive, brc_precision_coeff_bytes(brc_device_get_precision(s->device)), alive, n));
+    BRC_TRY_OR(cleanup, brc_download(s, s->fracture->cells->alive,
+                                     brc_precision_coeff_bytes(brc_device_get_precision(s->device)), alive, n));
     for (int64_t k = 0; k < n; ++k)
-        if (layout->half_edge[k] >= 0 && open[k] == APART && alive[k] > 0) neighbour[k] = layout->row_of_element[s->domain->neighbour[layout->half_edge[k]]];
+        if (layout->half_edge[k] >= 0 && open[k] == APART && alive[k] > 0)
+            neighbour[k] = layout->row_of_element[s->domain->neighbour[layout->half_edge[k]]];
     BRC_TRY_OR(cleanup, brc_buffer_write(s->neighbour, 0, neighbour, 4 * n));
 cleanup:
     brc_memory_free(neighbour);

@@ -241,6 +241,5 @@ brc_status brc_closed_faces_store_state(brc_simulation *s, brc_state_store *stor
     if (!f) return BRC_OK;
     BRC_TRY(brc_store_flag(store, "closed.any", &f->any));
     BRC_TRY(brc_store_flag(store, "closed.all", &f->all));
-    return brc_store_fields(
-        s, store, &(brc_kept_fields){.table = &brc_closed_face_fields, .owner = f, .bonds = bonds});
+    return brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_closed_face_fields, .owner = f, .bonds = bonds});
 }

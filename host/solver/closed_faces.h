@@ -1,5 +1,7 @@
-/* Closed cracks of cells whose bonds break at once (kernels/closed_face.h, closed_faces.cl; docs/notebook/fracture.md "Closed faces"): the two sides of a broken face bear on each other until they stand
- * clear. Model dlsm, dynamic stages of scenes without contact, `fracture: {closure: true}`; else, and where faces open against cohesion, every function here does nothing. */
+/* Closed cracks of cells whose bonds break at once (kernels/closed_face.h, closed_faces.cl; docs/notebook/fracture.md
+ * "Closed faces"): the two sides of a broken face bear on each other until they stand clear. Model dlsm, dynamic stages
+ * of scenes without contact, `fracture: {closure: true}`; else, and where faces open against cohesion, every function
+ * here does nothing. */
 #ifndef BRC_SOLVER_CLOSED_FACES_H
 #define BRC_SOLVER_CLOSED_FACES_H
 
@@ -19,7 +21,8 @@ brc_status brc_closed_faces_flux(brc_simulation *s, const brc_force_request *r, 
 brc_status brc_closed_faces_force(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring);
 
 /* ---- a step with breaks ---- */
-/* Before marked bonds break; after all of them broke; after the forces around them were found: forces and velocities gain what pressed faces changed by (half_kick: brc_cell_breaks_step). */
+/* Before marked bonds break; after all of them broke; after the forces around them were found: forces and velocities
+ * gain what pressed faces changed by (half_kick: brc_cell_breaks_step). */
 brc_status brc_closed_faces_keep(brc_simulation *s);
 brc_status brc_closed_faces_look(brc_simulation *s);
 brc_status brc_closed_faces_change(brc_simulation *s, double half_kick);

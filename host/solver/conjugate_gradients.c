@@ -2,12 +2,15 @@
 #include "statics.h"
 #include <math.h>
 
-/* kp = -K p. Displacements: the force of the linearised law. Rotations (dlsm-published, whose forces do not depend on them
- * to first order): the torque of rotation vectors p at zero displacement. */
+/* kp = -K p. Displacements: the force of the linearised law. Rotations (dlsm-published, whose forces do not depend on
+ * them to first order): the torque of rotation vectors p at zero displacement. */
 static brc_status apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)
 {
-    brc_force_request r = {.displacement = v->p.move, .force = v->kp.move, .orientation = v->orientation,
-                           .torque = brc_is_beams(s) ? v->kp.turn : v->z.move, .homogeneous = true};
+    brc_force_request r = {.displacement = v->p.move,
+                           .force = v->kp.move,
+                           .orientation = v->orientation,
+                           .torque = brc_is_beams(s) ? v->kp.turn : v->z.move,
+                           .homogeneous = true};
     if (brc_is_dlsm(s)) return brc_force_evaluate(s, &r);
     brc_buffer *theta = brc_is_beams(s) ? v->p.turn : rotations ? v->p.move : v->zero;
     BRC_TRY(brc_vector_small_rotation(s, theta, v->orientation));
@@ -15,7 +18,10 @@ static brc_status apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)
     return brc_force_evaluate(s, &r);
 }
 
-brc_status brc_statics_apply(brc_simulation *s, brc_solve_vectors *v) { return apply(s, v, false); }
+brc_status brc_statics_apply(brc_simulation *s, brc_solve_vectors *v)
+{
+    return apply(s, v, false);
+}
 
 /* The direction of steepest descent, to begin or begin again. */
 static brc_status begin(brc_simulation *s, brc_solve_vectors *v, bool rotations, double *rz)
@@ -32,9 +38,10 @@ static brc_status remove_free_motions(brc_simulation *s, brc_solve_vectors *v)
     return brc_statics_project_free_motions(s, v, v->x);
 }
 
-/* Rigid motions that the supports leave free are in the null space of K: blocks never leave the right side's complement; when the loads do not balance, the residual stalls
- * and the sentence says so. */
-brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool rotations, double target, int32_t most, brc_progress *progress, double *left)
+/* Rigid motions that the supports leave free are in the null space of K: blocks never leave the right side's
+ * complement; when the loads do not balance, the residual stalls and the sentence says so. */
+brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool rotations, double target, int32_t most,
+                                   brc_progress *progress, double *left)
 {
     const int64_t before = s->static_report.iterations;
     double rz, rr, pkp, first, best = INFINITY;
@@ -51,7 +58,7 @@ brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool
         }
         BRC_TRY(apply(s, v, rotations));
         BRC_TRY(brc_unknowns_dot(s, v->p, v->kp, 1, &pkp));
-        pkp = -pkp; /* the force is minus K p */
+        pkp = -pkp;            /* the force is minus K p */
         if (!(pkp > 0)) break; /* only rounding and rigid motions are left */
         const double alpha = rz / pkp;
         BRC_TRY(brc_unknowns_add(s, alpha, v->p, v->x));
@@ -66,8 +73,10 @@ brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool
         brc_progress_update(progress, s->static_report.iterations);
         if (s->interrupted) return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
         if (brc_leaves_off(s)) break;
-        if (rr < 0.99 * best) best = rr, since_best = 0;
-        else if (++since_best > 2000) break; /* rounding floor: no more to gain */
+        if (rr < 0.99 * best)
+            best = rr, since_best = 0;
+        else if (++since_best > 2000)
+            break; /* rounding floor: no more to gain */
     }
     *left = sqrt(rr);
     if (rotations) return BRC_OK;

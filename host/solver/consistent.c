@@ -1,7 +1,7 @@
 /* With D = (sum R (x) s) A^-1 a body turned by Q has H = (Q - I) D, and a bond's force is (Q - I) c,
- * c = w R - kappa (D_i + D_j) s / 2, kappa = k (1 + tau), w = kappa / q, all as rounded. The torque of all bonds depends on the
- * tensor sum R (x) c alone, and an element's half of it vanishes when, with P = sum R (x) s and N = sum (w/kappa) R (x) R,
- * P A^-1 P^T = N. Exactly that is solved here; without rounding it is the inverse of A = P = N. */
+ * c = w R - kappa (D_i + D_j) s / 2, kappa = k (1 + tau), w = kappa / q, all as rounded. The torque of all bonds
+ * depends on the tensor sum R (x) c alone, and an element's half of it vanishes when, with P = sum R (x) s and N = sum
+ * (w/kappa) R (x) R, P A^-1 P^T = N. Exactly that is solved here; without rounding it is the inverse of A = P = N. */
 #include "consistent.h"
 #include <math.h>
 
@@ -17,10 +17,14 @@ static double held(const brc_simulation *s, double value)
 static void branch_of(const brc_domain *d, int64_t element, int64_t half_edge, wide branch[3])
 {
     const int64_t j = d->neighbour[half_edge];
-    for (int c = 0; c < 3; ++c) branch[c] = (wide)d->position[3 * j + c] - d->position[3 * element + c];
+    for (int c = 0; c < 3; ++c)
+        branch[c] = (wide)d->position[3 * j + c] - d->position[3 * element + c];
 }
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 void brc_consistent_bond(const brc_simulation *s, int64_t element, int64_t half_edge, double area[3], double *ratio)
 {
@@ -29,10 +33,12 @@ void brc_consistent_bond(const brc_simulation *s, int64_t element, int64_t half_
     const double branch[3] = {(double)exact[0], (double)exact[1], (double)exact[2]};
     const double *surface = s->domain->area_vector + 3 * half_edge;
     *ratio = held(s, sqrt(dot(branch, branch) / dot(surface, surface)));
-    for (int c = 0; c < 3; ++c) area[c] = held(s, (double)(exact[c] / *ratio));
+    for (int c = 0; c < 3; ++c)
+        area[c] = held(s, (double)(exact[c] / *ratio));
 }
 
-static void add_bond(const brc_simulation *s, int64_t element, int64_t half_edge, double spring, wide p[3][3], wide n[3][3])
+static void add_bond(const brc_simulation *s, int64_t element, int64_t half_edge, double spring, wide p[3][3],
+                     wide n[3][3])
 {
     wide branch[3];
     double area[3], ratio;
@@ -53,9 +59,11 @@ static void invert(const wide a[3][3], wide out[3][3])
         for (int j = 0; j < 3; ++j)
             out[j][i] = a[(i + 1) % 3][(j + 1) % 3] * a[(i + 2) % 3][(j + 2) % 3] -
                         a[(i + 1) % 3][(j + 2) % 3] * a[(i + 2) % 3][(j + 1) % 3];
-    for (int i = 0; i < 3; ++i) det += a[0][i] * out[i][0];
     for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) out[i][j] /= det;
+        det += a[0][i] * out[i][0];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            out[i][j] /= det;
 }
 
 void brc_consistent_inverse(const brc_simulation *s, int64_t element, double out[6])
@@ -64,14 +72,17 @@ void brc_consistent_inverse(const brc_simulation *s, int64_t element, double out
     const double k = s->elastic[s->material_of_element[element]].k, one_plus_tau = 1 + s->scene->model.tau;
     const double spring = held(s, held(s, k) * held(s, one_plus_tau)); /* the product the force pass takes */
     wide p[3][3] = {{0}}, n[3][3] = {{0}}, inverse[3][3], half[3][3] = {{0}};
-    for (int64_t h = s->domain->row_start[element]; h < s->domain->row_start[element + 1]; ++h) add_bond(s, element, h, spring, p, n);
+    for (int64_t h = s->domain->row_start[element]; h < s->domain->row_start[element + 1]; ++h)
+        add_bond(s, element, h, spring, p, n);
     invert(p, inverse);
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-            for (int l = 0; l < 3; ++l) half[i][j] += inverse[i][l] * n[l][j];
+            for (int l = 0; l < 3; ++l)
+                half[i][j] += inverse[i][l] * n[l][j];
     for (int c = 0; c < 6; ++c) { /* P^-1 N P^-T */
         wide sum = 0;
-        for (int l = 0; l < 3; ++l) sum += half[pair[c][0]][l] * inverse[pair[c][1]][l];
+        for (int l = 0; l < 3; ++l)
+            sum += half[pair[c][0]][l] * inverse[pair[c][1]][l];
         out[c] = (double)sum;
     }
 }

@@ -9,7 +9,10 @@
 static const double sphere_depth = 0.1; /* CONTACT_DEPTH of kernels/contact_law.h */
 
 /* In static stages and modes surfaces know nothing of each other. */
-static bool sleeps(const brc_simulation *s) { return s->stage >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC; }
+static bool sleeps(const brc_simulation *s)
+{
+    return s->stage >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC;
+}
 
 static brc_status make_passes(brc_simulation *s)
 {
@@ -40,7 +43,10 @@ static void tell_if_never(const brc_simulation *s)
 {
     for (int32_t k = 0; k < s->scene->n_stages; ++k)
         if (s->scene->stages[k].solver == BRC_SOLVER_DYNAMIC) return;
-    brc_log(s->context, BRC_LOG_WARNING, "contact acts in dynamic stages and the scene has none: surfaces%s pass through each other; make the stage `dynamic`", s->scene->n_strikers > 0 ? ", walls and strikers" : "");
+    brc_log(s->context, BRC_LOG_WARNING,
+            "contact acts in dynamic stages and the scene has none: surfaces%s pass through each other; make the stage "
+            "`dynamic`",
+            s->scene->n_strikers > 0 ? ", walls and strikers" : "");
 }
 
 brc_status brc_contact_create(brc_simulation *s)
@@ -110,17 +116,21 @@ brc_status brc_contact_restart(brc_simulation *s)
     return search_soon(s);
 }
 
-/* Bodies that stand in each other by less than is refused; of strikers it was told when they were made (striker_check.c). */
+/* Bodies that stand in each other by less than is refused; of strikers it was told when they were made
+ * (striker_check.c). */
 static brc_status tell_of_overlap(brc_simulation *s, const brc_ledger *ledger)
 {
     brc_touching now;
     bool told = false;
-    for (int32_t i = 0; s->strikers && i < s->strikers->n; ++i) told = told || s->strikers->told[i];
+    for (int32_t i = 0; s->strikers && i < s->strikers->n; ++i)
+        told = told || s->strikers->told[i];
     if (told || !(ledger->contact > 0)) return BRC_OK;
     BRC_TRY(brc_simulation_touching(s, &now));
     if (now.penetration > brc_striker_told_depth(s))
-        brc_log(s->context, BRC_LOG_WARNING, "stage '%s': surfaces overlap as the scene starts, %.0f pairs by up to %.3g m, and hold %.3g J: they begin pressed together", brc_current_stage(s)->name, now.pairs,
-                now.penetration, ledger->contact);
+        brc_log(s->context, BRC_LOG_WARNING,
+                "stage '%s': surfaces overlap as the scene starts, %.0f pairs by up to %.3g m, and hold %.3g J: they "
+                "begin pressed together",
+                brc_current_stage(s)->name, now.pairs, now.penetration, ledger->contact);
     return BRC_OK;
 }
 
@@ -132,8 +142,10 @@ brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger)
     const brc_stage *before = s->scene->stages + s->stage - 1;
     if (before->solver == BRC_SOLVER_DYNAMIC || !(ledger->contact > little * ledger->elastic)) return BRC_OK;
     return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                    "stage '%s': surfaces overlap as it begins and hold %.3g J, beside %.3g J of elastic energy: stage '%s' knows no contact and pressed them into each other. Keep them apart by that "
-                    "much, or come to rest in a dynamic stage with mass damping", brc_current_stage(s)->name, ledger->contact, ledger->elastic, before->name);
+                    "stage '%s': surfaces overlap as it begins and hold %.3g J, beside %.3g J of elastic energy: stage "
+                    "'%s' knows no contact and pressed them into each other. Keep them apart by that "
+                    "much, or come to rest in a dynamic stage with mass damping",
+                    brc_current_stage(s)->name, ledger->contact, ledger->elastic, before->name);
 }
 
 brc_status brc_contact_follow(brc_simulation *s)
@@ -172,7 +184,8 @@ brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool brok
                    {"dt", BRC_STATE(dt)}, {"n", BRC_INT(n)});
 }
 
-static brc_status gather_turning(brc_simulation *s, double sign, double kick, int book, brc_buffer *force, brc_buffer *torque)
+static brc_status gather_turning(brc_simulation *s, double sign, double kick, int book, brc_buffer *force,
+                                 brc_buffer *torque)
 {
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
@@ -195,10 +208,16 @@ static brc_status load_strikers(brc_simulation *s)
 }
 
 /* Around breaks the pairs that these may have changed, in sweeps of openings those of the cells that open, else all. */
-static bool all_pairs(const brc_force_request *r) { return !r->listed_pairs && (!r->rings || r->rings->whole_force); }
+static bool all_pairs(const brc_force_request *r)
+{
+    return !r->listed_pairs && (!r->rings || r->rings->whole_force);
+}
 
 /* The step that the evaluation ends; 0: the state is evaluated again. */
-static double step_of(const brc_simulation *s, const brc_force_request *r) { return r->book == BRC_BOOK_WORK ? s->time_step.value : 0; }
+static double step_of(const brc_simulation *s, const brc_force_request *r)
+{
+    return r->book == BRC_BOOK_WORK ? s->time_step.value : 0;
+}
 
 brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
 {
@@ -235,7 +254,10 @@ static brc_status beams_broke(brc_simulation *s, bool *out)
 }
 
 /* Who is touched by the breaks of this step (rings.h); beams: who lost one. */
-static brc_buffer *touched(const brc_simulation *s) { return s->fracture->cells ? s->fracture->cells->rings->touched : s->contact->fresh; }
+static brc_buffer *touched(const brc_simulation *s)
+{
+    return s->fracture->cells ? s->fracture->cells->rings->touched : s->contact->fresh;
+}
 
 brc_status brc_contact_expose(brc_simulation *s)
 {
@@ -274,7 +296,8 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick)
     if (!c->pass.marked) return list_breaks(s); /* cells: the forces are evaluated next */
     const bool strikers = c->n_pieces > 0;
     BRC_TRY(brc_contact_stored(s, &before));
-    if (strikers && half_kick > 0) BRC_TRY(brc_strikers_advance(s, half_kick, 0, 0, false)); /* the step closes with the load of before ... */
+    if (strikers && half_kick > 0)
+        BRC_TRY(brc_strikers_advance(s, half_kick, 0, 0, false)); /* the step closes with the load of before ... */
     if (c->now.n_pairs > 0) BRC_TRY(gather_turning(s, -1, half_kick, 0, s->force, s->torque));
     BRC_TRY(list_breaks(s));
     BRC_TRY(brc_contact_settle(s));
@@ -284,7 +307,9 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick)
         BRC_TRY(load_strikers(s));
     }
     if (strikers) BRC_TRY(brc_strikers_book(s, BRC_BOOK_START));
-    if (strikers && half_kick > 0) BRC_TRY(brc_strikers_advance(s, -half_kick, 0, 0, false)); /* ... and the next one opens with what is there now */
+    if (strikers && half_kick > 0)
+        BRC_TRY(
+            brc_strikers_advance(s, -half_kick, 0, 0, false)); /* ... and the next one opens with what is there now */
     BRC_TRY(brc_contact_stored(s, &after));
     c->born += after - before;
     return BRC_OK;
@@ -320,14 +345,17 @@ static double stiffest(const brc_simulation *s, int64_t e, int32_t other)
     const bool linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
     const double rub = law[4] > 0 ? law[3] : 0;
     if (brc_is_beams(s)) { /* a sphere has R^2 / I = 5 / (2 m) */
-        const double k = law[2] > 0 ? law[2] : linear ? law[0] * d->radius[e] : 2 * law[0] * d->radius[e] * sqrt(sphere_depth);
+        const double k = law[2] > 0 ? law[2]
+                         : linear   ? law[0] * d->radius[e]
+                                    : 2 * law[0] * d->radius[e] * sqrt(sphere_depth);
         return k * fmax(1, 3.5 * rub);
     }
     /* a cube of edge h: contact through a whole face is k_n A^2 / h^3 = k_n h, and (h / 2)^2 / I = 3 / (2 m) */
     return (law[2] > 0 ? law[2] : law[1] * cbrt(d->volume[e])) * fmax(1, 2.5 * rub);
 }
 
-/* The largest area in which a striker meets the bodies: of the boxes around both, the smaller section across an axis [m^2]. */
+/* The largest area in which a striker meets the bodies: of the boxes around both, the smaller section across an axis
+ * [m^2]. */
 static double meeting_area(const brc_simulation *s, int32_t striker)
 {
     const brc_striker_surface *surface = &s->strikers->body[striker].surface;
@@ -349,9 +377,11 @@ static double meeting_area(const brc_simulation *s, int32_t striker)
     return most;
 }
 
-/* omega^2 of a free striker on all n elements that it may touch at once, their springs k in one with sum K: k (u - U)^2 <= 2 k u^2 + 2 k U^2, so 4 k / m for elements between two springs and 2 K / M for
- * the striker; turning, springs at its rim have up to three times that arm squared over its gyration's. Dashpots, each a share b of what is critical for its pair of reduced mass m', together are a share
- * z = b sqrt(n m' / M) of it for the striker: such an oscillator bears steps up to 2 / omega (sqrt(1 + z^2) - z). */
+/* omega^2 of a free striker on all n elements that it may touch at once, their springs k in one with sum K: k (u - U)^2
+ * <= 2 k u^2 + 2 k U^2, so 4 k / m for elements between two springs and 2 K / M for the striker; turning, springs at
+ * its rim have up to three times that arm squared over its gyration's. Dashpots, each a share b of what is critical for
+ * its pair of reduced mass m', together are a share z = b sqrt(n m' / M) of it for the striker: such an oscillator
+ * bears steps up to 2 / omega (sqrt(1 + z^2) - z). */
 static double fastest_striker(const brc_simulation *s)
 {
     const brc_domain *d = s->domain;
@@ -362,7 +392,8 @@ static double fastest_striker(const brc_simulation *s)
         double stiffness = 0, damping = 0; /* of unit area: K [N/m^3], n m' b^2 [kg/m^2] */
         if (striker->motion != BRC_STRIKER_FREE) continue;
         for (int64_t e = 0; e < d->n_elements; ++e) {
-            const double size = brc_is_beams(s) ? 2 * d->radius[e] : cbrt(d->volume[e]), share = brc_contact_law_of(s, s->material_of_element[e], striker->material)[5];
+            const double size = brc_is_beams(s) ? 2 * d->radius[e] : cbrt(d->volume[e]),
+                         share = brc_contact_law_of(s, s->material_of_element[e], striker->material)[5];
             const double own = d->volume[e] * s->elastic[s->material_of_element[e]].density;
             stiffness = fmax(stiffness, stiffest(s, e, striker->material) / (size * size));
             damping = fmax(damping, share * share * own * mass / ((own + mass) * size * size));
@@ -373,8 +404,8 @@ static double fastest_striker(const brc_simulation *s)
     return fastest;
 }
 
-/* Two bodies of mass m pressed together from either side by springs k: omega^2 = 2 k / m at a wall or between two springs and 4 k / m between two equal
- * bodies. */
+/* Two bodies of mass m pressed together from either side by springs k: omega^2 = 2 k / m at a wall or between two
+ * springs and 4 k / m between two equal bodies. */
 brc_status brc_contact_critical_step(brc_simulation *s, double *out)
 {
     const brc_domain *d = s->domain;
@@ -383,12 +414,14 @@ brc_status brc_contact_critical_step(brc_simulation *s, double *out)
     double fastest = fastest_striker(s);
     for (int64_t e = 0; e < d->n_elements; ++e)
         for (int32_t other = 0; other < s->scene->n_materials; ++other)
-            fastest = fmax(fastest, 4 * stiffest(s, e, other) / (d->volume[e] * s->elastic[s->material_of_element[e]].density));
+            fastest = fmax(fastest,
+                           4 * stiffest(s, e, other) / (d->volume[e] * s->elastic[s->material_of_element[e]].density));
     *out = 2 / sqrt(fastest);
     return BRC_OK;
 }
 
-/* Two equal elements without bonds are an oscillator of half their mass between their surfaces: half a period of it is a blow. */
+/* Two equal elements without bonds are an oscillator of half their mass between their surfaces: half a period of it is
+ * a blow. */
 void brc_contact_check_step(const brc_simulation *s, const char *stage, double touching, const brc_time_step *step)
 {
     static const double enough = 20; /* steps of a blow: restitutions are met to 0.02 (docs/notebook/contact.md) */
@@ -396,9 +429,14 @@ void brc_contact_check_step(const brc_simulation *s, const char *stage, double t
     const double steps = M_PI / sqrt(2) * touching / step->value;
     bool damped = false, loose = s->scene->has_fracture;
     if (!s->contact || !(steps < enough)) return;
-    for (int64_t k = 0; k < (int64_t)s->scene->n_materials * s->scene->n_materials; ++k) damped = damped || s->contact->law_of[k * BRC_CONTACT_LAW + 5] > 0;
-    for (int64_t e = 0; e < d->n_elements && !loose; ++e) loose = d->row_start[e + 1] == d->row_start[e];
+    for (int64_t k = 0; k < (int64_t)s->scene->n_materials * s->scene->n_materials; ++k)
+        damped = damped || s->contact->law_of[k * BRC_CONTACT_LAW + 5] > 0;
+    for (int64_t e = 0; e < d->n_elements && !loose; ++e)
+        loose = d->row_start[e + 1] == d->row_start[e];
     if (!damped || !loose) return;
-    brc_log(s->context, BRC_LOG_INFO, "stage '%s': elements without bonds may be through a blow in %.2g steps, too few for the restitution that is asked for; %g steps meet it to two hundredths: "
-            "time_step: {auto: {safety: %.2g}}", stage, steps, enough, step->safety * steps / enough);
+    brc_log(s->context, BRC_LOG_INFO,
+            "stage '%s': elements without bonds may be through a blow in %.2g steps, too few for the restitution that "
+            "is asked for; %g steps meet it to two hundredths: "
+            "time_step: {auto: {safety: %.2g}}",
+            stage, steps, enough, step->safety * steps / enough);
 }

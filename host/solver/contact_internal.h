@@ -4,8 +4,18 @@
 
 #include "contact.h"
 
-enum { BRC_CONTACT_HISTORY = 20, BRC_CONTACT_RESULT = 8, BRC_CONTACT_LAW = 6, BRC_CONTACT_PAIRS = 256 }; /* as in kernels/contact_search.cl, contact.cl */
-enum { BRC_CONTACT_BLOCK = 256, BRC_CONTACT_PART = 16, BRC_CONTACT_DRIFT = 14, BRC_CONTACT_MOVED = 6 };                     /* as in kernels/contact_motion.cl */
+enum {
+    BRC_CONTACT_HISTORY = 20,
+    BRC_CONTACT_RESULT = 8,
+    BRC_CONTACT_LAW = 6,
+    BRC_CONTACT_PAIRS = 256
+}; /* as in kernels/contact_search.cl, contact.cl */
+enum {
+    BRC_CONTACT_BLOCK = 256,
+    BRC_CONTACT_PART = 16,
+    BRC_CONTACT_DRIFT = 14,
+    BRC_CONTACT_MOVED = 6
+}; /* as in kernels/contact_motion.cl */
 
 /* Which pairs there are (kernels/contact_search.cl); kept twice, so that pairs find what they remember. */
 typedef struct brc_contact_list {
@@ -25,12 +35,12 @@ struct brc_contact_state {
     struct {
         brc_kernel *scan_sums, *scan_tops, *scan_fill, *sort_count, *sort_move;
     } kernel;
-    bool is_linear;  /* spheres: the law's normal force */
-    bool affine;     /* dlsm: elements follow I + H; else they turn with quaternions of their own */
-    int32_t width;   /* numbers of a moment: 9, else 3 */
-    int pose;        /* how elements stand: 0 spheres, 1 by I + H, 2 by their rotation (kernels/contact_motion.cl) */
-    double skin;     /* of the list there is [m] */
-    double size;     /* mean size of an element [m] */
+    bool is_linear;   /* spheres: the law's normal force */
+    bool affine;      /* dlsm: elements follow I + H; else they turn with quaternions of their own */
+    int32_t width;    /* numbers of a moment: 9, else 3 */
+    int pose;         /* how elements stand: 0 spheres, 1 by I + H, 2 by their rotation (kernels/contact_motion.cl) */
+    double skin;      /* of the list there is [m] */
+    double size;      /* mean size of an element [m] */
     double middle[3]; /* of the domain: places are relative to it [m] */
     int32_t n_pieces; /* of strikers */
     double span;      /* how far from the middle elements are expected [m] */
@@ -44,42 +54,52 @@ struct brc_contact_state {
     /* rigid cells of dlsm (contact_rigid.c) */
     bool detaches;
     double n_rigid;
-    brc_buffer *loaded; /* of rows: 1 where a load of any stage acts on a face of the element, which never becomes rigid */
+    brc_buffer
+        *loaded; /* of rows: 1 where a load of any stage acts on a face of the element, which never becomes rigid */
     brc_buffer *rigid, *inertia, *turned, *momentum, *torque, *way;
-    struct brc_ring_list *bonded; /* where most cells have none: those that still have bonds, and some that lost theirs since */
+    struct brc_ring_list
+        *bonded; /* where most cells have none: those that still have bonds, and some that lost theirs since */
     brc_buffer *stored, *lost_friction, *lost_impact;
     brc_buffer *law; /* [n_materials][n_materials][BRC_CONTACT_LAW] */
     double *law_of;  /* the same on the host */
     /* search */
-    brc_buffer *moved, *drift_part, *drift, *sums, *key[2], *row[2], *digits, *first, *last, *count, *owned, *pair_start;
-    brc_buffer *seen, *fresh;  /* [n_rows]: bonds that elements had lost when they were last listed, and who has lost one since */
-    brc_buffer *again, *redo;  /* of listed elements */
+    brc_buffer *moved, *drift_part, *drift, *sums, *key[2], *row[2], *digits, *first, *last, *count, *owned,
+        *pair_start;
+    brc_buffer *seen,
+        *fresh; /* [n_rows]: bonds that elements had lost when they were last listed, and who has lost one since */
+    brc_buffer *again, *redo; /* of listed elements */
     brc_contact_list now, before;
-    int64_t quiet;   /* steps for which nothing can have moved far enough */
+    int64_t quiet;           /* steps for which nothing can have moved far enough */
     int64_t searches, lists; /* searches of all; lists that were made, those of breaks too */
-    bool due;        /* dlsm: look for pairs as soon as the gradients of this evaluation are there */
+    bool due;                /* dlsm: look for pairs as soon as the gradients of this evaluation are there */
     /* pairs */
     brc_buffer *touch, *result; /* of pairs */
     int64_t result_room;
-    brc_buffer *packed, *packed_at; /* in bodies that break: results of those pairs of the list before that touched, on their way to the one of now */
+    brc_buffer *packed, *packed_at; /* in bodies that break: results of those pairs of the list before that touched, on
+                                       their way to the one of now */
     int64_t packed_room, packed_at_room;
     brc_buffer *flag, *flag_start, *todo; /* of pairs; todo: those that the last breaks may have changed */
     int64_t todo_room, sums_room;
     int32_t n_todo;
-    bool always_whole; /* for comparison: look for all pairs after breaks, and let openings follow by evaluations of all */
-    double born;     /* energy that surfaces held when their bond broke [J] */
+    bool always_whole; /* for comparison: look for all pairs after breaks, and let openings follow by evaluations of
+                          all */
+    double born;       /* energy that surfaces held when their bond broke [J] */
 };
 
 /* ---- contact_fields.c ---- */
-extern const brc_field_table brc_contact_fields, brc_contact_sum_fields, brc_contact_grid_fields, brc_contact_bucket_fields, brc_contact_slot_fields, brc_contact_listed_fields,
-    brc_contact_entry_fields, brc_contact_pair_fields, brc_contact_result_fields, brc_contact_part_fields, brc_contact_packed_at_fields, brc_contact_packed_fields, brc_contact_changed_fields;
+extern const brc_field_table brc_contact_fields, brc_contact_sum_fields, brc_contact_grid_fields,
+    brc_contact_bucket_fields, brc_contact_slot_fields, brc_contact_listed_fields, brc_contact_entry_fields,
+    brc_contact_pair_fields, brc_contact_result_fields, brc_contact_part_fields, brc_contact_packed_at_fields,
+    brc_contact_packed_fields, brc_contact_changed_fields;
 void brc_contact_fields_free(brc_contact_state *contact);
-/* For n things, and a little more, since cracks grow; for n exposed elements, at most all rows; and cells of the grid for them. */
+/* For n things, and a little more, since cracks grow; for n exposed elements, at most all rows; and cells of the grid
+ * for them. */
 int64_t brc_contact_room(int64_t n);
 int64_t brc_contact_exposed_room(const brc_wants *wants, int64_t n);
 int64_t brc_contact_buckets(int64_t n);
 
-/* Contact, the list of now and the one before, strikers, numbers of the scene; the state of the elements outermost, or, before all, in *state. They must stay where they are. */
+/* Contact, the list of now and the one before, strikers, numbers of the scene; the state of the elements outermost, or,
+ * before all, in *state. They must stay where they are. */
 typedef struct brc_contact_scopes {
     brc_scope run, scene, strikers, contact, now, before, state;
 } brc_contact_scopes;
@@ -111,14 +131,17 @@ brc_status brc_contact_search_create(brc_simulation *s);
 brc_status brc_contact_search(brc_simulation *s);
 /* The list for places and pieces as they were taken last: the second half of a search. */
 brc_status brc_contact_list_again(brc_simulation *s);
-/* The list after breaks, for the same places: what belongs to elements that lost bonds (c->fresh) and to who is near them is looked for again, the rest goes over, results of pairs
- * too. c->todo: pairs of those elements and of `touched` [n_rows] ones (rings.h). */
+/* The list after breaks, for the same places: what belongs to elements that lost bonds (c->fresh) and to who is near
+ * them is looked for again, the rest goes over, results of pairs too. c->todo: pairs of those elements and of `touched`
+ * [n_rows] ones (rings.h). */
 brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched);
 /* The same by a search of all. */
 brc_status brc_contact_search_more(brc_simulation *s, brc_buffer *touched);
-/* Steps until the next look, from how far and how fast things moved since the list was made; *due: the list is too old, or soon; *past: it no longer holds. */
+/* Steps until the next look, from how far and how fast things moved since the list was made; *due: the list is too old,
+ * or soon; *past: it no longer holds. */
 brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past);
-/* Evaluate pairs into c->result, all or those of c->todo; dt: of the step that ended, 0: again. broke: for the breaks of this step. */
+/* Evaluate pairs into c->result, all or those of c->todo; dt: of the step that ended, 0: again. broke: for the breaks
+ * of this step. */
 brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool broke);
 
 #endif

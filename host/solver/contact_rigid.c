@@ -7,13 +7,17 @@
 static brc_status mark_loaded(brc_simulation *s, const brc_load *load, int32_t *loaded)
 {
     const brc_domain *d = s->domain;
-    const int32_t at = brc_load_holds_faces(load) || brc_load_pulls_faces(load) ? brc_domain_find_set(d, load->set) : -1;
+    const int32_t at =
+        brc_load_holds_faces(load) || brc_load_pulls_faces(load) ? brc_domain_find_set(d, load->set) : -1;
     brc_loaded_face *pulled = NULL;
     int64_t n = 0;
     if (at < 0 || d->sets[at].kind != BRC_SET_FACES) return BRC_OK; /* refused where the stage begins */
-    if (brc_load_pulls_faces(load)) BRC_TRY(brc_loaded_faces(s->context, s->scene, d, d->sets + at, &pulled, &n));
-    else n = d->sets[at].n_members;
-    for (int64_t m = 0; m < n; ++m) loaded[s->layout->row_of_element[d->free_element[pulled ? pulled[m].face : d->sets[at].members[m]]]] = 1;
+    if (brc_load_pulls_faces(load))
+        BRC_TRY(brc_loaded_faces(s->context, s->scene, d, d->sets + at, &pulled, &n));
+    else
+        n = d->sets[at].n_members;
+    for (int64_t m = 0; m < n; ++m)
+        loaded[s->layout->row_of_element[d->free_element[pulled ? pulled[m].face : d->sets[at].members[m]]]] = 1;
     brc_memory_free(pulled);
     return BRC_OK;
 }
@@ -25,7 +29,8 @@ static brc_status find_loaded(brc_simulation *s)
     brc_status status = BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &loaded, s->layout->n_rows, "elements with loaded faces"));
     for (int32_t k = 0; k < s->scene->n_stages; ++k)
-        for (int32_t l = 0; l < s->scene->stages[k].n_loads; ++l) BRC_TRY_OR(cleanup, mark_loaded(s, s->scene->stages[k].loads + l, loaded));
+        for (int32_t l = 0; l < s->scene->stages[k].n_loads; ++l)
+            BRC_TRY_OR(cleanup, mark_loaded(s, s->scene->stages[k].loads + l, loaded));
     status = brc_upload_int(s->contact->loaded, loaded, s->layout->n_rows);
 cleanup:
     brc_memory_free(loaded);
@@ -57,7 +62,8 @@ brc_status brc_contact_rigid_create(brc_simulation *s)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &inertia, 6 * d->n_elements, "inertia of cells"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &upright, 4 * d->n_elements, "orientations of cells"));
     for (int64_t e = 0; e < d->n_elements; ++e) {
-        for (int k = 0; k < 6; ++k) inertia[6 * e + k] = d->inertia[6 * e + k] * s->elastic[s->material_of_element[e]].density;
+        for (int k = 0; k < 6; ++k)
+            inertia[6 * e + k] = d->inertia[6 * e + k] * s->elastic[s->material_of_element[e]].density;
         upright[4 * e] = 1;
     }
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, c->inertia, inertia, 6, 1));
@@ -89,7 +95,10 @@ brc_status brc_contact_list_bonded(brc_simulation *s)
     return brc_rings_without(s, s->fracture->cells->rings, c->rigid, c->bonded);
 }
 
-const brc_ring_list *brc_contact_bonded(const brc_simulation *s) { return s->contact ? s->contact->bonded : NULL; }
+const brc_ring_list *brc_contact_bonded(const brc_simulation *s)
+{
+    return s->contact ? s->contact->bonded : NULL;
+}
 
 brc_status brc_contact_pose(brc_simulation *s)
 {

@@ -1,4 +1,5 @@
-/* The list of pairs that may touch: a grid of hashed cells, sorted on the device (kernels/contact_search.cl, scan.cl). */
+/* The list of pairs that may touch: a grid of hashed cells, sorted on the device (kernels/contact_search.cl,
+ * scan.cl). */
 #include "contact_internal.h"
 #include "strikers_internal.h"
 #include <math.h>
@@ -12,7 +13,10 @@ static brc_status renew(brc_simulation *s, const brc_field_table *table, int64_t
     return brc_fields_create(s->device, table, &wants, owner);
 }
 
-static int32_t blocks_of(int64_t n, int32_t block) { return (int32_t)((n + block - 1) / block); }
+static int32_t blocks_of(int64_t n, int32_t block)
+{
+    return (int32_t)((n + block - 1) / block);
+}
 
 /* start [n + 1]: running sums of x [n]; *total: that of all. */
 static brc_status scan(brc_simulation *s, brc_buffer *x, int64_t n, brc_buffer *start, int64_t *total)
@@ -22,7 +26,8 @@ static brc_status scan(brc_simulation *s, brc_buffer *x, int64_t n, brc_buffer *
     int32_t sum = 0;
     BRC_TRY(BRC_LAUNCH(c->kernel.scan_sums, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(x), BRC_BUF(c->sums)));
     BRC_TRY(BRC_LAUNCH(c->kernel.scan_tops, 1, BRC_INT(1), BRC_INT(n_blocks), BRC_BUF(c->sums)));
-    BRC_TRY(BRC_LAUNCH(c->kernel.scan_fill, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(x), BRC_BUF(c->sums), BRC_BUF(start)));
+    BRC_TRY(BRC_LAUNCH(c->kernel.scan_fill, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(x), BRC_BUF(c->sums),
+                       BRC_BUF(start)));
     if (total) {
         BRC_TRY(brc_buffer_read(start, 4 * n, &sum, 4));
         *total = sum;
@@ -73,7 +78,8 @@ brc_status brc_contact_search_create(brc_simulation *s)
                   {&c->kernel.scan_fill, "scan_fill"},
                   {&c->kernel.sort_count, "sort_count"},
                   {&c->kernel.sort_move, "sort_move"}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
+        BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
     BRC_TRY(make_passes(s));
     BRC_TRY(brc_fields_create(s->device, &brc_contact_sum_fields, &s->wants, c));
     BRC_TRY(brc_fields_create(s->device, &brc_contact_slot_fields, &s->wants, &c->now));
@@ -86,7 +92,9 @@ static brc_status largest_of(brc_simulation *s, int32_t first, int32_t n, double
     const int64_t rows = first + n;
     double *value = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &value, BRC_CONTACT_MOVED * rows, "moves since the last search"));
-    const brc_status status = brc_download(s, s->contact->moved, brc_precision_state_bytes(brc_device_get_precision(s->device)), value, BRC_CONTACT_MOVED * rows);
+    const brc_status status =
+        brc_download(s, s->contact->moved, brc_precision_state_bytes(brc_device_get_precision(s->device)), value,
+                     BRC_CONTACT_MOVED * rows);
     for (int64_t b = first; b < rows; ++b)
         for (int k = 0; k < BRC_CONTACT_MOVED; ++k)
             out[k] = b == first ? value[BRC_CONTACT_MOVED * b + k] : fmax(out[k], value[BRC_CONTACT_MOVED * b + k]);
@@ -94,7 +102,8 @@ static brc_status largest_of(brc_simulation *s, int32_t first, int32_t n, double
     return status;
 }
 
-/* How far and how fast elements and pieces of strikers moved since the list was made: columns of contact_moved and contact_pieces_moved. */
+/* How far and how fast elements and pieces of strikers moved since the list was made: columns of contact_moved and
+ * contact_pieces_moved. */
 typedef struct survey {
     double element[BRC_CONTACT_MOVED], piece[BRC_CONTACT_MOVED];
 } survey;
@@ -118,9 +127,12 @@ brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
     const double dt = s->time_step.value;
     survey now;
     BRC_TRY(take_survey(s, &now));
-    /* Twice the present speed and acceleration must not use up what is left before the next look: of half the skin, and of the way to the next piece of a striker. */
-    const double left = 0.5 * c->skin - now.element[0], v = 2 * now.element[1] * dt, a = 2 * sqrt(now.element[2]) * dt * dt;
-    const double clear = -now.element[3] - now.piece[0], v_piece = 2 * (now.element[4] + sqrt(now.piece[1])) * dt, a_piece = 2 * (sqrt(now.element[5]) + (c->n_pieces ? brc_strikers_pushed(s) : 0)) * dt * dt;
+    /* Twice the present speed and acceleration must not use up what is left before the next look: of half the skin, and
+     * of the way to the next piece of a striker. */
+    const double left = 0.5 * c->skin - now.element[0], v = 2 * now.element[1] * dt,
+                 a = 2 * sqrt(now.element[2]) * dt * dt;
+    const double clear = -now.element[3] - now.piece[0], v_piece = 2 * (now.element[4] + sqrt(now.piece[1])) * dt,
+                 a_piece = 2 * (sqrt(now.element[5]) + (c->n_pieces ? brc_strikers_pushed(s) : 0)) * dt * dt;
     int64_t steps = 0;
     while (steps < MOST_QUIET) {
         const double t = (double)(steps + 1);
@@ -133,7 +145,8 @@ brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
     return BRC_OK;
 }
 
-/* Where the scene leaves the skin open: such that a list lasts some MOST_QUIET steps at four times the present speeds (a thin skin sifts better, a thick one lasts longer). */
+/* Where the scene leaves the skin open: such that a list lasts some MOST_QUIET steps at four times the present speeds
+ * (a thin skin sifts better, a thick one lasts longer). */
 static brc_status choose_skin(brc_simulation *s)
 {
     static const double thinnest = 0.05, thickest = 0.5; /* of the mean size of an element */
@@ -155,10 +168,12 @@ static brc_status sort_by_cell(brc_simulation *s, double per_edge, int32_t mask,
     BRC_TRY(BRC_RUN(c->pass.keys, m, {"per_edge", BRC_STATE(per_edge)}, {"mask", BRC_INT(mask)},
                     {"key", BRC_BUF(c->key[0])}, {"row", BRC_BUF(c->row[0])}));
     for (int shift = 0; mask >> shift; shift += 8, at = 1 - at) {
-        BRC_TRY(BRC_LAUNCH(c->kernel.sort_count, n_blocks, BRC_INT(n_blocks), BRC_INT(m), BRC_INT(shift), BRC_BUF(c->key[at]), BRC_BUF(c->count)));
+        BRC_TRY(BRC_LAUNCH(c->kernel.sort_count, n_blocks, BRC_INT(n_blocks), BRC_INT(m), BRC_INT(shift),
+                           BRC_BUF(c->key[at]), BRC_BUF(c->count)));
         BRC_TRY(scan(s, c->count, SORT_BINS * (int64_t)n_blocks, c->digits, NULL));
-        BRC_TRY(BRC_LAUNCH(c->kernel.sort_move, n_blocks, BRC_INT(n_blocks), BRC_INT(m), BRC_INT(shift), BRC_BUF(c->key[at]), BRC_BUF(c->row[at]),
-                           BRC_BUF(c->digits), BRC_BUF(c->key[1 - at]), BRC_BUF(c->row[1 - at])));
+        BRC_TRY(BRC_LAUNCH(c->kernel.sort_move, n_blocks, BRC_INT(n_blocks), BRC_INT(m), BRC_INT(shift),
+                           BRC_BUF(c->key[at]), BRC_BUF(c->row[at]), BRC_BUF(c->digits), BRC_BUF(c->key[1 - at]),
+                           BRC_BUF(c->row[1 - at])));
     }
     *sorted = at;
     BRC_TRY(brc_buffer_fill_zero(c->first));
@@ -193,7 +208,10 @@ static brc_status room_for_entries(brc_simulation *s, brc_contact_list *l, int64
     return renew(s, &brc_contact_entry_fields, l->entry_room, l);
 }
 /* Numbers of a result. */
-static int32_t stride_of(const brc_contact_state *c) { return BRC_CONTACT_RESULT + 2 * c->width; }
+static int32_t stride_of(const brc_contact_state *c)
+{
+    return BRC_CONTACT_RESULT + 2 * c->width;
+}
 
 static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t n)
 {
@@ -280,7 +298,8 @@ static brc_status find_entries(brc_simulation *s, bool whole)
     double most[BRC_CONTACT_MOVED];
     int64_t near, n_redo;
     int sorted, mask = SORT_BINS;
-    while (mask < 2 * (int64_t)m) mask *= 2;
+    while (mask < 2 * (int64_t)m)
+        mask *= 2;
     mask -= 1;
     BRC_TRY(BRC_RUN(c->pass.largest, n_blocks, {"n", BRC_INT(n)}));
     BRC_TRY(largest_of(s, 0, n_blocks, most));
@@ -338,7 +357,10 @@ static brc_status make_list(brc_simulation *s, bool whole, bool carried)
     return number_pairs(s, carried);
 }
 
-brc_status brc_contact_list_again(brc_simulation *s) { return make_list(s, true, false); }
+brc_status brc_contact_list_again(brc_simulation *s)
+{
+    return make_list(s, true, false);
+}
 
 /* The pairs of elements that lost bonds or are touched. */
 static brc_status find_changed(brc_simulation *s, brc_buffer *touched)
@@ -367,9 +389,18 @@ brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched)
     return find_changed(s, touched);
 }
 
-bool brc_contact_is_due(const brc_simulation *s) { return s->contact && (s->contact->due || s->contact->always_whole); }
-int64_t brc_contact_lists(const brc_simulation *s) { return s->contact ? s->contact->lists : 0; }
-brc_status brc_contact_list_around(brc_simulation *s, brc_buffer *touched) { return s->contact ? find_changed(s, touched) : BRC_OK; }
+bool brc_contact_is_due(const brc_simulation *s)
+{
+    return s->contact && (s->contact->due || s->contact->always_whole);
+}
+int64_t brc_contact_lists(const brc_simulation *s)
+{
+    return s->contact ? s->contact->lists : 0;
+}
+brc_status brc_contact_list_around(brc_simulation *s, brc_buffer *touched)
+{
+    return s->contact ? find_changed(s, touched) : BRC_OK;
+}
 
 brc_status brc_contact_spread(brc_simulation *s, brc_buffer *level, int32_t to)
 {
@@ -394,7 +425,10 @@ static brc_status search(brc_simulation *s, bool carried)
     return make_list(s, true, carried);
 }
 
-brc_status brc_contact_search(brc_simulation *s) { return search(s, false); }
+brc_status brc_contact_search(brc_simulation *s)
+{
+    return search(s, false);
+}
 
 brc_status brc_contact_search_more(brc_simulation *s, brc_buffer *touched)
 {

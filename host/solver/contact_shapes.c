@@ -6,7 +6,8 @@
 #include <string.h>
 
 /* Numbers of one kind, first those of the elements and then those of the pieces. */
-static brc_status upload_both(brc_simulation *s, brc_buffer *out, const double *first, int64_t n_first, const double *second, int64_t n_second, const char *what)
+static brc_status upload_both(brc_simulation *s, brc_buffer *out, const double *first, int64_t n_first,
+                              const double *second, int64_t n_second, const char *what)
 {
     double *all = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &all, n_first + n_second, what));
@@ -18,13 +19,16 @@ static brc_status upload_both(brc_simulation *s, brc_buffer *out, const double *
 }
 
 /* Starts [n + 1] of the elements and of the pieces after them; NULL: elements have none. */
-static brc_status upload_starts(brc_simulation *s, brc_buffer *out, const int32_t *first, int64_t n_first, const int32_t *second, int64_t n_second, const char *what)
+static brc_status upload_starts(brc_simulation *s, brc_buffer *out, const int32_t *first, int64_t n_first,
+                                const int32_t *second, int64_t n_second, const char *what)
 {
     const int32_t before = first ? first[n_first] : 0;
     int32_t *all = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &all, n_first + n_second + 1, what));
-    for (int64_t k = 0; first && k <= n_first; ++k) all[k] = first[k];
-    for (int64_t k = 0; k <= n_second; ++k) all[n_first + k] = before + (second ? second[k] : 0);
+    for (int64_t k = 0; first && k <= n_first; ++k)
+        all[k] = first[k];
+    for (int64_t k = 0; k <= n_second; ++k)
+        all[n_first + k] = before + (second ? second[k] : 0);
     const brc_status status = brc_upload_int(out, all, n_first + n_second + 1);
     brc_memory_free(all);
     return status;
@@ -35,8 +39,10 @@ static brc_status upload_shapes(brc_simulation *s, const brc_convex *cells, cons
     brc_contact_state *c = s->contact;
     const char *what = "polyhedra";
     const int64_t n = s->domain->n_elements, np = pieces->n;
-    const int64_t corners = cells->n ? cells->corner_start[n] : 0, faces = cells->n ? cells->face_start[n] : 0, loops = cells->n ? cells->loop_start[faces] : 0;
-    const int64_t more_corners = np ? pieces->corner_start[np] : 0, more_faces = np ? pieces->face_start[np] : 0, more_loops = np ? pieces->loop_start[more_faces] : 0;
+    const int64_t corners = cells->n ? cells->corner_start[n] : 0, faces = cells->n ? cells->face_start[n] : 0,
+                  loops = cells->n ? cells->loop_start[faces] : 0;
+    const int64_t more_corners = np ? pieces->corner_start[np] : 0, more_faces = np ? pieces->face_start[np] : 0,
+                  more_loops = np ? pieces->loop_start[more_faces] : 0;
     int32_t *loop = NULL;
     double *nothing = NULL;
     brc_status status = BRC_OK;
@@ -44,9 +50,12 @@ static brc_status upload_shapes(brc_simulation *s, const brc_convex *cells, cons
     BRC_TRY_OR(cleanup, upload_both(s, c->plane, cells->plane, 4 * faces, pieces->plane, 4 * more_faces, what));
     if (!cells->n) BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &nothing, n, what));
     BRC_TRY_OR(cleanup, upload_both(s, c->radius, cells->n ? cells->radius : nothing, n, pieces->radius, np, what));
-    BRC_TRY_OR(cleanup, upload_starts(s, c->corner_start, cells->n ? cells->corner_start : NULL, n, pieces->corner_start, np, what));
-    BRC_TRY_OR(cleanup, upload_starts(s, c->face_start, cells->n ? cells->face_start : NULL, n, pieces->face_start, np, what));
-    BRC_TRY_OR(cleanup, upload_starts(s, c->loop_start, cells->n ? cells->loop_start : NULL, faces, pieces->loop_start, more_faces, what));
+    BRC_TRY_OR(cleanup, upload_starts(s, c->corner_start, cells->n ? cells->corner_start : NULL, n,
+                                      pieces->corner_start, np, what));
+    BRC_TRY_OR(cleanup,
+               upload_starts(s, c->face_start, cells->n ? cells->face_start : NULL, n, pieces->face_start, np, what));
+    BRC_TRY_OR(cleanup, upload_starts(s, c->loop_start, cells->n ? cells->loop_start : NULL, faces, pieces->loop_start,
+                                      more_faces, what));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &loop, loops + more_loops, what));
     if (loops) memcpy(loop, cells->loop, (size_t)loops * sizeof *loop);
     if (more_loops) memcpy(loop + loops, pieces->loop, (size_t)more_loops * sizeof *loop);
@@ -72,10 +81,12 @@ static void outline(const brc_strikers *t, int32_t p, double out[4])
             low[c] = fmin(low[c], v->corner[3 * k + c]);
             high[c] = fmax(high[c], v->corner[3 * k + c]);
         }
-    for (int c = 0; c < 3; ++c) out[c] = 0.5 * (low[c] + high[c]);
+    for (int c = 0; c < 3; ++c)
+        out[c] = 0.5 * (low[c] + high[c]);
     for (int64_t k = begin; k < end; ++k) {
         double square = 0;
-        for (int c = 0; c < 3; ++c) square += (v->corner[3 * k + c] - out[c]) * (v->corner[3 * k + c] - out[c]);
+        for (int c = 0; c < 3; ++c)
+            square += (v->corner[3 * k + c] - out[c]) * (v->corner[3 * k + c] - out[c]);
         most = fmax(most, square);
     }
     out[3] = fmax(sqrt(most), t->piece_radius[p]);
@@ -91,8 +102,10 @@ static brc_status upload_pieces(brc_simulation *s)
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &number, n, "pieces of strikers"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &own, 4 * (int64_t)n, "pieces of strikers"));
-    for (int32_t p = 0; p < n; ++p) outline(t, p, own + 4 * (int64_t)p);
-    for (int32_t p = 0; p < n; ++p) number[p] = (int32_t)t->piece_kind[p];
+    for (int32_t p = 0; p < n; ++p)
+        outline(t, p, own + 4 * (int64_t)p);
+    for (int32_t p = 0; p < n; ++p)
+        number[p] = (int32_t)t->piece_kind[p];
     BRC_TRY_OR(cleanup, brc_upload_int(c->piece_striker, t ? t->piece_striker : number, n));
     BRC_TRY_OR(cleanup, brc_upload_int(c->piece_kind, number, n));
     BRC_TRY_OR(cleanup, brc_upload_state(s, c->piece_own, own, 4 * (int64_t)n));

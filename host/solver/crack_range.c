@@ -2,7 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Elements through a thickness or a ligament, as a crack's zone takes; along a notch, where peak loads of uneven cells were +11 to +13 % off, and where +4 % (docs/notebook/fracture.md, "Notched specimens"). */
+/* Elements through a thickness or a ligament, as a crack's zone takes; along a notch, where peak loads of uneven cells
+ * were +11 to +13 % off, and where +4 % (docs/notebook/fracture.md, "Notched specimens"). */
 static const double least_through = 4, least_notch = 15, good_notch = 30;
 static const double slack = 0.03; /* of these: the mean size is not quite that of a row */
 
@@ -102,7 +103,8 @@ static bool crack_box(const brc_crack *crack, const extent *x, double low[3], do
     return n_thin == 1;
 }
 
-/* Along the axis in which it leaves most of the body whole: its length, and what is left on the side where less is but for none. */
+/* Along the axis in which it leaves most of the body whole: its length, and what is left on the side where less is but
+ * for none. */
 static bool crack_lengths(const brc_crack *crack, const extent *x, double *length, double *left)
 {
     double low[3], high[3];

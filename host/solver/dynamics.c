@@ -15,7 +15,8 @@
 #include <stdio.h>
 
 enum { SAMPLES = 500, BATCH = 256 };
-/* Samples this far apart or further have a ledger each, a hundredth of the steps between them; nearer ones only where something is judged by it. */
+/* Samples this far apart or further have a ledger each, a hundredth of the steps between them; nearer ones only where
+ * something is judged by it. */
 enum { LEDGER_APART = 128 };
 
 static brc_status kick_and_drift(brc_simulation *s, double kick, double drift)
@@ -60,7 +61,8 @@ static brc_status break_bonds(brc_simulation *s, double half_kick)
     return BRC_OK;
 }
 
-/* Of what is free to move: prescribed velocities are set anew at the end of the step, and what drags on them is no part of the work of their load. */
+/* Of what is free to move: prescribed velocities are set anew at the end of the step, and what drags on them is no part
+ * of the work of their load. */
 static brc_status drag(brc_simulation *s, const brc_stage *stage, double dt)
 {
     const int32_t n = s->layout->n_rows;
@@ -114,7 +116,8 @@ static brc_status take_steps(brc_simulation *s, int64_t n_steps, bool close)
     const brc_stage *stage = brc_current_stage(s);
     const double dt = s->time_step.value;
     for (int64_t i = 0; i < n_steps; ++i) {
-        if (stage->integrator == BRC_TCHAMWA_WIELGOSZ) BRC_TRY(tchamwa_step(s, stage, dt));
+        if (stage->integrator == BRC_TCHAMWA_WIELGOSZ)
+            BRC_TRY(tchamwa_step(s, stage, dt));
         else {
             BRC_TRY(verlet_step(s, stage, dt, s->open ? dt : 0.5 * dt));
             s->open = true;
@@ -125,7 +128,8 @@ static brc_status take_steps(brc_simulation *s, int64_t n_steps, bool close)
     return BRC_OK;
 }
 
-/* close: velocities are at whole steps when it returns; else a later call goes on from the half step with the same bits. */
+/* close: velocities are at whole steps when it returns; else a later call goes on from the half step with the same
+ * bits. */
 static brc_status advance(brc_simulation *s, int64_t n_steps, bool close)
 {
     if (n_steps <= 0) return BRC_OK;
@@ -142,7 +146,10 @@ static brc_status advance(brc_simulation *s, int64_t n_steps, bool close)
     return BRC_OK;
 }
 
-brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps) { return advance(s, n_steps, true); }
+brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps)
+{
+    return advance(s, n_steps, true);
+}
 
 int64_t brc_simulation_planned_steps(const brc_simulation *s, int32_t stage, double time_step)
 {
@@ -153,15 +160,20 @@ int64_t brc_simulation_planned_steps(const brc_simulation *s, int32_t stage, dou
     return time_step > 0 ? (int64_t)ceil(plan->duration / time_step - 1e-9) : 0;
 }
 
-static int64_t next_multiple(int64_t step, int64_t every) { return (step / every + 1) * every; }
+static int64_t next_multiple(int64_t step, int64_t every)
+{
+    return (step / every + 1) * every;
+}
 
-/* The same steps for every part, with the looks among them; devices that queue work at the same time. A stage that ends at a look ends there. */
+/* The same steps for every part, with the looks among them; devices that queue work at the same time. A stage that ends
+ * at a look ends there. */
 static brc_status advance_all(int32_t n, brc_simulation *const *part, int64_t n_steps)
 {
     brc_simulation *s = part[0];
     for (const int64_t end = s->step + n_steps; s->step < end && !s->note[s->stage].ended;) {
         const int64_t from = s->step, look = brc_look_next(s), until = look < end ? look : end;
-        for (int32_t k = 0; k < n; ++k) BRC_TRY(advance(part[k], until - from, until == end));
+        for (int32_t k = 0; k < n; ++k)
+            BRC_TRY(advance(part[k], until - from, until == end));
         if (look <= until) BRC_TRY(brc_look_within(n, part, from));
     }
     for (int32_t k = 0; k < n; ++k) {
@@ -214,13 +226,14 @@ static void judge(brc_simulation *s, const moment *now, double n_bonds, int64_t 
     const brc_stage *stage = brc_current_stage(s);
     char reason[160];
     if (stage->stop_broken > 0 && (double)now->broken > stage->stop_broken * n_bonds) {
-        snprintf(reason, sizeof reason, "stop_when_broken: %lld of %.0f bonds are broken, more than %.4g %%", (long long)now->broken, n_bonds,
-                 100 * stage->stop_broken);
+        snprintf(reason, sizeof reason, "stop_when_broken: %lld of %.0f bonds are broken, more than %.4g %%",
+                 (long long)now->broken, n_bonds, 100 * stage->stop_broken);
         brc_simulation_end_stage(s, reason);
     }
     if (stage->stop_kinetic > 0 && calm_steps >= 100) {
-        snprintf(reason, sizeof reason, "stop_kinetic: the kinetic energy has been below %.4g of the elastic for %lld steps", stage->stop_kinetic,
-                 (long long)calm_steps);
+        snprintf(reason, sizeof reason,
+                 "stop_kinetic: the kinetic energy has been below %.4g of the elastic for %lld steps",
+                 stage->stop_kinetic, (long long)calm_steps);
         brc_simulation_end_stage(s, reason);
     }
 }
@@ -230,12 +243,14 @@ static void tell_regime(const brc_simulation *s, const brc_regime *before)
 {
     const brc_regime *r = &s->regime;
     if (!r->broke || (before->broke && before->peak_elastic == r->peak_elastic)) return;
-    brc_log(s->context, BRC_LOG_INFO, "fracture is %s: kinetic energy %.3g %% of elastic at the first break, at most %.3g %% until the peak",
+    brc_log(s->context, BRC_LOG_INFO,
+            "fracture is %s: kinetic energy %.3g %% of elastic at the first break, at most %.3g %% until the peak",
             brc_regime_name(r), 100 * r->at_first_break, 100 * fmax(r->until_peak, r->at_peak));
 }
 
-/* Steps until the next sample, frame, look of the guard or the end, at most a batch: short batches keep the progress line and signals alive. Where they end depends on the
- * step alone, since every end costs the velocities a rounding: a run that goes on from one of them later is the same run. */
+/* Steps until the next sample, frame, look of the guard or the end, at most a batch: short batches keep the progress
+ * line and signals alive. Where they end depends on the step alone, since every end costs the velocities a rounding: a
+ * run that goes on from one of them later is the same run. */
 static int64_t next_batch(const brc_simulation *s, int64_t every, int64_t frame_every, int64_t total)
 {
     const int64_t step = s->step, look = brc_guard_next(s, step);
@@ -248,11 +263,13 @@ static int64_t next_batch(const brc_simulation *s, int64_t every, int64_t frame_
 }
 
 /* Looks of the guard, samples and frames of this step, if it is one of theirs. */
-static brc_status observe(int32_t n, brc_simulation *const *part, double n_bonds, int64_t every, int64_t frame_every, int64_t total)
+static brc_status observe(int32_t n, brc_simulation *const *part, double n_bonds, int64_t every, int64_t frame_every,
+                          int64_t total)
 {
     brc_simulation *s = part[0];
     const brc_stage *stage = brc_current_stage(s);
-    const bool sampled = s->step % every == 0 || s->step == total || s->note[s->stage].ended, judged = s->fracture || stage->stop_kinetic > 0 || stage->stop_broken > 0;
+    const bool sampled = s->step % every == 0 || s->step == total || s->note[s->stage].ended,
+               judged = s->fracture || stage->stop_kinetic > 0 || stage->stop_broken > 0;
     if (sampled && (judged || every >= LEDGER_APART || s->step == total || s->note[s->stage].ended)) {
         moment now;
         BRC_TRY(guard_all(n, part, &now));
@@ -264,7 +281,9 @@ static brc_status observe(int32_t n, brc_simulation *const *part, double n_bonds
         BRC_TRY(read_guards(n, part));
     }
     if (sampled) BRC_TRY(brc_notify_sample(s));
-    return frame_every && s->step % frame_every == 0 && s->step < total && !s->note[s->stage].ended ? brc_notify_frame(s) : BRC_OK;
+    return frame_every && s->step % frame_every == 0 && s->step < total && !s->note[s->stage].ended
+               ? brc_notify_frame(s)
+               : BRC_OK;
 }
 
 brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed)
@@ -276,16 +295,19 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed
     const double dt = s->time_step.value;
     int64_t every = output->history_every > 0 ? output->history_every : (total + SAMPLES - 1) / SAMPLES;
     if (every < 1) every = 1;
-    int64_t frame_every = output->n_frames > 0 ? total / output->n_frames
-                          : output->frame_interval > 0 ? (int64_t)llround(output->frame_interval / dt) : 0;
+    int64_t frame_every = output->n_frames > 0         ? total / output->n_frames
+                          : output->frame_interval > 0 ? (int64_t)llround(output->frame_interval / dt)
+                                                       : 0;
     if (frame_every < 1 && (output->n_frames > 0 || output->frame_interval > 0)) frame_every = 1;
     brc_progress *progress = NULL;
     brc_status status = BRC_OK;
     double n_bonds = 0;
-    for (int32_t k = 0; k < n; ++k) n_bonds += (double)part[k]->domain->n_bonds;
+    for (int32_t k = 0; k < n; ++k)
+        n_bonds += (double)part[k]->domain->n_bonds;
     BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total - first, "steps", n_bonds, "bond updates/s"));
     const brc_regime before = s->regime;
-    for (int32_t k = 0; k < n; ++k) BRC_TRY_OR(cleanup, brc_guard_begin_stage(part[k]));
+    for (int32_t k = 0; k < n; ++k)
+        BRC_TRY_OR(cleanup, brc_guard_begin_stage(part[k]));
     if (!resumed) {
         moment now;
         if (s->fracture) BRC_TRY_OR(cleanup, guard_all(n, part, &now));
@@ -295,11 +317,13 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed
         BRC_TRY_OR(cleanup, advance_all(n, part, next_batch(s, every, frame_every, total)));
         brc_progress_update(progress, s->step - first);
         BRC_TRY_OR(cleanup, observe(n, part, n_bonds, every, frame_every, total));
-        BRC_TRY_OR(cleanup, brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED : s->note[s->stage].ended ? BRC_PAUSE_ENDED
-                                                : s->step < total ? BRC_PAUSE_GOING : BRC_PAUSE_DONE));
+        BRC_TRY_OR(cleanup, brc_notify_pause(s, s->interrupted            ? BRC_PAUSE_INTERRUPTED
+                                                : s->note[s->stage].ended ? BRC_PAUSE_ENDED
+                                                : s->step < total         ? BRC_PAUSE_GOING
+                                                                          : BRC_PAUSE_DONE));
         if (s->interrupted) {
-            status = BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at step %lld of %lld", stage->name, (long long)s->step,
-                              (long long)total);
+            status = BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at step %lld of %lld",
+                              stage->name, (long long)s->step, (long long)total);
             goto cleanup;
         }
     }

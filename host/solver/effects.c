@@ -6,7 +6,8 @@
 void brc_effects_list(brc_simulation *s)
 {
     const brc_scene *scene = s->scene;
-    bool held = false, traction = false, imposed = false, pushed = false, turned = false, tchamwa = false, damped = false, statics = false, modes = false;
+    bool held = false, traction = false, imposed = false, pushed = false, turned = false, tchamwa = false,
+         damped = false, statics = false, modes = false;
     for (int32_t i = 0; i < scene->n_stages; ++i) {
         const brc_stage *stage = scene->stages + i;
         statics = statics || stage->solver == BRC_SOLVER_STATIC;
@@ -48,8 +49,10 @@ void brc_effects_list(brc_simulation *s)
                    {"contact", s->contact != NULL}};
     int in = 0, out = 0;
     for (size_t i = 0; i < sizeof effects / sizeof *effects; ++i) {
-        if (effects[i].in) s->effects_in[in++] = effects[i].name;
-        else s->effects_out[out++] = effects[i].name;
+        if (effects[i].in)
+            s->effects_in[in++] = effects[i].name;
+        else
+            s->effects_out[out++] = effects[i].name;
     }
 }
 
@@ -61,7 +64,8 @@ double brc_simulation_floor_bytes(const brc_simulation *s)
     const double many = brc_device_has_many_materials(s->device) ? 1 : 0;
     if (brc_is_published(s)) {
         /* strain pass: neighbour, R (S with area weights); u, q, A^-1 read, strain written */
-        const double strain = half_edges * (4 + (3 + (s->scene->model.area_weights ? 1 : 0)) * coeff) + n * (7 * state + 12 * coeff);
+        const double strain =
+            half_edges * (4 + (3 + (s->scene->model.area_weights ? 1 : 0)) * coeff) + n * (7 * state + 12 * coeff);
         /* force pass: neighbour, R, S; u, q, strain read, f and t written */
         const double force = half_edges * (4 + 4 * coeff) + n * (7 * state + (6 + 3 * many) * coeff + 6 * state);
         /* motion: f, v, u, m and t, w, q, I read; v, u, w, q written */
@@ -74,7 +78,8 @@ double brc_simulation_floor_bytes(const brc_simulation *s)
     }
     const double pass1 = half_edges * (4 + 3 * coeff) + n * (3 * state + (6 + 9) * coeff);
     const double pass2 = half_edges * (4 + 6 * coeff) + n * (9 + 1 + 9 + 2 * many) * coeff;
-    const double pass3 = half_edges * (4 + 7 * coeff) + n * ((9 + 9 + 6 + 1 + 9 + (9 + 4) * many) * coeff + 3 * many * state);
+    const double pass3 =
+        half_edges * (4 + 7 * coeff) + n * ((9 + 9 + 6 + 1 + 9 + (9 + 4) * many) * coeff + 3 * many * state);
     const double pass4 = half_edges * (4 + 4 * coeff) + n * ((9 + (9 + 1) * many) * coeff + (3 + 3) * state);
     const double motion = n * (3 + 3 + 3 + 1 + 3 + 3) * state;
     return pass1 + pass2 + pass3 + pass4 + motion;

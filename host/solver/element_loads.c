@@ -12,7 +12,8 @@ static int compare_members(const void *left, const void *right)
     return a->id < b->id ? -1 : a->id > b->id;
 }
 
-brc_status brc_load_members(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_load_member **out, int32_t *n)
+brc_status brc_load_members(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_load_member **out,
+                            int32_t *n)
 {
     const brc_domain *d = s->domain;
     brc_status status = BRC_OK;
@@ -32,8 +33,10 @@ brc_status brc_load_members(brc_simulation *s, const brc_stage *stage, const brc
     return BRC_OK;
 }
 
-/* A force on an element that has no bond and is held still would be lost, and the body out of balance: those with bonds share the total. */
-static brc_status leave_isolated_out(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_load_member *items, int32_t *n)
+/* A force on an element that has no bond and is held still would be lost, and the body out of balance: those with bonds
+ * share the total. */
+static brc_status leave_isolated_out(brc_simulation *s, const brc_stage *stage, const brc_load *load,
+                                     brc_load_member *items, int32_t *n)
 {
     const int64_t *start = s->domain->row_start;
     int32_t kept = 0;
@@ -41,19 +44,26 @@ static brc_status leave_isolated_out(brc_simulation *s, const brc_stage *stage, 
     for (int32_t i = 0; i < *n; ++i)
         if (start[items[i].id + 1] > start[items[i].id]) items[kept++] = items[i];
     if (kept == 0 && *n > 0)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': none of the %d elements of '%s' has a bond, so a force on them has nothing to hold it; load others",
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "stage '%s': none of the %d elements of '%s' has a bond, so a force on them has nothing to "
+                        "hold it; load others",
                         stage->name, (int)*n, load->set);
     *n = kept;
     return BRC_OK;
 }
 
-static double mass_of(const brc_simulation *s, int32_t e) { return s->domain->volume[e] * s->elastic[s->material_of_element[e]].density; }
+static double mass_of(const brc_simulation *s, int32_t e)
+{
+    return s->domain->volume[e] * s->elastic[s->material_of_element[e]].density;
+}
 
 /* Forces at factor 1 [n][3]. */
-static brc_status share_out(brc_simulation *s, const brc_stage *stage, const brc_load *load, const brc_load_member *items, int32_t n, double *total)
+static brc_status share_out(brc_simulation *s, const brc_stage *stage, const brc_load *load,
+                            const brc_load_member *items, int32_t n, double *total)
 {
     double mass = 0;
-    for (int32_t i = 0; i < n; ++i) mass += mass_of(s, items[i].id);
+    for (int32_t i = 0; i < n; ++i)
+        mass += mass_of(s, items[i].id);
     for (int32_t i = 0; i < n; ++i) {
         double *f = total + 3 * (int64_t)i;
         const double part = load->share == BRC_SHARE_MASS ? mass_of(s, items[i].id) / mass : 1.0 / n;
@@ -61,14 +71,17 @@ static brc_status share_out(brc_simulation *s, const brc_stage *stage, const brc
         const double r[3] = {x[0] - load->origin[0], x[1] - load->origin[1], x[2] - load->origin[2]};
         const double length = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
         if (load->radial && !(length > 0))
-            return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': element %d of '%s' lies at the centre of the radial forces; move the centre",
+            return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                            "stage '%s': element %d of '%s' lies at the centre of the radial forces; move the centre",
                             stage->name, (int)items[i].id, load->set);
-        for (int c = 0; c < 3; ++c) f[c] = load->radial ? load->radial_force / n * r[c] / length : part * load->value[c];
+        for (int c = 0; c < 3; ++c)
+            f[c] = load->radial ? load->radial_force / n * r[c] / length : part * load->value[c];
     }
     if (load->radial) {
         double *place = NULL, rigid;
         BRC_TRY(BRC_ALLOCATE(s->context, &place, 3 * (int64_t)n, "forces on elements"));
-        for (int64_t k = 0; k < 3 * (int64_t)n; ++k) place[k] = s->domain->position[3 * (int64_t)items[k / 3].id + k % 3];
+        for (int64_t k = 0; k < 3 * (int64_t)n; ++k)
+            place[k] = s->domain->position[3 * (int64_t)items[k / 3].id + k % 3];
         brc_balance(n, place, NULL, total, &rigid);
         brc_memory_free(place);
     }
@@ -111,7 +124,8 @@ brc_status brc_turn_create(brc_simulation *s, const brc_stage *stage, int32_t l,
     double *flags = NULL, *direction = NULL;
     brc_status status = BRC_OK;
     if (!brc_turns(s) || (brc_is_published(s) && stage->solver != BRC_SOLVER_DYNAMIC))
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': element_rotation needs elements with rotations: model cbm, or dlsm-published in a "
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "stage '%s': element_rotation needs elements with rotations: model cbm, or dlsm-published in a "
                         "dynamic stage",
                         stage->name);
     BRC_TRY_OR(cleanup, brc_load_members(s, stage, load, &items, &n));
@@ -167,7 +181,10 @@ void brc_element_loads_free(brc_loads *loads)
     brc_memory_free(loads->turns);
 }
 
-static bool is_static(const brc_simulation *s) { return brc_current_stage(s)->solver == BRC_SOLVER_STATIC; }
+static bool is_static(const brc_simulation *s)
+{
+    return brc_current_stage(s)->solver == BRC_SOLVER_STATIC;
+}
 
 brc_status brc_pushes_apply(brc_simulation *s, const brc_force_request *r)
 {
@@ -185,7 +202,8 @@ brc_status brc_turns_book(brc_simulation *s, const brc_force_request *r)
     for (int32_t i = 0; i < s->loads.n_turns; ++i) {
         brc_turn_load *m = s->loads.turns + i;
         const brc_load *load = brc_current_stage(s)->loads + m->load;
-        const double factor = brc_load_factor(load, r->t, is_static(s)), rate = is_static(s) ? 0 : brc_load_rate(load, r->t);
+        const double factor = brc_load_factor(load, r->t, is_static(s)),
+                     rate = is_static(s) ? 0 : brc_load_rate(load, r->t);
         BRC_TRY(BRC_RUN_ON(s->pass.turn_book, m->n, r, m, {"step", BRC_STATE(factor - m->last_factor)},
                            {"rate", BRC_STATE(rate)}));
         if (r->book == BRC_BOOK_NOTHING) continue;
@@ -209,7 +227,8 @@ brc_status brc_turns_prescribe(brc_simulation *s, double t)
         const double factor = brc_load_factor(load, t, is_static(s));
         /* dynamics integrates the spin; only a factor that is there from the start is a jump */
         const double jump = is_static(s) || t == 0 ? factor - m->turned : 0;
-        BRC_TRY(turn(s, m, jump, !is_static(s) || brc_current_stage(s)->finite_strain, is_static(s) ? 0 : brc_load_rate(load, t)));
+        BRC_TRY(turn(s, m, jump, !is_static(s) || brc_current_stage(s)->finite_strain,
+                     is_static(s) ? 0 : brc_load_rate(load, t)));
         m->turned = factor;
     }
     return BRC_OK;

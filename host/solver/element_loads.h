@@ -1,4 +1,5 @@
-/* Loads of whole elements that no faces carry: dead forces and prescribed rotations. For the files of host/solver only. */
+/* Loads of whole elements that no faces carry: dead forces and prescribed rotations. For the files of host/solver
+ * only. */
 #ifndef BRC_SOLVER_ELEMENT_LOADS_H
 #define BRC_SOLVER_ELEMENT_LOADS_H
 
@@ -9,7 +10,8 @@ typedef struct brc_load_member {
     int32_t row, id;
 } brc_load_member;
 /* Elements of a load's set (of a face set: the owners of its faces), by storage row, each once; owned by the caller. */
-brc_status brc_load_members(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_load_member **out, int32_t *n);
+brc_status brc_load_members(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_load_member **out,
+                            int32_t *n);
 
 /* Make one load of the stage. taken [n_elements]: bits 1 2 4 of rotation components that earlier loads prescribe. */
 brc_status brc_push_create(brc_simulation *s, const brc_stage *stage, int32_t l, brc_push_load *out);

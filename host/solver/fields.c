@@ -5,24 +5,75 @@
 /* Room for LANE_SPARE numbers of kernels/portable.h: gathers read whole vectors. */
 enum { SPARE = 8 };
 
-int64_t brc_each_row(const brc_wants *w) { return w->layout->n_rows; }
-int64_t brc_each_block(const brc_wants *w) { return w->layout->n_rows; }
-int64_t brc_each_row_end(const brc_wants *w) { return (int64_t)w->layout->n_rows + 1; }
-int64_t brc_each_entry(const brc_wants *w) { return w->layout->n_slots * w->layout->slice; }
-int64_t brc_each_slice(const brc_wants *w) { return w->layout->n_slices; }
-int64_t brc_each_slice_end(const brc_wants *w) { return (int64_t)w->layout->n_slices + 1; }
-int64_t brc_each_boundary(const brc_wants *w) { return (int64_t)w->layout->n_boundary * w->layout->slice; }
-int64_t brc_each_group(const brc_wants *w) { return w->n_groups; }
-int64_t brc_each_striker(const brc_wants *w) { return w->scene->n_strikers; }
-int64_t brc_each_listed(const brc_wants *w) { return w->n_listed; }
-int64_t brc_each_listed_end(const brc_wants *w) { return w->n_listed + 1; }
-int64_t brc_each_once(const brc_wants *w) { return (void)w, 1; }
+int64_t brc_each_row(const brc_wants *w)
+{
+    return w->layout->n_rows;
+}
+int64_t brc_each_block(const brc_wants *w)
+{
+    return w->layout->n_rows;
+}
+int64_t brc_each_row_end(const brc_wants *w)
+{
+    return (int64_t)w->layout->n_rows + 1;
+}
+int64_t brc_each_entry(const brc_wants *w)
+{
+    return w->layout->n_slots * w->layout->slice;
+}
+int64_t brc_each_slice(const brc_wants *w)
+{
+    return w->layout->n_slices;
+}
+int64_t brc_each_slice_end(const brc_wants *w)
+{
+    return (int64_t)w->layout->n_slices + 1;
+}
+int64_t brc_each_boundary(const brc_wants *w)
+{
+    return (int64_t)w->layout->n_boundary * w->layout->slice;
+}
+int64_t brc_each_group(const brc_wants *w)
+{
+    return w->n_groups;
+}
+int64_t brc_each_striker(const brc_wants *w)
+{
+    return w->scene->n_strikers;
+}
+int64_t brc_each_listed(const brc_wants *w)
+{
+    return w->n_listed;
+}
+int64_t brc_each_listed_end(const brc_wants *w)
+{
+    return w->n_listed + 1;
+}
+int64_t brc_each_once(const brc_wants *w)
+{
+    return (void)w, 1;
+}
 
-bool brc_wants_dlsm(const brc_wants *w) { return w->scene->model.kind == BRC_MODEL_DLSM; }
-bool brc_wants_published(const brc_wants *w) { return w->scene->model.kind == BRC_MODEL_DLSM_PUBLISHED; }
-bool brc_wants_beams(const brc_wants *w) { return w->scene->model.kind == BRC_MODEL_CBM; }
-bool brc_wants_turning(const brc_wants *w) { return !brc_wants_dlsm(w); }
-bool brc_wants_many(const brc_wants *w) { return w->many_materials; }
+bool brc_wants_dlsm(const brc_wants *w)
+{
+    return w->scene->model.kind == BRC_MODEL_DLSM;
+}
+bool brc_wants_published(const brc_wants *w)
+{
+    return w->scene->model.kind == BRC_MODEL_DLSM_PUBLISHED;
+}
+bool brc_wants_beams(const brc_wants *w)
+{
+    return w->scene->model.kind == BRC_MODEL_CBM;
+}
+bool brc_wants_turning(const brc_wants *w)
+{
+    return !brc_wants_dlsm(w);
+}
+bool brc_wants_many(const brc_wants *w)
+{
+    return w->many_materials;
+}
 
 static void ask_stages(const brc_scene *scene, brc_wants *out)
 {
@@ -34,12 +85,14 @@ static void ask_stages(const brc_scene *scene, brc_wants *out)
         out->damping |= dynamic && (stage->mass_damping > 0 || stage->noise_damping > 0);
         for (int32_t l = 0; l < stage->n_loads; ++l) {
             const brc_load_kind kind = stage->loads[l].kind;
-            out->face_loads |= kind == BRC_LOAD_FACE_DISPLACEMENT || kind == BRC_LOAD_FACE_VELOCITY || kind == BRC_LOAD_TRACTION || kind == BRC_LOAD_PRESSURE;
+            out->face_loads |= kind == BRC_LOAD_FACE_DISPLACEMENT || kind == BRC_LOAD_FACE_VELOCITY ||
+                               kind == BRC_LOAD_TRACTION || kind == BRC_LOAD_PRESSURE;
         }
     }
 }
 
-void brc_wants_make(const brc_scene *scene, const brc_domain *domain, const brc_layout *layout, const brc_device *device, const int32_t *material, brc_wants *out)
+void brc_wants_make(const brc_scene *scene, const brc_domain *domain, const brc_layout *layout,
+                    const brc_device *device, const int32_t *material, brc_wants *out)
 {
     const brc_precision precision = brc_device_get_precision(device);
     *out = (brc_wants){.scene = scene,
@@ -53,7 +106,8 @@ void brc_wants_make(const brc_scene *scene, const brc_domain *domain, const brc_
                        .loose = scene->has_fracture};
     ask_stages(scene, out);
     if (scene->has_fracture) brc_strengths_ask(scene, domain, material, &out->weighted, &out->softens);
-    for (int64_t e = 0; e < domain->n_elements && !out->loose; ++e) out->loose = domain->row_start[e + 1] == domain->row_start[e];
+    for (int64_t e = 0; e < domain->n_elements && !out->loose; ++e)
+        out->loose = domain->row_start[e + 1] == domain->row_start[e];
 }
 
 brc_wants brc_wants_listed(const brc_wants *wants, int64_t n)
@@ -74,13 +128,20 @@ int64_t brc_field_bytes(const brc_field_row *field, const brc_wants *wants)
 int64_t brc_fields_bytes(const brc_field_table *table, const brc_wants *wants)
 {
     int64_t bytes = 0;
-    for (int k = 0; k < table->n && (!table->wanted || table->wanted(wants)); ++k) bytes += brc_field_bytes(&table->fields[k], wants);
+    for (int k = 0; k < table->n && (!table->wanted || table->wanted(wants)); ++k)
+        bytes += brc_field_bytes(&table->fields[k], wants);
     return bytes;
 }
 
-static brc_buffer **buffer_of(const brc_field_row *field, void *owner) { return (brc_buffer **)(void *)((char *)owner + field->at); }
+static brc_buffer **buffer_of(const brc_field_row *field, void *owner)
+{
+    return (brc_buffer **)(void *)((char *)owner + field->at);
+}
 
-brc_buffer *brc_field_buffer(const brc_field_row *field, const void *owner) { return *(brc_buffer *const *)(const void *)((const char *)owner + field->at); }
+brc_buffer *brc_field_buffer(const brc_field_row *field, const void *owner)
+{
+    return *(brc_buffer *const *)(const void *)((const char *)owner + field->at);
+}
 
 brc_status brc_fields_create(brc_device *device, const brc_field_table *table, const brc_wants *wants, void *owner)
 {
@@ -95,5 +156,6 @@ brc_status brc_fields_create(brc_device *device, const brc_field_table *table, c
 
 void brc_fields_free(const brc_field_table *table, void *owner)
 {
-    for (int k = 0; k < table->n; ++k) brc_buffer_free(buffer_of(&table->fields[k], owner));
+    for (int k = 0; k < table->n; ++k)
+        brc_buffer_free(buffer_of(&table->fields[k], owner));
 }

@@ -1,4 +1,5 @@
-/* One evaluation of the forces of a model: the order of the passes, nothing else (docs/notebook/theory.md T2 and T3, docs/notebook/beams.md). */
+/* One evaluation of the forces of a model: the order of the passes, nothing else (docs/notebook/theory.md T2 and T3,
+ * docs/notebook/beams.md). */
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "cell_breaks_internal.h"
@@ -12,7 +13,8 @@
 
 /* Constants handed to kernels; with several materials the kernels gather them instead. */
 
-/* The rings that each pass of dlsm goes over: list NULL, all elements. Where most cells are without bonds those with bonds are all that is gone over. */
+/* The rings that each pass of dlsm goes over: list NULL, all elements. Where most cells are without bonds those with
+ * bonds are all that is gone over. */
 typedef struct dlsm_extent {
     const brc_ring_list *list;
     int gradient, stress, flux, force;
@@ -23,7 +25,12 @@ static dlsm_extent extent_of(const brc_simulation *s, const brc_force_request *r
 {
     if (!r->rings) return (dlsm_extent){.list = r->homogeneous ? NULL : brc_contact_bonded(s)};
     const bool rim = brc_rims_gain(s, r->rings); /* rings 2 and 3 are done otherwise */
-    return (dlsm_extent){.list = &r->rings->around, .gradient = 0, .stress = 1, .flux = rim ? 1 : 2, .force = rim ? 1 : 3, .whole_flux = r->rings->whole_force};
+    return (dlsm_extent){.list = &r->rings->around,
+                         .gradient = 0,
+                         .stress = 1,
+                         .flux = rim ? 1 : 2,
+                         .force = rim ? 1 : 3,
+                         .whole_flux = r->rings->whole_force};
 }
 
 /* H and, where faces are held, their part of G. */
@@ -112,8 +119,10 @@ static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
     const dlsm_extent x = extent_of(s, r);
     BRC_TRY(dlsm_fluxes(s, r, &x));
     const brc_ring_list *list = x.whole_flux ? NULL : x.list;
-    if (!r->rings && !brc_pass_is_whole(s, list, x.force)) BRC_TRY(brc_buffer_fill_zero(r->force)); /* of cells without bonds */
-    if (r->finite && !r->homogeneous && !r->rings && brc_cell_breaks_screens(s)) BRC_TRY(brc_cell_breaks_forces(s, r, list, x.force));
+    if (!r->rings && !brc_pass_is_whole(s, list, x.force))
+        BRC_TRY(brc_buffer_fill_zero(r->force)); /* of cells without bonds */
+    if (r->finite && !r->homogeneous && !r->rings && brc_cell_breaks_screens(s))
+        BRC_TRY(brc_cell_breaks_forces(s, r, list, x.force));
     else
         BRC_TRY(brc_pass_over(s, s->pass.force, s->pass.force_listed, list, x.force, r, NULL));
     BRC_TRY(brc_closed_faces_force(s, r, list, x.force));
@@ -124,7 +133,8 @@ static brc_status dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
 static brc_status published_evaluate(brc_simulation *s, const brc_force_request *r)
 {
     const brc_ring_list *list = r->rings && !r->rings->whole_force ? &r->rings->around : NULL;
-    if (s->fracture) BRC_TRY(brc_published_breaks_strains(s, r));
+    if (s->fracture)
+        BRC_TRY(brc_published_breaks_strains(s, r));
     else
         BRC_TRY(brc_pass_run_on(s->pass.published_strain, s->n_groups, r, NULL, NULL));
     if (brc_cell_breaks_by_bond(s) && r->finite) return brc_published_breaks_force(s, r);
@@ -151,7 +161,9 @@ static brc_status beams_evaluate(brc_simulation *s, const brc_force_request *r)
 
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
 {
-    BRC_TRY(brc_is_beams(s) ? beams_evaluate(s, r) : brc_is_published(s) ? published_evaluate(s, r) : dlsm_evaluate(s, r));
+    BRC_TRY(brc_is_beams(s)       ? beams_evaluate(s, r)
+            : brc_is_published(s) ? published_evaluate(s, r)
+                                  : dlsm_evaluate(s, r));
     if (r->homogeneous) {
         BRC_TRY(brc_loads_zero_imposed(s, r->force));
         return brc_loads_zero_turned(s, r->torque);
@@ -227,7 +239,8 @@ brc_status brc_force_fluxes_of_state(brc_simulation *s, const brc_ring_list *lis
     return dlsm_fluxes(s, &request, &x);
 }
 
-/* Energies of the elements of cells, s->elastic_energy and, of dlsm, s->stabilisation_energy; without those of held faces. */
+/* Energies of the elements of cells, s->elastic_energy and, of dlsm, s->stabilisation_energy; without those of held
+ * faces. */
 static brc_status cell_energies(brc_simulation *s, const brc_ring_list *list, int ring)
 {
     if (brc_is_published(s)) {

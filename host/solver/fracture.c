@@ -11,7 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_MEMBERS = 500, MOST_ROWS = 1 << 28 }; /* below SECOND_SHELL in kernels/fracture.cl; rows times 8 fit an int */
+enum {
+    MOST_MEMBERS = 500,
+    MOST_ROWS = 1 << 28
+}; /* below SECOND_SHELL in kernels/fracture.cl; rows times 8 fit an int */
 
 const char *brc_break_mode_name(int32_t mode)
 {
@@ -42,9 +45,12 @@ static double shear_limit(const brc_fracture *f, double *slope)
     return 0;
 }
 
-/* k of one body's beams; and nominal, what the test that the material's strength is from reads over the strength in tension, 1 where that is tension [-, both]. Refused by the body's own coordination
- * number; taken at that of the cube of 10 000 spheres with as many bonds inside, since a body's walls should no more change its strength than its stiffness. */
-static brc_status strength_ratio(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double *k, double *nominal)
+/* k of one body's beams; and nominal, what the test that the material's strength is from reads over the strength in
+ * tension, 1 where that is tension [-, both]. Refused by the body's own coordination number; taken at that of the cube
+ * of 10 000 spheres with as many bonds inside, since a body's walls should no more change its strength than its
+ * stiffness. */
+static brc_status strength_ratio(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double *k,
+                                 double *nominal)
 {
     const brc_domain *d = s->domain;
     const brc_strength_law *law = brc_strength_law_default();
@@ -57,24 +63,30 @@ static brc_status strength_ratio(brc_simulation *s, const brc_material *m, int32
     }
     BRC_TRY(brc_beam_body_of(s->context, d, body, &bonds));
     BRC_TRY(brc_strength_law_find(s->context, law, bonds.coordination, radius_ratio, k));
-    const double coordination = brc_beam_law_coordination(brc_beam_law_for(most > 0 ? (most - least) / (most + least) : 0), &bonds);
+    const double coordination =
+        brc_beam_law_coordination(brc_beam_law_for(most > 0 ? (most - least) / (most + least) : 0), &bonds);
     *k = brc_strength_law_ratio(law, coordination, radius_ratio);
     brc_log(s->context, BRC_LOG_INFO,
-            "material '%s': limits are the strengths over k = %.4f (%s, r_m %.4g, coordination number %.4g, as of cubes of 10 000 spheres with %.4g; %s: %.4f)", m->name, *k,
-            law->name, radius_ratio, bonds.coordination, coordination, brc_strength_law_published()->name,
+            "material '%s': limits are the strengths over k = %.4f (%s, r_m %.4g, coordination number %.4g, as of "
+            "cubes of 10 000 spheres with %.4g; %s: %.4f)",
+            m->name, *k, law->name, radius_ratio, bonds.coordination, coordination, brc_strength_law_published()->name,
             brc_strength_law_ratio(brc_strength_law_published(), coordination, radius_ratio));
     *nominal = 1;
     if (m->measured_by == BRC_STRENGTH_BY_TENSION) return BRC_OK;
     double disc;
     BRC_TRY(brc_strength_law_disc(s->context, coordination, radius_ratio, &disc));
     *nominal = m->measured_by == BRC_STRENGTH_BY_EITHER ? brc_strength_law_either(disc) : disc;
-    brc_log(s->context, BRC_LOG_INFO, "material '%s': discs of its packing split at %.4g of the strength in tension, which is taken as %.4g Pa for %.4g Pa measured by %s", m->name, disc,
-            m->tension / *nominal, m->tension, m->measured_by == BRC_STRENGTH_BY_EITHER ? "either test" : "them");
+    brc_log(s->context, BRC_LOG_INFO,
+            "material '%s': discs of its packing split at %.4g of the strength in tension, which is taken as %.4g Pa "
+            "for %.4g Pa measured by %s",
+            m->name, disc, m->tension / *nominal, m->tension,
+            m->measured_by == BRC_STRENGTH_BY_EITHER ? "either test" : "them");
     return BRC_OK;
 }
 
 /* Limits of the virial stress of one material in one body. */
-static brc_status limits_of(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double shear, double limit[3])
+static brc_status limits_of(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double shear,
+                            double limit[3])
 {
     double k = 1, nominal = 1;
     limit[0] = limit[1] = limit[2] = 0;
@@ -82,12 +94,15 @@ static brc_status limits_of(brc_simulation *s, const brc_material *m, int32_t bo
         limit[0] = m->tension, limit[1] = m->compression, limit[2] = shear;
         return BRC_OK;
     }
-    const bool by_law = (m->tension > 0 && !(m->beam_strength > 0)) || (m->compression > 0 && !(m->beam_compression > 0)) || shear > 0;
+    const bool by_law =
+        (m->tension > 0 && !(m->beam_strength > 0)) || (m->compression > 0 && !(m->beam_compression > 0)) || shear > 0;
     if (by_law) {
         BRC_TRY(strength_ratio(s, m, body, radius_ratio, &k, &nominal));
         if (s->scene->fracture.level != 1)
-            brc_log(s->context, BRC_LOG_WARNING, "fracture: the law for strength was fitted for level 1, the scene asks for level %d; give "
-                    "beam: {strength: ...} where that matters", (int)s->scene->fracture.level);
+            brc_log(s->context, BRC_LOG_WARNING,
+                    "fracture: the law for strength was fitted for level 1, the scene asks for level %d; give "
+                    "beam: {strength: ...} where that matters",
+                    (int)s->scene->fracture.level);
     }
     limit[0] = m->beam_strength > 0 ? m->beam_strength : m->tension / (k * nominal);
     limit[1] = m->beam_compression > 0 ? m->beam_compression : m->compression / k;
@@ -116,9 +131,12 @@ static brc_status find_limits(brc_simulation *s)
         count[b] += 1;
     }
     for (int64_t e = 0; e < d->n_elements; ++e) {
-        const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0, m = s->material_of_element[e], at = b * n_materials + m;
-        const double radius_ratio = brc_is_beams(s) && !known[at] ? brc_beam_of_element(s, e)->radius * (double)count[b] / mean[b] : 0;
-        if (!known[at]) BRC_TRY_OR(cleanup, limits_of(s, &s->scene->materials[m], b, radius_ratio, shear, pair + 3 * at));
+        const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0, m = s->material_of_element[e],
+                      at = b * n_materials + m;
+        const double radius_ratio =
+            brc_is_beams(s) && !known[at] ? brc_beam_of_element(s, e)->radius * (double)count[b] / mean[b] : 0;
+        if (!known[at])
+            BRC_TRY_OR(cleanup, limits_of(s, &s->scene->materials[m], b, radius_ratio, shear, pair + 3 * at));
         known[at] = true;
         memcpy(s->fracture->limit + 3 * e, pair + 3 * at, 3 * sizeof *pair);
     }
@@ -151,7 +169,8 @@ static brc_status upload_rows(brc_simulation *s)
         double *volume = record + (8 * (r / layout->slice) + 6) * layout->slice + r % layout->slice;
         volume[0] = e < 0 ? 1 : brc_fracture_volume(d, e);
         volume[layout->slice] = 1 / volume[0];
-        for (int c = 0; e >= 0 && c < 3; ++c) limit[3 * r + c] = s->fracture->limit[3 * (int64_t)e + c];
+        for (int c = 0; e >= 0 && c < 3; ++c)
+            limit[3 * r + c] = s->fracture->limit[3 * (int64_t)e + c];
     }
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->fracture->record, record, 8 * (int64_t)layout->n_rows));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->fracture->limits, limit, 3 * (int64_t)layout->n_rows));
@@ -161,35 +180,59 @@ cleanup:
     return status;
 }
 
-static bool breaks(const brc_wants *w) { return w->scene->has_fracture; }
-static bool of_cells(const brc_wants *w) { return !brc_wants_beams(w); }
+static bool breaks(const brc_wants *w)
+{
+    return w->scene->has_fracture;
+}
+static bool of_cells(const brc_wants *w)
+{
+    return !brc_wants_beams(w);
+}
 /* By a stress of elements: beams always, cells where the criterion asks for it. */
-static bool breaks_by_element(const brc_wants *w) { return breaks(w) && (brc_wants_beams(w) || w->by_element); }
-static bool weighted(const brc_wants *w) { return w->weighted || (w->softens && brc_wants_beams(w)); }
+static bool breaks_by_element(const brc_wants *w)
+{
+    return breaks(w) && (brc_wants_beams(w) || w->by_element);
+}
+static bool weighted(const brc_wants *w)
+{
+    return w->weighted || (w->softens && brc_wants_beams(w));
+}
 
 #define AT(member) BRC_FIELD_AT(brc_breaking, member)
 static const brc_field_row break_rows[] = {
-    {"break_step", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_step), "steps of breaks", "-", BRC_KEPT("fracture.step", BRC_KEEP_BROKEN)},
-    {"break_mode", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_mode), "modes of breaks", "-", BRC_KEPT("fracture.mode", BRC_KEEP_BROKEN)},
-    {"break_stress", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_stress), "stresses of breaks", "Pa", BRC_KEPT("fracture.stress", BRC_KEEP_BROKEN)},
-    {"break_energy", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_energy), "energies of breaks", "J", BRC_KEPT("fracture.energy", BRC_KEEP_BROKEN)},
-    {"lost", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost), "energy of broken bonds", "J", BRC_KEPT("fracture.lost", BRC_KEEP_ALL)},
-    {"gone", brc_each_row, 1, BRC_FIELD_STATE, of_cells, AT(gone), "lost bonds", "-", BRC_KEPT("cells.gone", BRC_KEEP_ALL)},
-    {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_beam_closure, AT(gone), "lost beams", "-", BRC_KEPT("closure.gone", BRC_KEEP_ALL)},
-    {"broken", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(broken), "broken bonds", "-", BRC_KEPT("fracture.broken", BRC_KEEP_ALL)},
+    {"break_step", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_step), "steps of breaks", "-",
+     BRC_KEPT("fracture.step", BRC_KEEP_BROKEN)},
+    {"break_mode", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_mode), "modes of breaks", "-",
+     BRC_KEPT("fracture.mode", BRC_KEEP_BROKEN)},
+    {"break_stress", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_stress), "stresses of breaks", "Pa",
+     BRC_KEPT("fracture.stress", BRC_KEEP_BROKEN)},
+    {"break_energy", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_energy), "energies of breaks", "J",
+     BRC_KEPT("fracture.energy", BRC_KEEP_BROKEN)},
+    {"lost", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost), "energy of broken bonds", "J",
+     BRC_KEPT("fracture.lost", BRC_KEEP_ALL)},
+    {"gone", brc_each_row, 1, BRC_FIELD_STATE, of_cells, AT(gone), "lost bonds", "-",
+     BRC_KEPT("cells.gone", BRC_KEEP_ALL)},
+    {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_beam_closure, AT(gone), "lost beams", "-",
+     BRC_KEPT("closure.gone", BRC_KEEP_ALL)},
+    {"broken", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(broken), "broken bonds", "-",
+     BRC_KEPT("fracture.broken", BRC_KEEP_ALL)},
 };
 BRC_FIELD_TABLE(brc_break_fields, "broken bonds", BRC_LIFE_RUN, breaks, break_rows);
 static const brc_field_row criterion_rows[] = {
-    {"record", brc_each_block, 8, BRC_FIELD_COEFF, brc_wants_beams, AT(record), "virial records", "J, m^3", BRC_KEPT("fracture.record", BRC_KEEP_ALL)},
+    {"record", brc_each_block, 8, BRC_FIELD_COEFF, brc_wants_beams, AT(record), "virial records", "J, m^3",
+     BRC_KEPT("fracture.record", BRC_KEEP_ALL)},
     {"record", brc_each_block, 8, BRC_FIELD_COEFF, of_cells, AT(record), "virial records", "J, m^3", BRC_NOT_KEPT},
     {"stress", brc_each_row, 6, BRC_FIELD_COEFF, NULL, AT(stress), "virial stresses", "Pa", BRC_NOT_KEPT},
     {"limits", brc_each_row, 3, BRC_FIELD_COEFF, NULL, AT(limits), "limits", "Pa", BRC_NOT_KEPT},
     {"choice", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(choice), "chosen bonds", "-", BRC_NOT_KEPT},
     {"measure", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses at failure", "Pa", BRC_NOT_KEPT},
     {"ease", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(ease), "bounds of stress", "-", BRC_NOT_KEPT},
-    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(weight), "bounds of stress", "m^3", BRC_KEPT("fracture.weight", BRC_KEEP_ALL)},
-    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, of_cells, AT(weight), "bounds of stress", "m^3", BRC_KEPT("cells.weight", BRC_KEEP_ALL)},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(reach), "bounds of stress", "m^3", BRC_KEPT("fracture.reach", BRC_KEEP_ALL)},
+    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(weight), "bounds of stress", "m^3",
+     BRC_KEPT("fracture.weight", BRC_KEEP_ALL)},
+    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, of_cells, AT(weight), "bounds of stress", "m^3",
+     BRC_KEPT("cells.weight", BRC_KEEP_ALL)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(reach), "bounds of stress", "m^3",
+     BRC_KEPT("fracture.reach", BRC_KEEP_ALL)},
     {"reach", brc_each_row, 1, BRC_FIELD_COEFF, of_cells, AT(reach), "bounds of stress", "m^3", BRC_NOT_KEPT},
     {"mark", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(mark), "groups that lose bonds", "-", BRC_NOT_KEPT},
     {"factor", brc_each_entry, 1, BRC_FIELD_COEFF, weighted, AT(factor), "factors of bonds", "-", BRC_NOT_KEPT},
@@ -249,11 +292,13 @@ brc_status brc_fracture_create_elements(brc_simulation *s, brc_buffer *branch)
 {
     brc_breaking *f = s->fracture;
     if (s->layout->n_rows >= MOST_ROWS)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: %d elements are more than the %d that can break", (int)s->layout->n_rows, MOST_ROWS);
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: %d elements are more than the %d that can break",
+                        (int)s->layout->n_rows, MOST_ROWS);
     if (s->scene->fracture.level == 2 && most_members(s->domain) > MOST_MEMBERS)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                        "fracture: some element may have %lld others within two shells, level 2 counts up to %d; use level 1%s",
-                        (long long)most_members(s->domain), MOST_MEMBERS, brc_is_beams(s) ? " or a lower coordination number" : "");
+        return BRC_FAIL(
+            s->context, BRC_BAD_INPUT,
+            "fracture: some element may have %lld others within two shells, level 2 counts up to %d; use level 1%s",
+            (long long)most_members(s->domain), MOST_MEMBERS, brc_is_beams(s) ? " or a lower coordination number" : "");
     f->branch = branch;
     f->drucker_prager = criterion(s) == BRC_CRITERION_DRUCKER_PRAGER;
     BRC_TRY(make_passes(s));
@@ -270,13 +315,15 @@ static void tell_unbreakable(brc_simulation *s)
     char names[256] = "";
     for (int32_t m = 0; m < scene->n_materials; ++m) {
         bool used = false;
-        for (int32_t b = 0; b < scene->n_bodies; ++b) used = used || brc_body_uses(&scene->bodies[b], m);
+        for (int32_t b = 0; b < scene->n_bodies; ++b)
+            used = used || brc_body_uses(&scene->bodies[b], m);
         const size_t at = strlen(names);
         if (used && !brc_material_breaks(scene, scene->model.kind, &scene->materials[m]))
             snprintf(names + at, sizeof names - at, "%s'%s'", at ? ", " : "", scene->materials[m].name);
     }
     if (names[0])
-        brc_log(s->context, BRC_LOG_INFO, "fracture: no strength%s is given for %s, which does not break; its bonds with others break by theirs",
+        brc_log(s->context, BRC_LOG_INFO,
+                "fracture: no strength%s is given for %s, which does not break; its bonds with others break by theirs",
                 brc_scene_breaks_by_bond(s->scene, s->scene->model.kind) ? " in tension" : "", names);
 }
 
@@ -370,7 +417,8 @@ brc_status brc_fracture_ratio(brc_simulation *s, double *out)
     BRC_TRY_OR(cleanup, find_stress(s));
     BRC_TRY_OR(cleanup, BRC_RUN(s->fracture->ratio, n, {"ratio", BRC_BUF(ratio)}));
     BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
-    for (int64_t e = 0; e < s->domain->n_elements; ++e) *out = fmax(*out, value[e]);
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        *out = fmax(*out, value[e]);
 cleanup:
     brc_buffer_free(&ratio);
     brc_memory_free(value);
@@ -380,10 +428,17 @@ cleanup:
 brc_status brc_simulation_failure_ratio(brc_simulation *s, double *out)
 {
     *out = 0;
-    if (!s->fracture) return BRC_FAIL(s->context, BRC_BAD_INPUT, "the scene has no `fracture`, so nothing limits its stress");
+    if (!s->fracture)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "the scene has no `fracture`, so nothing limits its stress");
     return s->fracture->cells ? brc_cell_breaks_failure_ratio(s, out) : brc_fracture_ratio(s, out);
 }
 
-double brc_simulation_element_strength(const brc_simulation *s, int64_t e) { return s->fracture && s->fracture->limit ? s->fracture->limit[3 * e] : 0; }
+double brc_simulation_element_strength(const brc_simulation *s, int64_t e)
+{
+    return s->fracture && s->fracture->limit ? s->fracture->limit[3 * e] : 0;
+}
 
-double brc_simulation_implied_fracture_energy(const brc_simulation *s) { return s->fracture ? s->fracture->implied_energy : 0; }
+double brc_simulation_implied_fracture_energy(const brc_simulation *s)
+{
+    return s->fracture ? s->fracture->implied_energy : 0;
+}

@@ -1,5 +1,5 @@
-/* What lets fracture_check pass by elements far from failure (kernels/fracture.cl): limits in common, volumes and marks; and the factors of bonds
- * that scatter or lie in an interface. */
+/* What lets fracture_check pass by elements far from failure (kernels/fracture.cl): limits in common, volumes and
+ * marks; and the factors of bonds that scatter or lie in an interface. */
 #include "beam_softening.h"
 #include "strengths.h"
 #include <math.h>
@@ -34,7 +34,8 @@ static brc_status upload_bounds(brc_simulation *s, const double *weakest)
     double *ease = NULL, *weight = NULL, smallest[3];
     brc_status status = BRC_OK;
     smallest_limits(s, smallest);
-    for (int c = 0; c < 3; ++c) f->scale[c] = smallest[c] > 0 ? 1 / smallest[c] : 0;
+    for (int c = 0; c < 3; ++c)
+        f->scale[c] = smallest[c] > 0 ? 1 / smallest[c] : 0;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ease, n, "bounds of stress"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &weight, n, "bounds of stress"));
     for (int64_t r = 0; r < n; ++r) {
@@ -44,7 +45,8 @@ static brc_status upload_bounds(brc_simulation *s, const double *weakest)
         if (e < 0) continue;
         ease[r] = MARGIN * (weakest ? weakest[r] : 1) * ease_of(f->limit + 3 * e, smallest);
         weight[r] = brc_fracture_volume(d, e);
-        for (int64_t h = d->row_start[e]; s->scene->fracture.level > 0 && h < d->row_start[e + 1]; ++h) weight[r] += brc_fracture_volume(d, d->neighbour[h]);
+        for (int64_t h = d->row_start[e]; s->scene->fracture.level > 0 && h < d->row_start[e + 1]; ++h)
+            weight[r] += brc_fracture_volume(d, d->neighbour[h]);
     }
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->ease, ease, n));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->weight, weight, n));
@@ -63,9 +65,11 @@ static brc_status upload_factors(brc_simulation *s, const double *factor_of_bond
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &factor, entries, "factors of bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, weakest, n, "factors of bonds"));
-    for (int64_t r = 0; r < n; ++r) (*weakest)[r] = INFINITY;
+    for (int64_t r = 0; r < n; ++r)
+        (*weakest)[r] = INFINITY;
     for (int64_t slice = 0; slice < n / s->layout->slice; ++slice)
-        for (int64_t k = (int64_t)s->layout->slot_start[slice] * s->layout->slice; k < (int64_t)s->layout->slot_start[slice + 1] * s->layout->slice; ++k) {
+        for (int64_t k = (int64_t)s->layout->slot_start[slice] * s->layout->slice;
+             k < (int64_t)s->layout->slot_start[slice + 1] * s->layout->slice; ++k) {
             const int64_t h = s->layout->half_edge[k], r = slice * s->layout->slice + k % s->layout->slice;
             factor[k] = h < 0 ? 1 : factor_of_bond[s->domain->bond[h]];
             if (h >= 0 && factor[k] < (*weakest)[r]) (*weakest)[r] = factor[k];

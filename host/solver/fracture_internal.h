@@ -7,8 +7,8 @@
 
 /* A stage, for the times of its steps. */
 typedef struct brc_break_span {
-    int64_t first_step; /* brc_fracture_moment when it began */
-    int64_t first_load; /* n_loads when it began */
+    int64_t first_step;           /* brc_fracture_moment when it began */
+    int64_t first_load;           /* n_loads when it began */
     double first_time, time_step; /* [s]; time_step 0: static */
     int32_t stage;
 } brc_break_span;
@@ -16,26 +16,29 @@ typedef struct brc_break_span {
 /* Everything that exists only in scenes with fracture. */
 struct brc_breaking {
     brc_pass *force, *stress_pass, *stress_second, *check, *choose, *ratio, *break_pass;
-    brc_buffer *record, *stress, *limits, *choice, *measure;             /* kernels/fracture.cl */
-    brc_buffer *break_step, *break_mode, *break_stress, *break_energy;   /* [n_slots][C] */
-    brc_buffer *lost, *broken;                                           /* [n_rows] */
-    brc_buffer *gone;                                                    /* [n_rows] bonds that bear nothing any more; NULL: those that are broken */
-    brc_buffer *reach, *ease, *weight, *mark;                            /* kernels/fracture.cl */
-    brc_buffer *branch;                                                  /* [n_slots][3][C] of its elements' bonds; borrowed */
-    brc_buffer *factor, *weakest;                                        /* only if weighted */
-    bool weighted;     /* bonds differ in strength */
-    double scale[3];   /* 1 / smallest limit of tension, compression, shear; 0: none [1/Pa] */
-    double *limit;     /* [n_elements][3] host */
+    brc_buffer *record, *stress, *limits, *choice, *measure;           /* kernels/fracture.cl */
+    brc_buffer *break_step, *break_mode, *break_stress, *break_energy; /* [n_slots][C] */
+    brc_buffer *lost, *broken;                                         /* [n_rows] */
+    brc_buffer *gone; /* [n_rows] bonds that bear nothing any more; NULL: those that are broken */
+    brc_buffer *reach, *ease, *weight, *mark; /* kernels/fracture.cl */
+    brc_buffer *branch;                       /* [n_slots][3][C] of its elements' bonds; borrowed */
+    brc_buffer *factor, *weakest;             /* only if weighted */
+    bool weighted;                            /* bonds differ in strength */
+    double scale[3];                          /* 1 / smallest limit of tension, compression, shear; 0: none [1/Pa] */
+    double *limit;                            /* [n_elements][3] host */
     double slope, friction;
     bool drucker_prager;
-    struct brc_beam_softening *beam_softening; /* beams that open against cohesion (beam_softening.c); NULL: none does */
-    struct brc_beam_closure *beam_closure;     /* broken beams that bear (beam_closure.c); NULL: none does */
-    struct brc_cell_breaks *cells; /* models of cells (cell_breaks.c), which use the arrays of entries and `lost`, `broken` */
+    struct brc_beam_softening
+        *beam_softening;                   /* beams that open against cohesion (beam_softening.c); NULL: none does */
+    struct brc_beam_closure *beam_closure; /* broken beams that bear (beam_closure.c); NULL: none does */
+    struct brc_cell_breaks
+        *cells; /* models of cells (cell_breaks.c), which use the arrays of entries and `lost`, `broken` */
     int n_spans;
     brc_break_span *spans;
-    double implied_energy; /* cells: what a crack costs per area by strength and cells, mean of sigma_f^2 L / (2 E) over bonds that break at once [J/m^2] */
-    int64_t n_loads;   /* events of static stages so far */
-    double *load;      /* [n_loads] their load factors [-] */
+    double implied_energy; /* cells: what a crack costs per area by strength and cells, mean of sigma_f^2 L / (2 E) over
+                              bonds that break at once [J/m^2] */
+    int64_t n_loads;       /* events of static stages so far */
+    double *load;          /* [n_loads] their load factors [-] */
     int64_t n_events;
     brc_break *events; /* [n_events] as of the last call */
 };
@@ -47,7 +50,8 @@ brc_scope brc_scope_of_criterion(const brc_simulation *s, const brc_scope *outer
 /* Arrays, limits and kernels; refuses models and materials that cannot break. */
 brc_status brc_fracture_create(brc_simulation *s);
 void brc_fracture_free(brc_simulation *s);
-/* Criteria of elements: limits, records and kernels, for beams and cells. branch: borrowed for as long as the simulation lives. */
+/* Criteria of elements: limits, records and kernels, for beams and cells. branch: borrowed for as long as the
+ * simulation lives. */
 brc_status brc_fracture_create_elements(brc_simulation *s, brc_buffer *branch);
 /* Twice the volume that an element's stress stands for, with its share of the voids [m^3]. */
 double brc_fracture_volume(const brc_domain *domain, int64_t e);

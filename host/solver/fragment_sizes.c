@@ -15,7 +15,8 @@ static int by_mass(const void *a, const void *b)
     return (x->index > y->index) - (x->index < y->index);
 }
 
-brc_status brc_fragment_sizes_of(brc_context *context, int64_t n, const brc_fragment *fragment, brc_fragment_sizes *out, double *below)
+brc_status brc_fragment_sizes_of(brc_context *context, int64_t n, const brc_fragment *fragment, brc_fragment_sizes *out,
+                                 double *below)
 {
     size *order = NULL;
     double square = 0, sum = 0;
@@ -30,7 +31,8 @@ brc_status brc_fragment_sizes_of(brc_context *context, int64_t n, const brc_frag
         sum += order[i].mass;
         square += order[i].mass * order[i].mass;
         if (i + 1 < n && order[i + 1].mass == order[i].mass) continue; /* equal ones have the same share */
-        for (; below && first <= i; ++first) below[order[first].index] = i + 1 == n ? 1 : sum / out->mass;
+        for (; below && first <= i; ++first)
+            below[order[first].index] = i + 1 == n ? 1 : sum / out->mass;
         first = i + 1;
     }
     if (n > 0) {

@@ -3,7 +3,8 @@
 #include "simulation_internal.h"
 #include "sym3.h"
 
-/* Directions with less than this share of the largest moment of inertia count as without: a row of points about itself. */
+/* Directions with less than this share of the largest moment of inertia count as without: a row of points about
+ * itself. */
 static const double no_inertia = 1e-12;
 
 /* State of the elements by id. */
@@ -11,7 +12,7 @@ typedef struct elements {
     double *mass, *inertia;     /* [n]; inertia NULL: points */
     double *place, *velocity;   /* [n][3] */
     double *orientation, *spin; /* [n][4], [n][3] or NULL */
-    int32_t *fragment; /* -1: of none */
+    int32_t *fragment;          /* -1: of none */
 } elements;
 
 static brc_status read_elements(brc_simulation *s, elements *e)
@@ -22,7 +23,8 @@ static brc_status read_elements(brc_simulation *s, elements *e)
     BRC_TRY(BRC_ALLOCATE(s->context, &e->velocity, 3 * n, "fragments"));
     BRC_TRY(brc_state_from_rows(s, s->mass, e->mass, 1));
     BRC_TRY(brc_simulation_displacement(s, e->place));
-    for (int64_t k = 0; k < 3 * n; ++k) e->place[k] += s->domain->position[k];
+    for (int64_t k = 0; k < 3 * n; ++k)
+        e->place[k] += s->domain->position[k];
     BRC_TRY(brc_simulation_velocity(s, e->velocity));
     if (!brc_turns(s)) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &e->inertia, n, "fragments"));
@@ -66,7 +68,8 @@ static void sum_momenta(const elements *e, int64_t n_elements, int64_t n, brc_fr
     }
 }
 
-/* Inertia, and the angular momentum about the centre in `spin` for now. Velocities count from the centre's, so that nothing cancels. */
+/* Inertia, and the angular momentum about the centre in `spin` for now. Velocities count from the centre's, so that
+ * nothing cancels. */
 static void sum_moments(const elements *e, int64_t n_elements, brc_fragment *list)
 {
     for (int64_t k = 0; k < n_elements; ++k) {
@@ -111,7 +114,8 @@ static void sum_up(const elements *e, int64_t n_elements, int64_t n, brc_fragmen
 {
     sum_momenta(e, n_elements, n, list);
     sum_moments(e, n_elements, list);
-    for (int64_t i = 0; i < n; ++i) turn(&list[i]);
+    for (int64_t i = 0; i < n; ++i)
+        turn(&list[i]);
 }
 
 brc_status brc_simulation_set_motion(brc_simulation *s, int32_t set, brc_fragment *out)
@@ -121,8 +125,10 @@ brc_status brc_simulation_set_motion(brc_simulation *s, int32_t set, brc_fragmen
     brc_status status = BRC_OK;
     *out = (brc_fragment){0};
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &e.fragment, n_elements, "motion of a set"));
-    for (int64_t k = 0; k < n_elements; ++k) e.fragment[k] = set < 0 ? 0 : -1;
-    for (int64_t k = 0; set >= 0 && k < s->domain->sets[set].n_members; ++k) e.fragment[s->domain->sets[set].members[k]] = 0;
+    for (int64_t k = 0; k < n_elements; ++k)
+        e.fragment[k] = set < 0 ? 0 : -1;
+    for (int64_t k = 0; set >= 0 && k < s->domain->sets[set].n_members; ++k)
+        e.fragment[s->domain->sets[set].members[k]] = 0;
     BRC_TRY_OR(cleanup, read_elements(s, &e));
     sum_up(&e, n_elements, 1, out);
 cleanup:

@@ -1,4 +1,5 @@
-/* Device arrays that depend on the domain and the materials alone: connectivity, face geometry, least squares, masses. */
+/* Device arrays that depend on the domain and the materials alone: connectivity, face geometry, least squares,
+ * masses. */
 #include "consistent.h"
 #include "simulation_internal.h"
 #include "sym3.h"
@@ -9,18 +10,20 @@
  * squares. Far below what a boundary cell of an unrelaxed grid shows (0.07/0.57), far above
  * rounding: only flat or lone elements meet it. */
 static const double span_threshold = 1e-6;
-/* The same where coefficients are single: rounding of the gradient in the weakest direction is amplified by the ratio of the spans, and what it leaves
- * of a turned element's strain heats the body. An element of ratio 5e-4 doubled its energy in 1e5 steps (docs/notebook/stability.md). */
+/* The same where coefficients are single: rounding of the gradient in the weakest direction is amplified by the ratio
+ * of the spans, and what it leaves of a turned element's strain heats the body. An element of ratio 5e-4 doubled its
+ * energy in 1e5 steps (docs/notebook/stability.md). */
 static const double single_span_threshold = 1e-2;
 
 static void branch_of(const brc_domain *d, int64_t h, int32_t i, double branch[3])
 {
     const int64_t j = d->neighbour[h];
-    for (int c = 0; c < 3; ++c) branch[c] = d->position[3 * j + c] - d->position[3 * (int64_t)i + c];
+    for (int c = 0; c < 3; ++c)
+        branch[c] = d->position[3 * j + c] - d->position[3 * (int64_t)i + c];
 }
 
-static void half_edge_geometry(const brc_domain *d, int64_t h, int32_t i, double branch[3], double area[3], double offset[3],
-                               double *ratio)
+static void half_edge_geometry(const brc_domain *d, int64_t h, int32_t i, double branch[3], double area[3],
+                               double offset[3], double *ratio)
 {
     const int64_t j = d->neighbour[h];
     double length = 0, surface = 0;
@@ -39,7 +42,8 @@ typedef enum row_kind { ROW_AREA, ROW_OFFSET, ROW_RATIO, ROW_BRANCH, ROW_SURFACE
 static brc_status upload_rows(brc_simulation *s, brc_buffer *buffer, row_kind kind)
 {
     const brc_layout *layout = s->layout;
-    const int slice = layout->slice, width = kind == ROW_RATIO || kind == ROW_SURFACE || kind == ROW_INVERSE_LENGTH ? 1 : 3;
+    const int slice = layout->slice,
+              width = kind == ROW_RATIO || kind == ROW_SURFACE || kind == ROW_INVERSE_LENGTH ? 1 : 3;
     double *rows = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_slots * slice * width, "neighbour rows"));
 #pragma omp parallel for schedule(static)
@@ -54,14 +58,17 @@ static brc_status upload_rows(brc_simulation *s, brc_buffer *buffer, row_kind ki
                     branch_of(s->domain, h, layout->element_of_row[block * slice + l], branch);
                     inverse = 1 / sqrt(branch[0] * branch[0] + branch[1] * branch[1] + branch[2] * branch[2]);
                 } else if (h >= 0)
-                    half_edge_geometry(s->domain, h, layout->element_of_row[block * slice + l], branch, area, offset, &ratio);
+                    half_edge_geometry(s->domain, h, layout->element_of_row[block * slice + l], branch, area, offset,
+                                       &ratio);
                 if (h >= 0 && (kind == ROW_AREA || kind == ROW_RATIO))
                     brc_consistent_bond(s, layout->element_of_row[block * slice + l], h, area, &ratio);
                 const double surface = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
                 const double *from = kind == ROW_AREA ? area : kind == ROW_OFFSET ? offset : branch;
                 for (int c = 0; c < width; ++c)
-                    rows[((int64_t)slot * width + c) * slice + l] =
-                        kind == ROW_RATIO ? ratio : kind == ROW_SURFACE ? surface : kind == ROW_INVERSE_LENGTH ? inverse : from[c];
+                    rows[((int64_t)slot * width + c) * slice + l] = kind == ROW_RATIO            ? ratio
+                                                                    : kind == ROW_SURFACE        ? surface
+                                                                    : kind == ROW_INVERSE_LENGTH ? inverse
+                                                                                                 : from[c];
             }
     const brc_status status = brc_upload_coeff(s, buffer, rows, layout->n_slots * slice * width);
     brc_memory_free(rows);
@@ -80,7 +87,8 @@ static brc_status upload_connectivity(brc_simulation *s)
         for (int32_t slot = layout->slot_start[block]; slot < layout->slot_start[block + 1]; ++slot)
             for (int l = 0; l < slice; ++l) {
                 const int32_t h = layout->half_edge[(int64_t)slot * slice + l];
-                rows[(int64_t)slot * slice + l] = h < 0 ? block * slice + l : layout->row_of_element[s->domain->neighbour[h]];
+                rows[(int64_t)slot * slice + l] =
+                    h < 0 ? block * slice + l : layout->row_of_element[s->domain->neighbour[h]];
             }
     const brc_status status = brc_upload_int(s->neighbour, rows, layout->n_slots * slice);
     brc_memory_free(rows);
@@ -110,7 +118,8 @@ static brc_status upload_inverse_shapes(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
     const int slice = layout->slice;
-    const double least_span = brc_device_get_precision(s->device) == BRC_DOUBLE ? span_threshold : single_span_threshold;
+    const double least_span =
+        brc_device_get_precision(s->device) == BRC_DOUBLE ? span_threshold : single_span_threshold;
     double *blocks = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &blocks, (int64_t)layout->n_rows * 6, "least-squares matrices"));
     int64_t flat = 0;
@@ -123,13 +132,15 @@ static brc_status upload_inverse_shapes(brc_simulation *s)
         const int spanned = brc_sym3_pseudo_inverse(a, least_span, inverse);
         flat += spanned < 3;
         if (spanned == 3 && !brc_is_published(s)) brc_consistent_inverse(s, e, inverse);
-        for (int c = 0; c < 6; ++c) blocks[((int64_t)(r / slice) * 6 + c) * slice + r % slice] = inverse[c];
+        for (int c = 0; c < 6; ++c)
+            blocks[((int64_t)(r / slice) * 6 + c) * slice + r % slice] = inverse[c];
     }
     if (flat)
-        brc_log(s->context, BRC_LOG_WARNING,
-                "%lld of %lld elements have neighbours that do not span space; their gradient is taken over the directions "
-                "they do span",
-                (long long)flat, (long long)s->domain->n_elements);
+        brc_log(
+            s->context, BRC_LOG_WARNING,
+            "%lld of %lld elements have neighbours that do not span space; their gradient is taken over the directions "
+            "they do span",
+            (long long)flat, (long long)s->domain->n_elements);
     const brc_status status = brc_upload_coeff(s, s->inv_shape, blocks, (int64_t)layout->n_rows * 6);
     brc_memory_free(blocks);
     return status;
@@ -141,8 +152,10 @@ static brc_status upload_masses(brc_simulation *s)
     const brc_layout *layout = s->layout;
     double *values = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &values, layout->n_rows > d->n_elements ? layout->n_rows : d->n_elements, "masses"));
-    for (int64_t e = 0; e < d->n_elements; ++e) values[e] = d->volume[e] * s->elastic[s->material_of_element[e]].density;
+    BRC_TRY(
+        BRC_ALLOCATE(s->context, &values, layout->n_rows > d->n_elements ? layout->n_rows : d->n_elements, "masses"));
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        values[e] = d->volume[e] * s->elastic[s->material_of_element[e]].density;
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->mass, values, 1, 1));
     if (s->scene->has_gravity) { /* padding has a mass to be divided by; falling, it would have an energy of its own */
         BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->weight, values, 1, 0));
@@ -182,7 +195,8 @@ static brc_status upload_materials(brc_simulation *s)
         const int32_t e = layout->element_of_row[r];
         const brc_elastic *m = s->elastic + (e < 0 ? 0 : s->material_of_element[e]);
         const double four[4] = {m->lambda, m->mu, m->k, m->ell};
-        for (int c = 0; c < 4; ++c) blocks[((int64_t)(r / slice) * 4 + c) * slice + r % slice] = four[c];
+        for (int c = 0; c < 4; ++c)
+            blocks[((int64_t)(r / slice) * 4 + c) * slice + r % slice] = four[c];
         modulus[r] = m->k;
         ell[r] = m->ell;
         lame[3 * (int64_t)r] = m->lambda;
@@ -204,11 +218,26 @@ cleanup:
     return status;
 }
 
-static bool many_dlsm(const brc_wants *w) { return w->many_materials && brc_wants_dlsm(w); }
-static bool many_published(const brc_wants *w) { return w->many_materials && brc_wants_published(w); }
-static bool many_beams(const brc_wants *w) { return w->many_materials && brc_wants_beams(w); }
-static bool of_cells(const brc_wants *w) { return !brc_wants_beams(w); }
-static bool gravity(const brc_wants *w) { return w->scene->has_gravity; }
+static bool many_dlsm(const brc_wants *w)
+{
+    return w->many_materials && brc_wants_dlsm(w);
+}
+static bool many_published(const brc_wants *w)
+{
+    return w->many_materials && brc_wants_published(w);
+}
+static bool many_beams(const brc_wants *w)
+{
+    return w->many_materials && brc_wants_beams(w);
+}
+static bool of_cells(const brc_wants *w)
+{
+    return !brc_wants_beams(w);
+}
+static bool gravity(const brc_wants *w)
+{
+    return w->scene->has_gravity;
+}
 
 #define AT(member) BRC_FIELD_AT(brc_simulation, member)
 static const brc_field_row rows[] = {
@@ -218,20 +247,30 @@ static const brc_field_row rows[] = {
     {"mass", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses", "kg", BRC_NOT_KEPT},
     {"weight", brc_each_row, 1, BRC_FIELD_STATE, gravity, AT(weight), "masses in gravity", "kg", BRC_NOT_KEPT},
     {"volume", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_published, AT(volume), "volumes", "m^3", BRC_NOT_KEPT},
-    {"inertia", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_turning, AT(inertia), "moments of inertia", "kg m^2", BRC_NOT_KEPT},
-    {"inv_volume", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(inv_volume), "inverse volumes", "1/m^3", BRC_NOT_KEPT},
-    {"inv_shape", brc_each_block, 6, BRC_FIELD_COEFF, of_cells, AT(inv_shape), "least-squares matrices", "1/m^3", BRC_KEPT("cells.inverse_shape", BRC_KEEP_OWNERS)},
-    {"area", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_dlsm, AT(area), "area vectors", "m^2", BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
+    {"inertia", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_turning, AT(inertia), "moments of inertia", "kg m^2",
+     BRC_NOT_KEPT},
+    {"inv_volume", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(inv_volume), "inverse volumes", "1/m^3",
+     BRC_NOT_KEPT},
+    {"inv_shape", brc_each_block, 6, BRC_FIELD_COEFF, of_cells, AT(inv_shape), "least-squares matrices", "1/m^3",
+     BRC_KEPT("cells.inverse_shape", BRC_KEEP_OWNERS)},
+    {"area", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_dlsm, AT(area), "area vectors", "m^2",
+     BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
     {"offset", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_dlsm, AT(offset), "face offsets", "m", BRC_NOT_KEPT},
-    {"ratio", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(ratio), "length over area", "1/m", BRC_KEPT("cells.ratio", BRC_KEEP_BROKEN)},
+    {"ratio", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(ratio), "length over area", "1/m",
+     BRC_KEPT("cells.ratio", BRC_KEEP_BROKEN)},
     {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_turning, AT(offset), "branches", "m", BRC_NOT_KEPT},
-    {"area", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_published, AT(area), "face areas", "m^2", BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
-    {"inv_length", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(ratio), "inverse lengths", "1/m", BRC_KEPT("fracture.inverse_length", BRC_KEEP_BROKEN)},
-    {"material", brc_each_row, 4, BRC_FIELD_COEFF, many_dlsm, AT(material), "materials of elements", "Pa, -", BRC_NOT_KEPT},
+    {"area", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_published, AT(area), "face areas", "m^2",
+     BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
+    {"inv_length", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(ratio), "inverse lengths", "1/m",
+     BRC_KEPT("fracture.inverse_length", BRC_KEEP_BROKEN)},
+    {"material", brc_each_row, 4, BRC_FIELD_COEFF, many_dlsm, AT(material), "materials of elements", "Pa, -",
+     BRC_NOT_KEPT},
     {"modulus", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(modulus), "stabilisation moduli", "Pa", BRC_NOT_KEPT},
     {"ell_of", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(ell_of), "compaction ratios", "-", BRC_NOT_KEPT},
-    {"lame_of", brc_each_row, 3, BRC_FIELD_COEFF, many_published, AT(lame_of), "materials of elements", "Pa", BRC_NOT_KEPT},
-    {"beam_of", brc_each_row, 3, BRC_FIELD_COEFF, many_beams, AT(beam_of), "beams of elements", "N, N m^2", BRC_NOT_KEPT},
+    {"lame_of", brc_each_row, 3, BRC_FIELD_COEFF, many_published, AT(lame_of), "materials of elements", "Pa",
+     BRC_NOT_KEPT},
+    {"beam_of", brc_each_row, 3, BRC_FIELD_COEFF, many_beams, AT(beam_of), "beams of elements", "N, N m^2",
+     BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_geometry_fields, "geometry", BRC_LIFE_RUN, NULL, rows);
 
@@ -256,7 +295,10 @@ brc_status brc_geometry_create(brc_simulation *s)
     return upload_rows(s, s->ratio, ROW_RATIO);
 }
 
-void brc_geometry_free(brc_simulation *s) { brc_fields_free(&brc_geometry_fields, s); }
+void brc_geometry_free(brc_simulation *s)
+{
+    brc_fields_free(&brc_geometry_fields, s);
+}
 
 brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out)
 {
@@ -274,7 +316,8 @@ brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out)
                 half_edge_geometry(d, h, (int32_t)e, branch, area, offset, &ratio);
                 double n[3];
                 const double surface = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
-                for (int c = 0; c < 3; ++c) n[c] = area[c] / surface;
+                for (int c = 0; c < 3; ++c)
+                    n[c] = area[c] / surface;
                 sum[0] += (m->mu + along * n[0] * n[0]) / ratio;
                 sum[1] += (m->mu + along * n[1] * n[1]) / ratio;
                 sum[2] += (m->mu + along * n[2] * n[2]) / ratio;

@@ -1,5 +1,5 @@
-/* Restarted GMRES for operators that are not symmetric (dlsm-published). The basis lives on the host; each iteration sends
- * one vector to the device and fetches one back. */
+/* Restarted GMRES for operators that are not symmetric (dlsm-published). The basis lives on the host; each iteration
+ * sends one vector to the device and fetches one back. */
 #include "multigrid/multigrid.h"
 #include <math.h>
 #include <string.h>
@@ -9,17 +9,20 @@ enum { RESTART = 80 };
 static double dot(const double *a, const double *b, int64_t n)
 {
     double sum = 0;
-    for (int64_t i = 0; i < n; ++i) sum += a[i] * b[i];
+    for (int64_t i = 0; i < n; ++i)
+        sum += a[i] * b[i];
     return sum;
 }
 
 static void add(double factor, const double *a, double *b, int64_t n)
 {
-    for (int64_t i = 0; i < n; ++i) b[i] += factor * a[i];
+    for (int64_t i = 0; i < n; ++i)
+        b[i] += factor * a[i];
 }
 
 /* z = M x: multigrid on the device, or a symmetric 3 x 3 block per row. */
-static brc_status precondition(brc_simulation *s, brc_solve_vectors *v, const double *blocks, const double *from, double *z, int64_t rows)
+static brc_status precondition(brc_simulation *s, brc_solve_vectors *v, const double *blocks, const double *from,
+                               double *z, int64_t rows)
 {
     if (v->preconditioner.multigrid) {
         BRC_TRY(brc_upload_state(s, v->p.move, from, 3 * rows));
@@ -44,12 +47,14 @@ static brc_status multiply(brc_simulation *s, brc_solve_vectors *v, const double
     BRC_TRY(brc_loads_zero_imposed(s, v->p.move));
     BRC_TRY(brc_statics_apply(s, v));
     BRC_TRY(brc_download(s, v->kp.move, brc_precision_state_bytes(brc_device_get_precision(s->device)), out, n));
-    for (int64_t i = 0; i < n; ++i) out[i] = -out[i];
+    for (int64_t i = 0; i < n; ++i)
+        out[i] = -out[i];
     return BRC_OK;
 }
 
 /* From the start, without the motions that multigrid has put into x. */
-static brc_status begin_with_blocks(brc_simulation *s, brc_solve_vectors *v, int64_t n, double *x, double *r, double *norm)
+static brc_status begin_with_blocks(brc_simulation *s, brc_solve_vectors *v, int64_t n, double *x, double *r,
+                                    double *norm)
 {
     brc_preconditioner_give_up(s, v);
     memset(x, 0, (size_t)n * sizeof *x);
@@ -58,7 +63,8 @@ static brc_status begin_with_blocks(brc_simulation *s, brc_solve_vectors *v, int
     return BRC_OK;
 }
 
-brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int32_t most, brc_progress *progress, double *left)
+brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int32_t most, brc_progress *progress,
+                     double *left)
 {
     const int64_t rows = s->layout->n_rows, n = 3 * rows;
     const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
@@ -74,7 +80,8 @@ brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int
     BRC_TRY_OR(cleanup, brc_download(s, v->r.move, bytes, r, n));
     double norm = sqrt(dot(r, r, n));
     for (int32_t done = 0; done < most && norm > target && !s->left_off;) {
-        for (int64_t i = 0; i < n; ++i) basis[i] = r[i] / norm;
+        for (int64_t i = 0; i < n; ++i)
+            basis[i] = r[i] / norm;
         memset(g, 0, sizeof g);
         g[0] = norm;
         int k = 0;
@@ -106,16 +113,19 @@ brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int
                 goto cleanup;
             }
             if (length > 0)
-                for (int64_t i = 0; i < n; ++i) next[i] /= length;
+                for (int64_t i = 0; i < n; ++i)
+                    next[i] /= length;
         }
         if (k == 0) break;
         for (int i = k - 1; i >= 0; --i) {
             y[i] = g[i];
-            for (int j = i + 1; j < k; ++j) y[i] -= h[i][j] * y[j];
+            for (int j = i + 1; j < k; ++j)
+                y[i] -= h[i][j] * y[j];
             y[i] /= h[i][i];
         }
         memset(r, 0, (size_t)n * sizeof *r);
-        for (int i = 0; i < k; ++i) add(y[i], basis + (int64_t)i * n, r, n);
+        for (int i = 0; i < k; ++i)
+            add(y[i], basis + (int64_t)i * n, r, n);
         BRC_TRY_OR(cleanup, precondition(s, v, blocks, r, z, rows));
         add(1, z, x, n);
         /* true residual */
@@ -125,8 +135,10 @@ brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int
         const double now = sqrt(dot(r, r, n));
         const bool stands = !(now < (v->preconditioner.multigrid ? 0.9 : 0.9999) * norm);
         norm = now;
-        if (stands && norm > target && v->preconditioner.multigrid) BRC_TRY_OR(cleanup, begin_with_blocks(s, v, n, x, r, &norm));
-        else if (stands) break; /* keep what there is */
+        if (stands && norm > target && v->preconditioner.multigrid)
+            BRC_TRY_OR(cleanup, begin_with_blocks(s, v, n, x, r, &norm));
+        else if (stands)
+            break; /* keep what there is */
     }
     *left = norm;
     BRC_TRY_OR(cleanup, brc_upload_state(s, v->x.move, x, n));

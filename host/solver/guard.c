@@ -5,15 +5,17 @@
 #include <string.h>
 
 enum { BLOCK = 1024 }; /* rows of a work-item of guard_look */
-/* A look reads six numbers an element, 2 % of what a step moves: every 16 steps it costs a thousandth. Waiting for the device and reading a number a
- * block is worth some microseconds, a ledger about a step: every 256 and every 1024 steps both stay below a hundredth (docs/notebook/stability.md). */
+/* A look reads six numbers an element, 2 % of what a step moves: every 16 steps it costs a thousandth. Waiting for the
+ * device and reading a number a block is worth some microseconds, a ledger about a step: every 256 and every 1024 steps
+ * both stay below a hundredth (docs/notebook/stability.md). */
 static const int64_t look_every = 16, read_every = 256, ledger_every = 1024;
-/* An element faster than this many times the wave speed and the fastest element at the start of the stage is no physics any more. */
+/* An element faster than this many times the wave speed and the fastest element at the start of the stage is no physics
+ * any more. */
 static const double most_speeds = 30;
 /* Beyond any length [m] and spin [rad/s], within what single precision can square. */
 static const double endless = 1e18;
-/* Energy may exceed what was put in by this factor before the run is stopped as running away. Verlet's own oscillation is
- * some percent near the limit (docs/notebook/stability.md), so 100 is reached only by growth. */
+/* Energy may exceed what was put in by this factor before the run is stopped as running away. Verlet's own oscillation
+ * is some percent near the limit (docs/notebook/stability.md), so 100 is reached only by growth. */
 static const double runaway = 100;
 
 struct brc_guard_state {
@@ -26,7 +28,10 @@ struct brc_guard_state {
     brc_guard_report report;
 };
 
-static int64_t each_block(const brc_wants *w) { return (w->layout->n_rows + BLOCK - 1) / BLOCK; }
+static int64_t each_block(const brc_wants *w)
+{
+    return (w->layout->n_rows + BLOCK - 1) / BLOCK;
+}
 
 #define AT(member) BRC_FIELD_AT(struct brc_guard_state, member)
 static const brc_field_row rows[] = {
@@ -49,7 +54,8 @@ void brc_guard_free(brc_simulation *s)
     s->guard = NULL;
 }
 
-/* Wave speed of the stiffest material that elements are made of (strikers may have others), and the fastest element now [m/s]. */
+/* Wave speed of the stiffest material that elements are made of (strikers may have others), and the fastest element now
+ * [m/s]. */
 static brc_status speeds(brc_simulation *s, double *wave, double *fastest)
 {
     const int64_t n = s->domain->n_elements;
@@ -61,7 +67,9 @@ static brc_status speeds(brc_simulation *s, double *wave, double *fastest)
     }
     BRC_TRY(BRC_ALLOCATE(s->context, &v, 3 * n, "velocities"));
     const brc_status status = brc_state_from_rows(s, s->velocity, v, 3);
-    for (int64_t e = 0; e < n; ++e) *fastest = fmax(*fastest, sqrt(v[3 * e] * v[3 * e] + v[3 * e + 1] * v[3 * e + 1] + v[3 * e + 2] * v[3 * e + 2]));
+    for (int64_t e = 0; e < n; ++e)
+        *fastest =
+            fmax(*fastest, sqrt(v[3 * e] * v[3 * e] + v[3 * e + 1] * v[3 * e + 1] + v[3 * e + 2] * v[3 * e + 2]));
     brc_memory_free(v);
     return status;
 }
@@ -131,7 +139,8 @@ static brc_status find_element(brc_simulation *s, int64_t *element, int64_t *loo
     *look = 0;
     BRC_TRY(brc_buffer_read(g->first, 0, g->found, g->n_blocks * (int64_t)sizeof *g->found));
     int any = 0;
-    for (int32_t b = 0; b < g->n_blocks; ++b) any |= g->found[b] >= 0;
+    for (int32_t b = 0; b < g->n_blocks; ++b)
+        any |= g->found[b] >= 0;
     if (!any) return BRC_OK;
     BRC_TRY(brc_buffer_read(g->when, 0, g->found + g->n_blocks, g->n_blocks * (int64_t)sizeof *g->found));
     for (int32_t b = 0; b < g->n_blocks; ++b) {
@@ -161,18 +170,24 @@ static brc_status fastest_element(brc_simulation *s, int64_t *element)
     return status;
 }
 
-/* look: when the device saw it, -1 where the ledger tells; off: the ledger's closure where that is what is wrong, else 0. */
+/* look: when the device saw it, -1 where the ledger tells; off: the ledger's closure where that is what is wrong, else
+ * 0. */
 static brc_status stop(brc_simulation *s, bool several, const char *what, int64_t element, int64_t look, double off)
 {
     char where[900] = "", cause[700] = "", seen[120] = "";
     if (element >= 0) brc_guard_tell_element(s, element, where, sizeof where);
-    if (look < 0) snprintf(seen, sizeof seen, " The fastest:");
+    if (look < 0)
+        snprintf(seen, sizeof seen, " The fastest:");
     else
-        snprintf(seen, sizeof seen, " First seen between steps %lld and %lld:", (long long)(look > 0 ? (look - 1) * s->guard->look_every : 0), (long long)(look * s->guard->look_every));
+        snprintf(seen, sizeof seen, " First seen between steps %lld and %lld:",
+                 (long long)(look > 0 ? (look - 1) * s->guard->look_every : 0),
+                 (long long)(look * s->guard->look_every));
     brc_guard_tell_cause(s, element, off, cause, sizeof cause);
-    return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "stage '%s' stopped at step %lld, t = %.6g s: %s%s%s.%s%s%s Likely cause: %s", brc_current_stage(s)->name,
-                    (long long)s->step, s->time, what, several ? " in the bodies of model " : "", several ? brc_model_name(s->scene->model.kind) : "", element >= 0 ? seen : "",
-                    element >= 0 ? " " : "", where, cause);
+    return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
+                    "stage '%s' stopped at step %lld, t = %.6g s: %s%s%s.%s%s%s Likely cause: %s",
+                    brc_current_stage(s)->name, (long long)s->step, s->time, what,
+                    several ? " in the bodies of model " : "", several ? brc_model_name(s->scene->model.kind) : "",
+                    element >= 0 ? seen : "", element >= 0 ? " " : "", where, cause);
 }
 
 static brc_status read_looks(brc_simulation *s, bool several)
@@ -181,8 +196,10 @@ static brc_status read_looks(brc_simulation *s, bool several)
     char what[200];
     BRC_TRY(find_element(s, &element, &look));
     if (element < 0) return BRC_OK;
-    snprintf(what, sizeof what, "element %lld is faster than %.3g m/s (%.0f times the wave speed and the fastest element at the start of the stage) or not finite", (long long)element,
-             s->guard->most_v, most_speeds);
+    snprintf(what, sizeof what,
+             "element %lld is faster than %.3g m/s (%.0f times the wave speed and the fastest element at the start of "
+             "the stage) or not finite",
+             (long long)element, s->guard->most_v, most_speeds);
     return stop(s, several, what, element, look, 0);
 }
 
@@ -205,15 +222,19 @@ brc_status brc_guard_read(brc_simulation *s, bool several, brc_ledger *ledger)
     g->report.ledgers += 1;
     if (!ledger) ledger = &own;
     BRC_TRY(brc_simulation_ledger(s, ledger));
-    const double put_in = fabs(ledger->initial) + fabs(ledger->work) + fabs(ledger->potential), most = s->scene->guard.closure;
-    if (!isfinite(ledger->total)) snprintf(what, sizeof what, "a value is not finite (energy %.4g J, put in %.4g J)", ledger->total, put_in);
+    const double put_in = fabs(ledger->initial) + fabs(ledger->work) + fabs(ledger->potential),
+                 most = s->scene->guard.closure;
+    if (!isfinite(ledger->total))
+        snprintf(what, sizeof what, "a value is not finite (energy %.4g J, put in %.4g J)", ledger->total, put_in);
     else if (ledger->total > runaway * put_in && put_in > 0)
         snprintf(what, sizeof what, "the energy runs away (energy %.4g J, put in %.4g J)", ledger->total, put_in);
     else if (most > 0 && fabs(ledger->closure) > most)
-        snprintf(what, sizeof what, "the energy ledger is off by %.3g %%, guard.closure is %.3g %% (energy %.4g J, put in %.4g J)", 100 * ledger->closure, 100 * most,
-                 ledger->total, put_in);
+        snprintf(what, sizeof what,
+                 "the energy ledger is off by %.3g %%, guard.closure is %.3g %% (energy %.4g J, put in %.4g J)",
+                 100 * ledger->closure, 100 * most, ledger->total, put_in);
     else
         return BRC_OK;
     BRC_TRY(fastest_element(s, &element));
-    return stop(s, several, what, element, -1, isfinite(ledger->total) && ledger->total <= runaway * put_in ? ledger->closure : 0);
+    return stop(s, several, what, element, -1,
+                isfinite(ledger->total) && ledger->total <= runaway * put_in ? ledger->closure : 0);
 }

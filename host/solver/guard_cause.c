@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Neighbours that span their weakest direction by less than this part of the strongest are named as the cause: boundary cells of unrelaxed grids
- * have 0.1 and more. */
+/* Neighbours that span their weakest direction by less than this part of the strongest are named as the cause: boundary
+ * cells of unrelaxed grids have 0.1 and more. */
 static const double weak_span = 0.03;
 
 static void add(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
@@ -44,22 +44,27 @@ void brc_guard_tell_element(brc_simulation *s, int64_t e, char *text, size_t siz
     const brc_domain *d = s->domain;
     const double *x = d->position + 3 * e;
     const int64_t n_bonds = d->row_start[e + 1] - d->row_start[e];
-    add(text, size, "element %lld, at (%.4g, %.4g, %.4g) m when undeformed, body '%s', has %lld bonds", (long long)e, x[0], x[1], x[2],
-        s->scene->bodies[d->body[e]].name, (long long)n_bonds);
-    if (n_bonds > 0 && !brc_is_beams(s)) add(text, size, " (its neighbours span one direction by %.2g of another)", span_of(d, e));
+    add(text, size, "element %lld, at (%.4g, %.4g, %.4g) m when undeformed, body '%s', has %lld bonds", (long long)e,
+        x[0], x[1], x[2], s->scene->bodies[d->body[e]].name, (long long)n_bonds);
+    if (n_bonds > 0 && !brc_is_beams(s))
+        add(text, size, " (its neighbours span one direction by %.2g of another)", span_of(d, e));
     int64_t n = 0, broken = 0;
     const brc_break *breaks = NULL;
     if (s->fracture && brc_simulation_breaks(s, &n, &breaks) != BRC_OK) n = 0;
-    for (int64_t k = 0; k < n; ++k) broken += breaks[k].element_i == e || breaks[k].element_j == e;
-    if (!s->fracture) add(text, size, ", which cannot break.");
-    else if (broken == 0) add(text, size, ", none broken.");
-    else add(text, size, ", %lld of them broken, last:", (long long)broken);
+    for (int64_t k = 0; k < n; ++k)
+        broken += breaks[k].element_i == e || breaks[k].element_j == e;
+    if (!s->fracture)
+        add(text, size, ", which cannot break.");
+    else if (broken == 0)
+        add(text, size, ", none broken.");
+    else
+        add(text, size, ", %lld of them broken, last:", (long long)broken);
     int told = 0;
     for (int64_t k = n - 1; k >= 0 && told < 3; --k) {
         const brc_break *b = breaks + k;
         if (b->element_i != e && b->element_j != e) continue;
-        add(text, size, "%s bond %d to element %d in %s at step %lld", told++ ? "," : "", b->bond, b->element_i == e ? b->element_j : b->element_i,
-            brc_break_mode_name(b->mode), (long long)b->step);
+        add(text, size, "%s bond %d to element %d in %s at step %lld", told++ ? "," : "", b->bond,
+            b->element_i == e ? b->element_j : b->element_i, brc_break_mode_name(b->mode), (long long)b->step);
     }
     if (told > 0) add(text, size, ".");
 }
@@ -67,23 +72,39 @@ void brc_guard_tell_element(brc_simulation *s, int64_t e, char *text, size_t siz
 void brc_guard_tell_cause(const brc_simulation *s, int64_t e, double off, char *text, size_t size)
 {
     const double safety = s->time_step.safety;
-    /* at whole steps velocity Verlet shows up to s^2 / (1 - s^2) more energy than it keeps, in the highest mode at s of the critical step */
+    /* at whole steps velocity Verlet shows up to s^2 / (1 - s^2) more energy than it keeps, in the highest mode at s of
+     * the critical step */
     const double own = safety < 1 ? safety * safety / (1 - safety * safety) : 0;
     if (safety > 1)
         add(text, size, "the time step is %.3g times the critical one: use time_step: auto", safety);
     else if (brc_is_published(s))
-        add(text, size, "the published law has no energy and diverges after thousands of steps (docs/notebook/theory.md): use model dlsm, %stchamwa-wielgosz with a larger phi",
-            s->scene->model.couple_modulus > 0 ? "or " : "a couple_modulus of 0.5 where strains or turns are large, or ");
+        add(text, size,
+            "the published law has no energy and diverges after thousands of steps (docs/notebook/theory.md): use "
+            "model dlsm, %stchamwa-wielgosz with a larger phi",
+            s->scene->model.couple_modulus > 0 ? "or "
+                                               : "a couple_modulus of 0.5 where strains or turns are large, or ");
     else if (off != 0 && fabs(off) < 0.1 * own)
-        add(text, size, "time step: velocity Verlet's own oscillation is of this size at %.3g of the critical step; use a smaller safety, or a wider guard.closure", safety);
+        add(text, size,
+            "time step: velocity Verlet's own oscillation is of this size at %.3g of the critical step; use a smaller "
+            "safety, or a wider guard.closure",
+            safety);
     else if (brc_is_beams(s))
-        add(text, size, "beams that were stretched or bent far beyond their law (sections turned by more than a right angle)");
+        add(text, size,
+            "beams that were stretched or bent far beyond their law (sections turned by more than a right angle)");
     else if (e >= 0 && s->domain->row_start[e + 1] > s->domain->row_start[e] && span_of(s->domain, e) < weak_span)
-        add(text, size, "geometry: neighbours of element %lld lie nearly in a plane or a line (breccia build prints the quality of the body); relax the cells (lloyd) or use more of them", (long long)e);
+        add(text, size,
+            "geometry: neighbours of element %lld lie nearly in a plane or a line (breccia build prints the quality of "
+            "the body); relax the cells (lloyd) or use more of them",
+            (long long)e);
     else if (s->scene->has_contact)
-        add(text, size, "contact stiffness: a contact stiffer than the cells shortens the critical step; take a softer one, or a smaller safety than %.3g", safety);
+        add(text, size,
+            "contact stiffness: a contact stiffer than the cells shortens the critical step; take a softer one, or a "
+            "smaller safety than %.3g",
+            safety);
     else /* frequencies rise with the stretch e as sqrt(1 + 3 e + 3 e^2 / 2), St. Venant-Kirchhoff's tangent */
-        add(text, size, "strain: stretches of %.2g %% or more raise the highest frequency beyond what a step of %.3g of the critical one bears, and a compression of "
-                        "more than 40 %% has no stiffness left; use a smaller safety, or a gentler load",
+        add(text, size,
+            "strain: stretches of %.2g %% or more raise the highest frequency beyond what a step of %.3g of the "
+            "critical one bears, and a compression of "
+            "more than 40 %% has no stiffness left; use a smaller safety, or a gentler load",
             100 * (sqrt(1 + 2. / 3 * (1 / (safety * safety) - 1)) - 1), safety);
 }

@@ -4,10 +4,11 @@
 
 #include "simulation_internal.h"
 
-/* Element e: where it was, how many bonds it had, how well its neighbours span space, and the last of its bonds that broke. */
+/* Element e: where it was, how many bonds it had, how well its neighbours span space, and the last of its bonds that
+ * broke. */
 void brc_guard_tell_element(brc_simulation *s, int64_t e, char *text, size_t size);
-/* The likely cause: time step, law, contact, geometry of element e (-1: none known) or strain. off: the ledger's closure where that alone is wrong [-],
- * else 0. */
+/* The likely cause: time step, law, contact, geometry of element e (-1: none known) or strain. off: the ledger's
+ * closure where that alone is wrong [-], else 0. */
 void brc_guard_tell_cause(const brc_simulation *s, int64_t e, double off, char *text, size_t size);
 
 #endif

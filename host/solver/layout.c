@@ -37,7 +37,8 @@ static brc_status order_elements(brc_context *context, const brc_domain *domain,
     int32_t *order = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &order, domain->n_elements, "storage order"));
-    BRC_TRY_OR(cleanup, brc_order_hilbert(context, domain->position, domain->n_elements, domain->bounds, omp_get_max_threads(), order));
+    BRC_TRY_OR(cleanup, brc_order_hilbert(context, domain->position, domain->n_elements, domain->bounds,
+                                          omp_get_max_threads(), order));
     /* inside a window: elements with free faces first, then by falling degree, then along the curve */
     const int64_t window = (int64_t)WINDOW_SLICES * slice;
     for (int64_t begin = 0; begin < domain->n_elements; begin += window) {
@@ -115,7 +116,8 @@ cleanup:
 void brc_layout_all_boundary(brc_layout *layout)
 {
     layout->n_boundary = layout->n_slices;
-    for (int32_t s = 0; s < layout->n_slices; ++s) layout->boundary[s] = s;
+    for (int32_t s = 0; s < layout->n_slices; ++s)
+        layout->boundary[s] = s;
 }
 
 brc_status brc_layout_twins(brc_context *context, const brc_layout *layout, const brc_domain *domain, int32_t *twin)
@@ -125,7 +127,8 @@ brc_status brc_layout_twins(brc_context *context, const brc_layout *layout, cons
     BRC_TRY(BRC_ALLOCATE(context, &entry_of, domain->n_half_edges, "twins"));
     for (int64_t k = 0; k < n; ++k)
         if (layout->half_edge[k] >= 0) entry_of[layout->half_edge[k]] = (int32_t)k;
-    for (int64_t k = 0; k < n; ++k) twin[k] = layout->half_edge[k] >= 0 ? entry_of[domain->twin[layout->half_edge[k]]] : 0;
+    for (int64_t k = 0; k < n; ++k)
+        twin[k] = layout->half_edge[k] >= 0 ? entry_of[domain->twin[layout->half_edge[k]]] : 0;
     brc_memory_free(entry_of);
     return BRC_OK;
 }

@@ -1,6 +1,6 @@
-/* Storage order of elements on a device: along a Hilbert curve, then by degree inside small windows, in slices of C rows
- * whose neighbour lists are padded to the longest of the slice (SELL-C). Element ids
- * never change; files and results use ids, device arrays use rows. */
+/* Storage order of elements on a device: along a Hilbert curve, then by degree inside small windows, in slices of C
+ * rows whose neighbour lists are padded to the longest of the slice (SELL-C). Element ids never change; files and
+ * results use ids, device arrays use rows. */
 #ifndef BRC_SOLVER_LAYOUT_H
 #define BRC_SOLVER_LAYOUT_H
 
@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 typedef struct brc_layout {
-    int32_t slice;           /* C: rows of a slice */
+    int32_t slice; /* C: rows of a slice */
     int32_t n_slices;
     int32_t n_rows;          /* n_slices * C; rows without an element are last and padded */
     int64_t n_slots;         /* sum over slices of the longest row; entries are [n_slots][C] */

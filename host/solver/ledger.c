@@ -1,4 +1,5 @@
-/* The energy ledger (docs/notebook/theory.md T4): its terms are named once; closure is relative to the largest energy. */
+/* The energy ledger (docs/notebook/theory.md T4): its terms are named once; closure is relative to the largest
+ * energy. */
 #include "cell_softening.h"
 #include "closed_faces.h"
 #include "contact.h"
@@ -73,10 +74,22 @@ double brc_ledger_term(const brc_ledger *ledger, const char *term)
     const struct {
         const char *name;
         double value;
-    } terms[] = {{"kinetic", ledger->kinetic},     {"elastic", ledger->elastic},     {"stabilisation", ledger->stabilisation},
-                 {"potential", ledger->potential}, {"work", ledger->work},           {"damping", ledger->damping},
-                 {"numerical", ledger->numerical}, {"fracture", ledger->fracture}, {"contact", ledger->contact}, {"friction", ledger->friction}, {"impact", ledger->impact}, {"initial", ledger->initial},     {"total", ledger->total},
-                 {"closure", ledger->closure},     {"peak_elastic", ledger->peak_elastic}, {"peak_kinetic", ledger->peak_kinetic}};
+    } terms[] = {{"kinetic", ledger->kinetic},
+                 {"elastic", ledger->elastic},
+                 {"stabilisation", ledger->stabilisation},
+                 {"potential", ledger->potential},
+                 {"work", ledger->work},
+                 {"damping", ledger->damping},
+                 {"numerical", ledger->numerical},
+                 {"fracture", ledger->fracture},
+                 {"contact", ledger->contact},
+                 {"friction", ledger->friction},
+                 {"impact", ledger->impact},
+                 {"initial", ledger->initial},
+                 {"total", ledger->total},
+                 {"closure", ledger->closure},
+                 {"peak_elastic", ledger->peak_elastic},
+                 {"peak_kinetic", ledger->peak_kinetic}};
     for (size_t i = 0; i < sizeof terms / sizeof *terms; ++i)
         if (strcmp(term, terms[i].name) == 0) return terms[i].value;
     return NAN;

@@ -7,11 +7,14 @@
 static const brc_predicate *asked_for(const brc_scene *scene, const brc_set *set)
 {
     for (int32_t k = 0; k < scene->n_sets; ++k)
-        if (scene->sets[k].kind == set->kind && strncmp(scene->sets[k].name, set->name, sizeof scene->sets[k].name) == 0) return &scene->sets[k].where;
+        if (scene->sets[k].kind == set->kind &&
+            strncmp(scene->sets[k].name, set->name, sizeof scene->sets[k].name) == 0)
+            return &scene->sets[k].where;
     return NULL;
 }
 
-brc_status brc_loaded_faces(brc_context *context, const brc_scene *scene, const brc_domain *domain, const brc_set *set, brc_loaded_face **out, int64_t *n)
+brc_status brc_loaded_faces(brc_context *context, const brc_scene *scene, const brc_domain *domain, const brc_set *set,
+                            brc_loaded_face **out, int64_t *n)
 {
     const brc_predicate *where = asked_for(scene, set);
     const bool cuts = where && brc_predicate_cuts(where);

@@ -9,7 +9,8 @@
 double brc_load_rate(const brc_load *load, double t)
 {
     const brc_table *table = &load->table;
-    if (load->kind == BRC_LOAD_FACE_VELOCITY || load->kind == BRC_LOAD_ELEMENT_VELOCITY) return brc_table_value(table, t);
+    if (load->kind == BRC_LOAD_FACE_VELOCITY || load->kind == BRC_LOAD_ELEMENT_VELOCITY)
+        return brc_table_value(table, t);
     /* derivative of the piecewise linear table; the later piece at a corner */
     for (int32_t i = 0; i + 1 < table->n; ++i)
         if (t >= table->time[i] && t < table->time[i + 1])
@@ -35,7 +36,8 @@ double brc_load_factor(const brc_load *load, double t, bool is_static)
 {
     const brc_table *table = &load->table;
     const bool velocity = load->kind == BRC_LOAD_FACE_VELOCITY || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
-    if (!velocity && is_static && table->n > 0 && t > 1) return t * brc_table_value(table, 1); /* beyond the whole load: to_failure */
+    if (!velocity && is_static && table->n > 0 && t > 1)
+        return t * brc_table_value(table, 1); /* beyond the whole load: to_failure */
     if (!velocity) return is_static && table->n == 0 ? t : brc_table_value(table, t);
     return brc_table_integral(table, t);
 }
@@ -45,24 +47,27 @@ static void direction_at(const brc_load *load, const double *x, double out[3])
 {
     for (int i = 0; i < 3; ++i) {
         out[i] = load->value[i];
-        for (int j = 0; j < 3; ++j) out[i] += load->gradient[i][j] * (x[j] - load->origin[j]);
+        for (int j = 0; j < 3; ++j)
+            out[i] += load->gradient[i][j] * (x[j] - load->origin[j]);
     }
 }
 
 /* The set a load names, with or without members. */
-static const brc_set *find_named(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind, brc_status *status)
+static const brc_set *find_named(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind,
+                                 brc_status *status)
 {
     const int32_t index = brc_domain_find_set(s->domain, load->set);
     if (index < 0) {
-        *status = BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': a load names the set '%s', which the domain does not have",
-                           stage->name, load->set);
+        *status =
+            BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': a load names the set '%s', which the domain does not have",
+                     stage->name, load->set);
         return NULL;
     }
     const brc_set *set = s->domain->sets + index;
     if (set->kind != kind && kind == BRC_SET_FACES) {
         *status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                           "stage '%s': a face load names the set '%s', which is of elements; name a set of faces", stage->name,
-                           load->set);
+                           "stage '%s': a face load names the set '%s', which is of elements; name a set of faces",
+                           stage->name, load->set);
         return NULL;
     }
     return set;
@@ -70,10 +75,12 @@ static const brc_set *find_named(brc_simulation *s, const brc_stage *stage, cons
 
 static brc_status refuse_empty(brc_simulation *s, const brc_stage *stage, const brc_load *load)
 {
-    return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': the set '%s' is empty; widen its predicate", stage->name, load->set);
+    return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': the set '%s' is empty; widen its predicate", stage->name,
+                    load->set);
 }
 
-const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind, brc_status *status)
+const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind,
+                                 brc_status *status)
 {
     const brc_set *set = find_named(s, stage, load, kind, status);
     if (!set || set->n_members > 0) return set;
@@ -81,8 +88,14 @@ const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, cons
     return NULL;
 }
 
-bool brc_load_holds_faces(const brc_load *load) { return load->kind == BRC_LOAD_FACE_DISPLACEMENT || load->kind == BRC_LOAD_FACE_VELOCITY; }
-bool brc_load_pulls_faces(const brc_load *load) { return load->kind == BRC_LOAD_TRACTION || load->kind == BRC_LOAD_PRESSURE; }
+bool brc_load_holds_faces(const brc_load *load)
+{
+    return load->kind == BRC_LOAD_FACE_DISPLACEMENT || load->kind == BRC_LOAD_FACE_VELOCITY;
+}
+bool brc_load_pulls_faces(const brc_load *load)
+{
+    return load->kind == BRC_LOAD_TRACTION || load->kind == BRC_LOAD_PRESSURE;
+}
 static bool is_element_motion(const brc_load *load)
 {
     return load->kind == BRC_LOAD_ELEMENT_DISPLACEMENT || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
@@ -108,7 +121,8 @@ static brc_status upload_components(brc_simulation *s, brc_buffer *out, const in
     double *flags = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &flags, 3 * (int64_t)n, "component flags"));
     for (int32_t i = 0; i < n; ++i)
-        for (int c = 0; c < 3; ++c) flags[3 * (int64_t)i + c] = bits[i] >> c & 1;
+        for (int c = 0; c < 3; ++c)
+            flags[3 * (int64_t)i + c] = bits[i] >> c & 1;
     const brc_status status = brc_upload_coeff(s, out, flags, 3 * (int64_t)n);
     brc_memory_free(flags);
     return status;
@@ -129,10 +143,11 @@ static brc_status collect_held(brc_simulation *s, const brc_stage *stage, int32_
             bits[set->members[m]] |= component_bits(load);
         }
         if (twice)
-            status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                              "stage '%s': the load on '%s' prescribes components of %lld faces that another load of the stage "
-                              "prescribes too; give each component of a face to one load",
-                              stage->name, load->set, (long long)twice);
+            status = BRC_FAIL(
+                s->context, BRC_BAD_INPUT,
+                "stage '%s': the load on '%s' prescribes components of %lld faces that another load of the stage "
+                "prescribes too; give each component of a face to one load",
+                stage->name, load->set, (long long)twice);
     }
     return status;
 }
@@ -149,13 +164,15 @@ static brc_status create_held(brc_simulation *s, const brc_stage *stage, brc_hel
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &bits, d->n_free_faces, "held faces"));
     BRC_TRY_OR(cleanup, collect_held(s, stage, bits));
     int32_t n = 0;
-    for (int64_t f = 0; f < d->n_free_faces; ++f) n += bits[f] != 0;
+    for (int64_t f = 0; f < d->n_free_faces; ++f)
+        n += bits[f] != 0;
     held->n_faces = n;
     if (n == 0) goto cleanup;
     if (brc_turns(s)) {
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                          "stage '%s': dlsm-published moves whole elements; use element_displacement or element_velocity",
-                          stage->name);
+        status =
+            BRC_FAIL(s->context, BRC_BAD_INPUT,
+                     "stage '%s': dlsm-published moves whole elements; use element_displacement or element_velocity",
+                     stage->name);
         goto cleanup;
     }
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &items, n, "held faces"));
@@ -196,7 +213,8 @@ static brc_status create_held(brc_simulation *s, const brc_stage *stage, brc_hel
     BRC_TRY_OR(cleanup, brc_upload_int(held->element, element, held->n_elements));
     BRC_TRY_OR(cleanup, brc_upload_int(held->place, place, 2 * (int64_t)held->n_elements));
     BRC_TRY_OR(cleanup, brc_upload_int(held->face_start, face_start, held->n_elements + 1));
-    /* one entry list per load; velocity loads start from where the face is now, which holds only while this stage has no values yet */
+    /* one entry list per load; velocity loads start from where the face is now, which holds only while this stage has
+     * no values yet */
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &held->loads, stage->n_loads, "held loads"));
     for (int32_t l = 0; l < stage->n_loads; ++l) {
         const brc_load *load = stage->loads + l;
@@ -223,7 +241,8 @@ static brc_status create_held(brc_simulation *s, const brc_stage *stage, brc_hel
                 face[m] = held->index_of_free_face[set->members[m]];
                 flag[m] = component_bits(load);
                 direction_at(load, d->free_centroid + 3 * (int64_t)set->members[m], direction + 3 * m);
-                for (int c = 0; c < 3; ++c) base[3 * m + c] = now[3 * m + c];
+                for (int c = 0; c < 3; ++c)
+                    base[3 * m + c] = now[3 * m + c];
             }
             status = brc_load_fields_create(s, &brc_held_load_fields, count, entry);
         }
@@ -257,7 +276,8 @@ cleanup:
 }
 
 /* Tractions of one load, summed per element over the components that are not held. */
-static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int32_t l, const brc_held_faces *held, brc_traction_load *out)
+static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int32_t l, const brc_held_faces *held,
+                                  brc_traction_load *out)
 {
     const brc_domain *d = s->domain;
     const brc_load *load = stage->loads + l;
@@ -304,8 +324,7 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
         }
         for (int c = 0; c < 3; ++c)
             for (int k = 0; k < 3; ++k)
-                moment[9 * (n - 1) + 3 * c + k] +=
-                    push[c] * (face->centroid[k] - d->position[3 * (int64_t)e + k]);
+                moment[9 * (n - 1) + 3 * c + k] += push[c] * (face->centroid[k] - d->position[3 * (int64_t)e + k]);
     }
     *out = (brc_traction_load){.load = l, .n = n};
     BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_traction_fields, n, out));
@@ -326,12 +345,15 @@ cleanup:
 brc_status brc_loads_refuse_twice(brc_simulation *s, const brc_stage *stage, const brc_load *load, int64_t n)
 {
     return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                    "stage '%s': the %s of '%s' prescribes components of %lld elements that another load of the stage prescribes too; give each "
+                    "stage '%s': the %s of '%s' prescribes components of %lld elements that another load of the stage "
+                    "prescribes too; give each "
                     "component of an element to one load",
-                    stage->name, load->kind == BRC_LOAD_ELEMENT_ROTATION ? "rotation" : "motion", load->set, (long long)n);
+                    stage->name, load->kind == BRC_LOAD_ELEMENT_ROTATION ? "rotation" : "motion", load->set,
+                    (long long)n);
 }
 
-static brc_status upload_imposed(brc_simulation *s, brc_imposed_load *out, const int32_t *row, const int32_t *bits, const double *base)
+static brc_status upload_imposed(brc_simulation *s, brc_imposed_load *out, const int32_t *row, const int32_t *bits,
+                                 const double *base)
 {
     BRC_TRY(brc_load_fields_create(s, &brc_imposed_fields, out->n, out));
     BRC_TRY(brc_upload_int(out->element, row, out->n));
@@ -340,7 +362,8 @@ static brc_status upload_imposed(brc_simulation *s, brc_imposed_load *out, const
 }
 
 /* Imposed elements: the members of an element set, or the owners of a face set. taken: bits per element. */
-static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int32_t l, int32_t *taken, brc_imposed_load *out)
+static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int32_t l, int32_t *taken,
+                                 brc_imposed_load *out)
 {
     const brc_domain *d = s->domain;
     const brc_load *load = stage->loads + l;
@@ -368,7 +391,8 @@ static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int3
         if (taken[e] & flag[i]) ++twice;
         taken[e] |= flag[i];
         direction_at(load, d->position + 3 * e, direction + 3 * (int64_t)i);
-        for (int c = 0; c < 3; ++c) base[3 * (int64_t)i + c] = now[3 * e + c];
+        for (int c = 0; c < 3; ++c)
+            base[3 * (int64_t)i + c] = now[3 * e + c];
     }
     if (twice) {
         status = brc_loads_refuse_twice(s, stage, load, twice);
@@ -393,7 +417,8 @@ const brc_load *brc_imposed_of(const brc_stage *stage, const brc_imposed_load *i
 }
 
 /* Elements that no beam holds stay where they are, in the components that no load of the stage prescribes. */
-static brc_status create_still(brc_simulation *s, const brc_stage *stage, const int32_t *taken, brc_imposed_load *out, bool *any)
+static brc_status create_still(brc_simulation *s, const brc_stage *stage, const int32_t *taken, brc_imposed_load *out,
+                               bool *any)
 {
     const brc_domain *d = s->domain;
     int32_t *element = NULL, *flag = NULL, n = 0;
@@ -402,7 +427,8 @@ static brc_status create_still(brc_simulation *s, const brc_stage *stage, const 
     const bool meets = s->scene->has_contact && stage->solver == BRC_SOLVER_DYNAMIC;
     *any = false;
     if (!brc_is_beams(s) || (meets && !s->scene->model.keep_isolated)) return BRC_OK; /* loose ones are for contact */
-    for (int64_t e = 0; e < d->n_elements; ++e) n += d->row_start[e + 1] == d->row_start[e];
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        n += d->row_start[e + 1] == d->row_start[e];
     if (n == 0) return BRC_OK;
     *any = true;
     *out = (brc_imposed_load){.load = -1, .n = n, .component_bits = 7};
@@ -419,7 +445,8 @@ static brc_status create_still(brc_simulation *s, const brc_stage *stage, const 
         element[n] = r;
         out->element_id[n] = e;
         flag[n] = 7 & ~taken[e];
-        for (int c = 0; c < 3; ++c) base[3 * (int64_t)n + c] = now[3 * (int64_t)e + c];
+        for (int c = 0; c < 3; ++c)
+            base[3 * (int64_t)n + c] = now[3 * (int64_t)e + c];
         ++n;
     }
     status = upload_imposed(s, out, element, flag, base);
@@ -452,7 +479,10 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
             status = brc_turn_create(s, stage, l, turned, out->turns + out->n_turns++);
         } else if (!brc_load_holds_faces(load)) {
             if (brc_is_beams(s))
-                status = BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': cbm takes no tractions; use model dlsm, element_force, or prescribe elements", stage->name);
+                status =
+                    BRC_FAIL(s->context, BRC_BAD_INPUT,
+                             "stage '%s': cbm takes no tractions; use model dlsm, element_force, or prescribe elements",
+                             stage->name);
             else if (first == BRC_OK)
                 status = create_traction(s, stage, l, &out->held, out->tractions + out->n_tractions++);
         }
@@ -477,9 +507,11 @@ void brc_loads_free(brc_loads *loads)
     brc_memory_free(h->component_of_face);
     brc_fields_free(&brc_held_element_fields, h);
     brc_fields_free(&brc_held_face_fields, h);
-    for (int32_t i = 0; i < h->n_loads; ++i) brc_fields_free(&brc_held_load_fields, h->loads + i);
+    for (int32_t i = 0; i < h->n_loads; ++i)
+        brc_fields_free(&brc_held_load_fields, h->loads + i);
     brc_memory_free(h->loads);
-    for (int32_t i = 0; i < loads->n_tractions; ++i) brc_fields_free(&brc_traction_fields, loads->tractions + i);
+    for (int32_t i = 0; i < loads->n_tractions; ++i)
+        brc_fields_free(&brc_traction_fields, loads->tractions + i);
     for (int32_t i = 0; i < loads->n_imposed; ++i) {
         brc_memory_free(loads->imposed[i].element_id);
         brc_fields_free(&brc_imposed_fields, loads->imposed + i);

@@ -1,5 +1,5 @@
-/* Running the stages of a scene: one simulation, or one for each of its models with one clock. The first part keeps the clock, is the one that is
- * interrupted, and its observers hear of the whole. */
+/* Running the stages of a scene: one simulation, or one for each of its models with one clock. The first part keeps the
+ * clock, is the one that is interrupted, and its observers hear of the whole. */
 #include "lockstep.h"
 #include "simulation_internal.h"
 
@@ -21,9 +21,11 @@ static void share_time_step(int32_t n, brc_simulation *const *part)
 
 brc_status brc_lockstep_begin_stage(int32_t n, brc_simulation *const *part, int32_t stage)
 {
-    for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_stage_enter(part[k], stage));
+    for (int32_t k = 0; k < n; ++k)
+        BRC_TRY(brc_stage_enter(part[k], stage));
     if (brc_current_stage(part[0])->solver == BRC_SOLVER_DYNAMIC) share_time_step(n, part);
-    for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_stage_start(part[k]));
+    for (int32_t k = 0; k < n; ++k)
+        BRC_TRY(brc_stage_start(part[k]));
     return BRC_OK;
 }
 
@@ -35,7 +37,8 @@ static brc_status run_stage(int32_t n, brc_simulation *const *part, brc_state_st
     case BRC_SOLVER_DYNAMIC: return brc_dynamics_run(n, part, resumed != NULL);
     case BRC_SOLVER_MODES: break;
     }
-    for (int32_t k = 0; k < n; ++k) BRC_TRY(brc_modes_run(part[k]));
+    for (int32_t k = 0; k < n; ++k)
+        BRC_TRY(brc_modes_run(part[k]));
     return brc_notify_sample(part[0]);
 }
 
@@ -44,7 +47,8 @@ static brc_status enter(int32_t n, brc_simulation *const *part, int32_t stage, b
     brc_simulation *first = part[0];
     BRC_TRY(brc_lockstep_begin_stage(n, part, stage));
     for (int k = 0; k < first->n_observers; ++k)
-        if (first->observers[k].stage_begin) BRC_TRY(first->observers[k].stage_begin(first->observers[k].self, first, stage));
+        if (first->observers[k].stage_begin)
+            BRC_TRY(first->observers[k].stage_begin(first->observers[k].self, first, stage));
     return stage == 0 && frames ? brc_notify_frame(first) : BRC_OK;
 }
 
@@ -63,7 +67,8 @@ static brc_status run_stages(int32_t n, brc_simulation *const *part, brc_state_s
         BRC_TRY(status);
         if (frames) BRC_TRY(brc_notify_frame(first));
         for (int k = 0; k < first->n_observers; ++k)
-            if (first->observers[k].stage_end) BRC_TRY(first->observers[k].stage_end(first->observers[k].self, first, i));
+            if (first->observers[k].stage_end)
+                BRC_TRY(first->observers[k].stage_end(first->observers[k].self, first, i));
     }
     return BRC_OK;
 }
@@ -77,7 +82,10 @@ static brc_status run(int32_t n, brc_simulation *const *part, brc_state_store *r
     return status;
 }
 
-brc_status brc_lockstep_run(int32_t n, brc_simulation *const *part) { return run(n, part, NULL); }
+brc_status brc_lockstep_run(int32_t n, brc_simulation *const *part)
+{
+    return run(n, part, NULL);
+}
 
 brc_status brc_lockstep_save(int32_t n, brc_simulation *const *part, brc_state_store *store)
 {
@@ -94,12 +102,20 @@ brc_status brc_lockstep_load(int32_t n, brc_simulation *const *part, brc_state_s
         store->part = k;
         BRC_TRY(brc_simulation_load_state(part[k], store));
         if (part[k]->stage != part[0]->stage || part[k]->step != part[0]->step)
-            return BRC_FAIL(part[0]->context, BRC_BAD_INPUT, "states of different moments: stage %d, step %lld and stage %d, step %lld", (int)part[0]->stage,
-                            (long long)part[0]->step, (int)part[k]->stage, (long long)part[k]->step);
+            return BRC_FAIL(part[0]->context, BRC_BAD_INPUT,
+                            "states of different moments: stage %d, step %lld and stage %d, step %lld",
+                            (int)part[0]->stage, (long long)part[0]->step, (int)part[k]->stage,
+                            (long long)part[k]->step);
     }
     return BRC_OK;
 }
 
-brc_status brc_lockstep_continue(int32_t n, brc_simulation *const *part, brc_state_store *store) { return run(n, part, store); }
+brc_status brc_lockstep_continue(int32_t n, brc_simulation *const *part, brc_state_store *store)
+{
+    return run(n, part, store);
+}
 
-brc_status brc_simulation_run(brc_simulation *s) { return brc_lockstep_run(1, &s); }
+brc_status brc_simulation_run(brc_simulation *s)
+{
+    return brc_lockstep_run(1, &s);
+}

@@ -1,8 +1,8 @@
 /* Lowest free vibration modes K x = omega^2 M x of the linearised operator, by locally optimal block preconditioned
- * conjugate gradients (Knyazev, SIAM J. Sci. Comput. 23, 2001) on the very force kernels of the scene, with multigrid or diagonal
- * blocks for K^-1; the small dense problems go to LAPACK. The operator of dlsm-published is not symmetric: there the dense problem is the unsymmetric one and
- * the modes are its eigenvalues of smallest magnitude. Rigid motions are in the first block, so they converge at once and
- * are left out of the result. */
+ * conjugate gradients (Knyazev, SIAM J. Sci. Comput. 23, 2001) on the very force kernels of the scene, with multigrid
+ * or diagonal blocks for K^-1; the small dense problems go to LAPACK. The operator of dlsm-published is not symmetric:
+ * there the dense problem is the unsymmetric one and the modes are its eigenvalues of smallest magnitude. Rigid motions
+ * are in the first block, so they converge at once and are left out of the result. */
 #include "../base/random.h"
 #include "multigrid/multigrid.h"
 #include <lapacke.h>
@@ -11,18 +11,19 @@
 #include <string.h>
 
 enum { GUARD_VECTORS = 6, RIGID_MOTIONS = 6, MOST_ROUNDS = 1500, CHUNK = 512, WATCH = 20 };
-/* The residual |K x - l M x| in M^-1 over l at which a mode is done: the eigenvalue's own error is its square for a symmetric
- * operator, and about itself for the published one. */
+/* The residual |K x - l M x| in M^-1 over l at which a mode is done: the eigenvalue's own error is its square for a
+ * symmetric operator, and about itself for the published one. */
 static const double settled = 3e-5;
-/* A mode is also done when WATCH rounds change its eigenvalue by less than this part of it. Ritz values of a symmetric operator
- * fall monotonically, at a rate that leaves a few times the last change to come; nearly incompressible solids take hundreds of
- * rounds for each digit of the residual while the eigenvalue stands still. The published operator has complex pairs, whose real
- * and imaginary vectors leave a residual of the size of the imaginary part: there this is the only criterion that is met. */
+/* A mode is also done when WATCH rounds change its eigenvalue by less than this part of it. Ritz values of a symmetric
+ * operator fall monotonically, at a rate that leaves a few times the last change to come; nearly incompressible solids
+ * take hundreds of rounds for each digit of the residual while the eigenvalue stands still. The published operator has
+ * complex pairs, whose real and imaginary vectors leave a residual of the size of the imaginary part: there this is the
+ * only criterion that is met. */
 static const double steady[2] = {1e-6 /* dlsm */, 1e-5 /* dlsm-published */};
 /* Eigenvalues below this part of the smallest elastic one count as rigid motions. */
 static const double rigid_part = 1e-6;
-/* Pairs whose residual falls below this add no directions to the search space any more, nor do rigid motions: what is left of them is rounding, and scaled up to a direction
- * it has Ritz values that belong to nothing. */
+/* Pairs whose residual falls below this add no directions to the search space any more, nor do rigid motions: what is
+ * left of them is rounding, and scaled up to a direction it has Ritz values that belong to nothing. */
 static const double finished = 1e-9;
 /* Directions of the search space whose norm falls below this part of the largest are dropped. */
 static const double dependent = 1e-13;
@@ -33,18 +34,19 @@ typedef struct mode_space {
     int64_t n;
     int m;
     double *x, *kx, *w, *kw, *p, *kp, *fresh, *k_fresh; /* [m][n] each */
-    double *mass;                                        /* [n] */
-    double *blocks;                                      /* [n_rows][6]; NULL: multigrid */
+    double *mass;                                       /* [n] */
+    double *blocks;                                     /* [n_rows][6]; NULL: multigrid */
     brc_multigrid *multigrid;
-    brc_pieces pieces; /* whose free motions multigrid would make large */
-    unsigned char *fixed;                                /* [n] 1: imposed */
+    brc_pieces pieces;    /* whose free motions multigrid would make large */
+    unsigned char *fixed; /* [n] 1: imposed */
     brc_buffer *in, *out, *orientation, *torque;
 } mode_space;
 
 static bool modes(const brc_wants *w)
 {
     bool any = false;
-    for (int32_t i = 0; i < w->scene->n_stages; ++i) any |= w->scene->stages[i].solver == BRC_SOLVER_MODES;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i)
+        any |= w->scene->stages[i].solver == BRC_SOLVER_MODES;
     return any;
 }
 
@@ -73,7 +75,8 @@ static brc_status allocate(mode_space *t)
 {
     brc_simulation *s = t->s;
     double **all[] = {&t->x, &t->kx, &t->w, &t->kw, &t->p, &t->kp, &t->fresh, &t->k_fresh};
-    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) BRC_TRY(BRC_ALLOCATE(s->context, all[i], t->n * t->m, "modes"));
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
+        BRC_TRY(BRC_ALLOCATE(s->context, all[i], t->n * t->m, "modes"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->mass, t->n, "modes"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->fixed, t->n, "modes"));
     BRC_TRY(brc_fields_create(s->device, &brc_mode_fields, &s->wants, t));
@@ -95,7 +98,8 @@ static brc_status allocate(mode_space *t)
 static void release(mode_space *t)
 {
     double *all[] = {t->x, t->kx, t->w, t->kw, t->p, t->kp, t->fresh, t->k_fresh, t->mass, t->blocks};
-    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_memory_free(all[i]);
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
+        brc_memory_free(all[i]);
     brc_memory_free(t->fixed);
     brc_multigrid_free(&t->multigrid);
     brc_pieces_free(&t->pieces);
@@ -117,7 +121,8 @@ static brc_status multiply(mode_space *t, const double *in, double *out)
                                                        .torque = t->torque,
                                                        .homogeneous = true}));
     BRC_TRY(brc_download(s, t->out, brc_precision_state_bytes(brc_device_get_precision(s->device)), out, t->n));
-    for (int64_t i = 0; i < t->n; ++i) out[i] = t->fixed[i] ? 0 : -out[i];
+    for (int64_t i = 0; i < t->n; ++i)
+        out[i] = t->fixed[i] ? 0 : -out[i];
     return BRC_OK;
 }
 
@@ -134,28 +139,34 @@ static brc_status first_block(mode_space *t)
         for (int k = RIGID_MOTIONS; k < t->m; ++k) {
             double draws[4];
             brc_random_uniform4((uint64_t)k, BRC_RANDOM_MODES, (uint64_t)e, (uint64_t)c, draws);
-            /* smooth fields converge sooner than noise: random cubic polynomials, with a little noise for completeness */
+            /* smooth fields converge sooner than noise: random cubic polynomials, with a little noise for
+             * completeness */
             double value = 0.01 * draws[0];
             for (int power = 0; power < 20; ++power) {
                 double factor[4];
                 brc_random_uniform4((uint64_t)k, BRC_RANDOM_MODES, 1u << 30, (uint64_t)(power * 3 + c), factor);
                 double term = 2 * factor[0] - 1;
                 for (int axis = 0, left = power + 1; axis < 3; ++axis, left /= 3) {
-                    const double at = 2 * (d->position[3 * e + axis] - d->bounds[0][axis]) / (d->bounds[1][axis] - d->bounds[0][axis]) - 1;
-                    for (int times = left % 3; times > 0; --times) term *= at;
+                    const double at = 2 * (d->position[3 * e + axis] - d->bounds[0][axis]) /
+                                          (d->bounds[1][axis] - d->bounds[0][axis]) -
+                                      1;
+                    for (int times = left % 3; times > 0; --times)
+                        term *= at;
                 }
                 value += term;
             }
             t->x[k * t->n + i] = value;
         }
     }
-    for (int k = 0; k < t->m; ++k) BRC_TRY(multiply(t, t->x + k * t->n, t->kx + k * t->n));
+    for (int k = 0; k < t->m; ++k)
+        BRC_TRY(multiply(t, t->x + k * t->n, t->kx + k * t->n));
     return BRC_OK;
 }
 
-/* gram[a][b] = sum_i u_a[i] weight[i] v_b[i] over the columns of u and v (pointers to vectors); weight NULL: 1. Chunks are
- * summed in order, each by one thread. */
-static brc_status gram_matrix(mode_space *t, int count, double *const *u, double *const *v, const double *weight, double *gram)
+/* gram[a][b] = sum_i u_a[i] weight[i] v_b[i] over the columns of u and v (pointers to vectors); weight NULL: 1. Chunks
+ * are summed in order, each by one thread. */
+static brc_status gram_matrix(mode_space *t, int count, double *const *u, double *const *v, const double *weight,
+                              double *gram)
 {
     const int64_t n_chunks = (t->n + CHUNK - 1) / CHUNK;
     enum { PARTS = 16 };
@@ -167,20 +178,24 @@ static brc_status gram_matrix(mode_space *t, int count, double *const *u, double
             const int64_t begin = chunk * CHUNK, end = begin + CHUNK < t->n ? begin + CHUNK : t->n;
             double weighted[CHUNK];
             for (int a = 0; a < count; ++a) {
-                for (int64_t i = begin; i < end; ++i) weighted[i - begin] = u[a][i] * (weight ? weight[i] : 1);
+                for (int64_t i = begin; i < end; ++i)
+                    weighted[i - begin] = u[a][i] * (weight ? weight[i] : 1);
                 for (int b = 0; b < count; ++b) {
                     double sum[4] = {0, 0, 0, 0};
                     int64_t i = begin;
                     for (; i + 4 <= end; i += 4)
-                        for (int lane = 0; lane < 4; ++lane) sum[lane] += weighted[i - begin + lane] * v[b][i + lane];
-                    for (; i < end; ++i) sum[0] += weighted[i - begin] * v[b][i];
+                        for (int lane = 0; lane < 4; ++lane)
+                            sum[lane] += weighted[i - begin + lane] * v[b][i + lane];
+                    for (; i < end; ++i)
+                        sum[0] += weighted[i - begin] * v[b][i];
                     parts[((int64_t)part * count + a) * count + b] += (sum[0] + sum[1]) + (sum[2] + sum[3]);
                 }
             }
         }
     memset(gram, 0, (size_t)count * (size_t)count * sizeof *gram);
     for (int part = 0; part < PARTS; ++part)
-        for (int k = 0; k < count * count; ++k) gram[k] += parts[(int64_t)part * count * count + k];
+        for (int k = 0; k < count * count; ++k)
+            gram[k] += parts[(int64_t)part * count * count + k];
     brc_memory_free(parts);
     return BRC_OK;
 }
@@ -195,8 +210,10 @@ static int compare_pairs(const void *left, const void *right)
     return a->value < b->value ? -1 : a->value > b->value;
 }
 
-/* Rayleigh-Ritz: the m lowest pairs of the projected problem. k_small, g_small [count][count]; coefficients [m][count]. */
-static brc_status rayleigh_ritz(mode_space *t, int count, const double *k_small, const double *g_small, double *values, double *coefficients)
+/* Rayleigh-Ritz: the m lowest pairs of the projected problem. k_small, g_small [count][count]; coefficients
+ * [m][count]. */
+static brc_status rayleigh_ritz(mode_space *t, int count, const double *k_small, const double *g_small, double *values,
+                                double *coefficients)
 {
     brc_context *context = t->s->context;
     double *basis = NULL, *spread = NULL, *reduced = NULL, *work = NULL, *imaginary = NULL;
@@ -210,7 +227,8 @@ static brc_status rayleigh_ritz(mode_space *t, int count, const double *k_small,
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &pairs, count, "modes"));
     /* scale to unit diagonal, then keep the well-conditioned directions of the metric */
     double *scale = spread + count;
-    for (int i = 0; i < count; ++i) scale[i] = g_small[i * count + i] > 0 ? 1 / sqrt(g_small[i * count + i]) : 0;
+    for (int i = 0; i < count; ++i)
+        scale[i] = g_small[i * count + i] > 0 ? 1 / sqrt(g_small[i * count + i]) : 0;
     for (int i = 0; i < count; ++i)
         for (int j = 0; j < count; ++j)
             basis[i * count + j] = 0.5 * (g_small[i * count + j] + g_small[j * count + i]) * scale[i] * scale[j];
@@ -221,43 +239,51 @@ static brc_status rayleigh_ritz(mode_space *t, int count, const double *k_small,
     int kept = 0;
     for (int j = 0; j < count; ++j) {
         if (spread[j] <= dependent * spread[count - 1]) continue;
-        for (int i = 0; i < count; ++i) work[i * count + kept] = basis[i * count + j] * scale[i] / sqrt(spread[j]);
+        for (int i = 0; i < count; ++i)
+            work[i * count + kept] = basis[i * count + j] * scale[i] / sqrt(spread[j]);
         ++kept;
     }
     /* reduced = work^T K work */
     for (int a = 0; a < count; ++a)
         for (int j = 0; j < kept; ++j) {
             double sum = 0;
-            for (int b = 0; b < count; ++b) sum += k_small[a * count + b] * work[b * count + j];
+            for (int b = 0; b < count; ++b)
+                sum += k_small[a * count + b] * work[b * count + j];
             basis[a * count + j] = sum;
         }
     for (int i = 0; i < kept; ++i)
         for (int j = 0; j < kept; ++j) {
             double sum = 0;
-            for (int a = 0; a < count; ++a) sum += work[a * count + i] * basis[a * count + j];
+            for (int a = 0; a < count; ++a)
+                sum += work[a * count + i] * basis[a * count + j];
             reduced[i * kept + j] = sum;
         }
     double *vectors = reduced;
     int failed;
     if (brc_is_published(t->s)) {
         vectors = basis;
-        failed = LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', 'V', kept, reduced, kept, spread, imaginary, NULL, kept, vectors, kept);
+        failed = LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', 'V', kept, reduced, kept, spread, imaginary, NULL, kept, vectors,
+                               kept);
     } else {
         for (int i = 0; i < kept; ++i)
-            for (int j = 0; j < i; ++j) reduced[i * kept + j] = reduced[j * kept + i] = 0.5 * (reduced[i * kept + j] + reduced[j * kept + i]);
+            for (int j = 0; j < i; ++j)
+                reduced[i * kept + j] = reduced[j * kept + i] = 0.5 * (reduced[i * kept + j] + reduced[j * kept + i]);
         failed = LAPACKE_dsyevd(LAPACK_ROW_MAJOR, 'V', 'U', kept, reduced, kept, spread);
     }
     if (failed || kept < t->m) {
-        status = BRC_FAIL(context, BRC_PHYSICS_STOPPED, "the search space of the modes collapsed to %d directions", kept);
+        status =
+            BRC_FAIL(context, BRC_PHYSICS_STOPPED, "the search space of the modes collapsed to %d directions", kept);
         goto cleanup;
     }
-    for (int j = 0; j < kept; ++j) pairs[j] = (ritz_pair){spread[j], j};
+    for (int j = 0; j < kept; ++j)
+        pairs[j] = (ritz_pair){spread[j], j};
     qsort(pairs, (size_t)kept, sizeof *pairs, compare_pairs);
     for (int k = 0; k < t->m; ++k) {
         values[k] = pairs[k].value;
         for (int a = 0; a < count; ++a) {
             double sum = 0;
-            for (int i = 0; i < kept; ++i) sum += work[a * count + i] * vectors[i * kept + pairs[k].column];
+            for (int i = 0; i < kept; ++i)
+                sum += work[a * count + i] * vectors[i * kept + pairs[k].column];
             coefficients[k * count + a] = sum;
         }
     }
@@ -279,16 +305,19 @@ static void combine(mode_space *t, int count, int from, double *const *columns, 
         const int64_t end = begin + CHUNK < t->n ? begin + CHUNK : t->n;
         for (int k = 0; k < t->m; ++k) {
             double *to = out + k * t->n;
-            for (int64_t i = begin; i < end; ++i) to[i] = 0;
+            for (int64_t i = begin; i < end; ++i)
+                to[i] = 0;
             for (int a = from; a < count; ++a) {
                 const double factor = coefficients[k * count + a];
-                for (int64_t i = begin; i < end; ++i) to[i] += factor * columns[a][i];
+                for (int64_t i = begin; i < end; ++i)
+                    to[i] += factor * columns[a][i];
             }
         }
     }
 }
 
-/* w = K x - l M x for every column; the largest relative residual of the first `wanted` elastic modes. active [m]: columns that are worth a direction. */
+/* w = K x - l M x for every column; the largest relative residual of the first `wanted` elastic modes. active [m]:
+ * columns that are worth a direction. */
 static double residuals(mode_space *t, const double *values, int wanted, unsigned char *active)
 {
     double worst = 0;
@@ -366,7 +395,8 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &active, m, "modes"));
     for (int round = 0; round < MOST_ROUNDS; ++round) {
         int count = 0;
-        for (int k = 0; k < m; ++k, ++count) u[count] = t->x + k * t->n, ku[count] = t->kx + k * t->n;
+        for (int k = 0; k < m; ++k, ++count)
+            u[count] = t->x + k * t->n, ku[count] = t->kx + k * t->n;
         for (int k = 0; k < m; ++k)
             if (active[k]) u[count] = t->w + k * t->n, ku[count++] = t->kw + k * t->n;
         for (int k = 0; k < m; ++k)
@@ -381,12 +411,14 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
         double *px = t->p, *pkx = t->kp; /* new vectors are built in the old directions' place once those are used up */
         if (count > m) {
             for (int k = 0; k < m; ++k)
-                for (int a = m; a < count; ++a) coefficients[k * count + a] = 0;
+                for (int a = m; a < count; ++a)
+                    coefficients[k * count + a] = 0;
             /* x = X c_x + fresh */
             combine(t, count, 0, u, coefficients, px);
             combine(t, count, 0, ku, coefficients, pkx);
-            for (int64_t i = 0; i < m * t->n; ++i) px[i] += t->fresh[i], pkx[i] += t->k_fresh[i];
-            swap(&t->x, &t->p), swap(&t->kx, &t->kp);         /* x is the new block */
+            for (int64_t i = 0; i < m * t->n; ++i)
+                px[i] += t->fresh[i], pkx[i] += t->k_fresh[i];
+            swap(&t->x, &t->p), swap(&t->kx, &t->kp);          /* x is the new block */
             swap(&t->p, &t->fresh), swap(&t->kp, &t->k_fresh); /* p is the direction */
         } else {
             combine(t, count, 0, u, coefficients, px);
@@ -397,7 +429,8 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
         brc_progress_update(progress, round + 1);
         s->static_report.iterations = round + 1;
         if (worst < settled) goto cleanup;
-        if ((round + 1) % WATCH == 0 && change_since(values, before, m - GUARD_VECTORS) < steady[brc_is_published(s)]) goto cleanup;
+        if ((round + 1) % WATCH == 0 && change_since(values, before, m - GUARD_VECTORS) < steady[brc_is_published(s)])
+            goto cleanup;
         if (brc_leaves_off(s)) goto cleanup;
         if (s->interrupted) {
             status = BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the modes solver");
@@ -431,10 +464,14 @@ brc_status brc_modes_run(brc_simulation *s)
     double *values = NULL;
     brc_status status = BRC_OK;
     if (brc_is_beams(s))
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': free vibration modes are there for dlsm and dlsm-published; take them for cbm from a "
-                        "dynamic stage with `frequency`", stage->name);
+        return BRC_FAIL(
+            s->context, BRC_BAD_INPUT,
+            "stage '%s': free vibration modes are there for dlsm and dlsm-published; take them for cbm from a "
+            "dynamic stage with `frequency`",
+            stage->name);
     if (3 * s->domain->n_elements < 3 * t.m)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': %d modes of %lld elements; ask for fewer modes or build more elements",
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "stage '%s': %d modes of %lld elements; ask for fewer modes or build more elements",
                         stage->name, wanted, (long long)s->domain->n_elements);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, t.m, "modes"));
     BRC_TRY_OR(cleanup, brc_progress_create(s->context, &progress, stage->name, 0, "rounds",
@@ -449,9 +486,12 @@ brc_status brc_modes_run(brc_simulation *s)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->modes, t.m, "modes"));
     for (int k = 0; k < t.m && s->n_modes < wanted; ++k)
         if (values[k] > rigid_part * values[t.m - 1]) s->modes[s->n_modes++] = sqrt(values[k]);
-    if (s->n_modes < wanted && !s->left_off) /* the rounding of forces in less than double precision grows in the search space */
-        BRC_TRY_OR(cleanup, BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "stage '%s': %d of %d modes found above the rigid motions; modes want double precision",
-                                     stage->name, s->n_modes, wanted));
+    if (s->n_modes < wanted &&
+        !s->left_off) /* the rounding of forces in less than double precision grows in the search space */
+        BRC_TRY_OR(cleanup,
+                   BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
+                            "stage '%s': %d of %d modes found above the rigid motions; modes want double precision",
+                            stage->name, s->n_modes, wanted));
     s->step = 1;
     s->load_factor = 1;
     BRC_TRY_OR(cleanup, brc_force_of_state(s, BRC_BOOK_NOTHING));

@@ -1,21 +1,29 @@
 #include "noise_damping.h"
 #include <math.h>
 
-/* Velocity Verlet keeps v.M v + u.(K - dt^2 K M^-1 K / 4) u at whole steps, so a contraction of v there can only take from it. I - c M^-1 S contracts while c w^2 < 2 for all
- * frequencies w of S, which are below the critical frequency of the body (0.15 to 0.78 of it: test_noise_damping): so c may be up to this share of 1 / w_c^2. */
+/* Velocity Verlet keeps v.M v + u.(K - dt^2 K M^-1 K / 4) u at whole steps, so a contraction of v there can only take
+ * from it. I - c M^-1 S contracts while c w^2 < 2 for all frequencies w of S, which are below the critical frequency of
+ * the body (0.15 to 0.78 of it: test_noise_damping): so c may be up to this share of 1 / w_c^2. */
 static const double LARGEST_SHARE = 1;
 enum { MOST_STEPS = 32 };
 
-static bool asks(const brc_stage *stage) { return stage->solver == BRC_SOLVER_DYNAMIC && stage->noise_damping > 0; }
+static bool asks(const brc_stage *stage)
+{
+    return stage->solver == BRC_SOLVER_DYNAMIC && stage->noise_damping > 0;
+}
 
-static bool noise(const brc_wants *w) { return w->noise; }
+static bool noise(const brc_wants *w)
+{
+    return w->noise;
+}
 
 #define AT(member) BRC_FIELD_AT(struct brc_noise, member)
 static const brc_field_row rows[] = {
     {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(gradient), "gradients of velocities", "1/s", BRC_NOT_KEPT},
     {"stress", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(no_stress), "no stresses", "-", BRC_NOT_KEPT},
     {"flux", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(flux), "fluxes of velocities", "Pa/s", BRC_NOT_KEPT},
-    {"bond_part", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_many, AT(bond_part), "bond parts of velocities", "Pa/s", BRC_NOT_KEPT},
+    {"bond_part", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_many, AT(bond_part), "bond parts of velocities", "Pa/s",
+     BRC_NOT_KEPT},
     {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces of noise damping", "N/s", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_noise_fields, "noise damping", BRC_LIFE_RUN, noise, rows);
@@ -60,7 +68,8 @@ void brc_noise_begin_stage(brc_simulation *s)
 {
     if (!s->noise) return;
     const brc_stage *stage = brc_current_stage(s);
-    const double dt = s->time_step.value, critical = s->time_step.critical > 0 ? s->time_step.critical : dt, z = stage->noise_damping;
+    const double dt = s->time_step.value, critical = s->time_step.critical > 0 ? s->time_step.critical : dt,
+                 z = stage->noise_damping;
     s->noise->every = 0;
     if (!asks(stage) || !(dt > 0)) return;
     const double share = 4 * z * dt / critical; /* z t_c dt w_c^2, w_c = 2 / t_c */

@@ -1,6 +1,8 @@
-/* Passes: kernels whose arguments are found by the names that their parameters have in kernels/. A name is looked up once, when the pass is made, in a chain of scopes from the innermost
- * outwards: one thing of many (a load), a request of an evaluation, the arrays and numbers of an effect, those of the run. A launch then reads what stands there at the time. Names that change
- * with every launch are declared as open, and each launch gives all of them. The first parameter of a kernel is its number of work-items. */
+/* Passes: kernels whose arguments are found by the names that their parameters have in kernels/. A name is looked up
+ * once, when the pass is made, in a chain of scopes from the innermost outwards: one thing of many (a load), a request
+ * of an evaluation, the arrays and numbers of an effect, those of the run. A launch then reads what stands there at the
+ * time. Names that change with every launch are declared as open, and each launch gives all of them. The first
+ * parameter of a kernel is its number of work-items. */
 #ifndef BRC_SOLVER_PASSES_H
 #define BRC_SOLVER_PASSES_H
 
@@ -29,8 +31,9 @@ typedef struct brc_scope {
 #define BRC_VALUES(rows) .n_values = (int)(sizeof(rows) / sizeof *(rows)), .values = (rows)
 
 typedef struct brc_pass brc_pass;
-/* kernel, scope: as long as the call; open: names apart by spaces, borrowed, or NULL. BRC_INTERNAL: a parameter that nothing provides, or an open name that the kernel does not have; the
- * sentence says kernel and name. list: the pass is put at its head, and freed with it. */
+/* kernel, scope: as long as the call; open: names apart by spaces, borrowed, or NULL. BRC_INTERNAL: a parameter that
+ * nothing provides, or an open name that the kernel does not have; the sentence says kernel and name. list: the pass is
+ * put at its head, and freed with it. */
 brc_status brc_pass_make(brc_context *context, brc_device *device, const brc_scope *scope, const char *kernel,
                          const char *open, brc_pass **list, brc_pass **out);
 void brc_passes_free(brc_pass **list);
@@ -52,7 +55,8 @@ typedef struct brc_given {
         }                                                                                                              \
     }
 
-/* Launch over n_items work-items. request, item: owners of scopes of these kinds; given: all open names (BRC_GIVEN); each NULL where there is none. */
+/* Launch over n_items work-items. request, item: owners of scopes of these kinds; given: all open names (BRC_GIVEN);
+ * each NULL where there is none. */
 brc_status brc_pass_run_on(const brc_pass *pass, int64_t n_items, const void *request, const void *item,
                            const brc_given *given);
 static inline brc_status brc_pass_run(const brc_pass *pass, int64_t n_items)

@@ -1,5 +1,6 @@
-/* Trials: a run that is only asked what its parts cost. Its linear solves and modes leave off where they are once patience is over, as if they had
- * converged, so that the run goes on to its end in little time. What it computes after that is no answer. */
+/* Trials: a run that is only asked what its parts cost. Its linear solves and modes leave off where they are once
+ * patience is over, as if they had converged, so that the run goes on to its end in little time. What it computes after
+ * that is no answer. */
 #ifndef BRC_SOLVER_PATIENCE_H
 #define BRC_SOLVER_PATIENCE_H
 

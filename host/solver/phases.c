@@ -3,7 +3,8 @@
 
 const char *brc_phase_name(brc_step_phase phase)
 {
-    static const char *const names[BRC_N_PHASES] = {"none", "motion", "forces", "search", "pairs", "fracture", "ledger", "output"};
+    static const char *const names[BRC_N_PHASES] = {"none",  "motion",   "forces", "search",
+                                                    "pairs", "fracture", "ledger", "output"};
     return names[phase];
 }
 

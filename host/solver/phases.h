@@ -1,5 +1,5 @@
-/* Where the time of the steps of dynamic stages goes: a watch that is handed from phase to phase. Wall seconds of the calling thread, so what a device only
- * queues (opencl) counts for the phase that waits for it. */
+/* Where the time of the steps of dynamic stages goes: a watch that is handed from phase to phase. Wall seconds of the
+ * calling thread, so what a device only queues (opencl) counts for the phase that waits for it. */
 #ifndef BRC_SOLVER_PHASES_H
 #define BRC_SOLVER_PHASES_H
 
@@ -11,7 +11,8 @@ typedef enum brc_step_phase {
     BRC_PHASE_FORCES,   /* elements, bonds and loads, once a step */
     BRC_PHASE_SEARCH,   /* who may touch whom */
     BRC_PHASE_PAIRS,    /* contact of pairs, and what they give to elements and strikers */
-    BRC_PHASE_FRACTURE, /* who breaks, what breaks change (forces that are evaluated again included), faces that soften */
+    BRC_PHASE_FRACTURE, /* who breaks, what breaks change (forces that are evaluated again included), faces that
+                           soften */
     BRC_PHASE_LEDGER,   /* energies, and what the guard reads */
     BRC_PHASE_OUTPUT,   /* samples, frames, checkpoints */
     BRC_N_PHASES

@@ -9,14 +9,18 @@ static brc_status sort_elements(brc_simulation *s, const int32_t *piece, brc_pie
     BRC_TRY(BRC_ALLOCATE(s->context, &p->element, n, "pieces"));
     BRC_TRY(BRC_ALLOCATE(s->context, &p->place, 3 * n, "pieces"));
     BRC_TRY(BRC_ALLOCATE(s->context, &p->free, p->n, "pieces"));
-    for (int64_t e = 0; e < n; ++e) p->start[piece[e] + 1] += 1;
-    for (int64_t i = 0; i < p->n; ++i) p->start[i + 1] += p->start[i];
+    for (int64_t e = 0; e < n; ++e)
+        p->start[piece[e] + 1] += 1;
+    for (int64_t i = 0; i < p->n; ++i)
+        p->start[i + 1] += p->start[i];
     for (int64_t e = 0; e < n; ++e) {
         const int64_t at = p->start[piece[e]]++;
         p->element[at] = (int32_t)e;
-        for (int c = 0; c < 3; ++c) p->place[3 * at + c] = s->domain->position[3 * e + c];
+        for (int c = 0; c < 3; ++c)
+            p->place[3 * at + c] = s->domain->position[3 * e + c];
     }
-    for (int64_t i = p->n; i > 0; --i) p->start[i] = p->start[i - 1];
+    for (int64_t i = p->n; i > 0; --i)
+        p->start[i] = p->start[i - 1];
     p->start[0] = 0;
     return BRC_OK;
 }
@@ -24,12 +28,14 @@ static brc_status sort_elements(brc_simulation *s, const int32_t *piece, brc_pie
 static brc_status find_free(brc_simulation *s, const int32_t *piece, brc_pieces *p)
 {
     const double *place = s->domain->position;
-    for (int64_t i = 0; i < p->n; ++i) brc_free_motions_begin(&p->free[i], p->start[i + 1] - p->start[i], p->place + 3 * p->start[i]);
+    for (int64_t i = 0; i < p->n; ++i)
+        brc_free_motions_begin(&p->free[i], p->start[i + 1] - p->start[i], p->place + 3 * p->start[i]);
     for (int32_t i = 0; i < s->loads.n_imposed; ++i)
         for (int32_t k = 0; s->loads.imposed[i].load >= 0 && k < s->loads.imposed[i].n; ++k)
             for (int c = 0; c < 3; ++c) {
                 const int32_t e = s->loads.imposed[i].element_id[k];
-                if (s->loads.imposed[i].component_bits >> c & 1) brc_free_motions_hold(&p->free[piece[e]], place + 3 * (int64_t)e, c);
+                if (s->loads.imposed[i].component_bits >> c & 1)
+                    brc_free_motions_hold(&p->free[piece[e]], place + 3 * (int64_t)e, c);
             }
     for (int64_t f = 0; s->loads.held.n_faces > 0 && f < s->domain->n_free_faces; ++f) {
         const int32_t at = s->loads.held.index_of_free_face[f];
@@ -43,7 +49,8 @@ static brc_status find_free(brc_simulation *s, const int32_t *piece, brc_pieces 
                 if (brc_current_stage(s)->loads[s->loads.turns[i].load].component[c])
                     brc_free_motions_clamp(&p->free[piece[s->loads.turns[i].element_id[k]]], c);
     for (int64_t i = 0; i < p->n; ++i) {
-        if (!brc_free_motions_find(&p->free[i])) return BRC_FAIL(s->context, BRC_INTERNAL, "the free motions of the stage were not found");
+        if (!brc_free_motions_find(&p->free[i]))
+            return BRC_FAIL(s->context, BRC_INTERNAL, "the free motions of the stage were not found");
         p->any |= p->free[i].n > 0;
     }
     return BRC_OK;
@@ -54,7 +61,8 @@ brc_status brc_pieces_number(brc_context *context, const brc_domain *d, int32_t 
     int32_t *stack = NULL;
     BRC_TRY(BRC_ALLOCATE(context, &stack, d->n_elements, "pieces"));
     *n = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e) piece[e] = -1;
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        piece[e] = -1;
     for (int64_t e = 0; e < d->n_elements; ++e) {
         int64_t top = 0;
         if (piece[e] >= 0) continue;
@@ -80,8 +88,10 @@ brc_status brc_pieces_find(brc_simulation *s, brc_pieces *out)
     brc_status status = BRC_OK;
     brc_pieces_free(out);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &piece, s->domain->n_elements, "pieces"));
-    if (s->fracture) BRC_TRY_OR(cleanup, brc_simulation_fragments(s, piece, &out->n));
-    else BRC_TRY_OR(cleanup, brc_pieces_number(s->context, s->domain, piece, &out->n));
+    if (s->fracture)
+        BRC_TRY_OR(cleanup, brc_simulation_fragments(s, piece, &out->n));
+    else
+        BRC_TRY_OR(cleanup, brc_pieces_number(s->context, s->domain, piece, &out->n));
     BRC_TRY_OR(cleanup, sort_elements(s, piece, out));
     status = find_free(s, piece, out);
 cleanup:

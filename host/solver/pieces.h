@@ -1,4 +1,5 @@
-/* The pieces of a body in a static stage: what each may do as a whole, since nothing holds it there, takes no part in an equilibrium. */
+/* The pieces of a body in a static stage: what each may do as a whole, since nothing holds it there, takes no part in
+ * an equilibrium. */
 #ifndef BRC_SOLVER_PIECES_H
 #define BRC_SOLVER_PIECES_H
 
@@ -14,13 +15,14 @@ typedef struct brc_pieces {
     bool any;               /* some piece has free motions */
 } brc_pieces;
 
-/* Number the parts of a domain that no bond joins, in the order of their first elements; piece [n_elements]. BRC_NO_MEMORY. */
+/* Number the parts of a domain that no bond joins, in the order of their first elements; piece [n_elements].
+ * BRC_NO_MEMORY. */
 brc_status brc_pieces_number(brc_context *context, const brc_domain *domain, int32_t *piece, int64_t *n);
 /* Of the current stage: fragments where bonds can break, else the parts of the domain. *out is freed first. */
 brc_status brc_pieces_find(brc_simulation *simulation, brc_pieces *out);
 void brc_pieces_free(brc_pieces *pieces);
-/* Take off forces and torques [n_elements][3] by id what does work on free motions; torque NULL: cells, of which single ones and rows of them are held still
- * by not moving (balance.h). BRC_NO_MEMORY. */
+/* Take off forces and torques [n_elements][3] by id what does work on free motions; torque NULL: cells, of which single
+ * ones and rows of them are held still by not moving (balance.h). BRC_NO_MEMORY. */
 brc_status brc_pieces_project(brc_context *context, const brc_pieces *pieces, double *force, double *torque);
 
 #endif

@@ -9,7 +9,8 @@ brc_status brc_preconditioner_create(brc_simulation *s, brc_solve_vectors *v)
     const int64_t n = s->layout->n_rows, width = brc_is_beams(s) ? 21 : 6;
     double *blocks = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &blocks, width * n, "preconditioner"));
-    brc_status status = brc_is_beams(s) ? brc_beams_precondition_blocks(s, blocks) : brc_geometry_precondition_blocks(s, blocks);
+    brc_status status =
+        brc_is_beams(s) ? brc_beams_precondition_blocks(s, blocks) : brc_geometry_precondition_blocks(s, blocks);
     if (status == BRC_OK) status = brc_upload_state(s, v->preconditioner.blocks, blocks, width * n);
     brc_memory_free(blocks);
     return status;
@@ -20,10 +21,11 @@ brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, boo
     const int32_t n = s->layout->n_rows;
     if (v->preconditioner.multigrid && !rotations) return brc_multigrid_apply(v->preconditioner.multigrid, v->r, v->z);
     if (brc_is_beams(s))
-        BRC_TRY(BRC_LAUNCH(s->kernel.precondition6, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks), BRC_BUF(v->r.move), BRC_BUF(v->r.turn),
-                           BRC_BUF(v->z.move), BRC_BUF(v->z.turn)));
+        BRC_TRY(BRC_LAUNCH(s->kernel.precondition6, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks),
+                           BRC_BUF(v->r.move), BRC_BUF(v->r.turn), BRC_BUF(v->z.move), BRC_BUF(v->z.turn)));
     else
-        BRC_TRY(BRC_LAUNCH(s->kernel.precondition, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks), BRC_BUF(v->r.move), BRC_BUF(v->z.move)));
+        BRC_TRY(BRC_LAUNCH(s->kernel.precondition, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks), BRC_BUF(v->r.move),
+                           BRC_BUF(v->z.move)));
     if (brc_is_beams(s)) BRC_TRY(brc_loads_zero_turned(s, v->z.turn));
     return rotations ? BRC_OK : brc_loads_zero_imposed(s, v->z.move);
 }
@@ -37,8 +39,10 @@ static void tell(brc_simulation *s, const brc_multigrid *multigrid, const char *
     char nodes[200] = "";
     for (int i = 0, at = 0; i < m.n_levels && at < (int)sizeof nodes; ++i)
         at += snprintf(nodes + at, sizeof nodes - (size_t)at, "%s%lld", i > 0 ? ", " : "", (long long)m.nodes[i]);
-    brc_log(s->context, again[0] ? BRC_LOG_DEBUG : BRC_LOG_INFO, "stage '%s': multigrid%s of %d levels (%s nodes) in %.2f s, %.2f kB an element, %.2f while it was made",
-            brc_current_stage(s)->name, again, m.n_levels, nodes, m.seconds, 1e-3 * (double)m.device_bytes / (double)s->domain->n_elements,
+    brc_log(s->context, again[0] ? BRC_LOG_DEBUG : BRC_LOG_INFO,
+            "stage '%s': multigrid%s of %d levels (%s nodes) in %.2f s, %.2f kB an element, %.2f while it was made",
+            brc_current_stage(s)->name, again, m.n_levels, nodes, m.seconds,
+            1e-3 * (double)m.device_bytes / (double)s->domain->n_elements,
             1e-3 * (double)m.host_bytes / (double)s->domain->n_elements);
 }
 
@@ -85,7 +89,9 @@ void brc_preconditioner_took(brc_solve_vectors *v, int64_t iterations, double fr
 
 void brc_preconditioner_give_up(brc_simulation *s, brc_solve_vectors *v)
 {
-    brc_log(s->context, BRC_LOG_WARNING, "stage '%s': multigrid does not serve this stiffness; the iterations go on with diagonal blocks", brc_current_stage(s)->name);
+    brc_log(s->context, BRC_LOG_WARNING,
+            "stage '%s': multigrid does not serve this stiffness; the iterations go on with diagonal blocks",
+            brc_current_stage(s)->name);
     v->preconditioner.blocks_alone = true;
     drop(&v->preconditioner);
 }

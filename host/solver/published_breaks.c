@@ -1,14 +1,17 @@
-/* Bonds of dlsm-published that break by their normal stress (AGH19 section 5.3, eq. 35-36): passes of kernels/published_breaks.cl. */
+/* Bonds of dlsm-published that break by their normal stress (AGH19 section 5.3, eq. 35-36): passes of
+ * kernels/published_breaks.cl. */
 #include "ahead.h"
 #include "cell_breaks_internal.h"
 #include "sym3.h"
 #include <math.h>
 
-/* An element whose bonds span less than this share of what they spanned in its weakest direction in the whole body has no strain any more, as one of
- * fewer than three contacts (AGH19 section 2.2): its strain would answer its neighbours more stiffly than the time step bears. */
+/* An element whose bonds span less than this share of what they spanned in its weakest direction in the whole body has
+ * no strain any more, as one of fewer than three contacts (AGH19 section 2.2): its strain would answer its neighbours
+ * more stiffly than the time step bears. */
 static const double support_share = 0.2, span_least = 1e-6;
 
-/* Of the whole body: the least eigenvalue that A = sum w R (x) R must keep, and the projector on the directions spanned (geometry.c). */
+/* Of the whole body: the least eigenvalue that A = sum w R (x) R must keep, and the projector on the directions spanned
+ * (geometry.c). */
 static double support_of(const brc_simulation *s, int64_t e, double projector[6])
 {
     static const int of_component[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
@@ -24,11 +27,13 @@ static double support_of(const brc_simulation *s, int64_t e, double projector[6]
         }
         const double w = s->scene->model.area_weights ? sqrt(surface / length) : 1;
         const double six[6] = {r[0] * r[0], r[1] * r[1], r[2] * r[2], r[1] * r[2], r[0] * r[2], r[0] * r[1]};
-        for (int c = 0; c < 6; ++c) a[c] += w * six[c];
+        for (int c = 0; c < 6; ++c)
+            a[c] += w * six[c];
     }
     brc_sym3_eigen(a, value, axis);
     for (int k = 0; k < 3; ++k)
-        for (int c = 0; value[k] > span_least * value[2] && c < 6; ++c) projector[c] += axis[k][of_component[c][0]] * axis[k][of_component[c][1]];
+        for (int c = 0; value[k] > span_least * value[2] && c < 6; ++c)
+            projector[c] += axis[k][of_component[c][0]] * axis[k][of_component[c][1]];
     return fmax(support_share * value[0], span_least * value[2]);
 }
 
@@ -61,7 +66,8 @@ brc_status brc_published_breaks_create(brc_simulation *s)
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         double projector[6] = {0};
         if (layout->element_of_row[r] >= 0) support[r] = support_of(s, layout->element_of_row[r], projector);
-        for (int k = 0; k < 6; ++k) spanned[(int64_t)(r / layout->slice * 6 + k) * layout->slice + r % layout->slice] = projector[k];
+        for (int k = 0; k < 6; ++k)
+            spanned[(int64_t)(r / layout->slice * 6 + k) * layout->slice + r % layout->slice] = projector[k];
     }
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, c->spanned, spanned, 6 * (int64_t)layout->n_rows));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, c->support, support, layout->n_rows));
@@ -105,7 +111,8 @@ brc_status brc_published_breaks_ratio(brc_simulation *s, double *out)
     *out = 0;
     BRC_TRY(BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
     const brc_status status = brc_coeff_from_rows(s, s->fracture->cells->reach, value, 1);
-    for (int64_t e = 0; status == BRC_OK && e < s->domain->n_elements; ++e) *out = fmax(*out, value[e]);
+    for (int64_t e = 0; status == BRC_OK && e < s->domain->n_elements; ++e)
+        *out = fmax(*out, value[e]);
     brc_memory_free(value);
     return status;
 }

@@ -1,5 +1,5 @@
-/* Which regime a fracture ran in: how much of the energy moved when bonds began to break and until the load was at its peak. Followed at the samples of
- * dynamic stages of scenes with `fracture`. */
+/* Which regime a fracture ran in: how much of the energy moved when bonds began to break and until the load was at its
+ * peak. Followed at the samples of dynamic stages of scenes with `fracture`. */
 #ifndef BRC_SOLVER_REGIME_H
 #define BRC_SOLVER_REGIME_H
 

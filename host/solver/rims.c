@@ -2,15 +2,26 @@
 #include "cell_breaks_internal.h"
 #include "cell_softening.h"
 
-bool brc_rims_energies_apart(const brc_simulation *s) { return brc_is_dlsm(s) && !brc_softening_is_on(s); }
+bool brc_rims_energies_apart(const brc_simulation *s)
+{
+    return brc_is_dlsm(s) && !brc_softening_is_on(s);
+}
 
-bool brc_rims_may_gain(const brc_simulation *s, const brc_rings *rings) { return brc_rims_energies_apart(s) && !s->contact && !rings->whole_force; }
+bool brc_rims_may_gain(const brc_simulation *s, const brc_rings *rings)
+{
+    return brc_rims_energies_apart(s) && !s->contact && !rings->whole_force;
+}
 
-/* Gains take the room of the stresses of marked bonds, which nobody wants once these broke: of P, then of B, 9 numbers an element of the rings 0 to 2 and one more record each. */
-int32_t brc_rims_records(const brc_rings *rings) { return rings->around.n[2] + 1; }
+/* Gains take the room of the stresses of marked bonds, which nobody wants once these broke: of P, then of B, 9 numbers
+ * an element of the rings 0 to 2 and one more record each. */
+int32_t brc_rims_records(const brc_rings *rings)
+{
+    return rings->around.n[2] + 1;
+}
 bool brc_rims_gain(const brc_simulation *s, const brc_rings *rings)
 {
-    return rings->placed && !brc_pass_is_whole(s, &rings->around, 2) && 2 * 9 * (int64_t)brc_rims_records(rings) <= s->layout->n_slots * s->layout->slice;
+    return rings->placed && !brc_pass_is_whole(s, &rings->around, 2) &&
+           2 * 9 * (int64_t)brc_rims_records(rings) <= s->layout->n_slots * s->layout->slice;
 }
 
 brc_scope brc_scope_of_gains(const brc_simulation *s, const brc_scope *outer)

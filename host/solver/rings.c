@@ -2,11 +2,23 @@
 
 enum { BLOCK = 1024 }; /* SCAN_BLOCK of kernels/scan.cl */
 
-static int32_t blocks_of(const brc_simulation *s) { return (s->layout->n_rows + BLOCK - 1) / BLOCK; }
+static int32_t blocks_of(const brc_simulation *s)
+{
+    return (s->layout->n_rows + BLOCK - 1) / BLOCK;
+}
 
-static bool of_cells(const brc_wants *w) { return w->scene->has_fracture && !brc_wants_beams(w); }
-static bool softening_cells(const brc_wants *w) { return of_cells(w) && w->softens; }
-static int64_t each_count(const brc_wants *w) { return BRC_RING_KINDS * (int64_t)((w->layout->n_rows + BLOCK - 1) / BLOCK + 1); }
+static bool of_cells(const brc_wants *w)
+{
+    return w->scene->has_fracture && !brc_wants_beams(w);
+}
+static bool softening_cells(const brc_wants *w)
+{
+    return of_cells(w) && w->softens;
+}
+static int64_t each_count(const brc_wants *w)
+{
+    return BRC_RING_KINDS * (int64_t)((w->layout->n_rows + BLOCK - 1) / BLOCK + 1);
+}
 
 #define AT(member) BRC_FIELD_AT(brc_rings, member)
 static const brc_field_row rows[] = {
@@ -14,7 +26,8 @@ static const brc_field_row rows[] = {
     {"level", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(level), "rings around broken bonds", "-", BRC_NOT_KEPT},
     {"count", each_count, 1, BRC_FIELD_INT, NULL, AT(count), "rings around broken bonds", "-", BRC_NOT_KEPT},
     {"fresh", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces around broken bonds", "N", BRC_NOT_KEPT},
-    {"fresh_torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "torques around broken bonds", "N m", BRC_NOT_KEPT},
+    {"fresh_torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "torques around broken bonds",
+     "N m", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_ring_fields, "rings", BRC_LIFE_RUN, of_cells, rows);
 #define LIST(k) BRC_FIELD_AT(brc_ring_list, upto) + (k) * sizeof(brc_buffer *)
@@ -68,7 +81,8 @@ brc_status brc_rings_create(brc_simulation *s, brc_rings **out)
     brc_rings *r = *out;
     BRC_TRY(make_passes(s, r));
     BRC_TRY(brc_fields_create(s->device, &brc_ring_fields, &s->wants, r));
-    BRC_TRY(BRC_ALLOCATE(s->context, &r->count_read, BRC_RING_KINDS * ((int64_t)blocks_of(s) + 1), "rings around broken bonds"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &r->count_read, BRC_RING_KINDS * ((int64_t)blocks_of(s) + 1),
+                         "rings around broken bonds"));
     return brc_fields_create(s->device, &brc_ring_list_fields, &s->wants, &r->around);
 }
 
@@ -98,7 +112,8 @@ static brc_status make_list(brc_simulation *s, brc_rings *r, int which, brc_ring
     BRC_TRY(BRC_RUN(r->count_pass, n_blocks, {"n", BRC_INT(n)}, {"which", BRC_INT(which)}));
     BRC_TRY(BRC_RUN(r->tops, BRC_RING_KINDS, {"n_blocks", BRC_INT(n_blocks)}));
     BRC_TRY(brc_buffer_read(r->count, 0, r->count_read, brc_buffer_bytes(r->count)));
-    for (int k = 0; k < BRC_RING_KINDS; ++k) out->n[k] = r->count_read[k * (n_blocks + 1) + n_blocks];
+    for (int k = 0; k < BRC_RING_KINDS; ++k)
+        out->n[k] = r->count_read[k * (n_blocks + 1) + n_blocks];
     return BRC_RUN(r->list_pass, n_blocks, {"n", BRC_INT(n)}, {"which", BRC_INT(which)}, {"next", BRC_BUF(r->count)},
                    {"upto_0", BRC_BUF(out->upto[0])}, {"upto_1", BRC_BUF(out->upto[1])},
                    {"upto_2", BRC_BUF(out->upto[2])}, {"upto_3", BRC_BUF(out->upto[3])});
@@ -112,7 +127,8 @@ brc_status brc_rings_find(brc_simulation *s, brc_rings *r)
 
 brc_status brc_rings_spread(brc_simulation *s, brc_rings *r, int first, int last)
 {
-    for (int ring = first; ring <= last; ++ring) BRC_TRY(spread(s, r, ring == 1 ? r->touched : r->level, ring, ring + 1));
+    for (int ring = first; ring <= last; ++ring)
+        BRC_TRY(spread(s, r, ring == 1 ? r->touched : r->level, ring, ring + 1));
     return BRC_OK;
 }
 
@@ -129,7 +145,10 @@ brc_status brc_rings_forget(brc_rings *r, const brc_ring_list *list)
     return BRC_RUN(r->forget, list->n[3], {"list", BRC_BUF(list->upto[3])});
 }
 
-brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out) { return make_list(s, r, TOUCHED, out); }
+brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out)
+{
+    return make_list(s, r, TOUCHED, out);
+}
 
 brc_status brc_rings_seed(brc_simulation *s, brc_rings *r, brc_buffer *number)
 {
@@ -146,7 +165,10 @@ brc_status brc_rings_without(brc_simulation *s, brc_rings *r, brc_buffer *number
 
 /* ---- what is done with them ---- */
 
-bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int ring) { return !list || 2 * (int64_t)list->n[ring] > s->domain->n_elements; }
+bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int ring)
+{
+    return !list || 2 * (int64_t)list->n[ring] > s->domain->n_elements;
+}
 
 enum { MOST_GIVEN = 6 };
 brc_status brc_pass_over(brc_simulation *s, const brc_pass *whole, const brc_pass *listed, const brc_ring_list *list,
@@ -161,7 +183,10 @@ brc_status brc_pass_over(brc_simulation *s, const brc_pass *whole, const brc_pas
 }
 
 /* Of dlsm, whose law has an energy, and steps of velocity Verlet. */
-static bool books_jumps(const brc_simulation *s, const brc_rings *r) { return brc_is_dlsm(s) && s->lost_numerical && r->half_kick > 0; }
+static bool books_jumps(const brc_simulation *s, const brc_rings *r)
+{
+    return brc_is_dlsm(s) && s->lost_numerical && r->half_kick > 0;
+}
 
 /* r->force holds the gain: prescribed elements swing about nothing. */
 static brc_status book_jumps(brc_simulation *s, const brc_rings *r, int32_t n, int k, int listed)

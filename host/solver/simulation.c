@@ -30,22 +30,28 @@ static brc_status find_materials(brc_simulation *s)
 {
     BRC_TRY(BRC_ALLOCATE(s->context, &s->elastic, s->scene->n_materials, "materials"));
     BRC_TRY(BRC_ALLOCATE(s->context, &s->material_of_element, s->domain->n_elements, "materials of elements"));
-    for (int32_t m = 0; m < s->scene->n_materials; ++m) s->elastic[m] = brc_elastic_of(s->scene->materials + m);
-    for (int64_t e = 0; e < s->domain->n_elements; ++e) s->material_of_element[e] = material_index(s->scene, s->domain, e);
+    for (int32_t m = 0; m < s->scene->n_materials; ++m)
+        s->elastic[m] = brc_elastic_of(s->scene->materials + m);
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        s->material_of_element[e] = material_index(s->scene, s->domain, e);
     return BRC_OK;
 }
 
-brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, const brc_domain *domain, int32_t slice, brc_layout **out)
+brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, const brc_domain *domain, int32_t slice,
+                                 brc_layout **out)
 {
     BRC_TRY(brc_layout_create(context, domain, slice, out));
     if (scene->has_contact) brc_layout_all_boundary(*out); /* any element may come to be pushed */
     return BRC_OK;
 }
 
-int64_t brc_simulation_planned_bytes(const brc_simulation *s) { return brc_fields_planned(&s->wants, BRC_LIFE_RUN) + brc_fields_planned(&s->wants, BRC_LIFE_SEARCH); }
+int64_t brc_simulation_planned_bytes(const brc_simulation *s)
+{
+    return brc_fields_planned(&s->wants, BRC_LIFE_RUN) + brc_fields_planned(&s->wants, BRC_LIFE_SEARCH);
+}
 
-brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain, brc_device *device,
-                                 brc_simulation **out)
+brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain,
+                                 brc_device *device, brc_simulation **out)
 {
     *out = NULL;
     const double start = brc_clock_s();
@@ -54,14 +60,19 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     if (domain->n_elements < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "the domain has no elements");
     if (domain->element_kind == BRC_ELEMENT_SPHERE && scene->model.kind != BRC_MODEL_CBM)
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "model %s needs cells, the bodies are spheres joined by beams; remove `beams` from the bodies, or use model: cbm",
+                        "model %s needs cells, the bodies are spheres joined by beams; remove `beams` from the bodies, "
+                        "or use model: cbm",
                         scene->model.kind == BRC_MODEL_DLSM ? "dlsm" : "dlsm-published");
     for (int32_t b = 0; b < scene->n_bodies; ++b)
         if (scene->bodies[b].has_model && !brc_split_same_model(&scene->bodies[b].model, &scene->model))
-            return BRC_FAIL(context, BRC_BAD_INPUT, "body '%s' has a model of its own, which one simulation of the whole scene cannot move; split the scene (split.h)",
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "body '%s' has a model of its own, which one simulation of the whole scene cannot move; "
+                            "split the scene (split.h)",
                             scene->bodies[b].name);
     if (scene->n_interfaces > 0 && !scene->has_fracture)
-        brc_log(context, BRC_LOG_WARNING, "interfaces say how bonds break, and the scene has no `fracture`: they decide nothing; add `fracture: {}`");
+        brc_log(
+            context, BRC_LOG_WARNING,
+            "interfaces say how bonds break, and the scene has no `fracture`: they decide nothing; add `fracture: {}`");
     BRC_TRY(BRC_ALLOCATE(context, &s, 1, "simulation"));
     s->context = context;
     s->scene = scene;
@@ -199,13 +210,17 @@ brc_status brc_stage_start(brc_simulation *s)
     if (s->fracture) BRC_TRY(brc_fracture_begin_stage(s));
     BRC_TRY(brc_loads_prescribe(s, 0));
     if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
-    if (s->contact && brc_is_dlsm(s)) BRC_TRY(brc_force_fluxes_of_state(s, NULL, true)); /* cells reach as far as H says, which the search for the time step has used for other motions */
+    if (s->contact && brc_is_dlsm(s))
+        BRC_TRY(brc_force_fluxes_of_state(
+            s, NULL,
+            true)); /* cells reach as far as H says, which the search for the time step has used for other motions */
     BRC_TRY(brc_contact_restart(s));
     brc_closed_faces_restart(s);
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(brc_simulation_ledger(s, &after));
     BRC_TRY(brc_contact_wakes(s, &after));
-    s->initial_energy += after.total - s->total_before_stage; /* initial fields, and what changed supports hold or release */
+    s->initial_energy +=
+        after.total - s->total_before_stage; /* initial fields, and what changed supports hold or release */
     s->setup_seconds += brc_clock_s() - start;
     return BRC_OK;
 }
@@ -219,12 +234,19 @@ brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
 void brc_simulation_interrupt(brc_simulation *s)
 {
     s->interrupted = 1;
-    for (int32_t k = 0; k < s->n_others; ++k) s->others[k]->interrupted = 1;
+    for (int32_t k = 0; k < s->n_others; ++k)
+        s->others[k]->interrupted = 1;
 }
 
-void brc_simulation_set_patience(brc_simulation *s, const brc_patience *patience) { s->patience = patience; }
+void brc_simulation_set_patience(brc_simulation *s, const brc_patience *patience)
+{
+    s->patience = patience;
+}
 
-bool brc_simulation_left_off(const brc_simulation *s) { return s->left_off; }
+bool brc_simulation_left_off(const brc_simulation *s)
+{
+    return s->left_off;
+}
 
 bool brc_leaves_off(brc_simulation *s)
 {
@@ -240,4 +262,7 @@ brc_status brc_simulation_advance(brc_simulation *s, int64_t n_steps)
     return status;
 }
 
-brc_status brc_simulation_wait(brc_simulation *s) { return brc_device_wait(s->device); }
+brc_status brc_simulation_wait(brc_simulation *s)
+{
+    return brc_device_wait(s->device);
+}

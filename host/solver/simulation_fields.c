@@ -1,37 +1,70 @@
 /* State and work arrays of the elements. */
 #include "simulation_internal.h"
 
-static bool tchamwa(const brc_wants *w) { return w->tchamwa; }
-static bool damping(const brc_wants *w) { return w->damping; }
-static bool held_gradients(const brc_wants *w) { return brc_wants_dlsm(w) && w->face_loads; }
-static bool held_moments(const brc_wants *w) { return brc_wants_dlsm(w) && (w->face_loads || w->scene->has_contact); }
-static bool bond_parts(const brc_wants *w) { return brc_wants_dlsm(w) && w->many_materials; }
+static bool tchamwa(const brc_wants *w)
+{
+    return w->tchamwa;
+}
+static bool damping(const brc_wants *w)
+{
+    return w->damping;
+}
+static bool held_gradients(const brc_wants *w)
+{
+    return brc_wants_dlsm(w) && w->face_loads;
+}
+static bool held_moments(const brc_wants *w)
+{
+    return brc_wants_dlsm(w) && (w->face_loads || w->scene->has_contact);
+}
+static bool bond_parts(const brc_wants *w)
+{
+    return brc_wants_dlsm(w) && w->many_materials;
+}
 /* What breaks cost velocity Verlet is booked with what damps by itself. */
-static bool numerical_losses(const brc_wants *w) { return w->tchamwa || (brc_wants_dlsm(w) && w->scene->has_fracture); }
+static bool numerical_losses(const brc_wants *w)
+{
+    return w->tchamwa || (brc_wants_dlsm(w) && w->scene->has_fracture);
+}
 
 /* Blocks of a sum over three numbers a row (kernels/vector.cl). */
-static int64_t each_partial(const brc_wants *w) { return (3 * (int64_t)w->layout->n_rows + 1023) / 1024 + 1; }
+static int64_t each_partial(const brc_wants *w)
+{
+    return (3 * (int64_t)w->layout->n_rows + 1023) / 1024 + 1;
+}
 
 #define AT(member) BRC_FIELD_AT(brc_simulation, member)
 static const brc_field_row rows[] = {
-    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements", "m", BRC_KEPT("displacement", BRC_KEEP_ALL)},
-    {"velocity", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(velocity), "velocities", "m/s", BRC_KEPT("velocity", BRC_KEEP_ALL)},
+    {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements", "m",
+     BRC_KEPT("displacement", BRC_KEEP_ALL)},
+    {"velocity", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(velocity), "velocities", "m/s",
+     BRC_KEPT("velocity", BRC_KEEP_ALL)},
     {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces", "N", BRC_KEPT("force", BRC_KEEP_ALL)},
-    {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(gradient), "displacement gradients", "-", BRC_NOT_KEPT},
-    {"strain", brc_each_row, 6, BRC_FIELD_COEFF, brc_wants_published, AT(gradient), "strains", "-", BRC_KEPT("strain", BRC_KEEP_ALL)},
+    {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(gradient), "displacement gradients", "-",
+     BRC_NOT_KEPT},
+    {"strain", brc_each_row, 6, BRC_FIELD_COEFF, brc_wants_published, AT(gradient), "strains", "-",
+     BRC_KEPT("strain", BRC_KEEP_ALL)},
     {"stress", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(stress), "stresses", "Pa", BRC_NOT_KEPT},
     {"flux", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(flux), "fluxes", "Pa", BRC_NOT_KEPT},
     {"bond_part", brc_each_row, 9, BRC_FIELD_COEFF, bond_parts, AT(bond_part), "bond parts", "Pa", BRC_NOT_KEPT},
-    {"held_gradient", brc_each_boundary, 9, BRC_FIELD_COEFF, held_gradients, AT(held_gradient), "held gradients", "m^3", BRC_NOT_KEPT},
-    {"held_moment", brc_each_boundary, 9, BRC_FIELD_COEFF, held_moments, AT(held_moment), "held moments", "N m", BRC_NOT_KEPT},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "orientations", "-", BRC_KEPT("orientation", BRC_KEEP_ALL)},
-    {"spin", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(spin), "spins", "rad/s", BRC_KEPT("spin", BRC_KEEP_ALL)},
-    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "torques", "N m", BRC_KEPT("torque", BRC_KEEP_ALL)},
+    {"held_gradient", brc_each_boundary, 9, BRC_FIELD_COEFF, held_gradients, AT(held_gradient), "held gradients", "m^3",
+     BRC_NOT_KEPT},
+    {"held_moment", brc_each_boundary, 9, BRC_FIELD_COEFF, held_moments, AT(held_moment), "held moments", "N m",
+     BRC_NOT_KEPT},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "orientations", "-",
+     BRC_KEPT("orientation", BRC_KEEP_ALL)},
+    {"spin", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(spin), "spins", "rad/s",
+     BRC_KEPT("spin", BRC_KEEP_ALL)},
+    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "torques", "N m",
+     BRC_KEPT("torque", BRC_KEEP_ALL)},
     {"moved", brc_each_row, 3, BRC_FIELD_STATE, tchamwa, AT(moved), "moves of a step", "m", BRC_NOT_KEPT},
-    {"lost_numerical", brc_each_row, 1, BRC_FIELD_STATE, numerical_losses, AT(lost_numerical), "numerical dissipation", "J", BRC_KEPT("lost_numerical", BRC_KEEP_ALL)},
-    {"lost_damping", brc_each_row, 1, BRC_FIELD_STATE, damping, AT(lost_damping), "damping dissipation", "J", BRC_KEPT("lost_damping", BRC_KEEP_ALL)},
+    {"lost_numerical", brc_each_row, 1, BRC_FIELD_STATE, numerical_losses, AT(lost_numerical), "numerical dissipation",
+     "J", BRC_KEPT("lost_numerical", BRC_KEEP_ALL)},
+    {"lost_damping", brc_each_row, 1, BRC_FIELD_STATE, damping, AT(lost_damping), "damping dissipation", "J",
+     BRC_KEPT("lost_damping", BRC_KEEP_ALL)},
     {"elastic", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(elastic_energy), "elastic energies", "J", BRC_NOT_KEPT},
-    {"stabilisation", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_dlsm, AT(stabilisation_energy), "stabilisation energies", "J", BRC_NOT_KEPT},
+    {"stabilisation", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_dlsm, AT(stabilisation_energy),
+     "stabilisation energies", "J", BRC_NOT_KEPT},
     {"kinetic", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(kinetic), "kinetic energies", "J", BRC_NOT_KEPT},
     {"partial", each_partial, 1, BRC_FIELD_STATE, NULL, AT(partial), "block sums", "-", BRC_NOT_KEPT},
 };
@@ -43,10 +76,14 @@ brc_status brc_simulation_fields_create(brc_simulation *s)
     BRC_TRY(brc_fields_create(s->device, &brc_state_fields, &s->wants, s));
     if (!brc_turns(s)) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &upright, 4 * (int64_t)s->layout->n_rows, "orientations"));
-    for (int64_t r = 0; r < s->layout->n_rows; ++r) upright[4 * r] = 1;
+    for (int64_t r = 0; r < s->layout->n_rows; ++r)
+        upright[4 * r] = 1;
     const brc_status status = brc_upload_state(s, s->orientation, upright, 4 * (int64_t)s->layout->n_rows);
     brc_memory_free(upright);
     return status;
 }
 
-void brc_simulation_fields_free(brc_simulation *s) { brc_fields_free(&brc_state_fields, s); }
+void brc_simulation_fields_free(brc_simulation *s)
+{
+    brc_fields_free(&brc_state_fields, s);
+}

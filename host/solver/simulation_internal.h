@@ -27,7 +27,7 @@ brc_elastic brc_elastic_of(const brc_material *material);
 
 /* Beams of one material in one body (beams.c). */
 typedef struct brc_beam {
-    double radius; /* of the beams [m] */
+    double radius;             /* of the beams [m] */
     double axial, bend, twist; /* E S [N], 2 E I [N m^2], G J [N m^2] */
 } brc_beam;
 
@@ -64,8 +64,8 @@ typedef struct brc_push_load { /* dead forces on elements (element_loads.c) */
     int32_t load;
     int32_t n;
     double factor, last_factor; /* now, and at the last booking */
-    int32_t *element_id; /* [n] host */
-    double *total_of;    /* [n][3] forces at factor 1 [N]; host */
+    int32_t *element_id;        /* [n] host */
+    double *total_of;           /* [n][3] forces at factor 1 [N]; host */
     brc_buffer *element, *total, *reach, *work;
 } brc_push_load;
 typedef struct brc_turn_load { /* prescribed rotations of elements (element_loads.c) */
@@ -86,7 +86,8 @@ typedef struct brc_loads {
     bool on_faces; /* some face is held or bears a traction */
 } brc_loads;
 
-/* Kernels of vectors, launched by position behind the functions of arrays.c, unknowns.c, preconditioner.c and multigrid/. */
+/* Kernels of vectors, launched by position behind the functions of arrays.c, unknowns.c, preconditioner.c and
+ * multigrid/. */
 typedef struct brc_kernels {
     brc_kernel *axpy, *copy, *xpay, *dot, *sum, *gather, *small_rotation, *turn_orientation, *precondition,
         *precondition6;
@@ -106,7 +107,8 @@ typedef struct brc_run_passes {
     brc_pass *impose_motion, *impose_book, *zero_imposed, *zero_turned, *push_elements, *impose_turn, *turn_book;
 } brc_run_passes;
 
-/* Numbers of the scene that kernels ask for by name; those of one material where there is one (kernels gather those of several). */
+/* Numbers of the scene that kernels ask for by name; those of one material where there is one (kernels gather those of
+ * several). */
 typedef struct brc_constants {
     double lambda, mu, young, k, ell; /* brc_elastic */
     double axial, bend, twist;        /* brc_beam; cbm */
@@ -119,7 +121,7 @@ typedef struct brc_constants {
 typedef struct brc_breaking brc_breaking; /* fracture_internal.h */
 typedef struct brc_strikers brc_strikers; /* strikers_internal.h */
 struct brc_contact_state;                 /* contact.h */
-struct brc_guard_state; /* guard.c */
+struct brc_guard_state;                   /* guard.c */
 
 /* Why a stage ended early (stage_end.c). */
 typedef struct brc_stage_note {
@@ -129,8 +131,8 @@ typedef struct brc_stage_note {
 
 /* How far the current stage has come, beside its step (dynamics.c, static_events.c). */
 typedef struct brc_stage_progress {
-    int64_t calm_steps;  /* for which the kinetic energy has been small */
-    int64_t judged_step; /* of the last sample */
+    int64_t calm_steps;          /* for which the kinetic energy has been small */
+    int64_t judged_step;         /* of the last sample */
     double margin, largest_load; /* of the events of a static stage; margin 0: none yet */
 } brc_stage_progress;
 
@@ -145,14 +147,14 @@ struct brc_simulation {
     brc_run_passes pass;
     brc_pass *passes; /* all there are, of effects too (passes.h) */
     brc_constants constant;
-    int n_groups; /* work-items of an element pass */
-    brc_elastic *elastic;      /* [n_materials] */
-    brc_beam *beam;            /* cbm: [n_bodies][n_materials] */
+    int n_groups;                 /* work-items of an element pass */
+    brc_elastic *elastic;         /* [n_materials] */
+    brc_beam *beam;               /* cbm: [n_bodies][n_materials] */
     int32_t *material_of_element; /* [n_elements] index into scene.materials */
 
     /* connectivity and geometry (geometry.c) */
     brc_buffer *row_start, *neighbour, *boundary;
-    brc_buffer *area, *offset, *ratio;               /* dlsm: s, d, q; published: branch (in offset), S (in area) */
+    brc_buffer *area, *offset, *ratio; /* dlsm: s, d, q; published: branch (in offset), S (in area) */
     brc_buffer *inv_shape, *inv_volume;
     brc_buffer *material, *modulus, *ell_of, *lame_of;
     brc_buffer *mass, *volume, *inertia;
@@ -163,18 +165,18 @@ struct brc_simulation {
     brc_buffer *displacement, *velocity, *force;
     brc_buffer *gradient, *stress, *flux, *bond_part; /* dlsm: H, P, B; published: strain in gradient */
     brc_buffer *held_gradient, *held_moment;
-    brc_buffer *orientation, *spin, *torque;          /* published */
-    brc_buffer *moved, *lost_numerical, *lost_damping; /* only with these effects */
+    brc_buffer *orientation, *spin, *torque;                     /* published */
+    brc_buffer *moved, *lost_numerical, *lost_damping;           /* only with these effects */
     brc_buffer *elastic_energy, *stabilisation_energy, *kinetic; /* [n_rows] scratch of the ledger */
-    brc_buffer *partial;                               /* block sums */
+    brc_buffer *partial;                                         /* block sums */
 
-    brc_breaking *fracture; /* only in scenes with fracture */
-    brc_strikers *strikers; /* only in scenes with strikers */
+    brc_breaking *fracture;            /* only in scenes with fracture */
+    brc_strikers *strikers;            /* only in scenes with strikers */
     struct brc_contact_state *contact; /* only in scenes with contact */
-    struct brc_noise *noise; /* only where a stage has noise_damping (noise_damping.c) */
-    struct brc_look *look;   /* from the first look between two batches on (look.c) */
-    struct brc_ahead *ahead; /* cells that may break: from the first step on (ahead.c) */
-    struct brc_guard_state *guard; /* from the first dynamic stage that is run (not stepped by hand) on */
+    struct brc_noise *noise;           /* only where a stage has noise_damping (noise_damping.c) */
+    struct brc_look *look;             /* from the first look between two batches on (look.c) */
+    struct brc_ahead *ahead;           /* cells that may break: from the first step on (ahead.c) */
+    struct brc_guard_state *guard;     /* from the first dynamic stage that is run (not stepped by hand) on */
 
     /* stage */
     int32_t stage;
@@ -201,7 +203,8 @@ struct brc_simulation {
     volatile sig_atomic_t interrupted;
     const brc_patience *patience; /* of a trial; else NULL */
     bool left_off;                /* in this stage */
-    brc_simulation *const *volatile others; /* [n_others] while they run in step with this one: an interrupt reaches them too */
+    brc_simulation *const
+        *volatile others; /* [n_others] while they run in step with this one: an interrupt reaches them too */
     volatile int32_t n_others;
     const char *effects_in[BRC_MOST_EFFECTS], *effects_out[BRC_MOST_EFFECTS];
     double setup_seconds, step_seconds;
@@ -238,7 +241,8 @@ brc_status brc_vector_gather(brc_simulation *s, int32_t n, brc_buffer *index, br
 brc_status brc_vector_small_rotation(brc_simulation *s, brc_buffer *theta, brc_buffer *orientation);
 
 /* Storage of a scene's elements. */
-brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, const brc_domain *domain, int32_t slice, brc_layout **out);
+brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, const brc_domain *domain, int32_t slice,
+                                 brc_layout **out);
 
 /* ---- scopes.c: what passes find by name (passes.h) ---- */
 /* Arrays of elements and their bonds, and constants. */
@@ -275,13 +279,14 @@ brc_status brc_beams_create(brc_simulation *s);
 brc_status brc_beams_upload(brc_simulation *s);
 /* Stiffness of element e's own beams. */
 const brc_beam *brc_beam_of_element(const brc_simulation *s, int64_t e);
-/* Stress of every element [n_elements][6] xx yy zz yz xz xy [Pa], averaged over the element and its neighbours over bonds, `level` shells of
- * them (NAH19 section 2.2; 1 in the paper). Volumes are those of the spheres over the packing's volume fraction. */
+/* Stress of every element [n_elements][6] xx yy zz yz xz xy [Pa], averaged over the element and its neighbours over
+ * bonds, `level` shells of them (NAH19 section 2.2; 1 in the paper). Volumes are those of the spheres over the
+ * packing's volume fraction. */
 brc_status brc_beams_stress(brc_simulation *s, int level, double *out);
 /* Inverses of the 6 x 6 diagonal blocks, upper triangles [n_rows][21]; elements without bonds get zero. */
 brc_status brc_beams_precondition_blocks(brc_simulation *s, double *out);
-/* Rigorous lower bound of the critical time step [s]: 2 / sqrt(2 max lambda(M_i^-1 D_i)) over the elements' diagonal blocks
- * (docs/notebook/beams.md). */
+/* Rigorous lower bound of the critical time step [s]: 2 / sqrt(2 max lambda(M_i^-1 D_i)) over the elements' diagonal
+ * blocks (docs/notebook/beams.md). */
 brc_status brc_beams_node_bound(brc_simulation *s, double *out);
 
 /* ---- loads.c: one stage's loads ---- */
@@ -303,8 +308,10 @@ double brc_table_integral(const brc_table *table, double t);
 /* Zero the imposed components of a vector; of one of rotations or torques. */
 brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector);
 brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector);
-/* The set of a load; NULL with a sentence in *status when it is not there, empty, or of elements where faces are needed. */
-const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind, brc_status *status);
+/* The set of a load; NULL with a sentence in *status when it is not there, empty, or of elements where faces are
+ * needed. */
+const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind,
+                                 brc_status *status);
 /* Whether it prescribes the motion of faces; whether it is a force on faces. */
 bool brc_load_holds_faces(const brc_load *load);
 bool brc_load_pulls_faces(const brc_load *load);
@@ -313,20 +320,21 @@ brc_status brc_loads_work(brc_simulation *s, double *out);
 
 /* ---- force.c: one evaluation, either model ---- */
 typedef enum brc_booking { BRC_BOOK_NOTHING, BRC_BOOK_WORK, BRC_BOOK_START } brc_booking; /* `book` of the kernels */
-struct brc_rings; /* rings.h */
+struct brc_rings;                                                                         /* rings.h */
 struct brc_ring_list;
 typedef struct brc_force_request {
     brc_buffer *displacement, *force; /* [n_rows][3] */
     brc_buffer *orientation, *torque; /* published */
-    bool finite;      /* the full law, or its linearisation */
-    bool homogeneous; /* held faces at zero, no tractions, no gravity: the linear operator */
-    brc_booking book; /* work of loads: leave, add, or start from here */
-    double t;         /* time of the stage, for tractions */
-    const struct brc_rings *rings; /* cells: only what the bonds that broke in this step change; NULL: everything */
-    bool listed_pairs; /* dlsm: of the pairs of surfaces those of brc_contact_list_around alone */
+    bool finite;                      /* the full law, or its linearisation */
+    bool homogeneous;                 /* held faces at zero, no tractions, no gravity: the linear operator */
+    brc_booking book;                 /* work of loads: leave, add, or start from here */
+    double t;                         /* time of the stage, for tractions */
+    const struct brc_rings *rings;    /* cells: only what the bonds that broke in this step change; NULL: everything */
+    bool listed_pairs;                /* dlsm: of the pairs of surfaces those of brc_contact_list_around alone */
 } brc_force_request;
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *request);
-/* dlsm-published: force and torque of tractions, added to those of the request; part of brc_force_evaluate but for homogeneous requests. */
+/* dlsm-published: force and torque of tractions, added to those of the request; part of brc_force_evaluate but for
+ * homogeneous requests. */
 brc_status brc_force_turned_tractions(brc_simulation *s, const brc_force_request *r);
 /* The simulation's own state, with the full law, at its time. */
 brc_status brc_force_of_state(brc_simulation *s, brc_booking book);
@@ -334,13 +342,15 @@ brc_status brc_force_of_state(brc_simulation *s, brc_booking book);
 brc_status brc_force_around_breaks(brc_simulation *s, const struct brc_rings *rings);
 /* dlsm: the gradients of ring 0 alone. */
 brc_status brc_force_gradients_around(brc_simulation *s, const struct brc_rings *rings);
-/* dlsm: of the same only H, P and B, with which the forces of single bonds can be formed; books nothing. list (NULL: all elements): B is wanted in its
- * ring 0, so P in ring 1 and H, where the elements moved, in ring 2, else in ring 0. */
+/* dlsm: of the same only H, P and B, with which the forces of single bonds can be formed; books nothing. list (NULL:
+ * all elements): B is wanted in its ring 0, so P in ring 1 and H, where the elements moved, in ring 2, else in ring
+ * 0. */
 brc_status brc_force_fluxes_of_state(brc_simulation *s, const struct brc_ring_list *list, bool moved);
 /* Only H and G's held part, for outputs after the state moved. */
 brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation);
-/* Cells: energy of rings 0 and 1 of rings->around, elastic and of stabilisation, but for what both sides of a break have in common; found: of what brc_rings_find has found last,
- * before its bonds break. That of held faces is apart [J]. */
+/* Cells: energy of rings 0 and 1 of rings->around, elastic and of stabilisation, but for what both sides of a break
+ * have in common; found: of what brc_rings_find has found last, before its bonds break. That of held faces is apart
+ * [J]. */
 brc_status brc_force_energy_around(brc_simulation *s, const struct brc_rings *rings, bool found, double *out);
 brc_status brc_force_held_energy(brc_simulation *s, double *out);
 
@@ -356,12 +366,13 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
 brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps);
 /* Velocities and spins of the whole step, where they are not. */
 brc_status brc_dynamics_close(brc_simulation *s);
-/* Leave the stage before; initial fields, loads and the time step of this one, which may be made shorter before brc_stage_start evaluates the
- * first forces. */
+/* Leave the stage before; initial fields, loads and the time step of this one, which may be made shorter before
+ * brc_stage_start evaluates the first forces. */
 brc_status brc_stage_enter(brc_simulation *s, int32_t stage);
 brc_status brc_stage_start(brc_simulation *s);
-/* The current stage of the n simulations of one scene (lockstep.c), one for each of its models: all take the same steps or increments, and observers
- * of the first hear of each when all have arrived. resumed: the stage goes on from the state that the parts were given (state_store.h). */
+/* The current stage of the n simulations of one scene (lockstep.c), one for each of its models: all take the same steps
+ * or increments, and observers of the first hear of each when all have arrived. resumed: the stage goes on from the
+ * state that the parts were given (state_store.h). */
 brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed);
 brc_status brc_statics_run(int32_t n, brc_simulation *const *part, brc_state_store *resumed);
 /* Modes of one; tells nobody. */
@@ -374,11 +385,26 @@ brc_status brc_notify_pause(brc_simulation *s, brc_pause why);
 /* What a static stage that runs keeps from increment to increment. */
 brc_status brc_statics_store_run(brc_simulation *s, struct brc_static_run *run, brc_state_store *store);
 
-static inline const brc_stage *brc_current_stage(const brc_simulation *s) { return &s->scene->stages[s->stage]; }
-static inline bool brc_is_beams(const brc_simulation *s) { return s->scene->model.kind == BRC_MODEL_CBM; }
-static inline bool brc_is_dlsm(const brc_simulation *s) { return s->scene->model.kind == BRC_MODEL_DLSM; }
+static inline const brc_stage *brc_current_stage(const brc_simulation *s)
+{
+    return &s->scene->stages[s->stage];
+}
+static inline bool brc_is_beams(const brc_simulation *s)
+{
+    return s->scene->model.kind == BRC_MODEL_CBM;
+}
+static inline bool brc_is_dlsm(const brc_simulation *s)
+{
+    return s->scene->model.kind == BRC_MODEL_DLSM;
+}
 /* Elements have rotations of their own. */
-static inline bool brc_turns(const brc_simulation *s) { return !brc_is_dlsm(s); }
-static inline bool brc_is_published(const brc_simulation *s) { return s->scene->model.kind == BRC_MODEL_DLSM_PUBLISHED; }
+static inline bool brc_turns(const brc_simulation *s)
+{
+    return !brc_is_dlsm(s);
+}
+static inline bool brc_is_published(const brc_simulation *s)
+{
+    return s->scene->model.kind == BRC_MODEL_DLSM_PUBLISHED;
+}
 
 #endif

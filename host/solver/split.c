@@ -6,9 +6,10 @@
 
 bool brc_split_same_model(const brc_model *a, const brc_model *b)
 {
-    return a->kind == b->kind && a->compaction == b->compaction && a->small_rotations == b->small_rotations && a->beta == b->beta && a->tau == b->tau && a->area_weights == b->area_weights &&
-           a->rotation_stiffness == b->rotation_stiffness && a->couple_modulus == b->couple_modulus && a->beam_poisson == b->beam_poisson && a->keep_isolated == b->keep_isolated &&
-           a->polish == b->polish;
+    return a->kind == b->kind && a->compaction == b->compaction && a->small_rotations == b->small_rotations &&
+           a->beta == b->beta && a->tau == b->tau && a->area_weights == b->area_weights &&
+           a->rotation_stiffness == b->rotation_stiffness && a->couple_modulus == b->couple_modulus &&
+           a->beam_poisson == b->beam_poisson && a->keep_isolated == b->keep_isolated && a->polish == b->polish;
 }
 
 /* Part of every body [n_bodies]; returns the number of parts. */
@@ -28,7 +29,8 @@ static void name_part(brc_split *split, int32_t k)
 {
     const brc_model_kind kind = split->part[k].scene->model.kind;
     int before = 0;
-    for (int32_t other = 0; other < k; ++other) before += split->part[other].scene->model.kind == kind;
+    for (int32_t other = 0; other < k; ++other)
+        before += split->part[other].scene->model.kind == kind;
     const int n = snprintf(split->part[k].name, BRC_NAME, "%s", brc_model_name(kind));
     if (before > 0) snprintf(split->part[k].name + n, BRC_NAME - (size_t)n, "-%d", before + 1);
 }
@@ -47,7 +49,8 @@ static brc_status make_scene(brc_context *context, const brc_scene *whole, const
     scene->n_bodies = part->n_bodies;
     scene->model = *brc_body_model(whole, part->body[0]);
     BRC_TRY(BRC_ALLOCATE(context, &scene->bodies, part->n_bodies, "bodies of a model"));
-    for (int32_t b = 0; b < part->n_bodies; ++b) scene->bodies[b] = whole->bodies[part->body[b]];
+    for (int32_t b = 0; b < part->n_bodies; ++b)
+        scene->bodies[b] = whole->bodies[part->body[b]];
     BRC_TRY(BRC_ALLOCATE(context, &scene->sets, whole->n_sets, "sets of a model"));
     for (int32_t s = 0; s < whole->n_sets; ++s) { /* bodies by their numbers in the part */
         scene->sets[s] = whole->sets[s];
@@ -110,9 +113,13 @@ static brc_status check_polish(brc_context *context, const brc_split *split)
         for (int32_t other = 0; other < k; ++other)
             for (int32_t m = 0; m < split->scene->n_materials; ++m) {
                 const brc_scene_part *a = &split->part[other], *b = &split->part[k];
-                if (a->scene->model.kind != BRC_MODEL_CBM || b->scene->model.kind != BRC_MODEL_CBM || !uses(a, m) || !uses(b, m)) continue;
+                if (a->scene->model.kind != BRC_MODEL_CBM || b->scene->model.kind != BRC_MODEL_CBM || !uses(a, m) ||
+                    !uses(b, m))
+                    continue;
                 if (!a->scene->model.polish && !b->scene->model.polish) continue;
-                return BRC_FAIL(context, BRC_BAD_INPUT, "polish: bodies '%s' and '%s' have models of beams that differ and share the material '%s'; give each its own",
+                return BRC_FAIL(context, BRC_BAD_INPUT,
+                                "polish: bodies '%s' and '%s' have models of beams that differ and share the material "
+                                "'%s'; give each its own",
                                 a->scene->bodies[0].name, b->scene->bodies[0].name, split->scene->materials[m].name);
             }
     return BRC_OK;
@@ -139,7 +146,8 @@ brc_status brc_split_create(brc_context *context, brc_scene *scene, brc_split **
         if (split->n == 1) {
             scene->model = *brc_body_model(scene, 0);
             part->scene = scene;
-            for (int32_t i = 0; i < scene->n_sensors; ++i) part->sensor[i] = i;
+            for (int32_t i = 0; i < scene->n_sensors; ++i)
+                part->sensor[i] = i;
         } else {
             BRC_TRY_OR(cleanup, make_scene(context, scene, part, &part->scene));
         }
@@ -158,7 +166,8 @@ const char *brc_split_bodies(const brc_split *split, int32_t part, char *words, 
     size_t at = 0;
     words[0] = '\0';
     for (int32_t b = 0; b < split->part[part].n_bodies && at + 1 < room; ++b) {
-        const int n = snprintf(words + at, room - at, "%s'%s'", b ? ", " : "", split->scene->bodies[split->part[part].body[b]].name);
+        const int n = snprintf(words + at, room - at, "%s'%s'", b ? ", " : "",
+                               split->scene->bodies[split->part[part].body[b]].name);
         at += n < 0 ? 0 : (size_t)n;
     }
     return words;

@@ -24,11 +24,13 @@ static const brc_set *set_in(const share *s, int32_t k, const char *name)
 static int32_t find_parts(share *s, const char *name)
 {
     int32_t n = 0;
-    for (int32_t k = 0; k < s->split->n; ++k) n += s->has[k] = name[0] == '\0' || set_in(s, k, name);
+    for (int32_t k = 0; k < s->split->n; ++k)
+        n += s->has[k] = name[0] == '\0' || set_in(s, k, name);
     return n;
 }
 
-/* Does a load per area act in part k though no whole face of its set lies there? Faces that the set's region cuts are loaded as far as they reach in. */
+/* Does a load per area act in part k though no whole face of its set lies there? Faces that the set's region cuts are
+ * loaded as far as they reach in. */
 static brc_status cuts_faces(const share *s, int32_t k, const brc_load *load, bool *out)
 {
     const brc_domain *d = s->domain[k];
@@ -36,7 +38,9 @@ static brc_status cuts_faces(const share *s, int32_t k, const brc_load *load, bo
     brc_loaded_face *loaded = NULL;
     int64_t n = 0;
     *out = false;
-    if ((load->kind != BRC_LOAD_TRACTION && load->kind != BRC_LOAD_PRESSURE) || index < 0 || d->sets[index].kind != BRC_SET_FACES) return BRC_OK;
+    if ((load->kind != BRC_LOAD_TRACTION && load->kind != BRC_LOAD_PRESSURE) || index < 0 ||
+        d->sets[index].kind != BRC_SET_FACES)
+        return BRC_OK;
     const brc_status status = brc_loaded_faces(s->context, s->split->part[k].scene, d, &d->sets[index], &loaded, &n);
     brc_memory_free(loaded);
     *out = n > 0;
@@ -73,11 +77,13 @@ static double mass_of(const brc_scene *scene, const brc_domain *domain, int64_t 
 double brc_split_mass(const brc_scene_part *part, const brc_domain *domain)
 {
     double sum = 0;
-    for (int64_t e = 0; e < domain->n_elements; ++e) sum += mass_of(part->scene, domain, e);
+    for (int64_t e = 0; e < domain->n_elements; ++e)
+        sum += mass_of(part->scene, domain, e);
     return sum;
 }
 
-/* What counts for a total that is shared out: elements of the set (owners of its faces, each once), or their mass [kg]. */
+/* What counts for a total that is shared out: elements of the set (owners of its faces, each once), or their mass
+ * [kg]. */
 static double weight_in(const share *s, int32_t k, const brc_load *load)
 {
     const brc_domain *d = s->domain[k];
@@ -85,7 +91,8 @@ static double weight_in(const share *s, int32_t k, const brc_load *load)
     double sum = 0;
     for (int64_t m = 0, before = -1; m < set->n_members; ++m) { /* faces stand in the order of their elements */
         const int64_t e = set->kind == BRC_SET_ELEMENTS ? set->members[m] : d->free_element[set->members[m]];
-        if (e != before) sum += load->share == BRC_SHARE_MASS && !load->radial ? mass_of(s->split->part[k].scene, d, e) : 1;
+        if (e != before)
+            sum += load->share == BRC_SHARE_MASS && !load->radial ? mass_of(s->split->part[k].scene, d, e) : 1;
         before = e;
     }
     return sum;
@@ -98,7 +105,8 @@ static brc_status share_load(share *s, int32_t stage, const brc_load *load)
     BRC_TRY(find_load_parts(s, load, &n));
     if (n == 0) give_to_one(s, load->set);
     const bool total = n > 1 && load->kind == BRC_LOAD_ELEMENT_FORCE;
-    for (int32_t k = 0; total && k < s->split->n; ++k) all += s->has[k] ? weight_in(s, k, load) : 0;
+    for (int32_t k = 0; total && k < s->split->n; ++k)
+        all += s->has[k] ? weight_in(s, k, load) : 0;
     for (int32_t k = 0; k < s->split->n; ++k) {
         if (!s->has[k]) continue;
         brc_stage *to = &s->split->part[k].scene->stages[stage];
@@ -106,7 +114,8 @@ static brc_status share_load(share *s, int32_t stage, const brc_load *load)
         *given = *load;
         if (!total) continue;
         const double part = weight_in(s, k, load) / all;
-        for (int c = 0; c < 3; ++c) given->value[c] *= part;
+        for (int c = 0; c < 3; ++c)
+            given->value[c] *= part;
         given->radial_force *= part;
     }
     return BRC_OK;
@@ -116,7 +125,8 @@ static brc_status share_initial(share *s, int32_t stage, const brc_initial *fiel
 {
     if (field->kind == BRC_INITIAL_FILE && field->set[0] == '\0')
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                        "stage '%s': a file of initial values has a row for every element of one model, the bodies have %d models; give each "
+                        "stage '%s': a file of initial values has a row for every element of one model, the bodies "
+                        "have %d models; give each "
                         "model its own file and a set of its elements",
                         s->split->scene->stages[stage].name, (int)s->split->n);
     if (find_parts(s, field->set) == 0) give_to_one(s, field->set);
@@ -135,7 +145,9 @@ static int32_t nearest_part(const share *s, const double point[3])
     for (int32_t k = 0; k < s->split->n; ++k)
         for (int64_t e = 0; e < s->domain[k]->n_elements; ++e) {
             double square = 0;
-            for (int c = 0; c < 3; ++c) square += (s->domain[k]->position[3 * e + c] - point[c]) * (s->domain[k]->position[3 * e + c] - point[c]);
+            for (int c = 0; c < 3; ++c)
+                square +=
+                    (s->domain[k]->position[3 * e + c] - point[c]) * (s->domain[k]->position[3 * e + c] - point[c]);
             if (square < least) {
                 least = square;
                 best = k;
@@ -177,11 +189,14 @@ brc_combine brc_split_combine(const brc_sensor *sensor)
 /* The parts whose elements the sensor reads, into s->has. */
 static brc_status find_sensor_parts(share *s, const brc_sensor *sensor)
 {
-    const bool at_point = sensor->kind == BRC_SENSOR_POINT || sensor->kind == BRC_SENSOR_POINT_VELOCITY || sensor->kind == BRC_SENSOR_TURN;
+    const bool at_point = sensor->kind == BRC_SENSOR_POINT || sensor->kind == BRC_SENSOR_POINT_VELOCITY ||
+                          sensor->kind == BRC_SENSOR_TURN;
     const brc_combine combine = brc_split_combine(sensor);
     const bool gauge = sensor->kind == BRC_SENSOR_OPENING && sensor->of_points;
     if (gauge && nearest_part(s, sensor->point) != nearest_part(s, sensor->point2))
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "sensor %s: its points lie in bodies of different models; an opening is measured inside one", sensor->name);
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "sensor %s: its points lie in bodies of different models; an opening is measured inside one",
+                        sensor->name);
     if (at_point || gauge) {
         memset(s->has, 0, (size_t)s->split->n * sizeof *s->has);
         s->has[nearest_part(s, sensor->point)] = true;
@@ -191,13 +206,16 @@ static brc_status find_sensor_parts(share *s, const brc_sensor *sensor)
     if (n == 0) give_to_one(s, sensor->set);
     if (n > 1 && combine == BRC_COMBINE_NONE)
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                        "sensor %s: %s%s%s of %d models, whose means are not of one kind; name a set inside the bodies of one model", sensor->name,
-                        sensor->set[0] ? "the set \"" : "it averages over the bodies", sensor->set, sensor->set[0] ? "\" spans bodies" : "", (int)n);
+                        "sensor %s: %s%s%s of %d models, whose means are not of one kind; name a set inside the bodies "
+                        "of one model",
+                        sensor->name, sensor->set[0] ? "the set \"" : "it averages over the bodies", sensor->set,
+                        sensor->set[0] ? "\" spans bodies" : "", (int)n);
     for (int32_t k = 0; n == 1 && sensor->set2[0] && k < s->split->n; ++k)
         if (s->has[k] && !set_in(s, k, sensor->set2) && brc_split_owner(s->split, s->domain, sensor->set2) >= 0)
-            return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                            "sensor %s: \"%s\" and \"%s\" lie in bodies of different models; a strain is measured inside one", sensor->name,
-                            sensor->set, sensor->set2);
+            return BRC_FAIL(
+                s->context, BRC_BAD_INPUT,
+                "sensor %s: \"%s\" and \"%s\" lie in bodies of different models; a strain is measured inside one",
+                sensor->name, sensor->set, sensor->set2);
     return BRC_OK;
 }
 
@@ -218,7 +236,8 @@ static brc_status share_sensor(share *s, int32_t index)
 static brc_status check_measure(share *s, const brc_measure *measure)
 {
     if (measure->area_set[0] == '\0' || find_parts(s, measure->area_set) < 2) return BRC_OK;
-    return BRC_FAIL(s->context, BRC_BAD_INPUT, "measure %s: the area of \"%s\" spans bodies of several models; name a set inside those of one",
+    return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                    "measure %s: the area of \"%s\" spans bodies of several models; name a set inside those of one",
                     measure->name, measure->area_set);
 }
 

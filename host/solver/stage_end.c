@@ -8,7 +8,8 @@ void brc_simulation_end_stage(brc_simulation *s, const char *reason)
     if (note->ended) return;
     note->ended = true;
     snprintf(note->reason, sizeof note->reason, "%s", reason);
-    brc_log(s->context, BRC_LOG_INFO, "stage '%s' ends at step %lld: %s", brc_current_stage(s)->name, (long long)s->step, reason);
+    brc_log(s->context, BRC_LOG_INFO, "stage '%s' ends at step %lld: %s", brc_current_stage(s)->name,
+            (long long)s->step, reason);
 }
 
 const char *brc_simulation_stage_reason(const brc_simulation *s, int32_t stage)

@@ -7,14 +7,27 @@
 
 int brc_stored_type_bytes(brc_stored_type type)
 {
-    static const int bytes[] = {[BRC_STORED_DOUBLE] = 8, [BRC_STORED_FLOAT] = 4, [BRC_STORED_INT32] = 4, [BRC_STORED_INT64] = 8, [BRC_STORED_BYTE] = 1, [BRC_STORED_SAMPLE] = 8};
+    static const int bytes[] = {[BRC_STORED_DOUBLE] = 8, [BRC_STORED_FLOAT] = 4, [BRC_STORED_INT32] = 4,
+                                [BRC_STORED_INT64] = 8,  [BRC_STORED_BYTE] = 1,  [BRC_STORED_SAMPLE] = 8};
     return bytes[type];
 }
 
-brc_status brc_store_double(brc_state_store *store, const char *name, double *value) { return store->numbers(store, name, BRC_STORED_DOUBLE, 1, 1, value); }
-brc_status brc_store_sample(brc_state_store *store, const char *name, double *value) { return store->numbers(store, name, BRC_STORED_SAMPLE, 1, 1, value); }
-brc_status brc_store_integer(brc_state_store *store, const char *name, int64_t *value) { return store->numbers(store, name, BRC_STORED_INT64, 1, 1, value); }
-brc_status brc_store_index(brc_state_store *store, const char *name, int32_t *value) { return store->numbers(store, name, BRC_STORED_INT32, 1, 1, value); }
+brc_status brc_store_double(brc_state_store *store, const char *name, double *value)
+{
+    return store->numbers(store, name, BRC_STORED_DOUBLE, 1, 1, value);
+}
+brc_status brc_store_sample(brc_state_store *store, const char *name, double *value)
+{
+    return store->numbers(store, name, BRC_STORED_SAMPLE, 1, 1, value);
+}
+brc_status brc_store_integer(brc_state_store *store, const char *name, int64_t *value)
+{
+    return store->numbers(store, name, BRC_STORED_INT64, 1, 1, value);
+}
+brc_status brc_store_index(brc_state_store *store, const char *name, int32_t *value)
+{
+    return store->numbers(store, name, BRC_STORED_INT32, 1, 1, value);
+}
 
 brc_status brc_store_flag(brc_state_store *store, const char *name, bool *value)
 {
@@ -33,7 +46,8 @@ brc_status brc_store_text(brc_state_store *store, const char *name, char *text, 
     return BRC_OK;
 }
 
-brc_status brc_store_array(brc_context *context, brc_state_store *store, const char *name, brc_stored_type type, int32_t columns, int64_t *n, void **data)
+brc_status brc_store_array(brc_context *context, brc_state_store *store, const char *name, brc_stored_type type,
+                           int32_t columns, int64_t *n, void **data)
 {
     if (store->loading) {
         int64_t rows;
@@ -48,7 +62,9 @@ static brc_stored_type type_of(const brc_simulation *s, brc_number_kind kind)
 {
     const brc_precision precision = brc_device_get_precision(s->device);
     if (kind == BRC_OF_INT) return BRC_STORED_INT32;
-    return (kind == BRC_OF_STATE ? brc_precision_state_bytes(precision) : brc_precision_coeff_bytes(precision)) == 8 ? BRC_STORED_DOUBLE : BRC_STORED_FLOAT;
+    return (kind == BRC_OF_STATE ? brc_precision_state_bytes(precision) : brc_precision_coeff_bytes(precision)) == 8
+               ? BRC_STORED_DOUBLE
+               : BRC_STORED_FLOAT;
 }
 
 /* Entry of every half-edge [n_half_edges]. */
@@ -67,8 +83,8 @@ typedef struct passage {
     const int32_t *place; /* [all ids] row or entry */
     const brc_chosen *chosen;
     int64_t n;
-    size_t bytes;     /* of one number */
-    int64_t stride;   /* between the numbers of one row */
+    size_t bytes;   /* of one number */
+    int64_t stride; /* between the numbers of one row */
     int32_t width, slice;
     bool rows, loading;
 } passage;
@@ -80,7 +96,8 @@ static void pass(const passage *p)
         const int64_t at = p->place[p->chosen ? p->chosen->id[i] : i];
         const int64_t first = p->rows ? at * p->width : at / p->slice * p->slice * p->width + at % p->slice;
         for (int32_t c = 0; c < p->width; ++c) {
-            char *device = p->image + p->bytes * (size_t)(first + c * p->stride), *own = p->values + p->bytes * (size_t)(i * p->width + c);
+            char *device = p->image + p->bytes * (size_t)(first + c * p->stride),
+                 *own = p->values + p->bytes * (size_t)(i * p->width + c);
             memcpy(p->loading ? device : own, p->loading ? own : device, p->bytes);
         }
     }
@@ -94,7 +111,11 @@ brc_status brc_store_entry(brc_simulation *s, brc_state_store *store, const brc_
     const brc_stored_type type = type_of(s, entry->kind);
     const int bytes = brc_stored_type_bytes(type);
     int32_t *entry_of = NULL;
-    passage p = {.chosen = entry->chosen, .bytes = (size_t)bytes, .width = entry->width, .slice = layout->slice, .rows = entry->arrangement == BRC_ROWS,
+    passage p = {.chosen = entry->chosen,
+                 .bytes = (size_t)bytes,
+                 .width = entry->width,
+                 .slice = layout->slice,
+                 .rows = entry->arrangement == BRC_ROWS,
                  .loading = store->loading};
     brc_status status = BRC_OK;
     if (!entry->buffer) return BRC_OK;
@@ -120,7 +141,8 @@ cleanup:
 
 brc_status brc_store_entries(brc_simulation *s, brc_state_store *store, int n, const brc_state_entry *entries)
 {
-    for (int i = 0; i < n; ++i) BRC_TRY(brc_store_entry(s, store, &entries[i]));
+    for (int i = 0; i < n; ++i)
+        BRC_TRY(brc_store_entry(s, store, &entries[i]));
     return BRC_OK;
 }
 
@@ -134,7 +156,8 @@ static int by_id(const void *left, const void *right)
     return (a->id > b->id) - (a->id < b->id);
 }
 
-/* Row i becomes what row order[i].id was, along the cycles of that change: lists of pairs are long, and held is all there is beside the image. Uses up the ids. */
+/* Row i becomes what row order[i].id was, along the cycles of that change: lists of pairs are long, and held is all
+ * there is beside the image. Uses up the ids. */
 static void rearrange(char *image, size_t row, char *held, int64_t n, place_of_id *order)
 {
     for (int64_t first = 0; first < n; ++first) {
@@ -152,8 +175,8 @@ static void rearrange(char *image, size_t row, char *held, int64_t n, place_of_i
     }
 }
 
-brc_status brc_store_list(brc_simulation *s, brc_state_store *store, const char *name, brc_buffer *buffer, brc_number_kind kind, int64_t n, int32_t width,
-                          const int32_t *id)
+brc_status brc_store_list(brc_simulation *s, brc_state_store *store, const char *name, brc_buffer *buffer,
+                          brc_number_kind kind, int64_t n, int32_t width, const int32_t *id)
 {
     const brc_stored_type type = type_of(s, kind);
     const size_t row = (size_t)width * (size_t)brc_stored_type_bytes(type);
@@ -161,12 +184,15 @@ brc_status brc_store_list(brc_simulation *s, brc_state_store *store, const char 
     char *image = NULL;
     brc_status status = BRC_OK;
     if (!buffer || n == 0) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &image, (n + 1) * (int64_t)row, name)); /* a row more, held while they change places */
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &image, (n + 1) * (int64_t)row,
+                                     name)); /* a row more, held while they change places */
     if (id) {
         BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &order, n, name));
-        for (int64_t i = 0; i < n; ++i) order[i] = (place_of_id){id[i], (int32_t)i};
+        for (int64_t i = 0; i < n; ++i)
+            order[i] = (place_of_id){id[i], (int32_t)i};
         qsort(order, (size_t)n, sizeof *order, by_id);
-        for (int64_t i = 0; i < n; ++i) order[store->loading ? order[i].at : i].id = store->loading ? (int32_t)i : order[i].at;
+        for (int64_t i = 0; i < n; ++i)
+            order[store->loading ? order[i].at : i].id = store->loading ? (int32_t)i : order[i].at;
     }
     if (!store->loading) {
         BRC_TRY_OR(cleanup, brc_buffer_read(buffer, 0, image, n * (int64_t)row));
@@ -185,10 +211,12 @@ cleanup:
 
 brc_status brc_store_fields(brc_simulation *s, brc_state_store *store, const brc_kept_fields *k)
 {
-    static const brc_number_kind kind[] = {[BRC_FIELD_STATE] = BRC_OF_STATE, [BRC_FIELD_COEFF] = BRC_OF_COEFF, [BRC_FIELD_INT] = BRC_OF_INT};
+    static const brc_number_kind kind[] = {
+        [BRC_FIELD_STATE] = BRC_OF_STATE, [BRC_FIELD_COEFF] = BRC_OF_COEFF, [BRC_FIELD_INT] = BRC_OF_INT};
     for (int i = 0; i < k->table->n; ++i) {
         const brc_field_row *field = &k->table->fields[i];
-        const bool rows = field->count == brc_each_row, blocks = field->count == brc_each_block, entries = field->count == brc_each_entry;
+        const bool rows = field->count == brc_each_row, blocks = field->count == brc_each_block,
+                   entries = field->count == brc_each_entry;
         char name[96];
         if (!field->kept || (field->wanted && !field->wanted(&s->wants))) continue;
         snprintf(name, sizeof name, "%s%s", k->prefix ? k->prefix : "", field->kept);
@@ -198,9 +226,12 @@ brc_status brc_store_fields(brc_simulation *s, brc_state_store *store, const brc
             continue;
         }
         if (rows || blocks || entries) {
-            const brc_chosen *chosen = field->keep == BRC_KEEP_BROKEN ? k->bonds : field->keep == BRC_KEEP_OWNERS ? k->elements : NULL;
+            const brc_chosen *chosen = field->keep == BRC_KEEP_BROKEN   ? k->bonds
+                                       : field->keep == BRC_KEEP_OWNERS ? k->elements
+                                                                        : NULL;
             const brc_arrangement arrangement = rows ? BRC_ROWS : blocks ? BRC_BLOCKS : BRC_ENTRIES;
-            BRC_TRY(brc_store_entry(s, store, &(brc_state_entry){name, buffer, arrangement, kind[field->number], field->width, chosen}));
+            BRC_TRY(brc_store_entry(
+                s, store, &(brc_state_entry){name, buffer, arrangement, kind[field->number], field->width, chosen}));
         } else
             BRC_TRY(brc_store_list(s, store, name, buffer, kind[field->number], k->n, field->width, k->id));
     }

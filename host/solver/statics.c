@@ -1,5 +1,5 @@
-/* Elastic equilibrium. dlsm and cbm: preconditioned conjugate gradients on the linearised operator, matrix-free on the device, inside a
- * modified Newton iteration on the full law. dlsm-published has no symmetric operator: restarted GMRES
+/* Elastic equilibrium. dlsm and cbm: preconditioned conjugate gradients on the linearised operator, matrix-free on the
+ * device, inside a modified Newton iteration on the full law. dlsm-published has no symmetric operator: restarted GMRES
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
 #include "../base/random.h"
 #include "statics.h"
@@ -13,8 +13,9 @@
 
 enum { MOST_CORRECTIONS = 60 };
 
-/* A body of beams that no load holds: what would move it as a whole cannot be balanced and leaves the residual. Dead loads that balance do so to
- * first order only, since they act where the elements went. More than `rigid_most` of the residual is an error of the scene. */
+/* A body of beams that no load holds: what would move it as a whole cannot be balanced and leaves the residual. Dead
+ * loads that balance do so to first order only, since they act where the elements went. More than `rigid_most` of the
+ * residual is an error of the scene. */
 static brc_status balance_free_body(brc_simulation *s, bool finite)
 {
     static const double rigid_most = 1e-3;
@@ -37,7 +38,8 @@ static brc_status balance_free_body(brc_simulation *s, bool finite)
     brc_balance(n, place, torque, force, &rigid);
     if (s->static_report.iterations == 0 && rigid > rigid_most * sqrt(square)) {
         status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                          "stage '%s': nothing holds the body and its loads do not balance: %.3g of them would move or turn it as a whole; hold "
+                          "stage '%s': nothing holds the body and its loads do not balance: %.3g of them would move or "
+                          "turn it as a whole; hold "
                           "some elements, or use a radial element_force",
                           brc_current_stage(s)->name, rigid / sqrt(square));
         goto cleanup;
@@ -66,7 +68,8 @@ brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, b
     *norm = sqrt(square);
     return isfinite(square) ? BRC_OK
                             : BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
-                                       "stage '%s': the static residual is not finite; check that the loads balance or the supports hold the body, "
+                                       "stage '%s': the static residual is not finite; check that the loads balance or "
+                                       "the supports hold the body, "
                                        "or apply the load in more increments",
                                        brc_current_stage(s)->name);
 }
@@ -81,7 +84,8 @@ static brc_status read_theta(brc_simulation *s, brc_solve_vectors *v)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &theta, 3 * n, "rotations"));
     BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
     for (int64_t e = 0; e < n; ++e)
-        for (int c = 0; c < 3; ++c) theta[3 * e + c] = 2 * q[4 * e + 1 + c] / q[4 * e];
+        for (int c = 0; c < 3; ++c)
+            theta[3 * e + c] = 2 * q[4 * e + 1 + c] / q[4 * e];
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->theta, theta, 3, 0));
 cleanup:
     brc_memory_free(q);
@@ -117,29 +121,41 @@ brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)
     return BRC_OK;
 }
 
-static bool of_cells(const brc_wants *w) { return !brc_wants_beams(w); }
+static bool of_cells(const brc_wants *w)
+{
+    return !brc_wants_beams(w);
+}
 static bool statics(const brc_wants *w)
 {
     bool any = false;
-    for (int32_t i = 0; i < w->scene->n_stages; ++i) any |= w->scene->stages[i].solver == BRC_SOLVER_STATIC;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i)
+        any |= w->scene->stages[i].solver == BRC_SOLVER_STATIC;
     return any;
 }
 
 #define AT(member) BRC_FIELD_AT(brc_solve_vectors, member)
-#define UNKNOWNS(name, member) \
-    {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver", "-", BRC_NOT_KEPT}, {name "_turn", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(member.turn), "static solver", "-", BRC_NOT_KEPT}
+#define UNKNOWNS(name, member)                                                                                         \
+    {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver", "-", BRC_NOT_KEPT},               \
+    {                                                                                                                  \
+        name "_turn", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(member.turn), "static solver", "-",        \
+            BRC_NOT_KEPT                                                                                               \
+    }
 static const brc_field_row rows[] = {
     UNKNOWNS("x", x),
     UNKNOWNS("r", r),
     UNKNOWNS("z", z),
     UNKNOWNS("p", p),
     UNKNOWNS("kp", kp),
-    {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver", "m", BRC_KEPT("static.before", BRC_KEEP_ALL)},
+    {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver", "m",
+     BRC_KEPT("static.before", BRC_KEEP_ALL)},
     {"zero", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_published, AT(zero), "static solver", "-", BRC_NOT_KEPT},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver", "-", BRC_NOT_KEPT},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver", "-",
+     BRC_NOT_KEPT},
     {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(theta), "static solver", "rad", BRC_NOT_KEPT},
-    {"block", brc_each_row, 6, BRC_FIELD_STATE, of_cells, AT(preconditioner.blocks), "preconditioner", "-", BRC_NOT_KEPT},
-    {"block", brc_each_row, 21, BRC_FIELD_STATE, brc_wants_beams, AT(preconditioner.blocks), "preconditioner", "-", BRC_NOT_KEPT},
+    {"block", brc_each_row, 6, BRC_FIELD_STATE, of_cells, AT(preconditioner.blocks), "preconditioner", "-",
+     BRC_NOT_KEPT},
+    {"block", brc_each_row, 21, BRC_FIELD_STATE, brc_wants_beams, AT(preconditioner.blocks), "preconditioner", "-",
+     BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_solve_fields, "static solver", BRC_LIFE_SOLVE, statics, rows);
 
@@ -150,7 +166,8 @@ static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
     BRC_TRY(brc_fields_create(s->device, &brc_solve_fields, &s->wants, v));
     if (brc_is_beams(s)) {
         double sum = 0;
-        for (int64_t e = 0; e < s->domain->n_elements; ++e) sum += s->domain->radius[e];
+        for (int64_t e = 0; e < s->domain->n_elements; ++e)
+            sum += s->domain->radius[e];
         v->arm = sum / (double)s->domain->n_elements;
     }
     BRC_TRY(brc_statics_find_pieces(s, v));
@@ -167,8 +184,8 @@ static void free_vectors(brc_solve_vectors *v)
 double brc_statics_tolerance(const brc_simulation *s)
 {
     static const double by_precision[] = {[BRC_DOUBLE] = 1e-10, [BRC_MIXED] = 1e-6, [BRC_SINGLE] = 1e-5};
-    /* Forces of dlsm-published balance a total moment only together with its rotations, so that its displacements alone reach
-     * equilibrium to some 1e-6 of the load (measured on cubes of 512 cells), not to rounding. */
+    /* Forces of dlsm-published balance a total moment only together with its rotations, so that its displacements alone
+     * reach equilibrium to some 1e-6 of the load (measured on cubes of 512 cells), not to rounding. */
     static const double published = 1e-5;
     const double asked = brc_current_stage(s)->tolerance, own = by_precision[brc_device_get_precision(s->device)];
     if (asked > 0) return asked;
@@ -188,8 +205,10 @@ static brc_status remove_mean(brc_simulation *s, brc_buffer *torque)
     double *t = NULL, mean[3] = {0, 0, 0};
     BRC_TRY(BRC_ALLOCATE(s->context, &t, 3 * n, "torques"));
     brc_status status = brc_state_from_rows(s, torque, t, 3);
-    for (int64_t i = 0; i < 3 * n; ++i) mean[i % 3] += t[i] / (double)n;
-    for (int64_t i = 0; i < 3 * n; ++i) t[i] -= mean[i % 3];
+    for (int64_t i = 0; i < 3 * n; ++i)
+        mean[i % 3] += t[i] / (double)n;
+    for (int64_t i = 0; i < 3 * n; ++i)
+        t[i] -= mean[i % 3];
     if (status == BRC_OK) status = brc_state_to_rows(s, torque, t, 3, 0);
     brc_memory_free(t);
     return status;
@@ -205,16 +224,20 @@ static brc_status settle_rotations(brc_simulation *s, brc_solve_vectors *v, brc_
                                                        .orientation = v->orientation,
                                                        .torque = v->r.move,
                                                        .homogeneous = true}));
-    BRC_TRY(brc_force_turned_tractions(s, &(brc_force_request){.displacement = s->displacement, .force = v->z.move, .orientation = v->orientation, .torque = v->r.move, .t = s->load_factor}));
+    BRC_TRY(brc_force_turned_tractions(s, &(brc_force_request){.displacement = s->displacement,
+                                                               .force = v->z.move,
+                                                               .orientation = v->orientation,
+                                                               .torque = v->r.move,
+                                                               .t = s->load_factor}));
     BRC_TRY(remove_mean(s, v->r.move));
     BRC_TRY(brc_statics_square(s, v, v->r, &square));
     BRC_TRY(brc_conjugate_gradients(s, v, true, 1e-6 * sqrt(square), brc_statics_most_iterations(s), progress, &left));
     return brc_vector_small_rotation(s, v->x.move, s->orientation);
 }
 
-/* Start from the last increment's move again: exact when the answer is proportional to the load, so that a stage of equal
- * increments costs little more than one. v->before holds the displacement before the last increment on entry, before this
- * one on return. */
+/* Start from the last increment's move again: exact when the answer is proportional to the load, so that a stage of
+ * equal increments costs little more than one. v->before holds the displacement before the last increment on entry,
+ * before this one on return. */
 static brc_status predict(brc_simulation *s, brc_solve_vectors *v, int32_t increment)
 {
     const int64_t bytes = 3 * (int64_t)s->layout->n_rows * v->state_bytes;
@@ -232,12 +255,14 @@ static brc_status correct(brc_simulation *s, brc_solve_vectors *v, bool finite)
     const int32_t n = s->layout->n_rows;
     BRC_TRY(brc_unknowns_add(s, 1, v->x, (brc_unknowns){s->displacement, v->theta}));
     if (!brc_is_beams(s)) return BRC_OK;
-    if (finite) return BRC_LAUNCH(s->kernel.turn_orientation, n, BRC_INT(n), BRC_BUF(v->x.turn), BRC_BUF(s->orientation));
+    if (finite)
+        return BRC_LAUNCH(s->kernel.turn_orientation, n, BRC_INT(n), BRC_BUF(v->x.turn), BRC_BUF(s->orientation));
     return brc_vector_small_rotation(s, v->theta, s->orientation);
 }
 
-/* How much of the residual a correction of the full law is solved to: to a tenth of what the law's change left of it after the correction before; the first one to `at_first`.
- * Where no more was left than was asked for, the law hardly changes, and the next correction is the last. (Blocks lose more by beginning anew than this saves.) */
+/* How much of the residual a correction of the full law is solved to: to a tenth of what the law's change left of it
+ * after the correction before; the first one to `at_first`. Where no more was left than was asked for, the law hardly
+ * changes, and the next correction is the last. (Blocks lose more by beginning anew than this saves.) */
 static double worthwhile(int correction, double lasting)
 {
     static const double at_first = 3e-4;
@@ -245,8 +270,8 @@ static double worthwhile(int correction, double lasting)
     return lasting < 3 * at_first ? 0 : fmin(0.1 * lasting, 0.1);
 }
 
-/* Whether a residual that stands is what the rounding of the displacements alone leaves: of the force of as much noise as half their last digits, a few times over, since
- * corrections and forces are rounded too. */
+/* Whether a residual that stands is what the rounding of the displacements alone leaves: of the force of as much noise
+ * as half their last digits, a few times over, since corrections and forces are rounded too. */
 static brc_status is_rounding(brc_simulation *s, brc_solve_vectors *v, double norm, double reference, bool *out)
 {
     static const double few = 8;
@@ -266,8 +291,9 @@ static brc_status is_rounding(brc_simulation *s, brc_solve_vectors *v, double no
     BRC_TRY_OR(cleanup, brc_statics_apply(s, v));
     BRC_TRY_OR(cleanup, brc_statics_square(s, v, v->kp, &square));
     *out = norm <= few * sqrt(square);
-    brc_log(s->context, *out ? BRC_LOG_INFO : BRC_LOG_DEBUG, "stage '%s': the residual stands at %.3g of the load; rounding of the displacements leaves %.3g", brc_current_stage(s)->name,
-            norm / reference, sqrt(square) / reference);
+    brc_log(s->context, *out ? BRC_LOG_INFO : BRC_LOG_DEBUG,
+            "stage '%s': the residual stands at %.3g of the load; rounding of the displacements leaves %.3g",
+            brc_current_stage(s)->name, norm / reference, sqrt(square) / reference);
 cleanup:
     brc_memory_free(u);
     return status;
@@ -280,7 +306,9 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
     const double tolerance = brc_statics_tolerance(s);
     const bool published = brc_is_published(s), finite = stage->finite_strain && !published;
     const bool coarse = brc_device_get_precision(s->device) != BRC_DOUBLE;
-    double norm, left, last = INFINITY, earlier = INFINITY; /* slender beams: stretch and bending settle in turn, so two corrections count */
+    double norm, left,
+        last = INFINITY,
+        earlier = INFINITY; /* slender beams: stretch and bending settle in turn, so two corrections count */
     BRC_TRY(brc_statics_residual(s, v, finite, &norm));
     if (norm > *reference) *reference = norm;
     for (int correction = 0; norm > tolerance * *reference; ++correction) {
@@ -291,8 +319,10 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
             if (done) break;
             if (!near || !v->preconditioner.multigrid)
                 return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
-                                "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d corrections, asked %.3g; "
-                                "check that the loads balance or the supports hold the body, use more increments, or relax `tolerance`",
+                                "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d "
+                                "corrections, asked %.3g; "
+                                "check that the loads balance or the supports hold the body, use more increments, or "
+                                "relax `tolerance`",
                                 stage->name, s->load_factor, norm / *reference, correction, tolerance);
             brc_preconditioner_give_up(s, v);
             last = norm = INFINITY;
@@ -301,12 +331,14 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
         earlier = last;
         last = norm;
         BRC_TRY(brc_unknowns_copy((brc_unknowns){s->force, s->torque}, v->r));
-        /* the right side without what the supports leave free: a stiffness about the reference cannot take it, and of a residual about the moved
-         * sample a part as large as its strain is left in it, on which conjugate gradients would break down */
+        /* the right side without what the supports leave free: a stiffness about the reference cannot take it, and of a
+         * residual about the moved sample a part as large as its strain is left in it, on which conjugate gradients
+         * would break down */
         if (!published) BRC_TRY(brc_statics_project_free_motions(s, v, v->r));
         const int32_t most = brc_statics_most_iterations(s);
         BRC_TRY(brc_preconditioner_prepare(s, v));
-        const double worth = finite && v->preconditioner.multigrid ? worthwhile(correction, lasting) : 0, target = fmax(0.3 * tolerance * *reference, worth * norm);
+        const double worth = finite && v->preconditioner.multigrid ? worthwhile(correction, lasting) : 0,
+                     target = fmax(0.3 * tolerance * *reference, worth * norm);
         BRC_TRY(published ? brc_gmres(s, v, target, most, progress, &left)
                           : brc_conjugate_gradients(s, v, false, target, most, progress, &left));
         BRC_TRY(correct(s, v, finite));
@@ -340,9 +372,11 @@ brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double fac
             square += q[4 * e + c] * q[4 * e + c];
         }
         q[4 * e] = 1;
-        for (int c = 0; finite && c < 4; ++c) q[4 * e + c] /= sqrt(square);
+        for (int c = 0; finite && c < 4; ++c)
+            q[4 * e + c] /= sqrt(square);
     }
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->orientation, q, 4, 0.5)); /* rows of padding: some unit quaternion, none of length 0 */
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->orientation, q, 4,
+                                          0.5)); /* rows of padding: some unit quaternion, none of length 0 */
 cleanup:
     brc_memory_free(q);
     return status;
@@ -378,16 +412,19 @@ brc_status brc_statics_refuse_unscalable(int32_t n, brc_simulation *const *part,
     brc_context *context = part[0]->context;
     const brc_stage *stage = brc_current_stage(part[0]);
     if (!part[0]->fracture)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': %s needs `fracture` and strengths in the scene", stage->name, key);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': %s needs `fracture` and strengths in the scene",
+                        stage->name, key);
     for (int32_t k = 0; k < n; ++k)
         for (int32_t l = 0; l < brc_current_stage(part[k])->n_loads; ++l)
             if (!is_proportional(&brc_current_stage(part[k])->loads[l].table))
-                return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': %s scales its loads, so they cannot follow a table; remove the table", stage->name, key);
+                return BRC_FAIL(context, BRC_BAD_INPUT,
+                                "stage '%s': %s scales its loads, so they cannot follow a table; remove the table",
+                                stage->name, key);
     return BRC_OK;
 }
 
-/* Scale the load so that the worst element of all parts is at the asked fraction of its limit: in proportion, and again from where that led, since limits see strains of second
- * order, which do not grow as the load. */
+/* Scale the load so that the worst element of all parts is at the asked fraction of its limit: in proportion, and again
+ * from where that led, since limits see strains of second order, which do not grow as the load. */
 static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
 {
     enum { MOST_SCALINGS = 12 };
@@ -397,7 +434,9 @@ static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_stat
     double ratio;
     BRC_TRY(brc_statics_failure(n, part, &ratio));
     if (!(ratio > 0))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': under its load no element comes nearer to failure, so to_failure cannot scale it", stage->name);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "stage '%s': under its load no element comes nearer to failure, so to_failure cannot scale it",
+                        stage->name);
     for (int i = 0; i < MOST_SCALINGS && !(fabs(ratio / stage->to_failure - 1) <= near); ++i) {
         const double by = stage->to_failure / ratio;
         for (int32_t k = 0; k < n; ++k) {
@@ -406,15 +445,21 @@ static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_stat
             BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
         }
         BRC_TRY(brc_statics_failure(n, part, &ratio));
-        if (!(ratio > 0)) return BRC_FAIL(context, BRC_PHYSICS_STOPPED, "stage '%s': the failure ratio is %g at %g times the load", stage->name, ratio, part[0]->load_factor);
+        if (!(ratio > 0))
+            return BRC_FAIL(context, BRC_PHYSICS_STOPPED, "stage '%s': the failure ratio is %g at %g times the load",
+                            stage->name, ratio, part[0]->load_factor);
     }
-    for (int32_t k = 0; k < n; ++k) part[k]->step += 1;
-    brc_log(context, BRC_LOG_INFO, "stage '%s': the load is scaled to %.6g, where the worst element is at %.6g of its limit", stage->name, part[0]->load_factor, ratio);
+    for (int32_t k = 0; k < n; ++k)
+        part[k]->step += 1;
+    brc_log(context, BRC_LOG_INFO,
+            "stage '%s': the load is scaled to %.6g, where the worst element is at %.6g of its limit", stage->name,
+            part[0]->load_factor, ratio);
     BRC_TRY(brc_look_here(part[0], part[0]->step - 1));
     return brc_notify_sample(part[0]);
 }
 
-/* What a resumed stage needs beside the state: the displacements before the last increment, for the guess of the next. */
+/* What a resumed stage needs beside the state: the displacements before the last increment, for the guess of the
+ * next. */
 brc_status brc_statics_store_run(brc_simulation *s, brc_static_run *run, brc_state_store *store)
 {
     BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_solve_fields, .owner = &run->vectors}));
@@ -440,15 +485,20 @@ static brc_status begin_runs(int32_t n, brc_simulation *const *part, brc_static_
     return BRC_OK;
 }
 
-/* The run may be left and taken up again after any increment; the one that scales the load to failure counts as one more. */
+/* The run may be left and taken up again after any increment; the one that scales the load to failure counts as one
+ * more. */
 static brc_status tell_pause(brc_simulation *s, int32_t increments)
 {
     const brc_stage *stage = brc_current_stage(s);
     const bool done = s->step >= increments + (stage->to_failure > 0);
     const bool ended = s->note[s->stage].ended;
-    BRC_TRY(brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED : ended ? BRC_PAUSE_ENDED : done ? BRC_PAUSE_DONE : BRC_PAUSE_GOING));
+    BRC_TRY(brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED
+                                : ended        ? BRC_PAUSE_ENDED
+                                : done         ? BRC_PAUSE_DONE
+                                               : BRC_PAUSE_GOING));
     if (!s->interrupted) return BRC_OK;
-    return BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted after increment %lld of %d", stage->name, (long long)s->step, (int)increments);
+    return BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted after increment %lld of %d", stage->name,
+                    (long long)s->step, (int)increments);
 }
 
 static brc_status run_increments(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
@@ -482,16 +532,21 @@ brc_status brc_statics_run(int32_t n, brc_simulation *const *part, brc_state_sto
     double n_bonds = 0;
     if (stage->most_events > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "events"));
     if (stage->to_failure > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "to_failure"));
-    for (int32_t k = 0; k < n; ++k) n_bonds += (double)part[k]->domain->n_bonds;
-    BRC_TRY_OR(cleanup, brc_progress_create(context, &progress, stage->name, 0, "iterations", n_bonds / n, "bond updates/s"));
+    for (int32_t k = 0; k < n; ++k)
+        n_bonds += (double)part[k]->domain->n_bonds;
+    BRC_TRY_OR(cleanup,
+               brc_progress_create(context, &progress, stage->name, 0, "iterations", n_bonds / n, "bond updates/s"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &run, n, "static stage"));
     BRC_TRY_OR(cleanup, begin_runs(n, part, run, resumed));
     if (!resumed) BRC_TRY_OR(cleanup, brc_notify_sample(part[0]));
-    status = stage->most_events > 0 ? brc_static_events_run(n, part, run, progress) : run_increments(n, part, run, progress);
+    status =
+        stage->most_events > 0 ? brc_static_events_run(n, part, run, progress) : run_increments(n, part, run, progress);
 cleanup:
     brc_progress_finish(&progress);
-    for (int32_t k = 0; k < n; ++k) part[k]->static_run = NULL;
-    for (int32_t k = 0; run && k < n; ++k) free_vectors(&run[k].vectors);
+    for (int32_t k = 0; k < n; ++k)
+        part[k]->static_run = NULL;
+    for (int32_t k = 0; run && k < n; ++k)
+        free_vectors(&run[k].vectors);
     brc_memory_free(run);
     return status;
 }

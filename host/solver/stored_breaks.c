@@ -1,4 +1,5 @@
-/* What broke, for a store (state_store.h): kept of the broken bonds and of the elements that lost one only, since a new simulation has all others right. */
+/* What broke, for a store (state_store.h): kept of the broken bonds and of the elements that lost one only, since a new
+ * simulation has all others right. */
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "cell_breaks.h"
@@ -37,7 +38,8 @@ cleanup:
 brc_status brc_fracture_owners(brc_simulation *s, const brc_chosen *half_edges, brc_chosen *out)
 {
     const brc_domain *d = s->domain;
-    BRC_TRY(brc_memory_resize(s->context, (void **)&out->id, half_edges->n, sizeof *out->id, "elements with broken bonds"));
+    BRC_TRY(
+        brc_memory_resize(s->context, (void **)&out->id, half_edges->n, sizeof *out->id, "elements with broken bonds"));
     out->n = 0;
     for (int64_t i = 0; i < half_edges->n; ++i) { /* rows of half-edges follow one another as their elements do */
         const int32_t e = d->neighbour[d->twin[half_edges->id[i]]];
@@ -50,8 +52,10 @@ brc_status brc_fracture_owners(brc_simulation *s, const brc_chosen *half_edges, 
 static brc_status check_ids(brc_simulation *s, const brc_chosen *half_edges)
 {
     for (int64_t i = 0; i < half_edges->n; ++i)
-        if (half_edges->id[i] < 0 || half_edges->id[i] >= s->domain->n_half_edges || (i > 0 && half_edges->id[i] <= half_edges->id[i - 1]))
-            return BRC_FAIL(s->context, BRC_BAD_INPUT, "broken bonds: half-edge %d of %lld, after %d", (int)half_edges->id[i], (long long)s->domain->n_half_edges,
+        if (half_edges->id[i] < 0 || half_edges->id[i] >= s->domain->n_half_edges ||
+            (i > 0 && half_edges->id[i] <= half_edges->id[i - 1]))
+            return BRC_FAIL(s->context, BRC_BAD_INPUT, "broken bonds: half-edge %d of %lld, after %d",
+                            (int)half_edges->id[i], (long long)s->domain->n_half_edges,
                             i > 0 ? (int)half_edges->id[i - 1] : -1);
     return BRC_OK;
 }
@@ -67,10 +71,13 @@ static brc_status point_home(brc_simulation *s, const brc_chosen *half_edges)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &broken, s->domain->n_half_edges, "neighbours"));
     BRC_TRY_OR(cleanup, brc_buffer_read(s->neighbour, 0, neighbour, 4 * n));
-    for (int64_t i = 0; i < half_edges->n; ++i) broken[half_edges->id[i]] = 1;
+    for (int64_t i = 0; i < half_edges->n; ++i)
+        broken[half_edges->id[i]] = 1;
     for (int32_t block = 0; block < layout->n_slices; ++block)
-        for (int64_t k = (int64_t)layout->slot_start[block] * layout->slice; k < (int64_t)layout->slot_start[block + 1] * layout->slice; ++k)
-            if (layout->half_edge[k] >= 0 && broken[layout->half_edge[k]]) neighbour[k] = block * layout->slice + (int32_t)(k % layout->slice);
+        for (int64_t k = (int64_t)layout->slot_start[block] * layout->slice;
+             k < (int64_t)layout->slot_start[block + 1] * layout->slice; ++k)
+            if (layout->half_edge[k] >= 0 && broken[layout->half_edge[k]])
+                neighbour[k] = block * layout->slice + (int32_t)(k % layout->slice);
     BRC_TRY_OR(cleanup, brc_buffer_write(s->neighbour, 0, neighbour, 4 * n));
 cleanup:
     brc_memory_free(neighbour);
@@ -89,11 +96,14 @@ static brc_status walk_moments(brc_simulation *s, brc_state_store *store)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &spans, N * n, "stages with fracture"));
     for (int64_t k = 0; k < n; ++k) {
         const brc_break_span *span = &f->spans[k];
-        const double row[N] = {(double)span->first_step, (double)span->first_load, span->first_time, span->time_step, span->stage};
+        const double row[N] = {(double)span->first_step, (double)span->first_load, span->first_time, span->time_step,
+                               span->stage};
         memcpy(spans + N * k, row, sizeof row);
     }
-    BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "fracture.stages", BRC_STORED_DOUBLE, N, &n, (void **)&spans));
-    BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "fracture.loads", BRC_STORED_DOUBLE, 1, &f->n_loads, (void **)&f->load));
+    BRC_TRY_OR(cleanup,
+               brc_store_array(s->context, store, "fracture.stages", BRC_STORED_DOUBLE, N, &n, (void **)&spans));
+    BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "fracture.loads", BRC_STORED_DOUBLE, 1, &f->n_loads,
+                                        (void **)&f->load));
     if (!store->loading) goto cleanup;
     BRC_TRY_OR(cleanup, brc_memory_resize(s->context, (void **)&f->spans, n, sizeof *f->spans, "stages with fracture"));
     f->n_spans = (int)n;
@@ -106,8 +116,8 @@ cleanup:
     return status;
 }
 
-/* Arrays of both models and of the criterion. A broken beam has no length, and leaves the volume that an element's stress is averaged over; records of beams follow from the forces but for
- * what bonds that broke after them carried. */
+/* Arrays of both models and of the criterion. A broken beam has no length, and leaves the volume that an element's
+ * stress is averaged over; records of beams follow from the forces but for what bonds that broke after them carried. */
 static brc_status walk_arrays(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)
 {
     const brc_breaking *f = s->fracture;
@@ -124,7 +134,11 @@ static brc_status walk_arrays(brc_simulation *s, brc_state_store *store, const b
                   {&brc_cell_break_fields, f->cells, f->cells != NULL}};
     for (size_t k = 0; k < sizeof walked / sizeof *walked; ++k)
         if (walked[k].there)
-            BRC_TRY_OR(cleanup, brc_store_fields(s, store, &(brc_kept_fields){.table = walked[k].table, .owner = walked[k].owner, .bonds = bonds, .elements = &elements}));
+            BRC_TRY_OR(cleanup, brc_store_fields(s, store,
+                                                 &(brc_kept_fields){.table = walked[k].table,
+                                                                    .owner = walked[k].owner,
+                                                                    .bonds = bonds,
+                                                                    .elements = &elements}));
 cleanup:
     brc_memory_free(elements.id);
     return status;
@@ -136,7 +150,8 @@ brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, walk_moments(s, store));
     if (!store->loading) BRC_TRY_OR(cleanup, find_broken(s, &bonds));
-    BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "fracture.half_edges", BRC_STORED_INT32, 1, &bonds.n, (void **)&bonds.id));
+    BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "fracture.half_edges", BRC_STORED_INT32, 1, &bonds.n,
+                                        (void **)&bonds.id));
     if (store->loading) {
         BRC_TRY_OR(cleanup, check_ids(s, &bonds));
         BRC_TRY_OR(cleanup, point_home(s, &bonds));

@@ -1,5 +1,5 @@
-/* Contact, for a store (state_store.h). The list of pairs is made again from where the elements were when it was made, so it comes in the same order; what a pair
- * remembers is kept by the ids of its two ends. */
+/* Contact, for a store (state_store.h). The list of pairs is made again from where the elements were when it was made,
+ * so it comes in the same order; what a pair remembers is kept by the ids of its two ends. */
 #include "contact_internal.h"
 #include "state_store.h"
 #include <stdlib.h>
@@ -48,16 +48,23 @@ static brc_status walk_ids(brc_simulation *s, brc_state_store *store, const pair
     int32_t *ids = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ids, 2 * n, "pairs"));
-    for (int64_t p = 0; p < n; ++p) memcpy(ids + 2 * p, pair[p].id, sizeof pair[p].id);
+    for (int64_t p = 0; p < n; ++p)
+        memcpy(ids + 2 * p, pair[p].id, sizeof pair[p].id);
     BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "contact.pairs", BRC_STORED_INT32, 2, &n, (void **)&ids));
     int64_t like = 0; /* pairs up to the first that differs */
-    while (like < n && like < n_pairs && memcmp(ids + 2 * like, pair[like].id, sizeof pair[like].id) == 0) ++like;
+    while (like < n && like < n_pairs && memcmp(ids + 2 * like, pair[like].id, sizeof pair[like].id) == 0)
+        ++like;
     if (n != n_pairs)
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT, "contact.pairs: the history that was kept is of %lld pairs, and the surfaces near each other are %lld: friction would be lost", (long long)n,
-                          (long long)n_pairs);
+        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
+                          "contact.pairs: the history that was kept is of %lld pairs, and the surfaces near each other "
+                          "are %lld: friction would be lost",
+                          (long long)n, (long long)n_pairs);
     else if (like < n)
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT, "contact.pairs: the history that was kept has elements %d and %d in row %lld, where surfaces of %d and %d are near each other: friction would be lost",
-                          (int)ids[2 * like], (int)ids[2 * like + 1], (long long)like, (int)pair[like].id[0], (int)pair[like].id[1]);
+        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
+                          "contact.pairs: the history that was kept has elements %d and %d in row %lld, where surfaces "
+                          "of %d and %d are near each other: friction would be lost",
+                          (int)ids[2 * like], (int)ids[2 * like + 1], (long long)like, (int)pair[like].id[0],
+                          (int)pair[like].id[1]);
 cleanup:
     brc_memory_free(ids);
     return status;
@@ -72,8 +79,10 @@ static brc_status walk_pairs(brc_simulation *s, brc_state_store *store)
     BRC_TRY_OR(cleanup, find_pairs(s, &pair));
     BRC_TRY_OR(cleanup, walk_ids(s, store, pair));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rank, l->n_pairs, "pairs"));
-    for (int32_t p = 0; p < l->n_pairs; ++p) rank[pair[p].at] = p;
-    status = brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_contact_pair_fields, .owner = l, .n = l->n_pairs, .id = rank});
+    for (int32_t p = 0; p < l->n_pairs; ++p)
+        rank[pair[p].at] = p;
+    status = brc_store_fields(
+        s, store, &(brc_kept_fields){.table = &brc_contact_pair_fields, .owner = l, .n = l->n_pairs, .id = rank});
 cleanup:
     brc_memory_free(pair);
     brc_memory_free(rank);
@@ -86,7 +95,9 @@ brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store)
     const brc_kept_fields kept = {.table = &brc_contact_fields, .owner = c, .n = c->n_pieces};
     BRC_TRY(brc_store_fields(s, store, &kept));
     /* of dlsm the look at how far surfaces have moved reads the gradients of the step before */
-    if (c->affine) BRC_TRY(brc_store_entry(s, store, &(brc_state_entry){"contact.gradient", s->gradient, BRC_ROWS, BRC_OF_COEFF, 9, NULL}));
+    if (c->affine)
+        BRC_TRY(brc_store_entry(s, store,
+                                &(brc_state_entry){"contact.gradient", s->gradient, BRC_ROWS, BRC_OF_COEFF, 9, NULL}));
     BRC_TRY(brc_store_double(store, "contact.skin", &c->skin));
     if (store->loading) {
         BRC_TRY(brc_contact_expose(s)); /* what is broken is old */

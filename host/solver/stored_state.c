@@ -1,5 +1,5 @@
-/* The state of a simulation, number by number, for a store (state_store.h): the clock, the arrays of the elements, what the loads of the stage remember.
- * Modules with a state of their own are called from `walk`. */
+/* The state of a simulation, number by number, for a store (state_store.h): the clock, the arrays of the elements, what
+ * the loads of the stage remember. Modules with a state of their own are called from `walk`. */
 #include "contact.h"
 #include "element_loads.h"
 #include "fracture_internal.h"
@@ -17,24 +17,45 @@ static brc_status walk_clock(brc_simulation *s, brc_state_store *store)
     const struct {
         const char *name;
         double *value;
-    } numbers[] = {{"time", &s->time}, {"total_time_before", &s->total_time_before}, {"load_factor", &s->load_factor},
-                   {"time_step.value", &dt->value}, {"time_step.critical", &dt->critical}, {"time_step.published", &dt->published},
-                   {"time_step.safety", &dt->safety}, {"work_before", &s->work_before}, {"damping_before", &s->damping_before},
-                   {"numerical_before", &s->numerical_before}, {"initial_energy", &s->initial_energy}, {"peak_elastic", &s->peak_elastic},
-                   {"peak_kinetic", &s->peak_kinetic}, {"total_before_stage", &s->total_before_stage}, {"released", &s->released},
-                   {"static.residual", &s->static_report.residual}, {"events.margin", &s->progress.margin},
-                   {"events.largest_load", &s->progress.largest_load}, {"regime.peak_elastic", &s->regime.peak_elastic}},
-      ratios[] = {{"regime.at_first_break", &s->regime.at_first_break}, {"regime.at_peak", &s->regime.at_peak}, {"regime.until_peak", &s->regime.until_peak},
-                  {"regime.last", &s->regime.last}, {"regime.most", &s->regime.most}}; /* none before something is strained */
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) BRC_TRY(brc_store_double(store, numbers[k].name, numbers[k].value));
-    for (size_t k = 0; k < sizeof ratios / sizeof *ratios; ++k) BRC_TRY(brc_store_sample(store, ratios[k].name, ratios[k].value));
+    } numbers[] = {{"time", &s->time},
+                   {"total_time_before", &s->total_time_before},
+                   {"load_factor", &s->load_factor},
+                   {"time_step.value", &dt->value},
+                   {"time_step.critical", &dt->critical},
+                   {"time_step.published", &dt->published},
+                   {"time_step.safety", &dt->safety},
+                   {"work_before", &s->work_before},
+                   {"damping_before", &s->damping_before},
+                   {"numerical_before", &s->numerical_before},
+                   {"initial_energy", &s->initial_energy},
+                   {"peak_elastic", &s->peak_elastic},
+                   {"peak_kinetic", &s->peak_kinetic},
+                   {"total_before_stage", &s->total_before_stage},
+                   {"released", &s->released},
+                   {"static.residual", &s->static_report.residual},
+                   {"events.margin", &s->progress.margin},
+                   {"events.largest_load", &s->progress.largest_load},
+                   {"regime.peak_elastic", &s->regime.peak_elastic}},
+      ratios[] = {{"regime.at_first_break", &s->regime.at_first_break},
+                  {"regime.at_peak", &s->regime.at_peak},
+                  {"regime.until_peak", &s->regime.until_peak},
+                  {"regime.last", &s->regime.last},
+                  {"regime.most", &s->regime.most}}; /* none before something is strained */
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k)
+        BRC_TRY(brc_store_double(store, numbers[k].name, numbers[k].value));
+    for (size_t k = 0; k < sizeof ratios / sizeof *ratios; ++k)
+        BRC_TRY(brc_store_sample(store, ratios[k].name, ratios[k].value));
     const struct {
         const char *name;
         int64_t *value;
-    } counts[] = {{"step", &s->step}, {"total_steps", &s->total_steps}, {"calm_steps", &s->progress.calm_steps},
-                  {"judged_step", &s->progress.judged_step}, {"static.iterations", &s->static_report.iterations},
+    } counts[] = {{"step", &s->step},
+                  {"total_steps", &s->total_steps},
+                  {"calm_steps", &s->progress.calm_steps},
+                  {"judged_step", &s->progress.judged_step},
+                  {"static.iterations", &s->static_report.iterations},
                   {"static.corrections", &s->static_report.corrections}};
-    for (size_t k = 0; k < sizeof counts / sizeof *counts; ++k) BRC_TRY(brc_store_integer(store, counts[k].name, counts[k].value));
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; ++k)
+        BRC_TRY(brc_store_integer(store, counts[k].name, counts[k].value));
     return brc_store_flag(store, "regime.broke", &s->regime.broke);
 }
 
@@ -44,7 +65,8 @@ static brc_status walk_notes(brc_simulation *s, brc_state_store *store)
     brc_time_step *dt = &s->time_step;
     int64_t n_modes = s->n_modes;
     char name[64];
-    if (!store->loading && dt->governed_by != s->governed_by) snprintf(s->governed_by, sizeof s->governed_by, "%s", dt->governed_by ? dt->governed_by : "");
+    if (!store->loading && dt->governed_by != s->governed_by)
+        snprintf(s->governed_by, sizeof s->governed_by, "%s", dt->governed_by ? dt->governed_by : "");
     BRC_TRY(brc_store_text(store, "time_step.governed_by", s->governed_by, sizeof s->governed_by));
     if (store->loading) dt->governed_by = s->governed_by[0] ? s->governed_by : NULL;
     for (int32_t i = 0; i < s->scene->n_stages; ++i) {
@@ -60,18 +82,23 @@ static brc_status walk_notes(brc_simulation *s, brc_state_store *store)
 
 /* ---- elements ---- */
 
-/* Displacement gradients and stresses of dlsm follow from the displacements; the strains of dlsm-published do so only to rounding, since the half kick
- * that closes a batch normalises its orientations once more. */
-static brc_status walk_elements(brc_simulation *s, brc_state_store *store) { return brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_state_fields, .owner = s}); }
+/* Displacement gradients and stresses of dlsm follow from the displacements; the strains of dlsm-published do so only
+ * to rounding, since the half kick that closes a batch normalises its orientations once more. */
+static brc_status walk_elements(brc_simulation *s, brc_state_store *store)
+{
+    return brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_state_fields, .owner = s});
+}
 
 /* ---- loads ---- */
 
 /* What a list of a load keeps, as "loads.<kind>.<i>.<what>". */
-static brc_status walk_list(brc_simulation *s, brc_state_store *store, const char *kind, int32_t i, const brc_field_table *table, const void *list, int64_t n, const int32_t *id)
+static brc_status walk_list(brc_simulation *s, brc_state_store *store, const char *kind, int32_t i,
+                            const brc_field_table *table, const void *list, int64_t n, const int32_t *id)
 {
     char prefix[64];
     snprintf(prefix, sizeof prefix, "loads.%s.%d.", kind, (int)i);
-    return brc_store_fields(s, store, &(brc_kept_fields){.table = table, .owner = list, .prefix = prefix, .n = n, .id = id});
+    return brc_store_fields(s, store,
+                            &(brc_kept_fields){.table = table, .owner = list, .prefix = prefix, .n = n, .id = id});
 }
 
 static brc_status walk_number(brc_state_store *store, const char *kind, int32_t i, const char *what, double *value)
@@ -108,7 +135,8 @@ static brc_status walk_traction(brc_simulation *s, brc_state_store *store, int32
     if (store->field) return walk_list(s, store, "traction", i, &brc_traction_fields, t, t->n, NULL);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, t->n, "elements under traction"));
     BRC_TRY_OR(cleanup, brc_buffer_read(t->element, 0, element, 4 * (int64_t)t->n));
-    for (int32_t k = 0; k < t->n; ++k) element[k] = s->layout->element_of_row[element[k]];
+    for (int32_t k = 0; k < t->n; ++k)
+        element[k] = s->layout->element_of_row[element[k]];
     status = walk_list(s, store, "traction", i, &brc_traction_fields, t, t->n, element);
 cleanup:
     brc_memory_free(element);
@@ -142,10 +170,14 @@ static brc_status walk_turn(brc_simulation *s, brc_state_store *store, int32_t i
 static brc_status walk_loads(brc_simulation *s, brc_state_store *store)
 {
     BRC_TRY(walk_held(s, store));
-    for (int32_t i = 0; i < s->loads.n_tractions; ++i) BRC_TRY(walk_traction(s, store, i));
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i) BRC_TRY(walk_imposed(s, store, i));
-    for (int32_t i = 0; i < s->loads.n_pushes; ++i) BRC_TRY(walk_push(s, store, i));
-    for (int32_t i = 0; i < s->loads.n_turns; ++i) BRC_TRY(walk_turn(s, store, i));
+    for (int32_t i = 0; i < s->loads.n_tractions; ++i)
+        BRC_TRY(walk_traction(s, store, i));
+    for (int32_t i = 0; i < s->loads.n_imposed; ++i)
+        BRC_TRY(walk_imposed(s, store, i));
+    for (int32_t i = 0; i < s->loads.n_pushes; ++i)
+        BRC_TRY(walk_push(s, store, i));
+    for (int32_t i = 0; i < s->loads.n_turns; ++i)
+        BRC_TRY(walk_turn(s, store, i));
     return BRC_OK;
 }
 
@@ -185,11 +217,13 @@ brc_status brc_simulation_load_state(brc_simulation *s, brc_state_store *store)
     int32_t stage;
     BRC_TRY(brc_store_index(store, "stage", &stage));
     if (stage < 0 || stage >= s->scene->n_stages || s->stage >= 0)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "a state of stage %d cannot be taken up by a scene of %d stages", (int)stage, (int)s->scene->n_stages);
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "a state of stage %d cannot be taken up by a scene of %d stages",
+                        (int)stage, (int)s->scene->n_stages);
     BRC_TRY(brc_loads_create(s, &s->scene->stages[stage], &s->loads));
     s->stage = stage;
     BRC_TRY(walk(s, store));
-    BRC_TRY(brc_force_of_state(s, BRC_BOOK_NOTHING)); /* what only it makes; what it makes otherwise than the last step did is filled again */
+    BRC_TRY(brc_force_of_state(
+        s, BRC_BOOK_NOTHING)); /* what only it makes; what it makes otherwise than the last step did is filled again */
     BRC_TRY(walk(s, store));
     s->setup_seconds += brc_clock_s() - start;
     return BRC_OK;

@@ -15,8 +15,10 @@ static int64_t find_half_edge(const brc_domain *d, int32_t i, int32_t j)
     int64_t low = d->row_start[i], high = d->row_start[i + 1];
     while (low < high) {
         const int64_t middle = low + (high - low) / 2;
-        if (d->neighbour[middle] < j) low = middle + 1;
-        else high = middle;
+        if (d->neighbour[middle] < j)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low < d->row_start[i + 1] && d->neighbour[low] == j ? low : -1;
 }
@@ -28,7 +30,8 @@ static const char *const role_name[N_ROLES] = {"element_i", "element_j", "factor
 static bool is_element(brc_lines *lines, const brc_domain *d, const char *name, double value, const char *place)
 {
     if (value >= 0 && value < (double)d->n_elements && value == floor(value)) return true;
-    brc_lines_bad(lines, place, "%s is %.17g, expected the id of an element, 0 to %lld", name, value, (long long)d->n_elements - 1);
+    brc_lines_bad(lines, place, "%s is %.17g, expected the id of an element, 0 to %lld", name, value,
+                  (long long)d->n_elements - 1);
     return false;
 }
 
@@ -40,30 +43,42 @@ static void read_row(brc_lines *lines, const brc_csv *csv, const brc_domain *d, 
     for (int k = ELEMENT_I; k <= ELEMENT_J; ++k)
         if (!is_element(lines, d, role_name[k], value[k], place[k])) return;
     const int64_t h = find_half_edge(d, (int32_t)value[ELEMENT_I], (int32_t)value[ELEMENT_J]);
-    if (!(value[FACTOR] > 0)) brc_lines_bad(lines, place[FACTOR], "factor is %g, must be > 0", value[FACTOR]);
-    else if (h < 0) brc_lines_bad(lines, place[ELEMENT_I], "no bond joins elements %.0f and %.0f; `breccia build` writes the bonds of a sample",
-                                  value[ELEMENT_I], value[ELEMENT_J]);
-    else if (factor[d->bond[h]] > 0) brc_lines_bad(lines, place[ELEMENT_I], "a second factor for the bond of elements %.0f and %.0f",
-                                                   value[ELEMENT_I], value[ELEMENT_J]);
-    else factor[d->bond[h]] = value[FACTOR];
+    if (!(value[FACTOR] > 0))
+        brc_lines_bad(lines, place[FACTOR], "factor is %g, must be > 0", value[FACTOR]);
+    else if (h < 0)
+        brc_lines_bad(lines, place[ELEMENT_I],
+                      "no bond joins elements %.0f and %.0f; `breccia build` writes the bonds of a sample",
+                      value[ELEMENT_I], value[ELEMENT_J]);
+    else if (factor[d->bond[h]] > 0)
+        brc_lines_bad(lines, place[ELEMENT_I], "a second factor for the bond of elements %.0f and %.0f",
+                      value[ELEMENT_I], value[ELEMENT_J]);
+    else
+        factor[d->bond[h]] = value[FACTOR];
 }
 
 /* *out [n_bonds]: factors of a file, 0 for bonds that are not in it. */
-static brc_status read_factors(brc_context *context, const brc_scene *scene, const char *name, const brc_domain *d, double **out)
+static brc_status read_factors(brc_context *context, const brc_scene *scene, const char *name, const brc_domain *d,
+                               double **out)
 {
     char *path = NULL, *text = NULL;
     size_t bytes = 0;
     brc_lines lines = {0};
     brc_status status = BRC_OK;
-    brc_csv csv = {.n_roles = N_ROLES, .n_required = N_ROLES, .role = role_name, .what = "column",
+    brc_csv csv = {.n_roles = N_ROLES,
+                   .n_required = N_ROLES,
+                   .role = role_name,
+                   .what = "column",
                    .wanted = "a row of names: element_i, element_j and factor, then a row a bond"};
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, out, d->n_bonds, "factors of bonds"));
-    if (name[0] == '/') BRC_TRY_OR(cleanup, brc_file_join(context, "", name + 1, &path));
-    else BRC_TRY_OR(cleanup, brc_file_join(context, scene->folder, name, &path));
+    if (name[0] == '/')
+        BRC_TRY_OR(cleanup, brc_file_join(context, "", name + 1, &path));
+    else
+        BRC_TRY_OR(cleanup, brc_file_join(context, scene->folder, name, &path));
     BRC_TRY_OR(cleanup, brc_file_read_whole(context, path, (size_t)1 << 40, &text, &bytes));
     BRC_TRY_OR(cleanup, brc_lines_begin(context, path, text, bytes, &lines));
     if (brc_csv_header(&lines, &csv))
-        while (brc_csv_next(&lines)) read_row(&lines, &csv, d, *out);
+        while (brc_csv_next(&lines))
+            read_row(&lines, &csv, d, *out);
     status = brc_lines_verdict(&lines);
 cleanup:
     brc_lines_end(&lines);
@@ -79,7 +94,8 @@ double brc_strengths_volume(const brc_domain *d, int64_t bond)
     const int64_t h = d->bond_half_edge[bond], end[2] = {d->neighbour[d->twin[h]], d->neighbour[h]};
     if (d->element_kind == BRC_ELEMENT_SPHERE) {
         double sum = 0;
-        for (int k = 0; k < 2; ++k) sum += d->volume[end[k]] / (double)(d->row_start[end[k] + 1] - d->row_start[end[k]]);
+        for (int k = 0; k < 2; ++k)
+            sum += d->volume[end[k]] / (double)(d->row_start[end[k] + 1] - d->row_start[end[k]]);
         return sum / d->quality.volume_fraction;
     }
     double length = 0, area = 0;
@@ -95,7 +111,8 @@ double brc_strengths_volume(const brc_domain *d, int64_t bond)
 static double quantile(const brc_scatter *scatter, double p)
 {
     int32_t k = 1;
-    while (k < scatter->n_quantiles - 1 && p > scatter->quantiles[k].below) ++k;
+    while (k < scatter->n_quantiles - 1 && p > scatter->quantiles[k].below)
+        ++k;
     const brc_quantile *a = &scatter->quantiles[k - 1], *b = &scatter->quantiles[k];
     if (!(b->below > a->below)) return b->factor;
     return a->factor + (b->factor - a->factor) * ((p - a->below) / (b->below - a->below));
@@ -113,7 +130,10 @@ static double draw(const brc_scatter *scatter, uint64_t seed, const brc_domain *
 
 /* ---- sides and interfaces ---- */
 
-static double strength_of(const brc_material *m) { return m->tension > 0 ? m->tension : m->beam_strength > 0 ? m->beam_strength : INFINITY; }
+static double strength_of(const brc_material *m)
+{
+    return m->tension > 0 ? m->tension : m->beam_strength > 0 ? m->beam_strength : INFINITY;
+}
 
 static int32_t weaker(const brc_scene *scene, int32_t a, int32_t b)
 {
@@ -142,13 +162,17 @@ static brc_status check_interface(brc_context *context, const brc_scene *scene, 
 {
     const bool of_elements = !brc_scene_breaks_by_bond(scene, scene->model.kind);
     if (!of_elements || weak->tension > 0 || !(scene->interfaces[k].tension > 0)) return BRC_OK;
-    return BRC_FAIL(context, BRC_BAD_INPUT, "interfaces, number %d: a tension of %g Pa is compared with that of its materials, and '%s' has none; give "
-                    "it `strength: {tension: ...}`, or the interface a `factor`", (int)k + 1, scene->interfaces[k].tension, weak->name);
+    return BRC_FAIL(
+        context, BRC_BAD_INPUT,
+        "interfaces, number %d: a tension of %g Pa is compared with that of its materials, and '%s' has none; give "
+        "it `strength: {tension: ...}`, or the interface a `factor`",
+        (int)k + 1, scene->interfaces[k].tension, weak->name);
 }
 
 /* ---- all bonds ---- */
 
-/* Of a bond whose strength is not scattered: what its interface makes of that of the weaker side; and its fracture energy. */
+/* Of a bond whose strength is not scattered: what its interface makes of that of the weaker side; and its fracture
+ * energy. */
 static double interface_factor(const brc_interface *at, const brc_material *weak)
 {
     const double factor = at && at->factor > 0 ? at->factor : 1;
@@ -156,22 +180,26 @@ static double interface_factor(const brc_interface *at, const brc_material *weak
 }
 static double bond_energy(const brc_interface *at, const brc_material *weak)
 {
-    return at && at->fracture_energy > 0 ? at->fracture_energy : (at && at->factor > 0 ? at->factor : 1) * weak->fracture_energy;
+    return at && at->fracture_energy > 0 ? at->fracture_energy
+                                         : (at && at->factor > 0 ? at->factor : 1) * weak->fracture_energy;
 }
 
-static void fill_bond(const brc_scene *scene, const brc_domain *d, int64_t bond, const brc_material *weak, const brc_interface *at,
-                      const double *from_file, brc_strengths *out)
+static void fill_bond(const brc_scene *scene, const brc_domain *d, int64_t bond, const brc_material *weak,
+                      const brc_interface *at, const double *from_file, brc_strengths *out)
 {
     const double factor = at && at->factor > 0 ? at->factor : 1;
     double scatter = 1;
-    if (weak->scatter.kind == BRC_SCATTER_FILE) scatter = from_file[bond] > 0 ? from_file[bond] : 1;
-    else if (weak->scatter.kind != BRC_SCATTER_NONE) scatter = draw(&weak->scatter, scene->fracture.seed, d, bond);
+    if (weak->scatter.kind == BRC_SCATTER_FILE)
+        scatter = from_file[bond] > 0 ? from_file[bond] : 1;
+    else if (weak->scatter.kind != BRC_SCATTER_NONE)
+        scatter = draw(&weak->scatter, scene->fracture.seed, d, bond);
     const bool given = at && at->tension > 0;
     out->joint[bond] = at != NULL;
     out->tension[bond] = (given ? at->tension : factor * weak->tension) * scatter;
     out->factor[bond] = interface_factor(at, weak) * scatter;
     out->energy[bond] = bond_energy(at, weak);
-    out->shear_energy[bond] = out->energy[bond] * (weak->shear_fracture_energy > 0 ? weak->shear_fracture_energy / weak->fracture_energy : 1);
+    out->shear_energy[bond] =
+        out->energy[bond] * (weak->shear_fracture_energy > 0 ? weak->shear_fracture_energy / weak->fracture_energy : 1);
     out->softens = out->softens || out->energy[bond] > 0 || brc_scene_slides(scene, scene->model.kind);
     out->exponential[bond] = weak->softening == BRC_SOFTENING_EXPONENTIAL;
 }
@@ -180,14 +208,17 @@ static void tell_interfaces(brc_context *context, const brc_scene *scene, const 
 {
     for (int32_t k = 0; k < scene->n_interfaces; ++k)
         if (count[k] > 0)
-            brc_log(context, BRC_LOG_INFO, "interfaces, number %d: %lld of %lld bonds", (int)k + 1, (long long)count[k], (long long)d->n_bonds);
+            brc_log(context, BRC_LOG_INFO, "interfaces, number %d: %lld of %lld bonds", (int)k + 1, (long long)count[k],
+                    (long long)d->n_bonds);
         else
             brc_log(context, BRC_LOG_WARNING, "interfaces, number %d: no bond lies in it%s", (int)k + 1,
-                    scene->interfaces[k].kind == BRC_INTERFACE_GRAINS ? "; grains come with `grains: {number: ...}` of a body"
-                                                                      : " (later interfaces win)");
+                    scene->interfaces[k].kind == BRC_INTERFACE_GRAINS
+                        ? "; grains come with `grains: {number: ...}` of a body"
+                        : " (later interfaces win)");
 }
 
-void brc_strengths_ask(const brc_scene *scene, const brc_domain *d, const int32_t *material, bool *weighted, bool *softens)
+void brc_strengths_ask(const brc_scene *scene, const brc_domain *d, const int32_t *material, bool *weighted,
+                       bool *softens)
 {
     *weighted = *softens = false;
     for (int64_t b = 0; b < d->n_bonds && !(*weighted && *softens); ++b) {
@@ -200,7 +231,8 @@ void brc_strengths_ask(const brc_scene *scene, const brc_domain *d, const int32_
     }
 }
 
-brc_status brc_strengths_create(brc_context *context, const brc_scene *scene, const brc_domain *d, const int32_t *material, brc_strengths *out)
+brc_status brc_strengths_create(brc_context *context, const brc_scene *scene, const brc_domain *d,
+                                const int32_t *material, brc_strengths *out)
 {
     double **from_file = NULL;
     int64_t *count = NULL;
@@ -227,7 +259,8 @@ brc_status brc_strengths_create(brc_context *context, const brc_scene *scene, co
     }
     tell_interfaces(context, scene, d, count);
 cleanup:
-    for (int32_t m = 0; from_file && m < scene->n_materials; ++m) brc_memory_free(from_file[m]);
+    for (int32_t m = 0; from_file && m < scene->n_materials; ++m)
+        brc_memory_free(from_file[m]);
     brc_memory_free(from_file);
     brc_memory_free(count);
     if (status != BRC_OK) brc_strengths_free(out);

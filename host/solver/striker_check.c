@@ -1,10 +1,12 @@
-/* What is wrong, or looks wrong, with strikers before a run begins: they stand in a body, are quicker than sound, or come near nothing. */
+/* What is wrong, or looks wrong, with strikers before a run begins: they stand in a body, are quicker than sound, or
+ * come near nothing. */
 #include "strikers_internal.h"
 #include <math.h>
 #include <string.h>
 
-/* Shares of the mean spacing: a striker this deep in a body is refused, since it would start with the energy of an explosion; one that is less deep by this much is told
- * of, and below that is the rounding of places. Spheres of a packing stand out of its walls by about a hundredth of their radius. */
+/* Shares of the mean spacing: a striker this deep in a body is refused, since it would start with the energy of an
+ * explosion; one that is less deep by this much is told of, and below that is the rounding of places. Spheres of a
+ * packing stand out of its walls by about a hundredth of their radius. */
 static const double refused_depth = 0.05, told_depth = 1e-6, told_depth_of_spheres = 0.02;
 
 void brc_deepen(brc_overlap *deepest, double depth, int64_t element, const double x[3])
@@ -18,7 +20,8 @@ void brc_deepen(brc_overlap *deepest, double depth, int64_t element, const doubl
 /* How deep x is in a piece of a striker: the least distance to its planes; below 0 outside. */
 static double depth_in_piece(const brc_strikers *t, int32_t piece, const double x[3])
 {
-    const double *centre = t->body[t->piece_striker[piece]].centre, r[3] = {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
+    const double *centre = t->body[t->piece_striker[piece]].centre,
+                 r[3] = {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
     const double reach = t->convex.radius[piece];
     double depth = HUGE_VAL;
     if (r[0] * r[0] + r[1] * r[1] + r[2] * r[2] > reach * reach) return -HUGE_VAL;
@@ -38,7 +41,8 @@ static double from_segment(const double a[3], const double b[3], const double r[
         square += (b[c] - a[c]) * (b[c] - a[c]);
     }
     const double share = square > 0 ? fmin(fmax(along / square, 0), 1) : 0;
-    for (int c = 0; c < 3; ++c) rest += pow(a[c] + share * (b[c] - a[c]) - r[c], 2);
+    for (int c = 0; c < 3; ++c)
+        rest += pow(a[c] + share * (b[c] - a[c]) - r[c], 2);
     return sqrt(rest);
 }
 
@@ -48,9 +52,11 @@ double brc_convex_face_distance(const brc_convex *v, int32_t p, int32_t f, const
     const double height = plane[0] * r[0] + plane[1] * r[1] + plane[2] * r[2] - plane[3];
     const int32_t first = v->loop_start[f], n = v->loop_start[f + 1] - first;
     double least = HUGE_VAL;
-    bool over = true; /* above or below the polygon itself, not beyond one of its sides; without corners: a whole plane */
+    bool over =
+        true; /* above or below the polygon itself, not beyond one of its sides; without corners: a whole plane */
     for (int32_t k = 0; k < n; ++k) {
-        const double *a = corner + 3 * (int64_t)v->loop[first + k], *b = corner + 3 * (int64_t)v->loop[first + (k + 1) % n];
+        const double *a = corner + 3 * (int64_t)v->loop[first + k],
+                     *b = corner + 3 * (int64_t)v->loop[first + (k + 1) % n];
         double side = 0;
         for (int c = 0; c < 3; ++c) {
             const int i = (c + 1) % 3, j = (c + 2) % 3;
@@ -65,9 +71,11 @@ double brc_convex_face_distance(const brc_convex *v, int32_t p, int32_t f, const
 /* Distance of x, which is outside, from a piece: the least to its faces. */
 static double away_from_piece(const brc_strikers *t, int32_t piece, const double x[3])
 {
-    const double *centre = t->body[t->piece_striker[piece]].centre, r[3] = {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
+    const double *centre = t->body[t->piece_striker[piece]].centre,
+                 r[3] = {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
     double least = HUGE_VAL;
-    for (int32_t f = t->convex.face_start[piece]; f < t->convex.face_start[piece + 1]; ++f) least = fmin(least, brc_convex_face_distance(&t->convex, piece, f, r));
+    for (int32_t f = t->convex.face_start[piece]; f < t->convex.face_start[piece + 1]; ++f)
+        least = fmin(least, brc_convex_face_distance(&t->convex, piece, f, r));
     return least;
 }
 
@@ -77,7 +85,8 @@ static double depth_in_cell(const brc_domain *d, int64_t e, const double x[3])
     double depth = HUGE_VAL;
     for (int k = 0; k < 2; ++k) {
         const int64_t *start = k == 0 ? d->row_start : d->free_start;
-        const double *area = k == 0 ? d->area_vector : d->free_area_vector, *centroid = k == 0 ? d->face_centroid : d->free_centroid;
+        const double *area = k == 0 ? d->area_vector : d->free_area_vector,
+                     *centroid = k == 0 ? d->face_centroid : d->free_centroid;
         for (int64_t f = start[e]; f < start[e + 1]; ++f) {
             double height = 0, square = 0;
             for (int c = 0; c < 3; ++c) {
@@ -101,10 +110,15 @@ static void find_elements(const brc_domain *d, const brc_strikers *t, int32_t pi
         if (spheres) {
             if (away - out > reach) continue;
             const double inside = round ? 0 : depth_in_piece(t, piece, x);
-            brc_deepen(deepest, out + (round ? t->piece_radius[piece] - away : inside > 0 ? inside : -away_from_piece(t, piece, x)), e, x);
+            brc_deepen(deepest,
+                       out + (round        ? t->piece_radius[piece] - away
+                              : inside > 0 ? inside
+                                           : -away_from_piece(t, piece, x)),
+                       e, x);
             continue;
         }
-        for (int64_t v = d->vertex_start[e]; v < d->vertex_start[e + 1]; ++v) brc_deepen(deepest, depth_in_piece(t, piece, d->vertex + 3 * v), e, d->vertex + 3 * v);
+        for (int64_t v = d->vertex_start[e]; v < d->vertex_start[e + 1]; ++v)
+            brc_deepen(deepest, depth_in_piece(t, piece, d->vertex + 3 * v), e, d->vertex + 3 * v);
     }
 }
 
@@ -124,7 +138,8 @@ static void find_corners(const brc_domain *d, const brc_strikers *t, int32_t pie
         }
         for (int64_t e = 0; near && e < d->n_elements; ++e) {
             double square = 0;
-            for (int c = 0; c < 3; ++c) square += (d->position[3 * e + c] - x[c]) * (d->position[3 * e + c] - x[c]);
+            for (int c = 0; c < 3; ++c)
+                square += (d->position[3 * e + c] - x[c]) * (d->position[3 * e + c] - x[c]);
             if (square >= least) continue;
             least = square;
             nearest = e;
@@ -133,10 +148,14 @@ static void find_corners(const brc_domain *d, const brc_strikers *t, int32_t pie
     }
 }
 
-double brc_striker_refused_depth(const brc_simulation *s) { return refused_depth * s->domain->quality.mean_spacing; }
+double brc_striker_refused_depth(const brc_simulation *s)
+{
+    return refused_depth * s->domain->quality.mean_spacing;
+}
 double brc_striker_told_depth(const brc_simulation *s)
 {
-    return (s->domain->element_kind == BRC_ELEMENT_SPHERE ? told_depth_of_spheres : told_depth) * s->domain->quality.mean_spacing;
+    return (s->domain->element_kind == BRC_ELEMENT_SPHERE ? told_depth_of_spheres : told_depth) *
+           s->domain->quality.mean_spacing;
 }
 
 brc_status brc_striker_stands_in(brc_simulation *s, int32_t i, const brc_overlap *found)
@@ -147,12 +166,17 @@ brc_status brc_striker_stands_in(brc_simulation *s, int32_t i, const brc_overlap
     const int32_t owner = s->domain->body[found->element];
     const char *body = s->scene->bodies[owner < s->scene->n_bodies ? owner : 0].name;
     if (found->depth > brc_striker_refused_depth(s))
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "striker '%s' stands %s%.4g m deep in body '%s' as the scene starts, %s (%.6g, %.6g, %.6g) m (spacing %.4g m): move one of them away%s",
-                        striker->name, found->first ? "at least " : "", found->depth, body, found->first ? "at" : "deepest at", x[0], x[1], x[2], s->domain->quality.mean_spacing,
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "striker '%s' stands %s%.4g m deep in body '%s' as the scene starts, %s (%.6g, %.6g, %.6g) m "
+                        "(spacing %.4g m): move one of them away%s",
+                        striker->name, found->first ? "at least " : "", found->depth, body,
+                        found->first ? "at" : "deepest at", x[0], x[1], x[2], s->domain->quality.mean_spacing,
                         striker->is_plane ? ", or turn the normal, which points out of the wall" : "");
     if (!s->strikers->told[i])
-        brc_log(s->context, BRC_LOG_WARNING, "striker '%s' stands %.4g m deep in body '%s' as the scene starts, at (%.6g, %.6g, %.6g) m: they begin pressed together", striker->name, found->depth, body,
-                x[0], x[1], x[2]);
+        brc_log(s->context, BRC_LOG_WARNING,
+                "striker '%s' stands %.4g m deep in body '%s' as the scene starts, at (%.6g, %.6g, %.6g) m: they begin "
+                "pressed together",
+                striker->name, found->depth, body, x[0], x[1], x[2]);
     s->strikers->told[i] = true;
     return BRC_OK;
 }
@@ -173,13 +197,17 @@ static brc_status check_overlap(brc_simulation *s, int32_t i)
 
 /* ---- speeds and ways ---- */
 
-static double length(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+static double length(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
 
 /* The largest value of its table; 1 without. */
 static double largest_factor(const brc_striker *striker)
 {
     double factor = striker->table.n > 0 ? 0 : 1;
-    for (int32_t k = 0; k < striker->table.n; ++k) factor = fmax(factor, fabs(striker->table.value[k]));
+    for (int32_t k = 0; k < striker->table.n; ++k)
+        factor = fmax(factor, fabs(striker->table.value[k]));
     return factor;
 }
 
@@ -191,7 +219,8 @@ static double speed_of(const brc_simulation *s, int32_t i)
     if (striker->motion == BRC_STRIKER_FIXED) return 0;
     if (striker->motion == BRC_STRIKER_DRIVEN) factor = largest_factor(striker);
     for (int32_t p = 0; p < s->strikers->convex.n; ++p)
-        if (s->strikers->piece_striker[p] == i && !striker->is_plane) reach = fmax(reach, s->strikers->convex.radius[p]);
+        if (s->strikers->piece_striker[p] == i && !striker->is_plane)
+            reach = fmax(reach, s->strikers->convex.radius[p]);
     return factor * (length(striker->velocity) + reach * length(striker->spin));
 }
 
@@ -203,7 +232,8 @@ static double speed_of_field(const brc_initial *field, const double bounds[2][3]
         double v[3];
         for (int i = 0; i < 3; ++i) {
             v[i] = field->value[i];
-            for (int j = 0; j < 3; ++j) v[i] += field->gradient[i][j] * (bounds[corner >> j & 1][j] - field->origin[j]);
+            for (int j = 0; j < 3; ++j)
+                v[i] += field->gradient[i][j] * (bounds[corner >> j & 1][j] - field->origin[j]);
         }
         most = fmax(most, length(v));
     }
@@ -213,17 +243,20 @@ static double speed_of_field(const brc_initial *field, const double bounds[2][3]
 /* The largest speed that initial fields and loads give elements [m/s]; spins count over the bodies' diagonal. */
 static double speed_of_bodies(const brc_simulation *s)
 {
-    const double(*b)[3] = s->domain->bounds, diagonal = hypot(hypot(b[1][0] - b[0][0], b[1][1] - b[0][1]), b[1][2] - b[0][2]);
+    const double(*b)[3] = s->domain->bounds,
+          diagonal = hypot(hypot(b[1][0] - b[0][0], b[1][1] - b[0][1]), b[1][2] - b[0][2]);
     double most = 0;
     for (int32_t k = 0; k < s->scene->n_stages; ++k) {
         const brc_stage *stage = s->scene->stages + k;
         for (int32_t f = 0; f < stage->n_initials; ++f) {
             const brc_initial *field = stage->initials + f;
-            if (field->kind == BRC_INITIAL_VELOCITY || field->kind == BRC_INITIAL_RANDOM) most = fmax(most, speed_of_field(field, b));
+            if (field->kind == BRC_INITIAL_VELOCITY || field->kind == BRC_INITIAL_RANDOM)
+                most = fmax(most, speed_of_field(field, b));
             if (field->kind == BRC_INITIAL_SPIN) most = fmax(most, length(field->value) * diagonal);
         }
         for (int32_t l = 0; l < stage->n_loads; ++l)
-            if (stage->loads[l].kind == BRC_LOAD_FACE_VELOCITY || stage->loads[l].kind == BRC_LOAD_ELEMENT_VELOCITY) most = fmax(most, length(stage->loads[l].value));
+            if (stage->loads[l].kind == BRC_LOAD_FACE_VELOCITY || stage->loads[l].kind == BRC_LOAD_ELEMENT_VELOCITY)
+                most = fmax(most, length(stage->loads[l].value));
     }
     return most;
 }
@@ -247,11 +280,15 @@ static void check_speed(const brc_simulation *s, int32_t i, double bodies)
     const char *material = "";
     const double wave = slowest_wave(s, &material), speed = speed_of(s, i);
     if (speed + bodies > wave)
-        brc_log(s->context, BRC_LOG_WARNING, "striker '%s' and the bodies meet with up to %.4g m/s, faster than the pressure wave of '%s', %.4g m/s: what is hit cannot give way; elastic laws "
-                "do not hold for shock waves", s->scene->strikers[i].name, speed + bodies, material, wave);
+        brc_log(s->context, BRC_LOG_WARNING,
+                "striker '%s' and the bodies meet with up to %.4g m/s, faster than the pressure wave of '%s', %.4g "
+                "m/s: what is hit cannot give way; elastic laws "
+                "do not hold for shock waves",
+                s->scene->strikers[i].name, speed + bodies, material, wave);
 }
 
-/* How fast parts of the bodies are thrown at each other: the largest difference between velocities of sets, of what has none too [m/s]. A field without a set moves all alike. */
+/* How fast parts of the bodies are thrown at each other: the largest difference between velocities of sets, of what has
+ * none too [m/s]. A field without a set moves all alike. */
 static double speed_between_bodies(const brc_simulation *s)
 {
     double most = 0;
@@ -263,7 +300,8 @@ static double speed_between_bodies(const brc_simulation *s)
             most = fmax(most, length(one->value));
             for (int32_t g = 0; g < f; ++g) {
                 const brc_initial *other = stage->initials + g;
-                const double apart[3] = {one->value[0] - other->value[0], one->value[1] - other->value[1], one->value[2] - other->value[2]};
+                const double apart[3] = {one->value[0] - other->value[0], one->value[1] - other->value[1],
+                                         one->value[2] - other->value[2]};
                 if (other->kind == BRC_INITIAL_VELOCITY && other->set[0]) most = fmax(most, length(apart));
             }
         }
@@ -277,7 +315,9 @@ void brc_contact_check_speed(const brc_simulation *s)
     if (s->scene->n_bodies < 2) return;
     const double wave = slowest_wave(s, &material), speed = speed_between_bodies(s);
     if (speed > wave)
-        brc_log(s->context, BRC_LOG_WARNING, "bodies meet with up to %.4g m/s, faster than the pressure wave of '%s', %.4g m/s: what is hit cannot give way; elastic laws do not hold for shock waves",
+        brc_log(s->context, BRC_LOG_WARNING,
+                "bodies meet with up to %.4g m/s, faster than the pressure wave of '%s', %.4g m/s: what is hit cannot "
+                "give way; elastic laws do not hold for shock waves",
                 speed, material, wave);
 }
 
@@ -289,12 +329,17 @@ static void check_rail(const brc_simulation *s, int32_t i)
     if (striker->motion != BRC_STRIKER_FREE) return;
     for (int c = 0; c < 3; ++c)
         if (striker->held[c] && striker->velocity[c] != 0)
-            brc_log(s->context, BRC_LOG_WARNING, "striker '%s': its velocity of %.4g m/s along %c is left out, as `hold` lets it not move along %c", striker->name, striker->velocity[c], axis[c], axis[c]);
+            brc_log(s->context, BRC_LOG_WARNING,
+                    "striker '%s': its velocity of %.4g m/s along %c is left out, as `hold` lets it not move along %c",
+                    striker->name, striker->velocity[c], axis[c], axis[c]);
     if (striker->held_rotation && length(striker->spin) > 0)
-        brc_log(s->context, BRC_LOG_WARNING, "striker '%s': its spin of %.4g rad/s is left out, as `hold` lets it not turn", striker->name, length(striker->spin));
+        brc_log(s->context, BRC_LOG_WARNING,
+                "striker '%s': its spin of %.4g rad/s is left out, as `hold` lets it not turn", striker->name,
+                length(striker->spin));
 }
 
-/* Extent of striker i along its thinnest face's normal [m]; HUGE_VAL of planes, and of shapes of so many faces that they are round. */
+/* Extent of striker i along its thinnest face's normal [m]; HUGE_VAL of planes, and of shapes of so many faces that
+ * they are round. */
 static double thickness_of(const brc_simulation *s, int32_t i)
 {
     static const double most = 1e7; /* pairs of a face and a corner: a shape of more has thousands of faces */
@@ -303,12 +348,14 @@ static double thickness_of(const brc_simulation *s, int32_t i)
     double least = HUGE_VAL;
     for (int32_t p = 0; p < v->n; ++p)
         if (s->strikers->piece_striker[p] == i) first = p < first ? p : first, end = p + 1;
-    const int32_t corner = v->corner_start[first], corners = v->corner_start[end], face = v->face_start[first], faces = v->face_start[end];
+    const int32_t corner = v->corner_start[first], corners = v->corner_start[end], face = v->face_start[first],
+                  faces = v->face_start[end];
     if (s->scene->strikers[i].is_plane || (double)(corners - corner) * (faces - face) > most) return HUGE_VAL;
     for (int32_t f = face; f < faces; ++f) {
         double low = HUGE_VAL, high = -HUGE_VAL;
         for (int32_t k = corner; k < corners; ++k) {
-            const double *n = v->plane + 4 * (int64_t)f, *x = v->corner + 3 * (int64_t)k, height = n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
+            const double *n = v->plane + 4 * (int64_t)f, *x = v->corner + 3 * (int64_t)k,
+                         height = n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
             low = fmin(low, height);
             high = fmax(high, height);
         }
@@ -317,15 +364,20 @@ static double thickness_of(const brc_simulation *s, int32_t i)
     return least;
 }
 
-/* A blow at speed v makes a pressure of density wave v in what is hit, and the penalty of a cell of size h bears it when it is sunk in by h v / wave; a few times that on the way. What is sunk in from both sides of a
- * striker at once is pushed by neither. */
+/* A blow at speed v makes a pressure of density wave v in what is hit, and the penalty of a cell of size h bears it
+ * when it is sunk in by h v / wave; a few times that on the way. What is sunk in from both sides of a striker at once
+ * is pushed by neither. */
 static void check_thickness(const brc_simulation *s, int32_t i, double bodies)
 {
     const char *material = "";
-    const double thick = thickness_of(s, i), sunk = s->domain->quality.mean_spacing * (speed_of(s, i) + bodies) / slowest_wave(s, &material);
+    const double thick = thickness_of(s, i),
+                 sunk = s->domain->quality.mean_spacing * (speed_of(s, i) + bodies) / slowest_wave(s, &material);
     if (thick < 3 * sunk)
-        brc_log(s->context, BRC_LOG_WARNING, "striker '%s' is %.3g m thick where it is thinnest, and surfaces that meet with up to %.4g m/s sink into each other by some %.3g m: what sinks in through all of it is not held; "
-                "make it thicker than %.3g m, or the cells smaller", s->scene->strikers[i].name, thick, speed_of(s, i) + bodies, sunk, 3 * sunk);
+        brc_log(s->context, BRC_LOG_WARNING,
+                "striker '%s' is %.3g m thick where it is thinnest, and surfaces that meet with up to %.4g m/s sink "
+                "into each other by some %.3g m: what sinks in through all of it is not held; "
+                "make it thicker than %.3g m, or the cells smaller",
+                s->scene->strikers[i].name, thick, speed_of(s, i) + bodies, sunk, 3 * sunk);
 }
 
 /* How far the box around a striker, or a plane, is from the box around all bodies [m]. */
@@ -337,7 +389,8 @@ static double gap_of(const brc_simulation *s, int32_t i)
     if (s->scene->strikers[i].is_plane) {
         const double *n = s->scene->strikers[i].normal;
         double height = 0;
-        for (int c = 0; c < 3; ++c) height += n[c] * ((n[c] > 0 ? b[0][c] : b[1][c]) - body->centre[c]);
+        for (int c = 0; c < 3; ++c)
+            height += n[c] * ((n[c] > 0 ? b[0][c] : b[1][c]) - body->centre[c]);
         return fmax(height, 0);
     }
     for (int c = 0; c < 3; ++c) {
@@ -369,10 +422,14 @@ static void check_reach(const brc_simulation *s, int32_t i, double bodies)
 {
     const brc_striker *striker = s->scene->strikers + i;
     const double time = duration_of(s->scene), gap = gap_of(s, i);
-    const double pull = (s->scene->has_gravity ? length(s->scene->gravity) : 0) + (striker->pushed ? largest_factor(striker) * length(striker->force) / s->strikers->body[i].mass : 0);
+    const double pull =
+        (s->scene->has_gravity ? length(s->scene->gravity) : 0) +
+        (striker->pushed ? largest_factor(striker) * length(striker->force) / s->strikers->body[i].mass : 0);
     const double way = (speed_of(s, i) + bodies) * time + 0.5 * pull * time * time;
     if (s->scene->has_fracture || !isfinite(time) || !(gap > 1.5 * way)) return;
-    brc_log(s->context, BRC_LOG_WARNING, "striker '%s' is %.4g m away from all bodies; as far as the scene tells they come %.4g m nearer in its %.4g s and will not meet",
+    brc_log(s->context, BRC_LOG_WARNING,
+            "striker '%s' is %.4g m away from all bodies; as far as the scene tells they come %.4g m nearer in its "
+            "%.4g s and will not meet",
             s->scene->strikers[i].name, gap, way, time);
 }
 
@@ -381,7 +438,9 @@ static void tell_of_others(const brc_simulation *s)
 {
     for (int32_t i = 0; s->strikers->n > 1 && i < s->strikers->n; ++i) {
         if (s->scene->strikers[i].motion != BRC_STRIKER_FREE) continue;
-        brc_log(s->context, BRC_LOG_INFO, "striker '%s' meets the bodies only and passes through other strikers, such as '%s'", s->scene->strikers[i].name, s->scene->strikers[i == 0].name);
+        brc_log(s->context, BRC_LOG_INFO,
+                "striker '%s' meets the bodies only and passes through other strikers, such as '%s'",
+                s->scene->strikers[i].name, s->scene->strikers[i == 0].name);
         return;
     }
 }

@@ -1,27 +1,41 @@
-/* Strikers: made from the scene, moved, and asked. How they move is in kernels/rigid.h and strikers.cl; what pushes them is contact. */
+/* Strikers: made from the scene, moved, and asked. How they move is in kernels/rigid.h and strikers.cl; what pushes
+ * them is contact. */
 #include "strikers_internal.h"
 #include <math.h>
 #include <string.h>
 
 enum { TURNS = 8, PUSHED = 16 }; /* bits of `freedom` behind those of x y z, kernels/strikers.cl */
-enum { N_PUSH = 4 }; /* numbers of each in push_now */
+enum { N_PUSH = 4 };             /* numbers of each in push_now */
 
-static const brc_striker *asked(const brc_simulation *s, int32_t i) { return s->scene->strikers + i; }
-static bool is_driven(const brc_simulation *s, int32_t i) { return asked(s, i)->motion == BRC_STRIKER_DRIVEN; }
-static bool is_free(const brc_simulation *s, int32_t i) { return asked(s, i)->motion == BRC_STRIKER_FREE; }
+static const brc_striker *asked(const brc_simulation *s, int32_t i)
+{
+    return s->scene->strikers + i;
+}
+static bool is_driven(const brc_simulation *s, int32_t i)
+{
+    return asked(s, i)->motion == BRC_STRIKER_DRIVEN;
+}
+static bool is_free(const brc_simulation *s, int32_t i)
+{
+    return asked(s, i)->motion == BRC_STRIKER_FREE;
+}
 
 static int32_t freedom_of(const brc_striker *striker)
 {
     int32_t bits = 0;
     if (striker->motion != BRC_STRIKER_FREE) return 0;
-    for (int c = 0; c < 3; ++c) bits |= striker->held[c] ? 0 : 1 << c;
+    for (int c = 0; c < 3; ++c)
+        bits |= striker->held[c] ? 0 : 1 << c;
     if (striker->pushed) bits |= PUSHED;
     return striker->held_rotation ? bits : bits | TURNS;
 }
 
 /* ---- making ---- */
 
-static bool strikers(const brc_wants *w) { return w->scene->n_strikers > 0; }
+static bool strikers(const brc_wants *w)
+{
+    return w->scene->n_strikers > 0;
+}
 static bool pushing(const brc_wants *w)
 {
     for (int32_t i = 0; i < w->scene->n_strikers; ++i)
@@ -31,22 +45,34 @@ static bool pushing(const brc_wants *w)
 
 #define AT(member) BRC_FIELD_AT(brc_strikers, member)
 static const brc_field_row rows[] = {
-    {"striker_pose", brc_each_striker, 12, BRC_FIELD_STATE, NULL, AT(pose), "poses of strikers", "m, -", BRC_KEPT("strikers.pose", BRC_KEEP_ALL)},
-    {"motion", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(motion), "velocities of strikers", "m/s, rad/s", BRC_KEPT("strikers.motion", BRC_KEEP_ALL)},
-    {"load", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(load), "forces on strikers", "N, N m", BRC_KEPT("strikers.load", BRC_KEEP_ALL)},
-    {"displacement", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements of strikers", "m", BRC_KEPT("strikers.displacement", BRC_KEEP_ALL)},
-    {"orientation", brc_each_striker, 4, BRC_FIELD_STATE, NULL, AT(orientation), "orientations of strikers", "-", BRC_KEPT("strikers.orientation", BRC_KEEP_ALL)},
-    {"momentum", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(momentum), "angular momenta of strikers", "kg m^2/s", BRC_KEPT("strikers.momentum", BRC_KEEP_ALL)},
+    {"striker_pose", brc_each_striker, 12, BRC_FIELD_STATE, NULL, AT(pose), "poses of strikers", "m, -",
+     BRC_KEPT("strikers.pose", BRC_KEEP_ALL)},
+    {"motion", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(motion), "velocities of strikers", "m/s, rad/s",
+     BRC_KEPT("strikers.motion", BRC_KEEP_ALL)},
+    {"load", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(load), "forces on strikers", "N, N m",
+     BRC_KEPT("strikers.load", BRC_KEEP_ALL)},
+    {"displacement", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements of strikers", "m",
+     BRC_KEPT("strikers.displacement", BRC_KEEP_ALL)},
+    {"orientation", brc_each_striker, 4, BRC_FIELD_STATE, NULL, AT(orientation), "orientations of strikers", "-",
+     BRC_KEPT("strikers.orientation", BRC_KEEP_ALL)},
+    {"momentum", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(momentum), "angular momenta of strikers", "kg m^2/s",
+     BRC_KEPT("strikers.momentum", BRC_KEEP_ALL)},
     {"freedom", brc_each_striker, 1, BRC_FIELD_INT, NULL, AT(freedom), "freedoms of strikers", "-", BRC_NOT_KEPT},
     {"mass", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses of strikers", "kg", BRC_NOT_KEPT},
     {"inertia", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(inertia), "inertia of strikers", "kg m^2", BRC_NOT_KEPT},
     {"centre", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(centre), "centres of strikers", "m", BRC_NOT_KEPT},
-    {"moved", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(moved), "moves of strikers", "m, rad", BRC_KEPT("strikers.moved", BRC_KEEP_ALL)},
-    {"last", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(last), "last forces on strikers", "N, N m", BRC_KEPT("strikers.last", BRC_KEEP_ALL)},
-    {"work", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(work), "work of strikers", "J", BRC_KEPT("strikers.work", BRC_KEEP_ALL)},
-    {"lost", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(lost), "numerical dissipation of strikers", "J", BRC_KEPT("strikers.lost", BRC_KEEP_ALL)},
-    {"push", brc_each_striker, 3, BRC_FIELD_STATE, pushing, AT(push), "prescribed forces on strikers", "N", BRC_KEPT("strikers.push", BRC_KEEP_ALL)},
-    {"pushed", brc_each_striker, 3, BRC_FIELD_STATE, pushing, AT(pushed), "last prescribed forces on strikers", "N", BRC_KEPT("strikers.pushed", BRC_KEEP_ALL)},
+    {"moved", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(moved), "moves of strikers", "m, rad",
+     BRC_KEPT("strikers.moved", BRC_KEEP_ALL)},
+    {"last", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(last), "last forces on strikers", "N, N m",
+     BRC_KEPT("strikers.last", BRC_KEEP_ALL)},
+    {"work", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(work), "work of strikers", "J",
+     BRC_KEPT("strikers.work", BRC_KEEP_ALL)},
+    {"lost", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(lost), "numerical dissipation of strikers", "J",
+     BRC_KEPT("strikers.lost", BRC_KEEP_ALL)},
+    {"push", brc_each_striker, 3, BRC_FIELD_STATE, pushing, AT(push), "prescribed forces on strikers", "N",
+     BRC_KEPT("strikers.push", BRC_KEEP_ALL)},
+    {"pushed", brc_each_striker, 3, BRC_FIELD_STATE, pushing, AT(pushed), "last prescribed forces on strikers", "N",
+     BRC_KEPT("strikers.pushed", BRC_KEEP_ALL)},
 };
 BRC_FIELD_TABLE(brc_striker_fields, "strikers", BRC_LIFE_RUN, strikers, rows);
 
@@ -68,7 +94,8 @@ static brc_status upload_start(brc_simulation *s)
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &room, 35 * (int64_t)n, "strikers"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &freedom, n, "strikers"));
-    double *upright = room, *motion = upright + 4 * n, *momentum = motion + 6 * n, *mass = momentum + 3 * n, *inertia = mass + n, *centre = inertia + 6 * n, *pose = centre + 3 * n;
+    double *upright = room, *motion = upright + 4 * n, *momentum = motion + 6 * n, *mass = momentum + 3 * n,
+           *inertia = mass + n, *centre = inertia + 6 * n, *pose = centre + 3 * n;
     for (int32_t i = 0; i < n; ++i) {
         const brc_striker *striker = asked(s, i);
         upright[4 * i] = 1;
@@ -112,11 +139,14 @@ brc_status brc_strikers_create(brc_simulation *s)
     BRC_TRY(BRC_ALLOCATE(s->context, &t->placed, t->n, "strikers"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->told, t->n, "strikers"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->push_now, N_PUSH * (int64_t)t->n, "strikers"));
-    for (int32_t i = 0; i < t->n; ++i) BRC_TRY(brc_striker_body_make(s, i));
-    const brc_scope run = brc_scope_of_run(s), bodies = {.owner = "strikers", .base = t, .tables = {&brc_striker_fields}, .outer = &run};
-    const brc_pass_wanted wanted[] = {BRC_PASS(&t->advance, "striker_advance", "kick drift extra numerical"),
-                                      BRC_PASS(&t->place, "striker_place", "which ux uy uz qw qx qy qz vx vy vz wx wy wz mx my mz tx ty tz"),
-                                      BRC_PASS(&t->push_on, "striker_push", "which fx fy fz"), BRC_PASS(&t->book, "striker_book", "book numerical")};
+    for (int32_t i = 0; i < t->n; ++i)
+        BRC_TRY(brc_striker_body_make(s, i));
+    const brc_scope run = brc_scope_of_run(s),
+                    bodies = {.owner = "strikers", .base = t, .tables = {&brc_striker_fields}, .outer = &run};
+    const brc_pass_wanted wanted[] = {
+        BRC_PASS(&t->advance, "striker_advance", "kick drift extra numerical"),
+        BRC_PASS(&t->place, "striker_place", "which ux uy uz qw qx qy qz vx vy vz wx wy wz mx my mz tx ty tz"),
+        BRC_PASS(&t->push_on, "striker_push", "which fx fy fz"), BRC_PASS(&t->book, "striker_book", "book numerical")};
     BRC_TRY(BRC_PASSES_MAKE(s, &bodies, wanted));
     s->wants.pieces = &t->convex;
     BRC_TRY(brc_strikers_check(s));
@@ -128,7 +158,8 @@ void brc_strikers_free(brc_simulation *s)
     brc_strikers *t = s->strikers;
     if (!t) return;
     brc_fields_free(&brc_striker_fields, t);
-    for (int32_t i = 0; t->body && i < t->n; ++i) brc_striker_body_free(&t->body[i]);
+    for (int32_t i = 0; t->body && i < t->n; ++i)
+        brc_striker_body_free(&t->body[i]);
     brc_convex_free(&t->convex);
     s->wants.pieces = NULL;
     brc_memory_free(t->piece_striker);
@@ -160,25 +191,31 @@ brc_status brc_strikers_advance(brc_simulation *s, double kick, double drift, do
 /* exp of the rotation vector `turn`. */
 static void quaternion(const double turn[3], double q[4])
 {
-    const double angle = sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]), share = angle > 0 ? sin(0.5 * angle) / angle : 0.5;
+    const double angle = sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]),
+                 share = angle > 0 ? sin(0.5 * angle) / angle : 0.5;
     q[0] = cos(0.5 * angle);
-    for (int c = 0; c < 3; ++c) q[c + 1] = share * turn[c];
+    for (int c = 0; c < 3; ++c)
+        q[c + 1] = share * turn[c];
 }
 
-/* Told to the device where it has changed. Within a step of velocity Verlet from force f to f' its work is (f + f') / 2 . (way + dt^2 (f' - f) / 4 m); the second part, dt^2 (f'^2 - f^2) / 8 m, is summed here. */
+/* Told to the device where it has changed. Within a step of velocity Verlet from force f to f' its work is (f + f') / 2
+ * . (way + dt^2 (f' - f) / 4 m); the second part, dt^2 (f'^2 - f^2) / 8 m, is summed here. */
 static brc_status push(brc_simulation *s, int32_t i, double now)
 {
     const brc_strikers *t = s->strikers;
     const brc_striker *striker = asked(s, i);
     const double factor = brc_table_value(&striker->table, now), dt = s->time_step.value;
-    const bool verlet = s->step > 0 && brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && brc_current_stage(s)->integrator != BRC_TCHAMWA_WIELGOSZ;
+    const bool verlet = s->step > 0 && brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC &&
+                        brc_current_stage(s)->integrator != BRC_TCHAMWA_WIELGOSZ;
     double *last = t->push_now + N_PUSH * (int64_t)i, f[3];
-    for (int c = 0; c < 3; ++c) f[c] = factor * striker->force[c];
+    for (int c = 0; c < 3; ++c)
+        f[c] = factor * striker->force[c];
     if (memcmp(f, last, sizeof f) == 0) return BRC_OK;
     for (int c = 0; c < 3 && verlet; ++c)
         if (!striker->held[c]) last[3] += dt * dt * (f[c] * f[c] - last[c] * last[c]) / (8 * t->body[i].mass);
     memcpy(last, f, sizeof f);
-    return BRC_RUN(t->push_on, 1, {"which", BRC_INT(i)}, {"fx", BRC_STATE(f[0])}, {"fy", BRC_STATE(f[1])}, {"fz", BRC_STATE(f[2])});
+    return BRC_RUN(t->push_on, 1, {"which", BRC_INT(i)}, {"fx", BRC_STATE(f[0])}, {"fy", BRC_STATE(f[1])},
+                   {"fz", BRC_STATE(f[2])});
 }
 
 double brc_strikers_pushed(const brc_simulation *s)
@@ -200,7 +237,8 @@ brc_status brc_strikers_prescribe(brc_simulation *s)
         if (asked(s, i)->pushed) BRC_TRY(push(s, i, now));
         if (!is_driven(s, i)) continue;
         const brc_striker *striker = asked(s, i);
-        const double factor = brc_table_value(&striker->table, now), path = brc_table_integral(&striker->table, now), step = path - t->placed[i];
+        const double factor = brc_table_value(&striker->table, now), path = brc_table_integral(&striker->table, now),
+                     step = path - t->placed[i];
         const double *v = striker->velocity, *w = striker->spin, turn[3] = {path * w[0], path * w[1], path * w[2]};
         double q[4];
         quaternion(turn, q);
@@ -235,8 +273,14 @@ brc_status brc_strikers_store_state(brc_simulation *s, brc_state_store *store)
 
 /* ---- asking ---- */
 
-int32_t brc_simulation_n_strikers(const brc_simulation *s) { return s->strikers ? s->strikers->n : 0; }
-const brc_striker_body *brc_simulation_striker_body(const brc_simulation *s, int32_t striker) { return s->strikers->body + striker; }
+int32_t brc_simulation_n_strikers(const brc_simulation *s)
+{
+    return s->strikers ? s->strikers->n : 0;
+}
+const brc_striker_body *brc_simulation_striker_body(const brc_simulation *s, int32_t striker)
+{
+    return s->strikers->body + striker;
+}
 
 /* `width` numbers of one striker. */
 static brc_status read_one(brc_simulation *s, brc_buffer *buffer, int32_t striker, int width, double *out)
@@ -245,7 +289,8 @@ static brc_status read_one(brc_simulation *s, brc_buffer *buffer, int32_t strike
         return brc_buffer_read(buffer, (int64_t)striker * width * 8, out, (int64_t)width * 8);
     float narrow[6];
     BRC_TRY(brc_buffer_read(buffer, (int64_t)striker * width * 4, narrow, (int64_t)width * 4));
-    for (int c = 0; c < width; ++c) out[c] = narrow[c];
+    for (int c = 0; c < width; ++c)
+        out[c] = narrow[c];
     return BRC_OK;
 }
 
@@ -254,7 +299,8 @@ static void rotation_vector(const double q[4], double out[3])
 {
     const double sine = sqrt(q[1] * q[1] + q[2] * q[2] + q[3] * q[3]), sign = q[0] < 0 ? -1 : 1;
     const double share = sine > 0 ? 2 * atan2(sine, sign * q[0]) / sine : 2;
-    for (int c = 0; c < 3; ++c) out[c] = sign * share * q[c + 1];
+    for (int c = 0; c < 3; ++c)
+        out[c] = sign * share * q[c + 1];
 }
 
 brc_status brc_simulation_striker_now(brc_simulation *s, int32_t i, brc_striker_now *out)
@@ -276,7 +322,9 @@ brc_status brc_simulation_striker_now(brc_simulation *s, int32_t i, brc_striker_
         out->torque[c] = load[3 + c];
         out->applied[c] = applied[c];
         out->position[c] = t->body[i].centre[c] + out->displacement[c];
-        if (is_free(s, i)) out->kinetic += 0.5 * t->body[i].mass * out->velocity[c] * out->velocity[c] + 0.5 * momentum[c] * out->spin[c];
+        if (is_free(s, i))
+            out->kinetic +=
+                0.5 * t->body[i].mass * out->velocity[c] * out->velocity[c] + 0.5 * momentum[c] * out->spin[c];
     }
     return BRC_OK;
 }
@@ -294,7 +342,8 @@ brc_status brc_strikers_energies(brc_simulation *s, brc_striker_energies *out)
         out->kinetic += now.kinetic;
         out->work += work + s->strikers->push_now[N_PUSH * (int64_t)i + 3];
         out->numerical += lost;
-        for (int c = 0; c < 3; ++c) out->potential -= s->strikers->body[i].mass * g[c] * now.displacement[c];
+        for (int c = 0; c < 3; ++c)
+            out->potential -= s->strikers->body[i].mass * g[c] * now.displacement[c];
     }
     return BRC_OK;
 }

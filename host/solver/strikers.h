@@ -1,5 +1,6 @@
-/* Walls and strikers: rigid bodies beside the elements, which meet them by contact (scene.strikers). They stand still, are driven along a prescribed path, or are
- * free: then they have mass and inertia, and forces, torques, gravity and a prescribed force on the mass centre move them with the elements, step by step on the device. */
+/* Walls and strikers: rigid bodies beside the elements, which meet them by contact (scene.strikers). They stand still,
+ * are driven along a prescribed path, or are free: then they have mass and inertia, and forces, torques, gravity and a
+ * prescribed force on the mass centre move them with the elements, step by step on the device. */
 #ifndef BRC_SOLVER_STRIKERS_H
 #define BRC_SOLVER_STRIKERS_H
 
@@ -19,7 +20,8 @@ typedef struct brc_striker_now {
     double kinetic;         /* energy of a free one; else 0 [J] */
 } brc_striker_now;
 
-/* Flat faces of a striker, for pictures and files: curved shapes have `facets` around a turn, of an endless plane it is a square as large as the bodies. */
+/* Flat faces of a striker, for pictures and files: curved shapes have `facets` around a turn, of an endless plane it is
+ * a square as large as the bodies. */
 typedef struct brc_striker_surface {
     int32_t n_corners, n_faces;
     double *corner;      /* [n_corners][3] from the mass centre, as the scene starts [m] */
@@ -29,10 +31,10 @@ typedef struct brc_striker_surface {
 
 /* What does not change. */
 typedef struct brc_striker_body {
-    double centre[3];   /* mass centre as the scene starts; of a plane: its point [m] */
-    double mass;        /* of a free one [kg]; else 0 */
-    double inertia[6];  /* of a free one, about the centre, as the scene starts, xx yy zz yz xz xy [kg m^2]; else 0 */
-    double volume;      /* [m^3]; of a plane 0 */
+    double centre[3];  /* mass centre as the scene starts; of a plane: its point [m] */
+    double mass;       /* of a free one [kg]; else 0 */
+    double inertia[6]; /* of a free one, about the centre, as the scene starts, xx yy zz yz xz xy [kg m^2]; else 0 */
+    double volume;     /* [m^3]; of a plane 0 */
     brc_striker_surface surface;
 } brc_striker_body;
 

@@ -4,8 +4,8 @@
 
 /* Eigenvalues ascending and, if vectors is not 0, unit eigenvectors in its rows (cyclic Jacobi, to rounding). */
 void brc_sym3_eigen(const double a[6], double values[3], double vectors[3][3]);
-/* Inverse over the directions whose eigenvalue exceeds `relative` of the largest; zero over the others. Returns the number
- * of directions kept (3: the plain inverse). */
+/* Inverse over the directions whose eigenvalue exceeds `relative` of the largest; zero over the others. Returns the
+ * number of directions kept (3: the plain inverse). */
 int brc_sym3_pseudo_inverse(const double a[6], double relative, double out[6]);
 
 #endif

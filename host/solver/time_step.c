@@ -1,5 +1,5 @@
-/* The time step: 2 / omega_max by power iteration of M^-1 K with the scene's own force kernels (docs/notebook/theory.md T5),
- * or as given, or the papers' rule. */
+/* The time step: 2 / omega_max by power iteration of M^-1 K with the scene's own force kernels (docs/notebook/theory.md
+ * T5), or as given, or the papers' rule. */
 #include "../base/random.h"
 #include "contact.h"
 #include "simulation_internal.h"
@@ -42,7 +42,8 @@ typedef struct work_vectors {
 static bool dynamics(const brc_wants *w)
 {
     bool any = false;
-    for (int32_t i = 0; i < w->scene->n_stages; ++i) any |= w->scene->stages[i].solver == BRC_SOLVER_DYNAMIC;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i)
+        any |= w->scene->stages[i].solver == BRC_SOLVER_DYNAMIC;
     return any;
 }
 
@@ -51,7 +52,8 @@ static const brc_field_row rows[] = {
     {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(x), "power iteration", "-", BRC_NOT_KEPT},
     {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(y), "power iteration", "-", BRC_NOT_KEPT},
     {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(theta), "power iteration", "-", BRC_NOT_KEPT},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "power iteration", "-", BRC_NOT_KEPT},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "power iteration", "-",
+     BRC_NOT_KEPT},
     {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "power iteration", "-", BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_power_fields, "search for the time step", BRC_LIFE_SOLVE, dynamics, rows);
@@ -64,7 +66,8 @@ static brc_status random_vector(brc_simulation *s, brc_buffer *out, uint64_t whi
     for (int64_t e = 0; e < n; ++e) {
         double draws[4];
         brc_random_uniform4(1, BRC_RANDOM_POWER_ITERATION, (uint64_t)e, which, draws);
-        for (int c = 0; c < 3; ++c) values[3 * e + c] = scale * (2 * draws[c] - 1);
+        for (int c = 0; c < 3; ++c)
+            values[3 * e + c] = scale * (2 * draws[c] - 1);
     }
     const brc_status status = brc_state_to_rows(s, out, values, 3, 0);
     brc_memory_free(values);
@@ -94,8 +97,9 @@ static brc_status apply(brc_simulation *s, work_vectors *w, double *rayleigh)
     BRC_TRY(brc_vector_sum(s, s->kinetic, n, &mass_norm));
     mass_norm *= 2;
     if (!(mass_norm > 0) || !isfinite(energy))
-        return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "the power iteration for the time step met x.Mx = %g, x.Kx = %g; %s", mass_norm,
-                        energy, "check densities and the geometry (breccia build prints its quality)");
+        return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
+                        "the power iteration for the time step met x.Mx = %g, x.Kx = %g; %s", mass_norm, energy,
+                        "check densities and the geometry (breccia build prints its quality)");
     *rayleigh = energy / mass_norm;
     BRC_TRY(BRC_RUN(s->pass.divide_by_mass, n, {"mass", BRC_BUF(s->mass)}, {"vector", BRC_BUF(w->y)}));
     /* x = y / |y| in size: scale by 1 / (rayleigh * sqrt(mass_norm)), which keeps x.Mx near 1 */
@@ -147,14 +151,18 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
         break;
     case BRC_TIME_STEP_PUBLISHED:
         if (brc_is_beams(s))
-            return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': the published rule for the time step is one for cells, model cbm has none; use "
-                            "time_step: auto", stage->name);
+            return BRC_FAIL(
+                s->context, BRC_BAD_INPUT,
+                "stage '%s': the published rule for the time step is one for cells, model cbm has none; use "
+                "time_step: auto",
+                stage->name);
         out->value = out->published;
         out->governed_by = "published: AGH19 eq. 39";
         break;
     default: out->governed_by = "auto: power iteration";
     }
-    if (brc_is_beams(s) && stage->time_step_rule == BRC_TIME_STEP_AUTO) { /* rigorous, so no margin of its own is needed */
+    if (brc_is_beams(s) &&
+        stage->time_step_rule == BRC_TIME_STEP_AUTO) { /* rigorous, so no margin of its own is needed */
         BRC_TRY(brc_beams_node_bound(s, &out->critical));
         out->governed_by = "auto: node bound";
     } else {
@@ -164,29 +172,34 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
     BRC_TRY(brc_contact_critical_step(s, &touching));
     if (isfinite(touching)) { /* squares of frequencies of two springs on one mass add at most */
         if (stage->time_step_rule == BRC_TIME_STEP_AUTO)
-            out->governed_by = touching < out->critical ? "auto: contact" : brc_is_beams(s) ? "auto: node bound and contact" : "auto: power iteration and contact";
+            out->governed_by = touching < out->critical ? "auto: contact"
+                               : brc_is_beams(s)        ? "auto: node bound and contact"
+                                                        : "auto: power iteration and contact";
         out->critical = 1 / sqrt(1 / (out->critical * out->critical) + 1 / (touching * touching));
     }
     /* Tchamwa-Wielgosz is stable for w dt <= 2 / sqrt(2 phi - 1) */
     if (stage->integrator == BRC_TCHAMWA_WIELGOSZ && stage->phi > 0.5) out->critical /= sqrt(2 * stage->phi - 1);
     if (stage->time_step_rule == BRC_TIME_STEP_AUTO) {
         if (!isfinite(out->critical))
-            return BRC_FAIL(s->context, BRC_BAD_INPUT, "stage '%s': nothing moves (every element is imposed); give a time step",
-                            stage->name);
+            return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                            "stage '%s': nothing moves (every element is imposed); give a time step", stage->name);
         out->value = stage->safety * out->critical;
     }
     out->safety = out->value / out->critical;
     brc_contact_check_step(s, stage->name, touching, out);
     if (out->safety > 1)
-        brc_log(s->context, BRC_LOG_WARNING, "stage '%s': the time step %.4g s is %.3g times the critical one; expect it to diverge",
-                stage->name, out->value, out->safety);
+        brc_log(s->context, BRC_LOG_WARNING,
+                "stage '%s': the time step %.4g s is %.3g times the critical one; expect it to diverge", stage->name,
+                out->value, out->safety);
     return BRC_OK;
 }
 
 brc_status brc_simulation_find_time_step(brc_simulation *s, int32_t stage, brc_time_step *out)
 {
     BRC_TRY(brc_simulation_begin_stage(s, stage));
-    if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC) *out = s->time_step;
-    else *out = (brc_time_step){.governed_by = "no time step: not a dynamic stage"};
+    if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC)
+        *out = s->time_step;
+    else
+        *out = (brc_time_step){.governed_by = "no time step: not a dynamic stage"};
     return BRC_OK;
 }

@@ -6,7 +6,9 @@
 brc_status brc_simulation_touching(brc_simulation *s, brc_touching *out)
 {
     *out = (brc_touching){0};
-    if (!s->contact) return BRC_FAIL(s->context, BRC_BAD_INPUT, "the scene has no `interactions: {contact: ...}`, so nothing touches");
+    if (!s->contact)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "the scene has no `interactions: {contact: ...}`, so nothing touches");
     const brc_contact_list *l = &s->contact->now;
     const int64_t stride = BRC_CONTACT_RESULT + 2 * s->contact->width, n = l->n_pairs;
     const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
@@ -39,7 +41,8 @@ int64_t brc_simulation_pair_bytes(const brc_simulation *s)
 {
     if (!s->contact) return 0;
     const int64_t state = brc_precision_state_bytes(brc_device_get_precision(s->device));
-    const int64_t result = (BRC_CONTACT_RESULT + 2 * s->contact->width) * state, lists = 2 * (2 * 4 + BRC_CONTACT_HISTORY * state); /* ends and history, now and before */
-    const int64_t breaks = s->fracture ? 4 * 4 + result : 0;                                                                       /* packed, its place; flags and list of changed pairs */
-    return (lists + 4 + result + breaks) * 9 / 8;                                                                                 /* arrays grow by an eighth at once */
+    const int64_t result = (BRC_CONTACT_RESULT + 2 * s->contact->width) * state,
+                  lists = 2 * (2 * 4 + BRC_CONTACT_HISTORY * state); /* ends and history, now and before */
+    const int64_t breaks = s->fracture ? 4 * 4 + result : 0; /* packed, its place; flags and list of changed pairs */
+    return (lists + 4 + result + breaks) * 9 / 8;            /* arrays grow by an eighth at once */
 }

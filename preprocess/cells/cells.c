@@ -29,8 +29,8 @@ typedef struct shared {
     int64_t n;
     const brc_walls *walls;
     brc_voronoi *voronoi;
-    bool open; /* a cell reaches beyond mirrored walls */
-    double *farthest; /* [n_runs] of a corner from its seed, squared [m^2] */
+    bool open;         /* a cell reaches beyond mirrored walls */
+    double *farthest;  /* [n_runs] of a corner from its seed, squared [m^2] */
     double face_limit; /* area below which a face may lie anywhere: rounding of a degenerate corner [m^2] */
     brc_status status;
     int64_t failed;
@@ -100,11 +100,13 @@ static void add_shared(const shared *all, brc_cell_run *run, const brc_polyhedro
     const double normal[3] = {r[0] / length, r[1] / length, r[2] / length};
     double *c = run->centroid + 3 * run->n_faces;
     brc_polyhedron_face(cell, key.face, normal, 0.5 * length, &run->area[run->n_faces], c);
-    for (int d = 0; d < 3; ++d) c[d] += x[d];
+    for (int d = 0; d < 3; ++d)
+        c[d] += x[d];
     run->neighbour[run->n_faces++] = key.other;
 }
 
-/* Outward normal, distance from the seed and wall of a free face; wall -1: a side of the box that is no wall of the solid. */
+/* Outward normal, distance from the seed and wall of a free face; wall -1: a side of the box that is no wall of the
+ * solid. */
 static int32_t free_plane(const shared *all, const double x[3], int32_t other, double normal[3], double *height)
 {
     const brc_walls *walls = all->walls;
@@ -113,7 +115,8 @@ static int32_t free_plane(const shared *all, const double x[3], int32_t other, d
         const double *y = walls->ghost + 3 * (int64_t)(other - all->n);
         const double r[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
         const double length = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-        for (int d = 0; d < 3; ++d) normal[d] = r[d] / length;
+        for (int d = 0; d < 3; ++d)
+            normal[d] = r[d] / length;
         *height = 0.5 * length;
         return walls->ghost_wall[other - all->n];
     }
@@ -162,32 +165,40 @@ static const char *add_cell(shared *all, brc_cells *cells, brc_cell_run *run, co
     for (int32_t f = 0; f < cell->n_faces; ++f) { /* insertion: cells have about fifteen faces */
         const face_key fresh = {cell->face_other[f], f};
         int32_t at = f;
-        for (; at > 0 && key[at - 1].other > fresh.other; --at) key[at] = key[at - 1];
+        for (; at > 0 && key[at - 1].other > fresh.other; --at)
+            key[at] = key[at - 1];
         key[at] = fresh;
     }
     brc_polyhedron_mass(cell, &cells->volume[e], cells->centroid + 3 * e, cells->inertia + 6 * e);
     if (!(cells->volume[e] > 0.0)) return "its cell has no volume";
-    for (int d = 0; d < 3; ++d) cells->centroid[3 * e + d] += x[d];
+    for (int d = 0; d < 3; ++d)
+        cells->centroid[3 * e + d] += x[d];
     const int64_t faces_before = run->n_faces, free_before = run->n_free;
     int32_t n_outer = 0, first_ghost = cell->n_faces;
-    while (n_outer < cell->n_faces && key[n_outer].other < 0) ++n_outer;
-    while (first_ghost > 0 && key[first_ghost - 1].other >= all->n) --first_ghost;
-    for (int32_t f = n_outer; f < first_ghost; ++f) add_shared(all, run, cell, e, key[f]);
+    while (n_outer < cell->n_faces && key[n_outer].other < 0)
+        ++n_outer;
+    while (first_ghost > 0 && key[first_ghost - 1].other >= all->n)
+        --first_ghost;
+    for (int32_t f = n_outer; f < first_ghost; ++f)
+        add_shared(all, run, cell, e, key[f]);
     for (int32_t f = n_outer - 1; f >= 0; --f) /* downwards: -1 is the first side, -7 the first plane */
         if (!add_free(all, run, cell, e, key[f])) {
             if (!all->walls->mirrored) return "its cell reaches beyond the curved wall";
 #pragma omp atomic write
             all->open = true;
         }
-    for (int32_t f = first_ghost; f < cell->n_faces; ++f) add_free(all, run, cell, e, key[f]);
+    for (int32_t f = first_ghost; f < cell->n_faces; ++f)
+        add_free(all, run, cell, e, key[f]);
     cells->n_faces[e] = (int32_t)(run->n_faces - faces_before);
     cells->n_free[e] = (int32_t)(run->n_free - free_before);
     cells->n_corners[e] = cell->n_vertices;
     double *v = run->vertex + 3 * run->n_vertices;
     for (int32_t p = 0; p < cell->n_vertices; ++p) {
         const double *r = cell->vertex + 3 * p;
-        all->farthest[e / BRC_RUN_LENGTH] = fmax(all->farthest[e / BRC_RUN_LENGTH], r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-        for (int d = 0; d < 3; ++d) v[3 * p + d] = r[d] + x[d];
+        all->farthest[e / BRC_RUN_LENGTH] =
+            fmax(all->farthest[e / BRC_RUN_LENGTH], r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+        for (int d = 0; d < 3; ++d)
+            v[3 * p + d] = r[d] + x[d];
     }
     run->n_vertices += cell->n_vertices;
     return NULL;
@@ -201,7 +212,9 @@ static void compute_run(shared *all, brc_cells *cells, brc_voronoi_worker *worke
         brc_polyhedron cell;
         const brc_status status = brc_voronoi_cell(worker, e, &cell);
         if (status != BRC_OK) {
-            fail(all, status, e, status == BRC_NO_MEMORY ? "no memory for a cell in Voro++; use fewer elements" : "Voro++ gave it no cell");
+            fail(all, status, e,
+                 status == BRC_NO_MEMORY ? "no memory for a cell in Voro++; use fewer elements"
+                                         : "Voro++ gave it no cell");
             return;
         }
         if (!reserve_cell(all, run, &cell)) {
@@ -234,16 +247,20 @@ static brc_status report(const shared *all, int64_t n)
     if (all->status == BRC_OK) return BRC_OK;
     if (all->status == BRC_NO_MEMORY) return BRC_FAIL(all->context, BRC_NO_MEMORY, "Voronoi cells: %s", all->reason);
     const double *x = all->position + 3 * all->failed;
-    return BRC_FAIL(all->context, all->status, "seed %lld of %lld at (%g, %g, %g) m: %s; use another seed of the fill, or a little more spread",
-                    (long long)all->failed,
-                    (long long)n, x[0], x[1], x[2], all->reason);
+    return BRC_FAIL(all->context, all->status,
+                    "seed %lld of %lld at (%g, %g, %g) m: %s; use another seed of the fill, or a little more spread",
+                    (long long)all->failed, (long long)n, x[0], x[1], x[2], all->reason);
 }
 
 brc_status brc_cells_compute(brc_context *context, const double *position, int64_t n, const brc_walls *walls,
                              double spacing, int n_threads, brc_cells *cells)
 {
     memset(cells, 0, sizeof *cells);
-    shared all = {.context = context, .position = position, .n = n, .walls = walls, .status = BRC_OK,
+    shared all = {.context = context,
+                  .position = position,
+                  .n = n,
+                  .walls = walls,
+                  .status = BRC_OK,
                   .face_limit = 1e-12 * spacing * spacing};
     brc_progress *progress = NULL;
     brc_status status = allocate(context, cells, n);
@@ -272,7 +289,8 @@ brc_status brc_cells_compute(brc_context *context, const double *position, int64
     }
     status = report(&all, n);
     if (status == BRC_OK) brc_progress_update(progress, n);
-    for (int64_t r = 0; r < cells->n_runs; ++r) cells->farthest_corner = fmax(cells->farthest_corner, sqrt(all.farthest[r]));
+    for (int64_t r = 0; r < cells->n_runs; ++r)
+        cells->farthest_corner = fmax(cells->farthest_corner, sqrt(all.farthest[r]));
     if (all.open) cells->farthest_corner = HUGE_VAL;
 cleanup:
     brc_progress_finish(&progress);
@@ -283,14 +301,16 @@ cleanup:
 }
 
 /* Turn the move of a seed into its new place. Moves of nearly nothing, far inside a regular grid, are not made: they
- * would split the corners of the cubes into faces as small as Voro++'s tolerance, where it goes wrong. Nor are moves out of a solid whose
- * concave edges cells may overlap. */
+ * would split the corners of the cubes into faces as small as Voro++'s tolerance, where it goes wrong. Nor are moves
+ * out of a solid whose concave edges cells may overlap. */
 static void settle(const brc_walls *walls, const double x[3], double spacing, double move[3])
 {
     const double square = move[0] * move[0] + move[1] * move[1] + move[2] * move[2];
     const bool still = square < LEAST_MOVE * LEAST_MOVE * spacing * spacing;
-    for (int d = 0; d < 3; ++d) move[d] = still ? x[d] : x[d] + move[d];
-    if (walls->mirrored && !still && !brc_walls_inside(walls, move, WALL_CLEARANCE * spacing)) memcpy(move, x, 3 * sizeof *move);
+    for (int d = 0; d < 3; ++d)
+        move[d] = still ? x[d] : x[d] + move[d];
+    if (walls->mirrored && !still && !brc_walls_inside(walls, move, WALL_CLEARANCE * spacing))
+        memcpy(move, x, 3 * sizeof *move);
 }
 
 brc_status brc_cells_relax(brc_context *context, double *position, int64_t n, const brc_walls *walls, double spacing,
@@ -344,18 +364,21 @@ cleanup:
 
 void brc_cell_run_free(brc_cell_run *run)
 {
-    void *const block[] = {run->neighbour,    run->area,    run->centroid, run->free_wall, run->free_geometry,
-                           run->free_corners, run->polygon, run->vertex};
-    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
+    void *const block[] = {run->neighbour,     run->area,         run->centroid, run->free_wall,
+                           run->free_geometry, run->free_corners, run->polygon,  run->vertex};
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
+        brc_memory_free(block[k]);
     memset(run, 0, sizeof *run);
 }
 
 void brc_cells_free(brc_cells *cells)
 {
     if (!cells) return;
-    for (int64_t r = 0; cells->run && r < cells->n_runs; ++r) brc_cell_run_free(&cells->run[r]);
+    for (int64_t r = 0; cells->run && r < cells->n_runs; ++r)
+        brc_cell_run_free(&cells->run[r]);
     void *const block[] = {cells->run,    cells->n_faces,  cells->n_free, cells->n_corners,
                            cells->volume, cells->centroid, cells->inertia};
-    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
+        brc_memory_free(block[k]);
     memset(cells, 0, sizeof *cells);
 }

@@ -17,9 +17,9 @@ typedef struct brc_cell_run {
     double *centroid;   /* [n_faces][3] [m] */
     /* free faces, by ascending wall and plane within an element */
     int64_t n_free, room_free;
-    int32_t *free_wall;     /* [n_free] */
-    double *free_geometry;  /* [n_free][6] area vector [m^2], centroid [m] */
-    int32_t *free_corners;  /* [n_free] number of corners of its polygon */
+    int32_t *free_wall;    /* [n_free] */
+    double *free_geometry; /* [n_free][6] area vector [m^2], centroid [m] */
+    int32_t *free_corners; /* [n_free] number of corners of its polygon */
     int64_t n_polygon, room_polygon;
     int32_t *polygon; /* [n_polygon] indices of corners within their element */
     /* corners */
@@ -29,19 +29,19 @@ typedef struct brc_cell_run {
 
 typedef struct brc_cells {
     int64_t n_elements, n_runs;
-    brc_cell_run *run;  /* [n_runs] run r holds the elements r * BRC_RUN_LENGTH .. */
-    int32_t *n_faces;   /* [n_elements] shared faces */
-    int32_t *n_free;    /* [n_elements] free faces */
-    int32_t *n_corners; /* [n_elements] */
-    double *volume;     /* [n_elements] [m^3] */
-    double *centroid;   /* [n_elements][3] [m] */
-    double *inertia;    /* [n_elements][6] about the centroid at unit density [m^5] */
+    brc_cell_run *run;      /* [n_runs] run r holds the elements r * BRC_RUN_LENGTH .. */
+    int32_t *n_faces;       /* [n_elements] shared faces */
+    int32_t *n_free;        /* [n_elements] free faces */
+    int32_t *n_corners;     /* [n_elements] */
+    double *volume;         /* [n_elements] [m^3] */
+    double *centroid;       /* [n_elements][3] [m] */
+    double *inertia;        /* [n_elements][6] about the centroid at unit density [m^5] */
     double farthest_corner; /* of any cell from its seed [m]; HUGE_VAL where a cell reaches beyond mirrored walls */
 } brc_cells;
 
 /* Compute all cells. BRC_INTERNAL when a cell comes out wrong (with the element and its position), BRC_BAD_INPUT and
- * BRC_NO_MEMORY as brc_voronoi_create. Cells that reach beyond mirrored walls are no failure but have no place in a domain: see
- * farthest_corner. n_threads >= 1. Caller frees with brc_cells_free. */
+ * BRC_NO_MEMORY as brc_voronoi_create. Cells that reach beyond mirrored walls are no failure but have no place in a
+ * domain: see farthest_corner. n_threads >= 1. Caller frees with brc_cells_free. */
 brc_status brc_cells_compute(brc_context *context, const double *position, int64_t n, const brc_walls *walls,
                              double spacing, int n_threads, brc_cells *cells);
 /* Free one run, or everything; both accept what is already free. */

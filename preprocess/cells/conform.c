@@ -1,5 +1,5 @@
-/* A wall's mirror images are right where the cell that meets the wall belongs to a mirrored seed: no cell may have a corner farther from its seed than
- * the depth to which seeds were mirrored. */
+/* A wall's mirror images are right where the cell that meets the wall belongs to a mirrored seed: no cell may have a
+ * corner farther from its seed than the depth to which seeds were mirrored. */
 #include "conform.h"
 
 #include "../../host/base/memory.h"
@@ -10,20 +10,23 @@
 /* Depth to which seeds are mirrored at first [of the spacing]: about the farthest corner of a cell of a random grid. */
 #define FIRST_REACH 2.0
 enum { MOST_TRIES = 4 };
-/* A bond joins what is not joined when the way between its seeds by the middle of their face leaves the solid. At a wall that is made by mirror images, small
- * faces may lie a little outside, and around a sharp concave edge the cells next to it may [of the spacing, its square]. */
+/* A bond joins what is not joined when the way between its seeds by the middle of their face leaves the solid. At a
+ * wall that is made by mirror images, small faces may lie a little outside, and around a sharp concave edge the cells
+ * next to it may [of the spacing, its square]. */
 #define LARGE_FACE 0.2
 #define OUTSIDE_LIMIT 1e-6
 #define CONCAVE_REACH 2.0
 
-brc_status brc_conform_walls(brc_context *context, const double *position, int64_t n, double spacing, bool fit, int n_threads, brc_walls *walls)
+brc_status brc_conform_walls(brc_context *context, const double *position, int64_t n, double spacing, bool fit,
+                             int n_threads, brc_walls *walls)
 {
     if (!walls->mirrored) return BRC_OK;
     BRC_TRY(brc_mirror_make(context, position, n, fmax(walls->reach, FIRST_REACH * spacing), n_threads, walls));
     return fit ? brc_mirror_fit(context, position, n, spacing, n_threads, walls) : BRC_OK;
 }
 
-brc_status brc_conform_cells(brc_context *context, const double *position, int64_t n, double spacing, int n_threads, brc_walls *walls, brc_cells *cells)
+brc_status brc_conform_cells(brc_context *context, const double *position, int64_t n, double spacing, int n_threads,
+                             brc_walls *walls, brc_cells *cells)
 {
     for (int t = 0; t < MOST_TRIES; ++t) {
         BRC_TRY(brc_conform_walls(context, position, n, spacing, true, n_threads, walls));
@@ -33,12 +36,15 @@ brc_status brc_conform_cells(brc_context *context, const double *position, int64
         brc_cells_free(cells);
     }
     return BRC_FAIL(context, BRC_BAD_INPUT,
-                    "shape: some cells reach %.3g m, or %.3g spacings, to the wall: the seeds are too few or too uneven for this shape; ask for more elements",
+                    "shape: some cells reach %.3g m, or %.3g spacings, to the wall: the seeds are too few or too "
+                    "uneven for this shape; ask for more elements",
                     walls->reach, walls->reach / spacing);
 }
 
-/* Length of the way along half-edge h of element e that is outside [m]. own: radius of a ball around each seed that lies inside [m]. */
-static double bond_outside(const brc_walls *walls, const brc_domain *domain, int64_t e, int64_t h, double spacing, const double *own)
+/* Length of the way along half-edge h of element e that is outside [m]. own: radius of a ball around each seed that
+ * lies inside [m]. */
+static double bond_outside(const brc_walls *walls, const brc_domain *domain, int64_t e, int64_t h, double spacing,
+                           const double *own)
 {
     const int64_t j = domain->neighbour[h];
     const double *s = domain->area_vector + 3 * h, *c = domain->face_centroid + 3 * h;
@@ -47,14 +53,17 @@ static double bond_outside(const brc_walls *walls, const brc_domain *domain, int
     for (int end = 0; end < 2; ++end) {
         const int64_t k = end ? j : e;
         const double *x = domain->position + 3 * k;
-        const double way = sqrt((c[0] - x[0]) * (c[0] - x[0]) + (c[1] - x[1]) * (c[1] - x[1]) + (c[2] - x[2]) * (c[2] - x[2]));
+        const double way =
+            sqrt((c[0] - x[0]) * (c[0] - x[0]) + (c[1] - x[1]) * (c[1] - x[1]) + (c[2] - x[2]) * (c[2] - x[2]));
         if (way > own[k]) outside += brc_solid_outside(walls->solid, x, c);
     }
-    if (outside <= OUTSIDE_LIMIT * spacing || brc_solid_concave_edge_near(walls->solid, c, CONCAVE_REACH * spacing)) return 0.0;
+    if (outside <= OUTSIDE_LIMIT * spacing || brc_solid_concave_edge_near(walls->solid, c, CONCAVE_REACH * spacing))
+        return 0.0;
     return outside;
 }
 
-brc_status brc_conform_check(brc_context *context, const brc_walls *walls, double spacing, int n_threads, const brc_domain *domain)
+brc_status brc_conform_check(brc_context *context, const brc_walls *walls, double spacing, int n_threads,
+                             const brc_domain *domain)
 {
     if (!walls->mirrored || brc_solid_is_convex(walls->solid)) return BRC_OK;
     const int64_t n = domain->n_elements;
@@ -64,7 +73,8 @@ brc_status brc_conform_check(brc_context *context, const brc_walls *walls, doubl
     if (status != BRC_OK) goto cleanup;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &worst, n, "bonds outside"));
 #pragma omp parallel for schedule(dynamic, 256) num_threads(n_threads)
-    for (int64_t e = 0; e < n; ++e) own[e] = brc_solid_distance(walls->solid, domain->position + 3 * e, walls->reach);
+    for (int64_t e = 0; e < n; ++e)
+        own[e] = brc_solid_distance(walls->solid, domain->position + 3 * e, walls->reach);
 #pragma omp parallel for schedule(dynamic, 256) num_threads(n_threads) reduction(+ : n_bad)
     for (int64_t e = 0; e < n; ++e)
         for (int64_t h = domain->row_start[e]; h < domain->row_start[e + 1]; ++h) {
@@ -77,8 +87,10 @@ brc_status brc_conform_check(brc_context *context, const brc_walls *walls, doubl
     if (at >= 0) {
         const double *x = domain->position + 3 * at;
         status = BRC_FAIL(context, BRC_BAD_INPUT,
-                          "shape: %lld bonds of cells %.3g m wide would cross places outside the shape, the worst next to (%g, %g, %g) m, %.3g m of it outside (before the pose): "
-                          "a gap there is narrower than the cells; ask for more elements (cells of half the gap), or make a slot of no width a crack",
+                          "shape: %lld bonds of cells %.3g m wide would cross places outside the shape, the worst next "
+                          "to (%g, %g, %g) m, %.3g m of it outside (before the pose): "
+                          "a gap there is narrower than the cells; ask for more elements (cells of half the gap), or "
+                          "make a slot of no width a crack",
                           (long long)n_bad, spacing, x[0], x[1], x[2], worst[at]);
     }
 cleanup:

@@ -1,5 +1,5 @@
-/* A face of a Voronoi cell lies half way between two seeds. Where every seed near a plane has its mirror image behind it, the faces
- * between them lie in the plane, and no other face does. */
+/* A face of a Voronoi cell lies half way between two seeds. Where every seed near a plane has its mirror image behind
+ * it, the faces between them lie in the plane, and no other face does. */
 #include "../domain/cracks.h"
 
 #include "../../host/base/log.h"
@@ -9,11 +9,12 @@
 
 #include <math.h>
 
-/* Layers of a regular grid lie at whole and half spacings: both sides must agree whether one is in the zone, whatever the rounding. */
+/* Layers of a regular grid lie at whole and half spacings: both sides must agree whether one is in the zone, whatever
+ * the rounding. */
 #define ZONE_SLACK 1e-6
-/* How far from the plane seeds are mirrored [spacings]: every seed that is nearest to some point of the plane must be. In a noisy grid
- * parallel to the plane, wherever the plane lies, one side has a seed within sqrt(6) = 2.45 spacings of it (a packing has one nearer);
- * images dropped for LEAST_GAP lie in the topmost half spacing of the zone. */
+/* How far from the plane seeds are mirrored [spacings]: every seed that is nearest to some point of the plane must be.
+ * In a noisy grid parallel to the plane, wherever the plane lies, one side has a seed within sqrt(6) = 2.45 spacings of
+ * it (a packing has one nearer); images dropped for LEAST_GAP lie in the topmost half spacing of the zone. */
 #define REACH (3.0 + ZONE_SLACK)
 /* How far beyond the rim [spacings]: more would lay a plane of faces ahead of the crack and lead it there. */
 #define BEYOND (0.5 + ZONE_SLACK)
@@ -27,9 +28,9 @@ typedef enum role { STAY, SOURCE, DROP } role;
 /* One crack's work. */
 typedef struct mirror {
     brc_crack_patch patch;
-    double spacing; /* [m] */
-    double side;    /* 1: images are made of the seeds above the plane, -1: below */
-    int8_t *role;   /* [n] of enum role */
+    double spacing;          /* [m] */
+    double side;             /* 1: images are made of the seeds above the plane, -1: below */
+    int8_t *role;            /* [n] of enum role */
     brc_point_grid *others;  /* seeds that stay, near the zone */
     brc_point_grid *sources; /* seeds to be mirrored, in their final places */
 } mirror;
@@ -40,15 +41,18 @@ static bool in_zone(const mirror *m, const double x[3], double *height)
     return fabs(*height) <= REACH * m->spacing && brc_crack_patch_covers(&m->patch, x, BEYOND * m->spacing);
 }
 
-/* The side with more seeds: where the body is thin on one side, the thick one still has a seed for every place beyond. */
+/* The side with more seeds: where the body is thin on one side, the thick one still has a seed for every place
+ * beyond. */
 static void choose_side(mirror *m, const double *position, int64_t n)
 {
     int64_t above = 0, below = 0;
     for (int64_t e = 0; e < n; ++e) {
         double height;
         if (!in_zone(m, position + 3 * e, &height)) continue;
-        if (height > 0.0) ++above;
-        else ++below;
+        if (height > 0.0)
+            ++above;
+        else
+            ++below;
     }
     m->side = above > below ? 1.0 : -1.0;
 }
@@ -79,16 +83,20 @@ static void push_sources(mirror *m, double *position, int64_t n)
         double *x = position + 3 * e;
         const double height = brc_crack_patch_height(&m->patch, x);
         if (fabs(height) >= least) continue;
-        for (int k = 0; k < 3; ++k) x[k] += (m->side * least - height) * m->patch.normal[k];
-        if (brc_point_grid_crowded(m->sources, x, least) || brc_point_grid_crowded(m->others, x, least)) m->role[e] = DROP;
-        else brc_point_grid_add(m->sources, x);
+        for (int k = 0; k < 3; ++k)
+            x[k] += (m->side * least - height) * m->patch.normal[k];
+        if (brc_point_grid_crowded(m->sources, x, least) || brc_point_grid_crowded(m->others, x, least))
+            m->role[e] = DROP;
+        else
+            brc_point_grid_add(m->sources, x);
     }
 }
 
 static void image_of(const mirror *m, const double x[3], double image[3])
 {
     const double height = brc_crack_patch_height(&m->patch, x);
-    for (int k = 0; k < 3; ++k) image[k] = x[k] - 2.0 * height * m->patch.normal[k];
+    for (int k = 0; k < 3; ++k)
+        image[k] = x[k] - 2.0 * height * m->patch.normal[k];
 }
 
 /* Append the images of all sources, then close the gaps of the dropped seeds. */
@@ -102,10 +110,12 @@ static brc_status make_images(brc_context *context, const mirror *m, double *pos
         image_of(m, position + 3 * e, image);
         images += !brc_point_grid_crowded(m->others, image, LEAST_GAP * m->spacing);
     }
-    for (int64_t e = 0; e < n_before; ++e) kept += m->role[e] != DROP;
+    for (int64_t e = 0; e < n_before; ++e)
+        kept += m->role[e] != DROP;
     if (kept + images > room)
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "flat cracks: mirrored seeds need room for %lld elements, there is room for %lld: cracks are too near to each other or to "
+                        "flat cracks: mirrored seeds need room for %lld elements, there is room for %lld: cracks are "
+                        "too near to each other or to "
                         "walls for cells of %.3g m; use smaller cells, or cracks that are not flat",
                         (long long)(kept + images), (long long)room, m->spacing);
     double *fresh = NULL;
@@ -116,21 +126,25 @@ static brc_status make_images(brc_context *context, const mirror *m, double *pos
             double image[3];
             image_of(m, position + 3 * e, image);
             if (!brc_point_grid_crowded(m->others, image, LEAST_GAP * m->spacing)) {
-                for (int k = 0; k < 3; ++k) fresh[3 * images + k] = image[k];
+                for (int k = 0; k < 3; ++k)
+                    fresh[3 * images + k] = image[k];
                 ++images;
             }
         }
         if (m->role[e] == DROP) continue;
-        for (int k = 0; k < 3; ++k) position[3 * kept + k] = position[3 * e + k];
+        for (int k = 0; k < 3; ++k)
+            position[3 * kept + k] = position[3 * e + k];
         ++kept;
     }
-    for (int64_t k = 0; k < 3 * images; ++k) position[3 * kept + k] = fresh[k];
+    for (int64_t k = 0; k < 3 * images; ++k)
+        position[3 * kept + k] = fresh[k];
     *n = kept + images;
     brc_memory_free(fresh);
     return BRC_OK;
 }
 
-static brc_status mirror_one(brc_context *context, const brc_crack *crack, double spacing, double *position, int64_t *n, int64_t room)
+static brc_status mirror_one(brc_context *context, const brc_crack *crack, double spacing, double *position, int64_t *n,
+                             int64_t room)
 {
     mirror m = {.spacing = spacing};
     brc_crack_patch_make(crack, &m.patch);
@@ -172,20 +186,23 @@ static bool zones_meet(const brc_crack *a, const brc_crack *b, double spacing, c
 }
 
 /* The later crack moves what the earlier one has mirrored. */
-static void warn_of_neighbours(brc_context *context, int32_t c, const brc_crack *cracks, double spacing, const double *position, int64_t n)
+static void warn_of_neighbours(brc_context *context, int32_t c, const brc_crack *cracks, double spacing,
+                               const double *position, int64_t n)
 {
     for (int32_t k = 0; k < c; ++k)
         if (cracks[k].flat && zones_meet(&cracks[k], &cracks[c], spacing, position, n))
             brc_log(context, BRC_LOG_WARNING,
-                    "cracks '%s' and '%s' come nearer to each other than six cells (%.3g m): there only the faces of '%s' lie in its plane; use smaller cells, "
-                    "or flat: false for one of them", cracks[k].name, cracks[c].name, 6.0 * spacing, cracks[c].name);
+                    "cracks '%s' and '%s' come nearer to each other than six cells (%.3g m): there only the faces of "
+                    "'%s' lie in its plane; use smaller cells, "
+                    "or flat: false for one of them",
+                    cracks[k].name, cracks[c].name, 6.0 * spacing, cracks[c].name);
 }
 
-brc_status brc_cracks_mirror_seeds(brc_context *context, int32_t n_cracks, const brc_crack *cracks, double spacing, double *position,
-                                   int64_t *n, int64_t room)
+brc_status brc_cracks_mirror_seeds(brc_context *context, int32_t n_cracks, const brc_crack *cracks, double spacing,
+                                   double *position, int64_t *n, int64_t room)
 {
     BRC_TRY(brc_cracks_check(context, n_cracks, cracks));
-    for (int32_t c = 0; c < n_cracks && *n > 0; ++c)
+    for (int32_t c = 0; c<n_cracks && * n> 0; ++c)
         if (cracks[c].flat) {
             warn_of_neighbours(context, c, cracks, spacing, position, *n);
             BRC_TRY(mirror_one(context, &cracks[c], spacing, position, n, room));

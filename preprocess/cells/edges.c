@@ -1,5 +1,6 @@
-/* With the interior angle theta, k seeds stand at the angles (i + 1/2) theta / k. Their images across the two walls stand at -theta / 2k and
- * theta + theta / 2k; both must find room in the gap of 2 pi - theta, so k >= theta / (2 pi - theta). */
+/* With the interior angle theta, k seeds stand at the angles (i + 1/2) theta / k. Their images across the two walls
+ * stand at -theta / 2k and theta + theta / 2k; both must find room in the gap of 2 pi - theta, so k >= theta / (2 pi -
+ * theta). */
 #include "edges.h"
 
 #include "../../host/base/memory.h"
@@ -22,8 +23,9 @@ enum { MOST_IN_RING = 8 };
 
 typedef struct ring_plan {
     int32_t edge;
-    double along[3], first[3], second[3]; /* unit: edge; into the first wall from the edge; at right angles to both, into the solid */
-    double length, theta, radius, swept;  /* swept: radius within which other seeds go [m] */
+    double along[3], first[3],
+        second[3]; /* unit: edge; into the first wall from the edge; at right angles to both, into the solid */
+    double length, theta, radius, swept; /* swept: radius within which other seeds go [m] */
     int k;
     int64_t n_rings;
 } ring_plan;
@@ -36,10 +38,12 @@ static double dot(const double a[3], const double b[3])
 /* false: too short or too sharp. */
 static bool plan_rings(const brc_edge *edge, double spacing, ring_plan *plan)
 {
-    for (int d = 0; d < 3; ++d) plan->along[d] = edge->end[1][d] - edge->end[0][d];
+    for (int d = 0; d < 3; ++d)
+        plan->along[d] = edge->end[1][d] - edge->end[0][d];
     plan->length = sqrt(dot(plan->along, plan->along));
     if (plan->length < 2.0 * spacing) return false;
-    for (int d = 0; d < 3; ++d) plan->along[d] /= plan->length;
+    for (int d = 0; d < 3; ++d)
+        plan->along[d] /= plan->length;
     /* the first wall runs away from the edge on the side the second wall faces */
     const double cosine = dot(edge->normal[0], edge->normal[1]), sine = sqrt(fmax(0.0, 1.0 - cosine * cosine));
     if (sine < 1e-3) return false;
@@ -60,8 +64,10 @@ static bool plan_rings(const brc_edge *edge, double spacing, ring_plan *plan)
 
 static void ring_seed(const brc_edge *edge, const ring_plan *plan, double t, int i, double x[3])
 {
-    const double angle = (i + 0.5) * plan->theta / plan->k, c = plan->radius * cos(angle), s = plan->radius * sin(angle);
-    for (int d = 0; d < 3; ++d) x[d] = edge->end[0][d] + t * plan->along[d] + c * plan->first[d] + s * plan->second[d];
+    const double angle = (i + 0.5) * plan->theta / plan->k, c = plan->radius * cos(angle),
+                 s = plan->radius * sin(angle);
+    for (int d = 0; d < 3; ++d)
+        x[d] = edge->end[0][d] + t * plan->along[d] + c * plan->first[d] + s * plan->second[d];
 }
 
 static bool near_edge(const brc_edge *edge, const ring_plan *plan, const double x[3])
@@ -77,10 +83,10 @@ typedef struct placing {
     double spacing;
     ring_plan *plan; /* [n_plans] */
     int64_t n_plans, n_rings, room, n_marks;
-    double *ring;               /* [n_rings][3] [m] */
-    brc_point_grid *done;       /* rings of earlier edges */
-    brc_point_grid *mark;       /* along the edges that have rings */
-    double swept;               /* the widest [m] */
+    double *ring;         /* [n_rings][3] [m] */
+    brc_point_grid *done; /* rings of earlier edges */
+    brc_point_grid *mark; /* along the edges that have rings */
+    double swept;         /* the widest [m] */
 } placing;
 
 /* Is the ring free of the rings of other edges, and inside? */
@@ -89,7 +95,9 @@ static bool ring_fits(const placing *p, const ring_plan *plan, double t)
     for (int i = 0; i < plan->k; ++i) {
         double x[3];
         ring_seed(brc_solid_edge(p->walls->solid, plan->edge), plan, t, i, x);
-        if (!brc_walls_inside(p->walls, x, 0.2 * p->spacing) || brc_point_grid_crowded(p->done, x, RING_CLEARANCE * p->spacing)) return false;
+        if (!brc_walls_inside(p->walls, x, 0.2 * p->spacing) ||
+            brc_point_grid_crowded(p->done, x, RING_CLEARANCE * p->spacing))
+            return false;
     }
     return true;
 }
@@ -104,9 +112,11 @@ static bool place_on_edge(placing *p, const ring_plan *plan, double spread, uint
         brc_random_uniform4(seed, BRC_RANDOM_EDGE_RING, (uint64_t)plan->edge, (uint64_t)m, noise);
         const double t = ((double)m + 0.5 + 0.5 * spread * (noise[0] - 0.5)) * plan->length / (double)plan->n_rings;
         if (!ring_fits(p, plan, t)) continue;
-        for (int i = 0; i < plan->k; ++i) ring_seed(edge, plan, t, i, p->ring + 3 * p->n_rings++);
+        for (int i = 0; i < plan->k; ++i)
+            ring_seed(edge, plan, t, i, p->ring + 3 * p->n_rings++);
     }
-    for (int64_t r = first; r < p->n_rings; ++r) brc_point_grid_add(p->done, p->ring + 3 * r);
+    for (int64_t r = first; r < p->n_rings; ++r)
+        brc_point_grid_add(p->done, p->ring + 3 * r);
     return p->n_rings > first;
 }
 
@@ -145,7 +155,8 @@ static void place_all(placing *p, double spread, uint64_t seed)
         const int64_t n_marks = marks_on(p, plan);
         for (int64_t m = 0; m < n_marks; ++m) {
             double x[3];
-            for (int d = 0; d < 3; ++d) x[d] = edge->end[0][d] + plan->along[d] * plan->length * (double)m / (double)(n_marks - 1);
+            for (int d = 0; d < 3; ++d)
+                x[d] = edge->end[0][d] + plan->along[d] * plan->length * (double)m / (double)(n_marks - 1);
             brc_point_grid_add(p->mark, x);
         }
         p->swept = fmax(p->swept, plan->swept);
@@ -162,7 +173,8 @@ static bool near_any_edge(const placing *p, const double x[3])
     return false;
 }
 
-brc_status brc_edges_place(brc_context *context, const brc_walls *walls, double spacing, double spread, uint64_t seed, int n_threads, double **position, int64_t *n)
+brc_status brc_edges_place(brc_context *context, const brc_walls *walls, double spacing, double spread, uint64_t seed,
+                           int n_threads, double **position, int64_t *n)
 {
     placing p = {.walls = walls, .spacing = spacing};
     bool *dropped = NULL;
@@ -174,10 +186,12 @@ brc_status brc_edges_place(brc_context *context, const brc_walls *walls, double 
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &dropped, *n, "seeds at concave edges"));
     place_all(&p, spread, seed);
 #pragma omp parallel for schedule(static) num_threads(n_threads)
-    for (int64_t s = 0; s < *n; ++s) dropped[s] = near_any_edge(&p, *position + 3 * s);
+    for (int64_t s = 0; s < *n; ++s)
+        dropped[s] = near_any_edge(&p, *position + 3 * s);
     for (int64_t s = 0; s < *n; ++s)
         if (!dropped[s]) memmove(*position + 3 * to++, *position + 3 * s, 3 * sizeof(double));
-    BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)position, 3 * (to + p.n_rings), sizeof(double), "seeds at concave edges"));
+    BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)position, 3 * (to + p.n_rings), sizeof(double),
+                                          "seeds at concave edges"));
     if (p.n_rings > 0) memcpy(*position + 3 * to, p.ring, 3 * (size_t)p.n_rings * sizeof(double));
     *n = to + p.n_rings;
 cleanup:

@@ -7,7 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A face that only one side has comes from a corner degenerate to Voro++'s tolerance; larger ones mean lost geometry. */
+/* A face that only one side has comes from a corner degenerate to Voro++'s tolerance; larger ones mean lost
+ * geometry. */
 #define ONE_SIDED_LIMIT 1e-6
 
 /* Index of `value` in the ascending run a[low .. high), -1 when absent. */
@@ -28,7 +29,8 @@ static int64_t find(const int32_t *a, int64_t low, int64_t high, int32_t value)
 static int64_t prefix_sum(const int32_t *count, int64_t n, int64_t *start)
 {
     start[0] = 0;
-    for (int64_t e = 0; e < n; ++e) start[e + 1] = start[e] + count[e];
+    for (int64_t e = 0; e < n; ++e)
+        start[e + 1] = start[e] + count[e];
     return start[n];
 }
 
@@ -64,8 +66,8 @@ static void find_twins(int n_threads, brc_domain *domain)
         }
 }
 
-/* Judge every face from its smaller side (one-sided ones from the side that has it) and remove the dropped ones from the
- * rows. limit: smallest area kept [m^2]. */
+/* Judge every face from its smaller side (one-sided ones from the side that has it) and remove the dropped ones from
+ * the rows. limit: smallest area kept [m^2]. */
 static brc_status drop_faces(brc_context *context, double limit, double mean, brc_domain *domain, double *area)
 {
     brc_quality *quality = &domain->quality;
@@ -81,8 +83,10 @@ static brc_status drop_faces(brc_context *context, double limit, double mean, br
                 continue;
             }
             total_area += area[h];
-            if (twin < 0) one_sided = fmax(one_sided, area[h]);
-            else difference = fmax(difference, fabs(area[h] - area[twin]));
+            if (twin < 0)
+                one_sided = fmax(one_sided, area[h]);
+            else
+                difference = fmax(difference, fabs(area[h] - area[twin]));
             place[h] = twin >= 0 && area[h] >= limit;
             if (place[h]) continue;
             ++n_dropped;
@@ -106,14 +110,16 @@ static brc_status drop_faces(brc_context *context, double limit, double mean, br
             domain->row_start[e + 1] = to;
         }
         domain->n_half_edges = to;
-        for (int64_t h = 0; h < to; ++h) domain->twin[h] = place[domain->twin[h]] - 1;
+        for (int64_t h = 0; h < to; ++h)
+            domain->twin[h] = place[domain->twin[h]] - 1;
     }
     brc_memory_free(place);
     if (one_sided > ONE_SIDED_LIMIT * mean)
-        return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "a face of %.3g of the mean area is seen from one of its cells only: the seeds are too irregular "
-                        "for Voro++; use another seed or a larger minimal distance",
-                        one_sided / mean);
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "a face of %.3g of the mean area is seen from one of its cells only: the seeds are too irregular "
+            "for Voro++; use another seed or a larger minimal distance",
+            one_sided / mean);
     return BRC_OK;
 }
 
@@ -207,7 +213,8 @@ static brc_status build_free_faces(brc_context *context, brc_cells *cells, doubl
     domain->n_free_faces = prefix_sum(n_kept, n, domain->free_start);
     const int64_t n_corners = prefix_sum(n_polygon, n, polygon_start);
     const int64_t n_vertices = prefix_sum(cells->n_corners, n, domain->vertex_start);
-    for (int64_t r = 0; r < cells->n_runs; ++r) domain->quality.n_tiny_faces_dropped += cells->run[r].n_free;
+    for (int64_t r = 0; r < cells->n_runs; ++r)
+        domain->quality.n_tiny_faces_dropped += cells->run[r].n_free;
     domain->quality.n_tiny_faces_dropped -= domain->n_free_faces;
     if (n_vertices > INT32_MAX) {
         status = BRC_FAIL(context, BRC_BAD_INPUT, "%lld cell corners, must be below 2^31; use fewer elements",
@@ -238,7 +245,8 @@ cleanup:
 static double mean_area(const brc_domain *domain, const double *area)
 {
     double sum = 0.0;
-    for (int64_t h = 0; h < domain->n_half_edges; ++h) sum += area[h];
+    for (int64_t h = 0; h < domain->n_half_edges; ++h)
+        sum += area[h];
     return domain->n_half_edges > 0 ? sum / (double)domain->n_half_edges : 0.0;
 }
 

@@ -11,8 +11,9 @@
 #include <string.h>
 
 enum { RUN = 1024, MOST_FEET = 32 };
-/* A ghost must be about as far from the solid as the seed is from its foot; nearer ones would cut cells elsewhere. Measured at concave edges: 0.3 makes faces
- * there twice as uneven as 0.6 to 0.8, 0.95 leaves curved edges open by a third more. */
+/* A ghost must be about as far from the solid as the seed is from its foot; nearer ones would cut cells elsewhere.
+ * Measured at concave edges: 0.3 makes faces there twice as uneven as 0.6 to 0.8, 0.95 leaves curved edges open by a
+ * third more. */
 #define CLEARANCE 0.75
 /* Ghosts nearer to one another than this [of the reach] are one. */
 #define SAME_GHOST 1e-7
@@ -50,7 +51,8 @@ static void mirror_seed(brc_context *context, const brc_walls *walls, const doub
 {
     const brc_solid *solid = walls->solid;
     brc_foot feet[MOST_FEET];
-    const int32_t found = brc_solid_mirrors(solid, x, walls->reach, feet, MOST_FEET), n = found < MOST_FEET ? found : MOST_FEET;
+    const int32_t found = brc_solid_mirrors(solid, x, walls->reach, feet, MOST_FEET),
+                  n = found < MOST_FEET ? found : MOST_FEET;
     if (n == 0 && run->outside < 0 && !brc_solid_inside(solid, x, 0.0)) run->outside = owner;
     for (int32_t f = 0; f < n; ++f) {
         if (feet[f].hull) continue;
@@ -59,7 +61,8 @@ static void mirror_seed(brc_context *context, const brc_walls *walls, const doub
             return;
         }
         ghost_record *ghost = &run->ghost[run->n];
-        for (int d = 0; d < 3; ++d) ghost->position[d] = x[d] + 2.0 * feet[f].depth * feet[f].normal[d];
+        for (int d = 0; d < 3; ++d)
+            ghost->position[d] = x[d] + 2.0 * feet[f].depth * feet[f].normal[d];
         /* among the bumps of a rough wall a ghost may stand anywhere */
         const double clearance = CLEARANCE * feet[f].depth - feet[f].rough;
         if (clearance > 0.0 && !brc_solid_clear(solid, ghost->position, clearance)) continue;
@@ -73,7 +76,8 @@ static void mirror_seed(brc_context *context, const brc_walls *walls, const doub
     }
 }
 
-/* Drop every ghost that is the same point as an earlier one: on a regular grid two walls at right angles mirror two seeds to one. */
+/* Drop every ghost that is the same point as an earlier one: on a regular grid two walls at right angles mirror two
+ * seeds to one. */
 static brc_status drop_doubles(brc_context *context, brc_walls *walls)
 {
     const double same = SAME_GHOST * walls->reach;
@@ -81,8 +85,10 @@ static brc_status drop_doubles(brc_context *context, brc_walls *walls)
     const int64_t n = walls->n_ghosts;
     BRC_TRY(brc_point_grid_create(context, (const double(*)[3])walls->box, 0.5 * walls->reach, n, &kept));
     for (int64_t g = 0; g < n; ++g) {
-        if (brc_point_grid_crowded(kept, walls->ghost + 3 * g, same)) walls->ghost_owner[g] = -1;
-        else brc_point_grid_add(kept, walls->ghost + 3 * g);
+        if (brc_point_grid_crowded(kept, walls->ghost + 3 * g, same))
+            walls->ghost_owner[g] = -1;
+        else
+            brc_point_grid_add(kept, walls->ghost + 3 * g);
     }
     brc_point_grid_free(&kept);
     int64_t to = 0;
@@ -102,9 +108,10 @@ static brc_status drop_doubles(brc_context *context, brc_walls *walls)
 static brc_status take_over(brc_context *context, const ghost_run *run, int64_t n_runs, brc_walls *walls)
 {
     int64_t n = 0;
-    for (int64_t r = 0; r < n_runs; ++r) n += run[r].n;
-    void **const old[] = {(void **)&walls->ghost, (void **)&walls->ghost_wall, (void **)&walls->ghost_owner, (void **)&walls->ghost_foot,
-                          (void **)&walls->ghost_rough, (void **)&walls->ghost_flat};
+    for (int64_t r = 0; r < n_runs; ++r)
+        n += run[r].n;
+    void **const old[] = {(void **)&walls->ghost,      (void **)&walls->ghost_wall,  (void **)&walls->ghost_owner,
+                          (void **)&walls->ghost_foot, (void **)&walls->ghost_rough, (void **)&walls->ghost_flat};
     for (size_t k = 0; k < sizeof old / sizeof *old; ++k) {
         brc_memory_free(*old[k]);
         *old[k] = NULL;
@@ -130,7 +137,8 @@ static brc_status take_over(brc_context *context, const ghost_run *run, int64_t 
     return drop_doubles(context, walls);
 }
 
-brc_status brc_mirror_make(brc_context *context, const double *position, int64_t n, double reach, int n_threads, brc_walls *walls)
+brc_status brc_mirror_make(brc_context *context, const double *position, int64_t n, double reach, int n_threads,
+                           brc_walls *walls)
 {
     if (!walls->mirrored) return BRC_OK;
     ghost_run *run = NULL;
@@ -146,14 +154,17 @@ brc_status brc_mirror_make(brc_context *context, const double *position, int64_t
     }
     for (int64_t r = 0; r < n_runs; ++r) {
         const double *x = run[r].outside < 0 ? NULL : position + 3 * run[r].outside;
-        if (run[r].no_memory) status = BRC_NO_MEMORY;
+        if (run[r].no_memory)
+            status = BRC_NO_MEMORY;
         else if (x)
-            status = BRC_FAIL(context, BRC_BAD_INPUT, "seed %lld at (%g, %g, %g) m lies outside the shape", (long long)run[r].outside, x[0], x[1], x[2]);
+            status = BRC_FAIL(context, BRC_BAD_INPUT, "seed %lld at (%g, %g, %g) m lies outside the shape",
+                              (long long)run[r].outside, x[0], x[1], x[2]);
         if (status != BRC_OK) goto cleanup;
     }
     status = take_over(context, run, n_runs, walls);
 cleanup:
-    for (int64_t r = 0; run && r < n_runs; ++r) brc_memory_free(run[r].ghost);
+    for (int64_t r = 0; run && r < n_runs; ++r)
+        brc_memory_free(run[r].ghost);
     brc_memory_free(run);
     return status;
 }
@@ -165,7 +176,8 @@ typedef struct wall_at {
     double rough;         /* [m] */
 } wall_at;
 
-/* Height of x above the wall. On a rough one that of the surface's mean: what the line across it has of the solid decides, so that the volume is right. */
+/* Height of x above the wall. On a rough one that of the surface's mean: what the line across it has of the solid
+ * decides, so that the volume is right. */
 static double height_of(const wall_at *wall, const double x[3])
 {
     if (!(wall->rough > 0.0)) return -brc_solid_depth(wall->solid, x);
@@ -185,9 +197,11 @@ static double mean_height(const wall_at *wall, const brc_polyhedron *cell, int32
     const int32_t n = cell->face_start[face + 1] - cell->face_start[face];
     double middle[3] = {0.0, 0.0, 0.0}, sum = 0.0, total = 0.0;
     for (int32_t k = 0; k < n; ++k)
-        for (int d = 0; d < 3; ++d) middle[d] += cell->vertex[3 * corner[k] + d] / n;
+        for (int d = 0; d < 3; ++d)
+            middle[d] += cell->vertex[3 * corner[k] + d] / n;
     double last[3], first_spoke = 0.0, spoke = 0.0;
-    for (int d = 0; d < 3; ++d) last[d] = x[d] + 0.5 * (middle[d] + cell->vertex[3 * corner[0] + d]);
+    for (int d = 0; d < 3; ++d)
+        last[d] = x[d] + 0.5 * (middle[d] + cell->vertex[3 * corner[0] + d]);
     first_spoke = spoke = height_of(wall, last);
     for (int32_t k = 0; k < n; ++k) {
         const double *p = cell->vertex + 3 * corner[k], *q = cell->vertex + 3 * corner[(k + 1) % n];
@@ -198,7 +212,8 @@ static double mean_height(const wall_at *wall, const brc_polyhedron *cell, int32
             rim[d] = x[d] + 0.5 * (p[d] + q[d]);
             half[d] = x[d] + 0.5 * (middle[d] + q[d]);
         }
-        for (int d = 0; d < 3; ++d) c[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
+        for (int d = 0; d < 3; ++d)
+            c[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
         const double area = 0.5 * sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
         const double next = k + 1 < n ? height_of(wall, half) : first_spoke;
         sum += area * (spoke + next + height_of(wall, rim)) / 3.0;
@@ -209,27 +224,31 @@ static double mean_height(const wall_at *wall, const brc_polyhedron *cell, int32
 }
 
 /* Fit the ghosts first .. last of one seed. */
-static brc_status fit_seed(const brc_walls *walls, brc_voronoi_worker *worker, const double *x, int64_t n, int64_t first, int64_t last, double *shift)
+static brc_status fit_seed(const brc_walls *walls, brc_voronoi_worker *worker, const double *x, int64_t n,
+                           int64_t first, int64_t last, double *shift)
 {
     brc_polyhedron cell;
     BRC_TRY(brc_voronoi_cell(worker, walls->ghost_owner[first], &cell));
     for (int32_t f = 0; f < cell.n_faces; ++f) {
         const int64_t g = cell.face_other[f] - n;
         if (cell.face_other[f] < 0 || g < first || g >= last || walls->ghost_flat[g]) continue;
-        const wall_at wall = {.solid = walls->solid, .normal = walls->ghost_foot + 4 * g, .rough = walls->ghost_rough[g]};
+        const wall_at wall = {
+            .solid = walls->solid, .normal = walls->ghost_foot + 4 * g, .rough = walls->ghost_rough[g]};
         shift[g] = mean_height(&wall, &cell, f, x);
     }
     return BRC_OK;
 }
 
-brc_status brc_mirror_fit(brc_context *context, const double *position, int64_t n, double spacing, int n_threads, brc_walls *walls)
+brc_status brc_mirror_fit(brc_context *context, const double *position, int64_t n, double spacing, int n_threads,
+                          brc_walls *walls)
 {
     double *shift = NULL;
     brc_voronoi *voronoi = NULL;
     int32_t failed = INT32_MAX; /* the first seed whose cell could not be made, and why */
     brc_status status = BRC_OK, reason = BRC_OK;
     bool curved = false;
-    for (int64_t g = 0; g < walls->n_ghosts; ++g) curved = curved || !walls->ghost_flat[g];
+    for (int64_t g = 0; g < walls->n_ghosts; ++g)
+        curved = curved || !walls->ghost_flat[g];
     if (!curved) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &shift, walls->n_ghosts, "shifts of mirror images"));
     BRC_TRY_OR(cleanup, brc_voronoi_create(context, position, n, walls, spacing, &voronoi));
@@ -243,8 +262,12 @@ brc_status brc_mirror_fit(brc_context *context, const double *position, int64_t 
             int64_t last = g;
             bool wanted = false;
             for (; last < walls->n_ghosts && walls->ghost_owner[last] == owner; ++last)
-                wanted = wanted || (!walls->ghost_flat[last] && walls->ghost_foot[4 * last + 3] < DEEPEST_FIT * spacing);
-            const brc_status seed_status = !wanted ? BRC_OK : !worker ? BRC_NO_MEMORY : fit_seed(walls, worker, position + 3 * (int64_t)owner, n, g, last, shift);
+                wanted =
+                    wanted || (!walls->ghost_flat[last] && walls->ghost_foot[4 * last + 3] < DEEPEST_FIT * spacing);
+            const brc_status seed_status =
+                !wanted   ? BRC_OK
+                : !worker ? BRC_NO_MEMORY
+                          : fit_seed(walls, worker, position + 3 * (int64_t)owner, n, g, last, shift);
             if (seed_status == BRC_OK) continue;
 #pragma omp critical(brc_mirror)
             if (owner < failed) {
@@ -255,13 +278,17 @@ brc_status brc_mirror_fit(brc_context *context, const double *position, int64_t 
         brc_voronoi_worker_free(&worker);
     }
     if (reason == BRC_NO_MEMORY) {
-        status = BRC_FAIL(context, reason, "mirror images: no memory for the cells of %lld seeds and their %lld images; use fewer elements or threads", (long long)n,
-                          (long long)walls->n_ghosts);
+        status = BRC_FAIL(
+            context, reason,
+            "mirror images: no memory for the cells of %lld seeds and their %lld images; use fewer elements or threads",
+            (long long)n, (long long)walls->n_ghosts);
         goto cleanup;
     }
     if (reason != BRC_OK) {
         const double *x = position + 3 * (int64_t)failed;
-        status = BRC_FAIL(context, reason, "seed %d of %lld at (%g, %g, %g) m, which is mirrored at a wall: Voro++ gave it no cell; use another seed of the fill, or a little more spread",
+        status = BRC_FAIL(context, reason,
+                          "seed %d of %lld at (%g, %g, %g) m, which is mirrored at a wall: Voro++ gave it no cell; use "
+                          "another seed of the fill, or a little more spread",
                           failed, (long long)n, x[0], x[1], x[2]);
         goto cleanup;
     }
@@ -270,7 +297,8 @@ brc_status brc_mirror_fit(brc_context *context, const double *position, int64_t 
         foot[3] -= fmin(shift[g], 0.5 * foot[3]); /* a seed stays inside its wall */
         const double *x = position + 3 * (int64_t)walls->ghost_owner[g];
         if (shift[g] != 0.0)
-            for (int d = 0; d < 3; ++d) walls->ghost[3 * g + d] = x[d] + 2.0 * foot[3] * foot[d];
+            for (int d = 0; d < 3; ++d)
+                walls->ghost[3 * g + d] = x[d] + 2.0 * foot[3] * foot[d];
     }
 cleanup:
     brc_voronoi_free(&voronoi);

@@ -1,10 +1,11 @@
-/* A convex cell has all of its corners on the inner side of a face's plane, and those on the plane are the corners of the face. */
+/* A convex cell has all of its corners on the inner side of a face's plane, and those on the plane are the corners of
+ * the face. */
 #include "outline.h"
 
 #include <math.h>
 
-/* Corners are on a plane to rounding, which is larger for cells far from the origin: the smallest of these tolerances [of the cell's
- * size] whose corners enclose the face's area is taken. */
+/* Corners are on a plane to rounding, which is larger for cells far from the origin: the smallest of these tolerances
+ * [of the cell's size] whose corners enclose the face's area is taken. */
 #define FIRST_TOLERANCE 1e-14
 #define LAST_TOLERANCE 1e-7
 /* How well a polygon's area must match the face's [of the cell's size squared]. */
@@ -28,7 +29,8 @@ static void sort_ring(brc_outline_corner *ring, int64_t n)
     for (int64_t k = 1; k < n; ++k) {
         const brc_outline_corner one = ring[k];
         int64_t at = k;
-        for (; at > 0 && comes_before(&one, &ring[at - 1]); --at) ring[at] = ring[at - 1];
+        for (; at > 0 && comes_before(&one, &ring[at - 1]); --at)
+            ring[at] = ring[at - 1];
         ring[at] = one;
     }
 }
@@ -54,8 +56,10 @@ static void plane_axes(const double n[3], double u[3], double v[3])
         u[k] = (k == least) - n[least] * n[k];
         length += u[k] * u[k];
     }
-    for (int k = 0; k < 3; ++k) u[k] /= sqrt(length);
-    for (int k = 0; k < 3; ++k) v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
+    for (int k = 0; k < 3; ++k)
+        u[k] /= sqrt(length);
+    for (int k = 0; k < 3; ++k)
+        v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
 }
 
 int64_t brc_outline(const brc_domain *domain, int64_t e, int64_t h, brc_outline_corner *room, int32_t *out)
@@ -83,7 +87,8 @@ int64_t brc_outline(const brc_domain *domain, int64_t e, int64_t h, brc_outline_
     int64_t before = 0;
     for (double tolerance = FIRST_TOLERANCE; tolerance < 2.0 * LAST_TOLERANCE; tolerance *= 10.0) {
         int64_t on = 0;
-        for (int64_t k = 0; k < n; ++k) on += all[k].height <= tolerance * size;
+        for (int64_t k = 0; k < n; ++k)
+            on += all[k].height <= tolerance * size;
         if (on < 3 || on == before) continue;
         before = on;
         on = 0;
@@ -95,7 +100,8 @@ int64_t brc_outline(const brc_domain *domain, int64_t e, int64_t h, brc_outline_
         }
         sort_ring(ring, on);
         if (fabs(polygon_area(ring, on) - area) > AREA_TOLERANCE * size * size) continue;
-        for (int64_t k = 0; k < on; ++k) out[k] = ring[k].vertex;
+        for (int64_t k = 0; k < on; ++k)
+            out[k] = ring[k].vertex;
         return on;
     }
     return 0;

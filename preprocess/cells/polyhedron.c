@@ -23,7 +23,8 @@ void brc_polyhedron_face(const brc_polyhedron *cell, int32_t f, const double nor
     for (int32_t k = 1; k < n; ++k) {
         const double *p = cell->vertex + 3 * (int64_t)corner[k];
         const double a[3] = {p[0] - o[0], p[1] - o[1], p[2] - o[2]};
-        for (int d = 0; d < 3; ++d) mean[d] += a[d] / n;
+        for (int d = 0; d < 3; ++d)
+            mean[d] += a[d] / n;
         if (k + 1 == n) break;
         const double *q = cell->vertex + 3 * (int64_t)corner[k + 1];
         const double b[3] = {q[0] - o[0], q[1] - o[1], q[2] - o[2]};
@@ -31,7 +32,8 @@ void brc_polyhedron_face(const brc_polyhedron *cell, int32_t f, const double nor
         cross(a, b, twice);
         const double weight = 0.5 * dot(twice, normal);
         sum += weight;
-        for (int d = 0; d < 3; ++d) moment[d] += weight * (a[d] + b[d]) / 3.0;
+        for (int d = 0; d < 3; ++d)
+            moment[d] += weight * (a[d] + b[d]) / 3.0;
     }
     *area = sum > 0.0 ? sum : 0.0;
     double above = -height;
@@ -39,7 +41,8 @@ void brc_polyhedron_face(const brc_polyhedron *cell, int32_t f, const double nor
         centroid[d] = o[d] + (sum > 0.0 ? moment[d] / sum : mean[d]);
         above += centroid[d] * normal[d];
     }
-    for (int d = 0; d < 3; ++d) centroid[d] -= above * normal[d];
+    for (int d = 0; d < 3; ++d)
+        centroid[d] -= above * normal[d];
 }
 
 void brc_polyhedron_mass(const brc_polyhedron *cell, double *volume, double centroid[3], double inertia[6])
@@ -58,9 +61,11 @@ void brc_polyhedron_mass(const brc_polyhedron *cell, double *volume, double cent
             double area[3], s[3];
             cross(b, c, area);
             const double det = dot(a, area);
-            for (int d = 0; d < 3; ++d) s[d] = a[d] + b[d] + c[d];
+            for (int d = 0; d < 3; ++d)
+                s[d] = a[d] + b[d] + c[d];
             v += det;
-            for (int d = 0; d < 3; ++d) first[d] += det * s[d];
+            for (int d = 0; d < 3; ++d)
+                first[d] += det * s[d];
             for (int m = 0; m < 6; ++m) {
                 const int i = row[m], j = column[m];
                 second[m] += det * (s[i] * s[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]);
@@ -68,12 +73,15 @@ void brc_polyhedron_mass(const brc_polyhedron *cell, double *volume, double cent
         }
     }
     v /= 6.0;
-    for (int d = 0; d < 3; ++d) centroid[d] = first[d] / (24.0 * v);
+    for (int d = 0; d < 3; ++d)
+        centroid[d] = first[d] / (24.0 * v);
     double covariance[6];
-    for (int m = 0; m < 6; ++m) covariance[m] = second[m] / 120.0 - v * centroid[row[m]] * centroid[column[m]];
+    for (int m = 0; m < 6; ++m)
+        covariance[m] = second[m] / 120.0 - v * centroid[row[m]] * centroid[column[m]];
     *volume = v;
     inertia[0] = covariance[1] + covariance[2];
     inertia[1] = covariance[0] + covariance[2];
     inertia[2] = covariance[0] + covariance[1];
-    for (int m = 3; m < 6; ++m) inertia[m] = -covariance[m];
+    for (int m = 3; m < 6; ++m)
+        inertia[m] = -covariance[m];
 }

@@ -37,8 +37,8 @@ static brc_status check_grid(brc_context *context, const brc_fill *fill)
         return BRC_FAIL(context, BRC_BAD_INPUT, "fill: spread is %g, must be 0 to 1 (0 to 100 %%)", fill->spread);
     if (fill->spread > 0.0 && fill->spread < LEAST_SPREAD)
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "fill: spread %g leaves faces as small as rounding; use 0 for cubes, or %g or more", fill->spread,
-                        LEAST_SPREAD);
+                        "fill: spread %g leaves faces as small as rounding; use 0 for cubes, or %g or more",
+                        fill->spread, LEAST_SPREAD);
     return BRC_OK;
 }
 
@@ -47,19 +47,26 @@ static brc_status check_radii(brc_context *context, const brc_fill *fill)
     const brc_radius *r = fill->radii;
     const int32_t n = fill->n_radii;
     if (!(fill->radius_spread >= 0.0 && fill->radius_spread <= 0.9))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the spread of the radii is %g, must be 0 to 0.9", fill->radius_spread);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the spread of the radii is %g, must be 0 to 0.9",
+                        fill->radius_spread);
     if (n == 0) return BRC_OK;
-    if (fill->radius_spread != 0.0) return BRC_FAIL(context, BRC_BAD_INPUT, "fill: give a spread of the radii or a table of them, not both");
+    if (fill->radius_spread != 0.0)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: give a spread of the radii or a table of them, not both");
     if (n < 2) return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the table of radii has %d point, must have 2 or more", n);
     for (int32_t k = 0; k < n; ++k) {
         if (!(isfinite(r[k].radius) && r[k].radius > 0.0 && (k == 0 || r[k].radius >= r[k - 1].radius)))
-            return BRC_FAIL(context, BRC_BAD_INPUT, "fill: radius %d of the table is %g m, must be > 0 and not below the one before it", k + 1, r[k].radius);
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "fill: radius %d of the table is %g m, must be > 0 and not below the one before it", k + 1,
+                            r[k].radius);
         if (!(r[k].fraction >= 0.0 && r[k].fraction <= 1.0 && (k == 0 || r[k].fraction >= r[k - 1].fraction)))
-            return BRC_FAIL(context, BRC_BAD_INPUT, "fill: fraction %d of the table of radii is %g, must be 0 to 1 and not below the one before it", k + 1,
-                            r[k].fraction);
+            return BRC_FAIL(
+                context, BRC_BAD_INPUT,
+                "fill: fraction %d of the table of radii is %g, must be 0 to 1 and not below the one before it", k + 1,
+                r[k].fraction);
     }
     if (r[0].fraction != 0.0 || r[n - 1].fraction != 1.0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the table of radii runs from the fraction %g to %g, must run from 0 to 1", r[0].fraction,
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "fill: the table of radii runs from the fraction %g to %g, must run from 0 to 1", r[0].fraction,
                         r[n - 1].fraction);
     return BRC_OK;
 }
@@ -67,32 +74,43 @@ static brc_status check_radii(brc_context *context, const brc_fill *fill)
 static brc_status check_packing(brc_context *context, const brc_fill *fill)
 {
     if ((fill->n_elements != 0) == (fill->radius != 0.0))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: a packing needs either the number of elements or their mean radius");
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "fill: a packing needs either the number of elements or their mean radius");
     if (fill->radius != 0.0 && !(isfinite(fill->radius) && fill->radius > 0.0))
         return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the mean radius is %g m, must be finite and > 0", fill->radius);
     if ((fill->coordination != 0.0) == (fill->volume_fraction != 0.0))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: a packing needs either a coordination number (6.2 say) or a volume fraction (0.63 say)");
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "fill: a packing needs either a coordination number (6.2 say) or a volume fraction (0.63 say)");
     if (!(fill->coordination >= 0.0 && fill->coordination <= 12.0))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the coordination number is %g, must be up to 12; 5.8 to 7 can be reached at rest", fill->coordination);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "fill: the coordination number is %g, must be up to 12; 5.8 to 7 can be reached at rest",
+                        fill->coordination);
     if (!(fill->volume_fraction >= 0.0 && fill->volume_fraction < 1.0))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the volume fraction is %g, must be above 0 and below 1", fill->volume_fraction);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the volume fraction is %g, must be above 0 and below 1",
+                        fill->volume_fraction);
     if (!(fill->tolerance >= 0.0 && isfinite(fill->tolerance)))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the tolerance is %g, must be 0 (default) or more", fill->tolerance);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the tolerance is %g, must be 0 (default) or more",
+                        fill->tolerance);
     return check_radii(context, fill);
 }
 
 brc_status brc_fill_check(brc_context *context, const brc_fill *fill)
 {
     if (fill->n_elements < 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: %lld elements wanted, must be at least 1", (long long)fill->n_elements);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: %lld elements wanted, must be at least 1",
+                        (long long)fill->n_elements);
     switch (fill->kind) {
     case BRC_FILL_NOISY_GRID: BRC_TRY(check_grid(context, fill)); break;
     case BRC_FILL_PACKING: BRC_TRY(check_packing(context, fill)); break;
     case BRC_FILL_POINTS:
         if (!(isfinite(fill->scale) && fill->scale > 0.0))
-            return BRC_FAIL(context, BRC_BAD_INPUT, "fill: the scale of the points is %g m per unit of the file, must be finite and > 0", fill->scale);
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "fill: the scale of the points is %g m per unit of the file, must be finite and > 0",
+                            fill->scale);
         break;
-    default: return BRC_FAIL(context, BRC_BAD_INPUT, "fill: kind %d is unknown, must be noisy grid, packing or points", (int)fill->kind);
+    default:
+        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: kind %d is unknown, must be noisy grid, packing or points",
+                        (int)fill->kind);
     }
     if (fill->lloyd_sweeps < 0)
         return BRC_FAIL(context, BRC_BAD_INPUT, "fill: %d Lloyd sweeps, must be 0 or more", fill->lloyd_sweeps);
@@ -110,7 +128,8 @@ double brc_fill_spacing(const brc_solid *solid, const brc_fill *fill)
     if (fill->radius > 0.0) return fill->radius * cbrt(4.0 / 3.0 * 3.14159265358979323846 / TYPICAL_PACKING);
     double bounds[2][3], volume = 1.0;
     brc_solid_bounds(solid, bounds);
-    for (int k = 0; k < 3; ++k) volume *= (bounds[1][k] - bounds[0][k]) / (double)fill->cells[k];
+    for (int k = 0; k < 3; ++k)
+        volume *= (bounds[1][k] - bounds[0][k]) / (double)fill->cells[k];
     return cbrt(volume);
 }
 
@@ -165,7 +184,8 @@ static void box_cells(const double size[3], int64_t n, int64_t cells[3])
                 const double cost = fabs(product / (double)n - 1.0) + 0.2 * (high / low - 1.0);
                 if (cost < best * (1.0 - 1e-12)) {
                     best = cost;
-                    for (int k = 0; k < 3; ++k) cells[k] = c[k];
+                    for (int k = 0; k < 3; ++k)
+                        cells[k] = c[k];
                 }
             }
 }
@@ -218,7 +238,8 @@ static brc_status check_thickness(brc_context *context, const brc_solid *solid, 
     for (int k = 0; k < 3; ++k) {
         const double size = bounds[1][k] - bounds[0][k], across = size / grid->spacing[k];
         if (across >= 2.0 * (1.0 - 1e-9)) continue;
-        const double h = 0.5 * (bounds[1][thin] - bounds[0][thin]), least = ceil(brc_solid_volume(solid, NULL) / (h * h * h));
+        const double h = 0.5 * (bounds[1][thin] - bounds[0][thin]),
+                     least = ceil(brc_solid_volume(solid, NULL) / (h * h * h));
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "fill: %.3g cells across %c (%g m), must be at least 2, for one layer gives the strain nothing "
                         "to hold on to; use a spacing of %g m or less (about %.3g elements or more) or a thicker body",
@@ -232,15 +253,18 @@ static brc_status check_size(brc_context *context, const brc_grid *grid)
 {
     const double n = (double)grid->cells[0] * (double)grid->cells[1] * (double)grid->cells[2];
     if (n > (double)INT32_MAX / 16.0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fill: a grid of %.3g cells has too many faces for one domain; ask for "
-                        "fewer than %.3g elements", n, (double)INT32_MAX / 16.0);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "fill: a grid of %.3g cells has too many faces for one domain; ask for "
+                        "fewer than %.3g elements",
+                        n, (double)INT32_MAX / 16.0);
     return BRC_OK;
 }
 
 /* Spacing whose grid leaves as nearly as possible n seeds inside: the count falls with h^3, with jumps; secant steps
- * from the exact volume, the best one kept. Between flat walls all round, where the spacing cannot be chosen freely, the same search
- * runs over the number of cells that the bounds would hold. */
-static brc_status search_spacing(brc_context *context, const brc_fill *fill, const brc_walls *walls, int n_threads, brc_grid *best)
+ * from the exact volume, the best one kept. Between flat walls all round, where the spacing cannot be chosen freely,
+ * the same search runs over the number of cells that the bounds would hold. */
+static brc_status search_spacing(brc_context *context, const brc_fill *fill, const brc_walls *walls, int n_threads,
+                                 brc_grid *best)
 {
     enum { TRIES = 12 };
     const int64_t n = fill->n_elements;
@@ -272,7 +296,8 @@ static brc_status search_spacing(brc_context *context, const brc_fill *fill, con
     return BRC_OK;
 }
 
-brc_status brc_grid_plan(brc_context *context, const brc_fill *fill, const brc_walls *walls, int n_threads, brc_grid *grid)
+brc_status brc_grid_plan(brc_context *context, const brc_fill *fill, const brc_walls *walls, int n_threads,
+                         brc_grid *grid)
 {
     *grid = (brc_grid){.n_requested = fill->n_elements};
     const brc_shape *shape = brc_solid_shape(walls->solid);
@@ -290,7 +315,8 @@ brc_status brc_grid_plan(brc_context *context, const brc_fill *fill, const brc_w
         BRC_TRY(search_spacing(context, fill, walls, n_threads, grid));
         BRC_TRY(check_thickness(context, walls->solid, grid));
     } else {
-        grid->n_inside = box ? grid->cells[0] * grid->cells[1] * grid->cells[2] : count_inside(grid, fill, walls, n_threads);
+        grid->n_inside =
+            box ? grid->cells[0] * grid->cells[1] * grid->cells[2] : count_inside(grid, fill, walls, n_threads);
     }
     const double least = fmin(grid->spacing[0], fmin(grid->spacing[1], grid->spacing[2]));
     if (fill->min_distance > least)
@@ -354,8 +380,9 @@ brc_status brc_seeds_draw(brc_context *context, const brc_grid *grid, const brc_
             status = BRC_FAIL(context, BRC_INTERNAL, "more seeds than planned");
             goto cleanup;
         }
-        for (int k = 0; k < 3; ++k) (*position)[3 * *n + k] = x[k];
-        kept[cell] = (int32_t)++*n;
+        for (int k = 0; k < 3; ++k)
+            (*position)[3 * *n + k] = x[k];
+        kept[cell] = (int32_t)++ * n;
     }
 cleanup:
     brc_memory_free(kept);

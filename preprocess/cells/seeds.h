@@ -18,7 +18,8 @@ brc_status brc_fill_check(brc_context *context, const brc_fill *fill);
 /* Size of a cell the fill leads to [m], before any seed is drawn. */
 double brc_fill_spacing(const brc_solid *solid, const brc_fill *fill);
 /* Choose the grid. BRC_BAD_INPUT when it has fewer than two cells across the thinnest direction, or no seed inside. */
-brc_status brc_grid_plan(brc_context *context, const brc_fill *fill, const brc_walls *walls, int n_threads, brc_grid *grid);
+brc_status brc_grid_plan(brc_context *context, const brc_fill *fill, const brc_walls *walls, int n_threads,
+                         brc_grid *grid);
 /* Draw the seeds in order of the grid cells (x fastest); a seed nearer than the fill's minimal distance to an earlier
  * one is dropped and counted. *position: [*n][3], caller frees with brc_memory_free. */
 brc_status brc_seeds_draw(brc_context *context, const brc_grid *grid, const brc_fill *fill, const brc_walls *walls,

@@ -1,5 +1,6 @@
-/* Every cell is closed: each edge is gone along once in both directions. Edges that a cell's faces go along once only, because a face was dropped when the
- * domain was built or its corners do not outline it, are made into the faces that are missing. Then corners are joined across the faces of whole bonds. */
+/* Every cell is closed: each edge is gone along once in both directions. Edges that a cell's faces go along once only,
+ * because a face was dropped when the domain was built or its corners do not outline it, are made into the faces that
+ * are missing. Then corners are joined across the faces of whole bonds. */
 #include "tessellation.h"
 
 #include "../../host/base/memory.h"
@@ -62,7 +63,8 @@ static void add_face(found *f, int64_t n, const int32_t *corner)
 static void take_face(const brc_domain *d, int64_t e, worker *w, int64_t n, found *f)
 {
     const int64_t n_corners = d->vertex_start[e + 1] - d->vertex_start[e];
-    for (int64_t k = 0; k < n; ++k) w->out[k] = w->same[w->out[k] - d->vertex_start[e]];
+    for (int64_t k = 0; k < n; ++k)
+        w->out[k] = w->same[w->out[k] - d->vertex_start[e]];
     n = without_repeats(n, w->out);
     add_face(f, n, w->out);
     for (int64_t k = 0; k < n; ++k) {
@@ -72,8 +74,8 @@ static void take_face(const brc_domain *d, int64_t e, worker *w, int64_t n, foun
     }
 }
 
-/* The faces that are missing, from edges that are gone along in one direction only. As many of these end in a corner as begin there, so every way along them
- * comes back. */
+/* The faces that are missing, from edges that are gone along in one direction only. As many of these end in a corner as
+ * begin there, so every way along them comes back. */
 static void close_cell(int64_t n_corners, worker *w, found *f)
 {
     for (int64_t begin = 0; begin < n_corners; ++begin)
@@ -82,7 +84,8 @@ static void close_cell(int64_t n_corners, worker *w, found *f)
                 int64_t n = 0, at = begin;
                 do {
                     int64_t next = 0;
-                    while (next < n_corners && w->balance[next * n_corners + at] <= 0) ++next;
+                    while (next < n_corners && w->balance[next * n_corners + at] <= 0)
+                        ++next;
                     if (next == n_corners || n == w->most) return;
                     --w->balance[next * n_corners + at];
                     ++w->balance[at * n_corners + next];
@@ -99,12 +102,14 @@ static void outline_cell(const brc_domain *d, int64_t e, worker *w, found *f)
     const double near = near_square(d, e);
     for (int64_t k = 0; k < n; ++k) {
         int64_t m = 0;
-        while (m < k && (w->same[m] != m || distance_square(d, first + m, first + k) > near)) ++m;
+        while (m < k && (w->same[m] != m || distance_square(d, first + m, first + k) > near))
+            ++m;
         w->same[k] = (int32_t)m;
     }
     memset(w->balance, 0, (size_t)(n * n));
     f->length = f->n_faces = f->n_corners = 0;
-    for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) take_face(d, e, w, brc_outline(d, e, h, w->room, w->out), f);
+    for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h)
+        take_face(d, e, w, brc_outline(d, e, h, w->room, w->out), f);
     for (int64_t face = d->free_start[e]; face < d->free_start[e + 1]; ++face) {
         const int64_t corners = d->free_polygon_start[face + 1] - d->free_polygon_start[face];
         memcpy(w->out, d->free_polygon + d->free_polygon_start[face], (size_t)corners * sizeof *w->out);
@@ -113,16 +118,19 @@ static void outline_cell(const brc_domain *d, int64_t e, worker *w, found *f)
     close_cell(n, w, f);
 }
 
-/* Room for the faces of a cell: a closed one has at most 6 n - 12 corners of faces and 2 n - 4 faces; and those that are of no use. */
+/* Room for the faces of a cell: a closed one has at most 6 n - 12 corners of faces and 2 n - 4 faces; and those that
+ * are of no use. */
 static int64_t room_for(const brc_domain *d, int64_t e)
 {
-    return 9 * (d->vertex_start[e + 1] - d->vertex_start[e]) + d->row_start[e + 1] - d->row_start[e] + d->free_start[e + 1] - d->free_start[e];
+    return 9 * (d->vertex_start[e + 1] - d->vertex_start[e]) + d->row_start[e + 1] - d->row_start[e] +
+           d->free_start[e + 1] - d->free_start[e];
 }
 
 static int64_t most_corners(const brc_domain *d)
 {
     int64_t most = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e) most = d->vertex_start[e + 1] - d->vertex_start[e] > most ? d->vertex_start[e + 1] - d->vertex_start[e] : most;
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        most = d->vertex_start[e + 1] - d->vertex_start[e] > most ? d->vertex_start[e + 1] - d->vertex_start[e] : most;
     return most;
 }
 
@@ -130,7 +138,8 @@ static void free_workers(int n, worker *w)
 {
     for (int k = 0; w && k < n; ++k) {
         void *const block[] = {w[k].room, w[k].out, w[k].same, w[k].balance};
-        for (size_t m = 0; m < sizeof block / sizeof *block; ++m) brc_memory_free(block[m]);
+        for (size_t m = 0; m < sizeof block / sizeof *block; ++m)
+            brc_memory_free(block[m]);
     }
     brc_memory_free(w);
 }
@@ -150,22 +159,27 @@ static brc_status make_workers(brc_context *context, int n, int64_t most, worker
 }
 
 /* Append the faces of n cells from element `first` on; *room: of corner_start and of corner, which grow. */
-static brc_status append(brc_context *context, const found *f, int64_t first, int64_t n, int64_t room[2], brc_tessellation *t)
+static brc_status append(brc_context *context, const found *f, int64_t first, int64_t n, int64_t room[2],
+                         brc_tessellation *t)
 {
     int64_t faces = t->outline_start[first], corners = 0;
-    for (int64_t k = 0; k < n; ++k) t->outline_start[first + k + 1] = t->outline_start[first + k] + f[k].n_faces;
-    for (int64_t k = 0; k < n; ++k) corners += f[k].n_corners;
+    for (int64_t k = 0; k < n; ++k)
+        t->outline_start[first + k + 1] = t->outline_start[first + k] + f[k].n_faces;
+    for (int64_t k = 0; k < n; ++k)
+        corners += f[k].n_corners;
     const int64_t need[2] = {t->outline_start[first + n] + 1, t->corner_start[faces] + corners};
     for (int k = 0; k < 2; ++k) {
         if (need[k] <= room[k]) continue;
         room[k] = need[k] + need[k] / 4;
         void **block = k == 0 ? (void **)&t->corner_start : (void **)&t->corner;
-        BRC_TRY(brc_memory_resize(context, block, room[k], k == 0 ? sizeof *t->corner_start : sizeof *t->corner, "faces of cells"));
+        BRC_TRY(brc_memory_resize(context, block, room[k], k == 0 ? sizeof *t->corner_start : sizeof *t->corner,
+                                  "faces of cells"));
     }
     for (int64_t k = 0; k < n; ++k)
         for (int64_t at = 0; at < f[k].length; at += f[k].stream[at] + 1, ++faces) {
             const int64_t to = t->corner_start[faces], m = f[k].stream[at];
-            for (int64_t c = 0; c < m; ++c) t->corner[to + c] = (int32_t)(t->domain->vertex_start[first + k] + f[k].stream[at + 1 + c]);
+            for (int64_t c = 0; c < m; ++c)
+                t->corner[to + c] = (int32_t)(t->domain->vertex_start[first + k] + f[k].stream[at + 1 + c]);
             t->corner_start[faces + 1] = to + m;
         }
     return BRC_OK;
@@ -186,7 +200,8 @@ static brc_status outline_all(brc_context *context, int n_threads, brc_tessellat
     for (int64_t first = 0; first < d->n_elements; first += BLOCK) {
         const int64_t n = d->n_elements - first < BLOCK ? d->n_elements - first : BLOCK;
         int64_t length = 0;
-        for (int64_t k = 0; k < n; ++k) length += room_for(d, first + k);
+        for (int64_t k = 0; k < n; ++k)
+            length += room_for(d, first + k);
         if (length > stream_room) {
             brc_memory_free(stream);
             stream = NULL;
@@ -194,9 +209,11 @@ static brc_status outline_all(brc_context *context, int n_threads, brc_tessellat
             stream_room = length;
         }
         length = 0;
-        for (int64_t k = 0; k < n; length += f[k++].room) f[k] = (found){.stream = stream + length, .room = room_for(d, first + k)};
+        for (int64_t k = 0; k < n; length += f[k++].room)
+            f[k] = (found){.stream = stream + length, .room = room_for(d, first + k)};
 #pragma omp parallel for schedule(dynamic, 32) num_threads(n_threads)
-        for (int64_t k = 0; k < n; ++k) outline_cell(d, first + k, workers + omp_get_thread_num(), f + k);
+        for (int64_t k = 0; k < n; ++k)
+            outline_cell(d, first + k, workers + omp_get_thread_num(), f + k);
         BRC_TRY_OR(cleanup, append(context, f, first, n, room, t));
     }
 cleanup:
@@ -217,7 +234,8 @@ typedef struct side {
 static side side_of(const brc_tessellation *t, int64_t h)
 {
     const brc_domain *d = t->domain;
-    const int64_t e = d->neighbour[d->twin[h]], f = t->outline_start[e] + h - d->row_start[e], first = t->corner_start[f];
+    const int64_t e = d->neighbour[d->twin[h]], f = t->outline_start[e] + h - d->row_start[e],
+                  first = t->corner_start[f];
     return (side){t->corner_start[f + 1] - first, t->corner + first};
 }
 
@@ -257,7 +275,8 @@ brc_status brc_tessellation_create(brc_context *context, const brc_domain *domai
     BRC_TRY_OR(cleanup, outline_all(context, threads, &t));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &t.turn, domain->n_bonds, "faces of cells"));
 #pragma omp parallel for schedule(static) num_threads(threads)
-    for (int64_t b = 0; b < domain->n_bonds; ++b) t.turn[b] = turn_of(&t, b);
+    for (int64_t b = 0; b < domain->n_bonds; ++b)
+        t.turn[b] = turn_of(&t, b);
     *out = t;
     return BRC_OK;
 cleanup:
@@ -268,15 +287,18 @@ cleanup:
 /* The first of the corners that are one with v, with halved paths. */
 static int32_t root_of(int32_t *parent, int32_t v)
 {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    while (parent[v] != v)
+        v = parent[v] = parent[parent[v]];
     return v;
 }
 
 static void unite(int32_t *parent, int32_t v, int32_t w)
 {
     const int32_t a = root_of(parent, v), b = root_of(parent, w);
-    if (a < b) parent[b] = a;
-    else parent[a] = b;
+    if (a < b)
+        parent[b] = a;
+    else
+        parent[a] = b;
 }
 
 /* Join the corners of all whole faces: parent[v] of corners, -1 of those that no face has. */
@@ -284,14 +306,16 @@ static void unite_all(const brc_tessellation *t, const uint8_t *whole, int32_t *
 {
     const brc_domain *d = t->domain;
     memset(parent, -1, (size_t)d->vertex_start[d->n_elements] * sizeof *parent);
-    for (int64_t k = 0; k < t->corner_start[t->outline_start[d->n_elements]]; ++k) parent[t->corner[k]] = t->corner[k];
+    for (int64_t k = 0; k < t->corner_start[t->outline_start[d->n_elements]]; ++k)
+        parent[t->corner[k]] = t->corner[k];
     for (int64_t b = 0; b < d->n_bonds; ++b) {
         const int64_t h = d->bond_half_edge[b];
         if (whole && !whole[h]) continue;
         const side one = side_of(t, h), other = side_of(t, d->twin[h]);
         const double near = near_square(d, d->neighbour[d->twin[h]]);
         for (int64_t k = 0; k < one.n; ++k) {
-            const int64_t m = t->turn[b] >= 0 ? (t->turn[b] - k + one.n) % one.n : nearest(d, one.corner[k], &other, near);
+            const int64_t m =
+                t->turn[b] >= 0 ? (t->turn[b] - k + one.n) % one.n : nearest(d, one.corner[k], &other, near);
             if (m >= 0) unite(parent, one.corner[k], other.corner[m]);
         }
     }
@@ -326,10 +350,12 @@ brc_status brc_tessellation_join(brc_context *context, const uint8_t *whole, int
         const int64_t faces = brc_tessellation_faces(t, e, mine, mine + 4 * most);
         t->face_start[e + 1] = faces;
         t->loop_start[e + 1] = 0;
-        for (int64_t f = 0; f < faces; ++f) t->loop_start[e + 1] += mine[f];
+        for (int64_t f = 0; f < faces; ++f)
+            t->loop_start[e + 1] += mine[f];
     }
     for (int k = 0; k < 3; ++k)
-        for (int64_t e = 0; e < n; ++e) (*start[k])[e + 1] += (*start[k])[e];
+        for (int64_t e = 0; e < n; ++e)
+            (*start[k])[e + 1] += (*start[k])[e];
     t->plain = t->point_start[n] == n_used && t->loop_start[n] == t->corner_start[t->outline_start[n]];
 cleanup:
     brc_memory_free(parent);
@@ -342,7 +368,8 @@ int64_t brc_tessellation_points(const brc_tessellation *t, int64_t e, int32_t *o
     int64_t n = 0;
     for (int64_t v = t->domain->vertex_start[e]; v < t->domain->vertex_start[e + 1]; ++v) {
         int64_t k = 0;
-        while (k < n && out[k] != t->point[v]) ++k;
+        while (k < n && out[k] != t->point[v])
+            ++k;
         if (k == n && t->point[v] >= 0) out[n++] = t->point[v];
     }
     return n;
@@ -353,7 +380,8 @@ int64_t brc_tessellation_faces(const brc_tessellation *t, int64_t e, int32_t *n_
     int64_t faces = 0, at = 0;
     for (int64_t f = t->outline_start[e]; f < t->outline_start[e + 1]; ++f) {
         const int64_t n = t->corner_start[f + 1] - t->corner_start[f];
-        for (int64_t k = 0; k < n; ++k) points[at + k] = t->point[t->corner[t->corner_start[f] + k]];
+        for (int64_t k = 0; k < n; ++k)
+            points[at + k] = t->point[t->corner[t->corner_start[f] + k]];
         const int64_t kept = n > 0 ? without_repeats(n, points + at) : 0;
         if (kept == 0) continue;
         n_corners[faces++] = (int32_t)kept;
@@ -374,7 +402,9 @@ void brc_tessellation_most(const brc_tessellation *t, int64_t *points, int64_t *
 
 void brc_tessellation_free(brc_tessellation *t)
 {
-    void *const block[] = {t->outline_start, t->corner_start, t->corner, t->turn, t->point, t->point_start, t->face_start, t->loop_start};
-    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
+    void *const block[] = {t->outline_start, t->corner_start, t->corner,     t->turn,
+                           t->point,         t->point_start,  t->face_start, t->loop_start};
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
+        brc_memory_free(block[k]);
     *t = (brc_tessellation){.domain = NULL};
 }

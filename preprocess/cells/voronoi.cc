@@ -17,7 +17,8 @@ extern "C" {
 #include <vector>
 #include <voro++/voro++.hh>
 
-namespace {
+namespace
+{
 
 /* Voro++ ends the program when one search block holds 2^24 points; far fewer than that is already useless. */
 constexpr int MOST_IN_BLOCK = 10000;
@@ -25,7 +26,9 @@ constexpr int MOST_IN_BLOCK = 10000;
  * reach the finished cell cuts it afterwards. */
 constexpr double FIRST_REACH = 2.0;
 
-template <class Cell> bool cut_by_plane(const brc_walls &walls, Cell &cell, int32_t k, const double x[3], double scale, double low, double high)
+template <class Cell>
+bool cut_by_plane(const brc_walls &walls, Cell &cell, int32_t k, const double x[3], double scale, double low,
+                  double high)
 {
     const double depth = brc_walls_depth(&walls, k, x);
     if (depth < low || depth >= high) return true;
@@ -47,17 +50,26 @@ bool cut_by_planes(const brc_walls &walls, Cell &cell, const double x[3], double
     return true;
 }
 
-class planes final : public voro::wall {
-public:
-    planes(const brc_walls &walls, double scale, double reach) : walls_(walls), scale_(scale), reach_(reach) {}
-    bool point_inside(double, double, double) override { return true; } /* checked before */
-    bool cut_cell(voro::voronoicell &cell, double x, double y, double z) override { return cut(cell, x, y, z); }
+class planes final : public voro::wall
+{
+  public:
+    planes(const brc_walls &walls, double scale, double reach) : walls_(walls), scale_(scale), reach_(reach)
+    {
+    }
+    bool point_inside(double, double, double) override
+    {
+        return true;
+    } /* checked before */
+    bool cut_cell(voro::voronoicell &cell, double x, double y, double z) override
+    {
+        return cut(cell, x, y, z);
+    }
     bool cut_cell(voro::voronoicell_neighbor &cell, double x, double y, double z) override
     {
         return cut(cell, x, y, z);
     }
 
-private:
+  private:
     template <class Cell> bool cut(Cell &cell, double x, double y, double z)
     {
         const double position[3] = {x / scale_, y / scale_, z / scale_};
@@ -108,7 +120,8 @@ struct brc_voronoi_worker {
     }
 };
 
-/* Put a point into the container; refuse what Voro++ would lose or end the program over. Ghosts are counted on after the n seeds. */
+/* Put a point into the container; refuse what Voro++ would lose or end the program over. Ghosts are counted on after
+ * the n seeds. */
 static brc_status put(brc_context *context, brc_voronoi &v, int64_t id, int64_t n, const double *x)
 {
     voro::container &c = *v.container;
@@ -123,7 +136,9 @@ static brc_status put(brc_context *context, brc_voronoi &v, int64_t id, int64_t 
         inside = inside && index[k] >= 0 && index[k] < blocks[k];
     }
     const int block = index[0] + c.nx * (index[1] + c.ny * index[2]);
-    if (!inside && id >= n) return BRC_FAIL(context, BRC_INTERNAL, "a mirror image at (%g, %g, %g) m lies outside the box of the search", x[0], x[1], x[2]);
+    if (!inside && id >= n)
+        return BRC_FAIL(context, BRC_INTERNAL, "a mirror image at (%g, %g, %g) m lies outside the box of the search",
+                        x[0], x[1], x[2]);
     if (!inside)
         return BRC_FAIL(context, BRC_BAD_INPUT, "seed %lld at (%g, %g, %g) m touches the outline of the shape",
                         (long long)id, x[0], x[1], x[2]);
@@ -135,8 +150,10 @@ static brc_status put(brc_context *context, brc_voronoi &v, int64_t id, int64_t 
     for (int q = 0; q < crowd; ++q) { /* equal points share a block */
         const double *other = c.p[block] + 3 * q;
         if (other[0] == y[0] && other[1] == y[1] && other[2] == y[2])
-            return BRC_FAIL(context, BRC_BAD_INPUT, "%s %lld and %lld (counted from 0) are the same point (%g, %g, %g) m; remove one of them", id < n ? "seeds" : "points (mirror images come last)",
-                            (long long)c.id[block][q], (long long)id, x[0], x[1], x[2]);
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "%s %lld and %lld (counted from 0) are the same point (%g, %g, %g) m; remove one of them",
+                            id < n ? "seeds" : "points (mirror images come last)", (long long)c.id[block][q],
+                            (long long)id, x[0], x[1], x[2]);
     }
     c.put(static_cast<int>(id), y[0], y[1], y[2]);
     if (c.co[block] != crowd + 1 || c.id[block][crowd] != id)
@@ -162,7 +179,8 @@ static brc_status fill_container(brc_context *context, brc_voronoi &v, int64_t n
                             x[0], x[1], x[2]);
         BRC_TRY(put(context, v, e, n, x));
     }
-    for (int64_t g = 0; g < v.walls->n_ghosts; ++g) BRC_TRY(put(context, v, n + g, n, v.walls->ghost + 3 * g));
+    for (int64_t g = 0; g < v.walls->n_ghosts; ++g)
+        BRC_TRY(put(context, v, n + g, n, v.walls->ghost + 3 * g));
     return BRC_OK;
 }
 
@@ -171,7 +189,8 @@ extern "C" brc_status brc_voronoi_create(brc_context *context, const double *pos
 {
     *out = nullptr;
     if (n < 1 || n + walls->n_ghosts > INT32_MAX)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%lld seeds: there must be at least 1 and fewer than 2^31 with their mirror images",
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "%lld seeds: there must be at least 1 and fewer than 2^31 with their mirror images",
                         (long long)n);
     try {
         std::unique_ptr<brc_voronoi> v(new brc_voronoi);
@@ -256,7 +275,8 @@ static void read_faces(brc_voronoi_worker &w)
             w.face_start.push_back(static_cast<int32_t>(w.face_vertex.size()));
         }
     for (int i = 0; i < c.p; ++i)
-        for (int j = 0; j < c.nu[i]; ++j) c.ed[i][j] = -1 - c.ed[i][j];
+        for (int j = 0; j < c.nu[i]; ++j)
+            c.ed[i][j] = -1 - c.ed[i][j];
 }
 
 extern "C" brc_status brc_voronoi_cell(brc_voronoi_worker *worker, int64_t e, brc_polyhedron *cell)
@@ -279,7 +299,8 @@ extern "C" brc_status brc_voronoi_cell(brc_voronoi_worker *worker, int64_t e, br
         }
         const double unscale = 0.5 / v.scale;
         w.vertex.resize(3 * static_cast<size_t>(w.cell.p));
-        for (size_t d = 0; d < w.vertex.size(); ++d) w.vertex[d] = w.cell.pts[d] * unscale;
+        for (size_t d = 0; d < w.vertex.size(); ++d)
+            w.vertex[d] = w.cell.pts[d] * unscale;
         read_faces(w);
     } catch (const std::bad_alloc &) {
         return BRC_NO_MEMORY;

@@ -15,7 +15,8 @@ typedef struct brc_polyhedron {
     const double *vertex;       /* [n_vertices][3] relative to the seed [m] */
     const int32_t *face_start;  /* [n_faces + 1] */
     const int32_t *face_vertex; /* [face_start[n_faces]] indices into vertex */
-    const int32_t *face_other;  /* [n_faces] the neighbour's index; n + g: ghost g; below 0: -1 - side of the box, BRC_PLANE(k) */
+    const int32_t
+        *face_other; /* [n_faces] the neighbour's index; n + g: ghost g; below 0: -1 - side of the box, BRC_PLANE(k) */
 } brc_polyhedron;
 
 /* How a face on plane k of the walls is marked in face_other, and back. */
@@ -26,9 +27,9 @@ typedef struct brc_voronoi brc_voronoi;
 /* What one thread needs to compute cells. */
 typedef struct brc_voronoi_worker brc_voronoi_worker;
 
-/* position: [n][3], borrowed, as are the walls with their ghosts, until brc_voronoi_free. spacing: typical distance of points [m].
- * BRC_BAD_INPUT when a point is not finite, outside the walls or equal to another (Voro++ would lose it silently), or
- * when the points are so crowded that Voro++ would give up by ending the program; BRC_NO_MEMORY. */
+/* position: [n][3], borrowed, as are the walls with their ghosts, until brc_voronoi_free. spacing: typical distance of
+ * points [m]. BRC_BAD_INPUT when a point is not finite, outside the walls or equal to another (Voro++ would lose it
+ * silently), or when the points are so crowded that Voro++ would give up by ending the program; BRC_NO_MEMORY. */
 brc_status brc_voronoi_create(brc_context *context, const double *position, int64_t n, const brc_walls *walls,
                               double spacing, brc_voronoi **out);
 void brc_voronoi_free(brc_voronoi **voronoi);

@@ -77,8 +77,10 @@ static bool facet_area(const brc_walls *unit, int32_t k, double half, double *ar
     double e1[3] = {-t[small] * t[0], -t[small] * t[1], -t[small] * t[2]}, e2[3];
     e1[small] += 1.0;
     const double length = sqrt(e1[0] * e1[0] + e1[1] * e1[1] + e1[2] * e1[2]);
-    for (int d = 0; d < 3; ++d) e1[d] /= length;
-    for (int d = 0; d < 3; ++d) e2[d] = t[(d + 1) % 3] * e1[(d + 2) % 3] - t[(d + 2) % 3] * e1[(d + 1) % 3];
+    for (int d = 0; d < 3; ++d)
+        e1[d] /= length;
+    for (int d = 0; d < 3; ++d)
+        e2[d] = t[(d + 1) % 3] * e1[(d + 2) % 3] - t[(d + 2) % 3] * e1[(d + 1) % 3];
     /* the plane of another normal at angle g passes the touching point at the distance tan(g / 2) */
     const double widest = 2.0 * atan(half * sqrt(2.0));
     const double centre[3] = {unit->centre[0] + t[0], unit->centre[1] + t[1], unit->centre[2] + t[2]};
@@ -109,14 +111,16 @@ static bool facet_area(const brc_walls *unit, int32_t k, double half, double *ar
 static void place_sphere(brc_walls *walls, double radius)
 {
     const int32_t n = walls->n_planes;
-    for (int32_t k = 0; k < n; ++k) fibonacci_normal(k, n, walls->normal + 3 * (int64_t)k);
+    for (int32_t k = 0; k < n; ++k)
+        fibonacci_normal(k, n, walls->normal + 3 * (int64_t)k);
     /* volume at distance 1 from the centre, as the sum of pyramids; it grows with the cube of the distance */
     walls->offset = 1.0;
     double volume = 0.0;
     const double half_width = 1.5 * sqrt(4.0 * PI / n);
     for (int32_t k = 0; k < n; ++k) {
         double area = 0.0, half = half_width;
-        while (!facet_area(walls, k, half, &area) && half < 8.0) half *= 2.0;
+        while (!facet_area(walls, k, half, &area) && half < 8.0)
+            half *= 2.0;
         volume += area / 3.0;
     }
     walls->offset = radius * cbrt(4.0 / 3.0 * PI / volume);
@@ -153,7 +157,8 @@ static void place_prism(brc_walls *walls, const brc_shape *shape)
 static brc_status place_round(brc_context *context, const brc_shape *shape, double spacing, brc_walls *walls)
 {
     walls->round = shape->kind;
-    for (int k = 0; k < 3; ++k) walls->centre[k] = shape->origin[k];
+    for (int k = 0; k < 3; ++k)
+        walls->centre[k] = shape->origin[k];
     walls->plane_wall = brc_solid_n_walls(walls->solid) - 1; /* the last, after the ends */
     const double n = brc_walls_n_planes(shape, spacing);
     if (n > 1e9)
@@ -162,12 +167,15 @@ static brc_status place_round(brc_context *context, const brc_shape *shape, doub
                         spacing, fmax(shape->radius, shape->radius2), n);
     BRC_TRY(BRC_ALLOCATE(context, &walls->normal, 3 * (int64_t)n, "planes of the curved wall"));
     walls->n_planes = (int32_t)n;
-    if (shape->kind == BRC_SHAPE_SPHERE) place_sphere(walls, shape->radius);
-    else place_prism(walls, shape);
+    if (shape->kind == BRC_SHAPE_SPHERE)
+        place_sphere(walls, shape->radius);
+    else
+        place_prism(walls, shape);
     return BRC_OK;
 }
 
-/* Planes with the whole solid on one side. They become sides of the box, but not where there are ghosts: the box must hold those too. */
+/* Planes with the whole solid on one side. They become sides of the box, but not where there are ghosts: the box must
+ * hold those too. */
 static brc_status place_hull(brc_context *context, brc_walls *walls)
 {
     const int32_t n = brc_solid_n_hull_planes(walls->solid);
@@ -189,8 +197,10 @@ static brc_status place_hull(brc_context *context, brc_walls *walls)
             known = known || (cosine > 1.0 - 1e-14 && fabs(plane[3] - other[3]) < 1e-7 * size);
         }
         if (side >= 0) walls->flat_side[side] = true;
-        if (side >= 0 && !walls->mirrored) walls->side_wall[side] = wall;
-        else if (!known) walls->flat_wall[walls->n_flats++] = wall;
+        if (side >= 0 && !walls->mirrored)
+            walls->side_wall[side] = wall;
+        else if (!known)
+            walls->flat_wall[walls->n_flats++] = wall;
     }
     return BRC_OK;
 }
@@ -200,7 +210,8 @@ brc_status brc_walls_create(brc_context *context, const brc_solid *solid, double
     memset(walls, 0, sizeof *walls);
     walls->solid = solid;
     walls->round = BRC_SHAPE_BOX;
-    for (int side = 0; side < 6; ++side) walls->side_wall[side] = -1;
+    for (int side = 0; side < 6; ++side)
+        walls->side_wall[side] = -1;
     brc_solid_bounds(solid, walls->box);
     const brc_shape *shape = brc_solid_shape(solid);
     const bool planes = brc_walls_n_planes(shape, spacing) > 0.0;
@@ -208,7 +219,8 @@ brc_status brc_walls_create(brc_context *context, const brc_solid *solid, double
     BRC_TRY(place_hull(context, walls));
     if (planes) {
         /* corners of the polyhedron stand out of the curved wall by at most a few percent */
-        const double margin = 0.25 * (shape->kind == BRC_SHAPE_CONE ? fmax(shape->radius, shape->radius2) : shape->radius);
+        const double margin =
+            0.25 * (shape->kind == BRC_SHAPE_CONE ? fmax(shape->radius, shape->radius2) : shape->radius);
         for (int side = 0; side < 6; ++side)
             if (walls->side_wall[side] < 0) walls->box[side % 2][side / 2] += (side % 2 ? 1.0 : -1.0) * margin;
         return place_round(context, shape, spacing, walls);
@@ -222,15 +234,18 @@ void brc_walls_set_reach(brc_walls *walls, double reach)
     brc_solid_bounds(walls->solid, bounds);
     walls->reach = reach;
     for (int side = 0; side < 6; ++side)
-        if (walls->side_wall[side] < 0) walls->box[side % 2][side / 2] = bounds[side % 2][side / 2] + (side % 2 ? 1.5 : -1.5) * reach;
+        if (walls->side_wall[side] < 0)
+            walls->box[side % 2][side / 2] = bounds[side % 2][side / 2] + (side % 2 ? 1.5 : -1.5) * reach;
 }
 
 void brc_walls_free(brc_walls *walls)
 {
     if (!walls) return;
-    void *const block[] = {walls->normal, walls->flat, walls->flat_wall, walls->ghost, walls->ghost_wall, walls->ghost_owner, walls->ghost_foot,
-                           walls->ghost_rough, walls->ghost_flat};
-    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
+    void *const block[] = {walls->normal,     walls->flat,        walls->flat_wall,
+                           walls->ghost,      walls->ghost_wall,  walls->ghost_owner,
+                           walls->ghost_foot, walls->ghost_rough, walls->ghost_flat};
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
+        brc_memory_free(block[k]);
     memset(walls, 0, sizeof *walls);
 }
 
@@ -268,7 +283,8 @@ void brc_walls_near(const brc_walls *walls, const double x[3], double reach, int
     const double radius = sqrt(square);
     /* a cone's planes widen along the axis; across the axis they are nearer than they are along their normal */
     const double widen = walls->slope != 0.0 ? walls->slope * y[walls->axis] : 0.0;
-    const double limit = walls->slope != 0.0 ? widen - reach * sqrt(1.0 + walls->slope * walls->slope) : walls->offset - reach;
+    const double limit =
+        walls->slope != 0.0 ? widen - reach * sqrt(1.0 + walls->slope * walls->slope) : walls->offset - reach;
     if (limit - radius >= 0.0) return;
     /* plane k is nearer than reach where the angle between its normal and x is below alpha */
     const double cosine = radius > 0.0 ? limit / radius : -1.0;
@@ -297,7 +313,8 @@ void brc_walls_keep_off(const brc_walls *walls, double distance, double x[3])
     const int32_t found = brc_solid_feet(walls->solid, x, distance, feet, MOST_FEET);
     double y[3] = {x[0], x[1], x[2]};
     for (int32_t f = 0; f < found && f < MOST_FEET; ++f)
-        for (int d = 0; d < 3 && !feet[f].hull; ++d) y[d] -= (distance - feet[f].depth) * feet[f].normal[d];
+        for (int d = 0; d < 3 && !feet[f].hull; ++d)
+            y[d] -= (distance - feet[f].depth) * feet[f].normal[d];
     if (found > 0 && brc_walls_inside(walls, y, 0.0)) memcpy(x, y, sizeof y);
 }
 

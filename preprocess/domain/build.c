@@ -1,5 +1,5 @@
-/* The way from a request to a domain, in the order of the steps: check, solid and walls, seeds, relaxation, cells and half-edges (or spheres
- * and beams), pose, cracks, regions, grains, sets, quality. */
+/* The way from a request to a domain, in the order of the steps: check, solid and walls, seeds, relaxation, cells and
+ * half-edges (or spheres and beams), pose, cracks, regions, grains, sets, quality. */
 #include "build.h"
 
 #include "../../host/base/log.h"
@@ -67,9 +67,12 @@ static brc_status check_request(brc_context *context, const brc_build_request *r
     if (request->n_threads < 0)
         return BRC_FAIL(context, BRC_BAD_INPUT, "%d threads, must be 0 (default) or more", request->n_threads);
     if (!(request->beams >= 0.0 && isfinite(request->beams)))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "beams: the coordination number is %g, must be 0 (cells) or more", request->beams);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "beams: the coordination number is %g, must be 0 (cells) or more",
+                        request->beams);
     if (request->beams > 0.0 && request->fill.kind == BRC_FILL_NOISY_GRID)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "beams join spheres, and a noisy grid has none: fill with a packing, or with points that have radii");
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "beams join spheres, and a noisy grid has none: fill with a packing, or with points that have radii");
     if (request->beams > 0.0 && request->fill.lloyd_sweeps > 0)
         return BRC_FAIL(context, BRC_BAD_INPUT, "fill: Lloyd sweeps even out cells; spheres have none, leave them out");
     return brc_cracks_check(context, request->n_cracks, request->cracks);
@@ -130,8 +133,9 @@ static brc_status check_points(brc_context *context, const work *w)
     if (outside == 0) return BRC_OK;
     const double *x = w->position + 3 * first;
     return BRC_FAIL(context, BRC_BAD_INPUT,
-                    "fill: %lld of %lld points of %s lie outside the shape, the first (point %lld) at (%g, %g, %g) m; check scale, origin and size", (long long)outside,
-                    (long long)w->n, w->request->fill.file, (long long)first + 1, x[0], x[1], x[2]);
+                    "fill: %lld of %lld points of %s lie outside the shape, the first (point %lld) at (%g, %g, %g) m; "
+                    "check scale, origin and size",
+                    (long long)outside, (long long)w->n, w->request->fill.file, (long long)first + 1, x[0], x[1], x[2]);
 }
 
 static brc_status place_seeds(brc_context *context, work *w, brc_quality *quality)
@@ -140,7 +144,8 @@ static brc_status place_seeds(brc_context *context, work *w, brc_quality *qualit
     brc_packing packing;
     quality->n_seeds_requested = fill->n_elements > 0 ? fill->n_elements : w->n;
     switch (fill->kind) {
-    case BRC_FILL_NOISY_GRID: return brc_seeds_draw(context, &w->grid, fill, &w->walls, &w->position, &w->n, &quality->n_seeds_duplicate);
+    case BRC_FILL_NOISY_GRID:
+        return brc_seeds_draw(context, &w->grid, fill, &w->walls, &w->position, &w->n, &quality->n_seeds_duplicate);
     case BRC_FILL_PACKING:
         BRC_TRY((fill->cut ? brc_packing_cut : brc_packing_make)(context, w->solid, fill, w->n_threads, &packing));
         w->position = packing.position;
@@ -163,8 +168,10 @@ static brc_crack turned_back(const brc_crack *crack, const brc_build_request *re
     brc_pose_matrix(request->rotation, m);
     for (int i = 0; i < 3; ++i) {
         out.point[i] = origin[i];
-        for (int k = 0; k < 3; ++k) out.point[i] += m[k][i] * (crack->point[k] - request->translation[k] - origin[k]);
-        for (int v = 0; v < 3; ++v) turned[v][i] = m[0][i] * vector[v][0] + m[1][i] * vector[v][1] + m[2][i] * vector[v][2];
+        for (int k = 0; k < 3; ++k)
+            out.point[i] += m[k][i] * (crack->point[k] - request->translation[k] - origin[k]);
+        for (int v = 0; v < 3; ++v)
+            turned[v][i] = m[0][i] * vector[v][0] + m[1][i] * vector[v][1] + m[2][i] * vector[v][2];
     }
     return out;
 }
@@ -176,13 +183,16 @@ static brc_status mirror_at_cracks(brc_context *context, work *w)
     brc_crack *crack = NULL;
     brc_status status = BRC_OK;
     bool flat = false;
-    for (int32_t k = 0; k < request->n_cracks; ++k) flat = flat || request->cracks[k].flat;
+    for (int32_t k = 0; k < request->n_cracks; ++k)
+        flat = flat || request->cracks[k].flat;
     if (!flat) return BRC_OK;
     const int64_t room = 2 * w->n, before = w->n;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &crack, request->n_cracks, "cracks"));
-    for (int32_t k = 0; k < request->n_cracks; ++k) crack[k] = turned_back(&request->cracks[k], request);
+    for (int32_t k = 0; k < request->n_cracks; ++k)
+        crack[k] = turned_back(&request->cracks[k], request);
     BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&w->position, 3 * room, sizeof(double), "seeds at cracks"));
-    BRC_TRY_OR(cleanup, brc_cracks_mirror_seeds(context, request->n_cracks, crack, w->spacing, w->position, &w->n, room));
+    BRC_TRY_OR(cleanup,
+               brc_cracks_mirror_seeds(context, request->n_cracks, crack, w->spacing, w->position, &w->n, room));
     int64_t to = 0;
     for (int64_t e = 0; e < w->n; ++e) {
         if (!brc_walls_inside(&w->walls, w->position + 3 * e, 1e-6 * w->spacing)) continue;
@@ -199,7 +209,8 @@ static brc_status name_walls(brc_context *context, const brc_solid *solid, brc_d
 {
     const int32_t n = brc_solid_n_walls(solid);
     BRC_TRY(BRC_ALLOCATE(context, &domain->wall_name, n, "wall names"));
-    for (int32_t w = 0; w < n; ++w) BRC_TRY(brc_domain_add_wall(context, domain, brc_solid_wall_name(solid, w)));
+    for (int32_t w = 0; w < n; ++w)
+        BRC_TRY(brc_domain_add_wall(context, domain, brc_solid_wall_name(solid, w)));
     return BRC_OK;
 }
 
@@ -214,12 +225,14 @@ static brc_status check_volume(brc_context *context, const work *w, const brc_do
                         q->volume_cells, q->volume_shape);
     if (!(fabs(q->volume_error) < WORST_VOLUME_ERROR))
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "shape: cells %.3g m wide fill %.2f %% more or less than the shape of %.6g m^3 has: they are too coarse for its round or thin places; ask for more "
+                        "shape: cells %.3g m wide fill %.2f %% more or less than the shape of %.6g m^3 has: they are "
+                        "too coarse for its round or thin places; ask for more "
                         "elements (the error falls with the square of the cell size)",
                         w->spacing, 100.0 * q->volume_error, q->volume_shape);
     if (fabs(q->volume_error) > DOUBTFUL_VOLUME_ERROR)
         brc_log(context, BRC_LOG_WARNING,
-                "shape: cells %.3g m wide fill %.2f %% more or less than the shape has; more elements bring them nearer (the error falls with the square of the cell size)",
+                "shape: cells %.3g m wide fill %.2f %% more or less than the shape has; more elements bring them "
+                "nearer (the error falls with the square of the cell size)",
                 w->spacing, 100.0 * q->volume_error);
     return BRC_OK;
 }
@@ -239,12 +252,14 @@ static brc_status build_cells(brc_context *context, work *w, brc_domain *domain)
         BRC_TRY_OR(cleanup, brc_cells_relax(context, w->position, w->n, &w->walls, w->spacing, w->n_threads, what));
     }
     if (request->fill.kind != BRC_FILL_POINTS) /* those are as given */
-        BRC_TRY_OR(cleanup, brc_edges_place(context, &w->walls, w->spacing, request->fill.spread, request->fill.seed, w->n_threads, &w->position, &w->n));
+        BRC_TRY_OR(cleanup, brc_edges_place(context, &w->walls, w->spacing, request->fill.spread, request->fill.seed,
+                                            w->n_threads, &w->position, &w->n));
     BRC_TRY_OR(cleanup, mirror_at_cracks(context, w));
     domain->position = w->position;
     domain->n_elements = w->n;
     w->position = NULL;
-    BRC_TRY_OR(cleanup, brc_conform_cells(context, domain->position, w->n, w->spacing, w->n_threads, &w->walls, &cells));
+    BRC_TRY_OR(cleanup,
+               brc_conform_cells(context, domain->position, w->n, w->spacing, w->n_threads, &w->walls, &cells));
     BRC_TRY_OR(cleanup, brc_half_edges_build(context, &cells, threshold, w->n_threads, domain));
     BRC_TRY_OR(cleanup, brc_conform_check(context, &w->walls, w->spacing, w->n_threads, domain));
     status = name_walls(context, w->solid, domain);
@@ -256,8 +271,12 @@ cleanup:
 static brc_status build_beams(brc_context *context, work *w, brc_domain *domain)
 {
     if (!w->radius)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "beams join spheres, and the points of %s have no radii: add a column radius or diameter, or build cells", w->request->fill.file);
-    BRC_TRY(brc_beams_build(context, w->solid, w->position, w->radius, w->n, w->request->beams, w->request->balanced, w->n_threads, domain));
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "beams join spheres, and the points of %s have no radii: add a column radius or diameter, or build cells",
+            w->request->fill.file);
+    BRC_TRY(brc_beams_build(context, w->solid, w->position, w->radius, w->n, w->request->beams, w->request->balanced,
+                            w->n_threads, domain));
     w->position = w->radius = NULL; /* the domain's now */
     return BRC_OK;
 }
@@ -266,7 +285,8 @@ static brc_status set_regions(brc_context *context, const brc_build_request *req
 {
     BRC_TRY(BRC_ALLOCATE(context, &domain->region, domain->n_elements, "material regions"));
     BRC_TRY(BRC_ALLOCATE(context, &domain->body, domain->n_elements, "bodies"));
-    for (int64_t e = 0; e < domain->n_elements; ++e) domain->body[e] = request->body;
+    for (int64_t e = 0; e < domain->n_elements; ++e)
+        domain->body[e] = request->body;
     for (int32_t r = 0; r < request->n_regions; ++r) {
         char what[32];
         snprintf(what, sizeof what, "region %d", r + 1);
@@ -277,8 +297,7 @@ static brc_status set_regions(brc_context *context, const brc_build_request *req
                 domain->region[e] = r + 1;
                 ++count;
             }
-        if (count == 0)
-            return BRC_FAIL(context, BRC_BAD_INPUT, "%s: no element lies in it; widen or move it", what);
+        if (count == 0) return BRC_FAIL(context, BRC_BAD_INPUT, "%s: no element lies in it; widen or move it", what);
     }
     return BRC_OK;
 }
@@ -314,8 +333,10 @@ brc_status brc_domain_build(brc_context *context, const brc_build_request *reque
     if (status != BRC_OK) goto cleanup;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain, 1, "domain"));
     BRC_TRY_OR(cleanup, place_seeds(context, &w, &domain->quality));
-    if (request->beams > 0.0) BRC_TRY_OR(cleanup, build_beams(context, &w, domain));
-    else BRC_TRY_OR(cleanup, build_cells(context, &w, domain));
+    if (request->beams > 0.0)
+        BRC_TRY_OR(cleanup, build_beams(context, &w, domain));
+    else
+        BRC_TRY_OR(cleanup, build_cells(context, &w, domain));
     BRC_TRY_OR(cleanup, finish(context, &w, domain));
     *out = domain;
     domain = NULL;

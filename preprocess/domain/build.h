@@ -4,9 +4,9 @@
 
 #include "domain.h"
 
-/* Leaves are axis-aligned; a body's pose, or the pose of a part, turns them. Walls: box x- x+ y- y+ z- z+; cylinder and cone
- * along x: x- x+ side (a cone that ends in a tip has no wall there); sphere, torus, mesh: surface; half-space: cut. In a shape of
- * several parts the walls of a part with a name are "<name>_<wall>" (walls of equal name are one).
+/* Leaves are axis-aligned; a body's pose, or the pose of a part, turns them. Walls: box x- x+ y- y+ z- z+; cylinder and
+ * cone along x: x- x+ side (a cone that ends in a tip has no wall there); sphere, torus, mesh: surface; half-space:
+ * cut. In a shape of several parts the walls of a part with a name are "<name>_<wall>" (walls of equal name are one).
  * A disc is a short cylinder, a plate a flat box. */
 typedef enum brc_shape_kind {
     BRC_SHAPE_BOX,
@@ -23,8 +23,8 @@ struct brc_shape_part;
 
 typedef struct brc_shape {
     brc_shape_kind kind;
-    double origin[3]; /* box: smallest corner; cylinder, cone: centre of the first end; sphere, torus: centre; half-space: a
-                       * point of the plane; mesh: added to every vertex after scaling [m] */
+    double origin[3]; /* box: smallest corner; cylinder, cone: centre of the first end; sphere, torus: centre;
+                       * half-space: a point of the plane; mesh: added to every vertex after scaling [m] */
     double size[3];   /* box: edge lengths [m] */
     double length;    /* cylinder, cone: along the axis [m] */
     double radius;    /* cylinder, sphere; cone: at the first end; torus: of the centre line [m] */
@@ -45,40 +45,42 @@ typedef enum brc_part_role {
 
 typedef struct brc_shape_part {
     brc_part_role role;
-    char name[32];                        /* "" : its walls keep their plain names */
-    brc_shape shape;                      /* never BRC_SHAPE_PARTS */
-    double translation[3], rotation[3];   /* as brc_build_request: about the origin of the part's shape, then moved [m], [rad] */
+    char name[32];   /* "" : its walls keep their plain names */
+    brc_shape shape; /* never BRC_SHAPE_PARTS */
+    double translation[3],
+        rotation[3]; /* as brc_build_request: about the origin of the part's shape, then moved [m], [rad] */
 } brc_shape_part;
 
 /* A point of a cumulative distribution of radii. */
 typedef struct brc_radius {
     double radius;   /* only ratios count when the number of elements is given [m] */
-    double fraction; /* of the elements (by number) that are smaller: 0 at the first point, 1 at the last, not falling [-] */
+    double fraction; /* of the elements (by number) that are smaller: 0 at the first point, 1 at the last, not falling
+                        [-] */
 } brc_radius;
 
 typedef enum brc_fill_kind { BRC_FILL_NOISY_GRID, BRC_FILL_PACKING, BRC_FILL_POINTS } brc_fill_kind;
 
 typedef struct brc_fill {
     brc_fill_kind kind;
-    int64_t n_elements;  /* grid, packing: wanted number of elements (grid: as nearly as it allows; packing: exactly); 0: grid:
-                          * use spacing or cells; packing: by radius; points: all */
-    double spacing;      /* grid: spacing [m]; 0: not given */
-    int64_t cells[3];    /* grid: cells along x, y, z of the shape's bounding box; 0 0 0: not given */
-    double spread;       /* grid: 0..1, width of the uniform noise over the grid cell (AGH19 section 7.1, d) */
+    int64_t n_elements; /* grid, packing: wanted number of elements (grid: as nearly as it allows; packing: exactly); 0:
+                         * grid: use spacing or cells; packing: by radius; points: all */
+    double spacing;     /* grid: spacing [m]; 0: not given */
+    int64_t cells[3];   /* grid: cells along x, y, z of the shape's bounding box; 0 0 0: not given */
+    double spread;      /* grid: 0..1, width of the uniform noise over the grid cell (AGH19 section 7.1, d) */
     int32_t lloyd_sweeps; /* each moves every seed to its cell's centroid; cells only */
-    double min_distance; /* seeds nearer than this to an earlier one are dropped [m]; 0: 1e-6 of the spacing */
+    double min_distance;  /* seeds nearer than this to an earlier one are dropped [m]; 0: 1e-6 of the spacing */
     uint64_t seed;
     /* packing */
-    double radius;          /* mean radius [m] when n_elements is 0: the number follows from it */
-    double radius_spread;   /* 0..0.9: radii uniform in mean * (1 -+ radius_spread); without a table */
-    int32_t n_radii;        /* table of radii; 0: uniform */
+    double radius;            /* mean radius [m] when n_elements is 0: the number follows from it */
+    double radius_spread;     /* 0..0.9: radii uniform in mean * (1 -+ radius_spread); without a table */
+    int32_t n_radii;          /* table of radii; 0: uniform */
     struct brc_radius *radii; /* [n_radii] ascending; linear between its points; owned as shape.parts */
-    double coordination;    /* stop when 2 contacts / elements is this (walls not counted); 0: use volume_fraction */
-    double volume_fraction; /* stop at this; 0: use coordination */
-    double tolerance;       /* on the coordination number, default 0.02 [-] */
-    int32_t cut;            /* 0: packed between the walls of the shape; 1: cut out of a larger packing, which has no layers along the walls;
-                             * the number of elements is then met nearly */
-    bool check_crystal;     /* measure crystallisation and say so */
+    double coordination;      /* stop when 2 contacts / elements is this (walls not counted); 0: use volume_fraction */
+    double volume_fraction;   /* stop at this; 0: use coordination */
+    double tolerance;         /* on the coordination number, default 0.02 [-] */
+    int32_t cut; /* 0: packed between the walls of the shape; 1: cut out of a larger packing, which has no layers along
+                  * the walls; the number of elements is then met nearly */
+    bool check_crystal; /* measure crystallisation and say so */
     /* points */
     char file[512]; /* CSV (x, y, z[, radius]) or LAMMPS data file; positions in units of `scale` metres */
     double scale;
@@ -110,11 +112,11 @@ typedef struct brc_set_request {
     brc_predicate where;
 } brc_set_request;
 
-/* A crack that is there from the start: the bonds whose face it crosses are cut, the two sides become free faces of the wall
- * `name`. */
+/* A crack that is there from the start: the bonds whose face it crosses are cut, the two sides become free faces of the
+ * wall `name`. */
 typedef enum brc_crack_kind {
-    BRC_CRACK_DISC,      /* penny: centre, normal, radius */
-    BRC_CRACK_RECTANGLE  /* corner, two edges that span it (need not be at right angles) */
+    BRC_CRACK_DISC,     /* penny: centre, normal, radius */
+    BRC_CRACK_RECTANGLE /* corner, two edges that span it (need not be at right angles) */
 } brc_crack_kind;
 
 typedef struct brc_crack {
@@ -129,17 +131,17 @@ typedef struct brc_crack {
 
 /* Grains: a coarse Voronoi tessellation over the elements; an element belongs to the grain whose centre is nearest. */
 typedef struct brc_grains {
-    int64_t n;      /* number of grains; 0: by size */
-    double size;    /* cube root of the mean grain volume [m]; 0: by number. Both 0: no grains */
+    int64_t n;   /* number of grains; 0: by size */
+    double size; /* cube root of the mean grain volume [m]; 0: by number. Both 0: no grains */
     uint64_t seed;
-    int32_t n_phases;         /* 0: all grains keep the body's material */
-    const double *fraction;   /* [n_phases] share of the grains (by number), summing to at most 1; borrowed. Phase p gives its
-                               * grains the region n_regions + 1 + p; the rest keep what they have */
+    int32_t n_phases;       /* 0: all grains keep the body's material */
+    const double *fraction; /* [n_phases] share of the grains (by number), summing to at most 1; borrowed. Phase p gives
+                             * its grains the region n_regions + 1 + p; the rest keep what they have */
 } brc_grains;
 
 /* What `quality` may refuse: a number of brc_quality or brc_isotropy by name. */
 typedef struct brc_quality_limit {
-    char number[64];     /* see quality.h */
+    char number[64]; /* see quality.h */
     bool has_warn, has_refuse;
     double warn, refuse; /* beyond (above, or below for numbers where less is worse) */
 } brc_quality_limit;
@@ -147,8 +149,8 @@ typedef struct brc_quality_limit {
 typedef struct brc_build_request {
     brc_shape shape;
     brc_fill fill;
-    double beams;          /* spheres joined by beams in place of cells: mean coordination number of the bonds; 0: cells */
-    bool balanced;         /* beams: bonds alike in all directions (bond_balance.h) */
+    double beams;  /* spheres joined by beams in place of cells: mean coordination number of the bonds; 0: cells */
+    bool balanced; /* beams: bonds alike in all directions (bond_balance.h) */
     double translation[3]; /* [m] applied after the rotation */
     double rotation[3];    /* rotation vector (axis times angle) about the shape's origin [rad] */
     int32_t n_cracks;
@@ -159,10 +161,11 @@ typedef struct brc_build_request {
     int32_t n_sets;
     const brc_set_request *sets; /* [n_sets] borrowed; predicates in posed coordinates */
     int32_t n_regions;
-    const brc_predicate *regions; /* [n_regions] borrowed; element in region r + 1 if its position fits; the last wins */
-    double tiny_face_threshold;   /* [-] of the mean face area; faces below it are dropped; 0: default 1e-12 */
-    int32_t n_threads;            /* 0: as OpenMP decides. The result does not depend on it, bit for bit. */
-    int32_t body;                 /* written into brc_domain.body */
+    const brc_predicate
+        *regions;               /* [n_regions] borrowed; element in region r + 1 if its position fits; the last wins */
+    double tiny_face_threshold; /* [-] of the mean face area; faces below it are dropped; 0: default 1e-12 */
+    int32_t n_threads;          /* 0: as OpenMP decides. The result does not depend on it, bit for bit. */
+    int32_t body;               /* written into brc_domain.body */
 } brc_build_request;
 
 /* Build. BRC_BAD_INPUT (spread outside 0..1, an empty set, an unknown wall, fewer than 1 element, less than two cells
@@ -175,9 +178,10 @@ brc_status brc_domain_estimate(brc_context *context, const brc_build_request *re
                                int64_t *bytes);
 
 /* Join several bodies into one domain (no bonds between them); element, face and vertex indices follow the order of the
- * inputs; walls and sets of equal name are merged. Inputs stay with the caller. name [n]: what sentences call the bodies, NULL: by
- * number, from 0. BRC_BAD_INPUT: no body, cells with spheres, bodies that overlap (overlap.h), sets of two kinds under one name, more than
- * 2^31 of anything; BRC_NO_MEMORY. */
-brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *const *parts, const char *const *name, brc_domain **out);
+ * inputs; walls and sets of equal name are merged. Inputs stay with the caller. name [n]: what sentences call the
+ * bodies, NULL: by number, from 0. BRC_BAD_INPUT: no body, cells with spheres, bodies that overlap (overlap.h), sets of
+ * two kinds under one name, more than 2^31 of anything; BRC_NO_MEMORY. */
+brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *const *parts, const char *const *name,
+                           brc_domain **out);
 
 #endif

@@ -9,17 +9,19 @@
 /* The faces that become free, by element, wall and neighbour. */
 typedef struct opened {
     int64_t n;
-    int32_t *half_edge;     /* [n] */
-    int64_t *polygon_start; /* [n + 1] */
-    int32_t *polygon;       /* indices into the domain's vertex */
+    int32_t *half_edge;       /* [n] */
+    int64_t *polygon_start;   /* [n + 1] */
+    int32_t *polygon;         /* indices into the domain's vertex */
     brc_outline_corner *room; /* for the corners of any cell */
 } opened;
 
-/* Place of half-edge h among the opened ones of its element: by wall, then neighbour (which half-edges already follow). */
+/* Place of half-edge h among the opened ones of its element: by wall, then neighbour (which half-edges already
+ * follow). */
 static void insert(opened *o, int64_t first, int32_t h, const int32_t *wall, const brc_domain *d)
 {
     int64_t k = o->n++;
-    for (; k > first && wall[d->bond[o->half_edge[k - 1]]] > wall[d->bond[h]]; --k) o->half_edge[k] = o->half_edge[k - 1];
+    for (; k > first && wall[d->bond[o->half_edge[k - 1]]] > wall[d->bond[h]]; --k)
+        o->half_edge[k] = o->half_edge[k - 1];
     o->half_edge[k] = h;
 }
 
@@ -46,7 +48,8 @@ static brc_status find_opened(brc_context *context, const int32_t *wall, const b
         for (int64_t k = first; k < o->n; ++k) {
             const int64_t count = brc_outline(d, e, o->half_edge[k], o->room, o->polygon + o->polygon_start[k]);
             if (count == 0)
-                return BRC_FAIL(context, BRC_INTERNAL, "the corners of element %lld do not outline its face with element %d", (long long)e,
+                return BRC_FAIL(context, BRC_INTERNAL,
+                                "the corners of element %lld do not outline its face with element %d", (long long)e,
                                 d->neighbour[o->half_edge[k]]);
             o->polygon_start[k + 1] = o->polygon_start[k] + count;
         }
@@ -70,12 +73,13 @@ static brc_status allocate_faces(brc_context *context, const brc_domain *d, cons
     BRC_TRY(BRC_ALLOCATE(context, &f->area_vector, 3 * n, "free area vectors"));
     BRC_TRY(BRC_ALLOCATE(context, &f->centroid, 3 * n, "free face centroids"));
     BRC_TRY(BRC_ALLOCATE(context, &f->polygon_start, n + 1, "free polygons"));
-    return BRC_ALLOCATE(context, &f->polygon, d->free_polygon_start[d->n_free_faces] + o->polygon_start[o->n], "corners of free polygons");
+    return BRC_ALLOCATE(context, &f->polygon, d->free_polygon_start[d->n_free_faces] + o->polygon_start[o->n],
+                        "corners of free polygons");
 }
 
 /* Append one face at place `to`. */
-static void put_face(free_faces *f, int64_t to, int64_t e, int32_t wall, const double *area_vector, const double *centroid,
-                     const int32_t *polygon, int64_t n_polygon)
+static void put_face(free_faces *f, int64_t to, int64_t e, int32_t wall, const double *area_vector,
+                     const double *centroid, const int32_t *polygon, int64_t n_polygon)
 {
     f->element[to] = (int32_t)e;
     f->wall[to] = wall;
@@ -91,11 +95,12 @@ static void merge_faces(const brc_domain *d, const opened *o, const int32_t *wal
     for (int64_t e = 0; e < d->n_elements; ++e) {
         for (int64_t a = d->free_start[e]; a < d->free_start[e + 1]; ++a, ++to)
             put_face(f, to, e, d->free_wall[a], d->free_area_vector + 3 * a, d->free_centroid + 3 * a,
-                     d->free_polygon + d->free_polygon_start[a], d->free_polygon_start[a + 1] - d->free_polygon_start[a]);
+                     d->free_polygon + d->free_polygon_start[a],
+                     d->free_polygon_start[a + 1] - d->free_polygon_start[a]);
         for (; k < o->n && o->half_edge[k] < d->row_start[e + 1]; ++k, ++to) {
             const int64_t h = o->half_edge[k];
-            put_face(f, to, e, wall[d->bond[h]], d->area_vector + 3 * h, d->face_centroid + 3 * h, o->polygon + o->polygon_start[k],
-                     o->polygon_start[k + 1] - o->polygon_start[k]);
+            put_face(f, to, e, wall[d->bond[h]], d->area_vector + 3 * h, d->face_centroid + 3 * h,
+                     o->polygon + o->polygon_start[k], o->polygon_start[k + 1] - o->polygon_start[k]);
         }
         f->start[e + 1] = to;
     }
@@ -104,14 +109,20 @@ static void merge_faces(const brc_domain *d, const opened *o, const int32_t *wal
 static void free_arrays(free_faces *f)
 {
     void *const block[] = {f->start, f->element, f->wall, f->area_vector, f->centroid, f->polygon_start, f->polygon};
-    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
+        brc_memory_free(block[k]);
 }
 
 /* Give the domain the new arrays; f holds the old ones afterwards. */
 static void exchange(brc_domain *d, free_faces *f, int64_t n)
 {
-    const free_faces old = {.start = d->free_start, .element = d->free_element, .wall = d->free_wall, .area_vector = d->free_area_vector,
-                            .centroid = d->free_centroid, .polygon_start = d->free_polygon_start, .polygon = d->free_polygon};
+    const free_faces old = {.start = d->free_start,
+                            .element = d->free_element,
+                            .wall = d->free_wall,
+                            .area_vector = d->free_area_vector,
+                            .centroid = d->free_centroid,
+                            .polygon_start = d->free_polygon_start,
+                            .polygon = d->free_polygon};
     d->free_start = f->start;
     d->free_element = f->element;
     d->free_wall = f->wall;

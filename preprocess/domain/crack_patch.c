@@ -16,7 +16,8 @@ static void cross(const double a[3], const double b[3], double out[3])
 
 static void minus(const double a[3], const double b[3], double out[3])
 {
-    for (int k = 0; k < 3; ++k) out[k] = a[k] - b[k];
+    for (int k = 0; k < 3; ++k)
+        out[k] = a[k] - b[k];
 }
 
 void brc_crack_patch_make(const brc_crack *crack, brc_crack_patch *patch)
@@ -31,12 +32,14 @@ void brc_crack_patch_make(const brc_crack *crack, brc_crack_patch *patch)
     }
     if (crack->kind == BRC_CRACK_RECTANGLE) cross(crack->edge[0], crack->edge[1], normal);
     const double length = sqrt(dot(normal, normal));
-    for (int k = 0; k < 3; ++k) patch->normal[k] = normal[k] / length;
+    for (int k = 0; k < 3; ++k)
+        patch->normal[k] = normal[k] / length;
     if (crack->kind == BRC_CRACK_DISC) return;
     for (int m = 0; m < 2; ++m) {
         cross(patch->edge[1 - m], patch->normal, patch->dual[m]);
         const double scale = dot(patch->dual[m], patch->edge[m]);
-        for (int k = 0; k < 3; ++k) patch->dual[m][k] /= scale;
+        for (int k = 0; k < 3; ++k)
+            patch->dual[m][k] /= scale;
     }
 }
 
@@ -73,7 +76,8 @@ static double edge_distance(const double r[3], const double from[3], const doubl
     double q[3];
     minus(r, from, q);
     const double t = fmax(0.0, fmin(1.0, dot(q, along) / dot(along, along)));
-    for (int k = 0; k < 3; ++k) q[k] -= t * along[k];
+    for (int k = 0; k < 3; ++k)
+        q[k] -= t * along[k];
     return sqrt(dot(q, q));
 }
 

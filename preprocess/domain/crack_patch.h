@@ -17,8 +17,8 @@ typedef struct brc_crack_patch {
 void brc_crack_patch_make(const brc_crack *crack, brc_crack_patch *patch);
 /* Signed height of x over the plane [m]. */
 double brc_crack_patch_height(const brc_crack_patch *patch, const double x[3]);
-/* Does the projection of x on the plane lie in the patch, or no farther than `margin` [m] beyond its rim (beyond the lines of its
- * edges)? Inclusive. */
+/* Does the projection of x on the plane lie in the patch, or no farther than `margin` [m] beyond its rim (beyond the
+ * lines of its edges)? Inclusive. */
 bool brc_crack_patch_covers(const brc_crack_patch *patch, const double x[3], double margin);
 /* Distance of x to the patch [m]. */
 double brc_crack_patch_distance(const brc_crack_patch *patch, const double x[3]);

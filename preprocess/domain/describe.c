@@ -38,13 +38,20 @@ static void say_leaf(text *t, const brc_shape *s)
 {
     switch (s->kind) {
     case BRC_SHAPE_BOX: say(t, "box %.17g x %.17g x %.17g m", s->size[0], s->size[1], s->size[2]); break;
-    case BRC_SHAPE_CYLINDER: say(t, "cylinder along %c, length %.17g m, radius %.17g m", "xyz"[s->axis], s->length, s->radius); break;
+    case BRC_SHAPE_CYLINDER:
+        say(t, "cylinder along %c, length %.17g m, radius %.17g m", "xyz"[s->axis], s -> length, s -> radius);
+        break;
     case BRC_SHAPE_SPHERE: say(t, "sphere, radius %.17g m", s->radius); break;
     case BRC_SHAPE_CONE:
-        say(t, "cone along %c, length %.17g m, radii %.17g and %.17g m", "xyz"[s->axis], s->length, s->radius, s->radius2);
+        say(t, "cone along %c, length %.17g m, radii %.17g and %.17g m", "xyz"[s->axis], s -> length, s -> radius,
+            s -> radius2);
         break;
-    case BRC_SHAPE_TORUS: say(t, "torus about %c, radii %.17g and %.17g m", "xyz"[s->axis], s->radius, s->radius2); break;
-    case BRC_SHAPE_HALF_SPACE: say(t, "half-space, normal (%.17g, %.17g, %.17g)", s->normal[0], s->normal[1], s->normal[2]); break;
+    case BRC_SHAPE_TORUS:
+        say(t, "torus about %c, radii %.17g and %.17g m", "xyz"[s->axis], s -> radius, s -> radius2);
+        break;
+    case BRC_SHAPE_HALF_SPACE:
+        say(t, "half-space, normal (%.17g, %.17g, %.17g)", s->normal[0], s->normal[1], s->normal[2]);
+        break;
     case BRC_SHAPE_MESH: say(t, "mesh %s, %.17g m per unit", s->file, s->scale); break;
     case BRC_SHAPE_PARTS: break;
     }
@@ -53,8 +60,8 @@ static void say_leaf(text *t, const brc_shape *s)
 
 static void say_pose(text *t, const double translation[3], const double rotation[3])
 {
-    say(t, "translation (%.17g, %.17g, %.17g) m, rotation (%.17g, %.17g, %.17g) rad", translation[0], translation[1], translation[2], rotation[0],
-        rotation[1], rotation[2]);
+    say(t, "translation (%.17g, %.17g, %.17g) m, rotation (%.17g, %.17g, %.17g) rad", translation[0], translation[1],
+        translation[2], rotation[0], rotation[1], rotation[2]);
 }
 
 static void say_shape(text *t, const brc_shape *s)
@@ -78,15 +85,20 @@ static void say_fill(text *t, const brc_fill *f, const brc_grid *grid)
     const unsigned long long seed = f->seed;
     switch (f->kind) {
     case BRC_FILL_NOISY_GRID:
-        say(t, "noisy grid %lld x %lld x %lld, spread %.17g, seed %llu", (long long)grid->cells[0], (long long)grid->cells[1], (long long)grid->cells[2],
-            f->spread, seed);
+        say(t, "noisy grid %lld x %lld x %lld, spread %.17g, seed %llu", (long long)grid->cells[0],
+            (long long)grid->cells[1], (long long)grid->cells[2], f->spread, seed);
         break;
     case BRC_FILL_PACKING:
         say(t, f->cut ? "packing of spheres cut by the walls, " : "packing of spheres, ");
-        if (f->n_radii > 0) say(t, "radii by a table of %d points from %.17g to %.17g, ", f->n_radii, f->radii[0].radius, f->radii[f->n_radii - 1].radius);
-        else say(t, "radii spread by %.17g, ", f->radius_spread);
-        if (f->coordination > 0.0) say(t, "coordination number %.17g", f->coordination);
-        else say(t, "volume fraction %.17g", f->volume_fraction);
+        if (f->n_radii > 0)
+            say(t, "radii by a table of %d points from %.17g to %.17g, ", f->n_radii, f->radii[0].radius,
+                f->radii[f->n_radii - 1].radius);
+        else
+            say(t, "radii spread by %.17g, ", f->radius_spread);
+        if (f->coordination > 0.0)
+            say(t, "coordination number %.17g", f->coordination);
+        else
+            say(t, "volume fraction %.17g", f->volume_fraction);
         say(t, ", seed %llu", seed);
         break;
     case BRC_FILL_POINTS: say(t, "points of %s, %.17g m per unit", f->file, f->scale); break;
@@ -94,7 +106,8 @@ static void say_fill(text *t, const brc_fill *f, const brc_grid *grid)
     say(t, ", %d Lloyd sweeps", f->lloyd_sweeps);
 }
 
-brc_status brc_describe(brc_context *context, const brc_build_request *request, const brc_grid *grid, brc_domain *domain)
+brc_status brc_describe(brc_context *context, const brc_build_request *request, const brc_grid *grid,
+                        brc_domain *domain)
 {
     text t = {.context = context, .status = BRC_OK};
     say(&t, "breccia %s; ", brc_version());
@@ -103,7 +116,8 @@ brc_status brc_describe(brc_context *context, const brc_build_request *request, 
     say_fill(&t, &request->fill, grid);
     if (request->beams > 0.0) say(&t, "; beams, coordination number %.17g", request->beams);
     if (request->n_cracks > 0) say(&t, "; %d cracks", request->n_cracks);
-    if (request->grains.n > 0 || request->grains.size > 0.0) say(&t, "; grains, seed %llu", (unsigned long long)request->grains.seed);
+    if (request->grains.n > 0 || request->grains.size > 0.0)
+        say(&t, "; grains, seed %llu", (unsigned long long)request->grains.seed);
     say(&t, "; ");
     say_pose(&t, request->translation, request->rotation);
     if (request->beams == 0.0) say(&t, "; Voro++ 0.4.6");

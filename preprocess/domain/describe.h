@@ -5,6 +5,7 @@
 #include "../cells/seeds.h"
 
 /* Fill domain->provenance. grid: of a noisy-grid fill. */
-brc_status brc_describe(brc_context *context, const brc_build_request *request, const brc_grid *grid, brc_domain *domain);
+brc_status brc_describe(brc_context *context, const brc_build_request *request, const brc_grid *grid,
+                        brc_domain *domain);
 
 #endif

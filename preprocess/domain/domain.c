@@ -10,15 +10,35 @@ void brc_domain_free(brc_domain **domain)
 {
     if (!domain || !*domain) return;
     brc_domain *d = *domain;
-    void *const block[] = {d->position,         d->volume,        d->centroid,       d->inertia,
-                           d->region,           d->body,          d->grain,          d->radius,
-                           d->row_start,        d->neighbour,
-                           d->twin,             d->bond,          d->area_vector,    d->face_centroid,
-                           d->bond_half_edge,   d->free_start,    d->free_element,   d->free_area_vector,
-                           d->free_centroid,    d->free_wall,     d->vertex_start,   d->vertex,
-                           d->free_polygon_start, d->free_polygon, d->provenance};
-    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
-    for (int32_t w = 0; d->wall_name && w < d->n_walls; ++w) brc_memory_free(d->wall_name[w]);
+    void *const block[] = {d->position,
+                           d->volume,
+                           d->centroid,
+                           d->inertia,
+                           d->region,
+                           d->body,
+                           d->grain,
+                           d->radius,
+                           d->row_start,
+                           d->neighbour,
+                           d->twin,
+                           d->bond,
+                           d->area_vector,
+                           d->face_centroid,
+                           d->bond_half_edge,
+                           d->free_start,
+                           d->free_element,
+                           d->free_area_vector,
+                           d->free_centroid,
+                           d->free_wall,
+                           d->vertex_start,
+                           d->vertex,
+                           d->free_polygon_start,
+                           d->free_polygon,
+                           d->provenance};
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
+        brc_memory_free(block[k]);
+    for (int32_t w = 0; d->wall_name && w < d->n_walls; ++w)
+        brc_memory_free(d->wall_name[w]);
     for (int32_t s = 0; d->sets && s < d->n_sets; ++s) {
         brc_memory_free(d->sets[s].name);
         brc_memory_free(d->sets[s].members);
@@ -56,7 +76,8 @@ double brc_domain_closure(const brc_domain *domain, int64_t e)
     for (int part = 0; part < 2; ++part)
         for (const double *v = s[part]; v < s[part] + 3 * n[part]; v += 3) {
             total += sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-            for (int k = 0; k < 3; ++k) sum[k] += v[k];
+            for (int k = 0; k < 3; ++k)
+                sum[k] += v[k];
         }
     return total > 0.0 ? sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / total : 0.0;
 }
@@ -102,8 +123,8 @@ static bool spheres(const brc_domain *d)
 static brc_status check_rows(brc_context *context, const brc_domain *d)
 {
     brc_status status = BRC_OK;
-    CHECK(d->element_kind == BRC_ELEMENT_CELL || d->element_kind == BRC_ELEMENT_SPHERE, "elements of the unknown kind %d",
-          (int)d->element_kind);
+    CHECK(d->element_kind == BRC_ELEMENT_CELL || d->element_kind == BRC_ELEMENT_SPHERE,
+          "elements of the unknown kind %d", (int)d->element_kind);
     CHECK(d->n_elements >= 1 && d->n_elements <= INT32_MAX, "%lld elements, must be 1 to 2^31 - 1",
           (long long)d->n_elements);
     CHECK(d->n_bonds >= 0 && d->n_half_edges == 2 * d->n_bonds && d->n_half_edges <= INT32_MAX,
@@ -196,7 +217,8 @@ static brc_status check_geometry(brc_context *context, const brc_domain *d)
     CHECK(all_finite(d->centroid, 3 * d->n_elements), "a centroid is not finite");
     CHECK(all_finite(d->inertia, 6 * d->n_elements), "an inertia tensor is not finite");
     for (int64_t e = 0; e < d->n_elements && status == BRC_OK; ++e)
-        CHECK(d->volume[e] > 0.0 && isfinite(d->volume[e]), "element %lld has the volume %g m^3", (long long)e, d->volume[e]);
+        CHECK(d->volume[e] > 0.0 && isfinite(d->volume[e]), "element %lld has the volume %g m^3", (long long)e,
+              d->volume[e]);
     return status;
 }
 
@@ -225,12 +247,14 @@ static brc_status check_spheres(brc_context *context, const brc_domain *d)
     for (int64_t e = 0; e < d->n_elements && spheres(d) && status == BRC_OK; ++e) {
         const double r = d->radius[e], volume = 4.1887902047863910 * r * r * r, *x = d->position + 3 * e;
         CHECK(r > 0.0 && isfinite(r), "sphere %lld has the radius %g m", (long long)e, r);
-        CHECK(fabs(d->volume[e] - volume) <= SPHERE_ROUNDING * volume, "the volume of sphere %lld is not that of its radius",
-              (long long)e);
+        CHECK(fabs(d->volume[e] - volume) <= SPHERE_ROUNDING * volume,
+              "the volume of sphere %lld is not that of its radius", (long long)e);
         for (int k = 0; k < 6; ++k)
-            CHECK(fabs(d->inertia[6 * e + k] - (k < 3 ? 0.4 * volume * r * r : 0.0)) <= SPHERE_ROUNDING * volume * r * r,
+            CHECK(fabs(d->inertia[6 * e + k] - (k < 3 ? 0.4 * volume * r * r : 0.0)) <=
+                      SPHERE_ROUNDING * volume * r * r,
                   "the inertia of sphere %lld is not that of its radius", (long long)e);
-        CHECK(memcmp(x, d->centroid + 3 * e, 3 * sizeof *x) == 0, "the centroid of sphere %lld is not its position", (long long)e);
+        CHECK(memcmp(x, d->centroid + 3 * e, 3 * sizeof *x) == 0, "the centroid of sphere %lld is not its position",
+              (long long)e);
         for (int64_t h = d->row_start[e]; h < d->row_start[e + 1] && status == BRC_OK; ++h) {
             const int32_t j = d->neighbour[h];
             if (j < 0 || j >= d->n_elements) break; /* said before */

@@ -1,4 +1,5 @@
-/* The domain: a solid as elements and bonds, as arrays: convex cells that share faces, or spheres joined by beams. Built by brc_domain_build, read and written by domain_file.h.
+/* The domain: a solid as elements and bonds, as arrays: convex cells that share faces, or spheres joined by beams.
+ * Built by brc_domain_build, read and written by domain_file.h.
  *
  * The position X of an element is its Voronoi seed, so that the branch R = X_j - X_i is parallel to the face normal:
  * R = (L / S) s with L = |R| and s = S N the area vector. Element mass is lumped at X.
@@ -32,27 +33,28 @@ typedef struct brc_quality {
     double volume_cells;            /* sum of element volumes [m^3] */
     double volume_error;            /* cells: volume_cells / volume_shape - 1 [-]; spheres: 0 */
     double smallest_distance;       /* shortest branch [m] */
-    double mean_spacing;            /* cells: (volume_cells / n_elements)^(1/3), spheres: (volume_shape / n_elements)^(1/3) [m] */
-    double closure_worst;           /* largest |sum of face area vectors| of a cell over its total face area [-] */
-    double twin_area_worst;         /* largest difference of a face area seen from its two sides, over the mean area [-] */
-    double support_smallest;        /* cells: smallest eigenvalue of A_i / (2 V_i), A = sum (L/S) s (x) s [-]; spheres: 0 */
-    double volume_fraction;         /* spheres: sphere volume over the shape's [-]; cells: 0 */
-    double growth;                  /* spheres: largest d / (R_i + R_j) of a bond (NAH19's growth factor) [-]; cells: 0 */
-    double coordination_mean;       /* 2 n_bonds / n_elements [-] */
+    double mean_spacing;  /* cells: (volume_cells / n_elements)^(1/3), spheres: (volume_shape / n_elements)^(1/3) [m] */
+    double closure_worst; /* largest |sum of face area vectors| of a cell over its total face area [-] */
+    double twin_area_worst;   /* largest difference of a face area seen from its two sides, over the mean area [-] */
+    double support_smallest;  /* cells: smallest eigenvalue of A_i / (2 V_i), A = sum (L/S) s (x) s [-]; spheres: 0 */
+    double volume_fraction;   /* spheres: sphere volume over the shape's [-]; cells: 0 */
+    double growth;            /* spheres: largest d / (R_i + R_j) of a bond (NAH19's growth factor) [-]; cells: 0 */
+    double coordination_mean; /* 2 n_bonds / n_elements [-] */
     int64_t coordination_histogram[64]; /* elements with k bonds; the last bin also counts more */
     int64_t n_elements_without_bond;
-    int64_t n_pieces;         /* parts that no bond joins, elements without bonds among them; -1: memory was short for counting */
-    double volume_spread[5];  /* element volumes over their mean: least, 5 %, median, 95 %, most [-] */
-    double faces_spread[5];   /* cells: faces of a cell, shared and free, likewise; spheres: 0 */
-    double branch_spread[5];  /* lengths of branches over mean_spacing, likewise [-] */
+    int64_t
+        n_pieces; /* parts that no bond joins, elements without bonds among them; -1: memory was short for counting */
+    double volume_spread[5]; /* element volumes over their mean: least, 5 %, median, 95 %, most [-] */
+    double faces_spread[5];  /* cells: faces of a cell, shared and free, likewise; spheres: 0 */
+    double branch_spread[5]; /* lengths of branches over mean_spacing, likewise [-] */
 } brc_quality;
 
 typedef enum brc_element_kind {
     BRC_ELEMENT_CELL,  /* convex cells, every array below */
     BRC_ELEMENT_SPHERE /* spheres joined by beams: no faces and corners. area_vector, face_centroid, free_*, vertex and
-                        * free_polygon* are NULL, n_free_faces is 0; volume, inertia and centroid are those of the sphere;
-                        * each wall's set holds the elements that touch it as packed, the set "<wall>_layer" those
-                        * with centres within 2 R of it */
+                        * free_polygon* are NULL, n_free_faces is 0; volume, inertia and centroid are those of the
+                        * sphere; each wall's set holds the elements that touch it as packed, the set "<wall>_layer"
+                        * those with centres within 2 R of it */
 } brc_element_kind;
 
 typedef struct brc_domain {
@@ -63,19 +65,20 @@ typedef struct brc_domain {
     double *position; /* [n_elements][3] seed X [m] */
     double *volume;   /* [n_elements] [m^3] */
     double *centroid; /* [n_elements][3] centre of mass of the cell [m] */
-    double *inertia;  /* [n_elements][6] xx yy zz yz xz xy of the inertia tensor about the centroid at unit density [m^5] */
-    int32_t *region;  /* [n_elements] index of the material region (0: the body's own material) */
-    int32_t *body;    /* [n_elements] index of the body */
-    int32_t *grain;   /* [n_elements] index of the grain, numbered through all bodies; NULL: no grains */
-    double *radius;   /* [n_elements] spheres: as packed, before any growth [m]; cells: NULL */
+    double
+        *inertia; /* [n_elements][6] xx yy zz yz xz xy of the inertia tensor about the centroid at unit density [m^5] */
+    int32_t *region; /* [n_elements] index of the material region (0: the body's own material) */
+    int32_t *body;   /* [n_elements] index of the body */
+    int32_t *grain;  /* [n_elements] index of the grain, numbered through all bodies; NULL: no grains */
+    double *radius;  /* [n_elements] spheres: as packed, before any growth [m]; cells: NULL */
 
     /* half-edges: rows sorted by neighbour id; row of element e is row_start[e] .. row_start[e + 1] */
-    int64_t *row_start;    /* [n_elements + 1] */
-    int32_t *neighbour;    /* [n_half_edges] */
-    int32_t *twin;         /* [n_half_edges] the same face seen from the neighbour */
-    int32_t *bond;         /* [n_half_edges] bond of the half-edge */
-    double *area_vector;   /* [n_half_edges][3] s = S N, outward [m^2]; exactly minus the twin's */
-    double *face_centroid; /* [n_half_edges][3] C [m]; exactly the twin's */
+    int64_t *row_start;      /* [n_elements + 1] */
+    int32_t *neighbour;      /* [n_half_edges] */
+    int32_t *twin;           /* [n_half_edges] the same face seen from the neighbour */
+    int32_t *bond;           /* [n_half_edges] bond of the half-edge */
+    double *area_vector;     /* [n_half_edges][3] s = S N, outward [m^2]; exactly minus the twin's */
+    double *face_centroid;   /* [n_half_edges][3] C [m]; exactly the twin's */
     int32_t *bond_half_edge; /* [n_bonds] the half-edge seen from the smaller id, ascending: bond_i = its row */
 
     /* free faces: rows by element */
@@ -88,14 +91,14 @@ typedef struct brc_domain {
     char **wall_name; /* [n_walls] e.g. "x-", "x+", "side", "surface"; owned */
 
     /* cell corners, for pictures and results; each cell has its own copies */
-    int64_t *vertex_start; /* [n_elements + 1] */
-    double *vertex;        /* [vertex_start[n_elements]][3] [m] */
+    int64_t *vertex_start;       /* [n_elements + 1] */
+    double *vertex;              /* [vertex_start[n_elements]][3] [m] */
     int64_t *free_polygon_start; /* [n_free_faces + 1] */
     int32_t *free_polygon;       /* corners of free face f, counter-clockwise from outside: indices into vertex */
 
     int32_t n_sets;
-    brc_set *sets; /* [n_sets] one set per wall first (cells: faces; spheres: elements, all "<wall>_layer" after them), then
-                    * the requested ones; names are unique */
+    brc_set *sets; /* [n_sets] one set per wall first (cells: faces; spheres: elements, all "<wall>_layer" after them),
+                    * then the requested ones; names are unique */
 
     double bounds[2][3]; /* smallest and largest corner [m] */
     brc_quality quality;

@@ -1,6 +1,7 @@
 /* One table lists every array of the file; writing and reading walk it. What follows from other arrays is not stored
- * twice: area vectors and centroids of shared faces are kept once a bond, seen from its smaller element; volume, centroid and inertia of
- * spheres follow from position and radius, but are stored all the same, so that readers find them where those of cells are. */
+ * twice: area vectors and centroids of shared faces are kept once a bond, seen from its smaller element; volume,
+ * centroid and inertia of spheres follow from position and radius, but are stored all the same, so that readers find
+ * them where those of cells are. */
 #include "domain_file.h"
 
 #include "../../host/base/file.h"
@@ -18,7 +19,15 @@
 
 /* Which count gives the rows of an array. */
 typedef enum rows_of {
-    ELEMENTS, ELEMENT_STARTS, HALF_EDGES, BONDS, FREE_FACES, FREE_FACE_STARTS, CORNERS, POLYGON_CORNERS, N_ROWS_OF
+    ELEMENTS,
+    ELEMENT_STARTS,
+    HALF_EDGES,
+    BONDS,
+    FREE_FACES,
+    FREE_FACE_STARTS,
+    CORNERS,
+    POLYGON_CORNERS,
+    N_ROWS_OF
 } rows_of;
 
 /* Which domains have an array. */
@@ -34,53 +43,46 @@ typedef struct array_entry {
     const char *unit, *meaning;
 } array_entry;
 
-#define ENTRY(path, field, kind, rows, width, found, unit, meaning) \
-    {path, offsetof(brc_domain, field), kind, rows, width, found, unit, meaning}
+#define ENTRY(path, field, kind, rows, width, found, unit, meaning)                                                    \
+    {                                                                                                                  \
+        path, offsetof(brc_domain, field), kind, rows, width, found, unit, meaning                                     \
+    }
 static const array_entry arrays[] = {
-    ENTRY("elements/position", position, BRC_H5_DOUBLE, ELEMENTS, 3, ALL,
-          "m", "position X of each element: Voronoi seed, centre of a sphere; x y z"),
-    ENTRY("elements/volume", volume, BRC_H5_DOUBLE, ELEMENTS, 1, ALL,
-          "m^3", "volume of each element"),
-    ENTRY("elements/centroid", centroid, BRC_H5_DOUBLE, ELEMENTS, 3, ALL,
-          "m", "centre of mass of each element; x y z"),
-    ENTRY("elements/inertia", inertia, BRC_H5_DOUBLE, ELEMENTS, 6, ALL,
-          "m^5", "inertia about the centroid at unit density; xx yy zz yz xz xy"),
-    ENTRY("elements/region", region, BRC_H5_INT32, ELEMENTS, 1, ALL,
-          "-", "material region; 0: the material of the body"),
-    ENTRY("elements/body", body, BRC_H5_INT32, ELEMENTS, 1, ALL,
-          "-", "index of the body"),
-    ENTRY("elements/grain", grain, BRC_H5_INT32, ELEMENTS, 1, GRAINS,
-          "-", "index of the grain, counted through all bodies"),
-    ENTRY("elements/radius", radius, BRC_H5_DOUBLE, ELEMENTS, 1, SPHERES,
-          "m", "radius as packed, before any growth"),
-    ENTRY("half_edges/row_start", row_start, BRC_H5_INT64, ELEMENT_STARTS, 1, ALL,
-          "-", "first half-edge of each element, and the end"),
-    ENTRY("half_edges/neighbour", neighbour, BRC_H5_INT32, HALF_EDGES, 1, ALL,
-          "-", "element on the other side"),
-    ENTRY("half_edges/twin", twin, BRC_H5_INT32, HALF_EDGES, 1, ALL,
-          "-", "the same face or beam seen from the neighbour"),
-    ENTRY("half_edges/bond", bond, BRC_H5_INT32, HALF_EDGES, 1, ALL,
-          "-", "bond of each half-edge"),
-    ENTRY("bonds/half_edge", bond_half_edge, BRC_H5_INT32, BONDS, 1, ALL,
-          "-", "half-edge of each bond, seen from its lower id"),
-    ENTRY("free_faces/row_start", free_start, BRC_H5_INT64, ELEMENT_STARTS, 1, CELLS,
-          "-", "first free face of each element, and the end"),
-    ENTRY("free_faces/element", free_element, BRC_H5_INT32, FREE_FACES, 1, CELLS,
-          "-", "element of each free face"),
-    ENTRY("free_faces/area_vector", free_area_vector, BRC_H5_DOUBLE, FREE_FACES, 3, CELLS,
-          "m^2", "outward area vector; x y z"),
-    ENTRY("free_faces/centroid", free_centroid, BRC_H5_DOUBLE, FREE_FACES, 3, CELLS,
-          "m", "centroid; x y z"),
-    ENTRY("free_faces/wall", free_wall, BRC_H5_INT32, FREE_FACES, 1, CELLS,
-          "-", "wall of each free face: attribute wall_N of the file"),
-    ENTRY("free_faces/polygon_start", free_polygon_start, BRC_H5_INT64, FREE_FACE_STARTS, 1, CELLS,
-          "-", "first row of each free face in polygon, and the end"),
-    ENTRY("free_faces/polygon", free_polygon, BRC_H5_INT32, POLYGON_CORNERS, 1, CELLS,
-          "-", "corners of each free face, rows of cells/vertex, counter-clockwise from outside"),
-    ENTRY("cells/vertex_start", vertex_start, BRC_H5_INT64, ELEMENT_STARTS, 1, CELLS,
-          "-", "first row of each cell in vertex, and the end"),
-    ENTRY("cells/vertex", vertex, BRC_H5_DOUBLE, CORNERS, 3, CELLS,
-          "m", "corners of each cell; x y z"),
+    ENTRY("elements/position", position, BRC_H5_DOUBLE, ELEMENTS, 3, ALL, "m",
+          "position X of each element: Voronoi seed, centre of a sphere; x y z"),
+    ENTRY("elements/volume", volume, BRC_H5_DOUBLE, ELEMENTS, 1, ALL, "m^3", "volume of each element"),
+    ENTRY("elements/centroid", centroid, BRC_H5_DOUBLE, ELEMENTS, 3, ALL, "m", "centre of mass of each element; x y z"),
+    ENTRY("elements/inertia", inertia, BRC_H5_DOUBLE, ELEMENTS, 6, ALL, "m^5",
+          "inertia about the centroid at unit density; xx yy zz yz xz xy"),
+    ENTRY("elements/region", region, BRC_H5_INT32, ELEMENTS, 1, ALL, "-",
+          "material region; 0: the material of the body"),
+    ENTRY("elements/body", body, BRC_H5_INT32, ELEMENTS, 1, ALL, "-", "index of the body"),
+    ENTRY("elements/grain", grain, BRC_H5_INT32, ELEMENTS, 1, GRAINS, "-",
+          "index of the grain, counted through all bodies"),
+    ENTRY("elements/radius", radius, BRC_H5_DOUBLE, ELEMENTS, 1, SPHERES, "m", "radius as packed, before any growth"),
+    ENTRY("half_edges/row_start", row_start, BRC_H5_INT64, ELEMENT_STARTS, 1, ALL, "-",
+          "first half-edge of each element, and the end"),
+    ENTRY("half_edges/neighbour", neighbour, BRC_H5_INT32, HALF_EDGES, 1, ALL, "-", "element on the other side"),
+    ENTRY("half_edges/twin", twin, BRC_H5_INT32, HALF_EDGES, 1, ALL, "-",
+          "the same face or beam seen from the neighbour"),
+    ENTRY("half_edges/bond", bond, BRC_H5_INT32, HALF_EDGES, 1, ALL, "-", "bond of each half-edge"),
+    ENTRY("bonds/half_edge", bond_half_edge, BRC_H5_INT32, BONDS, 1, ALL, "-",
+          "half-edge of each bond, seen from its lower id"),
+    ENTRY("free_faces/row_start", free_start, BRC_H5_INT64, ELEMENT_STARTS, 1, CELLS, "-",
+          "first free face of each element, and the end"),
+    ENTRY("free_faces/element", free_element, BRC_H5_INT32, FREE_FACES, 1, CELLS, "-", "element of each free face"),
+    ENTRY("free_faces/area_vector", free_area_vector, BRC_H5_DOUBLE, FREE_FACES, 3, CELLS, "m^2",
+          "outward area vector; x y z"),
+    ENTRY("free_faces/centroid", free_centroid, BRC_H5_DOUBLE, FREE_FACES, 3, CELLS, "m", "centroid; x y z"),
+    ENTRY("free_faces/wall", free_wall, BRC_H5_INT32, FREE_FACES, 1, CELLS, "-",
+          "wall of each free face: attribute wall_N of the file"),
+    ENTRY("free_faces/polygon_start", free_polygon_start, BRC_H5_INT64, FREE_FACE_STARTS, 1, CELLS, "-",
+          "first row of each free face in polygon, and the end"),
+    ENTRY("free_faces/polygon", free_polygon, BRC_H5_INT32, POLYGON_CORNERS, 1, CELLS, "-",
+          "corners of each free face, rows of cells/vertex, counter-clockwise from outside"),
+    ENTRY("cells/vertex_start", vertex_start, BRC_H5_INT64, ELEMENT_STARTS, 1, CELLS, "-",
+          "first row of each cell in vertex, and the end"),
+    ENTRY("cells/vertex", vertex, BRC_H5_DOUBLE, CORNERS, 3, CELLS, "m", "corners of each cell; x y z"),
 };
 enum { N_ARRAYS = (int)(sizeof arrays / sizeof *arrays) };
 static const char *const groups[] = {"elements", "half_edges", "bonds", "sets", "quality", "free_faces", "cells"};
@@ -96,27 +98,44 @@ typedef struct quality_entry {
     int since; /* format version; files before it are measured when read */
 } quality_entry;
 
-#define QUALITY(field, kind, n) {#field, offsetof(brc_quality, field), kind, n, 1}
-#define QUALITY_2(field, kind, n) {#field, offsetof(brc_quality, field), kind, n, 2}
+#define QUALITY(field, kind, n)                                                                                        \
+    {                                                                                                                  \
+#field, offsetof(brc_quality, field), kind, n, 1                                                               \
+    }
+#define QUALITY_2(field, kind, n)                                                                                      \
+    {                                                                                                                  \
+#field, offsetof(brc_quality, field), kind, n, 2                                                               \
+    }
 static const quality_entry quality_fields[] = {
-    QUALITY(n_seeds_requested, BRC_H5_INT64, 1),   QUALITY(n_seeds_duplicate, BRC_H5_INT64, 1),
-    QUALITY(n_seeds_lost, BRC_H5_INT64, 1),        QUALITY(n_tiny_faces_dropped, BRC_H5_INT64, 1),
-    QUALITY(tiny_face_threshold, BRC_H5_DOUBLE, 1), QUALITY(tiny_face_area_fraction, BRC_H5_DOUBLE, 1),
-    QUALITY(volume_shape, BRC_H5_DOUBLE, 1),       QUALITY(volume_cells, BRC_H5_DOUBLE, 1),
-    QUALITY(volume_error, BRC_H5_DOUBLE, 1),       QUALITY(smallest_distance, BRC_H5_DOUBLE, 1),
-    QUALITY(mean_spacing, BRC_H5_DOUBLE, 1),       QUALITY(closure_worst, BRC_H5_DOUBLE, 1),
-    QUALITY(twin_area_worst, BRC_H5_DOUBLE, 1),    QUALITY(support_smallest, BRC_H5_DOUBLE, 1),
-    QUALITY(coordination_mean, BRC_H5_DOUBLE, 1),  QUALITY(coordination_histogram, BRC_H5_INT64, 64),
-    QUALITY_2(volume_fraction, BRC_H5_DOUBLE, 1),  QUALITY_2(growth, BRC_H5_DOUBLE, 1),
-    QUALITY_2(n_elements_without_bond, BRC_H5_INT64, 1), QUALITY_2(n_pieces, BRC_H5_INT64, 1),
-    QUALITY_2(volume_spread, BRC_H5_DOUBLE, 5),    QUALITY_2(faces_spread, BRC_H5_DOUBLE, 5),
+    QUALITY(n_seeds_requested, BRC_H5_INT64, 1),
+    QUALITY(n_seeds_duplicate, BRC_H5_INT64, 1),
+    QUALITY(n_seeds_lost, BRC_H5_INT64, 1),
+    QUALITY(n_tiny_faces_dropped, BRC_H5_INT64, 1),
+    QUALITY(tiny_face_threshold, BRC_H5_DOUBLE, 1),
+    QUALITY(tiny_face_area_fraction, BRC_H5_DOUBLE, 1),
+    QUALITY(volume_shape, BRC_H5_DOUBLE, 1),
+    QUALITY(volume_cells, BRC_H5_DOUBLE, 1),
+    QUALITY(volume_error, BRC_H5_DOUBLE, 1),
+    QUALITY(smallest_distance, BRC_H5_DOUBLE, 1),
+    QUALITY(mean_spacing, BRC_H5_DOUBLE, 1),
+    QUALITY(closure_worst, BRC_H5_DOUBLE, 1),
+    QUALITY(twin_area_worst, BRC_H5_DOUBLE, 1),
+    QUALITY(support_smallest, BRC_H5_DOUBLE, 1),
+    QUALITY(coordination_mean, BRC_H5_DOUBLE, 1),
+    QUALITY(coordination_histogram, BRC_H5_INT64, 64),
+    QUALITY_2(volume_fraction, BRC_H5_DOUBLE, 1),
+    QUALITY_2(growth, BRC_H5_DOUBLE, 1),
+    QUALITY_2(n_elements_without_bond, BRC_H5_INT64, 1),
+    QUALITY_2(n_pieces, BRC_H5_INT64, 1),
+    QUALITY_2(volume_spread, BRC_H5_DOUBLE, 5),
+    QUALITY_2(faces_spread, BRC_H5_DOUBLE, 5),
     QUALITY_2(branch_spread, BRC_H5_DOUBLE, 5),
 };
 enum { N_QUALITY = (int)(sizeof quality_fields / sizeof *quality_fields) };
 
 /* The counts of the file, attributes of its root. */
-static const char *const count_name[] = {"n_elements", "n_bonds", "n_free_faces", "n_corners", "n_polygon_corners",
-                                         "n_walls", "n_sets"};
+static const char *const count_name[] = {"n_elements",        "n_bonds", "n_free_faces", "n_corners",
+                                         "n_polygon_corners", "n_walls", "n_sets"};
 enum { N_COUNTS = (int)(sizeof count_name / sizeof *count_name) };
 
 static void rows_from_counts(const int64_t count[N_COUNTS], int64_t rows[N_ROWS_OF])
@@ -284,7 +303,8 @@ brc_status brc_domain_write(brc_context *context, const brc_domain *domain, cons
     /* flushed first: once closing has failed, the file cannot be closed any more */
     if (status == BRC_OK && H5Fflush(file, H5F_SCOPE_LOCAL) < 0)
         status = brc_h5_fail(context, BRC_FILE_FAILED, path, "cannot finish the domain file");
-    if (status != BRC_OK) brc_h5_close_broken(file);
+    if (status != BRC_OK)
+        brc_h5_close_broken(file);
     else if (H5Fclose(file) < 0)
         status = brc_h5_fail(context, BRC_FILE_FAILED, path, "cannot close the domain file");
     if (status == BRC_OK) status = brc_file_commit(context, aside, path);
@@ -308,8 +328,8 @@ static brc_status read_kind(brc_context *context, hid_t file, const char *path, 
     return BRC_FAIL(context, BRC_BAD_INPUT, "%s: its kind of elements is unknown, expected cells or spheres", path);
 }
 
-static brc_status read_header(brc_context *context, hid_t file, const char *path, int64_t *version, int64_t count[N_COUNTS],
-                              brc_domain *d)
+static brc_status read_header(brc_context *context, hid_t file, const char *path, int64_t *version,
+                              int64_t count[N_COUNTS], brc_domain *d)
 {
     char *format = NULL;
     BRC_TRY(brc_h5_read_text(context, file, path, "format", &format));
@@ -318,8 +338,10 @@ static brc_status read_header(brc_context *context, hid_t file, const char *path
     if (!ours) return BRC_FAIL(context, BRC_BAD_INPUT, "%s: not a domain file of breccia", path);
     BRC_TRY(brc_h5_read_numbers(context, file, path, "format_version", BRC_H5_INT64, 1, version));
     if (*version < 1 || *version > BRC_DOMAIN_FORMAT_VERSION)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%s: domain format version %lld, this program reads versions 1 to %d; build "
-                        "the domain again", path, (long long)*version, BRC_DOMAIN_FORMAT_VERSION);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "%s: domain format version %lld, this program reads versions 1 to %d; build "
+                        "the domain again",
+                        path, (long long)*version, BRC_DOMAIN_FORMAT_VERSION);
     BRC_TRY(read_kind(context, file, path, *version, d));
     for (int k = 0; k < N_COUNTS; ++k) {
         BRC_TRY(brc_h5_read_numbers(context, file, path, count_name[k], BRC_H5_INT64, 1, &count[k]));
@@ -380,8 +402,8 @@ static brc_status read_sets(brc_context *context, hid_t file, const char *path, 
         brc_set *set = &d->sets[d->n_sets];
         char *kind = NULL;
         snprintf(name, sizeof name, "sets/%d", d->n_sets++);
-        BRC_TRY(brc_h5_read_array(context, file, path, name, BRC_H5_INT32, -1, 1, (void **)&set->members,
-                                  &set->n_members));
+        BRC_TRY(
+            brc_h5_read_array(context, file, path, name, BRC_H5_INT32, -1, 1, (void **)&set->members, &set->n_members));
         const hid_t place = H5Dopen2(file, name, H5P_DEFAULT);
         if (place < 0) return brc_h5_fail(context, BRC_BAD_INPUT, path, name);
         brc_status status = brc_h5_read_text(context, place, path, "name", &set->name);
@@ -409,8 +431,8 @@ static brc_status read_quality(brc_context *context, hid_t file, const char *pat
     return status;
 }
 
-static brc_status read_arrays(brc_context *context, hid_t file, const char *path, int64_t version, const int64_t count[N_COUNTS],
-                              brc_domain *d)
+static brc_status read_arrays(brc_context *context, hid_t file, const char *path, int64_t version,
+                              const int64_t count[N_COUNTS], brc_domain *d)
 {
     int64_t rows[N_ROWS_OF], has_grains = 0;
     rows_from_counts(count, rows);
@@ -420,7 +442,8 @@ static brc_status read_arrays(brc_context *context, hid_t file, const char *path
             BRC_TRY(brc_h5_read_array(context, file, path, arrays[k].name, arrays[k].kind, rows[arrays[k].rows],
                                       arrays[k].width, pointer_of(d, &arrays[k]), NULL));
     const bool cells = d->element_kind == BRC_ELEMENT_CELL;
-    if ((cells ? d->vertex_start[d->n_elements] : 0) != count[3] || (cells ? d->free_polygon_start[d->n_free_faces] : 0) != count[4])
+    if ((cells ? d->vertex_start[d->n_elements] : 0) != count[3] ||
+        (cells ? d->free_polygon_start[d->n_free_faces] : 0) != count[4])
         return BRC_FAIL(context, BRC_BAD_INPUT, "%s: the rows of corners do not end at their number", path);
     return read_bonds(context, file, path, d);
 }

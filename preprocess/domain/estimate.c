@@ -9,22 +9,26 @@
 /* While building, cells and half-edges are held at once, and the search of Voro++. */
 #define BUILD_OVER_DOMAIN 2.2
 
-/* Bonds' ends and free faces per element. w: cells at a wall, per element. A cell of random seeds has 15.6 neighbours inside, fewer after
- * relaxation, and loses four at a wall. A flat wall gives it one free face; laying p planes a cell over a curved one gives 1 + p (cylinder,
- * cone) or (1 + sqrt p)^2 (sphere); mirror images at curved walls give it one of its own and slivers of its neighbours': five
- * where all is curved, somewhere between for most shapes. Without noise cells are
- * cubes, until relaxation carries the disorder of a curved wall one layer a sweep inward. */
-static void estimate_faces(const brc_solid *solid, const brc_fill *fill, double h, double w, double *half_edges, double *free_faces)
+/* Bonds' ends and free faces per element. w: cells at a wall, per element. A cell of random seeds has 15.6 neighbours
+ * inside, fewer after relaxation, and loses four at a wall. A flat wall gives it one free face; laying p planes a cell
+ * over a curved one gives 1 + p (cylinder, cone) or (1 + sqrt p)^2 (sphere); mirror images at curved walls give it one
+ * of its own and slivers of its neighbours': five where all is curved, somewhere between for most shapes. Without noise
+ * cells are cubes, until relaxation carries the disorder of a curved wall one layer a sweep inward. */
+static void estimate_faces(const brc_solid *solid, const brc_fill *fill, double h, double w, double *half_edges,
+                           double *free_faces)
 {
     const brc_shape *shape = brc_solid_shape(solid);
-    const double sweeps = fill->lloyd_sweeps, r = fmax(shape->radius, shape->kind == BRC_SHAPE_CONE ? shape->radius2 : 0.0);
+    const double sweeps = fill->lloyd_sweeps,
+                 r = fmax(shape->radius, shape->kind == BRC_SHAPE_CONE ? shape->radius2 : 0.0);
     const bool box = shape->kind == BRC_SHAPE_BOX, sphere = shape->kind == BRC_SHAPE_SPHERE;
     const bool round = shape->kind == BRC_SHAPE_CYLINDER || shape->kind == BRC_SHAPE_CONE;
     const double planes = brc_walls_n_planes(shape, h);
     *free_faces = w;
-    if (round && planes > 0.0) *free_faces = w * (r + (1.0 + planes * h / (6.283185307 * r)) * shape->length) / (r + shape->length);
+    if (round && planes > 0.0)
+        *free_faces = w * (r + (1.0 + planes * h / (6.283185307 * r)) * shape->length) / (r + shape->length);
     if (sphere) *free_faces = w * pow(1.0 + sqrt(planes * h * h / 12.566370614) / r, 2.0);
-    if (planes == 0.0 && !box) *free_faces = (shape->kind == BRC_SHAPE_TORUS ? 4.6 : shape->kind == BRC_SHAPE_CONE ? 6.0 : 1.6) * w;
+    if (planes == 0.0 && !box)
+        *free_faces = (shape->kind == BRC_SHAPE_TORUS ? 4.6 : shape->kind == BRC_SHAPE_CONE ? 6.0 : 1.6) * w;
     if (fill->kind != BRC_FILL_NOISY_GRID || fill->spread > 0.0) {
         *half_edges = (fill->kind == BRC_FILL_NOISY_GRID ? 14.9 + 0.7 * exp(-sweeps / 3.0) : 14.4) - 4.1 * w;
     } else {

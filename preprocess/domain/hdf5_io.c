@@ -68,7 +68,8 @@ void brc_h5_close_broken(hid_t file)
 {
     void *handle = NULL;
     const int nowhere = memfd_create("discarded", 0);
-    if (nowhere >= 0 && H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) >= 0 && handle) dup2(nowhere, *(const int *)handle);
+    if (nowhere >= 0 && H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) >= 0 && handle)
+        dup2(nowhere, *(const int *)handle);
     if (nowhere >= 0) close(nowhere);
     H5Fclose(file);
 }
@@ -94,8 +95,10 @@ static int64_t checksum(brc_h5_kind kind, const void *data, int64_t n)
     uint64_t sum = 0x9e3779b97f4a7c15u;
     for (int64_t k = 0; k < n; ++k) {
         uint64_t word;
-        if (kind == BRC_H5_INT32) word = (uint64_t)(int64_t)((const int32_t *)data)[k];
-        else memcpy(&word, (const char *)data + 8 * k, sizeof word);
+        if (kind == BRC_H5_INT32)
+            word = (uint64_t)(int64_t)((const int32_t *)data)[k];
+        else
+            memcpy(&word, (const char *)data + 8 * k, sizeof word);
         sum = (sum ^ word) * 0xff51afd7ed558ccdu;
         sum ^= sum >> 32;
     }
@@ -122,16 +125,16 @@ brc_status brc_h5_read_numbers(brc_context *context, hid_t place, const char *pa
 {
     const hid_t attribute = H5Aopen(place, what, H5P_DEFAULT);
     if (attribute < 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%s: the attribute '%s' is missing, this is no domain file of this version",
-                        path, what);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "%s: the attribute '%s' is missing, this is no domain file of this version", path, what);
     const hid_t space = H5Aget_space(attribute), type = H5Aget_type(attribute);
     const hssize_t found = H5Sget_simple_extent_npoints(space);
     const bool right = H5Tequal(type, file_type(kind)) > 0 && found == n;
     brc_status status = BRC_OK;
     if (!right)
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: the attribute '%s' has %lld items or another type, expected %lld %s",
-                          path, what, (long long)found, (long long)n,
-                          kind == BRC_H5_DOUBLE ? "64-bit numbers" : "64-bit integers");
+        status = BRC_FAIL(context, BRC_BAD_INPUT,
+                          "%s: the attribute '%s' has %lld items or another type, expected %lld %s", path, what,
+                          (long long)found, (long long)n, kind == BRC_H5_DOUBLE ? "64-bit numbers" : "64-bit integers");
     else if (H5Aread(attribute, memory_type(kind), data) < 0)
         status = brc_h5_fail(context, BRC_BAD_INPUT, path, what);
     H5Tclose(type);
@@ -146,7 +149,8 @@ brc_status brc_h5_write_text(brc_context *context, hid_t place, const char *path
     H5Tset_size(type, strlen(text) + 1);
     const hid_t attribute = H5Acreate2(place, what, type, space, H5P_DEFAULT, H5P_DEFAULT);
     brc_status status = BRC_OK;
-    if (attribute < 0 || H5Awrite(attribute, type, text) < 0) status = brc_h5_fail(context, BRC_FILE_FAILED, path, what);
+    if (attribute < 0 || H5Awrite(attribute, type, text) < 0)
+        status = brc_h5_fail(context, BRC_FILE_FAILED, path, what);
     if (attribute >= 0 && H5Aclose(attribute) < 0 && status == BRC_OK)
         status = brc_h5_fail(context, BRC_FILE_FAILED, path, what);
     H5Sclose(space);
@@ -159,8 +163,8 @@ brc_status brc_h5_read_text(brc_context *context, hid_t place, const char *path,
     *out = NULL;
     const hid_t attribute = H5Aopen(place, what, H5P_DEFAULT);
     if (attribute < 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%s: the attribute '%s' is missing, this is no domain file of this version",
-                        path, what);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "%s: the attribute '%s' is missing, this is no domain file of this version", path, what);
     const hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
     const size_t size = H5Tget_size(type);
     brc_status status = BRC_OK;
@@ -214,15 +218,18 @@ static brc_status check_array(brc_context *context, hid_t set, const char *path,
                           kind == BRC_H5_DOUBLE ? "floating point" : "integers");
     } else if (rank != (width == 1 ? 1 : 2) || H5Sget_simple_extent_dims(space, size, NULL) < 0 ||
                size[1] != (hsize_t)width || (*rows >= 0 && size[0] != (hsize_t)*rows)) {
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' has the shape [%llu][%llu], expected [%lld][%lld]", path, name,
-                          (unsigned long long)size[0], (unsigned long long)size[1], (long long)*rows, (long long)width);
+        status =
+            BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' has the shape [%llu][%llu], expected [%lld][%lld]", path, name,
+                     (unsigned long long)size[0], (unsigned long long)size[1], (long long)*rows, (long long)width);
     } else if (H5Dget_storage_size(set) != size[0] * size[1] * 8) {
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' is cut off: %llu bytes are stored, expected %llu", path, name,
-                          (unsigned long long)H5Dget_storage_size(set), (unsigned long long)(size[0] * size[1] * 8));
+        status =
+            BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' is cut off: %llu bytes are stored, expected %llu", path, name,
+                     (unsigned long long)H5Dget_storage_size(set), (unsigned long long)(size[0] * size[1] * 8));
     }
     hsize_t file_size = 0;
     const hid_t file = H5Iget_file_id(set);
-    if (status == BRC_OK && (H5Fget_filesize(file, &file_size) < 0 || size[0] > file_size || size[0] * size[1] * 8 > file_size))
+    if (status == BRC_OK &&
+        (H5Fget_filesize(file, &file_size) < 0 || size[0] > file_size || size[0] * size[1] * 8 > file_size))
         status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' claims %llu rows, more than the file holds", path, name,
                           (unsigned long long)size[0]);
     if (file >= 0) H5Fclose(file);
@@ -248,8 +255,8 @@ brc_status brc_h5_read_array(brc_context *context, hid_t place, const char *path
     }
     BRC_TRY_OR(cleanup, brc_h5_read_numbers(context, set, path, "checksum", BRC_H5_INT64, 1, &sum));
     if (sum != checksum(kind, *data, rows * width))
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' was damaged (its checksum is wrong); build the domain again",
-                          path, name);
+        status = BRC_FAIL(context, BRC_BAD_INPUT,
+                          "%s: '%s' was damaged (its checksum is wrong); build the domain again", path, name);
     if (found) *found = rows;
 cleanup:
     H5Dclose(set);

@@ -132,7 +132,8 @@ brc_status brc_icosphere_make(brc_context *context, int level, brc_icosphere *ou
 {
     memset(out, 0, sizeof *out);
     if (level < 0 || level > BRC_ICOSPHERE_LEVEL_MOST)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "level %d of the bins of directions; expected 0 (12 bins) to %d (%d bins)", level,
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "level %d of the bins of directions; expected 0 (12 bins) to %d (%d bins)", level,
                         BRC_ICOSPHERE_LEVEL_MOST, 10 * (1 << 2 * BRC_ICOSPHERE_LEVEL_MOST) + 2);
     brc_status status = BRC_OK;
     const int32_t finest = 1 << 2 * level, n = 10 * finest + 2;
@@ -174,7 +175,8 @@ void brc_icosphere_free(brc_icosphere *sphere)
  * of the sphere. A direction on the border is in both; so are the vertices nearest to it. */
 static int child_of(const double *vertex, const int32_t middle[3], const double direction[3])
 {
-    const double *ab = vertex + 3 * (int64_t)middle[0], *bc = vertex + 3 * (int64_t)middle[1], *ca = vertex + 3 * (int64_t)middle[2];
+    const double *ab = vertex + 3 * (int64_t)middle[0], *bc = vertex + 3 * (int64_t)middle[1],
+                 *ca = vertex + 3 * (int64_t)middle[2];
     if (triple(ca, ab, direction) < 0) return 0;
     if (triple(ab, bc, direction) < 0) return 1;
     if (triple(bc, ca, direction) < 0) return 2;

@@ -12,14 +12,14 @@
  * grid meet equal bins, and so do all eight octants' diagonals. With every vertex there is its opposite, exactly. */
 typedef struct brc_icosphere {
     int32_t level;
-    int32_t n_vertices;   /* 10 * 4^level + 2 */
-    double *vertex;       /* [n_vertices][3] unit vectors, those of coarser levels first; owned */
-    int32_t *opposite;    /* [n_vertices] the vertex at -vertex; owned */
-    double *solid_angle;  /* [n_vertices] [sr] of the directions nearest to each; they sum to 4 pi; owned */
-    int32_t n_triangles;  /* 20 * 4^level */
-    int32_t *triangle;    /* [n_triangles][3] of the finest level, counter-clockwise from outside; points into `tree` */
-    int32_t *tree;        /* [20 (4^(level + 1) - 1) / 3][3] triangles of all levels, the coarsest first; triangle t of a
-                           * level has the children 4 t ... 4 t + 3 of the next, the last one in its middle; owned */
+    int32_t n_vertices;  /* 10 * 4^level + 2 */
+    double *vertex;      /* [n_vertices][3] unit vectors, those of coarser levels first; owned */
+    int32_t *opposite;   /* [n_vertices] the vertex at -vertex; owned */
+    double *solid_angle; /* [n_vertices] [sr] of the directions nearest to each; they sum to 4 pi; owned */
+    int32_t n_triangles; /* 20 * 4^level */
+    int32_t *triangle;   /* [n_triangles][3] of the finest level, counter-clockwise from outside; points into `tree` */
+    int32_t *tree;       /* [20 (4^(level + 1) - 1) / 3][3] triangles of all levels, the coarsest first; triangle t of a
+                          * level has the children 4 t ... 4 t + 3 of the next, the last one in its middle; owned */
 } brc_icosphere;
 
 /* BRC_BAD_INPUT: level outside 0..BRC_ICOSPHERE_LEVEL_MOST. */

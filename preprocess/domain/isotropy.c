@@ -1,4 +1,5 @@
-/* Bins are found on all threads; sums run in fixed blocks of directions, added in order, so threads do not change a bit. */
+/* Bins are found on all threads; sums run in fixed blocks of directions, added in order, so threads do not change a
+ * bit. */
 #include "isotropy.h"
 #include "icosphere.h"
 #include "../../host/base/memory.h"
@@ -13,7 +14,8 @@ typedef struct source {
     int64_t n;
     const brc_domain *domain; /* NULL: arrays */
     brc_isotropy_weight kind;
-    const int32_t *away; /* [n_elements] bonds to the nearest element at a wall, at most `layers`; NULL: all bonds count */
+    const int32_t
+        *away; /* [n_elements] bonds to the nearest element at a wall, at most `layers`; NULL: all bonds count */
     int32_t layers;
     const double *direction, *weight;
 } source;
@@ -27,7 +29,9 @@ static double weight_of(const source *from, int64_t k)
 {
     if (!from->domain) return from->weight ? from->weight[k] : 1;
     const int32_t h = from->domain->bond_half_edge[k];
-    if (from->away && (from->away[from->domain->neighbour[h]] < from->layers || from->away[from->domain->neighbour[from->domain->twin[h]]] < from->layers)) return 0;
+    if (from->away && (from->away[from->domain->neighbour[h]] < from->layers ||
+                       from->away[from->domain->neighbour[from->domain->twin[h]]] < from->layers))
+        return 0;
     if (from->kind == BRC_ISOTROPY_BONDS) return 1;
     const double *s = from->domain->area_vector + 3 * (int64_t)h;
     return sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
@@ -41,13 +45,14 @@ static void direction_of(const source *from, int64_t k, double n[3])
     }
     const brc_domain *d = from->domain;
     const int32_t h = d->bond_half_edge[k];
-    const double *i = d->position + 3 * (int64_t)d->neighbour[d->twin[h]], *j = d->position + 3 * (int64_t)d->neighbour[h];
+    const double *i = d->position + 3 * (int64_t)d->neighbour[d->twin[h]],
+                 *j = d->position + 3 * (int64_t)d->neighbour[h];
     for (int c = 0; c < 3; ++c)
         n[c] = j[c] - i[c];
 }
 
-/* To unit length, and to one of the two senses, so that a tie between bins does not depend on how a bond is stored. False for
- * what has no direction. */
+/* To unit length, and to one of the two senses, so that a tie between bins does not depend on how a bond is stored.
+ * False for what has no direction. */
 static bool make_axis(double n[3])
 {
     const double largest = fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2])));
@@ -94,8 +99,9 @@ static void add_moments(moments *to, const moments *from)
         to->fabric[c] += from->fabric[c];
 }
 
-/* The numbers, from the bins and the sums. Expectations for even directions: a bin and its opposite receive Binomial(n, 2 p),
- * p = solid angle / (4 pi), so density has the variance (1 - 2 p) / (2 n p), and its mean over the sphere is (n_bins - 2) / (2 n). */
+/* The numbers, from the bins and the sums. Expectations for even directions: a bin and its opposite receive Binomial(n,
+ * 2 p), p = solid angle / (4 pi), so density has the variance (1 - 2 p) / (2 n p), and its mean over the sphere is
+ * (n_bins - 2) / (2 n). */
 static void conclude(brc_isotropy *out, const moments *sum)
 {
     const double mean = sum->weight / (2 * M_PI); /* per solid angle: every direction is counted twice */
@@ -157,7 +163,8 @@ static brc_status measure(brc_context *context, const source *from, int level, i
     BRC_TRY_OR(cleanup, take_sphere(context, &sphere, out));
     for (int64_t k = 0; k < from->n; ++k) {
         if (bin[k] < 0) {
-            status = BRC_FAIL(context, BRC_BAD_INPUT, "direction %lld has length 0, is not finite, or has a weight that is not a number >= 0",
+            status = BRC_FAIL(context, BRC_BAD_INPUT,
+                              "direction %lld has length 0, is not finite, or has a weight that is not a number >= 0",
                               (long long)k);
             goto cleanup;
         }
@@ -168,9 +175,13 @@ static brc_status measure(brc_context *context, const source *from, int level, i
         out->count[sphere.opposite[bin[k]]] += w;
     }
     if (!(sum.weight > 0)) {
-        status = from->away ? BRC_FAIL(context, BRC_BAD_INPUT, "none of %lld bonds is %d layer(s) or more away from the walls; ask for fewer layers or build more elements",
+        status = from->away ? BRC_FAIL(context, BRC_BAD_INPUT,
+                                       "none of %lld bonds is %d layer(s) or more away from the walls; ask for fewer "
+                                       "layers or build more elements",
                                        (long long)from->n, (int)from->layers)
-                            : BRC_FAIL(context, BRC_BAD_INPUT, "%lld directions whose weights sum to 0; nothing can be said about them", (long long)from->n);
+                            : BRC_FAIL(context, BRC_BAD_INPUT,
+                                       "%lld directions whose weights sum to 0; nothing can be said about them",
+                                       (long long)from->n);
         goto cleanup;
     }
     conclude(out, &sum);
@@ -182,8 +193,8 @@ cleanup:
     return status;
 }
 
-/* Distance of every element from those at a wall, in bonds, as far as `layers`. Cells are at a wall with a free face, spheres as members
- * of a wall's set. */
+/* Distance of every element from those at a wall, in bonds, as far as `layers`. Cells are at a wall with a free face,
+ * spheres as members of a wall's set. */
 static void find_layers(const brc_domain *d, int32_t layers, int32_t *away)
 {
     for (int64_t e = 0; e < d->n_elements; ++e)
@@ -199,23 +210,27 @@ static void find_layers(const brc_domain *d, int32_t layers, int32_t *away)
                 if (away[d->neighbour[h]] > layer + 1) away[d->neighbour[h]] = layer + 1;
 }
 
-brc_status brc_isotropy_measure(brc_context *context, const brc_domain *domain, int level, brc_isotropy_weight weight, int n_threads,
-                                brc_isotropy *out)
+brc_status brc_isotropy_measure(brc_context *context, const brc_domain *domain, int level, brc_isotropy_weight weight,
+                                int n_threads, brc_isotropy *out)
 {
     return brc_isotropy_measure_inside(context, domain, 0, level, weight, n_threads, out);
 }
 
-brc_status brc_isotropy_measure_inside(brc_context *context, const brc_domain *domain, int layers, int level, brc_isotropy_weight weight,
-                                       int n_threads, brc_isotropy *out)
+brc_status brc_isotropy_measure_inside(brc_context *context, const brc_domain *domain, int layers, int level,
+                                       brc_isotropy_weight weight, int n_threads, brc_isotropy *out)
 {
     int32_t *away = NULL;
     memset(out, 0, sizeof *out);
     if (domain->n_bonds < 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "the domain has %lld element(s) and no bond, so there are no directions to count",
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "the domain has %lld element(s) and no bond, so there are no directions to count",
                         (long long)domain->n_elements);
     if (weight == BRC_ISOTROPY_AREA && domain->element_kind != BRC_ELEMENT_CELL)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "spheres have no faces to weight directions with; count every bond once");
-    if (layers < 0) return BRC_FAIL(context, BRC_BAD_INPUT, "%d layers away from the walls; expected 0 (all bonds) or more", layers);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "spheres have no faces to weight directions with; count every bond once");
+    if (layers < 0)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "%d layers away from the walls; expected 0 (all bonds) or more",
+                        layers);
     if (layers > 0) {
         BRC_TRY(BRC_ALLOCATE(context, &away, domain->n_elements, "distances from the walls"));
         find_layers(domain, layers, away);
@@ -226,8 +241,8 @@ brc_status brc_isotropy_measure_inside(brc_context *context, const brc_domain *d
     return status;
 }
 
-brc_status brc_isotropy_count(brc_context *context, int64_t n, const double *direction, const double *weight, int level, int n_threads,
-                              brc_isotropy *out)
+brc_status brc_isotropy_count(brc_context *context, int64_t n, const double *direction, const double *weight, int level,
+                              int n_threads, brc_isotropy *out)
 {
     memset(out, 0, sizeof *out);
     if (n < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "%lld directions to count; expected 1 or more", (long long)n);
@@ -248,10 +263,10 @@ void brc_isotropy_free(brc_isotropy *isotropy)
 void brc_isotropy_print(FILE *file, const brc_isotropy *i)
 {
     fprintf(file, "directions       %lld bonds in %d bins\n", (long long)i->n_directions, (int)i->n_bins);
-    fprintf(file, "fabric           xx %.5f yy %.5f zz %.5f yz %.5f xz %.5f xy %.5f (even: 0.33333 and 0)\n", i->fabric[0], i->fabric[1],
-            i->fabric[2], i->fabric[3], i->fabric[4], i->fabric[5]);
-    fprintf(file, "anisotropy       %.4f of the fabric (by chance %.4f), cubic order %.4f (by chance %.4f)\n", i->fabric_anisotropy,
-            i->fabric_noise, i->cubic, i->cubic_noise);
-    fprintf(file, "bins             density off by %.3f rms (by chance %.3f, beyond it %.3f), worst bin %.3f\n", i->rms_bin, i->noise,
-            i->excess, i->worst_bin);
+    fprintf(file, "fabric           xx %.5f yy %.5f zz %.5f yz %.5f xz %.5f xy %.5f (even: 0.33333 and 0)\n",
+            i->fabric[0], i->fabric[1], i->fabric[2], i->fabric[3], i->fabric[4], i->fabric[5]);
+    fprintf(file, "anisotropy       %.4f of the fabric (by chance %.4f), cubic order %.4f (by chance %.4f)\n",
+            i->fabric_anisotropy, i->fabric_noise, i->cubic, i->cubic_noise);
+    fprintf(file, "bins             density off by %.3f rms (by chance %.3f, beyond it %.3f), worst bin %.3f\n",
+            i->rms_bin, i->noise, i->excess, i->worst_bin);
 }

@@ -22,20 +22,27 @@ static void write_numbers(FILE *file, const char *name, int64_t n, const double 
 
 static void write_vtp(FILE *file, const brc_isotropy *i)
 {
-    fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n", file);
-    fprintf(file, "<Piece NumberOfPoints=\"%d\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"%d\">\n", (int)i->n_bins,
-            (int)i->n_triangles);
+    fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+          "header_type=\"UInt64\">\n<PolyData>\n",
+          file);
+    fprintf(file,
+            "<Piece NumberOfPoints=\"%d\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+            "NumberOfPolys=\"%d\">\n",
+            (int)i->n_bins, (int)i->n_triangles);
     fputs("<PointData Scalars=\"density\">\n", file);
     write_numbers(file, "density", i->n_bins, i->density);
     write_numbers(file, "count", i->n_bins, i->count);
     write_numbers(file, "solid_angle", i->n_bins, i->solid_angle);
-    fputs("</PointData>\n<Points>\n<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">\n", file);
+    fputs("</PointData>\n<Points>\n<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" "
+          "format=\"ascii\">\n",
+          file);
     for (int32_t b = 0; b < i->n_bins; ++b) {
         double x[3];
         corner(i, b, x);
         fprintf(file, "%.17g %.17g %.17g\n", x[0], x[1], x[2]);
     }
-    fputs("</DataArray>\n</Points>\n<Polys>\n<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n", file);
+    fputs("</DataArray>\n</Points>\n<Polys>\n<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n",
+          file);
     for (int64_t t = 0; t < i->n_triangles; ++t)
         fprintf(file, "%d %d %d\n", (int)i->triangle[3 * t], (int)i->triangle[3 * t + 1], (int)i->triangle[3 * t + 2]);
     fputs("</DataArray>\n<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">\n", file);

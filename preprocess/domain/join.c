@@ -64,7 +64,8 @@ static brc_status allocate(brc_context *context, offsets total, bool grains, brc
     const int64_t n = total.elements, h = total.half_edges;
     if (n > INT32_MAX || h > INT32_MAX || total.free_faces > INT32_MAX || total.vertices > INT32_MAX)
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "joined domain: %lld elements, %lld half-edges, %lld free faces, %lld corners, each must be below 2^31; use "
+                        "joined domain: %lld elements, %lld half-edges, %lld free faces, %lld corners, each must be "
+                        "below 2^31; use "
                         "fewer elements",
                         (long long)n, (long long)h, (long long)total.free_faces, (long long)total.vertices);
     d->n_elements = n;
@@ -94,13 +95,15 @@ static void copy(double *to, const double *from, int64_t n)
 
 static void copy_shifted(int32_t *to, const int32_t *from, int64_t n, int64_t shift)
 {
-    for (int64_t k = 0; k < n; ++k) to[k] = (int32_t)(from[k] + shift);
+    for (int64_t k = 0; k < n; ++k)
+        to[k] = (int32_t)(from[k] + shift);
 }
 
 /* Rows of one part: n + 1 starts, the last of which the next part overwrites with the same value. */
 static void copy_rows(int64_t *to, const int64_t *from, int64_t n, int64_t shift)
 {
-    for (int64_t k = 0; k <= n; ++k) to[k] = from[k] + shift;
+    for (int64_t k = 0; k <= n; ++k)
+        to[k] = from[k] + shift;
 }
 
 static void copy_part(const brc_domain *p, offsets at, const int32_t *wall, brc_domain *d)
@@ -117,7 +120,8 @@ static void copy_part(const brc_domain *p, offsets at, const int32_t *wall, brc_
     copy_shifted(d->twin + at.half_edges, p->twin, h, at.half_edges);
     copy_shifted(d->bond + at.half_edges, p->bond, h, at.bonds);
     copy_shifted(d->bond_half_edge + at.bonds, p->bond_half_edge, p->n_bonds, at.half_edges);
-    for (int64_t e = 0; d->grain && e < n; ++e) d->grain[at.elements + e] = (int32_t)(at.grains + (p->grain ? p->grain[e] : 0));
+    for (int64_t e = 0; d->grain && e < n; ++e)
+        d->grain[at.elements + e] = (int32_t)(at.grains + (p->grain ? p->grain[e] : 0));
     if (!cells(p)) {
         copy(d->radius + at.elements, p->radius, n);
         return;
@@ -128,7 +132,8 @@ static void copy_part(const brc_domain *p, offsets at, const int32_t *wall, brc_
     copy_shifted(d->free_element + at.free_faces, p->free_element, f, at.elements);
     copy(d->free_area_vector + 3 * at.free_faces, p->free_area_vector, 3 * f);
     copy(d->free_centroid + 3 * at.free_faces, p->free_centroid, 3 * f);
-    for (int64_t k = 0; k < f; ++k) d->free_wall[at.free_faces + k] = wall[p->free_wall[k]];
+    for (int64_t k = 0; k < f; ++k)
+        d->free_wall[at.free_faces + k] = wall[p->free_wall[k]];
     copy_rows(d->vertex_start + at.elements, p->vertex_start, n, at.vertices);
     copy(d->vertex + 3 * at.vertices, p->vertex, 3 * p->vertex_start[n]);
     copy_rows(d->free_polygon_start + at.free_faces, p->free_polygon_start, f, at.polygon);
@@ -190,17 +195,20 @@ static brc_status check_kinds(brc_context *context, int32_t n, const brc_domain 
     char words[2][BRC_OVERLAP_NAME];
     for (int32_t k = 1; k < n; ++k)
         if (parts[k]->element_kind != parts[0]->element_kind)
-            return BRC_FAIL(context, BRC_BAD_INPUT,
-                            "body %s is made of %s, body %s of %s, which one domain cannot hold; give `beams` to all bodies "
-                            "or to none, or each kind a `model` of its own", brc_overlap_name(name, 0, words[0]), cells(parts[0]) ? "cells" : "spheres",
-                            brc_overlap_name(name, k, words[1]), cells(parts[k]) ? "cells" : "spheres");
+            return BRC_FAIL(
+                context, BRC_BAD_INPUT,
+                "body %s is made of %s, body %s of %s, which one domain cannot hold; give `beams` to all bodies "
+                "or to none, or each kind a `model` of its own",
+                brc_overlap_name(name, 0, words[0]), cells(parts[0]) ? "cells" : "spheres",
+                brc_overlap_name(name, k, words[1]), cells(parts[k]) ? "cells" : "spheres");
     return BRC_OK;
 }
 
 static brc_status describe(brc_context *context, int32_t n, const brc_domain *const *parts, brc_domain *d)
 {
     int64_t room = 1;
-    for (int32_t k = 0; k < n; ++k) room += (int64_t)strlen(parts[k]->provenance) + 3;
+    for (int32_t k = 0; k < n; ++k)
+        room += (int64_t)strlen(parts[k]->provenance) + 3;
     BRC_TRY(BRC_ALLOCATE(context, &d->provenance, room, "provenance"));
     for (int32_t k = 0; k < n; ++k) {
         if (k > 0) strcat(d->provenance, " | ");
@@ -209,7 +217,8 @@ static brc_status describe(brc_context *context, int32_t n, const brc_domain *co
     return BRC_OK;
 }
 
-brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *const *parts, const char *const *name, brc_domain **out)
+brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *const *parts, const char *const *name,
+                           brc_domain **out)
 {
     *out = NULL;
     if (n < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "joining %d bodies, there must be at least one", n);
@@ -244,7 +253,8 @@ brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *co
         for (int32_t w = 0; w < p->n_walls; ++w)
             BRC_TRY_OR(cleanup, join_wall(context, p->wall_name[w], d, &wall[w]));
         copy_part(p, at, wall, d);
-        for (int32_t s = 0; s < p->n_sets; ++s) BRC_TRY_OR(cleanup, join_set(context, &p->sets[s], at, d));
+        for (int32_t s = 0; s < p->n_sets; ++s)
+            BRC_TRY_OR(cleanup, join_set(context, &p->sets[s], at, d));
         join_quality(p, &d->quality);
         for (int c = 0; c < 3; ++c) {
             d->bounds[0][c] = fmin(d->bounds[0][c], p->bounds[0][c]);

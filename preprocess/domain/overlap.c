@@ -1,4 +1,5 @@
-/* The elements of one body near the other are entered into the boxes of a grid that they cover; an element of the other asks those of its own box. */
+/* The elements of one body near the other are entered into the boxes of a grid that they cover; an element of the other
+ * asks those of its own box. */
 #include "overlap.h"
 
 #include "../../host/base/memory.h"
@@ -12,8 +13,8 @@
 #define DEEP 1e-6
 /* Packed spheres of one body overlap by a thousandth; those of two bodies in contact may by a little more. */
 #define NEAR 0.9
-/* Cells reach into another body by less than the distance of positions from walls: then corners tell. Round walls that touch reach into each
- * other by the square of the cell size; so much [spacings] is no rounding of that kind. */
+/* Cells reach into another body by less than the distance of positions from walls: then corners tell. Round walls that
+ * touch reach into each other by the square of the cell size; so much [spacings] is no rounding of that kind. */
 #define CORNER_DEEP 0.1
 
 /* Elements of `body` by the boxes of a grid over `low` .. `high`, the region in which it may overlap with the other. */
@@ -34,7 +35,8 @@ static bool is_sphere(const brc_domain *d)
 static double largest_radius(const brc_domain *d)
 {
     double most = 0.0;
-    for (int64_t e = 0; is_sphere(d) && e < d->n_elements; ++e) most = fmax(most, d->radius[e]);
+    for (int64_t e = 0; is_sphere(d) && e < d->n_elements; ++e)
+        most = fmax(most, d->radius[e]);
     return most;
 }
 
@@ -89,8 +91,10 @@ static void enter_elements(box_list *list)
             for (int64_t j = first[1]; j <= last[1]; ++j)
                 for (int64_t k = first[2]; k <= last[2]; ++k) {
                     int64_t *at = &list->start[(i * list->dims[1] + j) * list->dims[2] + k];
-                    if (list->element) list->element[--*at] = (int32_t)e;
-                    else ++*at;
+                    if (list->element)
+                        list->element[--*at] = (int32_t)e;
+                    else
+                        ++*at;
                 }
     }
 }
@@ -109,7 +113,8 @@ static brc_status make_boxes(brc_context *context, box_list *list)
     const int64_t boxes = list->dims[0] * list->dims[1] * list->dims[2];
     BRC_TRY(BRC_ALLOCATE(context, &list->start, boxes + 1, "boxes of a body"));
     enter_elements(list);
-    for (int64_t b = 0; b < boxes; ++b) list->start[b + 1] += list->start[b]; /* ends, which filling turns into beginnings */
+    for (int64_t b = 0; b < boxes; ++b)
+        list->start[b + 1] += list->start[b]; /* ends, which filling turns into beginnings */
     BRC_TRY(BRC_ALLOCATE(context, &list->element, list->start[boxes], "boxes of a body"));
     enter_elements(list);
     return BRC_OK;
@@ -129,7 +134,8 @@ static bool below_faces(const double *x, const double *centroid, const double *a
 static bool in_cell(const double *x, const brc_domain *body, int64_t b, double deep, double margin)
 {
     const int64_t h = body->row_start[b], f = body->free_start[b];
-    return below_faces(x, body->free_centroid + 3 * f, body->free_area_vector + 3 * f, body->free_start[b + 1] - f, deep) &&
+    return below_faces(x, body->free_centroid + 3 * f, body->free_area_vector + 3 * f, body->free_start[b + 1] - f,
+                       deep) &&
            below_faces(x, body->face_centroid + 3 * h, body->area_vector + 3 * h, body->row_start[b + 1] - h, margin);
 }
 
@@ -153,12 +159,14 @@ static double square_to_face(const double *x, const brc_domain *body, int64_t f)
                                    edge[0] * normal[1] - edge[1] * normal[0]};
         const double along = dot(edge, edge) > 0.0 ? fmin(fmax(dot(r, edge) / dot(edge, edge), 0.0), 1.0) : 0.0;
         double square = 0.0;
-        for (int c = 0; c < 3; ++c) square += (r[c] - along * edge[c]) * (r[c] - along * edge[c]);
+        for (int c = 0; c < 3; ++c)
+            square += (r[c] - along * edge[c]) * (r[c] - along * edge[c]);
         least = fmin(least, square);
         above = above && dot(r, outward) <= 0.0;
     }
     if (!above || !(area > 0.0)) return least;
-    const double *c = body->free_centroid + 3 * f, r[3] = {x[0] - c[0], x[1] - c[1], x[2] - c[2]}, height = dot(r, normal) / area;
+    const double *c = body->free_centroid + 3 * f, r[3] = {x[0] - c[0], x[1] - c[1], x[2] - c[2]},
+                 height = dot(r, normal) / area;
     return height * height;
 }
 
@@ -175,7 +183,8 @@ static bool stands_in(const brc_domain *other, int64_t e, const brc_domain *body
 {
     const double *x = other->position + 3 * e, *y = body->position + 3 * b, margin = DEEP * body->quality.mean_spacing;
     const double radius = is_sphere(other) ? other->radius[e] : 0.0;
-    if (!is_sphere(body)) return in_cell(x, body, b, margin, margin) || (radius > 0.0 && reaches_in(x, radius, body, b));
+    if (!is_sphere(body))
+        return in_cell(x, body, b, margin, margin) || (radius > 0.0 && reaches_in(x, radius, body, b));
     const double r[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]}, near = NEAR * (radius + body->radius[b]);
     return dot(r, r) < near * near;
 }
@@ -195,7 +204,8 @@ static int64_t box_of(const box_list *list, const double *x)
 static const double *deep_corner(const box_list *list, const brc_domain *other, int64_t e)
 {
     const double deep = CORNER_DEEP * list->body->quality.mean_spacing;
-    for (int64_t p = other->free_polygon_start[other->free_start[e]]; p < other->free_polygon_start[other->free_start[e + 1]]; ++p) {
+    for (int64_t p = other->free_polygon_start[other->free_start[e]];
+         p < other->free_polygon_start[other->free_start[e + 1]]; ++p) {
         const double *x = other->vertex + 3 * (int64_t)other->free_polygon[p];
         const int64_t box = box_of(list, x);
         for (int64_t k = box < 0 ? 0 : list->start[box]; box >= 0 && k < list->start[box + 1]; ++k)
@@ -215,9 +225,9 @@ static bool element_overlaps(const box_list *list, const brc_domain *other, int6
 
 /* How far `other` stands in `body`. */
 typedef struct finding {
-    int64_t n, first;    /* elements whose positions do, and the first of them */
-    int64_t n_corners;   /* cells of which a corner of a free face does; looked at where no position does */
-    double corner[3];    /* of the first of them [m] */
+    int64_t n, first;  /* elements whose positions do, and the first of them */
+    int64_t n_corners; /* cells of which a corner of a free face does; looked at where no position does */
+    double corner[3];  /* of the first of them [m] */
 } finding;
 
 static brc_status find_inside(brc_context *context, const brc_domain *other, const brc_domain *body, finding *out)
@@ -232,7 +242,8 @@ static brc_status find_inside(brc_context *context, const brc_domain *other, con
         if (!(list.low[c] < list.high[c])) return BRC_OK;
     }
     BRC_TRY_OR(cleanup, make_boxes(context, &list));
-#pragma omp parallel for schedule(dynamic, 256) num_threads(omp_get_max_threads()) reduction(+ : n) reduction(min : first)
+#pragma omp parallel for schedule(dynamic, 256) num_threads(omp_get_max_threads()) reduction(+ : n)                    \
+    reduction(min : first)
     for (int64_t e = 0; e < other->n_elements; ++e)
         if (element_overlaps(&list, other, e)) {
             ++n;
@@ -240,7 +251,8 @@ static brc_status find_inside(brc_context *context, const brc_domain *other, con
         }
     *out = (finding){.n = n, .first = first};
     if (n > 0 || is_sphere(body) || is_sphere(other)) goto cleanup;
-#pragma omp parallel for schedule(dynamic, 256) num_threads(omp_get_max_threads()) reduction(+ : n_corners) reduction(min : first_corner)
+#pragma omp parallel for schedule(dynamic, 256) num_threads(omp_get_max_threads()) reduction(+ : n_corners)            \
+    reduction(min : first_corner)
     for (int64_t e = 0; e < other->n_elements; ++e)
         if (deep_corner(&list, other, e)) {
             ++n_corners;
@@ -256,25 +268,30 @@ cleanup:
 
 const char *brc_overlap_name(const char *const *name, int32_t body, char words[BRC_OVERLAP_NAME])
 {
-    if (name) snprintf(words, BRC_OVERLAP_NAME, "'%s'", name[body]);
-    else snprintf(words, BRC_OVERLAP_NAME, "%d", body);
+    if (name)
+        snprintf(words, BRC_OVERLAP_NAME, "'%s'", name[body]);
+    else
+        snprintf(words, BRC_OVERLAP_NAME, "%d", body);
     return words;
 }
 
 /* found[0]: of body a in b, found[1]: of b in a. */
-static brc_status fail_overlap(brc_context *context, const char *a, const char *b, const brc_domain *const both[2], const finding found[2])
+static brc_status fail_overlap(brc_context *context, const char *a, const char *b, const brc_domain *const both[2],
+                               const finding found[2])
 {
     const int side = found[0].n + found[1].n > 0 ? found[0].n == 0 : found[0].n_corners == 0;
     if (found[0].n + found[1].n > 0) {
         const double *x = both[side]->position + 3 * found[side].first;
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "bodies %s and %s overlap: %lld elements of body %s and %lld of body %s stand in the other one, the first at "
+                        "bodies %s and %s overlap: %lld elements of body %s and %lld of body %s stand in the other "
+                        "one, the first at "
                         "(%g, %g, %g) m; move them apart with `pose`, or make one body of several `parts`",
                         a, b, (long long)found[0].n, a, (long long)found[1].n, b, x[0], x[1], x[2]);
     }
     const double *x = found[side].corner;
     return BRC_FAIL(context, BRC_BAD_INPUT,
-                    "bodies %s and %s overlap by less than a cell: corners of %lld cells of body %s and of %lld of body %s lie in the other one, the "
+                    "bodies %s and %s overlap by less than a cell: corners of %lld cells of body %s and of %lld of "
+                    "body %s lie in the other one, the "
                     "first at (%g, %g, %g) m; move them apart with `pose`, or make one body of several `parts`",
                     a, b, (long long)found[0].n_corners, a, (long long)found[1].n_corners, b, x[0], x[1], x[2]);
 }
@@ -287,9 +304,11 @@ brc_status brc_overlap_check(brc_context *context, int32_t n, const brc_domain *
             const brc_domain *const both[2] = {bodies[a], bodies[b]};
             char words[2][BRC_OVERLAP_NAME];
             finding found[2];
-            for (int side = 0; side < 2; ++side) BRC_TRY(find_inside(context, both[side], both[1 - side], &found[side]));
+            for (int side = 0; side < 2; ++side)
+                BRC_TRY(find_inside(context, both[side], both[1 - side], &found[side]));
             if (found[0].n + found[1].n + found[0].n_corners + found[1].n_corners == 0) continue;
-            status = fail_overlap(context, brc_overlap_name(name, a, words[0]), brc_overlap_name(name, b, words[1]), both, found);
+            status = fail_overlap(context, brc_overlap_name(name, a, words[0]), brc_overlap_name(name, b, words[1]),
+                                  both, found);
         }
     return status;
 }

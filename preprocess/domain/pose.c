@@ -14,7 +14,8 @@ void brc_pose_matrix(const double v[3], double m[3][3])
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
             double square = 0.0;
-            for (int l = 0; l < 3; ++l) square += k[i][l] * k[l][j];
+            for (int l = 0; l < 3; ++l)
+                square += k[i][l] * k[l][j];
             m[i][j] = (i == j) + s * k[i][j] + c * square;
         }
 }
@@ -23,7 +24,8 @@ static void turn(const double m[3][3], double *vector, int64_t n)
 {
     for (double *x = vector; x < vector + 3 * n; x += 3) {
         const double y[3] = {x[0], x[1], x[2]};
-        for (int i = 0; i < 3; ++i) x[i] = m[i][0] * y[0] + m[i][1] * y[1] + m[i][2] * y[2];
+        for (int i = 0; i < 3; ++i)
+            x[i] = m[i][0] * y[0] + m[i][1] * y[1] + m[i][2] * y[2];
     }
 }
 
@@ -32,11 +34,14 @@ static void move(const double m[3][3], const double origin[3], const double tran
 {
     for (double *x = point; x < point + 3 * n; x += 3) {
         if (rotate) {
-            for (int i = 0; i < 3; ++i) x[i] -= origin[i];
+            for (int i = 0; i < 3; ++i)
+                x[i] -= origin[i];
             turn(m, x, 1);
-            for (int i = 0; i < 3; ++i) x[i] += origin[i];
+            for (int i = 0; i < 3; ++i)
+                x[i] += origin[i];
         }
-        for (int i = 0; i < 3; ++i) x[i] += translation[i];
+        for (int i = 0; i < 3; ++i)
+            x[i] += translation[i];
     }
 }
 
@@ -48,7 +53,8 @@ static void turn_tensor(const double m[3][3], double t[6])
     for (int q = 0; q < 6; ++q) {
         t[q] = 0.0;
         for (int k = 0; k < 3; ++k)
-            for (int l = 0; l < 3; ++l) t[q] += m[row[q]][k] * a[k][l] * m[column[q]][l];
+            for (int l = 0; l < 3; ++l)
+                t[q] += m[row[q]][k] * a[k][l] * m[column[q]][l];
     }
 }
 
@@ -89,7 +95,8 @@ void brc_pose_apply(const double origin[3], const double rotation[3], const doub
     if (rotate && cells) { /* the inertia of a sphere is the same whichever way it is turned */
         turn(m, domain->area_vector, domain->n_half_edges);
         turn(m, domain->free_area_vector, domain->n_free_faces);
-        for (int64_t e = 0; e < n; ++e) turn_tensor(m, domain->inertia + 6 * e);
+        for (int64_t e = 0; e < n; ++e)
+            turn_tensor(m, domain->inertia + 6 * e);
     }
     set_bounds(domain, n_vertices);
 }

@@ -1,5 +1,5 @@
-/* Worst cases are maxima, so the order in which threads find them does not matter; sums run over elements in order; spreads come
- * from counts of integers. */
+/* Worst cases are maxima, so the order in which threads find them does not matter; sums run over elements in order;
+ * spreads come from counts of integers. */
 #include "quality.h"
 
 #include "../../host/base/memory.h"
@@ -17,8 +17,8 @@ static double smallest_eigenvalue(const double a[6])
     const double off = a[3] * a[3] + a[4] * a[4] + a[5] * a[5];
     const double p = sqrt((d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * off) / 6.0);
     if (!(p > 0.0)) return mean;
-    const double det = d[0] * (d[1] * d[2] - a[3] * a[3]) - a[5] * (a[5] * d[2] - a[3] * a[4]) +
-                       a[4] * (a[5] * a[3] - d[1] * a[4]);
+    const double det =
+        d[0] * (d[1] * d[2] - a[3] * a[3]) - a[5] * (a[5] * d[2] - a[3] * a[4]) + a[4] * (a[5] * a[3] - d[1] * a[4]);
     const double r = fmax(-1.0, fmin(1.0, det / (2.0 * p * p * p)));
     /* the three roots are mean + 2 p cos(acos(r) / 3 + 2 pi k / 3); k = 1 is the smallest */
     return mean + 2.0 * p * cos(acos(r) / 3.0 + 2.0943951023931953);
@@ -47,9 +47,11 @@ static double support(const brc_domain *domain, int64_t e)
     for (int64_t h = domain->row_start[e]; h < domain->row_start[e + 1]; ++h) {
         const double *s = domain->area_vector + 3 * h, length = branch_length(domain, e, h);
         const double area = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
-        for (int m = 0; m < 6; ++m) a[m] += length / area * s[row[m]] * s[column[m]];
+        for (int m = 0; m < 6; ++m)
+            a[m] += length / area * s[row[m]] * s[column[m]];
     }
-    for (int m = 0; m < 6; ++m) a[m] /= 2.0 * domain->volume[e];
+    for (int m = 0; m < 6; ++m)
+        a[m] /= 2.0 * domain->volume[e];
     return smallest_eigenvalue(a);
 }
 
@@ -82,7 +84,8 @@ static uint32_t bits_of(float value)
     return bits;
 }
 
-/* Least, 5 %, median, 95 % and most of n values, exactly and without memory: three passes settle 11 bits of each after another. */
+/* Least, 5 %, median, 95 % and most of n values, exactly and without memory: three passes settle 11 bits of each after
+ * another. */
 static void find_spread(const brc_domain *domain, value_of value, int64_t n, int n_threads, double out[N_RANKS])
 {
     static const double share[N_RANKS] = {0.0, 0.05, 0.5, 0.95, 1.0};
@@ -109,11 +112,13 @@ static void find_spread(const brc_domain *domain, value_of value, int64_t n, int
             }
 #pragma omp critical(brc_quality_spread)
             for (int r = 0; r < N_RANKS; ++r)
-                for (uint32_t digit = 0; digit <= mask; ++digit) count[r][digit] += own[r][digit];
+                for (uint32_t digit = 0; digit <= mask; ++digit)
+                    count[r][digit] += own[r][digit];
         }
         for (int r = 0; r < N_RANKS; ++r) {
             uint32_t digit = 0;
-            while (rank[r] >= count[r][digit]) rank[r] -= count[r][digit++];
+            while (rank[r] >= count[r][digit])
+                rank[r] -= count[r][digit++];
             settled[r] = settled[r] << RADIX_BITS | digit;
         }
     }
@@ -139,7 +144,8 @@ static int64_t count_pieces(const brc_domain *domain)
     int32_t *parent;
     if (BRC_ALLOCATE(NULL, &parent, domain->n_elements, "pieces") != BRC_OK) return -1;
     int64_t n = domain->n_elements;
-    for (int64_t e = 0; e < n; ++e) parent[e] = (int32_t)e;
+    for (int64_t e = 0; e < n; ++e)
+        parent[e] = (int32_t)e;
     for (int64_t e = 0; e < domain->n_elements; ++e)
         for (int64_t h = domain->row_start[e]; h < domain->row_start[e + 1] && domain->neighbour[h] < e; ++h) {
             const int32_t a = root_of(parent, (int32_t)e), b = root_of(parent, domain->neighbour[h]);
@@ -173,13 +179,15 @@ static void measure_bonds(brc_domain *domain, int n_threads)
         q->coordination_histogram[k < HISTOGRAM_BINS ? k : HISTOGRAM_BINS - 1]++;
     }
 #pragma omp parallel for schedule(static) num_threads(n_threads) reduction(min : shortest)
-    for (int64_t e = 0; e < domain->n_elements; ++e) shortest = fmin(shortest, shortest_branch(domain, e));
+    for (int64_t e = 0; e < domain->n_elements; ++e)
+        shortest = fmin(shortest, shortest_branch(domain, e));
     q->smallest_distance = domain->n_bonds > 0 ? shortest : 0.0;
     q->coordination_mean = 2.0 * (double)domain->n_bonds / (double)domain->n_elements;
     q->n_elements_without_bond = q->coordination_histogram[0];
     q->n_pieces = count_pieces(domain);
     find_spread(domain, branch_value, domain->n_bonds, n_threads, q->branch_spread);
-    for (int r = 0; r < N_RANKS; ++r) q->branch_spread[r] /= q->mean_spacing;
+    for (int r = 0; r < N_RANKS; ++r)
+        q->branch_spread[r] /= q->mean_spacing;
 }
 
 void brc_quality_measure(brc_domain *domain, int n_threads)
@@ -193,7 +201,8 @@ void brc_quality_measure(brc_domain *domain, int n_threads)
     q->mean_spacing = cbrt((spheres && q->volume_shape > 0.0 ? q->volume_shape : volume) / n);
     measure_bonds(domain, n_threads);
     find_spread(domain, volume_value, domain->n_elements, n_threads, q->volume_spread);
-    for (int r = 0; r < N_RANKS; ++r) q->volume_spread[r] *= n / volume;
+    for (int r = 0; r < N_RANKS; ++r)
+        q->volume_spread[r] *= n / volume;
     q->closure_worst = q->support_smallest = 0.0;
     if (spheres) return;
     double worst = 0.0, least = HUGE_VAL;
@@ -209,8 +218,8 @@ void brc_quality_measure(brc_domain *domain, int n_threads)
 
 static void print_spread(FILE *file, const char *what, const double spread[N_RANKS], const char *of)
 {
-    fprintf(file, "%-16s %.3g | %.3g | %.3g | %.3g | %.3g%s (least, 5 %%, median, 95 %%, most)\n", what, spread[0], spread[1],
-            spread[2], spread[3], spread[4], of);
+    fprintf(file, "%-16s %.3g | %.3g | %.3g | %.3g | %.3g%s (least, 5 %%, median, 95 %%, most)\n", what, spread[0],
+            spread[1], spread[2], spread[3], spread[4], of);
 }
 
 static void print_histogram(FILE *file, const brc_quality *q)
@@ -238,11 +247,11 @@ void brc_quality_print(FILE *file, const brc_domain *domain)
     fprintf(file, "seeds            asked for %lld, dropped as too near %lld, lost %lld\n",
             (long long)q->n_seeds_requested, (long long)q->n_seeds_duplicate, (long long)q->n_seeds_lost);
     if (spheres)
-        fprintf(file, "volume           spheres %.9g m^3 in a shape of %.9g m^3: fraction %.4f\n", q->volume_cells, q->volume_shape,
-                q->volume_fraction);
+        fprintf(file, "volume           spheres %.9g m^3 in a shape of %.9g m^3: fraction %.4f\n", q->volume_cells,
+                q->volume_shape, q->volume_fraction);
     else
-        fprintf(file, "volume           %.9g m^3, shape %.9g m^3, relative error %.2g\n", q->volume_cells, q->volume_shape,
-                q->volume_error);
+        fprintf(file, "volume           %.9g m^3, shape %.9g m^3, relative error %.2g\n", q->volume_cells,
+                q->volume_shape, q->volume_error);
     print_spread(file, spheres ? "sphere volumes" : "cell volumes", q->volume_spread, " of the mean");
     if (!spheres) print_spread(file, "faces of a cell", q->faces_spread, "");
     fprintf(file, "spacing          mean %.6g m, smallest distance %.3g of it\n", q->mean_spacing,
@@ -253,8 +262,8 @@ void brc_quality_print(FILE *file, const brc_domain *domain)
     } else {
         fprintf(file, "tiny faces       %lld below %.2g of the mean area dropped (%.2g of all face area)\n",
                 (long long)q->n_tiny_faces_dropped, q->tiny_face_threshold, q->tiny_face_area_fraction);
-        fprintf(file, "closure          worst %.2g, twin areas differ by at most %.2g of the mean area\n", q->closure_worst,
-                q->twin_area_worst);
+        fprintf(file, "closure          worst %.2g, twin areas differ by at most %.2g of the mean area\n",
+                q->closure_worst, q->twin_area_worst);
         fprintf(file, "support          smallest eigenvalue of A/(2V) %.3g\n", q->support_smallest);
     }
     if (q->n_pieces >= 0)

@@ -7,8 +7,9 @@
 #include <stdio.h>
 
 /* Fill the measured fields of domain->quality from the arrays: volume_cells, volume_error (volume_shape must be set),
- * smallest_distance, mean_spacing, closure_worst, support_smallest, volume_fraction, coordination_*, n_elements_without_bond, n_pieces and
- * the spreads. Counts of the builder are kept. The result does not depend on n_threads (>= 1). */
+ * smallest_distance, mean_spacing, closure_worst, support_smallest, volume_fraction, coordination_*,
+ * n_elements_without_bond, n_pieces and the spreads. Counts of the builder are kept. The result does not depend on
+ * n_threads (>= 1). */
 void brc_quality_measure(brc_domain *domain, int n_threads);
 /* A table a person reads, with the histogram of the number of bonds. */
 void brc_quality_print(FILE *file, const brc_domain *domain);
@@ -27,9 +28,10 @@ typedef struct brc_quality_number {
 
 /* All of them, static; *n receives how many. */
 const brc_quality_number *brc_quality_numbers(int32_t *n);
-/* Compare a measured domain with limits. Beyond `warn`: one warning in the log each. Beyond `refuse`: BRC_BAD_INPUT, one sentence that
- * lists all broken limits with value, limit and cure. BRC_BAD_INPUT too for unknown names (with the known ones), limits that
- * are not finite, and numbers that this kind of elements does not have. */
-brc_status brc_quality_judge(brc_context *context, const brc_domain *domain, int32_t n_limits, const brc_quality_limit *limits);
+/* Compare a measured domain with limits. Beyond `warn`: one warning in the log each. Beyond `refuse`: BRC_BAD_INPUT,
+ * one sentence that lists all broken limits with value, limit and cure. BRC_BAD_INPUT too for unknown names (with the
+ * known ones), limits that are not finite, and numbers that this kind of elements does not have. */
+brc_status brc_quality_judge(brc_context *context, const brc_domain *domain, int32_t n_limits,
+                             const brc_quality_limit *limits);
 
 #endif

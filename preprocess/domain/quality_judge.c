@@ -14,7 +14,8 @@
 
 enum { SENTENCE = 512 };
 
-static brc_status find_number(brc_context *context, const brc_domain *domain, const brc_quality_limit *limit, const brc_quality_number **out)
+static brc_status find_number(brc_context *context, const brc_domain *domain, const brc_quality_limit *limit,
+                              const brc_quality_number **out)
 {
     const bool spheres = domain->element_kind == BRC_ELEMENT_SPHERE;
     char known[SENTENCE] = "";
@@ -24,7 +25,8 @@ static brc_status find_number(brc_context *context, const brc_domain *domain, co
         const bool has = spheres ? numbers[k].of_spheres : numbers[k].of_cells;
         if (strncmp(numbers[k].name, limit->number, sizeof limit->number) == 0) {
             if (!has)
-                return BRC_FAIL(context, BRC_BAD_INPUT, "quality: '%s' is a number of cells, this body is made of %s; remove it",
+                return BRC_FAIL(context, BRC_BAD_INPUT,
+                                "quality: '%s' is a number of cells, this body is made of %s; remove it",
                                 numbers[k].name, spheres ? "spheres" : "cells");
             if ((limit->has_warn && !isfinite(limit->warn)) || (limit->has_refuse && !isfinite(limit->refuse)))
                 return BRC_FAIL(context, BRC_BAD_INPUT, "quality: the limits of '%s' must be finite", numbers[k].name);
@@ -35,8 +37,8 @@ static brc_status find_number(brc_context *context, const brc_domain *domain, co
         if (known[0]) strcat(known, ", ");
         strcat(known, numbers[k].name);
     }
-    return BRC_FAIL(context, BRC_BAD_INPUT, "quality: there is no number '%.*s'; there are %s", (int)sizeof limit->number, limit->number,
-                    known);
+    return BRC_FAIL(context, BRC_BAD_INPUT, "quality: there is no number '%.*s'; there are %s",
+                    (int)sizeof limit->number, limit->number, known);
 }
 
 /* A value that is not a number is beyond every limit. */
@@ -47,11 +49,12 @@ static bool beyond(const brc_quality_number *number, double value, double limit)
 
 static void describe(const brc_quality_number *number, double value, double limit, char sentence[SENTENCE])
 {
-    snprintf(sentence, SENTENCE, "%s is %.4g, must be at %s %.4g (%s): %s", number->name, value, number->less_is_worse ? "least" : "most",
-             limit, number->meaning, number->cure);
+    snprintf(sentence, SENTENCE, "%s is %.4g, must be at %s %.4g (%s): %s", number->name, value,
+             number->less_is_worse ? "least" : "most", limit, number->meaning, number->cure);
 }
 
-brc_status brc_quality_judge(brc_context *context, const brc_domain *domain, int32_t n_limits, const brc_quality_limit *limits)
+brc_status brc_quality_judge(brc_context *context, const brc_domain *domain, int32_t n_limits,
+                             const brc_quality_limit *limits)
 {
     brc_isotropy isotropy = {0};
     const brc_quality_number *number = NULL;
@@ -64,7 +67,8 @@ brc_status brc_quality_judge(brc_context *context, const brc_domain *domain, int
         const brc_quality_limit *limit = &limits[k];
         BRC_TRY_OR(cleanup, find_number(context, domain, limit, &number));
         if (number->of_directions && !measured) {
-            BRC_TRY_OR(cleanup, brc_isotropy_measure(context, domain, ISOTROPY_LEVEL, BRC_ISOTROPY_BONDS, omp_get_max_threads(), &isotropy));
+            BRC_TRY_OR(cleanup, brc_isotropy_measure(context, domain, ISOTROPY_LEVEL, BRC_ISOTROPY_BONDS,
+                                                     omp_get_max_threads(), &isotropy));
             measured = true;
         }
         const double value = number->value(domain, number->of_directions ? &isotropy : NULL);

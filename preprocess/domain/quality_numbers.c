@@ -1,4 +1,5 @@
-/* The numbers that a scene may limit, as one table. Needs nothing but the structs, so that the reader of scenes can ask for the names alone. */
+/* The numbers that a scene may limit, as one table. Needs nothing but the structs, so that the reader of scenes can ask
+ * for the names alone. */
 #include "quality.h"
 
 #include <math.h>
@@ -31,7 +32,8 @@ static double coordination_least(const brc_domain *domain, const brc_isotropy *i
 {
     (void)isotropy;
     int k = 0;
-    while (k < 63 && domain->quality.coordination_histogram[k] == 0) ++k;
+    while (k < 63 && domain->quality.coordination_histogram[k] == 0)
+        ++k;
     return k;
 }
 
@@ -40,33 +42,39 @@ static double coordination_least(const brc_domain *domain, const brc_isotropy *i
 #define DIRECTIONS "use a spread of 90 % or a packing, and more elements: few bonds are uneven by chance"
 static const brc_quality_number numbers[] = {
     /* name, meaning, unit, less is worse, of cells, of spheres, of directions, cure, value */
-    {"volume_error", "volume of all cells against the shape's: the size of the relative difference", "-", false, true, false, false,
-     "use more elements", volume_error},
+    {"volume_error", "volume of all cells against the shape's: the size of the relative difference", "-", false, true,
+     false, false, "use more elements", volume_error},
     {"duplicates", "seeds dropped because they were too near to an earlier one", "", false, true, true, false,
      "use a smaller `min_distance`, another seed, or points without doubles", duplicates},
     {"lost", "seeds that got no cell", "", false, true, false, false, "use another seed", lost},
-    {"tiny_faces", "faces below `tiny_face_threshold`, which were dropped", "", false, true, false, false, RELAX, tiny_faces},
-    {"tiny_face_area", "area of the dropped faces over the area of all", "-", false, true, false, false, RELAX, tiny_face_area},
-    {"closure", "worst cell: size of the sum of its area vectors over its surface", "-", false, true, false, false, RELAX, closure},
-    {"twin_area", "worst difference of a face's area seen from its two sides, over the mean area", "-", false, true, false, false,
-     RELAX, twin_area},
+    {"tiny_faces", "faces below `tiny_face_threshold`, which were dropped", "", false, true, false, false, RELAX,
+     tiny_faces},
+    {"tiny_face_area", "area of the dropped faces over the area of all", "-", false, true, false, false, RELAX,
+     tiny_face_area},
+    {"closure", "worst cell: size of the sum of its area vectors over its surface", "-", false, true, false, false,
+     RELAX, closure},
+    {"twin_area", "worst difference of a face's area seen from its two sides, over the mean area", "-", false, true,
+     false, false, RELAX, twin_area},
     {"smallest_distance", "shortest branch over the mean spacing", "-", true, true, true, false,
      "use a few `lloyd` sweeps or a larger `min_distance`", smallest_distance},
-    {"support", "worst cell: smallest eigenvalue of its least-squares matrix A/(2V); 0.5 for the corner of a grid of cubes", "-", true, true,
-     false, false, RELAX ", or a smaller spread", support},
-    {"coordination_least", "least number of bonds of an element", "", true, true, true, false, MORE_BONDS, coordination_least},
+    {"support",
+     "worst cell: smallest eigenvalue of its least-squares matrix A/(2V); 0.5 for the corner of a grid of cubes", "-",
+     true, true, false, false, RELAX ", or a smaller spread", support},
+    {"coordination_least", "least number of bonds of an element", "", true, true, true, false, MORE_BONDS,
+     coordination_least},
     {"pieces", "parts of the body that no bond joins to each other", "", false, true, true, false,
      MORE_BONDS ", or shorten cracks that cut through", pieces},
     {"unbonded", "elements without any bond", "", false, true, true, false, MORE_BONDS, unbonded},
-    {"anisotropy_fabric", "anisotropy of the fabric tensor of bond directions", "-", false, true, true, true, DIRECTIONS, anisotropy_fabric},
-    {"anisotropy_worst_bin", "largest relative deviation of a bin of bond directions (162 bins) from the mean", "-", false, true, true, true,
-     DIRECTIONS, anisotropy_worst_bin},
-    {"anisotropy_rms", "root mean square of the relative deviations of the bins of bond directions (162 bins)", "-", false, true, true, true,
-     DIRECTIONS, anisotropy_rms},
-    {"anisotropy_excess", "the part of anisotropy_rms that the number of bonds does not explain", "-", false, true, true, true, DIRECTIONS,
-     anisotropy_excess},
-    {"anisotropy_cubic", "order that a grid leaves in the bond directions, which the fabric tensor cannot see", "-", false, true, true, true,
-     DIRECTIONS, anisotropy_cubic},
+    {"anisotropy_fabric", "anisotropy of the fabric tensor of bond directions", "-", false, true, true, true,
+     DIRECTIONS, anisotropy_fabric},
+    {"anisotropy_worst_bin", "largest relative deviation of a bin of bond directions (162 bins) from the mean", "-",
+     false, true, true, true, DIRECTIONS, anisotropy_worst_bin},
+    {"anisotropy_rms", "root mean square of the relative deviations of the bins of bond directions (162 bins)", "-",
+     false, true, true, true, DIRECTIONS, anisotropy_rms},
+    {"anisotropy_excess", "the part of anisotropy_rms that the number of bonds does not explain", "-", false, true,
+     true, true, DIRECTIONS, anisotropy_excess},
+    {"anisotropy_cubic", "order that a grid leaves in the bond directions, which the fabric tensor cannot see", "-",
+     false, true, true, true, DIRECTIONS, anisotropy_cubic},
 };
 const brc_quality_number *brc_quality_numbers(int32_t *n)
 {

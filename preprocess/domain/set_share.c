@@ -1,11 +1,15 @@
-/* A convex face is a fan of triangles, each of which is cut by one plane after the other (Sutherland and Hodgman, Comm. ACM 17 (1974) 32). */
+/* A convex face is a fan of triangles, each of which is cut by one plane after the other (Sutherland and Hodgman, Comm.
+ * ACM 17 (1974) 32). */
 #include "set_share.h"
 #include "sets.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { PLANES = 7, CORNERS = 48 }; /* a cut adds one corner; were rounding to make every second one cross, half as many: 3, 4, 6, 9, 13, 19, 28, 42 */
+enum {
+    PLANES = 7,
+    CORNERS = 48
+}; /* a cut adds one corner; were rounding to make every second one cross, half as many: 3, 4, 6, 9, 13, 19, 28, 42 */
 
 /* Inside: normal . x >= level. */
 typedef struct plane {
@@ -29,7 +33,8 @@ static int planes_of(const brc_predicate *where, plane out[PLANES])
     if (where->has_half_space) {
         const double length = sqrt(dot(where->half_space_normal, where->half_space_normal));
         plane *p = &out[n++];
-        for (int c = 0; c < 3; ++c) p->normal[c] = where->half_space_normal[c] / length;
+        for (int c = 0; c < 3; ++c)
+            p->normal[c] = where->half_space_normal[c] / length;
         p->level = dot(p->normal, where->half_space_point);
     }
     return n;
@@ -45,7 +50,8 @@ static int cut(double (*x)[3], int n, const plane *p)
         const double from = dot(p->normal, a) - p->level, to = dot(p->normal, b) - p->level;
         if (from >= 0) memcpy(kept[m++], a, sizeof kept[0]);
         if ((from < 0) != (to < 0)) {
-            for (int c = 0; c < 3; ++c) kept[m][c] = a[c] + (b[c] - a[c]) * (from / (from - to));
+            for (int c = 0; c < 3; ++c)
+                kept[m][c] = a[c] + (b[c] - a[c]) * (from / (from - to));
             ++m;
         }
     }
@@ -65,7 +71,8 @@ static double add_fan(double (*x)[3], int n, const double normal[3], double mome
         }
         const double cross[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
         const double area = 0.5 * dot(cross, normal);
-        for (int c = 0; c < 3; ++c) moment[c] += area * (x[0][c] + x[i - 1][c] + x[i][c]) / 3;
+        for (int c = 0; c < 3; ++c)
+            moment[c] += area * (x[0][c] + x[i - 1][c] + x[i][c]) / 3;
         sum += area;
     }
     return sum;
@@ -76,7 +83,8 @@ bool brc_predicate_cuts(const brc_predicate *where)
     return where->has_box || where->has_half_space;
 }
 
-double brc_predicate_share(const brc_predicate *where, const brc_domain *domain, int64_t face, double area[3], double centroid[3])
+double brc_predicate_share(const brc_predicate *where, const brc_domain *domain, int64_t face, double area[3],
+                           double centroid[3])
 {
     const double *whole = domain->free_area_vector + 3 * face, slack = BRC_SET_SLACK * domain->quality.mean_spacing;
     const int32_t *corner = domain->free_polygon + domain->free_polygon_start[face];
@@ -93,7 +101,8 @@ double brc_predicate_share(const brc_predicate *where, const brc_domain *domain,
     bool is_cut = false;
     for (int p = 0; p < n_planes; ++p) {
         int inside = 0;
-        for (int k = 0; k < n; ++k) inside += dot(planes[p].normal, domain->vertex + 3 * (int64_t)corner[k]) - planes[p].level >= -slack;
+        for (int k = 0; k < n; ++k)
+            inside += dot(planes[p].normal, domain->vertex + 3 * (int64_t)corner[k]) - planes[p].level >= -slack;
         if (inside == 0) return 0;
         is_cut |= inside < n;
     }
@@ -103,10 +112,12 @@ double brc_predicate_share(const brc_predicate *where, const brc_domain *domain,
     for (int k = 2; k < n; ++k) {
         double x[CORNERS][3];
         const int32_t ends[3] = {corner[0], corner[k - 1], corner[k]};
-        for (int i = 0; i < 3; ++i) memcpy(x[i], domain->vertex + 3 * (int64_t)ends[i], sizeof x[i]);
+        for (int i = 0; i < 3; ++i)
+            memcpy(x[i], domain->vertex + 3 * (int64_t)ends[i], sizeof x[i]);
         all += add_fan(x, 3, normal, ignored);
         int m = 3;
-        for (int p = 0; p < n_planes && m > 0; ++p) m = cut(x, m, &planes[p]);
+        for (int p = 0; p < n_planes && m > 0; ++p)
+            m = cut(x, m, &planes[p]);
         part += add_fan(x, m, normal, moment);
     }
     const double share = all > 0 ? part / all : 0;

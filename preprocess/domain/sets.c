@@ -50,7 +50,8 @@ brc_status brc_predicate_check(brc_context *context, const brc_predicate *where,
 {
     if (kind == BRC_SET_FACES && domain->element_kind == BRC_ELEMENT_SPHERE)
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "%s: spheres have no faces; pick elements instead (`wall` then means those that touch it)", what);
+                        "%s: spheres have no faces; pick elements instead (`wall` then means those that touch it)",
+                        what);
     if (where->has_wall && find_wall(domain, where->wall) < 0) {
         char known[256] = "";
         for (int32_t w = 0; w < domain->n_walls; ++w)
@@ -98,8 +99,10 @@ static bool is_member(const brc_set *set, int64_t index)
     int64_t low = 0, high = set->n_members;
     while (low < high) {
         const int64_t middle = low + (high - low) / 2;
-        if (set->members[middle] < index) low = middle + 1;
-        else high = middle;
+        if (set->members[middle] < index)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low < set->n_members && set->members[low] == index;
 }
@@ -121,7 +124,8 @@ bool brc_predicate_holds(const brc_predicate *where, brc_set_kind kind, const br
 {
     const double *x = (kind == BRC_SET_FACES ? domain->free_centroid : domain->position) + 3 * index;
     const double slack = BRC_SET_SLACK * domain->quality.mean_spacing;
-    if (where->has_body && domain->body[kind == BRC_SET_FACES ? domain->free_element[index] : index] != where->body) return false;
+    if (where->has_body && domain->body[kind == BRC_SET_FACES ? domain->free_element[index] : index] != where->body)
+        return false;
     if (where->has_wall && !on_wall(domain, kind, index, where->wall)) return false;
     if (where->has_box)
         for (int k = 0; k < 3; ++k)
@@ -156,8 +160,8 @@ brc_status brc_sets_append(brc_context *context, brc_domain *domain, const char 
 {
     if (name[0] == '\0') return BRC_FAIL(context, BRC_BAD_INPUT, "a set has an empty name; name it");
     if (brc_domain_find_set(domain, name) >= 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "set '%s': the name is already taken (walls have a set each); rename it",
-                        name);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "set '%s': the name is already taken (walls have a set each); rename it", name);
     brc_set *set = &domain->sets[domain->n_sets];
     BRC_TRY(BRC_ALLOCATE(context, &set->name, (int64_t)strlen(name) + 1, "set name"));
     strcpy(set->name, name);
@@ -172,25 +176,35 @@ brc_status brc_sets_append(brc_context *context, brc_domain *domain, const char 
 brc_status brc_sets_add_empty(brc_context *context, brc_domain *domain, const char *name, brc_set_kind kind)
 {
     brc_set *set;
-    BRC_TRY(brc_memory_resize(context, (void **)&domain->sets, (int64_t)domain->n_sets + 1, sizeof *domain->sets, "sets"));
+    BRC_TRY(
+        brc_memory_resize(context, (void **)&domain->sets, (int64_t)domain->n_sets + 1, sizeof *domain->sets, "sets"));
     return brc_sets_append(context, domain, name, kind, 0, &set);
 }
 
-static brc_status refuse_empty(brc_context *context, const brc_set_request *request, const brc_domain *domain, const char *what, int64_t n)
+static brc_status refuse_empty(brc_context *context, const brc_set_request *request, const brc_domain *domain,
+                               const char *what, int64_t n)
 {
     const double spacing = domain->quality.mean_spacing;
     const bool cuts = request->kind == BRC_SET_FACES && brc_predicate_cuts(&request->where);
     double x[2][3], area[3], centroid[3];
     int64_t n_cut = 0;
-    for (int64_t f = 0; cuts && f < n; ++f) n_cut += brc_predicate_share(&request->where, domain, f, area, centroid) > 0;
+    for (int64_t f = 0; cuts && f < n; ++f)
+        n_cut += brc_predicate_share(&request->where, domain, f, area, centroid) > 0;
     if (n_cut > 0)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%s is empty: it reaches into %lld of the %lld free faces, and the middle of none of them is inside, as a set asks for; widen the region, or fill the body with cells "
-                        "smaller than %g m", what, (long long)n_cut, (long long)n, spacing);
-    for (int k = 0; k < 6; ++k) x[k / 3][k % 3] = fabs(domain->bounds[k / 3][k % 3]) > BRC_SET_SLACK * spacing ? domain->bounds[k / 3][k % 3] : 0; /* no rounding of a wall at 0 */
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "%s is empty: it reaches into %lld of the %lld free faces, and the middle of none of them is "
+                        "inside, as a set asks for; widen the region, or fill the body with cells "
+                        "smaller than %g m",
+                        what, (long long)n_cut, (long long)n, spacing);
+    for (int k = 0; k < 6; ++k)
+        x[k / 3][k % 3] = fabs(domain->bounds[k / 3][k % 3]) > BRC_SET_SLACK * spacing
+                              ? domain->bounds[k / 3][k % 3]
+                              : 0; /* no rounding of a wall at 0 */
     return BRC_FAIL(context, BRC_BAD_INPUT,
                     "%s is empty: none of the %lld %s fits; the body reaches from (%g, %g, %g) to (%g, %g, %g) m "
                     "with elements of about %g m; widen the region",
-                    what, (long long)n, request->kind == BRC_SET_FACES ? "free faces" : "elements", x[0][0], x[0][1], x[0][2], x[1][0], x[1][1], x[1][2], spacing);
+                    what, (long long)n, request->kind == BRC_SET_FACES ? "free faces" : "elements", x[0][0], x[0][1],
+                    x[0][2], x[1][0], x[1][1], x[1][2], spacing);
 }
 
 static brc_status build_one(brc_context *context, const brc_set_request *request, brc_domain *domain)
@@ -203,7 +217,8 @@ static brc_status build_one(brc_context *context, const brc_set_request *request
     BRC_TRY(brc_predicate_check(context, &request->where, request->kind, domain, what));
     const int64_t n = request->kind == BRC_SET_FACES ? domain->n_free_faces : domain->n_elements;
     int64_t count = 0;
-    for (int64_t k = 0; k < n; ++k) count += brc_predicate_holds(&request->where, request->kind, domain, k);
+    for (int64_t k = 0; k < n; ++k)
+        count += brc_predicate_holds(&request->where, request->kind, domain, k);
     if (count == 0) return refuse_empty(context, request, domain, what, n);
     brc_set *set;
     BRC_TRY(brc_sets_append(context, domain, name, request->kind, count, &set));
@@ -217,7 +232,8 @@ static brc_status build_one(brc_context *context, const brc_set_request *request
 static brc_status build_wall(brc_context *context, int32_t w, brc_domain *domain)
 {
     int64_t count = 0;
-    for (int64_t f = 0; f < domain->n_free_faces; ++f) count += domain->free_wall[f] == w;
+    for (int64_t f = 0; f < domain->n_free_faces; ++f)
+        count += domain->free_wall[f] == w;
     brc_set *set;
     BRC_TRY(brc_sets_append(context, domain, domain->wall_name[w], BRC_SET_FACES, count, &set));
     count = 0;
@@ -241,7 +257,8 @@ static void keep(brc_set *old, int32_t n_old, const char *name, brc_domain *doma
 static void keep_walls(brc_set *old, int32_t n_old, brc_domain *domain)
 {
     char layer[BRC_LAYER_NAME];
-    for (int32_t w = 0; w < domain->n_walls; ++w) keep(old, n_old, domain->wall_name[w], domain);
+    for (int32_t w = 0; w < domain->n_walls; ++w)
+        keep(old, n_old, domain->wall_name[w], domain);
     for (int32_t w = 0; w < domain->n_walls; ++w) {
         brc_sets_layer_name(domain->wall_name[w], layer);
         keep(old, n_old, layer, domain);
@@ -261,10 +278,13 @@ brc_status brc_sets_build(brc_context *context, int32_t n, const brc_set_request
     domain->sets = fresh;
     domain->n_sets = 0;
     brc_status status = BRC_OK;
-    if (domain->element_kind == BRC_ELEMENT_SPHERE) keep_walls(old, n_old, domain);
+    if (domain->element_kind == BRC_ELEMENT_SPHERE)
+        keep_walls(old, n_old, domain);
     else
-        for (int32_t w = 0; w < domain->n_walls; ++w) BRC_TRY_OR(cleanup, build_wall(context, w, domain));
-    for (int32_t s = 0; s < n; ++s) BRC_TRY_OR(cleanup, build_one(context, &requests[s], domain));
+        for (int32_t w = 0; w < domain->n_walls; ++w)
+            BRC_TRY_OR(cleanup, build_wall(context, w, domain));
+    for (int32_t s = 0; s < n; ++s)
+        BRC_TRY_OR(cleanup, build_one(context, &requests[s], domain));
     for (int32_t s = 0; s < n_old; ++s)
         if (old[s].name && brc_domain_find_set(domain, old[s].name) < 0) keep(old, n_old, old[s].name, domain);
 cleanup:

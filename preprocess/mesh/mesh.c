@@ -10,13 +10,15 @@
 const char *brc_mesh_place(const brc_mesh_source *source, const double x[3], char text[BRC_MESH_PLACE])
 {
     double place[3];
-    for (int d = 0; d < 3; ++d) place[d] = (x[d] - source->offset[d]) / source->scale;
+    for (int d = 0; d < 3; ++d)
+        place[d] = (x[d] - source->offset[d]) / source->scale;
     snprintf(text, BRC_MESH_PLACE, "(%.7g, %.7g, %.7g)", place[0], place[1], place[2]);
     return text;
 }
 
 /* From units of the file to metres. */
-static brc_status place_corners(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source, double (*corner)[3], int32_t n_facets)
+static brc_status place_corners(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source,
+                                double (*corner)[3], int32_t n_facets)
 {
     double largest = 0.0;
     for (int64_t k = 0; k < 3 * (int64_t)n_facets; ++k)
@@ -26,8 +28,9 @@ static brc_status place_corners(brc_context *context, brc_mesh *mesh, const brc_
             *x = *x * source->scale + source->offset[d];
             if (!(fabs(*x) < 1e30))
                 return BRC_FAIL(context, BRC_BAD_INPUT,
-                                "%s: triangle %lld: %c of corner %d becomes %g m, at most 1e30 m is possible; check the file's numbers and the scale", source->path,
-                                (long long)(k / 3) + 1, "xyz"[d], (int)(k % 3) + 1, *x);
+                                "%s: triangle %lld: %c of corner %d becomes %g m, at most 1e30 m is possible; check "
+                                "the file's numbers and the scale",
+                                source->path, (long long)(k / 3) + 1, "xyz"[d], (int)(k % 3) + 1, *x);
         }
     mesh->rounding = 4.0 * 0x1p-24 * largest * source->scale;
     return BRC_OK;
@@ -59,13 +62,16 @@ static brc_status make(brc_context *context, brc_mesh *mesh, const brc_mesh_sour
     return brc_mesh_smooth(context, mesh);
 }
 
-brc_status brc_mesh_read_stl(brc_context *context, const char *path, double scale, const double offset[3], int n_threads, brc_mesh **out)
+brc_status brc_mesh_read_stl(brc_context *context, const char *path, double scale, const double offset[3],
+                             int n_threads, brc_mesh **out)
 {
     *out = NULL;
-    const brc_mesh_source source = {.path = path, .scale = scale, .offset = {offset[0], offset[1], offset[2]}, .n_threads = n_threads};
+    const brc_mesh_source source = {
+        .path = path, .scale = scale, .offset = {offset[0], offset[1], offset[2]}, .n_threads = n_threads};
     if (!(scale > 0.0) || !isfinite(scale) || !isfinite(offset[0] + offset[1] + offset[2]))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%s: scale %g and offset (%g, %g, %g) m: the scale must be finite and > 0, the offset finite", path, scale,
-                        offset[0], offset[1], offset[2]);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "%s: scale %g and offset (%g, %g, %g) m: the scale must be finite and > 0, the offset finite",
+                        path, scale, offset[0], offset[1], offset[2]);
     brc_mesh *mesh = NULL;
     BRC_TRY(BRC_ALLOCATE(context, &mesh, 1, "a mesh"));
     const brc_status status = make(context, mesh, &source);

@@ -1,6 +1,6 @@
-/* Triangles that cut each other. Two triangles are apart when some direction separates them: their normals, the products of their
- * edges, and the normals of edges in their planes. Far neighbours must be apart by more than the rounding of the file; those that share a
- * vertex, or nearly do, must not reach into each other by more than that. */
+/* Triangles that cut each other. Two triangles are apart when some direction separates them: their normals, the
+ * products of their edges, and the normals of edges in their planes. Far neighbours must be apart by more than the
+ * rounding of the file; those that share a vertex, or nearly do, must not reach into each other by more than that. */
 #include "../../host/base/memory.h"
 #include "mesh_internal.h"
 
@@ -108,7 +108,8 @@ static bool has_vertex(const brc_mesh *mesh, int32_t t, int32_t v)
 
 static bool share_vertex(const brc_mesh *mesh, int32_t t, int32_t u)
 {
-    return has_vertex(mesh, u, mesh->corner[t][0]) || has_vertex(mesh, u, mesh->corner[t][1]) || has_vertex(mesh, u, mesh->corner[t][2]);
+    return has_vertex(mesh, u, mesh->corner[t][0]) || has_vertex(mesh, u, mesh->corner[t][1]) ||
+           has_vertex(mesh, u, mesh->corner[t][2]);
 }
 
 /* Does an edge join a vertex of t to one of u? */
@@ -174,7 +175,8 @@ static void search(const brc_mesh *mesh, int32_t t, finding *found)
         const int32_t at = stack[--n];
         const brc_mesh_node *node = &mesh->node[at];
         bool meets = true;
-        for (int d = 0; d < 3; ++d) meets = meets && low[d] <= (double)node->high[d] && high[d] >= (double)node->low[d];
+        for (int d = 0; d < 3; ++d)
+            meets = meets && low[d] <= (double)node->high[d] && high[d] >= (double)node->low[d];
         if (!meets) continue;
         if (node->count == 0) {
             stack[n++] = node->next;
@@ -210,7 +212,8 @@ static void place_of(const brc_mesh *mesh, int32_t t, int32_t u, double out[3])
             mesh_minus(b, mesh->vertex[mesh->corner[face][0]], to_b);
             const double above = mesh_dot(to_a, normal), below = mesh_dot(to_b, normal);
             if (!(above * below < 0.0)) continue;
-            for (int d = 0; d < 3; ++d) x[d] = a[d] + above / (above - below) * (b[d] - a[d]);
+            for (int d = 0; d < 3; ++d)
+                x[d] = a[d] + above / (above - below) * (b[d] - a[d]);
             brc_mesh_nearest_of(mesh, face, x, point);
             mesh_minus(x, point, gap);
             if (mesh_dot(gap, gap) > mesh->rounding * mesh->rounding) continue;
@@ -239,7 +242,8 @@ brc_status brc_mesh_check_cuts(brc_context *context, const brc_mesh *mesh, const
     place_of(mesh, found.t, found.u, x);
     const int32_t a = mesh->facet[found.t] + 1, b = mesh->facet[found.u] + 1;
     return BRC_FAIL(context, BRC_BAD_INPUT,
-                    "%s: %lld pairs of triangles cut or touch each other, the first are triangles %d and %d near %s (units of the file); unite overlapping parts in your "
+                    "%s: %lld pairs of triangles cut or touch each other, the first are triangles %d and %d near %s "
+                    "(units of the file); unite overlapping parts in your "
                     "CAD program or mend the mesh with a repair tool",
                     source->path, (long long)found.n, a < b ? a : b, a < b ? b : a, brc_mesh_place(source, x, place));
 }

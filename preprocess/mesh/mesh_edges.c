@@ -1,5 +1,5 @@
-/* Which triangles meet at an edge: every edge of a closed surface has two. Then one side is made outside for all: a triangle whose
- * neighbours see it from the other side is turned, spreading over the surface. */
+/* Which triangles meet at an edge: every edge of a closed surface has two. Then one side is made outside for all: a
+ * triangle whose neighbours see it from the other side is turned, spreading over the surface. */
 #include "../../host/base/memory.h"
 #include "mesh_internal.h"
 
@@ -36,7 +36,8 @@ static brc_status sort_half_edges(brc_context *context, const brc_mesh *mesh, in
         ends(mesh, h, &low, &high);
         ++(*start)[low + 2];
     }
-    for (int64_t v = 0; v < mesh->n_vertices; ++v) (*start)[v + 2] += (*start)[v + 1];
+    for (int64_t v = 0; v < mesh->n_vertices; ++v)
+        (*start)[v + 2] += (*start)[v + 1];
     for (int64_t h = 0; h < n; ++h) { /* start[v + 1] moves from the row's begin to its end */
         ends(mesh, h, &low, &high);
         (*key)[(*start)[low + 1]++] = (uint64_t)high << 32 | (uint64_t)h;
@@ -64,10 +65,13 @@ static void join(brc_mesh *mesh, const int64_t *start, const uint64_t *key, faul
 {
     for (int64_t v = 0; v < mesh->n_vertices; ++v)
         for (int64_t i = start[v], j; i < start[v + 1]; i = j) {
-            for (j = i + 1; j < start[v + 1] && key[j] >> 32 == key[i] >> 32;) ++j;
+            for (j = i + 1; j < start[v + 1] && key[j] >> 32 == key[i] >> 32;)
+                ++j;
             const int64_t g = (int64_t)(key[i] & 0xffffffffu);
-            if (j - i == 1) note(open, g, 1);
-            else if (j - i > 2) note(crowded, g, j - i);
+            if (j - i == 1)
+                note(open, g, 1);
+            else if (j - i > 2)
+                note(crowded, g, j - i);
             else {
                 const int64_t h = (int64_t)(key[i + 1] & 0xffffffffu);
                 mesh->across[g / 3][g % 3] = (int32_t)h;
@@ -89,14 +93,18 @@ static double nearest_vertex(const brc_mesh *mesh, int32_t v)
 }
 
 /* Open edges whose ends lie next to other vertices were meant to be closed: what to say of it. */
-static void explain_open(const brc_mesh *mesh, const brc_mesh_source *source, int32_t a, int32_t b, char words[OPEN_WORDS])
+static void explain_open(const brc_mesh *mesh, const brc_mesh_source *source, int32_t a, int32_t b,
+                         char words[OPEN_WORDS])
 {
     double along[3];
     mesh_minus(mesh->vertex[b], mesh->vertex[a], along);
     const double apart = fmax(nearest_vertex(mesh, a), nearest_vertex(mesh, b));
     words[0] = 0;
     if (apart < NEARLY_CLOSED * sqrt(mesh_dot(along, along)))
-        snprintf(words, OPEN_WORDS, "; its ends lie only %.2g from other vertices: merge vertices nearer than that (here only those within 1e-9 of the size are one)", apart / source->scale);
+        snprintf(words, OPEN_WORDS,
+                 "; its ends lie only %.2g from other vertices: merge vertices nearer than that (here only those "
+                 "within 1e-9 of the size are one)",
+                 apart / source->scale);
 }
 
 brc_status brc_mesh_join_edges(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source)
@@ -114,16 +122,20 @@ brc_status brc_mesh_join_edges(brc_context *context, brc_mesh *mesh, const brc_m
         char words[OPEN_WORDS];
         explain_open(mesh, source, corner[open.first % 3], corner[(open.first + 1) % 3], words);
         status = BRC_FAIL(context, BRC_BAD_INPUT,
-                          "%s: the mesh is open: %lld edges have one triangle only, the first from %s to %s (units of the file)%s; close the mesh in your CAD "
+                          "%s: the mesh is open: %lld edges have one triangle only, the first from %s to %s (units of "
+                          "the file)%s; close the mesh in your CAD "
                           "program or with a repair tool",
-                          source->path, (long long)open.n, brc_mesh_place(source, mesh->vertex[corner[open.first % 3]], from),
+                          source->path, (long long)open.n,
+                          brc_mesh_place(source, mesh->vertex[corner[open.first % 3]], from),
                           brc_mesh_place(source, mesh->vertex[corner[(open.first + 1) % 3]], to), words);
     }
     if (crowded.n > 0) {
         const int32_t *corner = mesh->corner[crowded.first / 3];
         status = BRC_FAIL(context, BRC_BAD_INPUT,
-                          "%s: %lld edges have more than two triangles, the first %lld, from %s to %s (units of the file): inner walls, double faces, or parts "
-                          "that touch along an edge; unite the parts or remove the inner walls in your CAD program or with a repair tool",
+                          "%s: %lld edges have more than two triangles, the first %lld, from %s to %s (units of the "
+                          "file): inner walls, double faces, or parts "
+                          "that touch along an edge; unite the parts or remove the inner walls in your CAD program or "
+                          "with a repair tool",
                           source->path, (long long)crowded.n, (long long)crowded.triangles,
                           brc_mesh_place(source, mesh->vertex[corner[crowded.first % 3]], from),
                           brc_mesh_place(source, mesh->vertex[corner[(crowded.first + 1) % 3]], to));
@@ -151,7 +163,8 @@ void brc_mesh_reverse(brc_mesh *mesh, const uint8_t *marked)
     }
 }
 
-/* Spread over one shell from its first triangle; turn[t]: 1 keep, 2 turn. Returns a half-edge whose two sides cannot agree, or -1. */
+/* Spread over one shell from its first triangle; turn[t]: 1 keep, 2 turn. Returns a half-edge whose two sides cannot
+ * agree, or -1. */
 static int64_t flood(const brc_mesh *mesh, int32_t first, uint8_t *turn, int32_t *queue, int32_t *n_queue)
 {
     int64_t clash = -1;
@@ -190,20 +203,23 @@ brc_status brc_mesh_orient(brc_context *context, brc_mesh *mesh, const brc_mesh_
             char from[BRC_MESH_PLACE], to[BRC_MESH_PLACE];
             const int32_t *corner = mesh->corner[clash / 3];
             status = BRC_FAIL(context, BRC_BAD_INPUT,
-                              "%s: the surface has no outside: its triangles cannot be oriented alike around the edge from %s to %s (units of the file), as on "
+                              "%s: the surface has no outside: its triangles cannot be oriented alike around the edge "
+                              "from %s to %s (units of the file), as on "
                               "a Moebius strip; rebuild the surface in your CAD program",
                               source->path, brc_mesh_place(source, mesh->vertex[corner[clash % 3]], from),
                               brc_mesh_place(source, mesh->vertex[corner[(clash + 1) % 3]], to));
             goto cleanup;
         }
-        for (int32_t i = 0; i < n; ++i) n_turned += turn[queue[i]] == 2;
+        for (int32_t i = 0; i < n; ++i)
+            n_turned += turn[queue[i]] == 2;
         for (int32_t i = 0; i < n; ++i) {
             mesh->shell[queue[i]] = mesh->n_shells;
             if (2 * (int64_t)n_turned > n) turn[queue[i]] = (uint8_t)(3 - turn[queue[i]]);
         }
         ++mesh->n_shells;
     }
-    for (int32_t t = 0; t < mesh->n_triangles; ++t) turn[t] = turn[t] == 2;
+    for (int32_t t = 0; t < mesh->n_triangles; ++t)
+        turn[t] = turn[t] == 2;
     brc_mesh_reverse(mesh, turn);
 cleanup:
     brc_memory_free(turn);

@@ -1,5 +1,5 @@
-/* What the files of a mesh share: its arrays, and the steps from facets of a file to a checked surface. Triangles are stored in the order
- * of the search tree, vertices in the order of their first use. */
+/* What the files of a mesh share: its arrays, and the steps from facets of a file to a checked surface. Triangles are
+ * stored in the order of the search tree, vertices in the order of their first use. */
 #ifndef BRC_PREPROCESS_MESH_INTERNAL_H
 #define BRC_PREPROCESS_MESH_INTERNAL_H
 
@@ -7,7 +7,8 @@
 
 static inline void mesh_minus(const double a[3], const double b[3], double out[3])
 {
-    for (int d = 0; d < 3; ++d) out[d] = a[d] - b[d];
+    for (int d = 0; d < 3; ++d)
+        out[d] = a[d] - b[d];
 }
 static inline double mesh_dot(const double a[3], const double b[3])
 {
@@ -20,33 +21,37 @@ static inline void mesh_cross(const double a[3], const double b[3], double out[3
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* A node of the tree; the first child follows its node. Its box is for lines and overlaps; its disc, which lies along the surface, holds the
- * triangles of small nodes so tightly that few are opened where the surface is about equally far. */
+/* A node of the tree; the first child follows its node. Its box is for lines and overlaps; its disc, which lies along
+ * the surface, holds the triangles of small nodes so tightly that few are opened where the surface is about equally
+ * far. */
 typedef struct brc_mesh_node {
     float low[3], high[3];      /* rounded outward [m] */
     float centre[3], normal[3]; /* of the disc: [m], unit */
     float half, radius;         /* half its thickness, its radius [m]; half < 0: none */
-    int32_t next;          /* leaf: its first triangle; else the second child */
-    int32_t count;         /* leaf: its triangles; else 0 */
-    int32_t patch;         /* the patch of all triangles below; -1: several */
+    int32_t next;               /* leaf: its first triangle; else the second child */
+    int32_t count;              /* leaf: its triangles; else 0 */
+    int32_t patch;              /* the patch of all triangles below; -1: several */
 } brc_mesh_node;
 
-enum { BRC_MESH_STACK = 128 }; /* deeper than any tree of 2^31 triangles whose nodes give at least a quarter to each child */
+enum {
+    BRC_MESH_STACK = 128
+}; /* deeper than any tree of 2^31 triangles whose nodes give at least a quarter to each child */
 
-/* Bits of brc_mesh.flags: edge k of the triangle is sharp (30 degrees and more); sharp and concave; the triangle is thinner than
- * the rounding of the file, so that its own normal means nothing. */
+/* Bits of brc_mesh.flags: edge k of the triangle is sharp (30 degrees and more); sharp and concave; the triangle is
+ * thinner than the rounding of the file, so that its own normal means nothing. */
 #define BRC_MESH_SHARP(k) (1u << (k))
 #define BRC_MESH_CONCAVE(k) (8u << (k))
 #define BRC_MESH_SLIVER 64u
 
 struct brc_mesh {
     int32_t n_triangles, n_vertices, n_nodes, n_patches, n_shells;
-    double (*vertex)[3];        /* [n_vertices] [m] */
-    int32_t (*corner)[3];       /* [n_triangles] counter-clockwise from outside */
-    int32_t (*across)[3];       /* [n_triangles] half-edge 3 t + k on the other side of edge k (from corner k to k + 1) */
-    uint8_t *flags;             /* [n_triangles] */
-    double (*normal)[3];        /* [n_triangles] outward unit; slivers: their neighbour's; flat patches: the patch's */
-    double (*vertex_normal)[3]; /* [n_vertices] weighted by the angles of the triangles (Baerentzen & Aanaes 2005), any length */
+    double (*vertex)[3];  /* [n_vertices] [m] */
+    int32_t (*corner)[3]; /* [n_triangles] counter-clockwise from outside */
+    int32_t (*across)[3]; /* [n_triangles] half-edge 3 t + k on the other side of edge k (from corner k to k + 1) */
+    uint8_t *flags;       /* [n_triangles] */
+    double (*normal)[3];  /* [n_triangles] outward unit; slivers: their neighbour's; flat patches: the patch's */
+    double (*vertex_normal)[3]; /* [n_vertices] weighted by the angles of the triangles (Baerentzen & Aanaes 2005), any
+                                   length */
     int32_t *patch;             /* [n_triangles] */
     bool *patch_flat;           /* [n_patches] */
     brc_mesh_node *node;
@@ -71,17 +76,20 @@ enum { BRC_MESH_PLACE = 96 };
 /* "(x, y, z)" in units of the file. Returns text. */
 const char *brc_mesh_place(const brc_mesh_source *source, const double x[3], char text[BRC_MESH_PLACE]);
 
-/* mesh_stl.c: corners of all facets as the file has them, finite; the caller frees with brc_memory_free. At most 7e8. */
+/* mesh_stl.c: corners of all facets as the file has them, finite; the caller frees with brc_memory_free. At most
+ * 7e8. */
 brc_status brc_mesh_read_facets(brc_context *context, const char *path, double (**corner)[3], int32_t *n_facets);
 /* mesh_weld.c: takes the corners (now in metres) as vertices, joins equal ones, drops facets with two equal corners. */
-brc_status brc_mesh_weld(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source, double (*corner)[3], int32_t n_facets);
+brc_status brc_mesh_weld(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source, double (*corner)[3],
+                         int32_t n_facets);
 /* Fill bounds and size from the vertices. */
 void brc_mesh_measure(brc_mesh *mesh);
 /* mesh_edges.c: fill across; refuse open edges and edges of three and more triangles. */
 brc_status brc_mesh_join_edges(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source);
 /* Make neighbours agree about outside (the majority of a shell counts); fill shell and n_shells. */
 brc_status brc_mesh_orient(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source);
-/* mesh_mend.c: flip the longest edges of triangles without height; then give every fan of triangles at a vertex a vertex of its own. */
+/* mesh_mend.c: flip the longest edges of triangles without height; then give every fan of triangles at a vertex a
+ * vertex of its own. */
 brc_status brc_mesh_mend(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source);
 brc_status brc_mesh_split_fans(brc_context *context, brc_mesh *mesh);
 /* mesh_tree.c: build the tree and put triangles and vertices in its order. */

@@ -1,12 +1,13 @@
-/* Lines along an axis. Seen along the line a triangle is crossed when the half-line from the point to the right crosses exactly one of its edges.
- * Whether it crosses an edge is decided in the same way, to the bit, for both triangles of the edge, so every closed mesh gives an even
- * number, also for lines through edges and vertices. */
+/* Lines along an axis. Seen along the line a triangle is crossed when the half-line from the point to the right crosses
+ * exactly one of its edges. Whether it crosses an edge is decided in the same way, to the bit, for both triangles of
+ * the edge, so every closed mesh gives an even number, also for lines through edges and vertices. */
 #include "mesh_internal.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Does the half-line from (u, v) to the right cross the edge of vertices a and b? A vertex level with the line counts as below it. */
+/* Does the half-line from (u, v) to the right cross the edge of vertices a and b? A vertex level with the line counts
+ * as below it. */
 static bool crosses(const brc_mesh *mesh, int32_t a, int32_t b, int i, int j, double u, double v)
 {
     const bool a_above = mesh->vertex[a][j] > v;
@@ -43,7 +44,9 @@ void brc_mesh_pierce(const brc_mesh *mesh, const double x[3], int axis, brc_mesh
     while (n > 0) {
         const int32_t at = stack[--n];
         const brc_mesh_node *node = &mesh->node[at];
-        if (u < (double)node->low[i] || u > (double)node->high[i] || v < (double)node->low[j] || v > (double)node->high[j]) continue;
+        if (u < (double)node->low[i] || u > (double)node->high[i] || v < (double)node->low[j] ||
+            v > (double)node->high[j])
+            continue;
         if (node->count == 0) {
             stack[n++] = node->next;
             stack[n++] = at + 1;
@@ -51,7 +54,8 @@ void brc_mesh_pierce(const brc_mesh *mesh, const double x[3], int axis, brc_mesh
         }
         for (int32_t t = node->next; t < node->next + node->count; ++t) {
             const int32_t *c = mesh->corner[t];
-            const bool odd = crosses(mesh, c[0], c[1], i, j, u, v) != (crosses(mesh, c[1], c[2], i, j, u, v) != crosses(mesh, c[2], c[0], i, j, u, v));
+            const bool odd = crosses(mesh, c[0], c[1], i, j, u, v) !=
+                             (crosses(mesh, c[1], c[2], i, j, u, v) != crosses(mesh, c[2], c[0], i, j, u, v));
             if (odd) hit(of, t, meet(mesh, t, x, axis));
         }
     }
@@ -73,7 +77,8 @@ static void insert(void *of, int32_t triangle, double t)
         if (at == 0 || l->t[at - 1] <= t) return;
         --at;
     }
-    for (; at > 0 && l->t[at - 1] > t; --at) l->t[at] = l->t[at - 1];
+    for (; at > 0 && l->t[at - 1] > t; --at)
+        l->t[at] = l->t[at - 1];
     l->t[at] = t;
 }
 
@@ -99,7 +104,8 @@ static bool meets_box(const brc_mesh_node *node, const double x[3], const double
     return low <= high * (1.0 + 1e-12) + 1e-300;
 }
 
-/* Where the line passes triangle t, a little widened so that nothing slips through between two (T. Moeller & B. Trumbore, J. Graph. Tools 2 (1997) 21). */
+/* Where the line passes triangle t, a little widened so that nothing slips through between two (T. Moeller & B.
+ * Trumbore, J. Graph. Tools 2 (1997) 21). */
 static bool passes(const brc_mesh *mesh, int32_t triangle, const double x[3], const double u[3], double *t)
 {
     static const double WIDER = 1e-9;
@@ -109,7 +115,8 @@ static bool passes(const brc_mesh *mesh, int32_t triangle, const double x[3], co
     mesh_minus(mesh->vertex[corner[2]], mesh->vertex[corner[0]], ac);
     mesh_cross(u, ac, p);
     const double determinant = mesh_dot(ab, p);
-    if (determinant * determinant <= 1e-24 * mesh_dot(ab, ab) * mesh_dot(p, p)) return false; /* along the plane: its neighbours tell */
+    if (determinant * determinant <= 1e-24 * mesh_dot(ab, ab) * mesh_dot(p, p))
+        return false; /* along the plane: its neighbours tell */
     mesh_minus(x, mesh->vertex[corner[0]], ax);
     const double v = mesh_dot(ax, p) / determinant;
     if (v < -WIDER || v > 1.0 + WIDER) return false;
@@ -120,7 +127,8 @@ static bool passes(const brc_mesh *mesh, int32_t triangle, const double x[3], co
     return true;
 }
 
-int32_t brc_mesh_passes(const brc_mesh *mesh, const double x[3], const double u[3], double low, double high, double *t, int32_t most)
+int32_t brc_mesh_passes(const brc_mesh *mesh, const double x[3], const double u[3], double low, double high, double *t,
+                        int32_t most)
 {
     int32_t stack[BRC_MESH_STACK];
     int32_t n = 0, count = 0;

@@ -1,5 +1,6 @@
-/* Triangles without height are needed for the edges of their neighbours to meet, but have no normal. Flipping the longest edge of
- * such a triangle gives both halves of its neighbour a height and moves the surface by less than equal vertices may differ. */
+/* Triangles without height are needed for the edges of their neighbours to meet, but have no normal. Flipping the
+ * longest edge of such a triangle gives both halves of its neighbour a height and moves the surface by less than equal
+ * vertices may differ. */
 #include "../../host/base/memory.h"
 #include "mesh_internal.h"
 
@@ -57,8 +58,8 @@ static void set_corners(brc_mesh *mesh, int32_t t, int32_t a, int32_t b, int32_t
     mesh->corner[t][2] = c;
 }
 
-/* Flip the longest edge of t: t = (a, b, c) and its neighbour (b, a, d) become (c, a, d) and (d, b, c). Not where that gives nothing better, or an
- * edge that is there already. */
+/* Flip the longest edge of t: t = (a, b, c) and its neighbour (b, a, d) become (c, a, d) and (d, b, c). Not where that
+ * gives nothing better, or an edge that is there already. */
 static bool flip(brc_mesh *mesh, int32_t t)
 {
     int k = 0, unused;
@@ -101,8 +102,10 @@ brc_status brc_mesh_mend(brc_context *context, brc_mesh *mesh, const brc_mesh_so
         char place[BRC_MESH_PLACE];
         if (brc_mesh_height(mesh, t, NULL) > 0.0) continue;
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "%s: triangle %d at %s (units of the file) has no area, and so have those around it; remove it with a repair tool and close the mesh",
-                        source->path, mesh->facet[t] + 1, brc_mesh_place(source, mesh->vertex[mesh->corner[t][0]], place));
+                        "%s: triangle %d at %s (units of the file) has no area, and so have those around it; remove it "
+                        "with a repair tool and close the mesh",
+                        source->path, mesh->facet[t] + 1,
+                        brc_mesh_place(source, mesh->vertex[mesh->corner[t][0]], place));
     }
     return BRC_OK;
 }
@@ -122,7 +125,8 @@ brc_status brc_mesh_split_fans(brc_context *context, brc_mesh *mesh)
         if (used[v]) {
             if (mesh->n_vertices >= capacity) {
                 capacity += capacity / 2 + 16;
-                BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&mesh->vertex, capacity, sizeof *mesh->vertex, "vertices of a mesh"));
+                BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&mesh->vertex, capacity, sizeof *mesh->vertex,
+                                                      "vertices of a mesh"));
             }
             w = mesh->n_vertices++;
             memcpy(mesh->vertex[w], mesh->vertex[v], sizeof *mesh->vertex);

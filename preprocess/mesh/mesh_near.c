@@ -1,6 +1,6 @@
-/* Questions about the nearest surface. The sign of a distance is that of the angle between x - foot and the normal of the feature the foot lies
- * on: a face's own, the sum of two at an edge, weighted by angles at a vertex (J. A. Baerentzen & H. Aanaes, IEEE Trans. Vis. Comput. Graph. 11
- * (2005) 243: right for any closed surface). */
+/* Questions about the nearest surface. The sign of a distance is that of the angle between x - foot and the normal of
+ * the feature the foot lies on: a face's own, the sum of two at an edge, weighted by angles at a vertex (J. A.
+ * Baerentzen & H. Aanaes, IEEE Trans. Vis. Comput. Graph. 11 (2005) 243: right for any closed surface). */
 #include "mesh_internal.h"
 
 #include <math.h>
@@ -18,7 +18,8 @@ static double box_distance2(const brc_mesh_node *node, const double x[3])
     return sum;
 }
 
-/* Is the node's disc at this squared distance of x or further? The normal is a unit vector to 1e-7 only, hence a millionth to spare. */
+/* Is the node's disc at this squared distance of x or further? The normal is a unit vector to 1e-7 only, hence a
+ * millionth to spare. */
 static bool beyond(const brc_mesh_node *node, const double x[3], double distance2)
 {
     double along = 0.0, arm2 = 0.0;
@@ -41,14 +42,17 @@ static int at_corner(const double p[3], int k, double point[3])
 
 static int on_edge(const double from[3], const double along[3], double share, int k, double point[3])
 {
-    for (int d = 0; d < 3; ++d) point[d] = from[d] + share * along[d];
+    for (int d = 0; d < 3; ++d)
+        point[d] = from[d] + share * along[d];
     return BRC_MESH_EDGE + k;
 }
 
-/* By the regions of the triangle's plane that belong to its corners, edges and face (C. Ericson, Real-Time Collision Detection, 2005, 5.1.5). */
+/* By the regions of the triangle's plane that belong to its corners, edges and face (C. Ericson, Real-Time Collision
+ * Detection, 2005, 5.1.5). */
 int brc_mesh_nearest_of(const brc_mesh *mesh, int32_t t, const double x[3], double point[3])
 {
-    const double *a = mesh->vertex[mesh->corner[t][0]], *b = mesh->vertex[mesh->corner[t][1]], *c = mesh->vertex[mesh->corner[t][2]];
+    const double *a = mesh->vertex[mesh->corner[t][0]], *b = mesh->vertex[mesh->corner[t][1]],
+                 *c = mesh->vertex[mesh->corner[t][2]];
     double ab[3], ac[3], bc[3], ax[3], bx[3], cx[3];
     mesh_minus(b, a, ab);
     mesh_minus(c, a, ac);
@@ -69,7 +73,8 @@ int brc_mesh_nearest_of(const brc_mesh *mesh, int32_t t, const double x[3], doub
     mesh_minus(c, b, bc);
     if (va <= 0.0 && d4 >= d3 && d5 >= d6) return on_edge(b, bc, (d4 - d3) / ((d4 - d3) + (d5 - d6)), 1, point);
     const double share = 1.0 / (va + vb + vc), v = vb * share, w = vc * share;
-    for (int d = 0; d < 3; ++d) point[d] = a[d] + v * ab[d] + w * ac[d];
+    for (int d = 0; d < 3; ++d)
+        point[d] = a[d] + v * ab[d] + w * ac[d];
     return BRC_MESH_FACE;
 }
 
@@ -109,10 +114,12 @@ static void nearest(const brc_mesh *mesh, const double x[3], candidate *best)
         const brc_mesh_node *node = &mesh->node[top.node];
         if (beyond(node, x, best->distance2)) continue;
         if (node->count > 0) {
-            for (int32_t t = node->next; t < node->next + node->count; ++t) try_triangle(mesh, t, x, best);
+            for (int32_t t = node->next; t < node->next + node->count; ++t)
+                try_triangle(mesh, t, x, best);
             continue;
         }
-        const open_node a = {top.node + 1, box_distance2(node + 1, x)}, b = {node->next, box_distance2(&mesh->node[node->next], x)};
+        const open_node a = {top.node + 1, box_distance2(node + 1, x)},
+                        b = {node->next, box_distance2(&mesh->node[node->next], x)};
         const bool a_first = a.distance2 <= b.distance2;
         stack[n++] = a_first ? b : a;
         stack[n++] = a_first ? a : b;
@@ -128,7 +135,8 @@ static double signed_distance(const brc_mesh *mesh, const double x[3], const can
     if (best->feature >= BRC_MESH_CORNER)
         memcpy(normal, mesh->vertex_normal[mesh->corner[t][best->feature - BRC_MESH_CORNER]], sizeof normal);
     else if (best->feature >= BRC_MESH_EDGE)
-        for (int d = 0; d < 3; ++d) normal[d] += mesh->normal[mesh->across[t][best->feature - BRC_MESH_EDGE] / 3][d];
+        for (int d = 0; d < 3; ++d)
+            normal[d] += mesh->normal[mesh->across[t][best->feature - BRC_MESH_EDGE] / 3][d];
     mesh_minus(x, best->point, gap);
     const double distance = sqrt(best->distance2);
     return mesh_dot(gap, normal) > 0.0 ? -distance : distance;
@@ -156,7 +164,8 @@ static void count(void *of, int32_t triangle, double t)
     p->odd = p->odd != (t < 0.0);
 }
 
-/* Near the surface its nearest point decides; else a line does, which is cheaper than to find the nearest point far away. */
+/* Near the surface its nearest point decides; else a line does, which is cheaper than to find the nearest point far
+ * away. */
 bool brc_mesh_inside(const brc_mesh *mesh, const double x[3])
 {
     for (int d = 0; d < 3; ++d)
@@ -184,8 +193,10 @@ static int32_t find_patch(const window *w, int32_t p)
     int32_t low = 0, high = w->n;
     while (low < high) {
         const int32_t middle = low + (high - low) / 2;
-        if (w->of[middle].patch < p) low = middle + 1;
-        else high = middle;
+        if (w->of[middle].patch < p)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low;
 }
@@ -235,17 +246,20 @@ static void gather(const brc_mesh *mesh, const double x[3], double reach2, int32
         const brc_mesh_node *node = &mesh->node[top.node];
         if (!worth(node, x, top.distance2, reach2, w)) continue;
         if (node->count > 0) {
-            for (int32_t t = node->next; t < node->next + node->count; ++t) offer(mesh, t, x, reach2, w);
+            for (int32_t t = node->next; t < node->next + node->count; ++t)
+                offer(mesh, t, x, reach2, w);
             continue;
         }
-        const open_node a = {top.node + 1, box_distance2(node + 1, x)}, b = {node->next, box_distance2(&mesh->node[node->next], x)};
+        const open_node a = {top.node + 1, box_distance2(node + 1, x)},
+                        b = {node->next, box_distance2(&mesh->node[node->next], x)};
         const bool a_first = a.distance2 <= b.distance2;
         stack[n++] = a_first ? b : a;
         stack[n++] = a_first ? a : b;
     }
 }
 
-/* The bits of the sharp edges that belong to the patch of `corner` and end at its vertex, of all its triangles: as if they were edges 0. */
+/* The bits of the sharp edges that belong to the patch of `corner` and end at its vertex, of all its triangles: as if
+ * they were edges 0. */
 static unsigned rim_at(const brc_mesh *mesh, int32_t corner)
 {
     const int32_t patch = mesh->patch[corner / 3];
@@ -262,8 +276,10 @@ static unsigned rim_at(const brc_mesh *mesh, int32_t corner)
 static void make_foot(const brc_mesh *mesh, const candidate *c, brc_mesh_foot *foot)
 {
     unsigned bits = 0;
-    if (c->feature >= BRC_MESH_CORNER) bits = rim_at(mesh, 3 * c->triangle + c->feature - BRC_MESH_CORNER);
-    else if (c->feature >= BRC_MESH_EDGE) bits = mesh->flags[c->triangle] >> (c->feature - BRC_MESH_EDGE);
+    if (c->feature >= BRC_MESH_CORNER)
+        bits = rim_at(mesh, 3 * c->triangle + c->feature - BRC_MESH_CORNER);
+    else if (c->feature >= BRC_MESH_EDGE)
+        bits = mesh->flags[c->triangle] >> (c->feature - BRC_MESH_EDGE);
     memcpy(foot->point, c->point, sizeof foot->point);
     memcpy(foot->normal, mesh->normal[c->triangle], sizeof foot->normal);
     foot->distance = sqrt(c->distance2);
@@ -284,7 +300,8 @@ int32_t brc_mesh_feet(const brc_mesh *mesh, const double x[3], double reach, brc
         w.more = false;
         gather(mesh, x, reach * reach, most - n, &w);
         if (w.n > most - n || (w.more && w.n >= most - n)) return most + 1;
-        for (int32_t k = 0; k < w.n; ++k) make_foot(mesh, &w.of[k], &feet[n++]);
+        for (int32_t k = 0; k < w.n; ++k)
+            make_foot(mesh, &w.of[k], &feet[n++]);
         if (w.n > 0) w.after = w.of[w.n - 1].patch;
     } while (w.more);
     return n;

@@ -1,5 +1,5 @@
-/* Normals and smooth patches. A triangle thinner than the rounding of the file has a normal of chance: it takes that of the neighbour across its
- * longest edge. The triangles of a plane patch take the patch's normal. */
+/* Normals and smooth patches. A triangle thinner than the rounding of the file has a normal of chance: it takes that of
+ * the neighbour across its longest edge. The triangles of a plane patch take the patch's normal. */
 #include "../../host/base/memory.h"
 #include "mesh_internal.h"
 
@@ -13,7 +13,8 @@ static void unit(double v[3])
 {
     const double length = sqrt(mesh_dot(v, v));
     if (length > 0.0)
-        for (int d = 0; d < 3; ++d) v[d] /= length;
+        for (int d = 0; d < 3; ++d)
+            v[d] /= length;
 }
 
 static void find_normals(brc_mesh *mesh, uint8_t *own)
@@ -51,7 +52,8 @@ static int32_t root_of(int32_t *parent, int32_t t)
 static void find_patches(brc_mesh *mesh)
 {
     int32_t *parent = mesh->patch;
-    for (int32_t t = 0; t < mesh->n_triangles; ++t) parent[t] = t;
+    for (int32_t t = 0; t < mesh->n_triangles; ++t)
+        parent[t] = t;
     for (int32_t t = 0; t < mesh->n_triangles; ++t)
         for (int k = 0; k < 3; ++k) {
             const int32_t u = mesh->across[t][k] / 3;
@@ -60,10 +62,13 @@ static void find_patches(brc_mesh *mesh)
                 continue;
             }
             const int32_t a = root_of(parent, t), b = root_of(parent, u);
-            if (a < b) parent[b] = a;
-            else parent[a] = b;
+            if (a < b)
+                parent[b] = a;
+            else
+                parent[a] = b;
         }
-    for (int32_t t = 0; t < mesh->n_triangles; ++t) /* a root is the first triangle of its patch, so it has its number already */
+    for (int32_t t = 0; t < mesh->n_triangles;
+         ++t) /* a root is the first triangle of its patch, so it has its number already */
         mesh->patch[t] = parent[t] == t ? mesh->n_patches++ : mesh->patch[parent[t]];
 }
 
@@ -83,9 +88,11 @@ static brc_status flatten(brc_context *context, brc_mesh *mesh)
     for (int32_t t = 0; t < mesh->n_triangles; ++t) {
         double area[3];
         brc_mesh_area_vector(mesh, t, area);
-        for (int d = 0; d < 3; ++d) of[mesh->patch[t]].normal[d] += area[d];
+        for (int d = 0; d < 3; ++d)
+            of[mesh->patch[t]].normal[d] += area[d];
     }
-    for (int32_t p = 0; p < mesh->n_patches; ++p) unit(of[p].normal);
+    for (int32_t p = 0; p < mesh->n_patches; ++p)
+        unit(of[p].normal);
     for (int32_t t = 0; t < mesh->n_triangles; ++t) {
         sheet *s = &of[mesh->patch[t]];
         for (int k = 0; k < 3; ++k) {
@@ -96,9 +103,11 @@ static brc_status flatten(brc_context *context, brc_mesh *mesh)
             s->high = fmax(s->high, height);
         }
     }
-    for (int32_t p = 0; p < mesh->n_patches; ++p) mesh->patch_flat[p] = of[p].high - of[p].low <= mesh->rounding;
+    for (int32_t p = 0; p < mesh->n_patches; ++p)
+        mesh->patch_flat[p] = of[p].high - of[p].low <= mesh->rounding;
     for (int32_t t = 0; t < mesh->n_triangles; ++t)
-        if (mesh->patch_flat[mesh->patch[t]]) memcpy(mesh->normal[t], of[mesh->patch[t]].normal, sizeof mesh->normal[t]);
+        if (mesh->patch_flat[mesh->patch[t]])
+            memcpy(mesh->normal[t], of[mesh->patch[t]].normal, sizeof mesh->normal[t]);
     brc_memory_free(of);
     return BRC_OK;
 }
@@ -125,7 +134,8 @@ static void weigh_vertices(brc_mesh *mesh)
             mesh_minus(mesh->vertex[corner[(k + 2) % 3]], mesh->vertex[corner[k]], b);
             mesh_cross(a, b, area);
             const double angle = atan2(sqrt(mesh_dot(area, area)), mesh_dot(a, b));
-            for (int d = 0; d < 3; ++d) mesh->vertex_normal[corner[k]][d] += angle * mesh->normal[t][d];
+            for (int d = 0; d < 3; ++d)
+                mesh->vertex_normal[corner[k]][d] += angle * mesh->normal[t][d];
         }
 }
 
@@ -154,7 +164,8 @@ static bool stands_above(const brc_mesh *mesh, int32_t t)
         const int32_t at = stack[--n_stack];
         const brc_mesh_node *node = &mesh->node[at];
         double top = 0.0;
-        for (int d = 0; d < 3; ++d) top += n[d] * ((double)(n[d] > 0.0 ? node->high[d] : node->low[d]) - origin[d]);
+        for (int d = 0; d < 3; ++d)
+            top += n[d] * ((double)(n[d] > 0.0 ? node->high[d] : node->low[d]) - origin[d]);
         if (top <= mesh->rounding) continue;
         if (node->count == 0) {
             stack[n_stack++] = node->next;
@@ -186,9 +197,9 @@ static double highest_neighbour(const brc_mesh *mesh, int32_t t)
     return highest;
 }
 
-/* A connected closed surface that does not cut itself is convex when it is so at every edge (S. Nakajima, 1928). Edges may be concave by the rounding
- * of the file; that this does not add up, as in a shallow dish of very many triangles, is seen from all vertices and the planes of 64 such
- * triangles. */
+/* A connected closed surface that does not cut itself is convex when it is so at every edge (S. Nakajima, 1928). Edges
+ * may be concave by the rounding of the file; that this does not add up, as in a shallow dish of very many triangles,
+ * is seen from all vertices and the planes of 64 such triangles. */
 static bool find_convex(const brc_mesh *mesh)
 {
     enum { SAMPLES = 64 };

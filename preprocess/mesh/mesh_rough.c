@@ -1,5 +1,5 @@
-/* Surfaces that bend at every edge, as scans do, at the scale a question is asked at: patches mean nothing there. Such a surface is seen from a point in
- * directions, and around a place it has a mean plane. */
+/* Surfaces that bend at every edge, as scans do, at the scale a question is asked at: patches mean nothing there. Such
+ * a surface is seen from a point in directions, and around a place it has a mean plane. */
 #include "mesh_internal.h"
 
 #include <math.h>
@@ -37,8 +37,10 @@ static void look_at(const brc_mesh *mesh, int32_t t, const double x[3], double r
     brc_mesh_foot *view = &views[foot.distance > 0.0 ? view_of(arm) : 0];
     if (view->distance > 0.0 && view->distance <= foot.distance) return;
     memcpy(foot.normal, mesh->normal[t], sizeof foot.normal);
-    if (feature >= BRC_MESH_EDGE && feature < BRC_MESH_CORNER) foot.concave = (mesh->flags[t] & BRC_MESH_CONCAVE(feature - BRC_MESH_EDGE)) != 0;
-    if (feature >= BRC_MESH_CORNER) foot.concave = (mesh->flags[t] & (BRC_MESH_CONCAVE(0) | BRC_MESH_CONCAVE(1) | BRC_MESH_CONCAVE(2))) != 0;
+    if (feature >= BRC_MESH_EDGE && feature < BRC_MESH_CORNER)
+        foot.concave = (mesh->flags[t] & BRC_MESH_CONCAVE(feature - BRC_MESH_EDGE)) != 0;
+    if (feature >= BRC_MESH_CORNER)
+        foot.concave = (mesh->flags[t] & (BRC_MESH_CONCAVE(0) | BRC_MESH_CONCAVE(1) | BRC_MESH_CONCAVE(2))) != 0;
     *view = foot;
 }
 
@@ -77,7 +79,8 @@ static void walk(const brc_mesh *mesh, const double x[3], double reach, visit *c
             stack[n++] = at + 1;
             continue;
         }
-        for (int32_t t = node->next; t < node->next + node->count; ++t) call(of, t);
+        for (int32_t t = node->next; t < node->next + node->count; ++t)
+            call(of, t);
     }
 }
 
@@ -111,7 +114,7 @@ typedef struct sheet {
     const brc_mesh *mesh;
     const double *point;
     double radius;
-    double towards[3];                      /* unit */
+    double towards[3];                       /* unit */
     double area[3], flux, moment, low, high; /* [m^2], [m^3], [m] */
 } sheet;
 
@@ -121,8 +124,10 @@ static void add(void *of, int32_t t)
     const int32_t *corner = s->mesh->corner[t];
     double arm[3][3], centroid[3], area[3], height = 0.0, low = HUGE_VAL, high = -HUGE_VAL;
     if (mesh_dot(s->mesh->normal[t], s->towards) < STEEP) return;
-    for (int k = 0; k < 3; ++k) mesh_minus(s->mesh->vertex[corner[k]], s->point, arm[k]);
-    for (int d = 0; d < 3; ++d) centroid[d] = (arm[0][d] + arm[1][d] + arm[2][d]) / 3.0;
+    for (int k = 0; k < 3; ++k)
+        mesh_minus(s->mesh->vertex[corner[k]], s->point, arm[k]);
+    for (int d = 0; d < 3; ++d)
+        centroid[d] = (arm[0][d] + arm[1][d] + arm[2][d]) / 3.0;
     if (mesh_dot(centroid, centroid) >= s->radius * s->radius) return;
     for (int k = 0; k < 3; ++k) {
         const double h = mesh_dot(arm[k], s->towards);
@@ -132,14 +137,16 @@ static void add(void *of, int32_t t)
     }
     brc_mesh_area_vector(s->mesh, t, area);
     const double share = mesh_dot(area, s->towards);
-    for (int d = 0; d < 3; ++d) s->area[d] += area[d];
+    for (int d = 0; d < 3; ++d)
+        s->area[d] += area[d];
     s->flux += share;
     s->moment += share * height;
     s->low = fmin(s->low, low);
     s->high = fmax(s->high, high);
 }
 
-bool brc_mesh_mean_plane(const brc_mesh *mesh, const double point[3], double radius, double normal[3], double *height, double *rough)
+bool brc_mesh_mean_plane(const brc_mesh *mesh, const double point[3], double radius, double normal[3], double *height,
+                         double *rough)
 {
     sheet s = {.mesh = mesh, .point = point, .radius = radius};
     memcpy(s.towards, normal, sizeof s.towards);
@@ -152,7 +159,8 @@ bool brc_mesh_mean_plane(const brc_mesh *mesh, const double point[3], double rad
         const double length = sqrt(mesh_dot(s.area, s.area));
         if (!(s.flux > 0.0 && length > 0.0)) return false;
         if (round < ROUNDS)
-            for (int d = 0; d < 3; ++d) s.towards[d] = s.area[d] / length;
+            for (int d = 0; d < 3; ++d)
+                s.towards[d] = s.area[d] / length;
     }
     const double mean = s.moment / s.flux;
     memcpy(normal, s.towards, sizeof s.towards);

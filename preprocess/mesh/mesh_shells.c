@@ -1,4 +1,5 @@
-/* Shells that lie within each other: the outermost ones bound the solid, those within them cavities, those within cavities solid again. */
+/* Shells that lie within each other: the outermost ones bound the solid, those within them cavities, those within
+ * cavities solid again. */
 #include "../../host/base/memory.h"
 #include "mesh_internal.h"
 
@@ -54,7 +55,8 @@ static const double *point_of(const brc_mesh *mesh, const shell *s)
 static void measure(brc_mesh *mesh, shell *shells)
 {
     double middle[3];
-    for (int d = 0; d < 3; ++d) middle[d] = 0.5 * (mesh->bounds[0][d] + mesh->bounds[1][d]);
+    for (int d = 0; d < 3; ++d)
+        middle[d] = 0.5 * (mesh->bounds[0][d] + mesh->bounds[1][d]);
     for (int32_t t = mesh->n_triangles - 1; t >= 0; --t) {
         double area[3], arm[3];
         brc_mesh_area_vector(mesh, t, area);
@@ -67,7 +69,8 @@ static void measure(brc_mesh *mesh, shell *shells)
 
 static void find_depths(brc_mesh *mesh, shell *shells)
 {
-    for (int32_t s = 0; s < mesh->n_shells; ++s) shells[s].outmost = s;
+    for (int32_t s = 0; s < mesh->n_shells; ++s)
+        shells[s].outmost = s;
     if (mesh->n_shells == 1) return;
     for (int32_t s = 0; s < mesh->n_shells; ++s) {
         question q = {.mesh = mesh, .shells = shells, .asker = s, .stamp = s + 1};
@@ -104,15 +107,20 @@ brc_status brc_mesh_nest(brc_context *context, brc_mesh *mesh, const brc_mesh_so
         mesh->volume += outward ? fabs(shells[s].volume) : -fabs(shells[s].volume);
         if (outward == (shells[s].depth % 2 == 0)) continue;
         status = BRC_FAIL(context, BRC_BAD_INPUT,
-                          "%s: the shell of triangle %d at %s (units of the file) lies within %d other%s but is oriented as %s: shells must alternate, a cavity's triangles "
+                          "%s: the shell of triangle %d at %s (units of the file) lies within %d other%s but is "
+                          "oriented as %s: shells must alternate, a cavity's triangles "
                           "face into the cavity; reverse this shell for %s, or remove it",
-                          source->path, mesh->facet[shells[s].first] + 1, brc_mesh_place(source, point_of(mesh, &shells[s]), place), shells[s].depth,
-                          shells[s].depth == 1 ? "" : "s", outward ? "a solid" : "a cavity", outward ? "a cavity" : "a solid");
+                          source->path, mesh->facet[shells[s].first] + 1,
+                          brc_mesh_place(source, point_of(mesh, &shells[s]), place), shells[s].depth,
+                          shells[s].depth == 1 ? "" : "s", outward ? "a solid" : "a cavity",
+                          outward ? "a cavity" : "a solid");
         goto cleanup;
     }
     if (!(mesh->volume > 0.0) || !isfinite(mesh->volume) || !isfinite(mesh->area))
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: the mesh encloses no volume (%g m^3); export a part that has a volume, with a sensible scale", source->path,
-                          mesh->volume);
+        status =
+            BRC_FAIL(context, BRC_BAD_INPUT,
+                     "%s: the mesh encloses no volume (%g m^3); export a part that has a volume, with a sensible scale",
+                     source->path, mesh->volume);
 cleanup:
     brc_memory_free(shells);
     brc_memory_free(marked);

@@ -1,6 +1,7 @@
-/* STL files. Binary: 80 bytes that mean nothing (they may begin with "solid"), the number of triangles, and 50 bytes a triangle: normal, three
- * corners, two spare bytes. ASCII: solid, facet normal, outer loop, three times vertex, endloop, endfacet, endsolid; any case and white
- * space, several solids one after another. Normals are not used: they follow from the order of the corners. */
+/* STL files. Binary: 80 bytes that mean nothing (they may begin with "solid"), the number of triangles, and 50 bytes a
+ * triangle: normal, three corners, two spare bytes. ASCII: solid, facet normal, outer loop, three times vertex,
+ * endloop, endfacet, endsolid; any case and white space, several solids one after another. Normals are not used: they
+ * follow from the order of the corners. */
 #include "../../host/base/file.h"
 #include "../../host/base/memory.h"
 #include "../lines.h"
@@ -32,26 +33,30 @@ static bool is_text(const char *text, size_t bytes)
 {
     const char *c = text, *end = text + bytes;
     if (bytes >= 3 && memcmp(c, "\xef\xbb\xbf", 3) == 0) c += 3;
-    while (c < end && (*c == ' ' || *c == '\t' || *c == '\r' || *c == '\n')) ++c;
-    if (end - c < 6 || strncasecmp(c, "solid", 5) != 0 || !(c[5] == ' ' || (c[5] >= '\t' && c[5] <= '\r'))) return false;
+    while (c < end && (*c == ' ' || *c == '\t' || *c == '\r' || *c == '\n'))
+        ++c;
+    if (end - c < 6 || strncasecmp(c, "solid", 5) != 0 || !(c[5] == ' ' || (c[5] >= '\t' && c[5] <= '\r')))
+        return false;
     const char *last = bytes < SNIFF ? end : text + SNIFF;
     for (; c < last; ++c)
         if ((unsigned char)*c < 32 && !(*c >= '\t' && *c <= '\r')) return false;
     return true;
 }
 
-static brc_status read_binary(brc_context *context, const char *path, const char *data, size_t bytes, double (**corner)[3],
-                              int32_t *n_facets)
+static brc_status read_binary(brc_context *context, const char *path, const char *data, size_t bytes,
+                              double (**corner)[3], int32_t *n_facets)
 {
     const uint32_t n = little_endian(data + HEADER - 4);
     const unsigned long long expected = HEADER + (unsigned long long)RECORD * n;
     if (bytes != expected)
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "%s: not an STL file, or a damaged one: as binary STL it announces %u triangles, which take %llu bytes, but it has %zu%s; "
+                        "%s: not an STL file, or a damaged one: as binary STL it announces %u triangles, which take "
+                        "%llu bytes, but it has %zu%s; "
                         "export it again as binary or ASCII STL",
                         path, n, expected, bytes, bytes < expected ? " (truncated?)" : "");
     if (n > MOST_FACETS)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%s: has %u triangles, at most %d are read; export it coarser", path, n, (int)MOST_FACETS);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "%s: has %u triangles, at most %d are read; export it coarser", path, n,
+                        (int)MOST_FACETS);
     BRC_TRY(brc_memory_allocate(context, (void **)corner, 3 * (int64_t)n, sizeof **corner, "corners of a mesh"));
     *n_facets = (int32_t)n;
     for (int64_t t = 0; t < (int64_t)n; ++t) {
@@ -60,7 +65,8 @@ static brc_status read_binary(brc_context *context, const char *path, const char
             const float value = float_at(record + 12 + 4 * k);
             if (!isfinite(value))
                 return BRC_FAIL(context, BRC_BAD_INPUT,
-                                "%s: triangle %lld: %c of corner %d is %g, expected a finite number; export the mesh again, or remove the triangle with a "
+                                "%s: triangle %lld: %c of corner %d is %g, expected a finite number; export the mesh "
+                                "again, or remove the triangle with a "
                                 "repair tool and close the hole",
                                 path, (long long)t + 1, "xyz"[k % 3], k / 3 + 1, (double)value);
             (*corner)[3 * t + k / 3][k % 3] = (double)value;
@@ -87,7 +93,8 @@ static bool next_token(reader *in)
 static bool expect(reader *in, const char *word)
 {
     if (!next_token(in)) {
-        brc_lines_bad(&in->lines, in->lines.line_end, "the file ends where '%s' is expected (truncated?); export it again", word);
+        brc_lines_bad(&in->lines, in->lines.line_end,
+                      "the file ends where '%s' is expected (truncated?); export it again", word);
         return false;
     }
     if (brc_lines_is(in->first, in->last, word)) return true;
@@ -119,7 +126,8 @@ static bool read_facet(reader *in, double (*corner)[3])
     return expect(in, "endloop") && expect(in, "endfacet");
 }
 
-/* After "solid" and "endsolid": the name, which is the rest of the line, unless the first facet follows on the same line. */
+/* After "solid" and "endsolid": the name, which is the rest of the line, unless the first facet follows on the same
+ * line. */
 static void skip_name(reader *in)
 {
     const char *line_end = in->lines.line_end, *before = in->at, *first, *last;
@@ -134,7 +142,8 @@ static void skip_name(reader *in)
     }
 }
 
-static bool read_solids(reader *in, brc_context *context, double (**corner)[3], int64_t *capacity, int32_t *n_facets, brc_status *status)
+static bool read_solids(reader *in, brc_context *context, double (**corner)[3], int64_t *capacity, int32_t *n_facets,
+                        brc_status *status)
 {
     bool open = false;
     while (next_token(in)) {
@@ -150,7 +159,8 @@ static bool read_solids(reader *in, brc_context *context, double (**corner)[3], 
             skip_name(in);
         } else if (brc_lines_is(in->first, in->last, "facet")) {
             if (*n_facets >= MOST_FACETS) {
-                brc_lines_bad(&in->lines, in->first, "more than %d triangles; export the mesh coarser", (int)MOST_FACETS);
+                brc_lines_bad(&in->lines, in->first, "more than %d triangles; export the mesh coarser",
+                              (int)MOST_FACETS);
                 return false;
             }
             if (3 * (int64_t)*n_facets >= *capacity) {
@@ -165,11 +175,14 @@ static bool read_solids(reader *in, brc_context *context, double (**corner)[3], 
             return expect(in, "facet");
         }
     }
-    if (open) brc_lines_bad(&in->lines, in->lines.line_end, "the file ends where 'facet' or 'endsolid' is expected (truncated?); export it again");
+    if (open)
+        brc_lines_bad(&in->lines, in->lines.line_end,
+                      "the file ends where 'facet' or 'endsolid' is expected (truncated?); export it again");
     return !open;
 }
 
-static brc_status read_text(brc_context *context, const char *path, const char *text, size_t bytes, double (**corner)[3], int32_t *n_facets)
+static brc_status read_text(brc_context *context, const char *path, const char *text, size_t bytes,
+                            double (**corner)[3], int32_t *n_facets)
 {
     reader in = {0};
     int64_t capacity = 3 * (int64_t)(bytes / 200 + 16); /* a facet takes about 250 bytes */
@@ -177,7 +190,8 @@ static brc_status read_text(brc_context *context, const char *path, const char *
     BRC_TRY(brc_lines_begin(context, path, text, bytes, &in.lines));
     in.at = in.lines.line_end;
     brc_status status = BRC_OK;
-    if (!read_solids(&in, context, corner, &capacity, n_facets, &status) && status == BRC_OK) status = brc_lines_verdict(&in.lines);
+    if (!read_solids(&in, context, corner, &capacity, n_facets, &status) && status == BRC_OK)
+        status = brc_lines_verdict(&in.lines);
     brc_lines_end(&in.lines);
     return status;
 }
@@ -190,14 +204,18 @@ brc_status brc_mesh_read_facets(brc_context *context, const char *path, double (
     size_t bytes = 0;
     brc_status status = BRC_OK;
     BRC_TRY(brc_file_read_whole(context, path, MOST_BYTES, &data, &bytes));
-    const bool whole = bytes >= HEADER && HEADER + (unsigned long long)RECORD * little_endian(data + HEADER - 4) == bytes;
+    const bool whole =
+        bytes >= HEADER && HEADER + (unsigned long long)RECORD * little_endian(data + HEADER - 4) == bytes;
     if (!whole && is_text(data, bytes))
         BRC_TRY_OR(cleanup, read_text(context, path, data, bytes, corner, n_facets));
     else if (bytes >= HEADER)
         BRC_TRY_OR(cleanup, read_binary(context, path, data, bytes, corner, n_facets));
     else {
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: not an STL file: it has %zu bytes, binary STL at least %d, and ASCII STL begins with 'solid'; export "
-                          "the part as STL", path, bytes, (int)HEADER);
+        status = BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "%s: not an STL file: it has %zu bytes, binary STL at least %d, and ASCII STL begins with 'solid'; export "
+            "the part as STL",
+            path, bytes, (int)HEADER);
         goto cleanup;
     }
     if (*n_facets == 0)

@@ -1,5 +1,6 @@
-/* A tree of boxes over the triangles. Nodes halve the box of the centroids where that leaves a quarter of the triangles on each side, else
- * the triangles. Triangles, and vertices by first use, are then put in the order of the tree, so that what is near in space is near in memory. */
+/* A tree of boxes over the triangles. Nodes halve the box of the centroids where that leaves a quarter of the triangles
+ * on each side, else the triangles. Triangles, and vertices by first use, are then put in the order of the tree, so
+ * that what is near in space is near in memory. */
 #include "../../host/base/memory.h"
 #include "mesh_internal.h"
 
@@ -24,20 +25,26 @@ static void select_items(item *items, int32_t n, int32_t middle, int d)
 {
     int32_t low = 0, high = n - 1;
     while (low < high) {
-        const float a = items[low].centroid[d], b = items[low + (high - low) / 2].centroid[d], c = items[high].centroid[d];
+        const float a = items[low].centroid[d], b = items[low + (high - low) / 2].centroid[d],
+                    c = items[high].centroid[d];
         const float pivot = fmaxf(fminf(a, b), fminf(fmaxf(a, b), c));
         int32_t i = low, j = high;
         while (i <= j) {
-            while (items[i].centroid[d] < pivot) ++i;
-            while (items[j].centroid[d] > pivot) --j;
+            while (items[i].centroid[d] < pivot)
+                ++i;
+            while (items[j].centroid[d] > pivot)
+                --j;
             if (i > j) break;
             const item swap = items[i];
             items[i++] = items[j];
             items[j--] = swap;
         }
-        if (middle <= j) high = j;
-        else if (middle >= i) low = i;
-        else return;
+        if (middle <= j)
+            high = j;
+        else if (middle >= i)
+            low = i;
+        else
+            return;
     }
 }
 
@@ -130,11 +137,13 @@ static brc_status reorder_triangles(brc_context *context, brc_mesh *mesh, const 
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &facet, n, "triangles of a mesh"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &shell, n, "shells of a mesh"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &place, n, "triangles of a mesh"));
-    for (int32_t i = 0; i < n; ++i) place[items[i].triangle] = i;
+    for (int32_t i = 0; i < n; ++i)
+        place[items[i].triangle] = i;
     for (int32_t i = 0; i < n; ++i) {
         const int32_t t = items[i].triangle;
         memcpy(corner[i], mesh->corner[t], sizeof corner[i]);
-        for (int k = 0; k < 3; ++k) across[i][k] = 3 * place[mesh->across[t][k] / 3] + mesh->across[t][k] % 3;
+        for (int k = 0; k < 3; ++k)
+            across[i][k] = 3 * place[mesh->across[t][k] / 3] + mesh->across[t][k] % 3;
         facet[i] = mesh->facet[t];
         shell[i] = mesh->shell[t];
     }
@@ -162,7 +171,8 @@ static brc_status reorder_vertices(brc_context *context, brc_mesh *mesh)
     int32_t *place = NULL, n = 0;
     double(*vertex)[3] = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &place, mesh->n_vertices, "vertices of a mesh")); /* new number + 1; 0: not used yet */
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &place, mesh->n_vertices,
+                                     "vertices of a mesh")); /* new number + 1; 0: not used yet */
     for (int64_t k = 0; k < 3 * (int64_t)mesh->n_triangles; ++k) {
         int32_t *v = &mesh->corner[k / 3][k % 3];
         if (place[*v] == 0) place[*v] = ++n;
@@ -188,7 +198,8 @@ static void fit_disc(const brc_mesh *mesh, int32_t first, int32_t n, brc_mesh_no
         brc_mesh_area_vector(mesh, t, area);
         for (int d = 0; d < 3; ++d) {
             normal[d] += area[d];
-            for (int k = 0; k < 3; ++k) centre[d] += mesh->vertex[mesh->corner[t][k]][d] / (3.0 * n);
+            for (int k = 0; k < 3; ++k)
+                centre[d] += mesh->vertex[mesh->corner[t][k]][d] / (3.0 * n);
         }
     }
     const double length = sqrt(mesh_dot(normal, normal));
@@ -207,7 +218,8 @@ static void fit_disc(const brc_mesh *mesh, int32_t first, int32_t n, brc_mesh_no
             radius = fmax(radius, mesh_dot(arm, arm) - along * along);
         }
     node->half = up(half);
-    node->radius = up(sqrt(fmax(radius, 0.0)) * (1.0 + 1e-6) + 1e-3 * half); /* the normal is a unit vector to 1e-7 only */
+    node->radius =
+        up(sqrt(fmax(radius, 0.0)) * (1.0 + 1e-6) + 1e-3 * half); /* the normal is a unit vector to 1e-7 only */
 }
 
 static brc_status fit_discs(brc_context *context, brc_mesh *mesh)
@@ -231,12 +243,14 @@ brc_status brc_mesh_plant(brc_context *context, brc_mesh *mesh)
     brc_status status = BRC_OK;
     const int32_t n = mesh->n_triangles;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &p.items, n, "tree of a mesh"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &p.node, (int64_t)n + n / 7 + 1, "tree of a mesh")); /* most: 4 leaves of 7 triangles */
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &p.node, (int64_t)n + n / 7 + 1,
+                                     "tree of a mesh")); /* most: 4 leaves of 7 triangles */
     for (int32_t t = 0; t < n; ++t) {
         p.items[t].triangle = t;
         for (int d = 0; d < 3; ++d) {
             double sum = 0.0;
-            for (int k = 0; k < 3; ++k) sum += mesh->vertex[mesh->corner[t][k]][d] - mesh->bounds[0][d];
+            for (int k = 0; k < 3; ++k)
+                sum += mesh->vertex[mesh->corner[t][k]][d] - mesh->bounds[0][d];
             p.items[t].centroid[d] = (float)(sum / mesh->size);
         }
     }

@@ -1,4 +1,5 @@
-/* One vertex for equal corners: first those that are equal to the bit, then those within 1e-9 of the mesh's size of an earlier one. */
+/* One vertex for equal corners: first those that are equal to the bit, then those within 1e-9 of the mesh's size of an
+ * earlier one. */
 #include "../../host/base/memory.h"
 #include "mesh_internal.h"
 
@@ -23,7 +24,8 @@ static uint64_t mix(uint64_t a, uint64_t b, uint64_t c)
 static brc_status make_table(brc_context *context, int64_t n, table *out)
 {
     uint64_t size = 16;
-    while (size < (uint64_t)n + (uint64_t)n / 2) size *= 2;
+    while (size < (uint64_t)n + (uint64_t)n / 2)
+        size *= 2;
     out->mask = size - 1;
     return BRC_ALLOCATE(context, &out->slot, size, "table of a mesh's vertices");
 }
@@ -34,10 +36,12 @@ static int32_t weld_equal(double (*point)[3], int64_t n, const table *of, int32_
     int32_t n_vertices = 0;
     for (int64_t k = 0; k < n; ++k) {
         uint64_t word[3];
-        for (int d = 0; d < 3; ++d) point[k][d] += 0.0; /* -0 becomes 0 */
+        for (int d = 0; d < 3; ++d)
+            point[k][d] += 0.0; /* -0 becomes 0 */
         memcpy(word, point[k], sizeof word);
         uint64_t at = mix(word[0], word[1], word[2]) & of->mask;
-        while (of->slot[at] && memcmp(point[of->slot[at] - 1], word, sizeof word) != 0) at = (at + 1) & of->mask;
+        while (of->slot[at] && memcmp(point[of->slot[at] - 1], word, sizeof word) != 0)
+            at = (at + 1) & of->mask;
         if (!of->slot[at]) {
             memcpy(point[n_vertices], word, sizeof word);
             of->slot[at] = ++n_vertices;
@@ -66,7 +70,8 @@ static int32_t find_near(const brc_mesh *mesh, int32_t v, const table *of)
     for (int64_t x = low[0]; x <= high[0]; ++x)
         for (int64_t y = low[1]; y <= high[1]; ++y)
             for (int64_t z = low[2]; z <= high[2]; ++z)
-                for (uint64_t at = mix((uint64_t)x, (uint64_t)y, (uint64_t)z) & of->mask; of->slot[at]; at = (at + 1) & of->mask) {
+                for (uint64_t at = mix((uint64_t)x, (uint64_t)y, (uint64_t)z) & of->mask; of->slot[at];
+                     at = (at + 1) & of->mask) {
                     const int32_t w = of->slot[at] - 1;
                     double gap[3];
                     mesh_minus(mesh->vertex[w], p, gap);
@@ -78,9 +83,11 @@ static int32_t find_near(const brc_mesh *mesh, int32_t v, const table *of)
 static void keep(const brc_mesh *mesh, int32_t v, const table *of)
 {
     uint64_t cell[3];
-    for (int d = 0; d < 3; ++d) cell[d] = (uint64_t)cell_of(mesh, mesh->vertex[v][d], d);
+    for (int d = 0; d < 3; ++d)
+        cell[d] = (uint64_t)cell_of(mesh, mesh->vertex[v][d], d);
     uint64_t at = mix(cell[0], cell[1], cell[2]) & of->mask;
-    while (of->slot[at]) at = (at + 1) & of->mask;
+    while (of->slot[at])
+        at = (at + 1) & of->mask;
     of->slot[at] = v + 1;
 }
 
@@ -115,7 +122,8 @@ static void drop_degenerate(brc_mesh *mesh, int32_t n_facets)
     mesh->n_triangles = n;
 }
 
-brc_status brc_mesh_weld(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source, double (*corner)[3], int32_t n_facets)
+brc_status brc_mesh_weld(brc_context *context, brc_mesh *mesh, const brc_mesh_source *source, double (*corner)[3],
+                         int32_t n_facets)
 {
     brc_status status = BRC_OK;
     table of = {0};
@@ -127,10 +135,12 @@ brc_status brc_mesh_weld(brc_context *context, brc_mesh *mesh, const brc_mesh_so
     mesh->n_vertices = weld_equal(corner, 3 * (int64_t)n_facets, &of, &mesh->corner[0][0]);
     brc_memory_free(of.slot);
     of.slot = NULL;
-    BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&mesh->vertex, mesh->n_vertices, sizeof *mesh->vertex, "vertices of a mesh"));
+    BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&mesh->vertex, mesh->n_vertices, sizeof *mesh->vertex,
+                                          "vertices of a mesh"));
     brc_mesh_measure(mesh);
     if (!(mesh->size > 0.0)) {
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: all corners are one point; export a part that has a volume", source->path);
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: all corners are one point; export a part that has a volume",
+                          source->path);
         goto cleanup;
     }
     BRC_TRY_OR(cleanup, make_table(context, mesh->n_vertices, &of));
@@ -139,14 +149,18 @@ brc_status brc_mesh_weld(brc_context *context, brc_mesh *mesh, const brc_mesh_so
     for (int32_t v = 0; v < mesh->n_vertices; ++v) {
         const int32_t near = find_near(mesh, v, &of);
         merged[v] = near < 0 ? v : near;
-        if (near < 0) keep(mesh, v, &of);
-        else ++n_merged;
+        if (near < 0)
+            keep(mesh, v, &of);
+        else
+            ++n_merged;
     }
     if (n_merged > 0)
-        for (int64_t k = 0; k < 3 * (int64_t)n_facets; ++k) mesh->corner[k / 3][k % 3] = merged[mesh->corner[k / 3][k % 3]];
+        for (int64_t k = 0; k < 3 * (int64_t)n_facets; ++k)
+            mesh->corner[k / 3][k % 3] = merged[mesh->corner[k / 3][k % 3]];
     drop_degenerate(mesh, n_facets);
     if (mesh->n_triangles == 0)
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: every triangle has two equal corners; export a part that has a volume", source->path);
+        status = BRC_FAIL(context, BRC_BAD_INPUT,
+                          "%s: every triangle has two equal corners; export a part that has a volume", source->path);
 cleanup:
     brc_memory_free(of.slot);
     brc_memory_free(merged);

@@ -18,24 +18,28 @@
 /* Feet of one sphere that are looked at: walls of corners, edges and thin parts. */
 enum { MOST_FEET = 64 };
 
-static brc_status check(brc_context *context, const double *position, const double *radius, int64_t n, double coordination)
+static brc_status check(brc_context *context, const double *position, const double *radius, int64_t n,
+                        double coordination)
 {
     if (n < 2 || n > INT32_MAX)
         return BRC_FAIL(context, BRC_BAD_INPUT, "bonds: %lld elements, must be 2 to 2^31 - 1", (long long)n);
     for (int64_t e = 0; e < n; ++e) {
         const double *x = position + 3 * e;
         if (!isfinite(x[0]) || !isfinite(x[1]) || !isfinite(x[2]) || !isfinite(radius[e]) || !(radius[e] > 0.0))
-            return BRC_FAIL(context, BRC_BAD_INPUT, "bonds: sphere %lld at (%g, %g, %g) m has the radius %g m; all must be finite, the "
-                            "radius positive", (long long)e, x[0], x[1], x[2], radius[e]);
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "bonds: sphere %lld at (%g, %g, %g) m has the radius %g m; all must be finite, the "
+                            "radius positive",
+                            (long long)e, x[0], x[1], x[2], radius[e]);
     }
     const double most = (double)(n - 1), pairs = 0.5 * coordination * (double)n;
     if (!(coordination > 0.0) || !(coordination <= most) || pairs < 0.5)
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "bonds: a coordination number of %g cannot be reached with %lld elements, at most %g, at least %g; papers use 6 to 13",
+                        "bonds: a coordination number of %g cannot be reached with %lld elements, at most %g, at least "
+                        "%g; papers use 6 to 13",
                         coordination, (long long)n, most, 1.0 / (double)n);
     if (pairs > (double)(INT32_MAX / 2))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "bonds: %.3g bonds, must be below 2^30; use fewer elements or a smaller coordination",
-                        pairs);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "bonds: %.3g bonds, must be below 2^30; use fewer elements or a smaller coordination", pairs);
     return BRC_OK;
 }
 
@@ -52,10 +56,13 @@ static brc_status make_rows(brc_context *context, int32_t (*pair)[2], int n_thre
     BRC_TRY(BRC_ALLOCATE(context, &d->neighbour, d->n_half_edges, "neighbours"));
     int64_t *start = d->row_start;
     for (int64_t b = 0; b < d->n_bonds; ++b)
-        for (int side = 0; side < 2; ++side) start[pair[b][side] + 1]++;
-    for (int64_t e = 0; e < d->n_elements; ++e) start[e + 1] += start[e];
+        for (int side = 0; side < 2; ++side)
+            start[pair[b][side] + 1]++;
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        start[e + 1] += start[e];
     for (int64_t b = 0; b < d->n_bonds; ++b) /* each end moves to where its row begins */
-        for (int side = 0; side < 2; ++side) d->neighbour[--start[pair[b][side] + 1]] = pair[b][1 - side];
+        for (int side = 0; side < 2; ++side)
+            d->neighbour[--start[pair[b][side] + 1]] = pair[b][1 - side];
     memmove(start, start + 1, (size_t)d->n_elements * sizeof *start);
     start[d->n_elements] = d->n_half_edges;
 #pragma omp parallel for schedule(static) num_threads(n_threads)
@@ -64,7 +71,8 @@ static brc_status make_rows(brc_context *context, int32_t (*pair)[2], int n_thre
     return BRC_OK;
 }
 
-/* Elements ascend and so do the entries of a row: the twin of an entry is the next of its neighbour's row not yet met. */
+/* Elements ascend and so do the entries of a row: the twin of an entry is the next of its neighbour's row not yet
+ * met. */
 static brc_status pair_half_edges(brc_context *context, brc_domain *d)
 {
     int32_t *met = NULL;
@@ -87,7 +95,8 @@ static brc_status pair_half_edges(brc_context *context, brc_domain *d)
     return BRC_OK;
 }
 
-static brc_status make_spheres(brc_context *context, const double *position, const double *radius, int n_threads, brc_domain *d)
+static brc_status make_spheres(brc_context *context, const double *position, const double *radius, int n_threads,
+                               brc_domain *d)
 {
     const int64_t n = d->n_elements;
     BRC_TRY(BRC_ALLOCATE(context, &d->volume, n, "volumes"));
@@ -98,7 +107,8 @@ static brc_status make_spheres(brc_context *context, const double *position, con
     for (int64_t e = 0; e < n; ++e) {
         const double r = radius[e];
         d->volume[e] = 4.1887902047863910 * r * r * r;
-        for (int k = 0; k < 3; ++k) d->inertia[6 * e + k] = 0.4 * d->volume[e] * r * r;
+        for (int k = 0; k < 3; ++k)
+            d->inertia[6 * e + k] = 0.4 * d->volume[e] * r * r;
     }
     for (int c = 0; c < 3; ++c) {
         d->bounds[0][c] = HUGE_VAL;
@@ -113,7 +123,8 @@ static brc_status make_spheres(brc_context *context, const double *position, con
 }
 
 /* balance: the harmonics of walls (bond_balance.h); NULL: the nearest pairs. */
-static brc_status bond(brc_context *context, double *position, double *radius, int64_t n, double coordination, const double *balance, int n_threads, brc_domain *domain)
+static brc_status bond(brc_context *context, double *position, double *radius, int64_t n, double coordination,
+                       const double *balance, int n_threads, brc_domain *domain)
 {
     int32_t(*pair)[2] = NULL;
     const double start = brc_clock_s();
@@ -124,9 +135,11 @@ static brc_status bond(brc_context *context, double *position, double *radius, i
     domain->n_bonds = (int64_t)floor(0.5 * coordination * (double)n + 0.5);
     domain->n_half_edges = 2 * domain->n_bonds;
     if (balance)
-        BRC_TRY_OR(cleanup, brc_bond_balance(context, position, radius, n, domain->n_bonds, balance, n_threads, &pair, &domain->quality.growth));
+        BRC_TRY_OR(cleanup, brc_bond_balance(context, position, radius, n, domain->n_bonds, balance, n_threads, &pair,
+                                             &domain->quality.growth));
     else
-        BRC_TRY_OR(cleanup, brc_bond_search(context, position, radius, n, domain->n_bonds, n_threads, &pair, &domain->quality.growth));
+        BRC_TRY_OR(cleanup, brc_bond_search(context, position, radius, n, domain->n_bonds, n_threads, &pair,
+                                            &domain->quality.growth));
     BRC_TRY_OR(cleanup, make_rows(context, pair, n_threads, domain));
     brc_memory_free(pair);
     pair = NULL;
@@ -134,19 +147,22 @@ static brc_status bond(brc_context *context, double *position, double *radius, i
     BRC_TRY_OR(cleanup, make_spheres(context, position, radius, n_threads, domain));
     domain->position = position;
     domain->radius = radius;
-    brc_log(context, BRC_LOG_INFO, "bonds: %lld between %lld spheres in %.2f s, the longest %.4f times the sum of the radii",
+    brc_log(context, BRC_LOG_INFO,
+            "bonds: %lld between %lld spheres in %.2f s, the longest %.4f times the sum of the radii",
             (long long)domain->n_bonds, (long long)n, brc_clock_s() - start, domain->quality.growth);
     if (domain->quality.growth > LONG_BOND)
         brc_log(context, BRC_LOG_WARNING,
-                "bonds: for a coordination number of %g bonds reach to %.3g times the sum of the radii, past other elements; a "
-                "denser packing or a smaller number would be sounder", coordination, domain->quality.growth);
+                "bonds: for a coordination number of %g bonds reach to %.3g times the sum of the radii, past other "
+                "elements; a "
+                "denser packing or a smaller number would be sounder",
+                coordination, domain->quality.growth);
 cleanup:
     brc_memory_free(pair);
     return status;
 }
 
-brc_status brc_beams_bond(brc_context *context, double *position, double *radius, int64_t n, double coordination, int n_threads,
-                          brc_domain *domain)
+brc_status brc_beams_bond(brc_context *context, double *position, double *radius, int64_t n, double coordination,
+                          int n_threads, brc_domain *domain)
 {
     return bond(context, position, radius, n, coordination, NULL, n_threads, domain);
 }
@@ -161,8 +177,10 @@ static void mark_skin(const brc_solid *solid, const brc_domain *d, int n_threads
     }
 }
 
-/* Go through the skin in order and hand every element to the sets it belongs to: wall w and layer n_walls + w. With member NULL they are only counted. */
-static void sort_skin(const brc_solid *solid, const brc_domain *d, const uint8_t *skin, int64_t *count, int32_t *last, brc_set *sets)
+/* Go through the skin in order and hand every element to the sets it belongs to: wall w and layer n_walls + w. With
+ * member NULL they are only counted. */
+static void sort_skin(const brc_solid *solid, const brc_domain *d, const uint8_t *skin, int64_t *count, int32_t *last,
+                      brc_set *sets)
 {
     for (int32_t s = 0; s < 2 * d->n_walls; ++s) {
         count[s] = 0;
@@ -193,7 +211,8 @@ brc_status brc_beams_walls(brc_context *context, const brc_solid *solid, int n_t
     int32_t *last = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->wall_name, n_walls, "wall names"));
-    for (int32_t w = 0; w < n_walls; ++w) BRC_TRY_OR(cleanup, brc_domain_add_wall(context, domain, brc_solid_wall_name(solid, w)));
+    for (int32_t w = 0; w < n_walls; ++w)
+        BRC_TRY_OR(cleanup, brc_domain_add_wall(context, domain, brc_solid_wall_name(solid, w)));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &skin, domain->n_elements, "elements of the skin"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &count, 2 * n_walls, "sizes of wall sets"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &last, 2 * n_walls, "sizes of wall sets"));
@@ -205,7 +224,8 @@ brc_status brc_beams_walls(brc_context *context, const brc_solid *solid, int n_t
         const char *wall = domain->wall_name[s % n_walls];
         brc_set *set;
         brc_sets_layer_name(wall, layer);
-        BRC_TRY_OR(cleanup, brc_sets_append(context, domain, s < n_walls ? wall : layer, BRC_SET_ELEMENTS, count[s], &set));
+        BRC_TRY_OR(cleanup,
+                   brc_sets_append(context, domain, s < n_walls ? wall : layer, BRC_SET_ELEMENTS, count[s], &set));
     }
     sort_skin(solid, domain, skin, count, last, domain->sets);
 cleanup:

@@ -1,5 +1,6 @@
-/* A list of cells about as wide as a sphere. Every pair is found by its larger sphere, so that a small one among large ones looks no farther
- * than its own size. Ratios are counted in bins first; only the bin in which the wanted number is reached has to be sorted. */
+/* A list of cells about as wide as a sphere. Every pair is found by its larger sphere, so that a small one among large
+ * ones looks no farther than its own size. Ratios are counted in bins first; only the bin in which the wanted number is
+ * reached has to be sorted. */
 #include "bond_search.h"
 
 #include "../../host/base/memory.h"
@@ -17,9 +18,9 @@ enum { N_BINS = 4096, CHUNK = 1024 };
 typedef struct cell_list {
     int64_t n, dims[3];
     double low[3], side;
-    int64_t *start;   /* [cells + 1] where the spheres of each begin */
-    double (*x)[4];   /* [n] centre and radius */
-    int32_t *id;      /* [n] */
+    int64_t *start; /* [cells + 1] where the spheres of each begin */
+    double (*x)[4]; /* [n] centre and radius */
+    int32_t *id;    /* [n] */
 } cell_list;
 
 typedef struct candidate {
@@ -30,15 +31,15 @@ typedef struct candidate {
 /* What a pass over all pairs within reach does. */
 typedef struct pass {
     const cell_list *list;
-    double reach; /* largest ratio looked at */
-    int64_t *bin; /* [N_BINS] pairs counted by ratio over reach; NULL: not wanted */
-    int last_bin;              /* pairs in bins below it are bonds; those in it are contested */
-    int32_t *count;            /* [n] bonds found by each sphere, in the order of the list; NULL: not wanted */
-    candidate *contested;      /* NULL: not wanted */
+    double reach;         /* largest ratio looked at */
+    int64_t *bin;         /* [N_BINS] pairs counted by ratio over reach; NULL: not wanted */
+    int last_bin;         /* pairs in bins below it are bonds; those in it are contested */
+    int32_t *count;       /* [n] bonds found by each sphere, in the order of the list; NULL: not wanted */
+    candidate *contested; /* NULL: not wanted */
     int64_t n_contested;
-    const int64_t *place;      /* [n] where the bonds found by each sphere begin in pair; NULL: not wanted */
+    const int64_t *place; /* [n] where the bonds found by each sphere begin in pair; NULL: not wanted */
     int32_t (*pair)[2];
-    candidate nearest;         /* of all pairs: kept with bin only */
+    candidate nearest; /* of all pairs: kept with bin only */
 } pass;
 
 static int compare_candidates(const void *left, const void *right)
@@ -59,7 +60,8 @@ static int64_t cell_along(const cell_list *list, int axis, double x)
 static void plan_cells(const double *position, const double *radius, int64_t n, cell_list *list)
 {
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, sum = 0.0;
-    for (int c = 0; c < 3; ++c) list->low[c] = HUGE_VAL;
+    for (int c = 0; c < 3; ++c)
+        list->low[c] = HUGE_VAL;
     for (int64_t e = 0; e < n; ++e) {
         sum += radius[e];
         for (int c = 0; c < 3; ++c) {
@@ -85,7 +87,8 @@ static void free_cells(cell_list *list)
     brc_memory_free(list->id);
 }
 
-static brc_status make_cells(brc_context *context, const double *position, const double *radius, int64_t n, cell_list *list)
+static brc_status make_cells(brc_context *context, const double *position, const double *radius, int64_t n,
+                             cell_list *list)
 {
     list->n = n;
     plan_cells(position, radius, n, list);
@@ -98,11 +101,13 @@ static brc_status make_cells(brc_context *context, const double *position, const
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &list->id, n, "cell list"));
     for (int64_t e = 0; e < n; ++e) {
         int64_t at = 0;
-        for (int c = 0; c < 3; ++c) at = at * list->dims[c] + cell_along(list, c, position[3 * e + c]);
+        for (int c = 0; c < 3; ++c)
+            at = at * list->dims[c] + cell_along(list, c, position[3 * e + c]);
         cell[e] = (int32_t)at;
         list->start[at + 1]++;
     }
-    for (int64_t k = 0; k < cells; ++k) list->start[k + 1] += list->start[k];
+    for (int64_t k = 0; k < cells; ++k)
+        list->start[k + 1] += list->start[k];
     for (int64_t e = n - 1; e >= 0; --e) { /* from the back: each start ends where its cell begins */
         const int64_t to = --list->start[cell[e] + 1];
         memcpy(list->x[to], position + 3 * e, 3 * sizeof *position);
@@ -116,7 +121,8 @@ cleanup:
     return status;
 }
 
-static void take_pair(pass *p, int64_t s, double ratio, int32_t a, int32_t b, int64_t *own_bin, candidate *nearest, int64_t *placed)
+static void take_pair(pass *p, int64_t s, double ratio, int32_t a, int32_t b, int64_t *own_bin, candidate *nearest,
+                      int64_t *placed)
 {
     const candidate found = {ratio, a < b ? a : b, a < b ? b : a};
     const int bin = (int)fmin(ratio / p->reach * N_BINS, N_BINS - 1);
@@ -175,18 +181,21 @@ static void run_pass(pass *p, int n_threads)
         int64_t own_bin[N_BINS] = {0};
         candidate nearest = {HUGE_VAL, 0, 0};
 #pragma omp for schedule(dynamic, CHUNK)
-        for (int64_t s = 0; s < p->list->n; ++s) visit(p, s, p->bin ? own_bin : NULL, &nearest);
+        for (int64_t s = 0; s < p->list->n; ++s)
+            visit(p, s, p->bin ? own_bin : NULL, &nearest);
         if (p->bin) {
 #pragma omp critical(brc_bond_search_bins)
             {
-                for (int b = 0; b < N_BINS; ++b) p->bin[b] += own_bin[b];
+                for (int b = 0; b < N_BINS; ++b)
+                    p->bin[b] += own_bin[b];
                 if (compare_candidates(&nearest, &p->nearest) < 0) p->nearest = nearest;
             }
         }
     }
 }
 
-/* Widen the reach until it holds at least n_pairs pairs, and find the bin in which they are reached. *below: pairs in the bins before it. */
+/* Widen the reach until it holds at least n_pairs pairs, and find the bin in which they are reached. *below: pairs in
+ * the bins before it. */
 static void find_reach(pass *p, int64_t n_pairs, int n_threads, int64_t *below)
 {
     const double mean = 2.0 * (double)n_pairs / (double)p->list->n;
@@ -194,17 +203,19 @@ static void find_reach(pass *p, int64_t n_pairs, int n_threads, int64_t *below)
     for (;;) {
         int64_t total = 0;
         run_pass(p, n_threads);
-        for (int b = 0; b < N_BINS; ++b) total += p->bin[b];
+        for (int b = 0; b < N_BINS; ++b)
+            total += p->bin[b];
         if (total >= n_pairs) break;
         const double wanted = total > 0 ? cbrt(1.2 * (double)n_pairs / (double)total) : 2.0;
         p->reach *= fmax(1.1, fmin(wanted, 2.0));
     }
     *below = 0;
-    for (p->last_bin = 0; *below + p->bin[p->last_bin] < n_pairs; ++p->last_bin) *below += p->bin[p->last_bin];
+    for (p->last_bin = 0; *below + p->bin[p->last_bin] < n_pairs; ++p->last_bin)
+        *below += p->bin[p->last_bin];
 }
 
-brc_status brc_bond_search(brc_context *context, const double *position, const double *radius, int64_t n, int64_t n_pairs,
-                           int n_threads, int32_t (**pair)[2], double *growth)
+brc_status brc_bond_search(brc_context *context, const double *position, const double *radius, int64_t n,
+                           int64_t n_pairs, int n_threads, int32_t (**pair)[2], double *growth)
 {
     cell_list list = {.n = n};
     int64_t bin[N_BINS], below, *place = NULL;
@@ -216,8 +227,9 @@ brc_status brc_bond_search(brc_context *context, const double *position, const d
     if (p.nearest.ratio < SAME_PLACE) {
         const double *x = position + 3 * (int64_t)p.nearest.i;
         status = BRC_FAIL(context, BRC_BAD_INPUT,
-                          "spheres %d and %d (counted from 0) are in one place, (%g, %g, %g) m: a bond needs a length; remove one of them", p.nearest.i,
-                          p.nearest.j, x[0], x[1], x[2]);
+                          "spheres %d and %d (counted from 0) are in one place, (%g, %g, %g) m: a bond needs a length; "
+                          "remove one of them",
+                          p.nearest.i, p.nearest.j, x[0], x[1], x[2]);
         goto cleanup;
     }
     p.bin = NULL;
@@ -227,7 +239,8 @@ brc_status brc_bond_search(brc_context *context, const double *position, const d
     qsort(p.contested, (size_t)p.n_contested, sizeof *p.contested, compare_candidates);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &place, n + 1, "places of bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, pair, n_pairs, "bonds"));
-    for (int64_t s = 0; s < n; ++s) place[s + 1] = place[s] + p.count[s];
+    for (int64_t s = 0; s < n; ++s)
+        place[s + 1] = place[s] + p.count[s];
     for (int64_t k = below; k < n_pairs; ++k) {
         (*pair)[k][0] = p.contested[k - below].i;
         (*pair)[k][1] = p.contested[k - below].j;

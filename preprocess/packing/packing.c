@@ -1,8 +1,8 @@
 /* The driver: how many spheres, at which density to begin, and the search of the one common scale at which the relaxed
  * packing has the wanted number of contacts. What guides the search is measured on packings of soft harmonic spheres
- * made here (docs/notebook/packing.md): relaxed at the volume fraction phi, they overlap by (phi - phi_J) / 3 on the average,
- * and have c_0 + 9.1 sqrt(phi - phi_J) contacts, phi_J being where they just touch (the square root: O'Hern, Silbert,
- * Liu, Nagel, Phys. Rev. E 68, 011306, 2003). So one relaxed packing tells how far the wanted one is away. */
+ * made here (docs/notebook/packing.md): relaxed at the volume fraction phi, they overlap by (phi - phi_J) / 3 on the
+ * average, and have c_0 + 9.1 sqrt(phi - phi_J) contacts, phi_J being where they just touch (the square root: O'Hern,
+ * Silbert, Liu, Nagel, Phys. Rev. E 68, 011306, 2003). So one relaxed packing tells how far the wanted one is away. */
 #include "packing_internal.h"
 
 #include "../../host/base/memory.h"
@@ -13,8 +13,8 @@
 
 #define DENSITY_PER_OVERLAP 3.0
 #define CONTACTS_PER_ROOT 9.1
-/* The packing is first relaxed so much denser than it will be: spheres are pressed into place everywhere, also at the far ends of a
- * slender shape, and then only let go. Less of it (0.03) leaves packings looser by 0.001 to 0.002. */
+/* The packing is first relaxed so much denser than it will be: spheres are pressed into place everywhere, also at the
+ * far ends of a slender shape, and then only let go. Less of it (0.03) leaves packings looser by 0.001 to 0.002. */
 #define PRESSED 0.05
 /* Relaxed denser than this beyond first contact, spheres overlap by 3 % and are none any more. */
 #define DENSEST 0.09
@@ -28,8 +28,8 @@
 #define MOST_ITERATIONS 20000
 /* Densities at which the packing may fail to come to rest before the search is given up. */
 #define MOST_RESTLESS 2
-/* Contacts of spheres that carry, at most, when others lie loose in the holes between them: packings of two radii with half and nine tenths of small ones reach 9.2
- * and 9.5 when pressed until they overlap by 6 %. */
+/* Contacts of spheres that carry, at most, when others lie loose in the holes between them: packings of two radii with
+ * half and nine tenths of small ones reach 9.2 and 9.5 when pressed until they overlap by 6 %. */
 #define CARRYING_CONTACTS 10.0
 /* Forces left over [of the mean contact force] while pressed, and from then on. Less care in the first relaxation
  * (0.05) costs more iterations in the next ones, and density. */
@@ -198,8 +198,10 @@ static brc_status make_plan(brc_context *context, const brc_solid *solid, const 
     const double loose = brc_pack_loose_share(fill);
     if ((1.0 - loose) * CARRYING_CONTACTS < plan->contacts)
         return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "fill: coordination number %.3g cannot be reached with this table of radii: %.0f %% of the spheres are so small that they lie loose in the holes between the "
-                        "others, and all together have at most about %.1f contacts a sphere; leave the smallest out, take more of the middle sizes, or ask for a volume fraction",
+                        "fill: coordination number %.3g cannot be reached with this table of radii: %.0f %% of the "
+                        "spheres are so small that they lie loose in the holes between the "
+                        "others, and all together have at most about %.1f contacts a sphere; leave the smallest out, "
+                        "take more of the middle sizes, or ask for a volume fraction",
                         plan->contacts, 100.0 * loose, (1.0 - loose) * CARRYING_CONTACTS);
     return BRC_OK;
 }
@@ -312,10 +314,12 @@ static brc_status search(brc_pack *pack, const pack_plan *plan, double fraction,
         /* not even as dense as spheres may be it would have enough */
         const bool hopeless = !converged && out->coordination + CONTACTS_PER_ROOT * sqrt(DENSEST) < plan->contacts;
         if (restless > MOST_RESTLESS || hopeless)
-            return BRC_FAIL(pack->context, BRC_BAD_INPUT,
-                            "fill: coordination number %.3g was not found: %d times the packing did not come to rest in %d iterations (it has %.3f); use "
-                            "radii that differ less (the largest is %.3g times the mean), more spheres, or a volume fraction",
-                            plan->contacts, restless, MOST_ITERATIONS, out->coordination, pack->largest_radius / pack->mean_radius);
+            return BRC_FAIL(
+                pack->context, BRC_BAD_INPUT,
+                "fill: coordination number %.3g was not found: %d times the packing did not come to rest in %d "
+                "iterations (it has %.3f); use "
+                "radii that differ less (the largest is %.3g times the mean), more spheres, or a volume fraction",
+                plan->contacts, restless, MOST_ITERATIONS, out->coordination, pack->largest_radius / pack->mean_radius);
         double least;
         const double next = aim(pack, plan, &sums, fraction, &least);
         if (out->relaxations >= MOST_DENSITIES ||

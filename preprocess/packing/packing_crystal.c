@@ -21,8 +21,13 @@ enum { N_PARTS = 13 };
 static void add_harmonics(const double u[3], double q[N_PARTS])
 {
     /* sqrt(2 (6 - m)! / (6 + m)!); 1 at m = 0 */
-    static const double norm[7] = {1.0, 0.21821789023599236, 0.03450327796711771, 0.005750546327852952, 0.00104990131391452,
-                                   0.00022383971222927231, 6.461695905544936e-05};
+    static const double norm[7] = {1.0,
+                                   0.21821789023599236,
+                                   0.03450327796711771,
+                                   0.005750546327852952,
+                                   0.00104990131391452,
+                                   0.00022383971222927231,
+                                   6.461695905544936e-05};
     const double z = u[2], z2 = z * z;
     const double slope[7] = {(((231.0 * z2 - 315.0) * z2 + 105.0) * z2 - 5.0) / 16.0, /* m-th derivative of P_6(z) */
                              ((1386.0 * z2 - 1260.0) * z2 + 210.0) * z / 16.0,
@@ -60,12 +65,14 @@ static int visit(const brc_pack *pack, int64_t i, double *sum, const order_vecto
             if (j == i || square >= reach * reach || square == 0.0) continue;
             if (sum) {
                 const double inv = 1.0 / sqrt(square);
-                for (int c = 0; c < 3; ++c) u[c] *= inv;
+                for (int c = 0; c < 3; ++c)
+                    u[c] *= inv;
                 add_harmonics(u, sum);
                 continue;
             }
             double product = 0.0;
-            for (int p = 0; p < N_PARTS; ++p) product += (double)order[i][p] * (double)order[j][p];
+            for (int p = 0; p < N_PARTS; ++p)
+                product += (double)order[i][p] * (double)order[j][p];
             n_connected += product > COHERENCE_LEAST;
         }
     return n_connected;
@@ -82,8 +89,10 @@ brc_status brc_pack_crystal(brc_pack *pack, double *share)
     for (int64_t i = 0; i < pack->n; ++i) {
         double q[N_PARTS] = {0.0}, square = 0.0;
         visit(pack, i, q, NULL);
-        for (int p = 0; p < N_PARTS; ++p) square += q[p] * q[p];
-        for (int p = 0; p < N_PARTS; ++p) order[i][p] = (float)(square > 0.0 ? q[p] / sqrt(square) : 0.0);
+        for (int p = 0; p < N_PARTS; ++p)
+            square += q[p] * q[p];
+        for (int p = 0; p < N_PARTS; ++p)
+            order[i][p] = (float)(square > 0.0 ? q[p] / sqrt(square) : 0.0);
     }
 #pragma omp parallel for schedule(static) num_threads(pack->n_threads) reduction(+ : n_ordered)
     for (int64_t i = 0; i < pack->n; ++i)

@@ -12,7 +12,8 @@
 #define USUAL_FRACTION 0.63
 /* The least room of the shape's bounds, as between walls (packing.c). */
 #define DIAMETERS_LEAST 2.0
-/* A centre nearer than this to a wall [mean diameters] would leave its cell, or the gap to its mirror image, no room. */
+/* A centre nearer than this to a wall [mean diameters] would leave its cell, or the gap to its mirror image, no
+ * room. */
 #define WALL_MARGIN 0.05
 
 static int64_t keep_inside(const brc_solid *solid, double margin, brc_packing *packing)
@@ -26,10 +27,12 @@ static int64_t keep_inside(const brc_solid *solid, double margin, brc_packing *p
     return to;
 }
 
-brc_status brc_packing_cut(brc_context *context, const brc_solid *solid, const brc_fill *fill, int n_threads, brc_packing *out)
+brc_status brc_packing_cut(brc_context *context, const brc_solid *solid, const brc_fill *fill, int n_threads,
+                           brc_packing *out)
 {
     const double volume = brc_solid_volume(solid, NULL);
-    const double diameter = fill->n_elements > 0 ? cbrt(6.0 / M_PI * USUAL_FRACTION * volume / (double)fill->n_elements) : 2.0 * fill->radius;
+    const double diameter = fill->n_elements > 0 ? cbrt(6.0 / M_PI * USUAL_FRACTION * volume / (double)fill->n_elements)
+                                                 : 2.0 * fill->radius;
     double bounds[2][3], larger = 1.0;
     brc_shape box = {.kind = BRC_SHAPE_BOX};
     brc_fill all = *fill;
@@ -42,8 +45,12 @@ brc_status brc_packing_cut(brc_context *context, const brc_solid *solid, const b
         box.size[k] = bounds[1][k] - bounds[0][k] + 2.0 * SKIN_DIAMETERS * diameter;
         larger *= box.size[k];
         if (bounds[1][k] - bounds[0][k] >= DIAMETERS_LEAST * diameter) continue;
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "fill: the shape is %.2g diameters of its spheres across %c (%g m), at least %.0f are needed; use more and so "
-                          "smaller spheres", (bounds[1][k] - bounds[0][k]) / diameter, "xyz"[k], bounds[1][k] - bounds[0][k], DIAMETERS_LEAST);
+        status =
+            BRC_FAIL(context, BRC_BAD_INPUT,
+                     "fill: the shape is %.2g diameters of its spheres across %c (%g m), at least %.0f are needed; use "
+                     "more and so "
+                     "smaller spheres",
+                     (bounds[1][k] - bounds[0][k]) / diameter, "xyz"[k], bounds[1][k] - bounds[0][k], DIAMETERS_LEAST);
         goto cleanup;
     }
     if (fill->n_elements > 0) all.n_elements = llround((double)fill->n_elements * larger / volume);
@@ -51,7 +58,8 @@ brc_status brc_packing_cut(brc_context *context, const brc_solid *solid, const b
     BRC_TRY_OR(cleanup, brc_packing_make(context, around, &all, n_threads, out));
     out->n = keep_inside(solid, WALL_MARGIN * diameter, out);
     if (out->n < 1)
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "packing: no centre of a sphere lies in the shape; use more elements, or walls: contact");
+        status = BRC_FAIL(context, BRC_BAD_INPUT,
+                          "packing: no centre of a sphere lies in the shape; use more elements, or walls: contact");
 cleanup:
     if (status != BRC_OK) brc_packing_free(out);
     brc_solid_free(&around);

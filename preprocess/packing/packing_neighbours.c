@@ -1,4 +1,5 @@
-/* Which spheres may touch: a grid of cells, and rows of neighbours that stay good while no sphere has moved by half the skin. */
+/* Which spheres may touch: a grid of cells, and rows of neighbours that stay good while no sphere has moved by half the
+ * skin. */
 #include "packing_internal.h"
 
 #include "../../host/base/memory.h"
@@ -47,11 +48,15 @@ brc_status brc_pack_sort_cells(brc_pack *pack, double cutoff)
         BRC_TRY(BRC_ALLOCATE(pack->context, &pack->cell_start, n_cells + 2, "cells of the packing"));
         pack->cell_capacity = n_cells + 2;
     }
-    int32_t *const start = pack->cell_start + 1; /* counted one place on: after the filling the starts stand where they belong */
+    int32_t *const start =
+        pack->cell_start + 1; /* counted one place on: after the filling the starts stand where they belong */
     memset(pack->cell_start, 0, (size_t)(n_cells + 2) * sizeof *pack->cell_start);
-    for (int64_t i = 0; i < pack->n; ++i) start[cell_of(pack, pack->sphere[i]) + 1]++;
-    for (int64_t c = 0; c < n_cells; ++c) start[c + 1] += start[c];
-    for (int64_t i = 0; i < pack->n; ++i) pack->member[start[cell_of(pack, pack->sphere[i])]++] = (int32_t)i;
+    for (int64_t i = 0; i < pack->n; ++i)
+        start[cell_of(pack, pack->sphere[i]) + 1]++;
+    for (int64_t c = 0; c < n_cells; ++c)
+        start[c + 1] += start[c];
+    for (int64_t i = 0; i < pack->n; ++i)
+        pack->member[start[cell_of(pack, pack->sphere[i])]++] = (int32_t)i;
     return BRC_OK;
 }
 
@@ -77,7 +82,8 @@ int brc_pack_cells_around(const brc_pack *pack, const double *x, int32_t begin[9
  * counted. Returns the room it takes. */
 static int64_t list_block(brc_pack *pack, int64_t b)
 {
-    const int64_t first = b * BRC_PACK_BLOCK, end_of_block = first + BRC_PACK_BLOCK < pack->n ? first + BRC_PACK_BLOCK : pack->n;
+    const int64_t first = b * BRC_PACK_BLOCK,
+                  end_of_block = first + BRC_PACK_BLOCK < pack->n ? first + BRC_PACK_BLOCK : pack->n;
     const int64_t room = pack->block_list[b + 1] - pack->block_list[b];
     int32_t *const list = pack->neighbour + pack->block_list[b];
     int64_t n = 0, need = 0;
@@ -88,7 +94,8 @@ static int64_t list_block(brc_pack *pack, int64_t b)
         const int n_runs = brc_pack_cells_around(pack, a, begin, end);
         pack->row_start[i + b] = pack->block_list[b] + n;
         for (int run = 0; run < n_runs; ++run) {
-            /* written whether a neighbour or not, and kept if so: most candidates are none, in no order a processor could foresee */
+            /* written whether a neighbour or not, and kept if so: most candidates are none, in no order a processor
+             * could foresee */
             const int64_t at_most = n + (end[run] - begin[run]);
             const bool fits = at_most <= room;
             need = at_most > need ? at_most : need;
@@ -127,7 +134,8 @@ static brc_status make_room(brc_pack *pack)
     brc_memory_free(pack->neighbour);
     pack->neighbour = NULL;
     pack->list_capacity = 0;
-    BRC_TRY(BRC_ALLOCATE(pack->context, &pack->neighbour, pack->block_list[pack->n_blocks], "neighbours of the packing"));
+    BRC_TRY(
+        BRC_ALLOCATE(pack->context, &pack->neighbour, pack->block_list[pack->n_blocks], "neighbours of the packing"));
     pack->list_capacity = pack->block_list[pack->n_blocks];
     return BRC_OK;
 }
@@ -137,8 +145,10 @@ brc_status brc_pack_list(brc_pack *pack, double skin)
     pack->skin = skin;
     BRC_TRY(brc_pack_list_walls(pack));
 #pragma omp parallel for schedule(static) num_threads(pack->n_threads)
-    for (int64_t i = 0; i < pack->n; ++i) memcpy(pack->listed[i], pack->sphere[i], sizeof pack->listed[i]);
+    for (int64_t i = 0; i < pack->n; ++i)
+        memcpy(pack->listed[i], pack->sphere[i], sizeof pack->listed[i]);
     BRC_TRY(brc_pack_sort_cells(pack, 2.0 * pack->largest_radius + skin));
-    while (!list_blocks(pack)) BRC_TRY(make_room(pack));
+    while (!list_blocks(pack))
+        BRC_TRY(make_room(pack));
     return BRC_OK;
 }

@@ -84,7 +84,8 @@ brc_pack_sums brc_pack_forces(brc_pack *pack)
         pack->block[b] = sums;
     }
     brc_pack_sums all = {0};
-    for (int64_t b = 0; b < pack->n_blocks; ++b) add_sums(&all, pack->block + b);
+    for (int64_t b = 0; b < pack->n_blocks; ++b)
+        add_sums(&all, pack->block + b);
     return all;
 }
 
@@ -135,7 +136,8 @@ static double move(brc_pack *pack, double back, double keep, double push, double
         pack->block_moved[b] = moved;
     }
     double moved = 0.0;
-    for (int64_t b = 0; b < pack->n_blocks; ++b) moved = fmax(moved, pack->block_moved[b]);
+    for (int64_t b = 0; b < pack->n_blocks; ++b)
+        moved = fmax(moved, pack->block_moved[b]);
     return moved;
 }
 
@@ -175,7 +177,8 @@ brc_status brc_pack_relax(brc_pack *pack, double tolerance, int64_t most, brc_pa
         brc_progress_update(pack->progress, ++pack->iterations);
         const double ends = (double)(sums->contact_ends > 0 ? sums->contact_ends : 1);
         const double mean_force = sums->contact_force / ends;
-        *converged = sqrt(sums->force_square / (double)pack->n) <= tolerance * mean_force || sums->overlap / ends < OVERLAP_LEAST;
+        *converged = sqrt(sums->force_square / (double)pack->n) <= tolerance * mean_force ||
+                     sums->overlap / ends < OVERLAP_LEAST;
         if (*converged) break;
         const double moved = fire_step(pack, &state, sums);
         ++since_list;

@@ -1,4 +1,5 @@
-/* Radii and start points. Every draw depends on the fill's seed and the index of the element, or of the grid cell, alone. */
+/* Radii and start points. Every draw depends on the fill's seed and the index of the element, or of the grid cell,
+ * alone. */
 #include "packing_internal.h"
 
 #include "../../host/base/memory.h"
@@ -15,8 +16,9 @@
 /* A grid so much finer than the spheres lie apart has found no room. */
 #define LEAST_SPACING 0.2
 
-/* A sphere of this radius, of that of four equal ones, fits between them: sqrt(3/2) - 1; and so much of the volume of all spheres may stand in holes before they are
- * full (a little below the third that random packings at 0.62 leave, filled at 0.62 again). */
+/* A sphere of this radius, of that of four equal ones, fits between them: sqrt(3/2) - 1; and so much of the volume of
+ * all spheres may stand in holes before they are full (a little below the third that random packings at 0.62 leave,
+ * filled at 0.62 again). */
 #define HOLE_RADIUS 0.2247
 #define HOLES 0.2
 
@@ -27,7 +29,8 @@ static double table_moment(const brc_fill *fill, int power)
     for (int32_t k = 1; k < fill->n_radii; ++k) {
         const double a = fill->radii[k - 1].radius, b = fill->radii[k].radius;
         double mean = 0.0; /* of r^p over a .. b: sum of a^m b^(p - m) / (p + 1) */
-        for (int m = 0; m <= power; ++m) mean += pow(a, m) * pow(b, power - m) / (power + 1.0);
+        for (int m = 0; m <= power; ++m)
+            mean += pow(a, m) * pow(b, power - m) / (power + 1.0);
         sum += mean * (fill->radii[k].fraction - fill->radii[k - 1].fraction);
     }
     return sum;
@@ -63,7 +66,8 @@ static double part_moment(const brc_fill *fill, double low, double high, int pow
     for (int32_t k = 1; k < fill->n_radii; ++k) {
         const double a = fill->radii[k - 1].radius, b = fill->radii[k].radius, from = fmax(a, low), to = fmin(b, high);
         if (!(to > from)) continue;
-        sum += (fill->radii[k].fraction - fill->radii[k - 1].fraction) * (pow(to, power + 1) - pow(from, power + 1)) / ((power + 1.0) * (b - a));
+        sum += (fill->radii[k].fraction - fill->radii[k - 1].fraction) * (pow(to, power + 1) - pow(from, power + 1)) /
+               ((power + 1.0) * (b - a));
     }
     return sum;
 }
@@ -77,7 +81,8 @@ double brc_pack_loose_share(const brc_fill *fill)
     for (int k = 1; k < CUTS; ++k) {
         const double cut = least * pow(most / least, (double)k / CUTS);
         const double below = part_moment(fill, least, cut, 3), above = part_moment(fill, cut, most, 3);
-        if (below < HOLES * (below + above) && cut * above < HOLE_RADIUS * part_moment(fill, cut, most, 4)) loose = fmax(loose, part_moment(fill, least, cut, 0));
+        if (below < HOLES * (below + above) && cut * above < HOLE_RADIUS * part_moment(fill, cut, most, 4))
+            loose = fmax(loose, part_moment(fill, least, cut, 0));
     }
     return loose;
 }
@@ -85,7 +90,8 @@ double brc_pack_loose_share(const brc_fill *fill)
 static double table_radius(const brc_fill *fill, double fraction)
 {
     int32_t k = 1;
-    while (k < fill->n_radii - 1 && fill->radii[k].fraction < fraction) ++k;
+    while (k < fill->n_radii - 1 && fill->radii[k].fraction < fraction)
+        ++k;
     const brc_radius *const a = fill->radii + k - 1, *const b = fill->radii + k;
     const double width = b->fraction - a->fraction;
     return width > 0.0 ? a->radius + (b->radius - a->radius) * (fraction - a->fraction) / width : b->radius;
@@ -157,7 +163,8 @@ static bool left_out(const start_grid *grid, int64_t point, int64_t n_points, in
 }
 
 /* The grid's points, without the surplus, into position [n][3]. counts becomes the first point of each row. */
-static void take_points(const start_grid *grid, int n_threads, int32_t *counts, int64_t n_points, int64_t n, double *position)
+static void take_points(const start_grid *grid, int n_threads, int32_t *counts, int64_t n_points, int64_t n,
+                        double *position)
 {
     const int64_t n_rows = grid->cells[1] * grid->cells[2];
     int32_t *const first = counts;
@@ -184,7 +191,8 @@ static void take_points(const start_grid *grid, int n_threads, int32_t *counts, 
 }
 
 /* A grid with n points inside, or a little more: its spacing is searched. */
-static brc_status find_grid(brc_context *context, start_grid *grid, int64_t n, int n_threads, int32_t **counts, int64_t *n_points)
+static brc_status find_grid(brc_context *context, start_grid *grid, int64_t n, int n_threads, int32_t **counts,
+                            int64_t *n_points)
 {
     double bounds[2][3];
     brc_solid_bounds(grid->solid, bounds);
@@ -205,19 +213,22 @@ static brc_status find_grid(brc_context *context, start_grid *grid, int64_t n, i
             most = fmin(most, spacing);
         /* aim a little high, so that the next one is good rather than just too few */
         const double aim = spacing * cbrt(((double)*n_points + 0.3) / ((1.0 + 0.3 * MOST_SURPLUS) * (double)n + 0.3));
-        spacing = aim > least && aim < most ? aim : least > 0.0 && most < HUGE_VAL ? 0.5 * (least + most) : fmin(0.8 * most, aim);
+        spacing = aim > least && aim < most        ? aim
+                  : least > 0.0 && most < HUGE_VAL ? 0.5 * (least + most)
+                                                   : fmin(0.8 * most, aim);
         if (least > 0.0 && k > MOST_GRIDS - 4) spacing = least;
         if (spacing < finest) break;
     }
     if (*n_points >= n) return BRC_OK;
     return BRC_FAIL(context, BRC_BAD_INPUT,
-                    "fill: found room for %lld of %lld spheres at least %.3g m inside the shape, which is too thin for them; use more "
+                    "fill: found room for %lld of %lld spheres at least %.3g m inside the shape, which is too thin for "
+                    "them; use more "
                     "and so smaller spheres",
                     (long long)*n_points, (long long)n, grid->margin);
 }
 
-brc_status brc_pack_start(brc_context *context, const brc_solid *solid, const brc_fill *fill, int64_t n, double margin, int n_threads,
-                          double **out, double *deepest)
+brc_status brc_pack_start(brc_context *context, const brc_solid *solid, const brc_fill *fill, int64_t n, double margin,
+                          int n_threads, double **out, double *deepest)
 {
     start_grid grid = {.solid = solid, .seed = fill->seed, .margin = margin};
     int32_t *counts = NULL;
@@ -230,7 +241,8 @@ brc_status brc_pack_start(brc_context *context, const brc_solid *solid, const br
     BRC_TRY_OR(cleanup, brc_order_points(context, position, NULL, n, n_threads));
     double depth = 0.0;
 #pragma omp parallel for schedule(static) num_threads(n_threads) reduction(max : depth)
-    for (int64_t i = 0; i < n; ++i) depth = fmax(depth, brc_solid_depth(solid, position + 3 * i));
+    for (int64_t i = 0; i < n; ++i)
+        depth = fmax(depth, brc_solid_depth(solid, position + 3 * i));
     *deepest = depth;
 cleanup:
     brc_memory_free(counts);

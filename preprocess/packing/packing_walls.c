@@ -8,7 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Way after which a curved wall is asked again, and how far beyond the sphere it is looked for meanwhile [of the radius]. */
+/* Way after which a curved wall is asked again, and how far beyond the sphere it is looked for meanwhile [of the
+ * radius]. */
 #define ASK_AGAIN 0.02
 #define LOOK_BEYOND 0.05
 
@@ -41,14 +42,15 @@ static bool ask(const brc_solid *solid, const double *x, double reach, brc_pack_
     return true;
 }
 
-/* How deep sphere i lies inside, at least; a centre outside goes back. Returns whether it may touch a wall before the next list. */
+/* How deep sphere i lies inside, at least; a centre outside goes back. Returns whether it may touch a wall before the
+ * next list. */
 static bool comes_near(brc_pack *pack, int64_t i)
 {
     double *const x = pack->sphere[i];
     const double *const old = pack->listed[i];
     const double reach = x[3] + 0.5 * pack->skin;
-    const double way = sqrt((x[0] - old[0]) * (x[0] - old[0]) + (x[1] - old[1]) * (x[1] - old[1]) +
-                            (x[2] - old[2]) * (x[2] - old[2]));
+    const double way =
+        sqrt((x[0] - old[0]) * (x[0] - old[0]) + (x[1] - old[1]) * (x[1] - old[1]) + (x[2] - old[2]) * (x[2] - old[2]));
     const double bound = pack->depth_bound[i] - 1.0001 * way; /* the bound is kept in single precision */
     if (bound > reach) {
         pack->depth_bound[i] = (float)(0.999999 * bound);
@@ -67,7 +69,8 @@ static bool comes_near(brc_pack *pack, int64_t i)
 brc_status brc_pack_list_walls(brc_pack *pack)
 {
 #pragma omp parallel for schedule(dynamic, 256) num_threads(pack->n_threads)
-    for (int64_t i = 0; i < pack->n; ++i) pack->wall_row[i] = comes_near(pack, i) ? 0 : -1;
+    for (int64_t i = 0; i < pack->n; ++i)
+        pack->wall_row[i] = comes_near(pack, i) ? 0 : -1;
     pack->n_walls = 0;
     for (int64_t i = 0; i < pack->n; ++i)
         if (pack->wall_row[i] == 0) pack->wall_row[i] = (int32_t)pack->n_walls++;
@@ -108,7 +111,8 @@ void brc_pack_add_walls(brc_pack *pack, int64_t i, double force[3], brc_pack_sum
         const double *const plane = wall->plane[k];
         const double depth = plane[3] - plane[0] * x[0] - plane[1] * x[1] - plane[2] * x[2], overlap = x[3] - depth;
         if (overlap <= 0.0) continue;
-        for (int c = 0; c < 3; ++c) force[c] -= 2.0 * overlap * plane[c];
+        for (int c = 0; c < 3; ++c)
+            force[c] -= 2.0 * overlap * plane[c];
         sums->energy += overlap * overlap;
         sums->wall_force += 2.0 * overlap;
         sums->wall_overlap += overlap / x[3];

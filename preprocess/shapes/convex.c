@@ -1,5 +1,5 @@
-/* A domain keeps the corners of its cells and the polygons of free faces; those of shared faces are found again (outline.h), once to count and once to
- * write, so that threads can share the work. */
+/* A domain keeps the corners of its cells and the polygons of free faces; those of shared faces are found again
+ * (outline.h), once to count and once to write, so that threads can share the work. */
 #include "convex_internal.h"
 
 #include "../../host/base/memory.h"
@@ -10,14 +10,16 @@
 #include <omp.h>
 #include <string.h>
 
-/* Faces below a threshold are dropped when a domain is built, and outlines are matched to 1e-9 of a cell's size squared. */
+/* Faces below a threshold are dropped when a domain is built, and outlines are matched to 1e-9 of a cell's size
+ * squared. */
 #define CELL_TOLERANCE 1e-6
 
 brc_status brc_convex_allocate(brc_context *context, int64_t n, int64_t n_corners, int64_t n_faces, brc_convex *out)
 {
     if (n > INT32_MAX - 1 || n_corners > INT32_MAX - 1 || n_faces > INT32_MAX - 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "contact of %lld polyhedra with %lld corners: at most 2^31 - 2 of each; use fewer elements", (long long)n,
-                        (long long)n_corners);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "contact of %lld polyhedra with %lld corners: at most 2^31 - 2 of each; use fewer elements",
+                        (long long)n, (long long)n_corners);
     out->n = (int32_t)n;
     BRC_TRY(BRC_ALLOCATE(context, &out->corner_start, n + 1, "corner rows of polyhedra"));
     BRC_TRY(BRC_ALLOCATE(context, &out->corner, 3 * n_corners, "corners of polyhedra"));
@@ -33,7 +35,9 @@ brc_status brc_convex_allocate_loops(brc_context *context, brc_convex *convex)
     int64_t sum = 0;
     for (int32_t f = 0; f < n_faces; ++f) {
         sum += convex->loop_start[f + 1];
-        if (sum > INT32_MAX - 1) return BRC_FAIL(context, BRC_BAD_INPUT, "contact: polyhedra with more than 2^31 - 2 corners of faces in all; use fewer elements");
+        if (sum > INT32_MAX - 1)
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "contact: polyhedra with more than 2^31 - 2 corners of faces in all; use fewer elements");
         convex->loop_start[f + 1] = (int32_t)sum;
     }
     return BRC_ALLOCATE(context, &convex->loop, sum, "corners of faces of polyhedra");
@@ -87,16 +91,18 @@ static int64_t faces_of(const brc_domain *d, int64_t e)
     return d->row_start[e + 1] - d->row_start[e] + d->free_start[e + 1] - d->free_start[e];
 }
 
-/* Write the faces of element e, or, while there are no loops yet, only how many corners each has; false: a face has no outline, or more corners than
- * the limit. */
+/* Write the faces of element e, or, while there are no loops yet, only how many corners each has; false: a face has no
+ * outline, or more corners than the limit. */
 static bool cell_faces(const brc_domain *d, int64_t e, tracer *t, brc_convex *out)
 {
     for (int64_t f = out->face_start[e]; f < out->face_start[e + 1]; ++f) {
         const int64_t corners = trace(d, e, f - out->face_start[e], t, out->plane + 4 * f);
         if (corners < 3 || corners > BRC_CONVEX_CORNERS) return false;
-        if (!out->loop) out->loop_start[f + 1] = (int32_t)corners;
+        if (!out->loop)
+            out->loop_start[f + 1] = (int32_t)corners;
         else
-            for (int64_t m = 0; m < corners; ++m) out->loop[out->loop_start[f] + m] = (int32_t)(t->out[m] - d->vertex_start[e]);
+            for (int64_t m = 0; m < corners; ++m)
+                out->loop[out->loop_start[f] + m] = (int32_t)(t->out[m] - d->vertex_start[e]);
     }
     return true;
 }
@@ -114,24 +120,30 @@ static int64_t each_cell(const brc_domain *d, int n_threads, tracer *tracers, br
 static brc_status refuse_cell(brc_context *context, const brc_domain *d, int64_t e)
 {
     const double *x = d->position + 3 * e;
-    return BRC_FAIL(context, BRC_INTERNAL, "the corners of element %lld at (%g %g %g) do not outline its faces with at most %d corners each; contact needs them: try another seed",
+    return BRC_FAIL(context, BRC_INTERNAL,
+                    "the corners of element %lld at (%g %g %g) do not outline its faces with at most %d corners each; "
+                    "contact needs them: try another seed",
                     (long long)e, x[0], x[1], x[2], (int)BRC_CONVEX_CORNERS);
 }
 
 /* All that needs no outlines; *most: the most corners of a cell. */
 static brc_status lay_out(brc_context *context, const brc_domain *d, brc_convex *out, int64_t *most)
 {
-    BRC_TRY(brc_convex_allocate(context, d->n_elements, d->vertex_start[d->n_elements], d->n_half_edges + d->n_free_faces, out));
+    BRC_TRY(brc_convex_allocate(context, d->n_elements, d->vertex_start[d->n_elements],
+                                d->n_half_edges + d->n_free_faces, out));
     *most = 0;
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int64_t corners = d->vertex_start[e + 1] - d->vertex_start[e], faces = faces_of(d, e);
         *most = corners > *most ? corners : *most;
         if (faces > BRC_CONVEX_FACES)
-            return BRC_FAIL(context, BRC_BAD_INPUT, "element %lld has %lld faces; contact takes at most %d: try another seed, or fewer small elements beside large ones",
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "element %lld has %lld faces; contact takes at most %d: try another seed, or fewer small "
+                            "elements beside large ones",
                             (long long)e, (long long)faces, (int)BRC_CONVEX_FACES);
         out->corner_start[e + 1] = (int32_t)d->vertex_start[e + 1];
         out->face_start[e + 1] = (int32_t)(out->face_start[e] + faces);
-        for (int64_t k = 3 * d->vertex_start[e]; k < 3 * d->vertex_start[e + 1]; ++k) out->corner[k] = d->vertex[k] - d->position[3 * e + k % 3];
+        for (int64_t k = 3 * d->vertex_start[e]; k < 3 * d->vertex_start[e + 1]; ++k)
+            out->corner[k] = d->vertex[k] - d->position[3 * e + k % 3];
         out->radius[e] = brc_convex_reach(out, (int32_t)e);
     }
     return BRC_OK;
@@ -139,7 +151,8 @@ static brc_status lay_out(brc_context *context, const brc_domain *d, brc_convex 
 
 brc_status brc_convex_of_domain(brc_context *context, const brc_domain *domain, int n_threads, brc_convex *out)
 {
-    if (domain->element_kind != BRC_ELEMENT_CELL) return BRC_FAIL(context, BRC_BAD_INPUT, "spheres have no faces; polyhedra are made of cells");
+    if (domain->element_kind != BRC_ELEMENT_CELL)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "spheres have no faces; polyhedra are made of cells");
     const int threads = n_threads > 0 ? n_threads : omp_get_max_threads();
     int64_t most = 0;
     int32_t *corners = NULL;
@@ -151,7 +164,8 @@ brc_status brc_convex_of_domain(brc_context *context, const brc_domain *domain, 
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &tracers, threads, "outlines"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &room, 2 * most * threads, "corners of a cell"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &corners, most * threads, "corners of a face"));
-    for (int t = 0; t < threads; ++t) tracers[t] = (tracer){room + 2 * most * t, corners + most * t};
+    for (int t = 0; t < threads; ++t)
+        tracers[t] = (tracer){room + 2 * most * t, corners + most * t};
     const int64_t bad = each_cell(domain, threads, tracers, &made);
     if (bad >= 0) BRC_TRY_OR(cleanup, refuse_cell(context, domain, bad));
     BRC_TRY_OR(cleanup, brc_convex_allocate_loops(context, &made));
@@ -184,7 +198,8 @@ static double flaw(const brc_convex *c, int32_t p)
         for (int32_t k = 0; k < m; ++k) {
             const double *x = corner + 3 * (int64_t)loop[k], *y = corner + 3 * (int64_t)loop[k + 1 < m ? k + 1 : 0];
             worst = fmax(worst, fabs(plane[0] * x[0] + plane[1] * x[1] + plane[2] * x[2] - plane[3]) / size);
-            for (int a = 0; a < 3; ++a) area[a] += 0.5 * (x[(a + 1) % 3] * y[(a + 2) % 3] - x[(a + 2) % 3] * y[(a + 1) % 3]);
+            for (int a = 0; a < 3; ++a)
+                area[a] += 0.5 * (x[(a + 1) % 3] * y[(a + 2) % 3] - x[(a + 2) % 3] * y[(a + 1) % 3]);
         }
         for (int a = 0; a < 3; ++a) {
             sum[a] += area[a];
@@ -192,7 +207,8 @@ static double flaw(const brc_convex *c, int32_t p)
         }
         worst = fmax(worst, -along / (size * size)); /* a loop that turns inward */
     }
-    for (int a = 0; a < 3; ++a) worst = fmax(worst, fabs(sum[a]) / (size * size));
+    for (int a = 0; a < 3; ++a)
+        worst = fmax(worst, fabs(sum[a]) / (size * size));
     return worst;
 }
 
@@ -201,7 +217,9 @@ brc_status brc_convex_check(brc_context *context, const brc_convex *convex, doub
     for (int32_t p = 0; p < convex->n; ++p) {
         const double found = flaw(convex, p);
         if (!(found <= tolerance))
-            return BRC_FAIL(context, BRC_INTERNAL, "polyhedron %d is not convex and closed: off by %.3g of its size, expected at most %.3g", (int)p, found, tolerance);
+            return BRC_FAIL(context, BRC_INTERNAL,
+                            "polyhedron %d is not convex and closed: off by %.3g of its size, expected at most %.3g",
+                            (int)p, found, tolerance);
     }
     return BRC_OK;
 }
@@ -219,7 +237,9 @@ void brc_convex_mass(const brc_convex *convex, int32_t p, brc_rigid *out)
 
 void brc_convex_free(brc_convex *convex)
 {
-    void *const block[] = {convex->corner_start, convex->corner, convex->face_start, convex->plane, convex->loop_start, convex->loop, convex->radius};
-    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
+    void *const block[] = {convex->corner_start, convex->corner, convex->face_start, convex->plane,
+                           convex->loop_start,   convex->loop,   convex->radius};
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
+        brc_memory_free(block[k]);
     *convex = (brc_convex){.n = 0};
 }

@@ -27,16 +27,21 @@ static brc_status begin(brc_context *context, int64_t n_corners, int64_t n_faces
 }
 
 /* At most so many parts a face of n corners is cut into; each part has two corners of its neighbours. */
-static int64_t most_parts(int64_t n) { return 1 + n / (BRC_CONVEX_PART - 2); }
+static int64_t most_parts(int64_t n)
+{
+    return 1 + n / (BRC_CONVEX_PART - 2);
+}
 
 /* Append the face with these corners, counter-clockwise from outside, as a fan of parts around the first. */
 static void add_face(brc_convex *c, const int32_t *corner, int32_t n)
 {
     for (int32_t from = 1; from < n - 1; from += BRC_CONVEX_PART - 2) {
-        const int32_t f = c->face_start[1]++, last = from + BRC_CONVEX_PART - 2 < n - 1 ? from + BRC_CONVEX_PART - 2 : n - 1;
+        const int32_t f = c->face_start[1]++,
+                      last = from + BRC_CONVEX_PART - 2 < n - 1 ? from + BRC_CONVEX_PART - 2 : n - 1;
         int32_t *loop = c->loop + c->loop_start[f];
         *loop++ = corner[0];
-        for (int32_t k = from; k <= last; ++k) *loop++ = corner[k];
+        for (int32_t k = from; k <= last; ++k)
+            *loop++ = corner[k];
         c->loop_start[f + 1] = (int32_t)(loop - c->loop);
     }
 }
@@ -53,12 +58,15 @@ static void finish(brc_convex *c)
             mesh_minus(c->corner + 3 * (int64_t)loop[k], base, x);
             mesh_minus(c->corner + 3 * (int64_t)loop[k + 1], base, y);
             mesh_cross(x, y, part);
-            for (int a = 0; a < 3; ++a) area[a] += part[a];
+            for (int a = 0; a < 3; ++a)
+                area[a] += part[a];
         }
         const double length = sqrt(mesh_dot(area, area));
-        for (int a = 0; a < 3; ++a) plane[a] = area[a] / length;
+        for (int a = 0; a < 3; ++a)
+            plane[a] = area[a] / length;
         plane[3] = 0.0;
-        for (int32_t k = 0; k < m; ++k) plane[3] += mesh_dot(plane, c->corner + 3 * (int64_t)loop[k]) / m;
+        for (int32_t k = 0; k < m; ++k)
+            plane[3] += mesh_dot(plane, c->corner + 3 * (int64_t)loop[k]) / m;
     }
     c->radius[0] = brc_convex_reach(c, 0);
 }
@@ -66,19 +74,25 @@ static void finish(brc_convex *c)
 /* Move the origins of all polyhedra to `to`. */
 static void move_origin(brc_convex *c, const double to[3])
 {
-    for (int64_t k = 0; k < 3 * (int64_t)c->corner_start[c->n]; ++k) c->corner[k] -= to[k % 3];
-    for (int64_t f = 0; f < c->face_start[c->n]; ++f) c->plane[4 * f + 3] -= mesh_dot(c->plane + 4 * f, to);
-    for (int32_t p = 0; p < c->n; ++p) c->radius[p] = brc_convex_reach(c, p);
+    for (int64_t k = 0; k < 3 * (int64_t)c->corner_start[c->n]; ++k)
+        c->corner[k] -= to[k % 3];
+    for (int64_t f = 0; f < c->face_start[c->n]; ++f)
+        c->plane[4 * f + 3] -= mesh_dot(c->plane + 4 * f, to);
+    for (int32_t p = 0; p < c->n; ++p)
+        c->radius[p] = brc_convex_reach(c, p);
 }
 
 static brc_status box(brc_context *context, const brc_shape *shape, brc_convex *out, brc_rigid *rigid)
 {
-    static const int32_t loop[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    static const int32_t loop[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     const double *s = shape->size;
     BRC_TRY(begin(context, 8, 6, 24, out));
     for (int k = 0; k < 8; ++k)
-        for (int a = 0; a < 3; ++a) out->corner[3 * k + a] = shape->origin[a] + (k >> a & 1 ? s[a] : 0.0);
-    for (int f = 0; f < 6; ++f) add_face(out, loop[f], 4);
+        for (int a = 0; a < 3; ++a)
+            out->corner[3 * k + a] = shape->origin[a] + (k >> a & 1 ? s[a] : 0.0);
+    for (int f = 0; f < 6; ++f)
+        add_face(out, loop[f], 4);
     *rigid = (brc_rigid){.volume = s[0] * s[1] * s[2]};
     for (int a = 0; a < 3; ++a) {
         const double b = s[(a + 1) % 3], c = s[(a + 2) % 3];
@@ -97,7 +111,8 @@ static brc_status frustum(brc_context *context, const brc_shape *shape, int32_t 
     const double swell = sqrt(2.0 * PI / (n * sin(2.0 * PI / n))); /* regular polygon of the circle's area */
     const int32_t count[2] = {radius[0] > 0 ? n : 1, radius[1] > 0 ? n : 1};
     int32_t *cap = NULL;
-    brc_status status = begin(context, count[0] + count[1], n + 2 * most_parts(n), 4 * (int64_t)n + 2 * (n + 2 * most_parts(n)), out);
+    brc_status status =
+        begin(context, count[0] + count[1], n + 2 * most_parts(n), 4 * (int64_t)n + 2 * (n + 2 * most_parts(n)), out);
     if (status != BRC_OK) goto cleanup;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &cap, n, "corners of a cap"));
     for (int end = 0; end < 2; ++end)
@@ -108,7 +123,8 @@ static brc_status frustum(brc_context *context, const brc_shape *shape, int32_t 
             x[c] = shape->origin[c] + swell * radius[end] * sin(2.0 * PI * k / n);
         }
     for (int32_t k = 0; k < n; ++k) {
-        const int32_t low = k % count[0], low_next = (k + 1) % n % count[0], high = count[0] + k % count[1], high_next = count[0] + (k + 1) % n % count[1];
+        const int32_t low = k % count[0], low_next = (k + 1) % n % count[0], high = count[0] + k % count[1],
+                      high_next = count[0] + (k + 1) % n % count[1];
         int32_t m = 0, loop[4];
         loop[m++] = low;
         if (low_next != low) loop[m++] = low_next;
@@ -118,7 +134,8 @@ static brc_status frustum(brc_context *context, const brc_shape *shape, int32_t 
     }
     for (int end = 0; end < 2; ++end) {
         if (count[end] == 1) continue;
-        for (int32_t k = 0; k < n; ++k) cap[k] = end * count[0] + (end ? k : n - 1 - k);
+        for (int32_t k = 0; k < n; ++k)
+            cap[k] = end * count[0] + (end ? k : n - 1 - k);
         add_face(out, cap, n);
     }
     finish(out);
@@ -131,13 +148,15 @@ static brc_status frustum(brc_context *context, const brc_shape *shape, int32_t 
     memcpy(rigid->centre, shape->origin, sizeof rigid->centre);
     rigid->centre[a] += length * first / square;
     rigid->inertia[a] = 0.5 * PI * length * fourth;
-    rigid->inertia[b] = rigid->inertia[c] = 0.5 * rigid->inertia[a] + PI * length * length * length * (second - first * first / square);
+    rigid->inertia[b] = rigid->inertia[c] =
+        0.5 * rigid->inertia[a] + PI * length * length * length * (second - first * first / square);
 cleanup:
     brc_memory_free(cap);
     return status;
 }
 
-/* The polyhedron behind the planes n . x = 1 of the vertices n of an icosphere: a face a vertex, a corner a triangle. */
+/* The polyhedron behind the planes n . x = 1 of the vertices n of an icosphere: a face a vertex, a corner a
+ * triangle. */
 static brc_status vertex_planes(brc_context *context, const brc_icosphere *s, brc_convex *out)
 {
     int32_t *of_vertex = NULL, *start = NULL; /* triangles round each vertex */
@@ -147,18 +166,24 @@ static brc_status vertex_planes(brc_context *context, const brc_icosphere *s, br
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &start, s->n_vertices + 2, "triangles of an icosphere"));
     for (int32_t t = 0; t < s->n_triangles; ++t) {
         const int32_t *v = s->triangle + 3 * (int64_t)t;
-        const double *p = s->vertex + 3 * (int64_t)v[0], *q = s->vertex + 3 * (int64_t)v[1], *r = s->vertex + 3 * (int64_t)v[2];
+        const double *p = s->vertex + 3 * (int64_t)v[0], *q = s->vertex + 3 * (int64_t)v[1],
+                     *r = s->vertex + 3 * (int64_t)v[2];
         double pq[3], qr[3], rp[3]; /* x with p . x = q . x = r . x = 1 is (p x q + q x r + r x p) / (p . q x r) */
         mesh_cross(p, q, pq);
         mesh_cross(q, r, qr);
         mesh_cross(r, p, rp);
-        for (int a = 0; a < 3; ++a) out->corner[3 * (int64_t)t + a] = (pq[a] + qr[a] + rp[a]) / mesh_dot(p, qr);
-        for (int k = 0; k < 3; ++k) ++start[v[k] + 2];
+        for (int a = 0; a < 3; ++a)
+            out->corner[3 * (int64_t)t + a] = (pq[a] + qr[a] + rp[a]) / mesh_dot(p, qr);
+        for (int k = 0; k < 3; ++k)
+            ++start[v[k] + 2];
     }
-    for (int32_t v = 0; v < s->n_vertices; ++v) start[v + 2] += start[v + 1];
+    for (int32_t v = 0; v < s->n_vertices; ++v)
+        start[v + 2] += start[v + 1];
     for (int32_t t = 0; t < s->n_triangles; ++t)
-        for (int k = 0; k < 3; ++k) of_vertex[start[s->triangle[3 * (int64_t)t + k] + 1]++] = t;
-    for (int32_t v = 0; v < s->n_vertices; ++v) { /* from triangle to triangle around v: the next one shares the last corner */
+        for (int k = 0; k < 3; ++k)
+            of_vertex[start[s->triangle[3 * (int64_t)t + k] + 1]++] = t;
+    for (int32_t v = 0; v < s->n_vertices;
+         ++v) { /* from triangle to triangle around v: the next one shares the last corner */
         int32_t loop[8], m = 0, want = -1;
         while (m < start[v + 1] - start[v] && m < 8)
             for (int32_t k = start[v]; k < start[v + 1]; ++k) {
@@ -178,11 +203,13 @@ cleanup:
     return status;
 }
 
-static brc_status sphere(brc_context *context, const brc_shape *shape, int32_t facets, brc_convex *out, brc_rigid *rigid)
+static brc_status sphere(brc_context *context, const brc_shape *shape, int32_t facets, brc_convex *out,
+                         brc_rigid *rigid)
 {
     brc_icosphere directions = {.level = 0};
     int level = 0;
-    while (level < BRC_ICOSPHERE_LEVEL_MOST && AROUND * (1 << level) < 0.9 * facets) ++level;
+    while (level < BRC_ICOSPHERE_LEVEL_MOST && AROUND * (1 << level) < 0.9 * facets)
+        ++level;
     BRC_TRY(brc_icosphere_make(context, level, &directions));
     brc_status status = vertex_planes(context, &directions, out);
     brc_icosphere_free(&directions);
@@ -191,7 +218,8 @@ static brc_status sphere(brc_context *context, const brc_shape *shape, int32_t f
     brc_rigid unit;
     brc_convex_mass(out, 0, &unit);
     const double scale = cbrt(rigid->volume / unit.volume);
-    for (int64_t k = 0; k < 3 * (int64_t)out->corner_start[1]; ++k) out->corner[k] = shape->origin[k % 3] + scale * out->corner[k];
+    for (int64_t k = 0; k < 3 * (int64_t)out->corner_start[1]; ++k)
+        out->corner[k] = shape->origin[k % 3] + scale * out->corner[k];
     finish(out);
     for (int a = 0; a < 3; ++a) {
         rigid->centre[a] = shape->origin[a];
@@ -221,17 +249,24 @@ static void sum_pieces(const brc_convex *c, const double *origin, brc_rigid *sum
         brc_convex_mass(c, p, &part);
         const double half = 0.5 * (part.inertia[0] + part.inertia[1] + part.inertia[2]);
         double x[3];
-        for (int a = 0; a < 3; ++a) x[a] = origin[3 * (int64_t)p + a] + part.centre[a];
+        for (int a = 0; a < 3; ++a)
+            x[a] = origin[3 * (int64_t)p + a] + part.centre[a];
         sum->volume += part.volume;
-        for (int a = 0; a < 3; ++a) first[a] += part.volume * x[a];
-        for (int m = 0; m < 6; ++m) second[m] += part.volume * x[ROW[m]] * x[COLUMN[m]] + (m < 3 ? half : 0.0) - part.inertia[m];
+        for (int a = 0; a < 3; ++a)
+            first[a] += part.volume * x[a];
+        for (int m = 0; m < 6; ++m)
+            second[m] += part.volume * x[ROW[m]] * x[COLUMN[m]] + (m < 3 ? half : 0.0) - part.inertia[m];
     }
-    for (int a = 0; a < 3; ++a) sum->centre[a] = first[a] / sum->volume;
-    for (int m = 0; m < 6; ++m) second[m] -= sum->volume * sum->centre[ROW[m]] * sum->centre[COLUMN[m]];
-    for (int m = 0; m < 6; ++m) sum->inertia[m] = (m < 3 ? second[0] + second[1] + second[2] : 0.0) - second[m];
+    for (int a = 0; a < 3; ++a)
+        sum->centre[a] = first[a] / sum->volume;
+    for (int m = 0; m < 6; ++m)
+        second[m] -= sum->volume * sum->centre[ROW[m]] * sum->centre[COLUMN[m]];
+    for (int m = 0; m < 6; ++m)
+        sum->inertia[m] = (m < 3 ? second[0] + second[1] + second[2] : 0.0) - second[m];
 }
 
-static brc_status cells(brc_context *context, const brc_shape *shape, int32_t pieces, int n_threads, brc_convex *out, brc_rigid *rigid)
+static brc_status cells(brc_context *context, const brc_shape *shape, int32_t pieces, int n_threads, brc_convex *out,
+                        brc_rigid *rigid)
 {
     brc_build_request request = {.shape = *shape, .n_threads = n_threads};
     request.fill.kind = BRC_FILL_NOISY_GRID;
@@ -243,33 +278,45 @@ static brc_status cells(brc_context *context, const brc_shape *shape, int32_t pi
     sum_pieces(out, domain->position, rigid);
     for (int32_t p = 0; p < out->n; ++p) { /* from the origin of each piece to that of the shape */
         const double *x = domain->position + 3 * (int64_t)p;
-        for (int64_t k = 3 * (int64_t)out->corner_start[p]; k < 3 * (int64_t)out->corner_start[p + 1]; ++k) out->corner[k] += x[k % 3];
-        for (int64_t f = out->face_start[p]; f < out->face_start[p + 1]; ++f) out->plane[4 * f + 3] += mesh_dot(out->plane + 4 * f, x);
+        for (int64_t k = 3 * (int64_t)out->corner_start[p]; k < 3 * (int64_t)out->corner_start[p + 1]; ++k)
+            out->corner[k] += x[k % 3];
+        for (int64_t f = out->face_start[p]; f < out->face_start[p + 1]; ++f)
+            out->plane[4 * f + 3] += mesh_dot(out->plane + 4 * f, x);
     }
 cleanup:
     brc_domain_free(&domain);
     return status;
 }
 
-brc_status brc_convex_of_shape(brc_context *context, const brc_shape *shape, int32_t facets, int32_t pieces, int n_threads, brc_convex *out, brc_rigid *rigid)
+brc_status brc_convex_of_shape(brc_context *context, const brc_shape *shape, int32_t facets, int32_t pieces,
+                               int n_threads, brc_convex *out, brc_rigid *rigid)
 {
     brc_convex made = {.n = 0};
     brc_mesh *mesh = NULL;
     brc_solid *solid = NULL;
     brc_status status = BRC_OK;
-    if (facets < 8) return BRC_FAIL(context, BRC_BAD_INPUT, "%d flat faces around a curved shape: at least 8", (int)facets);
+    if (facets < 8)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "%d flat faces around a curved shape: at least 8", (int)facets);
     if (shape->kind == BRC_SHAPE_MESH)
         BRC_TRY_OR(cleanup, brc_mesh_read_stl(context, shape->file, shape->scale, shape->origin, n_threads, &mesh));
-    else BRC_TRY_OR(cleanup, brc_solid_create(context, shape, n_threads, &solid)); /* for its checks */
-    if (shape->kind == BRC_SHAPE_BOX) status = box(context, shape, &made, rigid);
-    else if (shape->kind == BRC_SHAPE_CYLINDER || shape->kind == BRC_SHAPE_CONE) status = frustum(context, shape, facets, &made, rigid);
-    else if (shape->kind == BRC_SHAPE_SPHERE) status = sphere(context, shape, facets, &made, rigid);
-    else if (mesh && brc_mesh_is_convex(mesh)) status = convex_mesh(context, mesh, &made, rigid);
-    else status = cells(context, shape, pieces, n_threads, &made, rigid);
+    else
+        BRC_TRY_OR(cleanup, brc_solid_create(context, shape, n_threads, &solid)); /* for its checks */
+    if (shape->kind == BRC_SHAPE_BOX)
+        status = box(context, shape, &made, rigid);
+    else if (shape->kind == BRC_SHAPE_CYLINDER || shape->kind == BRC_SHAPE_CONE)
+        status = frustum(context, shape, facets, &made, rigid);
+    else if (shape->kind == BRC_SHAPE_SPHERE)
+        status = sphere(context, shape, facets, &made, rigid);
+    else if (mesh && brc_mesh_is_convex(mesh))
+        status = convex_mesh(context, mesh, &made, rigid);
+    else
+        status = cells(context, shape, pieces, n_threads, &made, rigid);
     if (status != BRC_OK) goto cleanup;
     move_origin(&made, rigid->centre);
-    /* every corner against every plane: cells and small bodies; large ones are spheres, convex as they are made, and meshes found to be convex */
-    if ((double)made.corner_start[made.n] / made.n * made.face_start[made.n] < 1e7) BRC_TRY_OR(cleanup, brc_convex_check(context, &made, 1e-6));
+    /* every corner against every plane: cells and small bodies; large ones are spheres, convex as they are made, and
+     * meshes found to be convex */
+    if ((double)made.corner_start[made.n] / made.n * made.face_start[made.n] < 1e7)
+        BRC_TRY_OR(cleanup, brc_convex_check(context, &made, 1e-6));
     *out = made;
     made = (brc_convex){.n = 0};
 cleanup:

@@ -54,7 +54,8 @@ static void sample(const brc_solid *solid, int32_t s, extent *e)
     for (int k = 0; k < SAMPLES; ++k) {
         double u[4], x[3], normal[3], side[2][3];
         brc_random_uniform4(0, BRC_RANDOM_FEATURE, (uint64_t)s, (uint64_t)k, u);
-        for (int d = 0; d < 3; ++d) x[d] = low[d] + u[d] * (high[d] - low[d]);
+        for (int d = 0; d < 3; ++d)
+            x[d] = low[d] + u[d] * (high[d] - low[d]);
         const double height = brc_surface_height(solid, surface, x, normal);
         for (int d = 0; d < 3; ++d) {
             x[d] -= height * normal[d];
@@ -78,13 +79,16 @@ static int warn_of_part(brc_context *context, const brc_solid *solid, int32_t k,
     extent e = {.any = false};
     char name[NAME_ROOM] = "";
     if (leaf->role == BRC_PART_KEEP || !(width < spacing)) return 0;
-    for (int32_t s = leaf->first; s < leaf->first + leaf->n_surfaces && !e.any; ++s) sample(solid, s, &e);
+    for (int32_t s = leaf->first; s < leaf->first + leaf->n_surfaces && !e.any; ++s)
+        sample(solid, s, &e);
     if (!e.any) return 0;
     if (solid->parts[k].name[0]) snprintf(name, sizeof name, " ('%s')", solid->parts[k].name);
     brc_log(context, BRC_LOG_WARNING,
-            "shape: part %d%s is %.3g m thick, less than one of the %s of %.3g m: it vanishes or is met badly; ask for more elements (half its thickness wide are %.2g of them), or "
+            "shape: part %d%s is %.3g m thick, less than one of the %s of %.3g m: it vanishes or is met badly; ask for "
+            "more elements (half its thickness wide are %.2g of them), or "
             "leave the part out",
-            k + 1, name, width, spheres ? "spheres" : "cells", spacing, brc_solid_volume(solid, NULL) / pow(0.5 * width, 3.0));
+            k + 1, name, width, spheres ? "spheres" : "cells", spacing,
+            brc_solid_volume(solid, NULL) / pow(0.5 * width, 3.0));
     return 1;
 }
 
@@ -92,19 +96,23 @@ void brc_features_warn(brc_context *context, const brc_solid *solid, double spac
 {
     const bool spheres = domain->element_kind == BRC_ELEMENT_SPHERE;
     int n = 0;
-    for (int32_t k = 0; k < solid->n_leaves && solid->n_leaves > 1 && n < MOST_WARNINGS; ++k) n += warn_of_part(context, solid, k, spacing, spheres);
+    for (int32_t k = 0; k < solid->n_leaves && solid->n_leaves > 1 && n < MOST_WARNINGS; ++k)
+        n += warn_of_part(context, solid, k, spacing, spheres);
     if (spheres) return;
     for (int32_t w = 0; w < solid->n_walls && n < MOST_WARNINGS; ++w) {
         extent e = {.any = false};
         bool met = false, thin = false;
-        for (int64_t f = 0; f < domain->n_free_faces && !met; ++f) met = domain->free_wall[f] == w;
+        for (int64_t f = 0; f < domain->n_free_faces && !met; ++f)
+            met = domain->free_wall[f] == w;
         for (int32_t s = 0; s < solid->n_surfaces && !met && !thin; ++s) {
             if (solid->surface[s].wall != w) continue;
             thin = solid->n_leaves > 1 && width_of(&solid->leaf[solid->surface[s].leaf]) < spacing; /* told already */
             sample(solid, s, &e);
         }
         if (met || thin || !e.any) continue;
-        brc_log(context, BRC_LOG_WARNING, "shape: no cell has a face on the wall '%s', which is %.3g m across: cells of %.3g m are too coarse for it; ask for more elements",
+        brc_log(context, BRC_LOG_WARNING,
+                "shape: no cell has a face on the wall '%s', which is %.3g m across: cells of %.3g m are too coarse "
+                "for it; ask for more elements",
                 solid->wall_name[w], size_of(&e), spacing);
         ++n;
     }

@@ -23,17 +23,22 @@ static brc_status make_leaves(brc_context *context, brc_solid *solid, int n_thre
     BRC_TRY(BRC_ALLOCATE(context, &solid->leaf, n, "parts of the shape"));
     BRC_TRY(BRC_ALLOCATE(context, &solid->surface, MOST_SURFACES_OF_A_LEAF * n, "surfaces of the shape"));
     BRC_TRY(BRC_ALLOCATE(context, &solid->wall_name, MOST_SURFACES_OF_A_LEAF * n, "walls of the shape"));
-    if (composed) memcpy(solid->parts, shape->parts, (size_t)n * sizeof *solid->parts);
-    else solid->parts[0].shape = *shape;
+    if (composed)
+        memcpy(solid->parts, shape->parts, (size_t)n * sizeof *solid->parts);
+    else
+        solid->parts[0].shape = *shape;
     if (composed) solid->shape.parts = solid->parts;
     if (solid->parts[0].role != BRC_PART_ADD)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "shape: the first part must be added, there is nothing yet to cut from");
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "shape: the first part must be added, there is nothing yet to cut from");
     for (int64_t p = 0; p < n; ++p) {
         const brc_shape_part *part = &solid->parts[p];
         if ((int)part->role < BRC_PART_ADD || part->role > BRC_PART_KEEP)
-            return BRC_FAIL(context, BRC_BAD_INPUT, "shape: part %lld has the unknown role %d", (long long)p + 1, (int)part->role);
+            return BRC_FAIL(context, BRC_BAD_INPUT, "shape: part %lld has the unknown role %d", (long long)p + 1,
+                            (int)part->role);
         if (part->shape.kind == BRC_SHAPE_HALF_SPACE && part->role == BRC_PART_ADD)
-            return BRC_FAIL(context, BRC_BAD_INPUT, "shape: a half-space has no end and can only be removed or kept, as a part");
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "shape: a half-space has no end and can only be removed or kept, as a part");
         BRC_TRY(brc_leaf_create(context, solid, part, n_threads));
     }
     return BRC_OK;
@@ -43,12 +48,13 @@ static brc_status make_leaves(brc_context *context, brc_solid *solid, int n_thre
 static bool added_lie_below(const brc_solid *solid, int32_t first, int32_t self, const double normal[3], double limit)
 {
     for (int32_t k = first; k < solid->n_leaves; ++k)
-        if (k != self && solid->leaf[k].role == BRC_PART_ADD && brc_leaf_support(&solid->leaf[k], normal) > limit) return false;
+        if (k != self && solid->leaf[k].role == BRC_PART_ADD && brc_leaf_support(&solid->leaf[k], normal) > limit)
+            return false;
     return true;
 }
 
-/* Find the planes that have the whole solid on one side: there cells are cut by the plane itself. Two walls in one plane are told
- * apart by feet only, so neither counts. */
+/* Find the planes that have the whole solid on one side: there cells are cut by the plane itself. Two walls in one
+ * plane are told apart by feet only, so neither counts. */
 static void find_hull(brc_solid *solid)
 {
     for (int32_t s = 0; s < solid->n_surfaces; ++s) {
@@ -58,7 +64,8 @@ static void find_hull(brc_solid *solid)
         const bool cut = leaf->role == BRC_PART_REMOVE;
         if (cut && leaf->n_surfaces != 1) continue;
         double normal[3];
-        for (int d = 0; d < 3; ++d) normal[d] = cut ? -plane->axis[d] : plane->axis[d];
+        for (int d = 0; d < 3; ++d)
+            normal[d] = cut ? -plane->axis[d] : plane->axis[d];
         const double limit = brc_dot3(normal, plane->point) + 1e-3 * solid->tiny;
         const int32_t first = leaf->role == BRC_PART_ADD ? 0 : plane->leaf;
         if (added_lie_below(solid, first, plane->leaf, normal, limit)) plane->hull = cut ? -1.0 : 1.0;
@@ -142,8 +149,10 @@ brc_status brc_solid_create(brc_context *context, const brc_shape *shape, int n_
     solid->tiny = TINY_STEP * brc_length3(diagonal);
     find_hull(solid);
     solid->convex = find_convex(solid);
-    if (shape->kind == BRC_SHAPE_PARTS) BRC_TRY_OR(cleanup, brc_solid_measure(context, solid, n_threads));
-    else measure_single(solid);
+    if (shape->kind == BRC_SHAPE_PARTS)
+        BRC_TRY_OR(cleanup, brc_solid_measure(context, solid, n_threads));
+    else
+        measure_single(solid);
     BRC_TRY_OR(cleanup, brc_solid_find_edges(context, solid));
     *out = solid;
     solid = NULL;
@@ -205,16 +214,19 @@ bool brc_solid_is_convex(const brc_solid *solid)
 int32_t brc_solid_n_hull_planes(const brc_solid *solid)
 {
     int32_t n = 0;
-    for (int32_t s = 0; s < solid->n_surfaces; ++s) n += solid->surface[s].hull != 0.0;
+    for (int32_t s = 0; s < solid->n_surfaces; ++s)
+        n += solid->surface[s].hull != 0.0;
     return n;
 }
 
 void brc_solid_hull_plane(const brc_solid *solid, int32_t plane, double normal[3], double *offset, int32_t *wall)
 {
     int32_t s = 0;
-    while (solid->surface[s].hull == 0.0 || plane-- > 0) ++s;
+    while (solid->surface[s].hull == 0.0 || plane-- > 0)
+        ++s;
     const brc_surface *surface = &solid->surface[s];
-    for (int d = 0; d < 3; ++d) normal[d] = surface->hull * surface->axis[d];
+    for (int d = 0; d < 3; ++d)
+        normal[d] = surface->hull * surface->axis[d];
     *offset = brc_dot3(normal, surface->point);
     *wall = surface->wall;
 }
@@ -225,9 +237,12 @@ bool brc_solid_member(const brc_solid *solid, const double x[3])
     for (int32_t k = 0; k < solid->n_leaves; ++k) {
         const brc_leaf *leaf = &solid->leaf[k];
         if (in == (leaf->role == BRC_PART_ADD)) continue; /* this part cannot change the answer */
-        if (leaf->role == BRC_PART_ADD) in = brc_leaf_inside(solid, leaf, x);
-        else if (leaf->role == BRC_PART_REMOVE) in = !brc_leaf_inside(solid, leaf, x);
-        else in = brc_leaf_inside(solid, leaf, x);
+        if (leaf->role == BRC_PART_ADD)
+            in = brc_leaf_inside(solid, leaf, x);
+        else if (leaf->role == BRC_PART_REMOVE)
+            in = !brc_leaf_inside(solid, leaf, x);
+        else
+            in = brc_leaf_inside(solid, leaf, x);
     }
     return in;
 }
@@ -238,6 +253,7 @@ bool brc_solid_inside(const brc_solid *solid, const double x[3], double margin)
     if (!(margin > 0.0)) return true;
     if (solid->n_leaves == 1 && solid->leaf[0].mesh) return brc_solid_distance(solid, x, margin) >= margin;
     for (int32_t s = 0; s < solid->n_surfaces; ++s) /* mostly no surface is near, and then the boundary is not either */
-        if (fabs(brc_surface_height(solid, &solid->surface[s], x, NULL)) < margin) return brc_solid_depth(solid, x) >= margin;
+        if (fabs(brc_surface_height(solid, &solid->surface[s], x, NULL)) < margin)
+            return brc_solid_depth(solid, x) >= margin;
     return true;
 }

@@ -1,5 +1,5 @@
-/* The straight concave edges of a solid: those between two planes of its parts, found along the line where the planes meet, and those of its
- * mesh, with collinear pieces joined. */
+/* The straight concave edges of a solid: those between two planes of its parts, found along the line where the planes
+ * meet, and those of its mesh, with collinear pieces joined. */
 #include "solid_internal.h"
 
 #include "../../host/base/memory.h"
@@ -10,32 +10,38 @@
 
 static brc_status add_edge(brc_context *context, brc_solid *solid, const brc_edge *edge)
 {
-    BRC_TRY(brc_memory_resize(context, (void **)&solid->edge, solid->n_edges + 1, sizeof *solid->edge, "concave edges"));
+    BRC_TRY(
+        brc_memory_resize(context, (void **)&solid->edge, solid->n_edges + 1, sizeof *solid->edge, "concave edges"));
     solid->edge[solid->n_edges++] = *edge;
     return BRC_OK;
 }
 
 static void at(const double x[3], const double u[3], double t, double out[3])
 {
-    for (int d = 0; d < 3; ++d) out[d] = x[d] + t * u[d];
+    for (int d = 0; d < 3; ++d)
+        out[d] = x[d] + t * u[d];
 }
 
 /* The line where two planes meet; false: parallel. */
 static bool common_line(const brc_surface *a, const brc_surface *b, double x[3], double u[3])
 {
-    for (int d = 0; d < 3; ++d) u[d] = a->axis[(d + 1) % 3] * b->axis[(d + 2) % 3] - a->axis[(d + 2) % 3] * b->axis[(d + 1) % 3];
+    for (int d = 0; d < 3; ++d)
+        u[d] = a->axis[(d + 1) % 3] * b->axis[(d + 2) % 3] - a->axis[(d + 2) % 3] * b->axis[(d + 1) % 3];
     const double length = brc_length3(u), c = brc_dot3(a->axis, b->axis);
     if (length < 1e-6) return false;
-    for (int d = 0; d < 3; ++d) u[d] /= length;
+    for (int d = 0; d < 3; ++d)
+        u[d] /= length;
     /* from the point of a towards b within a */
     const double gap[3] = {b->point[0] - a->point[0], b->point[1] - a->point[1], b->point[2] - a->point[2]};
     const double t = brc_dot3(gap, b->axis) / (1.0 - c * c);
-    for (int d = 0; d < 3; ++d) x[d] = a->point[d] + t * (b->axis[d] - c * a->axis[d]);
+    for (int d = 0; d < 3; ++d)
+        x[d] = a->point[d] + t * (b->axis[d] - c * a->axis[d]);
     return true;
 }
 
 /* cut: room for 4 values a surface and 2. */
-static brc_status find_between(brc_context *context, brc_solid *solid, const brc_surface *a, const brc_surface *b, double *cut)
+static brc_status find_between(brc_context *context, brc_solid *solid, const brc_surface *a, const brc_surface *b,
+                               double *cut)
 {
     double x[3], u[3], low, high;
     int n = 0;
@@ -106,7 +112,8 @@ static bool in_line(const brc_edge *a, const brc_edge *b)
     return brc_dot3(a->normal[0], b->normal[0]) >= 1.0 - 1e-8 && brc_dot3(a->normal[1], b->normal[1]) >= 1.0 - 1e-8;
 }
 
-/* after[k]: the piece that goes on where piece k ends, before[k] the other way; -1: none. Pieces of a mesh share vertices, to the bit. */
+/* after[k]: the piece that goes on where piece k ends, before[k] the other way; -1: none. Pieces of a mesh share
+ * vertices, to the bit. */
 static void link_pieces(const brc_edge *piece, int64_t n, edge_end *ends, int64_t *after, int64_t *before)
 {
     for (int64_t k = 0; k < n; ++k) {
@@ -118,11 +125,13 @@ static void link_pieces(const brc_edge *piece, int64_t n, edge_end *ends, int64_
     }
     qsort(ends, (size_t)(2 * n), sizeof *ends, by_place);
     for (int64_t i = 0, j; i < 2 * n; i = j) {
-        for (j = i + 1; j < 2 * n && memcmp(ends[j].x, ends[i].x, sizeof ends[0].x) == 0;) ++j;
+        for (j = i + 1; j < 2 * n && memcmp(ends[j].x, ends[i].x, sizeof ends[0].x) == 0;)
+            ++j;
         for (int64_t a = i; a < j; ++a)
             for (int64_t b = i; b < j && ends[a].end == 1; ++b) {
                 const int64_t p = ends[a].piece, q = ends[b].piece;
-                if (ends[b].end != 0 || after[p] >= 0 || before[q] >= 0 || p == q || !in_line(&piece[p], &piece[q])) continue;
+                if (ends[b].end != 0 || after[p] >= 0 || before[q] >= 0 || p == q || !in_line(&piece[p], &piece[q]))
+                    continue;
                 after[p] = q;
                 before[q] = p;
             }
@@ -150,12 +159,14 @@ static brc_status take_mesh(brc_context *context, brc_solid *solid, const brc_le
             brc_leaf_turn(leaf, list[k].normal[end], piece[k].normal[end]);
         }
     link_pieces(piece, n, ends, after, before);
-    BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&solid->edge, solid->n_edges + n, sizeof *solid->edge, "concave edges"));
+    BRC_TRY_OR(cleanup, brc_memory_resize(context, (void **)&solid->edge, solid->n_edges + n, sizeof *solid->edge,
+                                          "concave edges"));
     for (int64_t k = 0; k < n; ++k) {
         if (before[k] >= 0) continue;
         brc_edge *edge = &solid->edge[solid->n_edges++];
         int64_t last = k;
-        while (after[last] >= 0) last = after[last];
+        while (after[last] >= 0)
+            last = after[last];
         *edge = piece[k];
         memcpy(edge->end[1], piece[last].end[1], sizeof edge->end[1]);
     }
@@ -171,7 +182,8 @@ cleanup:
 brc_status brc_solid_find_edges(brc_context *context, brc_solid *solid)
 {
     for (int32_t k = 0; k < solid->n_leaves; ++k)
-        if (solid->leaf[k].mesh && solid->leaf[k].role == BRC_PART_ADD) BRC_TRY(take_mesh(context, solid, &solid->leaf[k]));
+        if (solid->leaf[k].mesh && solid->leaf[k].role == BRC_PART_ADD)
+            BRC_TRY(take_mesh(context, solid, &solid->leaf[k]));
     if (solid->n_leaves == 1) return BRC_OK;
     double *cut = NULL;
     brc_status status = BRC_ALLOCATE(context, &cut, 4 * (int64_t)solid->n_surfaces + 2, "cuts of concave edges");

@@ -22,10 +22,12 @@ static brc_status check_leaf(brc_context *context, const brc_shape *shape)
 {
     for (int k = 0; k < 3; ++k)
         if (!isfinite(shape->origin[k]))
-            return BRC_FAIL(context, BRC_BAD_INPUT, "shape: origin has the component %g, must be finite", shape->origin[k]);
+            return BRC_FAIL(context, BRC_BAD_INPUT, "shape: origin has the component %g, must be finite",
+                            shape->origin[k]);
     switch (shape->kind) {
     case BRC_SHAPE_BOX:
-        for (int k = 0; k < 3; ++k) BRC_TRY(check_size(context, "an edge length of the box", shape->size[k]));
+        for (int k = 0; k < 3; ++k)
+            BRC_TRY(check_size(context, "an edge length of the box", shape->size[k]));
         return BRC_OK;
     case BRC_SHAPE_CYLINDER:
         BRC_TRY(check_axis(context, "cylinder", shape->axis));
@@ -45,17 +47,22 @@ static brc_status check_leaf(brc_context *context, const brc_shape *shape)
         BRC_TRY(check_size(context, "the radius of the torus' centre line", shape->radius));
         BRC_TRY(check_size(context, "the radius of the torus' tube", shape->radius2));
         if (shape->radius2 < shape->radius) return BRC_OK;
-        return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "shape: the torus meets itself: its tube's radius %g m must be below the radius %g m of its centre line",
-                        shape->radius2, shape->radius);
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "shape: the torus meets itself: its tube's radius %g m must be below the radius %g m of its centre line",
+            shape->radius2, shape->radius);
     case BRC_SHAPE_HALF_SPACE:
         if (isfinite(brc_length3(shape->normal)) && brc_length3(shape->normal) > 0.0) return BRC_OK;
         return BRC_FAIL(context, BRC_BAD_INPUT, "shape: the normal of the half-space must be finite and not 0");
     case BRC_SHAPE_MESH:
         if (isfinite(shape->scale) && shape->scale > 0.0) return BRC_OK;
-        return BRC_FAIL(context, BRC_BAD_INPUT, "shape: the mesh's scale is %g m per unit of its file, must be finite and > 0; "
-                        "use 1e-3 for millimetres", shape->scale);
-    case BRC_SHAPE_PARTS: return BRC_FAIL(context, BRC_BAD_INPUT, "shape: a part cannot have parts itself; list them one after the other");
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "shape: the mesh's scale is %g m per unit of its file, must be finite and > 0; "
+                        "use 1e-3 for millimetres",
+                        shape->scale);
+    case BRC_SHAPE_PARTS:
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "shape: a part cannot have parts itself; list them one after the other");
     }
     return BRC_FAIL(context, BRC_BAD_INPUT, "shape: kind %d is unknown", (int)shape->kind);
 }
@@ -86,7 +93,8 @@ static void add_surface(brc_solid *solid, const char *part, const char *wall, br
     ++leaf->n_surfaces;
 }
 
-static void add_plane(brc_solid *solid, const char *part, const char *wall, const double point[3], int axis, double sign)
+static void add_plane(brc_solid *solid, const char *part, const char *wall, const double point[3], int axis,
+                      double sign)
 {
     brc_surface plane = {.kind = BRC_SURFACE_PLANE, .point = {point[0], point[1], point[2]}};
     plane.axis[axis] = sign;
@@ -105,7 +113,8 @@ static void add_round(brc_solid *solid, const char *part, const brc_shape *s)
     end[axis] += s->length;
     if (s->radius > 0.0) add_plane(solid, part, side_name[2 * axis], s->origin, axis, -1.0);
     if (radius2 > 0.0) add_plane(solid, part, side_name[2 * axis + 1], end, axis, 1.0);
-    brc_surface side = {.kind = cone ? BRC_SURFACE_CONE : BRC_SURFACE_CYLINDER, .radius = s->radius,
+    brc_surface side = {.kind = cone ? BRC_SURFACE_CONE : BRC_SURFACE_CYLINDER,
+                        .radius = s->radius,
                         .point = {s->origin[0], s->origin[1], s->origin[2]}};
     side.axis[axis] = 1.0;
     if (cone) {
@@ -120,11 +129,13 @@ static void add_round(brc_solid *solid, const char *part, const brc_shape *s)
 
 static void add_surfaces(brc_solid *solid, const char *part, const brc_shape *s)
 {
-    brc_surface round = {.point = {s->origin[0], s->origin[1], s->origin[2]}, .radius = s->radius, .radius2 = s->radius2};
+    brc_surface round = {
+        .point = {s->origin[0], s->origin[1], s->origin[2]}, .radius = s->radius, .radius2 = s->radius2};
     double far_corner[3];
     switch (s->kind) {
     case BRC_SHAPE_BOX:
-        for (int k = 0; k < 3; ++k) far_corner[k] = s->origin[k] + s->size[k];
+        for (int k = 0; k < 3; ++k)
+            far_corner[k] = s->origin[k] + s->size[k];
         for (int side = 0; side < 6; ++side)
             add_plane(solid, part, side_name[side], side % 2 ? far_corner : s->origin, side / 2, side % 2 ? 1.0 : -1.0);
         return;
@@ -142,7 +153,8 @@ static void add_surfaces(brc_solid *solid, const char *part, const brc_shape *s)
         return;
     case BRC_SHAPE_HALF_SPACE:
         round.kind = BRC_SURFACE_PLANE;
-        for (int k = 0; k < 3; ++k) round.axis[k] = s->normal[k] / brc_length3(s->normal);
+        for (int k = 0; k < 3; ++k)
+            round.axis[k] = s->normal[k] / brc_length3(s->normal);
         add_surface(solid, part, "cut", round);
         return;
     case BRC_SHAPE_MESH:
@@ -173,7 +185,8 @@ brc_status brc_leaf_create(brc_context *context, brc_solid *solid, const brc_sha
     leaf->first = solid->n_surfaces;
     place(leaf, part);
     if (part->shape.kind == BRC_SHAPE_MESH)
-        BRC_TRY(brc_mesh_read_stl(context, part->shape.file, part->shape.scale, part->shape.origin, n_threads, &leaf->mesh));
+        BRC_TRY(brc_mesh_read_stl(context, part->shape.file, part->shape.scale, part->shape.origin, n_threads,
+                                  &leaf->mesh));
     add_surfaces(solid, part->name, &part->shape);
     for (int k = 0; k < 3; ++k)
         for (int sign = 0; sign < 2; ++sign) {
@@ -190,14 +203,16 @@ void brc_leaf_to_part(const brc_leaf *leaf, const double x[3], double out[3])
     double y[3];
     memcpy(out, x, sizeof y);
     if (!leaf->posed) return;
-    for (int k = 0; k < 3; ++k) y[k] = x[k] - leaf->pivot[k] - leaf->shift[k];
+    for (int k = 0; k < 3; ++k)
+        y[k] = x[k] - leaf->pivot[k] - leaf->shift[k];
     for (int k = 0; k < 3; ++k)
         out[k] = leaf->pivot[k] + leaf->frame[0][k] * y[0] + leaf->frame[1][k] * y[1] + leaf->frame[2][k] * y[2];
 }
 
 void brc_leaf_turn(const brc_leaf *leaf, const double direction[3], double out[3])
 {
-    for (int k = 0; k < 3; ++k) out[k] = brc_dot3(leaf->frame[k], direction);
+    for (int k = 0; k < 3; ++k)
+        out[k] = brc_dot3(leaf->frame[k], direction);
 }
 
 void brc_leaf_from_part(const brc_leaf *leaf, const double x[3], double out[3])
@@ -206,7 +221,8 @@ void brc_leaf_from_part(const brc_leaf *leaf, const double x[3], double out[3])
     memcpy(out, x, sizeof y);
     if (!leaf->posed) return;
     brc_leaf_turn(leaf, y, out);
-    for (int k = 0; k < 3; ++k) out[k] += leaf->pivot[k] + leaf->shift[k];
+    for (int k = 0; k < 3; ++k)
+        out[k] += leaf->pivot[k] + leaf->shift[k];
 }
 
 /* direction: unit or one axis, in the shape's frame. A box is exact; a mesh is taken as its box of bounds. */
@@ -223,7 +239,8 @@ double brc_leaf_support(const brc_leaf *leaf, const double direction[3])
                               : sqrt(fmax(0.0, brc_dot3(u, u) - u[s->axis] * u[s->axis]));
     switch (s->kind) {
     case BRC_SHAPE_BOX:
-        for (int k = 0; k < 3; ++k) along += fmax(0.0, u[k] * s->size[k]);
+        for (int k = 0; k < 3; ++k)
+            along += fmax(0.0, u[k] * s->size[k]);
         return along;
     case BRC_SHAPE_SPHERE: return along + s->radius * brc_length3(u);
     case BRC_SHAPE_CYLINDER: return along + fmax(0.0, u[s->axis] * s->length) + s->radius * across;
@@ -237,7 +254,8 @@ double brc_leaf_support(const brc_leaf *leaf, const double direction[3])
     }
     case BRC_SHAPE_MESH:
         brc_mesh_bounds(leaf->mesh, mesh_bounds);
-        for (int k = 0; k < 3; ++k) along += u[k] * (u[k] > 0.0 ? mesh_bounds[1][k] : mesh_bounds[0][k]) - u[k] * s->origin[k];
+        for (int k = 0; k < 3; ++k)
+            along += u[k] * (u[k] > 0.0 ? mesh_bounds[1][k] : mesh_bounds[0][k]) - u[k] * s->origin[k];
         return along;
     case BRC_SHAPE_PARTS: break;
     }

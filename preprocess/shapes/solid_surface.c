@@ -14,22 +14,26 @@ double brc_length3(const double a[3])
     return sqrt(brc_dot3(a, a));
 }
 
-/* x in the cylindrical coordinates of the surface: height along the axis, distance from it and the unit vector away from it (any
- * one at right angles on the axis itself). */
+/* x in the cylindrical coordinates of the surface: height along the axis, distance from it and the unit vector away
+ * from it (any one at right angles on the axis itself). */
 static void cylindrical(const brc_surface *s, const double x[3], double *z, double *rho, double away[3])
 {
     const double p[3] = {x[0] - s->point[0], x[1] - s->point[1], x[2] - s->point[2]};
     *z = brc_dot3(p, s->axis);
-    for (int d = 0; d < 3; ++d) away[d] = p[d] - *z * s->axis[d];
+    for (int d = 0; d < 3; ++d)
+        away[d] = p[d] - *z * s->axis[d];
     *rho = brc_length3(away);
     if (*rho > 0.0) {
-        for (int d = 0; d < 3; ++d) away[d] /= *rho;
+        for (int d = 0; d < 3; ++d)
+            away[d] /= *rho;
         return;
     }
     const int small = fabs(s->axis[0]) < 0.6 ? 0 : 1;
-    for (int d = 0; d < 3; ++d) away[d] = (d == small) - s->axis[small] * s->axis[d];
+    for (int d = 0; d < 3; ++d)
+        away[d] = (d == small) - s->axis[small] * s->axis[d];
     const double length = brc_length3(away);
-    for (int d = 0; d < 3; ++d) away[d] /= length;
+    for (int d = 0; d < 3; ++d)
+        away[d] /= length;
 }
 
 /* The nearest foot of a point outside a mesh or inside; the mesh may have several patches. */
@@ -40,7 +44,8 @@ static double mesh_height(const brc_leaf *leaf, const double x[3], double normal
     const double depth = brc_mesh_depth(leaf->mesh, y);
     if (!normal) return -depth;
     brc_mesh_foot feet[BRC_MESH_VIEWS];
-    const double reach = fabs(depth) * (1.0 + 1e-9) + 1e-12 * (brc_length3(leaf->bounds[1]) + brc_length3(leaf->bounds[0]));
+    const double reach =
+        fabs(depth) * (1.0 + 1e-9) + 1e-12 * (brc_length3(leaf->bounds[1]) + brc_length3(leaf->bounds[0]));
     int32_t n = brc_mesh_feet(leaf->mesh, y, reach, feet, BRC_MESH_VIEWS);
     if (n > BRC_MESH_VIEWS) n = brc_mesh_views(leaf->mesh, y, reach, feet);
     const brc_mesh_foot *best = NULL;
@@ -50,7 +55,8 @@ static double mesh_height(const brc_leaf *leaf, const double x[3], double normal
     if (best) {
         memcpy(local, best->normal, sizeof local);
         if (best->distance > 0.0 && fabs(depth) > 1e-9 * brc_length3(leaf->bounds[1]))
-            for (int d = 0; d < 3; ++d) local[d] = (best->point[d] - y[d]) / (depth > 0.0 ? best->distance : -best->distance);
+            for (int d = 0; d < 3; ++d)
+                local[d] = (best->point[d] - y[d]) / (depth > 0.0 ? best->distance : -best->distance);
     }
     brc_leaf_turn(leaf, local, normal);
     return -depth;
@@ -62,12 +68,14 @@ double brc_surface_height(const brc_solid *solid, const brc_surface *s, const do
     switch (s->kind) {
     case BRC_SURFACE_PLANE:
         if (normal) memcpy(normal, s->axis, sizeof s->axis);
-        return (x[0] - s->point[0]) * s->axis[0] + (x[1] - s->point[1]) * s->axis[1] + (x[2] - s->point[2]) * s->axis[2];
+        return (x[0] - s->point[0]) * s->axis[0] + (x[1] - s->point[1]) * s->axis[1] +
+               (x[2] - s->point[2]) * s->axis[2];
     case BRC_SURFACE_SPHERE: {
         const double p[3] = {x[0] - s->point[0], x[1] - s->point[1], x[2] - s->point[2]};
         const double r = brc_length3(p);
         if (normal)
-            for (int d = 0; d < 3; ++d) normal[d] = r > 0.0 ? p[d] / r : (d == 0);
+            for (int d = 0; d < 3; ++d)
+                normal[d] = r > 0.0 ? p[d] / r : (d == 0);
         return r - s->radius;
     }
     case BRC_SURFACE_CYLINDER:
@@ -78,19 +86,22 @@ double brc_surface_height(const brc_solid *solid, const brc_surface *s, const do
         cylindrical(s, x, &z, &rho, away);
         if (z * s->cosine + rho * s->sine >= 0.0) {
             if (normal)
-                for (int d = 0; d < 3; ++d) normal[d] = s->cosine * away[d] - s->sine * s->axis[d];
+                for (int d = 0; d < 3; ++d)
+                    normal[d] = s->cosine * away[d] - s->sine * s->axis[d];
             return rho * s->cosine - z * s->sine;
         }
         const double r = hypot(rho, z); /* beyond the tip */
         if (normal)
-            for (int d = 0; d < 3; ++d) normal[d] = r > 0.0 ? (rho * away[d] + z * s->axis[d]) / r : -s->axis[d];
+            for (int d = 0; d < 3; ++d)
+                normal[d] = r > 0.0 ? (rho * away[d] + z * s->axis[d]) / r : -s->axis[d];
         return r;
     }
     case BRC_SURFACE_TORUS: {
         cylindrical(s, x, &z, &rho, away);
         const double across = rho - s->radius, q = hypot(across, z);
         if (normal)
-            for (int d = 0; d < 3; ++d) normal[d] = q > 0.0 ? (across * away[d] + z * s->axis[d]) / q : away[d];
+            for (int d = 0; d < 3; ++d)
+                normal[d] = q > 0.0 ? (across * away[d] + z * s->axis[d]) / q : away[d];
         return q - s->radius2;
     }
     case BRC_SURFACE_MESH: return mesh_height(&solid->leaf[s->leaf], x, normal);
@@ -108,15 +119,19 @@ bool brc_surface_around(const brc_surface *s, const double x[3], int k, double *
     if (s->kind == BRC_SURFACE_TORUS) { /* around the tube, whose axis is at right angles to both */
         const double across = rho - s->radius, from_line = hypot(across, z);
         const double u = from_line > 0.0 ? across / from_line : 1.0, v = from_line > 0.0 ? z / from_line : 0.0;
-        for (int d = 0; d < 3; ++d) normal[d] = (c * u - q * v) * away[d] + (c * v + q * u) * s->axis[d];
+        for (int d = 0; d < 3; ++d)
+            normal[d] = (c * u - q * v) * away[d] + (c * v + q * u) * s->axis[d];
         *height = from_line * c - s->radius2;
         return true;
     }
-    for (int d = 0; d < 3; ++d) beside[d] = s->axis[(d + 1) % 3] * away[(d + 2) % 3] - s->axis[(d + 2) % 3] * away[(d + 1) % 3];
-    for (int d = 0; d < 3; ++d) normal[d] = c * away[d] + q * beside[d];
+    for (int d = 0; d < 3; ++d)
+        beside[d] = s->axis[(d + 1) % 3] * away[(d + 2) % 3] - s->axis[(d + 2) % 3] * away[(d + 1) % 3];
+    for (int d = 0; d < 3; ++d)
+        normal[d] = c * away[d] + q * beside[d];
     *height = rho * c - s->radius;
     if (s->kind == BRC_SURFACE_CYLINDER) return true;
-    for (int d = 0; d < 3; ++d) normal[d] = s->cosine * normal[d] - s->sine * s->axis[d];
+    for (int d = 0; d < 3; ++d)
+        normal[d] = s->cosine * normal[d] - s->sine * s->axis[d];
     *height = rho * c * s->cosine - z * s->sine;
     return true;
 }
@@ -130,7 +145,8 @@ bool brc_surface_opposite(const brc_surface *s, const double x[3], double *heigh
     }
     if (s->kind != BRC_SURFACE_SPHERE) return brc_surface_around(s, x, BRC_TUBE_PLANES / 2, height, normal);
     *height = -2.0 * s->radius - brc_surface_height(NULL, s, x, normal);
-    for (int d = 0; d < 3; ++d) normal[d] = -normal[d];
+    for (int d = 0; d < 3; ++d)
+        normal[d] = -normal[d];
     return true;
 }
 
@@ -153,17 +169,19 @@ static int quadratic(double a, double b, double c, double t[2])
 static double polynomial(const double *coefficient, int degree, double t)
 {
     double value = coefficient[degree];
-    for (int k = degree - 1; k >= 0; --k) value = value * t + coefficient[k];
+    for (int k = degree - 1; k >= 0; --k)
+        value = value * t + coefficient[k];
     return value;
 }
 
-/* Roots of a polynomial of degree <= 4 within low..high, ascending: between two neighbouring extrema there is at most one, found by
- * Newton's steps kept inside its bracket. Double roots, where a line only touches, may be missed. */
+/* Roots of a polynomial of degree <= 4 within low..high, ascending: between two neighbouring extrema there is at most
+ * one, found by Newton's steps kept inside its bracket. Double roots, where a line only touches, may be missed. */
 static int real_roots(const double *coefficient, int degree, double low, double high, double *root)
 {
     double derivative[5], turn[6];
     if (degree < 1) return 0;
-    for (int k = 1; k <= degree; ++k) derivative[k - 1] = k * coefficient[k];
+    for (int k = 1; k <= degree; ++k)
+        derivative[k - 1] = k * coefficient[k];
     int n_turns = degree > 1 ? real_roots(derivative, degree - 1, low, high, turn + 1) : 0;
     turn[0] = low;
     turn[++n_turns] = high;
@@ -175,8 +193,10 @@ static int real_roots(const double *coefficient, int degree, double low, double 
         double t = 0.5 * (a + b);
         for (int i = 0; i < 100; ++i) {
             const double f = polynomial(coefficient, degree, t), slope = polynomial(derivative, degree - 1, t);
-            if (fa * f > 0.0) a = t;
-            else b = t;
+            if (fa * f > 0.0)
+                a = t;
+            else
+                b = t;
             double next = t - f / slope;
             if (!(next > a && next < b)) next = 0.5 * (a + b);
             const double step = fabs(next - t);
@@ -193,16 +213,18 @@ static int torus_crossings(const brc_surface *s, const double x[3], const double
 {
     double p[3] = {x[0] - s->point[0], x[1] - s->point[1], x[2] - s->point[2]};
     const double start = -brc_dot3(p, u);
-    for (int d = 0; d < 3; ++d) p[d] += start * u[d];
+    for (int d = 0; d < 3; ++d)
+        p[d] += start * u[d];
     const double outer = s->radius + s->radius2, square = brc_dot3(p, p);
     if (square >= outer * outer) return 0;
     const double z = brc_dot3(p, s->axis), uz = brc_dot3(u, s->axis), big = s->radius * s->radius;
     const double k = square + big - s->radius2 * s->radius2;
-    const double coefficient[5] = {k * k - 4.0 * big * (square - z * z), 8.0 * big * z * uz, 2.0 * k - 4.0 * big * (1.0 - uz * uz),
-                                   0.0, 1.0};
+    const double coefficient[5] = {k * k - 4.0 * big * (square - z * z), 8.0 * big * z * uz,
+                                   2.0 * k - 4.0 * big * (1.0 - uz * uz), 0.0, 1.0};
     const double reach = 1.001 * sqrt(outer * outer - square) + 1e-9 * outer;
     const int n = real_roots(coefficient, 4, -reach, reach, t);
-    for (int i = 0; i < n; ++i) t[i] += start;
+    for (int i = 0; i < n; ++i)
+        t[i] += start;
     return n;
 }
 
@@ -220,7 +242,8 @@ int brc_surface_crossings(const brc_surface *s, const double x[3], const double 
     case BRC_SURFACE_CYLINDER: return quadratic(1.0 - uz * uz, pu - z * uz, pp - z * z - s->radius * s->radius, t);
     case BRC_SURFACE_CONE: {
         const double c2 = s->cosine * s->cosine;
-        return quadratic(uz * uz - c2, z * uz - c2 * pu, z * z - c2 * pp, t); /* both nappes: whoever asks tests the sides */
+        return quadratic(uz * uz - c2, z * uz - c2 * pu, z * z - c2 * pp,
+                         t); /* both nappes: whoever asks tests the sides */
     }
     case BRC_SURFACE_TORUS: return torus_crossings(s, x, u, t);
     case BRC_SURFACE_MESH: break;

@@ -1,7 +1,7 @@
-/* Bounds, volume and surface of a shape of several parts, by rays: where a line enters and leaves is known exactly, so the volume is the sum of
- * exact chords over a regular set of parallel lines. Their direction is askew to everything, so that no wall
- * hides between two lines; with a mesh it is an axis of the mesh, along which the mesh tells its crossings. Everything is summed in a fixed
- * order. */
+/* Bounds, volume and surface of a shape of several parts, by rays: where a line enters and leaves is known exactly, so
+ * the volume is the sum of exact chords over a regular set of parallel lines. Their direction is askew to everything,
+ * so that no wall hides between two lines; with a mesh it is an axis of the mesh, along which the mesh tells its
+ * crossings. Everything is summed in a fixed order. */
 #include "solid_internal.h"
 
 #include "../../host/base/memory.h"
@@ -19,7 +19,8 @@ void brc_sort(double *t, int n)
     for (int k = 1; k < n; ++k) {
         const double value = t[k];
         int at = k;
-        for (; at > 0 && t[at - 1] > value; --at) t[at] = t[at - 1];
+        for (; at > 0 && t[at - 1] > value; --at)
+            t[at] = t[at - 1];
         t[at] = value;
     }
 }
@@ -28,12 +29,14 @@ void brc_sort(double *t, int n)
 static int axis_of(const brc_leaf *leaf, const double u[3])
 {
     for (int axis = 0; axis < 3; ++axis)
-        if (u[0] * leaf->frame[0][axis] + u[1] * leaf->frame[1][axis] + u[2] * leaf->frame[2][axis] > 1.0 - 1e-15) return axis;
+        if (u[0] * leaf->frame[0][axis] + u[1] * leaf->frame[1][axis] + u[2] * leaf->frame[2][axis] > 1.0 - 1e-15)
+            return axis;
     return -1;
 }
 
 /* How many there are; those beyond `most` are not written. */
-static int mesh_crossings(const brc_leaf *leaf, const double x[3], const double u[3], double low, double high, double *t, int most)
+static int mesh_crossings(const brc_leaf *leaf, const double x[3], const double u[3], double low, double high,
+                          double *t, int most)
 {
     const int axis = axis_of(leaf, u);
     double y[3], v[3];
@@ -42,7 +45,8 @@ static int mesh_crossings(const brc_leaf *leaf, const double x[3], const double 
         const int32_t n = brc_mesh_crossings(leaf->mesh, y, axis, t, most);
         if (n <= most) return n;
     }
-    for (int d = 0; d < 3; ++d) v[d] = u[0] * leaf->frame[0][d] + u[1] * leaf->frame[1][d] + u[2] * leaf->frame[2][d];
+    for (int d = 0; d < 3; ++d)
+        v[d] = u[0] * leaf->frame[0][d] + u[1] * leaf->frame[1][d] + u[2] * leaf->frame[2][d];
     return brc_mesh_passes(leaf->mesh, y, v, low, high, t, most);
 }
 
@@ -75,8 +79,10 @@ static bool member_at(const brc_solid *solid, const double x[3], const double u[
     return brc_solid_member(solid, y);
 }
 
-/* All places of low < t < high where the line may enter or leave, and both ends; more than MOST_CROSSINGS: too many to be written. */
-static int find_cuts(const brc_solid *solid, const double x[3], const double u[3], double low, double high, double cut[MOST_CROSSINGS])
+/* All places of low < t < high where the line may enter or leave, and both ends; more than MOST_CROSSINGS: too many to
+ * be written. */
+static int find_cuts(const brc_solid *solid, const double x[3], const double u[3], double low, double high,
+                     double cut[MOST_CROSSINGS])
 {
     int n = 0;
     cut[n++] = low;
@@ -102,16 +108,23 @@ static int find_cuts(const brc_solid *solid, const double x[3], const double u[3
     return n;
 }
 
-/* Follow the line x + t u through the solid from t = low to high. u: unit. Where there are more crossings than fit, by halves. */
-static chords follow_piece(const brc_solid *solid, const double x[3], const double u[3], double low, double high, int halvings)
+/* Follow the line x + t u through the solid from t = low to high. u: unit. Where there are more crossings than fit, by
+ * halves. */
+static chords follow_piece(const brc_solid *solid, const double x[3], const double u[3], double low, double high,
+                           int halvings)
 {
     chords result = {.length = 0.0, .last = -HUGE_VAL};
     double cut[MOST_CROSSINGS];
     const int n = find_cuts(solid, x, u, low, high, cut);
     if (n > MOST_CROSSINGS && halvings < MOST_HALVINGS) {
         const double middle = 0.5 * (low + high);
-        const chords a = follow_piece(solid, x, u, low, middle, halvings + 1), b = follow_piece(solid, x, u, middle, high, halvings + 1);
-        return (chords){.length = a.length + b.length, .last = fmax(a.last, b.last), .n = a.n + b.n - (a.ends && b.begins ? 2 : 0), .begins = a.begins, .ends = b.ends};
+        const chords a = follow_piece(solid, x, u, low, middle, halvings + 1),
+                     b = follow_piece(solid, x, u, middle, high, halvings + 1);
+        return (chords){.length = a.length + b.length,
+                        .last = fmax(a.last, b.last),
+                        .n = a.n + b.n - (a.ends && b.begins ? 2 : 0),
+                        .begins = a.begins,
+                        .ends = b.ends};
     }
     if (n > MOST_CROSSINGS) { /* a piece without length */
         result.begins = result.ends = member_at(solid, x, u, 0.5 * (low + high));
@@ -150,7 +163,8 @@ double brc_solid_outside(const brc_solid *solid, const double a[3], const double
     double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     const double length = brc_length3(u);
     if (!(length > 0.0)) return 0.0;
-    for (int d = 0; d < 3; ++d) u[d] /= length;
+    for (int d = 0; d < 3; ++d)
+        u[d] /= length;
     return length - follow_piece(solid, a, u, 0.0, length, 0).length;
 }
 
@@ -158,10 +172,13 @@ double brc_solid_outside(const brc_solid *solid, const double a[3], const double
 static void across(const double u[3], double e1[3], double e2[3])
 {
     const int small = fabs(u[0]) < 0.6 ? 0 : 1;
-    for (int d = 0; d < 3; ++d) e1[d] = (d == small) - u[small] * u[d];
+    for (int d = 0; d < 3; ++d)
+        e1[d] = (d == small) - u[small] * u[d];
     const double length = brc_length3(e1);
-    for (int d = 0; d < 3; ++d) e1[d] /= length;
-    for (int d = 0; d < 3; ++d) e2[d] = u[(d + 1) % 3] * e1[(d + 2) % 3] - u[(d + 2) % 3] * e1[(d + 1) % 3];
+    for (int d = 0; d < 3; ++d)
+        e1[d] /= length;
+    for (int d = 0; d < 3; ++d)
+        e2[d] = u[(d + 1) % 3] * e1[(d + 2) % 3] - u[(d + 2) % 3] * e1[(d + 1) % 3];
     /* turned about u, for e1 is the shadow of an axis and the shadows of edges must not run along the rows of lines */
     const double c = cos(0.6), s = sin(0.6);
     for (int d = 0; d < 3; ++d) {
@@ -172,13 +189,15 @@ static void across(const double u[3], double e1[3], double e2[3])
 }
 
 /* Volume and crossings along n x n lines of direction u through the bounds; *per_line: area a line stands for. */
-static brc_status shoot(brc_context *context, const brc_solid *solid, const double u[3], int n, int n_threads, double *volume, double *crossings)
+static brc_status shoot(brc_context *context, const brc_solid *solid, const double u[3], int n, int n_threads,
+                        double *volume, double *crossings)
 {
     double e1[3], e2[3], low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
     double *row = NULL;
     across(u, e1, e2);
     for (int corner = 0; corner < 8; ++corner) {
-        const double x[3] = {solid->bounds[corner & 1][0], solid->bounds[corner >> 1 & 1][1], solid->bounds[corner >> 2 & 1][2]};
+        const double x[3] = {solid->bounds[corner & 1][0], solid->bounds[corner >> 1 & 1][1],
+                             solid->bounds[corner >> 2 & 1][2]};
         const double p[2] = {brc_dot3(x, e1), brc_dot3(x, e2)};
         for (int k = 0; k < 2; ++k) {
             low[k] = fmin(low[k], p[k]);
@@ -252,11 +271,13 @@ static void find_bounds(brc_solid *solid)
             double best = -HUGE_VAL;
             for (int32_t k = 0; k < solid->n_leaves; ++k) {
                 const brc_leaf *leaf = &solid->leaf[k];
-                if (leaf->role == BRC_PART_ADD && sign * leaf->bounds[side][axis] > best) best = farthest(solid, leaf, axis, sign, best);
+                if (leaf->role == BRC_PART_ADD && sign * leaf->bounds[side][axis] > best)
+                    best = farthest(solid, leaf, axis, sign, best);
             }
             for (int32_t s = 0; s < solid->n_surfaces; ++s) { /* a flat side is met exactly */
                 const brc_surface *plane = &solid->surface[s];
-                if (plane->kind == BRC_SURFACE_PLANE && fabs(plane->axis[axis]) == 1.0 && fabs(sign * plane->point[axis] - best) < solid->tiny)
+                if (plane->kind == BRC_SURFACE_PLANE && fabs(plane->axis[axis]) == 1.0 &&
+                    fabs(sign * plane->point[axis] - best) < solid->tiny)
                     best = sign * plane->point[axis];
             }
             tight[side][axis] = sign * best;
@@ -268,23 +289,27 @@ static void find_bounds(brc_solid *solid)
 static void choose_direction(const brc_solid *solid, double u[3])
 {
     static const double askew[3] = {0.5773, 0.3141, 0.7535};
-    for (int d = 0; d < 3; ++d) u[d] = askew[d] / brc_length3(askew);
+    for (int d = 0; d < 3; ++d)
+        u[d] = askew[d] / brc_length3(askew);
     for (int32_t k = 0; k < solid->n_leaves; ++k)
         if (solid->leaf[k].mesh) {
-            for (int d = 0; d < 3; ++d) u[d] = solid->leaf[k].frame[d][0];
+            for (int d = 0; d < 3; ++d)
+                u[d] = solid->leaf[k].frame[d][0];
             return;
         }
 }
 
 brc_status brc_solid_measure(brc_context *context, brc_solid *solid, int n_threads)
 {
-    static const double some[7][3] = {{1, 0.01, 0.02},  {0.02, 1, 0.01},     {0.01, 0.02, 1},  {0.58, 0.57, 0.59},
+    static const double some[7][3] = {{1, 0.01, 0.02},     {0.02, 1, 0.01},     {0.01, 0.02, 1},    {0.58, 0.57, 0.59},
                                       {-0.58, 0.57, 0.59}, {0.58, -0.57, 0.59}, {0.58, 0.57, -0.59}};
     double u[3], before = 0.0, last_change = 1.0, crossings;
     find_bounds(solid);
     for (int d = 0; d < 3; ++d)
         if (!(solid->bounds[1][d] - solid->bounds[0][d] > solid->tiny))
-            return BRC_FAIL(context, BRC_BAD_INPUT, "shape: its parts leave nothing; check their places and the order in which they are removed and kept");
+            return BRC_FAIL(
+                context, BRC_BAD_INPUT,
+                "shape: its parts leave nothing; check their places and the order in which they are removed and kept");
     choose_direction(solid, u);
     for (int n = LEAST_GRID; n <= MOST_GRID; n *= 2) {
         BRC_TRY(shoot(context, solid, u, n, n_threads, &solid->volume, &crossings));
@@ -294,10 +319,12 @@ brc_status brc_solid_measure(brc_context *context, brc_solid *solid, int n_threa
         before = solid->volume;
         last_change = change;
     }
-    /* every surface patch is met by the lines of a direction as often as its projection is large: half its area on average */
+    /* every surface patch is met by the lines of a direction as often as its projection is large: half its area on
+     * average */
     for (int k = 0; k < 7; ++k) {
         double volume;
-        for (int d = 0; d < 3; ++d) u[d] = some[k][d] / brc_length3(some[k]);
+        for (int d = 0; d < 3; ++d)
+            u[d] = some[k][d] / brc_length3(some[k]);
         BRC_TRY(shoot(context, solid, u, 48, n_threads, &volume, &crossings));
         solid->area += 2.0 * crossings / 7.0;
     }

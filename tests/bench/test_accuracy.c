@@ -14,7 +14,8 @@
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
 
-static void add(brc_accuracy_points *points, const char *model, int64_t elements, double spacing, double error, double seconds)
+static void add(brc_accuracy_points *points, const char *model, int64_t elements, double spacing, double error,
+                double seconds)
 {
     brc_accuracy_point p = brc_accuracy_point_empty();
     strcpy(p.problem, "cube");
@@ -65,7 +66,8 @@ static void points_come_back_from_their_file_to_the_last_bit(void **state)
     for (int64_t k = 0; k < points.n; ++k) {
         assert_string_equal(again.items[k].run, points.items[k].run);
         assert_string_equal(again.items[k].note, points.items[k].note);
-        assert_true(again.items[k].elements == points.items[k].elements && again.items[k].seconds == points.items[k].seconds);
+        assert_true(again.items[k].elements == points.items[k].elements &&
+                    again.items[k].seconds == points.items[k].seconds);
     }
     assert_true(again.items[0].phi == 1.0 / 3 && isnan(again.items[2].phi) && isnan(again.items[1].error));
     assert_non_null(brc_accuracy_points_find(&again, "cube", points.items[3].run));
@@ -79,8 +81,10 @@ static void points_come_back_from_their_file_to_the_last_bit(void **state)
 static void a_file_that_is_none_of_ours_is_refused(void **state)
 {
     (void)state;
-    static const char *const texts[] = {"problem,run,error\ncube,a,1e-3\ncube,b\n", "problem,run,error\ncube,a,1e-3x\n", "a,b\n1,2\n", ""};
-    static const char *const said[] = {":3: ", "'1e-3x' is no value of the column error", "no problem or no run", "empty"};
+    static const char *const texts[] = {"problem,run,error\ncube,a,1e-3\ncube,b\n", "problem,run,error\ncube,a,1e-3x\n",
+                                        "a,b\n1,2\n", ""};
+    static const char *const said[] = {":3: ", "'1e-3x' is no value of the column error", "no problem or no run",
+                                       "empty"};
     char path[] = "accuracy-test-XXXXXX";
     const int file = mkstemp(path);
     assert_true(file >= 0);
@@ -126,7 +130,8 @@ static void the_front_is_what_nothing_beats(void **state)
     for (int64_t m = 0; m < study->n_means; ++m) {
         const brc_accuracy_point *p = study->means[m].point;
         n_front += study->means[m].front;
-        if (p->elements == 1331 || (strcmp(p->model, "dlsm-published") == 0 && p->elements > 125)) assert_false(study->means[m].front);
+        if (p->elements == 1331 || (strcmp(p->model, "dlsm-published") == 0 && p->elements > 125))
+            assert_false(study->means[m].front);
     }
     assert_int_equal(n_front, 4);
     brc_accuracy_study_free(&study);
@@ -169,14 +174,16 @@ static void seeds_of_one_resolution_are_one_mean(void **state)
     assert_int_equal(brc_accuracy_study_create(context, &points, &study), BRC_OK);
     assert_int_equal(study->n_means, 1);
     assert_int_equal(study->means[0].n, 2);
-    assert_true(fabs(study->means[0].error - sqrt((9e-4 + 16e-4) / 2)) < 1e-15 && fabs(study->means[0].cost_s - 11) < 1e-12);
+    assert_true(fabs(study->means[0].error - sqrt((9e-4 + 16e-4) / 2)) < 1e-15 &&
+                fabs(study->means[0].cost_s - 11) < 1e-12);
     assert_true(isnan(study->series[0].order));
     brc_accuracy_study_free(&study);
     brc_accuracy_points_free(&points);
     brc_context_free(&context);
 }
 
-/* A size between coarser and finer ones that is right because its error changes sign: it counts as what the finer ones show. */
+/* A size between coarser and finer ones that is right because its error changes sign: it counts as what the finer ones
+ * show. */
 static void an_error_that_changes_sign_is_no_bargain(void **state)
 {
     (void)state;
@@ -195,7 +202,8 @@ static void an_error_that_changes_sign_is_no_bargain(void **state)
     brc_context_free(&context);
 }
 
-/* Equal error 2 %: 4 s against 128 s, a ratio of 32; to 1 % the published law's front is drawn on (2048 s against 16). */
+/* Equal error 2 %: 4 s against 128 s, a ratio of 32; to 1 % the published law's front is drawn on (2048 s against
+ * 16). */
 static void the_report_says_what_other_models_cost(void **state)
 {
     (void)state;
@@ -211,7 +219,8 @@ static void the_report_says_what_other_models_cost(void **state)
     snprintf(path, sizeof path, "%s/accuracy.md", folder);
     assert_int_equal(brc_file_read_whole(context, path, 100000, &text, &bytes), BRC_OK);
     assert_non_null(strstr(text, " 32 | ~1.3e+02 |"));
-    assert_non_null(strstr(text, "| cube, nu 0.2 | 1 % | dlsm, lloyd-5, 1000 elements | 1 % | building and running | 16 |"));
+    assert_non_null(
+        strstr(text, "| cube, nu 0.2 | 1 % | dlsm, lloyd-5, 1000 elements | 1 % | building and running | 16 |"));
     assert_non_null(strstr(text, "| cube, nu 0.2 | 0.1 % | not reached; finer dlsm |"));
     snprintf(path, sizeof path, "rm -r %s", folder);
     assert_int_equal(system(path), 0);

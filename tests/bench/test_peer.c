@@ -20,7 +20,8 @@
 
 #define assert_near(value, expected, tolerance) assert_true(fabs((value) - (expected)) <= (tolerance))
 
-static const brc_peer_request timed = {.steps = 100, .n_threads = 1}, sampled = {.steps = 100, .every = 10, .n_threads = 1};
+static const brc_peer_request timed = {.steps = 100, .n_threads = 1},
+                              sampled = {.steps = 100, .every = 10, .n_threads = 1};
 
 static void read_text(brc_context *context, const char *text, const brc_peer_request *request, brc_peer_result *result)
 {
@@ -33,7 +34,10 @@ static void the_lines_of_a_timed_run_are_read(void **state)
     (void)state;
     brc_context *context = brc_context_create();
     brc_peer_result r;
-    read_text(context, "Welcome\nbreccia-peer version 2023.02a\nbreccia-peer seconds 4.5\nbreccia-peer processor 1.25\nbreccia-peer bonds 77\n", &timed, &r);
+    read_text(context,
+              "Welcome\nbreccia-peer version 2023.02a\nbreccia-peer seconds 4.5\nbreccia-peer processor "
+              "1.25\nbreccia-peer bonds 77\n",
+              &timed, &r);
     assert_string_equal(r.version, "2023.02a");
     assert_true(r.wall_s == 4.5 && r.processor_s == 1.25 && r.bonds == 77);
     assert_string_equal(r.note, "");
@@ -47,8 +51,10 @@ static void of_lammps_the_last_loop_and_its_share_of_the_processor_count(void **
     (void)state;
     brc_context *context = brc_context_create();
     brc_peer_result r;
-    const char *text = "Loop time of 9.0 on 1 procs for 10 steps with 8 atoms\n\n99.0% CPU use with 1 MPI tasks x 1 OpenMP threads\n"
-                       "Loop time of 2.0 on 1 procs for 100 steps with 8 atoms\n\n50.0% CPU use with 1 MPI tasks x 1 OpenMP threads\nTotal\n";
+    const char *text =
+        "Loop time of 9.0 on 1 procs for 10 steps with 8 atoms\n\n99.0% CPU use with 1 MPI tasks x 1 OpenMP threads\n"
+        "Loop time of 2.0 on 1 procs for 100 steps with 8 atoms\n\n50.0% CPU use with 1 MPI tasks x 1 OpenMP "
+        "threads\nTotal\n";
     read_text(context, text, &timed, &r);
     assert_near(r.wall_s, 2, 1e-15);
     assert_near(r.processor_s, 1, 1e-15);
@@ -78,15 +84,18 @@ static void what_is_missing_is_noted(void **state)
     brc_context_free(&context);
 }
 
-/* A cosine of 16 steps of 1 ms a period, sampled in every step: 62.5 Hz. Straight lines between samples cross 0 at the right time as the samples lie symmetrically about it;
- * rounding only. */
+/* A cosine of 16 steps of 1 ms a period, sampled in every step: 62.5 Hz. Straight lines between samples cross 0 at the
+ * right time as the samples lie symmetrically about it; rounding only. */
 static void the_frequency_is_that_of_the_changes_of_sign(void **state)
 {
     (void)state;
     brc_peer_sample a[65], b[33];
-    for (int k = 0; k < 65; ++k) a[k] = (brc_peer_sample){k, cos(2 * M_PI * (k - 0.5) / 16), 4 + k};
-    for (int k = 0; k < 33; ++k) b[k] = (brc_peer_sample){2 * k, 1, 4 + 2 * k + (k == 20 ? 0.5 : 0)};
-    const brc_peer_result ours = {.n_samples = 65, .samples = a}, theirs = {.n_samples = 33, .samples = b}, short_one = {.n_samples = 8, .samples = a}, none = {.n_samples = 0};
+    for (int k = 0; k < 65; ++k)
+        a[k] = (brc_peer_sample){k, cos(2 * M_PI * (k - 0.5) / 16), 4 + k};
+    for (int k = 0; k < 33; ++k)
+        b[k] = (brc_peer_sample){2 * k, 1, 4 + 2 * k + (k == 20 ? 0.5 : 0)};
+    const brc_peer_result ours = {.n_samples = 65, .samples = a}, theirs = {.n_samples = 33, .samples = b},
+                          short_one = {.n_samples = 8, .samples = a}, none = {.n_samples = 0};
     assert_near(brc_peer_bar_frequency(&ours, 1e-3), 62.5, 1e-10);
     assert_true(isnan(brc_peer_bar_frequency(&short_one, 1e-3)));
     assert_near(brc_peer_bar_difference(&ours, &theirs), 0.125, 1e-15); /* half a joule at one common step, over 4 J */
@@ -120,8 +129,15 @@ static int open_case(void **state)
     brc_log_set_level(c->context, BRC_LOG_ERROR);
     assert_int_equal(brc_cube_build(c->context, 200, true, &c->domain), BRC_OK);
     assert_int_equal(BRC_ALLOCATE(c->context, &c->velocity, 3 * c->domain->n_elements, "velocities"), BRC_OK);
-    for (int64_t k = 0; k < 3 * c->domain->n_elements; ++k) c->velocity[k] = 0.01 * (double)k;
-    c->work = (brc_peer_work){.domain = c->domain, .velocity = c->velocity, .density = 2500, .axial = 3e8, .bend = 5e3, .twist = 4e3, .time_step = 1e-6};
+    for (int64_t k = 0; k < 3 * c->domain->n_elements; ++k)
+        c->velocity[k] = 0.01 * (double)k;
+    c->work = (brc_peer_work){.domain = c->domain,
+                              .velocity = c->velocity,
+                              .density = 2500,
+                              .axial = 3e8,
+                              .bend = 5e3,
+                              .twist = 4e3,
+                              .time_step = 1e-6};
     snprintf(c->folder, sizeof c->folder, "peer-test-XXXXXX");
     assert_non_null(mkdtemp(c->folder));
     return 0;
@@ -146,9 +162,10 @@ static void read_file(brc_context *context, const char *folder, const char *name
     assert_int_equal(brc_file_read_whole(context, path, 1 << 20, text, &bytes), BRC_OK);
 }
 
-/* The energy of a beam by the textbook (Euler and Bernoulli): with theta_k the rotation of section k against the chord, N^2 l / (2 E S) for the elongation,
- * 2 E I / l (theta_1^2 + theta_1 theta_2 + theta_2^2) for each plane of bending and G J tau^2 / (2 l): the same as four springs at the middle of the branch have, by the numbers of
- * the file. Two sums of a dozen products: rounding, 1e-12. */
+/* The energy of a beam by the textbook (Euler and Bernoulli): with theta_k the rotation of section k against the chord,
+ * N^2 l / (2 E S) for the elongation, 2 E I / l (theta_1^2 + theta_1 theta_2 + theta_2^2) for each plane of bending and
+ * G J tau^2 / (2 l): the same as four springs at the middle of the branch have, by the numbers of the file. Two sums of
+ * a dozen products: rounding, 1e-12. */
 static void four_springs_at_the_middle_hold_the_energy_of_the_beam(void **state)
 {
     const peer_case *c = *state;
@@ -169,9 +186,11 @@ static void four_springs_at_the_middle_hold_the_energy_of_the_beam(void **state)
         /* along the axis: stretched and twisted; across: ends displaced by p and q, turned by s and t */
         const double stretch = 1e-5, twist = 2e-4, p = 3e-5, q = -1e-5, s = 4e-4, t = -7e-4;
         const double chord = (q - p) / l, one = s - chord, two = t - chord;
-        const double beam = 0.5 * work.axial / l * stretch * stretch + 0.5 * work.twist / l * twist * twist + 2 * work.bend / l * (one * one + one * two + two * two);
+        const double beam = 0.5 * work.axial / l * stretch * stretch + 0.5 * work.twist / l * twist * twist +
+                            2 * work.bend / l * (one * one + one * two + two * two);
         const double slip = q - 0.5 * l * t - p - 0.5 * l * s; /* of the two ends' points at the middle */
-        const double springs = 0.5 * kn * stretch * stretch + 0.5 * ks * slip * slip + 0.5 * kr * (t - s) * (t - s) + 0.5 * ktw * twist * twist;
+        const double springs = 0.5 * kn * stretch * stretch + 0.5 * ks * slip * slip + 0.5 * kr * (t - s) * (t - s) +
+                               0.5 * ktw * twist * twist;
         assert_near(springs / beam, 1, 1e-12);
     }
     assert_int_equal(n, domain->n_bonds);
@@ -215,9 +234,11 @@ static void check_types(const peer_case *c, bool turning, int n_types)
         assert_non_null(at);
         assert_int_equal(sscanf(at + strlen(mark), "%lf %lf", &k, &second), 2);
         double square = 0;
-        for (int axis = 0; axis < 3; ++axis) square += pow(d->position[3 * (j - 1) + axis] - d->position[3 * (i - 1) + axis], 2);
+        for (int axis = 0; axis < 3; ++axis)
+            square += pow(d->position[3 * (j - 1) + axis] - d->position[3 * (i - 1) + axis], 2);
         const double exact = (turning ? 1 : 0.5) * c->work.axial / sqrt(square);
-        /* a class is as wide as the lengths' range over n_types, and they lie within a factor of 3: half a class is 1/n_types of the least at most */
+        /* a class is as wide as the lengths' range over n_types, and they lie within a factor of 3: half a class is
+         * 1/n_types of the least at most */
         assert_near(k / exact, 1, n_types ? 1.0 / n_types : 1e-12);
     }
     assert_int_equal(n, d->n_bonds);
@@ -287,7 +308,8 @@ int main(void)
         cmocka_unit_test(what_is_missing_is_noted),
         cmocka_unit_test(the_frequency_is_that_of_the_changes_of_sign),
         cmocka_unit_test_setup_teardown(four_springs_at_the_middle_hold_the_energy_of_the_beam, open_case, close_case),
-        cmocka_unit_test_setup_teardown(bonds_of_lammps_have_the_stiffness_of_their_class_or_their_own, open_case, close_case),
+        cmocka_unit_test_setup_teardown(bonds_of_lammps_have_the_stiffness_of_their_class_or_their_own, open_case,
+                                        close_case),
         cmocka_unit_test(programs_are_those_on_the_path_and_lammps_is_asked_for_its_beams),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

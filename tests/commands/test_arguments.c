@@ -23,17 +23,20 @@ static void refused(const brc_command *command, int n, const char *const *words,
 {
     parsed p = parse(command, n, words);
     assert_int_equal(p.status, BRC_BAD_INPUT);
-    if (!strstr(brc_context_message(p.context), sentence)) fail_msg("'%s' not in '%s'", sentence, brc_context_message(p.context));
+    if (!strstr(brc_context_message(p.context), sentence))
+        fail_msg("'%s' not in '%s'", sentence, brc_context_message(p.context));
     brc_context_free(&p.context);
 }
 #define REFUSED(sentence, command, ...)                                                                                \
-    refused((command), (int)(sizeof((const char *[]){__VA_ARGS__}) / sizeof(char *)), (const char *[]){__VA_ARGS__}, (sentence))
+    refused((command), (int)(sizeof((const char *[]){__VA_ARGS__}) / sizeof(char *)), (const char *[]){__VA_ARGS__},   \
+            (sentence))
 
 static void long_and_short_options_mean_the_same(void **state)
 {
     (void)state;
-    const parsed tried[] = {PARSE(&brc_command_run, "scene.yaml", "--output", "dir"), PARSE(&brc_command_run, "-o", "dir", "scene.yaml"),
-                            PARSE(&brc_command_run, "--output=dir", "scene.yaml"), PARSE(&brc_command_run, "-odir", "scene.yaml")};
+    const parsed tried[] = {
+        PARSE(&brc_command_run, "scene.yaml", "--output", "dir"), PARSE(&brc_command_run, "-o", "dir", "scene.yaml"),
+        PARSE(&brc_command_run, "--output=dir", "scene.yaml"), PARSE(&brc_command_run, "-odir", "scene.yaml")};
     for (size_t k = 0; k < sizeof tried / sizeof *tried; ++k) {
         parsed p = tried[k];
         assert_int_equal(p.status, BRC_OK);

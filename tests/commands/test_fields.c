@@ -1,4 +1,5 @@
-/* Device memory is what the tables of fields say (host/solver/fields.h): to the byte, for every example and every scene of tests/digest, from scene and domain alone. */
+/* Device memory is what the tables of fields say (host/solver/fields.h): to the byte, for every example and every scene
+ * of tests/digest, from scene and domain alone. */
 #include "support.h"
 #include "../../host/base/memory.h"
 #include "../../host/commands/setup.h"
@@ -17,7 +18,8 @@ static void make_small(brc_scene *scene)
         brc_fill *fill = &scene->bodies[b].fill;
         if (fill->n_elements > MOST_ELEMENTS) fill->n_elements = MOST_ELEMENTS;
         while (fill->cells[0] * fill->cells[1] * fill->cells[2] > 2 * MOST_ELEMENTS)
-            for (int c = 0; c < 3; ++c) fill->cells[c] -= fill->cells[c] / 3;
+            for (int c = 0; c < 3; ++c)
+                fill->cells[c] -= fill->cells[c] / 3;
     }
 }
 
@@ -43,10 +45,12 @@ static int look_at(const char *path, brc_precision precision)
     test_done(brc_scene_read(test_context, path, 0, NULL, &scene));
     if (!strstr(path, "edge-impact")) make_small(scene); /* whose plate has two layers of cells */
     test_done(brc_setup_domains(test_context, scene, NULL, 1, &setup));
-    test_done(brc_setup_simulations(test_context, &(brc_device_request){.selector = "cpu", .precision = precision, .n_threads = 1}, &setup));
+    test_done(brc_setup_simulations(
+        test_context, &(brc_device_request){.selector = "cpu", .precision = precision, .n_threads = 1}, &setup));
     for (int32_t k = 0; k < setup.n; ++k) {
         const int64_t planned = planned_anew(&setup, k), held = brc_device_bytes(setup.device[k]);
-        if (planned != held) fail_msg("%s, part %d: %lld bytes planned, %lld held", path, (int)k, (long long)planned, (long long)held);
+        if (planned != held)
+            fail_msg("%s, part %d: %lld bytes planned, %lld held", path, (int)k, (long long)planned, (long long)held);
     }
     const int n = setup.n;
     brc_setup_free(&setup);
@@ -61,14 +65,21 @@ static void look_at_all(const char *pattern, int least, brc_precision precision)
     int n = 0;
     snprintf(path, sizeof path, "%s/%s", BRC_SOURCE_DIR_PATH, pattern);
     assert_int_equal(glob(path, 0, NULL, &found), 0);
-    for (size_t i = 0; i < found.gl_pathc; ++i) n += look_at(found.gl_pathv[i], precision);
+    for (size_t i = 0; i < found.gl_pathc; ++i)
+        n += look_at(found.gl_pathv[i], precision);
     globfree(&found);
     assert_true(n >= least);
 }
 
-static void fields_of_every_example_are_all_that_is_held(void **state) { (void)state, look_at_all("examples/*/scene.yaml", 28, BRC_DOUBLE); }
+static void fields_of_every_example_are_all_that_is_held(void **state)
+{
+    (void)state, look_at_all("examples/*/scene.yaml", 28, BRC_DOUBLE);
+}
 
-static void fields_of_all_models_and_effects_are_all_that_is_held(void **state) { (void)state, look_at_all("tests/digest/scenes/*.yaml", 6, BRC_DOUBLE); }
+static void fields_of_all_models_and_effects_are_all_that_is_held(void **state)
+{
+    (void)state, look_at_all("tests/digest/scenes/*.yaml", 6, BRC_DOUBLE);
+}
 
 static void fields_are_all_that_is_held_in_lower_precisions(void **state)
 {
@@ -77,7 +88,8 @@ static void fields_are_all_that_is_held_in_lower_precisions(void **state)
     look_at_all("tests/digest/scenes/*.yaml", 6, BRC_SINGLE);
 }
 
-/* With the lists of contact, the guard and the loads of the stage: what is planned, at most what is held, and no more than a quarter below. */
+/* With the lists of contact, the guard and the loads of the stage: what is planned, at most what is held, and no more
+ * than a quarter below. */
 static void what_contact_and_a_stage_add_is_near_the_plan(void **state)
 {
     (void)state;
@@ -110,7 +122,8 @@ static void tables_are_sound(void **state)
             for (int j = 0; j < i; ++j) {
                 const brc_field_row *b = &tables[t]->fields[j];
                 if (a->at != b->at && strcmp(a->name, b->name) != 0) continue;
-                if (!a->wanted || !b->wanted || a->wanted == b->wanted) fail_msg("%s: '%s' and '%s' are in one place", tables[t]->owner, a->name, b->name);
+                if (!a->wanted || !b->wanted || a->wanted == b->wanted)
+                    fail_msg("%s: '%s' and '%s' are in one place", tables[t]->owner, a->name, b->name);
             }
         }
 }

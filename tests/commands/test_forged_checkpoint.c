@@ -1,4 +1,5 @@
-/* Checkpoints whose numbers somebody changed and sealed again: whatever number of a state is not finite, in whichever array, resume refuses it by the array's name. */
+/* Checkpoints whose numbers somebody changed and sealed again: whatever number of a state is not finite, in whichever
+ * array, resume refuses it by the array's name. */
 #include "support.h"
 #include "../../host/base/log.h"
 #include "../../host/output/seal.h"
@@ -14,14 +15,17 @@ typedef struct listed {
     int n;
 } listed;
 
-/* A body that breaks on a floor with friction, under a pressure: pairs, cells that came off, a striker and a load remember something. */
+/* A body that breaks on a floor with friction, under a pressure: pairs, cells that came off, a striker and a load
+ * remember something. */
 static const char scene[] =
     "version: 1\nmaterials: {m: {E: 20 GPa, nu: 0.2, density: 1000 kg/m^3, strength: {tension: 1 MPa}}}\n"
     "bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {cells: [3, 3, 3]}}}]\n"
     "fracture: {}\ninteractions: {contact: {friction: 0.3, restitution: 0.7}}\n"
     "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: m}}\n"
-    "stages: [{name: fall, solver: {dynamic: {steps: 100}}, initial: [{velocity: {velocity: [5 m/s, 0, -30 m/s]}}], loads: [{pressure: {set: z+, value: 1 MPa}}]}]\n"
-    "sensors: {total: {energy: kinetic}}\noutput: {frames: none, picture: false, history_every: 20, checkpoint: {every: 1 ns}}\n";
+    "stages: [{name: fall, solver: {dynamic: {steps: 100}}, initial: [{velocity: {velocity: [5 m/s, 0, -30 m/s]}}], "
+    "loads: [{pressure: {set: z+, value: 1 MPa}}]}]\n"
+    "sensors: {total: {energy: kinetic}}\noutput: {frames: none, picture: false, history_every: 20, checkpoint: "
+    "{every: 1 ns}}\n";
 
 static brc_context *context;
 static char kept[256];
@@ -103,7 +107,8 @@ static void forge(const char *path, const char *name, double value)
 {
     remove_all();
     copy(kept, path);
-    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), data = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(data);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), data = H5Dopen2(file, name, H5P_DEFAULT),
+                space = H5Dget_space(data);
     assert_true(file >= 0 && data >= 0);
     const hssize_t n = H5Sget_simple_extent_npoints(space);
     double *all = calloc((size_t)n, sizeof *all);
@@ -118,25 +123,30 @@ static void forge(const char *path, const char *name, double value)
 /* Not of the state: what a report may lack, and when the file was written. */
 static bool may_be_nan(const char *name)
 {
-    return strstr(name, "/regime.") ? !strstr(name, "regime.peak_elastic") : strcmp(name, "run/history.value") == 0 || strcmp(name, "moment/time") == 0;
+    return strstr(name, "/regime.") ? !strstr(name, "regime.peak_elastic")
+                                    : strcmp(name, "run/history.value") == 0 || strcmp(name, "moment/time") == 0;
 }
 
 static void a_number_that_is_not_finite_is_refused_by_the_name_of_its_array(void **state)
 {
     (void)state;
-    static const char *const known[] = {"parts/0/contact.history", "parts/0/contact.momentum", "parts/0/displacement", "parts/0/velocity", "parts/0/fracture.lost", "parts/0/time_step.value",
+    static const char *const known[] = {"parts/0/contact.history",       "parts/0/contact.momentum",
+                                        "parts/0/displacement",          "parts/0/velocity",
+                                        "parts/0/fracture.lost",         "parts/0/time_step.value",
                                         "parts/0/loads.traction.0.work", "parts/0/strikers.pose"};
     static listed all;
     char arguments[400], path[256];
     bool found = false;
-    snprintf(arguments, sizeof arguments, "run %s/scene.yaml --device cpu --threads 1 -o %s/out", test_folder(), test_folder());
+    snprintf(arguments, sizeof arguments, "run %s/scene.yaml --device cpu --threads 1 -o %s/out", test_folder(),
+             test_folder());
     if (test_program(arguments) != 0) fail_msg("%s", test_program_stderr());
     find_newest(path);
     snprintf(kept, sizeof kept, "%s/kept.h5", test_folder());
     copy(path, kept);
     list_numbers(path, &all);
     for (size_t k = 0; k < sizeof known / sizeof *known; ++k, found = false) {
-        for (int i = 0; i < all.n; ++i) found |= strcmp(all.name[i], known[k]) == 0;
+        for (int i = 0; i < all.n; ++i)
+            found |= strcmp(all.name[i], known[k]) == 0;
         if (!found) fail_msg("the checkpoint has no %s", known[k]);
     }
     strncat(arguments, " --resume", sizeof arguments - strlen(arguments) - 1);
@@ -145,7 +155,8 @@ static void a_number_that_is_not_finite_is_refused_by_the_name_of_its_array(void
         forge(path, all.name[i], i % 3 == 0 ? NAN : i % 3 == 1 ? INFINITY : -INFINITY);
         const int code = test_program(arguments);
         if (code != (report ? 0 : 2)) fail_msg("%s: exit code %d: %s", all.name[i], code, test_program_stderr());
-        if (!report && (!strstr(test_program_stderr(), all.name[i]) || !strstr(test_program_stderr(), "finite"))) fail_msg("%s is not named: %s", all.name[i], test_program_stderr());
+        if (!report && (!strstr(test_program_stderr(), all.name[i]) || !strstr(test_program_stderr(), "finite")))
+            fail_msg("%s is not named: %s", all.name[i], test_program_stderr());
     }
 }
 

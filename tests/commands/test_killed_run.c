@@ -12,8 +12,10 @@ static char folder[64], path[128];
 static const char *const scene =
     "version: 1\nmaterials: {m: {E: 20 GPa, nu: 0.3, density: 1000 kg/m^3}}\n"
     "bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {elements: 64}}}]\n"
-    "stages: [{name: pull, solver: {dynamic: {steps: 1000000000}}, initial: [{affine: {gradient: {x: [1e-4, 0, 0]}}}]}]\n"
-    "sensors: {total: {energy: total}, kinetic: {energy: kinetic}}\noutput: {history_every: 10, frames: none, picture: false}\n";
+    "stages: [{name: pull, solver: {dynamic: {steps: 1000000000}}, initial: [{affine: {gradient: {x: [1e-4, 0, "
+    "0]}}}]}]\n"
+    "sensors: {total: {energy: total}, kinetic: {energy: kinetic}}\noutput: {history_every: 10, frames: none, picture: "
+    "false}\n";
 
 static char *read_histories(const char *run)
 {
@@ -70,7 +72,9 @@ static void a_killed_run_leaves_the_rows_of_its_sensors(void **state)
     text = read_histories("killed");
     const int n = lines(text) - 1; /* samples at the steps 0, 10, ... 10 (n - 1) */
     char arguments[400];
-    snprintf(arguments, sizeof arguments, "run %s/scene.yaml --device cpu --threads 1 --set stages.0.solver.dynamic.steps=%d -o %s/whole", folder, 10 * n, folder);
+    snprintf(arguments, sizeof arguments,
+             "run %s/scene.yaml --device cpu --threads 1 --set stages.0.solver.dynamic.steps=%d -o %s/whole", folder,
+             10 * n, folder);
     assert_int_equal(test_program(arguments), 0);
     char *whole = read_histories("whole");
     assert_true(lines(whole) >= n);

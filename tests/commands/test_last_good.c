@@ -1,5 +1,6 @@
-/* A run that the guard stops, and what it says of its checkpoints. The step is 1.1 times the critical one, so that the highest mode grows by a factor of 2.4 a step: some
- * tens of steps to the guard's limit, fewer than the 256 between its readings, with a checkpoint wherever the run can be left. */
+/* A run that the guard stops, and what it says of its checkpoints. The step is 1.1 times the critical one, so that the
+ * highest mode grows by a factor of 2.4 a step: some tens of steps to the guard's limit, fewer than the 256 between its
+ * readings, with a checkpoint wherever the run can be left. */
 #include "support.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +13,8 @@ static char folder[64];
 static const char *const scene =
     "version: 1\nmaterials: {m: {E: 20 GPa, nu: 0.2, density: 1000 kg/m^3}}\n"
     "bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {cells: [4, 4, 4]}}}]\n"
-    "stages: [{name: swing, solver: {dynamic: {steps: 600, time_step: {fixed: %s}}}, initial: [{affine: {gradient: {x: [1e-4, 0, 0]}}}]}]\n"
+    "stages: [{name: swing, solver: {dynamic: {steps: 600, time_step: {fixed: %s}}}, initial: [{affine: {gradient: {x: "
+    "[1e-4, 0, 0]}}}]}]\n"
     "sensors: {total: {energy: kinetic}}\noutput: {frames: none, picture: false, history_every: 5%s}\n";
 
 static int begin(void **state)
@@ -44,7 +46,8 @@ static void write_scene(const char *step, const char *output)
 static int run(const char *into, const char *more)
 {
     char arguments[512];
-    snprintf(arguments, sizeof arguments, "run %s/scene.yaml --device cpu --threads 1 -o %s/%s %s", folder, folder, into, more);
+    snprintf(arguments, sizeof arguments, "run %s/scene.yaml --device cpu --threads 1 -o %s/%s %s", folder, folder,
+             into, more);
     return test_program(arguments);
 }
 
@@ -54,7 +57,8 @@ static void the_sentence_names_a_checkpoint_of_before_the_breach(void **state)
     (void)state;
     write_scene("26.6 us", ", checkpoint: {every: 1 ns}");
     assert_int_equal(run("kept", ""), 1);
-    const double stopped = test_number_behind(test_program_stderr(), "stopped at step "), good = test_number_behind(test_program_stderr(), "of stage 'swing' at step ");
+    const double stopped = test_number_behind(test_program_stderr(), "stopped at step "),
+                 good = test_number_behind(test_program_stderr(), "of stage 'swing' at step ");
     assert_non_null(strstr(test_program_stderr(), "kept/checkpoints/"));
     assert_true(good > 0 && good < stopped);
     assert_true(stopped - good <= 5); /* pauses are five steps apart, and each is a checkpoint */

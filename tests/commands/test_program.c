@@ -13,7 +13,8 @@ static const char *const small_scene =
     "version: 1\nmaterials: {m: {E: 20 GPa, nu: 0.3, density: 1000 kg/m^3}}\n"
     "bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {elements: 64}}}]\n"
     "stages: [{name: pull, solver: {dynamic: {steps: 50}}, initial: [{affine: {gradient: {x: [1e-4, 0, 0]}}}]}]\n"
-    "sensors: {total: {energy: total}}\nmeasure: {energy: {mean: {of: total}}}\noutput: {frames: none, picture: false}\n";
+    "sensors: {total: {energy: total}}\nmeasure: {energy: {mean: {of: total}}}\noutput: {frames: none, picture: "
+    "false}\n";
 
 static int begin(void **state)
 {
@@ -58,7 +59,8 @@ static void wrong_words_end_with_two_and_one_sentence(void **state)
 {
     (void)state;
     assert_int_equal(test_program("runn scene.yaml"), 2);
-    assert_string_equal(test_program_stderr(), "breccia: no command 'runn', did you mean 'run'?; `breccia --help` lists them\n");
+    assert_string_equal(test_program_stderr(),
+                        "breccia: no command 'runn', did you mean 'run'?; `breccia --help` lists them\n");
     assert_int_equal(test_program("run scene.yaml"), 2);
     expect(test_program_stderr(), "-o DIR");
     assert_int_equal(test_program("run nowhere.yaml -o nowhere-results"), 2);
@@ -81,8 +83,8 @@ static void check_prices_a_scene(void **state)
 {
     (void)state;
     assert_int_equal(run("check --all --device cpu --threads 1 ", "scene.yaml"), 0);
-    static const char *const parts[] = {"materials:", "64 elements", "effects in:", "effects out:", "memory:", "time step", "the paper's rule",
-                                        "50 steps", "predicted:"};
+    static const char *const parts[] = {"materials:", "64 elements",      "effects in:", "effects out:", "memory:",
+                                        "time step",  "the paper's rule", "50 steps",    "predicted:"};
     for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k)
         expect(test_program_stdout(), parts[k]);
     assert_int_equal(run("check --estimate ", "scene.yaml"), 0);
@@ -95,11 +97,15 @@ static void check_says_what_matters_in_few_lines(void **state)
 {
     (void)state;
     assert_int_equal(run("check --device cpu --threads 1 ", "scene.yaml"), 0);
-    static const char *const parts[] = {"scene: ", "\nelements: 64, ", "\ndevice: cpu (", "\nsimulated: conservative elasticity (dlsm)", "\nstage ", ": 50 steps of ", "\nmemory: ",
-                                        " MB on disk\n", "\nseconds: ", "\nerror class (elastic)", "breccia check --all"};
-    for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) expect(test_program_stdout(), parts[k]);
+    static const char *const parts[] = {
+        "scene: ",     "\nelements: 64, ",        "\ndevice: cpu (",    "\nsimulated: conservative elasticity (dlsm)",
+        "\nstage ",    ": 50 steps of ",          "\nmemory: ",         " MB on disk\n",
+        "\nseconds: ", "\nerror class (elastic)", "breccia check --all"};
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k)
+        expect(test_program_stdout(), parts[k]);
     int lines = 0;
-    for (const char *c = test_program_stdout(); *c; ++c) lines += *c == '\n';
+    for (const char *c = test_program_stdout(); *c; ++c)
+        lines += *c == '\n';
     assert_true(lines >= 8 && lines <= 12);
 }
 
@@ -107,7 +113,8 @@ static void a_run_prints_its_measures_and_writes_its_summary(void **state)
 {
     (void)state;
     char arguments[512], path[128];
-    snprintf(arguments, sizeof arguments, "run %s --device cpu --threads 1 --set bodies.cube.fill.noisy_grid.elements=27 -o %s/run", scene, folder);
+    snprintf(arguments, sizeof arguments,
+             "run %s --device cpu --threads 1 --set bodies.cube.fill.noisy_grid.elements=27 -o %s/run", scene, folder);
     assert_int_equal(test_program(arguments), 0);
     expect(test_program_stdout(), "27 elements");
     expect(test_program_stdout(), "energy");
@@ -128,9 +135,11 @@ static void a_built_domain_runs_like_the_scene_it_came_from(void **state)
         snprintf(arguments, sizeof arguments, "run %s --device cpu --threads 1 -o %s/same%d", scene, folder, k);
         if (k) { /* the scene beside it, with the file in place of shape and fill */
             char command[512];
-            snprintf(command, sizeof command, "sed 's/shape: .*}]$/domain: domain.h5}]/' %s > %s/from-file.yaml", scene, folder);
+            snprintf(command, sizeof command, "sed 's/shape: .*}]$/domain: domain.h5}]/' %s > %s/from-file.yaml", scene,
+                     folder);
             assert_int_equal(system(command), 0);
-            snprintf(arguments, sizeof arguments, "run %s/from-file.yaml --device cpu --threads 1 -o %s/same%d", folder, folder, k);
+            snprintf(arguments, sizeof arguments, "run %s/from-file.yaml --device cpu --threads 1 -o %s/same%d", folder,
+                     folder, k);
         }
         assert_int_equal(test_program(arguments), 0);
         const char *found = strstr(test_program_stdout(), "\nenergy ");
@@ -174,7 +183,8 @@ static void an_interrupted_run_ends_with_three_and_keeps_its_results(void **stat
     assert_int_equal(access(summary, R_OK), 0);
 }
 
-/* Every element of a packing is in a layer, in the core, or near two walls: the rows of the table tell of it, and cells have no such skin. */
+/* Every element of a packing is in a layer, in the core, or near two walls: the rows of the table tell of it, and cells
+ * have no such skin. */
 static void build_tells_the_skin_of_a_packing(void **state)
 {
     (void)state;
@@ -185,9 +195,12 @@ static void build_tells_the_skin_of_a_packing(void **state)
     snprintf(path, sizeof path, "%s/packed.yaml", folder);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
-    fputs("version: 1\nmaterials: {m: {E: 20 GPa, nu: 0.2, density: 1000 kg/m^3}}\nmodel: {cbm: {keep_isolated: true}}\n"
-          "bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {packing: {elements: 1500, seed: 1}}, beams: 10}]\n"
-          "stages: [{name: hold, solver: {dynamic: {steps: 1}}}]\noutput: {frames: none, picture: false}\n", file);
+    fputs(
+        "version: 1\nmaterials: {m: {E: 20 GPa, nu: 0.2, density: 1000 kg/m^3}}\nmodel: {cbm: {keep_isolated: true}}\n"
+        "bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {packing: {elements: 1500, seed: 1}}, "
+        "beams: 10}]\n"
+        "stages: [{name: hold, solver: {dynamic: {steps: 1}}}]\noutput: {frames: none, picture: false}\n",
+        file);
     fclose(file);
     snprintf(arguments, sizeof arguments, "build %s -o %s/d.h5 --skin %s/skin.csv", path, folder, folder);
     assert_int_equal(test_program(arguments), 0);
@@ -197,10 +210,12 @@ static void build_tells_the_skin_of_a_packing(void **state)
     assert_non_null(file);
     text[fread(text, 1, sizeof text - 1, file)] = '\0';
     fclose(file);
-    expect(text, "from_diameters,to_diameters,volume_m3,solid_fraction,elements,coordination,stiffness_along,stiffness_shear,stiffness_across\n0,0.25,");
+    expect(text, "from_diameters,to_diameters,volume_m3,solid_fraction,elements,coordination,stiffness_along,stiffness_"
+                 "shear,stiffness_across\n0,0.25,");
     expect(text, "\n2.5,,");
     int rows = 0;
-    for (const char *at = text; (at = strchr(at, '\n')); ++at) ++rows;
+    for (const char *at = text; (at = strchr(at, '\n')); ++at)
+        ++rows;
     assert_int_equal(rows, 12);
 }
 
@@ -217,12 +232,16 @@ static void a_small_bench_writes_its_rows(void **state)
 {
     (void)state;
     char arguments[512];
-    snprintf(arguments, sizeof arguments,
-             "bench throughput --sizes 64 --devices cpu --threads 1 --precisions double --sample 0.001 --copy 1 -o %s/bench", folder);
+    snprintf(
+        arguments, sizeof arguments,
+        "bench throughput --sizes 64 --devices cpu --threads 1 --precisions double --sample 0.001 --copy 1 -o %s/bench",
+        folder);
     assert_int_equal(test_program(arguments), 0);
     const char *text = test_text_of("bench/rows.json");
-    static const char *const keys[] = {"bond_updates_per_s", "bandwidth_fraction", "copy_bandwidth", "device_bytes_per_element",
-                                       "contraction", "compiler", "commit", "date", "\"dlsm-published\""};
+    static const char *const keys[] = {
+        "bond_updates_per_s", "bandwidth_fraction", "copy_bandwidth", "device_bytes_per_element",
+        "contraction",        "compiler",           "commit",         "date",
+        "\"dlsm-published\""};
     for (size_t k = 0; k < sizeof keys / sizeof *keys; ++k)
         expect(text, keys[k]);
 }

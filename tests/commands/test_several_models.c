@@ -1,5 +1,5 @@
-/* Bodies with models of their own: a bar of cells (dlsm) beside a packing of spheres (cbm), each in its own place and turned. What one simulation for
- * each must give is known exactly: what the two scenes give alone. */
+/* Bodies with models of their own: a bar of cells (dlsm) beside a packing of spheres (cbm), each in its own place and
+ * turned. What one simulation for each must give is known exactly: what the two scenes give alone. */
 #include "support.h"
 #include "../../host/base/file.h"
 #include "../../host/base/memory.h"
@@ -18,12 +18,12 @@
     "version: 1\nmaterials:\n  glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3}\n"                                   \
     "  steel: {E: 200 GPa, nu: 0.3, density: 7800 kg/m^3, beam: {radius: 0.5, E: 500 GPa}}\n"
 #define CELLS                                                                                                          \
-    "  - name: bar\n    shape:\n      box: {size: [40 mm, 20 mm, 20 mm]}\n"                                           \
-    "    fill:\n      noisy_grid: {cells: [8, 4, 4], spread: 50 %, seed: 3}\n    material: glass\n"                     \
+    "  - name: bar\n    shape:\n      box: {size: [40 mm, 20 mm, 20 mm]}\n"                                            \
+    "    fill:\n      noisy_grid: {cells: [8, 4, 4], spread: 50 %, seed: 3}\n    material: glass\n"                    \
     "    pose: {translation: [0, 30 mm, 0], rotation: [0, 0, 30 deg]}\n"
 #define SPHERES                                                                                                        \
-    "  - name: ball\n    shape:\n      box: {size: [30 mm, 20 mm, 20 mm]}\n"                                          \
-    "    fill:\n      packing: {elements: 150, seed: 2}\n    material: steel\n    beams: 9\n"                           \
+    "  - name: ball\n    shape:\n      box: {size: [30 mm, 20 mm, 20 mm]}\n"                                           \
+    "    fill:\n      packing: {elements: 150, seed: 2}\n    material: steel\n    beams: 9\n"                          \
     "    pose: {translation: [0, -40 mm, 0], rotation: [0, 20 deg, 0]}\n"
 #define BOTH MATERIALS "bodies:\n" CELLS "    model: dlsm\n" SPHERES "    model: cbm\n"
 #define ALONE_CELLS MATERIALS "model: dlsm\nbodies:\n" CELLS
@@ -35,9 +35,10 @@
 #define QUIET "output:\n  frames: none\n  picture: false\n"
 
 /* Fifty steps of 20 ns after a spin and a random push: half the critical step of the cells. */
-#define SPIN "stages:\n  - name: fly\n    initial:\n      - spin: {angular_velocity: [0, 0, 100 rad/s]}\n"            \
-             "      - random: {amplitude: [1 m/s, 1 m/s, 1 m/s], seed: 5}\n"                                            \
-             "    solver:\n      dynamic: {steps: 50, time_step: 20 ns}\n"
+#define SPIN                                                                                                           \
+    "stages:\n  - name: fly\n    initial:\n      - spin: {angular_velocity: [0, 0, 100 rad/s]}\n"                      \
+    "      - random: {amplitude: [1 m/s, 1 m/s, 1 m/s], seed: 5}\n"                                                    \
+    "    solver:\n      dynamic: {steps: 50, time_step: 20 ns}\n"
 
 static brc_context *context;
 
@@ -95,7 +96,10 @@ static void release(sample *s)
     brc_scene_free(&s->scene);
 }
 
-static void run(sample *s) { must(brc_lockstep_run(s->setup.n, s->setup.assembly.part)); }
+static void run(sample *s)
+{
+    must(brc_lockstep_run(s->setup.n, s->setup.assembly.part));
+}
 
 /* Positions of the state, of one quantity by element. */
 typedef brc_status (*reading)(brc_simulation *, double *);
@@ -110,7 +114,8 @@ static void assert_same(brc_simulation *a, brc_simulation *b, reading read)
         must(read(k == 0 ? a : b, values[k]));
     }
     assert_memory_equal(values[0], values[1], 3 * (size_t)n * sizeof(double));
-    for (int k = 0; k < 2; ++k) brc_memory_free(values[k]);
+    for (int k = 0; k < 2; ++k)
+        brc_memory_free(values[k]);
 }
 
 static void assert_parts_are_the_scenes_alone(const char *both, const char *cells, const char *spheres)
@@ -146,11 +151,12 @@ static void static_stages_are_solved_as_in_a_scene_of_its_own(void **state)
     (void)state;
 #define STAGES(loads)                                                                                                  \
     "stages:\n  - name: pull\n    solver:\n      static: {increments: 3}\n    loads:\n"                                \
-    "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n" loads                                               \
+    "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n" loads                                              \
     "  - name: ring\n    solver:\n      dynamic: {steps: 20, time_step: 20 ns}\n"
 #define FORCE_UP "      - element_force: {set: upper, x: 1 N, y: 2 N}\n"
 #define FORCE_LOW "      - element_force: {set: lower, z: 3 N}\n"
-    assert_parts_are_the_scenes_alone(BOTH "sets:\n" ENDS UPPER_SET LOWER_SET STAGES(FORCE_UP FORCE_LOW) QUIET, ALONE_CELLS "sets:\n" ENDS UPPER_SET STAGES(FORCE_UP) QUIET,
+    assert_parts_are_the_scenes_alone(BOTH "sets:\n" ENDS UPPER_SET LOWER_SET STAGES(FORCE_UP FORCE_LOW) QUIET,
+                                      ALONE_CELLS "sets:\n" ENDS UPPER_SET STAGES(FORCE_UP) QUIET,
                                       ALONE_SPHERES "sets:\n" ENDS LOWER_SET STAGES(FORCE_LOW) QUIET);
 }
 
@@ -159,10 +165,12 @@ static void models_that_differ_in_a_parameter_are_parts_of_their_own(void **stat
 {
     (void)state;
 #define CUBE(name, x, model)                                                                                           \
-    "  - name: " name "\n    shape:\n      box: {size: [1 m, 1 m, 1 m]}\n    fill:\n      noisy_grid: {cells: [2, 2, 2], seed: 1}\n"             \
+    "  - name: " name                                                                                                  \
+    "\n    shape:\n      box: {size: [1 m, 1 m, 1 m]}\n    fill:\n      noisy_grid: {cells: [2, 2, 2], seed: 1}\n"     \
     "    material: glass\n    pose: {translation: [" x ", 0, 0]}\n" model
-    sample s = ready(MATERIALS "model: dlsm\nbodies:\n" CUBE("a", "0", "") CUBE("b", "2 m", "    model:\n      dlsm: {tau: 0.3}\n")
-                         CUBE("c", "4 m", "    model: dlsm\n") "stages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n");
+    sample s = ready(
+        MATERIALS "model: dlsm\nbodies:\n" CUBE("a", "0", "") CUBE("b", "2 m", "    model:\n      dlsm: {tau: 0.3}\n")
+            CUBE("c", "4 m", "    model: dlsm\n") "stages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n");
     const brc_split *split = s.setup.split;
     assert_int_equal(split->n, 2);
     assert_string_equal(split->part[0].name, "dlsm");
@@ -181,12 +189,16 @@ static void models_that_differ_in_a_parameter_are_parts_of_their_own(void **stat
 static void modes_of_all_bodies_are_counted_together(void **state)
 {
     (void)state;
-#define SOLID(name, size, x) "  - name: " name "\n    shape:\n      box: {size: [" size ", " size ", " size "]}\n    fill:\n      noisy_grid: {cells: [4, 4, 4], seed: 1}\n"  \
-                             "    material: glass\n    pose: {translation: [" x ", 0, 0]}\n"
+#define SOLID(name, size, x)                                                                                           \
+    "  - name: " name "\n    shape:\n      box: {size: [" size ", " size ", " size                                     \
+    "]}\n    fill:\n      noisy_grid: {cells: [4, 4, 4], seed: 1}\n"                                                   \
+    "    material: glass\n    pose: {translation: [" x ", 0, 0]}\n"
 #define MODES "stages:\n  - name: ring\n    solver:\n      modes: {count: 4}\n"
-    sample whole = ready(MATERIALS "bodies:\n" SOLID("a", "1 m", "0") "    model: dlsm\n" SOLID("b", "90 cm", "2 m") "    model:\n      dlsm: {tau: 0.3}\n" MODES QUIET);
-    sample alone[2] = {ready(MATERIALS "bodies:\n" SOLID("a", "1 m", "0") "    model: dlsm\n" MODES QUIET),
-                       ready(MATERIALS "bodies:\n" SOLID("b", "90 cm", "2 m") "    model:\n      dlsm: {tau: 0.3}\n" MODES QUIET)};
+    sample whole = ready(MATERIALS "bodies:\n" SOLID("a", "1 m", "0") "    model: dlsm\n" SOLID(
+        "b", "90 cm", "2 m") "    model:\n      dlsm: {tau: 0.3}\n" MODES QUIET);
+    sample alone[2] = {
+        ready(MATERIALS "bodies:\n" SOLID("a", "1 m", "0") "    model: dlsm\n" MODES QUIET),
+        ready(MATERIALS "bodies:\n" SOLID("b", "90 cm", "2 m") "    model:\n      dlsm: {tau: 0.3}\n" MODES QUIET)};
     const double *omega[2];
     int32_t n, at[2] = {0, 0};
     run(&whole);
@@ -202,14 +214,17 @@ static void modes_of_all_bodies_are_counted_together(void **state)
     }
     assert_true(isnan(brc_assembly_mode(&whole.setup.assembly, 8)));
     release(&whole);
-    for (int k = 0; k < 2; ++k) release(&alone[k]);
+    for (int k = 0; k < 2; ++k)
+        release(&alone[k]);
 }
 
 /* All bodies have one model of their own: it is the scene's, which stays whole. */
 static void a_scene_of_one_model_is_its_own_only_part(void **state)
 {
     (void)state;
-    sample s = ready(MATERIALS "bodies:\n" CELLS "    model: dlsm-published\nstages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n");
+    sample s =
+        ready(MATERIALS "bodies:\n" CELLS
+                        "    model: dlsm-published\nstages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n");
     assert_int_equal(s.setup.n, 1);
     assert_ptr_equal(s.setup.split->part[0].scene, s.scene);
     assert_int_equal(s.scene->model.kind, BRC_MODEL_DLSM_PUBLISHED);
@@ -221,7 +236,8 @@ static void a_scene_of_one_model_is_its_own_only_part(void **state)
 static void all_take_the_shortest_of_the_automatic_steps_and_end_together(void **state)
 {
     (void)state;
-    sample whole = ready(BOTH AUTO QUIET), cells = ready(ALONE_CELLS AUTO QUIET), spheres = ready(ALONE_SPHERES AUTO QUIET);
+    sample whole = ready(BOTH AUTO QUIET), cells = ready(ALONE_CELLS AUTO QUIET),
+           spheres = ready(ALONE_SPHERES AUTO QUIET);
     double least = INFINITY;
     sample *const alone[2] = {&cells, &spheres};
     for (int k = 0; k < 2; ++k) {
@@ -246,12 +262,16 @@ static void all_take_the_shortest_of_the_automatic_steps_and_end_together(void *
 static void a_total_force_over_both_models_is_shared_out(void **state)
 {
     (void)state;
-    sample s = ready(BOTH "sets:\n" ALL_SET "stages:\n  - name: push\n    solver:\n      dynamic: {steps: 1, time_step: 1 ns}\n    loads:\n"
-                          "      - element_force: {set: everything, x: 5 N}\n      - element_force: {set: everything, y: 3 N, share: mass}\n" QUIET);
+    sample s =
+        ready(BOTH "sets:\n" ALL_SET
+                   "stages:\n  - name: push\n    solver:\n      dynamic: {steps: 1, time_step: 1 ns}\n    loads:\n"
+                   "      - element_force: {set: everything, x: 5 N}\n      - element_force: {set: everything, y: 3 N, "
+                   "share: mass}\n" QUIET);
     run(&s);
     const int64_t n = brc_setup_n_elements(&s.setup);
     double sum[3] = {0}, mass = 0;
-    for (int k = 0; k < 2; ++k) mass += brc_split_mass(&s.setup.split->part[k], s.setup.domain[k]);
+    for (int k = 0; k < 2; ++k)
+        mass += brc_split_mass(&s.setup.split->part[k], s.setup.domain[k]);
     for (int k = 0; k < 2; ++k) {
         const brc_domain *d = s.setup.domain[k];
         double *f;
@@ -261,7 +281,8 @@ static void a_total_force_over_both_models_is_shared_out(void **state)
             const double m = d->volume[e] * (k == 0 ? 2500 : 7800);
             assert_near(f[3 * e], 5.0 / (double)n, 1e-14); /* rounding of two quotients of order 0.01 */
             assert_near(f[3 * e + 1], 3.0 * m / mass, 1e-14);
-            for (int c = 0; c < 3; ++c) sum[c] += f[3 * e + c];
+            for (int c = 0; c < 3; ++c)
+                sum[c] += f[3 * e + c];
         }
         brc_memory_free(f);
     }
@@ -271,13 +292,18 @@ static void a_total_force_over_both_models_is_shared_out(void **state)
     release(&s);
 }
 
-/* A region that ends 5 cm behind the edge of b, whose faces are 50 cm wide: it has none of their middles, and presses what it covers of them. */
+/* A region that ends 5 cm behind the edge of b, whose faces are 50 cm wide: it has none of their middles, and presses
+ * what it covers of them. */
 static void a_part_whose_faces_are_only_cut_is_pressed_on_what_the_region_covers(void **state)
 {
     (void)state;
-#define REGION(to) "sets:\n  top:\n    faces:\n      wall: z+\n      box: {from: [25 cm, -1 m, 0], to: [" to ", 2 m, 2 m]}\n"
-#define TWO_CUBES MATERIALS "model: dlsm\nbodies:\n" CUBE("a", "0", "") CUBE("b", "2 m", "    model:\n      dlsm: {tau: 0.3}\n")
-#define PRESS "stages:\n  - name: press\n    solver:\n      dynamic: {steps: 1, time_step: 1 ns}\n    loads:\n      - pressure: {set: top, value: 4 Pa}\n"
+#define REGION(to)                                                                                                     \
+    "sets:\n  top:\n    faces:\n      wall: z+\n      box: {from: [25 cm, -1 m, 0], to: [" to ", 2 m, 2 m]}\n"
+#define TWO_CUBES                                                                                                      \
+    MATERIALS "model: dlsm\nbodies:\n" CUBE("a", "0", "") CUBE("b", "2 m", "    model:\n      dlsm: {tau: 0.3}\n")
+#define PRESS                                                                                                          \
+    "stages:\n  - name: press\n    solver:\n      dynamic: {steps: 1, time_step: 1 ns}\n    loads:\n      - "          \
+    "pressure: {set: top, value: 4 Pa}\n"
     sample s = ready(TWO_CUBES REGION("2.05 m") PRESS QUIET);
     const double covered[2] = {0.75, 0.05};
     const brc_domain *second = s.setup.domain[1];
@@ -288,7 +314,8 @@ static void a_part_whose_faces_are_only_cut_is_pressed_on_what_the_region_covers
         double *f, sum[3] = {0};
         must(BRC_ALLOCATE(context, &f, 3 * n, "test"));
         must(brc_simulation_force(s.setup.simulation[k], f));
-        for (int64_t i = 0; i < 3 * n; ++i) sum[i % 3] += f[i];
+        for (int64_t i = 0; i < 3 * n; ++i)
+            sum[i % 3] += f[i];
         assert_near(sum[0], 0, 1e-9);
         assert_near(sum[1], 0, 1e-9);
         assert_near(sum[2], -4 * covered[k], 1e-9);
@@ -296,8 +323,10 @@ static void a_part_whose_faces_are_only_cut_is_pressed_on_what_the_region_covers
     }
     release(&s);
     /* what takes whole faces goes to a alone, and a region that ends before b loads nothing of it */
-    s = ready(TWO_CUBES REGION("2.05 m") "stages:\n  - name: pull\n    solver:\n      dynamic: {steps: 1, time_step: 1 ns}\n    loads:\n"
-              "      - face_velocity: {set: top, z: 1 m/s}\nsensors:\n  pull:\n    reaction: {set: top, component: z}\n" QUIET);
+    s = ready(TWO_CUBES REGION(
+        "2.05 m") "stages:\n  - name: pull\n    solver:\n      dynamic: {steps: 1, time_step: 1 ns}\n    loads:\n"
+                  "      - face_velocity: {set: top, z: 1 m/s}\nsensors:\n  pull:\n    reaction: {set: top, component: "
+                  "z}\n" QUIET);
     assert_int_equal(s.setup.split->part[0].scene->stages[0].n_loads, 1);
     assert_int_equal(s.setup.split->part[1].scene->stages[0].n_loads, 0);
     run(&s);
@@ -322,35 +351,43 @@ static void what_no_model_can_do_is_refused(void **state)
     static const char *const REST = "stages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n";
     char text[4096];
     /* a body of cells moved by beams */
-    snprintf(text, sizeof text, "%s%s", MATERIALS "bodies:\n" CELLS "    model: cbm\n" SPHERES "    model: dlsm\n", REST);
+    snprintf(text, sizeof text, "%s%s", MATERIALS "bodies:\n" CELLS "    model: cbm\n" SPHERES "    model: dlsm\n",
+             REST);
     sample s;
     assert_int_equal(prepare(text, &s), BRC_BAD_INPUT);
     release(&s);
     says("model cbm needs spheres joined by beams");
     /* the bar turned the other way and moved down into the packing */
-    snprintf(text, sizeof text, "%s%s", BOTH "  - name: wall\n    shape:\n      box: {size: [50 mm, 15 mm, 5 mm]}\n    fill:\n"
-             "      noisy_grid: {cells: [10, 3, 2]}\n    material: glass\n    model: dlsm\n    pose: {translation: [0, -40 mm, 0]}\n", REST);
+    snprintf(text, sizeof text, "%s%s",
+             BOTH "  - name: wall\n    shape:\n      box: {size: [50 mm, 15 mm, 5 mm]}\n    fill:\n"
+                  "      noisy_grid: {cells: [10, 3, 2]}\n    material: glass\n    model: dlsm\n    pose: "
+                  "{translation: [0, -40 mm, 0]}\n",
+             REST);
     refused(text, "bodies 'wall' and 'ball' overlap");
     /* sets nobody has */
-    snprintf(text, sizeof text, "%s%s", BOTH "sets:\n  far:\n    elements:\n      sphere: {centre: [1 km, 0, 0], radius: 1 m}\n", REST);
+    snprintf(text, sizeof text, "%s%s",
+             BOTH "sets:\n  far:\n    elements:\n      sphere: {centre: [1 km, 0, 0], radius: 1 m}\n", REST);
     refused(text, "set 'far' is empty");
     /* surfaces meet within a model */
     snprintf(text, sizeof text, "%s%s", BOTH "interactions:\n  contact: {}\n", REST);
     refused(text, "contact: bodies of 2 models are in the scene");
     /* faces of spheres: the cells' alone count */
-    s = ready(BOTH "sets:\n  ends:\n    faces: {wall: x+}\nstages:\n  - name: rest\n    solver:\n      dynamic: {steps: 1}\n    loads:\n"
+    s = ready(BOTH "sets:\n  ends:\n    faces: {wall: x+}\nstages:\n  - name: rest\n    solver:\n      dynamic: "
+                   "{steps: 1}\n    loads:\n"
                    "      - traction: {set: ends, x: 1 Pa}\n");
     assert_int_equal(brc_domain_find_set(s.setup.domain[1], "ends"), -1);
     assert_int_equal(s.setup.split->part[0].scene->stages[0].n_loads, 1);
     assert_int_equal(s.setup.split->part[1].scene->stages[0].n_loads, 0);
     release(&s);
     /* a wall of both: faces here, spheres there */
-    s = ready(BOTH "stages:\n  - name: pull\n    solver:\n      dynamic: {steps: 1}\n    loads:\n      - face_displacement: {set: x+, x: 1 um}\n");
+    s = ready(BOTH "stages:\n  - name: pull\n    solver:\n      dynamic: {steps: 1}\n    loads:\n      - "
+                   "face_displacement: {set: x+, x: 1 um}\n");
     assert_int_equal(brc_lockstep_begin_stage(2, s.setup.assembly.part, 0), BRC_BAD_INPUT);
     release(&s);
     says("a face load names the set 'x+', which is of elements; name a set of faces");
     /* means over two kinds */
-    snprintf(text, sizeof text, "%s%s%s", BOTH "sets:\n" ALL_SET, REST, "sensors:\n  s:\n    stress: {set: everything, component: xx}\n");
+    snprintf(text, sizeof text, "%s%s%s", BOTH "sets:\n" ALL_SET, REST,
+             "sensors:\n  s:\n    stress: {set: everything, component: xx}\n");
     refused(text, "sensor s: the set \"everything\" spans bodies of 2 models");
     snprintf(text, sizeof text, "%s%s%s", BOTH, REST, "sensors:\n  s:\n    stress: {component: xx}\n");
     refused(text, "sensor s: it averages over the bodies of 2 models");
@@ -363,11 +400,14 @@ static void what_no_model_can_do_is_refused(void **state)
     s.scene->bodies[0].has_model = true;
     s.scene->bodies[0].model = s.scene->model;
     s.scene->bodies[0].model.tau = 0.5;
-    assert_int_equal(brc_simulation_create(context, s.scene, s.setup.domain[0], s.setup.device[0], &simulation), BRC_BAD_INPUT);
+    assert_int_equal(brc_simulation_create(context, s.scene, s.setup.domain[0], s.setup.device[0], &simulation),
+                     BRC_BAD_INPUT);
     says("body 'bar' has a model of its own");
     release(&s);
     /* one file for the elements of two models */
-    snprintf(text, sizeof text, "%s", BOTH "stages:\n  - name: rest\n    initial:\n      - file: start.h5\n    solver:\n      dynamic: {steps: 1}\n");
+    snprintf(text, sizeof text, "%s",
+             BOTH
+             "stages:\n  - name: rest\n    initial:\n      - file: start.h5\n    solver:\n      dynamic: {steps: 1}\n");
     refused(text, "stage 'rest': a file of initial values has a row for every element of one model");
 }
 
@@ -375,7 +415,8 @@ static void a_part_that_runs_away_names_its_model(void **state)
 {
     (void)state;
     /* 1 us is far above the critical step of both; the cells' bar alone is pushed, so it is the cells that run away */
-    sample s = ready(BOTH "sets:\n" UPPER_SET "stages:\n  - name: boom\n    initial:\n      - random: {set: upper, amplitude: [1 m/s, 1 m/s, 1 m/s], seed: 1}\n"
+    sample s = ready(BOTH "sets:\n" UPPER_SET "stages:\n  - name: boom\n    initial:\n      - random: {set: upper, "
+                          "amplitude: [1 m/s, 1 m/s, 1 m/s], seed: 1}\n"
                           "    solver:\n      dynamic: {steps: 400, time_step: 3 us}\n" QUIET);
     assert_int_equal(brc_lockstep_run(2, s.setup.assembly.part), BRC_PHYSICS_STOPPED);
     says("in the bodies of model dlsm");
@@ -385,21 +426,25 @@ static void a_part_that_runs_away_names_its_model(void **state)
 /* ---- what breaks ---- */
 
 #define BRITTLE                                                                                                        \
-    "version: 1\nfracture: {}\nmaterials:\n"                                                                          \
+    "version: 1\nfracture: {}\nmaterials:\n"                                                                           \
     "  glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3, beam: {radius: 0.5, E: 200 GPa, strength: 50 MPa}}\n"
 #define BLOCK(name, seed, y, model)                                                                                    \
-    "  - name: " name "\n    shape:\n      box: {size: [30 mm, 20 mm, 20 mm]}\n    fill:\n      packing: {elements: 150, seed: " seed "}\n"   \
+    "  - name: " name                                                                                                  \
+    "\n    shape:\n      box: {size: [30 mm, 20 mm, 20 mm]}\n    fill:\n      packing: {elements: 150, seed: " seed    \
+    "}\n"                                                                                                              \
     "    material: glass\n    beams: 9\n    pose: {translation: [0, " y ", 0]}\n" model
 /* Both fly apart along x, at 4000 1/s: a strain of 1.6 % in all, many times what their beams bear. */
 #define BURST                                                                                                          \
-    "stages:\n  - name: burst\n    initial:\n      - velocity: {gradient: {x: [4000 1/s, 0, 0]}, origin: [15 mm, 0, 0]}\n"                     \
+    "stages:\n  - name: burst\n    initial:\n      - velocity: {gradient: {x: [4000 1/s, 0, 0]}, origin: [15 mm, 0, "  \
+    "0]}\n"                                                                                                            \
     "    solver:\n      dynamic: {steps: 40, time_step: 100 ns}\n"
 #define SOFT "    model:\n      cbm: {nu: 0.1}\n"
 
 static void broken_bonds_of_both_are_one_stream_by_step(void **state)
 {
     (void)state;
-    sample whole = ready(BRITTLE "bodies:\n" BLOCK("a", "2", "0", "    model: cbm\n") BLOCK("b", "3", "50 mm", SOFT) BURST QUIET);
+    sample whole =
+        ready(BRITTLE "bodies:\n" BLOCK("a", "2", "0", "    model: cbm\n") BLOCK("b", "3", "50 mm", SOFT) BURST QUIET);
     sample alone[2] = {ready(BRITTLE "bodies:\n" BLOCK("a", "2", "0", "    model: cbm\n") BURST QUIET),
                        ready(BRITTLE "bodies:\n" BLOCK("b", "3", "50 mm", SOFT) BURST QUIET)};
     brc_cracks all = {0}, own[2] = {{0}, {0}};
@@ -446,12 +491,16 @@ static brc_status interrupt(void *self, brc_simulation *simulation)
     return BRC_OK;
 }
 
-/* Asked while the first increment is sampled: the second part stops in its next one, though it was the first that was asked. */
+/* Asked while the first increment is sampled: the second part stops in its next one, though it was the first that was
+ * asked. */
 static void an_interrupt_reaches_every_part(void **state)
 {
     (void)state;
-    sample s = ready(BOTH "sets:\n" ENDS "stages:\n  - name: pull\n    solver:\n      static: {increments: 2, finite_strain: false}\n    loads:\n"
-                          "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n      - element_displacement: {set: right, x: 1 um}\n" QUIET);
+    sample s = ready(
+        BOTH "sets:\n" ENDS
+             "stages:\n  - name: pull\n    solver:\n      static: {increments: 2, finite_strain: false}\n    loads:\n"
+             "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n      - element_displacement: {set: right, "
+             "x: 1 um}\n" QUIET);
     const brc_observer observer = {.sample = interrupt_at_first_increment};
     must(brc_simulation_observe(s.setup.simulation[0], &observer));
     assert_int_equal(brc_lockstep_run(2, s.setup.assembly.part), BRC_INTERRUPTED);
@@ -484,7 +533,12 @@ static brc_status record(const char *text, const char *name, bool stop, brc_run_
 {
     char path[512];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    const brc_run_request request = {.path = "test", .text = text, .text_bytes = strlen(text), .folder = path, .device = "cpu", .n_threads = 1,
+    const brc_run_request request = {.path = "test",
+                                     .text = text,
+                                     .text_bytes = strlen(text),
+                                     .folder = path,
+                                     .device = "cpu",
+                                     .n_threads = 1,
                                      .created = stop ? interrupt : NULL};
     return brc_run_scene(context, &request, out);
 }
@@ -511,10 +565,11 @@ static double last_of(const char *summary, const char *sensor)
 }
 
 #define PULL                                                                                                           \
-    "sets:\n" ENDS "stages:\n  - name: pull\n    solver:\n      static: {increments: 1}\n    loads:\n"                    \
-    "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n      - element_displacement: {set: right, x: 1 um}\n"
+    "sets:\n" ENDS "stages:\n  - name: pull\n    solver:\n      static: {increments: 1}\n    loads:\n"                 \
+    "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n      - element_displacement: {set: right, x: 1 "    \
+    "um}\n"
 #define SENSORS                                                                                                        \
-    "sensors:\n  force:\n    reaction: {set: right, component: x}\n  elastic:\n    energy: elastic\n"                      \
+    "sensors:\n  force:\n    reaction: {set: right, component: x}\n  elastic:\n    energy: elastic\n"                  \
     "  tip:\n    point: {point: [20 mm, 60 mm, 10 mm], component: x}\n"
 
 static void one_folder_of_results_holds_both_models(void **state)
@@ -532,12 +587,14 @@ static void one_folder_of_results_holds_both_models(void **state)
     for (size_t f = 0; f < sizeof field / sizeof *field; ++f)
         for (int k = 0; k < 2; ++k) {
             const int64_t n = alone[k].n_elements, first = k == 0 ? 0 : alone[0].n_elements;
-            double *a = read_cells("both", field[f], first, n, columns[f]), *b = read_cells(k == 0 ? "cells" : "spheres", field[f], 0, n, columns[f]);
+            double *a = read_cells("both", field[f], first, n, columns[f]),
+                   *b = read_cells(k == 0 ? "cells" : "spheres", field[f], 0, n, columns[f]);
             assert_memory_equal(a, b, (size_t)(n * columns[f]) * sizeof *a);
             brc_memory_free(a);
             brc_memory_free(b);
         }
-    double *body = read_cells("both", "body", 0, both.n_elements, 1), *model = read_cells("both", "model", 0, both.n_elements, 1),
+    double *body = read_cells("both", "body", 0, both.n_elements, 1),
+           *model = read_cells("both", "model", 0, both.n_elements, 1),
            *id = read_cells("both", "element_id", 0, both.n_elements, 1);
     for (int64_t e = 0; e < both.n_elements; ++e) {
         assert_true(body[e] == (e >= alone[0].n_elements) && model[e] == body[e]);
@@ -556,7 +613,8 @@ static void one_folder_of_results_holds_both_models(void **state)
     assert_true(last_of(text, "elastic") == last_of(part[0], "elastic") + last_of(part[1], "elastic"));
     assert_true(last_of(text, "tip") == last_of(part[0], "tip")); /* nearest to the bar */
     assert_true(both.ledger.work == alone[0].ledger.work + alone[1].ledger.work);
-    /* errors add and so do the energies they are measured by, but for which of them (elastic, work) is the larger: the same to the error itself */
+    /* errors add and so do the energies they are measured by, but for which of them (elastic, work) is the larger: the
+     * same to the error itself */
     assert_true(fabs(both.ledger.closure) <= 1.01 * fmax(fabs(alone[0].ledger.closure), fabs(alone[1].ledger.closure)));
     brc_memory_free(text);
     for (int k = 0; k < 2; ++k) {
@@ -588,14 +646,17 @@ static void one_model_gives_the_same_bytes_wherever_it_is_written(void **state)
     assert_same_file("above", "within", "frames/000001.vtkhdf");
     assert_same_file("above", "within", "histories.csv");
     assert_same_file("above", "within", "picture.png");
-    for (int k = 0; k < 2; ++k) brc_run_results_free(&out[k]);
+    for (int k = 0; k < 2; ++k)
+        brc_run_results_free(&out[k]);
 }
 
 static void a_run_that_fails_at_once_names_the_models_it_was_asked_for(void **state)
 {
     (void)state;
     brc_run_results out;
-    assert_int_equal(record(BOTH "sets:\n  far:\n    elements:\n      sphere: {centre: [1 km, 0, 0], radius: 1 m}\n" SPIN, "failed", false, &out),
+    assert_int_equal(record(BOTH
+                            "sets:\n  far:\n    elements:\n      sphere: {centre: [1 km, 0, 0], radius: 1 m}\n" SPIN,
+                            "failed", false, &out),
                      BRC_BAD_INPUT);
     brc_context_clear(context);
     char *text = summary_of("failed");

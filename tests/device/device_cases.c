@@ -362,7 +362,8 @@ static void two_devices_share_no_buffers(void **unused)
     bench_close(&b);
 }
 
-/* y after `rounds` rounds of mixing sums and gathers, a computation that any change of order or rounding would show in. */
+/* y after `rounds` rounds of mixing sums and gathers, a computation that any change of order or rounding would show
+ * in. */
 static void mix(bench *b, double *got, int rounds)
 {
     double x[N];

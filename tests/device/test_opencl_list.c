@@ -22,7 +22,8 @@ static brc_context *fail_by(const char *how)
 {
     brc_context *context = brc_context_create();
     brc_log_set_level(context, BRC_LOG_ERROR);
-    assert_int_equal(brc_file_write_whole(context, vendors, BRC_FAILING_ICD_PATH "\n", strlen(BRC_FAILING_ICD_PATH) + 1), BRC_OK);
+    assert_int_equal(
+        brc_file_write_whole(context, vendors, BRC_FAILING_ICD_PATH "\n", strlen(BRC_FAILING_ICD_PATH) + 1), BRC_OK);
     setenv("OCL_ICD_VENDORS", vendors, 1);
     setenv("BRC_FAILING_ICD", how, 1);
     return context;
@@ -56,7 +57,8 @@ static void a_driver_that_aborts_is_a_line_and_auto_takes_the_cpu(void **unused)
     assert_int_equal(brc_device_list_create(context, &list), BRC_OK);
     const brc_device_info *const line = opencl_line(list);
     assert_false(line->usable);
-    assert_non_null(strstr(line->why_not, "an OpenCL driver ended with signal 6 (Aborted) while devices were listed: mend it"));
+    assert_non_null(
+        strstr(line->why_not, "an OpenCL driver ended with signal 6 (Aborted) while devices were listed: mend it"));
     assert_string_equal(list->items[list->automatic].selector, "cpu");
     brc_device_list_free(&list);
     assert_no_child_is_left();
@@ -121,7 +123,8 @@ static void a_driver_without_devices_is_told_from_no_driver(void **unused)
     assert_int_equal(brc_device_list_create(context, &list), BRC_OK);
     line = opencl_line(list);
     assert_false(line->usable);
-    assert_non_null(strstr(line->why_not, "failing.icd) and gives no platform: its library is missing, or it finds no device"));
+    assert_non_null(
+        strstr(line->why_not, "failing.icd) and gives no platform: its library is missing, or it finds no device"));
     brc_device_list_free(&list);
     brc_context_free(&context);
 }

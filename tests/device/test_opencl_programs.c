@@ -129,13 +129,15 @@ static void count_taken(void *self, brc_log_level level, const char *line)
 
 /* One kernel, under the name of one of ours: PoCL compiles all of a program before it gives it away. */
 #define SMALL BRC_BUILD_DIR_PATH "/small-kernels"
-static const char small_kernel[] = "__kernel void vector_axpy(int n, float a, __global const float *x, __global float *y)\n"
-                                   "{\n    const int i = (int)get_global_id(0);\n    if (i < n) y[i] += a * x[i];\n}\n";
+static const char small_kernel[] =
+    "__kernel void vector_axpy(int n, float a, __global const float *x, __global float *y)\n"
+    "{\n    const int i = (int)get_global_id(0);\n    if (i < n) y[i] += a * x[i];\n}\n";
 
 /* Opens, and lets a kernel of the program run. */
 static void open_and_run(brc_context *context, bool exact)
 {
-    const brc_device_request request = {.selector = info.selector, .precision = BRC_SINGLE, .kernel_folder = SMALL, .exact = exact};
+    const brc_device_request request = {
+        .selector = info.selector, .precision = BRC_SINGLE, .kernel_folder = SMALL, .exact = exact};
     brc_device *device = NULL;
     brc_buffer *x = NULL, *y = NULL;
     brc_kernel *kernel = NULL;
@@ -146,9 +148,11 @@ static void open_and_run(brc_context *context, bool exact)
     assert_int_equal(brc_buffer_create(device, &y, sizeof one, "test numbers"), BRC_OK);
     assert_int_equal(brc_buffer_write(x, 0, one, sizeof one), BRC_OK);
     assert_int_equal(brc_kernel_find(device, "vector_axpy", &kernel), BRC_OK);
-    if (BRC_LAUNCH(kernel, 3, BRC_INT(3), BRC_STATE(2), BRC_BUF(x), BRC_BUF(y)) != BRC_OK) device_cases_says(context, "(it is launched)");
+    if (BRC_LAUNCH(kernel, 3, BRC_INT(3), BRC_STATE(2), BRC_BUF(x), BRC_BUF(y)) != BRC_OK)
+        device_cases_says(context, "(it is launched)");
     assert_int_equal(brc_buffer_read(y, 0, doubled, sizeof doubled), BRC_OK);
-    for (int k = 0; k < 3; ++k) assert_true(doubled[k] == 2 * one[k]);
+    for (int k = 0; k < 3; ++k)
+        assert_true(doubled[k] == 2 * one[k]);
     brc_buffer_free(&x);
     brc_buffer_free(&y);
     brc_device_close(&device);
@@ -176,7 +180,8 @@ static void programs_are_kept_and_what_is_not_whole_is_compiled_again(void **unu
     char path[600];
     assert_int_equal(brc_file_make_folder(context, SMALL), BRC_OK);
     assert_int_equal(brc_file_write_whole(context, SMALL "/kernels.h", small_kernel, sizeof small_kernel - 1), BRC_OK);
-    while (kept(path, sizeof path)) assert_int_equal(remove(path), 0);
+    while (kept(path, sizeof path))
+        assert_int_equal(remove(path), 0);
     brc_log_set_level(context, BRC_LOG_DEBUG);
     brc_log_set_sink(context, count_taken, &taken);
     assert_int_equal(setenv("BRECCIA_OPENCL_CACHE", CACHE, 1), 0);

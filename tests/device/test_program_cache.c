@@ -33,7 +33,8 @@ static void assert_found(brc_context *context, const char *key, const char *expe
 {
     size_t bytes = 0;
     unsigned char *const found = brc_program_cache_find(context, key, &bytes);
-    if (!expected) assert_null(found);
+    if (!expected)
+        assert_null(found);
     else {
         assert_non_null(found);
         assert_int_equal(bytes, strlen(expected));
@@ -42,7 +43,10 @@ static void assert_found(brc_context *context, const char *key, const char *expe
     brc_memory_free(found);
 }
 
-static void keep(brc_context *context, const char *key, const char *binary) { brc_program_cache_keep(context, key, (const unsigned char *)binary, strlen(binary)); }
+static void keep(brc_context *context, const char *key, const char *binary)
+{
+    brc_program_cache_keep(context, key, (const unsigned char *)binary, strlen(binary));
+}
 
 static void the_folder_is_the_environments(void **unused)
 {
@@ -58,11 +62,17 @@ static void the_folder_is_the_environments(void **unused)
     static const char *const folders[] = {HOME "/.cache/breccia/opencl", HOME "/xdg/breccia/opencl", HOME "/own"};
     brc_context *context = brc_context_create();
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
-        const char *const names[] = {"BRECCIA_OPENCL_CACHE", "XDG_CACHE_HOME", "HOME"}, *const values[] = {cases[k].own, cases[k].cache, cases[k].home};
-        for (int v = 0; v < 3; ++v) assert_int_equal(values[v] ? setenv(names[v], values[v], 1) : unsetenv(names[v]), 0);
-        for (int f = 0; f < 3; ++f) files_in(folders[f], true);
+        const char *const names[] = {"BRECCIA_OPENCL_CACHE", "XDG_CACHE_HOME", "HOME"}, *const values[] = {
+                                                                                            cases[k].own,
+                                                                                            cases[k].cache,
+                                                                                            cases[k].home};
+        for (int v = 0; v < 3; ++v)
+            assert_int_equal(values[v] ? setenv(names[v], values[v], 1) : unsetenv(names[v]), 0);
+        for (int f = 0; f < 3; ++f)
+            files_in(folders[f], true);
         keep(context, "key", "program");
-        for (int f = 0; f < 3; ++f) assert_int_equal(files_in(folders[f], false), cases[k].folder && strcmp(folders[f], cases[k].folder) == 0);
+        for (int f = 0; f < 3; ++f)
+            assert_int_equal(files_in(folders[f], false), cases[k].folder && strcmp(folders[f], cases[k].folder) == 0);
         assert_found(context, "key", cases[k].folder ? "program" : NULL);
         assert_found(context, "another key", NULL);
     }

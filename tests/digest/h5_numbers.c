@@ -1,4 +1,5 @@
-/* h5_numbers FILE GROUP: one line a dataset below GROUP, sorted by name: name, bytes a number, numbers, hash of the numbers (FNV-1a, 64 bits). Links to other files are followed. */
+/* h5_numbers FILE GROUP: one line a dataset below GROUP, sorted by name: name, bytes a number, numbers, hash of the
+ * numbers (FNV-1a, 64 bits). Links to other files are followed. */
 #include <hdf5.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -7,7 +8,8 @@
 static uint64_t hash_of(const unsigned char *bytes, size_t n)
 {
     uint64_t hash = 14695981039346656037u;
-    for (size_t i = 0; i < n; ++i) hash = (hash ^ bytes[i]) * 1099511628211u;
+    for (size_t i = 0; i < n; ++i)
+        hash = (hash ^ bytes[i]) * 1099511628211u;
     return hash;
 }
 
@@ -17,9 +19,12 @@ static int print_dataset(hid_t dataset, const char *group, const char *name)
     const size_t size = H5Tget_size(type);
     const hssize_t n = H5Sget_simple_extent_npoints(space);
     unsigned char *const bytes = n >= 0 ? calloc((size_t)n + 1, size) : NULL;
-    const int ok = bytes && !H5Tis_variable_str(type) && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) >= 0;
-    if (ok) printf("%s/%s %zu %lld %016" PRIx64 "\n", group, name, size, (long long)n, hash_of(bytes, (size_t)n * size));
-    else fprintf(stderr, "%s/%s: cannot be read as plain numbers\n", group, name);
+    const int ok =
+        bytes && !H5Tis_variable_str(type) && H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) >= 0;
+    if (ok)
+        printf("%s/%s %zu %lld %016" PRIx64 "\n", group, name, size, (long long)n, hash_of(bytes, (size_t)n * size));
+    else
+        fprintf(stderr, "%s/%s: cannot be read as plain numbers\n", group, name);
     free(bytes);
     H5Sclose(space);
     H5Tclose(type);
@@ -37,8 +42,10 @@ static int print_group(hid_t group, const char *path)
         const hid_t object = H5Oopen(group, name, H5P_DEFAULT);
         const H5I_type_t kind = object < 0 ? H5I_BADID : H5Iget_type(object);
         snprintf(below, sizeof below, "%s/%s", path, name);
-        if (kind == H5I_DATASET) failures += print_dataset(object, path, name);
-        else if (kind == H5I_GROUP) failures += print_group(object, below);
+        if (kind == H5I_DATASET)
+            failures += print_dataset(object, path, name);
+        else if (kind == H5I_GROUP)
+            failures += print_group(object, below);
         else {
             fprintf(stderr, "%s: neither a group nor a dataset\n", below);
             failures += 1;

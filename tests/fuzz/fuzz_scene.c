@@ -1,6 +1,6 @@
-/* libFuzzer target: the scene reader on any bytes. Besides crashes and sanitizer findings, it stops when memory is kept,
- * when a refusal has no sentence, or when a scene that was read does not survive being written and read again.
- * A byte 0xfd (never part of UTF-8) in the input separates an override from the text, so that those are tried too. */
+/* libFuzzer target: the scene reader on any bytes. Besides crashes and sanitizer findings, it stops when memory is
+ * kept, when a refusal has no sentence, or when a scene that was read does not survive being written and read again. A
+ * byte 0xfd (never part of UTF-8) in the input separates an override from the text, so that those are tried too. */
 #include "../../host/base/memory.h"
 #include "../../host/scene/scene_reader.h"
 #include <stdint.h>

@@ -41,7 +41,8 @@ void convex_case_box(convex_case *c, double x, double y, double z)
         c->corner[3 * k + 1] = (k & 2 ? 0.5 : -0.5) * y;
         c->corner[3 * k + 2] = (k & 4 ? 0.5 : -0.5) * z;
     }
-    for (int f = 0; f <= 6; ++f) c->loop_start[f] = 4 * f;
+    for (int f = 0; f <= 6; ++f)
+        c->loop_start[f] = 4 * f;
     memcpy(c->loop, loop, sizeof loop);
     convex_case_finish(c);
 }
@@ -64,16 +65,19 @@ convex_map convex_case_rotation(uint64_t *random)
             square += q[k] * q[k];
         }
     } while (square > 1 || square < 0.01);
-    for (int k = 0; k < 4; ++k) q[k] /= sqrt(square);
-    return (convex_map){1 - 2 * (q[2] * q[2] + q[3] * q[3]), 2 * (q[1] * q[2] - q[0] * q[3]), 2 * (q[1] * q[3] + q[0] * q[2]),
-                        2 * (q[1] * q[2] + q[0] * q[3]), 1 - 2 * (q[1] * q[1] + q[3] * q[3]), 2 * (q[2] * q[3] - q[0] * q[1]),
-                        2 * (q[1] * q[3] - q[0] * q[2]), 2 * (q[2] * q[3] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2])};
+    for (int k = 0; k < 4; ++k)
+        q[k] /= sqrt(square);
+    return (convex_map){
+        1 - 2 * (q[2] * q[2] + q[3] * q[3]), 2 * (q[1] * q[2] - q[0] * q[3]),     2 * (q[1] * q[3] + q[0] * q[2]),
+        2 * (q[1] * q[2] + q[0] * q[3]),     1 - 2 * (q[1] * q[1] + q[3] * q[3]), 2 * (q[2] * q[3] - q[0] * q[1]),
+        2 * (q[1] * q[3] - q[0] * q[2]),     2 * (q[2] * q[3] + q[0] * q[1]),     1 - 2 * (q[1] * q[1] + q[2] * q[2])};
 }
 
 convex_map convex_case_map(double strain, uint64_t *random)
 {
     double m[9];
-    for (int k = 0; k < 9; ++k) m[k] = strain * convex_case_number(random) + (k % 4 == 0);
+    for (int k = 0; k < 9; ++k)
+        m[k] = strain * convex_case_number(random) + (k % 4 == 0);
     const convex_map stretch = {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]};
     return convex_product(convex_case_rotation(random), stretch);
 }
@@ -98,7 +102,8 @@ void convex_case_random(convex_case *c, convex_kind kind, int n, uint64_t *rando
                 plane[f][k] /= size[kind][k];
                 length += plane[f][k] * plane[f][k];
             }
-            for (int k = 0; k < 4; ++k) plane[f][k] /= sqrt(length);
+            for (int k = 0; k < 4; ++k)
+                plane[f][k] /= sqrt(length);
         }
         if (convex_case_cut(plane, n, c) > 0 && c->radius < 5 * size[kind][0]) return; /* closed, no long tips */
     }
@@ -117,11 +122,15 @@ static int meet(const double *a, const double *b, const double *c, double x[3])
     const double ab[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     const double determinant = a[0] * bc[0] + a[1] * bc[1] + a[2] * bc[2];
     if (fabs(determinant) < 1e-12) return 0;
-    for (int k = 0; k < 3; ++k) x[k] = (a[3] * bc[k] + b[3] * ca[k] + c[3] * ab[k]) / determinant;
+    for (int k = 0; k < 3; ++k)
+        x[k] = (a[3] * bc[k] + b[3] * ca[k] + c[3] * ab[k]) / determinant;
     return 1;
 }
 
-typedef struct turned { double angle; int corner; } turned;
+typedef struct turned {
+    double angle;
+    int corner;
+} turned;
 static int by_angle(const void *a, const void *b)
 {
     const double x = ((const turned *)a)->angle, y = ((const turned *)b)->angle;
@@ -138,7 +147,8 @@ double convex_case_cut(const double (*plane)[4], int n, convex_case *c)
             for (int k = j + 1; k < n; ++k) {
                 double x[3];
                 int inside = meet(plane[i], plane[j], plane[k], x);
-                for (int f = 0; f < n && inside; ++f) inside = f == i || f == j || f == k || height(plane[f], x) < 0;
+                for (int f = 0; f < n && inside; ++f)
+                    inside = f == i || f == j || f == k || height(plane[f], x) < 0;
                 if (!inside || n_corners == 4096) continue;
                 memcpy(corner[n_corners], x, sizeof x);
                 const int three[3] = {i, j, k};
@@ -150,7 +160,8 @@ double convex_case_cut(const double (*plane)[4], int n, convex_case *c)
     to->n_corners = 0;
     to->loop_start[0] = 0;
     int place[4096];
-    for (int k = 0; k < n_corners; ++k) place[k] = -1;
+    for (int k = 0; k < n_corners; ++k)
+        place[k] = -1;
     double volume = 0, closed[3] = {0, 0, 0}, surface = 0;
     for (int f = 0; f < n; ++f) {
         turned ring[CONVEX_CASE_CORNERS];
@@ -160,7 +171,8 @@ double convex_case_cut(const double (*plane)[4], int n, convex_case *c)
             if (on[k][0] == f || on[k][1] == f || on[k][2] == f) ring[m++].corner = k;
         if (m < 3) continue;
         for (int k = 0; k < m; ++k)
-            for (int d = 0; d < 3; ++d) mean[d] += corner[ring[k].corner][d] / m;
+            for (int d = 0; d < 3; ++d)
+                mean[d] += corner[ring[k].corner][d] / m;
         const double *u = plane[f], *o = corner[ring[0].corner];
         const double e[3] = {o[0] - mean[0], o[1] - mean[1], o[2] - mean[2]};
         const double v[3] = {u[1] * e[2] - u[2] * e[1], u[2] * e[0] - u[0] * e[2], u[0] * e[1] - u[1] * e[0]};
@@ -177,12 +189,15 @@ double convex_case_cut(const double (*plane)[4], int n, convex_case *c)
         double area = 0;
         for (int k = 0; k < m; ++k) {
             const double *p = corner[ring[k].corner], *q = corner[ring[(k + 1) % m].corner];
-            for (int d = 0; d < 3; ++d) area += 0.5 * u[d] * ((p[(d + 1) % 3] - mean[(d + 1) % 3]) * (q[(d + 2) % 3] - mean[(d + 2) % 3]) -
-                                                              (p[(d + 2) % 3] - mean[(d + 2) % 3]) * (q[(d + 1) % 3] - mean[(d + 1) % 3]));
+            for (int d = 0; d < 3; ++d)
+                area += 0.5 * u[d] *
+                        ((p[(d + 1) % 3] - mean[(d + 1) % 3]) * (q[(d + 2) % 3] - mean[(d + 2) % 3]) -
+                         (p[(d + 2) % 3] - mean[(d + 2) % 3]) * (q[(d + 1) % 3] - mean[(d + 1) % 3]));
         }
         volume += area * u[3] / 3;
         surface += area;
-        for (int d = 0; d < 3; ++d) closed[d] += area * u[d];
+        for (int d = 0; d < 3; ++d)
+            closed[d] += area * u[d];
         if (!c) continue;
         for (int k = 0; k < m; ++k) {
             int *at = place + ring[k].corner;
@@ -195,7 +210,8 @@ double convex_case_cut(const double (*plane)[4], int n, convex_case *c)
         c->loop_start[c->n_faces + 1] = c->loop_start[c->n_faces] + m;
         ++c->n_faces;
     }
-    if (sqrt(closed[0] * closed[0] + closed[1] * closed[1] + closed[2] * closed[2]) > 1e-9 * surface) return 0; /* open to one side */
+    if (sqrt(closed[0] * closed[0] + closed[1] * closed[1] + closed[2] * closed[2]) > 1e-9 * surface)
+        return 0; /* open to one side */
     if (c && n_corners > 0) convex_case_finish(c);
     return volume;
 }
@@ -218,5 +234,5 @@ double convex_case_shared(const convex_case *a, convex_pose pose_a, const convex
             plane[n++][3] = k * (c->plane[4 * f + 3] + convex_dot(normal, pose.origin));
         }
     }
-    return convex_case_cut((const double (*)[4])plane, n, NULL);
+    return convex_case_cut((const double(*)[4])plane, n, NULL);
 }

@@ -1,4 +1,5 @@
-/* Polyhedra for the tests of the overlap, and the kernel's functions read as plain C in double, eight lanes as the cpu's kernels have. */
+/* Polyhedra for the tests of the overlap, and the kernel's functions read as plain C in double, eight lanes as the
+ * cpu's kernels have. */
 #ifndef BRC_TESTS_CONVEX_CASE_H
 #define BRC_TESTS_CONVEX_CASE_H
 
@@ -28,13 +29,14 @@ convex_shape convex_case_shape(const convex_case *c);
 void convex_case_finish(convex_case *c);
 /* A box with these edges about the origin. */
 void convex_case_box(convex_case *c, double x, double y, double z);
-/* What lies behind all n planes ([n][4]: unit normal, height), by the corners of all triples of planes: slow, and nothing of the kernel's way. Its
- * volume, 0: nothing; c may be NULL. No four planes of a polyhedron to be kept may meet in a corner. */
+/* What lies behind all n planes ([n][4]: unit normal, height), by the corners of all triples of planes: slow, and
+ * nothing of the kernel's way. Its volume, 0: nothing; c may be NULL. No four planes of a polyhedron to be kept may
+ * meet in a corner. */
 double convex_case_cut(const double (*plane)[4], int n, convex_case *c);
 
 typedef enum convex_kind { CONVEX_ROUND, CONVEX_NEEDLE, CONVEX_FLAT, CONVEX_SLIVER, CONVEX_KINDS } convex_kind;
-/* A random polyhedron about the origin of about n faces, 4 or more, with radii near 1; stretched 8 times, flattened to a tenth or a hundredth.
- * random: the state of its random numbers, any number to begin with. */
+/* A random polyhedron about the origin of about n faces, 4 or more, with radii near 1; stretched 8 times, flattened to
+ * a tenth or a hundredth. random: the state of its random numbers, any number to begin with. */
 void convex_case_random(convex_case *c, convex_kind kind, int n, uint64_t *random);
 /* Uniform in -1 .. 1. */
 double convex_case_number(uint64_t *random);

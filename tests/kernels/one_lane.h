@@ -1,4 +1,5 @@
-/* The kernels' headers read as plain C in double, one lane, and cmocka before them; include it before any header of kernels/. */
+/* The kernels' headers read as plain C in double, one lane, and cmocka before them; include it before any header of
+ * kernels/. */
 #ifndef BRC_TESTS_ONE_LANE_H
 #define BRC_TESTS_ONE_LANE_H
 

@@ -1,4 +1,5 @@
-/* One beam of model cbm: forces against the gradient of the energy, action and reaction, rigid motion, analytic beams. One lane, double. */
+/* One beam of model cbm: forces against the gradient of the energy, action and reaction, rigid motion, analytic beams.
+ * One lane, double. */
 #include "one_lane.h"
 #include "../../kernels/cbm_beam.h"
 
@@ -10,7 +11,10 @@ typedef struct beam {
     lane_quat q[2];
 } beam;
 
-static double uniform(int state, int which) { return one_lane_uniform(3, state, which); }
+static double uniform(int state, int which)
+{
+    return one_lane_uniform(3, state, which);
+}
 
 static lane_quat unit(double w, double x, double y, double z)
 {
@@ -23,7 +27,8 @@ static beam random_beam(int state)
 {
     beam b = {.branch = {1 + 0.5 * uniform(state, 0), uniform(state, 1), uniform(state, 2)}};
     for (int side = 0; side < 2; ++side) {
-        for (int c = 0; c < 3; ++c) b.u[side][c] = 0.1 * uniform(state, 3 + 3 * side + c);
+        for (int c = 0; c < 3; ++c)
+            b.u[side][c] = 0.1 * uniform(state, 3 + 3 * side + c);
         const double sign = uniform(state, 20 + side) < 0 ? -1 : 1;
         b.q[side] = unit(sign, 0.3 * sign * uniform(state, 9 + 3 * side), 0.3 * sign * uniform(state, 10 + 3 * side),
                          0.3 * sign * uniform(state, 11 + 3 * side));
@@ -38,7 +43,8 @@ static cbm_shape seen_from(const beam *b, int side, double *inverse, int finite)
     const lane_vec3 branch = lane_vec3_scale(sign, b->branch);
     const double *near = b->u[side], *far = b->u[1 - side];
     *inverse = 1 / sqrt(lane_vec3_dot(branch, branch));
-    return cbm_beam_shape(branch, *inverse, (lane_vec3){far[0] - near[0], far[1] - near[1], far[2] - near[2]}, b->q[side], b->q[1 - side], finite);
+    return cbm_beam_shape(branch, *inverse, (lane_vec3){far[0] - near[0], far[1] - near[1], far[2] - near[2]},
+                          b->q[side], b->q[1 - side], finite);
 }
 
 static cbm_end end_of(const beam *b, int side, int finite)
@@ -71,7 +77,8 @@ static beam moved(beam b, int d, double h)
 static void forces_and_torques_are_the_gradient_of_the_energy(void **state)
 {
     (void)state;
-    /* Central differences of fourth order with h = 1e-3: truncation about h^4 = 1e-12 of an energy of order 1, rounding 1e-16 / h. */
+    /* Central differences of fourth order with h = 1e-3: truncation about h^4 = 1e-12 of an energy of order 1, rounding
+     * 1e-16 / h. */
     const double h = 1e-3;
     for (int k = 0; k < 200; ++k) {
         const beam b = random_beam(k);
@@ -93,7 +100,8 @@ static void the_two_ends_balance_in_force_and_moment(void **state)
         const beam b = random_beam(k);
         const cbm_end one = end_of(&b, 0, 1), two = end_of(&b, 1, 1);
         const lane_vec3 f = lane_vec3_add(one.force, two.force);
-        const lane_vec3 now = {b.branch.x + b.u[1][0] - b.u[0][0], b.branch.y + b.u[1][1] - b.u[0][1], b.branch.z + b.u[1][2] - b.u[0][2]};
+        const lane_vec3 now = {b.branch.x + b.u[1][0] - b.u[0][0], b.branch.y + b.u[1][1] - b.u[0][1],
+                               b.branch.z + b.u[1][2] - b.u[0][2]};
         const lane_vec3 t = lane_vec3_add(lane_vec3_add(one.torque, two.torque), lane_vec3_cross(now, two.force));
         /* some ten roundings of numbers of order 1 to 10 */
         assert_true(lane_vec3_dot(f, f) < 1e-28 && lane_vec3_dot(t, t) < 1e-28);
@@ -135,7 +143,8 @@ static void the_linear_law_is_the_slope_of_the_full_one_at_rest(void **state)
 static void a_single_beam_is_that_of_euler_and_bernoulli(void **state)
 {
     (void)state;
-    /* Along x, length 2: E S / l, 12 E I / l^3, 6 E I / l^2, 4 and 2 E I / l, G J / l with E I = bend / 2. Linear law: exact to rounding. */
+    /* Along x, length 2: E S / l, 12 E I / l^3, 6 E I / l^2, 4 and 2 E I / l, G J / l with E I = bend / 2. Linear law:
+     * exact to rounding. */
     beam b = {.branch = {2, 0, 0}, .q = {{1, 0, 0, 0}, {1, 0, 0, 0}}};
     const double ei = STIFF.bend / 2, l = 2;
     b.u[1][0] = 1e-3;
@@ -156,7 +165,8 @@ static void a_missing_neighbour_does_nothing(void **state)
     const lane_quat q = unit(1, 0.2, -0.3, 0.4);
     const cbm_shape shape = cbm_beam_shape((lane_vec3){1, 0, 0}, 0, (lane_vec3){0, 0, 0}, q, q, 1);
     const cbm_end end = cbm_beam_law(shape, 0, STIFF, 1);
-    assert_true(end.force.x == 0 && end.force.y == 0 && end.force.z == 0 && end.torque.x == 0 && end.torque.y == 0 && end.torque.z == 0);
+    assert_true(end.force.x == 0 && end.force.y == 0 && end.force.z == 0 && end.torque.x == 0 && end.torque.y == 0 &&
+                end.torque.z == 0);
     assert_true(cbm_beam_energy(shape, 0, STIFF) == 0);
 }
 

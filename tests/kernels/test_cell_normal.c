@@ -1,4 +1,5 @@
-/* The room of a bond of dlsm below its limit: it spares no bond whose half of the stress is above the limit, and spares those that are clearly below. One lane, double. */
+/* The room of a bond of dlsm below its limit: it spares no bond whose half of the stress is above the limit, and spares
+ * those that are clearly below. One lane, double. */
 #include "one_lane.h"
 #include "../../kernels/cell_normal.h"
 #include <stdbool.h>
@@ -7,9 +8,13 @@ enum { STATES = 20000 };
 
 static const double lambda = 2e10, mu = 3e10;
 
-static double uniform(int state, int which) { return one_lane_uniform(6, state, which); }
+static double uniform(int state, int which)
+{
+    return one_lane_uniform(6, state, which);
+}
 
-/* A half of a bond: H of some size turned by any angle, P of another gradient of that size, the jump of a third, as misfits of cells may be. */
+/* A half of a bond: H of some size turned by any angle, P of another gradient of that size, the jump of a third, as
+ * misfits of cells may be. */
 typedef struct half_bond {
     lane_mat3 gradient, stress;
     lane_vec3 branch, jump;
@@ -19,7 +24,8 @@ typedef struct half_bond {
 static lane_mat3 random_matrix(int state, int from, double size)
 {
     double x[9];
-    for (int k = 0; k < 9; ++k) x[k] = size * uniform(state, from + k);
+    for (int k = 0; k < 9; ++k)
+        x[k] = size * uniform(state, from + k);
     return (lane_mat3){x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7], x[8]};
 }
 
@@ -36,7 +42,9 @@ static half_bond random_half(int state)
     half_bond b;
     b.strain = pow(10, -4 + 3.3 * fabs(uniform(state, 60))); /* up to a fifth */
     const double angle = state % 3 ? M_PI * uniform(state, 61) : 0;
-    const lane_mat3 own = random_matrix(state, 0, b.strain), other = lane_mat3_add(own, random_matrix(state, 9, 0.5 * b.strain)), third = lane_mat3_add(own, random_matrix(state, 18, 0.5 * b.strain));
+    const lane_mat3 own = random_matrix(state, 0, b.strain),
+                    other = lane_mat3_add(own, random_matrix(state, 9, 0.5 * b.strain)),
+                    third = lane_mat3_add(own, random_matrix(state, 18, 0.5 * b.strain));
     const lane_mat3 g = turned(other, angle);
     b.gradient = turned(own, angle);
     b.stress = push_forward(g, svk_stress(green_strain(g, 1), lambda, mu), 1);
@@ -48,10 +56,14 @@ static half_bond random_half(int state)
 static double half_stress(const half_bond *b)
 {
     const double inverse = cell_inverse_square(b->branch);
-    return cell_half_stress(b->gradient, b->stress, lambda + 2 * mu, b->branch, cell_bond_strain(b->branch, b->jump, inverse), inverse);
+    return cell_half_stress(b->gradient, b->stress, lambda + 2 * mu, b->branch,
+                            cell_bond_strain(b->branch, b->jump, inverse), inverse);
 }
 
-static double room(const half_bond *b, double limit) { return cell_room(cell_side_of(b->gradient, b->stress, lambda + 2 * mu), b->branch, b->jump, limit); }
+static double room(const half_bond *b, double limit)
+{
+    return cell_room(cell_side_of(b->gradient, b->stress, lambda + 2 * mu), b->branch, b->jump, limit);
+}
 
 /* Limits from a hair to a factor of ten below the half's stress. */
 static void no_half_above_its_limit_has_room(void **state)
@@ -69,8 +81,9 @@ static void no_half_above_its_limit_has_room(void **state)
     assert_true(n > STATES / 4);
 }
 
-/* What is lost: 1e-3 of the limit, which rounding may take, and the pull times 1/stretch - 1, twice (the bound's and the stress' own), where the stretch of gradients of entries up to e is
- * within 1 +- (3 e + 4.5 e^2) (Frobenius' norm), and the pull below 3 (3 lambda + 2 mu) times that. */
+/* What is lost: 1e-3 of the limit, which rounding may take, and the pull times 1/stretch - 1, twice (the bound's and
+ * the stress' own), where the stretch of gradients of entries up to e is within 1 +- (3 e + 4.5 e^2) (Frobenius' norm),
+ * and the pull below 3 (3 lambda + 2 mu) times that. */
 static void halves_clearly_below_their_limit_have_room(void **state)
 {
     (void)state;
@@ -95,11 +108,14 @@ static void missing_bonds_have_no_room_to_lose(void **state)
     assert_true(room(&b, 1e30) >= 0);
 }
 
-/* A cell pressed flat: what its bonds hold cannot be told from its stretch, so they are looked at wherever it pulls at all. */
+/* A cell pressed flat: what its bonds hold cannot be told from its stretch, so they are looked at wherever it pulls at
+ * all. */
 static void cells_pressed_flat_are_looked_at(void **state)
 {
     (void)state;
-    half_bond b = {.gradient = {-0.999, 0, 0, 0, 0, 0, 0, 0, 0}, .stress = {1e9, 0, 0, 0, 1e9, 0, 0, 0, 1e9}, .branch = {0, 1e-3, 0}};
+    half_bond b = {.gradient = {-0.999, 0, 0, 0, 0, 0, 0, 0, 0},
+                   .stress = {1e9, 0, 0, 0, 1e9, 0, 0, 0, 1e9},
+                   .branch = {0, 1e-3, 0}};
     assert_true(room(&b, 1e12) < 0);
 }
 

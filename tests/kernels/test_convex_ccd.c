@@ -1,5 +1,6 @@
-/* A million random pairs against GJK of libccd: do they share a point? Every twentieth is first brought to where it just touches, and then 1e-2 to 1e-9
- * deeper or away. The two may differ where drawing in the faces of one body by BAND makes it miss the other and pushing them out makes it meet it; nowhere else. */
+/* A million random pairs against GJK of libccd: do they share a point? Every twentieth is first brought to where it
+ * just touches, and then 1e-2 to 1e-9 deeper or away. The two may differ where drawing in the faces of one body by BAND
+ * makes it miss the other and pushing them out makes it meet it; nowhere else. */
 // clang-format off
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,7 +30,8 @@ typedef struct placed {
 static void support(const void *object, const ccd_vec3_t *direction, ccd_vec3_t *out)
 {
     const placed *p = object;
-    const convex_vec d = convex_turn(convex_transpose(p->pose.map), (convex_vec){ccdVec3X(direction), ccdVec3Y(direction), ccdVec3Z(direction)});
+    const convex_vec d = convex_turn(convex_transpose(p->pose.map),
+                                     (convex_vec){ccdVec3X(direction), ccdVec3Y(direction), ccdVec3Z(direction)});
     const double *best = p->body->corner;
     double most = -HUGE_VAL;
     for (int k = 0; k < p->body->n_corners; ++k) {
@@ -59,8 +61,10 @@ static void touch(const placed *a, placed *b, double step)
     for (int k = 0; k < 40; ++k) {
         const double middle = 0.5 * (low + high);
         b->pose.origin = convex_scale(middle, way);
-        if (shared(a, b, 1) > 0) low = middle;
-        else high = middle;
+        if (shared(a, b, 1) > 0)
+            low = middle;
+        else
+            high = middle;
     }
     b->pose.origin = convex_scale(low - step / length, way);
 }
@@ -71,7 +75,8 @@ static void verdict_is_that_of_libccd(void **state)
     convex_case *body = malloc(BODIES * sizeof *body);
     assert_non_null(body);
     uint64_t random = 11;
-    for (int k = 0; k < BODIES; ++k) convex_case_random(body + k, k % CONVEX_KINDS, 5 + k % 17, &random);
+    for (int k = 0; k < BODIES; ++k)
+        convex_case_random(body + k, k % CONVEX_KINDS, 5 + k % 17, &random);
     ccd_t ccd;
     CCD_INIT(&ccd);
     ccd.support1 = ccd.support2 = support;
@@ -81,18 +86,24 @@ static void verdict_is_that_of_libccd(void **state)
         placed a = {body + n % BODIES, {{0, 0, 0}, convex_case_map(0.1, &random)}};
         placed b = {body + (n / BODIES * 7 + n * 13 + 5) % BODIES, {{0, 0, 0}, convex_case_map(0.1, &random)}};
         const double spread = 0.6 * (cbrt(a.body->radius) + cbrt(b.body->radius)); /* about half of the pairs meet */
-        b.pose.origin = (convex_vec){spread * convex_case_number(&random), spread * convex_case_number(&random), spread * convex_case_number(&random)};
+        b.pose.origin = (convex_vec){spread * convex_case_number(&random), spread * convex_case_number(&random),
+                                     spread * convex_case_number(&random)};
         if (n % 20 == 0) touch(&a, &b, (n / 20 % 2 ? 1 : -1) * pow(10, -2 - n / 40 % 8));
-        const convex_overlap o = convex_overlap_of(convex_case_shape(a.body), a.pose, convex_case_shape(b.body), b.pose);
+        const convex_overlap o =
+            convex_overlap_of(convex_case_shape(a.body), a.pose, convex_case_shape(b.body), b.pose);
         failed += o.failed != 0 || !(o.volume >= 0);
         touching += o.volume > 0;
         if ((o.volume > 0) == (ccdGJKIntersect(&a, &b, &ccd) != 0)) continue;
-        static const double thickness[CONVEX_KINDS] = {1, 1, 0.1, 0.01}; /* the nearest faces are about half as far from the origin */
+        static const double thickness[CONVEX_KINDS] = {
+            1, 1, 0.1, 0.01}; /* the nearest faces are about half as far from the origin */
         const double swell = 2 * BAND / thickness[(b.body - body) % CONVEX_KINDS];
-        if (shared(&a, &b, 1 - swell) > 0 || !(shared(&a, &b, 1 + swell) > 0)) ++wrong;
-        else ++band;
+        if (shared(&a, &b, 1 - swell) > 0 || !(shared(&a, &b, 1 + swell) > 0))
+            ++wrong;
+        else
+            ++band;
     }
-    printf("%d pairs, %d share volume; %d differ within the band of %g, %d beyond it\n", (int)PAIRS, touching, band, BAND, wrong);
+    printf("%d pairs, %d share volume; %d differ within the band of %g, %d beyond it\n", (int)PAIRS, touching, band,
+           BAND, wrong);
     assert_int_equal(failed, 0);
     assert_int_equal(wrong, 0);
     assert_true(touching > PAIRS / 4 && touching < 3 * PAIRS / 4);

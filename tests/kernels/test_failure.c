@@ -5,7 +5,10 @@
 
 enum { STATES = 2000 };
 
-static double uniform(int state, int which) { return one_lane_uniform(5, state, which); }
+static double uniform(int state, int which)
+{
+    return one_lane_uniform(5, state, which);
+}
 
 /* Every kind of tensor: general, of one or two values, nearly so, of rank one, of very different sizes. */
 static failure_stress random_stress(int state)
@@ -20,11 +23,10 @@ static failure_stress random_stress(int state)
         s = (failure_stress){size, size * (1 + small), size, small * s.yz, small * s.xz, small * s.xy};
         break;
     case 2: /* a a^T: one value |a|^2, twice zero */
-        s = (failure_stress){size * a[0] * a[0], size * a[1] * a[1], size * a[2] * a[2], size * a[1] * a[2], size * a[0] * a[2], size * a[0] * a[1]};
+        s = (failure_stress){size * a[0] * a[0], size * a[1] * a[1], size * a[2] * a[2],
+                             size * a[1] * a[2], size * a[0] * a[2], size * a[0] * a[1]};
         break;
-    case 3: /* diagonal */
-        s.yz = s.xz = s.xy = 0;
-        break;
+    case 3: /* diagonal */ s.yz = s.xz = s.xy = 0; break;
     default: break;
     }
     return s;
@@ -37,12 +39,17 @@ static double norm(failure_stress s)
 
 static failure_axis multiply(failure_stress s, failure_axis v)
 {
-    return (failure_axis){s.xx * v.x + s.xy * v.y + s.xz * v.z, s.xy * v.x + s.yy * v.y + s.yz * v.z, s.xz * v.x + s.yz * v.y + s.zz * v.z};
+    return (failure_axis){s.xx * v.x + s.xy * v.y + s.xz * v.z, s.xy * v.x + s.yy * v.y + s.yz * v.z,
+                          s.xz * v.x + s.yz * v.y + s.zz * v.z};
 }
 
-static double dot(failure_axis a, failure_axis b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static double dot(failure_axis a, failure_axis b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
-/* What defines them, to rounding: a Jacobi sweep makes a few operations on numbers up to |s|, at most some ten sweeps. */
+/* What defines them, to rounding: a Jacobi sweep makes a few operations on numbers up to |s|, at most some ten
+ * sweeps. */
 static void principal_values_and_axes_satisfy_their_definition_for_every_kind_of_tensor(void **state)
 {
     (void)state;
@@ -58,7 +65,8 @@ static void principal_values_and_axes_satisfy_their_definition_for_every_kind_of
             assert_true(fabs(image.x - value[i] * axis[i].x) <= rounding * norm(s));
             assert_true(fabs(image.y - value[i] * axis[i].y) <= rounding * norm(s));
             assert_true(fabs(image.z - value[i] * axis[i].z) <= rounding * norm(s));
-            for (int j = 0; j < 3; ++j) assert_true(fabs(dot(axis[i], axis[j]) - (i == j)) <= rounding);
+            for (int j = 0; j < 3; ++j)
+                assert_true(fabs(dot(axis[i], axis[j]) - (i == j)) <= rounding);
         }
     }
 }
@@ -96,16 +104,24 @@ static void the_larger_of_tension_and_compression_decides(void **state)
     assert_true(f.mode == 0 && f.ratio == 0);
 }
 
-/* c 10, phi 30 deg: uniaxial compression fails at 2 c cos phi / (1 - sin phi) on a plane whose normal is 60 deg from the axis. */
+/* c 10, phi 30 deg: uniaxial compression fails at 2 c cos phi / (1 - sin phi) on a plane whose normal is 60 deg from
+ * the axis. */
 static const double COHESION = 10;
-static failure_shear mohr(void) { return (failure_shear){0, 0.5, 0.5}; }
-static failure_limits mohr_limits(void) { return (failure_limits){0, 0, 2 * COHESION * cos(M_PI / 6)}; }
+static failure_shear mohr(void)
+{
+    return (failure_shear){0, 0.5, 0.5};
+}
+static failure_limits mohr_limits(void)
+{
+    return (failure_limits){0, 0, 2 * COHESION * cos(M_PI / 6)};
+}
 
 static void mohr_coulomb_slides_on_its_plane(void **state)
 {
     (void)state;
     const double strength = 2 * COHESION * cos(M_PI / 6) / (1 - 0.5);
-    const failure_state f = failure_of(failure_principal_of((failure_stress){-strength, 0, -1e-9, 0, 0, 0}), mohr_limits(), mohr());
+    const failure_state f =
+        failure_of(failure_principal_of((failure_stress){-strength, 0, -1e-9, 0, 0, 0}), mohr_limits(), mohr());
     assert_int_equal(f.mode, FAILURE_SHEAR);
     assert_true(fabs(f.ratio - 1) < 1e-9);
     assert_true(fabs(fabs(f.normal.x) - cos(M_PI / 3)) < 1e-12 && fabs(fabs(f.other.x) - cos(M_PI / 3)) < 1e-12);
@@ -122,7 +138,8 @@ static void drucker_prager_meets_mohr_coulomb_in_triaxial_compression(void **sta
     const failure_shear cone = {1, 2 * sine / (sqrt(3) * (3 - sine)), sine};
     for (int i = 0; i < 50; ++i) {
         const double confined = -40 * (uniform(i, 0) + 1);
-        const double axial = confined - (2 * COHESION * cosine - 2 * sine * confined) / (1 - sine); /* where Mohr-Coulomb fails */
+        const double axial =
+            confined - (2 * COHESION * cosine - 2 * sine * confined) / (1 - sine); /* where Mohr-Coulomb fails */
         const failure_principal p = failure_principal_of((failure_stress){confined, axial, confined, 0, 0, 0});
         assert_true(fabs(failure_of(p, mohr_limits(), mohr()).ratio - 1) < 1e-12);
         assert_true(fabs(failure_of(p, (failure_limits){0, 0, k}, cone).ratio - 1) < 1e-12);
@@ -142,7 +159,8 @@ static void the_quick_test_overlooks_no_failure(void **state)
         for (int l = 0; l < 5; ++l)
             for (int drucker = 0; drucker < 2; ++drucker) {
                 const failure_shear shear = {drucker, drucker ? 0.2 : 0.4, 0.4};
-                const int fails = failure_of(failure_principal_of(s), limits[l], shear).ratio >= 1, possible = failure_possible(s, limits[l], shear);
+                const int fails = failure_of(failure_principal_of(s), limits[l], shear).ratio >= 1,
+                          possible = failure_possible(s, limits[l], shear);
                 assert_true(possible || !fails);
                 failed += fails;
                 kept += !possible;

@@ -1,4 +1,5 @@
-/* The bound that spares elements their stresses: above the ratio itself, sublinear, and tight where it matters. One lane, double. */
+/* The bound that spares elements their stresses: above the ratio itself, sublinear, and tight where it matters. One
+ * lane, double. */
 #include "one_lane.h"
 #include "../../kernels/failure.h"
 #include "../../kernels/failure_bound.h"
@@ -6,17 +7,24 @@
 
 enum { STATES = 5000, KINDS = 4 };
 
-static double uniform(int state, int which) { return one_lane_uniform(6, state, which); }
+static double uniform(int state, int which)
+{
+    return one_lane_uniform(6, state, which);
+}
 
 /* General, nearly uniaxial, nearly a pressure, and of two equal values. */
 static lane_sym3 random_stress(int state)
 {
     const double size = 1e6 * pow(10, 3 * uniform(state, 8));
     const double a[3] = {uniform(state, 0), uniform(state, 1), uniform(state, 2)};
-    const double shift = state % 4 == 2 ? 2 * uniform(state, 9) : 0, little = state % 4 == 0 ? 1 : 1e-3, dyad = state % 2 ? uniform(state, 10) : 0;
-    return (lane_sym3){size * (shift + dyad * a[0] * a[0] + little * uniform(state, 3)), size * (shift + dyad * a[1] * a[1] + little * uniform(state, 4)),
-                       size * (shift + dyad * a[2] * a[2] + little * uniform(state, 5)), size * (dyad * a[1] * a[2] + little * uniform(state, 6)),
-                       size * (dyad * a[0] * a[2] + little * uniform(state, 7)), size * (dyad * a[0] * a[1] + little * uniform(state, 11))};
+    const double shift = state % 4 == 2 ? 2 * uniform(state, 9) : 0, little = state % 4 == 0 ? 1 : 1e-3,
+                 dyad = state % 2 ? uniform(state, 10) : 0;
+    return (lane_sym3){size * (shift + dyad * a[0] * a[0] + little * uniform(state, 3)),
+                       size * (shift + dyad * a[1] * a[1] + little * uniform(state, 4)),
+                       size * (shift + dyad * a[2] * a[2] + little * uniform(state, 5)),
+                       size * (dyad * a[1] * a[2] + little * uniform(state, 6)),
+                       size * (dyad * a[0] * a[2] + little * uniform(state, 7)),
+                       size * (dyad * a[0] * a[1] + little * uniform(state, 11))};
 }
 
 static const struct {
@@ -32,13 +40,15 @@ static const struct {
 static failure_scale scale_of(int k)
 {
     const failure_limits l = kind[k].limit;
-    return (failure_scale){l.tension > 0 ? 1 / l.tension : 0, l.compression > 0 ? 1 / l.compression : 0, l.shear > 0 ? 1 / l.shear : 0,
-                           kind[k].shear.drucker_prager, kind[k].shear.slope};
+    return (failure_scale){l.tension > 0 ? 1 / l.tension : 0, l.compression > 0 ? 1 / l.compression : 0,
+                           l.shear > 0 ? 1 / l.shear : 0, kind[k].shear.drucker_prager, kind[k].shear.slope};
 }
 
 static double ratio_of(lane_sym3 s, int k)
 {
-    return failure_of(failure_principal_of((failure_stress){s.xx, s.yy, s.zz, s.yz, s.xz, s.xy}), kind[k].limit, kind[k].shear).ratio;
+    return failure_of(failure_principal_of((failure_stress){s.xx, s.yy, s.zz, s.yz, s.xz, s.xy}), kind[k].limit,
+                      kind[k].shear)
+        .ratio;
 }
 
 /* To some roundings of the tensor's own size; the host leaves 1e-3. */
@@ -74,7 +84,8 @@ static void the_mean_of_bounds_bounds_the_mean(void **state)
                 size += v * size_of(s, k);
                 volume += v;
             }
-            mean = (lane_sym3){mean.xx / volume, mean.yy / volume, mean.zz / volume, mean.yz / volume, mean.xz / volume, mean.xy / volume};
+            mean = (lane_sym3){mean.xx / volume, mean.yy / volume, mean.zz / volume,
+                               mean.yz / volume, mean.xz / volume, mean.xy / volume};
             assert_true(bound / volume >= ratio_of(mean, k) - 1e-15 * size / volume);
         }
 }
@@ -84,15 +95,18 @@ static void it_is_exact_in_uniaxial_tension_and_close_in_shear(void **state)
     (void)state;
     const failure_scale scale = scale_of(0);
     assert_true(fabs(failure_bound((lane_sym3){25e6, 0, 0, 0, 0, 0}, scale) - 0.5) < 1e-15);
-    assert_true(fabs(failure_bound((lane_sym3){0, 10e6, 10e6, 10e6, 0, 0}, scale) - 0.4) < 1e-15); /* pull of 20 MPa between y and z */
+    assert_true(fabs(failure_bound((lane_sym3){0, 10e6, 10e6, 10e6, 0, 0}, scale) - 0.4) <
+                1e-15); /* pull of 20 MPa between y and z */
     const double shear = failure_bound((lane_sym3){0, 0, 0, 0, 50e6, 0}, scale);
     assert_true(shear >= 1 && shear < 1.027); /* 16/9 / sqrt 3 */
     assert_true(failure_bound((lane_sym3){0, 0, 0, 0, 0, 0}, scale) == 0);
     assert_true(failure_bound((lane_sym3){-1e6, -1e6, -1e6, 0, 0, 0}, scale) == 0);
 }
 
-/* What fracture_spared relies on: lambda is above s1, and x.A x between a1 cos^2 and a1 cos^2 + slack, with a1 of the principal values. Entries of A are of up to 16 sizes, of which sums
- * of some 20 products keep 1e-13; a1 is a difference of values that are right to 1e-15 of the size, times another of up to 4. Most states have values far enough apart. */
+/* What fracture_spared relies on: lambda is above s1, and x.A x between a1 cos^2 and a1 cos^2 + slack, with a1 of the
+ * principal values. Entries of A are of up to 16 sizes, of which sums of some 20 products keep 1e-13; a1 is a
+ * difference of values that are right to 1e-15 of the size, times another of up to 4. Most states have values far
+ * enough apart. */
 static void the_share_of_a_direction_lies_between_its_bounds(void **state)
 {
     (void)state;
@@ -102,7 +116,8 @@ static void the_share_of_a_direction_lies_between_its_bounds(void **state)
         const failure_stress sigma = {s.xx, s.yy, s.zz, s.yz, s.xz, s.xy};
         const failure_principal p = failure_principal_of(sigma);
         const failure_leading lead = failure_leading_of(sigma);
-        const double size = fmax(fmax(fmax(fabs(s.xx), fabs(s.yy)), fmax(fabs(s.zz), fabs(s.yz))), fmax(fabs(s.xz), fabs(s.xy)));
+        const double size =
+            fmax(fmax(fmax(fabs(s.xx), fabs(s.yy)), fmax(fabs(s.zz), fabs(s.yz))), fmax(fabs(s.xz), fabs(s.xy)));
         if (!lead.known) continue;
         known += 1;
         assert_true(lead.first >= p.first - 1e-13 * size && lead.slack >= 0);
@@ -119,7 +134,8 @@ static void the_share_of_a_direction_lies_between_its_bounds(void **state)
     assert_true(known > STATES / 2);
 }
 
-/* Two equal largest values have no axis: the slack is all there is. One value alone at the top leaves none but that for rounding. */
+/* Two equal largest values have no axis: the slack is all there is. One value alone at the top leaves none but that for
+ * rounding. */
 static void of_equal_largest_values_no_direction_is_told_from_another(void **state)
 {
     (void)state;

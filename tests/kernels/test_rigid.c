@@ -1,4 +1,5 @@
-/* Rigid bodies that turn: against exact solutions of Euler's equations. Double, one body; and eight side by side, as cells do. */
+/* Rigid bodies that turn: against exact solutions of Euler's equations. Double, one body; and eight side by side, as
+ * cells do. */
 // clang-format off
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,14 +22,21 @@
 
 static const squat UPRIGHT = {1, 0, 0, 0};
 
-static double length(svec3 a) { return sqrt(svec3_dot(a, a)); }
-static double apart(svec3 a, svec3 b) { return length(svec3_add(a, svec3_scale(-1, b))); }
+static double length(svec3 a)
+{
+    return sqrt(svec3_dot(a, a));
+}
+static double apart(svec3 a, svec3 b)
+{
+    return length(svec3_add(a, svec3_scale(-1, b)));
+}
 /* Largest difference of what two rotations do to the axes. */
 static double differ(squat a, squat b)
 {
     const svec3 axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     double most = 0;
-    for (int k = 0; k < 3; ++k) most = fmax(most, apart(rigid_rotate(a, axis[k]), rigid_rotate(b, axis[k])));
+    for (int k = 0; k < 3; ++k)
+        most = fmax(most, apart(rigid_rotate(a, axis[k]), rigid_rotate(b, axis[k])));
     return most;
 }
 static squat turn_about(svec3 axis, double angle)
@@ -50,8 +58,8 @@ static ssym3 turned_by(squat q, const double moment[3])
     return i;
 }
 
-/* Three different moments, axes askew. Each step rounds the energy a few times by 1e-16: at most 1e5 * 20 * 1.1e-16 = 2e-10 if all pointed one way; a
- * second-order scheme without the invariant would be off by (h w)^2 = 4e-4. */
+/* Three different moments, axes askew. Each step rounds the energy a few times by 1e-16: at most 1e5 * 20 * 1.1e-16 =
+ * 2e-10 if all pointed one way; a second-order scheme without the invariant would be off by (h w)^2 = 4e-4. */
 static void a_top_without_torque_keeps_its_energy_over_1e5_steps(void **state)
 {
     (void)state;
@@ -82,7 +90,8 @@ static double symmetric_error(double h, int steps)
     const ssym3 own = {1, 1, 1.8, 0, 0, 0};
     const svec3 l = {0.5, 0.2, 1.1};
     squat q = UPRIGHT;
-    for (int k = 0; k < steps; ++k) q = rigid_drift(q, own, l, h);
+    for (int k = 0; k < steps; ++k)
+        q = rigid_drift(q, own, l, h);
     return differ(q, symmetric_top(1, 1.8, l, h * steps));
 }
 
@@ -109,12 +118,13 @@ static void elliptic(double u, double m, double *sn, double *cn, double *dn)
         ++n;
     }
     phi = ldexp(a[n] * u, n);
-    for (int k = n; k > 0; --k) phi = 0.5 * (phi + asin(c[k] / a[k] * sin(phi)));
+    for (int k = n; k > 0; --k)
+        phi = 0.5 * (phi + asin(c[k] / a[k] * sin(phi)));
     *sn = sin(phi), *cn = cos(phi), *dn = sqrt(1 - m * *sn * *sn);
 }
 
-/* Moments I1 < I2 < I3, spin at first in the plane of axes 1 and 3, momentum above that of the middle axis: w1 = a cn, w2 = b sn, w3 = c dn (Landau and
- * Lifshitz, Mechanics, section 37). */
+/* Moments I1 < I2 < I3, spin at first in the plane of axes 1 and 3, momentum above that of the middle axis: w1 = a cn,
+ * w2 = b sn, w3 = c dn (Landau and Lifshitz, Mechanics, section 37). */
 static double asymmetric_error(double h, int steps)
 {
     const double i1 = 1, i2 = 2, i3 = 2.7, w1 = 0.4, w3 = 0.9;
@@ -122,11 +132,13 @@ static double asymmetric_error(double h, int steps)
     const svec3 l = {i1 * w1, 0, i3 * w3};
     const double twice = i1 * w1 * w1 + i3 * w3 * w3, square = svec3_dot(l, l);
     assert_true(square > twice * i2);
-    const double rate = sqrt((i3 - i2) * (square - twice * i1) / (i1 * i2 * i3)), m = (i2 - i1) * (twice * i3 - square) / ((i3 - i2) * (square - twice * i1));
+    const double rate = sqrt((i3 - i2) * (square - twice * i1) / (i1 * i2 * i3)),
+                 m = (i2 - i1) * (twice * i3 - square) / ((i3 - i2) * (square - twice * i1));
     const double second = sqrt((twice * i3 - square) / (i2 * (i3 - i2)));
     double sn, cn, dn;
     squat q = UPRIGHT;
-    for (int k = 0; k < steps; ++k) q = rigid_drift(q, own, l, h);
+    for (int k = 0; k < steps; ++k)
+        q = rigid_drift(q, own, l, h);
     elliptic(rate * h * steps, m, &sn, &cn, &dn);
     const svec3 w = rigid_rotate(rigid_back(q), rigid_spin(q, own, l));
     return apart(w, (svec3){w1 * cn, second * sn, w3 * dn});
@@ -147,7 +159,8 @@ static void a_ball_turns_exactly(void **state)
     const ssym3 own = {0.4, 0.4, 0.4, 0, 0, 0};
     const svec3 l = {0.1, -0.2, 0.3};
     squat q = UPRIGHT;
-    for (int k = 0; k < 1000; ++k) q = rigid_drift(q, own, l, 0.1);
+    for (int k = 0; k < 1000; ++k)
+        q = rigid_drift(q, own, l, 0.1);
     assert_true(differ(q, turn_about(l, length(l) / 0.4 * 100)) < 1000 * 4e-16);
 }
 
@@ -157,17 +170,20 @@ static void moments_are_solved_at_any_size(void **state)
     (void)state;
     const ssym3 own = {1e-110, 2e-110, 2.7e-110, 0.3e-110, -0.2e-110, 0.4e-110};
     const svec3 w = rigid_solve(own, (svec3){1e-110, -3e-110, 2e-110});
-    const svec3 back = {own.xx * w.x + own.xy * w.y + own.xz * w.z, own.xy * w.x + own.yy * w.y + own.yz * w.z, own.xz * w.x + own.yz * w.y + own.zz * w.z};
+    const svec3 back = {own.xx * w.x + own.xy * w.y + own.xz * w.z, own.xy * w.x + own.yy * w.y + own.yz * w.z,
+                        own.xz * w.x + own.yz * w.y + own.zz * w.z};
     assert_true(apart(back, (svec3){1e-110, -3e-110, 2e-110}) < 1e-124);
 }
 
-/* Kicked and turned by the kernel of cells: each as it would be alone, to the last bit, whatever turns beside it; what is not rigid keeps what it has. */
+/* Kicked and turned by the kernel of cells: each as it would be alone, to the last bit, whatever turns beside it; what
+ * is not rigid keeps what it has. */
 static void cells_side_by_side_turn_as_each_does_alone(void **state)
 {
     (void)state;
     enum { N = 24 };
     int rigid[N];
-    double inertia[6 * N], torque[3 * N], reach[N], momentum[3 * N], turned[4 * N], way[N], momentum_before[3 * N], turned_before[4 * N];
+    double inertia[6 * N], torque[3 * N], reach[N], momentum[3 * N], turned[4 * N], way[N], momentum_before[3 * N],
+        turned_before[4 * N];
     const double kick = 0.01, drift = 0.02, extra = 4e-5;
     for (int e = 0; e < N; ++e) {
         const squat q = turn_about((svec3){1, e % 5, -0.5}, 0.3 * e);
@@ -176,19 +192,26 @@ static void cells_side_by_side_turn_as_each_does_alone(void **state)
         rigid[e] = e < 16 && e % 3 != 1; /* the last eight have none */
         reach[e] = 0.1;
         way[e] = 0;
-        for (int k = 0; k < 3; ++k) momentum[3 * e + k] = momentum_before[3 * e + k] = e % 4 == 0 ? 0 : pow(10, -(e % 4)) * (k + 1 - 0.2 * e), torque[3 * e + k] = 0.3 * k - 0.1;
-        for (int k = 0; k < 4; ++k) turned[4 * e + k] = turned_before[4 * e + k] = at[k];
-        for (int k = 0; k < 6; ++k) inertia[6 * e + k] = e == 1 ? 0 : moment[k]; /* a row without an element has none */
+        for (int k = 0; k < 3; ++k)
+            momentum[3 * e + k] = momentum_before[3 * e + k] = e % 4 == 0 ? 0 : pow(10, -(e % 4)) * (k + 1 - 0.2 * e),
+                             torque[3 * e + k] = 0.3 * k - 0.1;
+        for (int k = 0; k < 4; ++k)
+            turned[4 * e + k] = turned_before[4 * e + k] = at[k];
+        for (int k = 0; k < 6; ++k)
+            inertia[6 * e + k] = e == 1 ? 0 : moment[k]; /* a row without an element has none */
     }
     contact_turn(N / 8, kick, drift, extra, rigid, inertia, torque, reach, momentum, turned, way);
     for (int e = 0; e < N; ++e) {
-        const svec3 t = svec3_load(torque, 3 * (size_t)e), l = svec3_add_scaled(svec3_load(momentum_before, 3 * (size_t)e), kick, t);
+        const svec3 t = svec3_load(torque, 3 * (size_t)e),
+                    l = svec3_add_scaled(svec3_load(momentum_before, 3 * (size_t)e), kick, t);
         const squat was = squat_load(turned_before, e);
-        const squat q = rigid[e] ? rigid_drift(was, ssym3_load(inertia, e), svec3_add_scaled(l, extra / drift, t), drift) : was;
+        const squat q =
+            rigid[e] ? rigid_drift(was, ssym3_load(inertia, e), svec3_add_scaled(l, extra / drift, t), drift) : was;
         const svec3 kept = rigid[e] ? l : svec3_load(momentum_before, 3 * (size_t)e);
         assert_memory_equal(momentum + 3 * e, &kept, sizeof kept);
         assert_memory_equal(turned + 4 * e, &q, sizeof q);
-        /* how far a point of a cell of radius 0.1 can have come: the chord; of three axes one makes at least sqrt(2/3) of the largest, none makes more. 1e-15: roundings */
+        /* how far a point of a cell of radius 0.1 can have come: the chord; of three axes one makes at least sqrt(2/3)
+         * of the largest, none makes more. 1e-15: roundings */
         const double seen = 0.1 * differ(q, was);
         assert_true(rigid[e] ? way[e] > seen - 1e-15 && way[e] < sqrt(1.5) * (1 + 2e-6) * seen + 1e-15 : way[e] == 0);
     }

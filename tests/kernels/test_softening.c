@@ -25,7 +25,8 @@ static void the_area_under_the_law_is_the_fracture_energy(void **state)
 static void the_decay_is_the_exponential_function(void **state)
 {
     (void)state;
-    for (double x = 0; x <= 5; x += 0.01) assert_true(fabs(soft_decay(x) / exp(-x) - 1) < 1e-12);
+    for (double x = 0; x <= 5; x += 0.01)
+        assert_true(fabs(soft_decay(x) / exp(-x) - 1) < 1e-12);
 }
 
 static void slopes_are_those_of_the_force(void **state)
@@ -34,7 +35,8 @@ static void slopes_are_those_of_the_force(void **state)
     for (int k = 0; k < 2; ++k)
         for (double w = 0.05; w < 0.4; w += 0.05) {
             const double h = 1e-5, slope = (soft_force(faces[k], w + h) - soft_force(faces[k], w - h)) / (2 * h);
-            assert_true(fabs(slope - soft_slope(faces[k], w)) < 1e-6 * 30); /* h^2 times a third derivative of some ten */
+            assert_true(fabs(slope - soft_slope(faces[k], w)) <
+                        1e-6 * 30); /* h^2 times a third derivative of some ten */
         }
 }
 
@@ -47,25 +49,31 @@ static void spent_is_the_area_under_the_law_less_the_triangle(void **state)
             const double end = soft_end(faces[k]), w = i * end / 20;
             double sum = 0;
             for (int j = 0; j < 1000; ++j)
-                for (int m = 0; m < 3; ++m) sum += (m == 1 ? 4 : 1) * soft_force(faces[k], (j + 0.5 * m) * w / 1000 * (1 - 1e-15)) * w / 6000;
-            assert_true(fabs(soft_spent(faces[k], w) - (i < 20 ? sum - 0.5 * soft_force(faces[k], w) * w : 0.7)) < 1e-9);
+                for (int m = 0; m < 3; ++m)
+                    sum += (m == 1 ? 4 : 1) * soft_force(faces[k], (j + 0.5 * m) * w / 1000 * (1 - 1e-15)) * w / 6000;
+            assert_true(fabs(soft_spent(faces[k], w) - (i < 20 ? sum - 0.5 * soft_force(faces[k], w) * w : 0.7)) <
+                        1e-9);
         }
 }
 
-/* Mohr-Coulomb on the face itself, and the plane of the stress that is nearer to it; what a face hands on beside a plane sums to nothing over a zig-zag along it. */
+/* Mohr-Coulomb on the face itself, and the plane of the stress that is nearer to it; what a face hands on beside a
+ * plane sums to nothing over a zig-zag along it. */
 static void faces_slide_by_mohr_coulomb(void **state)
 {
     (void)state;
     const double phi = M_PI / 6, c = 2, p = 3, tau = c + p * tan(phi);
     const soft_vector n = {0, 1, 0}, traction = {tau, -p, 0};
-    const failure_stress stress = {-p - 2 * tau * tan(phi), -p, -4, 0, 0, tau}; /* Mohr's circle touches the line at the face */
+    const failure_stress stress = {
+        -p - 2 * tau * tan(phi), -p, -4, 0, 0, tau}; /* Mohr's circle touches the line at the face */
     const failure_principal principal = failure_principal_of(stress);
-    const failure_state own = soft_slip(principal, traction, n, -2 * c * cos(phi), sin(phi)), all = soft_slip(principal, traction, n, 2 * c * cos(phi), sin(phi));
+    const failure_state own = soft_slip(principal, traction, n, -2 * c * cos(phi), sin(phi)),
+                        all = soft_slip(principal, traction, n, 2 * c * cos(phi), sin(phi));
     const soft_vector plane = soft_slip_plane(all, n);
     assert_true(fabs(own.ratio - 1) < 1e-12 && fabs(all.ratio - 1) < 1e-12);
     assert_true(fabs(plane.x) < 1e-7 && fabs(plane.y - 1) < 1e-12); /* from cosines */
     assert_true(fabs(soft_slide_start(traction, n, 0.3) - (tau - 0.3 * p)) < 1e-12);
-    const soft_vector up = {0.7, 1, 0.2}, down = {-0.7, 2, -0.2}, sum = soft_add(soft_passed(stress, n, up), 1, soft_passed(stress, n, down));
+    const soft_vector up = {0.7, 1, 0.2}, down = {-0.7, 2, -0.2},
+                      sum = soft_add(soft_passed(stress, n, up), 1, soft_passed(stress, n, down));
     assert_true(soft_dot(sum, sum) < 1e-24);
 }
 
@@ -78,9 +86,12 @@ static void openings_balance(void **state)
             for (double widest = 0; widest < 0.4; widest += 0.1)
                 for (double drive = 0.5; drive < 2 * stiffness; drive *= 1.5) {
                     const double w = soft_opening(faces[k], widest, drive, stiffness);
-                    const double force = w > widest || widest == 0 ? soft_force(faces[k], w) : soft_force(faces[k], widest) * w / widest;
-                    if (w == 0) assert_true(drive <= 3);
-                    else assert_true(fabs(stiffness * w + force - drive) < 1e-9 * (drive + 3));
+                    const double force =
+                        w > widest || widest == 0 ? soft_force(faces[k], w) : soft_force(faces[k], widest) * w / widest;
+                    if (w == 0)
+                        assert_true(drive <= 3);
+                    else
+                        assert_true(fabs(stiffness * w + force - drive) < 1e-9 * (drive + 3));
                 }
 }
 
@@ -109,9 +120,13 @@ static coeff draw(uint64_t *state) /* -1 to 1 */
     *state = *state * 6364136223846793005u + 1442695040888963407u;
     return (coeff)(*state >> 11) / 4503599627370496.0 - 1;
 }
-static soft_vector draw_vector(uint64_t *state) { return (soft_vector){draw(state), draw(state), draw(state)}; }
+static soft_vector draw_vector(uint64_t *state)
+{
+    return (soft_vector){draw(state), draw(state), draw(state)};
+}
 
-/* Ten openings, of faces all around a cell: 2 V psi = V (lambda tr^2 + 2 mu E:E), E the strain of all, is at most the sum over faces of opening . k opening. */
+/* Ten openings, of faces all around a cell: 2 V psi = V (lambda tr^2 + 2 mu E:E), E the strain of all, is at most the
+ * sum over faces of opening . k opening. */
 static void stiffness_of_a_cell_is_from_above(void **state)
 {
     (void)state;
@@ -125,21 +140,24 @@ static void stiffness_of_a_cell_is_from_above(void **state)
             pull[f] = draw_vector(&seed), opening[f] = draw_vector(&seed);
             reach += sqrt(soft_dot(pull[f], pull[f]));
             const double w[3] = {opening[f].x, opening[f].y, opening[f].z}, a[3] = {pull[f].x, pull[f].y, pull[f].z};
-            for (int i = 0; i < 9; ++i) h[i / 3][i % 3] += w[i / 3] * a[i % 3];
+            for (int i = 0; i < 9; ++i)
+                h[i / 3][i % 3] += w[i / 3] * a[i % 3];
         }
         for (int f = 0; f < 10; ++f) {
             const soft_tensor k = soft_add_cell((soft_tensor){0, 0, 0, 0, 0, 0}, pull[f], reach, 0.5, l + 2, 1);
             bound += soft_dot(opening[f], soft_tensor_times(k, opening[f]));
         }
         double trace = h[0][0] + h[1][1] + h[2][2], square = 0;
-        for (int i = 0; i < 9; ++i) square += 0.25 * pow(h[i / 3][i % 3] + h[i % 3][i / 3], 2);
+        for (int i = 0; i < 9; ++i)
+            square += 0.25 * pow(h[i / 3][i % 3] + h[i % 3][i / 3], 2);
         assert_true(0.5 * (l * trace * trace + 2 * square) <= bound * (1 + 1e-12));
         assert_true(bound >= 0);
     }
 }
 
-/* Along the opening cells and cohesion pull alike, to the rounding of the load; begun again from where it came to, also across it; and no face is shut
- * further than shut. The direction gains on its axes' stiffnesses, which are at most 1 : 40 here, by a factor at every turn: 200 of them. */
+/* Along the opening cells and cohesion pull alike, to the rounding of the load; begun again from where it came to, also
+ * across it; and no face is shut further than shut. The direction gains on its axes' stiffnesses, which are at most 1 :
+ * 40 here, by a factor at every turn: 200 of them. */
 static void openings_balance_in_every_direction(void **state)
 {
     (void)state;
@@ -147,9 +165,11 @@ static void openings_balance_in_every_direction(void **state)
     int n_across = 0;
     for (int trial = 0; trial < 500; ++trial) {
         const soft_face f = faces[trial % 2];
-        const soft_vector some = draw_vector(&seed), normal = soft_scale(1 / sqrt(soft_dot(some, some)), some), shut = {0, 0, 0}, drive = soft_scale(20, draw_vector(&seed));
+        const soft_vector some = draw_vector(&seed), normal = soft_scale(1 / sqrt(soft_dot(some, some)), some),
+                          shut = {0, 0, 0}, drive = soft_scale(20, draw_vector(&seed));
         soft_tensor k = {15, 15, 15, 0, 0, 0};
-        for (int side = 0; side < 2; ++side) k = soft_add_cell(k, draw_vector(&seed), 4, 1, 5, 1);
+        for (int side = 0; side < 2; ++side)
+            k = soft_add_cell(k, draw_vector(&seed), 4, 1, 5, 1);
         soft_vector w = soft_balance(f, 0, drive, k, 0, normal, shut, 0, shut, 0);
         for (int turn = 0; turn < 200; ++turn) {
             const double size = sqrt(soft_dot(w, w));
@@ -168,34 +188,44 @@ static void openings_balance_in_every_direction(void **state)
     assert_true(n_across > 100);
 }
 
-/* The force on the area: the stress along the crack, by its definition with eigenvectors (Jacobi rotations, failure.h), without its pulls. */
+/* The force on the area: the stress along the crack, by its definition with eigenvectors (Jacobi rotations, failure.h),
+ * without its pulls. */
 static void a_crack_carries_the_pushes_along_it(void **state)
 {
     (void)state;
     uint64_t seed = 3;
     for (int trial = 0; trial < 1000; ++trial) {
-        const soft_vector some = draw_vector(&seed), e = soft_scale(1 / sqrt(soft_dot(some, some)), some), area = draw_vector(&seed);
+        const soft_vector some = draw_vector(&seed), e = soft_scale(1 / sqrt(soft_dot(some, some)), some),
+                          area = draw_vector(&seed);
         const soft_vector p = draw_vector(&seed), q = draw_vector(&seed);
-        const failure_stress m = trial % 4 ? (failure_stress){p.x, p.y, p.z, q.x, q.y, q.z} : (failure_stress){p.x, p.x, p.x, 0, 0, 0};
-        double s[3][3] = {{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}, along[3][3] = {{0}}, project[3][3], expected[3] = {0};
+        const failure_stress m =
+            trial % 4 ? (failure_stress){p.x, p.y, p.z, q.x, q.y, q.z} : (failure_stress){p.x, p.x, p.x, 0, 0, 0};
+        double s[3][3] = {{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}, along[3][3] = {{0}},
+               project[3][3], expected[3] = {0};
         const double axis[3] = {e.x, e.y, e.z}, on[3] = {area.x, area.y, area.z};
-        for (int i = 0; i < 9; ++i) project[i / 3][i % 3] = (i / 3 == i % 3) - axis[i / 3] * axis[i % 3];
-        for (int i = 0; i < 81; ++i) along[i / 27][i / 9 % 3] += project[i / 27][i / 3 % 3] * s[i / 3 % 3][i % 3] * project[i % 3][i / 9 % 3];
-        const failure_principal value = failure_principal_of((failure_stress){along[0][0], along[1][1], along[2][2], along[1][2], along[0][2], along[0][1]});
+        for (int i = 0; i < 9; ++i)
+            project[i / 3][i % 3] = (i / 3 == i % 3) - axis[i / 3] * axis[i % 3];
+        for (int i = 0; i < 81; ++i)
+            along[i / 27][i / 9 % 3] += project[i / 27][i / 3 % 3] * s[i / 3 % 3][i % 3] * project[i % 3][i / 9 % 3];
+        const failure_principal value = failure_principal_of(
+            (failure_stress){along[0][0], along[1][1], along[2][2], along[1][2], along[0][2], along[0][1]});
         /* one value is 0, of the axis; a third axis is across the other two */
         const failure_axis first = value.first_axis, third = value.third_axis;
         const double a[3] = {first.x, first.y, first.z}, c[3] = {third.x, third.y, third.z};
         const double b[3] = {c[1] * a[2] - c[2] * a[1], c[2] * a[0] - c[0] * a[2], c[0] * a[1] - c[1] * a[0]};
         const double second = along[0][0] + along[1][1] + along[2][2] - value.first - value.third;
         for (int i = 0; i < 9; ++i)
-            expected[i / 3] += on[i % 3] * (fmin(value.first, 0) * a[i / 3] * a[i % 3] + fmin(second, 0) * b[i / 3] * b[i % 3] + fmin(value.third, 0) * c[i / 3] * c[i % 3]);
+            expected[i / 3] +=
+                on[i % 3] * (fmin(value.first, 0) * a[i / 3] * a[i % 3] + fmin(second, 0) * b[i / 3] * b[i % 3] +
+                             fmin(value.third, 0) * c[i / 3] * c[i % 3]);
         const soft_vector got = soft_carried(m, e, area);
         assert_true(fabs(got.x - expected[0]) + fabs(got.y - expected[1]) + fabs(got.z - expected[2]) < 1e-12);
         assert_true(fabs(soft_dot(got, e)) < 1e-14);
     }
 }
 
-/* Along the face alone; within what is held not at all; beyond it without giving energy; and, between cells that are as stiff in every direction, to the balance of what is left and the cohesion, to rounding. */
+/* Along the face alone; within what is held not at all; beyond it without giving energy; and, between cells that are as
+ * stiff in every direction, to the balance of what is left and the cohesion, to rounding. */
 static void sides_turn_until_they_pull_evenly(void **state)
 {
     (void)state;
@@ -220,14 +250,16 @@ static void sides_turn_until_they_pull_evenly(void **state)
         assert_true(soft_dot(begins, begins) == 0);
         /* a face that is shut opens at its edge once the unevenness is above what the cohesion starts with */
         const soft_vector weak = soft_scale(0.99 * 3 / size, along), strong = soft_scale(1.5 * 3 / size, along);
-        const soft_vector shut = soft_side(faces[k], 0, weak, alike, none, 0, normal), opens = soft_side(faces[k], 0, strong, alike, none, 0, normal);
+        const soft_vector shut = soft_side(faces[k], 0, weak, alike, none, 0, normal),
+                          opens = soft_side(faces[k], 0, strong, alike, none, 0, normal);
         const double v = sqrt(soft_dot(opens, opens));
         assert_true(soft_dot(shut, shut) == 0);
         assert_true(v > 0 && fabs(50 * v + soft_force(faces[k], v) - 4.5) < 1e-9);
     }
 }
 
-/* A face that is pressed shut along its axis sticks below mu times the push and slides above it until its shear is mu times the push. */
+/* A face that is pressed shut along its axis sticks below mu times the push and slides above it until its shear is mu
+ * times the push. */
 static void shut_faces_slide_by_coulomb(void **state)
 {
     (void)state;
@@ -241,25 +273,33 @@ static void shut_faces_slide_by_coulomb(void **state)
         const soft_vector left = soft_add(drive, -1, soft_tensor_times(k, now));
         assert_true(fabs(now.z) < 1e-15);
         if (shear < mu * 5 * 0.999) assert_true(now.x == before.x && now.y == before.y);
-        if (shear > mu * 5 * 1.001) assert_true(fabs(left.x - mu * 5) < 1e-12 && fabs(left.y) < 1e-12 && now.x > before.x);
+        if (shear > mu * 5 * 1.001)
+            assert_true(fabs(left.x - mu * 5) < 1e-12 && fabs(left.y) < 1e-12 && now.x > before.x);
     }
-    const soft_vector free = soft_balance(ended, widest, (soft_vector){1, 0, 3}, k, 0, axis, before, mu, none, 0); /* pulled apart: nothing holds */
+    const soft_vector free = soft_balance(ended, widest, (soft_vector){1, 0, 3}, k, 0, axis, before, mu, none,
+                                          0); /* pulled apart: nothing holds */
     assert_true(fabs(free.x - 1.0 / 30) < 1e-12 && fabs(free.z - 0.1) < 1e-12);
     /* held open: it opens along the axis alone until its shear is above what holds it */
     const soft_vector drive = soft_add((soft_vector){0.4, 0, 3}, 1, soft_tensor_times(k, before));
-    const soft_vector held = soft_balance(ended, widest, drive, k, 0, axis, before, 0, none, 0.5), slid = soft_balance(ended, widest, drive, k, 0, axis, before, 0, none, 0.1);
+    const soft_vector held = soft_balance(ended, widest, drive, k, 0, axis, before, 0, none, 0.5),
+                      slid = soft_balance(ended, widest, drive, k, 0, axis, before, 0, none, 0.1);
     assert_true(fabs(held.x - before.x) < 1e-12 && fabs(held.y - before.y) < 1e-12 && fabs(held.z - 0.1) < 1e-12);
-    assert_true(fabs(slid.x - before.x - 0.3 / 30) < 1e-12 && fabs(slid.y - before.y) < 1e-12 && fabs(slid.z - 0.1) < 1e-12);
-    /* carried: nothing slides while the shear lies between nothing and it; beyond it, or against it, only by what is more */
+    assert_true(fabs(slid.x - before.x - 0.3 / 30) < 1e-12 && fabs(slid.y - before.y) < 1e-12 &&
+                fabs(slid.z - 0.1) < 1e-12);
+    /* carried: nothing slides while the shear lies between nothing and it; beyond it, or against it, only by what is
+     * more */
     for (double shear = -0.6; shear < 1; shear += 0.1) {
-        const soft_vector on = soft_add((soft_vector){shear, 0, 3}, 1, soft_tensor_times(k, before)), w = soft_balance(ended, widest, on, k, 0, axis, before, 0, carried, 0);
+        const soft_vector on = soft_add((soft_vector){shear, 0, 3}, 1, soft_tensor_times(k, before)),
+                          w = soft_balance(ended, widest, on, k, 0, axis, before, 0, carried, 0);
         const double more = shear > 0.4 ? shear - 0.4 : shear < 0 ? shear : 0;
         assert_true(fabs(w.x - before.x - more / 30) < 1e-12 && fabs(w.z - 0.1) < 1e-12);
         assert_true((w.x - before.x) * (shear - more) > -1e-15);
     }
-    const soft_vector tilted = {0.6, 0, 0.8}, into = soft_outside((soft_vector){-0.1, 0.02, 0.01}, tilted), out = {0.1, 0, 0};
+    const soft_vector tilted = {0.6, 0, 0.8}, into = soft_outside((soft_vector){-0.1, 0.02, 0.01}, tilted),
+                      out = {0.1, 0, 0};
     assert_true(fabs(soft_dot(into, tilted)) < 1e-15 && into.y == 0.02 && soft_outside(out, tilted).x == 0.1);
-    assert_true(!soft_is_clear((soft_vector){0, 0, 0.09}, axis, 0.1) && soft_is_clear((soft_vector){0, 0, 0.1}, axis, 0.1) && soft_is_clear((soft_vector){1, 0, 0}, axis, 0.1));
+    assert_true(!soft_is_clear((soft_vector){0, 0, 0.09}, axis, 0.1) &&
+                soft_is_clear((soft_vector){0, 0, 0.1}, axis, 0.1) && soft_is_clear((soft_vector){1, 0, 0}, axis, 0.1));
     assert_true(soft_is_clear(none, axis, 0)); /* without closure */
     assert_true(soft_keeps(0.1, 0) == 1 && fabs(soft_keeps(0.1, 0.4) - 0.75) < 1e-15 && soft_keeps(0.5, 0.4) == 0);
 }
@@ -267,12 +307,18 @@ static void shut_faces_slide_by_coulomb(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_area_under_the_law_is_the_fracture_energy), cmocka_unit_test(the_decay_is_the_exponential_function),
-        cmocka_unit_test(slopes_are_those_of_the_force),                 cmocka_unit_test(openings_balance),
-        cmocka_unit_test(unloading_gives_back_the_secant_energy),        cmocka_unit_test(energy_follows_the_direction_of_the_opening),
-        cmocka_unit_test(stiffness_of_a_cell_is_from_above),             cmocka_unit_test(openings_balance_in_every_direction),
-        cmocka_unit_test(a_crack_carries_the_pushes_along_it),           cmocka_unit_test(shut_faces_slide_by_coulomb),
-        cmocka_unit_test(sides_turn_until_they_pull_evenly),             cmocka_unit_test(spent_is_the_area_under_the_law_less_the_triangle),
+        cmocka_unit_test(the_area_under_the_law_is_the_fracture_energy),
+        cmocka_unit_test(the_decay_is_the_exponential_function),
+        cmocka_unit_test(slopes_are_those_of_the_force),
+        cmocka_unit_test(openings_balance),
+        cmocka_unit_test(unloading_gives_back_the_secant_energy),
+        cmocka_unit_test(energy_follows_the_direction_of_the_opening),
+        cmocka_unit_test(stiffness_of_a_cell_is_from_above),
+        cmocka_unit_test(openings_balance_in_every_direction),
+        cmocka_unit_test(a_crack_carries_the_pushes_along_it),
+        cmocka_unit_test(shut_faces_slide_by_coulomb),
+        cmocka_unit_test(sides_turn_until_they_pull_evenly),
+        cmocka_unit_test(spent_is_the_area_under_the_law_less_the_triangle),
         cmocka_unit_test(faces_slide_by_mohr_coulomb),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

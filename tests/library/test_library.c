@@ -14,7 +14,8 @@ static void assert_status(const breccia_run *run, breccia_status got, breccia_st
 static void errors_have_places_and_cures(void **state)
 {
     (void)state;
-    static const char text[] = "version: 1\nmaterials:\n  glass: {density: 1 kg/m^3, E: 1 furlong, nu: 0.2}\nbodys: []\n";
+    static const char text[] =
+        "version: 1\nmaterials:\n  glass: {density: 1 kg/m^3, E: 1 furlong, nu: 0.2}\nbodys: []\n";
     const char *const set[] = {"nothing.at.all=1"};
     breccia_scene *scene = breccia_scene_text("bad.yaml", text, strlen(text), 0, NULL);
     int n;
@@ -33,7 +34,8 @@ static void errors_have_places_and_cures(void **state)
     scene = breccia_scene_text("bad.yaml", "version: 1\n", 11, 1, set);
     p = breccia_scene_problems(scene, &n);
     bool seen = false;
-    for (int k = 0; k < n; ++k) seen |= strcmp(p[k].set, set[0]) == 0 && p[k].line == 0 && p[k].message[0];
+    for (int k = 0; k < n; ++k)
+        seen |= strcmp(p[k].set, set[0]) == 0 && p[k].line == 0 && p[k].message[0];
     assert_true(seen);
     breccia_scene_free(scene);
     scene = breccia_scene_load("nowhere.yaml", 0, NULL);
@@ -49,10 +51,14 @@ static void a_check_counts_and_prices(void **state)
     breccia_scene *scene = make_scene();
     breccia_price price;
     assert_int_equal(breccia_scene_check(scene, NULL, false, &price), BRECCIA_OK);
-    assert_true(price.n_elements == 216 && price.n_models == 1 && price.n_bonds > 3 * 216 && price.device_bytes > 216 * 100 && isnan(price.seconds));
-    assert_int_equal(breccia_scene_check(scene, &(breccia_options){.device = "cpu", .threads = 1}, true, &price), BRECCIA_OK);
-    assert_true(price.seconds > 0 && price.least_seconds <= price.seconds && price.seconds <= price.most_seconds && price.disk_bytes > 0);
-    assert_int_equal(breccia_scene_check(scene, &(breccia_options){.precision = "triple"}, false, &price), BRECCIA_BAD_INPUT);
+    assert_true(price.n_elements == 216 && price.n_models == 1 && price.n_bonds > 3 * 216 &&
+                price.device_bytes > 216 * 100 && isnan(price.seconds));
+    assert_int_equal(breccia_scene_check(scene, &(breccia_options){.device = "cpu", .threads = 1}, true, &price),
+                     BRECCIA_OK);
+    assert_true(price.seconds > 0 && price.least_seconds <= price.seconds && price.seconds <= price.most_seconds &&
+                price.disk_bytes > 0);
+    assert_int_equal(breccia_scene_check(scene, &(breccia_options){.precision = "triple"}, false, &price),
+                     BRECCIA_BAD_INPUT);
     assert_non_null(strstr(breccia_scene_message(scene), "triple"));
     breccia_scene_free(scene);
 }
@@ -82,7 +88,8 @@ static breccia_answer look(void *self, breccia_run *run, const breccia_moment *m
         assert_int_equal(breccia_run_read_sensors(run, value), BRECCIA_OK);
         assert_int_equal(breccia_run_bonds(run, &n_bonds, &n_broken), BRECCIA_OK);
         assert_true(value[1] == (double)n_broken);
-        for (int64_t k = 0; k < 6 * stress.n_rows; ++k) w->largest = fmax(w->largest, fabs(((double *)stress.data)[k]));
+        for (int64_t k = 0; k < 6 * stress.n_rows; ++k)
+            w->largest = fmax(w->largest, fabs(((double *)stress.data)[k]));
     }
     if (w->steps_itself) {
         int64_t done;
@@ -90,7 +97,9 @@ static breccia_answer look(void *self, breccia_run *run, const breccia_moment *m
         assert_int_equal(breccia_run_go(run), BRECCIA_BAD_INPUT);
         assert_int_equal(breccia_run_end(run), BRECCIA_BAD_INPUT);
     }
-    return w->stop_at > 0 && moment->step == w->stop_at ? BRECCIA_STOP : w->end_at > 0 && moment->step == w->end_at ? BRECCIA_END_STAGE : BRECCIA_GO_ON;
+    return w->stop_at > 0 && moment->step == w->stop_at ? BRECCIA_STOP
+           : w->end_at > 0 && moment->step == w->end_at ? BRECCIA_END_STAGE
+                                                        : BRECCIA_GO_ON;
 }
 
 /* Run all into the folder. */
@@ -98,7 +107,10 @@ static void run_into(const char *folder, watch *w)
 {
     breccia_scene *scene = make_scene();
     breccia_run *run = breccia_run_create(scene, &(breccia_options){.folder = folder, .device = "cpu"});
-    if (w) assert_int_equal(breccia_run_observe(run, &(breccia_observer){.self = w, .every_steps = 7, .stage_ends = true, .look = look}), BRECCIA_OK);
+    if (w)
+        assert_int_equal(breccia_run_observe(
+                             run, &(breccia_observer){.self = w, .every_steps = 7, .stage_ends = true, .look = look}),
+                         BRECCIA_OK);
     assert_status(run, breccia_run_go(run), BRECCIA_OK);
     breccia_report report;
     assert_int_equal(breccia_run_report(run, &report), BRECCIA_OK);
@@ -160,13 +172,16 @@ static void arrays_are_the_memory_of_the_device(void **state)
     assert_int_equal(breccia_run_array(run, "displacement", 0, &u), BRECCIA_OK);
     assert_int_equal(breccia_run_array(run, "reference", 0, &reference), BRECCIA_OK);
     assert_int_equal(breccia_run_array(run, "position", 0, &position), BRECCIA_OK);
-    assert_true(v.is_live && u.is_live && !position.is_live && v.precision == 8 && v.width == 3 && v.n_rows >= 216 && position.n_rows == 216);
+    assert_true(v.is_live && u.is_live && !position.is_live && v.precision == 8 && v.width == 3 && v.n_rows >= 216 &&
+                position.n_rows == 216);
     int64_t elements = 0;
     for (int64_t r = 0; r < u.n_rows; ++r) {
         const int32_t e = u.element[r];
         if (e < 0) continue;
         ++elements;
-        for (int c = 0; c < 3; ++c) assert_true(((double *)position.data)[3 * e + c] == ((double *)u.data)[3 * r + c] + ((double *)reference.data)[3 * e + c]);
+        for (int c = 0; c < 3; ++c)
+            assert_true(((double *)position.data)[3 * e + c] ==
+                        ((double *)u.data)[3 * r + c] + ((double *)reference.data)[3 * e + c]);
     }
     assert_int_equal(elements, 216);
     double *const live = u.data, before = live[0];
@@ -246,8 +261,10 @@ static void observers_cannot_step_what_they_look_at(void **state)
         watch w = {.steps_itself = true};
         breccia_run *run = breccia_run_create(scene, &(breccia_options){.device = "cpu"});
         breccia_run_observe(run, &(breccia_observer){.self = &w, .every_steps = 50, .look = look});
-        if (by_hand) assert_int_equal(breccia_run_step(run, 60, NULL), BRECCIA_OK);
-        else assert_status(run, breccia_run_go(run), BRECCIA_OK);
+        if (by_hand)
+            assert_int_equal(breccia_run_step(run, 60, NULL), BRECCIA_OK);
+        else
+            assert_status(run, breccia_run_go(run), BRECCIA_OK);
         assert_true(w.n >= 2);
         breccia_run_free(run);
     }
@@ -275,9 +292,11 @@ static void progress_and_log_reach_the_caller(void **state)
         assert_int_equal(breccia_run_progress(run, 0, told, &e), BRECCIA_OK);
         assert_int_equal(breccia_run_log(run, 2, line, &e), BRECCIA_OK);
         assert_status(run, breccia_run_go(run), stop ? BRECCIA_INTERRUPTED : BRECCIA_OK);
-        if (stop) assert_int_equal(e.n_told, 1);
-        else assert_true(e.n_told >= 4 && e.last == 150); /* samples end batches at 40, 80, 120 and at the end */
-        if (!stop) assert_true(e.n_lines > 0); /* how quick the fracture was */
+        if (stop)
+            assert_int_equal(e.n_told, 1);
+        else
+            assert_true(e.n_told >= 4 && e.last == 150); /* samples end batches at 40, 80, 120 and at the end */
+        if (!stop) assert_true(e.n_lines > 0);           /* how quick the fracture was */
         breccia_run_free(run);
     }
     breccia_scene_free(scene);
@@ -322,10 +341,14 @@ static void a_run_by_hand_can_be_left(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_have_places_and_cures),        cmocka_unit_test(a_check_counts_and_prices),
-        cmocka_unit_test(observers_and_hands_leave_no_trace),  cmocka_unit_test(arrays_are_the_memory_of_the_device),
-        cmocka_unit_test(observers_end_stages_and_runs),       cmocka_unit_test(progress_and_log_reach_the_caller),
-        cmocka_unit_test(a_run_by_hand_can_be_left),           cmocka_unit_test(observers_cannot_step_what_they_look_at),
+        cmocka_unit_test(errors_have_places_and_cures),
+        cmocka_unit_test(a_check_counts_and_prices),
+        cmocka_unit_test(observers_and_hands_leave_no_trace),
+        cmocka_unit_test(arrays_are_the_memory_of_the_device),
+        cmocka_unit_test(observers_end_stages_and_runs),
+        cmocka_unit_test(progress_and_log_reach_the_caller),
+        cmocka_unit_test(a_run_by_hand_can_be_left),
+        cmocka_unit_test(observers_cannot_step_what_they_look_at),
         cmocka_unit_test(a_run_that_is_interrupted_before_it_begins_does_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -28,7 +28,8 @@ static void arrays_are_read_back(void **state)
     assert_true(here.is_live && !there.is_live && there.width == 3 && there.precision == 8);
     double by_element[216][3];
     for (int64_t r = 0; r < here.n_rows; ++r)
-        if (here.element[r] >= 0) memcpy(by_element[here.element[r]], (double *)here.data + 3 * r, sizeof by_element[0]);
+        if (here.element[r] >= 0)
+            memcpy(by_element[here.element[r]], (double *)here.data + 3 * r, sizeof by_element[0]);
     for (int64_t r = 0; r < there.n_rows; ++r)
         for (int c = 0; there.element[r] >= 0 && c < 3; ++c) {
             largest = fmax(largest, fabs(by_element[there.element[r]][c]));

@@ -34,8 +34,8 @@ struct brc_simulation {
     int32_t n_modes;
     const brc_break *breaks; /* [n_breaks]; NULL: nothing can break */
     int64_t n_breaks;
-    const uint8_t *whole; /* [n_half_edges] 1: unbroken; NULL: all are */
-    const brc_striker_now *strikers; /* [n_strikers] now */
+    const uint8_t *whole;                 /* [n_half_edges] 1: unbroken; NULL: all are */
+    const brc_striker_now *strikers;      /* [n_strikers] now */
     const brc_striker_body *striker_body; /* [n_strikers] */
     int32_t n_strikers;
     int displacement_reads, ledger_reads; /* counted */
@@ -149,7 +149,8 @@ brc_status brc_simulation_reaction_moment(brc_simulation *s, int32_t set, const 
     double force[3];
     const double arm[3] = {1 - point[0], 2 - point[1], 3 - point[2]};
     brc_simulation_reaction(s, set, force);
-    for (int c = 0; c < 3; ++c) out[c] = arm[(c + 1) % 3] * force[(c + 2) % 3] - arm[(c + 2) % 3] * force[(c + 1) % 3];
+    for (int c = 0; c < 3; ++c)
+        out[c] = arm[(c + 1) % 3] * force[(c + 2) % 3] - arm[(c + 2) % 3] * force[(c + 1) % 3];
     return BRC_OK;
 }
 
@@ -158,8 +159,10 @@ brc_status brc_simulation_orientation(brc_simulation *s, double *orientation, do
 {
     for (int64_t e = 0; e < s->domain->n_elements; ++e) {
         const double q[4] = {cos(0.25 * s->factor), 0, 0, sin(0.25 * s->factor)};
-        for (int c = 0; c < 4; ++c) orientation[4 * e + c] = q[c];
-        for (int c = 0; spin && c < 3; ++c) spin[3 * e + c] = 0;
+        for (int c = 0; c < 4; ++c)
+            orientation[4 * e + c] = q[c];
+        for (int c = 0; spin && c < 3; ++c)
+            spin[3 * e + c] = 0;
     }
     return BRC_OK;
 }
@@ -167,7 +170,8 @@ brc_status brc_simulation_orientation(brc_simulation *s, double *orientation, do
 /* 2 N along each position vector's direction from the origin, times its length in metres. */
 brc_status brc_simulation_applied_force(brc_simulation *s, double *out)
 {
-    for (int64_t k = 0; k < 3 * s->domain->n_elements; ++k) out[k] = 2 * s->factor * s->domain->position[k];
+    for (int64_t k = 0; k < 3 * s->domain->n_elements; ++k)
+        out[k] = 2 * s->factor * s->domain->position[k];
     return BRC_OK;
 }
 
@@ -238,14 +242,16 @@ brc_status brc_simulation_breaks(brc_simulation *s, int64_t *n, const brc_break 
 /* Element e: e / n. */
 brc_status brc_simulation_damage(brc_simulation *s, double *out)
 {
-    for (int64_t e = 0; e < s->domain->n_elements; ++e) out[e] = (double)e / (double)s->domain->n_elements;
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        out[e] = (double)e / (double)s->domain->n_elements;
     return BRC_OK;
 }
 
 /* The last element is one of its own. */
 brc_status brc_simulation_fragments(brc_simulation *s, int32_t *fragment, int64_t *n_fragments)
 {
-    for (int64_t e = 0; e < s->domain->n_elements; ++e) fragment[e] = e + 1 == s->domain->n_elements;
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        fragment[e] = e + 1 == s->domain->n_elements;
     *n_fragments = 2;
     return BRC_OK;
 }
@@ -256,8 +262,10 @@ brc_status brc_simulation_fragment_list(brc_simulation *s, int64_t *n, brc_fragm
     brc_context *none = NULL;
     *n = 2;
     BRC_TRY(BRC_ALLOCATE(none, out, 2, "fragments"));
-    (*out)[0] = (brc_fragment){.n_elements = s->domain->n_elements - 1, .mass = 99, .inertia = {1, 2, 3, 4, 5, 6}, .translation = 7};
-    (*out)[1] = (brc_fragment){.first_element = (int32_t)s->domain->n_elements - 1, .n_elements = 1, .mass = 1, .velocity = {1, 0, 0}};
+    (*out)[0] = (brc_fragment){
+        .n_elements = s->domain->n_elements - 1, .mass = 99, .inertia = {1, 2, 3, 4, 5, 6}, .translation = 7};
+    (*out)[1] = (brc_fragment){
+        .first_element = (int32_t)s->domain->n_elements - 1, .n_elements = 1, .mass = 1, .velocity = {1, 0, 0}};
     return BRC_OK;
 }
 
@@ -284,8 +292,14 @@ brc_guard_report brc_simulation_guard_report(const brc_simulation *s)
     (void)s;
     return (brc_guard_report){0};
 }
-int32_t brc_simulation_n_strikers(const brc_simulation *s) { return s->n_strikers; }
-const brc_striker_body *brc_simulation_striker_body(const brc_simulation *s, int32_t striker) { return s->striker_body + striker; }
+int32_t brc_simulation_n_strikers(const brc_simulation *s)
+{
+    return s->n_strikers;
+}
+const brc_striker_body *brc_simulation_striker_body(const brc_simulation *s, int32_t striker)
+{
+    return s->striker_body + striker;
+}
 brc_status brc_simulation_striker_now(brc_simulation *s, int32_t striker, brc_striker_now *out)
 {
     *out = s->strikers[striker];

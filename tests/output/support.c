@@ -98,7 +98,8 @@ brc_domain *test_row_of_spheres(int n, double first, double step)
         x[3 * e] = e;
         r[e] = first + step * e;
     }
-    if (brc_beams_bond(test_context, x, r, n, 2.0 * (n - 1) / n, 1, d) != BRC_OK) fail_msg("%s", brc_context_message(test_context));
+    if (brc_beams_bond(test_context, x, r, n, 2.0 * (n - 1) / n, 1, d) != BRC_OK)
+        fail_msg("%s", brc_context_message(test_context));
     return d;
 }
 

@@ -18,7 +18,8 @@ const char *test_path(const char *folder, const char *name);
 char *test_read(const char *path);
 /* Box 2 x 1 x 1 m of about `n` cells with walls as sets, and the element set "half" (x <= 1). */
 brc_domain *test_domain(int64_t n);
-/* n spheres along x, 1 m apart, of radii first + k step [m], each bonded to the next; no quality, regions or bodies yet. */
+/* n spheres along x, 1 m apart, of radii first + k step [m], each bonded to the next; no quality, regions or bodies
+ * yet. */
 brc_domain *test_row_of_spheres(int n, double first, double step);
 /* Scene read from text; the test fails with the messages where it is wrong. */
 brc_scene *test_scene(const char *yaml);

@@ -107,20 +107,33 @@ static void every_frame_has_a_picture_where_the_scene_asks_for_it(void **state)
     begin_run(&r);
     r.scene->output.picture_frames = true;
     assert_int_equal(record(&r), BRC_OK);
-    assert_true(brc_file_exists(test_path(r.folder, "pictures/000000.png")) && brc_file_exists(test_path(r.folder, "pictures/000001.png")));
+    assert_true(brc_file_exists(test_path(r.folder, "pictures/000000.png")) &&
+                brc_file_exists(test_path(r.folder, "pictures/000001.png")));
     brc_recorder_free(&r.recorder);
-    assert_int_equal(brc_recorder_create(test_context, r.folder, brc_clock_s(), &r.recorder), BRC_OK); /* a new run clears them away */
+    assert_int_equal(brc_recorder_create(test_context, r.folder, brc_clock_s(), &r.recorder),
+                     BRC_OK); /* a new run clears them away */
     assert_false(brc_file_exists(test_path(r.folder, "pictures/000000.png")));
     end_run(&r);
 }
 
-/* Two broken bonds: the stream in result.h5 and cracks.csv, counts in the summary, damage and fragments in the frames. */
+/* Two broken bonds: the stream in result.h5 and cracks.csv, counts in the summary, damage and fragments in the
+ * frames. */
 static void what_broke_is_in_every_file(void **state)
 {
     (void)state;
-    static const brc_break breaks[] = {{.time = 1e-3, .step = 4, .mode = BRC_BREAK_TENSION, .bond = 7, .element_i = 1, .element_j = 5,
-                                        .position = {0.1, 0.2, 0.3}, .normal = {1, 0, 0}, .stress = 5e7, .energy = 1e-6, .area = 0.5},
-                                       {.time = 2e-3, .step = 8, .mode = BRC_BREAK_SHEAR, .bond = 3, .element_i = 0, .element_j = 2, .area = 0.25}};
+    static const brc_break breaks[] = {
+        {.time = 1e-3,
+         .step = 4,
+         .mode = BRC_BREAK_TENSION,
+         .bond = 7,
+         .element_i = 1,
+         .element_j = 5,
+         .position = {0.1, 0.2, 0.3},
+         .normal = {1, 0, 0},
+         .stress = 5e7,
+         .energy = 1e-6,
+         .area = 0.5},
+        {.time = 2e-3, .step = 8, .mode = BRC_BREAK_SHEAR, .bond = 3, .element_i = 0, .element_j = 2, .area = 0.25}};
     run r;
     begin_run(&r);
     r.simulation.breaks = breaks;
@@ -195,7 +208,9 @@ static void the_summary_has_the_stable_keys_with_the_values_of_the_run(void **st
                                        "\"setup_s\": 0.25",
                                        "\"steps_s\": 2",
                                        "\"output_s\": ",
-                                       "\"bond_updates_per_s\": ", "\"phases\": {", "\"search_s\": 0.25",
+                                       "\"bond_updates_per_s\": ",
+                                       "\"phases\": {",
+                                       "\"search_s\": 0.25",
                                        "\"host_bytes\": ",
                                        "\"device_bytes\": 0",
                                        "\"kinetic_J\": null",

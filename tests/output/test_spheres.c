@@ -40,7 +40,8 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
     (void)state;
     brc_domain *d = three_spheres();
     brc_scene scene = {.output = {.frame_numbers = BRC_FRAME_DOUBLE}};
-    brc_simulation s = {.scene = &scene, .domain = d, .factor = 1, .value = {0.1, 0, 0}, .gradient = {{0.5, 0, 0}}, .stress = {1e6}};
+    brc_simulation s = {
+        .scene = &scene, .domain = d, .factor = 1, .value = {0.1, 0, 0}, .gradient = {{0.5, 0, 0}}, .stress = {1e6}};
     brc_simulation *const alone = &s;
     const brc_assembly whole = brc_assembly_make(s.scene, NULL, 1, &alone);
     brc_h5_read h5;
@@ -53,10 +54,12 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
     scene.output.frame_numbers = BRC_FRAME_SINGLE; /* one displacement under two names */
     assert_int_equal(brc_frames_write(frames, folder, 1), BRC_OK);
     const hid_t file = H5Fopen(test_path(folder, "000001.vtkhdf"), H5F_ACC_RDWR, H5P_DEFAULT);
-    const hid_t of_points = H5Dopen2(file, "VTKHDF/PointData/displacement", H5P_DEFAULT), of_cells = H5Dopen2(file, "VTKHDF/CellData/displacement", H5P_DEFAULT);
+    const hid_t of_points = H5Dopen2(file, "VTKHDF/PointData/displacement", H5P_DEFAULT),
+                of_cells = H5Dopen2(file, "VTKHDF/CellData/displacement", H5P_DEFAULT);
     const float written[3 * N] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
     float same[3 * N];
-    assert_true(H5Dwrite(of_points, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, written) >= 0 && H5Dread(of_cells, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, same) >= 0);
+    assert_true(H5Dwrite(of_points, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, written) >= 0 &&
+                H5Dread(of_cells, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, same) >= 0);
     assert_memory_equal(same, written, sizeof same);
     H5Dclose(of_points);
     H5Dclose(of_cells);
@@ -64,8 +67,10 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
     brc_frames_free(&frames);
     assert_int_equal(brc_h5_read_open(test_context, frame, &h5), BRC_OK);
     assert_false(brc_h5_read_has(&h5, "VTKHDF/FaceConnectivity"));
-    float *point = load(&h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, N, 3), *moved = load(&h5, "VTKHDF/PointData/displacement", H5T_NATIVE_FLOAT, N, 3);
-    int64_t *offset = load(&h5, "VTKHDF/Offsets", H5T_NATIVE_INT64, N + 1, 1), *id = load(&h5, "VTKHDF/Connectivity", H5T_NATIVE_INT64, N, 1);
+    float *point = load(&h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, N, 3),
+          *moved = load(&h5, "VTKHDF/PointData/displacement", H5T_NATIVE_FLOAT, N, 3);
+    int64_t *offset = load(&h5, "VTKHDF/Offsets", H5T_NATIVE_INT64, N + 1, 1),
+            *id = load(&h5, "VTKHDF/Connectivity", H5T_NATIVE_INT64, N, 1);
     uint8_t *type = load(&h5, "VTKHDF/Types", H5T_NATIVE_UINT8, N, 1);
     double *radius = load(&h5, "VTKHDF/PointData/radius", H5T_NATIVE_DOUBLE, N, 1);
     double *turn = load(&h5, "VTKHDF/CellData/orientation", H5T_NATIVE_DOUBLE, N, 4);
@@ -80,7 +85,8 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
     }
     brc_h5_read_close(&h5);
     void *const block[] = {point, moved, offset, id, type, radius, turn};
-    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
+        brc_memory_free(block[k]);
 
     assert_int_equal(brc_export_vtu_frame(test_context, frame, "spheres.vtu"), BRC_OK);
     char *text = test_read("spheres.vtu");
@@ -100,11 +106,13 @@ static void a_frame_holds_spheres_as_vertices_that_move_with_them(void **state)
 /* Lightness of a pixel: sum of its colours. */
 static int light(cairo_surface_t *image, int x, int y)
 {
-    const unsigned char *p = cairo_image_surface_get_data(image) + (long)y * cairo_image_surface_get_stride(image) + 4L * x;
+    const unsigned char *p =
+        cairo_image_surface_get_data(image) + (long)y * cairo_image_surface_get_stride(image) + 4L * x;
     return p[0] + p[1] + p[2];
 }
 
-/* Three separate balls: along the line of their centres the picture is ball, gap, ball, gap, ball, each wider than the one before. */
+/* Three separate balls: along the line of their centres the picture is ball, gap, ball, gap, ball, each wider than the
+ * one before. */
 static void a_picture_shows_balls_with_gaps_between_them(void **state)
 {
     (void)state;
@@ -120,7 +128,8 @@ static void a_picture_shows_balls_with_gaps_between_them(void **state)
     bool before = false;
     for (int x = 40; x < 1000; ++x) { /* columns with paint, above the axes */
         bool painted = false;
-        for (int y = 110; y < 760 && !painted; ++y) painted = light(image, x, y) < 3 * 250;
+        for (int y = 110; y < 760 && !painted; ++y)
+            painted = light(image, x, y) < 3 * 250;
         if (painted && !before && n < 7) ++n;
         if (painted) ++widest[n];
         before = painted;

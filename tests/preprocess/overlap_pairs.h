@@ -1,4 +1,5 @@
-/* Overlaps of many pairs of polyhedra by the kernel's functions: with eight lanes in double and in single precision, and with one lane in double. */
+/* Overlaps of many pairs of polyhedra by the kernel's functions: with eight lanes in double and in single precision,
+ * and with one lane in double. */
 #ifndef BRC_TEST_PREPROCESS_OVERLAP_PAIRS_H
 #define BRC_TEST_PREPROCESS_OVERLAP_PAIRS_H
 
@@ -16,8 +17,11 @@ typedef struct overlap_found {
 } overlap_found;
 
 /* Seconds of processor time for all pairs. n_threads >= 1. */
-double overlap_pairs_double(const brc_convex *convex, int64_t n, const overlap_pair *pair, int n_threads, overlap_found *out);
-double overlap_pairs_single(const brc_convex *convex, int64_t n, const overlap_pair *pair, int n_threads, overlap_found *out);
-double overlap_pairs_one_lane(const brc_convex *convex, int64_t n, const overlap_pair *pair, int n_threads, overlap_found *out);
+double overlap_pairs_double(const brc_convex *convex, int64_t n, const overlap_pair *pair, int n_threads,
+                            overlap_found *out);
+double overlap_pairs_single(const brc_convex *convex, int64_t n, const overlap_pair *pair, int n_threads,
+                            overlap_found *out);
+double overlap_pairs_one_lane(const brc_convex *convex, int64_t n, const overlap_pair *pair, int n_threads,
+                              overlap_found *out);
 
 #endif

@@ -41,7 +41,8 @@ brc_domain *test_spheres(brc_context *context, const int count[3], double coordi
     brc_solid_free(&solid);
     require(context, BRC_ALLOCATE(context, &d->region, n, "regions"));
     require(context, BRC_ALLOCATE(context, &d->body, n, "bodies"));
-    for (int64_t e = 0; e < n; ++e) d->body[e] = body;
+    for (int64_t e = 0; e < n; ++e)
+        d->body[e] = body;
     brc_quality_measure(d, n_threads);
     require(context, brc_sets_build(context, 0, NULL, d));
     require(context, BRC_ALLOCATE(context, &d->provenance, 8, "provenance"));

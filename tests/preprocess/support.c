@@ -111,7 +111,8 @@ void test_near_at(double value, double expected, double tolerance, const char *f
 double test_worst_closure(const brc_domain *domain)
 {
     double worst = 0.0;
-    for (int64_t e = 0; e < domain->n_elements; ++e) worst = fmax(worst, brc_domain_closure(domain, e));
+    for (int64_t e = 0; e < domain->n_elements; ++e)
+        worst = fmax(worst, brc_domain_closure(domain, e));
     return worst;
 }
 
@@ -119,7 +120,8 @@ static void add_moment(const double *x, const double *centroid, const double *ar
 {
     for (int64_t k = 0; k < n; ++k)
         for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) moment[i][j] += (centroid[3 * k + i] - x[i]) * area[3 * k + j];
+            for (int j = 0; j < 3; ++j)
+                moment[i][j] += (centroid[3 * k + i] - x[i]) * area[3 * k + j];
 }
 
 double test_worst_first_moment(const brc_domain *d)
@@ -128,11 +130,13 @@ double test_worst_first_moment(const brc_domain *d)
     for (int64_t e = 0; e < d->n_elements; ++e) {
         double moment[3][3] = {{0.0}};
         const int64_t h = d->row_start[e], f = d->free_start[e];
-        add_moment(d->position + 3 * e, d->face_centroid + 3 * h, d->area_vector + 3 * h, d->row_start[e + 1] - h, moment);
+        add_moment(d->position + 3 * e, d->face_centroid + 3 * h, d->area_vector + 3 * h, d->row_start[e + 1] - h,
+                   moment);
         add_moment(d->position + 3 * e, d->free_centroid + 3 * f, d->free_area_vector + 3 * f, d->free_start[e + 1] - f,
                    moment);
         for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) worst = fmax(worst, fabs(moment[i][j] / d->volume[e] - (i == j)));
+            for (int j = 0; j < 3; ++j)
+                worst = fmax(worst, fabs(moment[i][j] / d->volume[e] - (i == j)));
     }
     return worst;
 }

@@ -17,7 +17,8 @@
 int test_begin(void **state);
 int test_end(void **state);
 
-/* Requests for a cube of 1 m, a cylinder along x (1 m, radius 0.3 m) and a sphere (radius 0.5 m) of about n elements. */
+/* Requests for a cube of 1 m, a cylinder along x (1 m, radius 0.3 m) and a sphere (radius 0.5 m) of about n
+ * elements. */
 brc_build_request test_box(int64_t n, double spread);
 brc_build_request test_cylinder(int64_t n, double spread);
 brc_build_request test_sphere(int64_t n, double spread);

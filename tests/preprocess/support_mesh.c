@@ -46,8 +46,10 @@ void test_mesh_box(test_mesh *mesh, const double low[3], const double high[3], i
                         p[k][u] = s == n ? high[u] : low[u] + (high[u] - low[u]) * s / n;
                         p[k][v] = t == n ? high[v] : low[v] + (high[v] - low[v]) * t / n;
                     }
-                    if (side) add_quad(mesh, p[0], p[1], p[2], p[3]);
-                    else add_quad(mesh, p[0], p[3], p[2], p[1]);
+                    if (side)
+                        add_quad(mesh, p[0], p[1], p[2], p[3]);
+                    else
+                        add_quad(mesh, p[0], p[3], p[2], p[1]);
                 }
 }
 
@@ -60,16 +62,20 @@ void test_mesh_sphere(test_mesh *mesh, const double centre[3], double radius, in
             for (int j = 0; i + j < f; ++j)
                 for (int half = 0; half < 2; ++half) {
                     if (half && i + j + 2 > f) continue;
-                    const int at[2][3][2] = {{{i, j}, {i + 1, j}, {i, j + 1}}, {{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}};
+                    const int at[2][3][2] = {{{i, j}, {i + 1, j}, {i, j + 1}},
+                                             {{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}};
                     double p[3][3];
                     for (int k = 0; k < 3; ++k) {
-                        const double a = at[half][k][0], b = at[half][k][1], c = f - a - b, length = sqrt(a * a + b * b + c * c);
+                        const double a = at[half][k][0], b = at[half][k][1], c = f - a - b,
+                                     length = sqrt(a * a + b * b + c * c);
                         p[k][0] = centre[0] + radius * sign[0] * a / length;
                         p[k][1] = centre[1] + radius * sign[1] * b / length;
                         p[k][2] = centre[2] + radius * sign[2] * c / length;
                     }
-                    if (mirrored) test_mesh_add(mesh, p[0], p[2], p[1]);
-                    else test_mesh_add(mesh, p[0], p[1], p[2]);
+                    if (mirrored)
+                        test_mesh_add(mesh, p[0], p[2], p[1]);
+                    else
+                        test_mesh_add(mesh, p[0], p[1], p[2]);
                 }
     }
 }
@@ -80,7 +86,8 @@ void test_mesh_torus(test_mesh *mesh, double radius, double tube, int n, int m)
         for (int j = 0; j < m; ++j) {
             double p[4][3];
             for (int k = 0; k < 4; ++k) {
-                const double a = 2.0 * acos(-1.0) * ((i + (k == 1 || k == 2)) % n) / n, b = 2.0 * acos(-1.0) * ((j + (k >= 2)) % m) / m;
+                const double a = 2.0 * acos(-1.0) * ((i + (k == 1 || k == 2)) % n) / n,
+                             b = 2.0 * acos(-1.0) * ((j + (k >= 2)) % m) / m;
                 p[k][0] = (radius + tube * cos(b)) * cos(a);
                 p[k][1] = (radius + tube * cos(b)) * sin(a);
                 p[k][2] = tube * sin(b);
@@ -103,7 +110,8 @@ void test_mesh_l_profile(test_mesh *mesh, double height)
         test_mesh_add(mesh, p[1][FAN[k][0]], p[1][FAN[k][1]], p[1][FAN[k][2]]);
         test_mesh_add(mesh, p[0][FAN[k][0]], p[0][FAN[k][2]], p[0][FAN[k][1]]);
     }
-    for (int k = 0; k < 6; ++k) add_quad(mesh, p[0][k], p[0][(k + 1) % 6], p[1][(k + 1) % 6], p[1][k]);
+    for (int k = 0; k < 6; ++k)
+        add_quad(mesh, p[0][k], p[0][(k + 1) % 6], p[1][(k + 1) % 6], p[1][k]);
 }
 
 /* -1 to 1, the same for all triangles at a vertex. */
@@ -111,11 +119,13 @@ static double roughness(const double x[3], double wavelength)
 {
     double u[4], sum = 0.0;
     if (wavelength > 0.0) {
-        for (int d = 0; d < 3; ++d) sum += sin(2.0 * acos(-1.0) / wavelength * (x[d] + 0.31 * x[(d + 1) % 3])) / 3.0;
+        for (int d = 0; d < 3; ++d)
+            sum += sin(2.0 * acos(-1.0) / wavelength * (x[d] + 0.31 * x[(d + 1) % 3])) / 3.0;
         return sum;
     }
     uint64_t word[3];
-    for (int d = 0; d < 3; ++d) word[d] = (uint64_t)llround(1e9 * x[d]);
+    for (int d = 0; d < 3; ++d)
+        word[d] = (uint64_t)llround(1e9 * x[d]);
     brc_random_uniform4(word[0], BRC_RANDOM_TEST, word[1], word[2], u);
     return 2.0 * u[0] - 1.0;
 }
@@ -124,9 +134,12 @@ void test_mesh_roughen(test_mesh *mesh, const double centre[3], double amplitude
 {
     for (int64_t k = 0; k < 3 * mesh->n; ++k) {
         double *x = mesh->corner[k], arm[3];
-        for (int d = 0; d < 3; ++d) arm[d] = x[d] - centre[d];
-        const double stretch = 1.0 + amplitude * roughness(x, wavelength) / sqrt(arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]);
-        for (int d = 0; d < 3; ++d) x[d] = centre[d] + stretch * arm[d];
+        for (int d = 0; d < 3; ++d)
+            arm[d] = x[d] - centre[d];
+        const double stretch =
+            1.0 + amplitude * roughness(x, wavelength) / sqrt(arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]);
+        for (int d = 0; d < 3; ++d)
+            x[d] = centre[d] + stretch * arm[d];
     }
 }
 
@@ -146,9 +159,10 @@ void test_mesh_turn(test_mesh *mesh, double angle, const double shift[3])
     for (int64_t k = 0; k < 3 * mesh->n; ++k) {
         double *x = mesh->corner[k];
         const double along = (u[0] * x[0] + u[1] * x[1] + u[2] * x[2]) * (1.0 - cos(angle));
-        const double turned[3] = {x[0] * cos(angle) + (u[1] * x[2] - u[2] * x[1]) * sin(angle) + u[0] * along + shift[0],
-                                  x[1] * cos(angle) + (u[2] * x[0] - u[0] * x[2]) * sin(angle) + u[1] * along + shift[1],
-                                  x[2] * cos(angle) + (u[0] * x[1] - u[1] * x[0]) * sin(angle) + u[2] * along + shift[2]};
+        const double turned[3] = {
+            x[0] * cos(angle) + (u[1] * x[2] - u[2] * x[1]) * sin(angle) + u[0] * along + shift[0],
+            x[1] * cos(angle) + (u[2] * x[0] - u[0] * x[2]) * sin(angle) + u[1] * along + shift[1],
+            x[2] * cos(angle) + (u[0] * x[1] - u[1] * x[0]) * sin(angle) + u[2] * along + shift[2]};
         memcpy(x, turned, sizeof turned);
     }
 }
@@ -213,12 +227,15 @@ double test_mesh_winding(const test_mesh *mesh, const double x[3])
     for (int64_t t = 0; t < mesh->n; ++t) {
         double p[3][3], r[3];
         for (int k = 0; k < 3; ++k) {
-            for (int d = 0; d < 3; ++d) p[k][d] = mesh->corner[3 * t + k][d] - x[d];
+            for (int d = 0; d < 3; ++d)
+                p[k][d] = mesh->corner[3 * t + k][d] - x[d];
             r[k] = sqrt(dot(p[k], p[k]));
         }
-        const double volume = p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) + p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
+        const double volume = p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
+                              p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
                               p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
-        sum += 2.0 * atan2(volume, r[0] * r[1] * r[2] + dot(p[0], p[1]) * r[2] + dot(p[1], p[2]) * r[0] + dot(p[2], p[0]) * r[1]);
+        sum += 2.0 * atan2(volume, r[0] * r[1] * r[2] + dot(p[0], p[1]) * r[2] + dot(p[1], p[2]) * r[0] +
+                                       dot(p[2], p[0]) * r[1]);
     }
     return sum / (4.0 * acos(-1.0));
 }
@@ -230,7 +247,8 @@ static double distance2_of(const double a[3], const double b[3], const double c[
     const double *const corner[3] = {a, b, c};
     for (int k = 0; k < 3; ++k) { /* edges with their ends */
         const double *p = corner[k], *q = corner[(k + 1) % 3];
-        const double along[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, arm[3] = {x[0] - p[0], x[1] - p[1], x[2] - p[2]};
+        const double along[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]},
+                     arm[3] = {x[0] - p[0], x[1] - p[1], x[2] - p[2]};
         const double share = fmax(0.0, fmin(1.0, dot(along, arm) / dot(along, along)));
         const double gap[3] = {arm[0] - share * along[0], arm[1] - share * along[1], arm[2] - share * along[2]};
         best = fmin(best, dot(gap, gap));
@@ -241,10 +259,12 @@ static double distance2_of(const double a[3], const double b[3], const double c[
         ac[d] = c[d] - a[d];
         ax[d] = x[d] - a[d];
     }
-    const double bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac), bx = dot(ab, ax), cx = dot(ac, ax), det = bb * cc - bc * bc;
+    const double bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac), bx = dot(ab, ax), cx = dot(ac, ax),
+                 det = bb * cc - bc * bc;
     const double s = (bx * cc - cx * bc) / det, t = (cx * bb - bx * bc) / det; /* foot in the plane: a + s ab + t ac */
     if (s >= 0.0 && t >= 0.0 && s + t <= 1.0) {
-        const double gap[3] = {ax[0] - s * ab[0] - t * ac[0], ax[1] - s * ab[1] - t * ac[1], ax[2] - s * ab[2] - t * ac[2]};
+        const double gap[3] = {ax[0] - s * ab[0] - t * ac[0], ax[1] - s * ab[1] - t * ac[1],
+                               ax[2] - s * ab[2] - t * ac[2]};
         best = fmin(best, dot(gap, gap));
     }
     return best;

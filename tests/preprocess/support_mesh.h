@@ -21,8 +21,9 @@ void test_mesh_sphere(test_mesh *mesh, const double centre[3], double radius, in
 void test_mesh_torus(test_mesh *mesh, double radius, double tube, int n, int m);
 /* (2 x 2) - (1 x 1) in x and y, from z = 0 to `height`; the concave edge is x = y = 1. 20 triangles. */
 void test_mesh_l_profile(test_mesh *mesh, double height);
-/* Move every vertex away from the centre, or towards it, by up to `amplitude`: a scan's noise, each vertex by itself (wavelength 0), or bumps as
- * long as `wavelength`. A surface all of which is seen from the centre does not cut itself for that. */
+/* Move every vertex away from the centre, or towards it, by up to `amplitude`: a scan's noise, each vertex by itself
+ * (wavelength 0), or bumps as long as `wavelength`. A surface all of which is seen from the centre does not cut itself
+ * for that. */
 void test_mesh_roughen(test_mesh *mesh, const double centre[3], double amplitude, double wavelength);
 /* Reverse triangles first, first + step, ... */
 void test_mesh_reverse(test_mesh *mesh, int64_t first, int64_t step);
@@ -34,8 +35,8 @@ void test_mesh_write_ascii(const test_mesh *mesh, const char *path);
 /* Write (ASCII), read with scale 1 and remove the file; NULL with the context's sentence when it is refused. */
 brc_mesh *test_mesh_read(brc_context *context, const test_mesh *mesh, int n_threads, brc_status *status);
 
-/* References without a tree. Winding number of the list around x (J. van Oosterom & J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125), and
- * the distance of x to it. */
+/* References without a tree. Winding number of the list around x (J. van Oosterom & J. Strackee, IEEE Trans. Biomed.
+ * Eng. 30 (1983) 125), and the distance of x to it. */
 double test_mesh_winding(const test_mesh *mesh, const double x[3]);
 double test_mesh_distance(const test_mesh *mesh, const double x[3]);
 

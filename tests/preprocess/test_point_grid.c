@@ -8,7 +8,8 @@ static void draw(uint64_t k, double x[3])
 {
     double u[4];
     brc_random_uniform4(5, BRC_RANDOM_TEST, k, 0, u);
-    for (int c = 0; c < 3; ++c) x[c] = floor(12.0 * u[c]) / 8.0 - 0.25;
+    for (int c = 0; c < 3; ++c)
+        x[c] = floor(12.0 * u[c]) / 8.0 - 0.25;
 }
 
 static void the_nearest_point_is_that_of_brute_force(void **state)

@@ -28,7 +28,8 @@ static points read_text(brc_context *context, const char *text)
 {
     points p;
     write_text(text);
-    if (brc_points_read(context, path, 1.0, &p.position, &p.radius, &p.n) != BRC_OK) fail_msg("%s", brc_context_message(context));
+    if (brc_points_read(context, path, 1.0, &p.position, &p.radius, &p.n) != BRC_OK)
+        fail_msg("%s", brc_context_message(context));
     return p;
 }
 
@@ -67,8 +68,10 @@ static void the_same_points_come_out_of_every_separator_order_and_line_end(void 
         points p = read_text(*state, texts[k]);
         assert_int_equal(p.n, 2);
         assert_non_null(p.radius);
-        for (int c = 0; c < 6; ++c) assert_true(p.position[c] == x[c]);
-        for (int c = 0; c < 2; ++c) assert_true(p.radius[c] == r[c]);
+        for (int c = 0; c < 6; ++c)
+            assert_true(p.position[c] == x[c]);
+        for (int c = 0; c < 2; ++c)
+            assert_true(p.radius[c] == r[c]);
         free_points(&p);
     }
 }
@@ -104,7 +107,8 @@ static void every_fault_names_its_line_and_column(void **state)
     refused(*state, "x,y,z\n0x10,2,3\n", ":2:1: x is '0x10', expected a number");
     refused(*state, "x,y,z\n1,,3\n", ":2:3: y is empty, expected a number");
     refused(*state, "x;y;z\n1,5;2;3\n", ":2:1: x is '1,5', expected a number with a decimal point");
-    refused(*state, "x,y,z\n1,5,2,5,3,5\n", ":2:7: more fields than the 3 names of the header; numbers need a decimal point");
+    refused(*state, "x,y,z\n1,5,2,5,3,5\n",
+            ":2:7: more fields than the 3 names of the header; numbers need a decimal point");
     refused(*state, "x,y,z\n1,2\n", ":2:4: 2 fields, expected the 3 of the header");
     refused(*state, "x,y,z,radius\n1,2,3,0\n", ":2:1: radius is 0, must be > 0");
     refused(*state, "x,y,z,diameter\n1,2,3,-1\n", "diameter is -1, must be > 0");
@@ -124,7 +128,8 @@ static void every_fault_names_its_line_and_column(void **state)
 static void all_bad_lines_are_told_at_once_and_at_most_twenty_in_words(void **state)
 {
     char text[2048] = "x,y,z\n";
-    for (int k = 0; k < 23; ++k) strcat(text, k % 2 ? "1,2,c\n" : "a,b,3\n");
+    for (int k = 0; k < 23; ++k)
+        strcat(text, k % 2 ? "1,2,c\n" : "a,b,3\n");
     strcat(text, "1,2,3\n");
     refused(*state, text, ":2:1: x is 'a'");
     test_says(*state, ":3:5: z is 'c'");
@@ -133,7 +138,8 @@ static void all_bad_lines_are_told_at_once_and_at_most_twenty_in_words(void **st
     const char *message = brc_context_message(*state);
     assert_null(strstr(message, ":22:"));
     int sentences = 1;
-    for (const char *c = message; *c; ++c) sentences += *c == '\n';
+    for (const char *c = message; *c; ++c)
+        sentences += *c == '\n';
     assert_int_equal(sentences, 21); /* one a line, though the odd ones have two faults */
 }
 
@@ -150,7 +156,8 @@ static void points_written_read_back_bit_for_bit(void **state)
     for (int e = 0; e < N; ++e) {
         double u[4];
         brc_random_uniform4(11, BRC_RANDOM_TEST, (uint64_t)e, 0, u);
-        for (int k = 0; k < 3; ++k) d.position[3 * e + k] = (u[k] - 0.5) * exp(200.0 * (u[3] - 0.5));
+        for (int k = 0; k < 3; ++k)
+            d.position[3 * e + k] = (u[k] - 0.5) * exp(200.0 * (u[3] - 0.5));
         d.radius[e] = u[3] / 3.0;
         d.region[e] = e / 7;
     }
@@ -216,11 +223,13 @@ static void the_header_row_names_what_the_domain_has(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(the_same_points_come_out_of_every_separator_order_and_line_end, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(the_same_points_come_out_of_every_separator_order_and_line_end, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(files_without_radii_give_none, test_begin, test_end),
         cmocka_unit_test_setup_teardown(the_scale_turns_file_units_into_metres, test_begin, test_end),
         cmocka_unit_test_setup_teardown(every_fault_names_its_line_and_column, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(all_bad_lines_are_told_at_once_and_at_most_twenty_in_words, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(all_bad_lines_are_told_at_once_and_at_most_twenty_in_words, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(points_written_read_back_bit_for_bit, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_domain_built_from_its_own_elements_is_the_same, test_begin, test_end),
         cmocka_unit_test_setup_teardown(the_header_row_names_what_the_domain_has, test_begin, test_end),

@@ -19,8 +19,10 @@ static void write_text(const char *section, const char *rows, const char *after)
 {
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
-    fprintf(file, "x,y,z in the comment line that LAMMPS never reads\n\n3 atoms  # of two types\n2 bonds\n2 atom types\n"
-                  "0 10 xlo xhi\n0 10 ylo yhi\n-1 1 zlo zhi\n0 0 0 xy xz yz\n\nMasses\n\n1 1.0\n2 2.0\n\n%s\n\n%s%s", section, rows, after);
+    fprintf(file,
+            "x,y,z in the comment line that LAMMPS never reads\n\n3 atoms  # of two types\n2 bonds\n2 atom types\n"
+            "0 10 xlo xhi\n0 10 ylo yhi\n-1 1 zlo zhi\n0 0 0 xy xz yz\n\nMasses\n\n1 1.0\n2 2.0\n\n%s\n\n%s%s",
+            section, rows, after);
     assert_int_equal(fclose(file), 0);
 }
 
@@ -28,7 +30,8 @@ static points read_rows(brc_context *context, const char *section, const char *r
 {
     points p;
     write_text(section, rows, "\nVelocities\n\n1 0 0 0\n2 0 0 0\n3 0 0 0\n");
-    if (brc_points_read(context, path, 1.0, &p.position, &p.radius, &p.n) != BRC_OK) fail_msg("%s", brc_context_message(context));
+    if (brc_points_read(context, path, 1.0, &p.position, &p.radius, &p.n) != BRC_OK)
+        fail_msg("%s", brc_context_message(context));
     return p;
 }
 
@@ -77,24 +80,32 @@ static void every_style_gives_the_same_points_by_ascending_id(void **state)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         points p = read_rows(*state, cases[k].section, cases[k].rows);
         assert_int_equal(p.n, 3);
-        for (int c = 0; c < 9; ++c) assert_true(p.position[c] == x[c]);
+        for (int c = 0; c < 9; ++c)
+            assert_true(p.position[c] == x[c]);
         assert_true(cases[k].spheres == (p.radius != NULL));
-        for (int c = 0; p.radius && c < 3; ++c) assert_true(p.radius[c] == r[c]);
+        for (int c = 0; p.radius && c < 3; ++c)
+            assert_true(p.radius[c] == r[c]);
         free_points(&p);
     }
 }
 
 static void faults_name_their_place_and_the_cure(void **state)
 {
-    refused(*state, "Atoms # full", "1 1 1 0 1 2 3\n2 1 1 0 4 5 6\n3 1 1 0 7 8 9\n", ":16:9: atom style 'full', expected atomic, sphere, bond");
-    refused(*state, "Atoms # atomic", "1 1 1 2 3\n2 1 1 2\n3 1 1 2 3\n", ":19:1: 4 columns, expected the 5 of style 'atomic', or 8");
+    refused(*state, "Atoms # full", "1 1 1 0 1 2 3\n2 1 1 0 4 5 6\n3 1 1 0 7 8 9\n",
+            ":16:9: atom style 'full', expected atomic, sphere, bond");
+    refused(*state, "Atoms # atomic", "1 1 1 2 3\n2 1 1 2\n3 1 1 2 3\n",
+            ":19:1: 4 columns, expected the 5 of style 'atomic', or 8");
     refused(*state, "Atoms # atomic", "1 1 1 2 3\n2 1 1 b 3\n3 1 1 2 3\n", ":19:7: y is 'b', expected a number");
-    refused(*state, "Atoms # atomic", "1 1 1 2 3\n2.5 1 1 2 3\n3 1 1 2 3\n", ":19:1: the atom's id is '2.5', expected a whole number");
+    refused(*state, "Atoms # atomic", "1 1 1 2 3\n2.5 1 1 2 3\n3 1 1 2 3\n",
+            ":19:1: the atom's id is '2.5', expected a whole number");
     refused(*state, "Atoms # atomic", "1 1 1 2 3 0 0 0.5\n2 1 1 2 3\n3 1 1 2 3\n", ":18:15: an image flag is '0.5'");
-    refused(*state, "Atoms # sphere", "1 1 0 2.7 1 2 3\n2 1 1 2 1 2 3\n3 1 1 2 1 2 3\n", ":18:5: diameter is 0, must be > 0");
-    refused(*state, "Atoms # atomic", "3 1 1 2 3\n1 1 1 2 3\n3 1 4 5 6\n", ":20:1: a second atom 3, the first is on line 18");
+    refused(*state, "Atoms # sphere", "1 1 0 2.7 1 2 3\n2 1 1 2 1 2 3\n3 1 1 2 1 2 3\n",
+            ":18:5: diameter is 0, must be > 0");
+    refused(*state, "Atoms # atomic", "3 1 1 2 3\n1 1 1 2 3\n3 1 4 5 6\n",
+            ":20:1: a second atom 3, the first is on line 18");
     refused(*state, "Atoms # atomic", "1 1 1 2 3\n2 1 1 2 3\n\n", "ends after 2 rows, the header says 3 atoms");
-    refused(*state, "Atoms # atomic", "1 1 1 2 3\n2 1 1 2 3\n3 1 1 2 3\n4 1 1 2 3\n", "ends after 4 rows, the header says 3 atoms");
+    refused(*state, "Atoms # atomic", "1 1 1 2 3\n2 1 1 2 3\n3 1 1 2 3\n4 1 1 2 3\n",
+            "ends after 4 rows, the header says 3 atoms");
     refused(*state, "Atoms # atomic", "1 1 1 2 3\n", "the header says 3 atoms, only 2 lines follow here");
     refused(*state, "Atoms", "1 2 3 4\n2 2 3 4\n3 2 3 4\n", "4 columns belong to no atom style");
     refused(*state, "Bonds", "1 1 1 2\n2 1 2 3\n\n", "the file ends without a section 'Atoms'");

@@ -53,7 +53,8 @@ static const brc_entry *usual_variant(const maker *m, const brc_section *section
     const char *wanted = NULL;
     if (strcmp(section->title, "solver") == 0) {
         if (path_has(m->path, "face_velocity") || path_has(m->path, "element_velocity") ||
-            path_has(m->path, "frequency") || path_has(m->path, "rate") || path_has(m->path, "integral") || path_has(m->path, "duration") || path_has(m->path, "platens") || path_has(m->path, "jaws") ||
+            path_has(m->path, "frequency") || path_has(m->path, "rate") || path_has(m->path, "integral") ||
+            path_has(m->path, "duration") || path_has(m->path, "platens") || path_has(m->path, "jaws") ||
             path_has(m->path, "rollers") || path_has(m->path, "free"))
             wanted = "dynamic";
         if (path_has(m->path, "mode")) wanted = "modes";
@@ -64,7 +65,8 @@ static const brc_entry *usual_variant(const maker *m, const brc_section *section
 /* Mass and table of what a prescribed force moves. */
 static bool needs_force(const brc_section *section, const brc_entry *on_path)
 {
-    return on_path && brc_section_find(section, "force") && brc_section_find(section, "mass") && (strcmp(on_path->key, "mass") == 0 || strcmp(on_path->key, "table") == 0);
+    return on_path && brc_section_find(section, "force") && brc_section_find(section, "mass") &&
+           (strcmp(on_path->key, "mass") == 0 || strcmp(on_path->key, "table") == 0);
 }
 
 /* Is this entry written, the path's entry of this section being `on_path` (or NULL)? */
@@ -74,7 +76,8 @@ static bool is_used(const brc_section *section, const brc_entry *entry, const br
     if (section == brc_schema() && strcmp(entry->key, "sets") == 0) return true; /* the samples refer to them */
     if (section == brc_schema() && strcmp(entry->key, "sensors") == 0) return true;
     if (section == brc_schema() && strcmp(entry->key, "fracture") == 0) return true; /* sensors and stops need it */
-    if (strcmp(section->title, "material") == 0 && strcmp(entry->key, "strength") == 0) return true; /* which needs one */
+    if (strcmp(section->title, "material") == 0 && strcmp(entry->key, "strength") == 0)
+        return true; /* which needs one */
     if (strcmp(section->title, "strength") == 0 && strcmp(entry->key, "tension") == 0) return true;
     if (section == brc_schema() && strcmp(entry->key, "strikers") == 0) return true; /* and a sensor refers to one */
     if (section == brc_schema() && strcmp(entry->key, "interactions") == 0) return true; /* which needs contact */
@@ -87,7 +90,8 @@ static bool is_used(const brc_section *section, const brc_entry *entry, const br
         if (group->rule != BRC_GROUP_EXACTLY_ONE && group->rule != BRC_GROUP_AT_LEAST_ONE) continue;
         bool chosen = false;
         for (int k = 0; group->keys[k]; ++k)
-            chosen |= on_path && (strcmp(group->keys[k], on_path->key) == 0 || (needs_force(section, on_path) && strcmp(group->keys[k], "force") == 0));
+            chosen |= on_path && (strcmp(group->keys[k], on_path->key) == 0 ||
+                                  (needs_force(section, on_path) && strcmp(group->keys[k], "force") == 0));
         if (!chosen && strcmp(group->keys[0], entry->key) == 0) return true;
     }
     return false;
@@ -98,8 +102,10 @@ static void write_section(maker *m, const brc_section *section, int level, int i
 /* A wall of the shape that the scene has: a box unless the path says otherwise. */
 static const char *wall(const maker *m, const char *of_box)
 {
-    static const char *const ROUND[4][2] = {{"sphere", "surface"}, {"torus", "surface"}, {"mesh", "surface"}, {"cone", "side"}};
-    const bool of_body = m->path->depth > 0 && strcmp(m->path->chain[0]->key, "bodies") == 0; /* strikers have shapes too */
+    static const char *const ROUND[4][2] = {
+        {"sphere", "surface"}, {"torus", "surface"}, {"mesh", "surface"}, {"cone", "side"}};
+    const bool of_body =
+        m->path->depth > 0 && strcmp(m->path->chain[0]->key, "bodies") == 0; /* strikers have shapes too */
     if (!of_body) return of_box;
     for (int i = 1; i < m->path->depth; ++i)
         for (int r = 0; r < 4 && strcmp(m->path->chain[i - 1]->key, "shape") == 0; ++r)
@@ -111,10 +117,14 @@ static const char *wall(const maker *m, const char *of_box)
 static const char *sample_value(const maker *m, const brc_entry *entry)
 {
     if (entry->type == BRC_TYPE_TABLE)
-        return path_has(m->path, "face_velocity") || path_has(m->path, "element_velocity") || path_has(m->path, "driven") ? "[[0 s, 0], [1 ms, 1]]"
-                                                                                           : "[[0, 0], [1, 1]]";
+        return path_has(m->path, "face_velocity") || path_has(m->path, "element_velocity") ||
+                       path_has(m->path, "driven")
+                   ? "[[0 s, 0], [1 ms, 1]]"
+                   : "[[0, 0], [1, 1]]";
     if (strcmp(entry->key, "load") == 0 && path_has(m->path, "area")) return "force"; /* the area divides a reaction */
-    if (strcmp(entry->key, "window") == 0 && (path_has(m->path, "frequency") || path_has(m->path, "rate") || path_has(m->path, "integral") || path_has(m->path, "duration"))) return "[0, 1 ms]";
+    if (strcmp(entry->key, "window") == 0 && (path_has(m->path, "frequency") || path_has(m->path, "rate") ||
+                                              path_has(m->path, "integral") || path_has(m->path, "duration")))
+        return "[0, 1 ms]";
     if (entry->sample && (strcmp(entry->sample, "x+") == 0 || strcmp(entry->sample, "x-") == 0))
         return wall(m, entry->sample);
     return entry->sample ? entry->sample : entry->given ? entry->given : entry->choices ? entry->choices[0] : "true";

@@ -1,4 +1,5 @@
-/* Scenes made from the schema table itself: a small valid scene that contains one chosen entry, with one chosen fault. */
+/* Scenes made from the schema table itself: a small valid scene that contains one chosen entry, with one chosen
+ * fault. */
 #ifndef BRC_TEST_SCENE_SAMPLE_H
 #define BRC_TEST_SCENE_SAMPLE_H
 

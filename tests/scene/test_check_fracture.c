@@ -1,4 +1,5 @@
-/* Scenes in which nothing can break, models and stages that do not fit what breaks: told at their place, before anything is built. */
+/* Scenes in which nothing can break, models and stages that do not fit what breaks: told at their place, before
+ * anything is built. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -132,13 +133,14 @@ static void limits_that_nothing_looks_at_are_told(void **state)
     bad_scene(scene_of(MATERIALS(", strength: {tension: 50 MPa, compression: 90 MPa, fracture_energy: 8 J/m^2}"), CELLS,
                        "", SLIDES),
               "3:95", "fail in compression by sliding; this cohesion bears 2 c cos(phi) / (1 - sin(phi)) = 34.64 MPa");
-    warned_scene(scene_of(MATERIALS(", strength: {tension: 50 MPa, compression: 90 MPa}"), CELLS, "",
-                          "fracture: {}\nstages:\n" DYNAMIC),
-                 "3:95",
-                 "bonds of cells break by tension alone (criterion bond-normal), and body 'cube' bears any compression");
-    warned_scene(scene_of(MATERIALS(SOFT), CELLS, "",
-                          "fracture: {criterion: {mohr-coulomb: {cohesion: 10 MPa, friction: 10 deg}}}\nstages:\n" DYNAMIC),
-                 "7:67", "sides that have slid rub by 0.3, more than the solid's tan(10 deg) = 0.176");
+    warned_scene(
+        scene_of(MATERIALS(", strength: {tension: 50 MPa, compression: 90 MPa}"), CELLS, "",
+                 "fracture: {}\nstages:\n" DYNAMIC),
+        "3:95", "bonds of cells break by tension alone (criterion bond-normal), and body 'cube' bears any compression");
+    warned_scene(
+        scene_of(MATERIALS(SOFT), CELLS, "",
+                 "fracture: {criterion: {mohr-coulomb: {cohesion: 10 MPa, friction: 10 deg}}}\nstages:\n" DYNAMIC),
+        "7:67", "sides that have slid rub by 0.3, more than the solid's tan(10 deg) = 0.176");
     bad_scene(scene_of(MATERIALS(SOFT), CELLS, "", SLIDES "sensors: {r: {fracture: failure_ratio}}\n"), "10:25",
               "is not known of cells that slide");
 }

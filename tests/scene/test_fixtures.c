@@ -12,12 +12,13 @@
 #define DISC                                                                                                           \
     "version: 1\n"                                                                                                     \
     "materials: {rock: {E: 50 GPa, nu: 0.25, density: 2650 kg/m^3, strength: 8 MPa}}\n"                                \
-    "bodies: [{name: disc, shape: {cylinder: {axis: z, length: 10 mm, diameter: 50 mm}}, fill: {noisy_grid: {spacing: 2 mm}}}]\n" \
+    "bodies: [{name: disc, shape: {cylinder: {axis: z, length: 10 mm, diameter: 50 mm}}, fill: {noisy_grid: "          \
+    "{spacing: 2 mm}}}]\n"                                                                                             \
     "stages: [{name: press, solver: {dynamic: {duration: 1 ms}}}]\n"
 #define BEAM                                                                                                           \
     "version: 1\n"                                                                                                     \
     "materials: {rock: {E: 50 GPa, nu: 0.25, density: 2650 kg/m^3}}\n"                                                 \
-    "bodies: [{name: beam, shape: {box: {size: [450 mm, 100 mm, 50 mm]}}, fill: {noisy_grid: {spacing: 10 mm}}}]\n"   \
+    "bodies: [{name: beam, shape: {box: {size: [450 mm, 100 mm, 50 mm]}}, fill: {noisy_grid: {spacing: 10 mm}}}]\n"    \
     "stages: [{name: bend, solver: {dynamic: {duration: 1 ms}}}]\n"
 
 static const brc_striker *striker(const brc_scene *scene, const char *name)
@@ -61,9 +62,11 @@ static void tools_bring_steel_contact_sensors_a_measure_and_a_curve(void **state
     assert_string_equal(scene->materials[striker(scene, "platen_high")->material].name, "steel");
     assert_true(scene->has_contact && scene->contact.within && scene->contact.law.friction == 0);
     assert_int_equal(scene->contact.n_pairs, 1);
-    assert_true(scene->contact.pairs[0].friction == 0.3 && scene->contact.pairs[0].material[0] == 1 && scene->contact.pairs[0].material[1] == 0);
+    assert_true(scene->contact.pairs[0].friction == 0.3 && scene->contact.pairs[0].material[0] == 1 &&
+                scene->contact.pairs[0].material[1] == 0);
     const brc_sensor *force = sensor(scene, "platens_force"), *way = sensor(scene, "platens_displacement");
-    assert_true(force->sign == BRC_SIGN_COMPRESSION && force->component == 1 && strcmp(force->set, "platen_high") == 0 && strcmp(force->term, "force") == 0);
+    assert_true(force->sign == BRC_SIGN_COMPRESSION && force->component == 1 &&
+                strcmp(force->set, "platen_high") == 0 && strcmp(force->term, "force") == 0);
     assert_true(strcmp(way->set, "platen_high") == 0 && strcmp(way->set2, "platen_low") == 0);
     assert_string_equal(sensor(scene, "platens_reaction")->set, "platen_low");
     assert_int_equal(scene->n_measures, 1);
@@ -76,13 +79,16 @@ static void tools_bring_steel_contact_sensors_a_measure_and_a_curve(void **state
 static void what_the_scene_says_itself_stands(void **state)
 {
     (void)state;
-    brc_scene *scene = good_scene("version: 1\nmaterials: {rock: {E: 50 GPa, nu: 0.25, density: 2650 kg/m^3}, steel: {E: 200 GPa, nu: 0.3, density: 7800 kg/m^3}}\n"
-                                  "bodies: [{name: disc, material: rock, shape: {cylinder: {axis: z, length: 10 mm, radius: 25 mm}}, fill: {noisy_grid: {spacing: 2 mm}}}]\n"
-                                  "interactions: {contact: {friction: 0.5}}\n"
-                                  "platens: {body: disc, axis: y, speed: 0.2 m/s, moves: both, ramp: 1 ms, gap: 1 um, material: rock}\n"
-                                  "sensors: {platens_force: {contact: force}}\nmeasure: {top: {peak: {of: platens_force, target: 6 kN}}}\n"
-                                  "output: {curve: {x: platens_displacement, y: platens_reaction}}\n"
-                                  "stages: [{name: press, solver: {dynamic: {duration: 1 ms}}}]\n");
+    brc_scene *scene = good_scene(
+        "version: 1\nmaterials: {rock: {E: 50 GPa, nu: 0.25, density: 2650 kg/m^3}, steel: {E: 200 GPa, nu: 0.3, "
+        "density: 7800 kg/m^3}}\n"
+        "bodies: [{name: disc, material: rock, shape: {cylinder: {axis: z, length: 10 mm, radius: 25 mm}}, fill: "
+        "{noisy_grid: {spacing: 2 mm}}}]\n"
+        "interactions: {contact: {friction: 0.5}}\n"
+        "platens: {body: disc, axis: y, speed: 0.2 m/s, moves: both, ramp: 1 ms, gap: 1 um, material: rock}\n"
+        "sensors: {platens_force: {contact: force}}\nmeasure: {top: {peak: {of: platens_force, target: 6 kN}}}\n"
+        "output: {curve: {x: platens_displacement, y: platens_reaction}}\n"
+        "stages: [{name: press, solver: {dynamic: {duration: 1 ms}}}]\n");
     assert_int_equal(scene->n_materials, 2);
     assert_int_equal(scene->contact.n_pairs, 0);
     assert_int_equal(sensor(scene, "platens_force")->kind, BRC_SENSOR_CONTACT);
@@ -108,14 +114,18 @@ static void tools_are_pressed_by_a_force(void **state)
     assert_int_equal(sensor(scene, "platens_force")->sign, BRC_SIGN_COMPRESSION);
     brc_scene_free(&scene);
     scene = good_scene(DISC "platens: {axis: y, force: 6 kN, moves: both}\n");
-    assert_true(striker(scene, "platen_low")->force[1] == 6e3 && striker(scene, "platen_high")->force[1] == -6e3 && striker(scene, "platen_high")->mass == 0);
+    assert_true(striker(scene, "platen_low")->force[1] == 6e3 && striker(scene, "platen_high")->force[1] == -6e3 &&
+                striker(scene, "platen_high")->mass == 0);
     brc_scene_free(&scene);
     scene = good_scene(BEAM "rollers: {axis: y, span: 400 mm, diameter: 20 mm, force: 2 kN}\n");
-    assert_true(striker(scene, "roller_load")->force[1] == -2e3 && striker(scene, "roller_left")->motion == BRC_STRIKER_FIXED);
+    assert_true(striker(scene, "roller_load")->force[1] == -2e3 &&
+                striker(scene, "roller_left")->motion == BRC_STRIKER_FIXED);
     brc_scene_free(&scene);
-    bad_scene(DISC "platens: {axis: y, force: 6 kN, speed: 1 m/s}\n", "5:33", "expected only one of speed, force; found 2 of them");
+    bad_scene(DISC "platens: {axis: y, force: 6 kN, speed: 1 m/s}\n", "5:33",
+              "expected only one of speed, force; found 2 of them");
     bad_scene(DISC "platens: {axis: y}\n", "5:10", "expected exactly one of speed, force");
-    bad_scene(DISC "platens: {axis: y, speed: 1 m/s, mass: 2 kg}\n", "5:40", "tools that move with a prescribed speed need none; leave it out, or press them by `force`");
+    bad_scene(DISC "platens: {axis: y, speed: 1 m/s, mass: 2 kg}\n", "5:40",
+              "tools that move with a prescribed speed need none; leave it out, or press them by `force`");
 }
 
 static void jaws_are_hollow_towards_the_disc(void **state)
@@ -132,8 +142,10 @@ static void jaws_are_hollow_towards_the_disc(void **state)
     const double apex = hollow->origin[1] + 37.5e-3;
     assert_true(apex > 25e-3 && apex < 25.05e-3 && block->origin[1] < apex);
     brc_scene_free(&scene);
-    bad_scene(DISC "jaws: {axis: y, radius: 20 mm, speed: 1 m/s}\n", "5:25", "narrower than the body, which is 0.05 m across; expected a radius of 0.025 m or more");
-    bad_scene(DISC "jaws: {axis: y, radius: 30 mm, width: 7 cm, speed: 1 m/s}\n", "5:39", "expected less than its diameter");
+    bad_scene(DISC "jaws: {axis: y, radius: 20 mm, speed: 1 m/s}\n", "5:25",
+              "narrower than the body, which is 0.05 m across; expected a radius of 0.025 m or more");
+    bad_scene(DISC "jaws: {axis: y, radius: 30 mm, width: 7 cm, speed: 1 m/s}\n", "5:39",
+              "expected less than its diameter");
     bad_scene(DISC "jaws: {axis: y, speed: 1 m/s}\n", "5:7", "expected exactly one of radius, diameter");
 }
 
@@ -141,9 +153,11 @@ static void rollers_lie_below_and_above_the_beam(void **state)
 {
     (void)state;
     brc_scene *scene = good_scene(BEAM "rollers: {axis: y, span: 400 mm, diameter: 20 mm, speed: 20 mm/s}\n");
-    const brc_striker *left = striker(scene, "roller_left"), *right = striker(scene, "roller_right"), *load = striker(scene, "roller_load");
+    const brc_striker *left = striker(scene, "roller_left"), *right = striker(scene, "roller_right"),
+                      *load = striker(scene, "roller_load");
     assert_true(left->shape.axis == 2 && left->shape.radius == 10e-3);
-    assert_true(fabs(left->shape.origin[0] - 25e-3) < 1e-12 && fabs(right->shape.origin[0] - 425e-3) < 1e-12 && fabs(load->shape.origin[0] - 225e-3) < 1e-12);
+    assert_true(fabs(left->shape.origin[0] - 25e-3) < 1e-12 && fabs(right->shape.origin[0] - 425e-3) < 1e-12 &&
+                fabs(load->shape.origin[0] - 225e-3) < 1e-12);
     assert_true(load->velocity[1] == -20e-3 && left->motion == BRC_STRIKER_FIXED && right->motion == BRC_STRIKER_FIXED);
     /* Corners of 48 flat faces reach 1.00143 radii; they touch the flat sides of the beam. */
     assert_true(fabs(left->shape.origin[1] + 10.0143e-3) < 1e-7 && fabs(load->shape.origin[1] - 110.0143e-3) < 1e-7);
@@ -151,38 +165,53 @@ static void rollers_lie_below_and_above_the_beam(void **state)
     brc_scene_free(&scene);
     scene = good_scene(BEAM "rollers: {axis: y, span: 40 mm, radius: 1 mm, speed: 20 mm/s, along: z, moves: low}\n");
     assert_true(striker(scene, "roller_left")->shape.axis == 0 && striker(scene, "roller_load")->velocity[1] == 20e-3);
-    assert_true(striker(scene, "roller_left")->shape.origin[1] > 100e-3 && striker(scene, "roller_load")->shape.origin[1] < 0);
+    assert_true(striker(scene, "roller_left")->shape.origin[1] > 100e-3 &&
+                striker(scene, "roller_load")->shape.origin[1] < 0);
     brc_scene_free(&scene);
 }
 
 static void tools_that_fit_no_body_are_refused_with_the_cure(void **state)
 {
     (void)state;
-    bad_scene(BEAM "rollers: {axis: y, span: 500 mm, diameter: 20 mm, speed: 20 mm/s}\n", "5:26", "is no less than the body's length, 0.45 m along x, so that supports are not below it; expected less");
-    bad_scene(BEAM "rollers: {axis: y, span: 10 mm, diameter: 20 mm, speed: 20 mm/s}\n", "5:26", "expected a longer span or thinner rollers");
-    bad_scene(BEAM "rollers: {axis: y, along: y, span: 40 mm, diameter: 20 mm, speed: 20 mm/s}\n", "5:27", "the span runs across the load");
+    bad_scene(BEAM "rollers: {axis: y, span: 500 mm, diameter: 20 mm, speed: 20 mm/s}\n", "5:26",
+              "is no less than the body's length, 0.45 m along x, so that supports are not below it; expected less");
+    bad_scene(BEAM "rollers: {axis: y, span: 10 mm, diameter: 20 mm, speed: 20 mm/s}\n", "5:26",
+              "expected a longer span or thinner rollers");
+    bad_scene(BEAM "rollers: {axis: y, along: y, span: 40 mm, diameter: 20 mm, speed: 20 mm/s}\n", "5:27",
+              "the span runs across the load");
     bad_scene(BEAM "platens: {speed: 1 m/s}\n", "5:10", "the key 'axis' is missing in this platens");
     bad_scene(BEAM "platens: {axis: y, speed: 20}\n", "5:27", "has no unit");
-    bad_scene(BEAM "platens: {axis: y, speed: 1 m/s, body: beem}\n", "5:40", "there is no body 'beem'; did you mean 'beam'?");
-    bad_scene(BEAM "platens: {axis: y, speed: 1 m/s}\ninteractions: {contact: {}}\nstrikers: {platen_low: {plane: {point: [0, 0, 0], normal: [0, 1, 0]}, material: rock}}\n", "5:1",
-              "they make a striker 'platen_low', and the scene has one of this name");
-    bad_scene("version: 1\nmaterials: {rock: {E: 1 GPa, nu: 0, density: 1 kg/m^3}}\nbodies: [{domain: d.h5}]\nstages: [{name: go, solver: {dynamic: {steps: 1}}}]\n"
-              "platens: {axis: y, speed: 1 m/s}\n", "5:1", "it comes from a file, is turned, or is cut by planes; place strikers of your own");
-    bad_scene("version: 1\nmaterials: {rock: {E: 1 GPa, nu: 0, density: 1 kg/m^3}}\nstages: [{name: go, solver: {dynamic: {steps: 1}}}]\n"
+    bad_scene(BEAM "platens: {axis: y, speed: 1 m/s, body: beem}\n", "5:40",
+              "there is no body 'beem'; did you mean 'beam'?");
+    bad_scene(BEAM "platens: {axis: y, speed: 1 m/s}\ninteractions: {contact: {}}\nstrikers: {platen_low: {plane: "
+                   "{point: [0, 0, 0], normal: [0, 1, 0]}, material: rock}}\n",
+              "5:1", "they make a striker 'platen_low', and the scene has one of this name");
+    bad_scene("version: 1\nmaterials: {rock: {E: 1 GPa, nu: 0, density: 1 kg/m^3}}\nbodies: [{domain: d.h5}]\nstages: "
+              "[{name: go, solver: {dynamic: {steps: 1}}}]\n"
+              "platens: {axis: y, speed: 1 m/s}\n",
+              "5:1", "it comes from a file, is turned, or is cut by planes; place strikers of your own");
+    bad_scene("version: 1\nmaterials: {rock: {E: 1 GPa, nu: 0, density: 1 kg/m^3}}\nstages: [{name: go, solver: "
+              "{dynamic: {steps: 1}}}]\n"
               "bodies:\n  - {name: a, shape: {sphere: {radius: 1 m}}, fill: {noisy_grid: {elements: 9}}}\n"
               "  - {name: b, shape: {sphere: {radius: 1 m, centre: [9 m, 0, 0]}}, fill: {noisy_grid: {elements: 9}}}\n"
-              "platens: {axis: y, speed: 1 m/s}\n", "7:1", "the scene has 2 bodies; expected the one that is pressed, as in body: a");
+              "platens: {axis: y, speed: 1 m/s}\n",
+              "7:1", "the scene has 2 bodies; expected the one that is pressed, as in body: a");
 }
 
 static void bounds_are_those_of_what_is_added_and_moved(void **state)
 {
     (void)state;
-    brc_scene *scene = good_scene("version: 1\nmaterials: {rock: {E: 1 GPa, nu: 0, density: 1 kg/m^3}}\nstages: [{name: go, solver: {dynamic: {steps: 1}}}]\n"
-                                  "bodies:\n  - fill: {noisy_grid: {elements: 9}}\n    pose: {translation: [0, 0, 5 m]}\n    shape:\n      parts:\n"
-                                  "        - {role: add, shape: {torus: {radius: 3 m, tube: 1 m}}}\n        - {role: add, shape: {sphere: {radius: 2 m}}, pose: {translation: [0, 0, 1 m]}}\n"
-                                  "        - {role: remove, shape: {box: {size: [1 m, 1 m, 9 m]}}}\nplatens: {axis: z, speed: 1 m/s, gap: 1 mm}\n");
+    brc_scene *scene = good_scene("version: 1\nmaterials: {rock: {E: 1 GPa, nu: 0, density: 1 kg/m^3}}\nstages: "
+                                  "[{name: go, solver: {dynamic: {steps: 1}}}]\n"
+                                  "bodies:\n  - fill: {noisy_grid: {elements: 9}}\n    pose: {translation: [0, 0, 5 "
+                                  "m]}\n    shape:\n      parts:\n"
+                                  "        - {role: add, shape: {torus: {radius: 3 m, tube: 1 m}}}\n        - {role: "
+                                  "add, shape: {sphere: {radius: 2 m}}, pose: {translation: [0, 0, 1 m]}}\n"
+                                  "        - {role: remove, shape: {box: {size: [1 m, 1 m, 9 m]}}}\nplatens: {axis: z, "
+                                  "speed: 1 m/s, gap: 1 mm}\n");
     const brc_striker *low = striker(scene, "platen_low"), *high = striker(scene, "platen_high");
-    assert_true(fabs(high->shape.origin[2] - 8.001) < 1e-12 && fabs(low->shape.origin[2] + low->shape.size[2] - 3.999) < 1e-12); /* sphere: -1 to 3 m, 5 m up */
+    assert_true(fabs(high->shape.origin[2] - 8.001) < 1e-12 &&
+                fabs(low->shape.origin[2] + low->shape.size[2] - 3.999) < 1e-12); /* sphere: -1 to 3 m, 5 m up */
     assert_true(fabs(low->shape.origin[0] + 4.8) < 1e-12 && fabs(low->shape.size[0] - 9.6) < 1e-12);
     brc_scene_free(&scene);
 }
@@ -191,7 +220,9 @@ static void bounds_are_those_of_what_is_added_and_moved(void **state)
 static void expanded_scenes_read_back(void **state)
 {
     (void)state;
-    static const char *const text[] = {DISC "platens: {axis: y, speed: 0.2 m/s, friction: 0.3}\n", DISC "platens: {axis: y, force: 6 kN, ramp: 1 us}\n", DISC "jaws: {axis: y, radius: 30 mm, speed: 0.2 m/s, ramp: 1 us}\n",
+    static const char *const text[] = {DISC "platens: {axis: y, speed: 0.2 m/s, friction: 0.3}\n",
+                                       DISC "platens: {axis: y, force: 6 kN, ramp: 1 us}\n",
+                                       DISC "jaws: {axis: y, radius: 30 mm, speed: 0.2 m/s, ramp: 1 us}\n",
                                        BEAM "rollers: {axis: y, span: 400 mm, diameter: 20 mm, speed: 20 mm/s}\n"};
     brc_context *context = brc_context_create();
     for (size_t k = 0; k < sizeof text / sizeof *text; ++k) {

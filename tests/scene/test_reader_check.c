@@ -57,8 +57,10 @@ static void misspelt_keys_are_guessed(void **state)
     bad_scene(HEAD "stages: [{name: p, solver: {dynamik: {steps: 1}}}]\n", "9:29", "did you mean 'dynamic'?");
     bad_scene(HEAD STAGES "output: {picture: {colour: vonmises}}\n", "10:28", "did you mean von_mises?");
     bad_scene(HEAD STAGES "xyzzyplugh: 1\n", "10:1", "unknown key 'xyzzyplugh' in a scene; known: version, title");
-    bad_scene(HEAD STAGES "interactions: {interface: []}\n", "10:16", "unknown key 'interface' in interactions; did you mean 'interfaces'?");
-    bad_scene(HEAD STAGES "output: {curve: {x: 80 %, y: 80 %}}\n", "10:21", "x: '80 %' is no name: expected 1 to 63 letters, digits or _ + -");
+    bad_scene(HEAD STAGES "interactions: {interface: []}\n", "10:16",
+              "unknown key 'interface' in interactions; did you mean 'interfaces'?");
+    bad_scene(HEAD STAGES "output: {curve: {x: 80 %, y: 80 %}}\n", "10:21",
+              "x: '80 %' is no name: expected 1 to 63 letters, digits or _ + -");
     bad_scene(HEAD STAGES "sensors: {a b: {energy: work}}\n", "10:11", "key a b is no name");
     bad_scene(HEAD STAGES "output: {xyzzyplugh: 1}\n", "10:10", "unknown key 'xyzzyplugh' in an output; known: ");
 }
@@ -68,16 +70,17 @@ static void walls_and_strikers_need_contact_and_a_free_one_a_shape(void **state)
     (void)state;
     static const char plane[] = "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: glass}}\n";
     char text[1024];
-    bad_scene(HEAD STAGES "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: glass}}\n", "10:19",
-              "touches nothing: it needs `interactions: {contact: {}}`");
+    bad_scene(HEAD STAGES "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: glass}}\n",
+              "10:19", "touches nothing: it needs `interactions: {contact: {}}`");
     snprintf(text, sizeof text, "%sinteractions: {contact: {friction: 0.4}}\n%s", HEAD STAGES, plane);
     assert_int_equal(count_errors(text), 0);
     snprintf(text, sizeof text, "%sinteractions: {contact: {}}\n%s", HEAD STAGES,
              "strikers: {ball: {shape: {sphere: {centre: [0, 0, 2 m], radius: 10 cm}}, material: glass,"
              " motion: {free: {velocity: [0, 0, -5 m/s], spin: [1 rad/s, 0, 0], mass: 2 kg, hold: {x: true}}}}}\n");
     assert_int_equal(count_errors(text), 0);
-    bad_scene(HEAD STAGES "interactions: {contact: {}}\n"
-                          "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: glass, motion: free}}\n",
+    bad_scene(HEAD STAGES
+              "interactions: {contact: {}}\n"
+              "strikers: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: glass, motion: free}}\n",
               "11:91", "an endless plane has no mass");
     bad_scene(HEAD STAGES "sensors: {pairs: {contact: pairs}}\n", "10:28", "this sensor needs `interactions");
     bad_scene(HEAD STAGES "interactions: {contact: {}}\nsensors: {push: {striker: {name: flor, quantity: force}}}\n"
@@ -88,21 +91,27 @@ static void walls_and_strikers_need_contact_and_a_free_one_a_shape(void **state)
 static void a_prescribed_force_acts_in_dynamic_stages_on_what_may_move(void **state)
 {
     (void)state;
-#define BALL(motion) "interactions: {contact: {}}\nstrikers:\n  ball: {shape: {sphere: {centre: [0, 0, 3 m], radius: 10 cm}}, material: glass, motion: {free: {" motion "}}}\n"
+#define BALL(motion)                                                                                                   \
+    "interactions: {contact: {}}\nstrikers:\n  ball: {shape: {sphere: {centre: [0, 0, 3 m], radius: 10 cm}}, "         \
+    "material: glass, motion: {free: {" motion "}}}\n"
 #define MOVING "stages: [{name: pull, solver: {dynamic: {steps: 1}}}]\n"
     brc_scene *scene = good_scene(HEAD MOVING BALL("force: [0, 0, -1 N]"));
     assert_true(scene->strikers[0].pushed && scene->strikers[0].force[2] == -1);
     brc_scene_free(&scene);
-    bad_scene(HEAD STAGES BALL("force: [0, 0, -1 N]"), "12:105", "moves 'ball' in dynamic stages, and the scene has none. At rest, load a wall of the body by `traction`");
-    bad_scene(HEAD MOVING BALL("force: [1 N, 0, -1 N], hold: {x: true}"), "12:105", "has no effect along x, where `hold` lets the striker not move; expected 0 there");
-    bad_scene(HEAD MOVING BALL("table: [[0, 0], [1 s, 1]]"), "12:105", "table: is the factor of a prescribed force, and there is none; give `force`");
+    bad_scene(HEAD STAGES BALL("force: [0, 0, -1 N]"), "12:105",
+              "moves 'ball' in dynamic stages, and the scene has none. At rest, load a wall of the body by `traction`");
+    bad_scene(HEAD MOVING BALL("force: [1 N, 0, -1 N], hold: {x: true}"), "12:105",
+              "has no effect along x, where `hold` lets the striker not move; expected 0 there");
+    bad_scene(HEAD MOVING BALL("table: [[0, 0], [1 s, 1]]"), "12:105",
+              "table: is the factor of a prescribed force, and there is none; give `force`");
 }
 
 static void with_contact_a_rest_comes_before_what_moves(void **state)
 {
     (void)state;
     static const char contact[] = "interactions: {contact: {}}\n", rest[] = "  - {name: rest, solver: static}\n";
-    static const char modes[] = "  - {name: hum, solver: {modes: {count: 8}}}\n", move[] = "  - {name: go, solver: {dynamic: {steps: 3}}}\n";
+    static const char modes[] = "  - {name: hum, solver: {modes: {count: 8}}}\n",
+                      move[] = "  - {name: go, solver: {dynamic: {steps: 3}}}\n";
     char text[1200];
     snprintf(text, sizeof text, "%s%sstages:\n%s%s%s", HEAD, contact, rest, modes, move);
     assert_int_equal(count_errors(text), 0);
@@ -114,22 +123,26 @@ static void with_contact_a_rest_comes_before_what_moves(void **state)
     static const char tear[] = "stages:\n  - {name: tear, solver: {static: {events: 5}}}\n";
     snprintf(text, sizeof text, "%sfracture: {}\n%s%s", HEAD, contact, tear);
     bad_scene(text, "12:44", "events: they know no contact");
-    snprintf(text, sizeof text,
-             "version: 1\nmaterials: {glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3, strength: {tension: 50 MPa}}}\n"
-             "bodies: [{shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {elements: 100}}}]\nfracture: {}\n%s", tear);
+    snprintf(
+        text, sizeof text,
+        "version: 1\nmaterials: {glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3, strength: {tension: 50 MPa}}}\n"
+        "bodies: [{shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {elements: 100}}}]\nfracture: {}\n%s",
+        tear);
     assert_int_equal(count_errors(text), 0);
 }
 
 static void couple_modulus_is_for_dynamic_stages(void **state)
 {
     (void)state;
-    static const char model[] = "model: {dlsm-published: {couple_modulus: 0.5}}\n", move[] = "  - {name: go, solver: {dynamic: {steps: 3}}}\n";
+    static const char model[] = "model: {dlsm-published: {couple_modulus: 0.5}}\n",
+                      move[] = "  - {name: go, solver: {dynamic: {steps: 3}}}\n";
     char text[1200];
     snprintf(text, sizeof text, "%s%sstages:\n%s", HEAD, model, move);
     assert_int_equal(count_errors(text), 0);
     snprintf(text, sizeof text, "%s%sstages:\n  - {name: rest, solver: static}\n%s", HEAD, model, move);
     bad_scene(text, "9:42", "static stages and modes do not know ('rest' is one)");
-    snprintf(text, sizeof text, "%smodel: {dlsm-published: {couple_modulus: 0}}\nstages:\n  - {name: rest, solver: static}\n", HEAD);
+    snprintf(text, sizeof text,
+             "%smodel: {dlsm-published: {couple_modulus: 0}}\nstages:\n  - {name: rest, solver: static}\n", HEAD);
     assert_int_equal(count_errors(text), 0);
 }
 
@@ -312,26 +325,33 @@ static void measures_ask_for_fitting_sensors(void **state)
     bad_scene(HEAD STAGES SENSORS "measure: {m: {frequency: {of: f}}}\n", "11:14", "the stage 'pull' is not dynamic");
 }
 
-/* The area vectors of a wall that goes all the way round sum to zero: a load over the area across them would be a load over rounding. */
+/* The area vectors of a wall that goes all the way round sum to zero: a load over the area across them would be a load
+ * over rounding. */
 static void the_area_of_a_measure_is_of_a_wall_that_has_sides(void **state)
 {
     (void)state;
     static const struct {
         const char *shape, *area, *sets;
         int is_refused;
-    } wall[] = {{"cylinder: {axis: z, length: 1 m, radius: 1 m}", "side", "", 1},
-                {"cylinder: {axis: z, length: 1 m, radius: 1 m}", "mantle", "sets: {mantle: {faces: {wall: side}}}\n", 1},
-                {"cylinder: {axis: z, length: 1 m, radius: 1 m}", "half", "sets: {half: {faces: {wall: side, normal: {direction: [1, 0, 0], within: 80 deg}}}}\n", 0},
-                {"cylinder: {axis: z, length: 1 m, radius: 1 m}", "z+", "", 0},
-                {"sphere: {radius: 1 m}", "surface", "", 1},
-                {"cone: {axis: z, length: 1 m, radius: 1 m, end_radius: 2 m}", "side", "", 0}};
+    } wall[] = {
+        {"cylinder: {axis: z, length: 1 m, radius: 1 m}", "side", "", 1},
+        {"cylinder: {axis: z, length: 1 m, radius: 1 m}", "mantle", "sets: {mantle: {faces: {wall: side}}}\n", 1},
+        {"cylinder: {axis: z, length: 1 m, radius: 1 m}", "half",
+         "sets: {half: {faces: {wall: side, normal: {direction: [1, 0, 0], within: 80 deg}}}}\n", 0},
+        {"cylinder: {axis: z, length: 1 m, radius: 1 m}", "z+", "", 0},
+        {"sphere: {radius: 1 m}", "surface", "", 1},
+        {"cone: {axis: z, length: 1 m, radius: 1 m, end_radius: 2 m}", "side", "", 0}};
     for (size_t k = 0; k < sizeof wall / sizeof *wall; ++k) {
         char text[1024];
         snprintf(text, sizeof text,
-                 "version: 1\nmaterials: {glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3}}\nbodies: [{name: b, shape: {%s}, fill: {noisy_grid: {elements: 100}}}]\n" STAGES
-                 "sensors: {f: {stress: {component: xx}}}\nmeasure: {m: {peak: {of: f, area: %s}}}\n%s", wall[k].shape, wall[k].area, wall[k].sets);
-        if (wall[k].is_refused) bad_scene(text, "6:35", "goes all the way round");
-        else assert_int_equal(count_errors(text), 0);
+                 "version: 1\nmaterials: {glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3}}\nbodies: [{name: b, "
+                 "shape: {%s}, fill: {noisy_grid: {elements: 100}}}]\n" STAGES
+                 "sensors: {f: {stress: {component: xx}}}\nmeasure: {m: {peak: {of: f, area: %s}}}\n%s",
+                 wall[k].shape, wall[k].area, wall[k].sets);
+        if (wall[k].is_refused)
+            bad_scene(text, "6:35", "goes all the way round");
+        else
+            assert_int_equal(count_errors(text), 0);
     }
 }
 

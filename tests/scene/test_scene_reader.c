@@ -217,11 +217,13 @@ static void views_of_pictures_are_a_side_or_two_points(void **state)
     brc_scene_free(&scene);
     scene = good_scene(HEAD STAGES "output: {picture: {camera: {from: [1 mm, 2 m, 3 m], towards: [0, 0, 1 cm]}}}\n");
     assert_string_equal(scene->output.picture_view, "corner");
-    assert_true(scene->output.has_picture_camera && scene->output.picture_from[0] == 1e-3 && scene->output.picture_towards[2] == 1e-2);
+    assert_true(scene->output.has_picture_camera && scene->output.picture_from[0] == 1e-3 &&
+                scene->output.picture_towards[2] == 1e-2);
     brc_scene_free(&scene);
     bad_scene(HEAD STAGES "output: {picture: {view: above}}\n", "10:26", "'above'");
     bad_scene(HEAD STAGES "output: {picture: {camera: {towards: [0, 0, 1]}}}\n", "10:28", "from");
-    bad_scene(HEAD STAGES "output: {picture: {view: z, camera: {from: [0, 0, 1]}}}\n", "10:26", "leave out one of them");
+    bad_scene(HEAD STAGES "output: {picture: {view: z, camera: {from: [0, 0, 1]}}}\n", "10:26",
+              "leave out one of them");
     bad_scene(HEAD STAGES "output: {picture: {camera: {from: [0, 0, 0]}}}\n", "10:35", "which gives no direction");
 }
 

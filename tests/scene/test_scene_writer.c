@@ -31,8 +31,10 @@ static void expect_equal_bodies(brc_body left, brc_body right)
     expect_equal_arrays(left.regions, left.n_regions, right.regions, right.n_regions, sizeof *left.regions);
     expect_equal_arrays(left.cracks, left.n_cracks, right.cracks, right.n_cracks, sizeof *left.cracks);
     expect_equal_arrays(left.phases, left.n_phases, right.phases, right.n_phases, sizeof *left.phases);
-    expect_equal_arrays(left.shape.parts, left.shape.n_parts, right.shape.parts, right.shape.n_parts, sizeof *left.shape.parts);
-    expect_equal_arrays(left.fill.radii, left.fill.n_radii, right.fill.radii, right.fill.n_radii, sizeof *left.fill.radii);
+    expect_equal_arrays(left.shape.parts, left.shape.n_parts, right.shape.parts, right.shape.n_parts,
+                        sizeof *left.shape.parts);
+    expect_equal_arrays(left.fill.radii, left.fill.n_radii, right.fill.radii, right.fill.n_radii,
+                        sizeof *left.fill.radii);
     left.regions = right.regions = NULL;
     left.cracks = right.cracks = NULL;
     left.phases = right.phases = NULL;
@@ -55,7 +57,8 @@ static void expect_equal_scenes(const brc_scene *a, const brc_scene *b)
     assert_memory_equal(&a->output, &b->output, sizeof a->output);
     assert_memory_equal(a->gravity, b->gravity, sizeof a->gravity);
     assert_int_equal(a->n_bodies, b->n_bodies);
-    for (int i = 0; i < a->n_bodies; ++i) expect_equal_bodies(a->bodies[i], b->bodies[i]);
+    for (int i = 0; i < a->n_bodies; ++i)
+        expect_equal_bodies(a->bodies[i], b->bodies[i]);
     expect_equal_arrays(a->limits, a->n_limits, b->limits, b->n_limits, sizeof *a->limits);
     assert_int_equal(a->n_stages, b->n_stages);
     for (int i = 0; i < a->n_stages; ++i) {
@@ -140,7 +143,8 @@ static void zeros_survive_beside_a_group_of_keys(void **state)
 {
     (void)state;
     static const char text[] = "version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\n"
-                               "bodies:\n  - shape: {box: {size: [1 m, 1 m, 1 m]}}\n    fill: {packing: {elements: 10, seed: 0, coordination: 6}}\n"
+                               "bodies:\n  - shape: {box: {size: [1 m, 1 m, 1 m]}}\n    fill: {packing: {elements: 10, "
+                               "seed: 0, coordination: 6}}\n"
                                "stages: [{name: pull, solver: static}]\n";
     expect_round_trip(text, strlen(text));
 }

@@ -1,5 +1,5 @@
-/* Every entry of the schema table, each in a scene made from the table: valid as its sample, refused with the right line
- * and column as anything else. Nothing here names a key except where a scene could not be made without. */
+/* Every entry of the schema table, each in a scene made from the table: valid as its sample, refused with the right
+ * line and column as anything else. Nothing here names a key except where a scene could not be made without. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -41,17 +41,23 @@ static bool path_has(const sample_path *path, const char *key)
     return false;
 }
 
-/* Elements have no normal, a half-space alone no end, a noisy grid no spheres and so no model of beams, a plane no mass, one radius or factor is no distribution, and
- * events know no contact, which all samples have: no valid scene made of samples alone contains these entries there. tests/scene/test_reader_check.c
- * and test_fracture_keys.c read valid ones. */
+/* Elements have no normal, a half-space alone no end, a noisy grid no spheres and so no model of beams, a plane no
+ * mass, one radius or factor is no distribution, and events know no contact, which all samples have: no valid scene
+ * made of samples alone contains these entries there. tests/scene/test_reader_check.c and test_fracture_keys.c read
+ * valid ones. */
 static bool cannot_be_valid(const sample_path *path)
 {
-    return path_has(path, "opening") || path_has(path, "jaws") || (path_has(path, "regions") && path_has(path, "body")) || (path_has(path, "striker") && path_has(path, "against")) || path_has(path, "beams") || path_has(path, "events") || (path_has(path, "strikers") && path_has(path, "free")) || path_has(path, "radii") || path_has(path, "cbm") ||
-           (path_has(path, "scatter") && path_has(path, "table")) ||
+    return path_has(path, "opening") || path_has(path, "jaws") ||
+           (path_has(path, "regions") && path_has(path, "body")) ||
+           (path_has(path, "striker") && path_has(path, "against")) || path_has(path, "beams") ||
+           path_has(path, "events") || (path_has(path, "strikers") && path_has(path, "free")) ||
+           path_has(path, "radii") || path_has(path, "cbm") || (path_has(path, "scatter") && path_has(path, "table")) ||
            (path->depth == 2 && path_has(path, "fracture") && path_has(path, "friction")) || /* samples have contact */
-           path_has(path, "shear_fracture_energy") || /* stands beside fracture_energy; solver/test_sliding.c reads it */
+           path_has(path,
+                    "shear_fracture_energy") || /* stands beside fracture_energy; solver/test_sliding.c reads it */
            (path_has(path, "half_space") && path_has(path, "parts")) ||
-           (path_has(path, "normal") && !path_has(path, "faces") && !path_has(path, "half_space") && !path_has(path, "disc"));
+           (path_has(path, "normal") && !path_has(path, "faces") && !path_has(path, "half_space") &&
+            !path_has(path, "disc"));
 }
 
 static brc_status read_scene(brc_context *context, const sample_scene *sample)

@@ -130,7 +130,8 @@ static void what_no_double_holds_is_refused(void **state)
     fails_as("1 Qm^9*Qm^9", "", BRC_QUANTITY_UNKNOWN_UNIT);
 }
 
-/* A locale of its own: the machine may have none with a decimal comma. localedef belongs to the C library (libc-bin). */
+/* A locale of its own: the machine may have none with a decimal comma. localedef belongs to the C library
+ * (libc-bin). */
 static void use_a_decimal_comma(void)
 {
     FILE *const source = fopen("comma.src", "w");

@@ -7,8 +7,8 @@
 #include <string.h>
 
 static const char shaken[] = "  - name: shake\n    solver: {dynamic: {steps: 100, time_step: 10 ms}}\n    loads:\n"
-                                  "      - %s: {set: left, x: 1 mm/s}\n    initial:\n"
-                                  "      - random: {amplitude: [1 mm/s, 1 mm/s, 1 mm/s], seed: 3}\n";
+                             "      - %s: {set: left, x: 1 mm/s}\n    initial:\n"
+                             "      - random: {amplitude: [1 mm/s, 1 mm/s, 1 mm/s], seed: 3}\n";
 
 double *backend_shaken(const char *device, const char *model, brc_precision precision, bool exact, int64_t *n)
 {
@@ -16,8 +16,13 @@ double *backend_shaken(const char *device, const char *model, brc_precision prec
     const bool published = strcmp(model, "dlsm") != 0;
     snprintf(stages, sizeof stages, shaken, published ? "element_velocity" : "face_velocity");
     bench_case c;
-    open_case(&c, (case_options){.device = device, .model = model, .precision = precision, .exact = exact, .stages = stages,
-                                 .sets = published ? "sets:\n  left: {elements: {wall: x-}}\n" : "sets:\n  left: {faces: {wall: x-}}\n"});
+    open_case(&c, (case_options){.device = device,
+                                 .model = model,
+                                 .precision = precision,
+                                 .exact = exact,
+                                 .stages = stages,
+                                 .sets = published ? "sets:\n  left: {elements: {wall: x-}}\n"
+                                                   : "sets:\n  left: {faces: {wall: x-}}\n"});
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     assert_done(&c, brc_simulation_advance(c.simulation, 30));
     *n = 3 * c.domain->n_elements;
@@ -30,13 +35,17 @@ double *backend_shaken(const char *device, const char *model, brc_precision prec
 /* Beams with forces and prescribed rotations, in motion. */
 static double *shaken_beams(const char *device, brc_precision precision, bool exact, int64_t *n)
 {
-    static const char stages[] =
-        "sets:\n  low: {elements: {box: {from: [0, 0, 0], to: [80 cm, 9 m, 9 m]}}}\n  high: {elements: {box: {from: [3.2 m, 0, 0], to: [9 m, 9 m, 9 m]}}}\n"
-        "stages:\n  - name: shake\n    solver: {dynamic: {steps: 1000}}\n    initial:\n      - random: {amplitude: [10 mm/s, 10 mm/s, 10 mm/s], seed: 3}\n"
-        "    loads:\n      - element_velocity: {set: low, x: -1 mm/s}\n      - element_rotation: {set: low, y: 0.1 rad, table: [[0, 0], [100 s, 1]]}\n"
-        "      - element_force: {set: high, z: 1 mN}\n";
+    static const char stages[] = "sets:\n  low: {elements: {box: {from: [0, 0, 0], to: [80 cm, 9 m, 9 m]}}}\n  high: "
+                                 "{elements: {box: {from: [3.2 m, 0, 0], to: [9 m, 9 m, 9 m]}}}\n"
+                                 "stages:\n  - name: shake\n    solver: {dynamic: {steps: 1000}}\n    initial:\n      "
+                                 "- random: {amplitude: [10 mm/s, 10 mm/s, 10 mm/s], seed: 3}\n"
+                                 "    loads:\n      - element_velocity: {set: low, x: -1 mm/s}\n      - "
+                                 "element_rotation: {set: low, y: 0.1 rad, table: [[0, 0], [100 s, 1]]}\n"
+                                 "      - element_force: {set: high, z: 1 mN}\n";
     beams_case c;
-    open_lattice(&c, 4, (beams_options){.coordination = 6, .stages = stages, .device = device, .precision = precision, .exact = exact});
+    open_lattice(
+        &c, 4,
+        (beams_options){.coordination = 6, .stages = stages, .device = device, .precision = precision, .exact = exact});
     beams_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     beams_done(&c, brc_simulation_advance(c.simulation, 30));
     *n = 7 * c.domain->n_elements;

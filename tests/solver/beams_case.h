@@ -13,9 +13,9 @@ typedef struct beams_options {
     double radius;          /* of every sphere [m] */
     double coordination;
     const char *materials, *regions;
-    const char *stages;     /* keys `sets` and `stages` */
-    const char *model; /* default "cbm" */
-    bool refused;      /* brc_simulation_create is expected to fail with BRC_BAD_INPUT */
+    const char *stages; /* keys `sets` and `stages` */
+    const char *model;  /* default "cbm" */
+    bool refused;       /* brc_simulation_create is expected to fail with BRC_BAD_INPUT */
     const char *device;
     brc_precision precision;
     int n_threads;
@@ -24,7 +24,8 @@ typedef struct beams_options {
 
 /* Open everything but the stage; fails the test with the context's sentence. */
 void open_beams(beams_case *c, beams_options options);
-/* A cube of n x n x n points, about 1 m apart and shaken by a tenth, the first near (0.5, 0.5, 0.5) m; spheres of 0.5 m. */
+/* A cube of n x n x n points, about 1 m apart and shaken by a tenth, the first near (0.5, 0.5, 0.5) m; spheres of 0.5
+ * m. */
 void open_lattice(beams_case *c, int n, beams_options options);
 void close_beams(beams_case *c);
 void beams_done(beams_case *c, brc_status status);

@@ -52,14 +52,16 @@ void contact_blade(case_options o)
     o.fill = "cells: [4, 4, 4], spread: 50 %, seed: 1";
     o.stages = "  - name: cut\n    solver: {dynamic: {steps: 200, time_step: 10 ms}}\n";
     o.gravity = "interactions: {contact: {}}\nstrikers:\n"
-                "  blade: {shape: {box: {size: [0.6 m, 0.6 m, 1 mm], origin: [0.2 m, 0.2 m, 1.0005 m]}}, material: stone, motion: {driven: {velocity: [0, 0, -0.1 m/s]}}}\n";
+                "  blade: {shape: {box: {size: [0.6 m, 0.6 m, 1 mm], origin: [0.2 m, 0.2 m, 1.0005 m]}}, material: "
+                "stone, motion: {driven: {velocity: [0, 0, -0.1 m/s]}}}\n";
     open_case(&c, o);
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     for (size_t k = 0; k < sizeof at / sizeof *at; ++k, done = at[k - 1].steps) {
         brc_touching now;
         assert_done(&c, brc_simulation_advance(c.simulation, at[k].steps - done));
         assert_done(&c, brc_simulation_touching(c.simulation, &now));
-        if (!(fabs(now.penetration - at[k].depth) < 1e-4)) fail_msg("%g m deep after %d steps, expected %g m", now.penetration, (int)at[k].steps, at[k].depth);
+        if (!(fabs(now.penetration - at[k].depth) < 1e-4))
+            fail_msg("%g m deep after %d steps, expected %g m", now.penetration, (int)at[k].steps, at[k].depth);
     }
     close_case(&c);
 }
@@ -79,7 +81,8 @@ static void a_blade_is_as_deep_as_on_the_cpu(void **state)
 
 int contact_device_run(const char *device)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(fragments_meet_as_on_the_cpu), cmocka_unit_test(a_blade_is_as_deep_as_on_the_cpu)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(fragments_meet_as_on_the_cpu),
+                                       cmocka_unit_test(a_blade_is_as_deep_as_on_the_cpu)};
     other_device = device;
     if (!device_is_there(device)) return test_skip("there is no such device with double precision");
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,15 +18,23 @@ void assert_done(bench_case *c, brc_status status)
     if (status != BRC_OK) fail_msg("status %s: %s", brc_status_text(status), brc_context_message(c->context));
 }
 
-static const char *or_else(const char *given, const char *fallback) { return given ? given : fallback; }
+static const char *or_else(const char *given, const char *fallback)
+{
+    return given ? given : fallback;
+}
 
 static brc_status build_domains(bench_case *c)
 {
     const brc_body *body = c->scene->bodies;
     brc_predicate regions[8];
-    for (int32_t r = 0; r < body->n_regions; ++r) regions[r] = body->regions[r].where;
-    brc_build_request request = {.shape = body->shape, .fill = body->fill, .n_sets = c->scene->n_sets, .sets = c->scene->sets,
-                                 .n_regions = body->n_regions, .regions = regions,
+    for (int32_t r = 0; r < body->n_regions; ++r)
+        regions[r] = body->regions[r].where;
+    brc_build_request request = {.shape = body->shape,
+                                 .fill = body->fill,
+                                 .n_sets = c->scene->n_sets,
+                                 .sets = c->scene->sets,
+                                 .n_regions = body->n_regions,
+                                 .regions = regions,
                                  .tiny_face_threshold = body->tiny_face_threshold};
     memcpy(request.translation, body->translation, sizeof request.translation);
     memcpy(request.rotation, body->rotation, sizeof request.rotation);
@@ -39,14 +47,15 @@ brc_status try_case(bench_case *c, case_options o)
     c->context = brc_context_create();
     brc_log_set_level(c->context, BRC_LOG_ERROR);
     char text[8192];
-    const int length = snprintf(
-        text, sizeof text,
-        "version: 1\ntitle: test\nmaterials:\n%s\nmodel: %s\n%sbodies:\n  - name: body\n    shape: %s\n    fill: {noisy_grid: {%s}}\n"
-        "    material: stone\n%s%sstages:\n%soutput: {frames: none, picture: false}\n",
-        or_else(o.materials, "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3}"), or_else(o.model, "dlsm"), or_else(o.gravity, ""),
-        or_else(o.shape, "{box: {size: [1 m, 1 m, 1 m]}}"), or_else(o.fill, "cells: [6, 6, 6], spread: 90 %, seed: 1"),
-        or_else(o.regions, ""), or_else(o.sets, ""),
-        or_else(o.stages, "  - name: move\n    solver: {dynamic: {steps: 1}}\n"));
+    const int length =
+        snprintf(text, sizeof text,
+                 "version: 1\ntitle: test\nmaterials:\n%s\nmodel: %s\n%sbodies:\n  - name: body\n    shape: %s\n    "
+                 "fill: {noisy_grid: {%s}}\n"
+                 "    material: stone\n%s%sstages:\n%soutput: {frames: none, picture: false}\n",
+                 or_else(o.materials, "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3}"), or_else(o.model, "dlsm"),
+                 or_else(o.gravity, ""), or_else(o.shape, "{box: {size: [1 m, 1 m, 1 m]}}"),
+                 or_else(o.fill, "cells: [6, 6, 6], spread: 90 %, seed: 1"), or_else(o.regions, ""),
+                 or_else(o.sets, ""), or_else(o.stages, "  - name: move\n    solver: {dynamic: {steps: 1}}\n"));
     BRC_TRY(brc_scene_read_text(c->context, "test.yaml", text, (size_t)length, 0, NULL, &c->scene));
     if (o.no_contact) c->scene->has_contact = false;
     BRC_TRY(build_domains(c));
@@ -60,7 +69,10 @@ brc_status try_case(bench_case *c, case_options o)
     return brc_simulation_create(c->context, c->scene, c->domain, c->device, &c->simulation);
 }
 
-void open_case(bench_case *c, case_options options) { assert_done(c, try_case(c, options)); }
+void open_case(bench_case *c, case_options options)
+{
+    assert_done(c, try_case(c, options));
+}
 
 void close_case(bench_case *c)
 {
@@ -93,7 +105,8 @@ bool device_is_there(const char *selector)
     bool there = false;
     assert_non_null(context);
     assert_int_equal(brc_device_list_create(context, &list), BRC_OK);
-    for (int k = 0; k < list->n; ++k) there |= list->items[k].usable && list->items[k].has_double && strcmp(list->items[k].selector, selector) == 0;
+    for (int k = 0; k < list->n; ++k)
+        there |= list->items[k].usable && list->items[k].has_double && strcmp(list->items[k].selector, selector) == 0;
     brc_device_list_free(&list);
     brc_context_free(&context);
     return there;
@@ -122,7 +135,10 @@ const char *heard(void)
     return text;
 }
 
-void begin_first(bench_case *c) { assert_done(c, brc_simulation_begin_stage(c->simulation, 0)); }
+void begin_first(bench_case *c)
+{
+    assert_done(c, brc_simulation_begin_stage(c->simulation, 0));
+}
 
 void run_steps(bench_case *c, int64_t n_steps)
 {
@@ -157,7 +173,8 @@ void cell_momenta(bench_case *c, double p[6])
     double *u = calloc((size_t)(6 * d->n_elements), sizeof *u), *v = u + 3 * d->n_elements;
     assert_done(c, brc_simulation_displacement(c->simulation, u));
     assert_done(c, brc_simulation_velocity(c->simulation, v));
-    for (int k = 0; k < 6; ++k) p[k] = 0;
+    for (int k = 0; k < 6; ++k)
+        p[k] = 0;
     for (int64_t e = 0; e < d->n_elements; ++e)
         for (int k = 0; k < 3; ++k) {
             const int64_t a = 3 * e + (k + 1) % 3, b = 3 * e + (k + 2) % 3;

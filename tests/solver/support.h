@@ -55,11 +55,13 @@ void run_steps(bench_case *c, int64_t n_steps);
 int64_t count_broken(bench_case *c);
 brc_ledger ledger_now(bench_case *c);
 brc_softening_report softening_now(bench_case *c);
-/* Momentum [kg m/s] and angular momentum about the origin [kg m^2/s] of free cells of density 1 kg/m^3, whose masses sit at their positions. */
+/* Momentum [kg m/s] and angular momentum about the origin [kg m^2/s] of free cells of density 1 kg/m^3, whose masses
+ * sit at their positions. */
 void cell_momenta(bench_case *c, double p[6]);
 /* Is the name in a list that ends with NULL? */
 bool is_listed(const char *const *names, const char *name);
-/* After n_steps of their first stage both cases, which are opened and stay the test's, have broken the same bonds, and more than 20: every event to its last bit. */
+/* After n_steps of their first stage both cases, which are opened and stay the test's, have broken the same bonds, and
+ * more than 20: every event to its last bit. */
 void assert_same_breaks(bench_case *a, bench_case *b, int64_t n_steps);
 /* The named device can run here in double precision. */
 bool device_is_there(const char *selector);

@@ -1,4 +1,5 @@
-/* Steps of a device that works beside the host: nobody waits in them while nothing breaks, and what breaks is what breaks where the host knows each step. */
+/* Steps of a device that works beside the host: nobody waits in them while nothing breaks, and what breaks is what
+ * breaks where the host knows each step. */
 #include "../../host/base/log.h"
 #include "../../host/solver/ahead.h"
 #include "../skip.h"
@@ -7,12 +8,16 @@
 #include <string.h>
 
 #define DEVICE "opencl:0"
-#define MOVE "  - name: move\n    solver: {dynamic: {steps: 4000}}\n    initial:\n      - velocity: {gradient: {x: [1e-3 1/s, 0, 0]}}\n"
+#define MOVE                                                                                                           \
+    "  - name: move\n    solver: {dynamic: {steps: 4000}}\n    initial:\n      - velocity: {gradient: {x: [1e-3 1/s, " \
+    "0, 0]}}\n"
 /* Slowly apart, so that bonds break one by one after some hundred steps, with calm in between. */
-#define PULL(more) \
-    "  - name: pull\n    solver: {dynamic: {steps: 430, time_step: 0.04 s, mass_damping: 0.2 1/s}}\n    loads:\n      - face_displacement: {set: x-, x: 0}\n" \
+#define PULL(more)                                                                                                     \
+    "  - name: pull\n    solver: {dynamic: {steps: 430, time_step: 0.04 s, mass_damping: 0.2 1/s}}\n    loads:\n     " \
+    " - face_displacement: {set: x-, x: 0}\n"                                                                          \
     "      - face_velocity: {set: x+, x: 1e-5 m/s}\n" more
-#define PULL_STRENGTH "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: 2e-4 Pa, scatter: {weibull: {modulus: 8}}}}"
+#define PULL_STRENGTH                                                                                                  \
+    "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: 2e-4 Pa, scatter: {weibull: {modulus: 8}}}}"
 
 /* Work of n steps that are taken at once, after some that are not counted. */
 static brc_device_counts work_of(case_options o, int64_t n)
@@ -26,7 +31,8 @@ static brc_device_counts work_of(case_options o, int64_t n)
     assert_done(&c, brc_simulation_advance(c.simulation, n));
     brc_device_counts now = brc_device_counted(c.device);
     close_case(&c);
-    now.launches -= before.launches, now.waits -= before.waits, now.read_bytes -= before.read_bytes, now.written_bytes -= before.written_bytes;
+    now.launches -= before.launches, now.waits -= before.waits, now.read_bytes -= before.read_bytes,
+        now.written_bytes -= before.written_bytes;
     now.copied_bytes -= before.copied_bytes;
     return now;
 }
@@ -57,7 +63,10 @@ static void where_nothing_breaks_nobody_waits_but_at_the_end_of_a_stretch(void *
     static const char *const models[] = {"dlsm", "dlsm-published"};
     for (size_t k = 0; k < sizeof models / sizeof *models; ++k) {
         const brc_device_counts without = work_of((case_options){.model = models[k], .stages = MOVE}, STEPS);
-        const brc_device_counts with = work_of((case_options){.model = models[k], .stages = MOVE, .materials = CELLS_STRENGTH("1 Pa"), .sets = CELLS_FRACTURE}, STEPS);
+        const brc_device_counts with = work_of(
+            (case_options){
+                .model = models[k], .stages = MOVE, .materials = CELLS_STRENGTH("1 Pa"), .sets = CELLS_FRACTURE},
+            STEPS);
         assert_int_equal(with.waits, STEPS / BRC_AHEAD_MOST);
         assert_int_equal(with.launches, without.launches + 2 * STEPS + STEPS / BRC_AHEAD_MOST);
     }
@@ -101,7 +110,8 @@ static outcome run(case_options o, bool looked_at)
     c.scene->output.history_every = 1000; /* no samples, which end batches */
     brc_log_set_level(c.context, BRC_LOG_DEBUG);
     brc_log_set_sink(c.context, count_again, &out.again);
-    if (looked_at) assert_done(&c, brc_simulation_observe(c.simulation, &(brc_observer){.next_look = next_look, .look = look}));
+    if (looked_at)
+        assert_done(&c, brc_simulation_observe(c.simulation, &(brc_observer){.next_look = next_look, .look = look}));
     assert_done(&c, brc_simulation_run(c.simulation));
     assert_done(&c, brc_simulation_breaks(c.simulation, &out.n, &events));
     out.events = malloc((size_t)out.n * sizeof *out.events);
@@ -137,9 +147,15 @@ static void steps_ahead_have_the_bits_of_steps_that_are_known(void **state)
 {
     (void)state;
     assert_same((case_options){.stages = PULL(""), .materials = PULL_STRENGTH, .sets = CELLS_FRACTURE});
-    assert_same((case_options){.stages = PULL("      - traction: {set: y+, y: 1e-6 Pa}\n"), .materials = PULL_STRENGTH, .sets = "fracture: {criterion: {virial-principal: {level: 1}}}\n"});
-    assert_same((case_options){.model = "dlsm-published", .materials = PULL_STRENGTH, .sets = CELLS_FRACTURE "sets:\n  left: {elements: {wall: x-}}\n  right: {elements: {wall: x+}}\n",
-                               .stages = "  - name: pull\n    solver: {dynamic: {steps: 430, time_step: 0.04 s}}\n    loads:\n      - element_displacement: {set: left, x: 0}\n"
+    assert_same((case_options){.stages = PULL("      - traction: {set: y+, y: 1e-6 Pa}\n"),
+                               .materials = PULL_STRENGTH,
+                               .sets = "fracture: {criterion: {virial-principal: {level: 1}}}\n"});
+    assert_same((case_options){.model = "dlsm-published",
+                               .materials = PULL_STRENGTH,
+                               .sets = CELLS_FRACTURE
+                               "sets:\n  left: {elements: {wall: x-}}\n  right: {elements: {wall: x+}}\n",
+                               .stages = "  - name: pull\n    solver: {dynamic: {steps: 430, time_step: 0.04 s}}\n    "
+                                         "loads:\n      - element_displacement: {set: left, x: 0}\n"
                                          "      - element_velocity: {set: right, x: 1e-5 m/s}\n"});
 }
 

@@ -10,7 +10,9 @@ static bool has_instruction_set(void)
     brc_context *context = brc_context_create();
     brc_device *device = NULL;
     const brc_status status = brc_device_open(context, &(brc_device_request){.selector = "cpu"}, &device);
-    if (status != BRC_OK) assert_non_null(strstr(brc_context_message(context), "is not an instruction set this machine and this build have"));
+    if (status != BRC_OK)
+        assert_non_null(
+            strstr(brc_context_message(context), "is not an instruction set this machine and this build have"));
     brc_device_close(&device);
     brc_context_free(&context);
     return status == BRC_OK;

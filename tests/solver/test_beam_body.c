@@ -34,7 +34,8 @@ static brc_domain *box(int l, int m, int n)
     brc_solid_bounds(solid, bounds);
     for (int64_t e = 0; e < count; ++e) {
         const int64_t at[3] = {e % l, e / l % m, e / l / m};
-        for (int c = 0; c < 3; ++c) position[3 * e + c] = bounds[0][c] + 0.5 + (double)at[c];
+        for (int c = 0; c < 3; ++c)
+            position[3 * e + c] = bounds[0][c] + 0.5 + (double)at[c];
         radius[e] = 0.5;
     }
     done(brc_beams_build(context, solid, position, radius, count, 6 - 2.0 / l - 2.0 / m - 2.0 / n, false, 1, domain));
@@ -43,7 +44,10 @@ static brc_domain *box(int l, int m, int n)
     return domain;
 }
 
-static brc_domain *lattice(int n) { return box(n, n, n); }
+static brc_domain *lattice(int n)
+{
+    return box(n, n, n);
+}
 
 /* Every element inside has six neighbours, whatever the size; of all they are 6 (n - 1) / n. Whole numbers: exact. */
 static void inside_a_lattice_every_element_has_six_bonds_at_any_size(void **state)
@@ -67,20 +71,23 @@ static void few_elements_inside_or_no_walls_say_nothing(void **state)
     brc_domain *small = lattice(5), *bare = lattice(9);
     done(brc_beam_body_of(context, small, -1, &body));
     assert_true(body.inner == 0 && body.coordination > 4);
-    for (int32_t s = 0; s < bare->n_sets; ++s) bare->sets[s].n_members = 0;
+    for (int32_t s = 0; s < bare->n_sets; ++s)
+        bare->sets[s].n_members = 0;
     done(brc_beam_body_of(context, bare, -1, &body));
     assert_true(body.inner == 0);
     brc_domain_free(&small);
     brc_domain_free(&bare);
 }
 
-/* The elements of one body alone: the lower half of the lattice given to another one. Inside of both there are still six. */
+/* The elements of one body alone: the lower half of the lattice given to another one. Inside of both there are still
+ * six. */
 static void bodies_are_counted_one_by_one(void **state)
 {
     (void)state;
     brc_domain *domain = lattice(12);
     brc_beam_body all, body[2];
-    for (int64_t e = 0; e < domain->n_elements; ++e) domain->body[e] = e < 4 * 144;
+    for (int64_t e = 0; e < domain->n_elements; ++e)
+        domain->body[e] = e < 4 * 144;
     done(brc_beam_body_of(context, domain, -1, &all));
     for (int32_t b = 0; b < 2; ++b) {
         done(brc_beam_body_of(context, domain, b, &body[b]));
@@ -91,7 +98,8 @@ static void bodies_are_counted_one_by_one(void **state)
     brc_domain_free(&domain);
 }
 
-/* Edges are whole numbers of diameters: the formula of the header by hand. A turned body is the same; one with a wall less is no box. */
+/* Edges are whole numbers of diameters: the formula of the header by hand. A turned body is the same; one with a wall
+ * less is no box. */
 static void the_reading_of_a_box_is_that_of_its_edges(void **state)
 {
     (void)state;
@@ -114,7 +122,8 @@ static void the_reading_of_a_box_is_that_of_its_edges(void **state)
     brc_domain_free(&domain);
 }
 
-/* The same lattice with a name changed: its two other walls as the side of a rod along x; mean distance from the axis by hand. */
+/* The same lattice with a name changed: its two other walls as the side of a rod along x; mean distance from the axis
+ * by hand. */
 static void the_reading_of_a_cylinder_is_that_of_its_side(void **state)
 {
     (void)state;
@@ -130,7 +139,8 @@ static void the_reading_of_a_cylinder_is_that_of_its_side(void **state)
     done(BRC_ALLOCATE(context, &domain->sets[w].name, 5, "name"));
     strcpy(domain->wall_name[w], "side");
     strcpy(domain->sets[w].name, "side");
-    for (int k = 0; k < 7; ++k) sum += sqrt(9.0 + (k - 3) * (k - 3)) / 7; /* the face y-, three from the axis */
+    for (int k = 0; k < 7; ++k)
+        sum += sqrt(9.0 + (k - 3) * (k - 3)) / 7; /* the face y-, three from the axis */
     done(brc_beam_body_of(context, domain, -1, &body));
     assert_true(fabs(body.reading - (1 + 1.0 / 20 - 0.4 / (2 * sum + 1))) < 1e-13);
     brc_domain_free(&domain);

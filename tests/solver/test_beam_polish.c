@@ -24,7 +24,12 @@ static int begin(void **state)
 {
     (void)state;
     const brc_shape shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}};
-    const brc_fill fill = {.kind = BRC_FILL_PACKING, .n_elements = 1000, .seed = 3, .radius_spread = 0.125, .coordination = 6.2, .tolerance = 0.02};
+    const brc_fill fill = {.kind = BRC_FILL_PACKING,
+                           .n_elements = 1000,
+                           .seed = 3,
+                           .radius_spread = 0.125,
+                           .coordination = 6.2,
+                           .tolerance = 0.02};
     brc_beam_sample *sample;
     context = brc_context_create();
     brc_log_set_level(context, BRC_LOG_ERROR);
@@ -49,7 +54,14 @@ static brc_polish polish_for(int n_axes, const brc_beam_body *body)
 {
     brc_polish polish;
     const brc_domain *samples[1] = {domain};
-    done(brc_beam_polish(context, device, &(brc_polish_request){.n_samples = 1, .samples = samples, .n_axes = n_axes, .body = body, .poisson = 0.23, .young = 72e9, .beam_poisson = 0.3},
+    done(brc_beam_polish(context, device,
+                         &(brc_polish_request){.n_samples = 1,
+                                               .samples = samples,
+                                               .n_axes = n_axes,
+                                               .body = body,
+                                               .poisson = 0.23,
+                                               .young = 72e9,
+                                               .beam_poisson = 0.3},
                          &polish));
     return polish;
 }
@@ -59,7 +71,9 @@ static void pull(int n_axes, const brc_polish *polish, double *nu, double *young
     *nu = *young = 0;
     for (int axis = 0; axis < n_axes; ++axis) {
         brc_beam_answer answer;
-        done(brc_beam_sample_pull(context, device, domain, &(brc_beam_pull){.axis = axis, .radius = polish->radius, .beam_poisson = 0.3, .tolerance = 1e-9}, &answer));
+        done(brc_beam_sample_pull(
+            context, device, domain,
+            &(brc_beam_pull){.axis = axis, .radius = polish->radius, .beam_poisson = 0.3, .tolerance = 1e-9}, &answer));
         *nu += answer.poisson / n_axes;
         *young += answer.young * polish->beam_young / n_axes;
     }
@@ -80,15 +94,17 @@ static void the_polished_sample_has_the_materials_e_and_nu(void **state)
     }
 }
 
-/* What the sample has beyond its own law is carried over by the law: a body alike takes the sample's parameters, one with other bonds inside differs from
- * it by the same factor of E and difference of nu as the law says, to where the secant stops (5e-4 of nu, which is 3e-3 of E_m at most here). */
+/* What the sample has beyond its own law is carried over by the law: a body alike takes the sample's parameters, one
+ * with other bonds inside differs from it by the same factor of E and difference of nu as the law says, to where the
+ * secant stops (5e-4 of nu, which is 3e-3 of E_m at most here). */
 static void a_body_with_other_bonds_takes_what_the_law_says_of_them(void **state)
 {
     (void)state;
     brc_beam_body own;
     done(brc_beam_body_of(context, domain, -1, &own));
     const brc_beam_law *law = brc_beam_law_for(0.125);
-    const brc_beam_body other = {.coordination = own.coordination, .inner = 0.95 * own.inner, .reading = 0.9 * own.reading};
+    const brc_beam_body other = {
+        .coordination = own.coordination, .inner = 0.95 * own.inner, .reading = 0.9 * own.reading};
     const brc_polish here = polish_for(3, NULL), alike = polish_for(3, &own), there = polish_for(3, &other);
     assert_true(alike.radius == here.radius && alike.beam_young == here.beam_young);
     double nu, young;
@@ -101,15 +117,19 @@ static void a_body_with_other_bonds_takes_what_the_law_says_of_them(void **state
     assert_true(fabs(young * factor / 72e9 - 1) < 1e-4);
 }
 
-/* Of a sample and itself the mean is that of the sample. Rounding may end a solve an iteration earlier, within its tolerance: 1e-5 of nu, 3e-5 of E, and 1 % of
- * nu is up to 10 % of r_m, 1 % of r_m 2 % of E_m. */
+/* Of a sample and itself the mean is that of the sample. Rounding may end a solve an iteration earlier, within its
+ * tolerance: 1e-5 of nu, 3e-5 of E, and 1 % of nu is up to 10 % of r_m, 1 % of r_m 2 % of E_m. */
 static void several_samples_count_alike(void **state)
 {
     (void)state;
     const brc_domain *samples[2] = {domain, domain};
     const brc_polish one = polish_for(3, NULL);
     brc_polish two;
-    done(brc_beam_polish(context, device, &(brc_polish_request){.n_samples = 2, .samples = samples, .n_axes = 3, .poisson = 0.23, .young = 72e9, .beam_poisson = 0.3}, &two));
+    done(brc_beam_polish(
+        context, device,
+        &(brc_polish_request){
+            .n_samples = 2, .samples = samples, .n_axes = 3, .poisson = 0.23, .young = 72e9, .beam_poisson = 0.3},
+        &two));
     assert_true(fabs(two.radius / one.radius - 1) < 1e-4 && fabs(two.beam_young / one.beam_young - 1) < 2e-4);
 }
 
@@ -118,8 +138,13 @@ static void what_the_law_cannot_give_the_polish_refuses(void **state)
     (void)state;
     brc_polish polish;
     const brc_domain *samples[1] = {domain};
-    assert_int_equal(brc_beam_polish(context, device, &(brc_polish_request){.n_samples = 1, .samples = samples, .n_axes = 3, .poisson = 0.45, .young = 72e9, .beam_poisson = 0.3}, &polish),
-                     BRC_BAD_INPUT);
+    assert_int_equal(
+        brc_beam_polish(
+            context, device,
+            &(brc_polish_request){
+                .n_samples = 1, .samples = samples, .n_axes = 3, .poisson = 0.45, .young = 72e9, .beam_poisson = 0.3},
+            &polish),
+        BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(context), "beams cannot give nu = 0.45"));
     brc_context_clear(context);
 }
@@ -128,14 +153,28 @@ static void what_the_law_cannot_give_the_polish_refuses(void **state)
 static void polish_scene(brc_shape_kind kind, int n_cracks, brc_material *material, brc_status expected)
 {
     static brc_crack crack;
-    brc_body body = {.name = "body", .shape = {.kind = kind, .size = {1, 1, 1}, .radius = 1}, .beams = 8, .n_cracks = n_cracks, .cracks = &crack,
-                     .fill = {.kind = BRC_FILL_PACKING, .n_elements = 1000, .seed = 3, .radius_spread = 0.125, .coordination = 6.2, .tolerance = 0.02}};
-    brc_scene scene = {.n_materials = 1, .materials = material, .model = {.kind = BRC_MODEL_CBM, .beam_poisson = 0.3, .polish = true}, .n_bodies = 1, .bodies = &body};
+    brc_body body = {.name = "body",
+                     .shape = {.kind = kind, .size = {1, 1, 1}, .radius = 1},
+                     .beams = 8,
+                     .n_cracks = n_cracks,
+                     .cracks = &crack,
+                     .fill = {.kind = BRC_FILL_PACKING,
+                              .n_elements = 1000,
+                              .seed = 3,
+                              .radius_spread = 0.125,
+                              .coordination = 6.2,
+                              .tolerance = 0.02}};
+    brc_scene scene = {.n_materials = 1,
+                       .materials = material,
+                       .model = {.kind = BRC_MODEL_CBM, .beam_poisson = 0.3, .polish = true},
+                       .n_bodies = 1,
+                       .bodies = &body};
     assert_int_equal(brc_beam_polish_scene(context, &scene, domain, 1), expected);
 }
 
-/* A body that cannot be pulled itself is polished on cubes packed like it, four of them: the same for every such body with the same bonds, and near to what the
- * box gives, which is the first of the four: samples of 1000 spheres differ by some 2 % in E and nu (docs/notebook/beams-calibration.md), which is 10 % in r_m. */
+/* A body that cannot be pulled itself is polished on cubes packed like it, four of them: the same for every such body
+ * with the same bonds, and near to what the box gives, which is the first of the four: samples of 1000 spheres differ
+ * by some 2 % in E and nu (docs/notebook/beams-calibration.md), which is 10 % in r_m. */
 static void a_body_that_is_no_plain_box_is_polished_on_cubes_packed_alike(void **state)
 {
     (void)state;
@@ -151,7 +190,8 @@ static void a_body_that_is_no_plain_box_is_polished_on_cubes_packed_alike(void *
 static void beams_that_were_given_are_left_alone(void **state)
 {
     (void)state;
-    brc_material given = {.name = "m", .young = 72e9, .poisson = 0.23, .density = 1, .beam_radius = 0.5, .beam_young = 1e9};
+    brc_material given = {
+        .name = "m", .young = 72e9, .poisson = 0.23, .density = 1, .beam_radius = 0.5, .beam_young = 1e9};
     polish_scene(BRC_SHAPE_BOX, 0, &given, BRC_OK);
     assert_true(given.beam_radius == 0.5 && given.beam_young == 1e9);
 }

@@ -55,7 +55,8 @@ static void make_lattice(bench *b)
     done(b, BRC_ALLOCATE(b->context, &radius, SPHERES, "radii"));
     for (int e = 0; e < SPHERES; ++e) {
         const int at[3] = {e / (EDGE * EDGE), e / EDGE % EDGE, e % EDGE};
-        for (int c = 0; c < 3; ++c) position[3 * e + c] = (at[c] + 0.5) * a;
+        for (int c = 0; c < 3; ++c)
+            position[3 * e + c] = (at[c] + 0.5) * a;
         radius[e] = a / 2;
     }
     const double bonds = 3.0 * EDGE * EDGE * (EDGE - 1);
@@ -67,7 +68,12 @@ static void make_lattice(bench *b)
 
 static brc_fill packing_of(int64_t n, uint64_t seed)
 {
-    return (brc_fill){.kind = BRC_FILL_PACKING, .n_elements = n, .seed = seed, .radius_spread = 0.125, .coordination = 6.2, .tolerance = 0.02};
+    return (brc_fill){.kind = BRC_FILL_PACKING,
+                      .n_elements = n,
+                      .seed = seed,
+                      .radius_spread = 0.125,
+                      .coordination = 6.2,
+                      .tolerance = 0.02};
 }
 
 static void pack(bench *b, int64_t n, double coordination)
@@ -81,18 +87,21 @@ static void pack(bench *b, int64_t n, double coordination)
 }
 
 /* EDGE^2 chains of EDGE - 1 beams, E S / a each; the bounding box is EDGE a wide in all directions, so that
- * E_M / E_m = pi r^2 / a^2 EDGE / (EDGE - 1), and nothing moves across. The solver leaves 1e-9 of the load; ten times that for the force. */
+ * E_M / E_m = pi r^2 / a^2 EDGE / (EDGE - 1), and nothing moves across. The solver leaves 1e-9 of the load; ten times
+ * that for the force. */
 static void a_lattice_of_chains_has_the_modulus_of_its_beams_along_every_axis(void **state)
 {
     (void)state;
     bench b;
     open_bench(&b, 1);
     make_lattice(&b);
-    const double ratio = 0.6, r_over_a = ratio / 2, exact = 3.14159265358979324 * r_over_a * r_over_a * EDGE / (EDGE - 1);
+    const double ratio = 0.6, r_over_a = ratio / 2,
+                 exact = 3.14159265358979324 * r_over_a * r_over_a * EDGE / (EDGE - 1);
     for (int axis = 0; axis < 3; ++axis) {
         brc_beam_answer answer;
-        done(&b, brc_beam_sample_pull(b.context, b.device, b.domain,
-                                      &(brc_beam_pull){.axis = axis, .radius = ratio, .beam_poisson = 0.3, .tolerance = 1e-9}, &answer));
+        done(&b, brc_beam_sample_pull(
+                     b.context, b.device, b.domain,
+                     &(brc_beam_pull){.axis = axis, .radius = ratio, .beam_poisson = 0.3, .tolerance = 1e-9}, &answer));
         assert_true(fabs(answer.young / exact - 1) < 1e-8);
         assert_true(fabs(answer.poisson) < 1e-8);
         assert_int_equal(answer.n_loose, 0);
@@ -108,8 +117,10 @@ static void chains_stiffen_with_the_square_of_the_radius(void **state)
     open_bench(&b, 1);
     make_lattice(&b);
     brc_beam_answer thin, thick;
-    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &(brc_beam_pull){.radius = 0.3, .beam_poisson = 0.3, .tolerance = 1e-9}, &thin));
-    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &(brc_beam_pull){.radius = 0.6, .beam_poisson = 0.3, .tolerance = 1e-9}, &thick));
+    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain,
+                                  &(brc_beam_pull){.radius = 0.3, .beam_poisson = 0.3, .tolerance = 1e-9}, &thin));
+    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain,
+                                  &(brc_beam_pull){.radius = 0.6, .beam_poisson = 0.3, .tolerance = 1e-9}, &thick));
     assert_true(fabs(thick.young / thin.young - 4) < 1e-7);
     close_bench(&b);
 }
@@ -123,7 +134,8 @@ static void answers_are_the_same_bytes_for_any_number_of_threads(void **state)
         bench b;
         open_bench(&b, 1 + k);
         pack(&b, 600, 9);
-        done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &(brc_beam_pull){.radius = 0.4, .beam_poisson = 0.3}, &answer[k]));
+        done(&b, brc_beam_sample_pull(b.context, b.device, b.domain,
+                                      &(brc_beam_pull){.radius = 0.4, .beam_poisson = 0.3}, &answer[k]));
         close_bench(&b);
     }
     assert_memory_equal(&answer[0].young, &answer[1].young, sizeof(double));
@@ -138,8 +150,10 @@ static void the_default_tolerance_is_as_good_as_its_header_says(void **state)
     open_bench(&b, 1);
     pack(&b, 1500, 6);
     brc_beam_answer coarse, fine;
-    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &(brc_beam_pull){.radius = 0.3, .beam_poisson = 0.3}, &coarse));
-    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &(brc_beam_pull){.radius = 0.3, .beam_poisson = 0.3, .tolerance = 1e-10}, &fine));
+    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &(brc_beam_pull){.radius = 0.3, .beam_poisson = 0.3},
+                                  &coarse));
+    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain,
+                                  &(brc_beam_pull){.radius = 0.3, .beam_poisson = 0.3, .tolerance = 1e-10}, &fine));
     assert_true(fabs(coarse.young / fine.young - 1) < 1e-4);
     assert_true(fabs(coarse.poisson / fine.poisson - 1) < 1e-4);
     assert_true(coarse.iterations < fine.iterations);
@@ -156,7 +170,8 @@ static void nu_falls_and_e_grows_with_the_radius(void **state)
     double young = 0, nu = 0.5;
     for (double ratio = 0.2; ratio < 1.1; ratio += 0.4) {
         brc_beam_answer answer;
-        done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &(brc_beam_pull){.radius = ratio, .beam_poisson = 0.3}, &answer));
+        done(&b, brc_beam_sample_pull(b.context, b.device, b.domain,
+                                      &(brc_beam_pull){.radius = ratio, .beam_poisson = 0.3}, &answer));
         assert_true(answer.young > 1.5 * young);
         assert_true(answer.poisson < nu - 0.02);
         young = answer.young;
@@ -173,7 +188,8 @@ static void a_sample_without_walls_is_refused_with_the_wall_by_name(void **state
     make_lattice(&b);
     brc_beam_answer answer;
     memcpy(b.domain->sets[brc_domain_find_set(b.domain, "y+")].name, "q+", 2);
-    assert_int_equal(brc_beam_sample_pull(b.context, b.device, b.domain, &(brc_beam_pull){.radius = 0.3}, &answer), BRC_BAD_INPUT);
+    assert_int_equal(brc_beam_sample_pull(b.context, b.device, b.domain, &(brc_beam_pull){.radius = 0.3}, &answer),
+                     BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(b.context), "no wall 'y+'"));
     close_bench(&b);
 }
@@ -198,16 +214,19 @@ static double spread_of_axes(bench *b, const brc_beam_sample *sample, bool balan
     done(b, brc_beam_sample_bond(b->context, sample, 8, balanced, 1, &b->domain));
     for (int axis = 0; axis < 3; ++axis) {
         brc_beam_answer answer;
-        done(b, brc_beam_sample_pull(b->context, b->device, b->domain, &(brc_beam_pull){.axis = axis, .radius = 0.4, .beam_poisson = 0.3}, &answer));
+        done(b, brc_beam_sample_pull(b->context, b->device, b->domain,
+                                     &(brc_beam_pull){.axis = axis, .radius = 0.4, .beam_poisson = 0.3}, &answer));
         young[axis] = answer.young;
         mean += answer.young / 3;
     }
     brc_domain_free(&b->domain);
-    for (int axis = 0; axis < 3; ++axis) sum += (young[axis] / mean - 1) * (young[axis] / mean - 1);
+    for (int axis = 0; axis < 3; ++axis)
+        sum += (young[axis] / mean - 1) * (young[axis] / mean - 1);
     return sum;
 }
 
-/* The unevenness of the fabric is most of what the axes differ by: without it less than half of the square is left, mean of four packings, the same for both. */
+/* The unevenness of the fabric is most of what the axes differ by: without it less than half of the square is left,
+ * mean of four packings, the same for both. */
 static void balanced_bonds_make_the_axes_more_alike(void **state)
 {
     (void)state;

@@ -9,7 +9,8 @@
 static void packing_tensor(const brc_domain *d, double volume, double tensor[3][3])
 {
     for (int p = 0; p < 3; ++p)
-        for (int q = 0; q < 3; ++q) tensor[p][q] = 0;
+        for (int q = 0; q < 3; ++q)
+            tensor[p][q] = 0;
     for (int64_t b = 0; b < d->n_bonds; ++b) {
         const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
         double x[3], square = 0;
@@ -18,12 +19,14 @@ static void packing_tensor(const brc_domain *d, double volume, double tensor[3][
             square += x[c] * x[c];
         }
         for (int p = 0; p < 3; ++p)
-            for (int q = 0; q < 3; ++q) tensor[p][q] += brc_bond_area(d, b) * x[p] * x[q] / sqrt(square) / volume;
+            for (int q = 0; q < 3; ++q)
+                tensor[p][q] += brc_bond_area(d, b) * x[p] * x[q] / sqrt(square) / volume;
     }
 }
 
-/* The trace is exact: area times length is three times the bond's volume, and those sum to the solid's. One direction of 1000 bonds scatters by
- * sqrt(4/45) 3 / sqrt(1000) = 2.8 % around 1; walls leave bonds along them, some percent more: three deviations and that, 15 %. */
+/* The trace is exact: area times length is three times the bond's volume, and those sum to the solid's. One direction
+ * of 1000 bonds scatters by sqrt(4/45) 3 / sqrt(1000) = 2.8 % around 1; walls leave bonds along them, some percent
+ * more: three deviations and that, 15 %. */
 static void areas_of_beams_make_up_the_solid(void **state)
 {
     (void)state;
@@ -31,13 +34,16 @@ static void areas_of_beams_make_up_the_solid(void **state)
     double tensor[3][3], volume = 0, bonds = 0;
     open_fracture(&c, (fracture_options){.elements = 500});
     for (int64_t e = 0; e < c.domain->n_elements; ++e)
-        if (c.domain->row_start[e + 1] > c.domain->row_start[e]) volume += c.domain->volume[e] / c.domain->quality.volume_fraction;
-    for (int64_t b = 0; b < c.domain->n_bonds; ++b) bonds += brc_strengths_volume(c.domain, b);
+        if (c.domain->row_start[e + 1] > c.domain->row_start[e])
+            volume += c.domain->volume[e] / c.domain->quality.volume_fraction;
+    for (int64_t b = 0; b < c.domain->n_bonds; ++b)
+        bonds += brc_strengths_volume(c.domain, b);
     assert_true(fabs(bonds / volume - 1) < 1e-12);
     packing_tensor(c.domain, volume, tensor);
     assert_true(fabs(tensor[0][0] + tensor[1][1] + tensor[2][2] - 3) < 1e-12);
     for (int p = 0; p < 3; ++p)
-        for (int q = 0; q < 3; ++q) assert_true(fabs(tensor[p][q] - (p == q)) < 0.15);
+        for (int q = 0; q < 3; ++q)
+            assert_true(fabs(tensor[p][q] - (p == q)) < 0.15);
     close_case(&c);
 }
 
@@ -53,10 +59,11 @@ static void the_area_of_a_cells_bond_is_that_of_its_face(void **state)
     close_case(&c);
 }
 
-/* The bonds across planes of a cube of 1000 spheres, projected on them: mean of 21 planes within the inner half. One plane cuts some 300 bonds whose areas
- * scatter by about a half, 3 % each; the planes lie closer than bonds are long, so their mean scatters by some 1.5 %: three of that and the one percent that what an
- * element cannot close leaves, 5 %. Equal shares of the volumes are twice as far off. What steep beams cost at least adds 0.8 % in an isotropic packing; a floor of
- * 0.34 would add 2 %. */
+/* The bonds across planes of a cube of 1000 spheres, projected on them: mean of 21 planes within the inner half. One
+ * plane cuts some 300 bonds whose areas scatter by about a half, 3 % each; the planes lie closer than bonds are long,
+ * so their mean scatters by some 1.5 %: three of that and the one percent that what an element cannot close leaves, 5
+ * %. Equal shares of the volumes are twice as far off. What steep beams cost at least adds 0.8 % in an isotropic
+ * packing; a floor of 0.34 would add 2 %. */
 static void closed_areas_of_beams_make_up_a_section(void **state)
 {
     (void)state;
@@ -69,14 +76,16 @@ static void closed_areas_of_beams_make_up_a_section(void **state)
         for (int64_t b = 0; b < d->n_bonds; ++b) {
             const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
             double x[3], plane = 0.25 + 0.5 * k / 20;
-            for (int p = 0; p < 3; ++p) x[p] = d->position[3 * j + p] - d->position[3 * i + p];
+            for (int p = 0; p < 3; ++p)
+                x[p] = d->position[3 * j + p] - d->position[3 * i + p];
             if ((d->position[3 * i] - plane) * (d->position[3 * j] - plane) >= 0) continue;
             const double cosine = fabs(x[0]) / sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
             section[0] += brc_bond_area(d, b) * cosine / 21;
             section[1] += area[b] * cosine / 21;
             section[2] += area[b] * fmax(cosine, BRC_BEAM_LEAST_COSINE) / 21;
         }
-    print_message("equal shares %.4f, closed %.4f, with what steep ones cost at least %.4f of the section\n", section[0], section[1], section[2]);
+    print_message("equal shares %.4f, closed %.4f, with what steep ones cost at least %.4f of the section\n",
+                  section[0], section[1], section[2]);
     assert_true(fabs(section[1] - 1) < 0.05);
     assert_true(fabs(section[1] - 1) < 0.5 * fabs(section[0] - 1));
     assert_true(section[2] < 1.02 * section[1]);

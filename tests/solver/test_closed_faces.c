@@ -1,10 +1,12 @@
-/* Closed cracks (host/solver/closed_faces.c, kernels/closed_face.h): the two sides of a brittle broken face bear on each other: spring, force and energy, momentum, friction, step. */
+/* Closed cracks (host/solver/closed_faces.c, kernels/closed_face.h): the two sides of a brittle broken face bear on
+ * each other: spring, force and energy, momentum, friction, step. */
 #include "../../host/solver/closed_faces.h"
 #include "contact_case.h"
 #include <math.h>
 #include <stdlib.h>
 
-/* Two equal materials on both sides of the plane x = 0.5 m, joined by an interface that breaks at once, in cells of 1/6 m. */
+/* Two equal materials on both sides of the plane x = 0.5 m, joined by an interface that breaks at once, in cells of 1/6
+ * m. */
 #define TWINS                                                                                                          \
     "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: 1 Pa}}\n  twin: {E: 1 Pa, nu: 0.2, density: "  \
     "1 kg/m^3, strength: {tension: 1 Pa}}"
@@ -27,7 +29,8 @@ static void open_cut(bench_case *c, const char *fill, const char *sets)
     run_steps(c, 4);
 }
 
-/* The right half comes nearer by `gap` and slides by `along` y, and all of it is turned about z (cosine 0.8, or not at all). */
+/* The right half comes nearer by `gap` and slides by `along` y, and all of it is turned about z (cosine 0.8, or not at
+ * all). */
 static double *shifted(const brc_domain *d, double gap, double along, bool turned)
 {
     double *u = calloc((size_t)(3 * d->n_elements), sizeof *u);
@@ -47,7 +50,8 @@ static brc_ledger ledger_at(bench_case *c, const double *u)
     return ledger_now(c);
 }
 
-/* Every face of the cut is a spring k (1 + tau) S / L, in a body that stands or is turned; open it bears nothing. Sums of 200 numbers. */
+/* Every face of the cut is a spring k (1 + tau) S / L, in a body that stands or is turned; open it bears nothing. Sums
+ * of 200 numbers. */
 static void a_broken_face_is_a_spring_where_it_is_shut(void **state)
 {
     (void)state;
@@ -98,7 +102,8 @@ static void without_closure_it_bears_nothing(void **state)
     close_case(&c);
 }
 
-/* Five-point differences over a step of which the energy, quartic in one component, knows no more than rounding (test_cells_break.c): 1e-9. worst over the largest force. */
+/* Five-point differences over a step of which the energy, quartic in one component, knows no more than rounding
+ * (test_cells_break.c): 1e-9. worst over the largest force. */
 static double gradient_error(bench_case *c, double *u, double h)
 {
     const brc_domain *d = c->domain;
@@ -137,7 +142,8 @@ static void force_is_the_gradient_of_the_energy(void **state)
     const double shut = gradient_error(&c, u, 1e-3 * spacing);
     free(u);
     close_case(&c);
-    /* a body of which cells came off; faces that just touch are where the law has a kink, so the step is small, and what it leaves of sums of 0.1 J is 1e-8 */
+    /* a body of which cells came off; faces that just touch are where the law has a kink, so the step is small, and
+     * what it leaves of sums of 0.1 J is 1e-8 */
     open_case(&c, (case_options){.stages = CELLS_BURST(200),
                                  .materials = CELLS_STRENGTH("4e-4 Pa"),
                                  .sets = CELLS_FRACTURE,
@@ -190,8 +196,9 @@ static void pressed_faces_keep_momentum_and_without_friction_angular_momentum(vo
     check_momenta("fracture: {criterion: bond-normal, friction: 0}\n", 6);
 }
 
-/* Of a body that is pressed together and bursts to rubble, the largest error on the way; with the bounds of bonds that break (test_cells_break.c). A step that the springs did not bear would run away within the
- * thousand steps after the last break. */
+/* Of a body that is pressed together and bursts to rubble, the largest error on the way; with the bounds of bonds that
+ * break (test_cells_break.c). A step that the springs did not bear would run away within the thousand steps after the
+ * last break. */
 static void the_ledger_closes_and_the_step_bears_the_springs(void **state)
 {
     (void)state;
@@ -251,8 +258,8 @@ static void friction_holds_and_slides(void **state)
     close_case(&c);
 }
 
-/* Two halves that meet and slide along each other at some speed: what they rub off is booked. A step works by the mean force of its
- * ends and is booked by the last: 1.4 % of it here. */
+/* Two halves that meet and slide along each other at some speed: what they rub off is booked. A step works by the mean
+ * force of its ends and is booked by the last: 1.4 % of it here. */
 static void what_slides_is_booked(void **state)
 {
     (void)state;

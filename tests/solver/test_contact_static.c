@@ -48,7 +48,8 @@ static void a_rest_is_the_same_with_contact_and_without(void **state)
     }
 }
 
-/* A cube held short lets go towards a wall that stood at its face: it reaches where it came from, and rests there. Without the wall its face swings as far beyond. */
+/* A cube held short lets go towards a wall that stood at its face: it reaches where it came from, and rests there.
+ * Without the wall its face swings as far beyond. */
 static void what_was_at_rest_meets_the_wall_when_it_moves(void **state)
 {
     (void)state;
@@ -72,7 +73,8 @@ static void what_was_at_rest_meets_the_wall_when_it_moves(void **state)
             most[wall] = fmax(most[wall], mean / (double)n);
             worst = fmax(worst, fabs(ledger_now(&c).closure));
         }
-        assert_true(held > 0.4e-6 && held < 0.7e-6); /* E / 2 times the square of the strain, and what the clamped face adds */
+        assert_true(held > 0.4e-6 &&
+                    held < 0.7e-6); /* E / 2 times the square of the strain, and what the clamped face adds */
         free(u);
         close_case(&c);
     }
@@ -94,17 +96,25 @@ static void what_a_rest_presses_together_is_refused(void **state)
     close_case(&c);
 }
 
-/* Spheres without a beam are for contact to move, but at rest they need a place: they keep theirs. Two joined spheres and one far away. */
+/* Spheres without a beam are for contact to move, but at rest they need a place: they keep theirs. Two joined spheres
+ * and one far away. */
 static void a_loose_sphere_stays_while_the_others_come_to_rest(void **state)
 {
     (void)state;
     bench_case c;
     static const double x[9] = {1, 1, 1, 2, 1, 1, 9, 9, 9};
     double u[9];
-    open_beams(&c, (beams_options){.n = 3, .position = x, .radius = 0.5, .coordination = 2.0 / 3,
-                                   .stages = CONTACT "gravity: [0, 0, -1e-6 m/s^2]\nsets:\n  root: {elements: {sphere: {centre: [1 m, 1 m, 1 m], radius: 10 cm}}}\n"
-                                             "stages:\n  - name: rest\n    solver: static\n    loads:\n      - element_displacement: {set: root, x: 0, y: 0, z: 0}\n"
-                                             "      - element_rotation: {set: root, x: 0, y: 0, z: 0}\n  - name: fall\n    solver: {dynamic: {steps: 10, time_step: 1 s}}\n"});
+    open_beams(&c,
+               (beams_options){.n = 3,
+                               .position = x,
+                               .radius = 0.5,
+                               .coordination = 2.0 / 3,
+                               .stages = CONTACT "gravity: [0, 0, -1e-6 m/s^2]\nsets:\n  root: {elements: {sphere: "
+                                                 "{centre: [1 m, 1 m, 1 m], radius: 10 cm}}}\n"
+                                                 "stages:\n  - name: rest\n    solver: static\n    loads:\n      - "
+                                                 "element_displacement: {set: root, x: 0, y: 0, z: 0}\n"
+                                                 "      - element_rotation: {set: root, x: 0, y: 0, z: 0}\n  - name: "
+                                                 "fall\n    solver: {dynamic: {steps: 10, time_step: 1 s}}\n"});
     come_to_rest(&c);
     assert_done(&c, brc_simulation_displacement(c.simulation, u));
     assert_true(u[5] < -1e-6 && u[6] == 0 && u[7] == 0 && u[8] == 0);

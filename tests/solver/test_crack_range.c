@@ -1,4 +1,5 @@
-/* What is told of materials that do not break, and of bodies too coarse for what a crack costs in them, with the size that is wanted. */
+/* What is told of materials that do not break, and of bodies too coarse for what a crack costs in them, with the size
+ * that is wanted. */
 #include "cells_case.h"
 #include "../../host/base/log.h"
 #include <math.h>

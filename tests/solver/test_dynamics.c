@@ -1,4 +1,5 @@
-/* Time stepping: conservation, the order of the ledger's closure, the time step, and that equal runs give equal bytes. */
+/* Time stepping: conservation, the order of the ledger's closure, the time step, and that equal runs give equal
+ * bytes. */
 #include "support.h"
 #include <math.h>
 #include <stdio.h>
@@ -27,7 +28,8 @@ static void momentum_of(bench_case *c, double linear[3], double angular[3], doub
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const double m = d->volume[e];
         double x[3];
-        for (int k = 0; k < 3; ++k) x[k] = d->position[3 * e + k] + u[3 * e + k];
+        for (int k = 0; k < 3; ++k)
+            x[k] = d->position[3 * e + k] + u[3 * e + k];
         for (int k = 0; k < 3; ++k) {
             linear[k] += m * v[3 * e + k];
             angular[k] += m * (x[(k + 1) % 3] * v[3 * e + (k + 2) % 3] - x[(k + 2) % 3] * v[3 * e + (k + 1) % 3]);
@@ -88,7 +90,8 @@ static void mean_energy_does_not_drift(void **state)
     (void)state;
     char text[512];
     bench_case c;
-    open_case(&c, (case_options){.fill = "cells: [4, 4, 4], spread: 90 %, seed: 1", .stages = stage_text(text, sizeof text, "0.8", "")});
+    open_case(&c, (case_options){.fill = "cells: [4, 4, 4], spread: 90 %, seed: 1",
+                                 .stages = stage_text(text, sizeof text, "0.8", "")});
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     double mean[2] = {0, 0};
     for (int part = 0; part < 10; ++part)
@@ -100,7 +103,8 @@ static void mean_energy_does_not_drift(void **state)
             if (part == 9) mean[1] += ledger.total / 100;
         }
     close_case(&c);
-    /* the sampling noise of a mean of 100 samples of Verlet's few-percent oscillation is some 1e-3; growth would be far more */
+    /* the sampling noise of a mean of 100 samples of Verlet's few-percent oscillation is some 1e-3; growth would be far
+     * more */
     assert_true(fabs(mean[1] / mean[0] - 1) < 3e-3);
 }
 
@@ -125,8 +129,10 @@ static void mass_damping_decays_as_it_says_and_is_booked(void **state)
 {
     (void)state;
     bench_case c; /* a rigid body drifting in a fluid: v = v0 exp(-c t) */
-    open_case(&c, (case_options){.stages = "  - name: drift\n    solver: {dynamic: {steps: 1000, mass_damping: 2 1/s}}\n    initial:\n"
-                                           "      - velocity: {velocity: [1 mm/s, 0, 0]}\n"});
+    open_case(&c,
+              (case_options){
+                  .stages = "  - name: drift\n    solver: {dynamic: {steps: 1000, mass_damping: 2 1/s}}\n    initial:\n"
+                            "      - velocity: {velocity: [1 mm/s, 0, 0]}\n"});
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     assert_done(&c, brc_simulation_advance(c.simulation, 100));
     brc_ledger ledger;
@@ -157,13 +163,15 @@ static void gravity_is_free_fall(void **state)
 }
 
 /* Slow pull by a velocity ramp: the work of the loads is what the solid holds. */
-/* 27 cells do not fill slices of 8: what pads them falls with them and must have no energy. Kinetic plus potential is 0 for Verlet, to the rounding of 30 steps. */
+/* 27 cells do not fill slices of 8: what pads them falls with them and must have no energy. Kinetic plus potential is 0
+ * for Verlet, to the rounding of 30 steps. */
 static void a_body_that_falls_keeps_its_energy(void **state)
 {
     (void)state;
     bench_case c;
     brc_ledger ledger;
-    open_case(&c, (case_options){.gravity = "gravity: [0, 0, -9.81 m/s^2]\n", .fill = "cells: [3, 3, 3], spread: 50 %, seed: 1"});
+    open_case(&c, (case_options){.gravity = "gravity: [0, 0, -9.81 m/s^2]\n",
+                                 .fill = "cells: [3, 3, 3], spread: 50 %, seed: 1"});
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     assert_done(&c, brc_simulation_advance(c.simulation, 30));
     assert_done(&c, brc_simulation_ledger(c.simulation, &ledger));
@@ -186,10 +194,12 @@ static void work_of_loads_closes_the_ledger(void **state)
         "      - element_velocity: {set: right, x: 1 mm/s, table: [[0 s, 0], [2 s, 1], [4 s, 0]]}\n"};
     for (int k = 0; k < 3; ++k) {
         bench_case c;
-        open_case(&c, (case_options){.stages = stages[k],
-                                     .sets = "sets:\n  left: {elements: {wall: x-}}\n  right: {elements: {wall: x+}}\n"});
+        open_case(&c,
+                  (case_options){.stages = stages[k],
+                                 .sets = "sets:\n  left: {elements: {wall: x-}}\n  right: {elements: {wall: x+}}\n"});
         assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
-        const int64_t steps = brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value);
+        const int64_t steps =
+            brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value);
         assert_done(&c, brc_simulation_advance(c.simulation, steps));
         brc_ledger ledger;
         assert_done(&c, brc_simulation_ledger(c.simulation, &ledger));
@@ -200,16 +210,19 @@ static void work_of_loads_closes_the_ledger(void **state)
     }
 }
 
-/* Prescribed elements are pulled through the fluid by nobody: work of their load and what damping takes are those of the rest. Smooth motion as above, and
- * the same bound. */
+/* Prescribed elements are pulled through the fluid by nobody: work of their load and what damping takes are those of
+ * the rest. Smooth motion as above, and the same bound. */
 static void drag_and_prescribed_elements_share_no_energy(void **state)
 {
     (void)state;
     bench_case c;
-    open_case(&c, (case_options){.stages = "  - name: impose\n    solver: {dynamic: {duration: 4 s, mass_damping: 0.5 1/s, time_step: {auto: {safety: 0.4}}}}\n    loads:\n"
-                                           "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n"
-                                           "      - element_velocity: {set: right, x: 1 mm/s, table: [[0 s, 0], [2 s, 1], [4 s, 0]]}\n",
-                                 .sets = "sets:\n  left: {elements: {wall: x-}}\n  right: {elements: {wall: x+}}\n"});
+    open_case(&c, (case_options){
+                      .stages =
+                          "  - name: impose\n    solver: {dynamic: {duration: 4 s, mass_damping: 0.5 1/s, time_step: "
+                          "{auto: {safety: 0.4}}}}\n    loads:\n"
+                          "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n"
+                          "      - element_velocity: {set: right, x: 1 mm/s, table: [[0 s, 0], [2 s, 1], [4 s, 0]]}\n",
+                      .sets = "sets:\n  left: {elements: {wall: x-}}\n  right: {elements: {wall: x+}}\n"});
     begin_first(&c);
     run_steps(&c, brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value));
     const brc_ledger ledger = ledger_now(&c);
@@ -236,8 +249,8 @@ static void critical_step_is_where_verlet_turns_unstable(void **state)
         grown[k] = after.total / before.total;
         close_case(&c);
     }
-    assert_true(grown[0] < 20);                            /* Verlet's oscillation grows as 1/(1 - 0.97^2) near the limit */
-    assert_true(!(grown[1] < 1e3));                        /* 6 % beyond: e^(400 * 0.35) */
+    assert_true(grown[0] < 20);     /* Verlet's oscillation grows as 1/(1 - 0.97^2) near the limit */
+    assert_true(!(grown[1] < 1e3)); /* 6 % beyond: e^(400 * 0.35) */
 }
 
 static void same_bytes_for_one_and_two_threads(void **state)
@@ -250,7 +263,9 @@ static void same_bytes_for_one_and_two_threads(void **state)
         for (int k = 0; k < 2; ++k) {
             char text[512];
             bench_case c;
-            open_case(&c, (case_options){.model = models[m], .n_threads = 1 + k, .stages = stage_text(text, sizeof text, "0.5", "")});
+            open_case(&c, (case_options){.model = models[m],
+                                         .n_threads = 1 + k,
+                                         .stages = stage_text(text, sizeof text, "0.5", "")});
             n = 3 * c.domain->n_elements;
             u[k] = calloc((size_t)n, sizeof *u[k]);
             assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
@@ -274,7 +289,8 @@ static void mixed_and_single_follow_double(void **state)
     for (int p = 0; p < 3; ++p) {
         char text[512];
         bench_case c;
-        open_case(&c, (case_options){.precision = (brc_precision)p, .stages = stage_text(text, sizeof text, "0.5", "")});
+        open_case(&c,
+                  (case_options){.precision = (brc_precision)p, .stages = stage_text(text, sizeof text, "0.5", "")});
         n = 3 * c.domain->n_elements;
         u[p] = calloc((size_t)n, sizeof *u[p]);
         assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
@@ -285,15 +301,18 @@ static void mixed_and_single_follow_double(void **state)
     double off[3] = {0};
     for (int64_t i = 0; i < n; ++i) {
         size = fmax(size, fabs(u[0][i]));
-        for (int p = 1; p < 3; ++p) off[p] = fmax(off[p], fabs(u[p][i] - u[0][i]));
+        for (int p = 1; p < 3; ++p)
+            off[p] = fmax(off[p], fabs(u[p][i] - u[0][i]));
     }
-    /* A bond's stiffness is wrong by at most the rounding of its coefficients and operations, some 15 of 2^-24 = 9e-7; an
-     * oscillation's phase by half of that times its phase, which is at most 2 asin(0.5) = 1.05 a step: 100 steps give 5e-5 of
-     * the amplitude. The steps themselves may differ by as much (power iteration on the rounded stiffness): 1e-4. */
+    /* A bond's stiffness is wrong by at most the rounding of its coefficients and operations, some 15 of 2^-24 = 9e-7;
+     * an oscillation's phase by half of that times its phase, which is at most 2 asin(0.5) = 1.05 a step: 100 steps
+     * give 5e-5 of the amplitude. The steps themselves may differ by as much (power iteration on the rounded
+     * stiffness): 1e-4. */
     assert_true(off[1] < 1e-4 * size);
     assert_true(off[2] < 1e-4 * size);
     assert_true(off[1] > 0 && off[2] > 0);
-    for (int p = 0; p < 3; ++p) free(u[p]);
+    for (int p = 0; p < 3; ++p)
+        free(u[p]);
 }
 
 int main(void)

@@ -7,13 +7,14 @@
 #include <string.h>
 
 #define SHAKE(step)                                                                                                    \
-    "  - name: shake\n    solver: {dynamic: {steps: 2000, time_step: " step "}}\n    initial:\n"                        \
+    "  - name: shake\n    solver: {dynamic: {steps: 2000, time_step: " step "}}\n    initial:\n"                       \
     "      - random: {amplitude: [1 mm/s, 1 mm/s, 1 mm/s], seed: 3}\n"
 
 static void expect(bench_case *c, brc_status status, const char *words)
 {
     assert_int_equal(status, BRC_PHYSICS_STOPPED);
-    if (!strstr(brc_context_message(c->context), words)) fail_msg("'%s' is not in: %s", words, brc_context_message(c->context));
+    if (!strstr(brc_context_message(c->context), words))
+        fail_msg("'%s' is not in: %s", words, brc_context_message(c->context));
 }
 
 static void a_step_above_the_critical_one_is_stopped_and_named(void **state)
@@ -36,7 +37,8 @@ static void look_at(int64_t e, int component, double value, brc_status expected)
 {
     bench_case c;
     char words[64];
-    open_case(&c, (case_options){.fill = "cells: [11, 11, 11], spread: 90 %, seed: 1"}); /* 1331 cells: two blocks of rows */
+    open_case(
+        &c, (case_options){.fill = "cells: [11, 11, 11], spread: 90 %, seed: 1"}); /* 1331 cells: two blocks of rows */
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     assert_done(&c, brc_guard_begin_stage(c.simulation));
     double *v = calloc((size_t)(3 * c.domain->n_elements), sizeof *v);
@@ -47,8 +49,10 @@ static void look_at(int64_t e, int component, double value, brc_status expected)
     assert_done(&c, brc_guard_step(c.simulation));
     const brc_status status = brc_guard_read(c.simulation, false, NULL);
     snprintf(words, sizeof words, "element %lld is faster than", (long long)at);
-    if (expected == BRC_OK) assert_done(&c, status);
-    else expect(&c, status, words);
+    if (expected == BRC_OK)
+        assert_done(&c, status);
+    else
+        expect(&c, status, words);
     close_case(&c);
 }
 
@@ -57,7 +61,8 @@ static void every_bad_number_is_found_wherever_it_is(void **state)
     (void)state;
     const int64_t elements[] = {0, 1000, 1200, -1};
     const double bad[] = {NAN, INFINITY, -INFINITY, NAN};
-    for (int k = 0; k < 4; ++k) look_at(elements[k], k % 3, bad[k], BRC_PHYSICS_STOPPED);
+    for (int k = 0; k < 4; ++k)
+        look_at(elements[k], k % 3, bad[k], BRC_PHYSICS_STOPPED);
     /* E 1, nu 0.2, density 1: the wave speed is sqrt(0.8 / (1.2 * 0.6)) = 1.054 m/s, thirty times it 31.6 m/s */
     look_at(700, 2, -31.7, BRC_PHYSICS_STOPPED);
     look_at(700, 2, 31.5, BRC_OK);
@@ -67,7 +72,8 @@ static void a_ledger_beyond_its_limit_stops_the_run(void **state)
 {
     (void)state;
     bench_case c; /* Verlet's own oscillation at 0.8 of the critical step is some percent */
-    open_case(&c, (case_options){.stages = SHAKE("{auto: {safety: 0.8}}"), .gravity = "guard: {every: 100, closure: 0.01 %}\n"});
+    open_case(&c, (case_options){.stages = SHAKE("{auto: {safety: 0.8}}"),
+                                 .gravity = "guard: {every: 100, closure: 0.01 %}\n"});
     expect(&c, brc_simulation_run(c.simulation), "stopped at step 100,");
     assert_non_null(strstr(brc_context_message(c.context), "guard.closure is 0.01 %"));
     assert_non_null(strstr(brc_context_message(c.context), "velocity Verlet's own oscillation"));
@@ -84,8 +90,9 @@ static void a_sound_run_is_left_alone_and_its_looks_are_counted(void **state)
     const brc_guard_report report = brc_simulation_guard_report(c.simulation);
     assert_int_equal(report.every, 256);
     assert_int_equal(report.ledger_every, 1024);
-    assert_true(report.looks >= 2000 / 256);   /* and one at every sample */
-    assert_true(report.ledgers >= 2 && report.ledgers < 50); /* at 1024 and at the end; samples every 4 steps have none */
+    assert_true(report.looks >= 2000 / 256); /* and one at every sample */
+    assert_true(report.ledgers >= 2 &&
+                report.ledgers < 50); /* at 1024 and at the end; samples every 4 steps have none */
     close_case(&c);
 }
 

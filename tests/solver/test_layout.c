@@ -23,7 +23,8 @@ static void every_element_and_half_edge_is_stored_once(void **state)
                     assert_true(h >= c.domain->row_start[e] && h < c.domain->row_start[e + 1]);
                     seen[h]++;
                 }
-        for (int64_t h = 0; h < c.domain->n_half_edges; ++h) assert_int_equal(seen[h], 1);
+        for (int64_t h = 0; h < c.domain->n_half_edges; ++h)
+            assert_int_equal(seen[h], 1);
         /* sorted by degree in windows: a slice's longest row is near its shortest */
         if (slices[k] == 8) assert_true(layout->n_slots * 8 < 1.12 * (double)c.domain->n_half_edges + 8 * 32);
         free(seen);
@@ -40,7 +41,8 @@ static void elements_with_free_faces_have_a_boundary_block(void **state)
     brc_layout *layout;
     assert_done(&c, brc_layout_create(c.context, c.domain, 8, &layout));
     for (int64_t e = 0; e < c.domain->n_elements; ++e)
-        if (c.domain->free_start[e + 1] > c.domain->free_start[e]) assert_true(layout->boundary[layout->row_of_element[e] / 8] >= 0);
+        if (c.domain->free_start[e + 1] > c.domain->free_start[e])
+            assert_true(layout->boundary[layout->row_of_element[e] / 8] >= 0);
     brc_layout_free(&layout);
     close_case(&c);
 }

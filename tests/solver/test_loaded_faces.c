@@ -1,4 +1,5 @@
-/* Loads per area on a part of a wall: the total is that of the region asked for, not of the faces whose middle lies in it. */
+/* Loads per area on a part of a wall: the total is that of the region asked for, not of the faces whose middle lies in
+ * it. */
 #include "support.h"
 #include "../../host/base/memory.h"
 #include "../../host/solver/loaded_faces.h"
@@ -6,14 +7,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char strip[] = "sets:\n  strip: {faces: {wall: z+, box: {from: [31 cm, 0, 50 cm], to: [63 cm, 1 m, 2 m]}}}\n";
+static const char strip[] =
+    "sets:\n  strip: {faces: {wall: z+, box: {from: [31 cm, 0, 50 cm], to: [63 cm, 1 m, 2 m]}}}\n";
 
-/* Work on a linear displacement is exact in `dlsm`, whatever the cells: forces on cells at X add up to the load and to its moment. Corners of cells are good to 1e-11. */
+/* Work on a linear displacement is exact in `dlsm`, whatever the cells: forces on cells at X add up to the load and to
+ * its moment. Corners of cells are good to 1e-11. */
 static void force_and_moment_of_a_pressed_strip_are_those_of_its_area(const char *load, const double total[3])
 {
     bench_case c;
     char stages[256];
-    snprintf(stages, sizeof stages, "  - name: push\n    solver: {dynamic: {steps: 1, time_step: {fixed: 1e-6 s}}}\n    loads:\n      - %s\n", load);
+    snprintf(stages, sizeof stages,
+             "  - name: push\n    solver: {dynamic: {steps: 1, time_step: {fixed: 1e-6 s}}}\n    loads:\n      - %s\n",
+             load);
     open_case(&c, (case_options){.fill = "cells: [5, 4, 4], spread: 90 %", .sets = strip, .stages = stages});
     const brc_domain *d = c.domain;
     double *force = calloc((size_t)(3 * d->n_elements), sizeof *force), sum[3] = {0}, moment[3] = {0};
@@ -26,7 +31,8 @@ static void force_and_moment_of_a_pressed_strip_are_those_of_its_area(const char
         }
     for (int k = 0; k < 3; ++k) {
         if (!(fabs(sum[k] - total[k]) < 1e-10)) fail_msg("force %d: %.12g, expected %.12g", k, sum[k], total[k]);
-        if (!(fabs(moment[k] - 0.47 * total[k]) < 1e-10)) fail_msg("moment %d: %.12g, expected %.12g", k, moment[k], 0.47 * total[k]);
+        if (!(fabs(moment[k] - 0.47 * total[k]) < 1e-10))
+            fail_msg("moment %d: %.12g, expected %.12g", k, moment[k], 0.47 * total[k]);
     }
     free(force);
     close_case(&c);
@@ -35,13 +41,15 @@ static void force_and_moment_of_a_pressed_strip_are_those_of_its_area(const char
 static void pressure_on_a_strip_is_that_of_its_area(void **state)
 {
     (void)state;
-    force_and_moment_of_a_pressed_strip_are_those_of_its_area("pressure: {set: strip, value: 2 Pa}", (double[3]){0, 0, -0.64});
+    force_and_moment_of_a_pressed_strip_are_those_of_its_area("pressure: {set: strip, value: 2 Pa}",
+                                                              (double[3]){0, 0, -0.64});
 }
 
 static void traction_on_a_strip_is_that_of_its_area(void **state)
 {
     (void)state;
-    force_and_moment_of_a_pressed_strip_are_those_of_its_area("traction: {set: strip, x: 1 Pa, y: -2 Pa, z: 3 Pa}", (double[3]){0.32, -0.64, 0.96});
+    force_and_moment_of_a_pressed_strip_are_those_of_its_area("traction: {set: strip, x: 1 Pa, y: -2 Pa, z: 3 Pa}",
+                                                              (double[3]){0.32, -0.64, 0.96});
 }
 
 static void a_wall_is_loaded_whole_and_a_strip_beyond_its_members(void **state)

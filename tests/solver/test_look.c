@@ -42,7 +42,8 @@ static double *velocities(bench_case *c)
     return v;
 }
 
-/* Both cases, opened, are run, the second one looked at every three steps; state, ledger and breaks agree to the last bit. They are closed. */
+/* Both cases, opened, are run, the second one looked at every three steps; state, ledger and breaks agree to the last
+ * bit. They are closed. */
 static void assert_unmoved(bench_case *left_alone, bench_case *looked_at, int64_t steps)
 {
     looker l = {.every = 3};
@@ -68,7 +69,8 @@ static void assert_unmoved(bench_case *left_alone, bench_case *looked_at, int64_
 static void cells_that_are_looked_at_move_as_if_left_alone(void **state)
 {
     (void)state;
-    static const char stages[] = "  - name: swing\n    solver: {dynamic: {steps: 100}}\n    initial: [velocity: {gradient: {x: [1e-3 1/s, 4e-4 1/s, 0]}}]\n";
+    static const char stages[] = "  - name: swing\n    solver: {dynamic: {steps: 100}}\n    initial: [velocity: "
+                                 "{gradient: {x: [1e-3 1/s, 4e-4 1/s, 0]}}]\n";
     static const char *const models[] = {"dlsm", "dlsm-published"};
     for (int m = 0; m < 2; ++m) {
         bench_case a, b;
@@ -82,7 +84,8 @@ static void what_breaks_while_looked_at_is_what_breaks_alone(void **state)
 {
     (void)state;
     bench_case a, b;
-    const fracture_options options = {.fracture = "{}", .strength = "strength: {tension: 2e-4 Pa}", .stages = FRACTURE_BURST(200)};
+    const fracture_options options = {
+        .fracture = "{}", .strength = "strength: {tension: 2e-4 Pa}", .stages = FRACTURE_BURST(200)};
     open_fracture(&a, options);
     open_fracture(&b, options);
     int64_t n_bonds = a.domain->n_bonds;
@@ -90,11 +93,13 @@ static void what_breaks_while_looked_at_is_what_breaks_alone(void **state)
     assert_unmoved(&a, &b, 200);
 }
 
-/* The velocity between two batches is that of the whole step: what stepping by hand gives, to rounding; half a step earlier differs by far more. */
+/* The velocity between two batches is that of the whole step: what stepping by hand gives, to rounding; half a step
+ * earlier differs by far more. */
 static void velocities_are_those_of_the_whole_step(void **state)
 {
     (void)state;
-    static const char stages[] = "  - name: swing\n    solver: {dynamic: {steps: 50}}\n    initial: [velocity: {gradient: {x: [1e-3 1/s, 4e-4 1/s, 0]}}]\n";
+    static const char stages[] = "  - name: swing\n    solver: {dynamic: {steps: 50}}\n    initial: [velocity: "
+                                 "{gradient: {x: [1e-3 1/s, 4e-4 1/s, 0]}}]\n";
     bench_case run, by_hand;
     open_case(&run, (case_options){.stages = stages});
     open_case(&by_hand, (case_options){.stages = stages});
@@ -124,7 +129,8 @@ static void a_look_ends_a_stage_at_its_step(void **state)
 {
     (void)state;
     bench_case c;
-    open_case(&c, (case_options){.stages = "  - name: swing\n    solver: {dynamic: {steps: 500}}\n  - name: after\n    solver: {dynamic: {steps: 5}}\n"});
+    open_case(&c, (case_options){.stages = "  - name: swing\n    solver: {dynamic: {steps: 500}}\n  - name: after\n    "
+                                           "solver: {dynamic: {steps: 5}}\n"});
     looker l = {.every = 37, .end_at = 74};
     c.scene->output.history_every = 500;
     const brc_observer observer = {.self = &l, .next_look = next_look, .look = look};
@@ -140,7 +146,8 @@ static void increments_are_looked_at_and_ended_too(void **state)
     (void)state;
     bench_case c;
     open_case(&c, (case_options){.stages = "  - name: pull\n    solver: {static: {increments: 6}}\n"
-                                           "    loads: [face_displacement: {set: x+, x: 0, y: 0, z: 1e-4 m}, face_displacement: {set: x-, x: 0, y: 0, z: 0}]\n"});
+                                           "    loads: [face_displacement: {set: x+, x: 0, y: 0, z: 1e-4 m}, "
+                                           "face_displacement: {set: x-, x: 0, y: 0, z: 0}]\n"});
     looker l = {.every = 2, .end_at = 4};
     const brc_observer observer = {.self = &l, .next_look = next_look, .look = look};
     assert_done(&c, brc_simulation_observe(c.simulation, &observer));
@@ -152,8 +159,10 @@ static void increments_are_looked_at_and_ended_too(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells_that_are_looked_at_move_as_if_left_alone), cmocka_unit_test(what_breaks_while_looked_at_is_what_breaks_alone),
-        cmocka_unit_test(velocities_are_those_of_the_whole_step), cmocka_unit_test(a_look_ends_a_stage_at_its_step),
+        cmocka_unit_test(cells_that_are_looked_at_move_as_if_left_alone),
+        cmocka_unit_test(what_breaks_while_looked_at_is_what_breaks_alone),
+        cmocka_unit_test(velocities_are_those_of_the_whole_step),
+        cmocka_unit_test(a_look_ends_a_stage_at_its_step),
         cmocka_unit_test(increments_are_looked_at_and_ended_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,5 @@
-/* Damping of noise: what it leaves alone, what it takes, and that the frequencies of its operator have the room its factor counts on. */
+/* Damping of noise: what it leaves alone, what it takes, and that the frequencies of its operator have the room its
+ * factor counts on. */
 #include "../../host/solver/noise_damping.h"
 #include "support.h"
 #include <math.h>
@@ -6,11 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STAGE(damping, more) \
-    "  - name: shake\n    solver: {dynamic: {steps: 100000, time_step: {auto: {safety: 0.8}}, noise_damping: " damping "}}\n" more
+#define STAGE(damping, more)                                                                                           \
+    "  - name: shake\n    solver: {dynamic: {steps: 100000, time_step: {auto: {safety: 0.8}}, noise_damping: " damping \
+    "}}\n" more
 #define RANDOM "    initial:\n      - random: {amplitude: [1 mm/s, 1 mm/s, 1 mm/s], seed: 3}\n"
 
-static int64_t length_of(const bench_case *c) { return 3 * (int64_t)c->simulation->layout->n_rows; }
+static int64_t length_of(const bench_case *c)
+{
+    return 3 * (int64_t)c->simulation->layout->n_rows;
+}
 
 static double *rows_of(bench_case *c, brc_buffer *buffer)
 {
@@ -22,7 +27,8 @@ static double *rows_of(bench_case *c, brc_buffer *buffer)
 static double dot(int64_t n, const double *a, const double *b)
 {
     double sum = 0;
-    for (int64_t k = 0; k < n; ++k) sum += a[k] * b[k];
+    for (int64_t k = 0; k < n; ++k)
+        sum += a[k] * b[k];
     return sum;
 }
 
@@ -48,38 +54,49 @@ static void open_shaken(bench_case *c, case_options options)
     assert_non_null(c->simulation->noise);
 }
 
-/* Of a random velocity: no sum of forces, no moment about the undeformed places, and the same work of one field's drag on another as the other way. */
+/* Of a random velocity: no sum of forces, no moment about the undeformed places, and the same work of one field's drag
+ * on another as the other way. */
 static void the_drag_is_symmetric_and_keeps_momentum(void **state)
 {
     (void)state;
     bench_case c;
     open_shaken(&c, (case_options){.stages = STAGE("5 %", RANDOM)});
     const int64_t n = length_of(&c);
-    double *v = rows_of(&c, c.simulation->velocity), *w = calloc((size_t)n, sizeof *w), *sv = calloc((size_t)n, sizeof *sv), *sw = calloc((size_t)n, sizeof *sw);
+    double *v = rows_of(&c, c.simulation->velocity), *w = calloc((size_t)n, sizeof *w),
+           *sv = calloc((size_t)n, sizeof *sv), *sw = calloc((size_t)n, sizeof *sw);
     double sum[3] = {0}, scale = 0;
-    for (int64_t k = 0; k < n; ++k) w[k] = v[k] == 0 ? 0 : 1e-3 * random_at((uint64_t)(k + 7919)); /* padding stays at rest */
+    for (int64_t k = 0; k < n; ++k)
+        w[k] = v[k] == 0 ? 0 : 1e-3 * random_at((uint64_t)(k + 7919)); /* padding stays at rest */
     apply(&c, v, sv, NULL);
     apply(&c, w, sw, NULL);
     const double there = dot(n, w, sv), back = dot(n, v, sw);
-    assert_true(fabs(there - back) < 1e-12 * sqrt(dot(n, v, sv) * dot(n, w, sw))); /* sums of 216 elements' products, each rounded */
+    assert_true(fabs(there - back) <
+                1e-12 * sqrt(dot(n, v, sv) * dot(n, w, sw))); /* sums of 216 elements' products, each rounded */
     assert_true(dot(n, v, sv) > 0);
-    for (int64_t k = 0; k < n; ++k) sum[k % 3] += sv[k], scale += fabs(sv[k]);
-    for (int k = 0; k < 3; ++k) assert_true(fabs(sum[k]) < 1e-13 * scale);
+    for (int64_t k = 0; k < n; ++k)
+        sum[k % 3] += sv[k], scale += fabs(sv[k]);
+    for (int k = 0; k < 3; ++k)
+        assert_true(fabs(sum[k]) < 1e-13 * scale);
     free(v), free(w), free(sv), free(sw);
     close_case(&c);
 }
 
-/* A velocity linear in the place, turning and straining: what is lost is rounding. By symmetry this is also the balance of moments. */
+/* A velocity linear in the place, turning and straining: what is lost is rounding. By symmetry this is also the balance
+ * of moments. */
 static void linear_velocities_are_left_alone(void **state)
 {
     (void)state;
     bench_case c;
-    open_shaken(&c, (case_options){.stages = STAGE("10 %", "    initial:\n      - velocity: {velocity: [1 mm/s, 2 mm/s, 0], gradient: {x: [1e-3 1/s, 2e-3 1/s, 0], "
-                                                           "y: [-3e-3 1/s, 0, 1e-3 1/s], z: [0, 1e-3 1/s, 5e-4 1/s]}}\n")});
+    open_shaken(&c,
+                (case_options){.stages = STAGE("10 %", "    initial:\n      - velocity: {velocity: [1 mm/s, 2 mm/s, "
+                                                       "0], gradient: {x: [1e-3 1/s, 2e-3 1/s, 0], "
+                                                       "y: [-3e-3 1/s, 0, 1e-3 1/s], z: [0, 1e-3 1/s, 5e-4 1/s]}}\n")});
     double *before = rows_of(&c, c.simulation->velocity);
     assert_done(&c, brc_noise_damp(c.simulation));
     double *after = rows_of(&c, c.simulation->velocity);
-    for (int64_t k = 0; k < length_of(&c); ++k) assert_true(fabs(after[k] - before[k]) < 1e-13 * 5e-3); /* velocities up to 5 mm/s; the factor times S is below 2 M */
+    for (int64_t k = 0; k < length_of(&c); ++k)
+        assert_true(fabs(after[k] - before[k]) <
+                    1e-13 * 5e-3); /* velocities up to 5 mm/s; the factor times S is below 2 M */
     free(before);
     free(after);
     close_case(&c);
@@ -96,7 +113,8 @@ static double frequency_ratio(const char *materials, const char *fill)
         apply(&c, v, NULL, next);
         square = sqrt(dot(n, next, next) / dot(n, v, v));
         const double length = sqrt(dot(n, next, next));
-        for (int64_t k = 0; k < n; ++k) v[k] = 1e-3 * next[k] / length;
+        for (int64_t k = 0; k < n; ++k)
+            v[k] = 1e-3 * next[k] / length;
     }
     const double critical = 2 / brc_simulation_time_step(c.simulation).critical;
     free(v), free(next);
@@ -108,7 +126,8 @@ static void frequencies_of_the_drag_leave_room_for_its_factor(void **state)
 {
     (void)state;
     static const char *const nu[] = {"-0.9", "-0.3", "0", "0.49"};
-    static const char *const fill[] = {"cells: [5, 5, 5], spread: 90 %", "cells: [6, 6, 6], spread: 0", "cells: [6, 6, 6], spread: 90 %, lloyd: 5"};
+    static const char *const fill[] = {"cells: [5, 5, 5], spread: 90 %", "cells: [6, 6, 6], spread: 0",
+                                       "cells: [6, 6, 6], spread: 90 %, lloyd: 5"};
     for (size_t i = 0; i < sizeof nu / sizeof *nu; ++i)
         for (size_t k = 0; k < sizeof fill / sizeof *fill; ++k) {
             char materials[128];
@@ -134,12 +153,15 @@ static void what_is_lost_is_booked(void **state)
     close_case(&c);
 }
 
-/* Total energy, kinetic and elastic, that is left of an initial velocity v(x) after n_steps; the ledger closes as Verlet does at least. */
+/* Total energy, kinetic and elastic, that is left of an initial velocity v(x) after n_steps; the ledger closes as
+ * Verlet does at least. */
 static double left_of(const char *stages, bool wave, int64_t n_steps)
 {
     bench_case c;
     brc_ledger before, after;
-    open_shaken(&c, (case_options){.shape = "{box: {size: [4 m, 0.5 m, 0.5 m]}}", .fill = "cells: [32, 4, 4], spread: 90 %", .stages = stages});
+    open_shaken(&c, (case_options){.shape = "{box: {size: [4 m, 0.5 m, 0.5 m]}}",
+                                   .fill = "cells: [32, 4, 4], spread: 90 %",
+                                   .stages = stages});
     if (wave) { /* the first free vibration along the bar: 64 cells a wave */
         double *v = calloc((size_t)length_of(&c), sizeof *v);
         for (int64_t e = 0; e < c.domain->n_elements; ++e)
@@ -155,8 +177,9 @@ static double left_of(const char *stages, bool wave, int64_t n_steps)
     return left;
 }
 
-/* 400 steps are some 12 crossings of the bar. Residuals of a wave of 64 cells are (2 pi / 64)^3 and less of those of noise, so its loss is below 1e-5 of the noise's; the
- * cosine is not quite the mode of 512 uneven cells, which is noise of some 1e-3 in velocity. */
+/* 400 steps are some 12 crossings of the bar. Residuals of a wave of 64 cells are (2 pi / 64)^3 and less of those of
+ * noise, so its loss is below 1e-5 of the noise's; the cosine is not quite the mode of 512 uneven cells, which is noise
+ * of some 1e-3 in velocity. */
 static void noise_goes_and_long_waves_stay(void **state)
 {
     (void)state;
@@ -170,7 +193,8 @@ static void other_models_and_softening_faces_are_refused(void **state)
 {
     (void)state;
     bench_case c;
-    assert_int_equal(try_case(&c, (case_options){.model = "dlsm-published", .stages = STAGE("5 %", RANDOM)}), BRC_BAD_INPUT);
+    assert_int_equal(try_case(&c, (case_options){.model = "dlsm-published", .stages = STAGE("5 %", RANDOM)}),
+                     BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(c.context), "noise_damping: it is made of the bonds of model dlsm"));
     close_case(&c);
 }

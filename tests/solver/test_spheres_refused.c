@@ -26,7 +26,8 @@ static void the_models_of_cells_refuse_spheres(void **state)
         assert_done(&c, BRC_ALLOCATE(c.context, &spheres->body, 4, "bodies"));
         assert_int_equal(brc_simulation_create(c.context, c.scene, spheres, c.device, &simulation), BRC_BAD_INPUT);
         assert_null(simulation);
-        assert_non_null(strstr(brc_context_message(c.context), "needs cells, the bodies are spheres joined by beams; remove `beams`"));
+        assert_non_null(strstr(brc_context_message(c.context),
+                               "needs cells, the bodies are spheres joined by beams; remove `beams`"));
         assert_non_null(strstr(brc_context_message(c.context), models[m]));
         brc_domain_free(&spheres);
         close_case(&c);

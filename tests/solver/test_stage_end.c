@@ -9,17 +9,20 @@ static const char CRITERION[] = "{criterion: {virial-principal: {level: 1}}}";
 
 static void run(bench_case *c, const char *stages)
 {
-    open_fracture(c, (fracture_options){.fracture = CRITERION, .strength = "strength: {tension: 2e-4 Pa}", .stages = stages});
+    open_fracture(
+        c, (fracture_options){.fracture = CRITERION, .strength = "strength: {tension: 2e-4 Pa}", .stages = stages});
 }
 
-/* The burst breaks a sixth of the bonds in 300 steps: the stage ends at the first sample past a twentieth, and the next one runs. */
+/* The burst breaks a sixth of the bonds in 300 steps: the stage ends at the first sample past a twentieth, and the next
+ * one runs. */
 static void too_many_broken_bonds_end_a_stage(void **state)
 {
     (void)state;
     bench_case c;
     int64_t broken;
     run(&c, "stages:\n  - name: burst\n    solver: {dynamic: {steps: 300, stop_when_broken: 5 %}}\n    initial:\n"
-            "      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n  - name: after\n    solver: {dynamic: {steps: 10}}\n");
+            "      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n  - name: after\n    solver: {dynamic: "
+            "{steps: 10}}\n");
     assert_done(&c, brc_simulation_run(c.simulation));
     assert_non_null(strstr(brc_simulation_stage_reason(c.simulation, 0), "stop_when_broken"));
     assert_string_equal(brc_simulation_stage_reason(c.simulation, 1), "");
@@ -53,7 +56,8 @@ static void an_observer_ends_a_dynamic_stage(void **state)
     close_case(&c);
 }
 
-/* Kinetic and elastic energy by hand: the first break lies between the second and third sample, the peak is the fourth. */
+/* Kinetic and elastic energy by hand: the first break lies between the second and third sample, the peak is the
+ * fourth. */
 static void the_regime_is_that_of_the_samples(void **state)
 {
     (void)state;
@@ -63,7 +67,8 @@ static void the_regime_is_that_of_the_samples(void **state)
     } sample[] = {{1, 0, false}, {1, 100, false}, {3, 150, true}, {8, 200, true}, {100, 50, true}};
     brc_regime r = {0};
     assert_string_equal(brc_regime_name(&r), "");
-    for (int k = 0; k < 5; ++k) brc_regime_follow(&r, sample[k].kinetic, sample[k].elastic, sample[k].broken);
+    for (int k = 0; k < 5; ++k)
+        brc_regime_follow(&r, sample[k].kinetic, sample[k].elastic, sample[k].broken);
     assert_true(r.at_first_break == 0.01 && r.at_peak == 0.04 && r.until_peak == 0.04);
     assert_string_equal(brc_regime_name(&r), "quasi-static");
     brc_regime_follow(&r, 30, 300, true);

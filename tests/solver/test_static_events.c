@@ -9,9 +9,9 @@
 static const char CRITERION[] = "{criterion: {virial-principal: {level: 1}}}";
 static const char STRENGTH[] = "strength: {tension: 2e-4 Pa}";
 #define EVENTS(keys, loads) "stages:\n  - name: crack\n    solver: {static: {" keys "}}\n    loads:\n" loads
-#define PULLED(keys, x) \
+#define PULLED(keys, x)                                                                                                \
     EVENTS(keys, "      - element_displacement: {set: x-, x: 0}\n      - element_displacement: {set: x+, x: " x "}\n")
-#define PUSHED(keys) \
+#define PUSHED(keys)                                                                                                   \
     EVENTS(keys, "      - element_displacement: {set: x-, x: 0}\n      - element_force: {set: x+, x: 1e-5 N}\n")
 
 /* What an observer saw at every sample. */
@@ -33,8 +33,10 @@ static double free_force(brc_simulation *s)
     for (int32_t i = 0; i < s->loads.n_imposed; ++i)
         for (int32_t k = 0; k < s->loads.imposed[i].n; ++k)
             for (int c = 0; c < 3; ++c)
-                if (s->loads.imposed[i].component_bits >> c & 1) force[3 * (int64_t)s->loads.imposed[i].element_id[k] + c] = 0;
-    for (int64_t k = 0; k < n; ++k) most = fmax(most, fabs(force[k]));
+                if (s->loads.imposed[i].component_bits >> c & 1)
+                    force[3 * (int64_t)s->loads.imposed[i].element_id[k] + c] = 0;
+    for (int64_t k = 0; k < n; ++k)
+        most = fmax(most, fabs(force[k]));
     assert_int_equal(brc_simulation_reaction(s, brc_domain_find_set(s->domain, "x-"), reaction), BRC_OK);
     free(force);
     return fabs(reaction[0]) > 0 ? most / fabs(reaction[0]) : 0;
@@ -65,8 +67,9 @@ static void run(bench_case *c, fracture_options o, curve *seen)
     assert_done(c, brc_simulation_run(c->simulation));
 }
 
-/* At its load every event stands in equilibrium with the worst element at its limit and nothing beyond it: to 1e-9, the tolerance that puts
- * elements into one event. Residuals: those of the solver, 1e-10 of the largest load, with some room for the sum over a wall against one element. */
+/* At its load every event stands in equilibrium with the worst element at its limit and nothing beyond it: to 1e-9, the
+ * tolerance that puts elements into one event. Residuals: those of the solver, 1e-10 of the largest load, with some
+ * room for the sum over a wall against one element. */
 static void every_event_happens_where_one_element_is_at_its_limit(void **state)
 {
     (void)state;
@@ -91,8 +94,8 @@ static void every_event_happens_where_one_element_is_at_its_limit(void **state)
     close_case(&c);
 }
 
-/* The first event of the linear law against the load that a plain static stage asks for, by another path: the failure ratio at a load far below,
- * in proportion. What is left is the turning of bonds by their strain, 2e-4 at failure. */
+/* The first event of the linear law against the load that a plain static stage asks for, by another path: the failure
+ * ratio at a load far below, in proportion. What is left is the turning of bonds by their strain, 2e-4 at failure. */
 static void the_first_event_is_the_elastic_limit(void **state)
 {
     (void)state;
@@ -105,7 +108,8 @@ static void the_first_event_is_the_elastic_limit(void **state)
     close_case(&c);
 }
 
-/* Ten times the load: the same bonds in the same order at a tenth of its factor. Both solves end within 1e-10 of the load. */
+/* Ten times the load: the same bonds in the same order at a tenth of its factor. Both solves end within 1e-10 of the
+ * load. */
 static void the_unit_of_the_load_does_not_matter(void **state)
 {
     (void)state;
@@ -118,8 +122,10 @@ static void the_unit_of_the_load_does_not_matter(void **state)
     assert_done(&a, brc_simulation_breaks(a.simulation, &n, &p));
     assert_done(&b, brc_simulation_breaks(b.simulation, &m, &q));
     assert_int_equal(n, m);
-    for (int64_t k = 0; k < n; ++k) assert_int_equal(p[k].bond, q[k].bond);
-    for (int k = 1; k < x.n; ++k) assert_true(fabs(10 * y.load[k] / x.load[k] - 1) < 1e-7);
+    for (int64_t k = 0; k < n; ++k)
+        assert_int_equal(p[k].bond, q[k].bond);
+    for (int k = 1; k < x.n; ++k)
+        assert_true(fabs(10 * y.load[k] / x.load[k] - 1) < 1e-7);
     close_case(&a), close_case(&b);
 }
 
@@ -134,7 +140,11 @@ static void threads_do_not_matter(void **state)
         curve seen = {0};
         const brc_break *list;
         int64_t n;
-        run(&c, (fracture_options){.stages = PULLED("events: 4, finite_strain: false, tolerance: 1e-8", "10 um"), .n_threads = k + 1, .exact = true}, &seen);
+        run(&c,
+            (fracture_options){.stages = PULLED("events: 4, finite_strain: false, tolerance: 1e-8", "10 um"),
+                               .n_threads = k + 1,
+                               .exact = true},
+            &seen);
         assert_done(&c, brc_simulation_breaks(c.simulation, &n, &list));
         if (k == 0) {
             n_first = n;
@@ -148,8 +158,9 @@ static void threads_do_not_matter(void **state)
     free(first);
 }
 
-/* What breaking and coming to rest set free is booked, so the ledger of the full law closes as that of a static load does: to the trapezoidal rule over
- * the paths between the events, whose forces are straight to the strain, 2e-4 at failure. Energy is only ever lost. */
+/* What breaking and coming to rest set free is booked, so the ledger of the full law closes as that of a static load
+ * does: to the trapezoidal rule over the paths between the events, whose forces are straight to the strain, 2e-4 at
+ * failure. Energy is only ever lost. */
 static void the_ledger_closes_and_energy_is_only_lost(void **state)
 {
     (void)state;
@@ -166,22 +177,29 @@ static void the_ledger_closes_and_energy_is_only_lost(void **state)
     close_case(&c);
 }
 
-/* A dead load's failing load is its factor: the stage ends when that has fallen, or when the body comes apart, which is then left without load. */
+/* A dead load's failing load is its factor: the stage ends when that has fallen, or when the body comes apart, which is
+ * then left without load. */
 static void dead_loads_break_a_body_to_the_end(void **state)
 {
     (void)state;
     bench_case c;
     curve seen = {0};
     double most = 0;
-    run(&c, (fracture_options){.stages = PUSHED("events: {most: 100000, below: 60 %}, tolerance: 1e-8"), .elements = 100}, &seen);
-    for (int k = 0; k < seen.n; ++k) most = fmax(most, seen.load[k]);
+    run(&c,
+        (fracture_options){.stages = PUSHED("events: {most: 100000, below: 60 %}, tolerance: 1e-8"), .elements = 100},
+        &seen);
+    for (int k = 0; k < seen.n; ++k)
+        most = fmax(most, seen.load[k]);
     const char *reason = brc_simulation_stage_reason(c.simulation, 0);
-    if (strstr(reason, "below 60 %")) assert_true(seen.load[seen.n - 1] < 0.6 * most && seen.load[seen.n - 2] >= 0.6 * most);
-    else assert_true(strstr(reason, "came apart") && brc_simulation_time(c.simulation) == 0);
+    if (strstr(reason, "below 60 %"))
+        assert_true(seen.load[seen.n - 1] < 0.6 * most && seen.load[seen.n - 2] >= 0.6 * most);
+    else
+        assert_true(strstr(reason, "came apart") && brc_simulation_time(c.simulation) == 0);
     close_case(&c);
 }
 
-/* A pulled body breaks in two: its load falls to nothing and the stage ends by itself with the two ends in different fragments. */
+/* A pulled body breaks in two: its load falls to nothing and the stage ends by itself with the two ends in different
+ * fragments. */
 static void a_pulled_body_breaks_in_two(void **state)
 {
     (void)state;
@@ -194,9 +212,11 @@ static void a_pulled_body_breaks_in_two(void **state)
     int32_t *fragment = calloc((size_t)c.domain->n_elements, sizeof *fragment);
     int64_t n;
     assert_done(&c, brc_simulation_fragments(c.simulation, fragment, &n));
-    const brc_set *left = &c.domain->sets[brc_domain_find_set(c.domain, "x-")], *right = &c.domain->sets[brc_domain_find_set(c.domain, "x+")];
+    const brc_set *left = &c.domain->sets[brc_domain_find_set(c.domain, "x-")],
+                  *right = &c.domain->sets[brc_domain_find_set(c.domain, "x+")];
     for (int64_t i = 0; i < left->n_members; ++i)
-        for (int64_t j = 0; j < right->n_members; ++j) assert_true(fragment[left->members[i]] != fragment[right->members[j]]);
+        for (int64_t j = 0; j < right->n_members; ++j)
+            assert_true(fragment[left->members[i]] != fragment[right->members[j]]);
     free(fragment);
     close_case(&c);
 }
@@ -218,8 +238,10 @@ static void a_dynamic_stage_breaks_on(void **state)
     (void)state;
     bench_case c;
     curve seen = {0};
-    run(&c, (fracture_options){.stages = PULLED("events: 5", "10 um") "  - name: burst\n    solver: {dynamic: {steps: 60}}\n    initial:\n"
-                                         "      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n"},
+    run(&c,
+        (fracture_options){
+            .stages = PULLED("events: 5", "10 um") "  - name: burst\n    solver: {dynamic: {steps: 60}}\n    initial:\n"
+                                                   "      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n"},
         &seen);
     const brc_break *list;
     int64_t n, events = 0;
@@ -233,8 +255,8 @@ static void a_dynamic_stage_breaks_on(void **state)
     close_case(&c);
 }
 
-/* Lower precisions meet the limit to their rounding and break the same kind of bonds: the first load to 1e-4, single precision's strain at the
- * failing load over its rounding. */
+/* Lower precisions meet the limit to their rounding and break the same kind of bonds: the first load to 1e-4, single
+ * precision's strain at the failing load over its rounding. */
 static void single_precision_finds_the_same_first_load(void **state)
 {
     (void)state;
@@ -248,9 +270,9 @@ static void single_precision_finds_the_same_first_load(void **state)
     close_case(&c);
 }
 
-/* Cells with a strength that scatters, so that no two bonds fail together: the same promises. Each bond's own limit, 2e-4 of E: the first event lies near the
- * strain of its weakest bond, below that without scatter. The ledger closes to the
- * strain, and what fails in tension looks along the pull, within 60 degrees. */
+/* Cells with a strength that scatters, so that no two bonds fail together: the same promises. Each bond's own limit,
+ * 2e-4 of E: the first event lies near the strain of its weakest bond, below that without scatter. The ledger closes to
+ * the strain, and what fails in tension looks along the pull, within 60 degrees. */
 static void bonds_of_cells_break_one_by_one(void **state)
 {
     (void)state;
@@ -258,10 +280,16 @@ static void bonds_of_cells_break_one_by_one(void **state)
     curve seen = {0};
     const brc_break *list;
     int64_t n;
-    open_case(&c, (case_options){.materials = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: 2e-4 Pa, scatter: {weibull: {modulus: 20}}}}",
-                                 .gravity = "fracture: {}\n", .shape = "{box: {size: [1 m, 0.5 m, 0.5 m]}}", .fill = "cells: [8, 4, 4], spread: 50 %, seed: 3",
-                                 .stages = "  - name: crack\n    solver: {static: {events: 12, tolerance: 1e-9}}\n    loads:\n"
-                                           "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: x+, x: 100 um}\n"});
+    open_case(&c,
+              (case_options){
+                  .materials = "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: 2e-4 Pa, scatter: "
+                               "{weibull: {modulus: 20}}}}",
+                  .gravity = "fracture: {}\n",
+                  .shape = "{box: {size: [1 m, 0.5 m, 0.5 m]}}",
+                  .fill = "cells: [8, 4, 4], spread: 50 %, seed: 3",
+                  .stages =
+                      "  - name: crack\n    solver: {static: {events: 12, tolerance: 1e-9}}\n    loads:\n"
+                      "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: x+, x: 100 um}\n"});
     const brc_observer observer = {.self = &seen, .sample = take};
     assert_done(&c, brc_simulation_observe(c.simulation, &observer));
     assert_done(&c, brc_simulation_run(c.simulation));
@@ -283,7 +311,8 @@ static void bonds_of_cells_break_one_by_one(void **state)
 static void refuse(const char *stages, const char *sentence)
 {
     bench_case c;
-    open_fracture(&c, (fracture_options){.fracture = CRITERION, .strength = STRENGTH, .stages = stages, .elements = 100});
+    open_fracture(&c,
+                  (fracture_options){.fracture = CRITERION, .strength = STRENGTH, .stages = stages, .elements = 100});
     assert_int_equal(brc_simulation_run(c.simulation), BRC_BAD_INPUT);
     if (!strstr(brc_context_message(c.context), sentence)) fail_msg("%s", brc_context_message(c.context));
     close_case(&c);
@@ -293,7 +322,8 @@ static void loads_that_do_not_scale_are_refused(void **state)
 {
     (void)state;
     refuse(EVENTS("events: 5", "      - element_displacement: {set: x-, x: 0}\n"
-                               "      - element_displacement: {set: x+, x: 1 um, table: [[0, 0], [0.5, 1], [1, 1]]}\n"), "cannot follow a table");
+                               "      - element_displacement: {set: x+, x: 1 um, table: [[0, 0], [0.5, 1], [1, 1]]}\n"),
+           "cannot follow a table");
     refuse("gravity: [0, 0, -9.81 m/s^2]\n" PULLED("events: 5", "10 um"), "leave out gravity");
     refuse(PULLED("events: 5", "0 m"), "comes nearer to failure");
 }

@@ -7,7 +7,8 @@
 
 static const char pull[] =
     "  - name: pull\n    solver: {static: {increments: %d}}\n    loads:\n      - face_displacement: {set: x-, x: 0}\n"
-    "      - face_displacement: {set: y-, y: 0}\n      - face_displacement: {set: z-, z: 0}\n      - face_displacement: {set: x+, x: %g m}\n";
+    "      - face_displacement: {set: y-, y: 0}\n      - face_displacement: {set: z-, z: 0}\n      - "
+    "face_displacement: {set: x+, x: %g m}\n";
 
 static int32_t set_index(bench_case *c, const char *name)
 {
@@ -16,8 +17,9 @@ static int32_t set_index(bench_case *c, const char *name)
     return index;
 }
 
-/* E and nu of a pulled cube, from the reaction and the side faces, corrected for the finite strain (docs/notebook/theory.md T1): with
- * P the nominal stress and eps the nominal strain, Sigma = P/(1 + eps), Green strains e = eps + eps^2/2. */
+/* E and nu of a pulled cube, from the reaction and the side faces, corrected for the finite strain
+ * (docs/notebook/theory.md T1): with P the nominal stress and eps the nominal strain, Sigma = P/(1 + eps), Green
+ * strains e = eps + eps^2/2. */
 static void young_and_poisson(bench_case *c, double *young, double *poisson)
 {
     double force[3], mean = 0, area = 0;
@@ -55,7 +57,8 @@ static void tension_gives_back_young_and_poisson(void **state)
         open_case(&c, (case_options){.materials = material, .stages = stages});
         young_and_poisson(&c, &young, &poisson);
         /* exact but for the solver's 1e-10 and the conditioning of nearly incompressible or auxetic solids */
-        if (!(fabs(young - 1) < 1e-7 && fabs(poisson - cases[k].value) < 1e-7)) fail_msg("nu %s: E - 1 = %g, nu off by %g", cases[k].nu, young - 1, poisson - cases[k].value);
+        if (!(fabs(young - 1) < 1e-7 && fabs(poisson - cases[k].value) < 1e-7))
+            fail_msg("nu %s: E - 1 = %g, nu off by %g", cases[k].nu, young - 1, poisson - cases[k].value);
         close_case(&c);
     }
 }
@@ -78,9 +81,12 @@ static void uniform_traction_gives_uniform_strain(void **state)
 {
     (void)state;
     bench_case c; /* tension by pressure on both ends, on rollers; ledger: work of dead loads is twice the energy */
-    open_case(&c, (case_options){.stages = "  - name: push\n    solver: {static: {increments: 2}}\n    loads:\n"
-                                           "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: y-, y: 0}\n"
-                                           "      - face_displacement: {set: z-, z: 0}\n      - traction: {set: x+, x: 1 uPa, y: 0, z: 0}\n"});
+    open_case(
+        &c, (case_options){
+                .stages =
+                    "  - name: push\n    solver: {static: {increments: 2}}\n    loads:\n"
+                    "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: y-, y: 0}\n"
+                    "      - face_displacement: {set: z-, z: 0}\n      - traction: {set: x+, x: 1 uPa, y: 0, z: 0}\n"});
     assert_done(&c, brc_simulation_run(c.simulation));
     double *strain = calloc((size_t)(6 * c.domain->n_elements), sizeof *strain);
     assert_done(&c, brc_simulation_strain_stress(c.simulation, strain, NULL, NULL));
@@ -96,20 +102,25 @@ static void uniform_traction_gives_uniform_strain(void **state)
     close_case(&c);
 }
 
-/* Two layers of `across` cells each, in series, nu/E equal on both sides: uniform stress 1 uPa, strains 1 and 1/4 uPa/Pa.
- * Relative errors of the layers' mean strains over the jump of strain (3/4), and of the strain in the cells farthest from the
- * interface over its own. */
+/* Two layers of `across` cells each, in series, nu/E equal on both sides: uniform stress 1 uPa, strains 1 and 1/4
+ * uPa/Pa. Relative errors of the layers' mean strains over the jump of strain (3/4), and of the strain in the cells
+ * farthest from the interface over its own. */
 static void laminate(int across, double mean_error[2], double *far_error)
 {
     bench_case c;
     char fill[64];
     snprintf(fill, sizeof fill, "cells: [%d, 4, 4], spread: 0 %%, seed: 1", 2 * across);
-    open_case(&c, (case_options){.materials = "  stone: {E: 1 Pa, nu: 0.1, density: 1 kg/m^3}\n  steel: {E: 4 Pa, nu: 0.4, density: 1 kg/m^3}",
-                                 .regions = "    regions:\n      - {material: steel, where: {half_space: {point: [50 cm, 0, 0], normal: [1, 0, 0]}}}\n",
-                                 .fill = fill,
-                                 .stages = "  - name: push\n    solver: {static: {increments: 1}}\n    loads:\n"
-                                           "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: y-, y: 0}\n"
-                                           "      - face_displacement: {set: z-, z: 0}\n      - traction: {set: x+, x: 1 uPa, y: 0, z: 0}\n"});
+    open_case(
+        &c, (case_options){
+                .materials =
+                    "  stone: {E: 1 Pa, nu: 0.1, density: 1 kg/m^3}\n  steel: {E: 4 Pa, nu: 0.4, density: 1 kg/m^3}",
+                .regions = "    regions:\n      - {material: steel, where: {half_space: {point: [50 cm, 0, 0], normal: "
+                           "[1, 0, 0]}}}\n",
+                .fill = fill,
+                .stages =
+                    "  - name: push\n    solver: {static: {increments: 1}}\n    loads:\n"
+                    "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: y-, y: 0}\n"
+                    "      - face_displacement: {set: z-, z: 0}\n      - traction: {set: x+, x: 1 uPa, y: 0, z: 0}\n"});
     assert_done(&c, brc_simulation_run(c.simulation));
     const int64_t n = c.domain->n_elements;
     double *strain = calloc((size_t)(6 * n), sizeof *strain), force[3];
@@ -121,9 +132,11 @@ static void laminate(int across, double mean_error[2], double *far_error)
         const double x = c.domain->position[3 * e];
         const int right = x > 0.5;
         mean[right] += strain[6 * e] / (double)(n / 2);
-        if (fabs(x - 0.5) > 0.5 - 0.6 / (2 * across)) *far_error = fmax(*far_error, fabs(strain[6 * e] / exact[right] - 1));
+        if (fabs(x - 0.5) > 0.5 - 0.6 / (2 * across))
+            *far_error = fmax(*far_error, fabs(strain[6 * e] / exact[right] - 1));
     }
-    for (int k = 0; k < 2; ++k) mean_error[k] = fabs(mean[k] - exact[k]) / 0.75e-6;
+    for (int k = 0; k < 2; ++k)
+        mean_error[k] = fabs(mean[k] - exact[k]) / 0.75e-6;
     assert_done(&c, brc_simulation_reaction(c.simulation, set_index(&c, "x-"), force));
     assert_true(fabs(force[0] / -1e-6 - 1) < 1e-6); /* equilibrium */
     free(strain);
@@ -137,18 +150,20 @@ static void two_materials_in_series_carry_one_stress(void **state)
     laminate(4, coarse, far);
     laminate(8, fine, far + 1);
     for (int k = 0; k < 2; ++k) {
-        /* cells at the interface share gradients with the other side and are off by less than the jump, those behind them by
-         * what decays from cell to cell: together less than one cell of the layer off by the whole jump, 1/n of it */
+        /* cells at the interface share gradients with the other side and are off by less than the jump, those behind
+         * them by what decays from cell to cell: together less than one cell of the layer off by the whole jump, 1/n of
+         * it */
         if (!(coarse[k] < 1.0 / 4 && fine[k] < 1.0 / 8)) fail_msg("side %d: %g, %g of the jump", k, coarse[k], fine[k]);
-        /* what is off has a fixed width in cells, so the mean is off by c/n: half with twice the cells, within the decayed
-         * tail that four cells cut off (a tenth of a power of two) */
+        /* what is off has a fixed width in cells, so the mean is off by c/n: half with twice the cells, within the
+         * decayed tail that four cells cut off (a tenth of a power of two) */
         if (!(fine[k] < pow(0.5, 0.9) * coarse[k])) fail_msg("side %d: %g, then %g", k, coarse[k], fine[k]);
     }
     /* and what decays from cell to cell decays faster than the mean's c/n */
     if (!(far[1] < 0.5 * far[0])) fail_msg("far cells %g, then %g", far[0], far[1]);
 }
 
-/* Norm of the forces on components that nothing holds [N], and the sum of their x components; imposed elements are held in x. */
+/* Norm of the forces on components that nothing holds [N], and the sum of their x components; imposed elements are held
+ * in x. */
 static double free_residual(bench_case *c, const bool *imposed, double *sum)
 {
     const int64_t n = c->domain->n_elements;
@@ -168,10 +183,14 @@ static void published_tension_is_near_the_given_values(void **state)
 {
     (void)state;
     bench_case c;
-    open_case(&c, (case_options){.model = "dlsm-published", .fill = "cells: [8, 8, 8], spread: 90 %, lloyd: 3, seed: 1",
-                                 .sets = "sets:\n  left: {elements: {wall: x-}}\n  right: {elements: {wall: x+}}\n",
-                                 .stages = "  - name: pull\n    solver: static\n    loads:\n      - element_displacement: {set: left, x: 0}\n"
-                                           "      - element_displacement: {set: right, x: 1 um}\n"});
+    open_case(
+        &c, (case_options){
+                .model = "dlsm-published",
+                .fill = "cells: [8, 8, 8], spread: 90 %, lloyd: 3, seed: 1",
+                .sets = "sets:\n  left: {elements: {wall: x-}}\n  right: {elements: {wall: x+}}\n",
+                .stages =
+                    "  - name: pull\n    solver: static\n    loads:\n      - element_displacement: {set: left, x: 0}\n"
+                    "      - element_displacement: {set: right, x: 1 um}\n"});
     assert_done(&c, brc_simulation_run(c.simulation));
     double force[3], back[3];
     const int32_t right = set_index(&c, "right"), left = set_index(&c, "left");
@@ -188,8 +207,10 @@ static void published_tension_is_near_the_given_values(void **state)
         }
     const double residual = free_residual(&c, imposed, &left_over);
     /* bond forces are opposite, so the reactions differ by exactly what is left on the free elements */
-    if (!(fabs(force[0] + back[0] - left_over) < 1e-12 * force[0])) fail_msg("reactions %g, %g, left over %g", force[0], back[0], left_over);
-    /* which is the solver's tolerance (docs/notebook/theory.md T3): 1e-5 of what the load left unbalanced before anything moved */
+    if (!(fabs(force[0] + back[0] - left_over) < 1e-12 * force[0]))
+        fail_msg("reactions %g, %g, left over %g", force[0], back[0], left_over);
+    /* which is the solver's tolerance (docs/notebook/theory.md T3): 1e-5 of what the load left unbalanced before
+     * anything moved */
     assert_done(&c, brc_simulation_set_state(c.simulation, u, NULL));
     const double first = free_residual(&c, imposed, &first_left_over);
     if (!(residual < 1e-5 * first)) fail_msg("residual %g of the load", residual / first);
@@ -209,7 +230,8 @@ static void loads_that_do_not_balance_are_refused(void **state)
                                  .stages = "  - name: push\n    solver: {static: {increments: 1}}\n    loads:\n"
                                            "      - traction: {set: x+, x: 1 uPa, y: 0, z: 0}\n"});
     assert_int_equal(brc_simulation_run(c.simulation), BRC_PHYSICS_STOPPED);
-    assert_non_null(strstr(brc_context_message(c.context), "check that the loads balance or the supports hold the body"));
+    assert_non_null(
+        strstr(brc_context_message(c.context), "check that the loads balance or the supports hold the body"));
     close_case(&c);
 }
 
@@ -217,9 +239,11 @@ static void overlapping_components_are_refused(void **state)
 {
     (void)state;
     bench_case c; /* the overlap is in the sets' members, which only the solver knows */
-    open_case(&c, (case_options){.sets = "sets:\n  corner: {faces: {box: {from: [-1 m, -1 m, -1 m], to: [2 m, 0.2 m, 2 m]}}}\n",
-                                 .stages = "  - name: push\n    solver: {static: {increments: 1}}\n    loads:\n"
-                                           "      - face_displacement: {set: x-, x: 0, y: 0, z: 0}\n      - face_displacement: {set: corner, y: 1 mm}\n"});
+    open_case(&c, (case_options){
+                      .sets = "sets:\n  corner: {faces: {box: {from: [-1 m, -1 m, -1 m], to: [2 m, 0.2 m, 2 m]}}}\n",
+                      .stages = "  - name: push\n    solver: {static: {increments: 1}}\n    loads:\n"
+                                "      - face_displacement: {set: x-, x: 0, y: 0, z: 0}\n      - face_displacement: "
+                                "{set: corner, y: 1 mm}\n"});
     assert_int_equal(brc_simulation_begin_stage(c.simulation, 0), BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(c.context), "give each component of a face to one load"));
     close_case(&c);
@@ -228,8 +252,8 @@ static void overlapping_components_are_refused(void **state)
 static void cube_modes_are_near_the_exact_ones(void **state)
 {
     (void)state;
-    /* rad/s for E = rho = L = 1, nu 0.2 (docs/notebook/theory.md T7); 512 relaxed cells: 0.2 to 1.1 % were measured by the
-     * prototype at 1000 and 216 cells, 1.5 % is the bound for every single mode here */
+    /* rad/s for E = rho = L = 1, nu 0.2 (docs/notebook/theory.md T7); 512 relaxed cells: 0.2 to 1.1 % were measured by
+     * the prototype at 1000 and 216 cells, 1.5 % is the bound for every single mode here */
     const double exact[8] = {1.8433, 1.8433, 2.4637, 2.4637, 2.4637, 2.5192, 2.5192, 2.5192};
     bench_case c;
     open_case(&c, (case_options){.fill = "cells: [8, 8, 8], spread: 90 %, lloyd: 5, seed: 1",
@@ -243,8 +267,9 @@ static void cube_modes_are_near_the_exact_ones(void **state)
     close_case(&c);
 }
 
-/* Rigid motions are exact from the start, and what rounding leaves of them must not grow in the search space, whatever the draw: of twenty-four cubes some used to find no mode
- * at all. 64 cells as they come: those above are twice as fine, relaxed, and held to 1.5 %; second order makes 6 % of that, no relaxation some more. */
+/* Rigid motions are exact from the start, and what rounding leaves of them must not grow in the search space, whatever
+ * the draw: of twenty-four cubes some used to find no mode at all. 64 cells as they come: those above are twice as
+ * fine, relaxed, and held to 1.5 %; second order makes 6 % of that, no relaxation some more. */
 static void modes_of_small_cubes_are_found_whatever_the_draw(void **state)
 {
     (void)state;
@@ -274,8 +299,10 @@ static void published_modes_lock_near_incompressibility(void **state)
     double rms[3], mean[3];
     for (int k = 0; k < 3; ++k) {
         bench_case c;
-        open_case(&c, (case_options){.model = cases[k].model, .materials = "  stone: {E: 1 Pa, nu: 0.49, density: 1 kg/m^3}",
-                                     .fill = cases[k].fill, .stages = "  - name: ring\n    solver: {modes: {count: 8}}\n"});
+        open_case(&c, (case_options){.model = cases[k].model,
+                                     .materials = "  stone: {E: 1 Pa, nu: 0.49, density: 1 kg/m^3}",
+                                     .fill = cases[k].fill,
+                                     .stages = "  - name: ring\n    solver: {modes: {count: 8}}\n"});
         assert_done(&c, brc_simulation_run(c.simulation));
         int32_t n;
         const double *modes = brc_simulation_modes(c.simulation, &n);
@@ -291,7 +318,8 @@ static void published_modes_lock_near_incompressibility(void **state)
     if (!(rms[1] < rms[0] * pow(6.0 / 8, 1.7))) fail_msg("dlsm %g, refined %g", rms[0], rms[1]);
     /* the published law locks: too stiff, so modes are too high, and by more than half of its error is bias, while the
      * conservative one at equal cells is less than half as wrong */
-    if (!(mean[2] > 0.5 * rms[2] && rms[2] > 2 * rms[0])) fail_msg("dlsm %g, published %g (mean %g)", rms[0], rms[2], mean[2]);
+    if (!(mean[2] > 0.5 * rms[2] && rms[2] > 2 * rms[0]))
+        fail_msg("dlsm %g, published %g (mean %g)", rms[0], rms[2], mean[2]);
 }
 
 int main(void)

@@ -10,7 +10,8 @@ static void eq_22_is_the_printed_polynomial(void **state)
 {
     (void)state;
     const double c = 8.3, r = 0.37, *p = brc_strength_law_published()->paper;
-    const double by_hand = p[0] + p[1] * c + p[2] * c * c + r * (p[3] + p[4] * c + p[5] * c * c + p[6] * c * c * c) + r * r * (p[7] + p[8] * c + p[9] * c * c);
+    const double by_hand = p[0] + p[1] * c + p[2] * c * c + r * (p[3] + p[4] * c + p[5] * c * c + p[6] * c * c * c) +
+                           r * r * (p[7] + p[8] * c + p[9] * c * c);
     assert_true(fabs(brc_strength_law_ratio(brc_strength_law_published(), c, r) - by_hand) <= 1e-13);
 }
 
@@ -29,7 +30,8 @@ static void the_surface_at_its_corners_is_the_sum_of_its_coefficients(void **sta
     assert_true(fabs(brc_strength_law_ratio(law, law->coordination[0], law->radius[0]) - near) <= 1e-13);
 }
 
-/* Samples are stronger with more bonds and thicker beams; 0.5 %: what the fit may ripple between its nodes (its own error, docs/notebook/beams-calibration.md). */
+/* Samples are stronger with more bonds and thicker beams; 0.5 %: what the fit may ripple between its nodes (its own
+ * error, docs/notebook/beams-calibration.md). */
 static void k_grows_with_bonds_and_thickness(void **state)
 {
     (void)state;
@@ -52,7 +54,8 @@ static void a_sample_outside_the_law_is_refused_with_the_cure(void **state)
     for (int i = 0; i < 2; ++i) {
         assert_int_equal(brc_strength_law_find(context, laws[i], 10, 0.5, &k), BRC_OK);
         assert_true(k == brc_strength_law_ratio(laws[i], 10, 0.5));
-        assert_int_equal(brc_strength_law_find(context, laws[i], 1.11 * laws[i]->coordination[1], 0.5, &k), BRC_BAD_INPUT);
+        assert_int_equal(brc_strength_law_find(context, laws[i], 1.11 * laws[i]->coordination[1], 0.5, &k),
+                         BRC_BAD_INPUT);
         assert_non_null(strstr(brc_context_message(context), laws[i]->name));
         assert_int_equal(brc_strength_law_find(context, laws[i], 10, 0.89 * laws[i]->radius[0], &k), BRC_BAD_INPUT);
         assert_non_null(strstr(brc_context_message(context), "`beam: {strength: ...}`"));
@@ -60,8 +63,9 @@ static void a_sample_outside_the_law_is_refused_with_the_cure(void **state)
     brc_context_free(&context);
 }
 
-/* The fit leaves errors of the discs in the file beside it that no polynomial of its kind could take away: least squares, so their sum with 1, x, x^2, x^3, r_m and x r_m is nothing (1e-4 of the
- * sum of their sizes: six digits of the law and of the file). And it is no worse than discs scatter: 1.73 % (laws/disc.h), 3 % for the mean of four. */
+/* The fit leaves errors of the discs in the file beside it that no polynomial of its kind could take away: least
+ * squares, so their sum with 1, x, x^2, x^3, r_m and x r_m is nothing (1e-4 of the sum of their sizes: six digits of
+ * the law and of the file). And it is no worse than discs scatter: 1.73 % (laws/disc.h), 3 % for the mean of four. */
 static void what_discs_read_is_the_fit_of_the_file_beside_it(void **state)
 {
     (void)state;
@@ -77,7 +81,8 @@ static void what_discs_read_is_the_fit_of_the_file_beside_it(void **state)
         assert_int_equal(sscanf(line, "%*[^,],%lf,%lf,%*d,%lf", &cn, &radius, &measured), 3);
         assert_int_equal(brc_strength_law_disc(context, cn, radius, &ratio), BRC_OK);
         const double x = cn - 10, terms[BRC_STRENGTH_LAW_DISC] = {1, x, x * x, x * x * x, radius, x * radius};
-        for (int k = 0; k < BRC_STRENGTH_LAW_DISC; ++k) error[k] += (ratio - measured) * terms[k], size[k] += fabs((ratio - measured) * terms[k]);
+        for (int k = 0; k < BRC_STRENGTH_LAW_DISC; ++k)
+            error[k] += (ratio - measured) * terms[k], size[k] += fabs((ratio - measured) * terms[k]);
         of_four += (measured / ratio - 1) / 4;
         if (++n % 4) continue;
         assert_true(fabs(of_four) < 0.03);
@@ -85,7 +90,8 @@ static void what_discs_read_is_the_fit_of_the_file_beside_it(void **state)
     }
     fclose(file);
     assert_int_equal(n, 128);
-    for (int k = 0; k < BRC_STRENGTH_LAW_DISC; ++k) assert_true(fabs(error[k]) < 1e-4 * size[k]);
+    for (int k = 0; k < BRC_STRENGTH_LAW_DISC; ++k)
+        assert_true(fabs(error[k]) < 1e-4 * size[k]);
     double ratio;
     assert_int_equal(brc_strength_law_disc(context, 5.3, 0.4, &ratio), BRC_BAD_INPUT);
     assert_int_equal(brc_strength_law_disc(context, 10, 0.6, &ratio), BRC_BAD_INPUT);
@@ -102,7 +108,8 @@ static void what_discs_read_is_the_fit_of_the_file_beside_it(void **state)
     brc_context_free(&context);
 }
 
-/* Bars and discs are off by as much, bars by 3.7 % at most: no bound of NAH19's discs asks for more (docs/notebook/beams-tests.md). */
+/* Bars and discs are off by as much, bars by 3.7 % at most: no bound of NAH19's discs asks for more
+ * (docs/notebook/beams-tests.md). */
 static void a_strength_from_either_test_is_shared(void **state)
 {
     (void)state;

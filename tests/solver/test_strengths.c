@@ -50,15 +50,24 @@ static row *new_row(int32_t n, int step)
         }
     }
     r->row_start[n] = h;
-    r->domain = (brc_domain){.element_kind = BRC_ELEMENT_CELL, .n_elements = n, .n_bonds = n - 1, .n_half_edges = h, .position = r->position,
-                             .row_start = r->row_start, .neighbour = r->neighbour, .twin = r->twin, .bond = r->bond,
-                             .area_vector = r->area, .bond_half_edge = r->bond_half_edge};
+    r->domain = (brc_domain){.element_kind = BRC_ELEMENT_CELL,
+                             .n_elements = n,
+                             .n_bonds = n - 1,
+                             .n_half_edges = h,
+                             .position = r->position,
+                             .row_start = r->row_start,
+                             .neighbour = r->neighbour,
+                             .twin = r->twin,
+                             .bond = r->bond,
+                             .area_vector = r->area,
+                             .bond_half_edge = r->bond_half_edge};
     r->scene.materials = r->material;
     r->scene.n_materials = 3;
     r->scene.interfaces = r->interface;
     r->scene.has_fracture = true;
     strcpy(r->scene.folder, ".");
-    for (int m = 0; m < 3; ++m) snprintf(r->material[m].name, BRC_NAME, "%c", 'a' + m);
+    for (int m = 0; m < 3; ++m)
+        snprintf(r->material[m].name, BRC_NAME, "%c", 'a' + m);
     r->material[0].tension = 5;
     return r;
 }
@@ -94,12 +103,14 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Kolmogorov's statistic of shares that should be uniform in (0, 1), times sqrt n. By chance it is above 1.95 once in 1000. */
+/* Kolmogorov's statistic of shares that should be uniform in (0, 1), times sqrt n. By chance it is above 1.95 once in
+ * 1000. */
 static double kolmogorov(double *share, int n)
 {
     double worst = 0;
     qsort(share, (size_t)n, sizeof *share, ascending);
-    for (int k = 0; k < n; ++k) worst = fmax(worst, fmax((k + 1.0) / n - share[k], share[k] - (double)k / n));
+    for (int k = 0; k < n; ++k)
+        worst = fmax(worst, fmax((k + 1.0) / n - share[k], share[k] - (double)k / n));
     return worst * sqrt(n);
 }
 static const double KOLMOGOROV_LEVEL = 1.95;
@@ -127,7 +138,8 @@ static void weibull_factors_have_their_distribution(void **state)
     free_row(r);
 }
 
-/* The weakest of 20 bonds is a bond of 20 times the volume: that of a strength of a bar of 20 of them is the same law. */
+/* The weakest of 20 bonds is a bond of 20 times the volume: that of a strength of a bar of 20 of them is the same
+ * law. */
 static void the_weakest_of_many_follows_the_volume_of_all(void **state)
 {
     (void)state;
@@ -138,7 +150,8 @@ static void the_weakest_of_many_follows_the_volume_of_all(void **state)
     make(r);
     for (int g = 0; g < 2000; ++g) {
         double weakest = INFINITY;
-        for (int k = 0; k < 20; ++k) weakest = fmin(weakest, r->strengths.factor[20 * g + k]);
+        for (int k = 0; k < 20; ++k)
+            weakest = fmin(weakest, r->strengths.factor[20 * g + k]);
         share[g] = -expm1(-pow(weakest, modulus) * 20 * volume / reference);
     }
     assert_true(kolmogorov(share, 2000) < KOLMOGOROV_LEVEL);
@@ -157,7 +170,8 @@ static void larger_bonds_are_weaker_by_the_power_of_their_volume(void **state)
     for (int b = 0; b < 100; ++b) {
         const double volume = (1 + b % 10) * 2.0 / 3;
         assert_true(fabs(brc_strengths_volume(&same->domain, b) / volume - 1) < 4e-16);
-        assert_true(fabs(sized->strengths.factor[b] / same->strengths.factor[b] / pow(0.25 / volume, 1.0 / 12) - 1) < 1e-14);
+        assert_true(fabs(sized->strengths.factor[b] / same->strengths.factor[b] / pow(0.25 / volume, 1.0 / 12) - 1) <
+                    1e-14);
     }
     free_row(same), free_row(sized);
 }
@@ -165,7 +179,8 @@ static void larger_bonds_are_weaker_by_the_power_of_their_volume(void **state)
 static void factors_of_a_table_have_its_quantiles(void **state)
 {
     (void)state;
-    brc_quantile table[] = {{0, 0.5}, {0.25, 0.8}, {0.25, 0.9}, {0.75, 1.1}, {1, 3}}; /* with a gap: none between 0.8 and 0.9 */
+    brc_quantile table[] = {
+        {0, 0.5}, {0.25, 0.8}, {0.25, 0.9}, {0.75, 1.1}, {1, 3}}; /* with a gap: none between 0.8 and 0.9 */
     row *r = new_row(20001, 1);
     double *share = calloc(MOST, sizeof *share);
     r->material[0].scatter = (brc_scatter){.kind = BRC_SCATTER_TABLE, .n_quantiles = 5, .quantiles = table};
@@ -173,7 +188,9 @@ static void factors_of_a_table_have_its_quantiles(void **state)
     for (int64_t b = 0; b < r->domain.n_bonds; ++b) {
         const double f = r->strengths.factor[b];
         assert_true((f >= 0.5 && f <= 0.8) || (f >= 0.9 && f <= 3));
-        share[b] = f <= 0.8 ? (f - 0.5) / 0.3 * 0.25 : f <= 1.1 ? 0.25 + (f - 0.9) / 0.2 * 0.5 : 0.75 + (f - 1.1) / 1.9 * 0.25;
+        share[b] = f <= 0.8   ? (f - 0.5) / 0.3 * 0.25
+                   : f <= 1.1 ? 0.25 + (f - 0.9) / 0.2 * 0.5
+                              : 0.75 + (f - 1.1) / 1.9 * 0.25;
     }
     assert_true(kolmogorov(share, (int)r->domain.n_bonds) < KOLMOGOROV_LEVEL);
     free(share);
@@ -216,7 +233,9 @@ static void without_scatter_and_interfaces_all_factors_are_1(void **state)
     r->material_of[2] = r->material_of[3] = 1; /* a a b b a */
     make(r);
     static const double tension[4] = {5, 3, 3, 3}, energy[4] = {0, 7, 7, 7};
-    for (int b = 0; b < 4; ++b) assert_true(r->strengths.factor[b] == 1 && r->strengths.tension[b] == tension[b] && r->strengths.energy[b] == energy[b]);
+    for (int b = 0; b < 4; ++b)
+        assert_true(r->strengths.factor[b] == 1 && r->strengths.tension[b] == tension[b] &&
+                    r->strengths.energy[b] == energy[b]);
     assert_true(!is_weighted(r) && r->strengths.softens);
     free_row(r);
 }
@@ -234,17 +253,21 @@ static void interfaces_are_found_by_grain_and_material_and_the_last_one_wins(voi
     r->material[2].tension = 2, r->material[2].fracture_energy = 6;
     r->interface[0] = (brc_interface){.kind = BRC_INTERFACE_GRAINS, .factor = 0.5};
     r->interface[1] = (brc_interface){.kind = BRC_INTERFACE_MATERIALS, .material = {1, 0}, .tension = 1};
-    r->interface[2] = (brc_interface){.kind = BRC_INTERFACE_MATERIALS, .material = {1, 2}, .tension = 8, .fracture_energy = 9};
+    r->interface[2] =
+        (brc_interface){.kind = BRC_INTERFACE_MATERIALS, .material = {1, 2}, .tension = 8, .fracture_energy = 9};
     r->scene.n_interfaces = 3;
     make(r);
     static const double tension[5] = {5, 1, 2, 4, 8}, factor[5] = {1, 0.25, 0.5, 1, 4}, energy[5] = {0, 10, 5, 10, 9};
     for (int b = 0; b < 5; ++b)
-        assert_true(r->strengths.tension[b] == tension[b] && r->strengths.factor[b] == factor[b] && r->strengths.energy[b] == energy[b]);
+        assert_true(r->strengths.tension[b] == tension[b] && r->strengths.factor[b] == factor[b] &&
+                    r->strengths.energy[b] == energy[b]);
     assert_true(is_weighted(r));
-    r->interface[3] = (brc_interface){.kind = BRC_INTERFACE_GRAINS, .fracture_energy = 3}; /* its factor left out is 1 */
+    r->interface[3] =
+        (brc_interface){.kind = BRC_INTERFACE_GRAINS, .fracture_energy = 3}; /* its factor left out is 1 */
     r->scene.n_interfaces = 4;
     make(r);
-    assert_true(r->strengths.tension[2] == 4 && r->strengths.energy[2] == 3 && r->strengths.tension[4] == 2 && r->strengths.energy[4] == 3);
+    assert_true(r->strengths.tension[2] == 4 && r->strengths.energy[2] == 3 && r->strengths.tension[4] == 2 &&
+                r->strengths.energy[4] == 3);
     free_row(r);
 }
 
@@ -279,8 +302,11 @@ static void an_interface_of_given_tension_needs_one_to_compare_with(void **state
     r->material[0] = (brc_material){.name = "a", .beam_strength = 9};
     r->interface[0] = (brc_interface){.kind = BRC_INTERFACE_MATERIALS, .tension = 1};
     r->scene.n_interfaces = 1;
-    assert_int_equal(brc_strengths_create(r->context, &r->scene, &r->domain, r->material_of, &r->strengths), BRC_BAD_INPUT);
-    assert_non_null(strstr(brc_context_message(r->context), "interfaces, number 1: a tension of 1 Pa is compared with that of its materials, and 'a' has none"));
+    assert_int_equal(brc_strengths_create(r->context, &r->scene, &r->domain, r->material_of, &r->strengths),
+                     BRC_BAD_INPUT);
+    assert_non_null(
+        strstr(brc_context_message(r->context),
+               "interfaces, number 1: a tension of 1 Pa is compared with that of its materials, and 'a' has none"));
     r->interface[0] = (brc_interface){.kind = BRC_INTERFACE_MATERIALS, .factor = 0.5};
     make(r);
     assert_true(r->strengths.factor[1] == 0.5);
@@ -319,11 +345,14 @@ static void files_that_name_no_bond_are_refused_where_they_do(void **state)
         const char *text, *sentence;
     } bad[] = {
         {"element_i,element_j,factor\n0,2,1\n", "factors.csv:2:1: no bond joins elements 0 and 2"},
-        {"element_i,element_j,factor\n0,1,1\n1,4,1\n", "factors.csv:3:3: element_j is 4, expected the id of an element, 0 to 3"},
+        {"element_i,element_j,factor\n0,1,1\n1,4,1\n",
+         "factors.csv:3:3: element_j is 4, expected the id of an element, 0 to 3"},
         {"element_i,element_j,factor\n0.5,1,1\n", "factors.csv:2:1: element_i is 0.5, expected the id of an element"},
         {"element_i,element_j,factor\n0,1,-1\n", "factors.csv:2:5: factor is -1, must be > 0"},
-        {"element_i,element_j,factor\n0,1,1\n1,0,2\n", "factors.csv:3:1: a second factor for the bond of elements 1 and 0"},
-        {"element_i,element_j\n0,1\n", "factors.csv:1:1: no column 'factor', expected a row of names: element_i, element_j and factor"},
+        {"element_i,element_j,factor\n0,1,1\n1,0,2\n",
+         "factors.csv:3:1: a second factor for the bond of elements 1 and 0"},
+        {"element_i,element_j\n0,1\n",
+         "factors.csv:1:1: no column 'factor', expected a row of names: element_i, element_j and factor"},
         {"element_i,element_j,factor\n0,1,x\n", "factors.csv:2:5:"},
     };
     row *r = new_row(4, 1);
@@ -333,14 +362,16 @@ static void files_that_name_no_bond_are_refused_where_they_do(void **state)
         assert_null(r->strengths.factor);
     }
     strcpy(r->material[0].scatter.file, "nowhere.csv");
-    assert_int_equal(brc_strengths_create(r->context, &r->scene, &r->domain, r->material_of, &r->strengths), BRC_BAD_INPUT);
+    assert_int_equal(brc_strengths_create(r->context, &r->scene, &r->domain, r->material_of, &r->strengths),
+                     BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(r->context), "nowhere.csv"));
     free_row(r);
 }
 
 /* ---- volumes of real samples ---- */
 
-/* The pyramids over all faces fill the cells, those over free faces are the rest; the parts of spheres fill the solid. Sums of 1e4 terms. */
+/* The pyramids over all faces fill the cells, those over free faces are the rest; the parts of spheres fill the solid.
+ * Sums of 1e4 terms. */
 static void volumes_of_bonds_fill_the_solid(void **state)
 {
     (void)state;
@@ -348,18 +379,22 @@ static void volumes_of_bonds_fill_the_solid(void **state)
     brc_log_set_level(context, BRC_LOG_ERROR);
     for (int spheres = 0; spheres < 2; ++spheres) {
         brc_build_request request = {.shape = {.kind = BRC_SHAPE_BOX, .size = {1, 2, 3}}};
-        request.fill = spheres ? (brc_fill){.kind = BRC_FILL_PACKING, .n_elements = 500, .radius_spread = 0.125, .coordination = 6.2}
-                               : (brc_fill){.kind = BRC_FILL_NOISY_GRID, .n_elements = 500, .spread = 0.9};
+        request.fill =
+            spheres
+                ? (brc_fill){.kind = BRC_FILL_PACKING, .n_elements = 500, .radius_spread = 0.125, .coordination = 6.2}
+                : (brc_fill){.kind = BRC_FILL_NOISY_GRID, .n_elements = 500, .spread = 0.9};
         request.beams = spheres ? 8 : 0;
         brc_domain *d = NULL;
         if (brc_domain_build(context, &request, &d) != BRC_OK) fail_msg("%s", brc_context_message(context));
         double sum = 0;
-        for (int64_t b = 0; b < d->n_bonds; ++b) sum += brc_strengths_volume(d, b);
+        for (int64_t b = 0; b < d->n_bonds; ++b)
+            sum += brc_strengths_volume(d, b);
         for (int64_t e = 0; e < d->n_elements; ++e)
             if (spheres && d->row_start[e + 1] == d->row_start[e]) sum += d->volume[e] / d->quality.volume_fraction;
         for (int64_t f = 0; f < d->n_free_faces; ++f)
             for (int c = 0; c < 3; ++c)
-                sum += d->free_area_vector[3 * f + c] * (d->free_centroid[3 * f + c] - d->position[3 * d->free_element[f] + c]) / 3;
+                sum += d->free_area_vector[3 * f + c] *
+                       (d->free_centroid[3 * f + c] - d->position[3 * d->free_element[f] + c]) / 3;
         assert_true(fabs(sum / 6 - 1) < 1e-9);
         brc_domain_free(&d);
     }

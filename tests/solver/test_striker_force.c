@@ -1,4 +1,5 @@
-/* Free strikers under a prescribed force: alone, in gravity, on elastic columns; what is booked, and what a checkpoint has of it. */
+/* Free strikers under a prescribed force: alone, in gravity, on elastic columns; what is booked, and what a checkpoint
+ * has of it. */
 #include "state_cases.h"
 #include "../../host/solver/strikers_internal.h"
 #include <math.h>
@@ -7,12 +8,17 @@
 
 #define STEEL "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3}\n  steel: {E: 10 Pa, nu: 0.2, density: 1000 kg/m^3}"
 #define FILL "cells: [2, 2, 2], spread: 50 %, seed: 1"
-#define BRICK(motion) "interactions: {contact: {}}\nstrikers:\n  brick: {shape: {box: {size: [1 m, 1 m, 1 m], origin: [10 m, 0, 0]}}, material: steel, motion: {free: {" motion "}}}\n"
+#define BRICK(motion)                                                                                                  \
+    "interactions: {contact: {}}\nstrikers:\n  brick: {shape: {box: {size: [1 m, 1 m, 1 m], origin: [10 m, 0, 0]}}, "  \
+    "material: steel, motion: {free: {" motion "}}}\n"
 #define STAGE(steps) "  - name: move\n    solver: {dynamic: {steps: " steps ", time_step: 1 ms}}\n"
 
 static void open_alone(bench_case *c, const char *keys, const char *stages)
 {
-    open_case(c, (case_options){.materials = STEEL, .fill = FILL, .gravity = keys, .stages = stages, .n_threads = 1, .no_contact = true});
+    open_case(
+        c,
+        (case_options){
+            .materials = STEEL, .fill = FILL, .gravity = keys, .stages = stages, .n_threads = 1, .no_contact = true});
     begin_first(c);
 }
 
@@ -23,7 +29,8 @@ static brc_striker_now now_of(bench_case *c, int32_t striker)
     return now;
 }
 
-/* x = F t^2 / 2m, v = F t / m, W = F x = m v^2 / 2 are exact for velocity Verlet under a constant force, but for roundings of 1000 steps; mass 1000 kg. */
+/* x = F t^2 / 2m, v = F t / m, W = F x = m v^2 / 2 are exact for velocity Verlet under a constant force, but for
+ * roundings of 1000 steps; mass 1000 kg. */
 static void a_mass_under_a_constant_force_follows_the_parabola(void **state)
 {
     (void)state;
@@ -40,8 +47,9 @@ static void a_mass_under_a_constant_force_follows_the_parabola(void **state)
     close_case(&c);
 }
 
-/* A force that rises as F t / T: v = F t^2 / 2 m T exactly, as its kicks are trapezoids; x = (F t^3 - F t dt^2) / 6 m T, a third difference left out each step. Its work is the energy,
- * to roundings, after the first step too. After T the force stays. */
+/* A force that rises as F t / T: v = F t^2 / 2 m T exactly, as its kicks are trapezoids; x = (F t^3 - F t dt^2) / 6 m
+ * T, a third difference left out each step. Its work is the energy, to roundings, after the first step too. After T the
+ * force stays. */
 static void a_force_follows_its_table_and_its_work_is_booked(void **state)
 {
     (void)state;
@@ -64,7 +72,8 @@ static void a_force_follows_its_table_and_its_work_is_booked(void **state)
     close_case(&c);
 }
 
-/* Gravity comes on top, a rail takes what is across it, and Tchamwa-Wielgosz books what it loses: the energy is kept to roundings of the terms. */
+/* Gravity comes on top, a rail takes what is across it, and Tchamwa-Wielgosz books what it loses: the energy is kept to
+ * roundings of the terms. */
 static void gravity_rails_and_integrators_go_with_it(void **state)
 {
     (void)state;
@@ -72,13 +81,18 @@ static void gravity_rails_and_integrators_go_with_it(void **state)
     for (int k = 0; k < 2; ++k) {
         bench_case c;
         char stages[200];
-        snprintf(stages, sizeof stages, "  - name: move\n    solver: {dynamic: {steps: 100, time_step: 1 ms%s}}\n", integrator[k]);
-        open_alone(&c, "gravity: [3 m/s^2, 0, -10 m/s^2]\n" BRICK("force: [0, 0, 4000 N], mass: 500 kg, hold: {x: true, rotation: true}"), stages);
+        snprintf(stages, sizeof stages, "  - name: move\n    solver: {dynamic: {steps: 100, time_step: 1 ms%s}}\n",
+                 integrator[k]);
+        open_alone(&c,
+                   "gravity: [3 m/s^2, 0, -10 m/s^2]\n" BRICK(
+                       "force: [0, 0, 4000 N], mass: 500 kg, hold: {x: true, rotation: true}"),
+                   stages);
         run_steps(&c, 100);
         const brc_striker_now now = now_of(&c, 0);
         brc_striker_energies e;
         assert_done(&c, brc_strikers_energies(c.simulation, &e));
-        assert_true(fabs(now.velocity[2] + 0.2) < 1e-13 && now.displacement[0] == 0); /* 4000 / 500 - 10 = -2 m/s^2, 0.1 s */
+        assert_true(fabs(now.velocity[2] + 0.2) < 1e-13 &&
+                    now.displacement[0] == 0); /* 4000 / 500 - 10 = -2 m/s^2, 0.1 s */
         assert_true(fabs(e.kinetic + e.potential + e.numerical - e.work) < 1e-12 * fabs(e.work));
         assert_true(e.work < 0 && (k == 0) == (e.numerical == 0));
         close_case(&c);
@@ -87,9 +101,14 @@ static void gravity_rails_and_integrators_go_with_it(void **state)
 
 /* ---- a platen on a column: E 1 Pa, 1 m x 1 m x 1 m, so k = E A / L = 1 N/m of the column ---- */
 
-#define PRESSED(platens, damping, solver) \
-    (case_options){.materials = STEEL, .fill = "cells: [3, 3, 6], spread: 0 %", .gravity = "interactions: {contact: {damping: " damping "}}\nplatens: {axis: z, friction: 0, material: steel, " platens "}\n", \
-                   .stages = "  - name: press\n    solver: {dynamic: {" solver "}}\n", .n_threads = 1}
+#define PRESSED(platens, damping, solver)                                                                              \
+    (case_options)                                                                                                     \
+    {                                                                                                                  \
+        .materials = STEEL, .fill = "cells: [3, 3, 6], spread: 0 %",                                                   \
+        .gravity = "interactions: {contact: {damping: " damping                                                        \
+                   "}}\nplatens: {axis: z, friction: 0, material: steel, " platens "}\n",                              \
+        .stages = "  - name: press\n    solver: {dynamic: {" solver "}}\n", .n_threads = 1                             \
+    }
 enum { LOW, HIGH };
 
 /* Mean displacement along z of the layer of cells at a height: 1/12 m below or above the ends of six layers [m]. */
@@ -106,8 +125,10 @@ static double layer(bench_case *c, double height)
     return sum / n;
 }
 
-/* Drag of the column and dashpots of its surfaces bring it to rest: the column between the middles of its end layers, 5/6 m apart, is shortened by 5/6 F / k, and all of the force goes through. What is left of the motion after
- * 40 s is e^-40 or less; at a strain of 1e-4 the law of St. Venant and Kirchhoff gives way by 3/2 of that more than the linear one, 1.5e-4. */
+/* Drag of the column and dashpots of its surfaces bring it to rest: the column between the middles of its end layers,
+ * 5/6 m apart, is shortened by 5/6 F / k, and all of the force goes through. What is left of the motion after 40 s is
+ * e^-40 or less; at a strain of 1e-4 the law of St. Venant and Kirchhoff gives way by 3/2 of that more than the linear
+ * one, 1.5e-4. */
 static void a_pressed_column_rests_at_force_over_stiffness(void **state)
 {
     (void)state;
@@ -116,15 +137,18 @@ static void a_pressed_column_rests_at_force_over_stiffness(void **state)
     open_case(&c, PRESSED("force: 0.1 mN, mass: 10 g", "50 %", "duration: 40 s, mass_damping: 2 1/s"));
     begin_first(&c);
     run_steps(&c, (int64_t)(40 / brc_simulation_time_step(c.simulation).value));
-    const double shortened = layer(&c, 1.0 / 12) - layer(&c, 11.0 / 12), low = now_of(&c, LOW).force[2], high = now_of(&c, HIGH).force[2];
+    const double shortened = layer(&c, 1.0 / 12) - layer(&c, 11.0 / 12), low = now_of(&c, LOW).force[2],
+                 high = now_of(&c, HIGH).force[2];
     assert_true(fabs(shortened / (5.0 / 6 * force) - 1) < 2e-4);
     assert_true(fabs(high / force - 1) < 1e-4 && fabs(low / force + 1) < 1e-4 && now_of(&c, HIGH).applied[2] == -force);
     close_case(&c);
 }
 
-/* Put on at once without drag, a platen of 100 times the column's mass goes twice as far as it rests, and the column then bears 2 F; the column's own mass, a third of it, is 0.3 % of what moves. Waves through the
- * column add up to sqrt(m / M) of the force at most: 10 %, and the mean over a wave's way through and back has less. Way: of the platen, twice that of static equilibrium, which is F over the stiffness
- * of column and surfaces in a row, taken from the oscillation's own period, 2 pi sqrt(M / k). */
+/* Put on at once without drag, a platen of 100 times the column's mass goes twice as far as it rests, and the column
+ * then bears 2 F; the column's own mass, a third of it, is 0.3 % of what moves. Waves through the column add up to
+ * sqrt(m / M) of the force at most: 10 %, and the mean over a wave's way through and back has less. Way: of the platen,
+ * twice that of static equilibrium, which is F over the stiffness of column and surfaces in a row, taken from the
+ * oscillation's own period, 2 pi sqrt(M / k). */
 static void a_force_put_on_at_once_goes_twice_as_far(void **state)
 {
     (void)state;
@@ -150,7 +174,8 @@ static void a_force_put_on_at_once_goes_twice_as_far(void **state)
     close_case(&c);
 }
 
-/* From rest it falls through a gap that a list of contacts, looked over a quarter of a second before, does not see coming: the first step that ends below the gap has contact. */
+/* From rest it falls through a gap that a list of contacts, looked over a quarter of a second before, does not see
+ * coming: the first step that ends below the gap has contact. */
 static void a_pushed_striker_is_seen_coming(void **state)
 {
     (void)state;
@@ -170,9 +195,12 @@ static void a_pushed_striker_is_seen_coming(void **state)
 static void a_run_goes_on_from_its_checkpoint(void **state)
 {
     (void)state;
-    const case_options pressed = {.materials = CELLS_STRENGTH("2e-3 Pa"), .fill = "cells: [3, 3, 3], spread: 50 %, seed: 1", .n_threads = 1,
-                                  .gravity = "fracture: {criterion: bond-normal}\nplatens: {axis: z, force: 20 mN, mass: 0.5 kg, ramp: 5 s}\n",
-                                  .stages = "  - name: press\n    solver: {dynamic: {steps: 1200, time_step: {auto: {safety: 0.4}}}}\n"};
+    const case_options pressed = {
+        .materials = CELLS_STRENGTH("2e-3 Pa"),
+        .fill = "cells: [3, 3, 3], spread: 50 %, seed: 1",
+        .n_threads = 1,
+        .gravity = "fracture: {criterion: bond-normal}\nplatens: {axis: z, force: 20 mN, mass: 0.5 kg, ramp: 5 s}\n",
+        .stages = "  - name: press\n    solver: {dynamic: {steps: 1200, time_step: {auto: {safety: 0.4}}}}\n"};
     assert_true(state_resumes((state_case){.cells = &pressed}, (int[]){2, 4, 0}) > 4);
 }
 

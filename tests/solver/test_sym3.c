@@ -7,13 +7,15 @@ static void eigenvectors_rebuild_the_matrix(void **state)
     (void)state;
     for (uint64_t trial = 0; trial < 200; ++trial) {
         double a[6], values[3], v[3][3], back[6] = {0};
-        for (uint64_t c = 0; c < 6; ++c) a[c] = random_at(6 * trial + c) * (trial % 7 == 0 ? 1e-9 : 1) * (c > 2 && trial % 5 == 0 ? 0 : 1);
+        for (uint64_t c = 0; c < 6; ++c)
+            a[c] = random_at(6 * trial + c) * (trial % 7 == 0 ? 1e-9 : 1) * (c > 2 && trial % 5 == 0 ? 0 : 1);
         brc_sym3_eigen(a, values, v);
         assert_true(values[0] <= values[1] && values[1] <= values[2]);
         static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
         double size = fabs(values[0]) + fabs(values[2]);
         for (int c = 0; c < 6; ++c) {
-            for (int k = 0; k < 3; ++k) back[c] += values[k] * v[k][pair[c][0]] * v[k][pair[c][1]];
+            for (int k = 0; k < 3; ++k)
+                back[c] += values[k] * v[k][pair[c][0]] * v[k][pair[c][1]];
             assert_true(fabs(back[c] - a[c]) <= 1e-14 * size); /* a few roundings */
         }
     }
@@ -30,7 +32,8 @@ static void inverse_times_matrix_is_identity(void **state)
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
             double sum = 0;
-            for (int k = 0; k < 3; ++k) sum += m[i][k] * n[k][j];
+            for (int k = 0; k < 3; ++k)
+                sum += m[i][k] * n[k][j];
             assert_true(fabs(sum - (i == j)) < 1e-14);
         }
 }

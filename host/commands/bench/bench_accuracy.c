@@ -39,12 +39,15 @@ static const char *text_of(const brc_case_run *run, const char *axis, const char
 /* Axes that are no columns of a point. */
 static void add_variant(const brc_case_run *run, char *out, size_t size)
 {
-    static const char *const known[] = {"elements", "nu", "model", "preparation", "precision", "coordination", "level", "dt_fraction", "phi", "integrator", "seed"};
+    static const char *const known[] = {"elements", "nu",          "model", "preparation", "precision", "coordination",
+                                        "level",    "dt_fraction", "phi",   "integrator",  "seed"};
     for (int k = 0; k < run->n_labels; ++k) {
         size_t i = 0;
-        while (i < sizeof known / sizeof *known && strcmp(known[i], run->labels[k].key) != 0) ++i;
+        while (i < sizeof known / sizeof *known && strcmp(known[i], run->labels[k].key) != 0)
+            ++i;
         const size_t used = strlen(out);
-        if (i == sizeof known / sizeof *known) snprintf(out + used, size - used, "%s%s %s", used ? "; " : "", run->labels[k].key, run->labels[k].value);
+        if (i == sizeof known / sizeof *known)
+            snprintf(out + used, size - used, "%s%s %s", used ? "; " : "", run->labels[k].key, run->labels[k].value);
     }
 }
 
@@ -53,12 +56,14 @@ static void name_quantity(const brc_sweep *sweep, const brc_case_run *run, char 
 {
     const char *mark = strchr(sweep->quantity, '$');
     if (mark)
-        snprintf(out, size, "%.*s%s%s", (int)(mark - sweep->quantity), sweep->quantity, text_of(run, "level", ""), mark + 1);
+        snprintf(out, size, "%.*s%s%s", (int)(mark - sweep->quantity), sweep->quantity, text_of(run, "level", ""),
+                 mark + 1);
     else
         snprintf(out, size, "%s", sweep->quantity);
 }
 
-static void fill_point(const brc_sweep *sweep, int k, const brc_outcome *outcome, const brc_device_request *device, brc_accuracy_point *p)
+static void fill_point(const brc_sweep *sweep, int k, const brc_outcome *outcome, const brc_device_request *device,
+                       brc_accuracy_point *p)
 {
     const brc_case_run *run = &sweep->what.runs[k];
     *p = brc_accuracy_point_empty();
@@ -122,11 +127,13 @@ static void print_point(const brc_accuracy_point *p)
     if (isnan(p->error))
         printf("%.80s\n", p->note);
     else
-        printf("error %9.3e  build %8.3g s  run %8.3g s  cost %8.3g s  %6.1f M/s\n", p->error, p->build_s, p->run_s, p->seconds, 1e3 / p->ns_per_bond_update);
+        printf("error %9.3e  build %8.3g s  run %8.3g s  cost %8.3g s  %6.1f M/s\n", p->error, p->build_s, p->run_s,
+               p->seconds, 1e3 / p->ns_per_bond_update);
     fflush(stdout);
 }
 
-static brc_status in_folder(const brc_accuracy_points *points, const char *folder, const char *name, brc_status (*use)(const brc_accuracy_points *, const char *))
+static brc_status in_folder(const brc_accuracy_points *points, const char *folder, const char *name,
+                            brc_status (*use)(const brc_accuracy_points *, const char *))
 {
     char *path;
     BRC_TRY(brc_file_join(points->context, folder, name, &path));
@@ -136,14 +143,20 @@ static brc_status in_folder(const brc_accuracy_points *points, const char *folde
 }
 
 /* Every run of one problem that is wanted and not there yet. */
-static brc_status carry_out(const brc_session *session, const brc_accuracy_request *request, const char *problem, brc_accuracy_points *points)
+static brc_status carry_out(const brc_session *session, const brc_accuracy_request *request, const char *problem,
+                            brc_accuracy_points *points)
 {
     brc_context *context = session->context;
     brc_sweep *sweep;
     char *folder = NULL;
     BRC_TRY(brc_sweep_read(context, request->folder, problem, &sweep));
     brc_status status = brc_file_join(context, request->output, problem, &folder);
-    brc_campaign campaign = {.session = session, .what = &sweep->what, .folder = folder, .device = request->device, .n_threads = request->n_threads, .priced = true};
+    brc_campaign campaign = {.session = session,
+                             .what = &sweep->what,
+                             .folder = folder,
+                             .device = request->device,
+                             .n_threads = request->n_threads,
+                             .priced = true};
     for (int k = 0; status == BRC_OK && k < sweep->what.n_runs; ++k) {
         const brc_case_run *run = &sweep->what.runs[k];
         if ((request->quick && !run->quick) || brc_accuracy_points_find(points, problem, run->name)) continue;
@@ -154,7 +167,8 @@ static brc_status carry_out(const brc_session *session, const brc_accuracy_reque
         fill_point(sweep, k, &outcome, &device, &point);
         print_point(&point);
         BRC_TRY_OR(cleanup, brc_accuracy_points_add(points, &point));
-        BRC_TRY_OR(cleanup, in_folder(points, request->output, "curves.csv", brc_accuracy_points_write)); /* a bench that is stopped keeps its points */
+        BRC_TRY_OR(cleanup, in_folder(points, request->output, "curves.csv",
+                                      brc_accuracy_points_write)); /* a bench that is stopped keeps its points */
     }
 cleanup:
     brc_sample_store_free(&campaign.samples);
@@ -184,8 +198,10 @@ static brc_status read_earlier(const brc_accuracy_request *request, brc_accuracy
     brc_status status = BRC_OK;
     BRC_TRY(brc_file_join(points->context, request->output, "curves.csv", &path));
     if (brc_file_exists(path))
-        status = request->resume ? brc_accuracy_points_read(points, path)
-                                 : BRC_FAIL(points->context, BRC_BAD_INPUT, "%s is there already; --resume goes on with it, or choose another folder", path);
+        status = request->resume
+                     ? brc_accuracy_points_read(points, path)
+                     : BRC_FAIL(points->context, BRC_BAD_INPUT,
+                                "%s is there already; --resume goes on with it, or choose another folder", path);
     brc_memory_free(path);
     return status;
 }
@@ -196,10 +212,12 @@ static int list_problems(const brc_accuracy_request *request, char names[PROBLEM
     int n = 0, length;
     const char *name;
     if (request->n_problems > 0) {
-        for (; n < request->n_problems && n < PROBLEMS_MOST; ++n) snprintf(names[n], 64, "%s", request->problems[n]);
+        for (; n < request->n_problems && n < PROBLEMS_MOST; ++n)
+            snprintf(names[n], 64, "%s", request->problems[n]);
         return n;
     }
-    for (; n < PROBLEMS_MOST && (name = brc_sweep_name(n, &length)); ++n) snprintf(names[n], 64, "%.*s", length, name);
+    for (; n < PROBLEMS_MOST && (name = brc_sweep_name(n, &length)); ++n)
+        snprintf(names[n], 64, "%.*s", length, name);
     return n;
 }
 
@@ -213,7 +231,8 @@ brc_status brc_bench_accuracy(const brc_session *session, const brc_accuracy_req
     if (!isatty(STDERR_FILENO)) brc_log_set_level(context, BRC_LOG_WARNING); /* the points tell how far it is */
     BRC_TRY(brc_file_make_folder(context, request->output));
     BRC_TRY_OR(cleanup, read_earlier(request, &points));
-    for (int k = 0; k < n; ++k) BRC_TRY_OR(cleanup, carry_out(session, request, names[k], &points));
+    for (int k = 0; k < n; ++k)
+        BRC_TRY_OR(cleanup, carry_out(session, request, names[k], &points));
     status = write_results(request, &points);
     if (status == BRC_OK) printf("%lld points; %s/accuracy.md\n", (long long)points.n, request->output);
 cleanup:
@@ -229,7 +248,8 @@ brc_status brc_bench_accuracy_list(brc_context *context, const char *folder)
         brc_sweep *sweep;
         int quick = 0;
         BRC_TRY(brc_sweep_read(context, folder, names[k], &sweep));
-        for (int r = 0; r < sweep->what.n_runs; ++r) quick += sweep->what.runs[r].quick;
+        for (int r = 0; r < sweep->what.n_runs; ++r)
+            quick += sweep->what.runs[r].quick;
         printf("%-18s %s (%d runs, %d with --quick)\n", names[k], sweep->what.title, sweep->what.n_runs, quick);
         brc_sweep_free(&sweep);
     }

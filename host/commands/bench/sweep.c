@@ -21,7 +21,9 @@ static brc_status keep(brc_context *context, brc_sweep *sweep, const char *text,
     const size_t bytes = strlen(text) + 1;
     if (!sweep->texts || sweep->texts->used + bytes > TEXT_BYTES) {
         struct brc_sweep_texts *fresh;
-        if (bytes > TEXT_BYTES) return BRC_FAIL(context, BRC_BAD_INPUT, "%s: a text of %zu characters, at most %d", sweep->problem, bytes, TEXT_BYTES);
+        if (bytes > TEXT_BYTES)
+            return BRC_FAIL(context, BRC_BAD_INPUT, "%s: a text of %zu characters, at most %d", sweep->problem, bytes,
+                            TEXT_BYTES);
         BRC_TRY(BRC_ALLOCATE(context, &fresh, 1, "texts of a sweep"));
         fresh->next = sweep->texts;
         sweep->texts = fresh;
@@ -60,7 +62,8 @@ static void fill_in(char *out, size_t size, const char *template, const char *va
 }
 
 /* What setting an axis to a value means: overrides, or the precision. */
-static brc_status apply(const brc_case_reader *r, brc_sweep *sweep, const brc_node *axis, const char *value, brc_case_run *run)
+static brc_status apply(const brc_case_reader *r, brc_sweep *sweep, const brc_node *axis, const char *value,
+                        brc_case_run *run)
 {
     static const char *const precisions[] = {"double", "mixed", "single"};
     const char *templates[BRC_CASE_LIST];
@@ -94,7 +97,7 @@ static brc_status apply(const brc_case_reader *r, brc_sweep *sweep, const brc_no
 static brc_status add_run(const brc_case_reader *r, brc_sweep *sweep, const expansion *x, const int *choice)
 {
     char name[144] = "";
-    brc_case_run run = {.scene = x->scene, .quick = x->quick, .operator = x->operator, .n_seeds = 1, .may_stop = true};
+    brc_case_run run = {.scene = x->scene, .quick = x->quick, .operator= x->operator, .n_seeds = 1, .may_stop = true};
     for (int a = 0; a < x->n_axes; ++a) {
         const char *value = x->value[a][choice[a]];
         const size_t used = strlen(name);
@@ -113,9 +116,11 @@ static brc_status add_run(const brc_case_reader *r, brc_sweep *sweep, const expa
     BRC_TRY(keep(r->context, sweep, name, &run.name));
     const int64_t n = sweep->what.n_runs;
     BRC_TRY(brc_memory_resize(r->context, (void **)&sweep->what.runs, n + 1, sizeof run, "runs of a sweep"));
-    BRC_TRY(brc_memory_resize(r->context, (void **)&sweep->sweep_of, n + 1, sizeof *sweep->sweep_of, "runs of a sweep"));
+    BRC_TRY(
+        brc_memory_resize(r->context, (void **)&sweep->sweep_of, n + 1, sizeof *sweep->sweep_of, "runs of a sweep"));
     sweep->what.runs[n] = run;
-    BRC_TRY(brc_memory_resize(r->context, (void **)&sweep->reference_of, n + 1, sizeof *sweep->reference_of, "runs of a sweep"));
+    BRC_TRY(brc_memory_resize(r->context, (void **)&sweep->reference_of, n + 1, sizeof *sweep->reference_of,
+                              "runs of a sweep"));
     sweep->sweep_of[n] = x->name;
     sweep->reference_of[n] = x->reference;
     sweep->what.n_runs = (int)(n + 1);
@@ -128,7 +133,8 @@ static brc_status add_runs(const brc_case_reader *r, brc_sweep *sweep, const exp
     for (;;) {
         BRC_TRY(add_run(r, sweep, x, choice));
         int a = x->n_axes - 1; /* the last axis runs fastest */
-        while (a >= 0 && ++choice[a] == x->n_values[a]) choice[a--] = 0;
+        while (a >= 0 && ++choice[a] == x->n_values[a])
+            choice[a--] = 0;
         if (a < 0) return BRC_OK;
     }
 }
@@ -140,29 +146,37 @@ static void take_values(const brc_case_reader *r, const brc_node *node, expansio
     if (node->kind == BRC_NODE_SCALAR) {
         x->value[a][x->n_values[a]++] = node->text;
     } else if (node->kind == BRC_NODE_LIST && node->n_children >= 1 && node->n_children <= VALUES) {
-        for (const brc_node *item = node->first; item; item = item->next) x->value[a][x->n_values[a]++] = brc_case_text_of(r, item);
+        for (const brc_node *item = node->first; item; item = item->next)
+            x->value[a][x->n_values[a]++] = brc_case_text_of(r, item);
     } else {
         brc_case_wrong(r, node, "a value or a list of at most " BRC_STRING(64) " values");
         x->value[a][x->n_values[a]++] = "";
     }
 }
 
-static brc_status read_sweep(const brc_case_reader *r, const brc_node *node, const brc_node *scenes, const brc_operator *operator, brc_sweep *sweep)
+static brc_status read_sweep(const brc_case_reader *r, const brc_node *node, const brc_node *scenes,
+                             const brc_operator *operator, brc_sweep * sweep)
 {
     expansion *x = NULL;
     const brc_node *scene_name = node->kind == BRC_NODE_MAP ? brc_node_find(node, "scene") : NULL;
     const char *scene = scene_name ? brc_case_text_of(r, scene_name) : "scene.yaml";
-    const brc_node *described = brc_node_find(scenes, scene), *axes = described ? brc_node_find(described, "axes") : NULL;
+    const brc_node *described = brc_node_find(scenes, scene),
+                   *axes = described ? brc_node_find(described, "axes") : NULL;
     const brc_node *defaults = described ? brc_node_find(described, "defaults") : NULL;
-    if (node->kind != BRC_NODE_MAP || !axes || axes->kind != BRC_NODE_MAP || axes->n_children > AXES || (defaults && defaults->kind != BRC_NODE_MAP)) {
+    if (node->kind != BRC_NODE_MAP || !axes || axes->kind != BRC_NODE_MAP || axes->n_children > AXES ||
+        (defaults && defaults->kind != BRC_NODE_MAP)) {
         brc_case_wrong(r, node, "a map with the axes of a scene that `scenes` describes");
         return BRC_OK;
     }
     BRC_TRY(BRC_ALLOCATE(r->context, &x, 1, "sweep"));
     const brc_node *reference = brc_node_find(described, "reference");
-    *x = (expansion){.name = "", .scene = scene, .operator = operator, .reference = reference ? brc_case_number_of(r, reference) : sweep->reference};
+    *x = (expansion){.name = "",
+                     .scene = scene,
+                     .operator= operator,
+                     .reference = reference ? brc_case_number_of(r, reference) : sweep->reference };
     for (const brc_node *axis = axes->first; axis; axis = axis->next) {
-        const brc_node *given = brc_node_find(node, axis->key), *otherwise = defaults ? brc_node_find(defaults, axis->key) : NULL;
+        const brc_node *given = brc_node_find(node, axis->key),
+                       *otherwise = defaults ? brc_node_find(defaults, axis->key) : NULL;
         const int a = x->n_axes++;
         x->axis[a] = axis;
         x->n_values[a] = 1;
@@ -186,7 +200,7 @@ static brc_status read_top(const brc_case_reader *r, const brc_node *root, brc_s
 {
     static const char *const costs[] = {"run", "crossings", NULL};
     const brc_node *scenes = NULL, *sweeps = NULL;
-    const brc_operator *operator = &brc_operator_measures;
+    const brc_operator *operator= & brc_operator_measures;
     double half_angle = 0;
     for (const brc_node *item = root->kind == BRC_NODE_MAP ? root->first : NULL; item; item = item->next) {
         if (strcmp(item->key, "title") == 0)
@@ -200,7 +214,7 @@ static brc_status read_top(const brc_case_reader *r, const brc_node *root, brc_s
         else if (strcmp(item->key, "reference") == 0)
             sweep->reference = brc_case_number_of(r, item);
         else if (strcmp(item->key, "with") == 0)
-            operator = brc_operator_of(r, item);
+            operator= brc_operator_of(r, item);
         else if (strcmp(item->key, "half_angle") == 0)
             half_angle = brc_case_number_of(r, item);
         else if (strcmp(item->key, "cost") == 0)
@@ -213,8 +227,10 @@ static brc_status read_top(const brc_case_reader *r, const brc_node *root, brc_s
             brc_case_unknown_key(r, item, "problem");
     }
     if (!scenes || !sweeps || !sweep->quantity[0]) brc_case_wrong(r, root, "a map with quantity, scenes and sweeps");
-    for (const brc_node *item = scenes && sweeps ? sweeps->first : NULL; item; item = item->next) BRC_TRY(read_sweep(r, item, scenes, operator, sweep));
-    for (int k = 0; k < sweep->what.n_runs; ++k) sweep->what.runs[k].half_angle = half_angle;
+    for (const brc_node *item = scenes && sweeps ? sweeps->first : NULL; item; item = item->next)
+        BRC_TRY(read_sweep(r, item, scenes, operator, sweep));
+    for (int k = 0; k < sweep->what.n_runs; ++k)
+        sweep->what.runs[k].half_angle = half_angle;
     return BRC_OK;
 }
 
@@ -223,7 +239,9 @@ static int problem_part(const char *path)
 {
     static const char before[] = "accuracy/", after[] = "/sweep.yaml";
     const size_t length = strlen(path), rest = sizeof before - 1 + sizeof after - 1;
-    if (length <= rest || strncmp(path, before, sizeof before - 1) != 0 || strcmp(path + length - (sizeof after - 1), after) != 0) return 0;
+    if (length <= rest || strncmp(path, before, sizeof before - 1) != 0 ||
+        strcmp(path + length - (sizeof after - 1), after) != 0)
+        return 0;
     return (int)(length - rest);
 }
 
@@ -252,7 +270,8 @@ brc_status brc_sweep_read(brc_context *context, const char *folder, const char *
     sweep->unit = "-";
     sweep->reference = NAN;
     sweep->what = (brc_case){.name = sweep->name, .title = "", .about = "", .folder = folder};
-    BRC_TRY_OR(cleanup, brc_case_parse(context, folder, sweep->name, "sweep.yaml", shown, &sweep->what.tree, &problems, &root));
+    BRC_TRY_OR(cleanup,
+               brc_case_parse(context, folder, sweep->name, "sweep.yaml", shown, &sweep->what.tree, &problems, &root));
     const brc_case_reader r = {context, problems};
     if (root) BRC_TRY_OR(cleanup, read_top(&r, root, sweep));
     BRC_TRY_OR(cleanup, brc_problems_report(problems));

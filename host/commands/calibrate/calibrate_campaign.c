@@ -5,14 +5,16 @@
 
 #define BEAM_POISSON 0.3
 
-static const char header[] = "elements,radius_spread,seed,axis,cn,r_m,E_m_Pa,E_ratio,nu,nu_y,nu_z,inner,bonds,loose,iterations,seconds\n";
+static const char header[] =
+    "elements,radius_spread,seed,axis,cn,r_m,E_m_Pa,E_ratio,nu,nu_y,nu_z,inner,bonds,loose,iterations,seconds\n";
 
 static void print_line(const void *row, char *out, size_t room)
 {
     const brc_calibration_row *r = row;
-    snprintf(out, room, "%lld,%.17g,%llu,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld,%lld,%.3f\n", (long long)r->n_elements,
-                    r->radius_spread, (unsigned long long)r->seed, r->axis, r->coordination, r->radius, r->beam_young, r->young, r->poisson, r->lateral[0],
-                    r->lateral[1], r->inner, (long long)r->n_bonds, (long long)r->n_loose, (long long)r->iterations, r->seconds);
+    snprintf(out, room, "%lld,%.17g,%llu,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld,%lld,%.3f\n",
+             (long long)r->n_elements, r->radius_spread, (unsigned long long)r->seed, r->axis, r->coordination,
+             r->radius, r->beam_young, r->young, r->poisson, r->lateral[0], r->lateral[1], r->inner,
+             (long long)r->n_bonds, (long long)r->n_loose, (long long)r->iterations, r->seconds);
 }
 
 static bool parse_line(const char *line, void *row)
@@ -21,8 +23,10 @@ static bool parse_line(const char *line, void *row)
     long long elements, bonds, loose, iterations;
     unsigned long long seed;
     int end = 0;
-    const int n = sscanf(line, "%lld,%lf,%llu,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lld,%lld,%lld,%lf%n", &elements, &r->radius_spread, &seed, &r->axis,
-                         &r->coordination, &r->radius, &r->beam_young, &r->young, &r->poisson, &r->lateral[0], &r->lateral[1], &r->inner, &bonds, &loose, &iterations, &r->seconds, &end);
+    const int n =
+        sscanf(line, "%lld,%lf,%llu,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lld,%lld,%lld,%lf%n", &elements,
+               &r->radius_spread, &seed, &r->axis, &r->coordination, &r->radius, &r->beam_young, &r->young, &r->poisson,
+               &r->lateral[0], &r->lateral[1], &r->inner, &bonds, &loose, &iterations, &r->seconds, &end);
     r->n_elements = elements;
     r->seed = seed;
     r->n_bonds = bonds;
@@ -40,23 +44,29 @@ static int count(const void *plan)
 static void key(const void *plan, uint64_t seed, double coordination, int k, void *row)
 {
     const brc_calibration_plan *p = plan;
-    *(brc_calibration_row *)row = (brc_calibration_row){.n_elements = p->n_elements, .radius_spread = p->radius_spread, .seed = seed,
-                                                        .axis = k / p->n_youngs / p->n_radii, .coordination = coordination,
-                                                        .radius = p->radius[k / p->n_youngs % p->n_radii], .beam_young = p->young[k % p->n_youngs]};
+    *(brc_calibration_row *)row = (brc_calibration_row){.n_elements = p->n_elements,
+                                                        .radius_spread = p->radius_spread,
+                                                        .seed = seed,
+                                                        .axis = k / p->n_youngs / p->n_radii,
+                                                        .coordination = coordination,
+                                                        .radius = p->radius[k / p->n_youngs % p->n_radii],
+                                                        .beam_young = p->young[k % p->n_youngs]};
 }
 
 static bool same(const void *row, const void *wanted)
 {
     const brc_calibration_row *a = row, *b = wanted;
-    return a->n_elements == b->n_elements && a->radius_spread == b->radius_spread && a->seed == b->seed && a->axis == b->axis &&
-           a->coordination == b->coordination && a->radius == b->radius && a->beam_young == b->beam_young;
+    return a->n_elements == b->n_elements && a->radius_spread == b->radius_spread && a->seed == b->seed &&
+           a->axis == b->axis && a->coordination == b->coordination && a->radius == b->radius &&
+           a->beam_young == b->beam_young;
 }
 
 static brc_status test(brc_context *context, brc_device *device, const brc_domain *domain, void *row)
 {
     brc_calibration_row *r = row;
     brc_beam_answer answer;
-    const brc_beam_pull pull = {.axis = r->axis, .radius = r->radius, .beam_poisson = BEAM_POISSON, .beam_young = r->beam_young};
+    const brc_beam_pull pull = {
+        .axis = r->axis, .radius = r->radius, .beam_poisson = BEAM_POISSON, .beam_young = r->beam_young};
     BRC_TRY(brc_beam_sample_pull(context, device, domain, &pull, &answer));
     r->young = answer.young;
     r->poisson = answer.poisson;
@@ -80,11 +90,22 @@ static int compare(const void *left, const void *right)
     return 0;
 }
 
-brc_status brc_calibrate_campaign(brc_context *context, const brc_calibration_plan *plan, const char *folder, bool resume, brc_calibration_rows *out)
+brc_status brc_calibrate_campaign(brc_context *context, const brc_calibration_plan *plan, const char *folder,
+                                  bool resume, brc_calibration_rows *out)
 {
-    static const brc_sample_campaign_kind kind = {.file = "solves.csv", .header = header, .title = "calibration", .unit = "solves", .edge = 1,
-                                           .row_size = sizeof(brc_calibration_row), .count = count, .key = key, .same = same, .compare = compare,
-                                           .print = print_line, .parse = parse_line, .test = test};
+    static const brc_sample_campaign_kind kind = {.file = "solves.csv",
+                                                  .header = header,
+                                                  .title = "calibration",
+                                                  .unit = "solves",
+                                                  .edge = 1,
+                                                  .row_size = sizeof(brc_calibration_row),
+                                                  .count = count,
+                                                  .key = key,
+                                                  .same = same,
+                                                  .compare = compare,
+                                                  .print = print_line,
+                                                  .parse = parse_line,
+                                                  .test = test};
     brc_sample_campaign_rows rows;
     const brc_status status = brc_sample_campaign_run(context, &kind, plan, plan, folder, resume, &rows);
     *out = (brc_calibration_rows){.n = rows.n, .capacity = rows.capacity, .rows = rows.row};

@@ -38,7 +38,8 @@ brc_status brc_ensemble_each(brc_context *context, int n_threads, int64_t n_task
             fail(&first, BRC_NO_MEMORY, "no memory for the threads of a campaign");
         } else {
             brc_log_set_level(own, BRC_LOG_ERROR);
-            const brc_status status = brc_device_open(own, &(brc_device_request){.selector = "cpu", .n_threads = 1}, &device);
+            const brc_status status =
+                brc_device_open(own, &(brc_device_request){.selector = "cpu", .n_threads = 1}, &device);
             if (status != BRC_OK) fail(&first, status, brc_context_message(own));
         }
 #pragma omp for schedule(dynamic, 1)
@@ -54,14 +55,17 @@ brc_status brc_ensemble_each(brc_context *context, int n_threads, int64_t n_task
 }
 
 /* Whole lines of an earlier campaign; a torn last line is cut off the file. */
-static brc_status read_file(brc_context *context, const char *path, const char *header, brc_ensemble_line take, void *self)
+static brc_status read_file(brc_context *context, const char *path, const char *header, brc_ensemble_line take,
+                            void *self)
 {
     char *text = NULL;
     size_t bytes;
     brc_status status = BRC_OK;
     BRC_TRY(brc_file_read_whole(context, path, FILE_BYTES_MOST, &text, &bytes));
     if (strncmp(text, header, strlen(header)) != 0)
-        BRC_TRY_OR(cleanup, BRC_FAIL(context, BRC_BAD_INPUT, "%s: not a file of `breccia calibrate` of this version; choose another folder", path));
+        BRC_TRY_OR(cleanup,
+                   BRC_FAIL(context, BRC_BAD_INPUT,
+                            "%s: not a file of `breccia calibrate` of this version; choose another folder", path));
     char *line = text + strlen(header);
     for (long long number = 2; *line; ++number) {
         char *end = strchr(line, '\n');
@@ -69,7 +73,9 @@ static brc_status read_file(brc_context *context, const char *path, const char *
         *end = '\0';
         const bool good = take(self, line, &status);
         *end = '\n';
-        if (!good) BRC_TRY_OR(cleanup, BRC_FAIL(context, BRC_BAD_INPUT, "%s:%lld: not a result; remove the line to have it run again", path, number));
+        if (!good)
+            BRC_TRY_OR(cleanup, BRC_FAIL(context, BRC_BAD_INPUT,
+                                         "%s:%lld: not a result; remove the line to have it run again", path, number));
         BRC_TRY_OR(cleanup, status);
         line = end + 1;
     }
@@ -84,15 +90,16 @@ static brc_status no_file(brc_context *context, const char *path)
     return BRC_FAIL(context, BRC_FILE_FAILED, "%s cannot be written: %s", path, strerror(errno));
 }
 
-brc_status brc_ensemble_open(brc_context *context, const char *folder, const char *name, const char *header, bool resume, brc_ensemble_line take,
-                             void *self, brc_ensemble_file *out)
+brc_status brc_ensemble_open(brc_context *context, const char *folder, const char *name, const char *header,
+                             bool resume, brc_ensemble_line take, void *self, brc_ensemble_file *out)
 {
     *out = (brc_ensemble_file){0};
     BRC_TRY(brc_file_make_folder(context, folder));
     BRC_TRY(brc_file_join(context, folder, name, &out->path));
     const bool there = brc_file_exists(out->path);
     if (there && !resume)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%s is there already; --resume goes on with it, or choose another folder", out->path);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "%s is there already; --resume goes on with it, or choose another folder", out->path);
     if (there) BRC_TRY(read_file(context, out->path, header, take, self));
     out->file = fopen(out->path, "a");
     if (!out->file || (!there && fputs(header, out->file) < 0)) return no_file(context, out->path);

@@ -20,6 +20,7 @@ void brc_equations_free(brc_equations *e)
 brc_status brc_equations_solve(brc_context *context, brc_equations *e)
 {
     if (e->m < e->n || LAPACKE_dgels(LAPACK_ROW_MAJOR, 'N', e->m, e->n, 1, e->a, e->n, e->b, 1) != 0)
-        return BRC_FAIL(context, BRC_INTERNAL, "the %d equations of a fit do not determine its %d coefficients", e->m, e->n);
+        return BRC_FAIL(context, BRC_INTERNAL, "the %d equations of a fit do not determine its %d coefficients", e->m,
+                        e->n);
     return BRC_OK;
 }

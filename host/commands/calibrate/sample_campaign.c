@@ -29,7 +29,10 @@ typedef union row {
     int64_t aligned_too;
 } row;
 
-static void *row_at(const work *w, const brc_sample_campaign_rows *rows, int64_t k) { return (char *)rows->row + (size_t)k * w->kind->row_size; }
+static void *row_at(const work *w, const brc_sample_campaign_rows *rows, int64_t k)
+{
+    return (char *)rows->row + (size_t)k * w->kind->row_size;
+}
 
 static brc_status add_row(brc_context *context, const work *w, brc_sample_campaign_rows *rows, const void *added)
 {
@@ -84,11 +87,16 @@ static brc_status pack(void *self, brc_context *context, brc_device *device, int
     const brc_calibration_plan *s = w->samples;
     const double edge = w->kind->edge;
     const brc_shape shape = {.kind = BRC_SHAPE_BOX, .size = {edge, edge, edge}};
-    const brc_fill fill = {.kind = BRC_FILL_PACKING, .n_elements = s->n_elements, .seed = s->seed + (uint64_t)sample, .radius_spread = s->radius_spread,
-                           .coordination = CONTACTS, .tolerance = CONTACTS_TOLERANCE};
+    const brc_fill fill = {.kind = BRC_FILL_PACKING,
+                           .n_elements = s->n_elements,
+                           .seed = s->seed + (uint64_t)sample,
+                           .radius_spread = s->radius_spread,
+                           .coordination = CONTACTS,
+                           .tolerance = CONTACTS_TOLERANCE};
     int missing = 0;
     (void)device;
-    for (int c = 0; c < s->n_coordinations; ++c) missing += count_missing(w, sample, s->coordination[c]);
+    for (int c = 0; c < s->n_coordinations; ++c)
+        missing += count_missing(w, sample, s->coordination[c]);
     return missing ? brc_beam_sample_pack(context, &shape, &fill, 1, &w->sample[sample]) : BRC_OK;
 }
 
@@ -137,35 +145,45 @@ static brc_status take_finished(work *w, int64_t *missing)
                 row key;
                 key_of(w, sample, w->samples->coordination[c], k, &key);
                 const void *there = find(w, &key);
-                if (there) BRC_TRY(add_row(w->context, w, w->rows, there));
-                else ++*missing;
+                if (there)
+                    BRC_TRY(add_row(w->context, w, w->rows, there));
+                else
+                    ++*missing;
             }
     return BRC_OK;
 }
 
-brc_status brc_sample_campaign_run(brc_context *context, const brc_sample_campaign_kind *kind, const brc_calibration_plan *samples, const void *plan, const char *folder,
-                            bool resume, brc_sample_campaign_rows *out)
+brc_status brc_sample_campaign_run(brc_context *context, const brc_sample_campaign_kind *kind,
+                                   const brc_calibration_plan *samples, const void *plan, const char *folder,
+                                   bool resume, brc_sample_campaign_rows *out)
 {
     work w = {.context = context, .kind = kind, .samples = samples, .plan = plan, .rows = out};
     brc_status status = BRC_OK;
     int64_t missing = 0;
     memset(out, 0, sizeof *out);
     if (kind->row_size > ROW_MOST)
-        return BRC_FAIL(context, BRC_INTERNAL, "a row of %s has %zu bytes, campaigns have room for %d", kind->file, kind->row_size, ROW_MOST);
+        return BRC_FAIL(context, BRC_INTERNAL, "a row of %s has %zu bytes, campaigns have room for %d", kind->file,
+                        kind->row_size, ROW_MOST);
     BRC_TRY_OR(cleanup, brc_ensemble_open(context, folder, kind->file, kind->header, resume, take_line, &w, &w.file));
     BRC_TRY_OR(cleanup, take_finished(&w, &missing));
-    if (out->n > 0) brc_log(context, BRC_LOG_INFO, "%s: %lld %s are there, %lld to go", w.file.path, (long long)out->n, kind->unit, (long long)missing);
+    if (out->n > 0)
+        brc_log(context, BRC_LOG_INFO, "%s: %lld %s are there, %lld to go", w.file.path, (long long)out->n, kind->unit,
+                (long long)missing);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &w.sample, samples->n_samples, "samples of a campaign"));
     if (missing > 0) {
         BRC_TRY_OR(cleanup, brc_ensemble_each(context, samples->n_threads, samples->n_samples, pack, &w));
         BRC_TRY_OR(cleanup, brc_progress_create(context, &w.file.progress, kind->title, missing, kind->unit, 0, NULL));
-        BRC_TRY_OR(cleanup, brc_ensemble_each(context, samples->n_threads, (int64_t)samples->n_samples * samples->n_coordinations, test_all, &w));
+        BRC_TRY_OR(cleanup, brc_ensemble_each(context, samples->n_threads,
+                                              (int64_t)samples->n_samples * samples->n_coordinations, test_all, &w));
     }
     if (out->n > 0) qsort(out->row, (size_t)out->n, kind->row_size, kind->compare);
 cleanup:
-    if (status == BRC_OK) status = brc_ensemble_close(context, &w.file);
-    else brc_ensemble_close(context, &w.file);
-    for (int k = 0; w.sample && k < samples->n_samples; ++k) brc_beam_sample_free(&w.sample[k]);
+    if (status == BRC_OK)
+        status = brc_ensemble_close(context, &w.file);
+    else
+        brc_ensemble_close(context, &w.file);
+    for (int k = 0; w.sample && k < samples->n_samples; ++k)
+        brc_beam_sample_free(&w.sample[k]);
     brc_memory_free(w.sample);
     brc_memory_free(w.before.row);
     if (status != BRC_OK) {

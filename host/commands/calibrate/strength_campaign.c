@@ -9,14 +9,16 @@
 #define EDGE 2e-3
 #define BEAM_POISSON 0.3
 
-static const char header[] = "elements,radius_spread,seed,axis,cn,r_m,E_m_Pa,sigma_m_Pa,passages,k,k_first,strain,bonds,loose,broken,steps,seconds\n";
+static const char header[] = "elements,radius_spread,seed,axis,cn,r_m,E_m_Pa,sigma_m_Pa,passages,k,k_first,strain,"
+                             "bonds,loose,broken,steps,seconds\n";
 
 static void print_line(const void *row, char *out, size_t room)
 {
     const brc_strength_row *r = row;
-    snprintf(out, room, "%lld,%.17g,%llu,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld,%lld,%lld,%.3f\n", (long long)r->n_elements,
-             r->radius_spread, (unsigned long long)r->seed, r->axis, r->coordination, r->radius, r->beam_young, r->limit, r->passages, r->ratio, r->first,
-             r->strain, (long long)r->n_bonds, (long long)r->n_loose, (long long)r->n_broken, (long long)r->n_steps, r->seconds);
+    snprintf(out, room, "%lld,%.17g,%llu,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%lld,%lld,%lld,%lld,%.3f\n",
+             (long long)r->n_elements, r->radius_spread, (unsigned long long)r->seed, r->axis, r->coordination,
+             r->radius, r->beam_young, r->limit, r->passages, r->ratio, r->first, r->strain, (long long)r->n_bonds,
+             (long long)r->n_loose, (long long)r->n_broken, (long long)r->n_steps, r->seconds);
 }
 
 static bool parse_line(const char *line, void *row)
@@ -25,9 +27,10 @@ static bool parse_line(const char *line, void *row)
     long long elements, bonds, loose, broken, steps;
     unsigned long long seed;
     int end = 0;
-    const int n = sscanf(line, "%lld,%lf,%llu,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lld,%lld,%lld,%lld,%lf%n", &elements, &r->radius_spread, &seed, &r->axis,
-                         &r->coordination, &r->radius, &r->beam_young, &r->limit, &r->passages, &r->ratio, &r->first, &r->strain, &bonds, &loose, &broken,
-                         &steps, &r->seconds, &end);
+    const int n =
+        sscanf(line, "%lld,%lf,%llu,%d,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lld,%lld,%lld,%lld,%lf%n", &elements,
+               &r->radius_spread, &seed, &r->axis, &r->coordination, &r->radius, &r->beam_young, &r->limit,
+               &r->passages, &r->ratio, &r->first, &r->strain, &bonds, &loose, &broken, &steps, &r->seconds, &end);
     r->n_elements = elements;
     r->seed = seed;
     r->n_bonds = bonds;
@@ -47,27 +50,38 @@ static void key(const void *plan, uint64_t seed, double coordination, int k, voi
 {
     const brc_strength_plan *p = plan;
     const brc_calibration_plan *s = &p->samples;
-    const int limit = k % p->n_limits, young = k / p->n_limits % s->n_youngs, radius = k / p->n_limits / s->n_youngs % s->n_radii;
-    *(brc_strength_row *)row = (brc_strength_row){.n_elements = s->n_elements, .radius_spread = s->radius_spread, .seed = seed,
-                                                  .axis = k / p->n_limits / s->n_youngs / s->n_radii, .coordination = coordination,
-                                                  .radius = s->radius[radius], .beam_young = s->young[young], .limit = p->limit[limit],
+    const int limit = k % p->n_limits, young = k / p->n_limits % s->n_youngs,
+              radius = k / p->n_limits / s->n_youngs % s->n_radii;
+    *(brc_strength_row *)row = (brc_strength_row){.n_elements = s->n_elements,
+                                                  .radius_spread = s->radius_spread,
+                                                  .seed = seed,
+                                                  .axis = k / p->n_limits / s->n_youngs / s->n_radii,
+                                                  .coordination = coordination,
+                                                  .radius = s->radius[radius],
+                                                  .beam_young = s->young[young],
+                                                  .limit = p->limit[limit],
                                                   .passages = p->passages};
 }
 
 static bool same(const void *row, const void *wanted)
 {
     const brc_strength_row *a = row, *b = wanted;
-    return a->n_elements == b->n_elements && a->radius_spread == b->radius_spread && a->seed == b->seed && a->axis == b->axis &&
-           a->coordination == b->coordination && a->radius == b->radius && a->beam_young == b->beam_young && a->limit == b->limit &&
-           a->passages == b->passages;
+    return a->n_elements == b->n_elements && a->radius_spread == b->radius_spread && a->seed == b->seed &&
+           a->axis == b->axis && a->coordination == b->coordination && a->radius == b->radius &&
+           a->beam_young == b->beam_young && a->limit == b->limit && a->passages == b->passages;
 }
 
 static brc_status test(brc_context *context, brc_device *device, const brc_domain *domain, void *row)
 {
     brc_strength_row *r = row;
     brc_strength_answer answer;
-    const brc_strength_pull pull = {.axis = r->axis, .radius_spread = r->radius_spread, .radius = r->radius, .beam_poisson = BEAM_POISSON,
-                                    .beam_young = r->beam_young, .limit = r->limit, .passages = r->passages};
+    const brc_strength_pull pull = {.axis = r->axis,
+                                    .radius_spread = r->radius_spread,
+                                    .radius = r->radius,
+                                    .beam_poisson = BEAM_POISSON,
+                                    .beam_young = r->beam_young,
+                                    .limit = r->limit,
+                                    .passages = r->passages};
     BRC_TRY(brc_strength_test(context, device, domain, &pull, &answer));
     r->ratio = answer.ratio;
     r->first = answer.first;
@@ -90,11 +104,22 @@ static int compare(const void *left, const void *right)
     return 0;
 }
 
-brc_status brc_strength_campaign(brc_context *context, const brc_strength_plan *plan, const char *folder, bool resume, brc_strength_rows *out)
+brc_status brc_strength_campaign(brc_context *context, const brc_strength_plan *plan, const char *folder, bool resume,
+                                 brc_strength_rows *out)
 {
-    static const brc_sample_campaign_kind kind = {.file = "tests.csv", .header = header, .title = "fracture tests", .unit = "tests", .edge = EDGE,
-                                           .row_size = sizeof(brc_strength_row), .count = count, .key = key, .same = same, .compare = compare,
-                                           .print = print_line, .parse = parse_line, .test = test};
+    static const brc_sample_campaign_kind kind = {.file = "tests.csv",
+                                                  .header = header,
+                                                  .title = "fracture tests",
+                                                  .unit = "tests",
+                                                  .edge = EDGE,
+                                                  .row_size = sizeof(brc_strength_row),
+                                                  .count = count,
+                                                  .key = key,
+                                                  .same = same,
+                                                  .compare = compare,
+                                                  .print = print_line,
+                                                  .parse = parse_line,
+                                                  .test = test};
     brc_sample_campaign_rows rows;
     const brc_status status = brc_sample_campaign_run(context, &kind, &plan->samples, plan, folder, resume, &rows);
     *out = (brc_strength_rows){.n = rows.n, .capacity = rows.capacity, .rows = rows.row};

@@ -13,21 +13,28 @@ const char *brc_strength_form(int form)
     return names[form];
 }
 
-bool brc_strength_is_fitted(const brc_strength_fit *fit, const brc_strength_row *row) { return row->limit / row->beam_young <= fit->smallest * (1 + 1e-9); }
+bool brc_strength_is_fitted(const brc_strength_fit *fit, const brc_strength_row *row)
+{
+    return row->limit / row->beam_young <= fit->smallest * (1 + 1e-9);
+}
 
 /* Is the test within what a form was fitted to, or the paper says it was? */
 static bool sees(const brc_strength_fit *fit, int form, double coordination, double radius)
 {
     const brc_strength_law *law = &fit->law[form];
-    return coordination >= law->coordination[0] && coordination <= law->coordination[1] && radius >= law->radius[0] - 1e-9 && radius <= law->radius[1] + 1e-9;
+    return coordination >= law->coordination[0] && coordination <= law->coordination[1] &&
+           radius >= law->radius[0] - 1e-9 && radius <= law->radius[1] + 1e-9;
 }
 
 /* The tests that a form is fitted to; *n of them. */
-static void choose(const brc_strength_fit *fit, int form, const brc_strength_rows *rows, const brc_strength_row **seen, int *n)
+static void choose(const brc_strength_fit *fit, int form, const brc_strength_rows *rows, const brc_strength_row **seen,
+                   int *n)
 {
     *n = 0;
     for (int64_t k = 0; k < rows->n; ++k)
-        if (brc_strength_is_fitted(fit, &rows->rows[k]) && sees(fit, form, rows->rows[k].coordination, rows->rows[k].radius)) seen[(*n)++] = &rows->rows[k];
+        if (brc_strength_is_fitted(fit, &rows->rows[k]) &&
+            sees(fit, form, rows->rows[k].coordination, rows->rows[k].radius))
+            seen[(*n)++] = &rows->rows[k];
 }
 
 static brc_status fit_paper(brc_context *context, int n, const brc_strength_row **seen, brc_strength_law *law)
@@ -45,7 +52,8 @@ static brc_status fit_paper(brc_context *context, int n, const brc_strength_row 
 }
 
 /* As many polynomials as the plan's values determine, the rest zero. */
-static brc_status fit_surface(brc_context *context, const brc_strength_plan *plan, int n, const brc_strength_row **seen, brc_strength_law *law)
+static brc_status fit_surface(brc_context *context, const brc_strength_plan *plan, int n, const brc_strength_row **seen,
+                              brc_strength_law *law)
 {
     const int n_radii = plan->samples.n_radii, n_coordinations = plan->samples.n_coordinations;
     const int ni = n_radii < ROWS ? n_radii : ROWS, nj = n_coordinations < COLUMNS ? n_coordinations : COLUMNS;
@@ -55,17 +63,20 @@ static brc_status fit_surface(brc_context *context, const brc_strength_plan *pla
         double terms[ROWS][COLUMNS];
         brc_strength_law_terms(law, seen[k]->coordination, seen[k]->radius, terms);
         for (int i = 0; i < ni; ++i)
-            for (int j = 0; j < nj; ++j) e.a[(k * ni + i) * nj + j] = terms[i][j] / seen[k]->ratio;
+            for (int j = 0; j < nj; ++j)
+                e.a[(k * ni + i) * nj + j] = terms[i][j] / seen[k]->ratio;
         e.b[k] = 1;
     }
     if (status == BRC_OK) status = brc_equations_solve(context, &e);
     for (int i = 0; status == BRC_OK && i < ni; ++i)
-        for (int j = 0; j < nj; ++j) law->surface[i][j] = e.b[i * nj + j];
+        for (int j = 0; j < nj; ++j)
+            law->surface[i][j] = e.b[i * nj + j];
     brc_equations_free(&e);
     return status;
 }
 
-brc_status brc_strength_means(brc_context *context, const brc_strength_fit *fit, const brc_strength_rows *rows, int64_t *n, brc_strength_mean **out)
+brc_status brc_strength_means(brc_context *context, const brc_strength_fit *fit, const brc_strength_rows *rows,
+                              int64_t *n, brc_strength_mean **out)
 {
     *n = 0;
     BRC_TRY(BRC_ALLOCATE(context, out, rows->n, "means of a campaign"));
@@ -73,7 +84,8 @@ brc_status brc_strength_means(brc_context *context, const brc_strength_fit *fit,
         brc_strength_mean mean = {.coordination = rows->rows[k].coordination, .radius = rows->rows[k].radius};
         const int64_t first = k;
         double square = 0;
-        for (; k < rows->n && rows->rows[k].coordination == mean.coordination && rows->rows[k].radius == mean.radius; ++k) {
+        for (; k < rows->n && rows->rows[k].coordination == mean.coordination && rows->rows[k].radius == mean.radius;
+             ++k) {
             if (!brc_strength_is_fitted(fit, &rows->rows[k])) continue;
             ++mean.n;
             mean.ratio += rows->rows[k].ratio;
@@ -82,7 +94,8 @@ brc_status brc_strength_means(brc_context *context, const brc_strength_fit *fit,
         mean.ratio /= mean.n;
         mean.first /= mean.n;
         for (int64_t i = first; i < k; ++i)
-            if (brc_strength_is_fitted(fit, &rows->rows[i])) square += (rows->rows[i].ratio - mean.ratio) * (rows->rows[i].ratio - mean.ratio);
+            if (brc_strength_is_fitted(fit, &rows->rows[i]))
+                square += (rows->rows[i].ratio - mean.ratio) * (rows->rows[i].ratio - mean.ratio);
         mean.scatter = mean.n > 1 ? sqrt(square / (mean.n - 1)) / mean.ratio : NAN;
         (*out)[(*n)++] = mean;
     }
@@ -90,16 +103,18 @@ brc_status brc_strength_means(brc_context *context, const brc_strength_fit *fit,
 }
 
 /* Over the tests that the form was fitted to. */
-static void judge(const brc_strength_fit *fit, int form, int n, const brc_strength_row **seen, int64_t n_means, const brc_strength_mean *means,
-                  brc_fit_quality *out)
+static void judge(const brc_strength_fit *fit, int form, int n, const brc_strength_row **seen, int64_t n_means,
+                  const brc_strength_mean *means, brc_fit_quality *out)
 {
     const brc_strength_law *law = &fit->law[form];
     brc_fit_quality f = {.n = n};
     double mean = 0, left = 0, spread = 0;
     int64_t n_seen = 0;
-    for (int k = 0; k < n; ++k) mean += seen[k]->ratio / n;
+    for (int k = 0; k < n; ++k)
+        mean += seen[k]->ratio / n;
     for (int k = 0; k < n; ++k) {
-        const double off = brc_strength_law_ratio(law, seen[k]->coordination, seen[k]->radius) - seen[k]->ratio, relative = off / seen[k]->ratio;
+        const double off = brc_strength_law_ratio(law, seen[k]->coordination, seen[k]->radius) - seen[k]->ratio,
+                     relative = off / seen[k]->ratio;
         left += off * off;
         spread += (seen[k]->ratio - mean) * (seen[k]->ratio - mean);
         f.worst = fmax(f.worst, fabs(relative));
@@ -122,11 +137,13 @@ static void judge(const brc_strength_fit *fit, int form, int n, const brc_streng
 static int count_from(int n, const double *list, double low)
 {
     int count = 0;
-    for (int k = 0; k < n; ++k) count += list[k] >= low - 1e-9;
+    for (int k = 0; k < n; ++k)
+        count += list[k] >= low - 1e-9;
     return count;
 }
 
-brc_status brc_strength_fit_make(brc_context *context, const brc_strength_plan *plan, const brc_strength_rows *rows, brc_strength_fit *fit)
+brc_status brc_strength_fit_make(brc_context *context, const brc_strength_plan *plan, const brc_strength_rows *rows,
+                                 brc_strength_fit *fit)
 {
     const brc_calibration_plan *s = &plan->samples;
     const brc_strength_row **seen = NULL;
@@ -135,16 +152,19 @@ brc_status brc_strength_fit_make(brc_context *context, const brc_strength_plan *
     brc_status status = BRC_OK;
     memset(fit, 0, sizeof *fit);
     fit->smallest = INFINITY;
-    for (int64_t k = 0; k < rows->n; ++k) fit->smallest = fmin(fit->smallest, rows->rows[k].limit / rows->rows[k].beam_young);
+    for (int64_t k = 0; k < rows->n; ++k)
+        fit->smallest = fmin(fit->smallest, rows->rows[k].limit / rows->rows[k].beam_young);
     const brc_strength_law *published = brc_strength_law_published();
-    const brc_strength_law whole = {.name = "fit of breccia calibrate", .coordination = {s->coordination[0], s->coordination[s->n_coordinations - 1]},
+    const brc_strength_law whole = {.name = "fit of breccia calibrate",
+                                    .coordination = {s->coordination[0], s->coordination[s->n_coordinations - 1]},
                                     .radius = {s->radius[0], s->radius[s->n_radii - 1]}};
     fit->law[BRC_STRENGTH_PUBLISHED] = *published;
     fit->law[BRC_STRENGTH_SURFACE] = fit->law[BRC_STRENGTH_REFITTED] = whole;
     fit->law[BRC_STRENGTH_REFITTED].name = "NAH19 eq. 22, refitted";
     fit->law[BRC_STRENGTH_REFITTED].is_paper = true;
     for (int c = 0; c < 2; ++c) { /* where the paper's form is meant to hold, no farther than the tests reach */
-        fit->law[BRC_STRENGTH_REFITTED].coordination[c] = fmin(fmax(published->coordination[c], whole.coordination[0]), whole.coordination[1]);
+        fit->law[BRC_STRENGTH_REFITTED].coordination[c] =
+            fmin(fmax(published->coordination[c], whole.coordination[0]), whole.coordination[1]);
         fit->law[BRC_STRENGTH_REFITTED].radius[c] = fmin(fmax(published->radius[c], whole.radius[0]), whole.radius[1]);
     }
     fit->made[BRC_STRENGTH_PUBLISHED] = true;

@@ -14,25 +14,31 @@ static void describe(const brc_strength_plan *plan, char *out, size_t room)
 {
     const brc_calibration_plan *s = &plan->samples;
     snprintf(out, room,
-             "%d samples of %lld spheres, %d of their axes, radii +-%g %%, seeds %llu to %llu, %d coordination numbers %g to %g, %d radii %g to %g, %d E_m from %g Pa, "
+             "%d samples of %lld spheres, %d of their axes, radii +-%g %%, seeds %llu to %llu, %d coordination numbers "
+             "%g to %g, %d radii %g to %g, %d E_m from %g Pa, "
              "%d sigma_m from %g Pa, %g passages of a wave to the expected strength",
              s->n_samples, (long long)s->n_elements, s->n_axes, 100 * s->radius_spread, (unsigned long long)s->seed,
-             (unsigned long long)s->seed + (unsigned long long)s->n_samples - 1, s->n_coordinations, s->coordination[0], s->coordination[s->n_coordinations - 1],
-             s->n_radii, s->radius[0], s->radius[s->n_radii - 1], s->n_youngs, s->young[0], plan->n_limits, plan->limit[0], plan->passages);
+             (unsigned long long)s->seed + (unsigned long long)s->n_samples - 1, s->n_coordinations, s->coordination[0],
+             s->coordination[s->n_coordinations - 1], s->n_radii, s->radius[0], s->radius[s->n_radii - 1], s->n_youngs,
+             s->young[0], plan->n_limits, plan->limit[0], plan->passages);
 }
 
 static brc_status write_c(brc_context *context, const char *words, const brc_strength_fit *fit, const char *path)
 {
     const brc_strength_law *law = &fit->law[BRC_STRENGTH_SURFACE];
     brc_text text = {.context = context};
-    brc_text_add(&text, "/* Written by breccia calibrate: %s. Relative error left, root mean square over the means of samples: %.2f %%. */\n", words,
-                 100 * fit->quality[BRC_STRENGTH_SURFACE].mean_rms);
-    brc_text_add(&text, "#ifndef BRC_LAWS_STRENGTH_H\n#define BRC_LAWS_STRENGTH_H\n\n#include \"../strength_law.h\"\n\nstatic const brc_strength_law brc_strength_law_fitted = {\n");
-    brc_text_add(&text, "    .name = \"%s\",\n    .coordination = {%g, %g}, .radius = {%g, %g},\n    .surface = {", law->name, law->coordination[0], law->coordination[1],
-                 law->radius[0], law->radius[1]);
+    brc_text_add(&text,
+                 "/* Written by breccia calibrate: %s. Relative error left, root mean square over the means of "
+                 "samples: %.2f %%. */\n",
+                 words, 100 * fit->quality[BRC_STRENGTH_SURFACE].mean_rms);
+    brc_text_add(&text, "#ifndef BRC_LAWS_STRENGTH_H\n#define BRC_LAWS_STRENGTH_H\n\n#include "
+                        "\"../strength_law.h\"\n\nstatic const brc_strength_law brc_strength_law_fitted = {\n");
+    brc_text_add(&text, "    .name = \"%s\",\n    .coordination = {%g, %g}, .radius = {%g, %g},\n    .surface = {",
+                 law->name, law->coordination[0], law->coordination[1], law->radius[0], law->radius[1]);
     for (int i = 0; i < ROWS; ++i) {
         brc_text_add(&text, "%s{", i ? ",\n        " : "");
-        for (int j = 0; j < COLUMNS; ++j) brc_text_add(&text, "%s%.11g", j ? ", " : "", law->surface[i][j]);
+        for (int j = 0; j < COLUMNS; ++j)
+            brc_text_add(&text, "%s%.11g", j ? ", " : "", law->surface[i][j]);
         brc_text_add(&text, "}");
     }
     brc_text_add(&text, "},\n};\n\n#endif\n");
@@ -47,7 +53,8 @@ static brc_status write_coefficients(brc_context *context, const brc_strength_fi
     brc_text text = {.context = context};
     brc_text_add(&text, "form,row,column,value\n");
     for (int form = 0; form < BRC_STRENGTH_SURFACE; ++form)
-        for (int k = 0; fit->made[form] && k < PAPER; ++k) brc_text_add(&text, "%s,%s,,%.17g\n", brc_strength_form(form), letters[k], fit->law[form].paper[k]);
+        for (int k = 0; fit->made[form] && k < PAPER; ++k)
+            brc_text_add(&text, "%s,%s,,%.17g\n", brc_strength_form(form), letters[k], fit->law[form].paper[k]);
     for (int k = 0; fit->made[BRC_STRENGTH_SURFACE] && k < ROWS * COLUMNS; ++k)
         brc_text_add(&text, "%s,%d,%d,%.17g\n", brc_strength_form(BRC_STRENGTH_SURFACE), k / COLUMNS, k % COLUMNS,
                      fit->law[BRC_STRENGTH_SURFACE].surface[k / COLUMNS][k % COLUMNS]);
@@ -57,7 +64,8 @@ static brc_status write_coefficients(brc_context *context, const brc_strength_fi
 }
 
 /* One line a pair of coordination number and radius: what was measured, and how far each form is off [-]. */
-static brc_status write_errors(brc_context *context, const brc_strength_fit *fit, const brc_strength_rows *rows, const char *path)
+static brc_status write_errors(brc_context *context, const brc_strength_fit *fit, const brc_strength_rows *rows,
+                               const char *path)
 {
     static const char *const keys[BRC_STRENGTH_FORMS] = {"published", "refitted", "surface"};
     brc_strength_mean *means = NULL;
@@ -70,9 +78,12 @@ static brc_status write_errors(brc_context *context, const brc_strength_fit *fit
     brc_text_add(&text, "\n");
     for (int64_t k = 0; k < n; ++k) {
         const brc_strength_mean *m = &means[k];
-        brc_text_add(&text, "%g,%g,%d,%.8g,%.4g,%.4g", m->coordination, m->radius, m->n, m->ratio, m->scatter, m->first);
+        brc_text_add(&text, "%g,%g,%d,%.8g,%.4g,%.4g", m->coordination, m->radius, m->n, m->ratio, m->scatter,
+                     m->first);
         for (int form = 0; form < BRC_STRENGTH_FORMS; ++form)
-            if (fit->made[form]) brc_text_add(&text, ",%.4g", brc_strength_law_ratio(&fit->law[form], m->coordination, m->radius) / m->ratio - 1);
+            if (fit->made[form])
+                brc_text_add(&text, ",%.4g",
+                             brc_strength_law_ratio(&fit->law[form], m->coordination, m->radius) / m->ratio - 1);
         brc_text_add(&text, "\n");
     }
     const brc_status status = brc_text_write(&text, path);
@@ -81,7 +92,8 @@ static brc_status write_errors(brc_context *context, const brc_strength_fit *fit
     return status;
 }
 
-static brc_status write_json(brc_context *context, const char *words, const brc_strength_rows *rows, const brc_strength_fit *fit, const char *path)
+static brc_status write_json(brc_context *context, const char *words, const brc_strength_rows *rows,
+                             const brc_strength_fit *fit, const char *path)
 {
     brc_json json = {.text = {.context = context}};
     brc_json_begin_object(&json, NULL);
@@ -107,7 +119,8 @@ static brc_status write_json(brc_context *context, const char *words, const brc_
                 continue;
             }
             brc_json_begin_array(&json, NULL);
-            for (int j = 0; j < COLUMNS; ++j) brc_json_number(&json, NULL, law->surface[i][j]);
+            for (int j = 0; j < COLUMNS; ++j)
+                brc_json_number(&json, NULL, law->surface[i][j]);
             brc_json_end(&json);
         }
         brc_json_end(&json);
@@ -116,17 +129,23 @@ static brc_status write_json(brc_context *context, const char *words, const brc_
     return brc_json_write(&json, path);
 }
 
-static brc_status write_rows(brc_context *context, const brc_strength_plan *plan, const brc_strength_rows *all, const brc_strength_fit *fit, const char *folder)
+static brc_status write_rows(brc_context *context, const brc_strength_plan *plan, const brc_strength_rows *all,
+                             const brc_strength_fit *fit, const char *folder)
 {
     brc_rows rows = {.context = context};
     double seconds = 0;
-    for (int64_t k = 0; k < all->n; ++k) seconds += all->rows[k].seconds;
+    for (int64_t k = 0; k < all->n; ++k)
+        seconds += all->rows[k].seconds;
     for (int form = 0; form < BRC_STRENGTH_FORMS; ++form) {
         const brc_fit_quality *f = &fit->quality[form];
         const struct {
             const char *quantity;
             double value;
-        } numbers[] = {{"R2 of k", f->r2}, {"worst error of k", f->worst}, {"rms error of k", f->rms}, {"worst error of means of k", f->mean_worst}, {"rms error of means of k", f->mean_rms}};
+        } numbers[] = {{"R2 of k", f->r2},
+                       {"worst error of k", f->worst},
+                       {"rms error of k", f->rms},
+                       {"worst error of means of k", f->mean_worst},
+                       {"rms error of means of k", f->mean_rms}};
         for (size_t k = 0; fit->made[form] && k < sizeof numbers / sizeof *numbers; ++k) {
             brc_rows_begin(&rows);
             brc_rows_text(&rows, "case", "calibrate");
@@ -147,7 +166,8 @@ static brc_status write_rows(brc_context *context, const brc_strength_plan *plan
     return status;
 }
 
-brc_status brc_strength_report(brc_context *context, const brc_strength_plan *plan, const brc_strength_rows *rows, const brc_strength_fit *fit, const char *folder)
+brc_status brc_strength_report(brc_context *context, const brc_strength_plan *plan, const brc_strength_rows *rows,
+                               const brc_strength_fit *fit, const char *folder)
 {
     static const char *const names[] = {"law.h", "laws.csv", "errors.csv", "laws.json"};
     char words[512];
@@ -155,7 +175,7 @@ brc_status brc_strength_report(brc_context *context, const brc_strength_plan *pl
     for (int k = 0; k < 4; ++k) {
         char *path;
         BRC_TRY(brc_file_join(context, folder, names[k], &path));
-        const brc_status status = k == 0   ? fit->made[BRC_STRENGTH_SURFACE] ? write_c(context, words, fit, path) : BRC_OK
+        const brc_status status = k == 0 ? fit->made[BRC_STRENGTH_SURFACE] ? write_c(context, words, fit, path) : BRC_OK
                                   : k == 1 ? write_coefficients(context, fit, path)
                                   : k == 2 ? write_errors(context, fit, rows, path)
                                            : write_json(context, words, rows, fit, path);

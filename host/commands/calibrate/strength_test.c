@@ -18,13 +18,13 @@ static const char *const walls[3][2] = {{"x-", "x+"}, {"y-", "y+"}, {"z-", "z+"}
 /* A test at work. */
 typedef struct test {
     const brc_strength_pull *pull;
-    int32_t wall; /* set of the wall "<axis>+" */
+    int32_t wall;         /* set of the wall "<axis>+" */
     double section, rate; /* [m^2], strain rate [1/s] */
-    double length;   /* of the shape along the axis [m] */
-    double expected; /* strain [-] */
-    double strain;   /* that the loads of the static stage give before they are scaled [-] */
-    double start;    /* strain at the end of the static stage [-] */
-    bool over;       /* the peak was passed */
+    double length;        /* of the shape along the axis [m] */
+    double expected;      /* strain [-] */
+    double strain;        /* that the loads of the static stage give before they are scaled [-] */
+    double start;         /* strain at the end of the static stage [-] */
+    bool over;            /* the peak was passed */
     brc_strength_answer *out;
 } test;
 
@@ -79,7 +79,8 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t stag
     return stage == 0 ? after_static(self, simulation) : BRC_OK;
 }
 
-brc_status brc_strength_test(brc_context *context, brc_device *device, const brc_domain *domain, const brc_strength_pull *pull, brc_strength_answer *out)
+brc_status brc_strength_test(brc_context *context, brc_device *device, const brc_domain *domain,
+                             const brc_strength_pull *pull, brc_strength_answer *out)
 {
     const double begun = brc_clock_s(), density = 2500; /* sets the unit of time, nothing else */
     const int axis = pull->axis;
@@ -87,18 +88,29 @@ brc_status brc_strength_test(brc_context *context, brc_device *device, const brc
     const brc_beam_law *elastic = brc_beam_law_for(pull->radius_spread);
     const double young = pull->beam_young * brc_beam_law_young(elastic, coordination, pull->radius);
     const double nu = brc_beam_law_poisson(elastic, coordination, pull->radius);
-    test t = {.pull = pull, .out = out, .wall = brc_domain_find_set(domain, walls[axis][1]), .length = domain->bounds[1][axis] - domain->bounds[0][axis]};
+    test t = {.pull = pull,
+              .out = out,
+              .wall = brc_domain_find_set(domain, walls[axis][1]),
+              .length = domain->bounds[1][axis] - domain->bounds[0][axis]};
     brc_simulation *simulation = NULL;
     brc_status status = BRC_OK;
     memset(out, 0, sizeof *out);
     t.section = brc_sphere_box_section(domain, t.wall);
     if (!(t.section > 0))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "fracture test: the sample has no wall '%s' or no walls beside it; expected spheres packed into one box", walls[axis][1]);
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "fracture test: the sample has no wall '%s' or no walls beside it; expected spheres packed into one box",
+            walls[axis][1]);
     t.expected = brc_strength_law_ratio(brc_strength_law_published(), coordination, pull->radius) * pull->limit / young;
     t.rate = t.expected * sqrt(young / density) / (pull->passages * t.length);
 
-    brc_material material = {.name = "unit", .young = young, .poisson = nu, .density = density, .beam_radius = pull->radius,
-                             .beam_young = pull->beam_young, .beam_strength = pull->limit};
+    brc_material material = {.name = "unit",
+                             .young = young,
+                             .poisson = nu,
+                             .density = density,
+                             .beam_radius = pull->radius,
+                             .beam_young = pull->beam_young,
+                             .beam_strength = pull->limit};
     brc_body body = {.name = "sample"};
     brc_load strains[2] = {{.kind = BRC_LOAD_ELEMENT_DISPLACEMENT}, {.kind = BRC_LOAD_ELEMENT_DISPLACEMENT}};
     brc_load speeds[2] = {{.kind = BRC_LOAD_ELEMENT_VELOCITY}, {.kind = BRC_LOAD_ELEMENT_VELOCITY}};
@@ -115,23 +127,49 @@ brc_status brc_strength_test(brc_context *context, brc_device *device, const brc
         initial.gradient[c][c] = c == axis ? t.rate : -nu * t.rate;
         initial.origin[c] = (domain->bounds[0][c] + domain->bounds[1][c]) / 2;
     }
-    brc_stage stages[2] = {
-        {.name = "load", .solver = BRC_SOLVER_STATIC, .n_loads = 2, .loads = strains, .tolerance = 1e-6, .increments = 1, .to_failure = START},
-        {.name = "pull", .solver = BRC_SOLVER_DYNAMIC, .n_loads = 2, .loads = speeds, .n_initials = 1, .initials = &initial, .phi = 1, .safety = 0.8,
-         .duration = LONGEST * t.expected / t.rate}};
-    brc_scene scene = {.version = 1, .folder = ".", .n_materials = 1, .materials = &material,
+    brc_stage stages[2] = {{.name = "load",
+                            .solver = BRC_SOLVER_STATIC,
+                            .n_loads = 2,
+                            .loads = strains,
+                            .tolerance = 1e-6,
+                            .increments = 1,
+                            .to_failure = START},
+                           {.name = "pull",
+                            .solver = BRC_SOLVER_DYNAMIC,
+                            .n_loads = 2,
+                            .loads = speeds,
+                            .n_initials = 1,
+                            .initials = &initial,
+                            .phi = 1,
+                            .safety = 0.8,
+                            .duration = LONGEST * t.expected / t.rate}};
+    brc_scene scene = {.version = 1,
+                       .folder = ".",
+                       .n_materials = 1,
+                       .materials = &material,
                        .model = {.kind = BRC_MODEL_CBM, .beam_poisson = pull->beam_poisson, .keep_isolated = true},
-                       .has_fracture = true, .fracture = {.kind = BRC_CRITERION_PRINCIPAL, .level = 1},
-                       .n_bodies = 1, .bodies = &body, .n_stages = 2, .stages = stages, .output = {.n_frames = -1}};
+                       .has_fracture = true,
+                       .fracture = {.kind = BRC_CRITERION_PRINCIPAL, .level = 1},
+                       .n_bodies = 1,
+                       .bodies = &body,
+                       .n_stages = 2,
+                       .stages = stages,
+                       .output = {.n_frames = -1}};
     BRC_TRY_OR(cleanup, brc_simulation_create(context, &scene, domain, device, &simulation));
-    BRC_TRY_OR(cleanup, brc_simulation_observe(simulation, &(brc_observer){.self = &t, .stage_begin = stage_begin, .stage_end = stage_end}));
+    BRC_TRY_OR(cleanup,
+               brc_simulation_observe(simulation,
+                                      &(brc_observer){.self = &t, .stage_begin = stage_begin, .stage_end = stage_end}));
     status = brc_simulation_run(simulation);
-    if (status == BRC_INTERRUPTED && t.over) status = BRC_OK;
+    if (status == BRC_INTERRUPTED && t.over)
+        status = BRC_OK;
     else if (status == BRC_INTERRUPTED)
-        status = BRC_FAIL(context, BRC_PHYSICS_STOPPED, "fracture test: the load did not fall from its peak within %g times the expected strain %.4g (cn %.4g, r_m %.4g)",
+        status = BRC_FAIL(context, BRC_PHYSICS_STOPPED,
+                          "fracture test: the load did not fall from its peak within %g times the expected strain %.4g "
+                          "(cn %.4g, r_m %.4g)",
                           LONGEST, t.expected, coordination, pull->radius);
     out->n_bonds = domain->n_bonds;
-    for (int64_t e = 0; e < domain->n_elements; ++e) out->n_loose += domain->row_start[e + 1] == domain->row_start[e];
+    for (int64_t e = 0; e < domain->n_elements; ++e)
+        out->n_loose += domain->row_start[e + 1] == domain->row_start[e];
     out->seconds = brc_clock_s() - begun;
 cleanup:
     brc_simulation_free(&simulation);

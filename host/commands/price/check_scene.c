@@ -2,7 +2,8 @@
 #include "pace.h"
 
 /* The simulations, and how long making them took. */
-static brc_status make_simulations(brc_context *context, const brc_device_request *request, brc_setup *setup, double *seconds)
+static brc_status make_simulations(brc_context *context, const brc_device_request *request, brc_setup *setup,
+                                   double *seconds)
 {
     const double start = brc_pace_clock_s(request);
     BRC_TRY(brc_setup_simulations(context, request, setup));
@@ -10,7 +11,8 @@ static brc_status make_simulations(brc_context *context, const brc_device_reques
     return BRC_OK;
 }
 
-brc_status brc_check_build(brc_context *context, brc_scene *scene, const brc_device_request *request, double start, brc_check *check)
+brc_status brc_check_build(brc_context *context, brc_scene *scene, const brc_device_request *request, double start,
+                           brc_check *check)
 {
     const double build_start = brc_pace_clock_s(request);
     BRC_TRY(brc_setup_domains(context, scene, NULL, request->n_threads, &check->setup));
@@ -21,8 +23,9 @@ brc_status brc_check_build(brc_context *context, brc_scene *scene, const brc_dev
     return make_simulations(context, request, &check->setup, &check->simulations_s);
 }
 
-/* OpenCL drivers compile a kernel when it is first launched and keep it on disk for later runs: PoCL takes some ten seconds for all of a run, which would be taken for its pace. So
- * a brief trial goes before the one that is measured. */
+/* OpenCL drivers compile a kernel when it is first launched and keep it on disk for later runs: PoCL takes some ten
+ * seconds for all of a run, which would be taken for its pace. So a brief trial goes before the one that is
+ * measured. */
 static brc_status compile_first(brc_context *context, const brc_device_request *request, brc_check *check)
 {
     brc_setup *setup = &check->setup;
@@ -31,7 +34,8 @@ static brc_status compile_first(brc_context *context, const brc_device_request *
     const brc_status status = brc_trial_run(context, setup, request, true, &trial);
     brc_trial_free(&trial);
     brc_setup_free_simulations(setup);
-    for (int32_t k = 0; k < setup->n; ++k) brc_device_close(&setup->device[k]);
+    for (int32_t k = 0; k < setup->n; ++k)
+        brc_device_close(&setup->device[k]);
     BRC_TRY(status);
     return make_simulations(context, request, setup, &check->simulations_s);
 }
@@ -44,11 +48,12 @@ brc_status brc_check_try(brc_context *context, const brc_device_request *request
 
 brc_status brc_check_price(brc_context *context, brc_scene *scene, const brc_device_request *request, brc_check *check)
 {
-    FILE *const nowhere = check->details ? NULL : fopen("/dev/null", "w"), *const details = nowhere ? nowhere : check->details;
+    FILE *const nowhere = check->details ? NULL : fopen("/dev/null", "w"), *const details =
+                                                                               nowhere ? nowhere : check->details;
     if (!details) return BRC_FAIL(context, BRC_FILE_FAILED, "/dev/null cannot be opened");
     brc_setup_free_simulations(&check->setup); /* a coarser body may need the room */
-    const brc_status status =
-        brc_price_tell_trial(context, scene, &check->setup, request, &check->trial, check->before_s + check->simulations_s, details, &check->told);
+    const brc_status status = brc_price_tell_trial(context, scene, &check->setup, request, &check->trial,
+                                                   check->before_s + check->simulations_s, details, &check->told);
     if (nowhere) fclose(nowhere);
     return status;
 }

@@ -1,5 +1,5 @@
-/* The same scene with fewer elements: how many iterations a solve takes, which grow as the elements across the body, what becomes of its measures, how much breaks and
- * what that does to a step and to the arrays. */
+/* The same scene with fewer elements: how many iterations a solve takes, which grow as the elements across the body,
+ * what becomes of its measures, how much breaks and what that does to a step and to the arrays. */
 #include "trial.h"
 #include "pace.h"
 #include "../scratch.h"
@@ -22,10 +22,11 @@ typedef struct watch {
     bool cut;
     const brc_coarse_request *asked;
     brc_coarse *out;
-    double first, part;  /* clock at the first pause of the stage, and once as large a part of its steps was done as in the trial; 0: not yet */
+    double first, part; /* clock at the first pause of the stage, and once as large a part of its steps was done as in
+                           the trial; 0: not yet */
     int64_t first_step, part_step;
     int64_t device_first, device_most; /* bytes */
-    double broken_sum;   /* of shares of bonds, over pauses */
+    double broken_sum;                 /* of shares of bonds, over pauses */
     int64_t n_pauses;
 } watch;
 
@@ -70,7 +71,9 @@ static brc_status look(watch *w, brc_simulation *simulation)
         w->first = now;
         w->first_step = step;
     } else if (w->part == 0 && (double)step * (double)w->asked->trial->stages[stage].planned >=
-                                   (double)w->asked->trial->stages[stage].done * (double)brc_simulation_planned_steps(simulation, stage, brc_simulation_time_step(simulation).value)) {
+                                   (double)w->asked->trial->stages[stage].done *
+                                       (double)brc_simulation_planned_steps(
+                                           simulation, stage, brc_simulation_time_step(simulation).value)) {
         w->part = now;
         w->part_step = step;
     }
@@ -83,7 +86,9 @@ static brc_status look(watch *w, brc_simulation *simulation)
 static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
 {
     watch *w = self;
-    if (w->asked->trial && brc_simulation_scene(simulation)->stages[brc_simulation_stage(simulation)].solver == BRC_SOLVER_DYNAMIC) BRC_TRY(look(w, simulation));
+    if (w->asked->trial &&
+        brc_simulation_scene(simulation)->stages[brc_simulation_stage(simulation)].solver == BRC_SOLVER_DYNAMIC)
+        BRC_TRY(look(w, simulation));
     if (why != BRC_PAUSE_GOING || (w->asked->whole && !is_over(w))) return BRC_OK;
     w->cut = true;
     w->out->out_of_time |= w->asked->whole;
@@ -98,13 +103,16 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t stag
     bool left_off = false;
     const int64_t step = brc_simulation_step(simulation);
     if (w->part > w->first && step > w->part_step)
-        w->out->slower[stage] = (brc_pace_clock_s(w->request) - w->first) / (double)(step - w->first_step) / ((w->part - w->first) / (double)(w->part_step - w->first_step));
+        w->out->slower[stage] = (brc_pace_clock_s(w->request) - w->first) / (double)(step - w->first_step) /
+                                ((w->part - w->first) / (double)(w->part_step - w->first_step));
     w->out->iterations[stage] = 0;
     for (int32_t k = 0; k < all->n; ++k) {
         left_off |= brc_simulation_left_off(all->part[k]);
         w->out->iterations[stage] += brc_simulation_static_report(all->part[k]).iterations;
     }
-    if (w->first > 0) w->out->done[stage] = (double)step / (double)brc_simulation_planned_steps(simulation, stage, brc_simulation_time_step(simulation).value);
+    if (w->first > 0)
+        w->out->done[stage] = (double)step / (double)brc_simulation_planned_steps(
+                                                 simulation, stage, brc_simulation_time_step(simulation).value);
     if (left_off) w->out->iterations[stage] = 0;
     w->cut |= left_off;
     w->out->out_of_time |= left_off;
@@ -139,13 +147,15 @@ static brc_status run_recorded(brc_context *context, watch *w, const char *folde
     brc_recorder_set_threads(recorder, w->request->n_threads);
     BRC_TRY_OR(cleanup, brc_recorder_observe(recorder, &assembly));
     BRC_TRY_OR(cleanup, brc_recorder_finish(recorder, brc_lockstep_run(assembly.n, assembly.part)));
-    for (int32_t k = 0; k < brc_recorder_measure_count(recorder) && !w->cut; ++k) out->measures[k] = brc_recorder_measures(recorder)[k].value;
+    for (int32_t k = 0; k < brc_recorder_measure_count(recorder) && !w->cut; ++k)
+        out->measures[k] = brc_recorder_measures(recorder)[k].value;
 cleanup:
     brc_recorder_free(&recorder);
     return status;
 }
 
-static brc_status run(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_coarse_request *asked, brc_coarse *out)
+static brc_status run(brc_context *context, brc_scene *scene, const brc_device_request *request,
+                      const brc_coarse_request *asked, brc_coarse *out)
 {
     brc_setup setup = {0};
     brc_status status = BRC_OK;
@@ -157,8 +167,12 @@ static brc_status run(brc_context *context, brc_scene *scene, const brc_device_r
     BRC_TRY_OR(cleanup, brc_setup_simulations(context, request, &setup));
     const double across = brc_setup_across(&setup);
     out->n_elements = brc_setup_n_elements(&setup);
-    BRC_TRY_OR(cleanup, brc_simulation_observe(setup.simulation[0], &(brc_observer){.self = &w, .stage_begin = stage_begin, .pause = paused, .stage_end = stage_end}));
-    for (int32_t k = 0; k < setup.n; ++k) brc_simulation_set_patience(setup.simulation[k], &w.patience);
+    BRC_TRY_OR(cleanup,
+               brc_simulation_observe(
+                   setup.simulation[0],
+                   &(brc_observer){.self = &w, .stage_begin = stage_begin, .pause = paused, .stage_end = stage_end}));
+    for (int32_t k = 0; k < setup.n; ++k)
+        brc_simulation_set_patience(setup.simulation[k], &w.patience);
     if (asked->whole) {
         BRC_TRY_OR(cleanup, brc_scratch_create(context, folder));
         status = run_recorded(context, &w, folder, out);
@@ -178,33 +192,39 @@ cleanup:
 }
 
 /* Every fill of the scene made coarser, unless one cannot be. */
-static brc_status run_coarser(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_coarse_request *asked, brc_coarse *out)
+static brc_status run_coarser(brc_context *context, brc_scene *scene, const brc_device_request *request,
+                              const brc_coarse_request *asked, brc_coarse *out)
 {
     brc_fill *kept = NULL;
     bool can = true;
     BRC_TRY(BRC_ALLOCATE(context, &kept, scene->n_bodies, "fills"));
     for (int32_t b = 0; b < scene->n_bodies; ++b) {
         kept[b] = scene->bodies[b].fill;
-        can &= asked->share == 1 || (!scene->bodies[b].domain_file[0] && coarsen(&scene->bodies[b].fill, asked->share, asked->seed));
+        can &= asked->share == 1 ||
+               (!scene->bodies[b].domain_file[0] && coarsen(&scene->bodies[b].fill, asked->share, asked->seed));
     }
     /* What a coarser body cannot do is no failure: then there is nothing to learn from it. */
     if (can && run(context, scene, request, asked, out) != BRC_OK) brc_context_clear(context);
-    for (int32_t b = 0; b < scene->n_bodies; ++b) scene->bodies[b].fill = kept[b];
+    for (int32_t b = 0; b < scene->n_bodies; ++b)
+        scene->bodies[b].fill = kept[b];
     brc_memory_free(kept);
     return BRC_OK;
 }
 
-brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_device_request *request, const brc_coarse_request *asked, brc_coarse *out)
+brc_status brc_trial_coarse(brc_context *context, brc_scene *scene, const brc_device_request *request,
+                            const brc_coarse_request *asked, brc_coarse *out)
 {
     const brc_log_level level = brc_log_get_level(context);
     const brc_output output = scene->output;
     *out = (brc_coarse){.broken = NAN, .broken_mean = NAN, .grown = NAN};
     BRC_TRY(BRC_ALLOCATE(context, &out->slower, scene->n_stages, "pace"));
     BRC_TRY(BRC_ALLOCATE(context, &out->done, scene->n_stages, "pace"));
-    for (int32_t k = 0; k < scene->n_stages; ++k) out->slower[k] = out->done[k] = NAN;
+    for (int32_t k = 0; k < scene->n_stages; ++k)
+        out->slower[k] = out->done[k] = NAN;
     BRC_TRY(BRC_ALLOCATE(context, &out->iterations, scene->n_stages, "iterations"));
     BRC_TRY(BRC_ALLOCATE(context, &out->measures, scene->n_measures, "measures"));
-    for (int32_t k = 0; k < scene->n_measures; ++k) out->measures[k] = NAN;
+    for (int32_t k = 0; k < scene->n_measures; ++k)
+        out->measures[k] = NAN;
     scene->output.n_frames = -1;
     scene->output.picture = false;
     scene->output.curve_x[0] = '\0';

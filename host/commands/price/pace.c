@@ -11,11 +11,20 @@ bool brc_pace_is_processor(const brc_device_request *device)
     return device->n_threads == 1 && strcmp(device->selector, "cpu") == 0;
 }
 
-double brc_pace_clock_s(const brc_device_request *device) { return brc_pace_is_processor(device) ? brc_processor_s() : brc_clock_s(); }
+double brc_pace_clock_s(const brc_device_request *device)
+{
+    return brc_pace_is_processor(device) ? brc_processor_s() : brc_clock_s();
+}
 
-double brc_pace_start_s(const brc_device_request *device) { return brc_pace_is_processor(device) ? 0 : brc_clock_s() - brc_processor_s(); }
+double brc_pace_start_s(const brc_device_request *device)
+{
+    return brc_pace_is_processor(device) ? 0 : brc_clock_s() - brc_processor_s();
+}
 
-const char *brc_pace_clock_name(const brc_device_request *device) { return brc_pace_is_processor(device) ? "processor" : "wall"; }
+const char *brc_pace_clock_name(const brc_device_request *device)
+{
+    return brc_pace_is_processor(device) ? "processor" : "wall";
+}
 
 /* Time of a step, from steps that together take long enough to be timed. */
 static brc_status time_steps(brc_simulation *simulation, const brc_device_request *device, double *seconds)
@@ -34,18 +43,26 @@ static brc_status time_steps(brc_simulation *simulation, const brc_device_reques
     return BRC_OK;
 }
 
-brc_status brc_pace_values(brc_context *context, brc_simulation *simulation, const brc_device_request *device, brc_outcome *outcome)
+brc_status brc_pace_values(brc_context *context, brc_simulation *simulation, const brc_device_request *device,
+                           brc_outcome *outcome)
 {
     const brc_scene *scene = brc_simulation_scene(simulation);
     const brc_domain *domain = brc_simulation_domain(simulation);
     const brc_stage *last = &scene->stages[scene->n_stages - 1];
     const brc_material *material = &scene->materials[0];
-    const double speed = sqrt(material->young * (1 - material->poisson) / ((1 + material->poisson) * (1 - 2 * material->poisson) * material->density));
+    const double speed = sqrt(material->young * (1 - material->poisson) /
+                              ((1 + material->poisson) * (1 - 2 * material->poisson) * material->density));
     double longest = 0, seconds = 0;
-    for (int d = 0; d < 3; ++d) longest = fmax(longest, domain->bounds[1][d] - domain->bounds[0][d]);
+    for (int d = 0; d < 3; ++d)
+        longest = fmax(longest, domain->bounds[1][d] - domain->bounds[0][d]);
     /* Shaken a little, so that no number is zero. */
     brc_initial shaken = {.kind = BRC_INITIAL_RANDOM, .value = {1e-9 * speed, 1e-9 * speed, 1e-9 * speed}, .seed = 1};
-    brc_stage stage = {.name = "price", .solver = BRC_SOLVER_DYNAMIC, .n_initials = 1, .initials = &shaken, .steps = INT64_C(1) << 40, .safety = 0.8};
+    brc_stage stage = {.name = "price",
+                       .solver = BRC_SOLVER_DYNAMIC,
+                       .n_initials = 1,
+                       .initials = &shaken,
+                       .steps = INT64_C(1) << 40,
+                       .safety = 0.8};
     if (last->solver == BRC_SOLVER_DYNAMIC) {
         stage.integrator = last->integrator;
         stage.phi = last->phi;

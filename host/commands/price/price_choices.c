@@ -5,9 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What runs of a pair share, the precision and the fraction of the step both among it but for the one asked for; and what is measured of them. */
-static const char *const NAMES[] = {"model",      "error",     "run_s", "precision", "dt_fraction",  "problem", "preparation", "elements", "bonds",   "integrator",
-                                    "quantity",   "nu",        "phi",   "level",     "coordination", "variant", "seed",        "threads"};
+/* What runs of a pair share, the precision and the fraction of the step both among it but for the one asked for; and
+ * what is measured of them. */
+static const char *const NAMES[] = {"model",       "error",    "run_s",        "precision",  "dt_fraction", "problem",
+                                    "preparation", "elements", "bonds",        "integrator", "quantity",    "nu",
+                                    "phi",         "level",    "coordination", "variant",    "seed",        "threads"};
 enum { MODEL, ERROR, RUN_S, SHARED, N_NAMES = sizeof NAMES / sizeof *NAMES };
 
 static int column_index(const char *column)
@@ -23,14 +25,16 @@ static bool is_measured(const char *const *value, const char *model)
 }
 
 /* The first run of the text that is like `value` but for the usual choice. */
-static bool find_partner(const char *text, const char *const *value, int free, const char *usual, double *error, double *seconds)
+static bool find_partner(const char *text, const char *const *value, int free, const char *usual, double *error,
+                         double *seconds)
 {
     brc_price_rows rows;
     const char *other[N_NAMES];
     brc_price_rows_begin(&rows, text, N_NAMES, NAMES);
     while (brc_price_rows_next(&rows, other)) {
         bool same = is_measured(other, value[MODEL]) && strcmp(other[free], usual) == 0;
-        for (int k = SHARED; k < N_NAMES && same; ++k) same = k == free || strcmp(other[k], value[k]) == 0;
+        for (int k = SHARED; k < N_NAMES && same; ++k)
+            same = k == free || strcmp(other[k], value[k]) == 0;
         if (!same) continue;
         *error = fabs(atof(other[ERROR]));
         *seconds = atof(other[RUN_S]);
@@ -39,7 +43,8 @@ static bool find_partner(const char *text, const char *const *value, int free, c
     return false;
 }
 
-void brc_price_choices_read(const char *text, const char *model, const char *column, const char *usual, int *n, brc_price_choice out[BRC_CHOICES_MOST])
+void brc_price_choices_read(const char *text, const char *model, const char *column, const char *usual, int *n,
+                            brc_price_choice out[BRC_CHOICES_MOST])
 {
     brc_price_rows rows;
     const char *value[N_NAMES];
@@ -49,9 +54,12 @@ void brc_price_choices_read(const char *text, const char *model, const char *col
     brc_price_rows_begin(&rows, text, N_NAMES, NAMES);
     while (free >= 0 && brc_price_rows_next(&rows, value)) {
         double error, partner_s;
-        if (!is_measured(value, model) || strcmp(value[free], usual) == 0 || !find_partner(text, value, free, usual, &error, &partner_s)) continue;
+        if (!is_measured(value, model) || strcmp(value[free], usual) == 0 ||
+            !find_partner(text, value, free, usual, &error, &partner_s))
+            continue;
         int c = 0;
-        while (c < *n && strcmp(out[c].value, value[free]) != 0) ++c;
+        while (c < *n && strcmp(out[c].value, value[free]) != 0)
+            ++c;
         if (c == BRC_CHOICES_MOST) continue;
         if (c == *n) {
             out[(*n)++] = (brc_price_choice){.pairs = 0};

@@ -21,9 +21,12 @@ static void add_point(fit *f, double elements, double error)
     f->curve.n += 1;
 }
 
-void brc_price_curves_read(const char *text, const char *model, const char *precision, int *n, brc_price_curve out[BRC_CURVES_MOST])
+void brc_price_curves_read(const char *text, const char *model, const char *precision, int *n,
+                           brc_price_curve out[BRC_CURVES_MOST])
 {
-    static const char *const names[] = {"problem", "model", "precision", "elements", "error", "steps", "cost_of", "preparation", "dt_fraction", "integrator", "nu", "coordination", "level", "phi", "variant"};
+    static const char *const names[] = {"problem", "model",        "precision",   "elements",    "error",
+                                        "steps",   "cost_of",      "preparation", "dt_fraction", "integrator",
+                                        "nu",      "coordination", "level",       "phi",         "variant"};
     enum { PROBLEM, MODEL, PRECISION, ELEMENTS, ERROR, STEPS, COST_OF, SHARED, NAMES = sizeof names / sizeof *names };
     int n_fits = 0;
     fit fits[BRC_CURVES_MOST];
@@ -34,11 +37,15 @@ void brc_price_curves_read(const char *text, const char *model, const char *prec
     brc_price_rows_begin(&rows, text, NAMES, names);
     while (brc_price_rows_next(&rows, value)) {
         const double elements = atof(value[ELEMENTS]), error = fabs(atof(value[ERROR]));
-        if (strcmp(value[MODEL], model) != 0 || strcmp(value[PRECISION], precision) != 0 || !(elements > 0) || !(error > 0)) continue;
+        if (strcmp(value[MODEL], model) != 0 || strcmp(value[PRECISION], precision) != 0 || !(elements > 0) ||
+            !(error > 0))
+            continue;
         char shared[160] = "";
-        for (int k = SHARED; k < NAMES; ++k) snprintf(shared + strlen(shared), sizeof shared - strlen(shared), "%s,", value[k]);
+        for (int k = SHARED; k < NAMES; ++k)
+            snprintf(shared + strlen(shared), sizeof shared - strlen(shared), "%s,", value[k]);
         int f = 0;
-        while (f < n_fits && strcmp(fits[f].curve.problem, value[PROBLEM]) != 0) ++f;
+        while (f < n_fits && strcmp(fits[f].curve.problem, value[PROBLEM]) != 0)
+            ++f;
         if (f == BRC_CURVES_MOST) continue;
         if (f == n_fits) {
             ++n_fits;
@@ -62,7 +69,19 @@ void brc_price_curves_read(const char *text, const char *model, const char *prec
     }
 }
 
-double brc_price_curve_error(const brc_price_curve *curve, double elements) { return curve->scale * pow(elements, -curve->order / 3); }
-double brc_price_curve_elements(const brc_price_curve *curve, double error) { return pow(curve->scale / error, 3 / curve->order); }
-double brc_price_seconds_at(double seconds, double elements, double other_elements) { return seconds * pow(other_elements / elements, 4. / 3); }
-double brc_price_elements_for(double seconds, double elements, double other_seconds) { return elements * pow(other_seconds / seconds, 3. / 4); }
+double brc_price_curve_error(const brc_price_curve *curve, double elements)
+{
+    return curve->scale * pow(elements, -curve->order / 3);
+}
+double brc_price_curve_elements(const brc_price_curve *curve, double error)
+{
+    return pow(curve->scale / error, 3 / curve->order);
+}
+double brc_price_seconds_at(double seconds, double elements, double other_elements)
+{
+    return seconds * pow(other_elements / elements, 4. / 3);
+}
+double brc_price_elements_for(double seconds, double elements, double other_seconds)
+{
+    return elements * pow(other_seconds / seconds, 3. / 4);
+}

@@ -2,7 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The next line of the text, split in place; a field may be empty. Returns the number of its fields, 0: the text has ended. */
+/* The next line of the text, split in place; a field may be empty. Returns the number of its fields, 0: the text has
+ * ended. */
 static int next_line(brc_price_rows *rows, const char **field)
 {
     int n = 0;
@@ -22,7 +23,8 @@ void brc_price_rows_begin(brc_price_rows *rows, const char *text, int n, const c
 {
     const char *field[BRC_PRICE_COLUMNS_MOST];
     *rows = (brc_price_rows){.at = text, .names = names, .n = n};
-    for (int k = 0; k < n; ++k) rows->column[k] = -1;
+    for (int k = 0; k < n; ++k)
+        rows->column[k] = -1;
     const int n_fields = next_line(rows, field);
     for (int c = 0; c < n_fields; ++c)
         for (int k = 0; k < n; ++k)
@@ -33,6 +35,7 @@ bool brc_price_rows_next(brc_price_rows *rows, const char **value)
 {
     const char *field[BRC_PRICE_COLUMNS_MOST];
     const int n_fields = next_line(rows, field);
-    for (int k = 0; k < rows->n; ++k) value[k] = rows->column[k] >= 0 && rows->column[k] < n_fields ? field[rows->column[k]] : "";
+    for (int k = 0; k < rows->n; ++k)
+        value[k] = rows->column[k] >= 0 && rows->column[k] < n_fields ? field[rows->column[k]] : "";
     return n_fields > 0;
 }

@@ -1,4 +1,5 @@
-/* The run itself, cut short. Two observers stand around the recorder, so that what it does is timed apart from the steps. */
+/* The run itself, cut short. Two observers stand around the recorder, so that what it does is timed apart from the
+ * steps. */
 #include "trial.h"
 #include "pace.h"
 #include "planned_output.h"
@@ -14,11 +15,11 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A dynamic stage or one of events is cut after this long, but not before so many pauses; the solves of a static stage after this long. Events have their own end:
- * their solves are cut only where one alone would take far too long. */
+/* A dynamic stage or one of events is cut after this long, but not before so many pauses; the solves of a static stage
+ * after this long. Events have their own end: their solves are cut only where one alone would take far too long. */
 static const double watched_s = 1, solve_s = 2, event_s = 40;
-/* Where bonds break, surfaces meet or a condition ends the stage, a stage that has less than this before it by its pace is run to its end, which says more than any coarser
- * body; unless it got so much slower that it has taken so long. */
+/* Where bonds break, surfaces meet or a condition ends the stage, a stage that has less than this before it by its pace
+ * is run to its end, which says more than any coarser body; unless it got so much slower that it has taken so long. */
 static const double finish_s = 5, finish_most_s = 15;
 enum { LEAST_PAUSES = 4, FIRST_BATCH = 4, LARGEST_BATCH = 256 };
 static const double short_batch_s = 0.05;
@@ -30,24 +31,30 @@ typedef struct watch {
     brc_patience patience;
     brc_trial_stage *stages;
     brc_trial_stage *now;
-    double mark;              /* end of the last stage */
-    double begin;             /* of this one */
+    double mark;  /* end of the last stage */
+    double begin; /* of this one */
     double output_begin, output_s;
     double first, first_output_s; /* at the first pause */
-    double last;              /* pause */
+    double last;                  /* pause */
     int64_t first_step;
     int pauses;
     double asked_first, asked_last; /* by solves */
     int64_t asked;
     double patience_s;
-    int64_t device_first; /* bytes at the first pause */
+    int64_t device_first;            /* bytes at the first pause */
     brc_device_counts counted_first; /* at the first pause of the stage */
 } watch;
 
-bool brc_trial_may_end_early(const brc_stage *stage) { return stage->stop_kinetic > 0 || stage->stop_broken > 0 || stage->stop_sensor[0]; }
+bool brc_trial_may_end_early(const brc_stage *stage)
+{
+    return stage->stop_kinetic > 0 || stage->stop_broken > 0 || stage->stop_sensor[0];
+}
 
 /* Is counting steps not all there is to say of a stage? */
-static bool is_open(const brc_scene *scene, const brc_stage *stage) { return scene->has_fracture || scene->has_contact || brc_trial_may_end_early(stage); }
+static bool is_open(const brc_scene *scene, const brc_stage *stage)
+{
+    return scene->has_fracture || scene->has_contact || brc_trial_may_end_early(stage);
+}
 
 /* After so long in the stage. */
 static bool is_finishing(const brc_trial_stage *now, double since)
@@ -55,7 +62,10 @@ static bool is_finishing(const brc_trial_stage *now, double since)
     return now->pace_s * (double)(now->planned - now->done) < finish_s && since < finish_most_s;
 }
 
-static double clock_of(const watch *w) { return brc_pace_clock_s(w->request); }
+static double clock_of(const watch *w)
+{
+    return brc_pace_clock_s(w->request);
+}
 
 static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t index)
 {
@@ -67,9 +77,11 @@ static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t in
     now->ran = true;
     now->enter_s = w->begin - w->mark;
     now->time_step = brc_assembly_time_step(&w->setup->assembly);
-    now->planned = stage->most_events > 0 ? stage->most_events : brc_simulation_planned_steps(simulation, index, now->time_step.value);
+    now->planned = stage->most_events > 0 ? stage->most_events
+                                          : brc_simulation_planned_steps(simulation, index, now->time_step.value);
     now->samples_planned = brc_planned_samples(scene, index, now->planned);
-    now->frames_planned = brc_planned_frames(scene, index, now->planned, now->time_step.value) + (index == 0 && scene->output.n_frames >= 0);
+    now->frames_planned = brc_planned_frames(scene, index, now->planned, now->time_step.value) +
+                          (index == 0 && scene->output.n_frames >= 0);
     w->output_s = 0;
     w->pauses = 0;
     w->asked = 0;
@@ -127,7 +139,8 @@ static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
     const int64_t step = brc_simulation_step(simulation);
     const brc_stage *stage = &brc_simulation_scene(simulation)->stages[brc_simulation_stage(simulation)];
     w->now->done = step;
-    if (w->device_first == 0 && stage->solver == BRC_SOLVER_DYNAMIC) w->device_first = brc_assembly_device_bytes(&w->setup->assembly);
+    if (w->device_first == 0 && stage->solver == BRC_SOLVER_DYNAMIC)
+        w->device_first = brc_assembly_device_bytes(&w->setup->assembly);
     if (stage->solver == BRC_SOLVER_STATIC && stage->most_events == 0) return BRC_OK;
     if (w->pauses++ == 0) {
         w->first = now;
@@ -143,7 +156,8 @@ static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
         if (now - w->last < short_batch_s && w->patience.batch < LARGEST_BATCH) w->patience.batch *= 2;
     }
     w->last = now;
-    if (!w->brief && is_open(brc_simulation_scene(simulation), stage) && is_finishing(w->now, now - w->begin)) return BRC_OK;
+    if (!w->brief && is_open(brc_simulation_scene(simulation), stage) && is_finishing(w->now, now - w->begin))
+        return BRC_OK;
     if (why == BRC_PAUSE_GOING && w->pauses >= LEAST_PAUSES && now - w->begin > watched_s) {
         w->now->cut = true;
         brc_simulation_end_stage(simulation, "trial");
@@ -179,7 +193,8 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t inde
     w->mark = clock_of(w);
     w->now->whole_s = w->mark - w->begin;
     BRC_TRY(count_broken(all, &w->now->broken));
-    for (int32_t k = 0; k < index; ++k) w->now->broken -= w->stages[k].broken;
+    for (int32_t k = 0; k < index; ++k)
+        w->now->broken -= w->stages[k].broken;
     if (stage->solver == BRC_SOLVER_MODES) w->now->done = 1;
     if (stage->solver == BRC_SOLVER_DYNAMIC || stage->most_events > 0) return BRC_OK;
     for (int32_t k = 0; k < all->n; ++k) {
@@ -191,16 +206,20 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t inde
     return BRC_OK;
 }
 
-/* Bytes of an element in a frame that refers to others for its points: a cell with its 6.4 corners, a sphere; and where bonds break. */
+/* Bytes of an element in a frame that refers to others for its points: a cell with its 6.4 corners, a sphere; and where
+ * bonds break. */
 static const double cell_in_frame = 152 + 6.4 * 12, sphere_in_frame = 152 + 12 + 32, broken_in_frame = 12;
 
 /* Bytes on disk, and what of them grows with frames and samples. */
-static void weigh_folder(brc_context *context, const char *folder, const brc_scene *scene, const brc_setup *setup, brc_trial *out)
+static void weigh_folder(brc_context *context, const char *folder, const brc_scene *scene, const brc_setup *setup,
+                         brc_trial *out)
 {
     char *path;
     for (int32_t k = 0; k < setup->n; ++k)
-        out->full_frame_bytes += (double)setup->domain[k]->n_elements *
-                                 ((setup->domain[k]->element_kind == BRC_ELEMENT_SPHERE ? sphere_in_frame : cell_in_frame) + (scene->has_fracture ? broken_in_frame : 0));
+        out->full_frame_bytes +=
+            (double)setup->domain[k]->n_elements *
+            ((setup->domain[k]->element_kind == BRC_ELEMENT_SPHERE ? sphere_in_frame : cell_in_frame) +
+             (scene->has_fracture ? broken_in_frame : 0));
     if (brc_file_join(context, folder, "frames", &path) != BRC_OK) return;
     out->frames_bytes = brc_scratch_bytes(context, path, NULL);
     out->first_frame_bytes = brc_scratch_bytes(context, path, "000000.vtkhdf");
@@ -214,7 +233,8 @@ static void weigh_folder(brc_context *context, const char *folder, const brc_sce
 static bool keeps_state(const brc_scene *scene)
 {
     bool keeps = scene->output.has_checkpoint;
-    for (int32_t k = 0; k < scene->n_stages; ++k) keeps |= brc_trial_may_end_early(&scene->stages[k]);
+    for (int32_t k = 0; k < scene->n_stages; ++k)
+        keeps |= brc_trial_may_end_early(&scene->stages[k]);
     return keeps;
 }
 
@@ -231,16 +251,23 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
     brc_recorder_set_scene(recorder, scene);
     brc_recorder_set_domains(recorder, setup->n, setup->domain, 0);
     brc_recorder_set_threads(recorder, w->request->n_threads);
-    BRC_TRY_OR(cleanup, brc_simulation_observe(assembly.part[0], &(brc_observer){.self = w, .sample = before_output, .frame = before_output}));
+    BRC_TRY_OR(cleanup,
+               brc_simulation_observe(assembly.part[0],
+                                      &(brc_observer){.self = w, .sample = before_output, .frame = before_output}));
     if (keeps_state(scene)) {
         BRC_TRY_OR(cleanup, brc_checkpoints_create(context, folder, scene, false, &checkpoints));
         BRC_TRY_OR(cleanup, brc_checkpoints_observe(checkpoints, &assembly, recorder));
     } else {
         BRC_TRY_OR(cleanup, brc_recorder_observe(recorder, &assembly));
     }
-    BRC_TRY_OR(cleanup, brc_simulation_observe(assembly.part[0], &(brc_observer){.self = w, .stage_begin = stage_begin, .sample = after_sample, .frame = after_frame,
-                                                                                 .stage_end = stage_end, .pause = paused}));
-    for (int32_t k = 0; k < assembly.n; ++k) brc_simulation_set_patience(assembly.part[k], &w->patience);
+    BRC_TRY_OR(cleanup, brc_simulation_observe(assembly.part[0], &(brc_observer){.self = w,
+                                                                                 .stage_begin = stage_begin,
+                                                                                 .sample = after_sample,
+                                                                                 .frame = after_frame,
+                                                                                 .stage_end = stage_end,
+                                                                                 .pause = paused}));
+    for (int32_t k = 0; k < assembly.n; ++k)
+        brc_simulation_set_patience(assembly.part[k], &w->patience);
     status = checkpoints ? brc_checkpoints_run(checkpoints) : brc_lockstep_run(assembly.n, assembly.part);
     out->stepping_bytes = brc_memory_peak_since_mark();
     brc_memory_mark();
@@ -265,14 +292,16 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
         out->checkpoint_bytes = report.bytes;
     }
     out->n_measures = brc_recorder_measure_count(recorder);
-    for (int32_t k = 0; k < out->n_measures; ++k) out->measures[k] = brc_trial_is_whole(out) ? brc_recorder_measures(recorder)[k].value : NAN;
+    for (int32_t k = 0; k < out->n_measures; ++k)
+        out->measures[k] = brc_trial_is_whole(out) ? brc_recorder_measures(recorder)[k].value : NAN;
 cleanup:
     brc_checkpoints_free(&checkpoints);
     brc_recorder_free(&recorder);
     return status;
 }
 
-brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc_device_request *request, bool brief, brc_trial *out)
+brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc_device_request *request, bool brief,
+                         brc_trial *out)
 {
     const brc_scene *scene = setup->split->scene;
     const brc_log_level level = brc_log_get_level(context);
@@ -291,7 +320,9 @@ brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc
     out->ending_bytes = brc_memory_peak_since_mark();
     int64_t to_come = 0; /* samples */
     for (int32_t k = 0; k < out->n_stages; ++k)
-        if (out->stages[k].cut) to_come += (out->stages[k].samples_planned - out->stages[k].samples) * (scene->n_sensors + 4) * (int64_t)sizeof(double);
+        if (out->stages[k].cut)
+            to_come += (out->stages[k].samples_planned - out->stages[k].samples) * (scene->n_sensors + 4) *
+                       (int64_t)sizeof(double);
     out->stepping_bytes += to_come;
     out->ending_bytes += to_come;
     out->host_bytes = brc_memory_peak();
@@ -327,12 +358,17 @@ int64_t brc_trial_disk(const brc_trial *trial, const double *done)
         samples_planned += fmax((double)stage->samples, stage->cut ? part * (double)stage->samples_planned : 0);
     }
     /* as those after the first, where there were any, but with everything moving */
-    const double frame = fmax(trial->full_frame_bytes, frames > 1 ? (double)(trial->frames_bytes - trial->first_frame_bytes) / (frames - 1) : 0);
-    const double more_frames = frames > 0 ? frames_planned - frames : 0, more_samples = samples > 0 ? samples_planned / samples - 1 : 0;
+    const double frame = fmax(trial->full_frame_bytes,
+                              frames > 1 ? (double)(trial->frames_bytes - trial->first_frame_bytes) / (frames - 1) : 0);
+    const double more_frames = frames > 0 ? frames_planned - frames : 0,
+                 more_samples = samples > 0 ? samples_planned / samples - 1 : 0;
     /* two are kept, of runs that write more than one */
-    const int64_t second = trial->n_checkpoints == 1 && trial->writes_checkpoints && !brc_trial_is_whole(trial) ? trial->checkpoint_bytes : 0;
-    return trial->disk_bytes + second + (int64_t)(more_frames * frame + more_samples * (double)trial->table_bytes +
-                                         (samples_planned - samples) * (double)trial->sample_bytes);
+    const int64_t second = trial->n_checkpoints == 1 && trial->writes_checkpoints && !brc_trial_is_whole(trial)
+                               ? trial->checkpoint_bytes
+                               : 0;
+    return trial->disk_bytes + second +
+           (int64_t)(more_frames * frame + more_samples * (double)trial->table_bytes +
+                     (samples_planned - samples) * (double)trial->sample_bytes);
 }
 
 double brc_trial_seconds(const brc_trial *trial)
@@ -340,7 +376,8 @@ double brc_trial_seconds(const brc_trial *trial)
     double sum = trial->end_s;
     for (int32_t k = 0; k < trial->n_stages; ++k) {
         const brc_trial_stage *stage = &trial->stages[k];
-        sum += stage->enter_s + (stage->cut && stage->done > 0 ? stage->warm_s + stage->pace_s * (double)stage->planned : stage->whole_s);
+        sum += stage->enter_s + (stage->cut && stage->done > 0 ? stage->warm_s + stage->pace_s * (double)stage->planned
+                                                               : stage->whole_s);
     }
     return sum;
 }

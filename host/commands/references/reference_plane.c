@@ -6,7 +6,8 @@
 
 enum { ARC_POINTS = 64 };
 
-/* A load of 1 a thickness pushes inward at the rim's point q: Flamant's -2/pi (d.s) s (x) s / |s|^4, d the direction of the push, s from q. */
+/* A load of 1 a thickness pushes inward at the rim's point q: Flamant's -2/pi (d.s) s (x) s / |s|^4, d the direction of
+ * the push, s from q. */
 static void add_flamant(const double q[2], double x, double y, double weight, double stress[3])
 {
     const double s[2] = {x - q[0], y - q[1]}, square = s[0] * s[0] + s[1] * s[1];
@@ -30,18 +31,23 @@ void brc_reference_disc(double half_angle, double x, double y, double stress[3])
         stress[1] += load / M_PI;
     }
     const double nominal = 2 * sin(half_angle) / M_PI; /* resultant 2 p R sin(half_angle), over pi R */
-    for (int c = 0; c < 3; ++c) stress[c] /= nominal;
+    for (int c = 0; c < 3; ++c)
+        stress[c] /= nominal;
 }
 
-brc_status brc_reference_ring_solve(brc_context *context, double inner, double outer, double young, double poisson, double e_xx, double e_yy, brc_reference_ring *out)
+brc_status brc_reference_ring_solve(brc_context *context, double inner, double outer, double young, double poisson,
+                                    double e_xx, double e_yy, brc_reference_ring *out)
 {
-    if (!(inner > 0 && outer > inner)) return BRC_FAIL(context, BRC_BAD_INPUT, "ring from %g to %g m, expected 0 < inner < outer", inner, outer);
-    const double mu = young / (2 * (1 + poisson)), lambda = 2 * mu * poisson / (1 - 2 * poisson), kappa = 3 - 4 * poisson;
+    if (!(inner > 0 && outer > inner))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "ring from %g to %g m, expected 0 < inner < outer", inner, outer);
+    const double mu = young / (2 * (1 + poisson)), lambda = 2 * mu * poisson / (1 - 2 * poisson),
+                 kappa = 3 - 4 * poisson;
     const double mean = (e_xx + e_yy) / 2, apart = (e_xx - e_yy) / 2, b = outer / inner;
     *out = (brc_reference_ring){.inner = inner, .outer = outer, .lambda = lambda, .mu = mu};
     out->even = mean / (1 + (lambda + mu) / (mu * b * b));
     out->even_inner = out->even * inner * inner * (lambda + mu) / mu;
-    /* Radial and shear stress at a are 0; 2 mu u_r and 2 mu u_theta at b are those of the affine field; lengths in units of a. */
+    /* Radial and shear stress at a are 0; 2 mu u_r and 2 mu u_theta at b are those of the affine field; lengths in
+     * units of a. */
     double matrix[4][4] = {{-2, 0, -6, -4},
                            {1, 3, -3, -1},
                            {-2 * b, -(3 - kappa) * b * b * b, 2 / (b * b * b), (kappa + 1) / b},
@@ -50,7 +56,8 @@ brc_status brc_reference_ring_solve(brc_context *context, double inner, double o
     lapack_int pivots[4];
     const lapack_int info = LAPACKE_dgesv(LAPACK_ROW_MAJOR, 4, 1, &matrix[0][0], 4, pivots, right, 1);
     if (info != 0) return BRC_FAIL(context, BRC_INTERNAL, "ring: dgesv gave %d", (int)info);
-    for (int k = 0; k < 4; ++k) out->c[k] = right[k];
+    for (int k = 0; k < 4; ++k)
+        out->c[k] = right[k];
     return BRC_OK;
 }
 
@@ -68,8 +75,11 @@ void brc_reference_ring_at(const brc_reference_ring *ring, double x, double y, d
     stress[2] = (radial - hoop) * sine * cosine + shear * (cosine * cosine - sine * sine);
     if (!displacement) return;
     const double scale = ring->inner / (2 * ring->mu);
-    const double out = ring->even * r + ring->even_inner / r + scale * (-2 * c[0] * s - (3 - kappa) * c[1] * pow(s, 3) + 2 * c[2] / pow(s, 3) + (kappa + 1) * c[3] / s) * cos2;
-    const double around = scale * (2 * c[0] * s + (3 + kappa) * c[1] * pow(s, 3) + 2 * c[2] / pow(s, 3) - (kappa - 1) * c[3] / s) * sin2;
+    const double out =
+        ring->even * r + ring->even_inner / r +
+        scale * (-2 * c[0] * s - (3 - kappa) * c[1] * pow(s, 3) + 2 * c[2] / pow(s, 3) + (kappa + 1) * c[3] / s) * cos2;
+    const double around =
+        scale * (2 * c[0] * s + (3 + kappa) * c[1] * pow(s, 3) + 2 * c[2] / pow(s, 3) - (kappa - 1) * c[3] / s) * sin2;
     displacement[0] = out * cosine - around * sine;
     displacement[1] = out * sine + around * cosine;
 }

@@ -1,5 +1,6 @@
-/* Rayleigh-Ritz for a free solid. With Legendre polynomials normalised on [-1, 1] the mass matrix of a box is the density times the
- * unit matrix, so the eigenproblem is a plain symmetric one; round solids have a mass matrix too. Reflections split it into eight blocks. */
+/* Rayleigh-Ritz for a free solid. With Legendre polynomials normalised on [-1, 1] the mass matrix of a box is the
+ * density times the unit matrix, so the eigenproblem is a plain symmetric one; round solids have a mass matrix too.
+ * Reflections split it into eight blocks. */
 #include "reference_vibration_internal.h"
 #include "../../base/memory.h"
 #include <lapacke.h>
@@ -30,7 +31,8 @@ static void integrate(integrals *table)
 }
 
 /* Integral of d_j a d_l b over the box mapped to [-1, 1]^3 [1/m^2]. */
-static double product(const integrals *table, const double size[3], const brc_reference_function *a, int j, const brc_reference_function *b, int l)
+static double product(const integrals *table, const double size[3], const brc_reference_function *a, int j,
+                      const brc_reference_function *b, int l)
 {
     double value = 4 / (size[j] * size[l]);
     for (int d = 0; d < 3; ++d) {
@@ -68,20 +70,24 @@ static int ascending(const void *a, const void *b)
 }
 
 /* Stiffness over the density of the functions of a box. */
-static void fill_box(const integrals *table, const brc_reference_solid *box, int size, const brc_reference_function *basis, double *stiffness)
+static void fill_box(const integrals *table, const brc_reference_solid *box, int size,
+                     const brc_reference_function *basis, double *stiffness)
 {
     const double mu = box->young / (2 * (1 + box->poisson));
     const double lambda = 2 * mu * box->poisson / (1 - 2 * box->poisson);
     for (int r = 0; r < size; ++r)
         for (int c = r; c < size; ++c) {
             const int i = basis[r].component, k = basis[c].component;
-            double sum = lambda * product(table, box->size, &basis[r], i, &basis[c], k) + mu * product(table, box->size, &basis[r], k, &basis[c], i);
-            for (int j = 0; i == k && j < 3; ++j) sum += mu * product(table, box->size, &basis[r], j, &basis[c], j);
+            double sum = lambda * product(table, box->size, &basis[r], i, &basis[c], k) +
+                         mu * product(table, box->size, &basis[r], k, &basis[c], i);
+            for (int j = 0; i == k && j < 3; ++j)
+                sum += mu * product(table, box->size, &basis[r], j, &basis[c], j);
             stiffness[(int64_t)r * size + c] = sum / box->density;
         }
 }
 
-brc_status brc_reference_vibration(brc_context *context, const brc_reference_solid *solid, int degree, int n, double *omega)
+brc_status brc_reference_vibration(brc_context *context, const brc_reference_solid *solid, int degree, int n,
+                                   double *omega)
 {
     const bool round = solid->shape != BRC_REFERENCE_BOX;
     const int highest = round ? HIGHEST_ROUND : HIGHEST_DEGREE;
@@ -89,7 +95,8 @@ brc_status brc_reference_vibration(brc_context *context, const brc_reference_sol
         return BRC_FAIL(context, BRC_BAD_INPUT, "vibration of a solid: degree %d, expected 1 to %d", degree, highest);
     const int n_functions = (degree + 1) * (degree + 2) * (degree + 3) / 2;
     if (n < 1 || n > n_functions - 6)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "vibration of a solid: %d modes asked, degree %d has %d", n, degree, n_functions - 6);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "vibration of a solid: %d modes asked, degree %d has %d", n, degree,
+                        n_functions - 6);
     brc_status status = BRC_OK;
     integrals table;
     brc_reference_function *basis = NULL;
@@ -103,7 +110,8 @@ brc_status brc_reference_vibration(brc_context *context, const brc_reference_sol
         lapack_int info;
         if (size == 0) continue;
         brc_memory_free(stiffness);
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &stiffness, (int64_t)size * size, "stiffness of the vibration of a solid"));
+        BRC_TRY_OR(cleanup,
+                   BRC_ALLOCATE(context, &stiffness, (int64_t)size * size, "stiffness of the vibration of a solid"));
         if (round) {
             brc_memory_free(mass);
             BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &mass, (int64_t)size * size, "mass of the vibration of a solid"));
@@ -114,13 +122,15 @@ brc_status brc_reference_vibration(brc_context *context, const brc_reference_sol
             info = LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'N', 'U', size, stiffness, size, squares + found);
         }
         if (info != 0) {
-            status = BRC_FAIL(context, BRC_INTERNAL, "vibration of a solid: LAPACK gave %d for %d functions", (int)info, size);
+            status = BRC_FAIL(context, BRC_INTERNAL, "vibration of a solid: LAPACK gave %d for %d functions", (int)info,
+                              size);
             goto cleanup;
         }
         found += size;
     }
     qsort(squares, (size_t)found, sizeof *squares, ascending);
-    for (int k = 0; k < n; ++k) omega[k] = sqrt(squares[k + 6]);
+    for (int k = 0; k < n; ++k)
+        omega[k] = sqrt(squares[k + 6]);
 cleanup:
     brc_memory_free(mass);
     brc_memory_free(stiffness);

@@ -41,7 +41,8 @@ brc_status brc_case_text(brc_context *context, const char *folder, const char *n
             memcpy(*out, brc_case_files[f].text, *bytes);
             return BRC_OK;
         }
-    return BRC_FAIL(context, BRC_BAD_INPUT, "case '%s' has no file %s; `breccia reproduce --list` names the cases", name, file);
+    return BRC_FAIL(context, BRC_BAD_INPUT, "case '%s' has no file %s; `breccia reproduce --list` names the cases",
+                    name, file);
 }
 
 /* A key of a row; false when it is none. */
@@ -68,7 +69,8 @@ static bool read_row_key(const brc_case_reader *r, const brc_node *item, brc_cas
 
 static brc_case_row empty_row(const char *quantity)
 {
-    return (brc_case_row){.quantity = quantity, .unit = "-", .reference = NAN, .paper = NAN, .rule = BRC_CASE_INFORMATION};
+    return (brc_case_row){
+        .quantity = quantity, .unit = "-", .reference = NAN, .paper = NAN, .rule = BRC_CASE_INFORMATION};
 }
 
 static brc_status read_rows(const brc_case_reader *r, const brc_node *node, brc_case_run *run)
@@ -92,7 +94,8 @@ static const char *const precisions[] = {"double", "mixed", "single", NULL};
 
 static brc_status read_run(const brc_case_reader *r, const brc_node *node, brc_case_run *run)
 {
-    *run = (brc_case_run){.name = "", .scene = "scene.yaml", .about = "", .operator = &brc_operator_measures, .n_seeds = 1};
+    *run = (brc_case_run){
+        .name = "", .scene = "scene.yaml", .about = "", .operator= & brc_operator_measures, .n_seeds = 1};
     if (node->kind != BRC_NODE_MAP) brc_case_wrong(r, node, "a map");
     for (const brc_node *item = node->first; node->kind == BRC_NODE_MAP && item; item = item->next) {
         if (strcmp(item->key, "name") == 0)
@@ -112,7 +115,7 @@ static brc_status read_run(const brc_case_reader *r, const brc_node *node, brc_c
         else if (strcmp(item->key, "exact") == 0)
             run->exact = brc_case_flag_of(r, item);
         else if (strcmp(item->key, "with") == 0)
-            run->operator = brc_operator_of(r, item);
+            run->operator= brc_operator_of(r, item);
         else if (strcmp(item->key, "device") == 0)
             run->device = brc_case_text_of(r, item);
         else if (strcmp(item->key, "precision") == 0)
@@ -139,14 +142,16 @@ static brc_status read_run(const brc_case_reader *r, const brc_node *node, brc_c
     return BRC_OK;
 }
 
-/* One run, or with `precisions` one in each of them: called NAME-PRECISION, labelled with it, the sentence at the first. */
+/* One run, or with `precisions` one in each of them: called NAME-PRECISION, labelled with it, the sentence at the
+ * first. */
 static brc_status read_runs(const brc_case_reader *r, const brc_node *node, brc_case *what)
 {
     const char *wanted[BRC_CASE_LIST];
     int n = 0;
     for (const brc_node *item = node->kind == BRC_NODE_MAP ? node->first : NULL; item; item = item->next)
         if (strcmp(item->key, "precisions") == 0)
-            for (const brc_node *word = item->kind == BRC_NODE_LIST ? item->first : item; word && n < 3; word = item->kind == BRC_NODE_LIST ? word->next : NULL)
+            for (const brc_node *word = item->kind == BRC_NODE_LIST ? item->first : item; word && n < 3;
+                 word = item->kind == BRC_NODE_LIST ? word->next : NULL)
                 wanted[n++] = precisions[brc_case_word_of(r, word, precisions)];
     if (n == 0) return read_run(r, node, &what->runs[what->n_runs++]);
     for (int k = 0; k < n; ++k) {
@@ -205,7 +210,8 @@ static void check_names(const brc_case_reader *r, const brc_node *root, const br
                 ++found;
             if (found == what->n_runs || (what->derived[d].quick && !what->runs[found].quick))
                 brc_problems_add(r->problems, root->mark, "derived row %s names the run '%s', which is not there%s",
-                                 what->derived[d].row.quantity, what->derived[d].runs[k], found < what->n_runs ? " in --quick" : "");
+                                 what->derived[d].row.quantity, what->derived[d].runs[k],
+                                 found < what->n_runs ? " in --quick" : "");
         }
 }
 
@@ -221,7 +227,8 @@ static brc_status read_top(const brc_case_reader *r, const brc_node *root, brc_c
         else if (strcmp(item->key, "about") == 0)
             what->about = brc_case_text_of(r, item);
         else if (strcmp(item->key, "runs") == 0 && item->kind == BRC_NODE_LIST) {
-            BRC_TRY(BRC_ALLOCATE(r->context, &what->runs, 3 * (int64_t)item->n_children, "runs of a case")); /* in three precisions at most */
+            BRC_TRY(BRC_ALLOCATE(r->context, &what->runs, 3 * (int64_t)item->n_children,
+                                 "runs of a case")); /* in three precisions at most */
             for (const brc_node *run = item->first; run; run = run->next)
                 BRC_TRY(read_runs(r, run, what));
         } else if (strcmp(item->key, "derived") == 0 && item->kind == BRC_NODE_LIST) {

@@ -1,5 +1,5 @@
-/* A case of `breccia reproduce`: which runs to make, what to take from them, and what to hold it against. Data, read from
- * tests/validation/<case>/case.yaml; its README says what the keys mean. */
+/* A case of `breccia reproduce`: which runs to make, what to take from them, and what to hold it against. Data, read
+ * from tests/validation/<case>/case.yaml; its README says what the keys mean. */
 #ifndef BRC_COMMANDS_CASE_H
 #define BRC_COMMANDS_CASE_H
 
@@ -44,13 +44,14 @@ typedef struct brc_case_run {
     const char *device; /* NULL: the one of the command line. A device that is not there: the run is skipped */
     bool has_precision;
     brc_precision precision;
-    bool exact;    /* as in brc_device_request */
-    int n_threads; /* 0: as the command line says */
-    int n_seeds;   /* samples, the seed of the fill one larger each time; values are means. Not with drift, build, vibration or keep */
+    bool exact;        /* as in brc_device_request */
+    int n_threads;     /* 0: as the command line says */
+    int n_seeds;       /* samples, the seed of the fill one larger each time; values are means. Not with drift, build,
+                          vibration or keep */
     double half_angle; /* hondros: of the loaded arcs [rad] */
     int n_overrides;
     const char *overrides[BRC_CASE_LIST];
-    int n_files;   /* files of the case that the scene reads: put beside it before the run */
+    int n_files; /* files of the case that the scene reads: put beside it before the run */
     const char *files[BRC_CASE_LIST];
     int n_labels;
     brc_case_pair labels[BRC_CASE_LIST];
@@ -60,11 +61,13 @@ typedef struct brc_case_run {
 
 /* What is computed from several runs. */
 typedef enum brc_case_formula {
-    BRC_CASE_MEAN,      /* of a quantity over the runs */
-    BRC_CASE_WORST,     /* largest magnitude */
-    BRC_CASE_ORDER,     /* slope of log |quantity - reference| against log `against`, sign so that convergence is positive */
-    BRC_CASE_RANGE,     /* largest minus smallest of a quantity, over its mean */
-    BRC_CASE_RATIO,     /* magnitude of the mean of a quantity over the first half of the runs, over that of the second half; an even number of runs */
+    BRC_CASE_MEAN,       /* of a quantity over the runs */
+    BRC_CASE_WORST,      /* largest magnitude */
+    BRC_CASE_ORDER,      /* slope of log |quantity - reference| against log `against`, sign so that convergence is
+                            positive */
+    BRC_CASE_RANGE,      /* largest minus smallest of a quantity, over its mean */
+    BRC_CASE_RATIO,      /* magnitude of the mean of a quantity over the first half of the runs, over that of the second
+                            half; an even number of runs */
     BRC_CASE_DIFFERENCE, /* largest difference of kept displacements, over the largest displacement; exactly two runs */
     BRC_CASE_CROSSING    /* where a quantity first passes `origin`, along `against`, linear between runs */
 } brc_case_formula;
@@ -74,7 +77,8 @@ typedef struct brc_case_derived {
     brc_case_formula formula;
     bool quick;
     const char *of;      /* quantity */
-    const char *against; /* "spacing" (elements^-1/3, the default), a quantity such as "time_step", or a label that is a number */
+    const char *against; /* "spacing" (elements^-1/3, the default), a quantity such as "time_step", or a label that is a
+                            number */
     double origin;       /* what `of` converges to; 0 for errors */
     int n_runs;
     const char *runs[BRC_CASE_LIST];
@@ -92,8 +96,8 @@ typedef struct brc_case {
     struct brc_tree *tree;
 } brc_case;
 
-/* Read a case by name: from `folder`/<name>/case.yaml, or from the program itself when folder is NULL. BRC_BAD_INPUT with
- * place and cure, for an unknown name with the nearest one. */
+/* Read a case by name: from `folder`/<name>/case.yaml, or from the program itself when folder is NULL. BRC_BAD_INPUT
+ * with place and cure, for an unknown name with the nearest one. */
 brc_status brc_case_read(brc_context *context, const char *folder, const char *name, brc_case **out);
 void brc_case_free(brc_case **what);
 /* Text of a file of the case; freed by brc_memory_free. */

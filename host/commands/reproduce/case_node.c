@@ -79,8 +79,8 @@ void brc_case_unknown_key(const brc_case_reader *r, const brc_node *item, const 
     brc_problems_add(r->problems, item->key_mark, "unknown key '%s' in a %s", item->key, where);
 }
 
-brc_status brc_case_parse(brc_context *context, const char *folder, const char *name, const char *file, const char *shown, brc_tree **tree,
-                          brc_problems **problems, brc_node **root)
+brc_status brc_case_parse(brc_context *context, const char *folder, const char *name, const char *file,
+                          const char *shown, brc_tree **tree, brc_problems **problems, brc_node **root)
 {
     char *text = NULL;
     size_t bytes = 0;

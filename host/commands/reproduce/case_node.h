@@ -1,4 +1,5 @@
-/* Values of the files that describe cases and sweeps: nodes of a tree read as texts, numbers and lists, what is wrong noted with its place. */
+/* Values of the files that describe cases and sweeps: nodes of a tree read as texts, numbers and lists, what is wrong
+ * noted with its place. */
 #ifndef BRC_COMMANDS_CASE_NODE_H
 #define BRC_COMMANDS_CASE_NODE_H
 
@@ -25,8 +26,9 @@ int brc_case_word_of(const brc_case_reader *r, const brc_node *node, const char 
 int brc_case_texts_of(const brc_case_reader *r, const brc_node *node, const char **out);
 int brc_case_pairs_of(const brc_case_reader *r, const brc_node *node, brc_case_pair *out);
 
-/* Read `file` of a case into a tree of its own; *root is owned by *tree. `problems` is made for it and shows the file as `shown`, borrowed till then. All freed by the caller, also after a failure. */
-brc_status brc_case_parse(brc_context *context, const char *folder, const char *name, const char *file, const char *shown, brc_tree **tree,
-                          brc_problems **problems, brc_node **root);
+/* Read `file` of a case into a tree of its own; *root is owned by *tree. `problems` is made for it and shows the file
+ * as `shown`, borrowed till then. All freed by the caller, also after a failure. */
+brc_status brc_case_parse(brc_context *context, const char *folder, const char *name, const char *file,
+                          const char *shown, brc_tree **tree, brc_problems **problems, brc_node **root);
 
 #endif

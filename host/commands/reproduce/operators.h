@@ -29,20 +29,20 @@ extern const brc_operator *const brc_operators[];
 /* The operator that a node names; otherwise the problem is noted and brc_operator_measures returned. */
 const brc_operator *brc_operator_of(const brc_case_reader *r, const brc_node *node);
 
-extern const brc_operator brc_operator_measures;   /* nothing beside the measures */
-extern const brc_operator brc_operator_vibration;  /* modes against Rayleigh-Ritz of the scene's solid */
-extern const brc_operator brc_operator_drift;      /* energy, momentum and angular momentum along the run */
-extern const brc_operator brc_operator_build;      /* no run: seeds to domain file, timed */
-extern const brc_operator brc_operator_isotropy;   /* no run: directions of bonds over n_seeds samples */
-extern const brc_operator brc_operator_beams;      /* elastic tests of n_seeds samples of beams */
-extern const brc_operator brc_operator_hondros;    /* stresses on the loaded diameter of a disc against Hondros */
-extern const brc_operator brc_operator_virial;     /* virial stresses of a pulled box of spheres against force over section */
-extern const brc_operator brc_operator_pressing;   /* load over strain of the measure K along the run */
-extern const brc_operator brc_operator_wave;       /* displacement of a bar's free end against d'Alembert's solution */
-extern const brc_operator brc_operator_field;      /* stresses in a set against those of a disc or a plate with a hole */
-extern const brc_operator brc_operator_told;       /* the error class that `check` gives before the run, against the run's error */
-extern const brc_operator brc_operator_fragments;  /* sizes of what a body broke into */
-extern const brc_operator brc_operator_bounce;     /* touches, rebound and spin of a body thrown on the ground */
-extern const brc_operator brc_operator_sides;      /* mean load of two sides along the run */
+extern const brc_operator brc_operator_measures;  /* nothing beside the measures */
+extern const brc_operator brc_operator_vibration; /* modes against Rayleigh-Ritz of the scene's solid */
+extern const brc_operator brc_operator_drift;     /* energy, momentum and angular momentum along the run */
+extern const brc_operator brc_operator_build;     /* no run: seeds to domain file, timed */
+extern const brc_operator brc_operator_isotropy;  /* no run: directions of bonds over n_seeds samples */
+extern const brc_operator brc_operator_beams;     /* elastic tests of n_seeds samples of beams */
+extern const brc_operator brc_operator_hondros;   /* stresses on the loaded diameter of a disc against Hondros */
+extern const brc_operator brc_operator_virial;    /* virial stresses of pulled spheres against force over section */
+extern const brc_operator brc_operator_pressing;  /* load over strain of the measure K along the run */
+extern const brc_operator brc_operator_wave;      /* displacement of a bar's free end against d'Alembert's solution */
+extern const brc_operator brc_operator_field;     /* stresses in a set against those of a disc or a plate with a hole */
+extern const brc_operator brc_operator_told;      /* the error class of `check` before the run, against its error */
+extern const brc_operator brc_operator_fragments; /* sizes of what a body broke into */
+extern const brc_operator brc_operator_bounce;    /* touches, rebound and spin of a body thrown on the ground */
+extern const brc_operator brc_operator_sides;     /* mean load of two sides along the run */
 
 #endif

@@ -22,8 +22,8 @@ typedef struct brc_case_value {
 /* What became of a run. */
 typedef struct brc_outcome {
     const brc_case_run *run;
-    bool done;     /* ran, or stopped where that is a result */
-    bool skipped;  /* not part of this campaign, or its device is not there */
+    bool done;      /* ran, or stopped where that is a result */
+    bool skipped;   /* not part of this campaign, or its device is not there */
     char note[400]; /* why it was skipped, stopped or failed */
     double seconds;
     int64_t n_elements, n_bonds, steps;
@@ -31,8 +31,9 @@ typedef struct brc_outcome {
     brc_precision precision;
     int n_values;
     brc_case_value values[BRC_CASE_VALUES];
-    double *displacement; /* [n_elements][3] kept on wish; owned */
-    brc_isotropy *isotropy; /* [4] of a run of isotropy: every bond once, weighted with area (empty for beams), and both inside; owned */
+    double *displacement;   /* [n_elements][3] kept on wish; owned */
+    brc_isotropy *isotropy; /* [4] of a run of isotropy: every bond once, weighted with area (empty for beams), and both
+                               inside; owned */
 } brc_outcome;
 
 void brc_outcome_add(brc_outcome *outcome, const char *name, const char *unit, double value, double reference);
@@ -52,7 +53,8 @@ typedef struct brc_campaign {
     int n_threads;
     bool exact;
     bool quick;
-    bool priced; /* processor seconds of the runs, and the price of dynamics on their elements (pace.h), are wanted too */
+    bool priced; /* processor seconds of the runs, and the price of dynamics on their elements (pace.h), are wanted
+                    too */
     brc_rows rows;
     brc_outcome *outcomes; /* [what->n_runs] */
     int n_judged, n_missed;
@@ -62,9 +64,10 @@ typedef struct brc_campaign {
 /* Carry out one run; a failure of the run itself is kept in its outcome (note), BRC_OK is returned. Not BRC_OK: an
  * interruption, or no memory. */
 brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome);
-/* One run of the scene (a text, its name a path), watched by the run's operator: counts, times, measures and what the operator adds. */
-brc_status brc_outcome_simulate(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text, size_t bytes,
-                                const char *folder);
+/* One run of the scene (a text, its name a path), watched by the run's operator: counts, times, measures and what the
+ * operator adds. */
+brc_status brc_outcome_simulate(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text,
+                                size_t bytes, const char *folder);
 /* The value of a derived row; NAN with a sentence in `note` where a run is missing. */
 double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *derived, char *note, size_t size);
 

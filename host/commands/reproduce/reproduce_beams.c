@@ -1,5 +1,5 @@
-/* Elastic tests of samples of beams that differ by their seed alone (NAH19 section 4.1): E and nu of a material whose beams follow from the
- * laws, from `beam` parameters, or from the polish on one sample, tried on a fresh one. */
+/* Elastic tests of samples of beams that differ by their seed alone (NAH19 section 4.1): E and nu of a material whose
+ * beams follow from the laws, from `beam` parameters, or from the polish on one sample, tried on a fresh one. */
 #include "operators.h"
 #include "../../base/log.h"
 #include "../../base/memory.h"
@@ -16,13 +16,15 @@ struct brc_sample_store {
     brc_shape shape;
     brc_fill fill;
     int n;
-    brc_beam_sample **sample; /* [n] seeds fill.seed, fill.seed + 1 ...; with polish the first half is polished, the second fresh */
+    brc_beam_sample *
+        *sample; /* [n] seeds fill.seed, fill.seed + 1 ...; with polish the first half is polished, the second fresh */
 };
 
 void brc_sample_store_free(struct brc_sample_store **store)
 {
     if (!store || !*store) return;
-    for (int k = 0; k < (*store)->n; ++k) brc_beam_sample_free(&(*store)->sample[k]);
+    for (int k = 0; k < (*store)->n; ++k)
+        brc_beam_sample_free(&(*store)->sample[k]);
     brc_memory_free((*store)->sample);
     brc_memory_free(*store);
     *store = NULL;
@@ -30,7 +32,7 @@ void brc_sample_store_free(struct brc_sample_store **store)
 
 /* What one sample gave. */
 typedef struct result {
-    double nu, young;           /* along x, with the parameters below; with polish: of a fresh sample, means over its axes */
+    double nu, young; /* along x, with the parameters below; with polish: of a fresh sample, means over its axes */
     double radius, beam_young;
     double nu_axis, young_axis; /* with polish along x and y: of the same sample along z */
     int64_t n_bonds;
@@ -51,28 +53,36 @@ static void fail(work *w, brc_status status, const char *message)
 }
 
 /* nu and E along some axes, means. */
-static brc_status pull(const work *w, brc_context *context, brc_device *device, const brc_domain *domain, int from, int to, double radius, double beam_young,
-                       double *nu, double *young)
+static brc_status pull(const work *w, brc_context *context, brc_device *device, const brc_domain *domain, int from,
+                       int to, double radius, double beam_young, double *nu, double *young)
 {
     *nu = *young = 0;
     for (int axis = from; axis < to; ++axis) {
         brc_beam_answer a;
-        BRC_TRY(brc_beam_sample_pull(context, device, domain, &(brc_beam_pull){.axis = axis, .radius = radius, .beam_poisson = w->scene->model.beam_poisson}, &a));
+        BRC_TRY(brc_beam_sample_pull(
+            context, device, domain,
+            &(brc_beam_pull){.axis = axis, .radius = radius, .beam_poisson = w->scene->model.beam_poisson}, &a));
         *nu += a.poisson / (to - from);
         *young += a.young * beam_young / (to - from);
     }
     return BRC_OK;
 }
 
-/* Parameters polished on a sample along all axes, tried on a fresh one that the polish knows the bonds of, as of any body; and polished along two axes,
- * tried along the third. */
-static brc_status try_polish(const work *w, brc_context *context, brc_device *device, const brc_domain *domain, const brc_domain *fresh, result *out)
+/* Parameters polished on a sample along all axes, tried on a fresh one that the polish knows the bonds of, as of any
+ * body; and polished along two axes, tried along the third. */
+static brc_status try_polish(const work *w, brc_context *context, brc_device *device, const brc_domain *domain,
+                             const brc_domain *fresh, result *out)
 {
     const brc_material *material = &w->scene->materials[0];
     brc_beam_body bonds;
     brc_polish polish;
     BRC_TRY(brc_beam_body_of(context, fresh, -1, &bonds));
-    brc_polish_request request = {.n_samples = 1, .samples = &domain, .n_axes = 3, .body = &bonds, .poisson = material->poisson, .young = material->young,
+    brc_polish_request request = {.n_samples = 1,
+                                  .samples = &domain,
+                                  .n_axes = 3,
+                                  .body = &bonds,
+                                  .poisson = material->poisson,
+                                  .young = material->young,
                                   .beam_poisson = w->scene->model.beam_poisson};
     BRC_TRY(brc_beam_polish(context, device, &request, &polish));
     out->radius = polish.radius;
@@ -92,10 +102,12 @@ static brc_status try_sample(const work *w, brc_context *context, brc_device *de
     brc_domain *domain = NULL, *fresh = NULL;
     brc_beam_body bonds;
     brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, brc_beam_sample_bond(context, w->store->sample[k], coordination, scene->model.polish, 1, &domain));
+    BRC_TRY_OR(cleanup,
+               brc_beam_sample_bond(context, w->store->sample[k], coordination, scene->model.polish, 1, &domain));
     out->n_bonds = domain->n_bonds;
     if (scene->model.polish) {
-        BRC_TRY_OR(cleanup, brc_beam_sample_bond(context, w->store->sample[w->store->n / 2 + k], coordination, true, 1, &fresh));
+        BRC_TRY_OR(cleanup,
+                   brc_beam_sample_bond(context, w->store->sample[w->store->n / 2 + k], coordination, true, 1, &fresh));
         BRC_TRY_OR(cleanup, try_polish(w, context, device, domain, fresh, out));
         goto cleanup;
     }
@@ -103,8 +115,9 @@ static brc_status try_sample(const work *w, brc_context *context, brc_device *de
     out->beam_young = material->beam_young;
     BRC_TRY_OR(cleanup, brc_beam_body_of(context, domain, -1, &bonds));
     if (!(out->radius > 0))
-        BRC_TRY_OR(cleanup, brc_beam_law_invert(context, brc_beam_law_for(scene->bodies[0].fill.radius_spread), &bonds, material->poisson, material->young,
-                                                &out->radius, &out->beam_young, NULL));
+        BRC_TRY_OR(cleanup,
+                   brc_beam_law_invert(context, brc_beam_law_for(scene->bodies[0].fill.radius_spread), &bonds,
+                                       material->poisson, material->young, &out->radius, &out->beam_young, NULL));
     BRC_TRY_OR(cleanup, pull(w, context, device, domain, 0, 1, out->radius, out->beam_young, &out->nu, &out->young));
 cleanup:
     brc_domain_free(&domain);
@@ -126,8 +139,9 @@ static void share(work *w, int n, int n_threads, bool packing)
         brc_log_set_level(context, BRC_LOG_ERROR);
         brc_fill fill = w->store->fill;
         fill.seed += (uint64_t)k;
-        brc_status status = packing ? brc_beam_sample_pack(context, &w->store->shape, &fill, 1, &w->store->sample[k])
-                                    : brc_device_open(context, &(brc_device_request){.selector = "cpu", .n_threads = 1}, &device);
+        brc_status status =
+            packing ? brc_beam_sample_pack(context, &w->store->shape, &fill, 1, &w->store->sample[k])
+                    : brc_device_open(context, &(brc_device_request){.selector = "cpu", .n_threads = 1}, &device);
         if (status == BRC_OK && !packing) status = try_sample(w, context, device, k, &w->results[k]);
         if (status != BRC_OK) fail(w, status, brc_context_message(context));
         brc_device_close(&device);
@@ -139,7 +153,8 @@ static brc_status find_samples(brc_campaign *campaign, work *w, int n, int n_thr
 {
     const brc_body *body = &w->scene->bodies[0];
     struct brc_sample_store *store = campaign->samples;
-    if (store && store->n == n && memcmp(&store->shape, &body->shape, sizeof body->shape) == 0 && memcmp(&store->fill, &body->fill, sizeof body->fill) == 0) {
+    if (store && store->n == n && memcmp(&store->shape, &body->shape, sizeof body->shape) == 0 &&
+        memcmp(&store->fill, &body->fill, sizeof body->fill) == 0) {
         w->store = store;
         return BRC_OK;
     }
@@ -155,10 +170,12 @@ static brc_status find_samples(brc_campaign *campaign, work *w, int n, int n_thr
 }
 
 /* Mean over the samples with its scatter. */
-static void add_mean(brc_outcome *outcome, const char *name, const char *unit, const result *results, int n, size_t member, double reference)
+static void add_mean(brc_outcome *outcome, const char *name, const char *unit, const result *results, int n,
+                     size_t member, double reference)
 {
     double mean = 0, square = 0;
-    for (int k = 0; k < n; ++k) mean += *(const double *)((const char *)&results[k] + member) / n;
+    for (int k = 0; k < n; ++k)
+        mean += *(const double *)((const char *)&results[k] + member) / n;
     for (int k = 0; k < n; ++k) {
         const double off = *(const double *)((const char *)&results[k] + member) - mean;
         square += off * off;
@@ -167,7 +184,8 @@ static void add_mean(brc_outcome *outcome, const char *name, const char *unit, c
     if (n > 1) outcome->values[outcome->n_values - 1].scatter = sqrt(square / (n - 1));
 }
 
-static void add_worst(brc_outcome *outcome, const char *name, const result *results, int n, size_t member, double reference)
+static void add_worst(brc_outcome *outcome, const char *name, const result *results, int n, size_t member,
+                      double reference)
 {
     double worst = 0;
     for (int k = 0; k < n; ++k) {
@@ -182,15 +200,18 @@ static brc_status obtain(brc_campaign *campaign, brc_outcome *outcome, const cha
 {
     (void)folder; /* no files */
     const brc_case_run *run = outcome->run;
-    const int n = run->n_seeds, wanted = run->n_threads > 0 ? run->n_threads : campaign->n_threads, n_threads = wanted > 0 ? wanted : omp_get_max_threads();
+    const int n = run->n_seeds, wanted = run->n_threads > 0 ? run->n_threads : campaign->n_threads,
+              n_threads = wanted > 0 ? wanted : omp_get_max_threads();
     brc_scene *scene = NULL;
     brc_status status = BRC_OK;
     work w = {.context = campaign->session->context};
     const double start = brc_clock_s();
     BRC_TRY(brc_scene_read_text(w.context, name, text, bytes, run->n_overrides, run->overrides, &scene));
     w.scene = scene;
-    if (scene->n_bodies != 1 || scene->n_materials != 1 || !(scene->bodies[0].beams > 0) || scene->bodies[0].fill.n_radii > 0 || scene->bodies[0].shape.n_parts > 0)
-        BRC_TRY_OR(cleanup, BRC_FAIL(w.context, BRC_BAD_INPUT, "%s: `with: beams` expects one packed box of one material with beams", name));
+    if (scene->n_bodies != 1 || scene->n_materials != 1 || !(scene->bodies[0].beams > 0) ||
+        scene->bodies[0].fill.n_radii > 0 || scene->bodies[0].shape.n_parts > 0)
+        BRC_TRY_OR(cleanup, BRC_FAIL(w.context, BRC_BAD_INPUT,
+                                     "%s: `with: beams` expects one packed box of one material with beams", name));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(w.context, &w.results, n, "results of a run"));
     BRC_TRY_OR(cleanup, find_samples(campaign, &w, scene->model.polish ? 2 * n : n, n_threads));
     share(&w, n, n_threads, false);

@@ -11,12 +11,13 @@ typedef struct bounce {
     brc_context *context;
     brc_watched watched;
     int32_t sensor[N_NAMES];
-    double g;                       /* [m/s^2] */
-    double first, release, last;    /* [s] first push, last one of its touch, last one; NAN: none yet */
-    bool away; /* the ground felt nothing at the last sample */
+    double g;                    /* [m/s^2] */
+    double first, release, last; /* [s] first push, last one of its touch, last one; NAN: none yet */
+    bool away;                   /* the ground felt nothing at the last sample */
     int bounces;
-    double n, t, y, tt, ty, spin;   /* sums over the first flight; t since its first sample [s], y = height + g t^2 / 2 [m] */
-    double origin;                  /* of t [s] */
+    double n, t, y, tt, ty,
+        spin;      /* sums over the first flight; t since its first sample [s], y = height + g t^2 / 2 [m] */
+    double origin; /* of t [s] */
 } bounce;
 
 static brc_status create(brc_context *context, void **out)
@@ -44,7 +45,9 @@ static brc_status prepare(bounce *b, brc_simulation *simulation)
         b->sensor[k] = brc_watched_find(scene, NAMES[k]);
         found = found && b->sensor[k] < scene->n_sensors;
     }
-    if (!found) return BRC_FAIL(b->context, BRC_BAD_INPUT, "`with: bounce` expects gravity along -z and sensors named push, height and spin");
+    if (!found)
+        return BRC_FAIL(b->context, BRC_BAD_INPUT,
+                        "`with: bounce` expects gravity along -z and sensors named push, height and spin");
     b->g = -scene->gravity[2];
     return brc_watched_open(b->context, &b->watched, simulation);
 }
@@ -61,7 +64,10 @@ static void add_to_flight(bounce *b, double time)
     b->spin += b->watched.value[b->sensor[SPIN]];
 }
 
-static void leave_flight(bounce *b) { b->n = b->t = b->y = b->tt = b->ty = b->spin = 0; }
+static void leave_flight(bounce *b)
+{
+    b->n = b->t = b->y = b->tt = b->ty = b->spin = 0;
+}
 
 static brc_status sample(void *self, brc_simulation *simulation)
 {
@@ -85,14 +91,18 @@ static brc_status sample(void *self, brc_simulation *simulation)
     return BRC_OK;
 }
 
-static brc_observer observer(void *self) { return (brc_observer){.self = self, .sample = sample}; }
+static brc_observer observer(void *self)
+{
+    return (brc_observer){.self = self, .sample = sample};
+}
 
 static brc_status values(const brc_campaign *campaign, const void *self, brc_outcome *outcome)
 {
     const bounce *b = self;
     (void)campaign;
     const bool flew = b->n >= LEAST_SAMPLES;
-    const double spread = b->tt - b->t * b->t / b->n, speed = (b->ty - b->t * b->y / b->n) / spread, height = (b->y - speed * b->t) / b->n;
+    const double spread = b->tt - b->t * b->t / b->n, speed = (b->ty - b->t * b->y / b->n) / spread,
+                 height = (b->y - speed * b->t) / b->n;
     brc_outcome_add(outcome, "first_contact", "s", b->first, NAN);
     brc_outcome_add(outcome, "release", "s", b->release, NAN);
     brc_outcome_add(outcome, "bounces", "-", b->bounces, NAN);
@@ -106,4 +116,5 @@ static brc_status values(const brc_campaign *campaign, const void *self, brc_out
  * and the last of that touch; touches farther apart than first_contact are others: bounces [-] is their number. apex
  * [m]: of free flight after the first one, over the start, from the straight line through height + g t^2 / 2;
  * spin_after: mean of that flight [rad/s]. NAN where a run did not come so far. BRC_BAD_INPUT: no such scene. */
-const brc_operator brc_operator_bounce = {.name = "bounce", .create = create, .observer = observer, .values = values, .release = release};
+const brc_operator brc_operator_bounce = {
+    .name = "bounce", .create = create, .observer = observer, .values = values, .release = release};

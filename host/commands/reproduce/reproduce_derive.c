@@ -57,13 +57,15 @@ static double difference(const brc_outcome *a, const brc_outcome *b)
 
 double brc_derived_value(const brc_campaign *campaign, const brc_case_derived *derived, char *note, size_t size)
 {
-    double x[BRC_CASE_LIST], y[BRC_CASE_LIST], above[BRC_CASE_LIST], sum = 0, worst = 0, low = INFINITY, high = -INFINITY;
+    double x[BRC_CASE_LIST], y[BRC_CASE_LIST], above[BRC_CASE_LIST], sum = 0, worst = 0, low = INFINITY,
+                                                                     high = -INFINITY;
     const brc_outcome *outcomes[BRC_CASE_LIST];
     note[0] = '\0';
     for (int k = 0; k < derived->n_runs; ++k) {
         const brc_outcome *outcome = outcomes[k] = outcome_of(campaign, derived->runs[k]);
         if (!outcome || !outcome->done) {
-            snprintf(note, size, "%s%s", outcome && outcome->skipped ? "skipped: " : "", outcome ? outcome->note : "no run");
+            snprintf(note, size, "%s%s", outcome && outcome->skipped ? "skipped: " : "",
+                     outcome ? outcome->note : "no run");
             return NAN;
         }
         if (derived->formula == BRC_CASE_DIFFERENCE) continue;

@@ -7,15 +7,16 @@
 typedef struct drift {
     brc_context *context;
     int64_t n_samples, capacity;
-    double *total;   /* [n_samples] total energy [J] */
+    double *total; /* [n_samples] total energy [J] */
     double closure_worst, closure_squares;
-    double growth;   /* largest energy over what initial fields and loads had put in by then [-] */
+    double growth; /* largest energy over what initial fields and loads had put in by then [-] */
     double *mass, *displacement, *velocity; /* [n_elements], [n_elements][3] twice */
-    double *inertia, *orientation, *spin;   /* elements with rotations: [n_elements], [n_elements][4], [n_elements][3]; else NULL */
-    double lean;                            /* least cosine between a beam and a section's normal at its ends */
-    double momentum[3], angular[3];         /* at the first sample */
-    double momentum_scale, angular_scale;   /* largest sums of magnitudes of the parts */
-    double momentum_worst, angular_worst;   /* largest deviations [kg m/s], [kg m^2/s] */
+    double *inertia, *orientation,
+        *spin;   /* elements with rotations: [n_elements], [n_elements][4], [n_elements][3]; else NULL */
+    double lean; /* least cosine between a beam and a section's normal at its ends */
+    double momentum[3], angular[3];       /* at the first sample */
+    double momentum_scale, angular_scale; /* largest sums of magnitudes of the parts */
+    double momentum_worst, angular_worst; /* largest deviations [kg m/s], [kg m^2/s] */
 } drift;
 
 static brc_status create(brc_context *context, void **out)
@@ -75,7 +76,8 @@ static double length(const double a[3])
 }
 
 /* Momenta about the origin of coordinates, and the sums of the magnitudes of their parts. */
-static void add_momenta(const drift *d, const brc_domain *domain, double momentum[3], double angular[3], double scale[2])
+static void add_momenta(const drift *d, const brc_domain *domain, double momentum[3], double angular[3],
+                        double scale[2])
 {
     for (int64_t e = 0; e < domain->n_elements; ++e) {
         double place[3], turn[3];
@@ -89,7 +91,8 @@ static void add_momenta(const drift *d, const brc_domain *domain, double momentu
         }
         scale[0] += d->mass[e] * length(v);
         scale[1] += d->mass[e] * length(turn);
-        for (int k = 0; d->spin && k < 3; ++k) angular[k] += d->inertia[e] * d->spin[3 * e + k];
+        for (int k = 0; d->spin && k < 3; ++k)
+            angular[k] += d->inertia[e] * d->spin[3 * e + k];
         if (d->spin) scale[1] += d->inertia[e] * length(d->spin + 3 * e);
     }
 }
@@ -108,7 +111,8 @@ static void look_at_sections(drift *d, const brc_domain *domain)
             }
             cross(v, axis, once);
             cross(v, once, twice);
-            for (int k = 0; k < 3; ++k) along += now[k] * (axis[k] + 2 * (w * once[k] + twice[k]));
+            for (int k = 0; k < 3; ++k)
+                along += now[k] * (axis[k] + 2 * (w * once[k] + twice[k]));
             d->lean = fmin(d->lean, along / (length(axis) * length(now)));
         }
     }
@@ -119,11 +123,13 @@ static brc_status sample(void *self, brc_simulation *simulation)
     drift *d = self;
     const brc_domain *domain = brc_simulation_domain(simulation);
     const brc_stage *stage = brc_simulation_scene(simulation)->stages + brc_simulation_stage(simulation);
-    if (stage->solver != BRC_SOLVER_DYNAMIC) return BRC_OK; /* static stages put energy in; what may not drift is the motion after */
+    if (stage->solver != BRC_SOLVER_DYNAMIC)
+        return BRC_OK; /* static stages put energy in; what may not drift is the motion after */
     if (!d->mass) BRC_TRY(prepare(d, simulation));
     if (d->n_samples == d->capacity) {
         d->capacity = d->capacity ? 2 * d->capacity : 1024;
-        BRC_TRY(brc_memory_resize(d->context, (void **)&d->total, d->capacity, sizeof *d->total, "energies of the drift"));
+        BRC_TRY(
+            brc_memory_resize(d->context, (void **)&d->total, d->capacity, sizeof *d->total, "energies of the drift"));
     }
     brc_ledger ledger;
     BRC_TRY(brc_simulation_ledger(simulation, &ledger));
@@ -166,8 +172,8 @@ static double mean(const double *values, int64_t from, int64_t to)
     return sum / (double)(to - from);
 }
 
-/* What a deviation is relative to: the conserved vector itself where the run starts with one; a run without (released from
- * rest, or shaken alone) has only the sum of the magnitudes of its parts. */
+/* What a deviation is relative to: the conserved vector itself where the run starts with one; a run without (released
+ * from rest, or shaken alone) has only the sum of the magnitudes of its parts. */
 static double relative(double deviation, const double initial[3], double parts)
 {
     const double whole = length(initial);
@@ -188,7 +194,8 @@ static brc_status values(const brc_campaign *campaign, const void *self, brc_out
     brc_outcome_add(outcome, "energy_drift", "-", fabs(last - first) / fabs(first), 0);
     brc_outcome_add(outcome, "energy_spread", "-", sqrt(squares / (double)d->n_samples) / fabs(first), 0);
     brc_outcome_add(outcome, "momentum_drift", "-", relative(d->momentum_worst, d->momentum, d->momentum_scale), 0);
-    brc_outcome_add(outcome, "angular_momentum_drift", "-", relative(d->angular_worst, d->angular, d->angular_scale), 0);
+    brc_outcome_add(outcome, "angular_momentum_drift", "-", relative(d->angular_worst, d->angular, d->angular_scale),
+                    0);
     if (d->spin) brc_outcome_add(outcome, "largest_section_angle", "deg", acos(d->lean) * 180 / M_PI, 0);
     brc_outcome_add(outcome, "closure_worst", "-", d->closure_worst, 0);
     brc_outcome_add(outcome, "closure_rms", "-", sqrt(d->closure_squares / (double)d->n_samples), 0);

@@ -38,16 +38,22 @@ static brc_status find_plane(brc_context *context, brc_simulation *simulation, c
     const brc_domain *domain = brc_simulation_domain(simulation);
     const brc_shape *shape = &scene->bodies[0].shape;
     *out = (plane){.half_angle = outcome->run->half_angle};
-    if (shape->kind != BRC_SHAPE_PARTS || shape->parts[0].shape.kind != BRC_SHAPE_CYLINDER || shape->parts[0].shape.axis != 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: `with: field` expects a body whose first part is a cylinder about y", outcome->run->name);
+    if (shape->kind != BRC_SHAPE_PARTS || shape->parts[0].shape.kind != BRC_SHAPE_CYLINDER ||
+        shape->parts[0].shape.axis != 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "run %s: `with: field` expects a body whose first part is a cylinder about y",
+                        outcome->run->name);
     out->outer = shape->parts[0].shape.radius;
     for (int32_t p = 1; p < shape->n_parts; ++p)
-        if (shape->parts[p].role == BRC_PART_REMOVE && shape->parts[p].shape.kind == BRC_SHAPE_CYLINDER) out->inner = shape->parts[p].shape.radius;
+        if (shape->parts[p].role == BRC_PART_REMOVE && shape->parts[p].shape.kind == BRC_SHAPE_CYLINDER)
+            out->inner = shape->parts[p].shape.radius;
     out->ring = out->inner > 0;
     if (out->ring) return find_ring(context, scene, out);
     double force[3];
     const int32_t middle = brc_domain_find_set(domain, "middle");
-    if (middle < 0 || !(out->half_angle > 0)) return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: `with: field` expects a set `middle` and a half_angle", outcome->run->name);
+    if (middle < 0 || !(out->half_angle > 0))
+        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: `with: field` expects a set `middle` and a half_angle",
+                        outcome->run->name);
     BRC_TRY(brc_simulation_reaction(simulation, middle, force));
     out->nominal = 2 * fabs(force[2]) / (M_PI * shape->parts[0].shape.length * out->outer);
     return BRC_OK;
@@ -61,7 +67,8 @@ static void exact_at(const plane *p, double x, double z, double out[3])
         return;
     }
     brc_reference_ring_at(&p->exact, x, z, out, NULL);
-    for (int c = 0; c < 3; ++c) out[c] /= p->nominal;
+    for (int c = 0; c < 3; ++c)
+        out[c] /= p->nominal;
 }
 
 /* Larger principal stress in the plane. */
@@ -74,7 +81,8 @@ static double principal(const double s[3])
 static brc_status stresses(brc_simulation *simulation, const brc_case_run *run, double *out)
 {
     const char *level = brc_sweep_value(run, "level");
-    return level ? brc_simulation_virial_stress(simulation, (int)strtol(level, NULL, 10), out) : brc_simulation_strain_stress(simulation, NULL, out, NULL);
+    return level ? brc_simulation_virial_stress(simulation, (int)strtol(level, NULL, 10), out)
+                 : brc_simulation_strain_stress(simulation, NULL, out, NULL);
 }
 
 static brc_status finished(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
@@ -93,13 +101,17 @@ static brc_status finished(brc_context *context, brc_simulation *simulation, brc
         const double ours[3] = {s[0] / p.nominal, s[2] / p.nominal, s[4] / p.nominal};
         if (radius > within) continue;
         exact_at(&p, at[0], at[2], exact);
-        for (int c = 0; c < 3; ++c) squares += domain->volume[e] * (c == 2 ? 2 : 1) * (ours[c] - exact[c]) * (ours[c] - exact[c]);
+        for (int c = 0; c < 3; ++c)
+            squares += domain->volume[e] * (c == 2 ? 2 : 1) * (ours[c] - exact[c]) * (ours[c] - exact[c]);
         volume += domain->volume[e];
         if (radius > NEAR_PART * p.inner) continue;
         largest = fmax(largest, principal(ours));
         exact_largest = fmax(exact_largest, principal(exact));
     }
-    if (!(volume > 0)) BRC_TRY_OR(cleanup, BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no element in the part of the field that is compared", outcome->run->name));
+    if (!(volume > 0))
+        BRC_TRY_OR(cleanup,
+                   BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no element in the part of the field that is compared",
+                            outcome->run->name));
     brc_outcome_add(outcome, "field_error", "-", sqrt(squares / volume), 0);
     if (exact_largest > 0) brc_outcome_add(outcome, "peak_error", "-", largest / exact_largest - 1, 0);
 cleanup:

@@ -13,13 +13,16 @@ static void centre_of(const brc_domain *d, double out[3])
     out[0] = out[1] = out[2] = 0;
     for (int64_t e = 0; e < d->n_elements; ++e) {
         volume += d->volume[e];
-        for (int c = 0; c < 3; ++c) out[c] += d->volume[e] * d->position[3 * e + c];
+        for (int c = 0; c < 3; ++c)
+            out[c] += d->volume[e] * d->position[3 * e + c];
     }
-    for (int c = 0; c < 3; ++c) out[c] /= volume;
+    for (int c = 0; c < 3; ++c)
+        out[c] /= volume;
 }
 
 /* The first step or event with breaks: the events come in their order. */
-static void add_first(const brc_scene *scene, const brc_domain *domain, int64_t n, const brc_break *breaks, brc_outcome *outcome)
+static void add_first(const brc_scene *scene, const brc_domain *domain, int64_t n, const brc_break *breaks,
+                      brc_outcome *outcome)
 {
     const brc_shape *shape = &scene->bodies[0].shape;
     const bool is_disc = scene->n_bodies == 1 && shape->kind == BRC_SHAPE_CYLINDER;
@@ -28,7 +31,8 @@ static void add_first(const brc_scene *scene, const brc_domain *domain, int64_t 
     for (int64_t k = 0; k < n && breaks[k].step == breaks[0].step; ++k) {
         area += breaks[k].area;
         stress = fmax(stress, breaks[k].stress);
-        for (int c = 0; c < 3; ++c) place[c] += breaks[k].area * (breaks[k].position[c] - centre[c]);
+        for (int c = 0; c < 3; ++c)
+            place[c] += breaks[k].area * (breaks[k].position[c] - centre[c]);
     }
     for (int c = 0; c < 3; ++c)
         if (!(is_disc && c == shape->axis)) square += place[c] * place[c] / (area * area);
@@ -37,8 +41,10 @@ static void add_first(const brc_scene *scene, const brc_domain *domain, int64_t 
     if (is_disc) brc_outcome_add(outcome, "first_break_from_rim", "m", shape->radius - sqrt(square), NAN);
 }
 
-/* A cylinder: how far from its side the first hundredth of all broken area lies, mean by area; a sliver of a face under a line of contact does not count for more than its area. */
-static void add_early(const brc_scene *scene, const brc_domain *domain, int64_t n, const brc_break *breaks, double total, brc_outcome *outcome)
+/* A cylinder: how far from its side the first hundredth of all broken area lies, mean by area; a sliver of a face under
+ * a line of contact does not count for more than its area. */
+static void add_early(const brc_scene *scene, const brc_domain *domain, int64_t n, const brc_break *breaks,
+                      double total, brc_outcome *outcome)
 {
     const brc_shape *shape = &scene->bodies[0].shape;
     if (scene->n_bodies != 1 || shape->kind != BRC_SHAPE_CYLINDER) return;
@@ -47,7 +53,8 @@ static void add_early(const brc_scene *scene, const brc_domain *domain, int64_t 
     for (int64_t k = 0; k < n && area < early * total; ++k) {
         double square = 0;
         for (int c = 0; c < 3; ++c)
-            if (c != (int)shape->axis) square += (breaks[k].position[c] - centre[c]) * (breaks[k].position[c] - centre[c]);
+            if (c != (int)shape->axis)
+                square += (breaks[k].position[c] - centre[c]) * (breaks[k].position[c] - centre[c]);
         area += breaks[k].area;
         sum += breaks[k].area * (shape->radius - sqrt(square));
     }
@@ -87,7 +94,8 @@ brc_status brc_fracture_values(brc_context *context, brc_simulation *simulation,
     if (n == 0) goto cleanup;
     add_first(brc_simulation_scene(simulation), domain, n, breaks, outcome);
     add_early(brc_simulation_scene(simulation), domain, n, breaks, cracks.total_area, outcome);
-    for (int c = 0; c < 3; ++c) brc_outcome_add(outcome, names[c], "deg", brc_crack_angle(cracks.all.normal, c), NAN);
+    for (int c = 0; c < 3; ++c)
+        brc_outcome_add(outcome, names[c], "deg", brc_crack_angle(cracks.all.normal, c), NAN);
     brc_outcome_add(outcome, "plane_rough", "m", cracks.all.rough, NAN);
 cleanup:
     brc_memory_free(fragment);

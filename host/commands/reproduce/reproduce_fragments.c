@@ -10,10 +10,17 @@
 #include <string.h>
 
 enum { SIZES = 22 };
-static const double least_cells = 2.5, most_share = 0.05; /* of the exponent: fragments of three cells and more; beyond, few large ones stand for themselves */
+static const double least_cells = 2.5, most_share = 0.05; /* of the exponent: fragments of three cells and more; beyond,
+                                                             few large ones stand for themselves */
 
-static double size_at(int k) { return pow(10, -k / 6.0); }
-static void size_name(char out[BRC_NAME], int k) { snprintf(out, BRC_NAME, "heavier_%02d", k); }
+static double size_at(int k)
+{
+    return pow(10, -k / 6.0);
+}
+static void size_name(char out[BRC_NAME], int k)
+{
+    snprintf(out, BRC_NAME, "heavier_%02d", k);
+}
 
 /* Mean and variance of x = ln(m / low) when m^-tau: the density of x is exp(a x) between 0 and L, a = 1 - tau. */
 static double mean_log(double a, double L)
@@ -49,8 +56,10 @@ double brc_fragments_exponent(int64_t n, const double *mass, double low, double 
     double least = -60 / L, most = 60 / L; /* the mean grows with a */
     for (int round = 0; round < 200; ++round) {
         const double a = 0.5 * (least + most);
-        if (mean_log(a, L) < mean) least = a;
-        else most = a;
+        if (mean_log(a, L) < mean)
+            least = a;
+        else
+            most = a;
     }
     const double a = 0.5 * (least + most);
     *error = 1 / sqrt((double)*n_inside * variance_log(a, L));
@@ -65,7 +74,8 @@ static brc_status finished(brc_context *context, brc_simulation *simulation, brc
     int64_t n, n_inside, n_broken;
     brc_status status = BRC_OK;
     if (!brc_simulation_has_fracture(simulation))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: `with: fragments` expects a scene with `fracture`", outcome->run->name);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: `with: fragments` expects a scene with `fracture`",
+                        outcome->run->name);
     BRC_TRY(brc_simulation_broken(simulation, &n_broken));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &fragment, d->n_elements, "fragments"));
     BRC_TRY_OR(cleanup, brc_simulation_fragments(simulation, fragment, &n));
@@ -74,7 +84,8 @@ static brc_status finished(brc_context *context, brc_simulation *simulation, brc
         volume[fragment[e]] += d->volume[e];
         all += d->volume[e];
     }
-    const double tau = brc_fragments_exponent(n, volume, least_cells * all / (double)d->n_elements, most_share * all, &n_inside, &error);
+    const double tau = brc_fragments_exponent(n, volume, least_cells * all / (double)d->n_elements, most_share * all,
+                                              &n_inside, &error);
     brc_outcome_add(outcome, "damage", "-", (double)n_broken / (double)d->n_bonds, NAN);
     brc_outcome_add(outcome, "mass_exponent", "-", tau, NAN);
     brc_outcome_add(outcome, "exponent_error", "-", error, NAN);
@@ -82,7 +93,8 @@ static brc_status finished(brc_context *context, brc_simulation *simulation, brc
     for (int k = 0; k < SIZES; ++k) {
         char name[BRC_NAME];
         int64_t heavier = 0;
-        for (int64_t f = 0; f < n; ++f) heavier += volume[f] >= size_at(k) * all * (1 - 1e-12);
+        for (int64_t f = 0; f < n; ++f)
+            heavier += volume[f] >= size_at(k) * all * (1 - 1e-12);
         size_name(name, k);
         brc_outcome_add(outcome, name, "-", (double)heavier, NAN);
     }
@@ -94,7 +106,10 @@ cleanup:
 
 /* ---- the figure ---- */
 
-static bool is_shown(const brc_outcome *outcome) { return outcome->done && outcome->run->operator == &brc_operator_fragments; }
+static bool is_shown(const brc_outcome *outcome)
+{
+    return outcome->done && outcome->run->operator== & brc_operator_fragments;
+}
 
 /* A body that is whole has no distribution. */
 static bool is_broken(const brc_outcome *outcome)
@@ -114,7 +129,8 @@ static double scatter_of(const brc_outcome *outcome, const char *name)
     return value && isfinite(value->scatter) ? value->scatter : 0;
 }
 
-/* $speeds: speed, damage, its scatter, largest fragment, its scatter; $sizeN: share of the whole, fragments at least as heavy. */
+/* $speeds: speed, damage, its scatter, largest fragment, its scatter; $sizeN: share of the whole, fragments at least as
+ * heavy. */
 static void add_data(const brc_campaign *campaign, brc_text *text)
 {
     double before = -INFINITY;
@@ -123,8 +139,9 @@ static void add_data(const brc_campaign *campaign, brc_text *text)
         const brc_outcome *outcome = &campaign->outcomes[r];
         const double speed = brc_outcome_label(outcome, "speed");
         if (!is_shown(outcome)) continue;
-        brc_text_add(text, "%s%.8g %.8g %.8g %.8g %.8g\n", speed < before ? "\n" : "" /* another series */, speed, value_of(outcome, "damage"), scatter_of(outcome, "damage"),
-                     value_of(outcome, "largest_fragment"), scatter_of(outcome, "largest_fragment"));
+        brc_text_add(text, "%s%.8g %.8g %.8g %.8g %.8g\n", speed < before ? "\n" : "" /* another series */, speed,
+                     value_of(outcome, "damage"), scatter_of(outcome, "damage"), value_of(outcome, "largest_fragment"),
+                     scatter_of(outcome, "largest_fragment"));
         before = speed;
     }
     brc_text_add(text, "END\n");
@@ -145,13 +162,17 @@ static void draw(const void *self, brc_text *text)
     const brc_campaign *campaign = self;
     const char *comma = "";
     add_data(campaign, text);
-    brc_text_add(text, "set multiplot layout 1,2\nset xlabel 'speed [m/s]'\nset logscale x 2\nset yrange [0:1]\nset key top right\n"
-                       "plot $speeds using 1:2:3 with yerrorlines pointtype 7 linecolor rgb '#cc6677' title 'broken bonds', "
-                       "$speeds using 1:4:5 with yerrorlines pointtype 5 linecolor rgb '#4477aa' title 'largest fragment'\n"
-                       "set xlabel 'mass / mass of the whole'\nset ylabel 'fragments at least as heavy'\nunset logscale x\nset logscale xy 10\nset xrange [*:1]\nset yrange [0.3:*]\nset key bottom left\nplot ");
+    brc_text_add(
+        text,
+        "set multiplot layout 1,2\nset xlabel 'speed [m/s]'\nset logscale x 2\nset yrange [0:1]\nset key top right\n"
+        "plot $speeds using 1:2:3 with yerrorlines pointtype 7 linecolor rgb '#cc6677' title 'broken bonds', "
+        "$speeds using 1:4:5 with yerrorlines pointtype 5 linecolor rgb '#4477aa' title 'largest fragment'\n"
+        "set xlabel 'mass / mass of the whole'\nset ylabel 'fragments at least as heavy'\nunset logscale x\nset "
+        "logscale xy 10\nset xrange [*:1]\nset yrange [0.3:*]\nset key bottom left\nplot ");
     for (int r = 0; r < campaign->what->n_runs; ++r) {
         if (!is_broken(&campaign->outcomes[r])) continue;
-        brc_text_add(text, "%s$size%d using 1:2 with linespoints pointtype 7 pointsize 0.6 title '%s'", comma, r, campaign->outcomes[r].run->name);
+        brc_text_add(text, "%s$size%d using 1:2 with linespoints pointtype 7 pointsize 0.6 title '%s'", comma, r,
+                     campaign->outcomes[r].run->name);
         comma = ", ";
     }
     brc_text_add(text, "\nunset multiplot\n");
@@ -161,7 +182,8 @@ static brc_status figure(brc_campaign *campaign)
 {
     brc_context *context = campaign->session->context;
     int n = 0;
-    for (int r = 0; r < campaign->what->n_runs; ++r) n += is_shown(&campaign->outcomes[r]);
+    for (int r = 0; r < campaign->what->n_runs; ++r)
+        n += is_shown(&campaign->outcomes[r]);
     if (n == 0) return BRC_OK;
     brc_text data = {.context = context};
     char *path = NULL;
@@ -170,7 +192,13 @@ static brc_status figure(brc_campaign *campaign)
     add_data(campaign, &data);
     BRC_TRY_OR(cleanup, brc_file_join(context, campaign->folder, "fragments.dat", &path));
     BRC_TRY_OR(cleanup, brc_text_write(&data, path));
-    const brc_gnuplot_figure figure = {.folder = campaign->folder, .name = "fragments.png", .numbers = "fragments.dat", .width = 1200, .height = 520, .draw = draw, .self = campaign};
+    const brc_gnuplot_figure figure = {.folder = campaign->folder,
+                                       .name = "fragments.png",
+                                       .numbers = "fragments.dat",
+                                       .width = 1200,
+                                       .height = 520,
+                                       .draw = draw,
+                                       .self = campaign};
     status = brc_gnuplot_make(context, &figure, &made);
 cleanup:
     brc_text_free(&data);

@@ -1,5 +1,6 @@
-/* Stresses along the loaded diameter of a disc against Hondros' (NAH19 section 4.3, Fig. 15), over the nominal stress 2 P / (pi t D), so that the load does not
- * matter: means over the elements of equal stretches of the diameter, as values, and a figure of all runs of a case. */
+/* Stresses along the loaded diameter of a disc against Hondros' (NAH19 section 4.3, Fig. 15), over the nominal stress 2
+ * P / (pi t D), so that the load does not matter: means over the elements of equal stretches of the diameter, as
+ * values, and a figure of all runs of a case. */
 #include "operators.h"
 #include "../references/reference_hondros.h"
 #include "../../base/file.h"
@@ -31,7 +32,8 @@ static brc_status jaw_force(brc_context *context, brc_simulation *simulation, co
     BRC_TRY(brc_loaded_faces(context, brc_simulation_scene(simulation), domain, &domain->sets[set], &loaded, &n));
     for (int c = 0; c < 3; ++c) {
         out[c] = 0;
-        for (int64_t k = 0; k < n; ++k) out[c] -= load->value[0] * loaded[k].area[c];
+        for (int64_t k = 0; k < n; ++k)
+            out[c] -= load->value[0] * loaded[k].area[c];
     }
     brc_memory_free(loaded);
     return BRC_OK;
@@ -42,7 +44,8 @@ static int jaw_direction(const brc_load *load, const double force[3])
 {
     int along = -1;
     for (int c = 0; c < 3; ++c)
-        if (load->kind == BRC_LOAD_PRESSURE ? along < 0 || fabs(force[c]) > fabs(force[along]) : load->component[c]) along = c;
+        if (load->kind == BRC_LOAD_PRESSURE ? along < 0 || fabs(force[c]) > fabs(force[along]) : load->component[c])
+            along = c;
     return along;
 }
 
@@ -53,7 +56,11 @@ static brc_status find_disc(brc_context *context, brc_simulation *simulation, co
     const brc_shape *shape = &scene->bodies[0].shape;
     const brc_stage *stage = &scene->stages[scene->n_stages - 1];
     double load = 0;
-    *out = (disc){.radius = shape->radius, .thickness = shape->length, .half_angle = run->half_angle, .axis = shape->axis, .along = -1};
+    *out = (disc){.radius = shape->radius,
+                  .thickness = shape->length,
+                  .half_angle = run->half_angle,
+                  .axis = shape->axis,
+                  .along = -1};
     for (int k = 0; k < 2 && stage->n_loads >= 2; ++k) {
         double force[3];
         BRC_TRY(jaw_force(context, simulation, &stage->loads[k], force));
@@ -61,13 +68,18 @@ static brc_status find_disc(brc_context *context, brc_simulation *simulation, co
         out->along = k == 0 || along == out->along ? along : -1;
         if (out->along >= 0) load += 0.5 * fabs(force[out->along]);
     }
-    if (scene->n_bodies != 1 || shape->kind != BRC_SHAPE_CYLINDER || out->along < 0 || out->along == shape->axis || !(run->half_angle > 0))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: `with: hondros` expects one cylinder, two jaws across its axis as the first loads of the last stage (imposed motion or pressure), and `half_angle`",
+    if (scene->n_bodies != 1 || shape->kind != BRC_SHAPE_CYLINDER || out->along < 0 || out->along == shape->axis ||
+        !(run->half_angle > 0))
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "run %s: `with: hondros` expects one cylinder, two jaws across its axis as the first loads of "
+                        "the last stage (imposed motion or pressure), and `half_angle`",
                         run->name);
     out->across = 3 - out->axis - out->along;
-    for (int c = 0; c < 3; ++c) out->centre[c] = shape->origin[c];
+    for (int c = 0; c < 3; ++c)
+        out->centre[c] = shape->origin[c];
     for (int64_t e = 0; e < domain->n_elements; ++e) /* a mean diameter; cells: of a sphere of equal volume */
-        out->half_width += 2 * (domain->radius ? domain->radius[e] : cbrt(0.75 / M_PI * domain->volume[e])) / (double)domain->n_elements;
+        out->half_width += 2 * (domain->radius ? domain->radius[e] : cbrt(0.75 / M_PI * domain->volume[e])) /
+                           (double)domain->n_elements;
     out->nominal = load / (M_PI * out->thickness * out->radius);
     return BRC_OK;
 }
@@ -79,7 +91,8 @@ static void expected(double half_angle, double a, double b, double out[2])
     for (int k = 0; k < POINTS; ++k) {
         double s[2];
         brc_reference_hondros(half_angle, a + (b - a) * (k + 0.5) / POINTS, s);
-        for (int c = 0; c < 2; ++c) out[c] += s[c] / POINTS;
+        for (int c = 0; c < 2; ++c)
+            out[c] += s[c] / POINTS;
     }
 }
 
@@ -91,11 +104,18 @@ typedef struct mean {
 static void add_element(mean *m, double volume, const double stress[2])
 {
     m->volume += volume;
-    for (int c = 0; c < 2; ++c) m->stress[c] += volume * stress[c];
+    for (int c = 0; c < 2; ++c)
+        m->stress[c] += volume * stress[c];
 }
 
-static void stretch_name(char out[BRC_NAME], const char *direction, int k) { snprintf(out, BRC_NAME, "%s_%02d", direction, k); }
-static double stretch_begin(int k) { return -1 + 2.0 * k / STRETCHES; }
+static void stretch_name(char out[BRC_NAME], const char *direction, int k)
+{
+    snprintf(out, BRC_NAME, "%s_%02d", direction, k);
+}
+static double stretch_begin(int k)
+{
+    return -1 + 2.0 * k / STRETCHES;
+}
 
 static brc_status finished(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
 {
@@ -120,7 +140,10 @@ static brc_status finished(brc_context *context, brc_simulation *simulation, brc
     for (int k = 0; k < STRETCHES; ++k) {
         const double a = stretch_begin(k), b = stretch_begin(k + 1);
         if (!(stretch[k].volume > 0)) {
-            status = BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no element between rho = %.2f and %.2f of the loaded diameter; take more elements", outcome->run->name, a, b);
+            status =
+                BRC_FAIL(context, BRC_BAD_INPUT,
+                         "run %s: no element between rho = %.2f and %.2f of the loaded diameter; take more elements",
+                         outcome->run->name, a, b);
             goto cleanup;
         }
         expected(d.half_angle, a, b, exact);
@@ -158,7 +181,7 @@ static void add_data(const brc_campaign *campaign, double half_angle, brc_text *
     brc_text_add(text, "END\n");
     for (int r = 0; r < campaign->what->n_runs; ++r) {
         const brc_outcome *outcome = &campaign->outcomes[r];
-        if (!outcome->done || outcome->run->operator != &brc_operator_hondros) continue;
+        if (!outcome->done || outcome->run->operator!= & brc_operator_hondros) continue;
         brc_text_add(text, "$ours%d << END\n", r);
         for (int k = 0; k < STRETCHES; ++k) {
             brc_text_add(text, "%.6g", stretch_begin(k) + 1.0 / STRETCHES);
@@ -177,15 +200,19 @@ static void add_data(const brc_campaign *campaign, double half_angle, brc_text *
 static void add_curves(const brc_campaign *campaign, brc_text *text)
 {
     static const char *const directions[2] = {"across the loaded diameter", "along it"};
-    brc_text_add(text, "set multiplot layout 2,1\nset xrange [-1:1]\nset xlabel 'r / R'\nset ylabel 'stress / (2P / {/Symbol p}tD)'\nset key bottom center\n");
+    brc_text_add(text, "set multiplot layout 2,1\nset xrange [-1:1]\nset xlabel 'r / R'\nset ylabel 'stress / (2P / "
+                       "{/Symbol p}tD)'\nset key bottom center\n");
     for (int c = 0; c < 2; ++c) {
-        brc_text_add(text, "set title '%s'\nset yrange [%s]\nplot $law using 1:%d with lines linewidth 2 linecolor rgb '#222222' title 'Hondros'", directions[c], c ? "-9:1" : "-3:1.5", 2 + c);
+        brc_text_add(text,
+                     "set title '%s'\nset yrange [%s]\nplot $law using 1:%d with lines linewidth 2 linecolor rgb "
+                     "'#222222' title 'Hondros'",
+                     directions[c], c ? "-9:1" : "-3:1.5", 2 + c);
         for (int r = 0, colour = 0; r < campaign->what->n_runs; ++r) {
             const brc_outcome *outcome = &campaign->outcomes[r];
             static const char *const colours[] = {"#4477aa", "#cc6677", "#228833", "#ccbb44"};
-            if (!outcome->done || outcome->run->operator != &brc_operator_hondros) continue;
-            brc_text_add(text, ", $ours%d using 1:%d:%d with yerrorbars pointtype 7 linecolor rgb '%s' title '%s'", r, 2 + 2 * c, 3 + 2 * c, colours[colour++ % 4],
-                         outcome->run->name);
+            if (!outcome->done || outcome->run->operator!= & brc_operator_hondros) continue;
+            brc_text_add(text, ", $ours%d using 1:%d:%d with yerrorbars pointtype 7 linecolor rgb '%s' title '%s'", r,
+                         2 + 2 * c, 3 + 2 * c, colours[colour++ % 4], outcome->run->name);
         }
         brc_text_add(text, "\n");
     }
@@ -197,7 +224,8 @@ static brc_status figure(brc_campaign *campaign)
     brc_context *context = campaign->session->context;
     double half_angle = 0;
     for (int r = 0; r < campaign->what->n_runs; ++r)
-        if (campaign->outcomes[r].done && campaign->what->runs[r].operator == &brc_operator_hondros) half_angle = campaign->what->runs[r].half_angle;
+        if (campaign->outcomes[r].done && campaign->what->runs[r].operator== & brc_operator_hondros)
+            half_angle = campaign->what->runs[r].half_angle;
     if (!(half_angle > 0)) return BRC_OK;
     brc_text data = {.context = context}, script = {.context = context};
     char *path = NULL, *numbers = NULL, *aside = NULL;

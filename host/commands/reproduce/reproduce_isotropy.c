@@ -1,6 +1,6 @@
 /* Directions of bonds in samples that differ by their seed alone: each number as the mean over the samples and how it
- * scatters, every bond counted once and weighted with face area, of the whole samples and inside, where walls do not reach; and the
- * histograms of the first samples as a picture. */
+ * scatters, every bond counted once and weighted with face area, of the whole samples and inside, where walls do not
+ * reach; and the histograms of the first samples as a picture. */
 #include "operators.h"
 #include "../scene_domain.h"
 #include "../../output/pictures/isotropy_picture.h"
@@ -14,7 +14,8 @@
 enum { LEVEL = 3, COLUMNS = 5, LAYERS = 3 };
 
 enum { FABRIC, CUBIC, WORST, RMS, NOISE, EXCESS, NUMBERS };
-static const char *const number_names[NUMBERS] = {"fabric_anisotropy", "cubic", "worst_bin", "rms_bin", "noise", "excess"};
+static const char *const number_names[NUMBERS] = {"fabric_anisotropy", "cubic", "worst_bin",
+                                                  "rms_bin",           "noise", "excess"};
 
 /* What is counted: kind k has the weight k % 2, inside where k >= 2. */
 enum { KINDS = 4 };
@@ -56,8 +57,9 @@ static brc_status add_sample(brc_context *context, tally *t, const brc_isotropy 
     return BRC_OK;
 }
 
-/* What samples have in common: the root of the mean product of the deviations of two different samples, over all pairs. Chance, however
- * strongly directions of one sample depend on each other, has the mean 0. NAN for one sample; 0 where the mean is negative. */
+/* What samples have in common: the root of the mean product of the deviations of two different samples, over all pairs.
+ * Chance, however strongly directions of one sample depend on each other, has the mean 0. NAN for one sample; 0 where
+ * the mean is negative. */
 static double common(const tally *t)
 {
     double squares = 0;
@@ -66,13 +68,15 @@ static double common(const tally *t)
     return t->n > 1 ? sqrt(fmax(squares - t->square[RMS], 0) / (t->n * (t->n - 1.0))) : NAN;
 }
 
-/* "<number>", "<number>_area" and so on; even directions would give the noise as rms_bin. What exceeds the noise is taken from the mean
- * squares: of a single sample it is cut off at 0 and so, on average, too large where the noise prevails. */
+/* "<number>", "<number>_area" and so on; even directions would give the noise as rms_bin. What exceeds the noise is
+ * taken from the mean squares: of a single sample it is cut off at 0 and so, on average, too large where the noise
+ * prevails. */
 static void add_values(const tally *t, const char *suffix, brc_outcome *outcome)
 {
     for (int k = 0; k < NUMBERS; ++k) {
         char name[BRC_NAME];
-        const double mean = t->sum[k] / t->n, variance = t->n > 1 ? (t->square[k] - t->n * mean * mean) / (t->n - 1) : NAN;
+        const double mean = t->sum[k] / t->n,
+                     variance = t->n > 1 ? (t->square[k] - t->n * mean * mean) / (t->n - 1) : NAN;
         const double value = k == EXCESS ? sqrt(fmax(t->square[RMS] - t->square[NOISE], 0) / t->n) : mean;
         snprintf(name, sizeof name, "%s%s", number_names[k], suffix);
         brc_outcome_add(outcome, name, "-", value, k == RMS ? t->sum[NOISE] / t->n : NAN);
@@ -84,7 +88,8 @@ static void add_values(const tally *t, const char *suffix, brc_outcome *outcome)
 }
 
 /* One sample: built, counted; the first one's histograms are kept. */
-static brc_status take_sample(brc_context *context, brc_scene *scene, int n_threads, bool first, tally tallies[KINDS], brc_outcome *outcome)
+static brc_status take_sample(brc_context *context, brc_scene *scene, int n_threads, bool first, tally tallies[KINDS],
+                              brc_outcome *outcome)
 {
     brc_domain *domain = NULL;
     brc_status status = BRC_OK;
@@ -93,7 +98,8 @@ static brc_status take_sample(brc_context *context, brc_scene *scene, int n_thre
         brc_isotropy isotropy;
         const brc_isotropy_weight weight = k % 2 ? BRC_ISOTROPY_AREA : BRC_ISOTROPY_BONDS;
         if (weight == BRC_ISOTROPY_AREA && domain->element_kind != BRC_ELEMENT_CELL) continue;
-        BRC_TRY_OR(cleanup, brc_isotropy_measure_inside(context, domain, k < 2 ? 0 : LAYERS, LEVEL, weight, n_threads, &isotropy));
+        BRC_TRY_OR(cleanup, brc_isotropy_measure_inside(context, domain, k < 2 ? 0 : LAYERS, LEVEL, weight, n_threads,
+                                                        &isotropy));
         status = add_sample(context, &tallies[k], &isotropy);
         if (first)
             outcome->isotropy[k] = isotropy;
@@ -158,16 +164,20 @@ static brc_status draw(brc_campaign *campaign, int kind, brc_isotropy_panel *pan
     int n = 0;
     for (int k = 0; k < campaign->what->n_runs; ++k) {
         const brc_outcome *outcome = &campaign->outcomes[k];
-        if (!outcome->done || !outcome->isotropy || outcome->isotropy[kind].n_bins == 0 || outcome->run->quick != campaign->quick) continue;
+        if (!outcome->done || !outcome->isotropy || outcome->isotropy[kind].n_bins == 0 ||
+            outcome->run->quick != campaign->quick)
+            continue;
         const brc_isotropy *i = &outcome->isotropy[kind];
         brc_isotropy_panel *panel = &panels[n++];
         panel->isotropy = i;
-        snprintf(panel->title, sizeof panel->title, "%s", outcome->run->n_labels > 0 ? outcome->run->labels[0].value : outcome->run->name);
+        snprintf(panel->title, sizeof panel->title, "%s",
+                 outcome->run->n_labels > 0 ? outcome->run->labels[0].value : outcome->run->name);
         snprintf(panel->note, sizeof panel->note, "rms %.3f, cubic order %.3f", i->rms_bin, i->cubic);
     }
     if (n == 0) return BRC_OK;
     snprintf(name, sizeof name, "%s%s.png", campaign->what->name, endings[kind]);
-    snprintf(title, sizeof title, "Directions of faces, %s%s", kind % 2 ? "weighted with their area" : "every face once",
+    snprintf(title, sizeof title, "Directions of faces, %s%s",
+             kind % 2 ? "weighted with their area" : "every face once",
              kind >= 2 ? ", three layers of cells away from the walls" : "");
     BRC_TRY(brc_file_join(context, campaign->folder, name, &path));
     const brc_status status = brc_isotropy_montage(context, n, panels, n < COLUMNS ? n : COLUMNS, title, path);

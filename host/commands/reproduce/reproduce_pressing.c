@@ -66,14 +66,18 @@ static brc_status sample(void *self, brc_simulation *simulation)
     return BRC_OK;
 }
 
-static brc_observer observer(void *self) { return (brc_observer){.self = self, .sample = sample}; }
+static brc_observer observer(void *self)
+{
+    return (brc_observer){.self = self, .sample = sample};
+}
 
 /* Time in microseconds, modulus in GPa. */
 static brc_status write_numbers(const pressing *p, const char *path)
 {
     brc_text text = {.context = p->context};
     brc_text_add(&text, "# time_us K_GPa theory_GPa\n");
-    for (int64_t k = 0; k < p->n; ++k) brc_text_add(&text, "%.9g %.9g %.9g\n", 1e6 * p->time[k], 1e-9 * p->modulus[k], 1e-9 * p->theory);
+    for (int64_t k = 0; k < p->n; ++k)
+        brc_text_add(&text, "%.9g %.9g %.9g\n", 1e6 * p->time[k], 1e-9 * p->modulus[k], 1e-9 * p->theory);
     const brc_status status = brc_text_write(&text, path);
     brc_text_free(&text);
     return status;
@@ -88,9 +92,15 @@ static brc_status draw(const pressing *p, const brc_outcome *outcome, const char
     const brc_case_value *mean = brc_outcome_find(outcome, "K_mean");
     BRC_TRY_OR(cleanup, brc_file_aside(p->context, path, &aside));
     brc_gnuplot_begin(&script, 1000, 700, aside);
-    brc_text_add(&script, "set xlabel 'time [{/Symbol m}s]'\nset ylabel 'K_M [GPa]'\nset key bottom right\nset yrange [0:%g]\n", 2e-9 * mean->value);
-    brc_text_add(&script, "plot '%s' using 1:2 with lines linewidth 2 linecolor rgb '#4477aa' title 'load over strain', ", numbers);
-    brc_text_add(&script, "%.9g with lines linewidth 2 dashtype 2 linecolor rgb '#cc6677' title 'E / (3 (1 - 2 {/Symbol n}))'\n", 1e-9 * p->theory);
+    brc_text_add(&script,
+                 "set xlabel 'time [{/Symbol m}s]'\nset ylabel 'K_M [GPa]'\nset key bottom right\nset yrange [0:%g]\n",
+                 2e-9 * mean->value);
+    brc_text_add(&script,
+                 "plot '%s' using 1:2 with lines linewidth 2 linecolor rgb '#4477aa' title 'load over strain', ",
+                 numbers);
+    brc_text_add(&script,
+                 "%.9g with lines linewidth 2 dashtype 2 linecolor rgb '#cc6677' title 'E / (3 (1 - 2 {/Symbol n}))'\n",
+                 1e-9 * p->theory);
     status = brc_gnuplot_draw(p->context, &script, aside, path, numbers, &made);
 cleanup:
     brc_text_free(&script);
@@ -106,9 +116,11 @@ static brc_status values(const brc_campaign *campaign, const void *self, brc_out
     if (p->n == 0) return BRC_FAIL(p->context, BRC_BAD_INPUT, "run %s: its sensors saw no load", outcome->run->name);
     const int64_t half = p->n / 2;
     double mean = 0;
-    for (int64_t k = half; k < p->n; ++k) mean += p->modulus[k] / (double)(p->n - half);
+    for (int64_t k = half; k < p->n; ++k)
+        mean += p->modulus[k] / (double)(p->n - half);
     int64_t settled = p->n;
-    while (settled > 0 && fabs(p->modulus[settled - 1] / mean - 1) <= SETTLED) --settled;
+    while (settled > 0 && fabs(p->modulus[settled - 1] / mean - 1) <= SETTLED)
+        --settled;
     brc_outcome_add(outcome, "K_mean", "Pa", mean, p->theory);
     brc_outcome_add(outcome, "settled", "s", settled < p->n ? p->time[settled] : NAN, NAN);
     static const char *const endings[2] = {"dat", "png"};
@@ -127,4 +139,5 @@ cleanup:
 /* At every sample the load over the strain of the scene's first measure of kind K. BRC_BAD_INPUT: it has none. K_mean,
  * over the last half of them (reference: E / (3 (1 - 2 nu)) of the scene's only material), and settled, the time after
  * which they stay within 2 % of it [s]; and <run>.png with its numbers, <run>.dat, in the campaign's folder. */
-const brc_operator brc_operator_pressing = {.name = "pressing", .create = create, .observer = observer, .values = values, .release = release};
+const brc_operator brc_operator_pressing = {
+    .name = "pressing", .create = create, .observer = observer, .values = values, .release = release};

@@ -31,7 +31,8 @@ double brc_outcome_label(const brc_outcome *outcome, const char *key)
 {
     for (int k = 0; k < outcome->run->n_labels; ++k) {
         char *end;
-        const double value = strcmp(outcome->run->labels[k].key, key) == 0 ? strtod(outcome->run->labels[k].value, &end) : NAN;
+        const double value =
+            strcmp(outcome->run->labels[k].key, key) == 0 ? strtod(outcome->run->labels[k].value, &end) : NAN;
         if (!isnan(value) && end != outcome->run->labels[k].value) return value;
     }
     return NAN;
@@ -71,7 +72,7 @@ static brc_status finished(void *self, brc_simulation *simulation)
     brc_outcome_add(h->outcome, "iterations", "-", (double)report.iterations, NAN);
     brc_outcome_add(h->outcome, "residual", "-", report.residual, NAN);
     if (brc_simulation_has_fracture(simulation)) BRC_TRY(brc_fracture_values(h->context, simulation, h->outcome));
-    const brc_operator *operator = h->outcome->run->operator;
+    const brc_operator *operator= h->outcome->run->operator;
     return operator->finished ? operator->finished(h->context, simulation, h->outcome) : BRC_OK;
 }
 
@@ -85,7 +86,8 @@ static void take(brc_outcome *outcome, const brc_run_results *results, bool stop
     snprintf(outcome->device, sizeof outcome->device, "%s", results->device);
     for (int32_t k = 0; k < results->n_measures; ++k) {
         const brc_run_measure *measure = &results->measures[k];
-        brc_outcome_add(outcome, measure->name, measure->unit, stopped ? NAN : measure->value, measure->has_target ? measure->target : NAN);
+        brc_outcome_add(outcome, measure->name, measure->unit, stopped ? NAN : measure->value,
+                        measure->has_target ? measure->target : NAN);
         if (isnan(measure->value) && !stopped && !outcome->note[0])
             snprintf(outcome->note, sizeof outcome->note, "%s: %s", measure->name, measure->why_not);
     }
@@ -104,18 +106,23 @@ static void take(brc_outcome *outcome, const brc_run_results *results, bool stop
     const double given = fmax(results->ledger.peak_elastic, results->ledger.peak_kinetic);
     brc_outcome_add(outcome, "energy_left", "-", given > 0 ? results->ledger.total / given : NAN, NAN);
     if (results->n_elements > 0)
-        brc_outcome_add(outcome, "bytes_per_element", "byte", (double)results->device_bytes / (double)results->n_elements, NAN);
+        brc_outcome_add(outcome, "bytes_per_element", "byte",
+                        (double)results->device_bytes / (double)results->n_elements, NAN);
 }
 
-brc_status brc_outcome_simulate(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text, size_t bytes,
-                                const char *folder)
+brc_status brc_outcome_simulate(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text,
+                                size_t bytes, const char *folder)
 {
     brc_context *context = campaign->session->context;
     const brc_case_run *run = outcome->run;
-    const brc_device_request device = {.selector = run->device ? run->device : campaign->device ? campaign->device : "auto", .precision = outcome->precision,
-                                       .n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads, .exact = run->exact || campaign->exact};
+    const brc_device_request device = {.selector = run->device        ? run->device
+                                                   : campaign->device ? campaign->device
+                                                                      : "auto",
+                                       .precision = outcome->precision,
+                                       .n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads,
+                                       .exact = run->exact || campaign->exact};
     hooks h = {context, outcome, campaign->priced ? &device : NULL, brc_processor_s(), 0};
-    const brc_operator *operator = run->operator;
+    const brc_operator *operator= run->operator;
     void *watching = NULL;
     brc_observer observer;
     brc_run_request request = {.path = scene,
@@ -161,14 +168,17 @@ static const char *seed_key(const brc_scene *scene, uint64_t *seed)
     const brc_fill *fill = &scene->bodies[0].fill;
     *seed = fill->seed;
     if (scene->n_bodies == 1 && fill->kind == BRC_FILL_PACKING) return "bodies.0.fill.packing.seed";
-    if (scene->n_bodies == 1 && fill->kind == BRC_FILL_NOISY_GRID && !scene->has_fracture) return "bodies.0.fill.noisy_grid.seed";
+    if (scene->n_bodies == 1 && fill->kind == BRC_FILL_NOISY_GRID && !scene->has_fracture)
+        return "bodies.0.fill.noisy_grid.seed";
     *seed = (uint64_t)scene->fracture.seed;
     return scene->has_fracture ? "fracture.seed" : NULL;
 }
 
-/* The run once for each of its seeds, each in a folder of its own; values are means with their scatter, seconds and steps those of all together. Samples that were stopped,
- * where they may be, are in `stopped`, their share, and in no other mean. */
-static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text, size_t bytes, const char *folder)
+/* The run once for each of its seeds, each in a folder of its own; values are means with their scatter, seconds and
+ * steps those of all together. Samples that were stopped, where they may be, are in `stopped`, their share, and in no
+ * other mean. */
+static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome, const char *scene, const char *text,
+                                   size_t bytes, const char *folder)
 {
     brc_context *context = campaign->session->context;
     brc_case_run run = *outcome->run;
@@ -177,12 +187,16 @@ static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome,
     uint64_t seed;
     int n_whole = 0;
     if (run.keep || run.n_overrides == BRC_CASE_LIST || run.operator->one_run)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no seeds together with keep, drift, vibration or %d overrides", run.name, BRC_CASE_LIST);
+        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no seeds together with keep, drift, vibration or %d overrides",
+                        run.name, BRC_CASE_LIST);
     BRC_TRY(brc_scene_read_text(context, scene, text, bytes, run.n_overrides, run.overrides, &read));
     const char *key = seed_key(read, &seed);
     brc_scene_free(&read);
     if (!key)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: seeds expect one body of a packing or a noisy grid, or `fracture`, whose strengths are drawn anew", run.name);
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "run %s: seeds expect one body of a packing or a noisy grid, or `fracture`, whose strengths are drawn anew",
+            run.name);
     const int n = run.n_seeds;
     for (int k = 0; k < n; ++k) {
         char override[64], name[32], *one_folder;
@@ -209,8 +223,10 @@ static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome,
         if (!outcome->note[0]) memcpy(outcome->note, one.note, sizeof one.note);
         for (int v = 0; v < one.n_values; ++v) { /* by name: a sample in which nothing broke has fewer */
             int to = 0;
-            while (to < outcome->n_values && strcmp(outcome->values[to].name, one.values[v].name) != 0) ++to;
-            if (to == outcome->n_values) brc_outcome_add(outcome, one.values[v].name, one.values[v].unit, 0, one.values[v].reference);
+            while (to < outcome->n_values && strcmp(outcome->values[to].name, one.values[v].name) != 0)
+                ++to;
+            if (to == outcome->n_values)
+                brc_outcome_add(outcome, one.values[v].name, one.values[v].unit, 0, one.values[v].reference);
             if (to == outcome->n_values) continue; /* no room */
             all[to].sum += one.values[v].value;
             all[to].square += one.values[v].value * one.values[v].value;
@@ -218,7 +234,8 @@ static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome,
         }
     }
     for (int v = 0; v < outcome->n_values; ++v) {
-        const double mean = all[v].n == n_whole ? all[v].sum / n_whole : NAN; /* what not all of them have is no mean of them */
+        const double mean =
+            all[v].n == n_whole ? all[v].sum / n_whole : NAN; /* what not all of them have is no mean of them */
         outcome->values[v].value = mean;
         outcome->values[v].scatter = sqrt(fmax(all[v].square - n_whole * mean * mean, 0) / (n_whole - 1));
         if (strcmp(outcome->values[v].name, "stopped") == 0) outcome->values[v].value = (double)(n - n_whole) / n;
@@ -247,7 +264,8 @@ static brc_status put_files(brc_campaign *campaign, const brc_case_run *run, con
     for (int k = 0; k < run->n_files; ++k) {
         char *text = NULL, *path = NULL;
         size_t bytes;
-        brc_status status = brc_case_text(context, campaign->what->folder, campaign->what->name, run->files[k], &text, &bytes);
+        brc_status status =
+            brc_case_text(context, campaign->what->folder, campaign->what->name, run->files[k], &text, &bytes);
         if (status == BRC_OK) status = brc_file_join(context, folder, run->files[k], &path);
         if (status == BRC_OK) status = brc_file_write_whole(context, path, text, bytes);
         brc_memory_free(path);
@@ -278,11 +296,12 @@ brc_status brc_outcome_obtain(brc_campaign *campaign, brc_outcome *outcome)
     if (status == BRC_OK) status = put_files(campaign, run, folder);
     if (status == BRC_OK)
         status = run->operator->obtain ? run->operator->obtain(campaign, outcome, path, text, bytes, folder)
-                 : run->n_seeds > 1    ? simulate_samples(campaign, outcome, path, text, bytes, folder)
+                 : run->n_seeds> 1     ? simulate_samples(campaign, outcome, path, text, bytes, folder)
                                        : brc_outcome_simulate(campaign, outcome, path, text, bytes, folder);
     outcome->done = status == BRC_OK || (status == BRC_PHYSICS_STOPPED && run->may_stop);
     if (status != BRC_OK && status != BRC_INTERRUPTED && status != BRC_NO_MEMORY) {
-        brc_log(context, outcome->done ? BRC_LOG_INFO : BRC_LOG_ERROR, "run %s: %s", run->name, brc_context_message(context));
+        brc_log(context, outcome->done ? BRC_LOG_INFO : BRC_LOG_ERROR, "run %s: %s", run->name,
+                brc_context_message(context));
         snprintf(outcome->note, sizeof outcome->note, "%s", brc_context_message(context));
         for (char *c = outcome->note; *c; ++c)
             if (*c == '\n') *c = ' ';

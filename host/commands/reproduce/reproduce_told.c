@@ -4,12 +4,17 @@
 #include "../price/trial.h"
 #include <math.h>
 
-static brc_status find_class(brc_campaign *campaign, const brc_outcome *outcome, const char *name, const char *text, size_t bytes, double *error_class)
+static brc_status find_class(brc_campaign *campaign, const brc_outcome *outcome, const char *name, const char *text,
+                             size_t bytes, double *error_class)
 {
     brc_context *context = campaign->session->context;
     const brc_case_run *run = outcome->run;
-    const brc_device_request request = {.selector = run->device ? run->device : campaign->device ? campaign->device : "auto", .precision = outcome->precision,
-                                        .n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads, .exact = run->exact || campaign->exact};
+    const brc_device_request request = {.selector = run->device        ? run->device
+                                                    : campaign->device ? campaign->device
+                                                                       : "auto",
+                                        .precision = outcome->precision,
+                                        .n_threads = run->n_threads > 0 ? run->n_threads : campaign->n_threads,
+                                        .exact = run->exact || campaign->exact};
     brc_scene *scene = NULL;
     brc_setup setup = {0};
     brc_trial trial = {0};
@@ -25,7 +30,8 @@ static brc_status find_class(brc_campaign *campaign, const brc_outcome *outcome,
     BRC_TRY_OR(cleanup, brc_price_error_find(context, scene, &setup, &request, &trial, &own));
     BRC_TRY_OR(cleanup, brc_price_judge(context, scene, &setup, outcome->precision, &own, &judgement));
     if (!judgement.known)
-        BRC_TRY_OR(cleanup, BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no error class is known of model %s", run->name, brc_model_name(setup.split->part[0].scene->model.kind)));
+        BRC_TRY_OR(cleanup, BRC_FAIL(context, BRC_BAD_INPUT, "run %s: no error class is known of model %s", run->name,
+                                     brc_model_name(setup.split->part[0].scene->model.kind)));
     *error_class = brc_price_class(brc_price_curve_error(&judgement.by, (double)brc_setup_n_elements(&setup)));
 cleanup:
     brc_price_error_free(&own);
@@ -40,9 +46,11 @@ static void add_values(double error_class, brc_outcome *outcome)
     double actual = NAN;
     for (int k = 0; k < outcome->n_values; ++k) {
         const brc_case_value *value = &outcome->values[k];
-        if (!isnan(value->reference) && value->reference != 0) actual = fmax(actual, fabs(value->value / value->reference - 1));
+        if (!isnan(value->reference) && value->reference != 0)
+            actual = fmax(actual, fabs(value->value / value->reference - 1));
     }
-    const bool finest = error_class <= brc_price_class(0), right = actual <= pow(10, 0.25) * error_class && (finest || actual >= 0.1 * error_class);
+    const bool finest = error_class <= brc_price_class(0),
+               right = actual <= pow(10, 0.25) * error_class && (finest || actual >= 0.1 * error_class);
     brc_outcome_add(outcome, "told", "-", error_class, NAN);
     brc_outcome_add(outcome, "actual", "-", actual, NAN);
     brc_outcome_add(outcome, "right", "-", right, NAN);

@@ -33,10 +33,13 @@ static brc_status finished(brc_context *context, brc_simulation *simulation, brc
     const brc_body *body = &scene->bodies[0];
     brc_reference_solid solid;
     if (!solid_of(body, &scene->materials[body->material], &solid) || n < 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: vibration needs a box, a cylinder or a sphere, and a modes stage at the end", outcome->run->name);
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "run %s: vibration needs a box, a cylinder or a sphere, and a modes stage at the end",
+                        outcome->run->name);
     if (n > MODES_MOST) n = MODES_MOST;
     double exact[MODES_MOST], squares = 0;
-    BRC_TRY(brc_reference_vibration(context, &solid, solid.shape == BRC_REFERENCE_BOX ? DEGREE : ROUND_DEGREE, n, exact));
+    BRC_TRY(
+        brc_reference_vibration(context, &solid, solid.shape == BRC_REFERENCE_BOX ? DEGREE : ROUND_DEGREE, n, exact));
     for (int32_t k = 0; k < n; ++k) {
         char name[BRC_NAME];
         snprintf(name, sizeof name, "mode_%d", (int)k + 1);

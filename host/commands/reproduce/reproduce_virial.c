@@ -28,7 +28,10 @@ static brc_status find_pull(brc_context *context, brc_simulation *simulation, co
     if (out->axis >= 0) set = brc_domain_find_set(d, stage->loads[1].set);
     if (set >= 0 && d->radius) section = brc_sphere_box_section(d, set);
     if (scene->n_bodies != 1 || !isfinite(section))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "run %s: `with: virial` expects one box of spheres and in the last stage two loads that pull walls apart", run->name);
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "run %s: `with: virial` expects one box of spheres and in the last stage two loads that pull walls apart",
+            run->name);
     BRC_TRY(brc_simulation_reaction(simulation, set, force));
     out->stress = force[out->axis] / section;
     return BRC_OK;
@@ -50,7 +53,8 @@ static brc_status sort_elements(brc_context *context, brc_simulation *simulation
     }
     for (int l = 0; l < stage->n_loads; ++l) {
         const brc_set *set = &d->sets[brc_domain_find_set(d, stage->loads[l].set)];
-        for (int64_t k = 0; k < set->n_members; ++k) out->kind[set->members[k]] = 0;
+        for (int64_t k = 0; k < set->n_members; ++k)
+            out->kind[set->members[k]] = 0;
     }
     return BRC_OK;
 }

@@ -9,7 +9,10 @@ brc_status brc_watched_open(brc_context *context, brc_watched *w, brc_simulation
     return brc_sensors_create(context, scene, brc_simulation_domain(simulation), &w->sensors);
 }
 
-brc_status brc_watched_read(brc_watched *w, brc_simulation *simulation) { return brc_sensors_evaluate(w->sensors, simulation, w->value); }
+brc_status brc_watched_read(brc_watched *w, brc_simulation *simulation)
+{
+    return brc_sensors_evaluate(w->sensors, simulation, w->value);
+}
 
 void brc_watched_close(brc_watched *w)
 {
@@ -21,6 +24,7 @@ void brc_watched_close(brc_watched *w)
 int32_t brc_watched_find(const brc_scene *scene, const char *name)
 {
     int32_t k = 0;
-    while (k < scene->n_sensors && strcmp(scene->sensors[k].name, name) != 0) ++k;
+    while (k < scene->n_sensors && strcmp(scene->sensors[k].name, name) != 0)
+        ++k;
     return k;
 }

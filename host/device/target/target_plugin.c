@@ -1,4 +1,5 @@
-/* Memory and control of OpenMP target devices, compiled beside the kernel instances by clang into libbreccia_target, by gcc into libbreccia_target_nvptx. */
+/* Memory and control of OpenMP target devices, compiled beside the kernel instances by clang into libbreccia_target, by
+ * gcc into libbreccia_target_nvptx. */
 #include "../target_plugin.h"
 #include "kernel_hash.h"
 #include <omp.h>
@@ -14,8 +15,8 @@ static int devices(void)
     return omp_get_num_devices();
 }
 
-/* Kernels get device addresses. clang 14 ignores defaultmap(firstprivate : pointer) and looks every pointer up among the
- * mapped host addresses, giving NULL for what it does not find: so each block is entered there as its own image. */
+/* Kernels get device addresses. clang 14 ignores defaultmap(firstprivate : pointer) and looks every pointer up among
+ * the mapped host addresses, giving NULL for what it does not find: so each block is entered there as its own image. */
 static void *allocate(int device, size_t bytes)
 {
     void *const memory = omp_target_alloc(bytes, device);

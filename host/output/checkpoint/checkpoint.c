@@ -23,11 +23,11 @@ struct brc_checkpoints {
     char *yaml;   /* the scene as read; owned */
     brc_assembly *assembly;
     brc_recorder *recorder;
-    int64_t *sums; /* of the parts' domains, NULL: not taken yet; owned */
+    int64_t *sums;          /* of the parts' domains, NULL: not taken yet; owned */
     int64_t next, previous; /* numbers of the next file and of the last good one, -1: none */
-    int64_t seen;  /* intervals of simulated time passed at the last pause */
-    double written_at; /* brc_clock_s() of the last one, or of the beginning */
-    char *last, *from; /* paths; owned */
+    int64_t seen;           /* intervals of simulated time passed at the last pause */
+    double written_at;      /* brc_clock_s() of the last one, or of the beginning */
+    char *last, *from;      /* paths; owned */
     int32_t last_stage;
     int64_t last_step;
     int64_t from_step, n_written, bytes;
@@ -44,7 +44,8 @@ static int64_t number_of(const char *name, bool *whole)
 {
     const size_t digits = strspn(name, "0123456789");
     *whole = strcmp(name + digits, ".h5") == 0;
-    return digits >= 6 && digits < 18 && (*whole || strcmp(name + digits, ".h5.part") == 0) ? strtoll(name, NULL, 10) : -1;
+    return digits >= 6 && digits < 18 && (*whole || strcmp(name + digits, ".h5.part") == 0) ? strtoll(name, NULL, 10)
+                                                                                            : -1;
 }
 
 /* Numbers of the whole files in the folder that are below `below`: the largest, -1 where there is none. */
@@ -67,13 +68,15 @@ static brc_status keep_only(brc_checkpoints *c, int64_t one, int64_t two)
     brc_status status = BRC_OK;
     bool whole;
     DIR *directory = opendir(c->folder);
-    for (const struct dirent *entry = directory ? readdir(directory) : NULL; entry && status == BRC_OK; entry = readdir(directory)) {
+    for (const struct dirent *entry = directory ? readdir(directory) : NULL; entry && status == BRC_OK;
+         entry = readdir(directory)) {
         const int64_t number = number_of(entry->d_name, &whole);
         char *path = NULL;
         if (number < 0 || (whole && (number == one || number == two))) continue;
         status = brc_file_join(c->context, c->folder, entry->d_name, &path);
         if (status == BRC_OK && unlink(path) != 0 && errno != ENOENT)
-            status = BRC_FAIL(c->context, BRC_FILE_FAILED, "%s: cannot remove an old checkpoint: %s", path, strerror(errno));
+            status =
+                BRC_FAIL(c->context, BRC_FILE_FAILED, "%s: cannot remove an old checkpoint: %s", path, strerror(errno));
         brc_memory_free(path);
     }
     if (directory) closedir(directory);
@@ -103,17 +106,26 @@ static brc_status find(brc_checkpoints *c)
         brc_log(c->context, BRC_LOG_WARNING, "%s is passed over: %s", c->from, why);
         ++damaged;
     }
-    return damaged ? BRC_FAIL(c->context, BRC_BAD_INPUT, "%s: none of the %d checkpoints is whole; run without --resume to begin anew", c->folder, damaged)
-                   : BRC_FAIL(c->context, BRC_BAD_INPUT, "%s: there is no checkpoint to go on from; run without --resume to begin", c->folder);
+    return damaged ? BRC_FAIL(c->context, BRC_BAD_INPUT,
+                              "%s: none of the %d checkpoints is whole; run without --resume to begin anew", c->folder,
+                              damaged)
+                   : BRC_FAIL(c->context, BRC_BAD_INPUT,
+                              "%s: there is no checkpoint to go on from; run without --resume to begin", c->folder);
 }
 
-brc_status brc_checkpoints_create(brc_context *context, const char *folder, const brc_scene *scene, bool resume, brc_checkpoints **out)
+brc_status brc_checkpoints_create(brc_context *context, const char *folder, const brc_scene *scene, bool resume,
+                                  brc_checkpoints **out)
 {
     brc_checkpoints *c = NULL;
     brc_status status = BRC_OK;
     *out = NULL;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c, 1, "checkpoints"));
-    *c = (brc_checkpoints){.context = context, .scene = scene, .resumed = resume, .previous = -1, .written_at = brc_clock_s(), .file = {.file = H5I_INVALID_HID}};
+    *c = (brc_checkpoints){.context = context,
+                           .scene = scene,
+                           .resumed = resume,
+                           .previous = -1,
+                           .written_at = brc_clock_s(),
+                           .file = {.file = H5I_INVALID_HID}};
     BRC_TRY_OR(cleanup, brc_file_join(context, folder, "checkpoints", &c->folder));
     BRC_TRY_OR(cleanup, brc_checkpoint_scene(context, scene, &c->yaml));
     if (resume) {
@@ -186,8 +198,10 @@ static brc_status write_file(brc_checkpoints *c)
     BRC_TRY_OR(cleanup, path_of(c, c->next, &path));
     BRC_TRY_OR(cleanup, brc_h5_create(c->context, path, &h5));
     status = write_content(c, &h5);
-    if (status == BRC_OK) status = brc_h5_commit_sealed(&h5);
-    else brc_h5_discard(&h5);
+    if (status == BRC_OK)
+        status = brc_h5_commit_sealed(&h5);
+    else
+        brc_h5_discard(&h5);
     if (status != BRC_OK) goto cleanup;
     BRC_TRY_OR(cleanup, keep_only(c, c->previous, c->next));
     brc_memory_free(c->last);
@@ -200,8 +214,9 @@ static brc_status write_file(brc_checkpoints *c)
     c->written_at = brc_clock_s();
     c->seconds += c->written_at - start;
     c->bytes = stat(c->last, &information) == 0 ? (int64_t)information.st_size : 0;
-    brc_log(c->context, BRC_LOG_INFO, "checkpoint %s: stage '%s', step %lld, %.3g MB in %.2g s", c->last, c->scene->stages[brc_simulation_stage(s)].name,
-            (long long)brc_simulation_step(s), 1e-6 * (double)c->bytes, c->written_at - start);
+    brc_log(c->context, BRC_LOG_INFO, "checkpoint %s: stage '%s', step %lld, %.3g MB in %.2g s", c->last,
+            c->scene->stages[brc_simulation_stage(s)].name, (long long)brc_simulation_step(s), 1e-6 * (double)c->bytes,
+            c->written_at - start);
 cleanup:
     brc_memory_free(path);
     return status;
@@ -219,12 +234,14 @@ static brc_status pause_here(void *self, brc_simulation *simulation, brc_pause w
     brc_checkpoints *c = self;
     const brc_output *output = &c->scene->output;
     const int64_t now = intervals(c);
-    const bool asked = now > c->seen || (output->checkpoint_wall > 0 && brc_clock_s() - c->written_at >= output->checkpoint_wall);
+    const bool asked =
+        now > c->seen || (output->checkpoint_wall > 0 && brc_clock_s() - c->written_at >= output->checkpoint_wall);
     (void)simulation;
     c->seen = now;
     if (why == BRC_PAUSE_GOING && !asked) return BRC_OK;
     if (why == BRC_PAUSE_DONE && !output->has_checkpoint) return BRC_OK;
-    for (int32_t k = 0; k < c->assembly->n; ++k) BRC_TRY(brc_guard_vouch(c->assembly->part[k], c->assembly->n > 1));
+    for (int32_t k = 0; k < c->assembly->n; ++k)
+        BRC_TRY(brc_guard_vouch(c->assembly->part[k], c->assembly->n > 1));
     return write_file(c);
 }
 
@@ -241,8 +258,8 @@ static brc_status take_up(brc_checkpoints *c)
     BRC_TRY(brc_recorder_resume(c->recorder, c->assembly, &c->store));
     BRC_TRY(brc_h5_read_rows(&c->file, "moment/total_steps", H5T_NATIVE_INT64, 0, 1, &c->from_step));
     c->seen = intervals(c);
-    brc_log(c->context, BRC_LOG_INFO, "the run goes on from %s: stage '%s', step %lld", c->from, c->scene->stages[brc_simulation_stage(a->part[0])].name,
-            (long long)brc_simulation_step(a->part[0]));
+    brc_log(c->context, BRC_LOG_INFO, "the run goes on from %s: stage '%s', step %lld", c->from,
+            c->scene->stages[brc_simulation_stage(a->part[0])].name, (long long)brc_simulation_step(a->part[0]));
     return BRC_OK;
 }
 
@@ -257,30 +274,42 @@ brc_status brc_checkpoints_observe(brc_checkpoints *c, brc_assembly *assembly, b
 }
 
 /* The checkpoint that is there when a run ends early. */
-static const char *last_path(const brc_checkpoints *c) { return c->last ? c->last : c->resumed ? c->from : NULL; }
+static const char *last_path(const brc_checkpoints *c)
+{
+    return c->last ? c->last : c->resumed ? c->from : NULL;
+}
 
 /* What there is to go back to, after the sentence of what went wrong. */
 static void tell_last(brc_checkpoints *c, brc_status status)
 {
     const int32_t stage = brc_simulation_stage(c->assembly->part[0]);
     if (c->last)
-        BRC_FAIL(c->context, status, "the last good checkpoint, of stage '%s' at step %lld, is %s; --resume goes on from there", c->scene->stages[c->last_stage].name,
-                 (long long)c->last_step, c->last);
-    else if (last_path(c)) BRC_FAIL(c->context, status, "the last good checkpoint is %s; --resume goes on from there", last_path(c));
+        BRC_FAIL(c->context, status,
+                 "the last good checkpoint, of stage '%s' at step %lld, is %s; --resume goes on from there",
+                 c->scene->stages[c->last_stage].name, (long long)c->last_step, c->last);
+    else if (last_path(c))
+        BRC_FAIL(c->context, status, "the last good checkpoint is %s; --resume goes on from there", last_path(c));
     else if (status == BRC_PHYSICS_STOPPED && stage >= 0 && c->scene->stages[stage].solver == BRC_SOLVER_DYNAMIC)
-        BRC_FAIL(c->context, status, "there is no checkpoint to go back to, none was written before; `output: {checkpoint: {every: ...}}` keeps good states");
+        BRC_FAIL(c->context, status,
+                 "there is no checkpoint to go back to, none was written before; `output: {checkpoint: {every: ...}}` "
+                 "keeps good states");
 }
 
 brc_status brc_checkpoints_run(brc_checkpoints *c)
 {
     const brc_assembly *a = c->assembly;
-    const brc_status status = c->resumed ? brc_lockstep_continue(a->n, a->part, &c->store) : brc_lockstep_run(a->n, a->part);
+    const brc_status status =
+        c->resumed ? brc_lockstep_continue(a->n, a->part, &c->store) : brc_lockstep_run(a->n, a->part);
     if (status != BRC_OK) tell_last(c, status);
     return status;
 }
 
 brc_checkpoint_report brc_checkpoints_report(const brc_checkpoints *c)
 {
-    return (brc_checkpoint_report){.n_written = c->n_written, .seconds = c->seconds, .bytes = c->bytes, .last = last_path(c) ? last_path(c) : "",
-                                   .from = c->resumed && c->from ? c->from : "", .from_step = c->from_step};
+    return (brc_checkpoint_report){.n_written = c->n_written,
+                                   .seconds = c->seconds,
+                                   .bytes = c->bytes,
+                                   .last = last_path(c) ? last_path(c) : "",
+                                   .from = c->resumed && c->from ? c->from : "",
+                                   .from_step = c->from_step};
 }

@@ -21,7 +21,8 @@ brc_status brc_checkpoint_scene(brc_context *context, const brc_scene *scene, ch
 static void name_device(const brc_assembly *a, char *text, size_t room)
 {
     const brc_device_info *info = brc_device_get_info(brc_simulation_device(a->part[0]));
-    snprintf(text, room, "%s: %s%s", info->selector, info->driver, brc_device_is_exact(brc_simulation_device(a->part[0])) ? ", exact" : "");
+    snprintf(text, room, "%s: %s%s", info->selector, info->driver,
+             brc_device_is_exact(brc_simulation_device(a->part[0])) ? ", exact" : "");
 }
 
 void brc_checkpoint_sums(const brc_assembly *a, int64_t *sums)
@@ -32,13 +33,23 @@ void brc_checkpoint_sums(const brc_assembly *a, int64_t *sums)
         const struct {
             const void *data;
             int64_t bytes;
-        } all[] = {{d->position, 24 * n}, {d->volume, 8 * n}, {d->body, 4 * n}, {d->region, 4 * n}, {d->radius, 8 * n}, {d->grain, 4 * n},
-                   {d->row_start, 8 * (n + 1)}, {d->neighbour, 4 * h}, {d->area_vector, 24 * h}, {d->free_element, 4 * f},
-                   {d->free_area_vector, 24 * f}, {d->free_centroid, 24 * f}};
+        } all[] = {{d->position, 24 * n},
+                   {d->volume, 8 * n},
+                   {d->body, 4 * n},
+                   {d->region, 4 * n},
+                   {d->radius, 8 * n},
+                   {d->grain, 4 * n},
+                   {d->row_start, 8 * (n + 1)},
+                   {d->neighbour, 4 * h},
+                   {d->area_vector, 24 * h},
+                   {d->free_element, 4 * f},
+                   {d->free_area_vector, 24 * f},
+                   {d->free_centroid, 24 * f}};
         uint32_t sum = 0;
         for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
             if (all[i].data) sum = brc_seal_sum(sum, all[i].data, all[i].bytes);
-        for (int32_t i = 0; i < d->n_sets; ++i) sum = brc_seal_sum(sum, d->sets[i].members, 4 * d->sets[i].n_members);
+        for (int32_t i = 0; i < d->n_sets; ++i)
+            sum = brc_seal_sum(sum, d->sets[i].members, 4 * d->sets[i].n_members);
         sums[k] = sum;
     }
 }
@@ -54,7 +65,8 @@ void brc_checkpoint_identity_write(brc_h5 *h5, const brc_assembly *a, const char
     brc_h5_text(h5, "identity/commit", brc_version_commit());
     brc_h5_text(h5, "identity/scene", scene);
     brc_h5_text(h5, "identity/device", device);
-    brc_h5_text(h5, "identity/precision", brc_precision_name(brc_device_get_precision(brc_simulation_device(a->part[0]))));
+    brc_h5_text(h5, "identity/precision",
+                brc_precision_name(brc_device_get_precision(brc_simulation_device(a->part[0]))));
     for (int32_t k = 0; k < a->n; ++k) {
         const brc_domain *d = brc_simulation_domain(a->part[k]);
         const int64_t numbers[] = {d->n_elements, d->n_bonds, sums[k]};
@@ -67,8 +79,14 @@ void brc_checkpoint_identity_write(brc_h5 *h5, const brc_assembly *a, const char
 
 /* ---- comparing ---- */
 
-static size_t indent_of(const char *line) { return strspn(line, " -"); }
-static size_t length_of(const char *line) { return strcspn(line, "\n"); }
+static size_t indent_of(const char *line)
+{
+    return strspn(line, " -");
+}
+static size_t length_of(const char *line)
+{
+    return strcspn(line, "\n");
+}
 
 /* "stages / - name: pull / solver": the lines above `line` that it belongs to, outermost first. */
 static void path_of_line(const char *text, const char *line, char *out, size_t room)
@@ -77,7 +95,8 @@ static void path_of_line(const char *text, const char *line, char *out, size_t r
     int n = 0;
     size_t indent = indent_of(line);
     for (const char *at = line; at > text && indent > 0 && n < 16;) {
-        do --at;
+        do
+            --at;
         while (at > text && at[-1] != '\n');
         if (indent_of(at) >= indent) continue;
         indent = indent_of(at);
@@ -111,7 +130,8 @@ static brc_status refuse_scene(brc_context *context, const char *path, const cha
     copy_line(a, old, sizeof old);
     copy_line(b, new, sizeof new);
     return BRC_FAIL(context, BRC_BAD_INPUT,
-                    "%s: the scene is not that of the checkpoint: %s'%s' there, '%s' here; go on with the scene it was written with, or leave out --resume to begin anew",
+                    "%s: the scene is not that of the checkpoint: %s'%s' there, '%s' here; go on with the scene it was "
+                    "written with, or leave out --resume to begin anew",
                     path, place, *a ? old : "nothing more", *b ? new : "nothing more");
 }
 
@@ -122,8 +142,10 @@ brc_status brc_checkpoint_same_scene(brc_context *context, const brc_h5_read *h5
     brc_status status = BRC_OK;
     BRC_TRY(brc_h5_read_rows(h5, "identity/format_version", H5T_NATIVE_INT64, 0, 1, &format));
     if (format != BRC_CHECKPOINT_FORMAT_VERSION)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "%s: is a checkpoint of format %lld, this program reads %d; go on with the program that wrote it", h5->path, (long long)format,
-                        BRC_CHECKPOINT_FORMAT_VERSION);
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "%s: is a checkpoint of format %lld, this program reads %d; go on with the program that wrote it", h5->path,
+            (long long)format, BRC_CHECKPOINT_FORMAT_VERSION);
     BRC_TRY_OR(cleanup, brc_h5_read_string(h5, "identity/scene", &there));
     BRC_TRY_OR(cleanup, brc_h5_read_string(h5, "identity/version", &version));
     BRC_TRY_OR(cleanup, brc_h5_read_string(h5, "identity/commit", &commit));
@@ -132,8 +154,10 @@ brc_status brc_checkpoint_same_scene(brc_context *context, const brc_h5_read *h5
         goto cleanup;
     }
     if (strcmp(version, brc_version()) != 0 || strcmp(commit, brc_version_commit()) != 0)
-        brc_log(context, BRC_LOG_WARNING, "%s was written by version %s (commit %s), this is %s (commit %s): the run goes on, but not bit for bit as one of either", h5->path, version,
-                commit, brc_version(), brc_version_commit());
+        brc_log(context, BRC_LOG_WARNING,
+                "%s was written by version %s (commit %s), this is %s (commit %s): the run goes on, but not bit for "
+                "bit as one of either",
+                h5->path, version, commit, brc_version(), brc_version_commit());
 cleanup:
     brc_memory_free(there);
     brc_memory_free(version);
@@ -141,7 +165,8 @@ cleanup:
     return status;
 }
 
-static brc_status same_domain(brc_context *context, const brc_h5_read *h5, const brc_assembly *a, int32_t k, int64_t sum)
+static brc_status same_domain(brc_context *context, const brc_h5_read *h5, const brc_assembly *a, int32_t k,
+                              int64_t sum)
 {
     const brc_domain *d = brc_simulation_domain(a->part[k]);
     int64_t there[3];
@@ -152,19 +177,28 @@ static brc_status same_domain(brc_context *context, const brc_h5_read *h5, const
     snprintf(path, sizeof path, "identity/domain_%d", (int)k);
     BRC_TRY_OR(cleanup, brc_h5_read_rows(h5, path, H5T_NATIVE_INT64, 0, 3, there));
     if (strcmp(model, brc_assembly_part_name(a, k)) != 0)
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: was written with model %s, this run has %s", h5->path, model, brc_assembly_part_name(a, k));
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: was written with model %s, this run has %s", h5->path, model,
+                          brc_assembly_part_name(a, k));
     else if (there[0] != d->n_elements || there[1] != d->n_bonds)
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: the domain of the checkpoint has %lld elements and %lld bonds, this one %lld and %lld; a file that the scene reads has changed, or "
-                          "the program that builds it", h5->path, (long long)there[0], (long long)there[1], (long long)d->n_elements, (long long)d->n_bonds);
+        status = BRC_FAIL(context, BRC_BAD_INPUT,
+                          "%s: the domain of the checkpoint has %lld elements and %lld bonds, this one %lld and %lld; "
+                          "a file that the scene reads has changed, or "
+                          "the program that builds it",
+                          h5->path, (long long)there[0], (long long)there[1], (long long)d->n_elements,
+                          (long long)d->n_bonds);
     else if (there[2] != sum)
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: the domain of the checkpoint has other positions, bonds, faces or sets than this one (checksum %08llx there, %08llx here); a file that "
-                          "the scene reads has changed, or the program that builds it", h5->path, (unsigned long long)there[2], (unsigned long long)sum);
+        status = BRC_FAIL(context, BRC_BAD_INPUT,
+                          "%s: the domain of the checkpoint has other positions, bonds, faces or sets than this one "
+                          "(checksum %08llx there, %08llx here); a file that "
+                          "the scene reads has changed, or the program that builds it",
+                          h5->path, (unsigned long long)there[2], (unsigned long long)sum);
 cleanup:
     brc_memory_free(model);
     return status;
 }
 
-brc_status brc_checkpoint_same_run(brc_context *context, const brc_h5_read *h5, const brc_assembly *a, const int64_t *sums)
+brc_status brc_checkpoint_same_run(brc_context *context, const brc_h5_read *h5, const brc_assembly *a,
+                                   const int64_t *sums)
 {
     const char *own = brc_precision_name(brc_device_get_precision(brc_simulation_device(a->part[0])));
     char *precision = NULL, *device = NULL, here[256];
@@ -173,12 +207,18 @@ brc_status brc_checkpoint_same_run(brc_context *context, const brc_h5_read *h5, 
     BRC_TRY_OR(cleanup, brc_h5_read_string(h5, "identity/precision", &precision));
     BRC_TRY_OR(cleanup, brc_h5_read_string(h5, "identity/device", &device));
     if (strcmp(precision, own) != 0) {
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: the checkpoint is in precision %s, this run in %s; go on with --precision %s", h5->path, precision, own, precision);
+        status = BRC_FAIL(context, BRC_BAD_INPUT,
+                          "%s: the checkpoint is in precision %s, this run in %s; go on with --precision %s", h5->path,
+                          precision, own, precision);
         goto cleanup;
     }
-    for (int32_t k = 0; k < a->n; ++k) BRC_TRY_OR(cleanup, same_domain(context, h5, a, k, sums[k]));
+    for (int32_t k = 0; k < a->n; ++k)
+        BRC_TRY_OR(cleanup, same_domain(context, h5, a, k, sums[k]));
     if (strcmp(device, here) != 0)
-        brc_log(context, BRC_LOG_WARNING, "%s was written on %s, the run goes on on %s: from here on its numbers are those of this device, to rounding the same", h5->path, device, here);
+        brc_log(context, BRC_LOG_WARNING,
+                "%s was written on %s, the run goes on on %s: from here on its numbers are those of this device, to "
+                "rounding the same",
+                h5->path, device, here);
 cleanup:
     brc_memory_free(precision);
     brc_memory_free(device);

@@ -1,4 +1,5 @@
-/* What a run tells of its checkpoints, for summary.json; apart from their files, so that the public header needs no HDF5. */
+/* What a run tells of its checkpoints, for summary.json; apart from their files, so that the public header needs no
+ * HDF5. */
 #ifndef BRC_OUTPUT_CHECKPOINT_REPORT_H
 #define BRC_OUTPUT_CHECKPOINT_REPORT_H
 

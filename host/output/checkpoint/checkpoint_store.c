@@ -6,8 +6,10 @@ enum { PATH_ROOM = 160 };
 
 static const char *path_of(char path[PATH_ROOM], const brc_state_store *store, const char *name)
 {
-    if (store->part < 0) snprintf(path, PATH_ROOM, "run/%s", name);
-    else snprintf(path, PATH_ROOM, "parts/%d/%s", (int)store->part, name);
+    if (store->part < 0)
+        snprintf(path, PATH_ROOM, "run/%s", name);
+    else
+        snprintf(path, PATH_ROOM, "parts/%d/%s", (int)store->part, name);
     return path;
 }
 
@@ -24,7 +26,8 @@ static hid_t h5_type(brc_stored_type type)
     return H5T_NATIVE_DOUBLE;
 }
 
-static brc_status put(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows, int32_t columns, void *data)
+static brc_status put(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows, int32_t columns,
+                      void *data)
 {
     brc_h5 *h5 = store->self;
     char path[PATH_ROOM];
@@ -41,28 +44,34 @@ static brc_status count(brc_state_store *store, const char *name, int64_t *rows)
 }
 
 /* No run writes such a state (guard.h): one would spread, or be lost in a branch that a comparison with it decides. */
-static brc_status check_finite(const brc_h5_read *h5, const char *path, brc_stored_type type, int64_t rows, int32_t columns, const void *data)
+static brc_status check_finite(const brc_h5_read *h5, const char *path, brc_stored_type type, int64_t rows,
+                               int32_t columns, const void *data)
 {
     const double *doubles = type == BRC_STORED_DOUBLE ? data : NULL;
     const float *floats = type == BRC_STORED_FLOAT ? data : NULL;
     for (int64_t i = 0; (doubles || floats) && i < rows * columns; ++i) {
         const double one = doubles ? doubles[i] : (double)floats[i];
         if (!isfinite(one))
-            return BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %s is %g in row %lld, column %lld, where a state has finite numbers: the file was changed by something else than breccia; "
-                            "remove it to go on from the one before, or run without --resume", h5->path, path, one, (long long)(i / columns), (long long)(i % columns));
+            return BRC_FAIL(h5->context, BRC_BAD_INPUT,
+                            "%s: %s is %g in row %lld, column %lld, where a state has finite numbers: the file was "
+                            "changed by something else than breccia; "
+                            "remove it to go on from the one before, or run without --resume",
+                            h5->path, path, one, (long long)(i / columns), (long long)(i % columns));
     }
     return BRC_OK;
 }
 
-static brc_status get(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows, int32_t columns, void *data)
+static brc_status get(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows, int32_t columns,
+                      void *data)
 {
     const brc_h5_read *h5 = store->self;
     char path[PATH_ROOM];
     int64_t there, wide;
     BRC_TRY(brc_h5_read_size(h5, path_of(path, store, name), &there, &wide));
     if (there != rows || wide != (columns > 1 ? columns : 1))
-        return BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %s has %lld x %lld numbers, %lld x %d are expected; it is a checkpoint of another run", h5->path, path,
-                        (long long)there, (long long)wide, (long long)rows, (int)columns);
+        return BRC_FAIL(h5->context, BRC_BAD_INPUT,
+                        "%s: %s has %lld x %lld numbers, %lld x %d are expected; it is a checkpoint of another run",
+                        h5->path, path, (long long)there, (long long)wide, (long long)rows, (int)columns);
     BRC_TRY(brc_h5_read_rows(h5, path, h5_type(type), 0, rows, data));
     return check_finite(h5, path, type, rows, columns, data);
 }

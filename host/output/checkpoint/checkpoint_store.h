@@ -1,4 +1,5 @@
-/* A checkpoint's file as a store of the state (state_store.h): datasets /parts/K/<name> of the simulation of part K, /run/<name> of the run as a whole. */
+/* A checkpoint's file as a store of the state (state_store.h): datasets /parts/K/<name> of the simulation of part K,
+ * /run/<name> of the run as a whole. */
 #ifndef BRC_OUTPUT_CHECKPOINT_STORE_H
 #define BRC_OUTPUT_CHECKPOINT_STORE_H
 

@@ -12,8 +12,8 @@ struct brc_crack_records {
     brc_crack_state state;
 };
 
-brc_status brc_crack_records_create(brc_context *context, const brc_assembly *assembly, const char *cracks_path, const char *fragments_path,
-                                    brc_crack_records **out)
+brc_status brc_crack_records_create(brc_context *context, const brc_assembly *assembly, const char *cracks_path,
+                                    const char *fragments_path, brc_crack_records **out)
 {
     brc_crack_records *r = NULL;
     brc_status status = BRC_OK;
@@ -68,8 +68,8 @@ brc_status brc_crack_records_save(brc_context *context, brc_crack_records *r, br
     return store_position(r, store, &bytes);
 }
 
-brc_status brc_crack_records_resume(brc_context *context, const brc_assembly *assembly, const char *cracks_path, const char *fragments_path, brc_state_store *store,
-                                    brc_crack_records **out)
+brc_status brc_crack_records_resume(brc_context *context, const brc_assembly *assembly, const char *cracks_path,
+                                    const char *fragments_path, brc_state_store *store, brc_crack_records **out)
 {
     brc_crack_records *r = NULL;
     brc_status status = BRC_OK;
@@ -111,10 +111,14 @@ brc_status brc_crack_records_finish(brc_context *context, brc_crack_records *r, 
     if (alive) {
         BRC_TRY(take(context, r));
         BRC_TRY(brc_cracks_csv_add(context, r->cracks_file, &r->state.cracks, &r->n_written));
-        if (r->stage != brc_simulation_stage(first) || r->step != brc_simulation_step(first)) BRC_TRY(add_fragments(context, r, -1));
+        if (r->stage != brc_simulation_stage(first) || r->step != brc_simulation_step(first))
+            BRC_TRY(add_fragments(context, r, -1));
     }
     BRC_TRY(brc_append_finish(context, r->cracks_file));
     return brc_append_finish(context, r->fragments_file);
 }
 
-const brc_crack_state *brc_crack_records_state(const brc_crack_records *r) { return r && r->known ? &r->state : NULL; }
+const brc_crack_state *brc_crack_records_state(const brc_crack_records *r)
+{
+    return r && r->known ? &r->state : NULL;
+}

@@ -20,7 +20,8 @@ static void sum_bodies(const brc_assembly *a, const brc_cracks *cracks, double *
 
 static brc_status find_energy(const brc_assembly *assembly, const brc_cracks *cracks, brc_crack_report *out)
 {
-    for (int64_t k = 0; k < cracks->n_broken; ++k) out->released += cracks->breaks[k].energy;
+    for (int64_t k = 0; k < cracks->n_broken; ++k)
+        out->released += cracks->breaks[k].energy;
     for (int32_t p = 0; p < assembly->n; ++p) {
         brc_softening_report one;
         const double implied = brc_simulation_implied_fracture_energy(assembly->part[p]);
@@ -32,13 +33,15 @@ static brc_status find_energy(const brc_assembly *assembly, const brc_cracks *cr
     return BRC_OK;
 }
 
-/* What cracks cost: by strength and cells where bonds break at once, and what was released; with a fracture energy what open faces took. */
+/* What cracks cost: by strength and cells where bonds break at once, and what was released; with a fracture energy what
+ * open faces took. */
 static void add_energy(brc_json *json, const brc_crack_report *report)
 {
     const brc_softening_report *soft = &report->softening;
     brc_json_begin_object(json, "energy");
     brc_json_number(json, "released_J", report->released);
-    brc_json_number(json, "per_area_J_per_m2", report->statistics.total_area > 0 ? report->released / report->statistics.total_area : 0);
+    brc_json_number(json, "per_area_J_per_m2",
+                    report->statistics.total_area > 0 ? report->released / report->statistics.total_area : 0);
     if (report->implied_energy > 0) brc_json_number(json, "implied_J_per_m2", report->implied_energy);
     if (soft->n_opened > 0) {
         brc_json_integer(json, "opened", soft->n_opened);
@@ -50,14 +53,15 @@ static void add_energy(brc_json *json, const brc_crack_report *report)
     brc_json_end(json);
 }
 
-brc_status brc_crack_report_find(brc_context *context, const brc_assembly *assembly, const brc_cracks *cracks, const brc_fragment_sizes *sizes,
-                                 brc_crack_report *out)
+brc_status brc_crack_report_find(brc_context *context, const brc_assembly *assembly, const brc_cracks *cracks,
+                                 const brc_fragment_sizes *sizes, brc_crack_report *out)
 {
     int32_t *fragment = NULL;
     int64_t n;
     brc_status status = BRC_OK;
     brc_crack_report_free(out);
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &fragment, brc_assembly_first_element(assembly, assembly->n), "fragments"));
+    BRC_TRY_OR(cleanup,
+               BRC_ALLOCATE(context, &fragment, brc_assembly_first_element(assembly, assembly->n), "fragments"));
     BRC_TRY_OR(cleanup, brc_cracks_fragments(assembly, fragment, &n));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->area_of_body, assembly->scene->n_bodies, "areas of cracks"));
     brc_crack_statistics_of(cracks->n_broken, cracks->breaks, fragment, &out->statistics);
@@ -79,7 +83,8 @@ void brc_crack_report_free(brc_crack_report *report)
 static void add_vector(brc_json *json, const char *key, const double v[3])
 {
     brc_json_begin_array(json, key);
-    for (int c = 0; c < 3; ++c) brc_json_number(json, NULL, v[c]);
+    for (int c = 0; c < 3; ++c)
+        brc_json_number(json, NULL, v[c]);
     brc_json_end(json);
 }
 
@@ -111,7 +116,8 @@ static void add_orientation(brc_json *json, const brc_crack_statistics *s)
     static const char *const NAME[6] = {"xx", "yy", "zz", "yz", "xz", "xy"};
     if (s->total_area > 0) {
         brc_json_begin_object(json, "fabric");
-        for (int k = 0; k < 6; ++k) brc_json_number(json, NAME[k], s->fabric[k]);
+        for (int k = 0; k < 6; ++k)
+            brc_json_number(json, NAME[k], s->fabric[k]);
         add_vector(json, "axis", s->normal);
         add_angles(json, "angle_to_axes_deg", s->normal);
         brc_json_end(json);
@@ -133,7 +139,8 @@ static void add_regime(brc_json *json, bool broke, const brc_regime *r)
     brc_json_end(json);
 }
 
-void brc_crack_report_add(brc_json *json, const brc_scene *scene, const brc_cracks *cracks, const brc_crack_report *report)
+void brc_crack_report_add(brc_json *json, const brc_scene *scene, const brc_cracks *cracks,
+                          const brc_crack_report *report)
 {
     const int64_t n = cracks->n_broken;
     const brc_crack_statistics *s = &report->statistics;
@@ -144,14 +151,17 @@ void brc_crack_report_add(brc_json *json, const brc_scene *scene, const brc_crac
     brc_json_number(json, "first_break_s", n > 0 ? cracks->breaks[0].time : NAN);
     brc_json_number(json, "last_break_s", n > 0 ? cracks->breaks[n - 1].time : NAN);
     for (int mode = BRC_BREAK_TENSION; mode < BRC_BREAK_MODES; ++mode)
-        if (mode <= BRC_BREAK_SHEAR || s->count[mode] > 0) brc_json_integer(json, brc_break_mode_name(mode), s->count[mode]);
+        if (mode <= BRC_BREAK_SHEAR || s->count[mode] > 0)
+            brc_json_integer(json, brc_break_mode_name(mode), s->count[mode]);
     brc_json_number(json, "crack_area_m2", s->total_area);
     brc_json_begin_object(json, "area_of_mode_m2");
     for (int mode = BRC_BREAK_TENSION; mode < BRC_BREAK_MODES; ++mode)
-        if (mode <= BRC_BREAK_SHEAR || s->count[mode] > 0) brc_json_number(json, brc_break_mode_name(mode), s->area[mode]);
+        if (mode <= BRC_BREAK_SHEAR || s->count[mode] > 0)
+            brc_json_number(json, brc_break_mode_name(mode), s->area[mode]);
     brc_json_end(json);
     brc_json_begin_object(json, "area_of_body_m2");
-    for (int32_t b = 0; report->area_of_body && b < scene->n_bodies; ++b) brc_json_number(json, scene->bodies[b].name, report->area_of_body[b]);
+    for (int32_t b = 0; report->area_of_body && b < scene->n_bodies; ++b)
+        brc_json_number(json, scene->bodies[b].name, report->area_of_body[b]);
     brc_json_end(json);
     add_energy(json, report);
     add_orientation(json, s);

@@ -6,7 +6,8 @@
 
 enum { BRC_BREAK_MODES = 8 }; /* room for modes of failure, counted from 1 */
 
-/* The mean plane of a crack: through the area-weighted centre of its faces, across the direction in which they spread least. */
+/* The mean plane of a crack: through the area-weighted centre of its faces, across the direction in which they spread
+ * least. */
 typedef struct brc_crack_plane {
     int64_t n;        /* faces; fewer than 3, or all on a line: no plane, and the rest is 0 */
     double area;      /* of the faces [m^2] */
@@ -19,8 +20,9 @@ typedef struct brc_crack_statistics {
     int64_t count[BRC_BREAK_MODES]; /* broken bonds by mode */
     double area[BRC_BREAK_MODES];   /* by mode [m^2] */
     double total_area;              /* [m^2] */
-    double fabric[6];  /* sum of area n (x) n over the area, xx yy zz yz xz xy, trace 1 [-]; 1/3 of the unit tensor: no direction */
-    double normal[3];  /* its largest principal axis: where most faces look; sign as above */
+    double fabric[6]; /* sum of area n (x) n over the area, xx yy zz yz xz xy, trace 1 [-]; 1/3 of the unit tensor: no
+                         direction */
+    double normal[3]; /* its largest principal axis: where most faces look; sign as above */
     brc_crack_plane all;        /* of all broken bonds */
     brc_crack_plane separating; /* of those between two fragments: the cracks that went through */
 } brc_crack_statistics;

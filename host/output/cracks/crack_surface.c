@@ -1,5 +1,6 @@
-/* Polygons stand in the order of the breaks, and of each of its two sides. Only which face each is of and, of cells, which corners it has are kept;
- * all else is found again as the file is written, block after block, so that a million broken bonds take 50 MB and not 800. */
+/* Polygons stand in the order of the breaks, and of each of its two sides. Only which face each is of and, of cells,
+ * which corners it has are kept; all else is found again as the file is written, block after block, so that a million
+ * broken bonds take 50 MB and not 800. */
 #include "crack_surface.h"
 #include "../frames/deform.h"
 #include "../frames/vtu.h"
@@ -9,7 +10,8 @@
 #include <string.h>
 
 enum { POLYGON = 7, SIDES = 8, MOST_CORNERS = 256 };
-/* Corners of a face lie in its plane to rounding; other corners of its cell are farther from it than this share of the cell's size. */
+/* Corners of a face lie in its plane to rounding; other corners of its cell are farther from it than this share of the
+ * cell's size. */
 static const double in_plane = 1e-7;
 
 /* ---- corners of a face ---- */
@@ -26,7 +28,10 @@ static int by_angle(const void *a, const void *b)
     return (x->corner > y->corner) - (x->corner < y->corner);
 }
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /* Two unit vectors across the unit vector n. */
 static void find_frame(const double n[3], double e1[3], double e2[3])
@@ -39,8 +44,10 @@ static void find_frame(const double n[3], double e1[3], double e2[3])
         e1[c] = (c == least) - n[least] * n[c];
         length += e1[c] * e1[c];
     }
-    for (int c = 0; c < 3; ++c) e1[c] /= sqrt(length);
-    for (int c = 0; c < 3; ++c) e2[c] = n[(c + 1) % 3] * e1[(c + 2) % 3] - n[(c + 2) % 3] * e1[(c + 1) % 3];
+    for (int c = 0; c < 3; ++c)
+        e1[c] /= sqrt(length);
+    for (int c = 0; c < 3; ++c)
+        e2[c] = n[(c + 1) % 3] * e1[(c + 2) % 3] - n[(c + 2) % 3] * e1[(c + 1) % 3];
 }
 
 int brc_crack_surface_corners(const brc_domain *d, int64_t h, int room, int64_t *corner)
@@ -54,14 +61,17 @@ int brc_crack_surface_corners(const brc_domain *d, int64_t h, int room, int64_t 
     find_frame(n, e1, e2);
     for (int pass = 0; pass < 2; ++pass)
         for (int64_t v = d->vertex_start[e]; v < d->vertex_start[e + 1]; ++v) {
-            const double r[3] = {d->vertex[3 * v] - centre[0], d->vertex[3 * v + 1] - centre[1], d->vertex[3 * v + 2] - centre[2]};
-            if (pass == 0) size = fmax(size, sqrt(dot(r, r)));
+            const double r[3] = {d->vertex[3 * v] - centre[0], d->vertex[3 * v + 1] - centre[1],
+                                 d->vertex[3 * v + 2] - centre[2]};
+            if (pass == 0)
+                size = fmax(size, sqrt(dot(r, r)));
             else if (fabs(dot(r, n)) <= in_plane * size && count < MOST_CORNERS && count < room)
                 found[count++] = (around){atan2(dot(r, e2), dot(r, e1)), v};
         }
     if (count < 3) return 0;
     qsort(found, (size_t)count, sizeof *found, by_angle);
-    for (int k = 0; k < count; ++k) corner[k] = found[k].corner;
+    for (int k = 0; k < count; ++k)
+        corner[k] = found[k].corner;
     return count;
 }
 
@@ -71,7 +81,7 @@ int brc_crack_surface_corners(const brc_domain *d, int64_t h, int room, int64_t 
 typedef struct part {
     const brc_simulation *simulation;
     const brc_domain *domain;
-    const brc_break *breaks; /* [n] */
+    const brc_break *breaks;                           /* [n] */
     int64_t n, first_break, first_element, first_bond; /* the last three: of the parts before */
     double *displacement, *orientation; /* [n_elements][3], [n_elements][4]; orientation of spheres only */
     uint8_t *whole;                     /* cells: brc_simulation_whole */
@@ -82,8 +92,8 @@ typedef struct surface {
     int32_t n_parts;
     part *parts;
     int64_t n_points, n_polygons, corner_room;
-    int64_t *face;   /* [n_polygons] twice the number of the break over all parts, and its side */
-    int64_t *end;    /* [n_polygons] points up to its last */
+    int64_t *face; /* [n_polygons] twice the number of the break over all parts, and its side */
+    int64_t *end;  /* [n_polygons] points up to its last */
     bool has_cells;
     int32_t *corner; /* [n_points] of cells: corner, counted from the first of the element; NULL without cells */
 } surface;
@@ -101,7 +111,10 @@ static void free_surface(surface *s)
     brc_memory_free(s->corner);
 }
 
-static bool is_spheres(const part *p) { return p->domain->element_kind == BRC_ELEMENT_SPHERE; }
+static bool is_spheres(const part *p)
+{
+    return p->domain->element_kind == BRC_ELEMENT_SPHERE;
+}
 
 static brc_status take_part(surface *s, const brc_assembly *assembly, int32_t k, int64_t first_break)
 {
@@ -147,7 +160,8 @@ static brc_status add_polygon(surface *s, const part *p, int64_t b, int side)
         s->corner_room += s->corner_room / 2 + 4 * MOST_CORNERS;
         BRC_TRY(brc_memory_resize(s->context, (void **)&s->corner, s->corner_room, sizeof *s->corner, "crack surface"));
     }
-    for (int k = 0; k < n && s->has_cells; ++k) s->corner[s->n_points + k] = (int32_t)(corner[k] - first);
+    for (int k = 0; k < n && s->has_cells; ++k)
+        s->corner[s->n_points + k] = (int32_t)(corner[k] - first);
     s->n_points += n;
     s->face[s->n_polygons] = 2 * (p->first_break + b) + side;
     s->end[s->n_polygons++] = s->n_points;
@@ -168,7 +182,8 @@ static brc_status take_surface(surface *s, const brc_assembly *assembly)
     BRC_TRY(BRC_ALLOCATE(s->context, &s->end, 2 * n_breaks, "crack surface"));
     for (int32_t k = 0; k < s->n_parts; ++k)
         for (int64_t b = 0; b < s->parts[k].n; ++b)
-            for (int side = 0; side < 2; ++side) BRC_TRY(add_polygon(s, &s->parts[k], b, side));
+            for (int side = 0; side < 2; ++side)
+                BRC_TRY(add_polygon(s, &s->parts[k], b, side));
     return BRC_OK;
 }
 
@@ -177,7 +192,8 @@ static const brc_break *find(const surface *s, int64_t polygon, const part **out
 {
     const int64_t b = s->face[polygon] / 2;
     const part *p = &s->parts[s->n_parts - 1];
-    while (p->first_break > b) --p;
+    while (p->first_break > b)
+        --p;
     *out = p;
     *side = (int)(s->face[polygon] % 2);
     return &p->breaks[b - p->first_break];
@@ -189,18 +205,22 @@ static const brc_break *find(const surface *s, int64_t polygon, const part **out
 static void turn(const double q[4], const double r[3], double u[3])
 {
     double t[3];
-    for (int c = 0; c < 3; ++c) t[c] = 2 * (q[1 + (c + 1) % 3] * r[(c + 2) % 3] - q[1 + (c + 2) % 3] * r[(c + 1) % 3]);
-    for (int c = 0; c < 3; ++c) u[c] += q[0] * t[c] + q[1 + (c + 1) % 3] * t[(c + 2) % 3] - q[1 + (c + 2) % 3] * t[(c + 1) % 3];
+    for (int c = 0; c < 3; ++c)
+        t[c] = 2 * (q[1 + (c + 1) % 3] * r[(c + 2) % 3] - q[1 + (c + 2) % 3] * r[(c + 1) % 3]);
+    for (int c = 0; c < 3; ++c)
+        u[c] += q[0] * t[c] + q[1 + (c + 1) % 3] * t[(c + 2) % 3] - q[1 + (c + 2) % 3] * t[(c + 1) % 3];
 }
 
 /* Corner k of the octagon of a broken beam. */
 static void octagon_point(const part *p, const brc_break *b, int k, double x[3])
 {
-    const double radius = 0.5 * (brc_simulation_beam_radius(p->simulation, b->element_i) + brc_simulation_beam_radius(p->simulation, b->element_j));
+    const double radius = 0.5 * (brc_simulation_beam_radius(p->simulation, b->element_i) +
+                                 brc_simulation_beam_radius(p->simulation, b->element_j));
     const double c1 = radius * cos(2 * M_PI * k / SIDES), c2 = radius * sin(2 * M_PI * k / SIDES);
     double e1[3], e2[3];
     find_frame(b->normal, e1, e2);
-    for (int c = 0; c < 3; ++c) x[c] = b->position[c] + c1 * e1[c] + c2 * e2[c];
+    for (int c = 0; c < 3; ++c)
+        x[c] = b->position[c] + c1 * e1[c] + c2 * e2[c];
 }
 
 static void sphere_displacement(const part *p, int64_t e, const double x[3], double u[3])
@@ -219,8 +239,10 @@ static int64_t polygon_of(const surface *s, int64_t point)
     int64_t low = 0, high = s->n_polygons - 1;
     while (low < high) {
         const int64_t middle = (low + high) / 2;
-        if (s->end[middle] > point) high = middle;
-        else low = middle + 1;
+        if (s->end[middle] > point)
+            high = middle;
+        else
+            low = middle + 1;
     }
     return low;
 }
@@ -238,11 +260,16 @@ static void fill_points(const surface *s, int64_t first, int64_t n, bool displac
         if (displacements && !is_spheres(p)) brc_deform_gradient(p->domain, p->whole, p->displacement, e, gradient);
         for (; at < last && at < s->end[polygon]; ++at, out += 3) {
             double x[3], u[3];
-            if (is_spheres(p)) octagon_point(p, b, (int)(at - begin), x);
-            else memcpy(x, p->domain->vertex + 3 * (p->domain->vertex_start[e] + s->corner[at]), sizeof x);
-            if (displacements && is_spheres(p)) sphere_displacement(p, e, x, u);
-            else if (displacements) brc_deform_point(p->domain, p->displacement, e, (const double(*)[3])gradient, x, u);
-            for (int c = 0; c < 3; ++c) out[c] = (float)(displacements ? u : x)[c];
+            if (is_spheres(p))
+                octagon_point(p, b, (int)(at - begin), x);
+            else
+                memcpy(x, p->domain->vertex + 3 * (p->domain->vertex_start[e] + s->corner[at]), sizeof x);
+            if (displacements && is_spheres(p))
+                sphere_displacement(p, e, x, u);
+            else if (displacements)
+                brc_deform_point(p->domain, p->displacement, e, (const double(*)[3])gradient, x, u);
+            for (int c = 0; c < 3; ++c)
+                out[c] = (float)(displacements ? u : x)[c];
         }
     }
 }
@@ -265,7 +292,8 @@ static brc_status read_points_in_turn(const brc_vtu_array *a, int64_t first, int
 {
     int64_t *point = block;
     (void)a;
-    for (int64_t k = 0; k < n; ++k) point[k] = first + k;
+    for (int64_t k = 0; k < n; ++k)
+        point[k] = first + k;
     return BRC_OK;
 }
 
@@ -282,20 +310,54 @@ typedef struct column {
     int64_t (*count)(const part *p, const brc_break *b, int side);
     double (*number)(const brc_break *b);
 } column;
-static int64_t side_of(const part *p, const brc_break *b, int side) { return (void)p, (void)b, side; }
-static int64_t stage_of(const part *p, const brc_break *b, int side) { return (void)p, (void)side, b->stage; }
-static int64_t mode_of(const part *p, const brc_break *b, int side) { return (void)p, (void)side, b->mode; }
-static int64_t bond_of(const part *p, const brc_break *b, int side) { return (void)side, p->first_bond + b->bond; }
-static int64_t i_of(const part *p, const brc_break *b, int side) { return (void)side, p->first_element + b->element_i; }
-static int64_t j_of(const part *p, const brc_break *b, int side) { return (void)side, p->first_element + b->element_j; }
-static double time_of(const brc_break *b) { return b->time; }
-static double load_of(const brc_break *b) { return b->load; }
-static double energy_of(const brc_break *b) { return b->energy; }
-static double stress_of(const brc_break *b) { return b->stress; }
-static double area_of(const brc_break *b) { return b->area; }
-static const column COLUMNS[] = {{"side", side_of, NULL},    {"stage", stage_of, NULL},   {"mode", mode_of, NULL},     {"bond", bond_of, NULL},
-                                 {"element_i", i_of, NULL},  {"element_j", j_of, NULL},   {"time", NULL, time_of},     {"load", NULL, load_of},
-                                 {"energy", NULL, energy_of}, {"stress", NULL, stress_of}, {"area", NULL, area_of}};
+static int64_t side_of(const part *p, const brc_break *b, int side)
+{
+    return (void)p, (void)b, side;
+}
+static int64_t stage_of(const part *p, const brc_break *b, int side)
+{
+    return (void)p, (void)side, b->stage;
+}
+static int64_t mode_of(const part *p, const brc_break *b, int side)
+{
+    return (void)p, (void)side, b->mode;
+}
+static int64_t bond_of(const part *p, const brc_break *b, int side)
+{
+    return (void)side, p->first_bond + b->bond;
+}
+static int64_t i_of(const part *p, const brc_break *b, int side)
+{
+    return (void)side, p->first_element + b->element_i;
+}
+static int64_t j_of(const part *p, const brc_break *b, int side)
+{
+    return (void)side, p->first_element + b->element_j;
+}
+static double time_of(const brc_break *b)
+{
+    return b->time;
+}
+static double load_of(const brc_break *b)
+{
+    return b->load;
+}
+static double energy_of(const brc_break *b)
+{
+    return b->energy;
+}
+static double stress_of(const brc_break *b)
+{
+    return b->stress;
+}
+static double area_of(const brc_break *b)
+{
+    return b->area;
+}
+static const column COLUMNS[] = {{"side", side_of, NULL},     {"stage", stage_of, NULL}, {"mode", mode_of, NULL},
+                                 {"bond", bond_of, NULL},     {"element_i", i_of, NULL}, {"element_j", j_of, NULL},
+                                 {"time", NULL, time_of},     {"load", NULL, load_of},   {"energy", NULL, energy_of},
+                                 {"stress", NULL, stress_of}, {"area", NULL, area_of}};
 enum { N_COLUMNS = sizeof COLUMNS / sizeof *COLUMNS };
 
 /* skip: number of the column. */
@@ -308,8 +370,10 @@ static brc_status read_column(const brc_vtu_array *a, int64_t first, int64_t n, 
         const part *p;
         int side;
         const brc_break *b = find(a->source, first + k, &p, &side);
-        if (c->count) count[k] = c->count(p, b, side);
-        else number[k] = c->number(b);
+        if (c->count)
+            count[k] = c->count(p, b, side);
+        else
+            number[k] = c->number(b);
     }
     return BRC_OK;
 }
@@ -321,12 +385,21 @@ static brc_status write_surface(const surface *s, double time, const char *path)
     int m = 0;
     list[m++] = (brc_vtu_array){BRC_VTU_FIELD_DATA, "TimeValue", BRC_VTU_FLOAT64, 1, 1, brc_vtu_from_memory, &time, 0};
     list[m++] = (brc_vtu_array){BRC_VTU_POINTS, "Points", BRC_VTU_FLOAT32, 3, s->n_points, read_points, s, 0};
-    list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "connectivity", BRC_VTU_INT64, 1, s->n_points, read_points_in_turn, s, 0};
+    list[m++] =
+        (brc_vtu_array){BRC_VTU_CELLS, "connectivity", BRC_VTU_INT64, 1, s->n_points, read_points_in_turn, s, 0};
     list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "offsets", BRC_VTU_INT64, 1, n, brc_vtu_from_memory, s->end, 0};
     list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "types", BRC_VTU_UINT8, 1, n, read_types, s, 0};
-    list[m++] = (brc_vtu_array){BRC_VTU_POINT_DATA, "displacement", BRC_VTU_FLOAT32, 3, s->n_points, read_displacements, s, 0};
+    list[m++] =
+        (brc_vtu_array){BRC_VTU_POINT_DATA, "displacement", BRC_VTU_FLOAT32, 3, s->n_points, read_displacements, s, 0};
     for (int k = 0; k < N_COLUMNS; ++k)
-        list[m++] = (brc_vtu_array){BRC_VTU_CELL_DATA, COLUMNS[k].name, COLUMNS[k].count ? BRC_VTU_INT64 : BRC_VTU_FLOAT64, 1, n, read_column, s, k};
+        list[m++] = (brc_vtu_array){BRC_VTU_CELL_DATA,
+                                    COLUMNS[k].name,
+                                    COLUMNS[k].count ? BRC_VTU_INT64 : BRC_VTU_FLOAT64,
+                                    1,
+                                    n,
+                                    read_column,
+                                    s,
+                                    k};
     return brc_vtu_write(s->context, path, s->n_points, n, m, list);
 }
 

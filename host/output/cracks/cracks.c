@@ -4,14 +4,16 @@
 #include <math.h>
 
 /* Breaks of all parts by step, those of a step part after part. list [n], count [n], next [n]: zeroed. */
-static void merge(const brc_assembly *a, const brc_break *const *list, const int64_t *count, int64_t *next, brc_break *out)
+static void merge(const brc_assembly *a, const brc_break *const *list, const int64_t *count, int64_t *next,
+                  brc_break *out)
 {
     for (;; ++out) {
         int32_t from = -1;
         for (int32_t k = 0; k < a->n; ++k)
             if (next[k] < count[k] && (from < 0 || list[k][next[k]].step < list[from][next[from]].step)) from = k;
         if (from < 0) return;
-        const int32_t elements = (int32_t)brc_assembly_first_element(a, from), bonds = (int32_t)brc_assembly_first_bond(a, from);
+        const int32_t elements = (int32_t)brc_assembly_first_element(a, from),
+                      bonds = (int32_t)brc_assembly_first_bond(a, from);
         *out = list[from][next[from]++];
         out->element_i += elements;
         out->element_j += elements;
@@ -65,26 +67,66 @@ typedef struct column {
     int width;
     double (*value)(const brc_break *b, int c);
 } column;
-static double time_of(const brc_break *b, int c) { return (void)c, b->time; }
-static double position_of(const brc_break *b, int c) { return b->position[c]; }
-static double normal_of(const brc_break *b, int c) { return b->normal[c]; }
-static double stress_of(const brc_break *b, int c) { return (void)c, b->stress; }
-static double energy_of(const brc_break *b, int c) { return (void)c, b->energy; }
-static double area_of(const brc_break *b, int c) { return (void)c, b->area; }
-static double load_of(const brc_break *b, int c) { return (void)c, b->load; }
+static double time_of(const brc_break *b, int c)
+{
+    return (void)c, b->time;
+}
+static double position_of(const brc_break *b, int c)
+{
+    return b->position[c];
+}
+static double normal_of(const brc_break *b, int c)
+{
+    return b->normal[c];
+}
+static double stress_of(const brc_break *b, int c)
+{
+    return (void)c, b->stress;
+}
+static double energy_of(const brc_break *b, int c)
+{
+    return (void)c, b->energy;
+}
+static double area_of(const brc_break *b, int c)
+{
+    return (void)c, b->area;
+}
+static double load_of(const brc_break *b, int c)
+{
+    return (void)c, b->load;
+}
 static const column NUMBERS[] = {{"time", 1, time_of},     {"position", 3, position_of}, {"normal", 3, normal_of},
                                  {"stress", 1, stress_of}, {"energy", 1, energy_of},     {"area", 1, area_of},
                                  {"load", 1, load_of}};
-static int64_t step_of(const brc_break *b) { return b->step; }
-static int64_t stage_of(const brc_break *b) { return b->stage; }
-static int64_t mode_of(const brc_break *b) { return b->mode; }
-static int64_t bond_of(const brc_break *b) { return b->bond; }
-static int64_t i_of(const brc_break *b) { return b->element_i; }
-static int64_t j_of(const brc_break *b) { return b->element_j; }
+static int64_t step_of(const brc_break *b)
+{
+    return b->step;
+}
+static int64_t stage_of(const brc_break *b)
+{
+    return b->stage;
+}
+static int64_t mode_of(const brc_break *b)
+{
+    return b->mode;
+}
+static int64_t bond_of(const brc_break *b)
+{
+    return b->bond;
+}
+static int64_t i_of(const brc_break *b)
+{
+    return b->element_i;
+}
+static int64_t j_of(const brc_break *b)
+{
+    return b->element_j;
+}
 static const struct {
     const char *name;
     int64_t (*value)(const brc_break *b);
-} COUNTS[] = {{"step", step_of}, {"stage", stage_of}, {"mode", mode_of}, {"bond", bond_of}, {"element_i", i_of}, {"element_j", j_of}};
+} COUNTS[] = {{"step", step_of}, {"stage", stage_of}, {"mode", mode_of},
+              {"bond", bond_of}, {"element_i", i_of}, {"element_j", j_of}};
 enum { N_NUMBERS = sizeof NUMBERS / sizeof *NUMBERS, N_COUNTS = sizeof COUNTS / sizeof *COUNTS };
 
 brc_status brc_cracks_write_h5(brc_context *context, brc_h5 *h5, const brc_cracks *cracks)
@@ -101,12 +143,14 @@ brc_status brc_cracks_write_h5(brc_context *context, brc_h5 *h5, const brc_crack
     for (int k = 0; k < N_NUMBERS; ++k) {
         const column *c = &NUMBERS[k];
         for (int64_t b = 0; b < n; ++b)
-            for (int i = 0; i < c->width; ++i) number[c->width * b + i] = c->value(&cracks->breaks[b], i);
+            for (int i = 0; i < c->width; ++i)
+                number[c->width * b + i] = c->value(&cracks->breaks[b], i);
         snprintf(path, sizeof path, "cracks/%s", c->name);
         brc_h5_dataset(h5, path, H5T_NATIVE_DOUBLE, n, c->width == 1 ? 0 : c->width, number);
     }
     for (int k = 0; k < N_COUNTS; ++k) {
-        for (int64_t b = 0; b < n; ++b) count[b] = COUNTS[k].value(&cracks->breaks[b]);
+        for (int64_t b = 0; b < n; ++b)
+            count[b] = COUNTS[k].value(&cracks->breaks[b]);
         snprintf(path, sizeof path, "cracks/%s", COUNTS[k].name);
         brc_h5_dataset(h5, path, H5T_NATIVE_INT64, n, 0, count);
     }
@@ -118,7 +162,8 @@ cleanup:
 
 const char *brc_cracks_csv_head(void)
 {
-    return "time [s],step,stage,mode,bond,element_i,element_j,x [m],y [m],z [m],nx,ny,nz,stress [Pa],energy [J],area [m^2],load\n";
+    return "time [s],step,stage,mode,bond,element_i,element_j,x [m],y [m],z [m],nx,ny,nz,stress [Pa],energy [J],area "
+           "[m^2],load\n";
 }
 
 brc_status brc_cracks_csv_add(brc_context *context, brc_append *file, const brc_cracks *cracks, int64_t *n_written)
@@ -128,16 +173,20 @@ brc_status brc_cracks_csv_add(brc_context *context, brc_append *file, const brc_
     const int64_t bytes = brc_append_bytes(file);
     for (int64_t k = *n_written; k < cracks->n_broken && status == BRC_OK; ++k) {
         const brc_break *b = &cracks->breaks[k];
-        brc_text_add(&text, "%.17g,%lld,%d,%s,%d,%d,%d", b->time, (long long)b->step, (int)b->stage, brc_break_mode_name(b->mode), (int)b->bond,
-                     (int)b->element_i, (int)b->element_j);
-        for (int c = 0; c < 3; ++c) brc_text_add(&text, ",%.17g", b->position[c]);
-        for (int c = 0; c < 3; ++c) brc_text_add(&text, ",%.17g", b->normal[c]);
+        brc_text_add(&text, "%.17g,%lld,%d,%s,%d,%d,%d", b->time, (long long)b->step, (int)b->stage,
+                     brc_break_mode_name(b->mode), (int)b->bond, (int)b->element_i, (int)b->element_j);
+        for (int c = 0; c < 3; ++c)
+            brc_text_add(&text, ",%.17g", b->position[c]);
+        for (int c = 0; c < 3; ++c)
+            brc_text_add(&text, ",%.17g", b->normal[c]);
         brc_text_add(&text, ",%.17g,%.17g,%.17g,%.17g\n", b->stress, b->energy, b->area, b->load);
         status = brc_append_piece(context, file, &text);
     }
     if (status == BRC_OK) status = brc_append_add(context, file, &text);
-    if (status == BRC_OK) *n_written = cracks->n_broken;
-    else brc_append_cut(file, bytes);
+    if (status == BRC_OK)
+        *n_written = cracks->n_broken;
+    else
+        brc_append_cut(file, bytes);
     brc_text_free(&text);
     return status;
 }
@@ -146,10 +195,12 @@ brc_status brc_cracks_fragments(const brc_assembly *assembly, int32_t *fragment,
 {
     *n_fragments = 0;
     for (int32_t k = 0; k < assembly->n; ++k) {
-        const int64_t first = brc_assembly_first_element(assembly, k), end = brc_assembly_first_element(assembly, k + 1);
+        const int64_t first = brc_assembly_first_element(assembly, k),
+                      end = brc_assembly_first_element(assembly, k + 1);
         int64_t n;
         BRC_TRY(brc_simulation_fragments(assembly->part[k], fragment + first, &n));
-        for (int64_t e = first; e < end; ++e) fragment[e] += (int32_t)*n_fragments;
+        for (int64_t e = first; e < end; ++e)
+            fragment[e] += (int32_t)*n_fragments;
         *n_fragments += n;
     }
     return BRC_OK;

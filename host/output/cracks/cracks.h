@@ -23,8 +23,8 @@ void brc_cracks_free(brc_cracks *cracks);
 brc_status brc_cracks_fragments(const brc_assembly *assembly, int32_t *fragment, int64_t *n_fragments);
 /* Group `cracks` of an open file: one dataset a column, one row a broken bond; attribute fragments. */
 brc_status brc_cracks_write_h5(brc_context *context, brc_h5 *h5, const brc_cracks *cracks);
-/* cracks.csv: its head line, static storage; and the rows that it has not yet, *n_written being those it has: later breaks come after all earlier ones,
- * so that the file only grows. */
+/* cracks.csv: its head line, static storage; and the rows that it has not yet, *n_written being those it has: later
+ * breaks come after all earlier ones, so that the file only grows. */
 const char *brc_cracks_csv_head(void);
 brc_status brc_cracks_csv_add(brc_context *context, brc_append *file, const brc_cracks *cracks, int64_t *n_written);
 /* CellData damage [-] and fragment, FieldData n_fragments and n_broken of a frame. */

@@ -19,7 +19,8 @@ static bool invert(const double a[3][3], double out[3][3])
     return true;
 }
 
-void brc_deform_gradient(const brc_domain *domain, const uint8_t *whole, const double *displacement, int64_t element, double gradient[3][3])
+void brc_deform_gradient(const brc_domain *domain, const uint8_t *whole, const double *displacement, int64_t element,
+                         double gradient[3][3])
 {
     double shape[3][3] = {{0}}, jump[3][3] = {{0}}, inverse[3][3];
     const double *x = domain->position + 3 * element, *u = displacement + 3 * element;

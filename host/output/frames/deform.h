@@ -8,7 +8,8 @@
  * T2): H = sum (u_j - u_i) (x) s A^-1, A = sum (L/S) s (x) s. Zero, so that the cell moves rigidly, where the
  * neighbours do not span space. whole: [n_half_edges] 1 where the bond is unbroken, only those count; NULL: all.
  * displacement: [n_elements][3] [m]; gradient: row i = d u_i / d x_j [-]. */
-void brc_deform_gradient(const brc_domain *domain, const uint8_t *whole, const double *displacement, int64_t element, double gradient[3][3]);
+void brc_deform_gradient(const brc_domain *domain, const uint8_t *whole, const double *displacement, int64_t element,
+                         double gradient[3][3]);
 /* Displacement of point x [m] of the element: u_i + H (x - X_i). */
 void brc_deform_point(const brc_domain *domain, const double *displacement, int64_t element,
                       const double gradient[3][3], const double x[3], double out[3]);

@@ -244,7 +244,8 @@ static brc_status export_csv(job *j)
 {
     static const char *const TABLES[] = {"histories.csv", "cracks.csv", "fragments.csv"};
     bool there;
-    for (size_t k = 0; k < sizeof TABLES / sizeof TABLES[0]; ++k) BRC_TRY(copy_if_there(j, TABLES[k], &there));
+    for (size_t k = 0; k < sizeof TABLES / sizeof TABLES[0]; ++k)
+        BRC_TRY(copy_if_there(j, TABLES[k], &there));
     return convert(j, "elements_", ".csv", csv_frame);
 }
 

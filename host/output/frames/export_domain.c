@@ -22,7 +22,8 @@ static bool is_sphere(const brc_domain *d)
 static brc_status read_centres(const brc_vtu_array *array, int64_t first, int64_t n, void *block)
 {
     const double *x = ((const brc_domain *)array->source)->position + 3 * first;
-    for (int64_t k = 0; k < 3 * n; ++k) ((float *)block)[k] = (float)x[k];
+    for (int64_t k = 0; k < 3 * n; ++k)
+        ((float *)block)[k] = (float)x[k];
     return BRC_OK;
 }
 
@@ -30,7 +31,8 @@ static brc_status read_centres(const brc_vtu_array *array, int64_t first, int64_
 static brc_status read_count(const brc_vtu_array *array, int64_t first, int64_t n, void *block)
 {
     (void)array;
-    for (int64_t k = 0; k < n; ++k) ((int64_t *)block)[k] = first + k;
+    for (int64_t k = 0; k < n; ++k)
+        ((int64_t *)block)[k] = first + k;
     return BRC_OK;
 }
 
@@ -38,7 +40,8 @@ static brc_status read_count(const brc_vtu_array *array, int64_t first, int64_t 
 static brc_status read_ends(const brc_vtu_array *array, int64_t first, int64_t n, void *block)
 {
     (void)array;
-    for (int64_t k = 0; k < n; ++k) ((int64_t *)block)[k] = first + k + 1;
+    for (int64_t k = 0; k < n; ++k)
+        ((int64_t *)block)[k] = first + k + 1;
     return BRC_OK;
 }
 
@@ -52,20 +55,23 @@ static brc_status read_types(const brc_vtu_array *array, int64_t first, int64_t 
 static brc_status read_coordination(const brc_vtu_array *array, int64_t first, int64_t n, void *block)
 {
     const int64_t *start = ((const brc_domain *)array->source)->row_start + first;
-    for (int64_t k = 0; k < n; ++k) ((int64_t *)block)[k] = start[k + 1] - start[k];
+    for (int64_t k = 0; k < n; ++k)
+        ((int64_t *)block)[k] = start[k + 1] - start[k];
     return BRC_OK;
 }
 
 /* source: the array of the domain itself. */
 static brc_status read_doubles(const brc_vtu_array *array, int64_t first, int64_t n, void *block)
 {
-    memcpy(block, (const double *)array->source + array->columns * first, (size_t)(array->columns * n) * sizeof(double));
+    memcpy(block, (const double *)array->source + array->columns * first,
+           (size_t)(array->columns * n) * sizeof(double));
     return BRC_OK;
 }
 
 static brc_status read_ids(const brc_vtu_array *array, int64_t first, int64_t n, void *block)
 {
-    for (int64_t k = 0; k < n; ++k) ((int64_t *)block)[k] = ((const int32_t *)array->source)[first + k];
+    for (int64_t k = 0; k < n; ++k)
+        ((int64_t *)block)[k] = ((const int32_t *)array->source)[first + k];
     return BRC_OK;
 }
 
@@ -80,31 +86,36 @@ static brc_status take_points(brc_context *context, const brc_tessellation *cell
     BRC_TRY(BRC_ALLOCATE(context, &own, most_points, "points of a cell"));
     for (int64_t v = 0; v < d->vertex_start[d->n_elements]; ++v) {
         if (cells->point[v] != next) continue;
-        for (int c = 0; c < 3; ++c) out->place[3 * next + c] = (float)d->vertex[3 * v + c];
+        for (int c = 0; c < 3; ++c)
+            out->place[3 * next + c] = (float)d->vertex[3 * v + c];
         ++next;
     }
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int64_t m = brc_tessellation_points(cells, e, own);
-        for (int64_t k = 0; k < m; ++k) out->point[n++] = own[k];
+        for (int64_t k = 0; k < m; ++k)
+            out->point[n++] = own[k];
     }
     brc_memory_free(own);
     return BRC_OK;
 }
 
-static brc_status write_spheres(brc_context *context, const brc_domain *d, int n_fields, const brc_vtu_array *fields, const char *path)
+static brc_status write_spheres(brc_context *context, const brc_domain *d, int n_fields, const brc_vtu_array *fields,
+                                const char *path)
 {
     enum { OWN = 5 };
     const int64_t n = d->n_elements;
-    brc_vtu_array arrays[OWN + MOST_FIELDS] = {{BRC_VTU_POINTS, "Points", BRC_VTU_FLOAT32, 3, n, read_centres, d, 0},
-                                               {BRC_VTU_CELLS, "connectivity", BRC_VTU_INT64, 1, n, read_count, d, 0},
-                                               {BRC_VTU_CELLS, "offsets", BRC_VTU_INT64, 1, n, read_ends, d, 0},
-                                               {BRC_VTU_CELLS, "types", BRC_VTU_UINT8, 1, n, read_types, d, 0},
-                                               {BRC_VTU_POINT_DATA, "radius", BRC_VTU_FLOAT64, 1, n, read_doubles, d->radius, 0}};
+    brc_vtu_array arrays[OWN + MOST_FIELDS] = {
+        {BRC_VTU_POINTS, "Points", BRC_VTU_FLOAT32, 3, n, read_centres, d, 0},
+        {BRC_VTU_CELLS, "connectivity", BRC_VTU_INT64, 1, n, read_count, d, 0},
+        {BRC_VTU_CELLS, "offsets", BRC_VTU_INT64, 1, n, read_ends, d, 0},
+        {BRC_VTU_CELLS, "types", BRC_VTU_UINT8, 1, n, read_types, d, 0},
+        {BRC_VTU_POINT_DATA, "radius", BRC_VTU_FLOAT64, 1, n, read_doubles, d->radius, 0}};
     memcpy(arrays + OWN, fields, (size_t)n_fields * sizeof *fields);
     return brc_vtu_write(context, path, n, n, OWN + n_fields, arrays);
 }
 
-static brc_status write_cells(brc_context *context, const brc_domain *d, int n_fields, const brc_vtu_array *fields, const char *path)
+static brc_status write_cells(brc_context *context, const brc_domain *d, int n_fields, const brc_vtu_array *fields,
+                              const char *path)
 {
     enum { OWN = 4 };
     const int64_t n = d->n_elements;
@@ -145,5 +156,6 @@ brc_status brc_export_domain_vtu(brc_context *context, const brc_domain *d, cons
         {BRC_VTU_CELL_DATA, "grain", BRC_VTU_INT64, 1, n, read_ids, d->grain, 0},
     };
     const int n_fields = d->grain ? MOST_FIELDS : MOST_FIELDS - 1;
-    return is_sphere(d) ? write_spheres(context, d, n_fields, fields, path) : write_cells(context, d, n_fields, fields, path);
+    return is_sphere(d) ? write_spheres(context, d, n_fields, fields, path)
+                        : write_cells(context, d, n_fields, fields, path);
 }

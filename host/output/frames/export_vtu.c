@@ -9,7 +9,7 @@ typedef struct frame_array {
     const char *name;   /* in the VTU */
     brc_vtu_number number;
     int columns;
-    int skip; /* leading rows left out: VTU's offsets are ends, without the first 0 */
+    int skip;      /* leading rows left out: VTU's offsets are ends, without the first 0 */
     bool optional; /* may be missing in the frame */
 } frame_array;
 
@@ -57,9 +57,14 @@ static brc_status read_rows(const brc_vtu_array *array, int64_t first, int64_t n
     return brc_h5_read_rows(place->h5, place->name, memory_type(array->number), first + array->skip, n, block);
 }
 
-enum { POINTS = 1, TYPES = 4, MOST_ARRAYS = N_ARRAYS + BRC_VTU_FACE_ARRAYS }; /* the first two: places in ARRAYS, before the optional ones */
+enum {
+    POINTS = 1,
+    TYPES = 4,
+    MOST_ARRAYS = N_ARRAYS + BRC_VTU_FACE_ARRAYS
+}; /* the first two: places in ARRAYS, before the optional ones */
 
-static brc_status ask_sizes(const brc_h5_read *h5, const brc_vtu_faces *faces, place_in_frame places[N_ARRAYS], brc_vtu_array arrays[MOST_ARRAYS], int *n_arrays)
+static brc_status ask_sizes(const brc_h5_read *h5, const brc_vtu_faces *faces, place_in_frame places[N_ARRAYS],
+                            brc_vtu_array arrays[MOST_ARRAYS], int *n_arrays)
 {
     *n_arrays = 0;
     for (int k = 0; k < N_ARRAYS; ++k) {
@@ -75,7 +80,9 @@ static brc_status ask_sizes(const brc_h5_read *h5, const brc_vtu_faces *faces, p
             return BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %s has %lld columns, %d are expected; the file is damaged",
                             h5->path, a->source, (long long)columns, a->columns);
         if (k != TYPES || faces->n_cells == 0) continue;
-        if (faces->n_cells != array->rows) return BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %lld cells, but faces of %lld; the file is damaged", h5->path, (long long)array->rows, (long long)faces->n_cells);
+        if (faces->n_cells != array->rows)
+            return BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: %lld cells, but faces of %lld; the file is damaged",
+                            h5->path, (long long)array->rows, (long long)faces->n_cells);
         brc_vtu_faces_arrays(faces, arrays + *n_arrays);
         *n_arrays += BRC_VTU_FACE_ARRAYS;
     }
@@ -92,7 +99,8 @@ brc_status brc_export_vtu_frame(brc_context *context, const char *frame, const c
     BRC_TRY(brc_h5_read_open(context, frame, &h5));
     brc_status status = brc_vtu_faces_of_frame(&h5, &faces);
     if (status == BRC_OK) status = ask_sizes(&h5, &faces, places, arrays, &n_arrays);
-    if (status == BRC_OK) status = brc_vtu_write(context, path, arrays[POINTS].rows, arrays[TYPES].rows, n_arrays, arrays);
+    if (status == BRC_OK)
+        status = brc_vtu_write(context, path, arrays[POINTS].rows, arrays[TYPES].rows, n_arrays, arrays);
     brc_vtu_faces_free(&faces);
     brc_h5_read_close(&h5);
     return status;

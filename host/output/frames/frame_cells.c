@@ -11,27 +11,47 @@ enum { VERTEX = 1, POLYHEDRON = 42 }; /* VTK's cell types */
 /* Rows of an array that go out at once. */
 #define ROWS_AT_ONCE (8 * BRC_H5_BLOCK)
 
-static int64_t at_once(int64_t rows) { return rows < ROWS_AT_ONCE ? rows : ROWS_AT_ONCE; }
+static int64_t at_once(int64_t rows)
+{
+    return rows < ROWS_AT_ONCE ? rows : ROWS_AT_ONCE;
+}
 
-bool brc_frame_is_sphere(const brc_domain *domain) { return domain->element_kind == BRC_ELEMENT_SPHERE; }
+bool brc_frame_is_sphere(const brc_domain *domain)
+{
+    return domain->element_kind == BRC_ELEMENT_SPHERE;
+}
 
 static int32_t count_parts_of_spheres(const brc_assembly *a)
 {
     int32_t n = 0;
-    for (int32_t k = 0; k < a->n; ++k) n += brc_frame_is_sphere(brc_simulation_domain(a->part[k]));
+    for (int32_t k = 0; k < a->n; ++k)
+        n += brc_frame_is_sphere(brc_simulation_domain(a->part[k]));
     return n;
 }
 
-bool brc_frame_has_spheres(const brc_assembly *assembly) { return count_parts_of_spheres(assembly) > 0; }
-bool brc_frame_has_cells(const brc_assembly *assembly) { return count_parts_of_spheres(assembly) < assembly->n; }
+bool brc_frame_has_spheres(const brc_assembly *assembly)
+{
+    return count_parts_of_spheres(assembly) > 0;
+}
+bool brc_frame_has_cells(const brc_assembly *assembly)
+{
+    return count_parts_of_spheres(assembly) < assembly->n;
+}
 
-brc_status brc_frame_cells_create(brc_context *context, const brc_assembly *assembly, int n_threads, brc_frame_cells *out)
+brc_status brc_frame_cells_create(brc_context *context, const brc_assembly *assembly, int n_threads,
+                                  brc_frame_cells *out)
 {
     brc_status status = BRC_OK;
-    *out = (brc_frame_cells){.context = context, .assembly = assembly, .n_threads = n_threads, .elements_frame = -1, .points_frame = -1, .starts_frame = -1};
+    *out = (brc_frame_cells){.context = context,
+                             .assembly = assembly,
+                             .n_threads = n_threads,
+                             .elements_frame = -1,
+                             .points_frame = -1,
+                             .starts_frame = -1};
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->part, assembly->n, "cells of a frame"));
     for (int32_t k = 0; k < assembly->n; ++k)
-        BRC_TRY_OR(cleanup, brc_tessellation_create(context, brc_simulation_domain(assembly->part[k]), n_threads, &out->part[k]));
+        BRC_TRY_OR(cleanup, brc_tessellation_create(context, brc_simulation_domain(assembly->part[k]), n_threads,
+                                                    &out->part[k]));
 cleanup:
     if (status != BRC_OK) brc_frame_cells_free(out);
     return status;
@@ -39,7 +59,8 @@ cleanup:
 
 void brc_frame_cells_free(brc_frame_cells *cells)
 {
-    for (int32_t k = 0; cells->part && k < cells->assembly->n; ++k) brc_tessellation_free(&cells->part[k]);
+    for (int32_t k = 0; cells->part && k < cells->assembly->n; ++k)
+        brc_tessellation_free(&cells->part[k]);
     brc_memory_free(cells->part);
     cells->part = NULL;
 }
@@ -58,9 +79,13 @@ static int64_t points_of(const brc_frame_cells *c, int32_t part)
     return brc_frame_is_sphere(d) ? d->n_elements : c->part[part].n_points;
 }
 
-static int64_t elements_of(const brc_frame_cells *c, int32_t part) { return brc_simulation_domain(c->assembly->part[part])->n_elements; }
+static int64_t elements_of(const brc_frame_cells *c, int32_t part)
+{
+    return brc_simulation_domain(c->assembly->part[part])->n_elements;
+}
 
-static brc_frame_rows rows_of(const brc_frame_cells *c, int32_t part, int64_t (*count)(const brc_frame_cells *, int32_t))
+static brc_frame_rows rows_of(const brc_frame_cells *c, int32_t part,
+                              int64_t (*count)(const brc_frame_cells *, int32_t))
 {
     brc_frame_rows rows = {.n = count(c, part)};
     for (int32_t k = 0; k < c->assembly->n; ++k) {
@@ -70,8 +95,14 @@ static brc_frame_rows rows_of(const brc_frame_cells *c, int32_t part, int64_t (*
     return rows;
 }
 
-brc_frame_rows brc_frame_element_rows(const brc_frame_cells *cells, int32_t part) { return rows_of(cells, part, elements_of); }
-brc_frame_rows brc_frame_point_rows(const brc_frame_cells *cells, int32_t part) { return rows_of(cells, part, points_of); }
+brc_frame_rows brc_frame_element_rows(const brc_frame_cells *cells, int32_t part)
+{
+    return rows_of(cells, part, elements_of);
+}
+brc_frame_rows brc_frame_point_rows(const brc_frame_cells *cells, int32_t part)
+{
+    return rows_of(cells, part, points_of);
+}
 
 static brc_status join(brc_frame_cells *c)
 {
@@ -91,11 +122,15 @@ static brc_status join(brc_frame_cells *c)
 
 /* From OFFSETS on: where points and faces begin. */
 enum { CONNECTIVITY, FACE_CONNECTIVITY, OFFSETS, FACE_OFFSETS, TO_FACES, POLYHEDRON_OFFSETS, N_COLUMNS };
-static const char *const COLUMN_NAME[N_COLUMNS] = {"VTKHDF/Connectivity", "VTKHDF/FaceConnectivity",  "VTKHDF/Offsets",
-                                                   "VTKHDF/FaceOffsets",  "VTKHDF/PolyhedronToFaces", "VTKHDF/PolyhedronOffsets"};
+static const char *const COLUMN_NAME[N_COLUMNS] = {"VTKHDF/Connectivity",      "VTKHDF/FaceConnectivity",
+                                                   "VTKHDF/Offsets",           "VTKHDF/FaceOffsets",
+                                                   "VTKHDF/PolyhedronToFaces", "VTKHDF/PolyhedronOffsets"};
 
 /* Spheres alone have no faces. */
-static bool has_column(int k, bool cells) { return cells || k == CONNECTIVITY || k == OFFSETS; }
+static bool has_column(int k, bool cells)
+{
+    return cells || k == CONNECTIVITY || k == OFFSETS;
+}
 
 typedef struct column {
     int64_t written, n, room;
@@ -109,7 +144,7 @@ typedef struct table {
     bool kept[N_COLUMNS]; /* columns that the file gets */
     column column[N_COLUMNS];
     int64_t n_points, n_ids, n_faces, n_face_ids; /* so far */
-    int32_t *count, *point;                      /* of a cell */
+    int32_t *count, *point;                       /* of a cell */
 } table;
 
 static void flush(table *t, int k)
@@ -154,15 +189,18 @@ static brc_status push_cells(brc_context *context, table *t, const brc_tessellat
     brc_memory_free(t->point);
     t->count = t->point = NULL;
     BRC_TRY(BRC_ALLOCATE(context, &t->count, most_faces, "faces of a cell"));
-    BRC_TRY(BRC_ALLOCATE(context, &t->point, most_points > most_corners ? most_points : most_corners, "points of a cell"));
+    BRC_TRY(
+        BRC_ALLOCATE(context, &t->point, most_points > most_corners ? most_points : most_corners, "points of a cell"));
     for (int64_t e = 0; e < cells->domain->n_elements; ++e) {
         const int64_t n_points = brc_tessellation_points(cells, e, t->point);
-        for (int64_t k = 0; k < n_points; ++k) push(t, CONNECTIVITY, t->n_points + t->point[k]);
+        for (int64_t k = 0; k < n_points; ++k)
+            push(t, CONNECTIVITY, t->n_points + t->point[k]);
         push(t, OFFSETS, t->n_ids += n_points);
         const int64_t n_faces = brc_tessellation_faces(cells, e, t->count, t->point);
         for (int64_t f = 0, at = 0; f < n_faces; ++f) {
             push(t, TO_FACES, t->n_faces++);
-            for (int32_t k = 0; k < t->count[f]; ++k) push(t, FACE_CONNECTIVITY, t->n_points + t->point[at++]);
+            for (int32_t k = 0; k < t->count[f]; ++k)
+                push(t, FACE_CONNECTIVITY, t->n_points + t->point[at++]);
             push(t, FACE_OFFSETS, t->n_face_ids += t->count[f]);
         }
         push(t, POLYHEDRON_OFFSETS, t->n_faces);
@@ -172,7 +210,11 @@ static brc_status push_cells(brc_context *context, table *t, const brc_tessellat
 }
 
 /* Datasets of one number: how long the others are. */
-static const char *const COUNT_NAME[] = {"NumberOfPoints", "NumberOfCells",  "NumberOfConnectivityIds", "NumberOfFaces", "NumberOfFaceConnectivityIds",
+static const char *const COUNT_NAME[] = {"NumberOfPoints",
+                                         "NumberOfCells",
+                                         "NumberOfConnectivityIds",
+                                         "NumberOfFaces",
+                                         "NumberOfFaceConnectivityIds",
                                          "NumberOfPolyhedronToFaceIds"};
 enum { N_COUNTS = sizeof COUNT_NAME / sizeof *COUNT_NAME, N_COUNTS_OF_SPHERES = 3 };
 
@@ -228,12 +270,15 @@ static brc_status write_polyhedra(const brc_frame_cells *c, brc_h5 *h5, int64_t 
     BRC_TRY_OR(cleanup, make_columns(c, &t));
     push_starts(&t);
     for (int32_t k = 0; k < c->assembly->n; ++k)
-        if (brc_frame_is_sphere(c->part[k].domain)) push_spheres(&t, c->part[k].domain->n_elements);
-        else BRC_TRY_OR(cleanup, push_cells(c->context, &t, &c->part[k]));
+        if (brc_frame_is_sphere(c->part[k].domain))
+            push_spheres(&t, c->part[k].domain->n_elements);
+        else
+            BRC_TRY_OR(cleanup, push_cells(c->context, &t, &c->part[k]));
     for (int k = 0; k < N_COLUMNS; ++k)
         if (t.column[k].n > 0) flush(&t, k);
 cleanup:
-    for (int k = 0; k < N_COLUMNS; ++k) brc_memory_free(t.column[k].data);
+    for (int k = 0; k < N_COLUMNS; ++k)
+        brc_memory_free(t.column[k].data);
     brc_memory_free(t.count);
     brc_memory_free(t.point);
     return status;
@@ -257,7 +302,8 @@ static brc_status write_points(const brc_frame_cells *c, brc_h5 *h5)
         for (int64_t v = 0; v < corners; ++v) {
             if (!spheres && c->part[k].point[v] != next) continue;
             ++next;
-            for (int m = 0; m < 3; ++m) block[3 * n + m] = (float)(spheres ? d->position : d->vertex)[3 * v + m];
+            for (int m = 0; m < 3; ++m)
+                block[3 * n + m] = (float)(spheres ? d->position : d->vertex)[3 * v + m];
             if (++n < room) continue;
             brc_h5_pack_rows(h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, written, n, block, c->n_threads);
             written += n;
@@ -277,7 +323,8 @@ static brc_status write_radius(const brc_frame_cells *c, brc_h5 *h5)
         const brc_frame_rows r = brc_frame_point_rows(c, k);
         double *none = NULL;
         if (!brc_frame_is_sphere(c->part[k].domain)) BRC_TRY(BRC_ALLOCATE(c->context, &none, r.n, "radii of a frame"));
-        brc_h5_pack_rows(h5, "VTKHDF/PointData/radius", H5T_NATIVE_DOUBLE, r.first, r.n, none ? none : c->part[k].domain->radius, c->n_threads);
+        brc_h5_pack_rows(h5, "VTKHDF/PointData/radius", H5T_NATIVE_DOUBLE, r.first, r.n,
+                         none ? none : c->part[k].domain->radius, c->n_threads);
         brc_memory_free(none);
     }
     return BRC_OK;
@@ -302,15 +349,19 @@ static brc_status write_elements(const brc_frame_cells *c, brc_h5 *h5)
         BRC_TRY_OR(next, BRC_ALLOCATE(c->context, &id, r.n, "numbers of a frame"));
         BRC_TRY_OR(next, BRC_ALLOCATE(c->context, &of, r.n, "bodies of a frame"));
         BRC_TRY_OR(next, BRC_ALLOCATE(c->context, &type, r.n, "cell types of a frame"));
-        for (int64_t e = 0; e < r.n; ++e) id[e] = r.first + e;
+        for (int64_t e = 0; e < r.n; ++e)
+            id[e] = r.first + e;
         memset(type, brc_frame_is_sphere(c->part[k].domain) ? VERTEX : POLYHEDRON, (size_t)r.n);
         brc_h5_pack_rows(h5, "VTKHDF/CellData/element_id", H5T_NATIVE_INT64, r.first, r.n, id, c->n_threads);
-        brc_h5_pack_rows(h5, "VTKHDF/CellData/position", H5T_NATIVE_DOUBLE, r.first, r.n, c->part[k].domain->position, c->n_threads);
+        brc_h5_pack_rows(h5, "VTKHDF/CellData/position", H5T_NATIVE_DOUBLE, r.first, r.n, c->part[k].domain->position,
+                         c->n_threads);
         brc_h5_pack_rows(h5, "VTKHDF/Types", H5T_NATIVE_UINT8, r.first, r.n, type, c->n_threads);
         if (several) {
-            for (int64_t e = 0; e < r.n; ++e) of[e] = brc_assembly_body(c->assembly, k, e);
+            for (int64_t e = 0; e < r.n; ++e)
+                of[e] = brc_assembly_body(c->assembly, k, e);
             brc_h5_pack_rows(h5, "VTKHDF/CellData/body", H5T_NATIVE_INT32, r.first, r.n, of, c->n_threads);
-            for (int64_t e = 0; e < r.n; ++e) of[e] = k;
+            for (int64_t e = 0; e < r.n; ++e)
+                of[e] = k;
             brc_h5_pack_rows(h5, "VTKHDF/CellData/model", H5T_NATIVE_INT32, r.first, r.n, of, c->n_threads);
         }
     next:
@@ -323,9 +374,11 @@ static brc_status write_elements(const brc_frame_cells *c, brc_h5 *h5)
 
 static void refer_to_elements(const brc_frame_cells *c, brc_h5 *h5)
 {
-    static const char *const NAME[] = {"VTKHDF/CellData/element_id", "VTKHDF/CellData/position", "VTKHDF/Types", "VTKHDF/CellData/body", "VTKHDF/CellData/model"};
+    static const char *const NAME[] = {"VTKHDF/CellData/element_id", "VTKHDF/CellData/position", "VTKHDF/Types",
+                                       "VTKHDF/CellData/body", "VTKHDF/CellData/model"};
     const size_t n = sizeof NAME / sizeof *NAME - (c->assembly->n > 1 ? 0 : 2);
-    for (size_t k = 0; k < n; ++k) refer(h5, NAME[k], c->elements_frame);
+    for (size_t k = 0; k < n; ++k)
+        refer(h5, NAME[k], c->elements_frame);
 }
 
 static void refer_to_points(const brc_frame_cells *c, brc_h5 *h5)
@@ -345,7 +398,8 @@ static void refer_to_points(const brc_frame_cells *c, brc_h5 *h5)
 static bool is_plain(const brc_frame_cells *c)
 {
     bool plain = true;
-    for (int32_t k = 0; k < c->assembly->n; ++k) plain &= brc_frame_is_sphere(c->part[k].domain) || c->part[k].plain;
+    for (int32_t k = 0; k < c->assembly->n; ++k)
+        plain &= brc_frame_is_sphere(c->part[k].domain) || c->part[k].plain;
     return plain;
 }
 

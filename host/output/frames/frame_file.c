@@ -35,12 +35,18 @@ static void put(const frame_part *p, const char *path, hid_t type, brc_frame_row
 static frame_part make_part(brc_h5 *h5, const brc_frame_cells *cells, int32_t index)
 {
     brc_simulation *simulation = cells->assembly->part[index];
-    return (frame_part){.context = cells->context, .h5 = h5, .cells = cells, .index = index, .simulation = simulation,
-                        .domain = brc_simulation_domain(simulation), .elements = brc_frame_element_rows(cells, index),
+    return (frame_part){.context = cells->context,
+                        .h5 = h5,
+                        .cells = cells,
+                        .index = index,
+                        .simulation = simulation,
+                        .domain = brc_simulation_domain(simulation),
+                        .elements = brc_frame_element_rows(cells, index),
                         .points = brc_frame_point_rows(cells, index)};
 }
 
-/* Displacement of shared corners: the mean of what the gradients of their cells say, which is the same where the field is linear. */
+/* Displacement of shared corners: the mean of what the gradients of their cells say, which is the same where the field
+ * is linear. */
 static brc_status move_corners(const frame_part *p, const double *displacement, double *sum)
 {
     const brc_domain *d = p->domain;
@@ -56,11 +62,13 @@ static brc_status move_corners(const frame_part *p, const double *displacement, 
             if (point[v] < 0 || cells[point[v]] == UINT8_MAX) continue;
             brc_deform_point(d, displacement, e, (const double(*)[3])gradient, d->vertex + 3 * v, u);
             ++cells[point[v]];
-            for (int c = 0; c < 3; ++c) sum[3 * (int64_t)point[v] + c] += u[c];
+            for (int c = 0; c < 3; ++c)
+                sum[3 * (int64_t)point[v] + c] += u[c];
         }
     }
     for (int64_t k = 0; k < p->points.n; ++k)
-        for (int c = 0; c < 3; ++c) sum[3 * k + c] /= cells[k];
+        for (int c = 0; c < 3; ++c)
+            sum[3 * k + c] /= cells[k];
 cleanup:
     brc_memory_free(whole);
     brc_memory_free(cells);
@@ -76,7 +84,8 @@ static brc_status write_displacement(const frame_part *p, const double *displace
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(p->context, &moved, 3 * p->points.n, "corners of a frame"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(p->context, &out, 3 * p->points.n, "corners of a frame"));
     if (!brc_frame_is_sphere(p->domain)) BRC_TRY_OR(cleanup, move_corners(p, displacement, moved));
-    for (int64_t k = 0; k < 3 * p->points.n; ++k) out[k] = (float)(brc_frame_is_sphere(p->domain) ? displacement : moved)[k];
+    for (int64_t k = 0; k < 3 * p->points.n; ++k)
+        out[k] = (float)(brc_frame_is_sphere(p->domain) ? displacement : moved)[k];
     put(p, "VTKHDF/PointData/displacement", H5T_NATIVE_FLOAT, p->points, 3, out);
 cleanup:
     brc_memory_free(moved);
@@ -84,7 +93,10 @@ cleanup:
     return status;
 }
 
-static bool is_single(const frame_part *p) { return brc_simulation_scene(p->simulation)->output.frame_numbers == BRC_FRAME_SINGLE; }
+static bool is_single(const frame_part *p)
+{
+    return brc_simulation_scene(p->simulation)->output.frame_numbers == BRC_FRAME_SINGLE;
+}
 
 /* In the precision that the scene asks for. */
 static brc_status write_field(const frame_part *p, const char *name, int64_t columns, const double *data)
@@ -98,7 +110,8 @@ static brc_status write_field(const frame_part *p, const char *name, int64_t col
         return BRC_OK;
     }
     BRC_TRY(BRC_ALLOCATE(p->context, &single, n, "field of a frame"));
-    for (int64_t k = 0; k < n; ++k) single[k] = (float)data[k];
+    for (int64_t k = 0; k < n; ++k)
+        single[k] = (float)data[k];
     put(p, path, H5T_NATIVE_FLOAT, p->elements, columns, single);
     brc_memory_free(single);
     return BRC_OK;
@@ -107,7 +120,8 @@ static brc_status write_field(const frame_part *p, const char *name, int64_t col
 /* Of spheres alone in single precision it is what their points have, under another name. */
 static brc_status write_own_displacement(const frame_part *p, const double *displacement)
 {
-    if (!is_single(p) || brc_frame_has_cells(p->cells->assembly)) return write_field(p, "displacement", 3, displacement);
+    if (!is_single(p) || brc_frame_has_cells(p->cells->assembly))
+        return write_field(p, "displacement", 3, displacement);
     if (p->index == 0) brc_h5_link(p->h5, "VTKHDF/CellData/displacement", "VTKHDF/PointData/displacement");
     return BRC_OK;
 }
@@ -154,7 +168,8 @@ static brc_status write_orientation(const frame_part *p)
     brc_status status = BRC_OK;
     if (!brc_frame_has_spheres(p->cells->assembly)) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(p->context, &orientation, 4 * p->elements.n, "orientation of a frame"));
-    for (int64_t e = 0; e < p->elements.n; ++e) orientation[4 * e] = 1;
+    for (int64_t e = 0; e < p->elements.n; ++e)
+        orientation[4 * e] = 1;
     if (brc_frame_is_sphere(p->domain) || brc_simulation_scene(p->simulation)->model.kind != BRC_MODEL_DLSM)
         status = brc_simulation_orientation(p->simulation, orientation, NULL);
     if (status == BRC_OK) status = write_field(p, "orientation", 4, orientation);
@@ -207,7 +222,8 @@ static brc_status write_content(brc_frame_cells *cells, brc_h5 *h5, int64_t numb
         const frame_part part = make_part(h5, cells, k);
         BRC_TRY(write_part(&part));
     }
-    if (brc_simulation_has_fracture(assembly->part[0])) BRC_TRY(brc_cracks_write_frame(cells->context, h5, assembly, cells->n_threads));
+    if (brc_simulation_has_fracture(assembly->part[0]))
+        BRC_TRY(brc_cracks_write_frame(cells->context, h5, assembly, cells->n_threads));
     write_moment(h5, assembly->part[0]);
     return BRC_OK;
 }
@@ -229,7 +245,10 @@ void brc_frames_free(brc_frames **frames)
     *frames = NULL;
 }
 
-brc_status brc_frames_store(brc_frames *frames, brc_state_store *store) { return brc_frame_cells_store(&frames->cells, store); }
+brc_status brc_frames_store(brc_frames *frames, brc_state_store *store)
+{
+    return brc_frame_cells_store(&frames->cells, store);
+}
 
 brc_status brc_frames_write(brc_frames *frames, const char *folder, int64_t number)
 {
@@ -247,7 +266,8 @@ brc_status brc_frames_write(brc_frames *frames, const char *folder, int64_t numb
     return status;
 }
 
-brc_status brc_frame_write_series(brc_context *context, int64_t n, const double *time, const char *suffix, const char *path)
+brc_status brc_frame_write_series(brc_context *context, int64_t n, const double *time, const char *suffix,
+                                  const char *path)
 {
     brc_json json = {.text = {.context = context}};
     brc_json_begin_object(&json, NULL);

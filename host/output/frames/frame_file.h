@@ -7,18 +7,21 @@
 
 #define BRC_FRAME_FORMAT_VERSION 2
 
-/* VTKHDF UnstructuredGrid. Cells are polyhedra (type 42, version 2.5) that share their corners wherever a whole bond joins them (tessellation.h).
- *   Points [m], float: corners in the reference state; PointData/displacement [m], float: the mean over the cells that share the corner of
- *   u_i + H_i (x - X_i), H_i the least-squares gradient of the element's neighbourhood (deform.h), so that "Warp By Vector" shows deformed cells;
- *   CellData, float, or double where the scene asks for that (output.frame_numbers): displacement [m], velocity [m/s], stress (Cauchy) [Pa],
- *   strain (Green) [-], von_mises [Pa]; double: position (of the element, reference) [m]; integer: element_id. Tensors in VTK's order XX YY ZZ XY YZ XZ.
- *   Spheres are vertices (type 1): Points their reference positions, PointData/displacement their own, PointData/radius [m], as packed;
- *   CellData/orientation: unit quaternion w x y z, the rotation since the reference. A frame of spheres alone is of version 1.0.
- *   In scenes of several models parts follow one another, CellData/body and model are the indices of an element's body and part, radius is 0 at
- *   corners and cells without rotations are upright.
- *   FieldData: time [s] (all stages), stage_time [s] (static: load factor), stage, step.
- * What an earlier frame has is not written again: element_id, position, Types, body and model are external links to the first frame, points and polyhedra
- * to the last one before which a bond of cells broke. Every frame therefore needs those of its folder that it names. */
+/* VTKHDF UnstructuredGrid. Cells are polyhedra (type 42, version 2.5) that share their corners wherever a whole bond
+ * joins them (tessellation.h).
+ *   Points [m], float: corners in the reference state; PointData/displacement [m], float: the mean over the cells that
+ *   share the corner of u_i + H_i (x - X_i), H_i the least-squares gradient of the element's neighbourhood (deform.h),
+ *   so that "Warp By Vector" shows deformed cells; CellData, float, or double where the scene asks for that
+ *   (output.frame_numbers): displacement [m], velocity [m/s], stress (Cauchy) [Pa], strain (Green) [-], von_mises [Pa];
+ *   double: position (of the element, reference) [m]; integer: element_id. Tensors in VTK's order XX YY ZZ XY YZ XZ.
+ *   Spheres are vertices (type 1): Points their reference positions, PointData/displacement their own, PointData/radius
+ *   [m], as packed; CellData/orientation: unit quaternion w x y z, the rotation since the reference. A frame of spheres
+ *   alone is of version 1.0. In scenes of several models parts follow one another, CellData/body and model are the
+ *   indices of an element's body and part, radius is 0 at corners and cells without rotations are upright. FieldData:
+ *   time [s] (all stages), stage_time [s] (static: load factor), stage, step.
+ * What an earlier frame has is not written again: element_id, position, Types, body and model are external links to the
+ * first frame, points and polyhedra to the last one before which a bond of cells broke. Every frame therefore needs
+ * those of its folder that it names. */
 typedef struct brc_frames brc_frames;
 
 /* n_threads 0: as OpenMP decides. assembly: borrowed until free. BRC_NO_MEMORY. */
@@ -29,7 +32,9 @@ brc_status brc_frames_write(brc_frames *frames, const char *folder, int64_t numb
 /* Which frames have what later ones refer to, for a checkpoint. */
 brc_status brc_frames_store(brc_frames *frames, brc_state_store *store);
 
-/* Index of n frames "frames/NNNNNN<suffix>" at these times, for ParaView: JSON, written whole. suffix: ".vtkhdf", ".cracks.vtu". */
-brc_status brc_frame_write_series(brc_context *context, int64_t n, const double *time, const char *suffix, const char *path);
+/* Index of n frames "frames/NNNNNN<suffix>" at these times, for ParaView: JSON, written whole. suffix: ".vtkhdf",
+ * ".cracks.vtu". */
+brc_status brc_frame_write_series(brc_context *context, int64_t n, const double *time, const char *suffix,
+                                  const char *path);
 
 #endif

@@ -19,9 +19,11 @@ void brc_striker_corner_moved(const brc_striker_surface *surface, const brc_stri
 {
     const double *r = surface->corner + 3 * (int64_t)k, *q = now->orientation;
     double once[3];
-    for (int c = 0; c < 3; ++c) once[c] = 2 * (q[1 + (c + 1) % 3] * r[(c + 2) % 3] - q[1 + (c + 2) % 3] * r[(c + 1) % 3]);
     for (int c = 0; c < 3; ++c)
-        out[c] = now->displacement[c] + q[0] * once[c] + q[1 + (c + 1) % 3] * once[(c + 2) % 3] - q[1 + (c + 2) % 3] * once[(c + 1) % 3];
+        once[c] = 2 * (q[1 + (c + 1) % 3] * r[(c + 2) % 3] - q[1 + (c + 2) % 3] * r[(c + 1) % 3]);
+    for (int c = 0; c < 3; ++c)
+        out[c] = now->displacement[c] + q[0] * once[c] + q[1 + (c + 1) % 3] * once[(c + 2) % 3] -
+                 q[1 + (c + 2) % 3] * once[(c + 1) % 3];
 }
 
 static brc_status allocate(brc_context *context, faces *f)
@@ -33,7 +35,8 @@ static brc_status allocate(brc_context *context, faces *f)
     BRC_TRY(BRC_ALLOCATE(context, &f->end, f->n_faces, what));
     BRC_TRY(BRC_ALLOCATE(context, &f->striker, f->n_faces, what));
     BRC_TRY(BRC_ALLOCATE(context, &f->type, f->n_faces, what));
-    for (int k = 0; k < N_VECTORS; ++k) BRC_TRY(BRC_ALLOCATE(context, &f->vector[k], 3 * f->n_faces, what));
+    for (int k = 0; k < N_VECTORS; ++k)
+        BRC_TRY(BRC_ALLOCATE(context, &f->vector[k], 3 * f->n_faces, what));
     f->n_points = f->n_corners = f->n_faces = 0; /* to be counted again */
     return BRC_OK;
 }
@@ -43,12 +46,14 @@ static void add_striker(faces *f, const brc_striker_body *body, const brc_strike
     const brc_striker_surface *s = &body->surface;
     const double *const vector[N_VECTORS] = {now->velocity, now->spin, now->force, now->torque};
     for (int64_t face = 0; face < s->n_faces; ++face, ++f->n_faces) {
-        for (int32_t k = s->loop_start[face]; k < s->loop_start[face + 1]; ++k) f->id[f->n_corners++] = f->n_points + s->loop[k];
+        for (int32_t k = s->loop_start[face]; k < s->loop_start[face + 1]; ++k)
+            f->id[f->n_corners++] = f->n_points + s->loop[k];
         f->end[f->n_faces] = f->n_corners;
         f->type[f->n_faces] = POLYGON;
         f->striker[f->n_faces] = striker;
         for (int k = 0; k < N_VECTORS; ++k)
-            for (int c = 0; c < 3; ++c) f->vector[k][3 * f->n_faces + c] = vector[k][c];
+            for (int c = 0; c < 3; ++c)
+                f->vector[k][3 * f->n_faces + c] = vector[k][c];
     }
     for (int32_t k = 0; k < s->n_corners; ++k, ++f->n_points) {
         double u[3];
@@ -65,14 +70,19 @@ static brc_status write_faces(brc_context *context, const faces *f, double time,
     brc_vtu_array list[16];
     int m = 0;
     list[m++] = (brc_vtu_array){BRC_VTU_FIELD_DATA, "TimeValue", BRC_VTU_FLOAT64, 1, 1, brc_vtu_from_memory, &time, 0};
-    list[m++] = (brc_vtu_array){BRC_VTU_POINTS, "Points", BRC_VTU_FLOAT32, 3, f->n_points, brc_vtu_from_memory, f->point, 0};
-    list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "connectivity", BRC_VTU_INT64, 1, f->n_corners, brc_vtu_from_memory, f->id, 0};
+    list[m++] =
+        (brc_vtu_array){BRC_VTU_POINTS, "Points", BRC_VTU_FLOAT32, 3, f->n_points, brc_vtu_from_memory, f->point, 0};
+    list[m++] =
+        (brc_vtu_array){BRC_VTU_CELLS, "connectivity", BRC_VTU_INT64, 1, f->n_corners, brc_vtu_from_memory, f->id, 0};
     list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "offsets", BRC_VTU_INT64, 1, f->n_faces, brc_vtu_from_memory, f->end, 0};
     list[m++] = (brc_vtu_array){BRC_VTU_CELLS, "types", BRC_VTU_UINT8, 1, f->n_faces, brc_vtu_from_memory, f->type, 0};
-    list[m++] = (brc_vtu_array){BRC_VTU_POINT_DATA, "displacement", BRC_VTU_FLOAT32, 3, f->n_points, brc_vtu_from_memory, f->moved, 0};
-    list[m++] = (brc_vtu_array){BRC_VTU_CELL_DATA, "striker", BRC_VTU_INT64, 1, f->n_faces, brc_vtu_from_memory, f->striker, 0};
+    list[m++] = (brc_vtu_array){BRC_VTU_POINT_DATA, "displacement",      BRC_VTU_FLOAT32, 3,
+                                f->n_points,        brc_vtu_from_memory, f->moved,        0};
+    list[m++] =
+        (brc_vtu_array){BRC_VTU_CELL_DATA, "striker", BRC_VTU_INT64, 1, f->n_faces, brc_vtu_from_memory, f->striker, 0};
     for (int k = 0; k < N_VECTORS; ++k)
-        list[m++] = (brc_vtu_array){BRC_VTU_CELL_DATA, VECTOR_NAME[k], BRC_VTU_FLOAT64, 3, f->n_faces, brc_vtu_from_memory, f->vector[k], 0};
+        list[m++] = (brc_vtu_array){BRC_VTU_CELL_DATA, VECTOR_NAME[k],      BRC_VTU_FLOAT64, 3,
+                                    f->n_faces,        brc_vtu_from_memory, f->vector[k],    0};
     return brc_vtu_write(context, path, f->n_points, f->n_faces, m, list);
 }
 
@@ -102,6 +112,7 @@ cleanup:
     brc_memory_free(f.end);
     brc_memory_free(f.striker);
     brc_memory_free(f.type);
-    for (int k = 0; k < N_VECTORS; ++k) brc_memory_free(f.vector[k]);
+    for (int k = 0; k < N_VECTORS; ++k)
+        brc_memory_free(f.vector[k]);
     return status;
 }

@@ -5,9 +5,11 @@
 #include "../../solver/assembly.h"
 #include "../../solver/strikers.h"
 
-/* VTU of polygons (type 7), the faces of all strikers in the scene's order. As in frames Points [m] are those of the start and PointData/displacement [m] moves them
- * ("Warp By Vector"). CellData: striker (index in the scene), velocity [m/s] of its mass centre, spin [rad/s], force [N] and torque [N m] of the elements on it; FieldData TimeValue: of
- * all stages [s]. Written aside, fsynced, renamed. BRC_FILE_FAILED, BRC_NO_MEMORY. */
+/* VTU of polygons (type 7), the faces of all strikers in the scene's order. As in frames Points [m] are those of the
+ * start and PointData/displacement [m] moves them
+ * ("Warp By Vector"). CellData: striker (index in the scene), velocity [m/s] of its mass centre, spin [rad/s], force
+ * [N] and torque [N m] of the elements on it; FieldData TimeValue: of all stages [s]. Written aside, fsynced, renamed.
+ * BRC_FILE_FAILED, BRC_NO_MEMORY. */
 brc_status brc_striker_file_write(brc_context *context, const brc_assembly *assembly, const char *path);
 
 /* Displacement [m] of corner k of a striker's surface. */

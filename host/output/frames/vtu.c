@@ -24,14 +24,16 @@ static void add_head(brc_text *text, int64_t n_points, int64_t n_cells, int n_ar
                  little ? "LittleEndian" : "BigEndian");
     for (int p = 0; p < BRC_VTU_N_PLACES; ++p) {
         if (p == BRC_VTU_POINTS)
-            brc_text_add(text, "<Piece NumberOfPoints=\"%lld\" NumberOfCells=\"%lld\">\n", (long long)n_points, (long long)n_cells);
+            brc_text_add(text, "<Piece NumberOfPoints=\"%lld\" NumberOfCells=\"%lld\">\n", (long long)n_points,
+                         (long long)n_cells);
         brc_text_add(text, "<%s>\n", PLACE_NAME[p]);
         for (int k = 0; k < n_arrays; ++k) {
             const brc_vtu_array *a = &arrays[k];
             if (a->place != (brc_vtu_place)p) continue;
             brc_text_add(text, "<DataArray type=\"%s\" Name=\"%s\" %s=\"%d\" format=\"appended\" offset=\"%lld\"/>\n",
-                         NUMBER_NAME[a->number], a->name, p == BRC_VTU_FIELD_DATA ? "NumberOfTuples" : "NumberOfComponents",
-                         a->columns, (long long)offset);
+                         NUMBER_NAME[a->number], a->name,
+                         p == BRC_VTU_FIELD_DATA ? "NumberOfTuples" : "NumberOfComponents", a->columns,
+                         (long long)offset);
             offset += 8 + a->rows * a->columns * NUMBER_BYTES[a->number];
         }
         brc_text_add(text, "</%s>\n", PLACE_NAME[p]);
@@ -54,7 +56,8 @@ static brc_status copy_array(const brc_vtu_array *a, void *block, FILE *file)
     return BRC_OK;
 }
 
-static brc_status write_aside(brc_context *context, const char *aside, const brc_text *head, int n_arrays, const brc_vtu_array *arrays)
+static brc_status write_aside(brc_context *context, const char *aside, const brc_text *head, int n_arrays,
+                              const brc_vtu_array *arrays)
 {
     static const char tail[] = "\n</AppendedData>\n</VTKFile>\n";
     void *block = NULL;

@@ -1,4 +1,5 @@
-/* VTU files: XML with the arrays appended as raw bytes behind 64-bit sizes, written block by block from wherever they lie. */
+/* VTU files: XML with the arrays appended as raw bytes behind 64-bit sizes, written block by block from wherever they
+ * lie. */
 #ifndef BRC_OUTPUT_VTU_H
 #define BRC_OUTPUT_VTU_H
 
@@ -8,7 +9,14 @@
 typedef enum brc_vtu_number { BRC_VTU_FLOAT32, BRC_VTU_FLOAT64, BRC_VTU_INT64, BRC_VTU_UINT8 } brc_vtu_number;
 
 /* Element of the XML tree that an array stands in. */
-typedef enum brc_vtu_place { BRC_VTU_FIELD_DATA, BRC_VTU_POINTS, BRC_VTU_CELLS, BRC_VTU_POINT_DATA, BRC_VTU_CELL_DATA, BRC_VTU_N_PLACES } brc_vtu_place;
+typedef enum brc_vtu_place {
+    BRC_VTU_FIELD_DATA,
+    BRC_VTU_POINTS,
+    BRC_VTU_CELLS,
+    BRC_VTU_POINT_DATA,
+    BRC_VTU_CELL_DATA,
+    BRC_VTU_N_PLACES
+} brc_vtu_place;
 
 typedef struct brc_vtu_array {
     brc_vtu_place place;

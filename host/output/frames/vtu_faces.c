@@ -4,7 +4,8 @@
 
 /* Arrays of a frame's polyhedra. */
 enum { POINTS, POINT_STARTS, FACES, FACE_STARTS, N_ARRAYS };
-static const char *const NAME[N_ARRAYS] = {"VTKHDF/FaceConnectivity", "VTKHDF/FaceOffsets", "VTKHDF/PolyhedronToFaces", "VTKHDF/PolyhedronOffsets"};
+static const char *const NAME[N_ARRAYS] = {"VTKHDF/FaceConnectivity", "VTKHDF/FaceOffsets", "VTKHDF/PolyhedronToFaces",
+                                           "VTKHDF/PolyhedronOffsets"};
 
 typedef struct frame_faces {
     int64_t n[N_ARRAYS], *data[N_ARRAYS];
@@ -43,8 +44,10 @@ static void fill(const frame_faces *f, brc_vtu_faces *out)
         if (out->stream && end > first) out->stream[out->n] = end - first;
         out->n += end > first;
         for (int64_t m = first; m < end; ++m) {
-            const int64_t face = f->data[FACES][m], begin = f->data[POINT_STARTS][face], n = f->data[POINT_STARTS][face + 1] - begin;
-            for (int64_t k = 0; out->stream && k < n; ++k) out->stream[out->n + 1 + k] = f->data[POINTS][begin + k];
+            const int64_t face = f->data[FACES][m], begin = f->data[POINT_STARTS][face],
+                          n = f->data[POINT_STARTS][face + 1] - begin;
+            for (int64_t k = 0; out->stream && k < n; ++k)
+                out->stream[out->n + 1 + k] = f->data[POINTS][begin + k];
             if (out->stream) out->stream[out->n] = n;
             out->n += n + 1;
         }
@@ -60,7 +63,8 @@ brc_status brc_vtu_faces_of_frame(const brc_h5_read *h5, brc_vtu_faces *out)
     if (!brc_h5_read_has(h5, NAME[FACE_STARTS])) return BRC_OK;
     BRC_TRY_OR(cleanup, load(h5, &f));
     if (!is_whole(&f)) {
-        status = BRC_FAIL(h5->context, BRC_BAD_INPUT, "%s: the faces of its polyhedra do not fit together; the file is damaged", h5->path);
+        status = BRC_FAIL(h5->context, BRC_BAD_INPUT,
+                          "%s: the faces of its polyhedra do not fit together; the file is damaged", h5->path);
         goto cleanup;
     }
     out->n_cells = f.n[FACE_STARTS] - 1;
@@ -69,7 +73,8 @@ brc_status brc_vtu_faces_of_frame(const brc_h5_read *h5, brc_vtu_faces *out)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(h5->context, &out->stream, out->n, "faces of a frame"));
     fill(&f, out);
 cleanup:
-    for (int k = 0; k < N_ARRAYS; ++k) brc_memory_free(f.data[k]);
+    for (int k = 0; k < N_ARRAYS; ++k)
+        brc_memory_free(f.data[k]);
     if (status != BRC_OK) brc_vtu_faces_free(out);
     return status;
 }
@@ -85,13 +90,15 @@ brc_status brc_vtu_faces_of_cells(brc_context *context, const brc_tessellation *
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &count, most_faces, "faces of a cell"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &point, most_corners, "points of a cell"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->end, n, "faces of cells"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->stream, n + cells->face_start[n] + cells->loop_start[n], "faces of cells"));
+    BRC_TRY_OR(cleanup,
+               BRC_ALLOCATE(context, &out->stream, n + cells->face_start[n] + cells->loop_start[n], "faces of cells"));
     for (int64_t e = 0; e < n; ++e) {
         const int64_t n_faces = brc_tessellation_faces(cells, e, count, point);
         out->stream[out->n++] = n_faces;
         for (int64_t f = 0, at = 0; f < n_faces; ++f) {
             out->stream[out->n++] = count[f];
-            for (int32_t k = 0; k < count[f]; ++k) out->stream[out->n++] = point[at++];
+            for (int32_t k = 0; k < count[f]; ++k)
+                out->stream[out->n++] = point[at++];
         }
         out->end[e] = out->n;
     }
@@ -111,6 +118,8 @@ void brc_vtu_faces_free(brc_vtu_faces *faces)
 
 void brc_vtu_faces_arrays(const brc_vtu_faces *faces, brc_vtu_array arrays[BRC_VTU_FACE_ARRAYS])
 {
-    arrays[0] = (brc_vtu_array){BRC_VTU_CELLS, "faces", BRC_VTU_INT64, 1, faces->n, brc_vtu_from_memory, faces->stream, 0};
-    arrays[1] = (brc_vtu_array){BRC_VTU_CELLS, "faceoffsets", BRC_VTU_INT64, 1, faces->n_cells, brc_vtu_from_memory, faces->end, 0};
+    arrays[0] =
+        (brc_vtu_array){BRC_VTU_CELLS, "faces", BRC_VTU_INT64, 1, faces->n, brc_vtu_from_memory, faces->stream, 0};
+    arrays[1] = (brc_vtu_array){BRC_VTU_CELLS,  "faceoffsets",       BRC_VTU_INT64, 1,
+                                faces->n_cells, brc_vtu_from_memory, faces->end,    0};
 }

@@ -1,4 +1,5 @@
-/* Faces of polyhedra as VTU has them: for each cell the number of its faces, and for each of these the number of its points and the points. */
+/* Faces of polyhedra as VTU has them: for each cell the number of its faces, and for each of these the number of its
+ * points and the points. */
 #ifndef BRC_OUTPUT_VTU_FACES_H
 #define BRC_OUTPUT_VTU_FACES_H
 

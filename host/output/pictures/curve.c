@@ -101,8 +101,10 @@ static void sign_and_scale(const brc_measure *measure, char out[32])
 {
     const double factor = measure->kind == BRC_MEASURE_NU ? -measure->scale : measure->scale;
     out[0] = '\0';
-    if (factor == -1) snprintf(out, 32, "\xe2\x88\x92 ");
-    else if (factor != 1) snprintf(out, 32, "%g \xc3\x97 ", factor);
+    if (factor == -1)
+        snprintf(out, 32, "\xe2\x88\x92 ");
+    else if (factor != 1)
+        snprintf(out, 32, "%g \xc3\x97 ", factor);
 }
 
 /* Numbers along x at round steps so far apart that none meets the next. */
@@ -136,8 +138,8 @@ static void add_script(brc_text *text, const brc_scene *scene, const brc_measure
     sign_and_scale(measure, before);
     clean_words(title, sizeof title, scene->title);
     brc_gnuplot_begin(text, 1200, 900, picture);
-    brc_text_add(text, "set title \"%s\" noenhanced\nset xlabel \"%s\"\nset ylabel \"%s%s\"\n", title, x.title,
-                 before, y.title);
+    brc_text_add(text, "set title \"%s\" noenhanced\nset xlabel \"%s\"\nset ylabel \"%s%s\"\n", title, x.title, before,
+                 y.title);
     add_steps(text, series, x.factor);
     brc_text_add(text, "set key left top Left reverse spacing 1.3\n"
                        "set autoscale noextend\nset offsets graph 0.02, graph "

@@ -44,7 +44,8 @@ static bool run_gnuplot(const char *script, bool *found)
     return WIFEXITED(state) && WEXITSTATUS(state) == 0;
 }
 
-brc_status brc_gnuplot_draw(brc_context *context, brc_text *script, const char *aside, const char *path, const char *numbers, bool *made)
+brc_status brc_gnuplot_draw(brc_context *context, brc_text *script, const char *aside, const char *path,
+                            const char *numbers, bool *made)
 {
     char *name = NULL;
     bool found = false;

@@ -35,7 +35,8 @@ static void colour_of(const brc_isotropy *i, const int32_t *triangle, double rgb
     brc_colour_diverging(mean - 0.5, rgb);
 }
 
-/* The corner that is not in the middle, where that is just one: among empty bins a full one is a spike without area. NULL: not so. */
+/* The corner that is not in the middle, where that is just one: among empty bins a full one is a spike without area.
+ * NULL: not so. */
 static const int32_t *spike_of(const brc_isotropy *i, const int32_t *triangle)
 {
     const int32_t *full = NULL;
@@ -72,7 +73,8 @@ static int64_t find_faces(const brc_isotropy *i, const brc_paint_view *view, brc
     return n;
 }
 
-static void paint_histogram(brc_paint *paint, const brc_isotropy *i, const brc_paint_view *view, const place *at, brc_paint_face *faces)
+static void paint_histogram(brc_paint *paint, const brc_isotropy *i, const brc_paint_view *view, const place *at,
+                            brc_paint_face *faces)
 {
     const double zoom = zoom_of(i, view, at->reach);
     const int64_t n = find_faces(i, view, faces);
@@ -114,7 +116,8 @@ static void write_legend(brc_paint *paint, double x, double y, double size)
 {
     cairo_set_source_rgb(paint->cairo, 0.35, 0.35, 0.35);
     brc_paint_words(paint,
-                    "radius: density of directions; dashed: outline of the sphere of even directions (1); blue below, red above (full at "
+                    "radius: density of directions; dashed: outline of the sphere of even directions (1); blue below, "
+                    "red above (full at "
                     "0.5 and 1.5)",
                     x, y, size, 0.5, false);
 }
@@ -145,10 +148,11 @@ brc_status brc_isotropy_picture(brc_context *context, const brc_isotropy *i, con
     brc_paint_axes(&paint, &view, corner, 42);
     snprintf(words, sizeof words, "Directions of %lld bonds", (long long)i->n_directions);
     brc_paint_words(&paint, words, 40, 48, 26, 0, true);
-    snprintf(words, sizeof words, "fabric anisotropy %.4f (by chance %.4f), cubic order %.4f (by chance %.4f)", i->fabric_anisotropy,
-             i->fabric_noise, i->cubic, i->cubic_noise);
+    snprintf(words, sizeof words, "fabric anisotropy %.4f (by chance %.4f), cubic order %.4f (by chance %.4f)",
+             i->fabric_anisotropy, i->fabric_noise, i->cubic, i->cubic_noise);
     brc_paint_words(&paint, words, 170, 812, 15, 0, false);
-    snprintf(words, sizeof words, "%d bins: off by %.3f rms (by chance %.3f), worst %.3f", (int)i->n_bins, i->rms_bin, i->noise, i->worst_bin);
+    snprintf(words, sizeof words, "%d bins: off by %.3f rms (by chance %.3f), worst %.3f", (int)i->n_bins, i->rms_bin,
+             i->noise, i->worst_bin);
     brc_paint_words(&paint, words, 170, 836, 15, 0, false);
     write_legend(&paint, SINGLE / 2.0, 880, 13);
     brc_memory_free(faces);
@@ -157,12 +161,13 @@ brc_status brc_isotropy_picture(brc_context *context, const brc_isotropy *i, con
 
 static place place_of(int k, int columns)
 {
-    return (place){PANEL * (k % columns + 0.5), MONTAGE_HEAD + PANEL_HEAD + PANEL / 2.0 + (PANEL_HEAD + PANEL + PANEL_FOOT) * (double)(k / columns),
+    return (place){PANEL * (k % columns + 0.5),
+                   MONTAGE_HEAD + PANEL_HEAD + PANEL / 2.0 + (PANEL_HEAD + PANEL + PANEL_FOOT) * (double)(k / columns),
                    0.46 * PANEL};
 }
 
-brc_status brc_isotropy_montage(brc_context *context, int n, const brc_isotropy_panel *panels, int columns, const char *title,
-                                const char *path)
+brc_status brc_isotropy_montage(brc_context *context, int n, const brc_isotropy_panel *panels, int columns,
+                                const char *title, const char *path)
 {
     brc_paint_face *faces;
     brc_paint paint;

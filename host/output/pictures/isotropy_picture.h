@@ -1,5 +1,5 @@
-/* The histogram of bond directions as the papers draw it: a surface whose radius is the density, red where it is above the
- * mean, blue below, around a circle that is the outline of the sphere of even directions (density 1). */
+/* The histogram of bond directions as the papers draw it: a surface whose radius is the density, red where it is above
+ * the mean, blue below, around a circle that is the outline of the sphere of even directions (density 1). */
 #ifndef BRC_OUTPUT_ISOTROPY_PICTURE_H
 #define BRC_OUTPUT_ISOTROPY_PICTURE_H
 
@@ -15,7 +15,7 @@ typedef struct brc_isotropy_panel {
 } brc_isotropy_panel;
 
 /* Several side by side, `columns` in a row, each as large as its place allows. `title`: above all. */
-brc_status brc_isotropy_montage(brc_context *context, int n, const brc_isotropy_panel *panels, int columns, const char *title,
-                                const char *path);
+brc_status brc_isotropy_montage(brc_context *context, int n, const brc_isotropy_panel *panels, int columns,
+                                const char *title, const char *path);
 
 #endif

@@ -24,13 +24,16 @@ static double dot(const double a[3], const double b[3])
 static void complete(brc_paint_view *v)
 {
     const double length = sqrt(dot(v->toward, v->toward));
-    for (int c = 0; c < 3; ++c) v->toward[c] /= length;
+    for (int c = 0; c < 3; ++c)
+        v->toward[c] /= length;
     const bool along_z = fabs(v->toward[2]) > 0.999;
     const double upward[3] = {0, along_z, !along_z}, high = dot(upward, v->toward);
     double norm = 0;
-    for (int c = 0; c < 3; ++c) v->up[c] = upward[c] - high * v->toward[c];
+    for (int c = 0; c < 3; ++c)
+        v->up[c] = upward[c] - high * v->toward[c];
     norm = sqrt(dot(v->up, v->up));
-    for (int c = 0; c < 3; ++c) v->up[c] /= norm;
+    for (int c = 0; c < 3; ++c)
+        v->up[c] /= norm;
     for (int c = 0; c < 3; ++c)
         v->right[c] = v->up[(c + 1) % 3] * v->toward[(c + 2) % 3] - v->up[(c + 2) % 3] * v->toward[(c + 1) % 3];
 }
@@ -56,7 +59,8 @@ brc_paint_view brc_paint_view_between(const double from[3], const double towards
 float brc_paint_shade(const brc_paint_view *view, const double n[3])
 {
     static const double lamp[3] = {-0.06, 0.43, 0.90}; /* along right, up, toward */
-    const double light = (dot(n, view->right) * lamp[0] + dot(n, view->up) * lamp[1] + dot(n, view->toward) * lamp[2]) / sqrt(dot(n, n));
+    const double light =
+        (dot(n, view->right) * lamp[0] + dot(n, view->up) * lamp[1] + dot(n, view->toward) * lamp[2]) / sqrt(dot(n, n));
     return (float)(0.78 + 0.22 * fmax(light, 0));
 }
 
@@ -75,7 +79,8 @@ void brc_paint_sort(int64_t n, brc_paint_face *faces)
 void brc_paint_begin(brc_context *context, int width, int height, brc_paint *paint)
 {
     *paint = (brc_paint){.context = context, .width = width, .height = height, .drawn = CAIRO_STATUS_SUCCESS};
-    paint->large = cairo_image_surface_create(CAIRO_FORMAT_RGB24, BRC_PAINT_OVERSAMPLE * width, BRC_PAINT_OVERSAMPLE * height);
+    paint->large =
+        cairo_image_surface_create(CAIRO_FORMAT_RGB24, BRC_PAINT_OVERSAMPLE * width, BRC_PAINT_OVERSAMPLE * height);
     paint->small = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     paint->cairo = cairo_create(paint->large);
     cairo_set_source_rgb(paint->cairo, 1, 1, 1);
@@ -115,14 +120,16 @@ static void shrink(brc_paint *paint)
     cairo_surface_flush(paint->large);
     const unsigned char *from = cairo_image_surface_get_data(paint->large);
     unsigned char *to = cairo_image_surface_get_data(paint->small);
-    const int from_row = cairo_image_surface_get_stride(paint->large), to_row = cairo_image_surface_get_stride(paint->small);
+    const int from_row = cairo_image_surface_get_stride(paint->large),
+              to_row = cairo_image_surface_get_stride(paint->small);
     for (int y = 0; y < paint->height; ++y)
         for (int x = 0; x < paint->width; ++x)
             for (int byte = 0; byte < 4; ++byte) {
                 int sum = 0;
                 for (int j = 0; j < BRC_PAINT_OVERSAMPLE; ++j)
                     for (int i = 0; i < BRC_PAINT_OVERSAMPLE; ++i)
-                        sum += from[(BRC_PAINT_OVERSAMPLE * y + j) * from_row + 4 * (BRC_PAINT_OVERSAMPLE * x + i) + byte];
+                        sum +=
+                            from[(BRC_PAINT_OVERSAMPLE * y + j) * from_row + 4 * (BRC_PAINT_OVERSAMPLE * x + i) + byte];
                 to[y * to_row + 4 * x + byte] = (unsigned char)(sum / (BRC_PAINT_OVERSAMPLE * BRC_PAINT_OVERSAMPLE));
             }
     cairo_surface_mark_dirty(paint->small);
@@ -172,7 +179,8 @@ static void draw_dot(cairo_t *cairo, const double at[2])
     cairo_fill(cairo);
 }
 
-/* An arrow shorter than this part of its length is a dot; labels are so far from each other, and from their tips [px]. */
+/* An arrow shorter than this part of its length is a dot; labels are so far from each other, and from their tips
+ * [px]. */
 static const double DOT = 0.12, APART = 18, BEYOND = 22;
 
 void brc_paint_axis_labels(const brc_paint_view *view, const double origin[2], double length, double label[3][2])
@@ -198,8 +206,10 @@ void brc_paint_axes(brc_paint *paint, const brc_paint_view *view, const double o
     for (int a = 0; a < 3; ++a) {
         const double tip[2] = {origin[0] + length * view->right[a], origin[1] - length * view->up[a]};
         const char name[2] = {(char)('x' + a), '\0'};
-        if (hypot(view->right[a], view->up[a]) < DOT) draw_dot(paint->cairo, origin);
-        else draw_arrow(paint->cairo, origin, tip);
+        if (hypot(view->right[a], view->up[a]) < DOT)
+            draw_dot(paint->cairo, origin);
+        else
+            draw_arrow(paint->cairo, origin, tip);
         brc_paint_words(paint, name, label[a][0], label[a][1] + 5, 17, 0.5, false);
     }
 }
@@ -212,7 +222,8 @@ brc_status brc_paint_end(brc_paint *paint, const char *path)
     BRC_TRY_OR(cleanup, brc_file_aside(paint->context, path, &aside));
     if (paint->drawn == CAIRO_STATUS_SUCCESS) paint->drawn = cairo_surface_write_to_png(paint->small, aside);
     if (paint->drawn != CAIRO_STATUS_SUCCESS) {
-        status = BRC_FAIL(paint->context, BRC_FILE_FAILED, "%s: cannot write the picture: %s", path, cairo_status_to_string(paint->drawn));
+        status = BRC_FAIL(paint->context, BRC_FILE_FAILED, "%s: cannot write the picture: %s", path,
+                          cairo_status_to_string(paint->drawn));
         goto cleanup;
     }
     BRC_TRY_OR(cleanup, brc_file_commit(paint->context, aside, path));

@@ -1,6 +1,7 @@
-/* What pictures share: shaded polygons without seams, words, and a PNG written aside. Polygons are painted first, without
- * anti-aliasing at BRC_PAINT_OVERSAMPLE times the size, each with an edge of its own colour, and the whole is averaged down:
- * neighbours leave no seams, and slanted edges are smooth. Words and lines are drawn on top, in pixels of the picture. */
+/* What pictures share: shaded polygons without seams, words, and a PNG written aside. Polygons are painted first,
+ * without anti-aliasing at BRC_PAINT_OVERSAMPLE times the size, each with an edge of its own colour, and the whole is
+ * averaged down: neighbours leave no seams, and slanted edges are smooth. Words and lines are drawn on top, in pixels
+ * of the picture. */
 #ifndef BRC_OUTPUT_PAINT_H
 #define BRC_OUTPUT_PAINT_H
 
@@ -35,16 +36,17 @@ typedef struct brc_paint_face {
 void brc_paint_sort(int64_t n, brc_paint_face *faces);
 
 typedef struct brc_paint {
-    brc_context *context; /* borrowed */
-    int width, height;    /* [px] */
-    cairo_t *cairo;       /* what is drawn on now; owned */
+    brc_context *context;           /* borrowed */
+    int width, height;              /* [px] */
+    cairo_t *cairo;                 /* what is drawn on now; owned */
     cairo_surface_t *large, *small; /* owned */
-    cairo_status_t drawn; /* the first failure */
+    cairo_status_t drawn;           /* the first failure */
 } brc_paint;
 
 /* A white picture, ready for polygons. brc_paint_end must follow. */
 void brc_paint_begin(brc_context *context, int width, int height, brc_paint *paint);
-/* The next corner of a polygon [px of the picture], and its end: filled with shade * rgb, the edge darker by `line` (0..1, 0: not). */
+/* The next corner of a polygon [px of the picture], and its end: filled with shade * rgb, the edge darker by `line`
+ * (0..1, 0: not). */
 void brc_paint_corner(brc_paint *paint, double x, double y);
 void brc_paint_fill(brc_paint *paint, const double rgb[3], double shade, double line);
 /* A line among the polygons [px of the picture]. */

@@ -1,5 +1,5 @@
-/* Pictures by the painter's algorithm: faces that look towards the viewer, or spheres as discs with a highlight, the farthest
- * first. Words and the colour bar are drawn on top. */
+/* Pictures by the painter's algorithm: faces that look towards the viewer, or spheres as discs with a highlight, the
+ * farthest first. Words and the colour bar are drawn on top. */
 #include "picture.h"
 #include "colour.h"
 #include "../frames/deform.h"
@@ -24,8 +24,8 @@ typedef struct canvas {
     double scale;
     brc_picture_faces *surface; /* [n_parts] of parts of cells */
     /* what every part has, part after part, and then every striker, begins here; [n_parts + n_strikers + 1] */
-    int64_t *first_point; /* corners in the order of surface.corner, or centres of spheres */
-    int64_t *first_face;  /* faces of the surface, or spheres, or faces of strikers */
+    int64_t *first_point;  /* corners in the order of surface.corner, or centres of spheres */
+    int64_t *first_face;   /* faces of the surface, or spheres, or faces of strikers */
     double *point;         /* [points of all][3] [m] */
     brc_paint_face *faces; /* [faces of all]: room, n_faces visible; id: among all */
     int64_t n_faces;
@@ -60,7 +60,8 @@ static const brc_picture_striker *striker_of(const canvas *c, int64_t face, int6
 {
     int32_t k = c->picture->n;
     if (face < c->first_face[k]) return NULL;
-    while (face >= c->first_face[k + 1]) ++k;
+    while (face >= c->first_face[k + 1])
+        ++k;
     *own = face - c->first_face[k];
     *index = k;
     return &c->picture->striker[k - c->picture->n];
@@ -70,7 +71,8 @@ static const brc_picture_striker *striker_of(const canvas *c, int64_t face, int6
 static const brc_picture_part *part_of(const canvas *c, int64_t face, int64_t *own, int32_t *index)
 {
     int32_t k = 0;
-    while (face >= c->first_face[k + 1]) ++k;
+    while (face >= c->first_face[k + 1])
+        ++k;
     *own = face - c->first_face[k];
     *index = k;
     return &c->picture->part[k];
@@ -114,7 +116,9 @@ static void fit_view(canvas *c)
     for (int32_t part = 0; part < c->picture->n; ++part) {
         const brc_picture_part *p = &c->picture->part[part];
         for (int64_t k = c->first_point[part]; k < c->first_point[part + 1]; ++k) {
-            if (is_sphere(p) && brc_picture_hides(c->picture->cut, p->domain->position + 3 * (k - c->first_point[part]))) continue;
+            if (is_sphere(p) &&
+                brc_picture_hides(c->picture->cut, p->domain->position + 3 * (k - c->first_point[part])))
+                continue;
             const double radius = is_sphere(p) ? p->domain->radius[k - c->first_point[part]] : 0;
             const double at[2] = {dot(c->point + 3 * k, c->view.right), dot(c->point + 3 * k, c->view.up)};
             if (!isfinite(at[0]) || !isfinite(at[1])) continue;
@@ -126,7 +130,8 @@ static void fit_view(canvas *c)
     }
     const double spare[2] = {0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])};
     const double least[2] = {low[0] - spare[0], low[1] - spare[1]}, most[2] = {high[0] + spare[0], high[1] + spare[1]};
-    for (int32_t k = 0; k < c->picture->n_strikers; ++k) { /* strikers have what room they need, up to half of the sample's around it */
+    for (int32_t k = 0; k < c->picture->n_strikers;
+         ++k) { /* strikers have what room they need, up to half of the sample's around it */
         const int32_t at = c->picture->n + k;
         for (int64_t p = c->first_point[at]; !c->picture->striker[k].is_plane && p < c->first_point[at + 1]; ++p) {
             const double place[2] = {dot(c->point + 3 * p, c->view.right), dot(c->point + 3 * p, c->view.up)};
@@ -166,18 +171,22 @@ static void add_visible(canvas *c, int32_t part)
     for (int64_t e = 0; is_sphere(p) && e < p->domain->n_elements; ++e) {
         if (brc_picture_hides(c->picture->cut, p->domain->position + 3 * e)) continue;
         const double depth = dot(c->point + 3 * (c->first_point[part] + e), c->view.toward);
-        if (isfinite(depth)) c->faces[c->n_faces++] = (brc_paint_face){.depth = depth, .id = (int32_t)(c->first_face[part] + e), .shade = 1};
+        if (isfinite(depth))
+            c->faces[c->n_faces++] =
+                (brc_paint_face){.depth = depth, .id = (int32_t)(c->first_face[part] + e), .shade = 1};
     }
     for (int64_t f = 0; f < c->surface[part].n; ++f) {
         double normal[3], middle[3];
         if (!measure_face(c, part, f, normal, middle) || dot(normal, c->view.toward) <= 0) continue;
-        c->faces[c->n_faces++] = (brc_paint_face){
-            .depth = dot(middle, c->view.toward), .id = (int32_t)(c->first_face[part] + f), .shade = brc_paint_shade(&c->view, normal)};
+        c->faces[c->n_faces++] = (brc_paint_face){.depth = dot(middle, c->view.toward),
+                                                  .id = (int32_t)(c->first_face[part] + f),
+                                                  .shade = brc_paint_shade(&c->view, normal)};
     }
 }
 
 /* Corner k of a face of a striker. */
-static const double *striker_corner(const canvas *c, const brc_picture_striker *striker, int32_t index, int64_t face, int32_t k)
+static const double *striker_corner(const canvas *c, const brc_picture_striker *striker, int32_t index, int64_t face,
+                                    int32_t k)
 {
     const brc_striker_surface *s = &striker->body->surface;
     return c->point + 3 * (c->first_point[index] + s->loop[s->loop_start[face] + k]);
@@ -191,7 +200,8 @@ static void move_striker(canvas *c, int32_t index, double scale)
     for (int32_t k = 0; k < s->n_corners; ++k) {
         double u[3];
         brc_striker_corner_moved(s, &striker->now, k, u);
-        for (int i = 0; i < 3; ++i) point[3 * k + i] = striker->body->centre[i] + s->corner[3 * k + i] + scale * u[i];
+        for (int i = 0; i < 3; ++i)
+            point[3 * k + i] = striker->body->centre[i] + s->corner[3 * k + i] + scale * u[i];
     }
 }
 
@@ -203,24 +213,29 @@ static void add_visible_striker(canvas *c, int32_t index)
         const int32_t n = s->loop_start[f + 1] - s->loop_start[f];
         double normal[3] = {0}, middle[3] = {0};
         for (int32_t k = 0; k < n; ++k) {
-            const double *o = striker_corner(c, striker, index, f, 0), *a = striker_corner(c, striker, index, f, k), *b = striker_corner(c, striker, index, f, (k + 1) % n);
+            const double *o = striker_corner(c, striker, index, f, 0), *a = striker_corner(c, striker, index, f, k),
+                         *b = striker_corner(c, striker, index, f, (k + 1) % n);
             for (int i = 0; i < 3; ++i) {
                 const int j = (i + 1) % 3, l = (i + 2) % 3;
                 normal[i] += (a[j] - o[j]) * (b[l] - o[l]) - (a[l] - o[l]) * (b[j] - o[j]);
                 middle[i] += a[i] / n;
             }
         }
-        if (!isfinite(dot(normal, normal)) || !isfinite(dot(middle, middle)) || !(dot(normal, c->view.toward) > 0)) continue;
+        if (!isfinite(dot(normal, normal)) || !isfinite(dot(middle, middle)) || !(dot(normal, c->view.toward) > 0))
+            continue;
         c->faces[c->n_faces++] = (brc_paint_face){.depth = striker->is_plane ? -INFINITY : dot(middle, c->view.toward),
-                                                  .id = (int32_t)(c->first_face[index] + f), .shade = brc_paint_shade(&c->view, normal)};
+                                                  .id = (int32_t)(c->first_face[index] + f),
+                                                  .shade = brc_paint_shade(&c->view, normal)};
     }
 }
 
 /* Visible faces, the farthest first. */
 static void sort_faces(canvas *c)
 {
-    for (int32_t k = 0; k < c->picture->n; ++k) add_visible(c, k);
-    for (int32_t k = 0; k < c->picture->n_strikers; ++k) add_visible_striker(c, c->picture->n + k);
+    for (int32_t k = 0; k < c->picture->n; ++k)
+        add_visible(c, k);
+    for (int32_t k = 0; k < c->picture->n_strikers; ++k)
+        add_visible_striker(c, c->picture->n + k);
     brc_paint_sort(c->n_faces, c->faces);
 }
 
@@ -296,7 +311,8 @@ static double line_of(const canvas *c, const brc_domain *d)
     return cell > 7 ? fmin(0.22, 0.02 * (cell - 7)) : 0;
 }
 
-static void paint_striker(const canvas *c, brc_paint *paint, const brc_picture_striker *striker, int32_t index, int64_t face, double shade)
+static void paint_striker(const canvas *c, brc_paint *paint, const brc_picture_striker *striker, int32_t index,
+                          int64_t face, double shade)
 {
     static const double grey[3] = {0.74, 0.76, 0.79}, ground[3] = {0.93, 0.94, 0.95};
     const int32_t *start = striker->body->surface.loop_start;
@@ -392,7 +408,8 @@ static void count_words(const brc_picture *picture, char words[80])
 {
     int64_t n_cells = 0, n_spheres = 0;
     words[0] = '\0';
-    for (int32_t k = 0; k < picture->n; ++k) *(is_sphere(&picture->part[k]) ? &n_spheres : &n_cells) += picture->part[k].domain->n_elements;
+    for (int32_t k = 0; k < picture->n; ++k)
+        *(is_sphere(&picture->part[k]) ? &n_spheres : &n_cells) += picture->part[k].domain->n_elements;
     const int n = n_cells > 0 ? snprintf(words, 80, "%lld cells", (long long)n_cells) : 0;
     if (n_spheres > 0) snprintf(words + n, 80 - (size_t)n, "%s%lld spheres", n > 0 ? ", " : "", (long long)n_spheres);
 }
@@ -431,21 +448,29 @@ static brc_status render(const canvas *c, const char *path)
 
 static void move_all(canvas *c, double scale)
 {
-    for (int32_t k = 0; k < c->picture->n; ++k) move_points(c, k, scale);
-    for (int32_t k = 0; k < c->picture->n_strikers; ++k) move_striker(c, c->picture->n + k, scale);
+    for (int32_t k = 0; k < c->picture->n; ++k)
+        move_points(c, k, scale);
+    for (int32_t k = 0; k < c->picture->n_strikers; ++k)
+        move_striker(c, c->picture->n + k, scale);
 }
 
 brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, const char *path)
 {
-    canvas c = {.context = context, .picture = picture, .scale = picture->scale, .view = picture->view ? *picture->view : brc_paint_corner_view()};
+    canvas c = {.context = context,
+                .picture = picture,
+                .scale = picture->scale,
+                .view = picture->view ? *picture->view : brc_paint_corner_view()};
     brc_status status = BRC_OK;
     if (!(c.scale > 0)) c.scale = picture->steady ? 1 : brc_picture_automatic_scale(picture->n, picture->part);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.surface, picture->n, "parts of the picture"));
     for (int32_t k = 0; k < picture->n; ++k)
         if (!is_sphere(&picture->part[k]))
-            BRC_TRY_OR(cleanup, brc_picture_faces_make(context, picture->part[k].domain, picture->part[k].whole, picture->cut, &c.surface[k]));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_point, picture->n + picture->n_strikers + 1, "parts of the picture"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_face, picture->n + picture->n_strikers + 1, "parts of the picture"));
+            BRC_TRY_OR(cleanup, brc_picture_faces_make(context, picture->part[k].domain, picture->part[k].whole,
+                                                       picture->cut, &c.surface[k]));
+    BRC_TRY_OR(cleanup,
+               BRC_ALLOCATE(context, &c.first_point, picture->n + picture->n_strikers + 1, "parts of the picture"));
+    BRC_TRY_OR(cleanup,
+               BRC_ALLOCATE(context, &c.first_face, picture->n + picture->n_strikers + 1, "parts of the picture"));
     for (int32_t k = 0; k < picture->n; ++k) {
         c.first_point[k + 1] = c.first_point[k] + n_points_of(&c, k);
         c.first_face[k + 1] = c.first_face[k] + n_faces_of(&c, k);
@@ -465,7 +490,8 @@ brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, co
     find_range(&c);
     status = render(&c, path);
 cleanup:
-    for (int32_t k = 0; c.surface && k < picture->n; ++k) brc_picture_faces_free(&c.surface[k]);
+    for (int32_t k = 0; c.surface && k < picture->n; ++k)
+        brc_picture_faces_free(&c.surface[k]);
     brc_memory_free(c.surface);
     brc_memory_free(c.first_point);
     brc_memory_free(c.first_face);

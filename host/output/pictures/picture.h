@@ -1,4 +1,5 @@
-/* Pictures of the deformed sample, coloured by a field: cells by their outer faces, what is open on broken bonds, and what a cut shows; or spheres. */
+/* Pictures of the deformed sample, coloured by a field: cells by their outer faces, what is open on broken bonds, and
+ * what a cut shows; or spheres. */
 #ifndef BRC_OUTPUT_PICTURE_H
 #define BRC_OUTPUT_PICTURE_H
 
@@ -28,21 +29,22 @@ typedef struct brc_picture {
     const brc_picture_part *part; /* [n] */
     int32_t n_strikers;
     const brc_picture_striker *striker; /* [n_strikers] */
-    const char *name;           /* of the field, beside the colour bar: "von Mises stress" */
+    const char *name;                   /* of the field, beside the colour bar: "von Mises stress" */
     const char *unit;
     const char *title; /* "" : none */
     double scale;      /* factor on the displacement; 0: automatic */
-    bool steady;       /* one of a sequence: the view is that of the undeformed sample with strikers where they began, the automatic scale is 1 */
-    double range[2];   /* of the colours; equal: that of what is seen */
+    bool steady;     /* one of a sequence: the view is that of the undeformed sample with strikers where they began, the
+                        automatic scale is 1 */
+    double range[2]; /* of the colours; equal: that of what is seen */
     const brc_picture_cut *cut; /* NULL: the whole sample */
     const brc_paint_view *view; /* NULL: from above one corner */
 } brc_picture;
 
 /* 1200 x 900, without perspective. BRC_FILE_FAILED: cannot be written. */
 brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, const char *path);
-/* The whole as it is now, as scene.output asks (with picture_frames all pictures of a run have one view, and damage one scale of colours): picture_colour is "von_mises", "displacement[_x|_y|_z]",
- * "velocity[_x|_y|_z]", "stress_xx" ... "stress_xy" (Cauchy) or "strain_xx" ... "strain_xy" (Green). BRC_BAD_INPUT for
- * another word, with the list. */
+/* The whole as it is now, as scene.output asks (with picture_frames all pictures of a run have one view, and damage one
+ * scale of colours): picture_colour is "von_mises", "displacement[_x|_y|_z]", "velocity[_x|_y|_z]", "stress_xx" ...
+ * "stress_xy" (Cauchy) or "strain_xx" ... "strain_xy" (Green). BRC_BAD_INPUT for another word, with the list. */
 brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly, const char *path);
 /* Factor on the displacement that makes it visible: one of 1, 2, 5 times a power of ten, so that the largest
  * displacement (less its mean) is about 4 % of the sample's diagonal; 1 where it is as large by itself or zero. */

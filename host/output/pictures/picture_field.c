@@ -95,7 +95,8 @@ static brc_status read_part(brc_context *context, brc_simulation *simulation, co
     case STRAIN: status = brc_simulation_strain_stress(simulation, data, NULL, NULL); break;
     case DAMAGE: status = brc_simulation_damage(simulation, data); break;
     }
-    for (int64_t e = 0; status == BRC_OK && e < n; ++e) out->value[e] = pick(f, data, e);
+    for (int64_t e = 0; status == BRC_OK && e < n; ++e)
+        out->value[e] = pick(f, data, e);
 cleanup:
     brc_memory_free(data);
     return status;
@@ -120,18 +121,23 @@ brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly,
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &part, assembly->n, "parts of the picture"));
     for (int32_t k = 0; k < assembly->n; ++k) {
         BRC_TRY_OR(cleanup, read_part(context, assembly->part[k], &f, &own[k]));
-        part[k] = (brc_picture_part){.domain = brc_simulation_domain(assembly->part[k]), .whole = own[k].whole, .displacement = own[k].displacement, .value = own[k].value};
+        part[k] = (brc_picture_part){.domain = brc_simulation_domain(assembly->part[k]),
+                                     .whole = own[k].whole,
+                                     .displacement = own[k].displacement,
+                                     .value = own[k].value};
     }
     const int32_t n_strikers = brc_simulation_n_strikers(assembly->part[0]);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &striker, n_strikers, "strikers of the picture"));
     for (int32_t k = 0; k < n_strikers; ++k) {
-        striker[k] = (brc_picture_striker){.body = brc_simulation_striker_body(assembly->part[0], k), .is_plane = scene->strikers[k].is_plane};
+        striker[k] = (brc_picture_striker){.body = brc_simulation_striker_body(assembly->part[0], k),
+                                           .is_plane = scene->strikers[k].is_plane};
         BRC_TRY_OR(cleanup, brc_simulation_striker_now(assembly->part[0], k, &striker[k].now));
     }
     const brc_output *output = &scene->output;
     const bool touching = scene->has_contact || n_strikers > 0; /* amplified, they would lie apart or in each other */
-    const brc_paint_view view = output->has_picture_camera ? brc_paint_view_between(output->picture_from, output->picture_towards)
-                                                         : brc_paint_side_view(output->picture_view);
+    const brc_paint_view view = output->has_picture_camera
+                                    ? brc_paint_view_between(output->picture_from, output->picture_towards)
+                                    : brc_paint_side_view(output->picture_view);
     brc_picture_cut cut;
     memcpy(cut.point, output->picture_cut_point, sizeof cut.point);
     memcpy(cut.normal, output->picture_cut_normal, sizeof cut.normal);

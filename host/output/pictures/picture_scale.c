@@ -6,7 +6,8 @@ double brc_picture_automatic_scale(int32_t n, const brc_picture_part *part)
 {
     double mean[3] = {0}, most = 0, diagonal = 0, low[3], high[3];
     int64_t n_elements = 0;
-    for (int32_t k = 0; k < n; ++k) n_elements += part[k].domain->n_elements;
+    for (int32_t k = 0; k < n; ++k)
+        n_elements += part[k].domain->n_elements;
     for (int32_t k = 0; k < n; ++k)
         for (int64_t e = 0; e < part[k].domain->n_elements; ++e)
             for (int c = 0; c < 3; ++c)

@@ -25,7 +25,8 @@ void brc_html_words(brc_text *page, const char *words)
 
 void brc_html_begin(brc_text *page, const char *title)
 {
-    brc_text_add(page, "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n<title>");
+    brc_text_add(page, "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+                       "content=\"width=device-width\">\n<title>");
     brc_html_words(page, title);
     brc_text_add(page, "</title>\n<style>\n");
     brc_html_file(page, "page.css");
@@ -39,8 +40,9 @@ void brc_html_end(brc_text *page)
 
 void brc_html_key(brc_text *page, const char *key)
 {
-    static const char *const unit[][2] = {{"_J_per_m2", "J/m^2"}, {"_per_s", "1/s"}, {"_m2", "m^2"}, {"_kg", "kg"},
-                                          {"_J", "J"},            {"_s", "s"},       {"_bytes", ""}, {"_deg", "deg"}};
+    static const char *const unit[][2] = {{"_J_per_m2", "J/m^2"}, {"_per_s", "1/s"}, {"_m2", "m^2"},
+                                          {"_kg", "kg"},          {"_J", "J"},       {"_s", "s"},
+                                          {"_bytes", ""},         {"_deg", "deg"}};
     size_t length = strlen(key);
     const char *of = "";
     for (size_t k = 0; k < sizeof unit / sizeof *unit; ++k) {
@@ -68,7 +70,8 @@ void brc_html_scalar(brc_text *page, const char *key, const char *text)
     else if (*end || end == text)
         brc_html_words(page, text);
     else if (length >= 5 && strcmp(key + length - 5, "bytes") == 0)
-        brc_text_add(page, "<span title=\"%s\">%.4g %s</span>", text, value / (value < 1e9 ? 1e6 : 1e9), value < 1e9 ? "MB" : "GB");
+        brc_text_add(page, "<span title=\"%s\">%.4g %s</span>", text, value / (value < 1e9 ? 1e6 : 1e9),
+                     value < 1e9 ? "MB" : "GB");
     else if (value == rint(value) && fabs(value) < 1e15 && !strpbrk(text, ".eE"))
         brc_html_words(page, text);
     else
@@ -90,7 +93,8 @@ static void add_table_of_maps(brc_text *page, const brc_node *node)
     for (const brc_node *row = node->first; row; row = row->next)
         for (const brc_node *cell = row->first; cell; cell = cell->next) {
             int k = 0;
-            while (k < n && strcmp(column[k], cell->key) != 0) ++k;
+            while (k < n && strcmp(column[k], cell->key) != 0)
+                ++k;
             if (k == n && n < COLUMNS_MOST) column[n++] = cell->key;
         }
     brc_text_add(page, "<table><tr>%s", node->kind == BRC_NODE_MAP ? "<th></th>" : "");
@@ -147,8 +151,10 @@ static void add_base64(brc_text *page, const unsigned char *bytes, size_t n)
 {
     static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t k = 0; k < n; k += 3) {
-        const unsigned word = (unsigned)bytes[k] << 16 | (k + 1 < n ? (unsigned)bytes[k + 1] << 8 : 0) | (k + 2 < n ? bytes[k + 2] : 0);
-        const char four[4] = {digit[word >> 18], digit[word >> 12 & 63], k + 1 < n ? digit[word >> 6 & 63] : '=', k + 2 < n ? digit[word & 63] : '='};
+        const unsigned word =
+            (unsigned)bytes[k] << 16 | (k + 1 < n ? (unsigned)bytes[k + 1] << 8 : 0) | (k + 2 < n ? bytes[k + 2] : 0);
+        const char four[4] = {digit[word >> 18], digit[word >> 12 & 63], k + 1 < n ? digit[word >> 6 & 63] : '=',
+                              k + 2 < n ? digit[word & 63] : '='};
         brc_text_add_bytes(page, four, 4);
     }
 }
@@ -165,7 +171,8 @@ brc_status brc_html_array(brc_text *page, const char *id, const void *bytes, int
     void *packed = NULL;
     uLongf room = compressBound((uLong)n);
     BRC_TRY(brc_memory_allocate(page->context, &packed, (int64_t)room, 1, "numbers of a page"));
-    if (compress2(packed, &room, bytes, (uLong)n, Z_BEST_COMPRESSION) == Z_OK) brc_html_packed(page, id, packed, room);
+    if (compress2(packed, &room, bytes, (uLong)n, Z_BEST_COMPRESSION) == Z_OK)
+        brc_html_packed(page, id, packed, room);
     else if (page->status == BRC_OK)
         page->status = BRC_FAIL(page->context, BRC_NO_MEMORY, "numbers of a page cannot be packed: out of memory");
     brc_memory_free(packed);
@@ -174,7 +181,8 @@ brc_status brc_html_array(brc_text *page, const char *id, const void *bytes, int
 
 void brc_html_json(brc_text *page, const char *id, brc_json *json)
 {
-    while (json->depth > 0) brc_json_end(json);
+    while (json->depth > 0)
+        brc_json_end(json);
     if (page->status == BRC_OK) page->status = json->text.status;
     brc_text_add(page, "<script type=\"application/json\" id=\"%s\">", id);
     const char *s = json->text.data ? json->text.data : "null";

@@ -12,9 +12,11 @@ void brc_html_end(brc_text *page);
 void brc_html_words(brc_text *page, const char *words);
 /* The name of a value of summary.json: "peak_elastic_J" is "peak elastic [J]". */
 void brc_html_key(brc_text *page, const char *key);
-/* A number with five digits, the whole one on hovering; anything else as words; null is a dash. `key` may be NULL; where it ends in "bytes" MB and GB are written. */
+/* A number with five digits, the whole one on hovering; anything else as words; null is a dash. `key` may be NULL;
+ * where it ends in "bytes" MB and GB are written. */
 void brc_html_scalar(brc_text *page, const char *key, const char *text);
-/* Any value: a scalar, a map as a table of two columns, a list of maps (or a map of maps) as one with a column a key, another list as words with semicolons. */
+/* Any value: a scalar, a map as a table of two columns, a list of maps (or a map of maps) as one with a column a key,
+ * another list as words with semicolons. */
 void brc_html_value(brc_text *page, const char *key, const brc_node *node);
 /* A file of web/ as it is (web_file.h). */
 void brc_html_file(brc_text *page, const char *name);

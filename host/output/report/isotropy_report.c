@@ -10,7 +10,9 @@ static brc_status write_bins(brc_context *context, const brc_isotropy *i, const 
     brc_text text = {.context = context};
     brc_text_add(&text, "x,y,z,solid_angle_sr,count,density\n");
     for (int64_t b = 0; b < i->n_bins; ++b) {
-        const double numbers[6] = {i->direction[3 * b], i->direction[3 * b + 1], i->direction[3 * b + 2], i->solid_angle[b], i->count[b], i->density[b]};
+        const double numbers[6] = {
+            i->direction[3 * b], i->direction[3 * b + 1], i->direction[3 * b + 2], i->solid_angle[b], i->count[b],
+            i->density[b]};
         for (int k = 0; k < 6; ++k) {
             brc_text_add_number(&text, numbers[k]);
             brc_text_add(&text, k < 5 ? "," : "\n");
@@ -27,7 +29,9 @@ static brc_status write_files(brc_context *context, const brc_isotropy *isotropy
     static const struct {
         const char *name;
         brc_status (*write)(brc_context *, const brc_isotropy *, const char *);
-    } files[] = {{"isotropy.csv", write_bins}, {"isotropy.vtp", brc_isotropy_write_surface}, {"isotropy.png", brc_isotropy_picture}};
+    } files[] = {{"isotropy.csv", write_bins},
+                 {"isotropy.vtp", brc_isotropy_write_surface},
+                 {"isotropy.png", brc_isotropy_picture}};
     BRC_TRY(brc_file_make_folder(context, dir));
     for (size_t k = 0; k < sizeof files / sizeof *files; ++k) {
         char *path;

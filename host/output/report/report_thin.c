@@ -29,7 +29,8 @@ static void keep(thinning *t, int64_t face)
     const brc_report_skin *s = t->skin;
     t->kept[face] = true;
     t->bytes += FACE_BYTES + CORNER_BYTES * (s->face_start[face + 1] - s->face_start[face]);
-    for (int64_t k = s->face_start[face]; k < s->face_start[face + 1]; ++k) use(t, s->face_corner[k]);
+    for (int64_t k = s->face_start[face]; k < s->face_start[face + 1]; ++k)
+        use(t, s->face_corner[k]);
 }
 
 /* Faces of the first frame, and points of spheres, which no face has. */
@@ -39,7 +40,8 @@ static void keep_first(thinning *t)
     int64_t f = 0;
     for (int64_t e = 0; e < s->n_elements; ++e) {
         t->first_face[e] = f;
-        while (f < s->n_faces && s->face_owner[f] == e) ++f;
+        while (f < s->n_faces && s->face_owner[f] == e)
+            ++f;
     }
     t->first_face[s->n_elements] = f;
     for (f = 0; f < s->n_faces; ++f)
@@ -48,18 +50,24 @@ static void keep_first(thinning *t)
         if (t->first_face[s->point_owner[p]] == t->first_face[s->point_owner[p] + 1]) use(t, (int32_t)p);
 }
 
-static int64_t divisor(int64_t a, int64_t b) { return b == 0 ? a : divisor(b, a % b); }
+static int64_t divisor(int64_t a, int64_t b)
+{
+    return b == 0 ? a : divisor(b, a % b);
+}
 
-/* All other faces of cells that have some of the first frame, or none of it, while there is room; cells a golden section of their number apart, so that they lie everywhere. */
+/* All other faces of cells that have some of the first frame, or none of it, while there is room; cells a golden
+ * section of their number apart, so that they lie everywhere. */
 static void keep_cells(thinning *t, bool outside, int64_t bytes)
 {
     const brc_report_skin *s = t->skin;
     const int64_t n = s->n_elements;
     int64_t step = (int64_t)(0.6180339887 * (double)n);
-    while (step < 1 || divisor(n, step) != 1) ++step;
+    while (step < 1 || divisor(n, step) != 1)
+        ++step;
     for (int64_t k = 0, e = 0; k < n && t->bytes < bytes; ++k, e = (e + step) % n) {
         bool first = false;
-        for (int64_t f = t->first_face[e]; f < t->first_face[e + 1]; ++f) first |= s->birth[f] == 0;
+        for (int64_t f = t->first_face[e]; f < t->first_face[e + 1]; ++f)
+            first |= s->birth[f] == 0;
         for (int64_t f = t->first_face[e]; first == outside && f < t->first_face[e + 1]; ++f)
             if (!t->kept[f]) keep(t, f);
     }
@@ -70,7 +78,8 @@ static void move_together(thinning *t, int32_t *new_element)
 {
     brc_report_skin *s = t->skin;
     int64_t n_points = 0, n_faces = 0, n_elements = 0, corner = 0;
-    for (int64_t e = 0; e < s->n_elements; ++e) new_element[e] = -1;
+    for (int64_t e = 0; e < s->n_elements; ++e)
+        new_element[e] = -1;
     for (int64_t f = 0; f < s->n_faces; ++f)
         if (t->kept[f]) new_element[s->face_owner[f]] = 0;
     for (int64_t p = 0; p < s->n_points; ++p)
@@ -92,7 +101,8 @@ static void move_together(thinning *t, int32_t *new_element)
         s->face_owner[n_faces] = new_element[s->face_owner[f]];
         s->birth[n_faces] = s->birth[f];
         s->face_start[n_faces++] = corner;
-        for (int64_t k = begin; k < end; ++k) s->face_corner[corner++] = t->used[s->face_corner[k]];
+        for (int64_t k = begin; k < end; ++k)
+            s->face_corner[corner++] = t->used[s->face_corner[k]];
     }
     s->face_start[n_faces] = corner;
     s->n_points = n_points;

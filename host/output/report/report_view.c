@@ -59,7 +59,8 @@ static brc_status thin(view *v)
         brc_report_skin_places(&v->skin, &v->last, &first, v->place);
         status = brc_report_skin_births(v->context, &v->skin, &first, v->place, 0);
         if (status == BRC_OK) status = brc_report_skin_thin(v->context, &v->skin, SURFACE_BYTES, &v->n_dropped);
-        for (int64_t f = 0; f < v->skin.n_faces; ++f) v->skin.birth[f] = -1;
+        for (int64_t f = 0; f < v->skin.n_faces; ++f)
+            v->skin.birth[f] = -1;
     }
     brc_report_frame_free(&first);
     return status;

@@ -4,7 +4,8 @@
 
 #include "../../../preprocess/packing/skin.h"
 
-/* Print the layers to stdout and write them to `path` as CSV: a row a layer, then the core (its `to_diameters` is empty). BRC_FILE_FAILED. */
+/* Print the layers to stdout and write them to `path` as CSV: a row a layer, then the core (its `to_diameters` is
+ * empty). BRC_FILE_FAILED. */
 brc_status brc_skin_report(brc_context *context, const brc_skin *skin, const char *path);
 
 #endif

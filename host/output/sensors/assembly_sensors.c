@@ -41,7 +41,8 @@ void brc_assembly_sensors_free(brc_assembly_sensors **sensors)
 {
     if (!sensors || !*sensors) return;
     brc_assembly_sensors *s = *sensors;
-    for (int32_t k = 0; s->part && k < s->assembly->n; ++k) brc_sensors_free(&s->part[k]);
+    for (int32_t k = 0; s->part && k < s->assembly->n; ++k)
+        brc_sensors_free(&s->part[k]);
     brc_memory_free(s->part);
     brc_memory_free(s->mass);
     brc_memory_free(s->value);
@@ -82,9 +83,12 @@ brc_status brc_assembly_sensors_evaluate(brc_assembly_sensors *s, double *value)
     if (!a->split) return brc_sensors_evaluate(s->part[0], a->part[0], value);
     double mass = 0;
     brc_ledger ledger;
-    for (int32_t k = 0; k < a->n; ++k) mass += s->mass[k];
-    for (int32_t i = 0; i < a->scene->n_sensors; ++i) s->seen[i] = false;
-    for (int32_t k = 0; k < a->n; ++k) BRC_TRY(add_part(s, k, mass, value));
+    for (int32_t k = 0; k < a->n; ++k)
+        mass += s->mass[k];
+    for (int32_t i = 0; i < a->scene->n_sensors; ++i)
+        s->seen[i] = false;
+    for (int32_t k = 0; k < a->n; ++k)
+        BRC_TRY(add_part(s, k, mass, value));
     BRC_TRY(brc_assembly_ledger(s->assembly, &ledger));
     for (int32_t i = 0; i < a->scene->n_sensors; ++i) {
         const brc_sensor *sensor = &a->scene->sensors[i];

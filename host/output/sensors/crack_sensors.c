@@ -11,10 +11,11 @@ struct brc_crack_sensors {
     double *sum;       /* [n_elements] masses of fragments [kg] */
     int64_t n_counted; /* broken bonds that the fragments below belong to; -1: not counted yet */
     int64_t n_fragments;
-    double largest;    /* share of the mass [-] */
+    double largest; /* share of the mass [-] */
 };
 
-brc_status brc_crack_sensors_create(brc_context *context, const brc_scene *scene, const brc_domain *domain, brc_crack_sensors **out)
+brc_status brc_crack_sensors_create(brc_context *context, const brc_scene *scene, const brc_domain *domain,
+                                    brc_crack_sensors **out)
 {
     const int64_t n = domain->n_elements;
     brc_crack_sensors *s = NULL;
@@ -27,7 +28,8 @@ brc_status brc_crack_sensors_create(brc_context *context, const brc_scene *scene
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &s->sum, n, "sensors of cracks"));
     for (int64_t e = 0; e < n; ++e) {
         const int32_t b = domain->body[e] < scene->n_bodies ? domain->body[e] : 0;
-        s->mass[e] = domain->volume[e] * scene->materials[brc_body_material(&scene->bodies[b], domain->region[e])].density;
+        s->mass[e] =
+            domain->volume[e] * scene->materials[brc_body_material(&scene->bodies[b], domain->region[e])].density;
     }
 cleanup:
     if (status != BRC_OK) brc_crack_sensors_free(&s);
@@ -54,7 +56,8 @@ static brc_status count_fragments(brc_crack_sensors *s, brc_simulation *simulati
     if (n_broken == s->n_counted) return BRC_OK;
     BRC_TRY(brc_simulation_fragments(simulation, s->fragment, &s->n_fragments));
     memset(s->sum, 0, (size_t)s->n_fragments * sizeof *s->sum);
-    for (int64_t e = 0; e < s->domain->n_elements; ++e) s->sum[s->fragment[e]] += s->mass[e];
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        s->sum[s->fragment[e]] += s->mass[e];
     s->largest = 0;
     for (int64_t i = 0; i < s->n_fragments; ++i) {
         all += s->sum[i];
@@ -71,7 +74,8 @@ static brc_status sum_area(brc_simulation *simulation, double *value)
     int64_t n;
     BRC_TRY(brc_simulation_breaks(simulation, &n, &broken));
     *value = 0;
-    for (int64_t k = 0; k < n; ++k) *value += broken[k].area;
+    for (int64_t k = 0; k < n; ++k)
+        *value += broken[k].area;
     return BRC_OK;
 }
 
@@ -84,13 +88,15 @@ static brc_status find_tip(brc_simulation *simulation, const brc_sensor *sensor,
     *value = 0;
     for (int64_t k = 0; k < n; ++k) {
         double along = 0;
-        for (int c = 0; c < 3; ++c) along += (broken[k].position[c] - sensor->point[c]) * a[c] / length;
+        for (int c = 0; c < 3; ++c)
+            along += (broken[k].position[c] - sensor->point[c]) * a[c] / length;
         *value = k == 0 ? along : fmax(*value, along);
     }
     return BRC_OK;
 }
 
-brc_status brc_crack_sensors_read(brc_crack_sensors *s, brc_simulation *simulation, const brc_sensor *sensor, double *value)
+brc_status brc_crack_sensors_read(brc_crack_sensors *s, brc_simulation *simulation, const brc_sensor *sensor,
+                                  double *value)
 {
     int64_t n;
     if (sensor->kind == BRC_SENSOR_CRACK_TIP) return find_tip(simulation, sensor, value);

@@ -67,7 +67,9 @@ brc_status brc_history_store(brc_context *context, brc_history *h, brc_state_sto
     BRC_TRY(brc_store_array(context, store, "history.step", BRC_STORED_INT64, 1, &n, (void **)&h->step));
     BRC_TRY(brc_store_array(context, store, "history.stage_time", BRC_STORED_DOUBLE, 1, &n, (void **)&h->stage_time));
     BRC_TRY(brc_store_array(context, store, "history.time", BRC_STORED_DOUBLE, 1, &n, (void **)&h->time));
-    if (h->n_sensors > 0) BRC_TRY(brc_store_array(context, store, "history.value", BRC_STORED_SAMPLE, h->n_sensors, &n, (void **)&h->value));
+    if (h->n_sensors > 0)
+        BRC_TRY(
+            brc_store_array(context, store, "history.value", BRC_STORED_SAMPLE, h->n_sensors, &n, (void **)&h->value));
     if (store->loading) h->n_samples = h->capacity = n;
     return BRC_OK;
 }

@@ -9,7 +9,7 @@
 
 struct brc_history_csv {
     brc_append *file;
-    int64_t n_samples; /* in the file */
+    int64_t n_samples;         /* in the file */
     double begin, last, spent; /* brc_clock_s() at the start and after the last rows; seconds of writing */
 };
 

@@ -17,7 +17,8 @@ double brc_measure_area(const brc_domain *domain, int32_t set)
     double sum[3] = {0}, area = 0, all = 0;
     for (int64_t k = 0; k < members->n_members; ++k) {
         const double *s = domain->free_area_vector + 3 * (int64_t)members->members[k];
-        for (int c = 0; c < 3; ++c) sum[c] += s[c];
+        for (int c = 0; c < 3; ++c)
+            sum[c] += s[c];
         all += sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
     }
     const double length = sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
@@ -68,7 +69,10 @@ static double factor_of(const brc_measure *measure, const brc_domain *domain, br
     if (measure->area_set[0] == '\0') return factor;
     const double area = domain ? brc_measure_area(domain, brc_domain_find_set(domain, measure->area_set)) : NAN;
     if (area > 0) return factor / area;
-    why_not(measured, "\"%s\" is not a face set with an area (one that goes all the way round has none), nor a wall of a box or cylinder of spheres", measure->area_set);
+    why_not(measured,
+            "\"%s\" is not a face set with an area (one that goes all the way round has none), nor a wall of a box or "
+            "cylinder of spheres",
+            measure->area_set);
     return NAN;
 }
 
@@ -140,8 +144,8 @@ static double duration(const brc_measure_series *series, double level)
 {
     double sum = 0;
     for (int64_t k = 1; k < series->n; ++k)
-        sum += (series->time[k] - series->time[k - 1]) *
-               (share_above(series->y[k - 1], series->y[k], level) + share_above(-series->y[k - 1], -series->y[k], level));
+        sum += (series->time[k] - series->time[k - 1]) * (share_above(series->y[k - 1], series->y[k], level) +
+                                                          share_above(-series->y[k - 1], -series->y[k], level));
     return sum;
 }
 
@@ -171,12 +175,16 @@ static void rate(const brc_measure_series *series, brc_measured *measured)
         ty += (series->time[k] - t) * (series->y[k] - y);
         tt += (series->time[k] - t) * (series->time[k] - t);
     }
-    if (tt > 0) measured->value = ty / tt;
-    else why_not(measured, "a rate needs samples at two times");
+    if (tt > 0)
+        measured->value = ty / tt;
+    else
+        why_not(measured, "a rate needs samples at two times");
 }
 
-/* When the first bond of the stage and window broke: time of the stage, of a static one its load factor; NAN: none did. */
-static double first_break(const brc_scene *scene, const brc_history *history, const brc_cracks *cracks, const brc_measure *measure)
+/* When the first bond of the stage and window broke: time of the stage, of a static one its load factor; NAN: none
+ * did. */
+static double first_break(const brc_scene *scene, const brc_history *history, const brc_cracks *cracks,
+                          const brc_measure *measure)
 {
     const int32_t stage = find_stage(scene, measure->stage);
     const bool whole = !(measure->window[1] > measure->window[0]);
@@ -199,7 +207,8 @@ static void at_time(const brc_measure_series *series, double t, brc_measured *me
         why_not(measured, "no bond broke in its stage and window");
         return;
     }
-    while (k + 1 < series->n && series->time[k] < t) ++k;
+    while (k + 1 < series->n && series->time[k] < t)
+        ++k;
     if (k == 0 || !(series->time[k] > series->time[k - 1])) {
         measured->value = series->y[k];
         return;
@@ -243,8 +252,8 @@ static bool target_of(const brc_scene *scene, const brc_measure *measure, double
     }
 }
 
-brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, const brc_domain *domain, const brc_history *history,
-                                const brc_cracks *cracks, int32_t index, brc_measured *out)
+brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, const brc_domain *domain,
+                                const brc_history *history, const brc_cracks *cracks, int32_t index, brc_measured *out)
 {
     const brc_measure *measure = &scene->measures[index];
     brc_measure_series series;
@@ -259,7 +268,9 @@ brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, co
         case BRC_MEASURE_PEAK: out->value = peak(&series); break;
         case BRC_MEASURE_MEAN: out->value = time_mean(&series); break;
         case BRC_MEASURE_INTEGRAL: out->value = integral(&series); break;
-        case BRC_MEASURE_DURATION: out->value = measure->scale * duration(&series, measure->above * fabs(peak(&series))); break;
+        case BRC_MEASURE_DURATION:
+            out->value = measure->scale * duration(&series, measure->above * fabs(peak(&series)));
+            break;
         case BRC_MEASURE_RATE: rate(&series, out); break;
         case BRC_MEASURE_AT_FIRST_BREAK: at_time(&series, first_break(scene, history, cracks, measure), out); break;
         default:

@@ -18,9 +18,10 @@ typedef struct brc_measured {
 } brc_measured;
 
 /* Evaluate measure `index` of the scene. Never fails for want of data: value NAN and why_not say so.
- * BRC_NO_MEMORY only. domain may be NULL where no measure has an area_set; cracks: what broke, for at_first_break, or NULL. */
-brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, const brc_domain *domain, const brc_history *history,
-                                const brc_cracks *cracks, int32_t index, brc_measured *out);
+ * BRC_NO_MEMORY only. domain may be NULL where no measure has an area_set; cracks: what broke, for at_first_break, or
+ * NULL. */
+brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, const brc_domain *domain,
+                                const brc_history *history, const brc_cracks *cracks, int32_t index, brc_measured *out);
 /* The samples that a measure reads: those of its stage and window that are numbers. */
 typedef struct brc_measure_series {
     int64_t n;
@@ -28,7 +29,8 @@ typedef struct brc_measure_series {
     double *x;    /* [n] abscissa of a slope; else the same sensor as y, unscaled */
     double *y;    /* [n] times the measure's scale, over its reference area, minus for a Poisson's ratio */
 } brc_measure_series;
-/* Collect them for a measure, the scene's or one made for the purpose; where there are none measured->why_not says why. BRC_NO_MEMORY. Caller frees. */
+/* Collect them for a measure, the scene's or one made for the purpose; where there are none measured->why_not says why.
+ * BRC_NO_MEMORY. Caller frees. */
 brc_status brc_measure_series_collect(brc_context *context, const brc_scene *scene, const brc_domain *domain,
                                       const brc_history *history, const brc_measure *measure, brc_measure_series *out,
                                       brc_measured *measured);

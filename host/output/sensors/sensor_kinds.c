@@ -55,10 +55,13 @@ static brc_status prepare_strain(brc_sensors *sensors, const brc_sensor *sensor,
 static brc_status prepare_round(brc_sensors *sensors, const brc_sensor *sensor, int32_t s)
 {
     if (!sensors->domain->radius)
-        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: its sphere is measured by packed spheres, the elements are cells; use stress and strain",
-                        sensor->name);
+        return BRC_FAIL(
+            sensors->context, BRC_BAD_INPUT,
+            "sensor %s: its sphere is measured by packed spheres, the elements are cells; use stress and strain",
+            sensor->name);
     if (brc_sphere_count_bonded(sensors->domain, &sensors->domain->sets[sensors->first[s]]) == 0)
-        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: no element of \"%s\" has a bond; name another set", sensor->name, sensor->set);
+        return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: no element of \"%s\" has a bond; name another set",
+                        sensor->name, sensor->set);
     sensors->distance[s] = brc_sensor_surface_radius(sensors, sensor, &sensors->domain->sets[sensors->first[s]]);
     return BRC_OK;
 }
@@ -66,17 +69,20 @@ static brc_status prepare_round(brc_sensors *sensors, const brc_sensor *sensor, 
 static brc_status of_elements(brc_sensors *sensors, const brc_sensor *sensor, int32_t set, const char *why)
 {
     if (set < 0 || sensors->domain->sets[set].kind == BRC_SET_ELEMENTS) return BRC_OK;
-    return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: the set \"%s\" holds faces; %s", sensor->name, sensor->set, why);
+    return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: the set \"%s\" holds faces; %s", sensor->name,
+                    sensor->set, why);
 }
 
 static brc_status find_striker(brc_sensors *sensors, const brc_sensor *sensor, const char *name, int32_t *out)
 {
     for (*out = 0; *out < sensors->scene->n_strikers; ++*out)
         if (strcmp(sensors->scene->strikers[*out].name, name) == 0) return BRC_OK;
-    return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: there is no striker \"%s\"; define it under strikers", sensor->name, name);
+    return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: there is no striker \"%s\"; define it under strikers",
+                    sensor->name, name);
 }
 
-/* The way out of the solid at a set, along the component: that of its faces' mean normal; of elements, away from the middle of the bodies. */
+/* The way out of the solid at a set, along the component: that of its faces' mean normal; of elements, away from the
+ * middle of the bodies. */
 static brc_status prepare_sign(brc_sensors *sensors, const brc_sensor *sensor, int32_t set, double *outward)
 {
     const brc_domain *d = sensors->domain;
@@ -91,7 +97,9 @@ static brc_status prepare_sign(brc_sensors *sensors, const brc_sensor *sensor, i
     }
     *outward = sum < 0 ? -1 : 1;
     if (fabs(sum) > 1e-3 * size) return BRC_OK;
-    return BRC_FAIL(sensors->context, BRC_BAD_INPUT, "sensor %s: \"%s\" looks neither way along %c, so that compression has no side there; leave `sign` out, or name the set of one side",
+    return BRC_FAIL(sensors->context, BRC_BAD_INPUT,
+                    "sensor %s: \"%s\" looks neither way along %c, so that compression has no side there; leave `sign` "
+                    "out, or name the set of one side",
                     sensor->name, sensor->set, 'x' + c);
 }
 
@@ -240,7 +248,8 @@ static brc_status read_moment(READ_ARGUMENTS)
 static brc_status read_turn(READ_ARGUMENTS)
 {
     (void)simulation;
-    *value = brc_sensor_turn(sensors->orientation + 4 * (int64_t)sensors->first[s], sensors->scene->sensors[s].component);
+    *value =
+        brc_sensor_turn(sensors->orientation + 4 * (int64_t)sensors->first[s], sensors->scene->sensors[s].component);
     return BRC_OK;
 }
 
@@ -346,8 +355,10 @@ static brc_status read_striker(brc_simulation *simulation, int32_t striker, cons
     const struct {
         const char *term;
         const double *vector;
-    } terms[] = {{"position", now.position}, {"displacement", now.displacement}, {"velocity", now.velocity}, {"rotation", now.rotation},
-                 {"spin", now.spin},         {"force", now.force},               {"torque", now.torque},     {"applied", now.applied}};
+    } terms[] = {{"position", now.position}, {"displacement", now.displacement},
+                 {"velocity", now.velocity}, {"rotation", now.rotation},
+                 {"spin", now.spin},         {"force", now.force},
+                 {"torque", now.torque},     {"applied", now.applied}};
     *value = now.kinetic; /* "energy" */
     for (size_t k = 0; k < sizeof terms / sizeof *terms; ++k)
         if (strcmp(sensor->term, terms[k].term) == 0) *value = terms[k].vector[sensor->component];
@@ -368,8 +379,9 @@ static brc_status read_strikers(READ_ARGUMENTS)
     const double middle = 0.5 * (sensors->domain->bounds[0][c] + sensors->domain->bounds[1][c]);
     const double side = striker->is_plane           ? -striker->normal[c]
                         : striker->velocity[c] != 0 ? -striker->velocity[c] /* it comes from where it is */
-                        : striker->force[c] != 0    ? -striker->force[c]
-                                                    : brc_simulation_striker_body(simulation, sensors->first[s])->centre[c] - middle;
+                        : striker->force[c] != 0
+                            ? -striker->force[c]
+                            : brc_simulation_striker_body(simulation, sensors->first[s])->centre[c] - middle;
     sensors->outward[s] = side < 0 ? -1 : 1;
     return BRC_OK;
 }
@@ -379,9 +391,10 @@ static brc_status read_contact(READ_ARGUMENTS)
     const brc_sensor *sensor = &sensors->scene->sensors[s];
     brc_touching now;
     BRC_TRY(brc_simulation_touching(simulation, &now));
-    *value = strcmp(sensor->term, "sliding") == 0 ? now.sliding : strcmp(sensor->term, "penetration") == 0 ? now.penetration
-           : strcmp(sensor->term, "force") == 0 ? now.force
-                                                : now.pairs;
+    *value = strcmp(sensor->term, "sliding") == 0       ? now.sliding
+             : strcmp(sensor->term, "penetration") == 0 ? now.penetration
+             : strcmp(sensor->term, "force") == 0       ? now.force
+                                                        : now.pairs;
     return BRC_OK;
 }
 

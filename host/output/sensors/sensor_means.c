@@ -1,6 +1,6 @@
-/* Means over faces are weighted with face areas, means over cells with their volumes; spheres of a wall count alike where they
- * stand for a face; those without bonds, which are held still, count nowhere. All sums run in the order of the set's members,
- * so equal states give equal bytes. */
+/* Means over faces are weighted with face areas, means over cells with their volumes; spheres of a wall count alike
+ * where they stand for a face; those without bonds, which are held still, count nowhere. All sums run in the order of
+ * the set's members, so equal states give equal bytes. */
 #include "sensor_means.h"
 #include "sphere_box.h"
 #include <math.h>
@@ -35,7 +35,8 @@ double brc_sensor_surface_radius(const brc_sensors *sensors, const brc_sensor *s
 }
 
 /* Sum over the set of a vector's radial components. */
-double brc_sensor_radial_sum(const brc_sensors *sensors, const brc_sensor *sensor, const brc_set *set, const double *vector)
+double brc_sensor_radial_sum(const brc_sensors *sensors, const brc_sensor *sensor, const brc_set *set,
+                             const double *vector)
 {
     double sum = 0;
     for (int64_t k = 0; k < set->n_members; ++k) {
@@ -64,8 +65,8 @@ double brc_sensor_volume_mean(const brc_sensors *sensors, const double *tensor, 
     return sum / volume;
 }
 
-/* Mean rotation about the axis through `point`: the angle that turns the reference arms r, seen along the axis, into the
- * present ones best: tan(angle) = sum S (r x u).a / sum S r.(r + u), across the axis. To first order in u this is
+/* Mean rotation about the axis through `point`: the angle that turns the reference arms r, seen along the axis, into
+ * the present ones best: tan(angle) = sum S (r x u).a / sum S r.(r + u), across the axis. To first order in u this is
  * sum S (r x u).a / sum S |r|^2; of a rigid rotation it is the angle itself, however large (within +-pi). */
 double brc_sensor_twist_angle(const brc_sensors *sensors, const brc_sensor *sensor, const brc_sensor_patch *p)
 {

@@ -34,7 +34,8 @@ static brc_status measure(brc_context *context, const brc_domain *d, brc_sensor_
         }
     }
     if (!(p->weight > 0))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "sensors: no element of \"%s\" has a bond; name another set", p->set >= 0 ? d->sets[p->set].name : "all");
+        return BRC_FAIL(context, BRC_BAD_INPUT, "sensors: no element of \"%s\" has a bond; name another set",
+                        p->set >= 0 ? d->sets[p->set].name : "all");
     for (int c = 0; c < 3; ++c)
         p->mean_position[c] /= p->weight;
     return p->faces ? BRC_ALLOCATE(context, &p->u, 3 * p->n, "displacement of sensor faces") : BRC_OK;
@@ -49,7 +50,8 @@ brc_status brc_sensor_patch_of_set(brc_context *context, const brc_domain *d, in
     return measure(context, d, out);
 }
 
-brc_status brc_sensor_patch_of_faces(brc_context *context, const brc_domain *d, int64_t n, int32_t *members, brc_sensor_patch *out)
+brc_status brc_sensor_patch_of_faces(brc_context *context, const brc_domain *d, int64_t n, int32_t *members,
+                                     brc_sensor_patch *out)
 {
     *out = (brc_sensor_patch){.set = -1, .faces = true, .n = n, .members = members, .own = members};
     return measure(context, d, out);
@@ -62,7 +64,8 @@ void brc_sensor_patch_free(brc_sensor_patch *patch)
     *patch = (brc_sensor_patch){.set = -1};
 }
 
-brc_status brc_sensor_patch_read(brc_sensor_patch *p, const brc_domain *domain, brc_simulation *simulation, const double *displacement)
+brc_status brc_sensor_patch_read(brc_sensor_patch *p, const brc_domain *domain, brc_simulation *simulation,
+                                 const double *displacement)
 {
     if (p->faces) BRC_TRY(brc_simulation_face_displacement(simulation, p->n, p->members, p->u));
     p->mean_u[0] = p->mean_u[1] = p->mean_u[2] = 0;

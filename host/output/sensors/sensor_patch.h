@@ -21,13 +21,17 @@ typedef struct brc_sensor_patch {
 /* Of a set of the domain; -1: of all elements. BRC_BAD_INPUT when no element of it has a bond. */
 brc_status brc_sensor_patch_of_set(brc_context *context, const brc_domain *domain, int32_t set, brc_sensor_patch *out);
 /* Of free faces, n of them, ascending; takes `members` over, also on failure. */
-brc_status brc_sensor_patch_of_faces(brc_context *context, const brc_domain *domain, int64_t n, int32_t *members, brc_sensor_patch *out);
+brc_status brc_sensor_patch_of_faces(brc_context *context, const brc_domain *domain, int64_t n, int32_t *members,
+                                     brc_sensor_patch *out);
 void brc_sensor_patch_free(brc_sensor_patch *patch);
-/* Place of member k and its weight in means: the face's area [m^2], the cell's volume [m^3], of spheres 1, or 0 without a bond. */
-const double *brc_sensor_patch_point(const brc_domain *domain, const brc_sensor_patch *patch, int64_t k, double *weight);
+/* Place of member k and its weight in means: the face's area [m^2], the cell's volume [m^3], of spheres 1, or 0 without
+ * a bond. */
+const double *brc_sensor_patch_point(const brc_domain *domain, const brc_sensor_patch *patch, int64_t k,
+                                     double *weight);
 /* Displacement of member k; `displacement` [n_elements][3] is that of the elements. */
 const double *brc_sensor_patch_displacement(const brc_sensor_patch *patch, const double *displacement, int64_t k);
 /* Read the faces' displacements, and fill in mean_u. */
-brc_status brc_sensor_patch_read(brc_sensor_patch *patch, const brc_domain *domain, brc_simulation *simulation, const double *displacement);
+brc_status brc_sensor_patch_read(brc_sensor_patch *patch, const brc_domain *domain, brc_simulation *simulation,
+                                 const double *displacement);
 
 #endif

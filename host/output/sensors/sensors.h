@@ -8,10 +8,10 @@
 
 typedef struct brc_sensors brc_sensors;
 
-/* Prepare the scene's sensors: sets looked up, weights and mean positions computed, arrays made only for the fields that
- * some sensor reads. Scene, domain and context are borrowed until free. BRC_BAD_INPUT with one sentence for each sensor
- * that cannot be: unknown set, a face set where elements are averaged, a strain between sets at the same place along the
- * component, a twist without an axis. */
+/* Prepare the scene's sensors: sets looked up, weights and mean positions computed, arrays made only for the fields
+ * that some sensor reads. Scene, domain and context are borrowed until free. BRC_BAD_INPUT with one sentence for each
+ * sensor that cannot be: unknown set, a face set where elements are averaged, a strain between sets at the same place
+ * along the component, a twist without an axis. */
 brc_status brc_sensors_create(brc_context *context, const brc_scene *scene, const brc_domain *domain,
                               brc_sensors **out);
 void brc_sensors_free(brc_sensors **sensors);

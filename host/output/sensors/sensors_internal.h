@@ -24,19 +24,20 @@ struct brc_sensors {
     const brc_domain *domain;
     int32_t n_patches;
     brc_sensor_patch *patches; /* [2 n_sensors] room, n_patches used */
-    int32_t *first;                  /* [n_sensors] patch, domain set, element, striker: its kind knows; -1: all, none */
-    int32_t *second;                 /* [n_sensors] patch of set2 */
-    int32_t n_sensors;               /* of the scene, which may be gone when sensors are freed */
-    brc_opening *opening;            /* [n_sensors] of openings */
-    double *outward;                 /* [n_sensors] sets and strikers whose `sign` is compression: +-1, the way out of the solid along the component */
-    double *distance;                /* [n_sensors] face strain: reference distance along the component; spheres: R [m] */
+    int32_t *first;            /* [n_sensors] patch, domain set, element, striker: its kind knows; -1: all, none */
+    int32_t *second;           /* [n_sensors] patch of set2 */
+    int32_t n_sensors;         /* of the scene, which may be gone when sensors are freed */
+    brc_opening *opening;      /* [n_sensors] of openings */
+    double *outward;  /* [n_sensors] sets and strikers whose `sign` is compression: +-1, the way out of the solid along
+                         the component */
+    double *distance; /* [n_sensors] face strain: reference distance along the component; spheres: R [m] */
     double *displacement, *velocity; /* [n_elements][3] or NULL */
     double *strain, *stress;         /* [n_elements][6] or NULL */
     double *orientation;             /* [n_elements][4] or NULL */
     double *applied;                 /* element forces [n_elements][3] or NULL */
     unsigned needs;                  /* brc_sensor_field of all sensors */
     brc_ledger ledger;               /* where needed */
-    brc_crack_sensors *cracks; /* NULL: no sensor watches cracks */
+    brc_crack_sensors *cracks;       /* NULL: no sensor watches cracks */
 };
 
 /* A kind of sensor. */

@@ -3,19 +3,24 @@
 #include <stdio.h>
 #include <string.h>
 
-bool brc_sphere_is_bonded(const brc_domain *d, int64_t element) { return d->row_start[element + 1] > d->row_start[element]; }
+bool brc_sphere_is_bonded(const brc_domain *d, int64_t element)
+{
+    return d->row_start[element + 1] > d->row_start[element];
+}
 
 int64_t brc_sphere_count_bonded(const brc_domain *d, const brc_set *set)
 {
     int64_t n = 0;
-    for (int64_t k = 0; k < set->n_members; ++k) n += brc_sphere_is_bonded(d, set->members[k]);
+    for (int64_t k = 0; k < set->n_members; ++k)
+        n += brc_sphere_is_bonded(d, set->members[k]);
     return n;
 }
 
 double brc_sphere_mean_diameter(const brc_domain *d)
 {
     double sum = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e) sum += 2 * d->radius[e];
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        sum += 2 * d->radius[e];
     return sum / (double)d->n_elements;
 }
 
@@ -66,7 +71,8 @@ double brc_sphere_box_section(const brc_domain *d, int32_t set)
     if (set < 0 || !d->radius || d->sets[set].kind != BRC_SET_ELEMENTS || d->sets[set].n_members == 0) return NAN;
     const char *name = d->sets[set].name;
     const size_t length = strlen(name), layer = strlen("_layer");
-    const char *suffix = length > layer && strcmp(name + length - layer, "_layer") == 0 ? name + length - layer : name + length;
+    const char *suffix =
+        length > layer && strcmp(name + length - layer, "_layer") == 0 ? name + length - layer : name + length;
     if (suffix - name < 2) return NAN;
     const char *wall = suffix - 2;
     const int axis = wall[0] - 'x', n_prefix = (int)(wall - name);
@@ -77,7 +83,8 @@ double brc_sphere_box_section(const brc_domain *d, int32_t set)
     for (int c = 1; c < 3; ++c) {
         const int across = (axis + c) % 3;
         const char low[3] = {(char)('x' + across), '-', 0}, high[3] = {(char)('x' + across), '+', 0};
-        const int32_t from = other_wall(d, name, n_prefix, low, suffix), to = other_wall(d, name, n_prefix, high, suffix);
+        const int32_t from = other_wall(d, name, n_prefix, low, suffix),
+                      to = other_wall(d, name, n_prefix, high, suffix);
         area *= from >= 0 && to >= 0 ? brc_sphere_box_length(d, to, from, across) : NAN;
     }
     return area;

@@ -21,13 +21,15 @@ typedef struct body_boxes {
     int64_t count[3], first;
 } body_boxes;
 
-static brc_status find_boxes(brc_context *context, const brc_nodes *nodes, const double *size, const double *spacing, int32_t n_bodies, body_boxes **out)
+static brc_status find_boxes(brc_context *context, const brc_nodes *nodes, const double *size, const double *spacing,
+                             int32_t n_bodies, body_boxes **out)
 {
     int64_t first = 0;
     body_boxes *b = NULL;
     BRC_TRY(BRC_ALLOCATE(context, &b, n_bodies, "aggregates"));
     for (int32_t k = 0; k < n_bodies; ++k)
-        for (int c = 0; c < 3; ++c) b[k].low[c] = INFINITY, b[k].high[c] = -INFINITY;
+        for (int c = 0; c < 3; ++c)
+            b[k].low[c] = INFINITY, b[k].high[c] = -INFINITY;
     for (int64_t i = 0; i < nodes->n; ++i)
         for (int c = 0; c < 3; ++c) {
             body_boxes *own = &b[nodes->body[i]];
@@ -59,14 +61,16 @@ static int64_t box_of(const body_boxes *b, const double place[3])
 }
 
 /* Number the joined parts of each box. */
-static brc_status number_parts(brc_context *context, const brc_rows *rows, const boxed *sorted, const int64_t *box, int32_t *aggregate, int64_t *n)
+static brc_status number_parts(brc_context *context, const brc_rows *rows, const boxed *sorted, const int64_t *box,
+                               int32_t *aggregate, int64_t *n)
 {
     int32_t *stack = NULL, *column = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &stack, rows->n, "aggregates"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &column, rows->most, "aggregates"));
     *n = 0;
-    for (int64_t i = 0; i < rows->n; ++i) aggregate[i] = -1;
+    for (int64_t i = 0; i < rows->n; ++i)
+        aggregate[i] = -1;
     for (int64_t k = 0; k < rows->n; ++k) {
         int64_t top = 0;
         const int32_t seed = sorted[k].node;
@@ -89,7 +93,8 @@ cleanup:
     return status;
 }
 
-static brc_status place_aggregates(brc_context *context, const brc_nodes *nodes, const int32_t *aggregate, int64_t n, brc_nodes *coarse)
+static brc_status place_aggregates(brc_context *context, const brc_nodes *nodes, const int32_t *aggregate, int64_t n,
+                                   brc_nodes *coarse)
 {
     int64_t *count = NULL;
     *coarse = (brc_nodes){.n = n};
@@ -100,16 +105,18 @@ static brc_status place_aggregates(brc_context *context, const brc_nodes *nodes,
         if (aggregate[i] < 0) continue;
         count[aggregate[i]] += 1;
         coarse->body[aggregate[i]] = nodes->body[i];
-        for (int c = 0; c < 3; ++c) coarse->place[aggregate[i]][c] += nodes->place[i][c];
+        for (int c = 0; c < 3; ++c)
+            coarse->place[aggregate[i]][c] += nodes->place[i][c];
     }
     for (int64_t i = 0; i < n; ++i)
-        for (int c = 0; c < 3; ++c) coarse->place[i][c] /= (double)count[i];
+        for (int c = 0; c < 3; ++c)
+            coarse->place[i][c] /= (double)count[i];
     brc_memory_free(count);
     return BRC_OK;
 }
 
-brc_status brc_aggregate(brc_context *context, const brc_rows *rows, const brc_nodes *nodes, const double *size, const double *spacing, int32_t *aggregate,
-                         brc_nodes *coarse)
+brc_status brc_aggregate(brc_context *context, const brc_rows *rows, const brc_nodes *nodes, const double *size,
+                         const double *spacing, int32_t *aggregate, brc_nodes *coarse)
 {
     body_boxes *boxes = NULL;
     boxed *sorted = NULL;

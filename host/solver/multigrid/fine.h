@@ -1,12 +1,14 @@
-/* The finest level on the host: elements with displacements and rotations, joined by bonds. Of beams it is their own linear stiffness; of cells a stand-in that has the
- * elasticity of the material and couples neighbours alone (docs/notebook/theory.md T6). */
+/* The finest level on the host: elements with displacements and rotations, joined by bonds. Of beams it is their own
+ * linear stiffness; of cells a stand-in that has the elasticity of the material and couples neighbours alone
+ * (docs/notebook/theory.md T6). */
 #ifndef BRC_SOLVER_MULTIGRID_FINE_H
 #define BRC_SOLVER_MULTIGRID_FINE_H
 
 #include "../simulation_internal.h"
 #include "rows.h"
 
-/* Of a material: stiffness of its bonds over S/L along and across them, and of the frames of their ends over L^2 [Pa]. */
+/* Of a material: stiffness of its bonds over S/L along and across them, and of the frames of their ends over L^2
+ * [Pa]. */
 typedef struct brc_bond_moduli {
     double axial, shear, frame;
 } brc_bond_moduli;
@@ -22,10 +24,11 @@ typedef struct brc_fine {
     brc_block *ground;       /* [n_ground] stiffness of held faces */
     brc_nodes nodes;
     brc_rows rows;
-    double *spacing;         /* [bodies] mean distance of neighbours [m] */
+    double *spacing; /* [bodies] mean distance of neighbours [m] */
 } brc_fine;
 
-/* Of the loads of the stage and the bonds as they were at a moment (brc_fracture_moment). Free it after a failure too. */
+/* Of the loads of the stage and the bonds as they were at a moment (brc_fracture_moment). Free it after a failure
+ * too. */
 brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *out);
 void brc_fine_free(brc_fine *fine);
 

@@ -1,4 +1,5 @@
-/* Smoothed prolongation and the matrices of coarser levels. Every row is made by one thread, its sums in the order of the rows, so that equal input gives equal bytes. */
+/* Smoothed prolongation and the matrices of coarser levels. Every row is made by one thread, its sums in the order of
+ * the rows, so that equal input gives equal bytes. */
 #include "rows.h"
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +10,10 @@ static void add_product(double *restrict a, double factor, const double *restric
     for (int r = 0; r < 6; ++r) {
         double sum[6] = {0};
         for (int k = 0; k < 6; ++k)
-            for (int j = 0; j < 6; ++j) sum[j] += b[6 * r + k] * c[6 * k + j];
-        for (int j = 0; j < 6; ++j) a[6 * r + j] += factor * sum[j];
+            for (int j = 0; j < 6; ++j)
+                sum[j] += b[6 * r + k] * c[6 * k + j];
+        for (int j = 0; j < 6; ++j)
+            a[6 * r + j] += factor * sum[j];
     }
 }
 
@@ -20,8 +23,10 @@ static void add_transposed_product(double *restrict a, const double *restrict b,
     for (int r = 0; r < 6; ++r) {
         double sum[6] = {0};
         for (int k = 0; k < 6; ++k)
-            for (int j = 0; j < 6; ++j) sum[j] += b[6 * k + r] * c[6 * k + j];
-        for (int j = 0; j < 6; ++j) a[6 * r + j] += sum[j];
+            for (int j = 0; j < 6; ++j)
+                sum[j] += b[6 * k + r] * c[6 * k + j];
+        for (int j = 0; j < 6; ++j)
+            a[6 * r + j] += sum[j];
     }
 }
 
@@ -30,8 +35,10 @@ static void rigid_block(const brc_nodes *nodes, const brc_nodes *coarse, int64_t
 {
     double arm[3];
     memset(t, 0, sizeof(brc_block));
-    for (int c = 0; c < 3; ++c) arm[c] = nodes->place[i][c] - coarse->place[aggregate][c];
-    for (int c = 0; c < 6; ++c) t[7 * c] = 1;
+    for (int c = 0; c < 3; ++c)
+        arm[c] = nodes->place[i][c] - coarse->place[aggregate][c];
+    for (int c = 0; c < 6; ++c)
+        t[7 * c] = 1;
     for (int c = 0; c < 3; ++c) {
         const int next = (c + 1) % 3, last = (c + 2) % 3;
         t[6 * c + 3 + next] = arm[last];
@@ -44,7 +51,8 @@ static void rigid_block(const brc_nodes *nodes, const brc_nodes *coarse, int64_t
 static void whole_block(const double upper[21], brc_block out)
 {
     for (int r = 0, at = 0; r < 6; ++r)
-        for (int c = r; c < 6; ++c, ++at) out[6 * r + c] = out[6 * c + r] = upper[at];
+        for (int c = r; c < 6; ++c, ++at)
+            out[6 * r + c] = out[6 * c + r] = upper[at];
 }
 
 static int compare(const void *left, const void *right)
@@ -60,7 +68,8 @@ static int32_t aggregates_of(const int32_t *aggregate, int32_t count, const int3
     for (int32_t k = 0; k < count; ++k) {
         const int32_t one = aggregate[column[k]];
         int32_t at = 0;
-        while (at < n && found[at] != one) ++at;
+        while (at < n && found[at] != one)
+            ++at;
         if (one >= 0 && at == n) found[n++] = one;
     }
     qsort(found, (size_t)n, sizeof *found, compare);
@@ -70,7 +79,8 @@ static int32_t aggregates_of(const int32_t *aggregate, int32_t count, const int3
 static int32_t place_in(const int32_t *ascending, int32_t wanted)
 {
     int32_t at = 0;
-    while (ascending[at] != wanted) ++at;
+    while (ascending[at] != wanted)
+        ++at;
     return at;
 }
 
@@ -106,7 +116,8 @@ typedef struct smoothing {
 
 static void smooth_row(const smoothing *s, row_room *room, int64_t i, brc_prolongation *p)
 {
-    const int32_t count = s->rows->row(s->rows->of, i, room->column, room->block), n = (int32_t)(p->start[i + 1] - p->start[i]);
+    const int32_t count = s->rows->row(s->rows->of, i, room->column, room->block),
+                  n = (int32_t)(p->start[i + 1] - p->start[i]);
     const int32_t *found = p->column + p->start[i];
     brc_block rigid, inverse;
     memset(room->sum, 0, (size_t)n * sizeof *room->sum);
@@ -121,7 +132,8 @@ static void smooth_row(const smoothing *s, row_room *room, int64_t i, brc_prolon
         brc_block out = {0};
         if (found[k] == s->aggregate[i]) rigid_block(s->nodes, s->coarse, i, found[k], out);
         add_product(out, -s->weight, inverse, room->sum[k]);
-        for (int c = 0; c < 36; ++c) p->block[p->start[i] + k][c] = (float)out[c];
+        for (int c = 0; c < 36; ++c)
+            p->block[p->start[i] + k][c] = (float)out[c];
     }
 }
 
@@ -130,15 +142,18 @@ static brc_status list_columns(brc_context *context, brc_prolongation *p)
 {
     BRC_TRY(BRC_ALLOCATE(context, &p->column_start, p->n_coarse + 1, "prolongation"));
     BRC_TRY(BRC_ALLOCATE(context, &p->entry, p->start[p->n], "prolongation"));
-    for (int64_t k = 0; k < p->start[p->n]; ++k) p->column_start[p->column[k] + 1] += 1;
-    for (int64_t i = 0; i < p->n_coarse; ++i) p->column_start[i + 1] += p->column_start[i];
+    for (int64_t k = 0; k < p->start[p->n]; ++k)
+        p->column_start[p->column[k] + 1] += 1;
+    for (int64_t i = 0; i < p->n_coarse; ++i)
+        p->column_start[i + 1] += p->column_start[i];
     for (int64_t i = 0; i < p->n; ++i)
         for (int64_t k = p->start[i]; k < p->start[i + 1]; ++k) {
             const int64_t at = p->column_start[p->column[k]]++;
             p->entry[at][0] = (int32_t)k;
             p->entry[at][1] = (int32_t)i;
         }
-    for (int64_t i = p->n_coarse; i > 0; --i) p->column_start[i] = p->column_start[i - 1];
+    for (int64_t i = p->n_coarse; i > 0; --i)
+        p->column_start[i] = p->column_start[i - 1];
     p->column_start[0] = 0;
     return BRC_OK;
 }
@@ -161,23 +176,28 @@ static brc_status fill_rows(brc_context *context, const smoothing *s, filling wh
                 smooth_row(s, &room, i, p);
                 continue;
             }
-            const int32_t n = aggregates_of(s->aggregate, rows->row(rows->of, i, room.column, NULL), room.column, room.found);
-            if (what == COUNTS) p->start[i + 1] = n;
-            else memcpy(p->column + p->start[i], room.found, (size_t)n * sizeof *room.found);
+            const int32_t n =
+                aggregates_of(s->aggregate, rows->row(rows->of, i, room.column, NULL), room.column, room.found);
+            if (what == COUNTS)
+                p->start[i + 1] = n;
+            else
+                memcpy(p->column + p->start[i], room.found, (size_t)n * sizeof *room.found);
         }
         free_room(&room);
     }
     return failed ? BRC_NO_MEMORY : BRC_OK;
 }
 
-brc_status brc_prolongation_create(brc_context *context, const brc_rows *rows, const brc_nodes *nodes, const int32_t *aggregate, const brc_nodes *coarse,
-                                   double weight, const double (*inverse)[21], brc_prolongation *out)
+brc_status brc_prolongation_create(brc_context *context, const brc_rows *rows, const brc_nodes *nodes,
+                                   const int32_t *aggregate, const brc_nodes *coarse, double weight,
+                                   const double (*inverse)[21], brc_prolongation *out)
 {
     const smoothing s = {rows, nodes, coarse, aggregate, weight, inverse};
     *out = (brc_prolongation){.n = rows->n, .n_coarse = coarse->n};
     BRC_TRY(BRC_ALLOCATE(context, &out->start, rows->n + 1, "prolongation"));
     BRC_TRY(fill_rows(context, &s, COUNTS, out));
-    for (int64_t i = 0; i < rows->n; ++i) out->start[i + 1] += out->start[i];
+    for (int64_t i = 0; i < rows->n; ++i)
+        out->start[i + 1] += out->start[i];
     BRC_TRY(BRC_ALLOCATE(context, &out->column, out->start[rows->n], "prolongation"));
     BRC_TRY(BRC_ALLOCATE(context, &out->block, out->start[rows->n], "prolongation"));
     BRC_TRY(fill_rows(context, &s, COLUMNS, out));
@@ -195,7 +215,8 @@ void brc_prolongation_free(brc_prolongation *p)
     *p = (brc_prolongation){0};
 }
 
-/* Room of one thread for a row of P^T A and of P^T A P: blocks by the order in which their columns were met; mark[j] is that place, -1: not met. */
+/* Room of one thread for a row of P^T A and of P^T A P: blocks by the order in which their columns were met; mark[j] is
+ * that place, -1: not met. */
 typedef struct product_room {
     row_room row;
     int32_t *fine_mark, *coarse_mark, *fine, *coarse;
@@ -203,7 +224,8 @@ typedef struct product_room {
     int64_t fine_room, coarse_room;
 } product_room;
 
-static brc_status get_product_room(brc_context *context, const brc_rows *rows, const brc_prolongation *p, product_room *room)
+static brc_status get_product_room(brc_context *context, const brc_rows *rows, const brc_prolongation *p,
+                                   product_room *room)
 {
     BRC_TRY(get_room(context, rows->most, &room->row));
     BRC_TRY(BRC_ALLOCATE(context, &room->fine_mark, p->n, "products"));
@@ -216,12 +238,14 @@ static brc_status get_product_room(brc_context *context, const brc_rows *rows, c
 static void free_product_room(product_room *room)
 {
     void *all[] = {room->fine_mark, room->coarse_mark, room->fine, room->coarse, room->fine_sum, room->coarse_sum};
-    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) brc_memory_free(all[i]);
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
+        brc_memory_free(all[i]);
     free_room(&room->row);
 }
 
 /* The place of column j among those met, with a zero block where it is new. */
-static brc_status meet(brc_context *context, int32_t j, int32_t *mark, int32_t *n, int32_t **list, brc_block **sum, int64_t *room)
+static brc_status meet(brc_context *context, int32_t j, int32_t *mark, int32_t *n, int32_t **list, brc_block **sum,
+                       int64_t *room)
 {
     if (mark[j] >= 0) return BRC_OK;
     if (*n == *room) {
@@ -237,11 +261,13 @@ static brc_status meet(brc_context *context, int32_t j, int32_t *mark, int32_t *
 
 static void widen(const brc_narrow from, brc_block to)
 {
-    for (int c = 0; c < 36; ++c) to[c] = from[c];
+    for (int c = 0; c < 36; ++c)
+        to[c] = from[c];
 }
 
 /* Row i of P^T A P into room->coarse_sum, its columns into room->coarse; n: how many. sums: else the columns alone. */
-static brc_status product_row(brc_context *context, const brc_rows *rows, const brc_prolongation *p, int64_t i, bool sums, product_room *room, int32_t *n)
+static brc_status product_row(brc_context *context, const brc_rows *rows, const brc_prolongation *p, int64_t i,
+                              bool sums, product_room *room, int32_t *n)
 {
     int32_t n_fine = 0;
     brc_block block;
@@ -255,18 +281,21 @@ static brc_status product_row(brc_context *context, const brc_rows *rows, const 
             if (sums) add_transposed_product(room->fine_sum[room->fine_mark[j]], block, room->row.block[c]);
         }
     }
-    BRC_TRY(meet(context, (int32_t)i, room->coarse_mark, n, &room->coarse, &room->coarse_sum, &room->coarse_room)); /* the diagonal first */
+    BRC_TRY(meet(context, (int32_t)i, room->coarse_mark, n, &room->coarse, &room->coarse_sum,
+                 &room->coarse_room)); /* the diagonal first */
     for (int32_t f = 0; f < n_fine; ++f) {
         const int32_t j = room->fine[f];
         room->fine_mark[j] = -1;
         for (int64_t k = p->start[j]; k < p->start[j + 1]; ++k) {
-            BRC_TRY(meet(context, p->column[k], room->coarse_mark, n, &room->coarse, &room->coarse_sum, &room->coarse_room));
+            BRC_TRY(meet(context, p->column[k], room->coarse_mark, n, &room->coarse, &room->coarse_sum,
+                         &room->coarse_room));
             if (!sums) continue;
             widen(p->block[k], block);
             add_product(room->coarse_sum[room->coarse_mark[p->column[k]]], 1, room->fine_sum[f], block);
         }
     }
-    for (int32_t c = 0; c < *n; ++c) room->coarse_mark[room->coarse[c]] = c;
+    for (int32_t c = 0; c < *n; ++c)
+        room->coarse_mark[room->coarse[c]] = c;
     return BRC_OK;
 }
 
@@ -275,7 +304,8 @@ static void store_row(const product_room *room, int64_t i, int32_t n, brc_stored
     int32_t *to = out->column + out->start[i];
     memcpy(to, room->coarse, (size_t)n * sizeof *to);
     qsort(to + 1, (size_t)n - 1, sizeof *to, compare);
-    for (int32_t c = 0; c < n; ++c) memcpy(out->block[out->start[i] + c], room->coarse_sum[room->coarse_mark[to[c]]], sizeof(brc_block));
+    for (int32_t c = 0; c < n; ++c)
+        memcpy(out->block[out->start[i] + c], room->coarse_sum[room->coarse_mark[to[c]]], sizeof(brc_block));
 }
 
 brc_status brc_coarse_rows(brc_context *context, const brc_rows *rows, const brc_prolongation *p, brc_stored_rows *out)
@@ -293,9 +323,12 @@ brc_status brc_coarse_rows(brc_context *context, const brc_rows *rows, const brc
                 int32_t n = 0;
                 if (failed) continue;
                 failed += product_row(context, rows, p, i, pass == 1, &room, &n) != BRC_OK;
-                if (pass == 0) out->start[i + 1] = n;
-                else if (!failed) store_row(&room, i, n, out);
-                for (int32_t c = 0; c < n; ++c) room.coarse_mark[room.coarse[c]] = -1;
+                if (pass == 0)
+                    out->start[i + 1] = n;
+                else if (!failed)
+                    store_row(&room, i, n, out);
+                for (int32_t c = 0; c < n; ++c)
+                    room.coarse_mark[room.coarse[c]] = -1;
             }
             free_product_room(&room);
         }

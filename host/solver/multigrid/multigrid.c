@@ -5,7 +5,8 @@
 #include <omp.h>
 #include <string.h>
 
-/* Boxes of the first aggregates, in spacings; those of each further level are twice as wide. Measured on cantilevers and cubes (docs/notebook/performance.md). */
+/* Boxes of the first aggregates, in spacings; those of each further level are twice as wide. Measured on cantilevers
+ * and cubes (docs/notebook/performance.md). */
 static const double box_in_spacings = 3;
 enum { MOST_SOLVED = 100 }; /* nodes of a coarsest level whose inverse is kept */
 
@@ -15,10 +16,13 @@ static brc_status find_kernels(brc_multigrid *m)
     const struct {
         brc_kernel **slot;
         const char *name;
-    } wanted[] = {{&k->cells, "multigrid_cells"},     {&k->ground, "multigrid_ground"},   {&k->matrix, "multigrid_matrix"},
-                  {&k->step, "multigrid_step"},       {&k->collect, "multigrid_collect"}, {&k->spread, "multigrid_spread"},
-                  {&k->prolong, "multigrid_prolong"}, {&k->restriction, "multigrid_restrict"}, {&k->coarsest, "multigrid_coarsest"}};
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i) BRC_TRY(brc_kernel_find(m->s->device, wanted[i].name, wanted[i].slot));
+    } wanted[] = {{&k->cells, "multigrid_cells"},      {&k->ground, "multigrid_ground"},
+                  {&k->matrix, "multigrid_matrix"},    {&k->step, "multigrid_step"},
+                  {&k->collect, "multigrid_collect"},  {&k->spread, "multigrid_spread"},
+                  {&k->prolong, "multigrid_prolong"},  {&k->restriction, "multigrid_restrict"},
+                  {&k->coarsest, "multigrid_coarsest"}};
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i)
+        BRC_TRY(brc_kernel_find(m->s->device, wanted[i].name, wanted[i].slot));
     return BRC_OK;
 }
 
@@ -39,14 +43,16 @@ static brc_status new_narrowed(brc_simulation *s, brc_buffer **out, const int64_
 {
     int32_t *narrow = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &narrow, count, "multigrid"));
-    for (int64_t i = 0; i < count; ++i) narrow[i] = (int32_t)values[i];
+    for (int64_t i = 0; i < count; ++i)
+        narrow[i] = (int32_t)values[i];
     const brc_status status = brc_new_int(s, out, narrow, count, "multigrid");
     brc_memory_free(narrow);
     return status;
 }
 
 /* Integers by element to rows; padding: fill. */
-static brc_status new_rows(brc_simulation *s, brc_buffer **out, const int32_t *of_element, const uint8_t *bits, int32_t fill)
+static brc_status new_rows(brc_simulation *s, brc_buffer **out, const int32_t *of_element, const uint8_t *bits,
+                           int32_t fill)
 {
     const brc_layout *layout = s->layout;
     int32_t *rows = NULL;
@@ -74,7 +80,8 @@ static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
         for (int32_t r = 0; r < s->layout->n_rows; ++r) {
             const int32_t e = s->layout->element_of_row[r];
             const brc_bond_moduli *k = &f->moduli[s->material_of_element[e < 0 ? 0 : e]];
-            moduli[3 * (int64_t)r] = k->axial, moduli[3 * (int64_t)r + 1] = k->shear, moduli[3 * (int64_t)r + 2] = k->frame;
+            moduli[3 * (int64_t)r] = k->axial, moduli[3 * (int64_t)r + 1] = k->shear,
+                       moduli[3 * (int64_t)r + 2] = k->frame;
         }
         BRC_TRY_OR(cleanup, brc_new_coeff(s, &m->moduli_of, 3 * (int64_t)s->layout->n_rows, "multigrid"));
         BRC_TRY_OR(cleanup, brc_upload_coeff(s, m->moduli_of, moduli, 3 * (int64_t)s->layout->n_rows));
@@ -82,7 +89,8 @@ static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
     m->n_ground = f->n_ground;
     if (f->n_ground > 0) {
         BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rows, f->n_ground, "multigrid"));
-        for (int32_t i = 0; i < f->n_ground; ++i) rows[i] = s->layout->row_of_element[f->ground_element[i]];
+        for (int32_t i = 0; i < f->n_ground; ++i)
+            rows[i] = s->layout->row_of_element[f->ground_element[i]];
         BRC_TRY_OR(cleanup, brc_new_int(s, &m->ground_element, rows, f->n_ground, "multigrid"));
         BRC_TRY_OR(cleanup, new_uploaded_state(s, &m->ground, f->ground[0], 36 * (int64_t)f->n_ground)); /* symmetric */
     }
@@ -108,7 +116,8 @@ static brc_status upload_finest(brc_multigrid *m, const brc_fine *f, const doubl
     return new_unknowns(s, &l->x, l->n);
 }
 
-static brc_status upload_aggregates(brc_multigrid *m, const brc_nodes *nodes, const int32_t *aggregate, const brc_nodes *coarse)
+static brc_status upload_aggregates(brc_multigrid *m, const brc_nodes *nodes, const int32_t *aggregate,
+                                    const brc_nodes *coarse)
 {
     brc_simulation *s = m->s;
     brc_level *l = &m->level[0];
@@ -121,11 +130,13 @@ static brc_status upload_aggregates(brc_multigrid *m, const brc_nodes *nodes, co
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &arm, 3 * (int64_t)s->layout->n_rows, "multigrid"));
     for (int64_t e = 0; e < nodes->n; ++e)
         if (aggregate[e] >= 0) start[aggregate[e] + 2] += 1;
-    for (int64_t i = 1; i <= coarse->n; ++i) start[i + 1] += start[i];
+    for (int64_t i = 1; i <= coarse->n; ++i)
+        start[i + 1] += start[i];
     for (int64_t e = 0; e < nodes->n; ++e) {
         if (aggregate[e] < 0) continue;
         member[start[aggregate[e] + 1]++] = s->layout->row_of_element[e];
-        for (int c = 0; c < 3; ++c) arm[3 * (int64_t)s->layout->row_of_element[e] + c] = nodes->place[e][c] - coarse->place[aggregate[e]][c];
+        for (int c = 0; c < 3; ++c)
+            arm[3 * (int64_t)s->layout->row_of_element[e] + c] = nodes->place[e][c] - coarse->place[aggregate[e]][c];
     }
     BRC_TRY_OR(cleanup, brc_new_int(s, &l->member_start, start, coarse->n + 1, "multigrid"));
     BRC_TRY_OR(cleanup, brc_new_int(s, &l->member, member, nodes->n, "multigrid"));
@@ -139,7 +150,8 @@ cleanup:
 }
 
 /* Blocks [count][6][6] to those of a device buffer, each by columns. */
-static brc_status new_blocks(brc_simulation *s, brc_buffer **out, int64_t count, const brc_block *wide, const brc_narrow *narrow)
+static brc_status new_blocks(brc_simulation *s, brc_buffer **out, int64_t count, const brc_block *wide,
+                             const brc_narrow *narrow)
 {
     enum { CHUNK = 4096 };
     const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
@@ -158,7 +170,8 @@ static brc_status new_blocks(brc_simulation *s, brc_buffer **out, int64_t count,
                     part[36 * k + 6 * c + r] = value;
                     single[36 * k + 6 * c + r] = (float)value;
                 }
-        BRC_TRY_OR(cleanup, brc_buffer_write(*out, 36 * first * bytes, bytes == 8 ? (const void *)part : (const void *)single, 36 * n * bytes));
+        BRC_TRY_OR(cleanup, brc_buffer_write(*out, 36 * first * bytes,
+                                             bytes == 8 ? (const void *)part : (const void *)single, 36 * n * bytes));
     }
 cleanup:
     brc_memory_free(part);
@@ -175,7 +188,8 @@ static brc_status upload_prolongation(brc_simulation *s, brc_level *l, const brc
     return brc_new_int(s, &l->p_entry, p->entry[0], 2 * p->start[p->n], "multigrid");
 }
 
-static brc_status upload_matrix(brc_simulation *s, brc_level *l, const brc_stored_rows *rows, const double (*inverse)[21])
+static brc_status upload_matrix(brc_simulation *s, brc_level *l, const brc_stored_rows *rows,
+                                const double (*inverse)[21])
 {
     l->n = rows->n;
     BRC_TRY(new_narrowed(s, &l->start, rows->start, rows->n + 1));
@@ -242,16 +256,18 @@ static brc_status make_next(brc_multigrid *m, const brc_fine *f, made_level *mad
     *more = false;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &aggregate, made->rows.n, "aggregates"));
     BRC_TRY_OR(cleanup, brc_aggregate(s->context, &made->rows, &made->nodes, size, f->spacing, aggregate, &next.nodes));
-    if (next.nodes.n == 0 || (double)next.nodes.n > 0.7 * (double)made->rows.n || m->n_levels == BRC_MOST_LEVELS) goto cleanup;
-    BRC_TRY_OR(cleanup, brc_prolongation_create(s->context, &made->rows, &made->nodes, aggregate, &next.nodes, m->level[level].weight,
-                                                (const double (*)[21])made->inverse, &p));
+    if (next.nodes.n == 0 || (double)next.nodes.n > 0.7 * (double)made->rows.n || m->n_levels == BRC_MOST_LEVELS)
+        goto cleanup;
+    BRC_TRY_OR(cleanup, brc_prolongation_create(s->context, &made->rows, &made->nodes, aggregate, &next.nodes,
+                                                m->level[level].weight, (const double(*)[21])made->inverse, &p));
     BRC_TRY_OR(cleanup, brc_coarse_rows(s->context, &made->rows, &p, &next.stored));
     if (brc_memory_held() > m->most_held) m->most_held = brc_memory_held();
-    BRC_TRY_OR(cleanup, level == 0 ? upload_aggregates(m, &made->nodes, aggregate, &next.nodes) : upload_prolongation(s, &m->level[level], &p));
+    BRC_TRY_OR(cleanup, level == 0 ? upload_aggregates(m, &made->nodes, aggregate, &next.nodes)
+                                   : upload_prolongation(s, &m->level[level], &p));
     next.rows = brc_rows_of(&next.stored);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &next.inverse, next.nodes.n, "levels"));
     BRC_TRY_OR(cleanup, brc_invert_blocks(s->context, &next.rows, NULL, next.inverse));
-    BRC_TRY_OR(cleanup, upload_matrix(s, &m->level[m->n_levels++], &next.stored, (const double (*)[21])next.inverse));
+    BRC_TRY_OR(cleanup, upload_matrix(s, &m->level[m->n_levels++], &next.stored, (const double(*)[21])next.inverse));
     BRC_TRY_OR(cleanup, weigh(m, m->n_levels - 1, 0));
     *more = true;
     const made_level before = *made;
@@ -276,15 +292,17 @@ static brc_status make_levels(brc_multigrid *m, const brc_fine *f, double weight
     for (int64_t e = 0; e < f->nodes.n; ++e)
         if (f->nodes.body[e] >= n_bodies) n_bodies = f->nodes.body[e] + 1;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &size, n_bodies, "levels"));
-    for (int32_t b = 0; b < n_bodies; ++b) size[b] = box_in_spacings * f->spacing[b];
+    for (int32_t b = 0; b < n_bodies; ++b)
+        size[b] = box_in_spacings * f->spacing[b];
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &made.inverse, f->nodes.n, "levels"));
     BRC_TRY_OR(cleanup, brc_invert_blocks(s->context, &made.rows, f->nodes.free_bits, made.inverse));
-    BRC_TRY_OR(cleanup, upload_finest(m, f, (const double (*)[21])made.inverse));
+    BRC_TRY_OR(cleanup, upload_finest(m, f, (const double(*)[21])made.inverse));
     m->n_levels = 1;
     BRC_TRY_OR(cleanup, weigh(m, 0, weight));
     while (more && made.rows.n > MOST_SOLVED) {
         BRC_TRY_OR(cleanup, make_next(m, f, &made, size, &more));
-        for (int32_t b = 0; b < n_bodies; ++b) size[b] *= 2;
+        for (int32_t b = 0; b < n_bodies; ++b)
+            size[b] *= 2;
     }
     if (m->n_levels > 1) BRC_TRY_OR(cleanup, solve_coarsest(m, &made.stored));
 cleanup:
@@ -312,7 +330,8 @@ brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin,
                                        .device_bytes = brc_device_bytes(s->device) - on_device,
                                        .host_bytes = m->most_held - held,
                                        .seconds = omp_get_wtime() - since};
-    for (int i = 0; i < m->n_levels; ++i) m->report.nodes[i] = i == 0 ? s->domain->n_elements : m->level[i].n;
+    for (int i = 0; i < m->n_levels; ++i)
+        m->report.nodes[i] = i == 0 ? s->domain->n_elements : m->level[i].n;
     *out = m;
     m = NULL;
 cleanup:
@@ -327,15 +346,22 @@ void brc_multigrid_free(brc_multigrid **multigrid)
     if (!m) return;
     for (int i = 0; i < BRC_MOST_LEVELS; ++i) {
         brc_level *l = &m->level[i];
-        brc_buffer **all[] = {&l->inverse, &l->start, &l->column, &l->block, &l->right.move, &l->right.turn, &l->x.move, &l->x.turn, &l->left.move, &l->left.turn,
-                              &l->step.move, &l->step.turn, &l->p_start, &l->p_column, &l->p_block, &l->p_column_start, &l->p_entry, &l->aggregate, &l->member_start,
-                              &l->member, &l->arm, &l->free_bits};
-        for (size_t k = 0; k < sizeof all / sizeof *all; ++k) brc_buffer_free(all[k]);
+        brc_buffer **all[] = {
+            &l->inverse,      &l->start,    &l->column,    &l->block,          &l->right.move, &l->right.turn,
+            &l->x.move,       &l->x.turn,   &l->left.move, &l->left.turn,      &l->step.move,  &l->step.turn,
+            &l->p_start,      &l->p_column, &l->p_block,   &l->p_column_start, &l->p_entry,    &l->aggregate,
+            &l->member_start, &l->member,   &l->arm,       &l->free_bits};
+        for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+            brc_buffer_free(all[k]);
     }
     brc_buffer **rest[] = {&m->inverse, &m->moduli_of, &m->ground_element, &m->ground, &m->orientation};
-    for (size_t k = 0; k < sizeof rest / sizeof *rest; ++k) brc_buffer_free(rest[k]);
+    for (size_t k = 0; k < sizeof rest / sizeof *rest; ++k)
+        brc_buffer_free(rest[k]);
     brc_memory_free(m);
     *multigrid = NULL;
 }
 
-brc_multigrid_report brc_multigrid_get_report(const brc_multigrid *multigrid) { return multigrid->report; }
+brc_multigrid_report brc_multigrid_get_report(const brc_multigrid *multigrid)
+{
+    return multigrid->report;
+}

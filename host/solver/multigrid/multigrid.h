@@ -1,4 +1,5 @@
-/* Multigrid as preconditioner of the static solver: z near K^-1 r at a cost of a few evaluations of forces, symmetric and positive. */
+/* Multigrid as preconditioner of the static solver: z near K^-1 r at a cost of a few evaluations of forces, symmetric
+ * and positive. */
 #ifndef BRC_SOLVER_MULTIGRID_MULTIGRID_H
 #define BRC_SOLVER_MULTIGRID_MULTIGRID_H
 
@@ -9,7 +10,8 @@ typedef struct brc_multigrid brc_multigrid;
 /* Elements from which on it is worth its setup. */
 enum { BRC_MULTIGRID_LEAST = 500 };
 
-/* Of the current stage's supports, and of the bonds as they are (origin->weight 0; what they are goes there) or as they were. BRC_NO_MEMORY, BRC_DEVICE_FAILED. */
+/* Of the current stage's supports, and of the bonds as they are (origin->weight 0; what they are goes there) or as they
+ * were. BRC_NO_MEMORY, BRC_DEVICE_FAILED. */
 brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin, brc_multigrid **out);
 void brc_multigrid_free(brc_multigrid **multigrid);
 /* z = M r. r.turn NULL: no torques; z.turn NULL: rotations are not asked for. r and z do not overlap. */
@@ -18,10 +20,10 @@ brc_status brc_multigrid_apply(brc_multigrid *multigrid, brc_unknowns r, brc_unk
 /* What it is made of. */
 typedef struct brc_multigrid_report {
     int n_levels;
-    int64_t nodes[16];      /* of each level, the finest first */
+    int64_t nodes[16];    /* of each level, the finest first */
     int64_t device_bytes; /* held while it is there */
     int64_t host_bytes;   /* the most that its setup held */
-    double seconds;         /* of its setup */
+    double seconds;       /* of its setup */
 } brc_multigrid_report;
 brc_multigrid_report brc_multigrid_get_report(const brc_multigrid *multigrid);
 

@@ -28,13 +28,13 @@ struct brc_multigrid {
     brc_level_kernels kernel;
     int n_levels;
     brc_level level[BRC_MOST_LEVELS];
-    brc_buffer *inverse;     /* of the coarsest level's matrix; NULL: steps alone */
-    brc_bond_moduli moduli;  /* of the one material */
-    brc_buffer *moduli_of;   /* [n_rows][3] of several */
+    brc_buffer *inverse;    /* of the coarsest level's matrix; NULL: steps alone */
+    brc_bond_moduli moduli; /* of the one material */
+    brc_buffer *moduli_of;  /* [n_rows][3] of several */
     int32_t n_ground;
     brc_buffer *ground_element, *ground;
     brc_buffer *orientation; /* [n_rows][4] beams */
-    int64_t most_held; /* on the host while it was made [byte] */
+    int64_t most_held;       /* on the host while it was made [byte] */
     brc_multigrid_report report;
 };
 

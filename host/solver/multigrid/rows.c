@@ -26,15 +26,18 @@ void brc_stored_rows_free(brc_stored_rows *rows)
     *rows = (brc_stored_rows){0};
 }
 
-/* Of a symmetric matrix [6][6] scaled to a unit diagonal: directions softer than this part of the stiffest count as without stiffness. */
+/* Of a symmetric matrix [6][6] scaled to a unit diagonal: directions softer than this part of the stiffest count as
+ * without stiffness. */
 static const double softest = 1e-11;
 
 static bool invert_block(const brc_block k, int free_bits, double inverse[21])
 {
     double a[36], scale[6], values[6], work[40];
-    for (int c = 0; c < 6; ++c) scale[c] = free_bits >> c & 1 && k[7 * c] > 0 ? 1 / sqrt(k[7 * c]) : 0;
+    for (int c = 0; c < 6; ++c)
+        scale[c] = free_bits >> c & 1 && k[7 * c] > 0 ? 1 / sqrt(k[7 * c]) : 0;
     for (int r = 0; r < 6; ++r)
-        for (int c = 0; c < 6; ++c) a[6 * r + c] = 0.5 * (k[6 * r + c] + k[6 * c + r]) * scale[r] * scale[c];
+        for (int c = 0; c < 6; ++c)
+            a[6 * r + c] = 0.5 * (k[6 * r + c] + k[6 * c + r]) * scale[r] * scale[c];
     if (LAPACKE_dsyev_work(LAPACK_ROW_MAJOR, 'V', 'U', 6, a, 6, values, work, 40) != 0) return false;
     for (int r = 0, at = 0; r < 6; ++r)
         for (int c = r; c < 6; ++c, ++at) {
@@ -46,14 +49,17 @@ static bool invert_block(const brc_block k, int free_bits, double inverse[21])
     return true;
 }
 
-brc_status brc_invert_blocks(brc_context *context, const brc_rows *rows, const uint8_t *free_bits, double (*inverse)[21])
+brc_status brc_invert_blocks(brc_context *context, const brc_rows *rows, const uint8_t *free_bits,
+                             double (*inverse)[21])
 {
     int failed = 0, short_of_memory = 0;
 #pragma omp parallel reduction(+ : failed, short_of_memory)
     {
         int32_t *column = NULL;
         brc_block *block = NULL;
-        if (BRC_ALLOCATE(context, &column, rows->most, "blocks") != BRC_OK || BRC_ALLOCATE(context, &block, rows->most, "blocks") != BRC_OK) short_of_memory = 1;
+        if (BRC_ALLOCATE(context, &column, rows->most, "blocks") != BRC_OK ||
+            BRC_ALLOCATE(context, &block, rows->most, "blocks") != BRC_OK)
+            short_of_memory = 1;
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < rows->n; ++i) {
             if (short_of_memory) continue;
@@ -78,13 +84,18 @@ brc_status brc_invert_rows(brc_context *context, const brc_stored_rows *rows, do
             for (int r = 0; r < 6; ++r)
                 for (int c = 0; c < 6; ++c) {
                     inverse[(6 * i + r) * n + 6 * (int64_t)rows->column[k] + c] = rows->block[k][6 * r + c];
-                    if (k == rows->start[i] && r == c) scale[6 * i + r] = rows->block[k][7 * r] > 0 ? 1 / sqrt(rows->block[k][7 * r]) : 0;
+                    if (k == rows->start[i] && r == c)
+                        scale[6 * i + r] = rows->block[k][7 * r] > 0 ? 1 / sqrt(rows->block[k][7 * r]) : 0;
                 }
     for (int64_t r = 0; r < n; ++r)
-        for (int64_t c = 0; c < n; ++c) inverse[r * n + c] = (r == c ? softest : 0) + (scale[r] > 0 && scale[c] > 0 ? inverse[r * n + c] * scale[r] * scale[c] : r == c);
-    *done = LAPACKE_dpotrf(LAPACK_ROW_MAJOR, 'U', n, inverse, n) == 0 && LAPACKE_dpotri(LAPACK_ROW_MAJOR, 'U', n, inverse, n) == 0;
+        for (int64_t c = 0; c < n; ++c)
+            inverse[r * n + c] = (r == c ? softest : 0) +
+                                 (scale[r] > 0 && scale[c] > 0 ? inverse[r * n + c] * scale[r] * scale[c] : r == c);
+    *done = LAPACKE_dpotrf(LAPACK_ROW_MAJOR, 'U', n, inverse, n) == 0 &&
+            LAPACKE_dpotri(LAPACK_ROW_MAJOR, 'U', n, inverse, n) == 0;
     for (int64_t r = 0; *done && r < n; ++r)
-        for (int64_t c = r; c < n; ++c) inverse[c * n + r] = inverse[r * n + c] *= scale[r] * scale[c];
+        for (int64_t c = r; c < n; ++c)
+            inverse[c * n + r] = inverse[r * n + c] *= scale[r] * scale[c];
     brc_memory_free(scale);
     return BRC_OK;
 }

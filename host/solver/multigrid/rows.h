@@ -4,10 +4,11 @@
 
 #include "../../base/memory.h"
 
-typedef double brc_block[36];  /* by rows */
+typedef double brc_block[36]; /* by rows */
 typedef float brc_narrow[36];
 
-/* A symmetric matrix, seen row by row: `row` writes the columns of row i, i itself first, and (block not NULL) its blocks; returns how many, at most `most`. */
+/* A symmetric matrix, seen row by row: `row` writes the columns of row i, i itself first, and (block not NULL) its
+ * blocks; returns how many, at most `most`. */
 typedef struct brc_rows {
     int64_t n;
     int32_t most;
@@ -35,14 +36,17 @@ typedef struct brc_nodes {
     uint8_t *free_bits; /* [n] bits 1 2 4 of displacements, 8 16 32 of rotations that are free; NULL: all */
 } brc_nodes;
 
-/* Boxes of about `size` [m], cut into parts that the matrix joins: aggregate [n] of each node, -1 of those that nothing joins to another; coarse: the aggregates as
- * nodes at their means, the caller's (brc_nodes_free). spacing [m]: how far the outermost nodes are from the surface, twice. size, spacing: [bodies]. */
-brc_status brc_aggregate(brc_context *context, const brc_rows *rows, const brc_nodes *nodes, const double *size, const double *spacing, int32_t *aggregate,
-                         brc_nodes *coarse);
+/* Boxes of about `size` [m], cut into parts that the matrix joins: aggregate [n] of each node, -1 of those that nothing
+ * joins to another; coarse: the aggregates as nodes at their means, the caller's (brc_nodes_free). spacing [m]: how far
+ * the outermost nodes are from the surface, twice. size, spacing: [bodies]. */
+brc_status brc_aggregate(brc_context *context, const brc_rows *rows, const brc_nodes *nodes, const double *size,
+                         const double *spacing, int32_t *aggregate, brc_nodes *coarse);
 void brc_nodes_free(brc_nodes *nodes);
 
-/* Inverses of diagonal blocks between their free components, zero in the others: upper triangles [n][21]. Directions without stiffness get none. */
-brc_status brc_invert_blocks(brc_context *context, const brc_rows *rows, const uint8_t *free_bits, double (*inverse)[21]);
+/* Inverses of diagonal blocks between their free components, zero in the others: upper triangles [n][21]. Directions
+ * without stiffness get none. */
+brc_status brc_invert_blocks(brc_context *context, const brc_rows *rows, const uint8_t *free_bits,
+                             double (*inverse)[21]);
 
 /* P between a level and its aggregates, with the places of its blocks by columns. */
 typedef struct brc_prolongation {
@@ -55,8 +59,9 @@ typedef struct brc_prolongation {
 } brc_prolongation;
 
 /* P = (1 - weight D^-1 A) T, T the rigid motions of aggregates in the free components. */
-brc_status brc_prolongation_create(brc_context *context, const brc_rows *rows, const brc_nodes *nodes, const int32_t *aggregate, const brc_nodes *coarse,
-                                   double weight, const double (*inverse)[21], brc_prolongation *out);
+brc_status brc_prolongation_create(brc_context *context, const brc_rows *rows, const brc_nodes *nodes,
+                                   const int32_t *aggregate, const brc_nodes *coarse, double weight,
+                                   const double (*inverse)[21], brc_prolongation *out);
 void brc_prolongation_free(brc_prolongation *p);
 
 /* P^T A P. */

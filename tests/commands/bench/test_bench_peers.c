@@ -42,7 +42,8 @@ static int run_bench(void)
     return test_program(arguments);
 }
 
-/* The line of rows.csv that has both texts, cut into its fields by the names of the first line; 0 for an empty or missing field. */
+/* The line of rows.csv that has both texts, cut into its fields by the names of the first line; 0 for an empty or
+ * missing field. */
 static double field_of(const char *one, const char *two, const char *key)
 {
     char path[64], names[4096], line[4096];
@@ -62,7 +63,8 @@ static double field_of(const char *one, const char *two, const char *key)
             assert_true(name[length] == ',');
             name += length + 1;
             bool quoted = false;
-            for (; *field && (quoted || *field != ','); ++field) quoted ^= *field == '"';
+            for (; *field && (quoted || *field != ','); ++field)
+                quoted ^= *field == '"';
             ++field;
         }
         value = strtod(field, NULL);
@@ -95,17 +97,21 @@ static void without_other_programs_there_are_rows_of_ours_and_what_to_install(vo
 static void the_rate_and_the_ratio_of_a_program_are_those_of_its_time(void **state)
 {
     (void)state;
-    make_program("yade", "echo breccia-peer version 9.9\necho breccia-peer seconds 40\necho breccia-peer processor 2.5\n");
-    make_program("lmp", "if [ \"$1\" = -h ]; then echo bpm/rotational; exit; fi\necho Loop time of 8 on 1 procs for 10 steps with 200 atoms\n"
+    make_program("yade",
+                 "echo breccia-peer version 9.9\necho breccia-peer seconds 40\necho breccia-peer processor 2.5\n");
+    make_program("lmp", "if [ \"$1\" = -h ]; then echo bpm/rotational; exit; fi\necho Loop time of 8 on 1 procs for 10 "
+                        "steps with 200 atoms\n"
                         "echo '50% CPU use with 1 MPI tasks x 1 OpenMP threads'\n");
     assert_int_equal(run_bench(), 0);
-    const double ours = field_of("\"peers\"", "\"breccia\"", "ours"), ratio = field_of("\"peers\"", "\"yade\"", "ratio");
+    const double ours = field_of("\"peers\"", "\"breccia\"", "ours"),
+                 ratio = field_of("\"peers\"", "\"yade\"", "ratio");
     assert_true(field_of("\"peers\"", "\"breccia\"", "bonds") == 1000);
     assert_near(field_of("\"peers\"", "\"yade\"", "seconds"), 0.25, 1e-12);
     assert_near(field_of("\"peers\"", "\"yade\"", "peer"), 4000, 1e-8);
     assert_near(field_of("\"peers\"", "\"yade\"", "bond_updates_per_s"), 4000, 1e-8);
     assert_near(field_of("\"peers\"", "\"lmp\"", "peer"), 2500, 1e-8); /* 4 s */
-    /* the other program's time is the same in every round, so the median of the ratios is the ratio of the medians: rounding */
+    /* the other program's time is the same in every round, so the median of the ratios is the ratio of the medians:
+     * rounding */
     assert_near(ratio * 4000 / ours, 1, 1e-12);
     assert_true(field_of("\"peers\"", "\"yade\"", "ours") == ours);
     expect(test_program_stdout(), "9.9");
@@ -117,8 +123,10 @@ static void a_program_that_fails_is_a_row_without_figures_and_its_last_words_are
 {
     (void)state;
     make_program("yade", "echo Traceback\necho ImportError: no module\nexit 1\n");
-    make_program("lmp", "if [ \"$1\" = -h ]; then echo harmonic; exit; fi\necho Loop time of 8 on 1 procs for 10 steps with 200 atoms\n"
-                        "echo '100% CPU use with 1 MPI tasks x 1 OpenMP threads'\n");
+    make_program(
+        "lmp",
+        "if [ \"$1\" = -h ]; then echo harmonic; exit; fi\necho Loop time of 8 on 1 procs for 10 steps with 200 atoms\n"
+        "echo '100% CPU use with 1 MPI tasks x 1 OpenMP threads'\n");
     assert_int_equal(run_bench(), 0);
     expect(test_program_stdout(), "no figures: it told no seconds");
     expect(test_program_stdout(), "springs only");
@@ -133,8 +141,10 @@ static void a_program_that_fails_is_a_row_without_figures_and_its_last_words_are
 static void wrong_options_end_with_two(void **state)
 {
     (void)state;
-    static const char *const wrong[] = {"bench peers --elements 5", "bench peers --steps 0", "bench peers -t none", "bench peers --sizes 1000", "bench peers --devices cpu",
-                                        "bench throughput --steps 5", "bench effects --elements 500", "bench contact --steps 5", "bench accuracy --elements 500"};
+    static const char *const wrong[] = {
+        "bench peers --elements 5",     "bench peers --steps 0",     "bench peers -t none",
+        "bench peers --sizes 1000",     "bench peers --devices cpu", "bench throughput --steps 5",
+        "bench effects --elements 500", "bench contact --steps 5",   "bench accuracy --elements 500"};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k)
         if (test_program(wrong[k]) != 2) fail_msg("'%s' did not end with 2", wrong[k]);
     assert_int_equal(test_program("bench speed"), 2);

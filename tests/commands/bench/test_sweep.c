@@ -27,9 +27,11 @@ static void remove_problem(const char *folder)
 }
 
 static const char *const good = "title: t\nquantity: rms\nwith: vibration\ncost: crossings\n"
-                                "scenes:\n  scene.yaml:\n    axes:\n      model: {a: [], b: [model=b, x.y=1]}\n      elements: n=$\n      precision: []\n      beta: model.beta=$\n"
+                                "scenes:\n  scene.yaml:\n    axes:\n      model: {a: [], b: [model=b, x.y=1]}\n      "
+                                "elements: n=$\n      precision: []\n      beta: model.beta=$\n"
                                 "    defaults: {model: a, precision: double}\n"
-                                "sweeps:\n  - {name: first, elements: [8, 27], model: [a, b]}\n  - {name: second, elements: 27, precision: [double, mixed], quick: true}\n";
+                                "sweeps:\n  - {name: first, elements: [8, 27], model: [a, b]}\n  - {name: second, "
+                                "elements: 27, precision: [double, mixed], quick: true}\n";
 
 /* Two models by two sizes; of the second sweep one run is there already (and becomes quick), the other is new. */
 static void every_combination_is_a_run_once(void **state)
@@ -81,10 +83,12 @@ static void slips_are_told_with_their_place(void **state)
     static const char *const texts[] = {
         "title: t\nquantity: q\nscenes: {scene.yaml: {axes: {elements: n=$}}}\nsweeps:\n  - {name: s, elemens: 8}\n",
         "title: t\nquantity: q\nscenes: {scene.yaml: {axes: {model: {a: []}}}}\nsweeps:\n  - {name: s, model: b}\n",
-        "title: t\nquantity: q\nscenes: {scene.yaml: {axes: {elements: n=$}}}\nsweeps:\n  - {name: s, scene: other.yaml}\n",
+        "title: t\nquantity: q\nscenes: {scene.yaml: {axes: {elements: n=$}}}\nsweeps:\n  - {name: s, scene: "
+        "other.yaml}\n",
         "title: t\nquantity: q\n",
     };
-    static const char *const said[] = {":5:15: error: unknown key 'elemens'", "axis model has no value 'b'", ":5:5: error: ", "expected a map with quantity, scenes and sweeps"};
+    static const char *const said[] = {":5:15: error: unknown key 'elemens'", "axis model has no value 'b'",
+                                       ":5:5: error: ", "expected a map with quantity, scenes and sweeps"};
     for (int k = 0; k < 4; ++k) {
         brc_context *context = brc_context_create();
         brc_sweep *sweep;

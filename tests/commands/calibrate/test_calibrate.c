@@ -11,8 +11,14 @@
 #include <unistd.h>
 
 /* A law of the paper's form, of the size ours has. */
-static const double NU[4][4] = {{0.41, -0.167, 0.389, 0.117}, {-0.364, 0.366, 0.49, -0.07}, {0.08, -0.31, 0.66, -0.12}, {-0.034, 0.093, 0.83, -0.17}};
-static const double E[4][4] = {{-0.022, 0.0151, -0.00228, 8.2e-5}, {0.2, -0.152, 0.0235, -0.00086}, {-0.304, 0.244, -0.0329, 0.00128}, {0.1055, -0.0141, 0.0202, -0.00079}};
+static const double NU[4][4] = {{0.41, -0.167, 0.389, 0.117},
+                                {-0.364, 0.366, 0.49, -0.07},
+                                {0.08, -0.31, 0.66, -0.12},
+                                {-0.034, 0.093, 0.83, -0.17}};
+static const double E[4][4] = {{-0.022, 0.0151, -0.00228, 8.2e-5},
+                               {0.2, -0.152, 0.0235, -0.00086},
+                               {-0.304, 0.244, -0.0329, 0.00128},
+                               {0.1055, -0.0141, 0.0202, -0.00079}};
 
 /* Samples without scatter, of that law. */
 static void make_rows(const brc_calibration_plan *plan, brc_calibration_rows *rows)
@@ -21,16 +27,29 @@ static void make_rows(const brc_calibration_plan *plan, brc_calibration_rows *ro
     test_done(BRC_ALLOCATE(test_context, &rows->rows, plan->n_coordinations * plan->n_radii, "rows"));
     for (int c = 0; c < plan->n_coordinations; ++c)
         for (int r = 0; r < plan->n_radii; ++r)
-            rows->rows[rows->n++] = (brc_calibration_row){.coordination = plan->coordination[c], .radius = plan->radius[r], .beam_young = 1,
-                                                          .poisson = brc_beam_law_paper_poisson(NU, plan->coordination[c], plan->radius[r]),
-                                                          .young = brc_beam_law_paper_young(E, plan->coordination[c], plan->radius[r])};
+            rows->rows[rows->n++] =
+                (brc_calibration_row){.coordination = plan->coordination[c],
+                                      .radius = plan->radius[r],
+                                      .beam_young = 1,
+                                      .poisson = brc_beam_law_paper_poisson(NU, plan->coordination[c], plan->radius[r]),
+                                      .young = brc_beam_law_paper_young(E, plan->coordination[c], plan->radius[r])};
 }
 
 static brc_calibration_plan paper_plan(int n_coordinations)
 {
-    brc_calibration_plan plan = {.n_elements = 1000, .radius_spread = 0.125, .n_samples = 1, .n_axes = 1, .n_coordinations = n_coordinations, .n_radii = 5, .n_youngs = 1,
-                                 .young = {1}, .seed = 1, .n_threads = 1, .radius = {0.2, 0.4, 0.6, 0.8, 1.0}};
-    for (int k = 0; k < n_coordinations; ++k) plan.coordination[k] = 5.5 + 0.5 * k;
+    brc_calibration_plan plan = {.n_elements = 1000,
+                                 .radius_spread = 0.125,
+                                 .n_samples = 1,
+                                 .n_axes = 1,
+                                 .n_coordinations = n_coordinations,
+                                 .n_radii = 5,
+                                 .n_youngs = 1,
+                                 .young = {1},
+                                 .seed = 1,
+                                 .n_threads = 1,
+                                 .radius = {0.2, 0.4, 0.6, 0.8, 1.0}};
+    for (int k = 0; k < n_coordinations; ++k)
+        plan.coordination[k] = 5.5 + 0.5 * k;
     return plan;
 }
 
@@ -50,11 +69,13 @@ static void both_fits_of_the_papers_form_find_the_law_that_made_the_data(void **
             assert_true(fit.quality[form][q].r2 > 1 - 1e-10);
         }
     }
-    for (int k = 0; k < 16; ++k) assert_true(fabs(fit.two_stage[BRC_QUANTITY_NU][k / 4][k % 4] - NU[k / 4][k % 4]) < 1e-5);
+    for (int k = 0; k < 16; ++k)
+        assert_true(fabs(fit.two_stage[BRC_QUANTITY_NU][k / 4][k % 4] - NU[k / 4][k % 4]) < 1e-5);
     brc_calibration_rows_free(&rows);
 }
 
-/* Data that lie on the built-in surface: linear least squares gives its coefficients back to rounding, times the condition of the equations (some 1e3). */
+/* Data that lie on the built-in surface: linear least squares gives its coefficients back to rounding, times the
+ * condition of the equations (some 1e3). */
 static void the_surface_is_found_again(void **state)
 {
     (void)state;
@@ -94,21 +115,32 @@ static void few_coordination_numbers_leave_the_paper_form_out(void **state)
 
 static brc_calibration_plan small_plan(int n_threads)
 {
-    return (brc_calibration_plan){.n_elements = 300, .radius_spread = 0.125, .n_samples = 2, .n_axes = 1, .n_coordinations = 2, .n_radii = 2, .n_youngs = 2,
-                                  .coordination = {7, 9}, .radius = {0.4, 0.8}, .young = {1, 5e11}, .seed = 1, .n_threads = n_threads};
+    return (brc_calibration_plan){.n_elements = 300,
+                                  .radius_spread = 0.125,
+                                  .n_samples = 2,
+                                  .n_axes = 1,
+                                  .n_coordinations = 2,
+                                  .n_radii = 2,
+                                  .n_youngs = 2,
+                                  .coordination = {7, 9},
+                                  .radius = {0.4, 0.8},
+                                  .young = {1, 5e11},
+                                  .seed = 1,
+                                  .n_threads = n_threads};
 }
 
 static void same_rows(const brc_calibration_rows *a, const brc_calibration_rows *b)
 {
     assert_int_equal(a->n, b->n);
     for (int64_t k = 0; k < a->n; ++k) {
-        assert_true(a->rows[k].coordination == b->rows[k].coordination && a->rows[k].radius == b->rows[k].radius && a->rows[k].seed == b->rows[k].seed);
+        assert_true(a->rows[k].coordination == b->rows[k].coordination && a->rows[k].radius == b->rows[k].radius &&
+                    a->rows[k].seed == b->rows[k].seed);
         assert_true(a->rows[k].young == b->rows[k].young && a->rows[k].poisson == b->rows[k].poisson);
     }
 }
 
-/* Killed in the middle of a line, resumed on two threads: the same numbers, bit for bit, and every solve once. E_m scales out: its last
- * digits alone may differ, the tolerance of the solves is relative to the load. */
+/* Killed in the middle of a line, resumed on two threads: the same numbers, bit for bit, and every solve once. E_m
+ * scales out: its last digits alone may differ, the tolerance of the solves is relative to the load. */
 static void a_stopped_campaign_goes_on_to_the_same_results(void **state)
 {
     (void)state;
@@ -136,7 +168,8 @@ static void a_stopped_campaign_goes_on_to_the_same_results(void **state)
     same_rows(&first, &third);
     test_done(brc_file_read_whole(test_context, path, 1 << 20, &text, &bytes));
     int lines = 0;
-    for (const char *c = text; *c; ++c) lines += *c == '\n';
+    for (const char *c = text; *c; ++c)
+        lines += *c == '\n';
     assert_int_equal(lines, 17);
     brc_memory_free(text);
     brc_calibration_rows_free(&first);

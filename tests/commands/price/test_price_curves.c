@@ -6,18 +6,20 @@
 #include "../../../host/commands/price/price_curves.h"
 #include <string.h>
 
-/* error = 2 h^2 = 2 N^(-2/3) of a cube, and 5 N^(-1/3) of a bar; other models, precisions and preparations in between. */
-static const char text[] = "problem,model,preparation,elements,bonds,precision,dt_fraction,integrator,threads,error\n"
-                           "cube,dlsm,lloyd,1000,6000,double,0.8,,1,0.02\n"
-                           "bar,dlsm,grid,1000,6000,double,0.8,,1,0.5\n"
-                           "cube,dlsm,grid,1000,6000,double,0.8,,1,0.3\n"
-                           "cube,dlsm-published,lloyd,8000,6000,double,0.8,,1,0.9\n"
-                           "cube,dlsm,lloyd,8000,48000,single,0.8,,1,0.7\n"
-                           "cube,dlsm,lloyd,8000,48000,double,0.8,,1,-0.005\n"
-                           "bar,dlsm,grid,8000,48000,double,0.8,,1,0.25\n"
-                           "once,dlsm,grid,8000,48000,double,0.8,,1,0.25\n"
-                           "worse,dlsm,grid,1000,48000,double,0.8,,1,0.1\nworse,dlsm,grid,8000,48000,double,0.8,,1,0.2\n"
-                           "cube,dlsm,lloyd,64000,384000,double,0.8,,1,0.00125";
+/* error = 2 h^2 = 2 N^(-2/3) of a cube, and 5 N^(-1/3) of a bar; other models, precisions and preparations in
+ * between. */
+static const char text[] =
+    "problem,model,preparation,elements,bonds,precision,dt_fraction,integrator,threads,error\n"
+    "cube,dlsm,lloyd,1000,6000,double,0.8,,1,0.02\n"
+    "bar,dlsm,grid,1000,6000,double,0.8,,1,0.5\n"
+    "cube,dlsm,grid,1000,6000,double,0.8,,1,0.3\n"
+    "cube,dlsm-published,lloyd,8000,6000,double,0.8,,1,0.9\n"
+    "cube,dlsm,lloyd,8000,48000,single,0.8,,1,0.7\n"
+    "cube,dlsm,lloyd,8000,48000,double,0.8,,1,-0.005\n"
+    "bar,dlsm,grid,8000,48000,double,0.8,,1,0.25\n"
+    "once,dlsm,grid,8000,48000,double,0.8,,1,0.25\n"
+    "worse,dlsm,grid,1000,48000,double,0.8,,1,0.1\nworse,dlsm,grid,8000,48000,double,0.8,,1,0.2\n"
+    "cube,dlsm,lloyd,64000,384000,double,0.8,,1,0.00125";
 
 static void powers_are_found_again(void **state)
 {
@@ -47,7 +49,8 @@ static void problems_that_move_are_known_by_their_steps(void **state)
     (void)state;
     int n;
     brc_price_curve curve[BRC_CURVES_MOST];
-    brc_price_curves_read("problem,model,elements,precision,error,steps\nwave,dlsm,100,double,0.04,50\nbeam,dlsm,100,double,0.04,0\nwave,dlsm,800,double,0.02,100\nbeam,dlsm,800,double,0.01,0\n",
+    brc_price_curves_read("problem,model,elements,precision,error,steps\nwave,dlsm,100,double,0.04,50\nbeam,dlsm,100,"
+                          "double,0.04,0\nwave,dlsm,800,double,0.02,100\nbeam,dlsm,800,double,0.01,0\n",
                           "dlsm", "double", &n, curve);
     assert_int_equal(n, 2);
     assert_true(curve[0].moves && !curve[1].moves);
@@ -58,8 +61,11 @@ static void modes_are_known_by_what_their_seconds_are_of(void **state)
     (void)state;
     int n;
     brc_price_curve curve[BRC_CURVES_MOST];
-    brc_price_curves_read("problem,model,elements,precision,error,cost_of\ncube,dlsm,100,double,0.04,building and 100 crossings\nbeam,dlsm,100,double,0.04,building and running\n"
-                          "cube,dlsm,800,double,0.02,building and 100 crossings\nbeam,dlsm,800,double,0.01,building and running\n", "dlsm", "double", &n, curve);
+    brc_price_curves_read(
+        "problem,model,elements,precision,error,cost_of\ncube,dlsm,100,double,0.04,building and 100 "
+        "crossings\nbeam,dlsm,100,double,0.04,building and running\n"
+        "cube,dlsm,800,double,0.02,building and 100 crossings\nbeam,dlsm,800,double,0.01,building and running\n",
+        "dlsm", "double", &n, curve);
     assert_int_equal(n, 2);
     assert_true(curve[0].rings && !curve[1].rings);
 }
@@ -82,18 +88,22 @@ static void the_program_has_curves_of_its_default_model(void **state)
     assert_int_equal(brc_case_text(context, NULL, "results", "accuracy-curves.csv", &csv, &bytes), BRC_OK);
     brc_price_curves_read(csv, "dlsm", "double", &n, curve);
     assert_true(n >= 1);
-    for (int k = 0; k < n; ++k) assert_true(curve[k].order > 0 && brc_price_curve_error(&curve[k], curve[k].most) < 1);
+    for (int k = 0; k < n; ++k)
+        assert_true(curve[k].order > 0 && brc_price_curve_error(&curve[k], curve[k].most) < 1);
     brc_memory_free(csv);
     brc_context_free(&context);
 }
 
-/* Two pairs of single and one of mixed by hand: seconds add up (3 + 1 over 4 + 4), the worst error counts, a partner must share all else, and what errs less has 0. */
+/* Two pairs of single and one of mixed by hand: seconds add up (3 + 1 over 4 + 4), the worst error counts, a partner
+ * must share all else, and what errs less has 0. */
 static void choices_are_pairs_of_runs_that_differ_in_nothing_else(void **state)
 {
     (void)state;
     static const char csv[] = "problem,model,elements,precision,dt_fraction,error,run_s\n"
-                              "cube,dlsm,100,double,0.8,0.01,4\ncube,dlsm,100,single,0.8,0.012,3\ncube,dlsm,800,single,0.8,0.0025,1\ncube,dlsm,800,double,0.8,-0.002,4\n"
-                              "cube,dlsm,800,mixed,0.8,-0.001,3\ncube,dlsm,900,mixed,0.8,0.5,1\ncube,cbm,100,mixed,0.8,0.5,1\ncube,dlsm,100,double,0.4,0.01,8\ncube,dlsm,100,single,0.8,,1\n";
+                              "cube,dlsm,100,double,0.8,0.01,4\ncube,dlsm,100,single,0.8,0.012,3\ncube,dlsm,800,single,"
+                              "0.8,0.0025,1\ncube,dlsm,800,double,0.8,-0.002,4\n"
+                              "cube,dlsm,800,mixed,0.8,-0.001,3\ncube,dlsm,900,mixed,0.8,0.5,1\ncube,cbm,100,mixed,0.8,"
+                              "0.5,1\ncube,dlsm,100,double,0.4,0.01,8\ncube,dlsm,100,single,0.8,,1\n";
     int n;
     brc_price_choice choice[BRC_CHOICES_MOST];
     brc_price_choices_read(csv, "dlsm", "precision", "double", &n, choice);
@@ -108,7 +118,8 @@ static void choices_are_pairs_of_runs_that_differ_in_nothing_else(void **state)
     assert_true(choice[1].more_error == 0);
     assert_int_equal(brc_price_choice_best(n, choice, 0.01), 0);
     assert_int_equal(brc_price_choice_best(n, choice, 0.001), 1);
-    brc_price_choices_read(csv, "dlsm", "dt_fraction", "0.8", &n, choice); /* half the step takes twice the time: no gain */
+    brc_price_choices_read(csv, "dlsm", "dt_fraction", "0.8", &n,
+                           choice); /* half the step takes twice the time: no gain */
     assert_int_equal(n, 1);
     assert_near(choice[0].time, 2, 1e-15);
     assert_int_equal(brc_price_choice_best(n, choice, 1), -1);

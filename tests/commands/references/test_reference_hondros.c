@@ -3,8 +3,9 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Hertz: two point forces give the nominal stress across the whole loaded diameter and -3 of it along the diameter in the centre. Arcs of finite angle change it by
- * the square of the angle over the distance from the rim, times a few: 10 (1e-5 / 0.3)^2 = 1.1e-8, rounding 1e-16 / 1e-5. */
+/* Hertz: two point forces give the nominal stress across the whole loaded diameter and -3 of it along the diameter in
+ * the centre. Arcs of finite angle change it by the square of the angle over the distance from the rim, times a few: 10
+ * (1e-5 / 0.3)^2 = 1.1e-8, rounding 1e-16 / 1e-5. */
 static void narrow_arcs_are_two_point_forces(void **state)
 {
     (void)state;
@@ -17,8 +18,8 @@ static void narrow_arcs_are_two_point_forces(void **state)
     assert_near(s[1], -3, 2e-8);
 }
 
-/* Half of the disc: what the cut carries balances the pressure across it, 2 p R (1 - cos angle) for both arcs; p over the nominal stress is pi / (2 sin angle).
- * Midpoint rule on a smooth function with 1e5 points: 1e-8. */
+/* Half of the disc: what the cut carries balances the pressure across it, 2 p R (1 - cos angle) for both arcs; p over
+ * the nominal stress is pi / (2 sin angle). Midpoint rule on a smooth function with 1e5 points: 1e-8. */
 static void the_cut_along_the_diameter_balances_the_pressure(void **state)
 {
     (void)state;

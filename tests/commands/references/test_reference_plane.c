@@ -2,7 +2,8 @@
 #include "../../../host/commands/references/reference_hondros.h"
 #include "../../../host/commands/references/reference_plane.h"
 
-/* Hondros' closed form on the loaded diameter: another derivation. 64 Gauss points over an arc seen from inside 0.9 of the radius: 1e-10. */
+/* Hondros' closed form on the loaded diameter: another derivation. 64 Gauss points over an arc seen from inside 0.9 of
+ * the radius: 1e-10. */
 static void disc_agrees_with_hondros_on_the_loaded_diameter(void **state)
 {
     (void)state;
@@ -19,7 +20,8 @@ static void disc_agrees_with_hondros_on_the_loaded_diameter(void **state)
     }
 }
 
-/* Everywhere: div stress = 0, by central differences of step h, whose error is h^2 times third derivatives of order 10: 1e-6. */
+/* Everywhere: div stress = 0, by central differences of step h, whose error is h^2 times third derivatives of order 10:
+ * 1e-6. */
 static void disc_is_in_equilibrium(void **state)
 {
     (void)state;
@@ -36,8 +38,8 @@ static void disc_is_in_equilibrium(void **state)
     }
 }
 
-/* Uniaxial tension far away (plane strain) and a ring a thousand times as wide as the hole: three times the stress beside it, minus once along it (Kirsch). The
- * ring's outside is (a/b)^2 = 1e-6 away from it. */
+/* Uniaxial tension far away (plane strain) and a ring a thousand times as wide as the hole: three times the stress
+ * beside it, minus once along it (Kirsch). The ring's outside is (a/b)^2 = 1e-6 away from it. */
 static void wide_ring_is_kirsch_plate(void **state)
 {
     (void)state;
@@ -55,8 +57,8 @@ static void wide_ring_is_kirsch_plate(void **state)
     brc_context_free(&context);
 }
 
-/* The stresses are those of the displacements (Hooke, plane strain; differences of step 1e-5 err by 1e-9 of the strain), the hole is free, the outside
- * as prescribed. */
+/* The stresses are those of the displacements (Hooke, plane strain; differences of step 1e-5 err by 1e-9 of the
+ * strain), the hole is free, the outside as prescribed. */
 static void ring_obeys_hooke_and_its_boundaries(void **state)
 {
     (void)state;

@@ -40,8 +40,8 @@ static void cube_agrees_with_the_tabled_values_at_nu_minus_0_95(void **state)
     expect_modes(-0.95, 8, (const double[]){2.0221, 2.1408, 2.1408, 2.1408, 4.829, 4.829, 5.396, 5.396}, 6e-4);
 }
 
-/* At nu = 0 a longitudinal motion u_x(x) leaves all side faces free of traction, so pi sqrt(E/rho)/L is an exact mode of
- * every box. Polynomials of degree 14 give it to better than 1e-9. */
+/* At nu = 0 a longitudinal motion u_x(x) leaves all side faces free of traction, so pi sqrt(E/rho)/L is an exact mode
+ * of every box. Polynomials of degree 14 give it to better than 1e-9. */
 static void longitudinal_mode_of_a_bar_is_exact_at_nu_0(void **state)
 {
     (void)state;
@@ -107,7 +107,10 @@ static double root(double (*f)(double), double a, double b)
 {
     for (int k = 0; k < 100; ++k) {
         const double m = (a + b) / 2;
-        if ((f(a) < 0) == (f(m) < 0)) a = m; else b = m;
+        if ((f(a) < 0) == (f(m) < 0))
+            a = m;
+        else
+            b = m;
     }
     return a;
 }
@@ -116,15 +119,21 @@ static double root(double (*f)(double), double a, double b)
 static double torsion_of_order_2(double x)
 {
     const double s = sin(x), c = cos(x);
-    const double j2 = (3 / (x * x) - 1) * s / x - 3 * c / (x * x), j3 = (15 / (x * x * x) - 6 / x) * s / x - (15 / (x * x) - 1) * c / x;
+    const double j2 = (3 / (x * x) - 1) * s / x - 3 * c / (x * x),
+                 j3 = (15 / (x * x * x) - 6 / x) * s / x - (15 / (x * x) - 1) * c / x;
     return j2 - x * j3;
 }
 
-/* Breathing of a sphere, y = omega R / c_p at nu = 0.25, where c_p^2 = 3 c_s^2: tan y / y = 1 / (1 - y^2 / (4 c_s^2 / c_p^2)). */
-static double breathing(double y) { return sin(y) * (1 - 0.75 * y * y) - y * cos(y); }
+/* Breathing of a sphere, y = omega R / c_p at nu = 0.25, where c_p^2 = 3 c_s^2: tan y / y = 1 / (1 - y^2 / (4 c_s^2 /
+ * c_p^2)). */
+static double breathing(double y)
+{
+    return sin(y) * (1 - 0.75 * y * y) - y * cos(y);
+}
 
-/* Modes of the sphere in closed form by spherical Bessel functions: the lowest five are torsion of order 2, the breathing mode is further up. Polynomials of
- * degree 12 give the former to 1e-9 or better (the Taylor series of j_2 to degree 11 in the radius, squared), the latter to 1e-6. */
+/* Modes of the sphere in closed form by spherical Bessel functions: the lowest five are torsion of order 2, the
+ * breathing mode is further up. Polynomials of degree 12 give the former to 1e-9 or better (the Taylor series of j_2 to
+ * degree 11 in the radius, squared), the latter to 1e-6. */
 static void sphere_twists_and_breathes_as_lamb_says(void **state)
 {
     (void)state;
@@ -133,14 +142,16 @@ static void sphere_twists_and_breathes_as_lamb_says(void **state)
     double omega[60], nearest = INFINITY;
     assert_int_equal(brc_reference_vibration(context, &sphere, 12, 60, omega), BRC_OK);
     const double twist = root(torsion_of_order_2, 2, 3), breath = root(breathing, 2, 3) * sqrt(3);
-    for (int k = 0; k < 5; ++k) assert_near(omega[k], twist, 1e-8);
-    for (int k = 0; k < 60; ++k) nearest = fmin(nearest, fabs(omega[k] / breath - 1));
+    for (int k = 0; k < 5; ++k)
+        assert_near(omega[k], twist, 1e-8);
+    for (int k = 0; k < 60; ++k)
+        nearest = fmin(nearest, fabs(omega[k] / breath - 1));
     assert_true(nearest < 1e-6);
     brc_context_free(&context);
 }
 
-/* A free round bar twists with half a wave along it at any nu: omega = pi c_s / L, an exact solution (its ends and its side carry no traction). The
- * sine is a polynomial of degree 11 to 1e-6, its frequency to the square of that. */
+/* A free round bar twists with half a wave along it at any nu: omega = pi c_s / L, an exact solution (its ends and its
+ * side carry no traction). The sine is a polynomial of degree 11 to 1e-6, its frequency to the square of that. */
 static void twist_of_a_round_bar_is_exact(void **state)
 {
     (void)state;
@@ -150,7 +161,8 @@ static void twist_of_a_round_bar_is_exact(void **state)
         const brc_reference_solid bar = {{2, 1, 1}, 2 * (1 + nu), nu, 1, BRC_REFERENCE_CYLINDER};
         double omega[20], nearest = INFINITY;
         assert_int_equal(brc_reference_vibration(context, &bar, 12, 20, omega), BRC_OK);
-        for (int m = 0; m < 20; ++m) nearest = fmin(nearest, fabs(omega[m] / (pi / 2) - 1));
+        for (int m = 0; m < 20; ++m)
+            nearest = fmin(nearest, fabs(omega[m] / (pi / 2) - 1));
         assert_true(nearest < 1e-9);
     }
     brc_context_free(&context);

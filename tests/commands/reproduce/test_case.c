@@ -37,13 +37,14 @@ static void a_case_is_read_with_units_and_rules(void **state)
     (void)state;
     brc_context *context = brc_context_create();
     brc_case *what;
-    assert_int_equal(read_text(context,
-                               "title: A\nabout: B\nruns:\n"
-                               "  - {name: one, set: [a=1, b=2], label: {nu: 0.3}, quick: true, rows: {E: {reference: 20 GPa, "
-                               "paper: 21 GPa, bound: 1e-5}, nu: {absolute: true, at_most: 1}}}\n"
-                               "derived:\n  - {quantity: order, formula: order, of: E, runs: [one], at_least: 2}\n",
-                               &what),
-                     BRC_OK);
+    assert_int_equal(
+        read_text(context,
+                  "title: A\nabout: B\nruns:\n"
+                  "  - {name: one, set: [a=1, b=2], label: {nu: 0.3}, quick: true, rows: {E: {reference: 20 GPa, "
+                  "paper: 21 GPa, bound: 1e-5}, nu: {absolute: true, at_most: 1}}}\n"
+                  "derived:\n  - {quantity: order, formula: order, of: E, runs: [one], at_least: 2}\n",
+                  &what),
+        BRC_OK);
     assert_int_equal(what->n_runs, 1);
     const brc_case_run *run = &what->runs[0];
     assert_int_equal(run->n_overrides, 2);
@@ -68,8 +69,13 @@ static void precisions_make_a_run_of_each(void **state)
     (void)state;
     brc_context *context = brc_context_create();
     brc_case *what;
-    assert_int_equal(read_text(context, "title: A\nruns:\n  - {name: one, about: said once, precisions: [double, single], label: {nu: 0.3}, rows: {E: {}}}\n  - {name: two}\n"
-                               "derived:\n  - {quantity: apart, formula: range, of: E, runs: [one-double, one-single]}\n", &what), BRC_OK);
+    assert_int_equal(
+        read_text(context,
+                  "title: A\nruns:\n  - {name: one, about: said once, precisions: [double, single], label: {nu: 0.3}, "
+                  "rows: {E: {}}}\n  - {name: two}\n"
+                  "derived:\n  - {quantity: apart, formula: range, of: E, runs: [one-double, one-single]}\n",
+                  &what),
+        BRC_OK);
     assert_int_equal(what->n_runs, 3);
     assert_string_equal(what->runs[0].name, "one-double");
     assert_string_equal(what->runs[1].name, "one-single");
@@ -92,7 +98,8 @@ static void mistakes_are_told_with_their_place(void **state)
         {"runs:\n  - {name: one, rows: {E: {reference: much}}}\n", "expected a number"},
         {"runs:\n  - {name: one, quick: maybe}\n", "expected true or false"},
         {"runs:\n  - {name: one, with: magic}\n", "expected one of: measures vibration drift build"},
-        {"runs:\n  - {name: one}\nderived:\n  - {quantity: q, formula: mean, of: x, runs: [two]}\n", "the run 'two', which is not there"},
+        {"runs:\n  - {name: one}\nderived:\n  - {quantity: q, formula: mean, of: x, runs: [two]}\n",
+         "the run 'two', which is not there"},
         {"runs:\n  - {name: one}\nderived:\n  - {quantity: q, quick: true, formula: mean, of: x, runs: [one]}\n",
          "the run 'one', which is not there in --quick"},
     };
@@ -156,20 +163,28 @@ static double reference(brc_context *context, const char *name, const char *run,
     return value;
 }
 
-/* The scenes' own numbers: E 20 GPa, nu 0.3, 1 m x 0.1 m x 0.1 m under 10 N; twist of 1e-5 over 0.3 m; Table 4 with nu 0.4.
- * Written with nine digits and more. */
+/* The scenes' own numbers: E 20 GPa, nu 0.3, 1 m x 0.1 m x 0.1 m under 10 N; twist of 1e-5 over 0.3 m; Table 4 with nu
+ * 0.4. Written with nine digits and more. */
 static void references_of_the_cases_are_those_of_theory(void **state)
 {
     (void)state;
     brc_context *context = brc_context_create();
     const double shear = 20e9 / 2.6;
-    assert_near(reference(context, "cantilever", "across-4", "tip") / brc_reference_cantilever(20e9, 0.3, 1, 0.1, 0.1, 10), 1, 1e-8);
+    assert_near(reference(context, "cantilever", "across-4", "tip") /
+                    brc_reference_cantilever(20e9, 0.3, 1, 0.1, 0.1, 10),
+                1, 1e-8);
     assert_near(reference(context, "twisted-bar", "square-4", "energy") /
-                    brc_reference_torsion_energy(shear, brc_reference_torsion_rectangle(0.1, 0.1), 0.3, 1e-5), 1, 1e-8);
+                    brc_reference_torsion_energy(shear, brc_reference_torsion_rectangle(0.1, 0.1), 0.3, 1e-5),
+                1, 1e-8);
     assert_near(reference(context, "twisted-bar", "round-4", "energy") /
-                    brc_reference_torsion_energy(shear, brc_reference_torsion_circle(0.05), 0.3, 1e-5), 1, 1e-8);
-    assert_near(reference(context, "agh19-table4", "dlsm-tension", "frequency") / brc_reference_bar_frequency(20e9, 1000, 1), 1, 1e-8);
-    assert_near(reference(context, "agh19-table4", "dlsm-torsion", "frequency") / brc_reference_bar_frequency(20e9 / 2.8, 1000, 1), 1, 1e-8);
+                    brc_reference_torsion_energy(shear, brc_reference_torsion_circle(0.05), 0.3, 1e-5),
+                1, 1e-8);
+    assert_near(reference(context, "agh19-table4", "dlsm-tension", "frequency") /
+                    brc_reference_bar_frequency(20e9, 1000, 1),
+                1, 1e-8);
+    assert_near(reference(context, "agh19-table4", "dlsm-torsion", "frequency") /
+                    brc_reference_bar_frequency(20e9 / 2.8, 1000, 1),
+                1, 1e-8);
     brc_context_free(&context);
 }
 

@@ -32,9 +32,14 @@ static made *make(void)
     return &m;
 }
 
-static double derive(const made *m, brc_case_formula formula, const char *against, double origin, int n_runs, char *note)
+static double derive(const made *m, brc_case_formula formula, const char *against, double origin, int n_runs,
+                     char *note)
 {
-    const brc_case_derived derived = {.formula = formula, .of = "q", .against = against, .origin = origin, .n_runs = n_runs,
+    const brc_case_derived derived = {.formula = formula,
+                                      .of = "q",
+                                      .against = against,
+                                      .origin = origin,
+                                      .n_runs = n_runs,
                                       .runs = {"a", "b", "c", "a"}};
     return brc_derived_value(&m->campaign, &derived, note, 200);
 }
@@ -64,7 +69,8 @@ static void crossing_is_where_a_quantity_passes_a_value_along_a_label(void **sta
     assert_true(isnan(brc_outcome_label(&m->outcomes[0], "cells")));
 }
 
-/* Masses at the middles of equal parts of m^-tau between 1 and 100 have its exponent, but for what quantiles are off the mean: a share 1 / (24 n^2) of the curvature of ln m over them. */
+/* Masses at the middles of equal parts of m^-tau between 1 and 100 have its exponent, but for what quantiles are off
+ * the mean: a share 1 / (24 n^2) of the curvature of ln m over them. */
 static void the_exponent_of_masses_is_that_they_were_drawn_with(void **state)
 {
     (void)state;
@@ -84,7 +90,8 @@ static void the_exponent_of_masses_is_that_they_were_drawn_with(void **state)
         assert_int_equal(n, N);
         assert_true(error > 0.2 / sqrt(N) && error < 5 / sqrt(N)); /* ln m scatters by 0.3 (tau 4) to 1.3 */
         double half;
-        for (int k = 0; k < N / 4; ++k) mass[k] = mass[4 * k + 2];
+        for (int k = 0; k < N / 4; ++k)
+            mass[k] = mass[4 * k + 2];
         brc_fragments_exponent(N / 4, mass, 1, 100, &n, &half);
         assert_near(half / error, 2, 0.05); /* a quarter of them is twice as uncertain */
     }
@@ -151,15 +158,17 @@ static void a_missing_run_gives_no_value_and_a_reason(void **state)
 static int reproduce(const char *bound)
 {
     char command[2048];
-    snprintf(command, sizeof command,
-             "rm -rf made-cases && mkdir -p made-cases/one && cat > made-cases/one/case.yaml <<'X'\n"
-             "title: One\nruns:\n  - {name: r, rows: {energy: {reference: 1 J, %s}, seconds: {unit: s}}}\nX\n"
-             "cat > made-cases/one/scene.yaml <<'X'\n"
-             "version: 1\nmaterials: {m: {E: 20 GPa, nu: 0.3, density: 1000 kg/m^3}}\n"
-             "bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {elements: 27}}}]\n"
-             "stages: [{name: pull, solver: {dynamic: {steps: 10}}, initial: [{affine: {gradient: {x: [1e-4, 0, 0]}}}]}]\n"
-             "sensors: {total: {energy: total}}\nmeasure: {energy: {mean: {of: total}}}\noutput: {frames: none, picture: false}\nX\n",
-             bound);
+    snprintf(
+        command, sizeof command,
+        "rm -rf made-cases && mkdir -p made-cases/one && cat > made-cases/one/case.yaml <<'X'\n"
+        "title: One\nruns:\n  - {name: r, rows: {energy: {reference: 1 J, %s}, seconds: {unit: s}}}\nX\n"
+        "cat > made-cases/one/scene.yaml <<'X'\n"
+        "version: 1\nmaterials: {m: {E: 20 GPa, nu: 0.3, density: 1000 kg/m^3}}\n"
+        "bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {elements: 27}}}]\n"
+        "stages: [{name: pull, solver: {dynamic: {steps: 10}}, initial: [{affine: {gradient: {x: [1e-4, 0, 0]}}}]}]\n"
+        "sensors: {total: {energy: total}}\nmeasure: {energy: {mean: {of: total}}}\noutput: {frames: none, picture: "
+        "false}\nX\n",
+        bound);
     assert_int_equal(system(command), 0);
     return test_program("reproduce one --folder made-cases --threads 1 --device cpu -o made-cases/out");
 }

@@ -29,8 +29,10 @@ static made *make(int n_seeds)
     m.run = (brc_case_run){.name = "a", .n_seeds = n_seeds, .n_labels = 1, .labels = {{"sample", "cube"}}};
     m.what = (brc_case){.name = "made", .n_runs = 1, .runs = &m.run};
     m.outcome.run = &m.run;
-    m.campaign = (brc_campaign){.session = &m.session, .what = &m.what, .folder = "made-isotropy", .outcomes = &m.outcome, .n_threads = 1};
-    assert_int_equal(brc_operator_isotropy.obtain(&m.campaign, &m.outcome, "scene.yaml", scene, sizeof scene - 1, NULL), BRC_OK);
+    m.campaign = (brc_campaign){
+        .session = &m.session, .what = &m.what, .folder = "made-isotropy", .outcomes = &m.outcome, .n_threads = 1};
+    assert_int_equal(brc_operator_isotropy.obtain(&m.campaign, &m.outcome, "scene.yaml", scene, sizeof scene - 1, NULL),
+                     BRC_OK);
     m.outcome.done = true;
     return &m;
 }
@@ -39,9 +41,10 @@ static brc_isotropy measure(brc_context *context, uint64_t seed, brc_isotropy_we
 {
     brc_domain *domain;
     brc_isotropy isotropy;
-    const brc_build_request request = {.shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}},
-                                       .fill = {.kind = BRC_FILL_NOISY_GRID, .n_elements = 1000, .spread = 0.7, .seed = seed},
-                                       .n_threads = 1};
+    const brc_build_request request = {
+        .shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}},
+        .fill = {.kind = BRC_FILL_NOISY_GRID, .n_elements = 1000, .spread = 0.7, .seed = seed},
+        .n_threads = 1};
     assert_int_equal(brc_domain_build(context, &request, &domain), BRC_OK);
     assert_int_equal(brc_isotropy_measure(context, domain, 3, weight, 1, &isotropy), BRC_OK);
     brc_domain_free(&domain);
@@ -54,15 +57,18 @@ static void values_are_means_over_samples_with_their_scatter(void **state)
     (void)state;
     made *m = make(2);
     for (int w = 0; w < 2; ++w) {
-        brc_isotropy a = measure(m->session.context, 11, (brc_isotropy_weight)w), b = measure(m->session.context, 12, (brc_isotropy_weight)w);
-        const brc_case_value *cubic = brc_outcome_find(&m->outcome, w ? "cubic_area" : "cubic"), *rms = brc_outcome_find(&m->outcome, w ? "rms_bin_area" : "rms_bin"),
+        brc_isotropy a = measure(m->session.context, 11, (brc_isotropy_weight)w),
+                     b = measure(m->session.context, 12, (brc_isotropy_weight)w);
+        const brc_case_value *cubic = brc_outcome_find(&m->outcome, w ? "cubic_area" : "cubic"),
+                             *rms = brc_outcome_find(&m->outcome, w ? "rms_bin_area" : "rms_bin"),
                              *excess = brc_outcome_find(&m->outcome, w ? "excess_area" : "excess");
         assert_near(cubic->value, (a.cubic + b.cubic) / 2, 1e-15);
         assert_near(cubic->scatter, fabs(a.cubic - b.cubic) / sqrt(2), 1e-8); /* from squares: half the digits */
         assert_near(rms->reference, (a.noise + b.noise) / 2, 1e-15);
-        assert_near(excess->value * excess->value, (a.rms_bin * a.rms_bin + b.rms_bin * b.rms_bin - a.noise * a.noise - b.noise * b.noise) / 2, 1e-12);
+        assert_near(excess->value * excess->value,
+                    (a.rms_bin * a.rms_bin + b.rms_bin * b.rms_bin - a.noise * a.noise - b.noise * b.noise) / 2, 1e-12);
         assert_true(m->outcome.isotropy[w].cubic == a.cubic); /* the first is kept */
-        double product = 0; /* of the two samples' deviations */
+        double product = 0;                                   /* of the two samples' deviations */
         for (int32_t bin = 0; bin < a.n_bins; ++bin)
             product += a.solid_angle[bin] / (4 * M_PI) * (a.density[bin] - 1) * (b.density[bin] - 1);
         assert_near(brc_outcome_find(&m->outcome, w ? "common_area" : "common")->value, sqrt(product), 1e-9);

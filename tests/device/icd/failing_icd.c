@@ -1,5 +1,5 @@
-/* An OpenCL driver that fails as BRC_FAILING_ICD says, as soon as the loader asks it for its functions: abort, hang, exit end or
- * stop the program; empty: a platform without devices; platformless: a driver without a platform. */
+/* An OpenCL driver that fails as BRC_FAILING_ICD says, as soon as the loader asks it for its functions: abort, hang,
+ * exit end or stop the program; empty: a platform without devices; platformless: a driver without a platform. */
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl_icd.h>
 #include <stdlib.h>
@@ -21,7 +21,8 @@ static cl_int CL_API_CALL platform_info(cl_platform_id platform, cl_platform_inf
     return CL_SUCCESS;
 }
 
-static cl_int CL_API_CALL no_devices(cl_platform_id platform, cl_device_type type, cl_uint room, cl_device_id *devices, cl_uint *n)
+static cl_int CL_API_CALL no_devices(cl_platform_id platform, cl_device_type type, cl_uint room, cl_device_id *devices,
+                                     cl_uint *n)
 {
     (void)platform, (void)type, (void)room, (void)devices;
     if (n) *n = 0;

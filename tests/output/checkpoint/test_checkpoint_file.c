@@ -43,7 +43,8 @@ static void a_sealed_file_is_told_from_one_cut_short_or_changed(void **state)
     const char *path = test_path(folder, "file");
     const size_t n = (1 << 20) + 77; /* more than one block */
     char *data = calloc(1, n);
-    for (size_t k = 0; k < n; ++k) data[k] = (char)(k * 7);
+    for (size_t k = 0; k < n; ++k)
+        data[k] = (char)(k * 7);
     write_bytes(path, data, n);
     assert_false(is_whole(path, why));
     assert_non_null(strstr(why, "no seal"));
@@ -146,7 +147,8 @@ static void write_identity(const char *path, int64_t format, const char *scene)
 
 static void says(const char *part)
 {
-    if (!strstr(brc_context_message(test_context), part)) fail_msg("'%s' is not in: %s", part, brc_context_message(test_context));
+    if (!strstr(brc_context_message(test_context), part))
+        fail_msg("'%s' is not in: %s", part, brc_context_message(test_context));
     brc_context_clear(test_context);
 }
 
@@ -168,7 +170,8 @@ static void another_format_is_refused_and_another_program_goes_on(void **state)
     brc_checkpoints_free(&found);
     write_identity(test_path(folder, "checkpoints/000004.h5"), BRC_CHECKPOINT_FORMAT_VERSION + 1, yaml);
     assert_int_equal(brc_checkpoints_create(test_context, folder, scene, true, &found), BRC_BAD_INPUT);
-    snprintf(text, sizeof text, "000004.h5: is a checkpoint of format %d, this program reads %d", BRC_CHECKPOINT_FORMAT_VERSION + 1, BRC_CHECKPOINT_FORMAT_VERSION);
+    snprintf(text, sizeof text, "000004.h5: is a checkpoint of format %d, this program reads %d",
+             BRC_CHECKPOINT_FORMAT_VERSION + 1, BRC_CHECKPOINT_FORMAT_VERSION);
     says(text);
     assert_null(found);
     brc_memory_free(yaml);
@@ -183,8 +186,10 @@ static void a_scene_that_differs_is_refused_with_the_key(void **state)
     brc_checkpoints *found = NULL;
     static const struct {
         const char *more, *says;
-    } changed[] = {{"gravity: [0, 0, -9.81 m/s^2]\n", "gravity"}, {"output: {frames: 7}\n", "output: 'frames: 7' there"},
-                   {"stages:\n  - name: pull\n    solver: {dynamic: {steps: 20}}\n", "'steps: 20' there, 'steps: 10' here"}};
+    } changed[] = {
+        {"gravity: [0, 0, -9.81 m/s^2]\n", "gravity"},
+        {"output: {frames: 7}\n", "output: 'frames: 7' there"},
+        {"stages:\n  - name: pull\n    solver: {dynamic: {steps: 20}}\n", "'steps: 20' there, 'steps: 10' here"}};
     for (size_t k = 0; k < sizeof changed / sizeof *changed; ++k) {
         const bool own_stages = strncmp(changed[k].more, "stages", 6) == 0;
         snprintf(text, sizeof text, "%s%s%s", TEST_SCENE_HEAD, own_stages ? "" : stages, changed[k].more);

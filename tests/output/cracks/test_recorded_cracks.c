@@ -14,15 +14,19 @@
 #include <string.h>
 
 static const char SCENE[] =
-    "version: 1\nmaterials:\n  glass: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.4, E: 8 Pa}, strength: {tension: 2e-4 Pa}}\nmodel: cbm\n"
+    "version: 1\nmaterials:\n  glass: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, beam: {radius: 0.4, E: 8 Pa}, strength: "
+    "{tension: 2e-4 Pa}}\nmodel: cbm\n"
     "fracture: {criterion: {virial-principal: {level: 1}}}\n"
-    "bodies:\n  - name: cube\n    shape: {box: {size: [1 m, 1 m, 1 m]}}\n    fill: {packing: {elements: 500, seed: 1}}\n    beams: 8\n    material: glass\n"
+    "bodies:\n  - name: cube\n    shape: {box: {size: [1 m, 1 m, 1 m]}}\n    fill: {packing: {elements: 500, seed: "
+    "1}}\n    beams: 8\n    material: glass\n"
     "stages:\n  - name: pull\n    solver: {dynamic: {duration: 3 s, stop_after_peak: {sensor: force, below: 60 %}}}\n"
     "    initial:\n      - velocity: {gradient: {x: [4e-4 1/s, 0, 0]}, origin: [0.5 m, 0.5 m, 0.5 m]}\n"
     "    loads:\n      - element_velocity: {set: x-, x: -2e-4 m/s}\n      - element_velocity: {set: x+, x: 2e-4 m/s}\n"
     "  - name: after\n    solver: {dynamic: {steps: 20}}\n"
-    "sensors:\n  force: {reaction: {set: x+, component: x}}\n  broken: {fracture: broken}\n  area: {fracture: crack_area}\n  pieces: {fracture: fragments}\n"
-    "  largest: {fracture: largest_fragment}\n  ratio: {fracture: failure_ratio}\n  tip: {crack_tip: {direction: [0, 1, 0]}}\n"
+    "sensors:\n  force: {reaction: {set: x+, component: x}}\n  broken: {fracture: broken}\n  area: {fracture: "
+    "crack_area}\n  pieces: {fracture: fragments}\n"
+    "  largest: {fracture: largest_fragment}\n  ratio: {fracture: failure_ratio}\n  tip: {crack_tip: {direction: [0, "
+    "1, 0]}}\n"
     "measure:\n  first: {at_first_break: {of: ratio, stage: pull}}\n  last: {peak: {of: area}}\n"
     "output: {frames: 4, picture: false, history_every: 5}\n";
 
@@ -50,7 +54,8 @@ static brc_status record(run *r, int stop_at)
 {
     memset(r, 0, sizeof *r);
     r->folder = test_new_folder();
-    assert_int_equal(brc_scene_read_text(test_context, "test.yaml", SCENE, sizeof SCENE - 1, 0, NULL, &r->scene), BRC_OK);
+    assert_int_equal(brc_scene_read_text(test_context, "test.yaml", SCENE, sizeof SCENE - 1, 0, NULL, &r->scene),
+                     BRC_OK);
     const brc_body *body = r->scene->bodies;
     const brc_build_request request = {.shape = body->shape, .fill = body->fill, .beams = body->beams};
     assert_int_equal(brc_domain_build(test_context, &request, &r->domain), BRC_OK);
@@ -86,9 +91,12 @@ static double last_of(const char *path, const char *name)
     int column = 0;
     const char *found = strstr(text, name);
     assert_true(found && found < end);
-    for (const char *c = text; c < found; ++c) column += *c == ',';
-    for (char *line = end + 1; *line; line = strchr(line, '\n') + 1) row = line;
-    for (; column > 0; --column) row = strchr(row, ',') + 1;
+    for (const char *c = text; c < found; ++c)
+        column += *c == ',';
+    for (char *line = end + 1; *line; line = strchr(line, '\n') + 1)
+        row = line;
+    for (; column > 0; --column)
+        row = strchr(row, ',') + 1;
     const double value = strtod(row, NULL);
     brc_memory_free(text);
     return value;
@@ -98,7 +106,8 @@ static int64_t rows_of(const char *path)
 {
     char *text = test_read(path);
     int64_t n = -1; /* without the head */
-    for (const char *c = text; *c; ++c) n += *c == '\n';
+    for (const char *c = text; *c; ++c)
+        n += *c == '\n';
     brc_memory_free(text);
     return n;
 }
@@ -120,16 +129,19 @@ static void every_file_tells_the_same(void **state)
     const char *histories = test_path(r.folder, "histories.csv"), *cracks = test_path(r.folder, "cracks.csv");
     assert_int_equal(rows_of(cracks), n);
     assert_true(last_of(histories, "broken [") == (double)n);
-    assert_true(last_of(histories, "area [") == area && last_of(histories, "tip [") == tip); /* the same sums in the same order */
+    assert_true(last_of(histories, "area [") == area &&
+                last_of(histories, "tip [") == tip); /* the same sums in the same order */
     assert_true(last_of(cracks, "time [") == list[n - 1].time && last_of(cracks, "bond") == list[n - 1].bond);
     int32_t *fragment = calloc((size_t)r.domain->n_elements, sizeof *fragment);
     assert_int_equal(brc_simulation_fragments(r.simulation, fragment, &n_fragments), BRC_OK);
-    for (int64_t e = 0; e < r.domain->n_elements; ++e) mass += r.domain->volume[e];
+    for (int64_t e = 0; e < r.domain->n_elements; ++e)
+        mass += r.domain->volume[e];
     assert_true(last_of(histories, "pieces [") == (double)n_fragments);
     assert_true(last_of(test_path(r.folder, "fragments.csv"), "fragment,") == (double)(n_fragments - 1));
     assert_true(last_of(histories, "largest [") <= 1 && last_of(histories, "largest [") > 0.1);
     free(fragment);
-    /* the first stage ended by its sensor, the second by its plan; the failure ratio reached its limit between two samples */
+    /* the first stage ended by its sensor, the second by its plan; the failure ratio reached its limit between two
+     * samples */
     assert_non_null(strstr(brc_simulation_stage_reason(r.simulation, 0), "stop_after_peak: force fell"));
     assert_string_equal(brc_simulation_stage_reason(r.simulation, 1), "");
     assert_int_equal(brc_simulation_step(r.simulation), 20);
@@ -140,7 +152,8 @@ static void every_file_tells_the_same(void **state)
     brc_memory_free(text);
     assert_int_equal(brc_export(test_context, r.folder, "vtu", NULL, NULL), BRC_OK);
     assert_int_equal(brc_export(test_context, r.folder, "csv", NULL, NULL), BRC_OK);
-    static const char *const exported[] = {"export/frames/000000.cracks.vtu", "export/cracks.vtu.series", "export/cracks.csv", "export/fragments.csv"};
+    static const char *const exported[] = {"export/frames/000000.cracks.vtu", "export/cracks.vtu.series",
+                                           "export/cracks.csv", "export/fragments.csv"};
     for (size_t k = 0; k < sizeof exported / sizeof exported[0]; ++k)
         if (!brc_file_exists(test_path(r.folder, exported[k]))) fail_msg("no %s", exported[k]);
     end_run(&r);
@@ -163,6 +176,7 @@ static void a_run_that_fails_keeps_its_breaks(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_file_tells_the_same), cmocka_unit_test(a_run_that_fails_keeps_its_breaks)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_file_tells_the_same),
+                                       cmocka_unit_test(a_run_that_fails_keeps_its_breaks)};
     return cmocka_run_group_tests(tests, test_begin, test_end);
 }

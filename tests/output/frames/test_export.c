@@ -31,7 +31,9 @@ static int begin(void **state)
         if (brc_frames_write(frames, test_path(folder, "frames"), k) != BRC_OK) return -1;
     }
     brc_frames_free(&frames);
-    if (brc_tessellation_create(test_context, domain, 1, &cells) != BRC_OK || brc_tessellation_join(test_context, NULL, 1, &cells) != BRC_OK) return -1;
+    if (brc_tessellation_create(test_context, domain, 1, &cells) != BRC_OK ||
+        brc_tessellation_join(test_context, NULL, 1, &cells) != BRC_OK)
+        return -1;
     return 0;
 }
 

@@ -20,7 +20,8 @@ static vtu write_and_read(const brc_domain *d)
 {
     vtu file;
     static const char mark[] = "<AppendedData encoding=\"raw\">\n_";
-    if (brc_export_domain_vtu(test_context, d, "domain.vtu") != BRC_OK) fail_msg("%s", brc_context_message(test_context));
+    if (brc_export_domain_vtu(test_context, d, "domain.vtu") != BRC_OK)
+        fail_msg("%s", brc_context_message(test_context));
     assert_int_equal(brc_file_read_whole(test_context, "domain.vtu", (size_t)1 << 28, &file.data, &file.bytes), BRC_OK);
     file.raw = strstr(file.data, mark);
     assert_non_null(file.raw);
@@ -53,15 +54,30 @@ static const void *find(const vtu *file, const char *place, const char *name, co
 static void assert_tree(const vtu *file, int64_t n_points, int64_t n_cells)
 {
     char words[96];
-    static const char *const order[] = {"<?xml version=\"1.0\"?>", "<VTKFile type=\"UnstructuredGrid\"", "<UnstructuredGrid>", "<FieldData>",
-                                        "</FieldData>", "<Piece ", "<Points>", "</Points>", "<Cells>", "</Cells>", "<PointData>",
-                                        "</PointData>", "<CellData>", "</CellData>", "</Piece>", "</UnstructuredGrid>", "<AppendedData"};
+    static const char *const order[] = {"<?xml version=\"1.0\"?>",
+                                        "<VTKFile type=\"UnstructuredGrid\"",
+                                        "<UnstructuredGrid>",
+                                        "<FieldData>",
+                                        "</FieldData>",
+                                        "<Piece ",
+                                        "<Points>",
+                                        "</Points>",
+                                        "<Cells>",
+                                        "</Cells>",
+                                        "<PointData>",
+                                        "</PointData>",
+                                        "<CellData>",
+                                        "</CellData>",
+                                        "</Piece>",
+                                        "</UnstructuredGrid>",
+                                        "<AppendedData"};
     const char *at = file->data;
     for (size_t k = 0; k < sizeof order / sizeof *order; ++k) {
         at = strstr(at, order[k]);
         if (!at) fail_msg("%s is missing or in the wrong place", order[k]);
     }
-    snprintf(words, sizeof words, "<Piece NumberOfPoints=\"%lld\" NumberOfCells=\"%lld\">", (long long)n_points, (long long)n_cells);
+    snprintf(words, sizeof words, "<Piece NumberOfPoints=\"%lld\" NumberOfCells=\"%lld\">", (long long)n_points,
+             (long long)n_cells);
     assert_non_null(strstr(file->data, words));
     static const char tail[] = "\n</AppendedData>\n</VTKFile>\n";
     assert_memory_equal(file->data + file->bytes - strlen(tail), tail, strlen(tail));
@@ -75,17 +91,22 @@ static void cells_are_polyhedra_that_share_their_corners(void **state)
     brc_tessellation cells;
     assert_int_equal(brc_tessellation_create(test_context, d, 1, &cells), BRC_OK);
     assert_int_equal(brc_tessellation_join(test_context, NULL, 1, &cells), BRC_OK);
-    const int64_t n_points = cells.n_points, n_ids = cells.point_start[n], n_stream = n + cells.face_start[n] + cells.loop_start[n];
+    const int64_t n_points = cells.n_points, n_ids = cells.point_start[n],
+                  n_stream = n + cells.face_start[n] + cells.loop_start[n];
     assert_true(3 * n_points < d->vertex_start[n]);
     assert_int_equal(BRC_ALLOCATE(test_context, &d->grain, n, "grains"), BRC_OK);
-    for (int64_t e = 0; e < n; ++e) d->grain[e] = (int32_t)(e % 7);
+    for (int64_t e = 0; e < n; ++e)
+        d->grain[e] = (int32_t)(e % 7);
     vtu file = write_and_read(d);
     assert_tree(&file, n_points, n);
     const float *x = find(&file, "Points", "Points", "Float32", 12 * n_points);
-    const int64_t *point = find(&file, "Cells", "connectivity", "Int64", 8 * n_ids), *end = find(&file, "Cells", "offsets", "Int64", 8 * n);
-    const int64_t *stream = find(&file, "Cells", "faces", "Int64", 8 * n_stream), *stream_end = find(&file, "Cells", "faceoffsets", "Int64", 8 * n);
+    const int64_t *point = find(&file, "Cells", "connectivity", "Int64", 8 * n_ids),
+                  *end = find(&file, "Cells", "offsets", "Int64", 8 * n);
+    const int64_t *stream = find(&file, "Cells", "faces", "Int64", 8 * n_stream),
+                  *stream_end = find(&file, "Cells", "faceoffsets", "Int64", 8 * n);
     const uint8_t *type = find(&file, "Cells", "types", "UInt8", n);
-    const int64_t *grain = find(&file, "CellData", "grain", "Int64", 8 * n), *id = find(&file, "CellData", "element_id", "Int64", 8 * n);
+    const int64_t *grain = find(&file, "CellData", "grain", "Int64", 8 * n),
+                  *id = find(&file, "CellData", "element_id", "Int64", 8 * n);
     const int64_t *bonds = find(&file, "CellData", "coordination", "Int64", 8 * n);
     const double *volume = find(&file, "CellData", "volume", "Float64", 8 * n);
     for (int64_t e = 0, place = 0; e < n; ++e) {
@@ -100,10 +121,12 @@ static void cells_are_polyhedra_that_share_their_corners(void **state)
             memcpy(&value, point + v, 8);
             assert_int_equal(value, own[v - from]);
         }
-        for (int64_t v = d->vertex_start[e]; v < d->vertex_start[e + 1]; ++v) { /* copies of a corner agree to rounding */
+        for (int64_t v = d->vertex_start[e]; v < d->vertex_start[e + 1];
+             ++v) { /* copies of a corner agree to rounding */
             float corner[3];
             memcpy(corner, x + 3 * cells.point[v], 12);
-            for (int c = 0; c < 3; ++c) assert_true(fabs(corner[c] - d->vertex[3 * v + c]) < 2e-7);
+            for (int c = 0; c < 3; ++c)
+                assert_true(fabs(corner[c] - d->vertex[3 * v + c]) < 2e-7);
         }
         const int64_t n_faces = brc_tessellation_faces(&cells, e, count, loops);
         memcpy(&value, stream + place++, 8);
@@ -147,7 +170,8 @@ static void spheres_are_vertices_with_a_radius(void **state)
     vtu file = write_and_read(d);
     assert_tree(&file, N, N);
     const float *at = find(&file, "Points", "Points", "Float32", 12 * N);
-    const int64_t *end = find(&file, "Cells", "offsets", "Int64", 8 * N), *bonds = find(&file, "CellData", "coordination", "Int64", 8 * N);
+    const int64_t *end = find(&file, "Cells", "offsets", "Int64", 8 * N),
+                  *bonds = find(&file, "CellData", "coordination", "Int64", 8 * N);
     const uint8_t *type = find(&file, "Cells", "types", "UInt8", N);
     const double *radius = find(&file, "PointData", "radius", "Float64", 8 * N);
     for (int e = 0; e < N; ++e) {

@@ -43,7 +43,9 @@ static int begin(void **state)
     brc_frames *frames = frames_of(&whole);
     if (brc_frames_write(frames, folder, 0) != BRC_OK) return -1;
     brc_frames_free(&frames);
-    if (brc_tessellation_create(test_context, domain, 1, &cells) != BRC_OK || brc_tessellation_join(test_context, NULL, 1, &cells) != BRC_OK) return -1;
+    if (brc_tessellation_create(test_context, domain, 1, &cells) != BRC_OK ||
+        brc_tessellation_join(test_context, NULL, 1, &cells) != BRC_OK)
+        return -1;
     static char path[512];
     snprintf(path, sizeof path, "%s/000000.vtkhdf", folder);
     return brc_h5_read_open(test_context, path, &h5) == BRC_OK ? 0 : -1;
@@ -98,7 +100,8 @@ static void assert_places(const float *x)
     int64_t next = 0;
     for (int64_t v = 0; v < domain->vertex_start[domain->n_elements]; ++v) {
         if (cells.point[v] != next) continue;
-        for (int c = 0; c < 3; ++c) assert_true(x[3 * next + c] == (float)domain->vertex[3 * v + c]);
+        for (int c = 0; c < 3; ++c)
+            assert_true(x[3 * next + c] == (float)domain->vertex[3 * v + c]);
         ++next;
     }
     assert_int_equal(next, cells.n_points);
@@ -140,7 +143,12 @@ static void cells_are_closed_polyhedra_of_shared_points_that_turn_outward(void *
     (void)state;
     const int64_t n = domain->n_elements, n_faces = cells.face_start[n];
     int64_t *count[6];
-    static const char *const name[6] = {"NumberOfCells", "NumberOfPoints", "NumberOfConnectivityIds", "NumberOfFaces", "NumberOfPolyhedronToFaceIds", "NumberOfFaceConnectivityIds"};
+    static const char *const name[6] = {"NumberOfCells",
+                                        "NumberOfPoints",
+                                        "NumberOfConnectivityIds",
+                                        "NumberOfFaces",
+                                        "NumberOfPolyhedronToFaceIds",
+                                        "NumberOfFaceConnectivityIds"};
     const int64_t expected[6] = {n, cells.n_points, cells.point_start[n], n_faces, n_faces, cells.loop_start[n]};
     for (int k = 0; k < 6; ++k) {
         count[k] = load(name[k], H5T_NATIVE_INT64, 8, 1, 1);
@@ -148,25 +156,33 @@ static void cells_are_closed_polyhedra_of_shared_points_that_turn_outward(void *
     }
     float *x = load("Points", H5T_NATIVE_FLOAT, 4, cells.n_points, 3);
     assert_places(x);
-    int64_t *offset = load("Offsets", H5T_NATIVE_INT64, 8, n + 1, 1), *id = load("Connectivity", H5T_NATIVE_INT64, 8, cells.point_start[n], 1);
-    int64_t *face_start = load("PolyhedronOffsets", H5T_NATIVE_INT64, 8, n + 1, 1), *face = load("PolyhedronToFaces", H5T_NATIVE_INT64, 8, n_faces, 1);
-    int64_t *start = load("FaceOffsets", H5T_NATIVE_INT64, 8, n_faces + 1, 1), *point = load("FaceConnectivity", H5T_NATIVE_INT64, 8, cells.loop_start[n], 1);
+    int64_t *offset = load("Offsets", H5T_NATIVE_INT64, 8, n + 1, 1),
+            *id = load("Connectivity", H5T_NATIVE_INT64, 8, cells.point_start[n], 1);
+    int64_t *face_start = load("PolyhedronOffsets", H5T_NATIVE_INT64, 8, n + 1, 1),
+            *face = load("PolyhedronToFaces", H5T_NATIVE_INT64, 8, n_faces, 1);
+    int64_t *start = load("FaceOffsets", H5T_NATIVE_INT64, 8, n_faces + 1, 1),
+            *point = load("FaceConnectivity", H5T_NATIVE_INT64, 8, cells.loop_start[n], 1);
     uint8_t *type = load("Types", H5T_NATIVE_UINT8, 1, n, 1);
     for (int64_t e = 0; e < n; ++e) {
         double volume = 0;
         assert_int_equal(type[e], 42);
         assert_int_equal(offset[e + 1], cells.point_start[e + 1]);
         assert_closed(face_start[e + 1] - face_start[e], face + face_start[e], start, point);
-        for (int64_t f = face_start[e]; f < face_start[e + 1]; ++f) volume += cone(x, start[face[f] + 1] - start[face[f]], point + start[face[f]], domain->position + 3 * e);
-        assert_true(fabs(volume / 6 / domain->volume[e] - 1) < 1e-5); /* floats of places up to 2 m in cells of 0.2 m: 2e-6 */
+        for (int64_t f = face_start[e]; f < face_start[e + 1]; ++f)
+            volume += cone(x, start[face[f] + 1] - start[face[f]], point + start[face[f]], domain->position + 3 * e);
+        assert_true(fabs(volume / 6 / domain->volume[e] - 1) <
+                    1e-5); /* floats of places up to 2 m in cells of 0.2 m: 2e-6 */
         for (int64_t k = start[face[face_start[e]]]; k < start[face[face_start[e + 1] - 1] + 1]; ++k) {
             int64_t m = offset[e];
-            while (m < offset[e + 1] && id[m] != point[k]) ++m;
+            while (m < offset[e + 1] && id[m] != point[k])
+                ++m;
             assert_true(m < offset[e + 1]);
         }
     }
-    void *const block[] = {x, offset, id, face_start, face, start, point, type, count[0], count[1], count[2], count[3], count[4], count[5]};
-    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) brc_memory_free(block[k]);
+    void *const block[] = {x,    offset,   id,       face_start, face,     start,    point,
+                           type, count[0], count[1], count[2],   count[3], count[4], count[5]};
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
+        brc_memory_free(block[k]);
 }
 
 static void corners_move_with_the_gradient_of_their_cells(void **state)
@@ -209,15 +225,19 @@ static const char *owner(int number, const char *object)
 static void what_an_earlier_frame_has_is_referred_to(void **state)
 {
     (void)state;
-    static const char *const ELEMENTS = "VTKHDF/CellData/position", *const POINTS = "VTKHDF/Points", *const FACES = "VTKHDF/FaceConnectivity", *const STARTS = "VTKHDF/FaceOffsets";
-    static const char *const expected[4][4] = {{"", "", "", ""}, {"000000.vtkhdf", "000000.vtkhdf", "000000.vtkhdf", "000000.vtkhdf"},
-                                               {"000000.vtkhdf", "", "", "000000.vtkhdf"}, {"000000.vtkhdf", "000002.vtkhdf", "000002.vtkhdf", "000002.vtkhdf"}};
+    static const char *const ELEMENTS = "VTKHDF/CellData/position", *const POINTS = "VTKHDF/Points",
+                             *const FACES = "VTKHDF/FaceConnectivity", *const STARTS = "VTKHDF/FaceOffsets";
+    static const char *const expected[4][4] = {{"", "", "", ""},
+                                               {"000000.vtkhdf", "000000.vtkhdf", "000000.vtkhdf", "000000.vtkhdf"},
+                                               {"000000.vtkhdf", "", "", "000000.vtkhdf"},
+                                               {"000000.vtkhdf", "000002.vtkhdf", "000002.vtkhdf", "000002.vtkhdf"}};
     int64_t bond = 0; /* one inside, so that its corners are all joined around it, or nearly */
     for (int64_t b = 0; b < domain->n_bonds; ++b)
         if (fabs(domain->face_centroid[3 * (int64_t)domain->bond_half_edge[b]] - 1) < 0.3) bond = b;
     const brc_break one = {.bond = (int32_t)bond};
-    brc_scene *scene = test_scene(TEST_SCENE_HEAD "stages:\n  - name: pull\n    solver:\n      static: {increments: 4}\n    loads:\n"
-                                                  "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: x+, x: 2 mm}\n");
+    brc_scene *scene = test_scene(
+        TEST_SCENE_HEAD "stages:\n  - name: pull\n    solver:\n      static: {increments: 4}\n    loads:\n"
+                        "      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: x+, x: 2 mm}\n");
     brc_simulation s = {.scene = scene, .domain = domain, .factor = 1, .breaks = &one};
     brc_simulation *const alone = &s;
     const brc_assembly whole = brc_assembly_make(scene, NULL, 1, &alone);
@@ -226,7 +246,8 @@ static void what_an_earlier_frame_has_is_referred_to(void **state)
         s.n_breaks = k >= 2;
         assert_int_equal(brc_frames_write(frames, folder, k), BRC_OK);
         const char *const object[4] = {ELEMENTS, POINTS, FACES, STARTS};
-        for (int m = 0; m < 4; ++m) assert_string_equal(owner(k, object[m]), expected[k][m]);
+        for (int m = 0; m < 4; ++m)
+            assert_string_equal(owner(k, object[m]), expected[k][m]);
     }
     brc_frames_free(&frames);
     brc_scene_free(&scene);
@@ -246,10 +267,17 @@ static size_t bytes_of(const brc_h5_read *file, const char *name)
 static void fields_are_single_unless_the_scene_says_double(void **state)
 {
     (void)state;
-    static const char *const field[] = {"VTKHDF/CellData/displacement", "VTKHDF/CellData/velocity", "VTKHDF/CellData/stress", "VTKHDF/CellData/strain", "VTKHDF/CellData/von_mises"};
+    static const char *const field[] = {"VTKHDF/CellData/displacement", "VTKHDF/CellData/velocity",
+                                        "VTKHDF/CellData/stress", "VTKHDF/CellData/strain",
+                                        "VTKHDF/CellData/von_mises"};
     static const int columns[] = {3, 3, 6, 6, 1};
     const brc_scene scene = {.output = {.frame_numbers = BRC_FRAME_SINGLE}};
-    brc_simulation s = {.scene = &scene, .domain = domain, .factor = 1, .time = 0.125, .value = {0.1, 0, 0}, .gradient = {{1e-2, 2e-2, 0}, {0, -3e-3, 0}, {5e-3, 0, 4e-2}},
+    brc_simulation s = {.scene = &scene,
+                        .domain = domain,
+                        .factor = 1,
+                        .time = 0.125,
+                        .value = {0.1, 0, 0},
+                        .gradient = {{1e-2, 2e-2, 0}, {0, -3e-3, 0}, {5e-3, 0, 4e-2}},
                         .stress = {1e6, 2e6, 3e6, 4e6, 5e6, 6e6}};
     brc_simulation *const alone = &s;
     const brc_assembly whole = brc_assembly_make(&scene, NULL, 1, &alone);
@@ -261,11 +289,13 @@ static void fields_are_single_unless_the_scene_says_double(void **state)
     assert_int_equal(brc_h5_read_open(test_context, test_path(other, "000000.vtkhdf"), &file), BRC_OK);
     for (int k = 0; k < 5; ++k) {
         const int64_t n = domain->n_elements;
-        double *both[2] = {malloc((size_t)(n * columns[k]) * sizeof(double)), malloc((size_t)(n * columns[k]) * sizeof(double))};
+        double *both[2] = {malloc((size_t)(n * columns[k]) * sizeof(double)),
+                           malloc((size_t)(n * columns[k]) * sizeof(double))};
         assert_true(bytes_of(&file, field[k]) == 4 && bytes_of(&h5, field[k]) == 8);
         assert_int_equal(brc_h5_read_rows(&h5, field[k], H5T_NATIVE_DOUBLE, 0, n, both[0]), BRC_OK);
         assert_int_equal(brc_h5_read_rows(&file, field[k], H5T_NATIVE_DOUBLE, 0, n, both[1]), BRC_OK);
-        for (int64_t m = 0; m < n * columns[k]; ++m) assert_true(both[1][m] == (double)(float)both[0][m]);
+        for (int64_t m = 0; m < n * columns[k]; ++m)
+            assert_true(both[1][m] == (double)(float)both[0][m]);
         free(both[0]);
         free(both[1]);
     }
@@ -274,7 +304,8 @@ static void fields_are_single_unless_the_scene_says_double(void **state)
     test_remove_folder(other);
 }
 
-/* Blocks that shrink, blocks that do not, and a last one that is not full come back as they were, from any number of threads in the same bytes. */
+/* Blocks that shrink, blocks that do not, and a last one that is not full come back as they were, from any number of
+ * threads in the same bytes. */
 static void packed_rows_come_back(void **state)
 {
     (void)state;
@@ -282,14 +313,16 @@ static void packed_rows_come_back(void **state)
     double *in = malloc(2 * ROWS * sizeof *in), *out = malloc(2 * ROWS * sizeof *out);
     char *bytes[2];
     size_t n[2];
-    for (int64_t k = 0; k < 2 * ROWS; ++k) in[k] = k < ROWS ? sin((double)(k * k)) : (double)(k / 1000);
+    for (int64_t k = 0; k < 2 * ROWS; ++k)
+        in[k] = k < ROWS ? sin((double)(k * k)) : (double)(k / 1000);
     for (int k = 0; k < 2; ++k) {
         brc_h5 file;
         assert_int_equal(brc_h5_create(test_context, test_path(folder, "p.h5"), &file), BRC_OK);
         brc_h5_packed(&file, "rows", H5T_NATIVE_DOUBLE, ROWS, 2);
         brc_h5_pack_rows(&file, "rows", H5T_NATIVE_DOUBLE, 0, ROWS, in, 1 + 3 * k);
         assert_int_equal(brc_h5_commit(&file), BRC_OK);
-        assert_int_equal(brc_file_read_whole(test_context, test_path(folder, "p.h5"), 1 << 26, &bytes[k], &n[k]), BRC_OK);
+        assert_int_equal(brc_file_read_whole(test_context, test_path(folder, "p.h5"), 1 << 26, &bytes[k], &n[k]),
+                         BRC_OK);
     }
     assert_int_equal(n[0], n[1]);
     assert_memory_equal(bytes[0], bytes[1], n[0]);
@@ -300,7 +333,8 @@ static void packed_rows_come_back(void **state)
     assert_memory_equal(in, out, 2 * ROWS * sizeof *in);
     brc_h5_read_close(&file);
     void *const block[] = {bytes[0], bytes[1]};
-    for (int k = 0; k < 2; ++k) brc_memory_free(block[k]);
+    for (int k = 0; k < 2; ++k)
+        brc_memory_free(block[k]);
     free(in);
     free(out);
 }

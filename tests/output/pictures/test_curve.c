@@ -84,7 +84,8 @@ static void sign_and_scale_stand_beside_the_axis(void **state)
     const char *const keep = "#!/bin/sh\ncp \"$1\" \"$KEPT\"\n";
     brc_history *h = history(5, 1e-3);
     brc_measure measure = {.name = "s", .kind = BRC_MEASURE_SLOPE, .x = "axial_strain", .y = "axial_stress"};
-    brc_scene scene = {.n_sensors = 2, .sensors = sensors, .n_stages = 1, .stages = stages, .n_measures = 1, .measures = &measure};
+    brc_scene scene = {
+        .n_sensors = 2, .sensors = sensors, .n_stages = 1, .stages = stages, .n_measures = 1, .measures = &measure};
     strcpy(scene.output.curve_x, "axial_strain");
     strcpy(scene.output.curve_y, "axial_stress");
     assert_int_equal(brc_file_join(test_context, folder, "gnuplot", &program), BRC_OK);
@@ -96,7 +97,9 @@ static void sign_and_scale_stand_beside_the_axis(void **state)
     static const struct {
         double scale;
         const char *title;
-    } known[] = {{1, "\"axial stress [MPa]"}, {-1, "\"\xe2\x88\x92 axial stress [MPa]"}, {0.5, "\"0.5 \xc3\x97 axial stress [MPa]"}};
+    } known[] = {{1, "\"axial stress [MPa]"},
+                 {-1, "\"\xe2\x88\x92 axial stress [MPa]"},
+                 {0.5, "\"0.5 \xc3\x97 axial stress [MPa]"}};
     for (size_t k = 0; k < sizeof known / sizeof *known; ++k) {
         bool made;
         measure.scale = known[k].scale;

@@ -32,7 +32,8 @@ static brc_isotropy histogram(double a)
         const double z = sphere.vertex[3 * v + 2];
         weight[v] = sphere.solid_angle[v] * (1 + a * (3 * z * z - 1) / 2);
     }
-    assert_int_equal(brc_isotropy_count(test_context, sphere.n_vertices, sphere.vertex, weight, 3, 1, &isotropy), BRC_OK);
+    assert_int_equal(brc_isotropy_count(test_context, sphere.n_vertices, sphere.vertex, weight, 3, 1, &isotropy),
+                     BRC_OK);
     brc_memory_free(weight);
     brc_icosphere_free(&sphere);
     return isotropy;
@@ -57,7 +58,8 @@ static bool is_white(const unsigned char *p)
     return p[0] > 250 && p[1] > 250 && p[2] > 250;
 }
 
-/* Radius 340 px round (450, 440): the polyhedron of 642 corners covers the disc to 1 %, and the dashed line adds 1 % at most. */
+/* Radius 340 px round (450, 440): the polyhedron of 642 corners covers the disc to 1 %, and the dashed line adds 1 % at
+ * most. */
 static void even_directions_fill_the_circle_and_nothing_else(void **state)
 {
     (void)state;

@@ -37,8 +37,7 @@ static cairo_surface_t *draw(double low, double slope, double bad)
         value[e] = low + slope * domain->position[3 * e];
     }
     const brc_picture_part cells = {.domain = domain, .displacement = u, .value = value};
-    const brc_picture picture = {
-        .n = 1, .part = &cells, .name = "field", .unit = "Pa", .title = "Title"};
+    const brc_picture picture = {.n = 1, .part = &cells, .name = "field", .unit = "Pa", .title = "Title"};
     assert_int_equal(brc_picture_draw(test_context, &picture, test_path(folder, "p.png")), BRC_OK);
     brc_memory_free(u);
     brc_memory_free(value);
@@ -172,13 +171,22 @@ static void seen(bool steady, double shift, int *first, int *last, int *light)
         value[e] = 0.5;
     }
     const brc_picture_part cells = {.domain = domain, .displacement = u, .value = value};
-    const brc_picture picture = {.n = 1, .part = &cells, .name = "field", .unit = "-", .title = "", .scale = 1, .steady = steady, .range = {0, steady ? shift + 1 : 0}};
+    const brc_picture picture = {.n = 1,
+                                 .part = &cells,
+                                 .name = "field",
+                                 .unit = "-",
+                                 .title = "",
+                                 .scale = 1,
+                                 .steady = steady,
+                                 .range = {0, steady ? shift + 1 : 0}};
     assert_int_equal(brc_picture_draw(test_context, &picture, test_path(folder, "s.png")), BRC_OK);
     brc_memory_free(u);
     brc_memory_free(value);
     cairo_surface_t *image = cairo_image_surface_create_from_png(test_path(folder, "s.png"));
-    for (*first = 61; is_white(pixel(image, *first, 450));) ++*first;
-    for (*last = 959; is_white(pixel(image, *last, 450));) --*last;
+    for (*first = 61; is_white(pixel(image, *first, 450));)
+        ++*first;
+    for (*last = 959; is_white(pixel(image, *last, 450));)
+        --*last;
     const unsigned char *p = pixel(image, (*first + *last) / 2, 450);
     *light = p[0] + 2 * p[1] + p[2];
     cairo_surface_destroy(image);
@@ -254,7 +262,8 @@ static void extent_seen(const brc_paint_view *view, int *wide, int *tall)
 {
     double *zero = calloc((size_t)(3 * domain->n_elements), sizeof *zero);
     const brc_picture_part cells = {.domain = domain, .displacement = zero, .value = zero};
-    const brc_picture picture = {.n = 1, .part = &cells, .name = "", .unit = "-", .title = "", .scale = 1, .view = view};
+    const brc_picture picture = {
+        .n = 1, .part = &cells, .name = "", .unit = "-", .title = "", .scale = 1, .view = view};
     assert_int_equal(brc_picture_draw(test_context, &picture, test_path(folder, "p.png")), BRC_OK);
     cairo_surface_t *image = cairo_image_surface_create_from_png(test_path(folder, "p.png"));
     int low[2] = {1200, 900}, high[2] = {0, 0};
@@ -275,7 +284,8 @@ static void a_box_has_the_sides_of_its_views(void **state)
 {
     (void)state;
     static const double from[3] = {1, 0.5, 9}, towards[3] = {1, 0.5, 0.5};
-    const brc_paint_view above = brc_paint_side_view("z"), end_on = brc_paint_side_view("-x"), same = brc_paint_view_between(from, towards);
+    const brc_paint_view above = brc_paint_side_view("z"), end_on = brc_paint_side_view("-x"),
+                         same = brc_paint_view_between(from, towards);
     int wide, tall;
     extent_seen(&end_on, &wide, &tall);
     assert_in_range(wide, tall - 2, tall + 2);
@@ -290,7 +300,10 @@ static void views_are_right_handed_and_their_labels_apart(void **state)
     (void)state;
     static const double origin[2] = {90, 830}, none[3] = {0, 0, 0};
     for (int k = 0; k < 4000; ++k) {
-        const double angle = 0.01 * k, from[3] = {cos(angle), sin(angle), k % 7 == 0 ? 0 : k % 2 ? 0.05 * k : -0.01 * k};
+        const double angle = 0.01 * k, from[3] = {cos(angle), sin(angle),
+                                                  k % 7 == 0 ? 0
+                                                  : k % 2    ? 0.05 * k
+                                                             : -0.01 * k};
         const brc_paint_view v = brc_paint_view_between(from, none);
         double label[3][2];
         for (int c = 0; c < 3; ++c) {
@@ -299,7 +312,8 @@ static void views_are_right_handed_and_their_labels_apart(void **state)
         }
         brc_paint_axis_labels(&v, origin, 52, label);
         for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < i; ++j) assert_true(hypot(label[i][0] - label[j][0], label[i][1] - label[j][1]) >= 17.99);
+            for (int j = 0; j < i; ++j)
+                assert_true(hypot(label[i][0] - label[j][0], label[i][1] - label[j][1]) >= 17.99);
     }
     const brc_paint_view odd = brc_paint_side_view("corner"), corner = brc_paint_corner_view();
     assert_memory_equal(&odd, &corner, sizeof odd);
@@ -320,13 +334,15 @@ static char *drawn(const brc_scene *scene, size_t *n)
 static void solids_that_touch_are_drawn_where_they_are(void **state)
 {
     (void)state;
-    const brc_scene free = {.n_strikers = 0}, touching = {.has_contact = true}, fixed = {.output = {.picture_scale = 1}};
+    const brc_scene free = {.n_strikers = 0}, touching = {.has_contact = true},
+                    fixed = {.output = {.picture_scale = 1}};
     size_t n[3];
     char *const bytes[3] = {drawn(&free, &n[0]), drawn(&touching, &n[1]), drawn(&fixed, &n[2])};
     assert_int_equal(n[1], n[2]);
     assert_memory_equal(bytes[1], bytes[2], n[1]);
     assert_true(n[0] != n[2] || memcmp(bytes[0], bytes[2], n[0]) != 0); /* this one is amplified */
-    for (int k = 0; k < 3; ++k) brc_memory_free(bytes[k]);
+    for (int k = 0; k < 3; ++k)
+        brc_memory_free(bytes[k]);
 }
 
 int main(void)

@@ -5,12 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char SUMMARY[] = "{\n  \"version\": \"1\",\n  \"title\": \"A <b>bar</b> & more\",\n  \"steps\": 12,\n"
-                              "  \"ledger\": {\"kinetic_J\": 0.5, \"peak_elastic_J\": 2},\n  \"memory\": {\"host_bytes\": 2500000},\n"
-                              "  \"timing\": {\"total_s\": 8, \"steps_s\": 2},\n"
-                              "  \"measures\": {\"E\": {\"value\": 72.1234567e9, \"unit\": \"Pa\", \"error\": null}},\n"
-                              "  \"effects\": {\"in\": [\"one\", \"two\"], \"out\": []},\n"
-                              "  \"end\": {\"status\": \"done\", \"reason\": \"one\\ntwo \\\\name\"}\n}\n";
+static const char SUMMARY[] =
+    "{\n  \"version\": \"1\",\n  \"title\": \"A <b>bar</b> & more\",\n  \"steps\": 12,\n"
+    "  \"ledger\": {\"kinetic_J\": 0.5, \"peak_elastic_J\": 2},\n  \"memory\": {\"host_bytes\": 2500000},\n"
+    "  \"timing\": {\"total_s\": 8, \"steps_s\": 2},\n"
+    "  \"measures\": {\"E\": {\"value\": 72.1234567e9, \"unit\": \"Pa\", \"error\": null}},\n"
+    "  \"effects\": {\"in\": [\"one\", \"two\"], \"out\": []},\n"
+    "  \"end\": {\"status\": \"done\", \"reason\": \"one\\ntwo \\\\name\"}\n}\n";
 
 static void put(const char *folder, const char *name, const char *text, size_t bytes)
 {
@@ -20,7 +21,8 @@ static void put(const char *folder, const char *name, const char *text, size_t b
 static int count(const char *text, const char *what)
 {
     int n = 0;
-    for (const char *at = strstr(text, what); at; at = strstr(at + 1, what)) ++n;
+    for (const char *at = strstr(text, what); at; at = strstr(at + 1, what))
+        ++n;
     return n;
 }
 

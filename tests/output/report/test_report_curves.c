@@ -80,8 +80,8 @@ static void many_samples_are_thinned_and_say_so(void **state)
     test_remove_folder(folder);
 }
 
-/* Faces across x leave a trace along y in the plane xy, and none in the plane yz; one at 30 degrees leaves it at 120.
- */
+/* Faces across x leave a trace along y in the plane xy, and none in the plane yz; one at 30 degrees leaves it at
+ * 120. */
 static void a_rose_has_the_area_along_the_trace(void **state)
 {
     (void)state;

@@ -127,8 +127,9 @@ static void a_broken_bond_opens_two_faces_that_are_born_with_it(void **state)
     brc_report_frame_free(&last);
 }
 
-/* Faces of the first frame of a body that bursts wholly all stay, whatever room there is; with room for some of the cracks, cells keep all of their faces or none of them but those, and it is used up to less than
- * a cell's faces. Points and elements that nothing uses go. */
+/* Faces of the first frame of a body that bursts wholly all stay, whatever room there is; with room for some of the
+ * cracks, cells keep all of their faces or none of them but those, and it is used up to less than a cell's faces.
+ * Points and elements that nothing uses go. */
 static void cracks_are_left_out_where_there_is_no_room(void **state)
 {
     (void)state;
@@ -145,7 +146,8 @@ static void cracks_are_left_out_where_there_is_no_room(void **state)
         const int64_t all = brc_report_skin_bytes(&skin), least = brc_report_skin_bytes(&outer), faces = skin.n_faces;
         const int64_t bytes[3] = {0, all - 1, all};
         double area = 0, old_area = 0;
-        for (int64_t f = 0; f < outer.n_faces; ++f) old_area += area_of(&first, &outer, f);
+        for (int64_t f = 0; f < outer.n_faces; ++f)
+            old_area += area_of(&first, &outer, f);
         assert_true(least < all);
         assert_int_equal(brc_report_skin_thin(test_context, &skin, bytes[room], &n_dropped), BRC_OK);
         assert_int_equal(skin.n_faces + n_dropped, faces);
@@ -153,10 +155,12 @@ static void cracks_are_left_out_where_there_is_no_room(void **state)
         for (int64_t f = 0; f < skin.n_faces; ++f) {
             if (skin.birth[f] == 0) area += area_of(&last, &skin, f);
             assert_in_range(skin.face_owner[f], 0, skin.n_elements - 1);
-            for (int64_t k = skin.face_start[f]; k < skin.face_start[f + 1]; ++k) assert_in_range(skin.face_corner[k], 0, skin.n_points - 1);
+            for (int64_t k = skin.face_start[f]; k < skin.face_start[f + 1]; ++k)
+                assert_in_range(skin.face_corner[k], 0, skin.n_points - 1);
         }
         assert_true(fabs(area - old_area) < 1e-6 * old_area);
-        for (int64_t e = 1; e < skin.n_elements; ++e) assert_true(skin.element[e] > skin.element[e - 1]);
+        for (int64_t e = 1; e < skin.n_elements; ++e)
+            assert_true(skin.element[e] > skin.element[e - 1]);
         brc_report_skin_free(&skin);
         brc_report_skin_free(&outer);
         brc_report_frame_free(&last);

@@ -8,7 +8,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-static brc_sensor sensors[2] = {{.name = "a,\"b\"", .kind = BRC_SENSOR_REACTION}, {.name = "c", .kind = BRC_SENSOR_STRAIN}};
+static brc_sensor sensors[2] = {{.name = "a,\"b\"", .kind = BRC_SENSOR_REACTION},
+                                {.name = "c", .kind = BRC_SENSOR_STRAIN}};
 static const brc_scene scene = {.n_sensors = 2, .sensors = sensors};
 #define HEAD "stage,step,stage_time,time_s,\"a,\"\"b\"\" [N]\",c [-]\n"
 
@@ -104,7 +105,8 @@ static void a_full_disk_leaves_whole_rows_and_what_is_missing_may_follow(void **
     assert_int_equal(brc_history_csv_finish(test_context, csv, h), BRC_OK);
     assert_file_is(path, HEAD "0,0,0,0,0,2\n0,1,1,1,1,2\n");
     brc_history_csv_free(&csv);
-    assert_int_equal(brc_history_csv_create(test_context, &scene, test_path(folder, "no/h.csv"), &csv), BRC_FILE_FAILED);
+    assert_int_equal(brc_history_csv_create(test_context, &scene, test_path(folder, "no/h.csv"), &csv),
+                     BRC_FILE_FAILED);
     assert_null(csv);
     brc_history_free(&h);
     test_remove_folder(folder);

@@ -137,9 +137,18 @@ static void what_cannot_be_measured_says_why(void **state)
     brc_domain *domain = test_domain(200);
     brc_set *set = domain->sets + brc_domain_find_set(domain, "x-"), was = *set;
     int32_t *all = calloc((size_t)domain->n_free_faces, sizeof *all);
-    for (int32_t f = 0; f < domain->n_free_faces; ++f) all[f] = f;
-    set->members = all, set->n_members = domain->n_free_faces; /* the whole surface, whose area vectors sum to rounding */
-    m = evaluate(&(brc_measure){.name = "E", .kind = BRC_MEASURE_E, .y = "force", .x = "strain", .area_set = "x-", .stage = "pull", .scale = 1}, domain, h);
+    for (int32_t f = 0; f < domain->n_free_faces; ++f)
+        all[f] = f;
+    set->members = all,
+    set->n_members = domain->n_free_faces; /* the whole surface, whose area vectors sum to rounding */
+    m = evaluate(&(brc_measure){.name = "E",
+                                .kind = BRC_MEASURE_E,
+                                .y = "force",
+                                .x = "strain",
+                                .area_set = "x-",
+                                .stage = "pull",
+                                .scale = 1},
+                 domain, h);
     assert_true(isnan(m.value) && strstr(m.why_not, "all the way round"));
     *set = was;
     free(all);
@@ -154,24 +163,34 @@ static void a_rate_is_a_line_through_the_window(void **state)
     brc_history *h;
     assert_int_equal(brc_history_create(test_context, 4, &h), BRC_OK);
     for (int k = 0; k <= 10; ++k)
-        brc_history_add(test_context, h, 1, k, k, 100 + k, (double[]){k < 8 ? 3 * k + (k % 2 ? 1e-3 : -1e-3) : 100, 0, 0, NAN});
-    brc_measured m = evaluate(&(brc_measure){.name = "v", .kind = BRC_MEASURE_RATE, .y = "force", .stage = "ring", .scale = 2, .window = {0, 7}}, NULL, h);
+        brc_history_add(test_context, h, 1, k, k, 100 + k,
+                        (double[]){k < 8 ? 3 * k + (k % 2 ? 1e-3 : -1e-3) : 100, 0, 0, NAN});
+    brc_measured m = evaluate(
+        &(brc_measure){
+            .name = "v", .kind = BRC_MEASURE_RATE, .y = "force", .stage = "ring", .scale = 2, .window = {0, 7}},
+        NULL, h);
     /* alternating +-1e-3 on 8 points: least squares gives 1e-3 * 4 / 42 of slope */
     assert_true(fabs(m.value - 2 * (3 + 4e-3 / 42)) < 1e-12);
-    m = evaluate(&(brc_measure){.name = "v", .kind = BRC_MEASURE_RATE, .y = "force", .stage = "ring", .scale = 1, .window = {2.5, 3.5}}, NULL, h);
+    m = evaluate(
+        &(brc_measure){
+            .name = "v", .kind = BRC_MEASURE_RATE, .y = "force", .stage = "ring", .scale = 1, .window = {2.5, 3.5}},
+        NULL, h);
     assert_true(isnan(m.value) && strstr(m.why_not, "two times"));
     brc_history_free(&h);
 }
 
-/* Level 2 on a peak of -8: half of the rise, two whole intervals, three quarters of the passage through zero (6 of 16 on each side) and of the way back. */
+/* Level 2 on a peak of -8: half of the rise, two whole intervals, three quarters of the passage through zero (6 of 16
+ * on each side) and of the way back. */
 static void a_duration_counts_what_lies_above_its_share_of_the_peak(void **state)
 {
     (void)state;
     brc_history *h;
     assert_int_equal(brc_history_create(test_context, 4, &h), BRC_OK);
     for (int k = 0; k < 7; ++k)
-        brc_history_add(test_context, h, 1, k, 2 * k, 2 * k, (double[]){(double[]){0, -4, -8, -8, 8, 0, 0}[k], 0, 0, NAN});
-    brc_measure measure = {.name = "d", .kind = BRC_MEASURE_DURATION, .y = "force", .stage = "ring", .scale = 3, .above = 0.25};
+        brc_history_add(test_context, h, 1, k, 2 * k, 2 * k,
+                        (double[]){(double[]){0, -4, -8, -8, 8, 0, 0}[k], 0, 0, NAN});
+    brc_measure measure = {
+        .name = "d", .kind = BRC_MEASURE_DURATION, .y = "force", .stage = "ring", .scale = 3, .above = 0.25};
     const brc_measured m = evaluate(&measure, NULL, h);
     assert_true(fabs(m.value - 3 * 2 * (0.5 + 1 + 1 + 0.75 + 0.75)) < 1e-14);
     assert_string_equal(m.unit, "s");
@@ -187,8 +206,14 @@ static void the_first_break_is_met_between_samples(void **state)
     const brc_break breaks[] = {{.stage = 0, .load = 0.25}, {.stage = 1, .time = 102.25}, {.stage = 1, .time = 107.5}};
     const brc_cracks cracks = {.n_broken = 3, .breaks = breaks};
     brc_stage two[2] = {{.name = "pull", .solver = BRC_SOLVER_STATIC}, {.name = "ring", .solver = BRC_SOLVER_DYNAMIC}};
-    const brc_scene scene = {.n_sensors = 4, .sensors = sensors, .n_stages = 2, .stages = two, .n_materials = 1, .materials = &material,
-                             .n_measures = 1, .measures = &measure};
+    const brc_scene scene = {.n_sensors = 4,
+                             .sensors = sensors,
+                             .n_stages = 2,
+                             .stages = two,
+                             .n_materials = 1,
+                             .materials = &material,
+                             .n_measures = 1,
+                             .measures = &measure};
     brc_measured m;
     brc_history *h;
     assert_int_equal(brc_history_create(test_context, 4, &h), BRC_OK);
@@ -196,7 +221,8 @@ static void the_first_break_is_met_between_samples(void **state)
     brc_history_add(test_context, h, 0, 0, 0, 100, (double[]){0, 0, 0, NAN});
     brc_history_add(test_context, h, 0, 0, 0.25, 100, (double[]){50, 0, 0, NAN});
     brc_history_add(test_context, h, 0, 1, 0.2, 100, (double[]){30, 0, 0, NAN});
-    for (int k = 0; k <= 10; ++k) brc_history_add(test_context, h, 1, k, k, 100 + k, (double[]){k * k, 0, 0, NAN});
+    for (int k = 0; k <= 10; ++k)
+        brc_history_add(test_context, h, 1, k, k, 100 + k, (double[]){k * k, 0, 0, NAN});
     assert_int_equal(brc_measure_evaluate(test_context, &scene, NULL, h, &cracks, 0, &m), BRC_OK);
     assert_true(fabs(m.value - (4 + 0.25 * 5)) < 1e-12);
     measure.window[0] = 3, measure.window[1] = 9; /* the first break of the window */
@@ -212,9 +238,11 @@ static void the_first_break_is_met_between_samples(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_rate_is_a_line_through_the_window), cmocka_unit_test(the_first_break_is_met_between_samples),
-                                      cmocka_unit_test(a_duration_counts_what_lies_above_its_share_of_the_peak),
-                                      cmocka_unit_test(the_modulus_is_force_over_the_flat_area_of_the_set),
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_rate_is_a_line_through_the_window),
+        cmocka_unit_test(the_first_break_is_met_between_samples),
+        cmocka_unit_test(a_duration_counts_what_lies_above_its_share_of_the_peak),
+        cmocka_unit_test(the_modulus_is_force_over_the_flat_area_of_the_set),
         cmocka_unit_test(poissons_ratio_is_minus_the_slope_and_its_error_absolute),
         cmocka_unit_test(a_frequency_leaves_out_the_early_last_sample),
         cmocka_unit_test(peak_and_mean_look_at_their_window_alone),

@@ -64,7 +64,8 @@ static void a_rigid_rotation_is_read_as_its_angle_however_large(void **state)
     }
 }
 
-/* For small motions: sum S (r x u).a / sum S |r|^2; a shear u_y = -g z turns by the part of g that its mean arm gives. */
+/* For small motions: sum S (r x u).a / sum S |r|^2; a shear u_y = -g z turns by the part of g that its mean arm
+ * gives. */
 static void a_small_twist_is_the_area_weighted_mean(void **state)
 {
     (void)state;
@@ -156,8 +157,15 @@ static void spheres_are_read_by_their_centres_and_a_mean_diameter(void **state)
     char name[2][3] = {"x-", "x+"};
     brc_set sets[2] = {{.name = name[0], .kind = BRC_SET_ELEMENTS, .n_members = 1, .members = low},
                        {.name = name[1], .kind = BRC_SET_ELEMENTS, .n_members = 2, .members = high}};
-    brc_domain three = {.element_kind = BRC_ELEMENT_SPHERE, .n_elements = 3, .position = position, .volume = volume, .radius = radius, .row_start = row_start,
-                        .n_sets = 2, .sets = sets, .bounds = {{-1, -4, -1}, {5, 4, 1}}};
+    brc_domain three = {.element_kind = BRC_ELEMENT_SPHERE,
+                        .n_elements = 3,
+                        .position = position,
+                        .volume = volume,
+                        .radius = radius,
+                        .row_start = row_start,
+                        .n_sets = 2,
+                        .sets = sets,
+                        .bounds = {{-1, -4, -1}, {5, 4, 1}}};
     brc_sensor list[] = {{.kind = BRC_SENSOR_FACE_STRAIN, .name = "a", .set = "x+", .set2 = "x-", .component = 0},
                          {.kind = BRC_SENSOR_FACE_MEAN, .name = "b", .set = "x+", .component = 1},
                          {.kind = BRC_SENSOR_VOLUME_STRAIN, .name = "c", .set = "x+"},
@@ -172,7 +180,7 @@ static void spheres_are_read_by_their_centres_and_a_mean_diameter(void **state)
     assert_int_equal(brc_sensors_evaluate(sensors, &s, value), BRC_OK);
     const double r = 5 + 0.7; /* from the origin */
     assert_true(fabs(value[0] - 0.04 / (4 + 1.4)) < 1e-16);
-    assert_true(fabs(value[1] - 0.08) < 1e-16); /* a plain mean, whatever the volumes */
+    assert_true(fabs(value[1] - 0.08) < 1e-16);                 /* a plain mean, whatever the volumes */
     assert_true(fabs(value[2] - 3 * 0.04 * 4 / 5 / r) < 1e-15); /* u = (0.04, 0.08) on both: the y parts cancel */
     assert_true(fabs(value[3] - 2 * 2 * 5 / (4 * M_PI * r * r)) < 1e-14);
     assert_true(fabs(value[4] - (0 * 4 - 2 * 3)) < 1e-14); /* at (1, 2, 3) m: arm (0, 2, 0) */
@@ -213,9 +221,16 @@ static void strikers_and_spins_are_passed_on(void **state)
 {
     (void)state;
     static const brc_striker_now now[2] = {{.kinetic = 1},
-                                           {.position = {1, 2, 3}, .displacement = {4, 5, 6}, .velocity = {7, 8, 9}, .rotation = {10, 11, 12},
-                                            .spin = {13, 14, 15}, .force = {16, 17, 18}, .torque = {19, 20, 21}, .kinetic = 22}};
-    static const char *const term[8] = {"position", "displacement", "velocity", "rotation", "spin", "force", "torque", "energy"};
+                                           {.position = {1, 2, 3},
+                                            .displacement = {4, 5, 6},
+                                            .velocity = {7, 8, 9},
+                                            .rotation = {10, 11, 12},
+                                            .spin = {13, 14, 15},
+                                            .force = {16, 17, 18},
+                                            .torque = {19, 20, 21},
+                                            .kinetic = 22}};
+    static const char *const term[8] = {"position", "displacement", "velocity", "rotation",
+                                        "spin",     "force",        "torque",   "energy"};
     brc_striker strikers[2] = {{.name = "wall"}, {.name = "ball"}};
     brc_simulation s = {.domain = domain, .strikers = now, .n_strikers = 2};
     brc_sensor list[11] = {{.kind = BRC_SENSOR_STRIKER, .name = "w", .set = "wall", .term = "energy"},
@@ -232,7 +247,8 @@ static void strikers_and_spins_are_passed_on(void **state)
     assert_int_equal(brc_sensors_evaluate(sensors, &s, value), BRC_OK);
     brc_sensors_free(&sensors);
     assert_true(value[0] == 1 && value[1] == 2 * brc_domain_find_set(domain, "half") && value[2] == -3);
-    for (int k = 0; k < 7; ++k) assert_true(value[3 + k] == 1 + 3 * k + k % 3);
+    for (int k = 0; k < 7; ++k)
+        assert_true(value[3 + k] == 1 + 3 * k + k % 3);
     assert_true(value[10] == 22);
 }
 

@@ -3,8 +3,8 @@
 #include "../../../host/output/sensors/sphere_box.h"
 #include <math.h>
 
-/* Eight corners of a box 3 x 4 x 5 m of centres, the x- side pulled in by 0.1 m at one corner, spheres of 0.5 and 0.7 m in turn: mean diameter
- * 1.2 m. Two more are the "side" of a cylinder along x. */
+/* Eight corners of a box 3 x 4 x 5 m of centres, the x- side pulled in by 0.1 m at one corner, spheres of 0.5 and 0.7 m
+ * in turn: mean diameter 1.2 m. Two more are the "side" of a cylinder along x. */
 enum { N = 8 };
 static double position[3 * N], radius[N];
 static int32_t member[6][4], side_member[N] = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -24,10 +24,18 @@ static brc_domain make(bool cylinder)
         radius[k] = k % 2 ? 0.7 : 0.5;
     }
     position[0] = 0.1;
-    for (int k = 0; k <= N; ++k) row_start[k] = k; /* a bond each */
-    for (int s = 0; s < 6; ++s) sets[s] = (brc_set){.name = names[s], .kind = BRC_SET_ELEMENTS, .n_members = 4, .members = member[s]};
+    for (int k = 0; k <= N; ++k)
+        row_start[k] = k; /* a bond each */
+    for (int s = 0; s < 6; ++s)
+        sets[s] = (brc_set){.name = names[s], .kind = BRC_SET_ELEMENTS, .n_members = 4, .members = member[s]};
     if (cylinder) sets[2] = (brc_set){.name = side, .kind = BRC_SET_ELEMENTS, .n_members = N, .members = side_member};
-    return (brc_domain){.element_kind = BRC_ELEMENT_SPHERE, .n_elements = N, .position = position, .radius = radius, .row_start = row_start, .n_sets = cylinder ? 3 : 6, .sets = sets};
+    return (brc_domain){.element_kind = BRC_ELEMENT_SPHERE,
+                        .n_elements = N,
+                        .position = position,
+                        .radius = radius,
+                        .row_start = row_start,
+                        .n_sets = cylinder ? 3 : 6,
+                        .sets = sets};
 }
 
 static void a_length_is_the_distance_of_mean_positions_and_a_mean_diameter(void **state)
@@ -36,15 +44,18 @@ static void a_length_is_the_distance_of_mean_positions_and_a_mean_diameter(void 
     const brc_domain d = make(false);
     assert_true(fabs(brc_sphere_mean_diameter(&d) - 1.2) < 1e-15);
     assert_true(fabs(brc_sphere_box_length(&d, 1, 0, 0) - (3 - 0.025 + 1.2)) < 1e-14);
-    assert_true(fabs(brc_sphere_box_length(&d, 0, 1, 0) + (3 - 0.025 + 1.2)) < 1e-14); /* the other way round: negative */
+    assert_true(fabs(brc_sphere_box_length(&d, 0, 1, 0) + (3 - 0.025 + 1.2)) <
+                1e-14); /* the other way round: negative */
 }
 
-/* The sphere that was pulled in has no bond: the x- side stands where the other three are. The mean diameter counts all. */
+/* The sphere that was pulled in has no bond: the x- side stands where the other three are. The mean diameter counts
+ * all. */
 static void spheres_without_bonds_count_in_no_wall(void **state)
 {
     (void)state;
     const brc_domain d = make(false);
-    for (int k = 1; k <= N; ++k) row_start[k] = k - 1;
+    for (int k = 1; k <= N; ++k)
+        row_start[k] = k - 1;
     assert_false(brc_sphere_is_bonded(&d, 0));
     assert_int_equal(brc_sphere_count_bonded(&d, &sets[0]), 3);
     assert_int_equal(brc_sphere_count_bonded(&d, &sets[1]), 4);
@@ -55,7 +66,8 @@ static void the_section_of_a_box_is_that_of_its_other_walls(void **state)
 {
     (void)state;
     const brc_domain d = make(false);
-    for (int end = 0; end < 2; ++end) assert_true(fabs(brc_sphere_box_section(&d, end) - (4 + 1.2) * (5 + 1.2)) < 1e-13);
+    for (int end = 0; end < 2; ++end)
+        assert_true(fabs(brc_sphere_box_section(&d, end) - (4 + 1.2) * (5 + 1.2)) < 1e-13);
     assert_true(fabs(brc_sphere_box_section(&d, 2) - (3 - 0.025 + 1.2) * (5 + 1.2)) < 1e-13);
 }
 

@@ -47,7 +47,8 @@ static void the_parts_of_two_slabs_are_written_down_in_order(void **state)
         assert_near(run->centroid[3 * e], 0.4, 5e-16);
     }
     const int32_t walls_in_order[10] = {0, 2, 3, 4, 5, 1, 2, 3, 4, 5}; /* the first lacks x+, the second x- */
-    for (int f = 0; f < 10; ++f) assert_int_equal(run->free_wall[f], walls_in_order[f]);
+    for (int f = 0; f < 10; ++f)
+        assert_int_equal(run->free_wall[f], walls_in_order[f]);
     brc_cells_free(&cells);
     brc_cells_free(&cells); /* of nothing is allowed */
     brc_walls_free(&walls);
@@ -69,7 +70,8 @@ static void seeds_that_have_no_cell_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_lloyd_sweep_moves_seeds_to_the_centroids_of_their_cells, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(a_lloyd_sweep_moves_seeds_to_the_centroids_of_their_cells, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(the_parts_of_two_slabs_are_written_down_in_order, test_begin, test_end),
         cmocka_unit_test_setup_teardown(seeds_that_have_no_cell_are_refused, test_begin, test_end),
     };

@@ -22,7 +22,8 @@ static seeds noisy(int64_t n, double spread, uint64_t seed)
         const int64_t index[3] = {e % n, e / n % n, e / (n * n)};
         double u[4];
         brc_random_uniform4(seed, BRC_RANDOM_TEST, (uint64_t)e, 0, u);
-        for (int k = 0; k < 3; ++k) s.position[3 * e + k] = ((double)index[k] + 0.5 + spread * (u[k] - 0.5)) * s.spacing;
+        for (int k = 0; k < 3; ++k)
+            s.position[3 * e + k] = ((double)index[k] + 0.5 + spread * (u[k] - 0.5)) * s.spacing;
     }
     return s;
 }
@@ -35,7 +36,8 @@ static void mirror_inside(brc_context *context, const brc_crack *crack, seeds *s
     int64_t kept = 0;
     for (int64_t e = 0; e < s->n; ++e) {
         bool inside = true;
-        for (int k = 0; k < 3; ++k) inside = inside && s->position[3 * e + k] > 1e-6 && s->position[3 * e + k] < 1.0 - 1e-6;
+        for (int k = 0; k < 3; ++k)
+            inside = inside && s->position[3 * e + k] > 1e-6 && s->position[3 * e + k] < 1.0 - 1e-6;
         if (inside) memmove(s->position + 3 * kept++, s->position + 3 * e, 3 * sizeof(double));
     }
     s->n = kept;
@@ -47,7 +49,8 @@ static double nearest_square(const seeds *s, const double x[3], int64_t other_th
     for (int64_t e = 0; e < s->n; ++e) {
         if (e == other_than) continue;
         double square = 0.0;
-        for (int k = 0; k < 3; ++k) square += pow(s->position[3 * e + k] - x[k], 2.0);
+        for (int k = 0; k < 3; ++k)
+            square += pow(s->position[3 * e + k] - x[k], 2.0);
         least = fmin(least, square);
     }
     return least;
@@ -56,37 +59,46 @@ static double nearest_square(const seeds *s, const double x[3], int64_t other_th
 static double smallest_distance(const seeds *s)
 {
     double least = HUGE_VAL;
-    for (int64_t e = 0; e < s->n; ++e) least = fmin(least, nearest_square(s, s->position + 3 * e, e));
+    for (int64_t e = 0; e < s->n; ++e)
+        least = fmin(least, nearest_square(s, s->position + 3 * e, e));
     return sqrt(least);
 }
 
 static brc_crack penny(double height, double radius)
 {
-    return (brc_crack){.name = "penny", .kind = BRC_CRACK_DISC, .point = {0.5, 0.5, height}, .normal = {0.0, 0.0, 1.0}, .radius = radius,
+    return (brc_crack){.name = "penny",
+                       .kind = BRC_CRACK_DISC,
+                       .point = {0.5, 0.5, height},
+                       .normal = {0.0, 0.0, 1.0},
+                       .radius = radius,
                        .flat = true};
 }
 
 /* The plane z = height over the whole cube and beyond it, turned a little about x when asked. */
 static brc_crack through(double height, double slope)
 {
-    return (brc_crack){.name = "through", .kind = BRC_CRACK_RECTANGLE, .point = {-1.0, -1.0, height - 1.5 * slope},
-                       .edge = {{3.0, 0.0, 0.0}, {0.0, 3.0, 3.0 * slope}}, .flat = true};
+    return (brc_crack){.name = "through",
+                       .kind = BRC_CRACK_RECTANGLE,
+                       .point = {-1.0, -1.0, height - 1.5 * slope},
+                       .edge = {{3.0, 0.0, 0.0}, {0.0, 3.0, 3.0 * slope}},
+                       .flat = true};
 }
 
-/* Where nothing is promised: a seam of one spacing along the rim, and two spacings from walls that the plane meets at a slant, for there
- * images fall outside. */
+/* Where nothing is promised: a seam of one spacing along the rim, and two spacings from walls that the plane meets at a
+ * slant, for there images fall outside. */
 static bool in_seam(const brc_crack *crack, double spacing, const double x[3])
 {
-    if (crack->kind == BRC_CRACK_DISC) return hypot(x[0] - crack->point[0], x[1] - crack->point[1]) > crack->radius - spacing;
+    if (crack->kind == BRC_CRACK_DISC)
+        return hypot(x[0] - crack->point[0], x[1] - crack->point[1]) > crack->radius - spacing;
     return crack->edge[1][2] != 0.0 && (x[1] < 2.0 * spacing || x[1] > 1.0 - 2.0 * spacing);
 }
 
-/* Points of the crack at random: the nearest seeds above and below must be equally near, or a face would leave the plane there. Images
- * are exact to a rounding of 1e-16 m, squared distances of 1e-2 m^2 to some 1e-17. */
+/* Points of the crack at random: the nearest seeds above and below must be equally near, or a face would leave the
+ * plane there. Images are exact to a rounding of 1e-16 m, squared distances of 1e-2 m^2 to some 1e-17. */
 static void over_the_crack_the_nearest_seeds_are_mirror_pairs(void **state)
 {
-    const brc_crack cracks[] = {penny(0.5, 0.35), penny(0.47, 0.35), through(0.5, 0.0), through(0.52, 0.0), through(0.5, 0.37),
-                                through(0.15, 0.0), through(0.84, 0.0)};
+    const brc_crack cracks[] = {penny(0.5, 0.35),   penny(0.47, 0.35),  through(0.5, 0.0), through(0.52, 0.0),
+                                through(0.5, 0.37), through(0.15, 0.0), through(0.84, 0.0)};
     for (size_t c = 0; c < sizeof cracks / sizeof *cracks; ++c)
         for (uint64_t seed = 0; seed < 3; ++seed) {
             seeds s = noisy(10, seed == 2 ? 0.0 : 0.9, seed);
@@ -96,13 +108,15 @@ static void over_the_crack_the_nearest_seeds_are_mirror_pairs(void **state)
             for (uint64_t p = 0; p < 300; ++p) {
                 double u[4];
                 brc_random_uniform4(77, BRC_RANDOM_TEST, p, c, u);
-                const double x[3] = {u[0], u[1], cracks[c].point[2] + (disc ? 0.0 : slope * (u[1] - cracks[c].point[1]))};
+                const double x[3] = {u[0], u[1],
+                                     cracks[c].point[2] + (disc ? 0.0 : slope * (u[1] - cracks[c].point[1]))};
                 if (in_seam(&cracks[c], s.spacing, x)) continue;
                 double side[2] = {HUGE_VAL, HUGE_VAL};
                 for (int64_t e = 0; e < s.n; ++e) {
                     const double *y = s.position + 3 * e;
                     double square = 0.0;
-                    for (int k = 0; k < 3; ++k) square += (x[k] - y[k]) * (x[k] - y[k]);
+                    for (int k = 0; k < 3; ++k)
+                        square += (x[k] - y[k]) * (x[k] - y[k]);
                     const int above = y[2] - x[2] - slope * (y[1] - x[1]) > 0.0;
                     side[above] = fmin(side[above], square);
                 }
@@ -112,11 +126,12 @@ static void over_the_crack_the_nearest_seeds_are_mirror_pairs(void **state)
         }
 }
 
-/* A noisy grid of spread 0.5 keeps half a spacing between its seeds, and so must what mirroring makes of it, but for pushed seeds: a
- * quarter. */
+/* A noisy grid of spread 0.5 keeps half a spacing between its seeds, and so must what mirroring makes of it, but for
+ * pushed seeds: a quarter. */
 static void mirroring_keeps_seeds_apart(void **state)
 {
-    const brc_crack cracks[] = {penny(0.5, 0.3), penny(0.47, 0.3), penny(0.45, 0.2), through(0.5, 0.0), through(0.55, 0.0), through(0.5, 0.61)};
+    const brc_crack cracks[] = {penny(0.5, 0.3),   penny(0.47, 0.3),   penny(0.45, 0.2),
+                                through(0.5, 0.0), through(0.55, 0.0), through(0.5, 0.61)};
     for (size_t c = 0; c < sizeof cracks / sizeof *cracks; ++c)
         for (int k = 0; k < 2; ++k) {
             seeds s = noisy(10, k ? 0.5 : 0.0, 1);
@@ -127,7 +142,8 @@ static void mirroring_keeps_seeds_apart(void **state)
         }
 }
 
-/* The plane through a layer of a regular grid: its seeds are pushed to one side and come back as images on the other. */
+/* The plane through a layer of a regular grid: its seeds are pushed to one side and come back as images on the
+ * other. */
 static void a_plane_through_seeds_pushes_them_aside(void **state)
 {
     seeds s = noisy(9, 0.0, 0);
@@ -135,7 +151,8 @@ static void a_plane_through_seeds_pushes_them_aside(void **state)
     mirror_inside(*state, &crack, &s);
     assert_near(smallest_distance(&s), 0.5 * s.spacing, 1e-15);
     int64_t near = 0;
-    for (int64_t e = 0; e < s.n; ++e) near += fabs(fabs(s.position[3 * e + 2] - 0.5) - 0.25 * s.spacing) < 1e-15;
+    for (int64_t e = 0; e < s.n; ++e)
+        near += fabs(fabs(s.position[3 * e + 2] - 0.5) - 0.25 * s.spacing) < 1e-15;
     assert_int_equal(near, 2 * 81);
     assert_int_equal(s.n, 9 * 81 + 81);
     brc_memory_free(s.position);
@@ -151,7 +168,8 @@ static void other_seeds_keep_place_and_order(void **state)
     for (int64_t e = 0; e < before.n; ++e) {
         const double *x = before.position + 3 * e;
         if (fabs(x[2] - 0.5) <= 3.0 * s.spacing && hypot(x[0] - 0.5, x[1] - 0.5) <= 0.15 + 0.5 * s.spacing) continue;
-        while (at < s.n && memcmp(s.position + 3 * at, x, 3 * sizeof(double)) != 0) ++at;
+        while (at < s.n && memcmp(s.position + 3 * at, x, 3 * sizeof(double)) != 0)
+            ++at;
         assert_true(at < s.n);
         ++far;
     }
@@ -183,8 +201,10 @@ static void flat_cracks_nearer_than_six_spacings_are_warned_of(void **state)
         const brc_status status = brc_cracks_mirror_seeds(*state, 2, cracks, s.spacing, s.position, &s.n, s.room);
         test_release_stderr(&caught, text, sizeof text);
         assert_int_equal(status, BRC_OK);
-        if (far) assert_string_equal(text, "");
-        else if (!strstr(text, "cracks 'low' and 'high' come nearer to each other than six cells")) fail_msg("%s", text);
+        if (far)
+            assert_string_equal(text, "");
+        else if (!strstr(text, "cracks 'low' and 'high' come nearer to each other than six cells"))
+            fail_msg("%s", text);
         brc_memory_free(s.position);
     }
 }

@@ -8,15 +8,15 @@
 enum { N_CASES = 6 };
 static brc_build_request request_of(int k)
 {
-    brc_build_request r[N_CASES] = {test_box(1000, 0.0),      test_box(1000, 1.0),    test_box(1000, 1e-4),
+    brc_build_request r[N_CASES] = {test_box(1000, 0.0),     test_box(1000, 1.0),   test_box(1000, 1e-4),
                                     test_cylinder(800, 0.9), test_sphere(800, 0.9), test_sphere(800, 0.0)};
     r[5].fill.lloyd_sweeps = 2;
     return r[k];
 }
 
 /* Area vectors and centroids come from corners that Voro++ knows to 1e-14 of a cell, and each cell sums about fifteen:
- * 1e-12 leaves room for cells of unlucky shape, and is what the patch test at 1e-10 needs. At spread 1e-4 faces of 1e-10
- * of the mean area occur; those below 1e-12 are dropped and leave their cells open by as much. */
+ * 1e-12 leaves room for cells of unlucky shape, and is what the patch test at 1e-10 needs. At spread 1e-4 faces of
+ * 1e-10 of the mean area occur; those below 1e-12 are dropped and leave their cells open by as much. */
 static void every_cell_is_closed_and_exact_for_linear_fields(void **state)
 {
     for (int k = 0; k < N_CASES; ++k) {
@@ -84,7 +84,8 @@ static void a_face_is_normal_to_its_branch_and_halves_it(void **state)
                 nearer += (c[k] - 0.5 * (x[k] + y[k])) * (y[k] - x[k]);
             }
             const double q = sqrt(length / area);
-            for (int k = 0; k < 3; ++k) assert_near(q * s[k], y[k] - x[k], 1e-15);
+            for (int k = 0; k < 3; ++k)
+                assert_near(q * s[k], y[k] - x[k], 1e-15);
             assert_near(nearer / length, 0.0, 1e-13);
         }
     brc_domain_free(&d);
@@ -99,12 +100,14 @@ static void a_point_lies_in_the_cell_of_its_nearest_seed(void **state)
         for (uint64_t p = 0; p < 500; ++p) {
             double draw[4], x[3];
             brc_random_uniform4(3, BRC_RANDOM_TEST, p, 1, draw);
-            for (int c = 0; c < 3; ++c) x[c] = d->bounds[0][c] + draw[c] * (d->bounds[1][c] - d->bounds[0][c]);
+            for (int c = 0; c < 3; ++c)
+                x[c] = d->bounds[0][c] + draw[c] * (d->bounds[1][c] - d->bounds[0][c]);
             int64_t nearest = 0;
             double least = HUGE_VAL;
             for (int64_t e = 0; e < d->n_elements; ++e) {
                 double square = 0.0;
-                for (int c = 0; c < 3; ++c) square += (x[c] - d->position[3 * e + c]) * (x[c] - d->position[3 * e + c]);
+                for (int c = 0; c < 3; ++c)
+                    square += (x[c] - d->position[3 * e + c]) * (x[c] - d->position[3 * e + c]);
                 if (square < least) {
                     least = square;
                     nearest = e;
@@ -200,7 +203,8 @@ static void polygons_of_free_faces_enclose_their_area(void **state)
                     sum[c] += 0.5 * ((a[i] - o[i]) * (b[j] - o[j]) - (a[j] - o[j]) * (b[i] - o[i]));
                 }
             }
-            for (int c = 0; c < 3; ++c) assert_near(sum[c], d->free_area_vector[3 * f + c], 1e-15);
+            for (int c = 0; c < 3; ++c)
+                assert_near(sum[c], d->free_area_vector[3 * f + c], 1e-15);
         }
         brc_domain_free(&d);
     }
@@ -215,7 +219,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_face_is_normal_to_its_branch_and_halves_it, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_point_lies_in_the_cell_of_its_nearest_seed, test_begin, test_end),
         cmocka_unit_test_setup_teardown(cells_without_noise_are_exact_cubes, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(faces_below_the_threshold_leave_both_sides_and_are_counted, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(faces_below_the_threshold_leave_both_sides_and_are_counted, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(polygons_of_free_faces_enclose_their_area, test_begin, test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

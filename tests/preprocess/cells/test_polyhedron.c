@@ -23,7 +23,8 @@ static void a_box_has_the_mass_of_the_textbook(void **state)
     assert_near(inertia[0], 24.0 * (9.0 + 16.0) / 12.0, 1e-12);
     assert_near(inertia[1], 24.0 * (4.0 + 16.0) / 12.0, 1e-12);
     assert_near(inertia[2], 24.0 * (4.0 + 9.0) / 12.0, 1e-12);
-    for (int k = 3; k < 6; ++k) assert_near(inertia[k], 0.0, 1e-12);
+    for (int k = 3; k < 6; ++k)
+        assert_near(inertia[k], 0.0, 1e-12);
 }
 
 static void off_diagonal_inertia_is_the_negative_product(void **state)
@@ -37,10 +38,13 @@ static void off_diagonal_inertia_is_the_negative_product(void **state)
     double volume, centroid[3], inertia[6];
     brc_polyhedron_mass(&tetrahedron, &volume, centroid, inertia);
     assert_near(volume, 1.0 / 6.0, 1e-16);
-    for (int k = 0; k < 3; ++k) assert_near(centroid[k], 0.25, 1e-16);
-    for (int k = 3; k < 6; ++k) assert_near(inertia[k], 1.0 / 480.0, 1e-17);
+    for (int k = 0; k < 3; ++k)
+        assert_near(centroid[k], 0.25, 1e-16);
+    for (int k = 3; k < 6; ++k)
+        assert_near(inertia[k], 1.0 / 480.0, 1e-17);
     /* xx: 2 (1/60 - (1/6)/16) = 1/80 */
-    for (int k = 0; k < 3; ++k) assert_near(inertia[k], 1.0 / 80.0, 1e-17);
+    for (int k = 0; k < 3; ++k)
+        assert_near(inertia[k], 1.0 / 80.0, 1e-17);
 }
 
 static void a_face_is_put_onto_its_plane(void **state)

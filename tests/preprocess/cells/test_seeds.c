@@ -16,7 +16,8 @@ static double *draw(brc_context *context, const brc_build_request *r, brc_grid *
     assert_int_equal(brc_walls_create(context, solid, brc_fill_spacing(solid, &r->fill), &walls), BRC_OK);
     assert_int_equal(brc_grid_plan(context, &r->fill, &walls, 1, grid), BRC_OK);
     assert_int_equal(brc_seeds_draw(context, grid, &r->fill, &walls, &position, n, n_duplicate), BRC_OK);
-    for (int64_t e = 0; e < *n; ++e) assert_true(brc_walls_inside(&walls, position + 3 * e, 0.0));
+    for (int64_t e = 0; e < *n; ++e)
+        assert_true(brc_walls_inside(&walls, position + 3 * e, 0.0));
     brc_walls_free(&walls);
     brc_solid_free(&solid);
     return position;
@@ -70,7 +71,7 @@ static void the_number_of_elements_is_met(void **state)
     const struct {
         brc_build_request request;
         int64_t off; /* a box of nearly cubic grid cells cannot do better; curved shapes are searched */
-    } cases[] = {{test_box(1000, 0.5), 0},      {test_box(10000, 0.5), 200}, {test_box(100000, 0.5), 600},
+    } cases[] = {{test_box(1000, 0.5), 0},       {test_box(10000, 0.5), 200},  {test_box(100000, 0.5), 600},
                  {test_cylinder(2000, 0.8), 10}, {test_sphere(2000, 0.8), 10}, {test_cylinder(20000, 0.0), 600}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         brc_grid grid;

@@ -15,8 +15,14 @@ typedef struct key {
     int32_t element;
 } key;
 
-static int compare_keys(const void *a, const void *b) { return memcmp(a, b, sizeof(int32_t[3])); }
-static int compare_points(const void *a, const void *b) { return *(const int32_t *)a < *(const int32_t *)b ? -1 : *(const int32_t *)a > *(const int32_t *)b; }
+static int compare_keys(const void *a, const void *b)
+{
+    return memcmp(a, b, sizeof(int32_t[3]));
+}
+static int compare_points(const void *a, const void *b)
+{
+    return *(const int32_t *)a < *(const int32_t *)b ? -1 : *(const int32_t *)a > *(const int32_t *)b;
+}
 
 static brc_tessellation joined(brc_context *context, const brc_domain *d, const uint8_t *whole, int n_threads)
 {
@@ -51,7 +57,8 @@ static double closed_volume(const brc_tessellation *t, const double *x, int64_t 
             edge[n_edges][0] = point[first + k];
             edge[n_edges++][1] = point[first + (k + 1) % count[f]];
             if (k == 0 || k + 1 == count[f]) continue;
-            const double *a = x + 3 * (int64_t)point[first], *b = x + 3 * (int64_t)point[first + k], *c = x + 3 * (int64_t)point[first + k + 1];
+            const double *a = x + 3 * (int64_t)point[first], *b = x + 3 * (int64_t)point[first + k],
+                         *c = x + 3 * (int64_t)point[first + k + 1];
             for (int m = 0; m < 3; ++m) {
                 const int i = (m + 1) % 3, j = (m + 2) % 3;
                 volume += (a[m] - o[m]) * ((b[i] - o[i]) * (c[j] - o[j]) - (b[j] - o[j]) * (c[i] - o[i]));
@@ -64,7 +71,8 @@ static double closed_volume(const brc_tessellation *t, const double *x, int64_t 
             back += edge[m][0] == edge[k][1] && edge[m][1] == edge[k][0];
             same += edge[m][0] == edge[k][0] && edge[m][1] == edge[k][1];
         }
-        if (back != same) fail_msg("element %lld: an edge is gone along %d times and back %d times", (long long)e, same, back);
+        if (back != same)
+            fail_msg("element %lld: an edge is gone along %d times and back %d times", (long long)e, same, back);
     }
     int32_t own[MOST];
     const int64_t n_points = brc_tessellation_points(t, e, own);
@@ -98,15 +106,18 @@ static int64_t shared_faces(const brc_tessellation *t)
     return shared;
 }
 
-/* Closed, turned outward, of the volume of the cells, and sharing what the bonds join. limit: faces of bonds that may be without a partner. */
+/* Closed, turned outward, of the volume of the cells, and sharing what the bonds join. limit: faces of bonds that may
+ * be without a partner. */
 static void assert_sound(brc_context *context, const brc_domain *d, double tolerance, int64_t limit)
 {
     brc_tessellation t = joined(context, d, NULL, 0);
     double *x = places(&t), worst = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e) worst = fmax(worst, fabs(closed_volume(&t, x, e) / d->volume[e] - 1));
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        worst = fmax(worst, fabs(closed_volume(&t, x, e) / d->volume[e] - 1));
     const int64_t shared = shared_faces(&t);
-    printf("%lld cells, %lld corners, %lld points, %lld bonds, %lld shared faces, volumes to %.2g\n", (long long)d->n_elements,
-           (long long)d->vertex_start[d->n_elements], (long long)t.n_points, (long long)d->n_bonds, (long long)shared, worst);
+    printf("%lld cells, %lld corners, %lld points, %lld bonds, %lld shared faces, volumes to %.2g\n",
+           (long long)d->n_elements, (long long)d->vertex_start[d->n_elements], (long long)t.n_points,
+           (long long)d->n_bonds, (long long)shared, worst);
     assert_true(worst < tolerance);
     assert_true(shared >= d->n_bonds - limit);
     free(x);
@@ -138,11 +149,13 @@ static void dropped_faces_are_found_again_from_their_edges(void **state)
     request.tiny_face_threshold = 9e-4;
     brc_domain *d = test_build(*state, &request);
     assert_true(d->quality.n_tiny_faces_dropped > 20);
-    assert_sound(*state, d, 1e-5, 0); /* neighbours of those dropped together are one face, which is not flat; 9e-4 of a face is dropped at most */
+    assert_sound(*state, d, 1e-5, 0); /* neighbours of those dropped together are one face, which is not flat; 9e-4 of a
+                                         face is dropped at most */
     brc_domain_free(&d);
 }
 
-/* Bonds across the middle of a box are broken, all but those beyond a line in it: the points come apart up to the tip. */
+/* Bonds across the middle of a box are broken, all but those beyond a line in it: the points come apart up to the
+ * tip. */
 static void points_come_apart_along_a_crack_and_stay_one_at_its_tip(void **state)
 {
     brc_build_request request = test_box(2000, 0.9);
@@ -150,9 +163,11 @@ static void points_come_apart_along_a_crack_and_stay_one_at_its_tip(void **state
     uint8_t *whole = malloc((size_t)d->n_half_edges);
     double middle[3];
     int64_t n_broken = 0;
-    for (int k = 0; k < 3; ++k) middle[k] = 0.5 * (d->bounds[0][k] + d->bounds[1][k]);
+    for (int k = 0; k < 3; ++k)
+        middle[k] = 0.5 * (d->bounds[0][k] + d->bounds[1][k]);
     for (int64_t h = 0; h < d->n_half_edges; ++h) {
-        const double *a = d->position + 3 * (int64_t)d->neighbour[h], *b = d->position + 3 * (int64_t)d->neighbour[d->twin[h]];
+        const double *a = d->position + 3 * (int64_t)d->neighbour[h],
+                     *b = d->position + 3 * (int64_t)d->neighbour[d->twin[h]];
         whole[h] = (a[0] < middle[0]) == (b[0] < middle[0]) || d->face_centroid[3 * h + 1] > middle[1];
         n_broken += !whole[h] && a[0] < middle[0];
     }
@@ -168,7 +183,8 @@ static void points_come_apart_along_a_crack_and_stay_one_at_its_tip(void **state
         int32_t mine[MOST], other[MOST];
         const int64_t n = brc_tessellation_points(&after, e, mine), m = brc_tessellation_points(&after, j, other);
         for (int64_t k = 0; k < n; ++k)
-            for (int64_t l = 0; l < m; ++l) tip += mine[k] == other[l];
+            for (int64_t l = 0; l < m; ++l)
+                tip += mine[k] == other[l];
     }
     assert_true(tip > 0);
     brc_tessellation_free(&before);
@@ -195,7 +211,8 @@ static void threads_do_not_change_a_point(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(random_cells_are_closed_and_share_the_faces_of_their_bonds, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(random_cells_are_closed_and_share_the_faces_of_their_bonds, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(regular_cells_meet_eight_in_a_corner, test_begin, test_end),
         cmocka_unit_test_setup_teardown(dropped_faces_are_found_again_from_their_edges, test_begin, test_end),
         cmocka_unit_test_setup_teardown(points_come_apart_along_a_crack_and_stay_one_at_its_tip, test_begin, test_end),

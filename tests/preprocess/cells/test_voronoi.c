@@ -20,7 +20,8 @@ static void release(brc_solid **solid, brc_walls *walls)
     brc_solid_free(solid);
 }
 
-/* Two points in a unit cube share it by the plane x = 0.5: the first cell is a slab with the corners of half the cube. */
+/* Two points in a unit cube share it by the plane x = 0.5: the first cell is a slab with the corners of half the
+ * cube. */
 static void two_points_share_the_cube_at_their_bisector(void **state)
 {
     brc_walls walls;
@@ -64,7 +65,8 @@ static void a_cell_does_not_depend_on_the_worker_or_on_what_it_did_before(void *
     assert_int_equal(brc_voronoi_create(*state, x, N, &walls, 0.17, &voronoi), BRC_OK);
     brc_voronoi_worker *used = brc_voronoi_worker_create(voronoi);
     brc_polyhedron a, b;
-    for (int e = N - 1; e >= 0; --e) assert_int_equal(brc_voronoi_cell(used, e, &a), BRC_OK);
+    for (int e = N - 1; e >= 0; --e)
+        assert_int_equal(brc_voronoi_cell(used, e, &a), BRC_OK);
     for (int e = 0; e < N; e += 7) {
         brc_voronoi_worker *fresh = brc_voronoi_worker_create(voronoi);
         assert_int_equal(brc_voronoi_cell(used, e, &a), BRC_OK);
@@ -124,7 +126,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(two_points_share_the_cube_at_their_bisector, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(a_cell_does_not_depend_on_the_worker_or_on_what_it_did_before, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(a_cell_does_not_depend_on_the_worker_or_on_what_it_did_before, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(points_voro_would_lose_silently_are_refused, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_crowd_in_one_spot_is_refused, test_begin, test_end),
     };

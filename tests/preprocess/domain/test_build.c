@@ -9,14 +9,15 @@
 /* Planes of curved walls are placed so that the volume is exact; what is left is the rounding of ten thousand sums. */
 static void cell_volumes_sum_to_the_shape(void **state)
 {
-    const brc_build_request requests[] = {test_box(1000, 0.0),      test_box(8000, 1.0),    test_cylinder(500, 0.9),
+    const brc_build_request requests[] = {test_box(1000, 0.0),      test_box(8000, 1.0),   test_cylinder(500, 0.9),
                                           test_cylinder(5000, 0.5), test_sphere(500, 0.9), test_sphere(8000, 1.0)};
     const double pi = 3.14159265358979323846;
     const double volume[] = {1.0, 1.0, 0.09 * pi, 0.09 * pi, pi / 6.0, pi / 6.0};
     for (size_t k = 0; k < sizeof requests / sizeof *requests; ++k) {
         brc_domain *d = test_build(*state, &requests[k]);
         double sum = 0.0;
-        for (int64_t e = 0; e < d->n_elements; ++e) sum += d->volume[e];
+        for (int64_t e = 0; e < d->n_elements; ++e)
+            sum += d->volume[e];
         assert_near(sum / volume[k], 1.0, 1e-12);
         assert_near(d->quality.volume_error, 0.0, 1e-12);
         assert_int_equal(brc_domain_check(*state, d), BRC_OK);
@@ -24,8 +25,8 @@ static void cell_volumes_sum_to_the_shape(void **state)
     }
 }
 
-/* The inertia of the whole from the cells by the parallel-axis theorem: box a^2 + b^2 over 12 at unit mass. The sum runs
- * over a thousand cells, so rounding stays below 1e-13. */
+/* The inertia of the whole from the cells by the parallel-axis theorem: box a^2 + b^2 over 12 at unit mass. The sum
+ * runs over a thousand cells, so rounding stays below 1e-13. */
 static void inertia_of_the_cells_sums_to_that_of_the_box(void **state)
 {
     brc_build_request r = test_box(1000, 1.0);
@@ -35,7 +36,8 @@ static void inertia_of_the_cells_sums_to_that_of_the_box(void **state)
     const double centre[3] = {1.0, 0.5, 0.5};
     for (int64_t e = 0; e < d->n_elements; ++e) {
         double x[3];
-        for (int k = 0; k < 3; ++k) x[k] = d->centroid[3 * e + k] - centre[k];
+        for (int k = 0; k < 3; ++k)
+            x[k] = d->centroid[3 * e + k] - centre[k];
         const double v = d->volume[e], *own = d->inertia + 6 * e;
         inertia[0] += own[0] + v * (x[1] * x[1] + x[2] * x[2]);
         inertia[1] += own[1] + v * (x[0] * x[0] + x[2] * x[2]);
@@ -45,7 +47,8 @@ static void inertia_of_the_cells_sums_to_that_of_the_box(void **state)
         inertia[5] += own[5] - v * x[0] * x[1];
     }
     const double expected[6] = {2.0 * 2.0 / 12.0, 2.0 * 5.0 / 12.0, 2.0 * 5.0 / 12.0, 0.0, 0.0, 0.0};
-    for (int k = 0; k < 6; ++k) assert_near(inertia[k], expected[k], 1e-13);
+    for (int k = 0; k < 6; ++k)
+        assert_near(inertia[k], expected[k], 1e-13);
     brc_domain_free(&d);
 }
 
@@ -111,8 +114,9 @@ static void another_seed_gives_another_domain(void **state)
 
 static void regions_take_the_last_predicate_that_fits(void **state)
 {
-    brc_predicate regions[2] = {{.has_half_space = true, .half_space_point = {0.5, 0, 0}, .half_space_normal = {1, 0, 0}},
-                                {.has_sphere = true, .sphere_centre = {1, 1, 1}, .sphere_radius = 0.3}};
+    brc_predicate regions[2] = {
+        {.has_half_space = true, .half_space_point = {0.5, 0, 0}, .half_space_normal = {1, 0, 0}},
+        {.has_sphere = true, .sphere_centre = {1, 1, 1}, .sphere_radius = 0.3}};
     brc_build_request r = test_box(1000, 0.9);
     r.n_regions = 2;
     r.regions = regions;
@@ -132,9 +136,9 @@ static void regions_take_the_last_predicate_that_fits(void **state)
 static void bytes_and_elements_are_estimated_within_a_tenth(void **state)
 {
     brc_context *context = *state;
-    brc_build_request requests[] = {test_box(1000, 0.0),       test_box(1000, 0.001),   test_box(20000, 1.0),
-                                    test_cylinder(300, 0.5),   test_cylinder(8000, 0.9), test_sphere(64, 0.5),
-                                    test_sphere(8000, 1.0),    test_sphere(4000, 0.0),   test_cylinder(8000, 0.0),
+    brc_build_request requests[] = {test_box(1000, 0.0),     test_box(1000, 0.001),    test_box(20000, 1.0),
+                                    test_cylinder(300, 0.5), test_cylinder(8000, 0.9), test_sphere(64, 0.5),
+                                    test_sphere(8000, 1.0),  test_sphere(4000, 0.0),   test_cylinder(8000, 0.0),
                                     test_box(8000, 0.5)};
     requests[7].fill.lloyd_sweeps = 3;
     requests[8].fill.lloyd_sweeps = 3;
@@ -146,7 +150,8 @@ static void bytes_and_elements_are_estimated_within_a_tenth(void **state)
         brc_domain *d = test_build(context, &requests[k]);
         const double real = (double)(brc_memory_held() - before);
         assert_int_equal(d->n_elements, n);
-        if (fabs((double)bytes / real - 1.0) > 0.1) fail_msg("case %zu: estimate %lld, real %g", k, (long long)bytes, real);
+        if (fabs((double)bytes / real - 1.0) > 0.1)
+            fail_msg("case %zu: estimate %lld, real %g", k, (long long)bytes, real);
         brc_domain_free(&d);
     }
 }
@@ -172,7 +177,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(another_seed_gives_another_domain, test_begin, test_end),
         cmocka_unit_test_setup_teardown(regions_take_the_last_predicate_that_fits, test_begin, test_end),
         cmocka_unit_test_setup_teardown(bytes_and_elements_are_estimated_within_a_tenth, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(more_elements_than_memory_holds_are_refused_before_building, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(more_elements_than_memory_holds_are_refused_before_building, test_begin,
+                                        test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

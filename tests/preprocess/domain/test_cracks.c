@@ -28,11 +28,15 @@ static int64_t cut(brc_context *context, int32_t n, const brc_crack *cracks, brc
 }
 
 /* A rectangle far larger than the cube of 1 m, through its middle, normal to z. */
-static const brc_crack middle = {.name = "middle", .kind = BRC_CRACK_RECTANGLE, .point = {-0.5, -0.5, 0.5}, .edge = {{2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}}};
+static const brc_crack middle = {.name = "middle",
+                                 .kind = BRC_CRACK_RECTANGLE,
+                                 .point = {-0.5, -0.5, 0.5},
+                                 .edge = {{2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}}};
 
 static brc_crack penny(double x, double y, double z, double radius)
 {
-    return (brc_crack){.name = "penny", .kind = BRC_CRACK_DISC, .point = {x, y, z}, .normal = {0.0, 0.0, 3.0}, .radius = radius};
+    return (brc_crack){
+        .name = "penny", .kind = BRC_CRACK_DISC, .point = {x, y, z}, .normal = {0.0, 0.0, 3.0}, .radius = radius};
 }
 
 /* Number of pieces that bonds hold together. */
@@ -40,7 +44,8 @@ static int64_t count_pieces(const brc_domain *d)
 {
     int64_t *piece = NULL, n = 0;
     assert_int_equal(BRC_ALLOCATE(NULL, &piece, d->n_elements, "pieces"), BRC_OK);
-    for (int64_t e = 0; e < d->n_elements; ++e) piece[e] = e;
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        piece[e] = e;
     for (bool changed = true; changed;) {
         changed = false;
         for (int64_t e = 0; e < d->n_elements; ++e)
@@ -50,7 +55,8 @@ static int64_t count_pieces(const brc_domain *d)
                     changed = true;
                 }
     }
-    for (int64_t e = 0; e < d->n_elements; ++e) n += piece[e] == e;
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        n += piece[e] == e;
     brc_memory_free(piece);
     return n;
 }
@@ -59,7 +65,8 @@ static int64_t count_pieces(const brc_domain *d)
 enum { N_BODIES = 5 };
 static brc_build_request body(int k)
 {
-    brc_build_request r[N_BODIES] = {test_box(1000, 0.9), test_box(1000, 0.0), test_sphere(1000, 0.9), test_box(1000, 0.9), test_cylinder(1000, 0.9)};
+    brc_build_request r[N_BODIES] = {test_box(1000, 0.9), test_box(1000, 0.0), test_sphere(1000, 0.9),
+                                     test_box(1000, 0.9), test_cylinder(1000, 0.9)};
     r[2].shape.origin[0] = r[2].shape.origin[1] = r[2].shape.origin[2] = 0.5;
     r[2].fill.lloyd_sweeps = 2;
     r[3].rotation[0] = 0.3;
@@ -100,9 +107,9 @@ static void a_crack_through_the_middle_leaves_two_pieces_and_every_promise_holds
     }
 }
 
-/* Every free face has a polygon that goes round counter-clockwise and encloses the area vector. Corners of the two cells of a face were
- * computed apart, to 1e-14 of a cell of 0.1 m (or 1e-16 of the distance from the origin): areas to a few 1e-16 m^2 (1e-14 m^2 at 1 km,
- * with room for the corners of slanted neighbours: tenfold). */
+/* Every free face has a polygon that goes round counter-clockwise and encloses the area vector. Corners of the two
+ * cells of a face were computed apart, to 1e-14 of a cell of 0.1 m (or 1e-16 of the distance from the origin): areas to
+ * a few 1e-16 m^2 (1e-14 m^2 at 1 km, with room for the corners of slanted neighbours: tenfold). */
 static void polygons_of_cut_faces_enclose_their_area(void **state)
 {
     for (int k = 0; k < N_BODIES; ++k) {
@@ -123,7 +130,8 @@ static void polygons_of_cut_faces_enclose_their_area(void **state)
                     sum[c] += 0.5 * ((a[i] - o[i]) * (b[j] - o[j]) - (a[j] - o[j]) * (b[i] - o[i]));
                 }
             }
-            for (int c = 0; c < 3; ++c) assert_near(sum[c], d->free_area_vector[3 * f + c], k == 3 ? 1e-12 : 1e-14);
+            for (int c = 0; c < 3; ++c)
+                assert_near(sum[c], d->free_area_vector[3 * f + c], k == 3 ? 1e-12 : 1e-14);
         }
         brc_domain_free(&d);
     }
@@ -142,7 +150,8 @@ static void both_sides_of_a_cut_are_exactly_opposite(void **state)
         for (int64_t g = 0; g < d->n_free_faces; ++g)
             if (memcmp(d->free_centroid + 3 * f, d->free_centroid + 3 * g, 3 * sizeof(double)) == 0) {
                 bool minus = g != f;
-                for (int c = 0; c < 3; ++c) minus = minus && d->free_area_vector[3 * f + c] == -d->free_area_vector[3 * g + c];
+                for (int c = 0; c < 3; ++c)
+                    minus = minus && d->free_area_vector[3 * f + c] == -d->free_area_vector[3 * g + c];
                 opposite += minus;
             }
         assert_int_equal(opposite, 1);
@@ -154,8 +163,9 @@ static void both_sides_of_a_cut_are_exactly_opposite(void **state)
     brc_domain_free(&d);
 }
 
-/* However rough, the surface that divides the cube has the projected area of its section: by the closure of the upper piece, whose only other
- * faces along z are those of z+, 1 m^2. Some hundred summands of 1e-2 m^2, each closed to 1e-14 of them. */
+/* However rough, the surface that divides the cube has the projected area of its section: by the closure of the upper
+ * piece, whose only other faces along z are those of z+, 1 m^2. Some hundred summands of 1e-2 m^2, each closed to 1e-14
+ * of them. */
 static void the_projected_area_of_a_full_cut_is_that_of_the_section(void **state)
 {
     const brc_build_request r = test_box(1000, 0.9);
@@ -190,24 +200,30 @@ static void cracks_in_cubes_cut_what_a_hand_count_gives(void **state)
         {penny(0.5, 0.5, 0.5, outer), 12},
         {penny(0.5, 0.5, 0.5, 9.0), 16},
         {penny(0.125, 0.125, 0.5, 0.1), 1},
-        {penny(0.5, 0.5, 0.55, 0.2), 4}, /* anywhere along the branch */
+        {penny(0.5, 0.5, 0.55, 0.2), 4},  /* anywhere along the branch */
         {penny(0.5, 0.5, 0.375, 0.2), 4}, /* through centres: those count as above */
         {{.name = "c", .kind = BRC_CRACK_RECTANGLE, .point = {0, 0, 0.5}, .edge = {{0.5, 0, 0}, {0, 0.5, 0}}}, 4},
-        {{.name = "c", .kind = BRC_CRACK_RECTANGLE, .point = {0.125, 0.125, 0.5}, .edge = {{0.25, 0, 0}, {0, 0.5, 0}}}, 6},
-        {{.name = "c", .kind = BRC_CRACK_RECTANGLE, .point = {0.125, 0.125, 0.5}, .edge = {{0.25, 0, 0}, {0.5, 0.5, 0}}}, 6},
+        {{.name = "c", .kind = BRC_CRACK_RECTANGLE, .point = {0.125, 0.125, 0.5}, .edge = {{0.25, 0, 0}, {0, 0.5, 0}}},
+         6},
+        {{.name = "c",
+          .kind = BRC_CRACK_RECTANGLE,
+          .point = {0.125, 0.125, 0.5},
+          .edge = {{0.25, 0, 0}, {0.5, 0.5, 0}}},
+         6},
         {{.name = "c", .kind = BRC_CRACK_RECTANGLE, .point = {0, 0.5, 0}, .edge = {{1, 0, 0}, {0, 0, 1}}}, 16},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         brc_domain *d = unfinished(*state, &r);
         assert_int_equal(cut(*state, 1, &cases[k].crack, d), cases[k].n_cut);
         assert_int_equal(brc_domain_check(*state, d), BRC_OK);
-        for (int64_t f = d->n_free_faces - 1; f >= 0; --f) assert_int_equal(d->free_polygon_start[f + 1] - d->free_polygon_start[f], 4);
+        for (int64_t f = d->n_free_faces - 1; f >= 0; --f)
+            assert_int_equal(d->free_polygon_start[f + 1] - d->free_polygon_start[f], 4);
         brc_domain_free(&d);
     }
 }
 
-/* Against the definition, by another formula: the branch crosses a disc where the point of the branch at equal distances from both
- * faces of the plane lies within the radius. */
+/* Against the definition, by another formula: the branch crosses a disc where the point of the branch at equal
+ * distances from both faces of the plane lies within the radius. */
 static void a_tilted_penny_cuts_the_branches_that_cross_it_and_no_others(void **state)
 {
     const brc_build_request r = test_box(2000, 0.9);
@@ -226,11 +242,13 @@ static void a_tilted_penny_cuts_the_branches_that_cross_it_and_no_others(void **
                 b += (y[c] - crack.point[c]) * crack.normal[c];
             }
             if (a * b > 0.0) continue;
-            for (int c = 0; c < 3; ++c) square += pow((fabs(b) * x[c] + fabs(a) * y[c]) / (fabs(a) + fabs(b)) - crack.point[c], 2.0);
+            for (int c = 0; c < 3; ++c)
+                square += pow((fabs(b) * x[c] + fabs(a) * y[c]) / (fabs(a) + fabs(b)) - crack.point[c], 2.0);
             const bool crosses = square < crack.radius * crack.radius;
             expected += crosses;
             bool bonded = false;
-            for (int64_t g = d->row_start[e]; g < d->row_start[e + 1]; ++g) bonded = bonded || d->neighbour[g] == whole->neighbour[h];
+            for (int64_t g = d->row_start[e]; g < d->row_start[e + 1]; ++g)
+                bonded = bonded || d->neighbour[g] == whole->neighbour[h];
             assert_true(bonded == !crosses);
         }
     assert_int_equal(2 * n_cut, expected);
@@ -246,7 +264,8 @@ static void a_bond_that_crosses_two_cracks_belongs_to_the_first(void **state)
     assert_int_equal(cut(*state, 2, cracks, d), 16);
     assert_int_equal(brc_domain_check(*state, d), BRC_OK);
     int64_t count[8] = {0};
-    for (int64_t f = 0; f < d->n_free_faces; ++f) count[d->free_wall[f]]++;
+    for (int64_t f = 0; f < d->n_free_faces; ++f)
+        count[d->free_wall[f]]++;
     assert_int_equal(count[6], 2 * 4);
     assert_int_equal(count[7], 2 * 12);
     brc_domain_free(&d);
@@ -274,12 +293,14 @@ static void the_sides_of_a_crack_are_a_set_that_normals_divide(void **state)
     brc_domain *d = unfinished(*state, &r);
     const int64_t n_cut = cut(*state, 1, &middle, d);
     brc_set_request upper = {.name = "upper side", .kind = BRC_SET_FACES};
-    upper.where = (brc_predicate){.has_wall = true, .wall = "middle", .has_normal = true, .normal = {0.0, 0.0, -1.0}, .normal_angle = 1.57};
+    upper.where = (brc_predicate){
+        .has_wall = true, .wall = "middle", .has_normal = true, .normal = {0.0, 0.0, -1.0}, .normal_angle = 1.57};
     assert_int_equal(brc_sets_build(*state, 1, &upper, d), BRC_OK);
     assert_int_equal(d->sets[brc_domain_find_set(d, "middle")].n_members, 2 * n_cut);
     const brc_set *set = &d->sets[brc_domain_find_set(d, "upper side")];
     assert_int_equal(set->n_members, n_cut);
-    for (int64_t k = 0; k < n_cut; ++k) assert_true(d->position[3 * (int64_t)d->free_element[set->members[k]] + 2] > 0.5);
+    for (int64_t k = 0; k < n_cut; ++k)
+        assert_true(d->position[3 * (int64_t)d->free_element[set->members[k]] + 2] > 0.5);
     assert_int_equal(brc_domain_check(*state, d), BRC_OK);
     int64_t more = 0;
     assert_int_equal(brc_cracks_cut(*state, 1, &middle, d, &more), BRC_INTERNAL);
@@ -329,10 +350,13 @@ static void cracks_that_cut_nothing_are_refused_with_the_distance(void **state)
         brc_crack crack;
         const char *part;
     } cases[] = {
-        {penny(0.5, 0.5, 0.5, 0.1), "crack 'penny' cuts no bond: the nearest element is 0.147 m away from it, elements are about 0.25 m wide"},
+        {penny(0.5, 0.5, 0.5, 0.1),
+         "crack 'penny' cuts no bond: the nearest element is 0.147 m away from it, elements are about 0.25 m wide"},
         {penny(0.375, 0.375, 4.875, 0.1), "nearest element is 4 m away"},
-        {{.name = "a", .kind = BRC_CRACK_RECTANGLE, .point = {2.0, 0.0, 0.125}, .edge = {{1, 0, 0}, {0, 1, 0}}}, "nearest element is 1.12 m"},
-        {{.name = "a", .kind = BRC_CRACK_RECTANGLE, .point = {4.875, 5.875, 0.125}, .edge = {{1, 0, 0}, {1, 1, 0}}}, "nearest element is 6.4 m"},
+        {{.name = "a", .kind = BRC_CRACK_RECTANGLE, .point = {2.0, 0.0, 0.125}, .edge = {{1, 0, 0}, {0, 1, 0}}},
+         "nearest element is 1.12 m"},
+        {{.name = "a", .kind = BRC_CRACK_RECTANGLE, .point = {4.875, 5.875, 0.125}, .edge = {{1, 0, 0}, {1, 1, 0}}},
+         "nearest element is 6.4 m"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
         brc_context_clear(*state);
@@ -352,7 +376,8 @@ static void cracks_that_cut_nothing_are_refused_with_the_distance(void **state)
     brc_domain_free(&d);
 }
 
-/* A row of spheres, each joined to its next two: 0-1, 0-2, 1-2, 1-3, 2-3, 2-4, 3-4. A crack between 2 and 3 cuts 1-3, 2-3 and 2-4. */
+/* A row of spheres, each joined to its next two: 0-1, 0-2, 1-2, 1-3, 2-3, 2-4, 3-4. A crack between 2 and 3 cuts 1-3,
+ * 2-3 and 2-4. */
 static void spheres_lose_bonds_and_nothing_else(void **state)
 {
     double position[15], volume[5], radius[5];
@@ -366,13 +391,24 @@ static void spheres_lose_bonds_and_nothing_else(void **state)
         volume[e] = 1.0;
         radius[e] = 0.5;
     }
-    brc_domain d = {.element_kind = BRC_ELEMENT_SPHERE, .n_elements = 5, .n_bonds = 7, .n_half_edges = 14, .position = position,
-                    .volume = volume, .radius = radius, .row_start = row_start, .neighbour = neighbour, .twin = twin, .bond = bond,
+    brc_domain d = {.element_kind = BRC_ELEMENT_SPHERE,
+                    .n_elements = 5,
+                    .n_bonds = 7,
+                    .n_half_edges = 14,
+                    .position = position,
+                    .volume = volume,
+                    .radius = radius,
+                    .row_start = row_start,
+                    .neighbour = neighbour,
+                    .twin = twin,
+                    .bond = bond,
                     .bond_half_edge = bond_half_edge};
-    const brc_crack crack = {.name = "c", .kind = BRC_CRACK_DISC, .point = {2.5, 0.0, 0.0}, .normal = {1.0, 0.0, 0.0}, .radius = 0.1};
+    const brc_crack crack = {
+        .name = "c", .kind = BRC_CRACK_DISC, .point = {2.5, 0.0, 0.0}, .normal = {1.0, 0.0, 0.0}, .radius = 0.1};
     assert_int_equal(cut(*state, 1, &crack, &d), 3);
     const int64_t rows[6] = {0, 2, 4, 6, 7, 8};
-    const int32_t neighbours[8] = {1, 2, 0, 2, 0, 1, 4, 3}, twins[8] = {2, 4, 0, 5, 1, 3, 7, 6}, bonds[8] = {0, 1, 0, 2, 1, 2, 3, 3};
+    const int32_t neighbours[8] = {1, 2, 0, 2, 0, 1, 4, 3}, twins[8] = {2, 4, 0, 5, 1, 3, 7, 6},
+                  bonds[8] = {0, 1, 0, 2, 1, 2, 3, 3};
     const int32_t firsts[4] = {0, 1, 3, 6};
     assert_int_equal(d.n_bonds, 4);
     assert_int_equal(d.n_half_edges, 8);
@@ -388,12 +424,14 @@ static void spheres_lose_bonds_and_nothing_else(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_crack_through_the_middle_leaves_two_pieces_and_every_promise_holds, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(a_crack_through_the_middle_leaves_two_pieces_and_every_promise_holds,
+                                        test_begin, test_end),
         cmocka_unit_test_setup_teardown(polygons_of_cut_faces_enclose_their_area, test_begin, test_end),
         cmocka_unit_test_setup_teardown(both_sides_of_a_cut_are_exactly_opposite, test_begin, test_end),
         cmocka_unit_test_setup_teardown(the_projected_area_of_a_full_cut_is_that_of_the_section, test_begin, test_end),
         cmocka_unit_test_setup_teardown(cracks_in_cubes_cut_what_a_hand_count_gives, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(a_tilted_penny_cuts_the_branches_that_cross_it_and_no_others, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(a_tilted_penny_cuts_the_branches_that_cross_it_and_no_others, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(a_bond_that_crosses_two_cracks_belongs_to_the_first, test_begin, test_end),
         cmocka_unit_test_setup_teardown(the_sides_of_a_crack_are_a_set_that_normals_divide, test_begin, test_end),
         cmocka_unit_test_setup_teardown(cracks_that_make_no_sense_are_refused_with_the_cure, test_begin, test_end),

@@ -18,7 +18,9 @@ static brc_domain *sample(brc_context *context)
 {
     static const brc_set_request sets[2] = {
         {.name = "grip", .kind = BRC_SET_FACES, .where = {.has_wall = true, .wall = "side"}},
-        {.name = "core", .kind = BRC_SET_ELEMENTS, .where = {.has_sphere = true, .sphere_centre = {0.5, 0, 0}, .sphere_radius = 0.2}}};
+        {.name = "core",
+         .kind = BRC_SET_ELEMENTS,
+         .where = {.has_sphere = true, .sphere_centre = {0.5, 0, 0}, .sphere_radius = 0.2}}};
     brc_build_request r = test_cylinder(300, 0.9);
     r.sets = sets;
     r.n_sets = 2;
@@ -74,7 +76,8 @@ static void what_was_written_is_read_back_bit_for_bit(void **state)
     assert_memory_equal(a->bounds, b->bounds, sizeof a->bounds);
     assert_string_equal(a->provenance, b->provenance);
     assert_int_equal(a->n_walls, b->n_walls);
-    for (int32_t w = 0; w < a->n_walls; ++w) assert_string_equal(a->wall_name[w], b->wall_name[w]);
+    for (int32_t w = 0; w < a->n_walls; ++w)
+        assert_string_equal(a->wall_name[w], b->wall_name[w]);
     assert_int_equal(a->n_sets, b->n_sets);
     for (int32_t s = 0; s < a->n_sets; ++s) {
         assert_string_equal(a->sets[s].name, b->sets[s].name);
@@ -94,7 +97,8 @@ static void spheres_and_grains_are_read_back_bit_for_bit(void **state)
     brc_domain *a = test_spheres(context, count, 8.0, 2, 1), *b;
     const int64_t n = a->n_elements, h = a->n_half_edges;
     assert_int_equal(BRC_ALLOCATE(context, &a->grain, n, "grains"), BRC_OK);
-    for (int64_t e = 0; e < n; ++e) a->grain[e] = (int32_t)(e % 5);
+    for (int64_t e = 0; e < n; ++e)
+        a->grain[e] = (int32_t)(e % 5);
     assert_int_equal(brc_domain_write(context, a, path), BRC_OK);
     if (brc_domain_read(context, path, &b) != BRC_OK) fail_msg("%s", brc_context_message(context));
     assert_int_equal(b->element_kind, BRC_ELEMENT_SPHERE);
@@ -115,7 +119,8 @@ static void spheres_and_grains_are_read_back_bit_for_bit(void **state)
     assert_memory_equal(&a->quality, &b->quality, sizeof a->quality);
     assert_int_equal(b->n_walls, 6);
     assert_int_equal(b->n_sets, 12);
-    for (int32_t s = 0; s < 12; ++s) SAME(sets[s].members, a->sets[s].n_members);
+    for (int32_t s = 0; s < 12; ++s)
+        SAME(sets[s].members, a->sets[s].n_members);
     assert_null(b->area_vector);
     assert_null(b->free_start);
     assert_null(b->vertex);
@@ -129,7 +134,8 @@ static void spheres_and_grains_are_read_back_bit_for_bit(void **state)
     remove(path);
 }
 
-/* domain_version1.h5 was written by version 1 of the format: eight cubes of 1 m, body 3, region 1 above z = 1 m, set "top". */
+/* domain_version1.h5 was written by version 1 of the format: eight cubes of 1 m, body 3, region 1 above z = 1 m, set
+ * "top". */
 static void files_of_version_1_are_still_read(void **state)
 {
     brc_domain *d;
@@ -311,7 +317,8 @@ static void damaged_bytes_never_give_a_wrong_domain(void **state)
     remove(path);
 }
 
-/* A limit on the size of files stops HDF5 like a full disk does: one sentence, no crash, the old file stays, no rest is left. */
+/* A limit on the size of files stops HDF5 like a full disk does: one sentence, no crash, the old file stays, no rest is
+ * left. */
 static void a_full_disk_gives_a_sentence_and_keeps_the_old_file(void **state)
 {
     brc_context *context = *state;

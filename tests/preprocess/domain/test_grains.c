@@ -4,11 +4,13 @@
 #include "../../../preprocess/domain/grains.h"
 
 /* A cube of cells with grains. */
-static brc_domain *with_grains(brc_context *context, int64_t n_elements, const brc_grains *grains, int32_t n_regions, int n_threads)
+static brc_domain *with_grains(brc_context *context, int64_t n_elements, const brc_grains *grains, int32_t n_regions,
+                               int n_threads)
 {
     const brc_build_request request = test_box(n_elements, 0.9);
     brc_domain *domain = test_build(context, &request);
-    if (brc_grains_assign(context, grains, n_regions, n_threads, domain) != BRC_OK) fail_msg("%s", brc_context_message(context));
+    if (brc_grains_assign(context, grains, n_regions, n_threads, domain) != BRC_OK)
+        fail_msg("%s", brc_context_message(context));
     return domain;
 }
 
@@ -31,13 +33,14 @@ static void there_are_as_many_grains_as_asked_each_with_elements(void **state)
             elements[d->grain[e]]++;
             assert_int_equal(d->region[e], 0);
         }
-        for (int64_t g = 0; g < counts[k]; ++g) assert_true(elements[g] > 0);
+        for (int64_t g = 0; g < counts[k]; ++g)
+            assert_true(elements[g] > 0);
         free_domain(&d);
     }
 }
 
-/* Elements in clumps much smaller than a grain and much farther apart: whichever elements become centres, there is room for one
- * in each clump only, and the nearest centre is that of the own clump. */
+/* Elements in clumps much smaller than a grain and much farther apart: whichever elements become centres, there is room
+ * for one in each clump only, and the nearest centre is that of the own clump. */
 static void an_element_belongs_to_the_grain_of_the_nearest_centre(void **state)
 {
     enum { CLUMPS = 12, EACH = 10, N = CLUMPS * EACH };
@@ -54,7 +57,8 @@ static void an_element_belongs_to_the_grain_of_the_nearest_centre(void **state)
     const brc_grains grains = {.n = CLUMPS, .seed = 5};
     assert_int_equal(brc_grains_assign(*state, &grains, 0, 1, &d), BRC_OK);
     bool taken[CLUMPS] = {false};
-    for (int e = 0; e < N; ++e) assert_int_equal(d.grain[e], d.grain[e % CLUMPS]);
+    for (int e = 0; e < N; ++e)
+        assert_int_equal(d.grain[e], d.grain[e % CLUMPS]);
     for (int c = 0; c < CLUMPS; ++c) {
         assert_in_range(d.grain[c], 0, CLUMPS - 1);
         assert_false(taken[d.grain[c]]);
@@ -70,7 +74,8 @@ static void shares_of_phases_hold_to_one_grain_and_regions_follow_those_of_the_s
     const brc_grains grains = {.n = GRAINS, .seed = 4, .n_phases = 3, .fraction = share};
     brc_domain *d = with_grains(*state, 2000, &grains, REGIONS, 1);
     int32_t region[GRAINS];
-    for (int32_t g = 0; g < GRAINS; ++g) region[g] = -1;
+    for (int32_t g = 0; g < GRAINS; ++g)
+        region[g] = -1;
     for (int64_t e = 0; e < d->n_elements; ++e) {
         int32_t *of = &region[d->grain[e]];
         if (*of < 0) *of = d->region[e];
@@ -81,7 +86,8 @@ static void shares_of_phases_hold_to_one_grain_and_regions_follow_those_of_the_s
         assert_true(region[g] == 0 || (region[g] > REGIONS && region[g] <= REGIONS + 3));
         count[region[g] == 0 ? 3 : region[g] - REGIONS - 1] += 1.0;
     }
-    for (int p = 0; p < 3; ++p) assert_near(count[p], share[p] * GRAINS, 1.0);
+    for (int p = 0; p < 3; ++p)
+        assert_near(count[p], share[p] * GRAINS, 1.0);
     assert_near(count[3], 0.25 * GRAINS, 1.0);
     assert_true(count[1] == 0.0);
     free_domain(&d);
@@ -92,7 +98,8 @@ static void shares_that_sum_to_one_leave_no_grain_without_a_phase(void **state)
     const double share[3] = {0.1, 0.2, 0.7}; /* sums to 1 - 1.1e-16 in doubles */
     const brc_grains grains = {.n = 33, .seed = 4, .n_phases = 3, .fraction = share};
     brc_domain *d = with_grains(*state, 1000, &grains, 0, 1);
-    for (int64_t e = 0; e < d->n_elements; ++e) assert_in_range(d->region[e], 1, 3);
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        assert_in_range(d->region[e], 1, 3);
     free_domain(&d);
 }
 
@@ -107,7 +114,8 @@ static void the_grains_do_not_depend_on_the_number_of_threads_but_on_the_seed(vo
     free_domain(&three);
     int32_t *first = one->grain; /* equal bodies of one scene get grains of their own */
     one->grain = NULL;
-    for (int64_t e = 0; e < one->n_elements; ++e) one->body[e] = 1;
+    for (int64_t e = 0; e < one->n_elements; ++e)
+        one->body[e] = 1;
     assert_int_equal(brc_grains_assign(*state, &grains, 0, 1, one), BRC_OK);
     assert_memory_not_equal(one->grain, first, bytes);
     grains.seed = 9;
@@ -125,8 +133,10 @@ static void interfaces_are_the_bonds_between_grains(void **state)
     int64_t across = 0, within = 0;
     for (int64_t h = 0; h < d->n_half_edges; ++h) {
         const int32_t i = d->neighbour[h], j = d->neighbour[d->twin[h]];
-        if (d->grain[i] == d->grain[j]) ++within;
-        else ++across;
+        if (d->grain[i] == d->grain[j])
+            ++within;
+        else
+            ++across;
     }
     assert_true(across > 0 && within > 0);
     assert_int_equal(2 * brc_grains_count_interfaces(d), across);
@@ -168,15 +178,22 @@ static void the_grain_size_of_spheres_counts_the_pores(void **state)
     int32_t region[N] = {0}, body[N] = {0};
     for (int e = 0; e < N; ++e) {
         const int index[3] = {e % 8, e / 8 % 8, e / 64};
-        for (int k = 0; k < 3; ++k) position[3 * e + k] = index[k] + 0.5;
+        for (int k = 0; k < 3; ++k)
+            position[3 * e + k] = index[k] + 0.5;
         volume[e] = 0.5236;
     }
-    brc_domain d = {.element_kind = BRC_ELEMENT_SPHERE, .n_elements = N, .position = position, .volume = volume, .region = region,
-                    .body = body, .quality = {.volume_shape = 512.0}};
+    brc_domain d = {.element_kind = BRC_ELEMENT_SPHERE,
+                    .n_elements = N,
+                    .position = position,
+                    .volume = volume,
+                    .region = region,
+                    .body = body,
+                    .quality = {.volume_shape = 512.0}};
     const brc_grains grains = {.size = 4.0};
     assert_int_equal(brc_grains_assign(*state, &grains, 0, 1, &d), BRC_OK);
     int32_t most = 0;
-    for (int e = 0; e < N; ++e) most = d.grain[e] > most ? d.grain[e] : most;
+    for (int e = 0; e < N; ++e)
+        most = d.grain[e] > most ? d.grain[e] : most;
     assert_int_equal(most + 1, 8);
     brc_memory_free(d.grain);
 }
@@ -190,7 +207,9 @@ static void wrong_requests_are_refused_with_the_cure(void **state)
         brc_grains grains;
         const char *part;
     } wrong[] = {
-        {{.n = 126}, "126 grains of 0.199 m are finer than two of the 1000 elements (0.1 m) across; ask for at most 125 grains (0.2 m) "},
+        {{.n = 126},
+         "126 grains of 0.199 m are finer than two of the 1000 elements (0.1 m) across; ask for at most 125 grains "
+         "(0.2 m) "},
         {{.size = 0.15}, "finer than two of the 1000 elements"},
         {{.n = -1}, "must be finite and 0 or more"},
         {{.n = 10, .size = 0.5}, "must be one of them"},
@@ -212,11 +231,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(there_are_as_many_grains_as_asked_each_with_elements, test_begin, test_end),
         cmocka_unit_test_setup_teardown(an_element_belongs_to_the_grain_of_the_nearest_centre, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(shares_of_phases_hold_to_one_grain_and_regions_follow_those_of_the_scene, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(shares_of_phases_hold_to_one_grain_and_regions_follow_those_of_the_scene,
+                                        test_begin, test_end),
         cmocka_unit_test_setup_teardown(shares_that_sum_to_one_leave_no_grain_without_a_phase, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(the_grains_do_not_depend_on_the_number_of_threads_but_on_the_seed, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(the_grains_do_not_depend_on_the_number_of_threads_but_on_the_seed, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(interfaces_are_the_bonds_between_grains, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(grains_by_size_have_that_size_and_are_more_even_than_poisson_cells, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(grains_by_size_have_that_size_and_are_more_even_than_poisson_cells, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(the_grain_size_of_spheres_counts_the_pores, test_begin, test_end),
         cmocka_unit_test_setup_teardown(wrong_requests_are_refused_with_the_cure, test_begin, test_end),
     };

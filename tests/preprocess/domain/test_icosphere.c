@@ -76,7 +76,8 @@ static void every_triangle_is_acute(void **state)
         for (int k = 0; k < 3; ++k) {
             const double *a = s.vertex + 3 * s.triangle[3 * t + k], *b = s.vertex + 3 * s.triangle[3 * t + (k + 1) % 3],
                          *c = s.vertex + 3 * s.triangle[3 * t + (k + 2) % 3];
-            const double ab[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, ac[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+            const double ab[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]},
+                         ac[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
             assert_true(dot(ab, ac) > 0);
         }
     brc_icosphere_free(&s);
@@ -95,9 +96,9 @@ static void solid_angles_sum_to_four_pi(void **state)
     }
 }
 
-/* Girard: the area of a spherical polygon is the sum of its angles less (corners - 2) pi. Here the polygon of directions
- * nearest to a vertex, from the poles of the planes through it and two neighbours; angles keep 1e-15 each, up to 1e-13 where
- * a side is short (level 3: sides of 0.08). */
+/* Girard: the area of a spherical polygon is the sum of its angles less (corners - 2) pi. Here the polygon of
+ * directions nearest to a vertex, from the poles of the planes through it and two neighbours; angles keep 1e-15 each,
+ * up to 1e-13 where a side is short (level 3: sides of 0.08). */
 static void solid_angles_are_those_of_the_polygons_of_nearest_directions(void **state)
 {
     brc_icosphere s = make(*state, 3);
@@ -117,14 +118,16 @@ static void solid_angles_are_those_of_the_polygons_of_nearest_directions(void **
                 ring[m] = t[(at + 1) % 3];
                 const int32_t after = t[(at + 2) % 3];
                 const double *a = s.vertex + 3 * v, *b = s.vertex + 3 * ring[m], *c = s.vertex + 3 * after;
-                const double p[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, q[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+                const double p[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]},
+                             q[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
                 for (int x = 0; x < 3; ++x)
                     pole[m][x] = p[(x + 1) % 3] * q[(x + 2) % 3] - p[(x + 2) % 3] * q[(x + 1) % 3];
                 next = after;
                 break;
             }
         double angles = 0;
-        for (int m = 0; m < n; ++m) { /* between the sides to the poles before and after: their planes hold the centre */
+        for (int m = 0; m < n;
+             ++m) { /* between the sides to the poles before and after: their planes hold the centre */
             const double *o = pole[m];
             double side[2][3];
             for (int e = 0; e < 2; ++e) {
@@ -197,7 +200,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(triangles_close_the_sphere, test_begin, test_end),
         cmocka_unit_test_setup_teardown(every_triangle_is_acute, test_begin, test_end),
         cmocka_unit_test_setup_teardown(solid_angles_sum_to_four_pi, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(solid_angles_are_those_of_the_polygons_of_nearest_directions, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(solid_angles_are_those_of_the_polygons_of_nearest_directions, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(the_nearest_vertex_is_that_of_a_search_through_all, test_begin, test_end),
         cmocka_unit_test_setup_teardown(among_equally_near_vertices_the_first_is_taken, test_begin, test_end),
         cmocka_unit_test_setup_teardown(levels_that_are_not_there_are_refused, test_begin, test_end),

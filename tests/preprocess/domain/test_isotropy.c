@@ -10,17 +10,20 @@
 #include <string.h>
 #include <unistd.h>
 
-static brc_isotropy count(void *context, int64_t n, const double *direction, const double *weight, int level, int threads)
+static brc_isotropy count(void *context, int64_t n, const double *direction, const double *weight, int level,
+                          int threads)
 {
     brc_isotropy i;
-    if (brc_isotropy_count(context, n, direction, weight, level, threads, &i) != BRC_OK) fail_msg("%s", brc_context_message(context));
+    if (brc_isotropy_count(context, n, direction, weight, level, threads, &i) != BRC_OK)
+        fail_msg("%s", brc_context_message(context));
     return i;
 }
 
 static brc_isotropy measure(void *context, const brc_domain *domain, int level, brc_isotropy_weight weight)
 {
     brc_isotropy i;
-    if (brc_isotropy_measure(context, domain, level, weight, 1, &i) != BRC_OK) fail_msg("%s", brc_context_message(context));
+    if (brc_isotropy_measure(context, domain, level, weight, 1, &i) != BRC_OK)
+        fail_msg("%s", brc_context_message(context));
     return i;
 }
 
@@ -39,8 +42,8 @@ static double *even_directions(void *context, uint64_t seed, int64_t n)
     return d;
 }
 
-/* Three directions, a third of the bonds each: F = I/3, nx^4 + ny^4 + nz^4 = 1, so cubic = 5/3 - 1, and six equal bins (at
- * level 2 their vertices lie on the axes). */
+/* Three directions, a third of the bonds each: F = I/3, nx^4 + ny^4 + nz^4 = 1, so cubic = 5/3 - 1, and six equal bins
+ * (at level 2 their vertices lie on the axes). */
 static void a_lattice_of_cubes_has_an_even_fabric_and_the_cubic_order_two_thirds(void **state)
 {
     const brc_build_request r = test_box(1000, 0.0);
@@ -86,9 +89,10 @@ static void parallel_planar_and_diagonal_directions_have_the_numbers_of_the_head
     brc_isotropy_free(&i);
 }
 
-/* Density 2 |u| round an axis, u the height along it: u^2 is uniform, mean 1/2, and the rule of midpoints integrates it exactly, as
- * it does the even longitudes. So F = I/4 + a (x) a / 4 and anisotropy (1/2 - 1/4) / (1/3). A bin of level 3 reaches 0.1 from its
- * vertex, where the density has changed by 2 * 0.1 at most; its count is off by the points along its rim, about 1 % of 160. */
+/* Density 2 |u| round an axis, u the height along it: u^2 is uniform, mean 1/2, and the rule of midpoints integrates it
+ * exactly, as it does the even longitudes. So F = I/4 + a (x) a / 4 and anisotropy (1/2 - 1/4) / (1/3). A bin of level
+ * 3 reaches 0.1 from its vertex, where the density has changed by 2 * 0.1 at most; its count is off by the points along
+ * its rim, about 1 % of 160. */
 static void a_distribution_round_an_axis_has_its_fabric_and_its_densities(void **state)
 {
     enum { HEIGHTS = 320, TURNS = 320 };
@@ -97,7 +101,8 @@ static void a_distribution_round_an_axis_has_its_fabric_and_its_densities(void *
     assert_int_equal(BRC_ALLOCATE(*state, &d, 3 * HEIGHTS * TURNS, "test"), BRC_OK);
     for (int h = 0, k = 0; h < HEIGHTS; ++h)
         for (int t = 0; t < TURNS; ++t, ++k) {
-            const double u = sqrt((h + 0.5) / HEIGHTS), across = sqrt(1 - u * u), turn = 2 * M_PI * (t + 0.618 * h) / TURNS;
+            const double u = sqrt((h + 0.5) / HEIGHTS), across = sqrt(1 - u * u),
+                         turn = 2 * M_PI * (t + 0.618 * h) / TURNS;
             for (int x = 0; x < 3; ++x)
                 d[3 * k + x] = u * a[x] + across * (cos(turn) * b[x] + sin(turn) * c[x]);
         }
@@ -115,8 +120,8 @@ static void a_distribution_round_an_axis_has_its_fabric_and_its_densities(void *
     brc_memory_free(d);
 }
 
-/* rms^2 is Pearson's chi^2 over n with (n_bins - 2) / 2 degrees of freedom m, of variance 2 m (1 / n more at most per bin): five
- * standard deviations either side. Fabric and cubic order: five times the root mean square of theirs. */
+/* rms^2 is Pearson's chi^2 over n with (n_bins - 2) / 2 degrees of freedom m, of variance 2 m (1 / n more at most per
+ * bin): five standard deviations either side. Fabric and cubic order: five times the root mean square of theirs. */
 static void even_random_directions_give_the_noise_and_no_order(void **state)
 {
     const int64_t n = 100000;
@@ -133,8 +138,8 @@ static void even_random_directions_give_the_noise_and_no_order(void **state)
     brc_memory_free(d);
 }
 
-/* The expectations are exact for few directions and for uneven weights: means over many draws agree with them within five of their own
- * standard errors. */
+/* The expectations are exact for few directions and for uneven weights: means over many draws agree with them within
+ * five of their own standard errors. */
 static void the_noise_is_the_exact_expectation(void **state)
 {
     enum { DRAWS = 4000, N = 23 };
@@ -195,7 +200,8 @@ static void the_bonds_of_a_domain_are_counted_once_or_with_their_area(void **sta
         brc_isotropy i = measure(*state, d, 3, area ? BRC_ISOTROPY_AREA : BRC_ISOTROPY_BONDS);
         double xx = 0, yz = 0, total = 0, quartic = 0, counted = 0;
         for (int64_t h = 0; h < d->n_half_edges; ++h) {
-            const double *s = d->area_vector + 3 * h, S = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]), w = area ? S : 1;
+            const double *s = d->area_vector + 3 * h, S = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]),
+                         w = area ? S : 1;
             total += w;
             xx += w * s[0] * s[0] / (S * S);
             yz += w * s[1] * s[2] / (S * S);
@@ -232,20 +238,33 @@ static void layers_at_the_walls_are_left_out(void **state)
     brc_domain_free(&d);
 }
 
-/* A chain of five spheres whose ends touch walls: four bonds, two of them between the three inner ones, none with two layers less. */
+/* A chain of five spheres whose ends touch walls: four bonds, two of them between the three inner ones, none with two
+ * layers less. */
 static void spheres_at_a_wall_are_those_of_its_set(void **state)
 {
     double position[15] = {0};
     int64_t rows[6] = {0, 1, 3, 5, 7, 8};
-    int32_t neighbour[8] = {1, 0, 2, 1, 3, 2, 4, 3}, twin[8] = {1, 0, 3, 2, 5, 4, 7, 6}, bond_half_edge[4] = {0, 2, 4, 6};
+    int32_t neighbour[8] = {1, 0, 2, 1, 3, 2, 4, 3}, twin[8] = {1, 0, 3, 2, 5, 4, 7, 6},
+            bond_half_edge[4] = {0, 2, 4, 6};
     int32_t low[1] = {0}, high[1] = {4};
     char low_name[] = "x-", high_name[] = "x+", *names[2] = {low_name, high_name};
     brc_set sets[2] = {{low_name, BRC_SET_ELEMENTS, 1, low}, {high_name, BRC_SET_ELEMENTS, 1, high}};
     brc_isotropy i;
     for (int e = 0; e < 5; ++e)
         position[3 * e] = e;
-    const brc_domain d = {.element_kind = BRC_ELEMENT_SPHERE, .n_elements = 5, .n_bonds = 4, .n_half_edges = 8, .position = position, .row_start = rows,
-                          .neighbour = neighbour, .twin = twin, .bond_half_edge = bond_half_edge, .n_walls = 2, .wall_name = names, .n_sets = 2, .sets = sets};
+    const brc_domain d = {.element_kind = BRC_ELEMENT_SPHERE,
+                          .n_elements = 5,
+                          .n_bonds = 4,
+                          .n_half_edges = 8,
+                          .position = position,
+                          .row_start = rows,
+                          .neighbour = neighbour,
+                          .twin = twin,
+                          .bond_half_edge = bond_half_edge,
+                          .n_walls = 2,
+                          .wall_name = names,
+                          .n_sets = 2,
+                          .sets = sets};
     assert_int_equal(brc_isotropy_measure_inside(*state, &d, 1, 1, BRC_ISOTROPY_BONDS, 1, &i), BRC_OK);
     assert_int_equal(i.n_directions, 2);
     brc_isotropy_free(&i);
@@ -289,7 +308,8 @@ static void an_stl_file_holds_the_closed_surface(void **state)
         for (int k = 0; k < 3; ++k) {
             const int p = (k + 1) % 3, q = (k + 2) % 3;
             volume += a[k] * ((double)b[p] * c[q] - (double)b[q] * c[p]) / 6;
-            outward += f[k] * (((double)b[p] - a[p]) * ((double)c[q] - a[q]) - ((double)b[q] - a[q]) * ((double)c[p] - a[p]));
+            outward +=
+                f[k] * (((double)b[p] - a[p]) * ((double)c[q] - a[q]) - ((double)b[q] - a[q]) * ((double)c[p] - a[p]));
         }
         assert_true(outward > 0);
     }
@@ -374,13 +394,18 @@ static void what_cannot_be_counted_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_lattice_of_cubes_has_an_even_fabric_and_the_cubic_order_two_thirds, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(parallel_planar_and_diagonal_directions_have_the_numbers_of_the_header, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(a_distribution_round_an_axis_has_its_fabric_and_its_densities, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(a_lattice_of_cubes_has_an_even_fabric_and_the_cubic_order_two_thirds,
+                                        test_begin, test_end),
+        cmocka_unit_test_setup_teardown(parallel_planar_and_diagonal_directions_have_the_numbers_of_the_header,
+                                        test_begin, test_end),
+        cmocka_unit_test_setup_teardown(a_distribution_round_an_axis_has_its_fabric_and_its_densities, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(even_random_directions_give_the_noise_and_no_order, test_begin, test_end),
         cmocka_unit_test_setup_teardown(the_noise_is_the_exact_expectation, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(neither_threads_nor_the_sense_of_a_direction_change_a_bit, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(the_bonds_of_a_domain_are_counted_once_or_with_their_area, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(neither_threads_nor_the_sense_of_a_direction_change_a_bit, test_begin,
+                                        test_end),
+        cmocka_unit_test_setup_teardown(the_bonds_of_a_domain_are_counted_once_or_with_their_area, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(layers_at_the_walls_are_left_out, test_begin, test_end),
         cmocka_unit_test_setup_teardown(spheres_at_a_wall_are_those_of_its_set, test_begin, test_end),
         cmocka_unit_test_setup_teardown(an_stl_file_holds_the_closed_surface, test_begin, test_end),

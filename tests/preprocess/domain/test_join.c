@@ -23,9 +23,12 @@ static void joined_bodies_keep_their_numbers_and_share_walls_and_sets(void **sta
     assert_int_equal(d->n_bonds, part[0]->n_bonds + part[1]->n_bonds);
     assert_int_equal(d->n_free_faces, f + part[1]->n_free_faces);
     assert_memory_equal(d->position + 3 * n, part[1]->position, 3 * (size_t)part[1]->n_elements * sizeof(double));
-    assert_memory_equal(d->area_vector + 3 * h, part[1]->area_vector, 3 * (size_t)part[1]->n_half_edges * sizeof(double));
-    for (int64_t k = 0; k < part[1]->n_half_edges; ++k) assert_int_equal(d->neighbour[h + k], part[1]->neighbour[k] + n);
-    for (int64_t e = 0; e < d->n_elements; ++e) assert_int_equal(d->body[e], e < n ? 0 : 1);
+    assert_memory_equal(d->area_vector + 3 * h, part[1]->area_vector,
+                        3 * (size_t)part[1]->n_half_edges * sizeof(double));
+    for (int64_t k = 0; k < part[1]->n_half_edges; ++k)
+        assert_int_equal(d->neighbour[h + k], part[1]->neighbour[k] + n);
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        assert_int_equal(d->body[e], e < n ? 0 : 1);
     assert_int_equal(d->n_walls, 7); /* six of the box; the cylinder adds its side */
     assert_int_equal(d->n_sets, 8);
     const char *const both[2] = {"x-", "grip"};
@@ -40,7 +43,8 @@ static void joined_bodies_keep_their_numbers_and_share_walls_and_sets(void **sta
     assert_near(d->quality.volume_error, 0.0, 1e-12);
     assert_near(d->bounds[1][0], 2.5, 1e-14);
     assert_non_null(strstr(d->provenance, " | "));
-    for (int k = 0; k < 2; ++k) brc_domain_free(&part[k]);
+    for (int k = 0; k < 2; ++k)
+        brc_domain_free(&part[k]);
     brc_domain_free(&d);
 }
 
@@ -79,7 +83,8 @@ static void sets_of_one_name_and_two_kinds_are_refused(void **state)
 static void give_grains(brc_context *context, brc_domain *d, int32_t n)
 {
     assert_int_equal(BRC_ALLOCATE(context, &d->grain, d->n_elements, "grains"), BRC_OK);
-    for (int64_t e = 0; e < d->n_elements; ++e) d->grain[e] = (int32_t)(e % n);
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        d->grain[e] = (int32_t)(e % n);
 }
 
 /* Bodies of 3 and 2 grains and one without, which becomes a grain of its own. */
@@ -98,7 +103,8 @@ static void grains_are_numbered_through_all_bodies(void **state)
     for (int64_t e = 0; e < d->n_elements; ++e)
         assert_int_equal(d->grain[e], e < 64 ? e % 3 : e < 128 ? 3 : 4 + e % 2);
     assert_int_equal(d->quality.n_pieces, 3);
-    for (int k = 0; k < 3; ++k) brc_domain_free(&part[k]);
+    for (int k = 0; k < 3; ++k)
+        brc_domain_free(&part[k]);
     brc_domain_free(&d);
 }
 
@@ -138,7 +144,8 @@ static void cells_and_spheres_are_not_joined(void **state)
     const brc_domain *parts[2] = {a, b};
     assert_int_equal(brc_domain_join(*state, 2, parts, NULL, &d), BRC_BAD_INPUT);
     assert_null(d);
-    test_says(*state, "body 0 is made of spheres, body 1 of cells, which one domain cannot hold; give `beams` to all bodies");
+    test_says(*state,
+              "body 0 is made of spheres, body 1 of cells, which one domain cannot hold; give `beams` to all bodies");
     brc_domain_free(&a);
     brc_domain_free(&b);
 }
@@ -146,7 +153,8 @@ static void cells_and_spheres_are_not_joined(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(joined_bodies_keep_their_numbers_and_share_walls_and_sets, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(joined_bodies_keep_their_numbers_and_share_walls_and_sets, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(joining_one_body_gives_it_back, test_begin, test_end),
         cmocka_unit_test_setup_teardown(sets_of_one_name_and_two_kinds_are_refused, test_begin, test_end),
         cmocka_unit_test_setup_teardown(grains_are_numbered_through_all_bodies, test_begin, test_end),

@@ -34,9 +34,11 @@ static void overlapping_cubes_are_counted_and_touching_ones_are_not(void **state
     move(b, 0.0, 1.0, 0.0); /* a common edge */
     assert_int_equal(check(*state, a, b), BRC_OK);
     move(b, -0.26, -0.97, -0.02);
-    /* b begins at x = 0.74: layers of a at 0.75, 0.85, 0.95 are in it (30 rows of 10 in y of which all from 0.03 on, and in z all to 0.98) */
+    /* b begins at x = 0.74: layers of a at 0.75, 0.85, 0.95 are in it (30 rows of 10 in y of which all from 0.03 on,
+     * and in z all to 0.98) */
     assert_int_equal(check(*state, a, b), BRC_BAD_INPUT);
-    test_says(*state, "bodies 0 and 1 overlap: 300 elements of body 0 and 300 of body 1 stand in the other one, the first at (0.75, 0.05, 0.05) m; "
+    test_says(*state, "bodies 0 and 1 overlap: 300 elements of body 0 and 300 of body 1 stand in the other one, the "
+                      "first at (0.75, 0.05, 0.05) m; "
                       "move them apart with `pose`");
     assert_int_equal(check(*state, b, a), BRC_BAD_INPUT);
     test_says(*state, "300 elements of body 0 and 300 of body 1");
@@ -44,16 +46,19 @@ static void overlapping_cubes_are_counted_and_touching_ones_are_not(void **state
     brc_domain_free(&b);
 }
 
-/* Cells of a regular grid have their positions half a cell from the wall; what reaches in less is told by corners, from a tenth of a cell on. */
+/* Cells of a regular grid have their positions half a cell from the wall; what reaches in less is told by corners, from
+ * a tenth of a cell on. */
 static void less_than_a_cell_of_overlap_is_found(void **state)
 {
     const char *const name[2] = {"anvil", "ball"};
     const brc_build_request r = test_box(1000, 0.0);
     brc_domain *a = test_build(*state, &r), *b = test_build(*state, &r);
     const brc_domain *bodies[2] = {a, b};
-    move(b, 0.97, 0.05, 0.05); /* corners of b in the middle of faces of cells of a, 0.3 cells deep: 10 x 10 less those beside a */
+    move(b, 0.97, 0.05,
+         0.05); /* corners of b in the middle of faces of cells of a, 0.3 cells deep: 10 x 10 less those beside a */
     assert_int_equal(brc_overlap_check(*state, 2, bodies, name), BRC_BAD_INPUT);
-    test_says(*state, "bodies 'anvil' and 'ball' overlap by less than a cell: corners of 100 cells of body 'anvil' and of 100 of body 'ball'");
+    test_says(*state, "bodies 'anvil' and 'ball' overlap by less than a cell: corners of 100 cells of body 'anvil' and "
+                      "of 100 of body 'ball'");
     move(b, 0.021, 0.0, 0.0); /* 0.09 cells: what round walls that touch may do */
     assert_int_equal(check(*state, a, b), BRC_OK);
     brc_domain_free(&a);
@@ -107,7 +112,8 @@ static void overlapping_spheres_are_counted_like_all_pairs(void **state)
             bool hit = false;
             for (int64_t f = 0; f < o->n_elements; ++f) {
                 double square = 0.0;
-                for (int c = 0; c < 3; ++c) square += pow(d->position[3 * e + c] - o->position[3 * f + c], 2.0);
+                for (int c = 0; c < 3; ++c)
+                    square += pow(d->position[3 * e + c] - o->position[3 * f + c], 2.0);
                 hit = hit || sqrt(square) < 0.9 * (d->radius[e] + o->radius[f]);
             }
             seen[side] += hit;
@@ -130,7 +136,8 @@ static void two_spheres_overlap_though_neither_centre_is_in_the_other(void **sta
     const int count[3] = {2, 2, 2};
     brc_domain *a = test_spheres(*state, count, 3.0, 0, 1), *b = test_spheres(*state, count, 3.0, 1, 1);
     double reach = 0.0;
-    for (int64_t e = 0; e < 8; ++e) reach = fmax(reach, a->radius[e]);
+    for (int64_t e = 0; e < 8; ++e)
+        reach = fmax(reach, a->radius[e]);
     move(b, 2.0 - 0.25 * reach, 0.0, 0.0);
     assert_int_equal(check(*state, a, b), BRC_BAD_INPUT);
     brc_domain_free(&a);
@@ -149,7 +156,8 @@ static void every_overlapping_pair_is_named(void **state)
     test_says(*state, "bodies 0 and 1 overlap");
     test_says(*state, "bodies 1 and 2 overlap");
     assert_null(strstr(brc_context_message(*state), "bodies 0 and 2"));
-    for (int k = 0; k < 3; ++k) brc_domain_free(&d[k]);
+    for (int k = 0; k < 3; ++k)
+        brc_domain_free(&d[k]);
 }
 
 int main(void)
@@ -160,7 +168,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_small_body_inside_a_large_cell_is_found, test_begin, test_end),
         cmocka_unit_test_setup_teardown(bodies_with_overlapping_bounds_may_stand_apart, test_begin, test_end),
         cmocka_unit_test_setup_teardown(overlapping_spheres_are_counted_like_all_pairs, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(two_spheres_overlap_though_neither_centre_is_in_the_other, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(two_spheres_overlap_though_neither_centre_is_in_the_other, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(every_overlapping_pair_is_named, test_begin, test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -25,7 +25,8 @@ static void a_posed_body_is_the_turned_and_shifted_one(void **state)
         assert_near(y[2], x[2] + 0.5, 1e-15);
         const double *i = a->inertia + 6 * e, *j = b->inertia + 6 * e;
         const double expected[6] = {i[1], i[0], i[2], i[4], -i[3], -i[5]};
-        for (int k = 0; k < 6; ++k) assert_near(j[k], expected[k], 1e-18);
+        for (int k = 0; k < 6; ++k)
+            assert_near(j[k], expected[k], 1e-18);
     }
     for (int64_t h = 0; h < a->n_half_edges; ++h) {
         assert_near(b->area_vector[3 * h], -a->area_vector[3 * h + 1], 1e-16);
@@ -61,7 +62,8 @@ static void any_turn_keeps_the_identities_of_the_cells(void **state)
         const double *s = d->free_area_vector + 3 * f;
         const double one = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
         area += one;
-        for (int c = 0; c < 3; ++c) mean[c] += one * d->free_centroid[3 * f + c];
+        for (int c = 0; c < 3; ++c)
+            mean[c] += one * d->free_centroid[3 * f + c];
     }
     assert_near(mean[0] / area, 3.0, 1e-13);
     assert_near(mean[1] / area, 0.0, 1e-13);
@@ -72,7 +74,8 @@ static void any_turn_keeps_the_identities_of_the_cells(void **state)
 static void sets_are_picked_in_posed_coordinates(void **state)
 {
     brc_set_request set = {.name = "far", .kind = BRC_SET_FACES};
-    set.where = (brc_predicate){.has_half_space = true, .half_space_point = {10.999, 0, 0}, .half_space_normal = {1, 0, 0}};
+    set.where =
+        (brc_predicate){.has_half_space = true, .half_space_point = {10.999, 0, 0}, .half_space_normal = {1, 0, 0}};
     brc_build_request r = test_box(1000, 0.9);
     r.translation[0] = 10.0;
     r.sets = &set;

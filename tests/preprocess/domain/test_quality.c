@@ -34,18 +34,22 @@ static void support_is_the_smallest_eigenvalue(void **state)
         for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
             const double *s = d->area_vector + 3 * h, *x = d->position + 3 * e;
             const double *y = d->position + 3 * (int64_t)d->neighbour[h];
-            const double length = sqrt((y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + (y[2] - x[2]) * (y[2] - x[2]));
+            const double length =
+                sqrt((y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + (y[2] - x[2]) * (y[2] - x[2]));
             const double area = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
             for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j) a[i][j] += length / area * s[i] * s[j] / (2.0 * d->volume[e]);
+                for (int j = 0; j < 3; ++j)
+                    a[i][j] += length / area * s[i] * s[j] / (2.0 * d->volume[e]);
         }
         double low = 0.0, high = 10.0; /* bisection on the sign of the leading minors of A - l I */
         for (int k = 0; k < 60; ++k) {
             const double l = 0.5 * (low + high), b = a[0][0] - l, c = b * (a[1][1] - l) - a[0][1] * a[1][0];
             const double det = c * (a[2][2] - l) - b * a[1][2] * a[2][1] - a[0][2] * a[0][2] * (a[1][1] - l) +
                                2.0 * a[0][1] * a[1][2] * a[0][2];
-            if (b > 0.0 && c > 0.0 && det > 0.0) low = l;
-            else high = l;
+            if (b > 0.0 && c > 0.0 && det > 0.0)
+                low = l;
+            else
+                high = l;
         }
         least = fmin(least, low);
     }
@@ -65,9 +69,14 @@ static void the_printed_table_holds_the_numbers_and_the_histogram(void **state)
     const size_t n = fread(text, 1, sizeof text - 1, file);
     fclose(file);
     text[n] = '\0';
-    const char *const parts[] = {"asked for 1000", "5.400 per element", "    3           8 ", "    6         512 ####",
-                                 "relative error", "support",
-                                 "pieces           1; elements without bonds 0", "cell volumes     1 | 1 | 1 | 1 | 1 of the mean",
+    const char *const parts[] = {"asked for 1000",
+                                 "5.400 per element",
+                                 "    3           8 ",
+                                 "    6         512 ####",
+                                 "relative error",
+                                 "support",
+                                 "pieces           1; elements without bonds 0",
+                                 "cell volumes     1 | 1 | 1 | 1 | 1 of the mean",
                                  "faces of a cell  6 | 6 | 6 | 6 | 6 "};
     for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k)
         if (!strstr(text, parts[k])) fail_msg("'%s' is missing in\n%s", parts[k], text);
@@ -99,12 +108,14 @@ static void spreads_are_those_of_the_sorted_values(void **state)
     for (int k = 0; k < 2; ++k) {
         const brc_domain *d = both[k];
         double *value = malloc((size_t)(d->n_elements + d->n_bonds) * sizeof *value), sum = 0.0;
-        for (int64_t e = 0; e < d->n_elements; ++e) sum += value[e] = d->volume[e];
+        for (int64_t e = 0; e < d->n_elements; ++e)
+            sum += value[e] = d->volume[e];
         assert_spread(d->quality.volume_spread, value, d->n_elements, sum / (double)d->n_elements);
         for (int64_t e = 0, b = 0; e < d->n_elements; ++e)
             for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
                 const double *x = d->position + 3 * e, *y = d->position + 3 * (int64_t)d->neighbour[h];
-                if (d->neighbour[h] > e) value[b++] = sqrt(pow(x[0] - y[0], 2) + pow(x[1] - y[1], 2) + pow(x[2] - y[2], 2));
+                if (d->neighbour[h] > e)
+                    value[b++] = sqrt(pow(x[0] - y[0], 2) + pow(x[1] - y[1], 2) + pow(x[2] - y[2], 2));
             }
         assert_spread(d->quality.branch_spread, value, d->n_bonds, d->quality.mean_spacing);
         for (int64_t e = 0; e < d->n_elements && k == 0; ++e)
@@ -127,7 +138,8 @@ static void spheres_print_what_they_have(void **state)
     assert_non_null(file);
     brc_quality_print(file, d);
     fclose(file);
-    const char *const parts[] = {"fraction 0.", "sphere volumes", "growth ", "branches ", "8.000 per element", "pieces           1;"};
+    const char *const parts[] = {"fraction 0.", "sphere volumes",    "growth ",
+                                 "branches ",   "8.000 per element", "pieces           1;"};
     for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k)
         if (!strstr(text, parts[k])) fail_msg("'%s' is missing in\n%s", parts[k], text);
     assert_null(strstr(text, "closure"));

@@ -74,14 +74,17 @@ static void curved_walls_are_named_and_ends_follow_the_axis(void **state)
 static void each_predicate_picks_what_it_says(void **state)
 {
     enum { N = 7 };
-    brc_set_request sets[N] = {face_set("wall"),       face_set("box"),   face_set("sphere"), face_set("cylinder"),
-                               face_set("half space"), face_set("up"), face_set("both")};
+    brc_set_request sets[N] = {face_set("wall"),       face_set("box"), face_set("sphere"), face_set("cylinder"),
+                               face_set("half space"), face_set("up"),  face_set("both")};
     sets[0].where = (brc_predicate){.has_wall = true, .wall = "y+"};
     sets[1].where = (brc_predicate){.has_box = true, .box = {{0.0, 0.0, 0.0}, {1.0, 0.5, 0.0}}};
     sets[2].where = (brc_predicate){.has_sphere = true, .sphere_centre = {0.5, 0.5, 1.0}, .sphere_radius = 0.3};
-    sets[3].where = (brc_predicate){
-        .has_cylinder = true, .cylinder_point = {9.0, 0.5, 0.5}, .cylinder_axis = {-2.0, 0.0, 0.0}, .cylinder_radius = 0.25};
-    sets[4].where = (brc_predicate){.has_half_space = true, .half_space_point = {0.0, 0.0, 0.7}, .half_space_normal = {0, 0, 3}};
+    sets[3].where = (brc_predicate){.has_cylinder = true,
+                                    .cylinder_point = {9.0, 0.5, 0.5},
+                                    .cylinder_axis = {-2.0, 0.0, 0.0},
+                                    .cylinder_radius = 0.25};
+    sets[4].where =
+        (brc_predicate){.has_half_space = true, .half_space_point = {0.0, 0.0, 0.7}, .half_space_normal = {0, 0, 3}};
     sets[5].where = (brc_predicate){.has_normal = true, .normal = {0.0, 0.0, 2.0}, .normal_angle = 0.1};
     sets[6].where = sets[4].where;
     sets[6].where.has_wall = true;
@@ -100,13 +103,15 @@ static void each_predicate_picks_what_it_says(void **state)
     assert_int_equal(set_of(d, "up")->n_members, 100);
     assert_int_equal(set_of(d, "both")->n_members, 30);
     for (int s = 6; s < 6 + N; ++s)
-        for (int64_t k = 1; k < d->sets[s].n_members; ++k) assert_true(d->sets[s].members[k - 1] < d->sets[s].members[k]);
+        for (int64_t k = 1; k < d->sets[s].n_members; ++k)
+            assert_true(d->sets[s].members[k - 1] < d->sets[s].members[k]);
     brc_domain_free(&d);
 }
 
 static void elements_are_picked_by_position_and_by_wall(void **state)
 {
-    brc_set_request sets[2] = {{.name = "corner", .kind = BRC_SET_ELEMENTS}, {.name = "skin", .kind = BRC_SET_ELEMENTS}};
+    brc_set_request sets[2] = {{.name = "corner", .kind = BRC_SET_ELEMENTS},
+                               {.name = "skin", .kind = BRC_SET_ELEMENTS}};
     sets[0].where = (brc_predicate){.has_box = true, .box = {{0.0, 0.0, 0.0}, {0.25, 0.25, 0.25}}};
     sets[1].where = (brc_predicate){.has_wall = true, .wall = "x-"};
     brc_build_request r = test_box(1000, 0.0);
@@ -127,11 +132,17 @@ static void bad_sets_are_refused_with_a_sentence(void **state)
     r.sets = sets;
     r.n_sets = 1;
     sets[0].where = (brc_predicate){.has_sphere = true, .sphere_centre = {5, 5, 5}, .sphere_radius = 0.1};
-    test_refused(context, &r, BRC_BAD_INPUT, "set 'clamp' is empty: none of the 600 free faces fits; the body reaches from (0, 0, 0) to (1, 1, 1) m");
-    sets[0].where = (brc_predicate){.has_box = true, .box = {{0.28, 0.28, 0.9}, {0.33, 0.33, 2}}}; /* about a corner of four faces of 0.1 m */
-    test_refused(context, &r, BRC_BAD_INPUT, "set 'clamp' is empty: it reaches into 4 of the 600 free faces, and the middle of none of them is inside");
+    test_refused(
+        context, &r, BRC_BAD_INPUT,
+        "set 'clamp' is empty: none of the 600 free faces fits; the body reaches from (0, 0, 0) to (1, 1, 1) m");
+    sets[0].where = (brc_predicate){
+        .has_box = true, .box = {{0.28, 0.28, 0.9}, {0.33, 0.33, 2}}}; /* about a corner of four faces of 0.1 m */
+    test_refused(
+        context, &r, BRC_BAD_INPUT,
+        "set 'clamp' is empty: it reaches into 4 of the 600 free faces, and the middle of none of them is inside");
     sets[0].where = (brc_predicate){.has_wall = true, .wall = "side"};
-    test_refused(context, &r, BRC_BAD_INPUT, "wall 'side' is unknown, the walls of this shape are x-, x+, y-, y+, z-, z+");
+    test_refused(context, &r, BRC_BAD_INPUT,
+                 "wall 'side' is unknown, the walls of this shape are x-, x+, y-, y+, z-, z+");
     sets[0].where = (brc_predicate){.has_box = true, .box = {{0, 1, 0}, {1, 0, 1}}};
     test_refused(context, &r, BRC_BAD_INPUT, "from 1 m to 0 m along y");
     sets[0].where = (brc_predicate){.has_normal = true, .normal_angle = 0.1};
@@ -170,7 +181,8 @@ static void walls_of_spheres_are_the_elements_that_touch_them(void **state)
         assert_int_equal(grip->n_members, 20);
         assert_memory_equal(wall->members, grip->members, 20 * sizeof *wall->members);
         assert_int_equal(edge->n_members, 5);
-        for (int64_t k = 0; k < 5; ++k) assert_int_equal(edge->members[k], 90 + 6 * k + 5);
+        for (int64_t k = 0; k < 5; ++k)
+            assert_int_equal(edge->members[k], 90 + 6 * k + 5);
     }
     sets[0].kind = BRC_SET_FACES;
     assert_int_equal(brc_sets_build(*state, 1, sets, d), BRC_BAD_INPUT);

@@ -1,5 +1,5 @@
-/* What a mesh answers, against formulas for cubes and lists of triangles without a tree. Coordinates are of the order of 1, so
- * distances computed in two ways agree to a few hundred roundings: 1e-13. */
+/* What a mesh answers, against formulas for cubes and lists of triangles without a tree. Coordinates are of the order
+ * of 1, so distances computed in two ways agree to a few hundred roundings: 1e-13. */
 #include "../support.h"
 #include "../support_mesh.h"
 
@@ -23,7 +23,8 @@ static void random_point(uint64_t k, double low, double width, double x[3])
 {
     double u[4];
     brc_random_uniform4(11, BRC_RANDOM_TEST, k, 0, u);
-    for (int d = 0; d < 3; ++d) x[d] = low + width * u[d];
+    for (int d = 0; d < 3; ++d)
+        x[d] = low + width * u[d];
 }
 
 static void a_cube_has_its_volume_area_faces_and_bounds(void **state)
@@ -83,7 +84,8 @@ static void compare_with_list(brc_context *context, test_mesh *list, double low,
         random_point(k, low, width, x);
         random_point(n + k, -1e-3, 2e-3, noise);
         if (k % 2)
-            for (int d = 0; d < 3; ++d) x[d] = list->corner[k * 7 % (uint64_t)(3 * list->n)][d] + noise[d];
+            for (int d = 0; d < 3; ++d)
+                x[d] = list->corner[k * 7 % (uint64_t)(3 * list->n)][d] + noise[d];
         const double distance = test_mesh_distance(list, x);
         const bool inside = test_mesh_winding(list, x) > 0.5;
         assert_near(brc_mesh_depth(mesh, x), inside ? distance : -distance, EXACT);
@@ -122,7 +124,9 @@ static void a_sphere_is_one_convex_patch_and_its_volume_rises_to_the_balls(void 
         assert_int_equal(brc_mesh_n_patches(mesh), 1);
         assert_true(brc_mesh_is_convex(mesh));
         assert_true(error > 0.0);
-        if (f > 8) assert_near(before / error, 4.0, 0.2); /* second order in the triangles' size; 5 % for what comes after it */
+        if (f > 8)
+            assert_near(before / error, 4.0,
+                        0.2); /* second order in the triangles' size; 5 % for what comes after it */
         before = error;
         brc_mesh_free(&mesh);
         test_mesh_free(&list);
@@ -145,7 +149,8 @@ static void feet_in_a_corner_of_a_cube_are_its_three_faces(void **state)
             if (feet[k].normal[d] > -0.5) continue;
             seen[d] = true;
             assert_near(feet[k].distance, x[d], EXACT);
-            for (int e = 0; e < 3; ++e) assert_near(feet[k].point[e], e == d ? 0.0 : x[e], EXACT);
+            for (int e = 0; e < 3; ++e)
+                assert_near(feet[k].point[e], e == d ? 0.0 : x[e], EXACT);
         }
     }
     assert_true(seen[0] && seen[1] && seen[2]);
@@ -179,7 +184,8 @@ static void feet_beyond_the_edges_of_a_patch_lie_on_its_rim(void **state)
     const double outside[3] = {-0.5, 0.5, 2.0}; /* the faces y = 0 and y = 2 end at convex edges */
     int convex_rims = 0;
     const int32_t m = brc_mesh_feet(mesh, outside, 0.8, feet, 8);
-    for (int k = 0; k < m; ++k) convex_rims += feet[k].on_edge && !feet[k].concave;
+    for (int k = 0; k < m; ++k)
+        convex_rims += feet[k].on_edge && !feet[k].concave;
     assert_int_equal(m, 2);
     assert_int_equal(convex_rims, 1);
     brc_mesh_free(&mesh);
@@ -199,9 +205,11 @@ static void more_patches_than_a_window_holds_are_all_found(void **state)
     const double x[3] = {2.0, 1.7, 3.1};
     assert_int_equal(brc_mesh_n_patches(mesh), 360);
     assert_int_equal(brc_mesh_feet(mesh, x, 100.0, feet, 400), 360);
-    for (int32_t p = 0; p < 360; ++p) assert_int_equal(feet[p].patch, p);
+    for (int32_t p = 0; p < 360; ++p)
+        assert_int_equal(feet[p].patch, p);
     double nearest = HUGE_VAL;
-    for (int32_t p = 0; p < 360; ++p) nearest = fmin(nearest, feet[p].distance);
+    for (int32_t p = 0; p < 360; ++p)
+        nearest = fmin(nearest, feet[p].distance);
     assert_near(nearest, test_mesh_distance(&list, x), EXACT);
     assert_near(brc_mesh_volume(mesh), 60.0, 1e-11);
     brc_mesh_free(&mesh);
@@ -224,7 +232,8 @@ static void the_concave_edge_of_an_l_is_listed_with_its_two_normals(void **state
     /* one faces +x (the wall x = 1), one +y (the wall y = 1); the edge runs with the first triangle to its left */
     assert_near(edge.normal[0][0] + edge.normal[1][0], 1.0, EXACT);
     assert_near(edge.normal[0][1] + edge.normal[1][1], 1.0, EXACT);
-    const double way = edge.end[1][2] - edge.end[0][2]; /* down along the x-wall (seen from +x with z up it lies right of the edge), or up along the y-wall */
+    const double way = edge.end[1][2] - edge.end[0][2]; /* down along the x-wall (seen from +x with z up it lies right
+                                                           of the edge), or up along the y-wall */
     assert_true(way * (edge.normal[0][0] - edge.normal[0][1]) < 0.0);
     assert_false(brc_mesh_is_convex(mesh));
     assert_near(brc_mesh_volume(mesh), 9.0, 1e-13);
@@ -310,8 +319,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_cube_has_its_volume_area_faces_and_bounds, test_begin, test_end),
         cmocka_unit_test_setup_teardown(depth_in_a_cube_is_that_of_its_planes, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(depth_agrees_with_winding_number_and_search_of_all_triangles, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(a_sphere_is_one_convex_patch_and_its_volume_rises_to_the_balls, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(depth_agrees_with_winding_number_and_search_of_all_triangles, test_begin,
+                                        test_end),
+        cmocka_unit_test_setup_teardown(a_sphere_is_one_convex_patch_and_its_volume_rises_to_the_balls, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(feet_in_a_corner_of_a_cube_are_its_three_faces, test_begin, test_end),
         cmocka_unit_test_setup_teardown(feet_beyond_the_edges_of_a_patch_lie_on_its_rim, test_begin, test_end),
         cmocka_unit_test_setup_teardown(more_patches_than_a_window_holds_are_all_found, test_begin, test_end),

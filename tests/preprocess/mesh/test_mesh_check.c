@@ -43,14 +43,16 @@ static void an_open_cube_is_refused_with_the_number_of_edges_and_the_first(void 
     memmove(list.corner, list.corner + 3, (size_t)(3 * (list.n - 1)) * sizeof *list.corner);
     --list.n;
     /* (0 0 0) (0 0 1) (0 1 1) is gone; the next one begins with their common edge */
-    refused(*state, &list, "open: 3 edges have one triangle only, the first from (0, 0, 0) to (0, 1, 1)", "repair tool");
+    refused(*state, &list, "open: 3 edges have one triangle only, the first from (0, 0, 0) to (0, 1, 1)",
+            "repair tool");
 }
 
 static void vertices_that_nearly_meet_are_named_as_the_cause_of_open_edges(void **state)
 {
     test_mesh list = {0};
     add_cube(&list, 0.0, 0.0, 0.0, 1.0, 1);
-    for (int64_t k = 0; k < 3 * list.n; ++k) list.corner[k][k % 3] += 1e-5 * sin((double)(7 * k)); /* every triangle for itself */
+    for (int64_t k = 0; k < 3 * list.n; ++k)
+        list.corner[k][k % 3] += 1e-5 * sin((double)(7 * k)); /* every triangle for itself */
     refused(*state, &list, "the mesh is open: 36 edges", "from other vertices: merge vertices nearer than that");
 }
 
@@ -112,8 +114,8 @@ static void cavities_count_as_holes_and_kernels_as_solid(void **state)
         add_cube(&list, 0, 0, 0, 8, 2);
         add_cube(&list, 1, 1, 1, 4, 2); /* cavity */
         test_mesh_reverse(&list, 48, 1);
-        add_cube(&list, 2, 2, 2, 2, 2);        /* kernel */
-        add_cube(&list, 6, 6, 6, 1, 1);        /* a second cavity */
+        add_cube(&list, 2, 2, 2, 2, 2); /* kernel */
+        add_cube(&list, 6, 6, 6, 1, 1); /* a second cavity */
         test_mesh_reverse(&list, 3 * 48, 1);
         add_cube(&list, 10, 0, 0, 1, 1); /* a second body */
         if (inside_out) test_mesh_reverse(&list, 0, 1);
@@ -181,7 +183,8 @@ static void a_thin_gap_that_single_precision_resolves_is_no_cut(void **state)
     brc_mesh_free(&mesh);
 }
 
-/* The corner (0 0 1) - (1 0 1) edge of a cube with points on it that only one side uses: the other side reaches them by triangles without height. */
+/* The corner (0 0 1) - (1 0 1) edge of a cube with points on it that only one side uses: the other side reaches them by
+ * triangles without height. */
 static void triangles_without_height_are_mended(void **state)
 {
     static const double A[3] = {0, 0, 1}, B[3] = {1, 0, 1};
@@ -199,8 +202,10 @@ static void triangles_without_height_are_mended(void **state)
         }
         double p[5][3];
         for (int i = 0; i < 5; ++i)
-            for (int d = 0; d < 3; ++d) p[i][d] = A[d] + (B[d] - A[d]) * i / 4.0;
-        for (int i = 0; i < 4; ++i) test_mesh_add(&list, p[i], p[i + 1], c[(at + 2) % 3]);
+            for (int d = 0; d < 3; ++d)
+                p[i][d] = A[d] + (B[d] - A[d]) * i / 4.0;
+        for (int i = 0; i < 4; ++i)
+            test_mesh_add(&list, p[i], p[i + 1], c[(at + 2) % 3]);
         test_mesh_add(&list, p[0], p[4], p[2]); /* without height; runs with the front's edge reversed */
         test_mesh_add(&list, p[0], p[2], p[1]);
         test_mesh_add(&list, p[2], p[4], p[3]);
@@ -223,14 +228,16 @@ static void vertices_within_a_billionth_of_the_size_are_one(void **state)
     test_mesh list = {0};
     add_cube(&list, 0, 0, 0, 1, 4);
     for (int64_t k = 0; k < 3 * list.n; ++k)
-        for (int d = 0; d < 3; ++d) list.corner[k][d] += 2e-10 * (double)((7 * k + 3 * d) % 5 - 2); /* apart by at most 14e-10 < 1.73e-9 */
+        for (int d = 0; d < 3; ++d)
+            list.corner[k][d] += 2e-10 * (double)((7 * k + 3 * d) % 5 - 2); /* apart by at most 14e-10 < 1.73e-9 */
     brc_mesh *mesh = accepted(*state, &list);
     assert_int_equal(brc_mesh_n_triangles(mesh), 192);
     assert_near(brc_mesh_volume(mesh), 1.0, 1e-8);
     brc_mesh_free(&mesh);
 }
 
-/* In single precision a turned plane is not plane, and rounding makes slivers: still six flat faces, convex, and no cut. */
+/* In single precision a turned plane is not plane, and rounding makes slivers: still six flat faces, convex, and no
+ * cut. */
 static void single_precision_leaves_a_turned_cube_flat_and_convex(void **state)
 {
     static const double SHIFT[3] = {3.0, -2.0, 1.0};
@@ -239,17 +246,20 @@ static void single_precision_leaves_a_turned_cube_flat_and_convex(void **state)
     test_mesh_turn(&list, 0.4, SHIFT);
     test_mesh_write_binary(&list, "test_mesh_turned.stl");
     brc_mesh *mesh = NULL;
-    if (brc_mesh_read_stl(*state, "test_mesh_turned.stl", 1.0, ZERO, 1, &mesh) != BRC_OK) fail_msg("%s", brc_context_message(*state));
+    if (brc_mesh_read_stl(*state, "test_mesh_turned.stl", 1.0, ZERO, 1, &mesh) != BRC_OK)
+        fail_msg("%s", brc_context_message(*state));
     assert_int_equal(brc_mesh_n_patches(mesh), 6);
     assert_true(brc_mesh_is_convex(mesh));
-    assert_near(brc_mesh_volume(mesh), 1.0, 6.0 * 3.0 * 0x1p-23); /* faces move by at most half a unit of the last place of 4, 2^-22 / 2 */
+    assert_near(brc_mesh_volume(mesh), 1.0,
+                6.0 * 3.0 * 0x1p-23); /* faces move by at most half a unit of the last place of 4, 2^-22 / 2 */
     brc_mesh_foot feet[6];
     double middle[3] = {0.5, 0.5, 0.5};
     list.n = 1;
     memcpy(list.corner[0], middle, sizeof middle);
     test_mesh_turn(&list, 0.4, SHIFT);
     assert_int_equal(brc_mesh_feet(mesh, list.corner[0], 0.51, feet, 6), 6);
-    for (int k = 0; k < 6; ++k) assert_true(feet[k].flat);
+    for (int k = 0; k < 6; ++k)
+        assert_true(feet[k].flat);
     brc_mesh_free(&mesh);
     test_mesh_free(&list);
     remove("test_mesh_turned.stl");
@@ -258,13 +268,16 @@ static void single_precision_leaves_a_turned_cube_flat_and_convex(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(an_open_cube_is_refused_with_the_number_of_edges_and_the_first, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(vertices_that_nearly_meet_are_named_as_the_cause_of_open_edges, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(an_open_cube_is_refused_with_the_number_of_edges_and_the_first, test_begin,
+                                        test_end),
+        cmocka_unit_test_setup_teardown(vertices_that_nearly_meet_are_named_as_the_cause_of_open_edges, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(an_inner_wall_is_refused_as_an_edge_of_three_triangles, test_begin, test_end),
         cmocka_unit_test_setup_teardown(triangles_facing_the_wrong_way_are_turned, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_surface_with_one_side_is_refused, test_begin, test_end),
         cmocka_unit_test_setup_teardown(cavities_count_as_holes_and_kernels_as_solid, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(a_shell_within_a_shell_that_faces_the_same_way_is_refused, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(a_shell_within_a_shell_that_faces_the_same_way_is_refused, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(cuts_are_refused_with_the_pair_and_the_place, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_surface_that_cuts_itself_is_refused, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_thin_gap_that_single_precision_resolves_is_no_cut, test_begin, test_end),

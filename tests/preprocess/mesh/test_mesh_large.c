@@ -1,4 +1,5 @@
-/* A mesh of a million triangles: its memory is a promise, its times are printed (docs/notebook/shapes.md quotes them). */
+/* A mesh of a million triangles: its memory is a promise, its times are printed (docs/notebook/shapes.md quotes
+ * them). */
 #include "../support.h"
 #include "../support_mesh.h"
 
@@ -56,14 +57,15 @@ static void a_million_triangles_take_at_most_200_bytes_each(void **state)
     const int64_t before = brc_memory_held();
     const double start = brc_clock_s();
     if (brc_mesh_read_stl(*state, PATH, 1.0, ZERO, 2, &mesh) != BRC_OK) fail_msg("%s", brc_context_message(*state));
-    print_message("%lld triangles read in %.1f s; %.0f bytes a triangle held, %.0f at most\n", (long long)n, brc_clock_s() - start,
-                  (double)(brc_memory_held() - before) / (double)n, (double)brc_memory_peak() / (double)n);
+    print_message("%lld triangles read in %.1f s; %.0f bytes a triangle held, %.0f at most\n", (long long)n,
+                  brc_clock_s() - start, (double)(brc_memory_held() - before) / (double)n,
+                  (double)brc_memory_peak() / (double)n);
     remove(PATH);
     assert_int_equal(brc_mesh_n_triangles(mesh), n);
     assert_true(brc_memory_peak() <= 200 * n);
     assert_true(brc_mesh_is_convex(mesh));
-    /* The longest edges, in the middle of an octant, are sqrt(2) / F blown up by sqrt(3). A triangle lies at most h^2 / 6 below the ball, so the volume
-     * lacks at most 3 h^2 / 6 of itself. */
+    /* The longest edges, in the middle of an octant, are sqrt(2) / F blown up by sqrt(3). A triangle lies at most h^2 /
+     * 6 below the ball, so the volume lacks at most 3 h^2 / 6 of itself. */
     const double ball = 4.0 / 3.0 * acos(-1.0), h = sqrt(6.0) / F;
     assert_in_range((int64_t)(1e9 * (1.0 - brc_mesh_volume(mesh) / ball)), 0, (int64_t)(1e9 * 0.5 * h * h));
     const double inside = mean_of(ask_inside, mesh, 20000, "inside");

@@ -44,15 +44,18 @@ static void write_cube(bool binary)
 {
     test_mesh list = {0};
     test_mesh_box(&list, ZERO, ONE, 1);
-    if (binary) test_mesh_write_binary(&list, PATH);
-    else test_mesh_write_ascii(&list, PATH);
+    if (binary)
+        test_mesh_write_binary(&list, PATH);
+    else
+        test_mesh_write_ascii(&list, PATH);
     test_mesh_free(&list);
 }
 
 static brc_mesh *read_good(brc_context *context, double scale, const double offset[3])
 {
     brc_mesh *mesh = NULL;
-    if (brc_mesh_read_stl(context, PATH, scale, offset, 1, &mesh) != BRC_OK) fail_msg("%s", brc_context_message(context));
+    if (brc_mesh_read_stl(context, PATH, scale, offset, 1, &mesh) != BRC_OK)
+        fail_msg("%s", brc_context_message(context));
     remove(PATH);
     return mesh;
 }
@@ -75,8 +78,11 @@ static void both_kinds_are_told_apart_by_content_and_placed_by_scale_and_offset(
 }
 
 /* A tetrahedron, written as carelessly as people do. */
-#define FACET(a, b, c) "FACET normal nan 0 -1e0 Outer LOOP\r\n\tvertex " a "  VERTEX " b "\n\n vertex\n" c " endloop endfacet\r\n"
-#define TETRAHEDRON FACET("0 0 0", "0 1 0", "1 0 0") FACET("0 0 0", "1 0 0", "0 0 1") FACET("0 0 0", "0 0 1.0E+0", "0 1 0") FACET("1 0 0", "0 1 0", "0 0 1")
+#define FACET(a, b, c)                                                                                                 \
+    "FACET normal nan 0 -1e0 Outer LOOP\r\n\tvertex " a "  VERTEX " b "\n\n vertex\n" c " endloop endfacet\r\n"
+#define TETRAHEDRON                                                                                                    \
+    FACET("0 0 0", "0 1 0", "1 0 0")                                                                                   \
+    FACET("0 0 0", "1 0 0", "0 0 1") FACET("0 0 0", "0 0 1.0E+0", "0 1 0") FACET("1 0 0", "0 1 0", "0 0 1")
 
 static void ascii_may_be_of_any_case_and_white_space_and_hold_several_solids(void **state)
 {
@@ -98,12 +104,17 @@ static void ascii_may_be_of_any_case_and_white_space_and_hold_several_solids(voi
 static void faults_of_ascii_name_line_and_column(void **state)
 {
     static const char *const CASE[][3] = {
-        {"solid x\nfacet normal 0 0 1\n outer loop\n  vertex 0 0 zero\n", "stl:4:14: z of a vertex is 'zero', expected a number", ""},
-        {"solid x\nfacet normal 0 0 1\n outer loop\n  vertex 0,5 0 0\n", "stl:4:10: x of a vertex is '0,5'", "decimal point"},
+        {"solid x\nfacet normal 0 0 1\n outer loop\n  vertex 0 0 zero\n",
+         "stl:4:14: z of a vertex is 'zero', expected a number", ""},
+        {"solid x\nfacet normal 0 0 1\n outer loop\n  vertex 0,5 0 0\n", "stl:4:10: x of a vertex is '0,5'",
+         "decimal point"},
         {"solid x\nfacet normal 0 0 1\n outer loop\n  vertex 0 nan 0\n", "stl:4:12: y of a vertex is 'nan'", ""},
-        {"solid x\nfacet normal 0 0 1\n outer lop\n", "stl:3:8: 'lop' where 'loop' is expected", "export the mesh again"},
-        {"solid x\nfacet normal 0 0 1\n outer loop\n vertex 0 0 0\n endloop", "stl:5:2: 'endloop' where 'vertex' is expected", ""},
-        {"solid x\nfacet normal 0 0 1\n outer loop\n vertex 0 0 0\n", "where 'vertex' is expected (truncated?)", "export it again"},
+        {"solid x\nfacet normal 0 0 1\n outer lop\n", "stl:3:8: 'lop' where 'loop' is expected",
+         "export the mesh again"},
+        {"solid x\nfacet normal 0 0 1\n outer loop\n vertex 0 0 0\n endloop",
+         "stl:5:2: 'endloop' where 'vertex' is expected", ""},
+        {"solid x\nfacet normal 0 0 1\n outer loop\n vertex 0 0 0\n", "where 'vertex' is expected (truncated?)",
+         "export it again"},
         {"solid x\nfacet normal 0 0", "where 'a component of the normal' is expected (truncated?)", ""},
         {"solid x\n", "where 'facet' or 'endsolid' is expected (truncated?)", ""},
         {"solid x\nendsolid x\n", "has no triangles", "export a part that has a volume"},
@@ -123,7 +134,8 @@ static void damaged_binary_files_say_what_was_found_and_expected(void **state)
     const size_t bytes = read_bytes(data, sizeof data);
     assert_int_equal(bytes, 84 + 12 * 50);
     write_bytes(data, bytes - 1);
-    says(*state, BRC_BAD_INPUT, "announces 12 triangles, which take 684 bytes, but it has 683 (truncated?)", "export it again");
+    says(*state, BRC_BAD_INPUT, "announces 12 triangles, which take 684 bytes, but it has 683 (truncated?)",
+         "export it again");
     write_bytes(data, 90);
     says(*state, BRC_BAD_INPUT, "but it has 90", "");
     memset(data + 80, 0xff, 4); /* 4294967295 triangles: nothing of that size may be reserved */
@@ -152,7 +164,8 @@ static void what_is_no_stl_at_all_says_so(void **state)
     assert_int_equal(brc_mesh_read_stl(*state, ".", 1.0, ZERO, 1, &mesh), BRC_BAD_INPUT);
     test_says(*state, "is a folder, a file is expected");
     const double scales[] = {0.0, -1.0, HUGE_VAL, NAN};
-    for (int k = 0; k < 4; ++k) assert_int_equal(brc_mesh_read_stl(*state, PATH, scales[k], ZERO, 1, &mesh), BRC_BAD_INPUT);
+    for (int k = 0; k < 4; ++k)
+        assert_int_equal(brc_mesh_read_stl(*state, PATH, scales[k], ZERO, 1, &mesh), BRC_BAD_INPUT);
     test_says(*state, "the scale must be finite and > 0");
     write_cube(true);
     assert_int_equal(brc_mesh_read_stl(*state, PATH, 1e300, ZERO, 1, &mesh), BRC_BAD_INPUT);
@@ -178,12 +191,17 @@ static void random_damage_never_does_harm(void **state)
     int n_refused = 0;
     for (uint64_t k = 0; k < 600; ++k) {
         test_mesh list = {0};
-        if (k % 3 == 0) test_mesh_box(&list, ZERO, ONE, 2);
-        else if (k % 3 == 1) test_mesh_sphere(&list, ZERO, 1.0, 3);
-        else test_mesh_torus(&list, 1.0, 0.5, 7, 5);
+        if (k % 3 == 0)
+            test_mesh_box(&list, ZERO, ONE, 2);
+        else if (k % 3 == 1)
+            test_mesh_sphere(&list, ZERO, 1.0, 3);
+        else
+            test_mesh_torus(&list, 1.0, 0.5, 7, 5);
         const bool binary = k % 2;
-        if (binary) test_mesh_write_binary(&list, PATH);
-        else test_mesh_write_ascii(&list, PATH);
+        if (binary)
+            test_mesh_write_binary(&list, PATH);
+        else
+            test_mesh_write_ascii(&list, PATH);
         test_mesh_free(&list);
         const size_t bytes = read_bytes(good, MOST);
         assert_true(bytes < MOST);
@@ -211,9 +229,10 @@ static void random_damage_never_does_harm(void **state)
         brc_mesh_free(&mesh);
     }
     assert_in_range(n_refused, 100, 599); /* the damage is real, and some of it is harmless (normals, spare bytes) */
-    for (uint64_t k = 0; k < 200; ++k) { /* noise of any length */
+    for (uint64_t k = 0; k < 200; ++k) {  /* noise of any length */
         const size_t bytes = random_word(k, 100) % 2000;
-        for (size_t i = 0; i < bytes; ++i) bad[i] = (char)random_word(k, 200 + i);
+        for (size_t i = 0; i < bytes; ++i)
+            bad[i] = (char)random_word(k, 200 + i);
         if (k % 2 && bytes > 6) memcpy(bad, "solid ", 6);
         write_bytes(bad, bytes);
         brc_mesh *mesh = NULL;
@@ -228,8 +247,10 @@ static void random_damage_never_does_harm(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(both_kinds_are_told_apart_by_content_and_placed_by_scale_and_offset, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(ascii_may_be_of_any_case_and_white_space_and_hold_several_solids, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(both_kinds_are_told_apart_by_content_and_placed_by_scale_and_offset, test_begin,
+                                        test_end),
+        cmocka_unit_test_setup_teardown(ascii_may_be_of_any_case_and_white_space_and_hold_several_solids, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(faults_of_ascii_name_line_and_column, test_begin, test_end),
         cmocka_unit_test_setup_teardown(damaged_binary_files_say_what_was_found_and_expected, test_begin, test_end),
         cmocka_unit_test_setup_teardown(what_is_no_stl_at_all_says_so, test_begin, test_end),

@@ -40,8 +40,10 @@ static void write_case(const rough *r, const char *path)
     const double low[3] = {-1.0, -1.0, -1.0}, high[3] = {1.0, 1.0, 1.0};
     const double cell = cbrt((r->body == BALL ? 4.18879 : 8.0) / 1e4);
     test_mesh mesh = {0};
-    if (r->body == BALL) test_mesh_sphere(&mesh, ZERO, 1.0, r->fineness);
-    else test_mesh_box(&mesh, low, high, r->fineness);
+    if (r->body == BALL)
+        test_mesh_sphere(&mesh, ZERO, 1.0, r->fineness);
+    else
+        test_mesh_box(&mesh, low, high, r->fineness);
     if (r->amplitude > 0.0) test_mesh_roughen(&mesh, ZERO, r->amplitude * cell, r->wavelength * cell);
     test_mesh_write_binary(&mesh, path);
     test_mesh_free(&mesh);
@@ -63,15 +65,18 @@ static const rough *case_of(const char *name)
     abort();
 }
 
-/* The bound at 10 000 cells, for a surface that stands off its mean by up to a fifth of a cell; closure and twins as of any domain. */
+/* The issue's bound at 10 000 cells, for a surface that stands off its mean by up to a fifth of a cell; closure and
+ * twins as of any domain. */
 static void rough_surfaces_are_met_to_half_a_percent(void **state)
 {
-    static const char *const name[] = {"ball, noise 0.2", "ball, bumps 0.5 over 3", "cube, noise 0.2", "ball, finer, noise 0.2"};
+    static const char *const name[] = {"ball, noise 0.2", "ball, bumps 0.5 over 3", "cube, noise 0.2",
+                                       "ball, finer, noise 0.2"};
     for (int k = 0; k < 4; ++k) {
         const brc_build_request r = request_for(case_of(name[k]), 10000);
         brc_domain *d = test_build(*state, &r);
         remove(r.shape.file);
-        if (!(fabs(d->quality.volume_error) < 0.005)) fail_msg("%s: volume off by %g", name[k], d->quality.volume_error);
+        if (!(fabs(d->quality.volume_error) < 0.005))
+            fail_msg("%s: volume off by %g", name[k], d->quality.volume_error);
         if (brc_domain_check(*state, d) != BRC_OK) fail_msg("%s: %s", name[k], brc_context_message(*state));
         assert_true(test_worst_closure(d) < 1e-12);
         assert_true(d->quality.twin_area_worst < 1e-11);
@@ -104,8 +109,10 @@ static void spikes_as_large_as_cells_are_warned_of_or_refused(void **state)
     test_release_stderr(&caught, said, sizeof said);
     brc_log_set_level(*state, BRC_LOG_ERROR);
     remove(r.shape.file);
-    if (status != BRC_OK) test_says(*state, "ask for more elements");
-    else if (fabs(d->quality.volume_error) > 0.005) assert_non_null(strstr(said, "more elements bring them nearer"));
+    if (status != BRC_OK)
+        test_says(*state, "ask for more elements");
+    else if (fabs(d->quality.volume_error) > 0.005)
+        assert_non_null(strstr(said, "more elements bring them nearer"));
     brc_domain_free(&d);
 }
 
@@ -123,7 +130,8 @@ static void the_nearest_foot_is_the_nearest_point(void **state)
         const int32_t n = brc_solid_feet(solid, x, 0.25, feet, 24);
         double least = HUGE_VAL;
         assert_in_range(n, 1, 24);
-        for (int32_t f = 0; f < n; ++f) least = fmin(least, feet[f].depth);
+        for (int32_t f = 0; f < n; ++f)
+            least = fmin(least, feet[f].depth);
         assert_near(least, brc_solid_depth(solid, x), 1e-12);
         assert_near(brc_solid_distance(solid, x, 0.25), least, 1e-12);
     }
@@ -153,11 +161,13 @@ static void a_line_through_thousands_of_crossings_keeps_its_length(void **state)
     brc_solid_free(&solid);
 }
 
-/* Images of a regular grid at two walls at right angles fall on one another: each place is kept once. A grid of n^3 has n^2 of them with the same x. */
+/* Images of a regular grid at two walls at right angles fall on one another: each place is kept once. A grid of n^3 has
+ * n^2 of them with the same x. */
 static void images_of_a_regular_grid_are_kept_once(void **state)
 {
     enum { N = 30 };
-    brc_shape_part part[2] = {{.shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}}}, {.shape = {.kind = BRC_SHAPE_BOX, .origin = {0, 1, 0}, .size = {0.5, 1, 1}}}};
+    brc_shape_part part[2] = {{.shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}}},
+                              {.shape = {.kind = BRC_SHAPE_BOX, .origin = {0, 1, 0}, .size = {0.5, 1, 1}}}};
     const brc_shape shape = {.kind = BRC_SHAPE_PARTS, .n_parts = 2, .parts = part};
     static double x[N * N * N * 2][3];
     int64_t n = 0;
@@ -174,7 +184,8 @@ static void images_of_a_regular_grid_are_kept_once(void **state)
     assert_int_equal(brc_walls_create(*state, solid, 1.0 / N, &walls), BRC_OK);
     const double start = brc_clock_s();
     assert_int_equal(brc_mirror_make(*state, x[0], n, 2.0 / N, 1, &walls), BRC_OK);
-    print_message("%lld images of %lld seeds in %.2f s\n", (long long)walls.n_ghosts, (long long)n, brc_clock_s() - start);
+    print_message("%lld images of %lld seeds in %.2f s\n", (long long)walls.n_ghosts, (long long)n,
+                  brc_clock_s() - start);
     assert_true(walls.n_ghosts > 0);
     for (int64_t g = 0; g < walls.n_ghosts; ++g)
         for (int64_t h = g + 1; h < walls.n_ghosts; ++h) {
@@ -190,22 +201,27 @@ static int print_table(int64_t n, int first, int last, bool packing)
 {
     brc_context *context = brc_context_create();
     brc_log_set_level(context, BRC_LOG_WARNING);
-    printf("| surface | triangles | cells | volume error | free faces a cell | support | s |\n| --- | --- | --- | --- | --- | --- | --- |\n");
+    printf("| surface | triangles | cells | volume error | free faces a cell | support | s |\n| --- | --- | --- | --- "
+           "| --- | --- | --- |\n");
     for (int k = first; k < N_CASES && k <= last; ++k) {
         brc_build_request r = request_for(&cases[k], n);
         brc_domain *d = NULL;
         r.n_threads = 0;
-        if (packing) r.fill = (brc_fill){.kind = BRC_FILL_PACKING, .n_elements = n, .seed = 3, .coordination = 6.2, .radius_spread = 0.125};
+        if (packing)
+            r.fill = (brc_fill){
+                .kind = BRC_FILL_PACKING, .n_elements = n, .seed = 3, .coordination = 6.2, .radius_spread = 0.125};
         const long triangles = (cases[k].body == BALL ? 8L : 12L) * cases[k].fineness * cases[k].fineness;
         brc_context_clear(context);
         const double start = brc_clock_s();
         const brc_status status = brc_domain_build(context, &r, &d);
         const double seconds = brc_clock_s() - start;
         remove(r.shape.file);
-        if (status != BRC_OK) printf("| %s | %ld | %s | %.1f |\n", cases[k].name, triangles, brc_context_message(context), seconds);
+        if (status != BRC_OK)
+            printf("| %s | %ld | %s | %.1f |\n", cases[k].name, triangles, brc_context_message(context), seconds);
         else
-            printf("| %s | %ld | %lld | %.1e | %.2f | %.3f | %.1f |\n", cases[k].name, triangles, (long long)d->n_elements, d->quality.volume_error,
-                   (double)d->n_free_faces / (double)d->n_elements, d->quality.support_smallest, seconds);
+            printf("| %s | %ld | %lld | %.1e | %.2f | %.3f | %.1f |\n", cases[k].name, triangles,
+                   (long long)d->n_elements, d->quality.volume_error, (double)d->n_free_faces / (double)d->n_elements,
+                   d->quality.support_smallest, seconds);
         fflush(stdout);
         brc_domain_free(&d);
     }
@@ -216,7 +232,8 @@ static int print_table(int64_t n, int first, int last, bool packing)
 int main(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "table") == 0)
-        return print_table(argc > 2 ? atoll(argv[2]) : 10000, argc > 3 ? atoi(argv[3]) : 0, argc > 4 ? atoi(argv[4]) : N_CASES, argc > 5);
+        return print_table(argc > 2 ? atoll(argv[2]) : 10000, argc > 3 ? atoi(argv[3]) : 0,
+                           argc > 4 ? atoi(argv[4]) : N_CASES, argc > 5);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(rough_surfaces_are_met_to_half_a_percent, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_rough_mesh_gives_the_same_bytes_on_two_threads, test_begin, test_end),

@@ -29,7 +29,8 @@ static void draw(brc_context *context, int64_t n, const double size[3], double w
     for (int64_t e = 0; e < n; ++e) {
         double u[4];
         brc_random_uniform4(3, BRC_RANDOM_TEST, (uint64_t)e, 0, u);
-        for (int c = 0; c < 3; ++c) (*x)[3 * e + c] = size[c] * u[c];
+        for (int c = 0; c < 3; ++c)
+            (*x)[3 * e + c] = size[c] * u[c];
         (*r)[e] = pow(widest, u[3]);
     }
 }
@@ -38,7 +39,8 @@ static brc_domain *bond(brc_context *context, double *x, double *r, int64_t n, d
 {
     brc_domain *d;
     assert_int_equal(BRC_ALLOCATE(context, &d, 1, "domain"), BRC_OK);
-    if (brc_beams_bond(context, x, r, n, coordination, n_threads, d) != BRC_OK) fail_msg("%s", brc_context_message(context));
+    if (brc_beams_bond(context, x, r, n, coordination, n_threads, d) != BRC_OK)
+        fail_msg("%s", brc_context_message(context));
     return d;
 }
 
@@ -59,7 +61,8 @@ static void compare_with_all_pairs(brc_context *context, const double size[3], d
     qsort(all, (size_t)n, sizeof *all, compare);
     const int64_t bonds = (int64_t)(coordination * N / 2.0 + 0.5);
     memset(wanted, 0, sizeof wanted);
-    for (int64_t b = 0; b < bonds; ++b) wanted[all[b].i][all[b].j] = true;
+    for (int64_t b = 0; b < bonds; ++b)
+        wanted[all[b].i][all[b].j] = true;
     brc_domain *d = bond(context, x, r, N, coordination, 2);
     assert_int_equal(d->n_bonds, bonds);
     assert_true(d->quality.growth == all[bonds - 1].ratio);
@@ -72,8 +75,8 @@ static void compare_with_all_pairs(brc_context *context, const double size[3], d
 static void bonds_are_the_nearest_pairs(void **state)
 {
     const double cube[3] = {20.0, 20.0, 20.0}, rod[3] = {400.0, 3.0, 3.0}, loose[3] = {1e5, 1e5, 1e5};
-    compare_with_all_pairs(*state, cube, 1.0, 6.3);   /* equal radii */
-    compare_with_all_pairs(*state, cube, 8.0, 10.0);  /* small among large */
+    compare_with_all_pairs(*state, cube, 1.0, 6.3);  /* equal radii */
+    compare_with_all_pairs(*state, cube, 8.0, 10.0); /* small among large */
     compare_with_all_pairs(*state, rod, 2.0, 13.0);
     compare_with_all_pairs(*state, loose, 2.0, 8.0);  /* nothing near: the reach has to grow a thousandfold */
     compare_with_all_pairs(*state, cube, 2.0, 399.0); /* every pair there is */
@@ -115,7 +118,8 @@ static void the_mean_coordination_number_is_the_wanted_one(void **state)
     double before = 0.0;
     for (double wanted = 5.5; wanted <= 13.0; wanted += 0.5) {
         brc_domain *d = test_spheres(*state, count, wanted, 0, 2);
-        assert_near(d->quality.coordination_mean, wanted, 1.0 / n); /* a whole number of bonds: half of one off at most */
+        assert_near(d->quality.coordination_mean, wanted,
+                    1.0 / n); /* a whole number of bonds: half of one off at most */
         assert_true(d->quality.growth >= before);
         before = d->quality.growth;
         brc_domain_free(&d);
@@ -132,7 +136,8 @@ static void spheres_have_the_volume_and_inertia_of_spheres(void **state)
         const double r = d->radius[e], v = 4.0 / 3.0 * 3.14159265358979323846 * r * r * r;
         sum += v;
         assert_near(d->volume[e] / v, 1.0, 1e-15);
-        for (int k = 0; k < 6; ++k) assert_near(d->inertia[6 * e + k], k < 3 ? 0.4 * v * r * r : 0.0, 1e-16);
+        for (int k = 0; k < 6; ++k)
+            assert_near(d->inertia[6 * e + k], k < 3 ? 0.4 * v * r * r : 0.0, 1e-16);
         assert_memory_equal(d->centroid + 3 * e, d->position + 3 * e, 3 * sizeof(double));
     }
     assert_near(d->quality.volume_fraction, sum / 60.0, 1e-14);
@@ -192,10 +197,12 @@ static void a_layer_reaches_two_radii_deep(void **state)
     }
     assert_int_equal(brc_solid_create(*state, &box, 1, &solid), BRC_OK);
     assert_int_equal(brc_beams_build(*state, solid, x, r, 4, 1.5, false, 1, d), BRC_OK);
-    const brc_set *touch = &d->sets[brc_domain_find_set(d, "x-")], *layer = &d->sets[brc_domain_find_set(d, "x-_layer")];
+    const brc_set *touch = &d->sets[brc_domain_find_set(d, "x-")],
+                  *layer = &d->sets[brc_domain_find_set(d, "x-_layer")];
     assert_int_equal(touch->n_members, 1);
     assert_int_equal(layer->n_members, 3);
-    for (int32_t e = 0; e < 3; ++e) assert_int_equal(layer->members[e], e);
+    for (int32_t e = 0; e < 3; ++e)
+        assert_int_equal(layer->members[e], e);
     brc_solid_free(&solid);
     brc_domain_free(&d);
 }
@@ -263,7 +270,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(ties_go_to_the_smaller_indices, test_begin, test_end),
         cmocka_unit_test_setup_teardown(the_mean_coordination_number_is_the_wanted_one, test_begin, test_end),
         cmocka_unit_test_setup_teardown(spheres_have_the_volume_and_inertia_of_spheres, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(walls_know_the_spheres_that_touch_them_and_their_first_layer, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(walls_know_the_spheres_that_touch_them_and_their_first_layer, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(a_layer_reaches_two_radii_deep, test_begin, test_end),
         cmocka_unit_test_setup_teardown(one_and_two_threads_give_equal_bytes, test_begin, test_end),
         cmocka_unit_test_setup_teardown(bonding_needs_less_than_400_bytes_a_sphere, test_begin, test_end),

@@ -224,26 +224,34 @@ static void what_cannot_be_reached_is_refused_with_the_cure(void **state)
     refuse(*state, &CUBE, &fill, "this machine has");
 }
 
-/* Nine tenths of the spheres ten times smaller than the rest lie loose in the holes; pressed to 6 % of overlap they had 0.95 contacts. It is known before anything is packed.
- * With half of the volume in small spheres the holes are full, and radii spread evenly over 1 to 30 do pack. */
+/* Nine tenths of the spheres ten times smaller than the rest lie loose in the holes; pressed to 6 % of overlap they had
+ * 0.95 contacts. It is known before anything is packed. With half of the volume in small spheres the holes are full,
+ * and radii spread evenly over 1 to 30 do pack. */
 static void tables_whose_small_spheres_lie_loose_are_refused_at_once(void **state)
 {
     const brc_shape shape = {.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}};
     brc_radius two[4] = {{1.0, 0.0}, {1.01, 0.9}, {10.0, 0.9}, {10.1, 1.0}};
     brc_radius falling[5] = {{1.0, 0.0}, {2.0, 0.875}, {4.0, 0.98}, {8.0, 0.998}, {30.0, 1.0}};
     brc_radius even[2] = {{1.0, 0.0}, {30.0, 1.0}};
-    brc_fill fill = {.kind = BRC_FILL_PACKING, .n_elements = 100000, .coordination = 6.2, .seed = 1, .n_radii = 4, .radii = two};
+    brc_fill fill = {
+        .kind = BRC_FILL_PACKING, .n_elements = 100000, .coordination = 6.2, .seed = 1, .n_radii = 4, .radii = two};
     const double start = brc_clock_s();
     refuse(*state, &shape, &fill, "90 % of the spheres are so small that they lie loose");
     fill.n_radii = 5;
     fill.radii = falling;
     refuse(*state, &shape, &fill, "cannot be reached with this table of radii");
-    assert_true(brc_clock_s() - start < 1.0); /* nothing was packed: 100 000 spheres take half a minute */
+    assert_true(brc_clock_s() - start < 1.0);   /* nothing was packed: 100 000 spheres take half a minute */
     two[1].fraction = two[2].fraction = 0.9993; /* small ones are half of the volume: not in holes */
     assert_true(brc_pack_loose_share(&(brc_fill){.n_radii = 4, .radii = two}) == 0.0);
     brc_solid *solid = NULL;
     brc_packing packing;
-    fill = (brc_fill){.kind = BRC_FILL_PACKING, .n_elements = 1000, .coordination = 6.2, .tolerance = 0.1, .seed = 1, .n_radii = 2, .radii = even};
+    fill = (brc_fill){.kind = BRC_FILL_PACKING,
+                      .n_elements = 1000,
+                      .coordination = 6.2,
+                      .tolerance = 0.1,
+                      .seed = 1,
+                      .n_radii = 2,
+                      .radii = even};
     make(*state, &shape, &fill, 1, &solid, &packing);
     assert_near(packing.coordination, 6.2, 0.1); /* the tolerance asked for: one large sphere has dozens of contacts */
     brc_packing_free(&packing);

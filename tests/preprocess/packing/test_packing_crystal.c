@@ -49,8 +49,10 @@ static void turn(double x[3])
 {
     const double axis[3] = {2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0}, c = cos(1.1), s = sin(1.1);
     const double along = axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2];
-    const double cross[3] = {axis[1] * x[2] - axis[2] * x[1], axis[2] * x[0] - axis[0] * x[2], axis[0] * x[1] - axis[1] * x[0]};
-    for (int k = 0; k < 3; ++k) x[k] = c * x[k] + s * cross[k] + (1.0 - c) * along * axis[k];
+    const double cross[3] = {axis[1] * x[2] - axis[2] * x[1], axis[2] * x[0] - axis[0] * x[2],
+                             axis[0] * x[1] - axis[1] * x[0]};
+    for (int k = 0; k < 3; ++k)
+        x[k] = c * x[k] + s * cross[k] + (1.0 - c) * along * axis[k];
 }
 
 static double lattice_share(brc_context *context, const lattice *l, bool turned)
@@ -60,7 +62,8 @@ static double lattice_share(brc_context *context, const lattice *l, bool turned)
     for (int k = 0; k < EDGE * EDGE * EDGE; ++k)
         for (int b = 0; b < l->n_basis; ++b) {
             const int cell[3] = {k % EDGE, k / EDGE % EDGE, k / EDGE / EDGE};
-            for (int c = 0; c < 3; ++c) x[n][c] = l->cell * (cell[c] + l->basis[b][c] - 0.5 * EDGE);
+            for (int c = 0; c < 3; ++c)
+                x[n][c] = l->cell * (cell[c] + l->basis[b][c] - 0.5 * EDGE);
             if (turned) turn(x[n]);
             ++n;
         }
@@ -93,7 +96,8 @@ static void points_at_random_are_not_ordered(void **state)
     for (int i = 0; i < POINTS; ++i) {
         double u[4];
         brc_random_uniform4(5, BRC_RANDOM_TEST, (uint64_t)i, 0, u);
-        for (int c = 0; c < 3; ++c) x[i][c] = 20.0 * u[c];
+        for (int c = 0; c < 3; ++c)
+            x[i][c] = 20.0 * u[c];
     }
     assert_true(share_of(*state, POINTS, x) < 0.01);
 }
@@ -111,11 +115,13 @@ static void the_verdict_does_not_depend_on_the_frame(void **state)
             double u[4];
             brc_random_uniform4(6, BRC_RANDOM_TEST, (uint64_t)n, 0, u);
             const int cell[3] = {k % CELLS, k / CELLS % CELLS, k / CELLS / CELLS};
-            for (int c = 0; c < 3; ++c) x[n][c] = 1.5 * (cell[c] + FCC.basis[b][c] - 0.5 * CELLS) + 0.3 * (u[c] - 0.5);
+            for (int c = 0; c < 3; ++c)
+                x[n][c] = 1.5 * (cell[c] + FCC.basis[b][c] - 0.5 * CELLS) + 0.3 * (u[c] - 0.5);
         }
     const double share = share_of(*state, POINTS, x);
     assert_true(share > 0.02 && share < 0.98);
-    for (int64_t i = 0; i < POINTS; ++i) turn(x[i]);
+    for (int64_t i = 0; i < POINTS; ++i)
+        turn(x[i]);
     assert_near(share_of(*state, POINTS, x), share, 1e-3);
 }
 

@@ -9,7 +9,8 @@
 
 enum { N = 1300 }; /* more than two blocks, the last one not full */
 
-/* Radii over a factor of ten; a third of the spheres crowd in one corner, so that rows are of very different lengths. */
+/* Radii over a factor of ten; a third of the spheres crowd in one corner, so that rows are of very different
+ * lengths. */
 static void scatter(brc_pack *pack)
 {
     for (int64_t i = 0; i < pack->n; ++i) {

@@ -12,7 +12,8 @@ static void scatter(brc_pack *pack, uint64_t seed)
     for (int64_t i = 0, draw = 0; i < pack->n; ++draw) {
         double u[4], *const x = pack->sphere[i];
         brc_random_uniform4(seed, BRC_RANDOM_TEST, (uint64_t)draw, 0, u);
-        for (int c = 0; c < 3; ++c) x[c] = pack->bounds[0][c] + u[c] * (pack->bounds[1][c] - pack->bounds[0][c]);
+        for (int c = 0; c < 3; ++c)
+            x[c] = pack->bounds[0][c] + u[c] * (pack->bounds[1][c] - pack->bounds[0][c]);
         x[3] = 0.8 + 0.4 * u[3];
         memcpy(pack->listed[i], x, sizeof pack->listed[i]);
         i += brc_solid_inside(pack->solid, x, 0.2);
@@ -21,7 +22,8 @@ static void scatter(brc_pack *pack, uint64_t seed)
     pack->largest_radius = 1.2;
 }
 
-static void make(brc_context *context, const brc_shape *shape, int64_t n, int n_threads, brc_solid **solid, brc_pack *pack)
+static void make(brc_context *context, const brc_shape *shape, int64_t n, int n_threads, brc_solid **solid,
+                 brc_pack *pack)
 {
     if (brc_solid_create(context, shape, n_threads, solid) != BRC_OK) fail_msg("%s", brc_context_message(context));
     assert_int_equal(brc_pack_create(context, *solid, n, n_threads, pack), BRC_OK);
@@ -30,7 +32,8 @@ static void make(brc_context *context, const brc_shape *shape, int64_t n, int n_
 
 static const brc_shape CAN = {.kind = BRC_SHAPE_CYLINDER, .length = 8.0, .radius = 4.0, .axis = 1};
 
-/* Two unit spheres in a row in a box 0.4 m too short: pair overlap o and wall overlap w balance as o = 2 w, and 2 w + o = 0.4. */
+/* Two unit spheres in a row in a box 0.4 m too short: pair overlap o and wall overlap w balance as o = 2 w, and 2 w + o
+ * = 0.4. */
 static void two_spheres_in_a_tight_box_rest_where_statics_says(void **state)
 {
     const brc_shape box = {.kind = BRC_SHAPE_BOX, .size = {3.6, 2.0, 2.0}};
@@ -41,13 +44,15 @@ static void two_spheres_in_a_tight_box_rest_where_statics_says(void **state)
     make(*state, &box, 2, 1, &solid, &pack);
     const double start[2][4] = {{0.7, 1.1, 0.8, 1.0}, {2.4, 0.7, 1.3, 1.0}};
     memcpy(pack.sphere, start, sizeof start);
-    for (int i = 0; i < 2; ++i) memcpy(pack.listed[i], start[i], sizeof pack.listed[i]);
+    for (int i = 0; i < 2; ++i)
+        memcpy(pack.listed[i], start[i], sizeof pack.listed[i]);
     assert_int_equal(brc_pack_relax(&pack, 1e-9, 100000, &sums, &converged), BRC_OK);
     assert_true(converged);
     /* a residual of 1e-9 of the force 0.2 on springs of stiffness 1 and more */
     const double rest[2][3] = {{0.9, 1.0, 1.0}, {2.7, 1.0, 1.0}};
     for (int i = 0; i < 2; ++i)
-        for (int c = 0; c < 3; ++c) assert_near(pack.sphere[i][c], rest[i][c], 1e-8);
+        for (int c = 0; c < 3; ++c)
+            assert_near(pack.sphere[i][c], rest[i][c], 1e-8);
     assert_near(sums.energy, 0.5 * 0.2 * 0.2 + 2.0 * 0.1 * 0.1, 1e-8);
     assert_int_equal(sums.contact_ends, 2);
     assert_near(sums.contact_force, 2.0 * 0.2, 1e-8);
@@ -105,7 +110,8 @@ static double brute_energy(const brc_pack *pack, int64_t *ends)
         }
         brc_foot feet[8];
         const int32_t n = brc_solid_feet(pack->solid, a, a[3], feet, 8);
-        for (int32_t k = 0; k < n; ++k) energy += pow(a[3] - feet[k].depth, 2);
+        for (int32_t k = 0; k < n; ++k)
+            energy += pow(a[3] - feet[k].depth, 2);
     }
     return energy;
 }
@@ -161,15 +167,18 @@ static void the_sum_of_inner_forces_is_zero(void **state)
     brc_pack pack;
     make(*state, &room, 3000, 1, &solid, &pack);
     for (int64_t i = 0; i < pack.n; ++i) /* nobody near the wall */
-        for (int c = 0; c < 3; ++c) pack.listed[i][c] = pack.sphere[i][c] *= 0.9;
+        for (int c = 0; c < 3; ++c)
+            pack.listed[i][c] = pack.sphere[i][c] *= 0.9;
     assert_int_equal(brc_pack_list(&pack, 0.1), BRC_OK);
     const brc_pack_sums sums = brc_pack_forces(&pack);
     assert_int_equal(sums.wall_contacts, 0);
     double sum[3] = {0.0};
     for (int64_t i = 0; i < pack.n; ++i)
-        for (int c = 0; c < 3; ++c) sum[c] += pack.force[i][c];
+        for (int c = 0; c < 3; ++c)
+            sum[c] += pack.force[i][c];
     /* rounding of some 10^4 terms of size 1 */
-    for (int c = 0; c < 3; ++c) assert_near(sum[c], 0.0, 1e-11);
+    for (int c = 0; c < 3; ++c)
+        assert_near(sum[c], 0.0, 1e-11);
     brc_pack_free(&pack);
     brc_solid_free(&solid);
 }
@@ -184,7 +193,8 @@ static void spheres_that_do_not_touch_are_at_rest_at_once(void **state)
     make(*state, &room, 2, 1, &solid, &pack);
     const double x[2][4] = {{-2.0, 0.0, 0.0, 1.0}, {2.0, 0.0, 0.0, 1.0}};
     memcpy(pack.sphere, x, sizeof x);
-    for (int i = 0; i < 2; ++i) memcpy(pack.listed[i], x[i], sizeof pack.listed[i]);
+    for (int i = 0; i < 2; ++i)
+        memcpy(pack.listed[i], x[i], sizeof pack.listed[i]);
     assert_int_equal(brc_pack_relax(&pack, 1e-3, 100, &sums, &converged), BRC_OK);
     assert_true(converged);
     assert_int_equal(pack.iterations, 1);

@@ -34,12 +34,14 @@ static brc_solid *lattice(brc_context *context, brc_domain **out)
         position[3 * e + 2] = 0.5 + (double)(e / (SIDE * SIDE));
         radius[e] = 0.5;
     }
-    require(context, brc_beams_build(context, solid, position, radius, n, 2.0 * (double)bonds / (double)n, false, 1, domain));
+    require(context,
+            brc_beams_build(context, solid, position, radius, n, 2.0 * (double)bonds / (double)n, false, 1, domain));
     *out = domain;
     return solid;
 }
 
-/* Tolerance: sums of some 1e4 numbers of equal size, and random points that fall into the right cells whatever they are. */
+/* Tolerance: sums of some 1e4 numbers of equal size, and random points that fall into the right cells whatever they
+ * are. */
 static void lattice_has_the_stiffness_that_can_be_counted_by_hand(void **state)
 {
     static const double rounding = 1e-9;
@@ -49,9 +51,12 @@ static void lattice_has_the_stiffness_that_can_be_counted_by_hand(void **state)
     brc_solid *solid = lattice(context, &domain);
     require(context, brc_skin_measure(context, solid, domain, 1, &skin));
     assert_near(skin.diameter, 1, rounding);
-    /* What no second wall is near to is a square of 7 by 7, on whose rim spheres stand: 8 lines of beams 7 long each way in a layer of spheres, in the quarter of a diameter that begins at its depth, with 3/8 of n_t^4 each;
-     * 8 by 8 lines across everywhere below the first spheres. The core, 7 by 7 by 7, has 3 by 8 by 8 lines; of its length n_t^4 without a preferred direction is 1/5. */
-    const double dense = 3.0 * 8 * 8 * 7 / (7 * 7 * 7), along = 2 * 8 * 7 * 3.0 / 8 / (7 * 7 * 0.25) / (dense / 5), across = 8.0 * 8 / (7 * 7) / (dense / 5);
+    /* What no second wall is near to is a square of 7 by 7, on whose rim spheres stand: 8 lines of beams 7 long each
+     * way in a layer of spheres, in the quarter of a diameter that begins at its depth, with 3/8 of n_t^4 each; 8 by 8
+     * lines across everywhere below the first spheres. The core, 7 by 7 by 7, has 3 by 8 by 8 lines; of its length
+     * n_t^4 without a preferred direction is 1/5. */
+    const double dense = 3.0 * 8 * 8 * 7 / (7 * 7 * 7), along = 2 * 8 * 7 * 3.0 / 8 / (7 * 7 * 0.25) / (dense / 5),
+                 across = 8.0 * 8 / (7 * 7) / (dense / 5);
     for (int k = 0; k < BRC_SKIN_LAYERS; ++k) {
         const bool holds = k == 2 || k == 6; /* depths 0.5 and 1.5; 2.5 is the core's */
         const brc_skin_layer *layer = &skin.layer[k];
@@ -70,7 +75,8 @@ static void lattice_has_the_stiffness_that_can_be_counted_by_hand(void **state)
     brc_solid_free(&solid);
 }
 
-/* A sphere that touches a wall has a share (3 h^2 - 2 h^3), h its depth in diameters, below the depth h. Points sort what lies at the rim wrongly: 1 / 8 of a diameter apart, by some 1 % of the sphere. */
+/* A sphere that touches a wall has a share (3 h^2 - 2 h^3), h its depth in diameters, below the depth h. Points sort
+ * what lies at the rim wrongly: 1 / 8 of a diameter apart, by some 1 % of the sphere. */
 static void spheres_fill_layers_by_the_volume_of_their_caps(void **state)
 {
     brc_context *context = *state;
@@ -89,25 +95,33 @@ static void spheres_fill_layers_by_the_volume_of_their_caps(void **state)
 
 static brc_solid *packed(brc_context *context, const brc_shape *shape, int64_t n, double coordination, brc_domain **out)
 {
-    const brc_fill fill = {.kind = BRC_FILL_PACKING, .n_elements = n, .seed = 1, .radius_spread = 0.125, .coordination = 6.2, .tolerance = 0.02};
+    const brc_fill fill = {.kind = BRC_FILL_PACKING,
+                           .n_elements = n,
+                           .seed = 1,
+                           .radius_spread = 0.125,
+                           .coordination = 6.2,
+                           .tolerance = 0.02};
     brc_packing packing;
     brc_solid *solid;
     brc_domain *domain;
     require(context, brc_solid_create(context, shape, 1, &solid));
     require(context, brc_packing_make(context, solid, &fill, 1, &packing));
     require(context, BRC_ALLOCATE(context, &domain, 1, "test"));
-    require(context, brc_beams_build(context, solid, packing.position, packing.radius, n, coordination, false, 1, domain));
+    require(context,
+            brc_beams_build(context, solid, packing.position, packing.radius, n, coordination, false, 1, domain));
     packing.position = packing.radius = NULL;
     brc_packing_free(&packing);
     *out = domain;
     return solid;
 }
 
-/* Where a packing ends there are no beams in the outermost half diameter but for few, so shear against the inside and stretching across lack about that; along the wall the first layer of spheres makes up for most of it.
- * Bounds: a quarter and a whole diameter around the half; along the wall less than half of the others. */
+/* Where a packing ends there are no beams in the outermost half diameter but for few, so shear against the inside and
+ * stretching across lack about that; along the wall the first layer of spheres makes up for most of it. Bounds: a
+ * quarter and a whole diameter around the half; along the wall less than half of the others. */
 static void walls_of_a_packing_lack_half_a_diameter_across_and_little_along(void **state)
 {
-    static const brc_shape shapes[] = {{.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}}, {.kind = BRC_SHAPE_SPHERE, .radius = 0.6}};
+    static const brc_shape shapes[] = {{.kind = BRC_SHAPE_BOX, .size = {1, 1, 1}},
+                                       {.kind = BRC_SHAPE_SPHERE, .radius = 0.6}};
     brc_context *context = *state;
     for (size_t k = 0; k < sizeof shapes / sizeof *shapes; ++k) {
         brc_domain *domain;
@@ -146,7 +160,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(lattice_has_the_stiffness_that_can_be_counted_by_hand, test_begin, test_end),
         cmocka_unit_test_setup_teardown(spheres_fill_layers_by_the_volume_of_their_caps, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(walls_of_a_packing_lack_half_a_diameter_across_and_little_along, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(walls_of_a_packing_lack_half_a_diameter_across_and_little_along, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(bodies_without_an_inside_are_refused, test_begin, test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

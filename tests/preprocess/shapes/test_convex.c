@@ -17,8 +17,10 @@ static void cells_keep_their_volume_and_centre(void **state)
         /* outlines match areas to 1e-9 of a cell's size squared; a cell is a third of that cube or less */
         assert_near(cell.volume, domain->volume[e], 1e-8 * domain->volume[e]);
         for (int k = 0; k < 3; ++k)
-            assert_near(cell.centre[k] + domain->position[3 * e + k], domain->centroid[3 * e + k], 1e-8 * convex.radius[e]);
-        for (int k = 0; k < 6; ++k) assert_near(cell.inertia[k], domain->inertia[6 * e + k], 1e-8 * domain->inertia[6 * e]);
+            assert_near(cell.centre[k] + domain->position[3 * e + k], domain->centroid[3 * e + k],
+                        1e-8 * convex.radius[e]);
+        for (int k = 0; k < 6; ++k)
+            assert_near(cell.inertia[k], domain->inertia[6 * e + k], 1e-8 * domain->inertia[6 * e]);
     }
     brc_convex_free(&convex);
     brc_domain_free(&domain);
@@ -42,8 +44,10 @@ static void random_cells_stay_far_below_the_limits(void **state)
         ++corners[n];
         most_corners = n > most_corners ? n : most_corners;
     }
-    for (int k = 0; k <= most_faces; ++k) printf("%d faces: %d cells\n", k, faces[k]);
-    for (int k = 0; k <= most_corners; ++k) printf("%d corners: %d faces\n", k, corners[k]);
+    for (int k = 0; k <= most_faces; ++k)
+        printf("%d faces: %d cells\n", k, faces[k]);
+    for (int k = 0; k <= most_corners; ++k)
+        printf("%d corners: %d faces\n", k, corners[k]);
     assert_true(most_faces <= BRC_CONVEX_FACES / 2 && most_corners <= BRC_CONVEX_CORNERS / 2);
     brc_convex_free(&convex);
     brc_domain_free(&domain);
@@ -75,7 +79,8 @@ static void shared_faces_lie_in_one_plane(void **state)
     for (int64_t e = 0; e < d->n_elements; ++e)
         for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
             const int64_t other = d->neighbour[h], back = d->twin[h] - d->row_start[other];
-            const double *p = convex.plane + 4 * (convex.face_start[e] + h - d->row_start[e]), *q = convex.plane + 4 * (convex.face_start[other] + back);
+            const double *p = convex.plane + 4 * (convex.face_start[e] + h - d->row_start[e]),
+                         *q = convex.plane + 4 * (convex.face_start[other] + back);
             double sum = p[3] + q[3];
             for (int k = 0; k < 3; ++k) {
                 assert_true(p[k] == -q[k]);
@@ -97,7 +102,8 @@ static void make(void **state, const brc_shape *shape, int32_t facets)
     assert_int_equal(made.n, 1);
     brc_convex_mass(&made, 0, &pieces);
     assert_near(pieces.volume, rigid.volume, 1e-12 * rigid.volume);
-    for (int k = 0; k < 3; ++k) assert_near(pieces.centre[k], 0.0, 1e-12 * made.radius[0]);
+    for (int k = 0; k < 3; ++k)
+        assert_near(pieces.centre[k], 0.0, 1e-12 * made.radius[0]);
 }
 
 static void box_is_itself(void **state)
@@ -106,30 +112,36 @@ static void box_is_itself(void **state)
     make(state, &shape, 8);
     assert_int_equal(made.face_start[1], 6);
     assert_near(rigid.centre[2], 4.0, 0.0);
-    for (int k = 0; k < 6; ++k) assert_near(pieces.inertia[k], rigid.inertia[k], 1e-15);
+    for (int k = 0; k < 6; ++k)
+        assert_near(pieces.inertia[k], rigid.inertia[k], 1e-15);
     brc_convex_free(&made);
 }
 
-/* A regular n-gon of the circle's area has theta (2 + cos theta) / (3 sin theta) of its polar moment, theta = 2 pi / n: 1 + 8.7 / n^4; a body that is turned on
- * it has no larger a share about any axis. Spheres have at least 0.9 n faces around, whose solid angles
- * differ by up to 2 (icosphere.h halves flat triangles), so sizes by 1.4. */
+/* A regular n-gon of the circle's area has theta (2 + cos theta) / (3 sin theta) of its polar moment, theta = 2 pi / n:
+ * 1 + 8.7 / n^4; a body that is turned on it has no larger a share about any axis. Spheres have at least 0.9 n faces
+ * around, whose solid angles differ by up to 2 (icosphere.h halves flat triangles), so sizes by 1.4. */
 static void curved_shapes_keep_volume_and_nearly_inertia(void **state)
 {
-    const brc_shape shapes[4] = {{.kind = BRC_SHAPE_CYLINDER, .origin = {1, 0, 0}, .length = 0.7, .radius = 0.3, .axis = 0},
-                                 {.kind = BRC_SHAPE_CONE, .origin = {0, 1, 0}, .length = 0.7, .radius = 0.3, .radius2 = 0.1, .axis = 1},
-                                 {.kind = BRC_SHAPE_CONE, .origin = {0, 0, 1}, .length = 0.7, .radius = 0, .radius2 = 0.3, .axis = 2},
-                                 {.kind = BRC_SHAPE_SPHERE, .origin = {-1, 2, 0.5}, .radius = 0.4}};
+    const brc_shape shapes[4] = {
+        {.kind = BRC_SHAPE_CYLINDER, .origin = {1, 0, 0}, .length = 0.7, .radius = 0.3, .axis = 0},
+        {.kind = BRC_SHAPE_CONE, .origin = {0, 1, 0}, .length = 0.7, .radius = 0.3, .radius2 = 0.1, .axis = 1},
+        {.kind = BRC_SHAPE_CONE, .origin = {0, 0, 1}, .length = 0.7, .radius = 0, .radius2 = 0.3, .axis = 2},
+        {.kind = BRC_SHAPE_SPHERE, .origin = {-1, 2, 0.5}, .radius = 0.4}};
     for (int s = 0; s < 4; ++s)
         for (int n = 8; n <= 400; n += n < 64 ? 28 : 336) {
             make(state, shapes + s, n);
-            const double theta = 2 * 3.14159265358979323846 / (s == 3 ? 0.9 / 1.4 * n : n), share = theta * (2 + cos(theta)) / (3 * sin(theta));
+            const double theta = 2 * 3.14159265358979323846 / (s == 3 ? 0.9 / 1.4 * n : n),
+                         share = theta * (2 + cos(theta)) / (3 * sin(theta));
             for (int k = 0; k < 3; ++k)
-                assert_true(pieces.inertia[k] > rigid.inertia[k] * (1 - 1e-12) && pieces.inertia[k] < rigid.inertia[k] * (share + 1e-12));
+                assert_true(pieces.inertia[k] > rigid.inertia[k] * (1 - 1e-12) &&
+                            pieces.inertia[k] < rigid.inertia[k] * (share + 1e-12));
             if (s == 0) assert_near(pieces.inertia[0], share * rigid.inertia[0], 1e-12 * rigid.inertia[0]);
-            for (int32_t f = 0; f < made.face_start[1]; ++f) assert_true(made.loop_start[f + 1] - made.loop_start[f] <= BRC_CONVEX_PART);
+            for (int32_t f = 0; f < made.face_start[1]; ++f)
+                assert_true(made.loop_start[f + 1] - made.loop_start[f] <= BRC_CONVEX_PART);
             if (n == 64)
-                printf("shape %d, %d around: %d faces, inertia over the smooth shape's %.6f %.6f %.6f\n", s, n, made.face_start[1],
-                       pieces.inertia[0] / rigid.inertia[0], pieces.inertia[1] / rigid.inertia[1], pieces.inertia[2] / rigid.inertia[2]);
+                printf("shape %d, %d around: %d faces, inertia over the smooth shape's %.6f %.6f %.6f\n", s, n,
+                       made.face_start[1], pieces.inertia[0] / rigid.inertia[0], pieces.inertia[1] / rigid.inertia[1],
+                       pieces.inertia[2] / rigid.inertia[2]);
             brc_convex_free(&made);
         }
 }
@@ -145,7 +157,8 @@ static void torus_is_cut_into_cells(void **state)
     /* tangent planes of 400 cells: what the domain builder promises of curved walls is a percent or two */
     assert_near(rigid.volume, volume, 0.05 * volume);
     assert_near(rigid.inertia[2], volume * (1 + 0.75 * 0.16), 0.08 * volume);
-    for (int k = 0; k < 3; ++k) assert_near(rigid.centre[k], torus.origin[k], 0.01);
+    for (int k = 0; k < 3; ++k)
+        assert_near(rigid.centre[k], torus.origin[k], 0.01);
     brc_convex_free(&made);
 }
 

@@ -1,4 +1,5 @@
-/* Neighbouring cells of a random domain, where their contact happens: exactly touching, pushed together by a little, deformed; in double and single. */
+/* Neighbouring cells of a random domain, where their contact happens: exactly touching, pushed together by a little,
+ * deformed; in double and single. */
 #include "../support.h"
 
 #include "../overlap_pairs.h"
@@ -19,7 +20,8 @@ static void make_pairs(double depth, double strain)
     for (int64_t b = 0; b < n_pairs; ++b) {
         const int64_t h = domain->bond_half_edge[b], j = domain->neighbour[h], i = domain->neighbour[domain->twin[h]];
         pair[b] = (overlap_pair){.of = {(int32_t)i, (int32_t)j}};
-        for (int k = 0; k < 3; ++k) pair[b].origin[1][k] = (1 - depth) * (domain->position[3 * j + k] - domain->position[3 * i + k]);
+        for (int k = 0; k < 3; ++k)
+            pair[b].origin[1][k] = (1 - depth) * (domain->position[3 * j + k] - domain->position[3 * i + k]);
         for (int side = 0; side < 2; ++side)
             for (int k = 0; k < 9; ++k) {
                 noise = noise * 1664525u + 1013904223u;
@@ -70,13 +72,14 @@ static void cells_that_shared_a_face_touch_without_overlap(void **state)
             const double area = face_of(b, &length), size = convex.radius[pair[b].of[0]] + convex.radius[pair[b].of[1]];
             assert_int_equal(found[b].failed, 0);
             /* a gap of some roundings of the size; positions are at up to 1 and cells of 0.07 */
-            assert_true(found[b].volume >= 0 && found[b].volume < (single ? 1e-5 : 1e-13) * size * area + (single ? 1e-12 : 1e-20) * size * size * size);
+            assert_true(found[b].volume >= 0 && found[b].volume < (single ? 1e-5 : 1e-13) * size * area +
+                                                                      (single ? 1e-12 : 1e-20) * size * size * size);
         }
     }
 }
 
-/* Pushed in by a thousandth of the branch: face area times depth, but for the strips along its edges, of the order of depth times perimeter; the area
- * vector is the face's likewise. */
+/* Pushed in by a thousandth of the branch: face area times depth, but for the strips along its edges, of the order of
+ * depth times perimeter; the area vector is the face's likewise. */
 static void pushed_together_they_share_face_times_depth(void **state)
 {
     (void)state;
@@ -85,7 +88,8 @@ static void pushed_together_they_share_face_times_depth(void **state)
     int64_t large = 0;
     for (int64_t b = 0; b < n_pairs; ++b) {
         double length, dot = 0, square = 0;
-        const double area = face_of(b, &length), depth = length * 1e-3 / (1 - 1e-3), *s = domain->area_vector + 3 * (int64_t)domain->bond_half_edge[b];
+        const double area = face_of(b, &length), depth = length * 1e-3 / (1 - 1e-3),
+                     *s = domain->area_vector + 3 * (int64_t)domain->bond_half_edge[b];
         if (area < 0.1 * length * length) continue; /* strips would be as large as the face */
         ++large;
         assert_true(fabs(found[b].volume - area * depth) < 0.05 * area * depth);
@@ -102,7 +106,8 @@ static void single_precision_is_as_good_as_its_places(void **state)
 {
     (void)state;
     make_pairs(0.02, 0.02);
-    const double seconds = overlap_pairs_double(&convex, n_pairs, pair, 1, found), seconds_single = overlap_pairs_single(&convex, n_pairs, pair, 1, other);
+    const double seconds = overlap_pairs_double(&convex, n_pairs, pair, 1, found),
+                 seconds_single = overlap_pairs_single(&convex, n_pairs, pair, 1, other);
     double worst_volume = 0, worst_area = 0, worst_moment = 0;
     int64_t touching = 0;
     for (int64_t b = 0; b < n_pairs; ++b) {
@@ -110,16 +115,20 @@ static void single_precision_is_as_good_as_its_places(void **state)
         assert_int_equal(other[b].failed, 0);
         touching += found[b].volume > 0;
         worst_volume = fmax(worst_volume, fabs(found[b].volume - other[b].volume) / (size * size * size));
-        for (int k = 0; k < 3; ++k) worst_area = fmax(worst_area, fabs(found[b].area[k] - other[b].area[k]) / (size * size));
+        for (int k = 0; k < 3; ++k)
+            worst_area = fmax(worst_area, fabs(found[b].area[k] - other[b].area[k]) / (size * size));
         for (int k = 0; k < 9; ++k)
             for (int side = 0; side < 2; ++side)
-                worst_moment = fmax(worst_moment, fabs(found[b].moment[side][k] - other[b].moment[side][k]) / (size * size * size));
+                worst_moment = fmax(worst_moment,
+                                    fabs(found[b].moment[side][k] - other[b].moment[side][k]) / (size * size * size));
     }
-    printf("%lld pairs, %lld share volume; one thread: double %.3f us a pair, single %.3f us; single off by %.1e of the size cubed (volume), %.1e (moments), "
+    printf("%lld pairs, %lld share volume; one thread: double %.3f us a pair, single %.3f us; single off by %.1e of "
+           "the size cubed (volume), %.1e (moments), "
            "%.1e of it squared (area)\n",
-           (long long)n_pairs, (long long)touching, 1e6 * seconds / (double)n_pairs, 1e6 * seconds_single / (double)n_pairs, worst_volume, worst_moment, worst_area);
-    /* heights to some 6e-8 of the size, over areas up to the size squared; an area changes by more only where a face is nearly in the plane of
-     * another: by rounding over the angle, with maps that are 0.02 off */
+           (long long)n_pairs, (long long)touching, 1e6 * seconds / (double)n_pairs,
+           1e6 * seconds_single / (double)n_pairs, worst_volume, worst_moment, worst_area);
+    /* heights to some 6e-8 of the size, over areas up to the size squared; an area changes by more only where a face is
+     * nearly in the plane of another: by rounding over the angle, with maps that are 0.02 off */
     assert_true(worst_volume < 2e-6 && worst_area < 2e-4 && worst_moment < 2e-4);
 }
 
@@ -144,7 +153,8 @@ static void threads_do_not_change_a_bit(void **state)
     assert_other_is_found();
 }
 
-/* Planes that are asked in blocks are those that are asked one by one, in the same order: deep and shallow overlaps, faces in one plane. */
+/* Planes that are asked in blocks are those that are asked one by one, in the same order: deep and shallow overlaps,
+ * faces in one plane. */
 static void lanes_do_not_change_a_bit(void **state)
 {
     (void)state;

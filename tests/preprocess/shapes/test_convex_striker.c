@@ -1,4 +1,5 @@
-/* Strikers of hundreds and thousands of faces against cells much smaller and much larger than they are. Double, eight lanes. */
+/* Strikers of hundreds and thousands of faces against cells much smaller and much larger than they are. Double, eight
+ * lanes. */
 #include "../support.h"
 
 #include "../../../preprocess/shapes/convex.h"
@@ -14,7 +15,8 @@
 
 static convex_shape shape_of(const brc_convex *c)
 {
-    return (convex_shape){c->corner, c->plane, c->loop_start, c->loop, c->corner_start[1], c->face_start[1], c->radius[0]};
+    return (convex_shape){c->corner,          c->plane,         c->loop_start, c->loop,
+                          c->corner_start[1], c->face_start[1], c->radius[0]};
 }
 
 static brc_convex make(void **state, brc_shape shape, int32_t facets)
@@ -47,7 +49,8 @@ static void large_cell_cuts_a_sphere_in_halves(void **state)
         const double half = 0.5 * 4.0 / 3.0 * 3.14159265358979323846 * 0.125;
         for (int k = 0; k < 12; ++k) {
             const convex_map turn = turn_of(k);
-            const convex_pose pose_a = {convex_turn(turn, (convex_vec){8, 0.25, -0.5}), turn}, pose_b = {{0, 0, 0}, turn_of(0)};
+            const convex_pose pose_a = {convex_turn(turn, (convex_vec){8, 0.25, -0.5}), turn},
+                              pose_b = {{0, 0, 0}, turn_of(0)};
             const convex_overlap o = convex_overlap_of(shape_of(&box), pose_a, shape_of(&sphere), pose_b);
             const convex_overlap p = convex_overlap_of(shape_of(&sphere), pose_b, shape_of(&box), pose_a);
             const convex_plane wall = {convex_turn(turn, (convex_vec){1, 0, 0}), 0};
@@ -63,7 +66,8 @@ static void large_cell_cuts_a_sphere_in_halves(void **state)
     brc_convex_free(&box);
 }
 
-/* Small cells around it: force and torque balance, the same from both sides, and nothing beyond the sphere's own reach. */
+/* Small cells around it: force and torque balance, the same from both sides, and nothing beyond the sphere's own
+ * reach. */
 static void small_cells_feel_a_sphere_of_many_faces(void **state)
 {
     brc_convex sphere = make(state, (brc_shape){.kind = BRC_SHAPE_SPHERE, .radius = 0.5}, 48);
@@ -73,7 +77,8 @@ static void small_cells_feel_a_sphere_of_many_faces(void **state)
         for (int k = 0; k < 60; ++k) {
             const convex_map turn = turn_of(k);
             const double away = 0.5 + half * (k % 6 - 2) * 0.5;
-            const convex_pose pose_a = {convex_turn(turn_of(3 * k + 1), (convex_vec){away, 0, 0}), turn}, pose_b = {{0, 0, 0}, turn_of(7)};
+            const convex_pose pose_a = {convex_turn(turn_of(3 * k + 1), (convex_vec){away, 0, 0}), turn},
+                              pose_b = {{0, 0, 0}, turn_of(7)};
             const convex_overlap o = convex_overlap_of(shape_of(&box), pose_a, shape_of(&sphere), pose_b);
             const convex_overlap p = convex_overlap_of(shape_of(&sphere), pose_b, shape_of(&box), pose_a);
             touching += o.volume > 0;

@@ -8,7 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A cube of 10 x 10 x 10 cells of 1 m, from 0 to 10 m in each direction, and one sphere of about 0.45 m at a place of its own. */
+/* A cube of 10 x 10 x 10 cells of 1 m, from 0 to 10 m in each direction, and one sphere of about 0.45 m at a place of
+ * its own. */
 typedef struct pair {
     brc_domain *cells, *spheres;
 } pair;
@@ -17,7 +18,8 @@ static pair begin(void **state)
 {
     static const int two[3] = {2, 1, 1};
     brc_build_request r = test_box(1000, 0.0);
-    for (int c = 0; c < 3; ++c) r.shape.size[c] = 10.0;
+    for (int c = 0; c < 3; ++c)
+        r.shape.size[c] = 10.0;
     brc_context_clear(*state);
     pair p = {test_build(*state, &r), test_spheres(*state, two, 1.0, 1, 1)};
     p.spheres->radius[1] = 1e-9; /* a speck in the middle of the other: bonds need two */
@@ -55,7 +57,9 @@ static void a_sphere_may_touch_a_face_and_not_reach_through_it(void **state)
     assert_int_equal(place(state, &p, 10.0 + r, 5.3, 5.2), BRC_OK);
     assert_int_equal(place(state, &p, 10.0 + 0.91 * r, 5.3, 5.2), BRC_OK);
     assert_int_equal(place(state, &p, 10.0 + 0.89 * r, 5.3, 5.2), BRC_BAD_INPUT);
-    test_says(*state, "bodies 'plate' and 'ball' overlap: 0 elements of body 'plate' and 1 of body 'ball' stand in the other one");
+    test_says(
+        *state,
+        "bodies 'plate' and 'ball' overlap: 0 elements of body 'plate' and 1 of body 'ball' stand in the other one");
     assert_int_equal(place(state, &p, 4.9, 5.3, 5.2), BRC_BAD_INPUT); /* well inside, and the speck too */
     test_says(*state, "2 of body 'ball'");
     assert_int_equal(place(state, &p, 10.0 - 0.2 * r, 5.3, 5.2), BRC_BAD_INPUT);
@@ -66,7 +70,8 @@ static void a_sphere_may_touch_a_face_and_not_reach_through_it(void **state)
 static void beside_edges_and_corners_the_true_distance_counts(void **state)
 {
     pair p = begin(state);
-    const double r = p.spheres->radius[0], away = 0.91 * r / sqrt(3.0), near = 0.89 * r / sqrt(3.0), edge = 0.91 * r / sqrt(2.0);
+    const double r = p.spheres->radius[0], away = 0.91 * r / sqrt(3.0), near = 0.89 * r / sqrt(3.0),
+                 edge = 0.91 * r / sqrt(2.0);
     assert_int_equal(place(state, &p, 10.0 + away, 10.0 + away, 10.0 + away), BRC_OK);
     assert_int_equal(place(state, &p, 10.0 + near, 10.0 + near, 10.0 + near), BRC_BAD_INPUT);
     assert_int_equal(place(state, &p, -edge, -edge, 3.0), BRC_OK);
@@ -104,7 +109,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_sphere_may_touch_a_face_and_not_reach_through_it, test_begin, test_end),
         cmocka_unit_test_setup_teardown(beside_edges_and_corners_the_true_distance_counts, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(random_places_are_told_apart_as_by_the_distance_from_the_cube, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(random_places_are_told_apart_as_by_the_distance_from_the_cube, test_begin,
+                                        test_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

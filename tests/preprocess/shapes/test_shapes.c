@@ -1,4 +1,5 @@
-/* Every kind of shape filled with cells. What must hold of a domain is checked from its arrays; volumes against formulas. */
+/* Every kind of shape filled with cells. What must hold of a domain is checked from its arrays; volumes against
+ * formulas. */
 #include "../shapes.h"
 #include "../support.h"
 #include "../support_mesh.h"
@@ -38,10 +39,12 @@ static double smallest_face(const brc_domain *d)
     return least;
 }
 
-/* All that is promised of any domain of cells. Closure and the first moment live from rounding: 1e-12 is four orders above it. */
+/* All that is promised of any domain of cells. Closure and the first moment live from rounding: 1e-12 is four orders
+ * above it. */
 static void check_domain(brc_context *context, const brc_domain *d, const char *name)
 {
-    if (brc_domain_check(context, d) != BRC_OK) fail_msg("%s: %s", name, brc_context_message(context)); /* each bond once, twins, closed cells, rows */
+    if (brc_domain_check(context, d) != BRC_OK)
+        fail_msg("%s: %s", name, brc_context_message(context)); /* each bond once, twins, closed cells, rows */
     if (!(test_worst_closure(d) < 1e-12)) fail_msg("%s: closure %g", name, test_worst_closure(d));
     if (!(test_worst_first_moment(d) < 1e-11)) fail_msg("%s: first moment %g", name, test_worst_first_moment(d));
     if (!(d->quality.twin_area_worst < 1e-11)) fail_msg("%s: twins %g", name, d->quality.twin_area_worst);
@@ -60,7 +63,9 @@ static void every_shape_is_filled_with_closed_cells_that_agree(void **state)
         check_domain(*state, d, room.name);
         const double h = cbrt(room.volume / (double)d->n_elements), off = d->quality.volume_cells / room.volume - 1.0;
         /* concave edges, 1 m long in these shapes, are rounded by cells: a tenth of h^2 along them */
-        const double bound = room.wall == TEST_EXACT ? 1e-9 : room.wall == TEST_CURVED ? curved_bound(n) : 0.1 * h * h / room.volume;
+        const double bound = room.wall == TEST_EXACT    ? 1e-9
+                             : room.wall == TEST_CURVED ? curved_bound(n)
+                                                        : 0.1 * h * h / room.volume;
         if (!(fabs(off) < bound)) fail_msg("%s: volume off by %g, bound %g", room.name, off, bound);
         r.n_threads = 2;
         brc_domain *other = test_build(*state, &r);
@@ -76,8 +81,10 @@ static void counts_come_near_to_what_was_asked_for(void **state)
         test_shape room;
         const brc_build_request r = request_for(test_shape_of(k, &room), 5000);
         int64_t n, bytes;
-        if (brc_domain_estimate(*state, &r, &n, &bytes) != BRC_OK) fail_msg("%s: %s", room.name, brc_context_message(*state));
-        /* between flat walls all round the grid's cells must fit: one layer more or less is a step of 5 %, spread over three axes */
+        if (brc_domain_estimate(*state, &r, &n, &bytes) != BRC_OK)
+            fail_msg("%s: %s", room.name, brc_context_message(*state));
+        /* between flat walls all round the grid's cells must fit: one layer more or less is a step of 5 %, spread over
+         * three axes */
         if (llabs(n - 5000) > 150) fail_msg("%s: %lld elements", room.name, (long long)n);
     }
 }
@@ -95,9 +102,10 @@ static void curved_walls_by_mirror_images_are_met_to_second_order(void **state)
             brc_domain_free(&d);
         }
         assert_true(off[1] < 0.005); /* the bound at 10 000 cells */
-        /* second order is a factor of 4; a third of it is left to the chance of where seeds lie, and nothing is asked below the accuracy of
-         * measured volumes */
-        if (!(off[1] < off[0] * 0.375 || off[1] < 1e-5)) fail_msg("%s: volume off by %g, with cells half as wide %g", name[k], off[0], off[1]);
+        /* second order is a factor of 4; a third of it is left to the chance of where seeds lie, and nothing is asked
+         * below the accuracy of measured volumes */
+        if (!(off[1] < off[0] * 0.375 || off[1] < 1e-5))
+            fail_msg("%s: volume off by %g, with cells half as wide %g", name[k], off[0], off[1]);
     }
 }
 
@@ -134,7 +142,8 @@ static void free_faces_know_their_wall(void **state)
     const double exact[9] = {2, 2, 2, 2, 4 - circle, 4 - circle, 0, 0, 3.1415926535897932};
     /* facets of a curved wall stand in steps; second order in the cell's width over the radius */
     const double second = pow((4.0 - circle) / 3000.0, 2.0 / 3.0) / 0.25;
-    for (int w = 0; w < 9; ++w) assert_near(area[w], exact[w], w < 4 ? 1e-11 : second * exact[w]);
+    for (int w = 0; w < 9; ++w)
+        assert_near(area[w], exact[w], w < 4 ? 1e-11 : second * exact[w]);
     assert_string_equal(d->wall_name[8], "hole_side");
     assert_true(d->sets[brc_domain_find_set(d, "hole_side")].n_members > 100);
     brc_domain_free(&d);
@@ -156,9 +165,9 @@ static double unevenness(brc_context *context, const brc_shape *shape, const brc
     return sqrt(sum / total) / d->quality.mean_spacing;
 }
 
-/* Rings of seeds around a straight concave edge are their own images, so faces lie in the walls but where a seed beyond the rings still reaches one around the
- * edge. Seeds at random (points of a file are not touched) leave faces uneven by a third of a spacing over about a spacing along the edge: 0.01 of these
- * surfaces. A tenth of that is asked for. */
+/* Rings of seeds around a straight concave edge are their own images, so faces lie in the walls but where a seed beyond
+ * the rings still reaches one around the edge. Seeds at random (points of a file are not touched) leave faces uneven by
+ * a third of a spacing over about a spacing along the edge: 0.01 of these surfaces. A tenth of that is asked for. */
 static void faces_at_a_straight_concave_edge_lie_in_its_walls(void **state)
 {
     static const char *const name[2] = {"L-shape", "V-notch"};
@@ -182,7 +191,9 @@ static void a_gap_narrower_than_the_cells_is_refused_not_bridged(void **state)
     test_shape room;
     brc_build_request r = request_for(test_shape_named("L-shape", &room), 3000);
     room.part[0].shape.size[1] = 2.0;
-    room.part[1] = (brc_shape_part){.role = BRC_PART_REMOVE, .shape = {.kind = BRC_SHAPE_BOX, .origin = {0.99, 1.0, -1.0}, .size = {0.02, 2.0, 3.0}}};
+    room.part[1] =
+        (brc_shape_part){.role = BRC_PART_REMOVE,
+                         .shape = {.kind = BRC_SHAPE_BOX, .origin = {0.99, 1.0, -1.0}, .size = {0.02, 2.0, 3.0}}};
     test_refused(*state, &r, BRC_BAD_INPUT, "a gap there is narrower than the cells");
     test_says(*state, "make a slot of no width a crack");
     room.part[1].shape.size[0] = 1e-5; /* far narrower still */
@@ -231,16 +242,20 @@ static void a_wall_without_a_face_is_warned_of_by_name_and_size(void **state)
     test_shape room;
     char said[4096];
     brc_build_request r = request_for(test_shape_named("wedge", &room), 1000);
-    room.part[1] = (brc_shape_part){.role = BRC_PART_REMOVE, .name = "corner", /* cuts 0.03 m off a corner, cells are 0.1 m */
-                                    .shape = {.kind = BRC_SHAPE_HALF_SPACE, .origin = {0.97, 1.0, 1.0}, .normal = {-1, -1, -1}}};
+    room.part[1] =
+        (brc_shape_part){.role = BRC_PART_REMOVE,
+                         .name = "corner", /* cuts 0.03 m off a corner, cells are 0.1 m */
+                         .shape = {.kind = BRC_SHAPE_HALF_SPACE, .origin = {0.97, 1.0, 1.0}, .normal = {-1, -1, -1}}};
     brc_domain_free(&(brc_domain *){build_and_listen(*state, &r, said, sizeof said)});
     /* a plane with the whole solid on one side cuts the cells itself, so it is met whatever its size */
     assert_string_equal(said, "");
-    room.part[1] = (brc_shape_part){.role = BRC_PART_REMOVE, .name = "dent", /* a cap 0.02 m deep of a large ball */
+    room.part[1] = (brc_shape_part){.role = BRC_PART_REMOVE,
+                                    .name = "dent", /* a cap 0.02 m deep of a large ball */
                                     .shape = {.kind = BRC_SHAPE_SPHERE, .origin = {0.5, 0.5, 1.48}, .radius = 0.5}};
     brc_domain *d = build_and_listen(*state, &r, said, sizeof said);
     const int32_t set = brc_domain_find_set(d, "dent_surface");
-    assert_true((set >= 0 && d->sets[set].n_members > 0) || strstr(said, "no cell has a face on the wall 'dent_surface', which is 0.3") != NULL);
+    assert_true((set >= 0 && d->sets[set].n_members > 0) ||
+                strstr(said, "no cell has a face on the wall 'dent_surface', which is 0.3") != NULL);
     brc_domain_free(&d);
 }
 
@@ -253,7 +268,8 @@ static void cells_too_coarse_for_the_shape_are_refused(void **state)
     test_refused(*state, &r, BRC_BAD_INPUT, "ask for more elements");
 }
 
-/* A mesh of flat sides is met exactly, to the mesh's own volume; faces of an L carry a concave edge as the L of parts does. */
+/* A mesh of flat sides is met exactly, to the mesh's own volume; faces of an L carry a concave edge as the L of parts
+ * does. */
 static void meshes_are_filled_like_shapes(void **state)
 {
     const double low[3] = {0.0, 0.0, 0.0}, high[3] = {1.0, 2.0, 0.5};
@@ -272,7 +288,10 @@ static void meshes_are_filled_like_shapes(void **state)
         check_domain(*state, d, shape.file);
         const double exact = volume[k] > 0.0 ? volume[k] : d->quality.volume_shape;
         /* single precision of the file: 6e-8 of the size on every side */
-        assert_near(d->quality.volume_cells / exact, 1.0, k == 0 ? 1e-6 : k == 1 ? curved_bound(2000) : 0.1 * pow(exact / 2000.0, 2.0 / 3.0) * 0.8 / exact);
+        assert_near(d->quality.volume_cells / exact, 1.0,
+                    k == 0   ? 1e-6
+                    : k == 1 ? curved_bound(2000)
+                             : 0.1 * pow(exact / 2000.0, 2.0 / 3.0) * 0.8 / exact);
         brc_domain_free(&d);
         test_mesh_free(&mesh);
         remove(shape.file);
@@ -292,7 +311,8 @@ static void a_mesh_may_be_a_part(void **state)
     test_mesh_write_binary(&mesh, file);
     brc_domain *d = test_build(*state, &r);
     check_domain(*state, d, "box minus mesh");
-    /* a square hole of 1 m^2; lines along an axis of the mesh meet its sides edge-on: one line in 1000 may be counted or not, some cancel */
+    /* a square hole of 1 m^2; lines along an axis of the mesh meet its sides edge-on: one line in 1000 may be counted
+     * or not, some cancel */
     assert_near(d->quality.volume_shape, 3.0, 1e-4);
     assert_near(d->quality.volume_cells, 3.0, 4.0 * 0.1 * pow(3.0 / 2000.0, 2.0 / 3.0)); /* four concave edges of 1 m */
     brc_domain_free(&d);
@@ -329,7 +349,8 @@ static void packings_become_cells_or_beams_in_any_shape(void **state)
 {
     test_shape room;
     brc_build_request r = request_for(test_shape_named("torus", &room), 0);
-    r.fill = (brc_fill){.kind = BRC_FILL_PACKING, .n_elements = 1500, .radius_spread = 0.25, .coordination = 6.2, .seed = 1};
+    r.fill =
+        (brc_fill){.kind = BRC_FILL_PACKING, .n_elements = 1500, .radius_spread = 0.25, .coordination = 6.2, .seed = 1};
     brc_domain *d = test_build(*state, &r);
     check_domain(*state, d, "packing");
     assert_int_equal(d->n_elements, 1500);
@@ -350,15 +371,23 @@ static void every_shape_is_packed_turned_and_put_beside_another(void **state)
         test_shape room;
         const int64_t n = 600;
         brc_build_request r = request_for(test_shape_of(k, &room), n);
-        r.fill = (brc_fill){.kind = BRC_FILL_PACKING, .n_elements = n, .radius_spread = 0.125, .coordination = 6.2, .tolerance = 0.1, .seed = 2};
+        r.fill = (brc_fill){.kind = BRC_FILL_PACKING,
+                            .n_elements = n,
+                            .radius_spread = 0.125,
+                            .coordination = 6.2,
+                            .tolerance = 0.1,
+                            .seed = 2};
         r.rotation[0] = 0.4;
         r.rotation[1] = -0.7;
         r.translation[2] = 2.5;
         brc_domain *pair[2], *joined = NULL, *other;
         pair[0] = test_build(*state, &r);
         check_domain(*state, pair[0], room.name);
-        const double h = cbrt(room.volume / (double)pair[0]->n_elements), off = pair[0]->quality.volume_cells / room.volume - 1.0;
-        const double bound = room.wall == TEST_EXACT ? 1e-9 : room.wall == TEST_CURVED ? curved_bound(n) : 0.1 * h * h / room.volume;
+        const double h = cbrt(room.volume / (double)pair[0]->n_elements),
+                     off = pair[0]->quality.volume_cells / room.volume - 1.0;
+        const double bound = room.wall == TEST_EXACT    ? 1e-9
+                             : room.wall == TEST_CURVED ? curved_bound(n)
+                                                        : 0.1 * h * h / room.volume;
         if (!(fabs(off) < bound)) fail_msg("%s: volume off by %g, bound %g", room.name, off, bound);
         r.n_threads = 2;
         other = test_build(*state, &r);
@@ -367,8 +396,10 @@ static void every_shape_is_packed_turned_and_put_beside_another(void **state)
         r.translation[0] = 10.0;
         r.body = 1;
         pair[1] = test_build(*state, &r);
-        if (brc_domain_join(*state, 2, (const brc_domain *const *)pair, NULL, &joined) != BRC_OK) fail_msg("%s: %s", room.name, brc_context_message(*state));
-        if (brc_domain_check(*state, joined) != BRC_OK) fail_msg("%s, twice: %s", room.name, brc_context_message(*state));
+        if (brc_domain_join(*state, 2, (const brc_domain *const *)pair, NULL, &joined) != BRC_OK)
+            fail_msg("%s: %s", room.name, brc_context_message(*state));
+        if (brc_domain_check(*state, joined) != BRC_OK)
+            fail_msg("%s, twice: %s", room.name, brc_context_message(*state));
         assert_int_equal(joined->n_elements, 2 * pair[0]->n_elements);
         assert_int_equal(joined->n_bonds, 2 * pair[0]->n_bonds);
         brc_domain_free(&joined);
@@ -377,7 +408,8 @@ static void every_shape_is_packed_turned_and_put_beside_another(void **state)
     }
 }
 
-/* Bodies face to face, edge to edge, and one in the cavity of another touch and are taken; one inside the other is refused. */
+/* Bodies face to face, edge to edge, and one in the cavity of another touch and are taken; one inside the other is
+ * refused. */
 static void bodies_that_touch_are_taken_and_those_inside_each_other_are_not(void **state)
 {
     static const double at[4][3] = {{1, 0, 0}, {1, 1, 0}, {0, 0, 1.0}, {0.25, 0.25, 0.25}};
@@ -453,7 +485,8 @@ static void fills_that_do_not_go_together_are_refused(void **state)
 static int print_table(int64_t n)
 {
     brc_context *context = brc_context_create();
-    printf("| shape | cells | volume error | worst closure | worst twin | uneven by | free faces a cell | s |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+    printf("| shape | cells | volume error | worst closure | worst twin | uneven by | free faces a cell | s |\n| --- | "
+           "--- | --- | --- | --- | --- | --- | --- |\n");
     brc_log_set_level(context, BRC_LOG_ERROR);
     for (int k = 0; k < test_n_shapes(); ++k) {
         test_shape room;
@@ -465,8 +498,9 @@ static int print_table(int64_t n)
             printf("| %s | %s |\n", room.name, brc_context_message(context));
             continue;
         }
-        printf("| %s | %lld | %.1e | %.0e | %.0e | %.4f | %.2f | %.2f |\n", room.name, (long long)d->n_elements, d->quality.volume_cells / room.volume - 1.0,
-               test_worst_closure(d), d->quality.twin_area_worst, unevenness(context, &r.shape, d), (double)d->n_free_faces / (double)d->n_elements,
+        printf("| %s | %lld | %.1e | %.0e | %.0e | %.4f | %.2f | %.2f |\n", room.name, (long long)d->n_elements,
+               d->quality.volume_cells / room.volume - 1.0, test_worst_closure(d), d->quality.twin_area_worst,
+               unevenness(context, &r.shape, d), (double)d->n_free_faces / (double)d->n_elements,
                brc_clock_s() - start);
         brc_domain_free(&d);
     }
@@ -485,7 +519,8 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(free_faces_know_their_wall, test_begin, test_end),
         cmocka_unit_test_setup_teardown(faces_at_a_straight_concave_edge_lie_in_its_walls, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_gap_narrower_than_the_cells_is_refused_not_bridged, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(features_smaller_than_a_cell_are_warned_of_by_name_and_size, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(features_smaller_than_a_cell_are_warned_of_by_name_and_size, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(a_wall_without_a_face_is_warned_of_by_name_and_size, test_begin, test_end),
         cmocka_unit_test_setup_teardown(cells_too_coarse_for_the_shape_are_refused, test_begin, test_end),
         cmocka_unit_test_setup_teardown(meshes_are_filled_like_shapes, test_begin, test_end),
@@ -494,7 +529,8 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(cubes_in_a_shape_with_concave_edges_are_proper_cells, test_begin, test_end),
         cmocka_unit_test_setup_teardown(packings_become_cells_or_beams_in_any_shape, test_begin, test_end),
         cmocka_unit_test_setup_teardown(every_shape_is_packed_turned_and_put_beside_another, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(bodies_that_touch_are_taken_and_those_inside_each_other_are_not, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(bodies_that_touch_are_taken_and_those_inside_each_other_are_not, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(points_of_a_file_become_cells, test_begin, test_end),
         cmocka_unit_test_setup_teardown(fills_that_do_not_go_together_are_refused, test_begin, test_end),
     };

@@ -31,7 +31,8 @@ static void random_point(const brc_solid *solid, uint64_t k, double x[3])
     double bounds[2][3], u[4];
     brc_solid_bounds(solid, bounds);
     brc_random_uniform4(11, BRC_RANDOM_TEST, k, 0, u);
-    for (int d = 0; d < 3; ++d) x[d] = bounds[0][d] + (1.2 * u[d] - 0.1) * (bounds[1][d] - bounds[0][d]);
+    for (int d = 0; d < 3; ++d)
+        x[d] = bounds[0][d] + (1.2 * u[d] - 0.1) * (bounds[1][d] - bounds[0][d]);
 }
 
 static void random_direction(uint64_t k, uint64_t l, double v[3])
@@ -44,7 +45,8 @@ static void random_direction(uint64_t k, uint64_t l, double v[3])
     v[2] = z;
 }
 
-/* A ball of the depth's radius lies on one side of the surface; one a little larger does not, seen along the nearest foot. */
+/* A ball of the depth's radius lies on one side of the surface; one a little larger does not, seen along the nearest
+ * foot. */
 static void probe(const brc_solid *solid, const char *name)
 {
     double bounds[2][3];
@@ -58,9 +60,11 @@ static void probe(const brc_solid *solid, const char *name)
         if (inside != (depth > 0.0)) fail_msg("%s, point %d: inside %d, depth %g", name, (int)k, inside, depth);
         for (uint64_t l = 0; l < 60; ++l) {
             random_direction(k, l, v);
-            for (int d = 0; d < 3; ++d) y[d] = x[d] + 0.999 * fabs(depth) * v[d];
+            for (int d = 0; d < 3; ++d)
+                y[d] = x[d] + 0.999 * fabs(depth) * v[d];
             if (brc_solid_inside(solid, y, 0.0) != inside)
-                fail_msg("%s: (%g %g %g) inside %d, depth %g; (%g %g %g) is on the other side", name, x[0], x[1], x[2], inside, depth, y[0], y[1], y[2]);
+                fail_msg("%s: (%g %g %g) inside %d, depth %g; (%g %g %g) is on the other side", name, x[0], x[1], x[2],
+                         inside, depth, y[0], y[1], y[2]);
         }
         brc_foot feet[64];
         const int32_t n = brc_solid_feet(solid, x, 1e-9 * size + fabs(depth) * 1.5, feet, 64);
@@ -73,12 +77,17 @@ static void probe(const brc_solid *solid, const char *name)
         const brc_foot *least = &feet[0];
         for (int32_t f = 0; f < n; ++f) {
             if (feet[f].depth < least->depth) least = &feet[f];
-            test_near_at(feet[f].normal[0] * feet[f].normal[0] + feet[f].normal[1] * feet[f].normal[1] + feet[f].normal[2] * feet[f].normal[2], 1.0, 1e-12,
-                         name, (int)k);
+            test_near_at(feet[f].normal[0] * feet[f].normal[0] + feet[f].normal[1] * feet[f].normal[1] +
+                             feet[f].normal[2] * feet[f].normal[2],
+                         1.0, 1e-12, name, (int)k);
         }
-        if (fabs(least->depth - depth) > 1e-9 * size) fail_msg("%s: (%g %g %g) has depth %g, its nearest foot is %g away", name, x[0], x[1], x[2], depth, least->depth);
-        for (int d = 0; d < 3; ++d) y[d] = x[d] + 1.0001 * depth * least->normal[d];
-        if (brc_solid_inside(solid, y, 0.0)) fail_msg("%s: (%g %g %g): beyond its foot at %g it is still inside", name, x[0], x[1], x[2], depth);
+        if (fabs(least->depth - depth) > 1e-9 * size)
+            fail_msg("%s: (%g %g %g) has depth %g, its nearest foot is %g away", name, x[0], x[1], x[2], depth,
+                     least->depth);
+        for (int d = 0; d < 3; ++d)
+            y[d] = x[d] + 1.0001 * depth * least->normal[d];
+        if (brc_solid_inside(solid, y, 0.0))
+            fail_msg("%s: (%g %g %g): beyond its foot at %g it is still inside", name, x[0], x[1], x[2], depth);
     }
 }
 
@@ -93,8 +102,8 @@ static void the_depth_is_the_radius_of_the_largest_ball_on_one_side(void **state
     }
 }
 
-/* Single shapes by their formula. Parts by exact chords along up to 1024 x 1024 lines: the error estimate must hold, with a factor of 3 as two grids may
- * agree by chance, and be small. */
+/* Single shapes by their formula. Parts by exact chords along up to 1024 x 1024 lines: the error estimate must hold,
+ * with a factor of 3 as two grids may agree by chance, and be small. */
 static void volumes_are_those_of_the_formulas(void **state)
 {
     for (int k = 0; k < test_n_shapes(); ++k) {
@@ -103,8 +112,10 @@ static void volumes_are_those_of_the_formulas(void **state)
         brc_solid *solid = make(*state, &shape);
         double error = 1.0;
         const double off = brc_solid_volume(solid, &error) / room.volume - 1.0;
-        if (shape.kind == BRC_SHAPE_PARTS) assert_true(error > 0.0 && error < 3e-5);
-        else assert_true(error == 0.0);
+        if (shape.kind == BRC_SHAPE_PARTS)
+            assert_true(error > 0.0 && error < 3e-5);
+        else
+            assert_true(error == 0.0);
         if (fabs(off) > 3.0 * error + 1e-14) fail_msg("%s: volume off by %g, estimated %g", room.name, off, error);
         brc_solid_free(&solid);
     }
@@ -112,14 +123,17 @@ static void volumes_are_those_of_the_formulas(void **state)
 
 static void intersections_of_half_spaces_are_convex(void **state)
 {
-    static const char *const convex[] = {"box", "plate", "sphere", "cylinder", "disc", "frustum", "cone", "cut sphere", "two balls in common", "turned box", "wedge"};
+    static const char *const convex[] = {
+        "box",        "plate", "sphere", "cylinder", "disc", "frustum", "cone", "cut sphere", "two balls in common",
+        "turned box", "wedge"};
     int n = 0;
     for (int k = 0; k < test_n_shapes(); ++k) {
         test_shape room;
         const brc_shape shape = test_shape_of(k, &room);
         brc_solid *solid = make(*state, &shape);
         bool expected = false;
-        for (size_t c = 0; c < sizeof convex / sizeof *convex; ++c) expected = expected || strcmp(convex[c], room.name) == 0;
+        for (size_t c = 0; c < sizeof convex / sizeof *convex; ++c)
+            expected = expected || strcmp(convex[c], room.name) == 0;
         assert_int_equal(brc_solid_is_convex(solid), expected);
         n += expected;
         brc_solid_free(&solid);
@@ -136,7 +150,8 @@ static void bounds_are_tight(void **state)
         brc_solid *solid = make(*state, &shape);
         brc_solid_bounds(solid, found);
         for (int d = 0; d < 3; ++d)
-            for (int side = 0; side < 2; ++side) assert_near(found[side][d], room.bounds[side][d], 1e-7); /* found by search where round */
+            for (int side = 0; side < 2; ++side)
+                assert_near(found[side][d], room.bounds[side][d], 1e-7); /* found by search where round */
         brc_solid_free(&solid);
     }
 }
@@ -169,7 +184,8 @@ static void walls_carry_the_name_of_their_part(void **state)
     brc_solid *solid = make(*state, &shape);
     const char *const name[] = {"x-", "x+", "y-", "y+", "z-", "z+", "hole_z-", "hole_z+", "hole_side"};
     assert_int_equal(brc_solid_n_walls(solid), 9);
-    for (int w = 0; w < 9; ++w) assert_string_equal(brc_solid_wall_name(solid, w), name[w]);
+    for (int w = 0; w < 9; ++w)
+        assert_string_equal(brc_solid_wall_name(solid, w), name[w]);
     const double x[3] = {0.45, 1.0, 0.5};
     brc_foot foot;
     assert_int_equal(brc_solid_feet(solid, x, 0.1, &foot, 1), 1);
@@ -227,7 +243,8 @@ static void wrong_shapes_are_refused_with_the_cure(void **state)
     refused(*state, &s, "as a part");
     s = (brc_shape){.kind = BRC_SHAPE_PARTS};
     refused(*state, &s, "0 parts");
-    brc_shape_part parts[2] = {{.shape = test_shape_named("sphere", &room)}, {.role = BRC_PART_REMOVE, .shape = test_shape_named("box", &room)}};
+    brc_shape_part parts[2] = {{.shape = test_shape_named("sphere", &room)},
+                               {.role = BRC_PART_REMOVE, .shape = test_shape_named("box", &room)}};
     s = (brc_shape){.kind = BRC_SHAPE_PARTS, .n_parts = 2, .parts = parts};
     refused(*state, &s, "its parts leave nothing");
     parts[0].role = BRC_PART_REMOVE;
@@ -241,7 +258,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(volumes_are_those_of_the_formulas, test_begin, test_end),
         cmocka_unit_test_setup_teardown(intersections_of_half_spaces_are_convex, test_begin, test_end),
         cmocka_unit_test_setup_teardown(bounds_are_tight, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(a_foot_on_a_concave_edge_is_the_nearest_point_of_the_edge, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(a_foot_on_a_concave_edge_is_the_nearest_point_of_the_edge, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(walls_carry_the_name_of_their_part, test_begin, test_end),
         cmocka_unit_test_setup_teardown(margins_are_kept, test_begin, test_end),
         cmocka_unit_test_setup_teardown(the_surface_is_about_right, test_begin, test_end),
